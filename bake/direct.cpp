@@ -3,7 +3,6 @@
 #include "direct.h"
 
 #include "adaptive.h"
-#include "prt/sh_basis.h"
 #include "prt/trace_receivers.h"
 #include "sampling_error.h"
 #include "trace_gather.h"

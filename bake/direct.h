@@ -6,7 +6,6 @@
 #include "prt/tracer.h"
 #include "transport/gather.h"
 
-#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>

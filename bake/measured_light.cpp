@@ -2,7 +2,6 @@
 
 #include "measured_light.h"
 
-#include "prt/sh.h"
 #include "scene/sealed.h"
 #include "surface/fit_choice.h"
 #include "surface/fitted_light.h"
@@ -57,7 +56,6 @@ Measured measure(const BakePlan& plan, Tracer& tracer, BakeStatistics& statistic
     const FitChoice choice = fit_choice(plan, tracer, statistics, progress.part(0, 0.03));
     if (choice.better) {
         FittedLight fitted = trace_fitted(plan, tracer, choice.samples, progress.part(0.03, 1));
-        statistics.fit.factor_entries = fitted.fit.solver.entries();
         return {std::move(fitted.direct), std::move(fitted.sealed), std::move(fitted.fit)};
     }
     Measured measured{trace_direct(plan, tracer, progress.part(0.03, 1)), {}, {}};

@@ -3,12 +3,10 @@
 #include "prt/encode_glb.h"
 #include "prt/fallback.h"
 #include "prt/levels.h"
-#include "prt/support/error.h"
 
 #include <fmt/core.h>
 
 #include <algorithm>
-#include <span>
 
 namespace prt::cli {
 

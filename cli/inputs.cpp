@@ -2,10 +2,8 @@
 
 #include "light_file.h"
 #include "outputs.h"
-#include "prt/encode_glb.h"
 #include "prt/lightmap_file.h"
 #include "prt/reorder.h"
-#include "prt/support/error.h"
 
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>

@@ -2,7 +2,6 @@
 
 #include "no_shadow.h"
 #include "options.h"
-#include "outputs.h"
 #include "prt/receivers.h"
 #include "prt/support/error.h"
 

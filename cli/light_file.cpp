@@ -9,8 +9,6 @@
 
 #include <cmath>
 #include <numbers>
-#include <string>
-#include <vector>
 
 namespace prt::cli {
 namespace {

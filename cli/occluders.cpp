@@ -9,7 +9,6 @@
 #include <glm/mat3x3.hpp>
 
 #include <algorithm>
-#include <cmath>
 
 namespace prt::cli {
 namespace {

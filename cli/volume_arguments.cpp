@@ -6,7 +6,6 @@
 #include <fmt/core.h>
 
 #include <cmath>
-#include <cstdio>
 
 namespace prt::cli {
 namespace {

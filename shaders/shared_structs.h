@@ -152,13 +152,8 @@ struct WideNode {
 #define PRT_NODE_INNER(i) (0x80u | (i))
 #define PRT_NODE_LEAF(count, first) ((count) << 5 | (first))
 #define PRT_IS_INNER(meta) (((meta)&0x80u) != 0u)
-#define PRT_INNER_CHILD(meta) ((meta)&7u)
 #define PRT_LEAF_COUNT(meta) ((meta) >> 5)
 #define PRT_LEAF_FIRST(meta) ((meta)&31u)
-
-PRT_FUNCTION uint byte_of(uvec2 bytes, uint slot) {
-    return (slot < 4u ? bytes.x : bytes.y) >> (8u * (slot & 3u)) & 255u;
-}
 
 PRT_FUNCTION uvec2 with_byte(uvec2 bytes, uint slot, uint value) {
     uint shifted = value << (8u * (slot & 3u));

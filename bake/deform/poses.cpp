@@ -3,8 +3,6 @@
 #include "prt/pose_bake.h"
 #include "prt/support/error.h"
 
-#include <algorithm>
-
 namespace prt {
 namespace {
 

@@ -140,8 +140,6 @@ private:
         statistics.rays += light.rays();
         statistics.alone = light.alone();
         statistics.bounces = light.bounces();
-        for (const InstanceReceivers::Instance& instance : light.receivers().instances)
-            statistics.flat_receivers += instance.receivers.size();
         statistics.notices = plan_.notices;
         double sampling = 0;
         for (const SharedMeshBake& mesh : meshes_)

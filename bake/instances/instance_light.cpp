@@ -3,8 +3,6 @@
 
 #include "instances/instance_light.h"
 
-#include "prt/sh_rotation.h"
-#include "prt/support/error.h"
 #include "prt/support/parallel.h"
 #include "prt/trace_receivers.h"
 #include "scene/sealed.h"
@@ -17,7 +15,6 @@
 #include <atomic>
 #include <cmath>
 #include <numbers>
-#include <numeric>
 
 namespace prt {
 namespace {

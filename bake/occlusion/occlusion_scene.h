@@ -2,7 +2,6 @@
 
 #include "prt/ambient_occlusion.h"
 #include "prt/trace_scene.h"
-#include "prt/tracer.h"
 
 #include <memory>
 #include <string>

@@ -9,7 +9,6 @@
 
 #include <limits>
 #include <numbers>
-#include <vector>
 
 namespace prt {
 std::vector<glm::vec3> sun_radiance(const TraceScene& scene, std::span<const SunDisc> suns,

@@ -5,7 +5,6 @@
 #include <glm/geometric.hpp>
 
 #include <algorithm>
-#include <compare>
 #include <tuple>
 
 namespace prt {

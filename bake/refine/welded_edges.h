@@ -5,7 +5,6 @@
 #include "prt/scene.h"
 
 #include <array>
-#include <cstddef>
 #include <cstdint>
 #include <vector>
 

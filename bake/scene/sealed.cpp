@@ -2,13 +2,11 @@
 
 #include "scene/sealed.h"
 
-#include "prt/sh.h"
 #include "prt/trace_receivers.h"
 #include "trace/embree_tracer.h"
 
 #include <cmath>
 #include <optional>
-#include <span>
 
 namespace prt {
 namespace {

@@ -3,7 +3,6 @@
 #include "scene/transmittance.h"
 
 #include <cmath>
-#include <limits>
 
 namespace prt {
 

@@ -9,7 +9,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <random>
 
 namespace prt {
@@ -114,12 +113,6 @@ double ErrorBudget::sum() const {
     for (const SquaredError& cause : causes)
         all += cause.value;
     return all;
-}
-
-ErrorCause ErrorBudget::largest() const {
-    const auto most = std::max_element(causes.begin(), causes.end(),
-                                       [](const auto& a, const auto& b) { return a.value < b.value; });
-    return static_cast<ErrorCause>(most - causes.begin());
 }
 
 ErrorBudget error_budget(const SurfacePoints& points, const SurfaceRadiance& reference, const BandCut& cut,

@@ -8,7 +8,6 @@
 #include "prt/bake.h"
 #include "prt/sh.h"
 #include "prt/support/stopwatch.h"
-#include "scene/interpolated.h"
 #include "trace/disc_share.h"
 #include "trace/each_receiver.h"
 

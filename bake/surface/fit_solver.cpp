@@ -128,10 +128,6 @@ FitSolver::~FitSolver() = default;
 FitSolver::FitSolver(FitSolver&&) noexcept = default;
 FitSolver& FitSolver::operator=(FitSolver&&) noexcept = default;
 
-std::size_t FitSolver::entries() const {
-    return static_cast<std::size_t>(factor_->ldlt.matrixL().nestedExpression().nonZeros());
-}
-
 void FitSolver::solve(std::span<float> b_then_x, std::size_t stride, int threads) const {
     factor_->solve(b_then_x, stride, threads);
 }

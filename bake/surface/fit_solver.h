@@ -20,8 +20,6 @@ public:
     FitSolver(FitSolver&&) noexcept;
     FitSolver& operator=(FitSolver&&) noexcept;
 
-    /// Of the factor.
-    std::size_t entries() const;
     /// Replaces b by x, [unknowns][stride]; zero where no sample tells. Deterministic, whatever the threads.
     void solve(std::span<float> b_then_x, std::size_t stride, int threads) const;
     void solve(std::span<double> b_then_x, std::size_t stride, int threads) const;

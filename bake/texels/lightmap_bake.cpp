@@ -93,12 +93,7 @@ double squared_jumps(const Atlas& atlas, std::span<const SeamPoint> seams, std::
                      std::size_t stride) {
     double sum = 0;
     for (const SeamPoint& point : seams) {
-        double jump = 0;
-        for (const auto& [place, sign] : {std::pair(point.here, 1.0), std::pair(point.there, -1.0)}) {
-            const BilinearTexels filter = bilinear_at(atlas, place);
-            for (std::size_t i = 0; i < 4; ++i)
-                jump += sign * filter.weights[i] * static_cast<double>(vectors[filter.texels[i] * stride]);
-        }
+        const double jump = jump_at(atlas, point, vectors, stride);
         sum += jump * jump / (kY00 * kY00);
     }
     return sum;

@@ -24,12 +24,7 @@ constexpr std::size_t kStride = 4; ///< of transfer of order 2
 double rms_jump(const Atlas& atlas, std::span<const SeamPoint> seams, std::span<const float> vectors) {
     double sum = 0;
     for (const SeamPoint& point : seams) {
-        double jump = 0;
-        for (const auto& [place, sign] : {std::pair(point.here, 1.0), std::pair(point.there, -1.0)}) {
-            const BilinearTexels filter = bilinear_at(atlas, place);
-            for (std::size_t i = 0; i < 4; ++i)
-                jump += sign * filter.weights[i] * static_cast<double>(vectors[filter.texels[i] * kStride]);
-        }
+        const double jump = jump_at(atlas, point, vectors, kStride);
         sum += jump * jump;
     }
     return seams.empty() ? 0 : std::sqrt(sum / static_cast<double>(seams.size())) / kY00;

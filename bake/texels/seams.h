@@ -30,4 +30,7 @@ inline BilinearTexels bilinear_at(const Atlas& atlas, const glm::dvec2& place) {
     return bilinear_texels(size_of(atlas), place.x, place.y);
 }
 
+/// By how much the first number of `values` [texels][stride] jumps across a seam.
+double jump_at(const Atlas& atlas, const SeamPoint& point, std::span<const float> values, std::size_t stride);
+
 } // namespace prt

@@ -7,8 +7,6 @@
 #include "texels/texel_places.h"
 #include "texels/texel_transport.h"
 
-#include <cstdint>
-#include <functional>
 #include <span>
 #include <vector>
 

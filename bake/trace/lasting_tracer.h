@@ -3,7 +3,6 @@
 #include "prt/trace_scene.h"
 #include "prt/tracer.h"
 
-#include <functional>
 #include <memory>
 
 namespace prt {

@@ -7,7 +7,6 @@
 #include "transport/sparse_rows.h"
 
 #include <algorithm>
-#include <bit>
 #include <type_traits>
 
 namespace prt {

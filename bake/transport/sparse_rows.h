@@ -2,7 +2,6 @@
 
 // The vectorised product of sparse rows with transfer vectors.
 
-#include <cstddef>
 #include <cstdint>
 #include <span>
 

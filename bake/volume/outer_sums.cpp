@@ -2,8 +2,6 @@
 
 #include "prt/support/vector_lanes.h"
 
-#include <algorithm>
-
 namespace prt {
 namespace {
 

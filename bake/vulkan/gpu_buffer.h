@@ -5,7 +5,6 @@
 #include "vulkan/vulkan_device.h"
 
 #include <cstddef>
-#include <cstring>
 #include <span>
 
 namespace prt {

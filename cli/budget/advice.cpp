@@ -2,7 +2,6 @@
 
 #include "prt/compress.h"
 #include "prt/make_tracer.h"
-#include "prt/sh.h"
 #include "prt/trace_receivers.h"
 
 #include <fmt/core.h>

@@ -7,7 +7,6 @@
 #include "prt/error_budget.h"
 #include "prt/support/progress.h"
 
-#include <optional>
 #include <vector>
 
 namespace prt::cli {

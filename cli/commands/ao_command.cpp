@@ -13,9 +13,7 @@
 #include <fmt/core.h>
 #include <glm/geometric.hpp>
 
-#include <algorithm>
 #include <cmath>
-#include <utility>
 
 namespace prt::cli {
 namespace {

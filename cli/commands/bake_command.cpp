@@ -9,7 +9,6 @@
 #include "prt/lightmap_bake.h"
 #include "prt/lightmap_gltf.h"
 #include "prt/refine.h"
-#include "prt/sh.h"
 #include "prt/support/error.h"
 #include "report/bake_report.h"
 #include "report/instance_report.h"
@@ -20,8 +19,6 @@
 #include "volume_arguments.h"
 
 #include <fmt/core.h>
-
-#include <cstdio>
 
 namespace prt::cli {
 namespace {

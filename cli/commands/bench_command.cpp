@@ -16,7 +16,7 @@ struct BenchArguments {
     ReportFiles files;
     BenchOptions options;
     GltfOptions reading;
-    bool classic = false, list_devices = false;
+    bool list_devices = false;
 };
 
 std::string in_words(const GpuDevice& device) {
@@ -46,30 +46,16 @@ Report scene_report(const BenchArguments& a, Session& session) {
     return report;
 }
 
-Report hill_report(const BenchArguments& a, Session& session) {
-    BenchOptions options = a.options;
-    options.fewest_rays = kClassicSamples.front();
-    options.most_rays = kClassicSamples.back();
-    const std::array<ClassicRow, 3> rows = classic_rows();
-    std::vector<BenchResult> results;
-    for (const ClassicRow& row : rows) {
-        ProgressBar bar = session.progress_bar(fmt::format("measuring {} vertices", row.vertices));
-        results.push_back(run_bench(fmt::format("bumpy torus, {} vertices", row.vertices), row.scene, options,
-                                    bar.progress()));
-    }
-    return classic_report(rows, results);
-}
-
 void run(BenchArguments a, Session& session) {
     if (a.list_devices)
         return print_devices();
-    if (a.scene.empty() && !a.classic)
-        throw CLI::RequiredError("scene, --classic or --list-devices");
+    if (a.scene.empty())
+        throw CLI::RequiredError("scene or --list-devices");
     a.reading.outputs = check_outputs({{a.files.json, "--json", {".json"}},
                                        {a.files.html, "--html", {".html", ".htm"}},
                                        {a.files.csv, "--csv", {".csv"}}},
                                       {a.scene});
-    Report report = a.classic ? hill_report(a, session) : scene_report(a, session);
+    Report report = scene_report(a, session);
     report.origin.emplace_back("command", session.command_line());
     const std::vector<GpuDevice> devices = gpu_devices();
     for (std::size_t i = 0; i < devices.size(); ++i)
@@ -85,8 +71,6 @@ void add_bench(CLI::App& app, Session& session) {
     auto& a = arguments_for<BenchArguments>(command,
                                             [&session](const BenchArguments& given) { run(given, session); });
     CLI::Option* scene = command->add_option("scene", a.scene, "glTF 2.0 scene, .gltf or .glb")->check(named);
-    command->add_flag("--classic", a.classic, "generated meshes like those of Hill's table of 2004")
-        ->excludes(scene);
     command->add_flag("--list-devices", a.list_devices, "print the GPUs that bakes could run on, and end")
         ->excludes(scene);
     add_gpu(command, a.options.gpu);

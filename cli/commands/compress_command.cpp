@@ -15,7 +15,6 @@
 #include "prt/mesh_edges.h"
 #include "prt/reorder.h"
 #include "prt/search.h"
-#include "prt/sh.h"
 #include "prt/stored_transfer.h"
 #include "prt/support/error.h"
 #include "report/instance_report.h"
@@ -463,14 +462,8 @@ Written written(const CompressArguments& a, std::vector<std::byte> file, const B
 
 Json trials_json(const std::vector<SearchTrial>& trials) {
     Json list = Json::array();
-    for (const SearchTrial& t : trials)
-        list.push_back({{"clusters", t.clusters},
-                        {"bytes_bound_per_vertex", t.payload_bytes},
-                        {"lit_rms", t.lit_rms},
-                        {"worst_lit_rms", t.worst_lit_rms},
-                        {"jump", t.jump},
-                        {"bytes_bound_per_vertex_with_bases", t.bytes_per_vertex},
-                        {"shader_operations", t.operations}});
+    for (const SearchTrial& trial : trials)
+        list.push_back(trial_json(trial));
     return list;
 }
 

@@ -9,7 +9,6 @@
 #include "prt/lobe_gltf.h"
 #include "prt/support/error.h"
 #include "prt/support/stopwatch.h"
-#include "terminal.h"
 
 #include <fmt/core.h>
 

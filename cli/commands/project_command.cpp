@@ -3,7 +3,6 @@
 #include "light_file.h"
 #include "options.h"
 #include "outputs.h"
-#include "prt/sh.h"
 #include "prt/support/error.h"
 #include "prt/support/stopwatch.h"
 #include "split_light.h"

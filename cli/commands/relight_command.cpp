@@ -12,8 +12,6 @@
 
 #include <fmt/core.h>
 
-#include <cmath>
-
 namespace prt::cli {
 namespace {
 

@@ -62,31 +62,6 @@ Table runs_table(const BenchResult& result) {
     return table;
 }
 
-/// The table of Hill's article, with what was measured beside it.
-Table classic_table() {
-    Table table{"classic", "The table of Hill, 2004", "", {}, {}};
-    table.columns = {{"vertices", "vertices"},
-                     {"series", "backend, method"},
-                     {"samples", "samples"},
-                     {"seconds", "seconds", Unit::seconds, 4},
-                     {"seconds_d3dx_2004", "D3DX", Unit::seconds, 2},
-                     {"times_faster_than_d3dx", "times faster"},
-                     {"seconds_hill_2004", "Hill", Unit::seconds, 2},
-                     {"times_faster_than_hill", "times faster"},
-                     {"relative_l2", "error", Unit::percent}};
-    table.about =
-        "Seconds to bake meshes of as many vertices, all work counted; his own meshes are not published.";
-    return table;
-}
-
-void add_rows(const ClassicRow& row, const BenchResult& result, Table& table) {
-    for (const BenchSeries& series : result.series)
-        for (const BenchRun& run : series.runs)
-            table.rows.push_back({row.vertices, series.name(), run.rays, run.seconds, row.seconds_d3dx,
-                                  row.seconds_d3dx / run.seconds, row.seconds_hill,
-                                  row.seconds_hill / run.seconds, run.relative_l2});
-}
-
 } // namespace
 
 Report bench_report(const BenchResult& result) {
@@ -105,21 +80,6 @@ Report bench_report(const BenchResult& result) {
     for (const BenchSeries& series : result.series)
         if (!series.left_out.empty())
             report.notes.push_back(series.name() + ": " + series.left_out);
-    return report;
-}
-
-Report classic_report(std::span<const ClassicRow> rows, std::span<const BenchResult> results) {
-    Report report;
-    report.title = "Bakes of 2004";
-    Table table = classic_table();
-    for (std::size_t i = 0; i < rows.size(); ++i) {
-        add_rows(rows[i], results[i], table);
-        for (const BenchSeries& series : results[i].series)
-            if (!series.left_out.empty())
-                report.notes.push_back(
-                    fmt::format("{} vertices, {}: {}", rows[i].vertices, series.name(), series.left_out));
-    }
-    report.tables.push_back(std::move(table));
     return report;
 }
 

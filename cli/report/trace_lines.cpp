@@ -1,8 +1,6 @@
 // Writes what the compressor tells of its work, for `prt compress --trace`.
 #include "report/trace_lines.h"
 
-#include "report/report.h"
-
 namespace prt::cli {
 namespace {
 
@@ -32,20 +30,25 @@ Json as_json(const CodingRound& e) {
 }
 
 Json as_json(const SearchTrial& e) {
-    return {{"event", "trial"},
-            {"clusters", e.clusters},
-            {"bytes_bound_per_vertex", e.payload_bytes},
-            {"lit_rms", e.lit_rms},
-            {"worst_lit_rms", e.worst_lit_rms},
-            {"jump", e.jump},
-            {"bytes_bound_per_vertex_with_bases", e.bytes_per_vertex},
-            {"shader_operations", e.operations}};
+    Json json = {{"event", "trial"}};
+    json.update(trial_json(e));
+    return json;
 }
 
 } // namespace
 
 std::string trace_line(const CompressEvent& event) {
     return std::visit([](const auto& e) { return as_json(e); }, event).dump() + "\n";
+}
+
+Json trial_json(const SearchTrial& trial) {
+    return {{"clusters", trial.clusters},
+            {"bytes_bound_per_vertex", trial.payload_bytes},
+            {"lit_rms", trial.lit_rms},
+            {"worst_lit_rms", trial.worst_lit_rms},
+            {"jump", trial.jump},
+            {"bytes_bound_per_vertex_with_bases", trial.bytes_per_vertex},
+            {"shader_operations", trial.operations}};
 }
 
 } // namespace prt::cli

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "prt/compress_trace.h"
+#include "report/report.h"
 
 #include <string>
 
@@ -8,5 +9,8 @@ namespace prt::cli {
 
 /// An event of the compressor as a line of JSON.
 std::string trace_line(const CompressEvent& event);
+
+/// The figures of a trial.
+Json trial_json(const SearchTrial& trial);
 
 } // namespace prt::cli

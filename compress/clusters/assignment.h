@@ -3,7 +3,6 @@
 #include "clusters/affine_clusters.h"
 #include "clusters/member_blocks.h"
 
-#include <algorithm>
 #include <array>
 #include <limits>
 

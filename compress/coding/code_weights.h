@@ -3,7 +3,6 @@
 #include "coding/quantised_clusters.h"
 
 #include <cstddef>
-#include <span>
 #include <vector>
 
 namespace prt {

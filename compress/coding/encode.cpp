@@ -3,8 +3,6 @@
 
 #include "coding/encode.h"
 
-#include "prt/support/parallel.h"
-
 #include <Eigen/Dense>
 
 #include <algorithm>

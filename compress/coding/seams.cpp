@@ -6,7 +6,6 @@
 #include "coding/conjugate_gradients.h"
 #include "coding/seam_jumps.h"
 #include "prt/adjacency.h"
-#include "tuning.h"
 
 #include <Eigen/Dense>
 

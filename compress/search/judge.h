@@ -1,6 +1,5 @@
 #pragma once
 
-#include "prt/error_moments.h"
 #include "prt/search.h"
 
 namespace prt {

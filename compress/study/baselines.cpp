@@ -6,7 +6,6 @@
 #include "clusters/clustering.h"
 #include "metric/significance.h"
 #include "prt/light_metric.h"
-#include "prt/sh.h"
 
 #include <glm/gtc/packing.hpp>
 

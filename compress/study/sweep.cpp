@@ -3,7 +3,6 @@
 
 #include "prt/sweep.h"
 
-#include "prt/baselines.h"
 #include "prt/error_measures.h"
 #include "prt/search.h"
 #include "prt/support/stopwatch.h"

@@ -10,7 +10,6 @@
 #include <glm/matrix.hpp>
 
 #include <algorithm>
-#include <span>
 
 namespace {
 

@@ -5,7 +5,6 @@
 #include "prt/suns.h"
 #include "sky_map.h"
 
-#include <array>
 #include <vector>
 
 namespace prt {

@@ -11,7 +11,6 @@
 #include <cstdint>
 #include <new>
 #include <optional>
-#include <string>
 #include <string_view>
 
 namespace prt {

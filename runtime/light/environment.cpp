@@ -1,7 +1,6 @@
 // Environment maps: checks, repair of pixels, and the directions that pixels look in.
 #include "prt/environment.h"
 
-#include "prt/sh.h"
 #include "prt/support/error.h"
 
 #include <glm/geometric.hpp>
@@ -9,7 +8,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <numbers>
 #include <string>
 

@@ -10,7 +10,6 @@
 #include "prt/environment.h"
 #include "prt/sh.h"
 #include "prt/sh_rotation.h"
-#include "prt/support/error.h"
 #include "prt/support/parallel.h"
 #include "prt/support/vector_lanes.h"
 #include "sh/gauss_legendre.h"
@@ -21,7 +20,6 @@
 #include <array>
 #include <cmath>
 #include <numbers>
-#include <utility>
 
 namespace prt {
 

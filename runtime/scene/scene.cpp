@@ -8,7 +8,6 @@
 
 #include <bit>
 #include <cstdio>
-#include <limits>
 
 namespace prt {
 

@@ -1,8 +1,6 @@
 // Nodes and weights of Gauss and Legendre, by Newton's method on the recurrence of the polynomials.
 #include "sh/gauss_legendre.h"
 
-#include "prt/sh_basis.h"
-
 #include <cmath>
 #include <numbers>
 

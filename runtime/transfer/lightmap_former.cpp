@@ -57,10 +57,6 @@ std::size_t bytes_per_texel(LightmapFormat format) {
     return format == LightmapFormat::rgba16 ? 8 : 4;
 }
 
-glm::vec3 radiance_of_texel(LightmapFormat format, const std::byte* texel) {
-    return read_texel(format, texel);
-}
-
 LightmapFormer::LightmapFormer(const CompressedLightmap& lightmap, LightmapFormat format)
     : lightmap_(lightmap), format_(format), clusters_(cluster_layouts(lightmap.compressed.transfer.bases)),
       first_texels_(lightmap.layout.first_texels()) {

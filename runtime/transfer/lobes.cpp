@@ -93,14 +93,6 @@ glm::vec3 turned_axis(const glm::vec3& axis, const glm::mat3& turn) {
     return length > 0 && std::isfinite(length) ? turned / length : axis;
 }
 
-glm::vec3 axis_onto(const glm::vec3& axis, const glm::vec3& from, const glm::vec3& to) {
-    const glm::vec3 sum = from + to;
-    const float size = 1 + glm::dot(from, to);
-    if (size < 1e-6f) // opposite: any half turn does
-        return -axis;
-    return axis - glm::dot(sum, axis) / size * sum + 2 * glm::dot(from, axis) * to;
-}
-
 void lobe_transfer(std::span<const Lobe> lobes, int order, std::span<float> transfer) {
     assert(order <= kMostLobeOrder && transfer.size() == static_cast<std::size_t>(order * order));
     std::fill(transfer.begin(), transfer.end(), 0.0f);

@@ -5,7 +5,6 @@
 #include "prt/constant_former.h"
 #include "prt/sh.h"
 #include "prt/support/error.h"
-#include "prt/support/parallel.h"
 #include "prt/volume_weights.h"
 
 #include <glm/common.hpp>
@@ -15,7 +14,6 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <numbers>
 #include <tuple>
 
 namespace prt {

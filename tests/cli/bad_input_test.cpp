@@ -217,7 +217,7 @@ TEST_F(BadInput, WrongUsageIsStatusTwo) {
           {"bake", scene, "-o", out, "--subsurface", "1,2,3,4,5"},
           {"bake", scene, "-o", out, "--rays", "64", "--target-error", "0.01"},
           {"bench"},
-          {"bench", scene, "--classic"},
+          {"bench", scene, "--list-devices"},
           {"compress", scene, "-o", out, "--clusters", "auto"},
           {"compress", scene, "-o", out, "--components", "auto"},
           {"compress", scene, "-o", out, "--weights", "8"},

@@ -98,7 +98,6 @@ struct BakeStatistics {
         int samples = 0;     ///< that each receiver's rays are divided among; 0: at vertices
         double between = 0;  ///< relative L2 of direct light between vertices, were these without noise
         double sampling = 0; ///< relative L2 of the rays of one receiver
-        std::size_t factor_entries = 0;
     };
     struct Receivers {
         std::size_t all = 0;        ///< of the scene

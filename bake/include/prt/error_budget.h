@@ -42,7 +42,6 @@ struct ErrorBudget {
     SquaredError& of(ErrorCause cause) { return causes[static_cast<std::size_t>(cause)]; }
     const SquaredError& of(ErrorCause cause) const { return causes[static_cast<std::size_t>(cause)]; }
     double sum() const;
-    ErrorCause largest() const;
 };
 
 /// Exit radiance of one lighting, interpolated to points: without direct light of suns that the renderer

@@ -28,9 +28,8 @@ struct InstanceStatistics {
     std::size_t receivers = 0; ///< traced in full: of meshes alone, and of what is drawn once
     std::size_t samples = 0;   ///< traced where instances stand
     std::size_t rays = 0;
-    std::size_t alone = 0;          ///< instances none of whose rays met anything but themselves
-    std::size_t flat_receivers = 0; ///< that all instances have
-    int bounces = 0;                ///< done
+    std::size_t alone = 0; ///< instances none of whose rays met anything but themselves
+    int bounces = 0;       ///< done
     double seconds = 0;
     std::vector<std::string> notices;
 };

@@ -4,7 +4,6 @@
 
 #include "prt/lightmap.h"
 #include "prt/scene.h"
-#include "prt/support/progress.h"
 
 #include <cstddef>
 #include <vector>

@@ -4,7 +4,6 @@
 
 #include "prt/sh_basis.h"
 #include "prt/support/stopwatch.h"
-#include "trace/gpu/gpu_structs.h"
 #include "trace/gpu/gpu_sum_row.h"
 #include "vulkan/staged_writes.h"
 
@@ -12,7 +11,6 @@
 #include "kernels/bake_gather.h"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <limits>
 

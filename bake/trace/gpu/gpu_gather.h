@@ -4,9 +4,7 @@
 #include "transport/gather_product.h"
 #include "vulkan/gpu_kernel.h"
 
-#include <array>
 #include <memory>
-#include <vector>
 
 namespace prt {
 

@@ -4,8 +4,6 @@
 #include "trace/gpu/gpu_sum_row.h"
 #include "trace/gpu/vulkan_tracer.h"
 
-#include <algorithm>
-
 namespace prt {
 
 class VulkanTracer::Sums final : public VectorSums {

@@ -3,8 +3,6 @@
 
 #include "trace/gpu/vulkan_tracer.h"
 
-#include "prt/sh.h"
-#include "prt/support/parallel.h"
 #include "prt/support/stopwatch.h"
 #include "trace/gpu/gpu_gather.h"
 #include "trace/gpu/gpu_receivers.h"
@@ -13,7 +11,6 @@
 #include "trace/sample_sequence.h"
 
 #include <algorithm>
-#include <cmath>
 #include <numbers>
 
 namespace prt {

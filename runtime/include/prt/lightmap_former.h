@@ -17,7 +17,6 @@
 #include <glm/vec4.hpp>
 
 #include <cstddef>
-#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -31,9 +30,6 @@ enum class LightmapFormat {
 };
 
 std::size_t bytes_per_texel(LightmapFormat format);
-
-/// Radiance that a texel of that format stands for. `texel` [bytes_per_texel(format)].
-glm::vec3 radiance_of_texel(LightmapFormat format, const std::byte* texel);
 
 /// A level of a texture, halved from that before and rounded down, 1 at least.
 struct LightmapLevel {

@@ -74,9 +74,6 @@ glm::mat3 axis_turn(const glm::mat3& matrix);
 /// Unit; as it was where the matrix leaves nothing of it.
 glm::vec3 turned_axis(const glm::vec3& axis, const glm::mat3& turn);
 
-/// The least turn that takes unit `from` to unit `to`, of an axis: what a normal map does to lobes.
-glm::vec3 axis_onto(const glm::vec3& axis, const glm::vec3& from, const glm::vec3& to);
-
 /// Exit radiance for albedo 1, not below 0. `light`: coefficients of incident light, [light_order²]; bands of
 /// lobes beyond it are left out.
 glm::vec3 lobe_radiance(std::span<const Lobe> lobes, std::span<const glm::vec3> light, int light_order);

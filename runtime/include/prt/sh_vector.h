@@ -1,8 +1,8 @@
 #pragma once
 
-// Functions on the sphere as vectors of SH coefficients [order²]: sums, dot products, convolution, products.
-// For float and double. Everything is thread-safe and allocates
-// nothing, but for tables of `sh_product`. Nothing is checked but by assert. Stable.
+// Functions on the sphere as vectors of SH coefficients [order²]: sums, dot products, products. For float
+// and double. Everything is thread-safe and allocates nothing, but for tables of `sh_product`. Nothing is
+// checked but by assert. Stable.
 
 #include "prt/sh_basis.h"
 #include "prt/support/glm_layout.h"
@@ -45,13 +45,6 @@ Real sh_dot(std::span<const Real> a, std::type_identity_t<std::span<const Real>>
 /// The function's value in unit direction `direction`.
 float sh_value(int order, std::span<const float> function, const glm::vec3& direction);
 double sh_value(int order, std::span<const double> function, const glm::dvec3& direction);
-
-/// Convolution with a function that is symmetric about +z, of which `kernel` [order] holds the coefficients
-/// of m = 0: (k * f)_lm = sqrt(4 pi / (2l+1)) k_l f_lm. `out` may be `function`.
-void sh_convolve(int order, std::span<const float> function, std::span<const float> kernel,
-                 std::span<float> out);
-void sh_convolve(int order, std::span<const double> function, std::span<const double> kernel,
-                 std::span<double> out);
 
 /// The first `order` bands of the product of two functions of `order` bands, exact up to rounding: shadow
 /// times light, or light times what an object lets through. Up to order 3 by the table of triple products,

@@ -44,8 +44,4 @@ void GlContext::make_current() const {
         throw Error("the OpenGL context of " + renderer_ + " is lost");
 }
 
-bool GlContext::is_software() const {
-    return is_software_renderer(renderer_);
-}
-
 } // namespace prt

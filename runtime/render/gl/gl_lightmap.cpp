@@ -11,7 +11,6 @@
 
 #include <algorithm>
 #include <bit>
-#include <string>
 
 namespace prt {
 namespace {
@@ -40,49 +39,14 @@ GlObject make_words(const LightmapSize& size, std::span<const std::uint32_t> wor
     return texture;
 }
 
-/// Words as four bytes each, as prt_lightmap.frag reads them.
-GlObject make_bytes(const LightmapSize& size, std::span<const std::uint32_t> words) {
-    GlObject texture = make_texture_2d(1, GL_RGBA8UI, size.width, size.height);
-    glPixelStorei(GL_UNPACK_ALIGNMENT, 4);
-    glTextureSubImage2D(texture.name(), 0, 0, 0, size.width, size.height, GL_RGBA_INTEGER, GL_UNSIGNED_BYTE,
-                        words.data());
-    glTextureParameteri(texture.name(), GL_TEXTURE_MIN_FILTER, GL_NEAREST);
-    glTextureParameteri(texture.name(), GL_TEXTURE_MAG_FILTER, GL_NEAREST);
-    return texture;
-}
-
 GLuint groups(int texels) {
     return static_cast<GLuint>(texels + 7) / 8;
 }
 
-/// Constants and clusters of a lightmap for one lighting, bound as shaders want them.
-struct BoundConstants {
-    GlObject constants, clusters;
-
-    BoundConstants(const ClusteredTransfer& transfer, const Lighting& lighting) {
-        const ConstantFormer former(transfer);
-        std::vector<glm::vec4> formed(former.rows());
-        former.form(lighting, formed);
-        constants = make_buffer(std::span<const glm::vec4>(formed));
-        clusters = make_buffer(std::span<const ClusterLayout>(cluster_layouts(transfer.bases)));
-        bind_storage(PRT_BINDING_CONSTANTS, constants);
-        bind_storage(PRT_BINDING_CLUSTERS, clusters);
-    }
-};
-
-void append_texture(const GlObject& texture, const LightmapSize& size, std::vector<glm::vec3>& radiance) {
-    const std::size_t begin = radiance.size();
-    radiance.resize(begin + size.texels());
-    glPixelStorei(GL_PACK_ALIGNMENT, 4);
-    glGetTextureImage(texture.name(), 0, GL_RGB, GL_FLOAT,
-                      static_cast<GLsizei>(size.texels() * sizeof(glm::vec3)), &radiance[begin]);
-    check_gl("reading a lightmap back");
-}
-
-void dispatch(const GlObject& map, const LightmapSize& size, std::span<const GlObject> words, GLenum format) {
+void dispatch(const GlObject& map, const LightmapSize& size, std::span<const GlObject> words) {
     for (std::size_t w = 0; w < words.size(); ++w)
         glBindTextureUnit(static_cast<GLuint>(PRT_UNIT_WORD_IMAGES + w), words[w].name());
-    glBindImageTexture(PRT_IMAGE_LIGHTMAP, map.name(), 0, GL_FALSE, 0, GL_WRITE_ONLY, format);
+    glBindImageTexture(PRT_IMAGE_LIGHTMAP, map.name(), 0, GL_FALSE, 0, GL_WRITE_ONLY, GL_RGBA16F);
     glDispatchCompute(groups(size.width), groups(size.height), 1);
 }
 
@@ -114,7 +78,7 @@ void GlLightmap::set_light(const Lighting& lighting) {
     bind_storage(PRT_BINDING_CONSTANTS, constants_);
     bind_storage(PRT_BINDING_CLUSTERS, clusters_);
     for (std::size_t m = 0; m < maps_.size(); ++m)
-        dispatch(maps_[m], layout_.maps[m], words_[m], GL_RGBA16F);
+        dispatch(maps_[m], layout_.maps[m], words_[m]);
     glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT | GL_TEXTURE_UPDATE_BARRIER_BIT);
     for (const GlObject& map : maps_)
         glGenerateTextureMipmap(map.name());
@@ -141,57 +105,6 @@ std::vector<GlObject> make_lightmap_textures(const LightmapLayout& layout) {
     for (const LightmapSize& size : layout.maps)
         maps.push_back(make_map(size, GL_RGBA16F));
     return maps;
-}
-
-std::vector<glm::vec3> lightmap_radiance_gl(const CompressedLightmap& lightmap, const Lighting& lighting,
-                                            const GlContext& context) {
-    context.make_current();
-    const ClusteredTransfer& transfer = lightmap.compressed.transfer;
-    const BoundConstants bound(transfer, lighting);
-    const GlObject program = make_compute_program(
-        "prt_lightmap.comp", relight_defines(transfer) + "#define PRT_LIGHTMAP_FORMAT rgba32f\n");
-    glUseProgram(program.name());
-    std::vector<glm::vec3> radiance;
-    for (std::size_t m = 0; m < lightmap.layout.maps.size(); ++m) {
-        const LightmapSize& size = lightmap.layout.maps[m];
-        std::vector<GlObject> words;
-        for (int w = 0; w < transfer.receivers.words; ++w)
-            words.push_back(make_words(size, words_of_map(lightmap, m, w)));
-        const GlObject map = make_texture_2d(1, GL_RGBA32F, size.width, size.height);
-        dispatch(map, size, words, GL_RGBA32F);
-        glMemoryBarrier(GL_TEXTURE_UPDATE_BARRIER_BIT);
-        append_texture(map, size, radiance);
-    }
-    return radiance;
-}
-
-std::vector<glm::vec3> lightmap_radiance_by_fragments(const CompressedLightmap& lightmap,
-                                                      const Lighting& lighting, const GlContext& context) {
-    context.make_current();
-    const ClusteredTransfer& transfer = lightmap.compressed.transfer;
-    const BoundConstants bound(transfer, lighting);
-    const GlObject program = make_program("background.vert", "prt_lightmap.frag", relight_defines(transfer)),
-                   empty = make_vertex_array(), framebuffer = make_framebuffer();
-    glUseProgram(program.name());
-    glBindVertexArray(empty.name());
-    glBindFramebuffer(GL_FRAMEBUFFER, framebuffer.name());
-    glDisable(GL_DEPTH_TEST);
-    glDisable(GL_CULL_FACE);
-    std::vector<glm::vec3> radiance;
-    for (std::size_t m = 0; m < lightmap.layout.maps.size(); ++m) {
-        const LightmapSize& size = lightmap.layout.maps[m];
-        std::vector<GlObject> words;
-        for (int w = 0; w < transfer.receivers.words; ++w) {
-            words.push_back(make_bytes(size, words_of_map(lightmap, m, w)));
-            glBindTextureUnit(static_cast<GLuint>(PRT_UNIT_WORD_IMAGES + w), words.back().name());
-        }
-        const GlObject map = make_texture_2d(1, GL_RGBA32F, size.width, size.height);
-        glNamedFramebufferTexture(framebuffer.name(), GL_COLOR_ATTACHMENT0, map.name(), 0);
-        glViewport(0, 0, size.width, size.height);
-        glDrawArrays(GL_TRIANGLES, 0, 3);
-        append_texture(map, size, radiance);
-    }
-    return radiance;
 }
 
 } // namespace prt

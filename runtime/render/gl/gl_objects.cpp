@@ -3,7 +3,6 @@
 #include "prt/gl_objects.h"
 
 #include "prt/shader_source.h"
-#include "prt/support/error.h"
 
 #include <epoxy/gl.h>
 

@@ -4,6 +4,7 @@
 
 #include "prt/gl_lightmap.h"
 #include "prt/gl_scene.h"
+#include "prt/gl_transfer.h"
 #include "prt/sun_shadows.h"
 #include "prt/support/error.h"
 #include "shared_layout.h"

@@ -1,4 +1,4 @@
-// Compressed transfer as vertex attributes and storage buffers, and the vertex shader's result read back.
+// Compressed transfer as vertex attributes and storage buffers.
 
 #include "prt/gl_transfer.h"
 
@@ -6,12 +6,8 @@
 #include "shared_layout.h"
 
 #include <epoxy/gl.h>
-#include <glm/gtc/type_ptr.hpp>
-#include <glm/vec4.hpp>
 
 #include <algorithm>
-#include <cstddef>
-#include <string>
 
 namespace prt {
 namespace {
@@ -76,66 +72,9 @@ void GlTransfer::attach(std::uint32_t vertex_array, std::size_t first) const {
     }
 }
 
-namespace {
-
-/// Points `location` of `vertex_array` at vectors of three floats.
-void attach_vectors(GLuint vertex_array, GLuint location, const GlObject& buffer) {
-    glVertexArrayVertexBuffer(vertex_array, location, buffer.name(), 0, sizeof(glm::vec3));
-    glEnableVertexArrayAttrib(vertex_array, location);
-    glVertexArrayAttribFormat(vertex_array, location, 3, GL_FLOAT, GL_FALSE, 0);
-    glVertexArrayAttribBinding(vertex_array, location, location);
-}
-
-/// The attributes that guides want of a mesh, from the coordinates of all receivers.
-std::vector<GlObject> attach_guides(GLuint vertex_array, const ClusteredTransfer& transfer) {
-    std::vector<GlObject> buffers;
-    const ClusteredBases& bases = transfer.bases;
-    for (std::size_t g = 0; g < bases.guides.size(); ++g) {
-        std::vector<glm::vec3> vectors;
-        for (std::size_t p = 0; p < transfer.receivers.size(); ++p)
-            vectors.push_back(glm::make_vec3(&transfer.receivers.guides[p * bases.guide_rows() + 3 * g]) +
-                              bases.guides[g].origin);
-        const bool normal = bases.guides[g].kind == GuideKind::normal;
-        attach_vectors(vertex_array, normal ? PRT_LOCATION_NORMAL : PRT_LOCATION_POSITION,
-                       buffers.emplace_back(make_buffer(std::span<const glm::vec3>(vectors))));
-    }
-    return buffers;
-}
-
-} // namespace
-
 void GlTransfer::use() const {
     bind_storage(PRT_BINDING_CONSTANTS, constants_);
     bind_storage(PRT_BINDING_CLUSTERS, layouts_);
-}
-
-std::vector<glm::vec3> exit_radiance_gl(const ClusteredTransfer& transfer, const Lighting& lighting,
-                                        const GlContext& context) {
-    context.make_current();
-    GlTransfer on_gpu(transfer);
-    on_gpu.set_light(lighting);
-    const GlObject program = make_program("scene.vert", "scene.frag", on_gpu.defines(), "radiance");
-    const GlObject vertex_array = make_vertex_array();
-    on_gpu.attach(vertex_array.name(), 0);
-    const std::vector<GlObject> guides = attach_guides(vertex_array.name(), transfer);
-    std::vector<glm::vec3> radiance(transfer.receivers.size());
-    const GlObject output = make_buffer(std::span<const glm::vec3>(radiance));
-    // Nothing is drawn, but without a window there is no framebuffer unless we make one.
-    const GlObject framebuffer = make_framebuffer();
-    glNamedFramebufferParameteri(framebuffer.name(), GL_FRAMEBUFFER_DEFAULT_WIDTH, 1);
-    glNamedFramebufferParameteri(framebuffer.name(), GL_FRAMEBUFFER_DEFAULT_HEIGHT, 1);
-    glBindFramebuffer(GL_FRAMEBUFFER, framebuffer.name());
-    glUseProgram(program.name());
-    on_gpu.use();
-    glBindVertexArray(vertex_array.name());
-    glBindBufferBase(GL_TRANSFORM_FEEDBACK_BUFFER, 0, output.name());
-    glEnable(GL_RASTERIZER_DISCARD);
-    glBeginTransformFeedback(GL_POINTS);
-    glDrawArrays(GL_POINTS, 0, static_cast<GLsizei>(radiance.size()));
-    glEndTransformFeedback();
-    glDisable(GL_RASTERIZER_DISCARD);
-    read_buffer(output, std::span(radiance), "reading the vertex shader's result back");
-    return radiance;
 }
 
 } // namespace prt

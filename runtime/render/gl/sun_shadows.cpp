@@ -10,8 +10,6 @@
 #include <glm/common.hpp>
 
 #include <algorithm>
-#include <bit>
-#include <cmath>
 #include <numbers>
 #include <string>
 

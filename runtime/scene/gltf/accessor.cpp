@@ -1,12 +1,9 @@
 // Reads accessors, sparse ones and normalised integers included, with every index checked.
 #include "gltf/accessor.h"
 
-#include "prt/support/error.h"
-
 #include <algorithm>
 #include <cstring>
 #include <limits>
-#include <string>
 
 namespace prt {
 namespace {

@@ -12,9 +12,7 @@
 #include "gltf/unshare.h"
 
 #include <algorithm>
-#include <cmath>
 #include <cstring>
-#include <limits>
 #include <map>
 #include <string>
 

@@ -8,9 +8,7 @@
 #include <algorithm>
 #include <functional>
 #include <new>
-#include <set>
 #include <stdexcept>
-#include <string>
 
 namespace prt {
 namespace {

@@ -15,7 +15,6 @@
 #include "gltf/triangles.h"
 #include "prt/support/error.h"
 #include "prt/support/printable.h"
-#include "triangle_normal.h"
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>

@@ -75,4 +75,15 @@ std::size_t add_index_accessor(GltfContents& contents, std::span<const std::uint
                                   {"type", "SCALAR"}});
 }
 
+void replace_triangles(GltfContents& contents, Json& primitive, std::span<const glm::uvec3> triangles,
+                       bool mirrored, std::set<std::size_t>& replaced) {
+    std::vector<std::uint32_t> indices;
+    for (const glm::uvec3& t : triangles)
+        indices.insert(indices.end(), {t.x, mirrored ? t.z : t.y, mirrored ? t.y : t.z});
+    if (primitive.contains("indices"))
+        replaced.insert(primitive["indices"].get<std::size_t>());
+    primitive["indices"] = add_index_accessor(contents, indices);
+    primitive.erase("mode");
+}
+
 } // namespace prt

@@ -2,8 +2,11 @@
 
 #include "gltf/contents.h"
 
+#include <glm/vec3.hpp>
+
 #include <cstddef>
 #include <cstdint>
+#include <set>
 #include <span>
 #include <vector>
 
@@ -20,5 +23,10 @@ std::size_t add_gathered_accessor(GltfContents& contents, const Json& reference,
 
 /// Adds an accessor for the indices of a primitive. Returns its index.
 std::size_t add_index_accessor(GltfContents& contents, std::span<const std::uint32_t> indices);
+
+/// Gives `primitive` these triangles, corners of a mirrored one the other way round; `replaced` gets the
+/// accessor that it had.
+void replace_triangles(GltfContents& contents, Json& primitive, std::span<const glm::uvec3> triangles,
+                       bool mirrored, std::set<std::size_t>& replaced);
 
 } // namespace prt

@@ -3,7 +3,6 @@
 
 #include "gltf/transfer_json.h"
 #include "prt/support/error.h"
-#include "prt/support/printable.h"
 
 #include <glm/geometric.hpp>
 

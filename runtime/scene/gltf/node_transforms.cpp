@@ -4,7 +4,6 @@
 #include "prt/support/error.h"
 
 #include <glm/gtc/matrix_transform.hpp>
-#include <glm/gtc/quaternion.hpp>
 #include <glm/gtc/type_ptr.hpp>
 
 #include <string>

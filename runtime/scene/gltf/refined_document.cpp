@@ -1,7 +1,6 @@
 // A finer file: vertices and triangles that a refinement adds, with all that the file says of vertices.
 #include "prt/refinement.h"
 
-#include "gltf/accessor.h"
 #include "gltf/gathered_accessor.h"
 #include "gltf/midpoint_accessor.h"
 #include "gltf/midpoint_joints.h"
@@ -41,7 +40,7 @@ public:
                                        [static_cast<std::size_t>(primitive.primitive)];
             if (!midpoints(primitive).empty())
                 write_vertices(primitive, json);
-            write_triangles(refinement_.triangles[p], primitive.mirrored, json);
+            replace_triangles(contents_, json, refinement_.triangles[p], primitive.mirrored, replaced_);
         }
         contents_.remove_unused(std::move(replaced_));
     }
@@ -87,16 +86,6 @@ private:
             found->second = add_midpoint_accessor(contents_, old, midpoints, rule);
         replaced_.insert(static_cast<std::size_t>(old));
         reference = found->second;
-    }
-
-    void write_triangles(const std::vector<glm::uvec3>& triangles, bool mirrored, Json& json) {
-        std::vector<std::uint32_t> indices;
-        for (const glm::uvec3& t : triangles)
-            indices.insert(indices.end(), {t.x, mirrored ? t.z : t.y, mirrored ? t.y : t.z});
-        if (json.contains("indices"))
-            replaced_.insert(json["indices"].get<std::size_t>());
-        json["indices"] = add_index_accessor(contents_, indices);
-        json.erase("mode");
     }
 
     GltfContents& contents_;

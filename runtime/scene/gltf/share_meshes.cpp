@@ -4,7 +4,6 @@
 #include "gltf/accessor.h"
 #include "gltf/contents.h"
 #include "prt/encode_glb.h"
-#include "prt/support/error.h"
 
 #include <algorithm>
 #include <cstring>

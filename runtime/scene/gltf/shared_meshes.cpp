@@ -4,7 +4,6 @@
 #include "gltf/contents.h"
 #include "gltf/even_placement.h"
 #include "gltf/node_transforms.h"
-#include "prt/support/error.h"
 
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>

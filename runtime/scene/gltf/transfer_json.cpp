@@ -2,14 +2,12 @@
 #include "gltf/transfer_json.h"
 
 #include "gltf/accessor.h"
-#include "prt/sh.h"
 
 #include <glm/gtc/packing.hpp>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdint>
 #include <cstring>
 #include <limits>
 

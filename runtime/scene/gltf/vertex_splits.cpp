@@ -33,13 +33,7 @@ public:
             if (const std::string name = "TEXCOORD_" + std::to_string(s);
                 !primitive["attributes"].contains(name))
                 primitive["attributes"][name] = add_zeros(split.uv.size());
-        std::vector<std::uint32_t> indices;
-        for (const glm::uvec3& t : split.triangles)
-            indices.insert(indices.end(), {t.x, mirrored ? t.z : t.y, mirrored ? t.y : t.z});
-        if (primitive.contains("indices"))
-            replaced_.insert(primitive["indices"].get<std::size_t>());
-        primitive["indices"] = add_index_accessor(contents_, indices);
-        primitive.erase("mode");
+        replace_triangles(contents_, primitive, split.triangles, mirrored, replaced_);
     }
     void finish() { contents_.remove_unused(std::move(replaced_)); }
 

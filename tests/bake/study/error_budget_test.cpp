@@ -201,7 +201,6 @@ TEST(ErrorBudget, FindsEachCauseOfAPaintedFloor) {
         EXPECT_NEAR(budget.of(ErrorCause::bytes).value, 0.00045, 6e-5);
         EXPECT_NEAR(budget.total.value, 0.00615, 7e-4);
         EXPECT_NEAR(budget.sum() + budget.together.value, budget.total.value, 1e-12);
-        EXPECT_EQ(budget.largest(), ErrorCause::rays);
     }
 }
 

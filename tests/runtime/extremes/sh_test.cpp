@@ -73,7 +73,6 @@ double arithmetic(int order, float x, float y) {
     evaluate_sh(order, std::span<const glm::vec3>(), to.first(0));
     sh_add(std::span(a), b, to);
     sh_scale(std::span(a), y, to);
-    sh_convolve(order, a, std::span(b).first(static_cast<std::size_t>(order)), to);
     ShRotation(order, glm::dmat3(1)).apply(a, to);
     flip_condon_shortley(order, to);
     sh_product(order, a, b, to);

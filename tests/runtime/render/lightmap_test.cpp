@@ -1,11 +1,11 @@
 // Lightmaps on the GPU against C++, and as surfaces show them.
 
 #include "prt/gl_context.h"
-#include "prt/gl_lightmap.h"
 #include "prt/gl_renderer.h"
 #include "prt/lightmap_file.h"
 #include "prt/lightmap_lookup.h"
 #include "prt/ray_renderer.h"
+#include "support/gl_radiance.h"
 #include "support/random_lightmap.h"
 #include "support/scene_builder.h"
 
@@ -38,8 +38,8 @@ TEST_P(LightmapPasses, OfComputeAndFragmentsIsThatOfCpp) {
         test::random_lightmap({{33, 17}, {8, 8}, {1, 1}}, words, alike, random);
     const Lighting lighting{constant_light(3, glm::vec3(1, 0.5f, 2))};
     const std::vector<glm::vec3> expected = exit_radiance(lightmap.compressed.transfer, lighting);
-    EXPECT_LT(largest_difference(expected, lightmap_radiance_gl(lightmap, lighting, *context)), 1e-5f);
-    EXPECT_LT(largest_difference(expected, lightmap_radiance_by_fragments(lightmap, lighting, *context)),
+    EXPECT_LT(largest_difference(expected, test::lightmap_radiance_gl(lightmap, lighting, *context)), 1e-5f);
+    EXPECT_LT(largest_difference(expected, test::lightmap_radiance_by_fragments(lightmap, lighting, *context)),
               1e-5f);
 }
 

@@ -66,6 +66,12 @@ struct Lit {
     glm::vec3 plain, mapped;
 };
 
+/// The least turn that takes unit `from` to unit `to`, of an axis: what a normal map does to lobes.
+glm::vec3 axis_onto(const glm::vec3& axis, const glm::vec3& from, const glm::vec3& to) {
+    const glm::vec3 sum = from + to;
+    return axis - glm::dot(sum, axis) / (1 + glm::dot(from, to)) * sum + 2 * glm::dot(from, axis) * to;
+}
+
 std::vector<Lit> lit_by_cpp(const LobeModel& model, const std::vector<Vertex>& vertices,
                             std::span<const glm::vec3> light, int light_order) {
     std::vector<Lit> all;

@@ -120,28 +120,6 @@ TEST(ShVector, FloatBasisIsOrthonormal) {
     EXPECT_LT(worst, 1e-6);
 }
 
-TEST(ShVector, ConvolutionWithAClampedCosineGivesIrradiance) {
-    // The irradiance of a cosine lobe about an axis, at the normal that is that axis: pi ∫ cos² / pi.
-    constexpr int kOrder = 10;
-    const auto f = random_function(kOrder, 7);
-    std::vector<double> kernel(kOrder), out(f.size());
-    Basis lobe{};
-    clamped_cosine_lobe(kOrder, {0, 0, 1}, lobe);
-    for (int l = 0; l < kOrder; ++l)
-        kernel[static_cast<std::size_t>(l)] = lobe[static_cast<std::size_t>(sh_index(l, 0))];
-    sh_convolve(kOrder, f, kernel, out);
-    std::mt19937 random(8);
-    std::normal_distribution<double> normal;
-    for (int k = 0; k < 10; ++k) {
-        const glm::dvec3 n = glm::normalize(glm::dvec3(normal(random), normal(random), normal(random)));
-        Basis about_n{};
-        clamped_cosine_lobe(kOrder, n, about_n);
-        EXPECT_NEAR(sh_value(kOrder, std::span<const double>(out), n),
-                    sh_dot(std::span<const double>(f), std::span<const double>(about_n).first(f.size())),
-                    1e-12);
-    }
-}
-
 TEST(ShVector, SumsAndScales) {
     const std::vector<float> a = {1, 2, 3, 4}, b = {0, 1, 0, -1};
     std::vector<float> out(4);

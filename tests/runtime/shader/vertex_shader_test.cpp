@@ -4,6 +4,7 @@
 #include "prt/gl_renderer.h"
 #include "prt/shader_source.h"
 
+#include "support/gl_radiance.h"
 #include "support/guided.h"
 
 #include <glm/geometric.hpp>
@@ -59,7 +60,7 @@ Light random_light(int order, std::mt19937& random) {
 float largest_relative_difference(const ClusteredTransfer& compressed, const Light& light,
                                   const GlContext& context) {
     const auto expected = exit_radiance(compressed, light);
-    const auto measured = exit_radiance_gl(compressed, {light}, context);
+    const auto measured = test::exit_radiance_gl(compressed, {light}, context);
     EXPECT_EQ(measured.size(), expected.size());
     float largest = 0;
     for (std::size_t p = 0; p < expected.size(); ++p)

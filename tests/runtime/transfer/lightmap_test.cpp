@@ -3,6 +3,7 @@
 #include "prt/constant_former.h"
 #include "prt/lightmap_former.h"
 #include "support/random_lightmap.h"
+#include "texel_formats.h"
 
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
@@ -121,7 +122,7 @@ struct Palette {
         former.form(0, constants, texels, 1);
         std::vector<glm::vec3> colors;
         for (std::size_t i = 0; i < constants.size(); ++i)
-            colors.push_back(radiance_of_texel(format, &texels[i * bytes_per_texel(format)]));
+            colors.push_back(read_texel(format, &texels[i * bytes_per_texel(format)]));
         return colors;
     }
 };
@@ -168,7 +169,7 @@ TEST_P(Formats, HaveSmallerLevelsThatAreMeans) {
         former.form(0, formed, texels, 2);
         const auto at = [&](const LightmapLevel& level, int x, int y) {
             const auto index = static_cast<std::size_t>(y * level.width + x);
-            return radiance_of_texel(GetParam(), &texels[level.first + index * bytes_per_texel(GetParam())]);
+            return read_texel(GetParam(), &texels[level.first + index * bytes_per_texel(GetParam())]);
         };
         const auto levels = former.levels(0);
         EXPECT_EQ(levels.back().width * levels.back().height, 1);
@@ -206,7 +207,7 @@ TEST_P(Formats, AreWhatEvaluationGives) {
         EXPECT_EQ(whole, pieces);
         for (std::size_t t = 0; t < lightmap.layout.maps[m].texels(); ++t) {
             const glm::vec3 truth = glm::max(expected[lightmap.layout.first_texels()[m] + t], glm::vec3(0));
-            const glm::vec3 stored = radiance_of_texel(GetParam(), &whole[t * bytes_per_texel(GetParam())]);
+            const glm::vec3 stored = read_texel(GetParam(), &whole[t * bytes_per_texel(GetParam())]);
             for (int c = 0; c < 3; ++c)
                 EXPECT_NEAR(stored[c], truth[c], largest_error(GetParam(), truth, c));
         }

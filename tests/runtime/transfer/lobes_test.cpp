@@ -82,22 +82,6 @@ TEST(Lobes, TurnAsNormalsDo) {
     expect_near(turned_axis({0, 1, 0}, axis_turn(glm::mat3(0))), {0, 1, 0});
 }
 
-TEST(Lobes, NormalMapsTurnThemByTheLeastTurn) {
-    std::mt19937 random(3);
-    for (int i = 0; i < 50; ++i) {
-        const glm::vec3 from = any_direction(random), to = any_direction(random),
-                        axis = any_direction(random);
-        expect_near(axis_onto(from, from, to), to, 1e-5f);
-        const glm::vec3 turned = axis_onto(axis, from, to);
-        EXPECT_NEAR(glm::length(turned), 1, 1e-4f); // floats, where both are nearly opposite
-        EXPECT_NEAR(glm::dot(turned, to), glm::dot(axis, from), 1e-4f);
-        // What both are normal to is what they turn about.
-        const glm::vec3 about = glm::normalize(glm::cross(from, to));
-        expect_near(axis_onto(about, from, to), about, 1e-4f);
-    }
-    EXPECT_NEAR(glm::dot(axis_onto({0, 0, 1}, {0, 0, 1}, {0, 0, -1}), glm::vec3(0, 0, -1)), 1, 1e-6f);
-}
-
 TEST(Lobes, OfTheCosineLightAnOpenReceiver) {
     std::mt19937 random(4);
     Light light{4, {}};

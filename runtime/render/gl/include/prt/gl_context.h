@@ -22,7 +22,6 @@ public:
     GlContext& operator=(const GlContext&) = delete;
 
     const std::string& renderer() const { return renderer_; } ///< as the driver names it
-    bool is_software() const;
     /// On this thread, where something else may have been: a driver's own work, or another context. What
     /// draws with a context does it. Throws `Error` where the context is lost.
     void make_current() const;

@@ -1,7 +1,6 @@
 #pragma once
 
 #include "prt/constant_former.h"
-#include "prt/gl_context.h"
 #include "prt/gl_objects.h"
 #include "prt/lightmap.h"
 
@@ -47,12 +46,5 @@ std::vector<GlObject> make_lightmap_textures(const LightmapLayout& layout,
                                              std::span<const glm::vec3> radiance);
 /// The same without radiance, RGBA16F: for shaders that write it.
 std::vector<GlObject> make_lightmap_textures(const LightmapLayout& layout);
-
-/// The radiance that the compute shader writes at full precision, read back: [texels of the layout].
-std::vector<glm::vec3> lightmap_radiance_gl(const CompressedLightmap& lightmap, const Lighting& lighting,
-                                            const GlContext& context);
-/// The same by `shaders/prt_lightmap.frag`, drawn over maps.
-std::vector<glm::vec3> lightmap_radiance_by_fragments(const CompressedLightmap& lightmap,
-                                                      const Lighting& lighting, const GlContext& context);
 
 } // namespace prt

@@ -1,7 +1,6 @@
 #pragma once
 
 #include "prt/gl_context.h"
-#include "prt/gl_transfer.h"
 #include "prt/picture.h"
 
 namespace prt {

@@ -1,12 +1,13 @@
 #pragma once
 
 #include "prt/constant_former.h"
-#include "prt/gl_context.h"
 #include "prt/gl_objects.h"
 #include "prt/support/glm_layout.h"
 
-#include <glm/vec3.hpp>
+#include <glm/vec4.hpp>
 
+#include <cstddef>
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -37,9 +38,5 @@ private:
     GlObject clusters_, weights_, layouts_, constants_;
     std::size_t bytes_ = 0;
 };
-
-/// The exit radiance that the vertex shader computes, read back: [receivers].
-std::vector<glm::vec3> exit_radiance_gl(const ClusteredTransfer& transfer, const Lighting& lighting,
-                                        const GlContext& context);
 
 } // namespace prt

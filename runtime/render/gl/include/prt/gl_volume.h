@@ -1,6 +1,5 @@
 #pragma once
 
-#include "prt/gl_context.h"
 #include "prt/gl_objects.h"
 #include "prt/volume_former.h"
 

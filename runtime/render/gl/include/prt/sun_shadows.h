@@ -50,8 +50,6 @@ public:
 
     /// Binds all that the shaders read.
     void use() const;
-    /// Texels along a side of the maps that there are.
-    int map_size() const { return size_; }
 
 private:
     struct Maps {

@@ -1,0 +1,169 @@
+#include "support/gl_radiance.h"
+
+#include "prt/gl_objects.h"
+#include "prt/gl_scene.h"
+#include "prt/gl_transfer.h"
+#include "prt/lightmap_file.h"
+#include "prt/shader_source.h"
+#include "shared_layout.h"
+
+#include <epoxy/gl.h>
+#include <glm/gtc/type_ptr.hpp>
+
+#include <span>
+
+namespace prt::test {
+namespace {
+
+/// Points `location` of `vertex_array` at vectors of three floats.
+void attach_vectors(GLuint vertex_array, GLuint location, const GlObject& buffer) {
+    glVertexArrayVertexBuffer(vertex_array, location, buffer.name(), 0, sizeof(glm::vec3));
+    glEnableVertexArrayAttrib(vertex_array, location);
+    glVertexArrayAttribFormat(vertex_array, location, 3, GL_FLOAT, GL_FALSE, 0);
+    glVertexArrayAttribBinding(vertex_array, location, location);
+}
+
+/// The attributes that guides want of a mesh, from the coordinates of all receivers.
+std::vector<GlObject> attach_guides(GLuint vertex_array, const ClusteredTransfer& transfer) {
+    std::vector<GlObject> buffers;
+    const ClusteredBases& bases = transfer.bases;
+    for (std::size_t g = 0; g < bases.guides.size(); ++g) {
+        std::vector<glm::vec3> vectors;
+        for (std::size_t p = 0; p < transfer.receivers.size(); ++p)
+            vectors.push_back(glm::make_vec3(&transfer.receivers.guides[p * bases.guide_rows() + 3 * g]) +
+                              bases.guides[g].origin);
+        const bool normal = bases.guides[g].kind == GuideKind::normal;
+        attach_vectors(vertex_array, normal ? PRT_LOCATION_NORMAL : PRT_LOCATION_POSITION,
+                       buffers.emplace_back(make_buffer(std::span<const glm::vec3>(vectors))));
+    }
+    return buffers;
+}
+
+/// The words of a texel as integers of `format`, in texels that fragments fetch.
+GlObject make_words(const LightmapSize& size, std::span<const std::uint32_t> words, GLenum format,
+                    GLenum layout, GLenum type) {
+    GlObject texture = make_texture_2d(1, format, size.width, size.height);
+    glPixelStorei(GL_UNPACK_ALIGNMENT, 4);
+    glTextureSubImage2D(texture.name(), 0, 0, 0, size.width, size.height, layout, type, words.data());
+    glTextureParameteri(texture.name(), GL_TEXTURE_MIN_FILTER, GL_NEAREST);
+    glTextureParameteri(texture.name(), GL_TEXTURE_MAG_FILTER, GL_NEAREST);
+    return texture;
+}
+
+/// The words of a map, each in a texture that shaders find at its unit. `bytes`: as four bytes each, as
+/// prt_lightmap.frag reads them.
+std::vector<GlObject> bind_words(const CompressedLightmap& lightmap, std::size_t map, bool bytes) {
+    std::vector<GlObject> textures;
+    for (int w = 0; w < lightmap.compressed.transfer.receivers.words; ++w) {
+        const LightmapSize& size = lightmap.layout.maps[map];
+        const std::vector<std::uint32_t> words = words_of_map(lightmap, map, w);
+        textures.push_back(bytes ? make_words(size, words, GL_RGBA8UI, GL_RGBA_INTEGER, GL_UNSIGNED_BYTE)
+                                 : make_words(size, words, GL_R32UI, GL_RED_INTEGER, GL_UNSIGNED_INT));
+        glBindTextureUnit(static_cast<GLuint>(PRT_UNIT_WORD_IMAGES + w), textures.back().name());
+    }
+    return textures;
+}
+
+/// Constants and clusters of a lightmap for one lighting, bound as shaders want them.
+struct BoundConstants {
+    GlObject constants, clusters;
+
+    BoundConstants(const ClusteredTransfer& transfer, const Lighting& lighting) {
+        const ConstantFormer former(transfer);
+        std::vector<glm::vec4> formed(former.rows());
+        former.form(lighting, formed);
+        constants = make_buffer(std::span<const glm::vec4>(formed));
+        clusters = make_buffer(std::span<const ClusterLayout>(cluster_layouts(transfer.bases)));
+        bind_storage(PRT_BINDING_CONSTANTS, constants);
+        bind_storage(PRT_BINDING_CLUSTERS, clusters);
+    }
+};
+
+void append_texture(const GlObject& texture, const LightmapSize& size, std::vector<glm::vec3>& radiance) {
+    const std::size_t begin = radiance.size();
+    radiance.resize(begin + size.texels());
+    glPixelStorei(GL_PACK_ALIGNMENT, 4);
+    glGetTextureImage(texture.name(), 0, GL_RGB, GL_FLOAT,
+                      static_cast<GLsizei>(size.texels() * sizeof(glm::vec3)), &radiance[begin]);
+    check_gl("reading a lightmap back");
+}
+
+} // namespace
+
+std::vector<glm::vec3> exit_radiance_gl(const ClusteredTransfer& transfer, const Lighting& lighting,
+                                        const GlContext& context) {
+    context.make_current();
+    GlTransfer on_gpu(transfer);
+    on_gpu.set_light(lighting);
+    const GlObject program = make_program("scene.vert", "scene.frag", on_gpu.defines(), "radiance");
+    const GlObject vertex_array = make_vertex_array();
+    on_gpu.attach(vertex_array.name(), 0);
+    const std::vector<GlObject> guides = attach_guides(vertex_array.name(), transfer);
+    std::vector<glm::vec3> radiance(transfer.receivers.size());
+    const GlObject output = make_buffer(std::span<const glm::vec3>(radiance));
+    // Nothing is drawn, but without a window there is no framebuffer unless we make one.
+    const GlObject framebuffer = make_framebuffer();
+    glNamedFramebufferParameteri(framebuffer.name(), GL_FRAMEBUFFER_DEFAULT_WIDTH, 1);
+    glNamedFramebufferParameteri(framebuffer.name(), GL_FRAMEBUFFER_DEFAULT_HEIGHT, 1);
+    glBindFramebuffer(GL_FRAMEBUFFER, framebuffer.name());
+    glUseProgram(program.name());
+    on_gpu.use();
+    glBindVertexArray(vertex_array.name());
+    glBindBufferBase(GL_TRANSFORM_FEEDBACK_BUFFER, 0, output.name());
+    glEnable(GL_RASTERIZER_DISCARD);
+    glBeginTransformFeedback(GL_POINTS);
+    glDrawArrays(GL_POINTS, 0, static_cast<GLsizei>(radiance.size()));
+    glEndTransformFeedback();
+    glDisable(GL_RASTERIZER_DISCARD);
+    read_buffer(output, std::span(radiance), "reading the vertex shader's result back");
+    return radiance;
+}
+
+std::vector<glm::vec3> lightmap_radiance_gl(const CompressedLightmap& lightmap, const Lighting& lighting,
+                                            const GlContext& context) {
+    context.make_current();
+    const ClusteredTransfer& transfer = lightmap.compressed.transfer;
+    const BoundConstants bound(transfer, lighting);
+    const GlObject program = make_compute_program(
+        "prt_lightmap.comp", relight_defines(transfer) + "#define PRT_LIGHTMAP_FORMAT rgba32f\n");
+    glUseProgram(program.name());
+    std::vector<glm::vec3> radiance;
+    for (std::size_t m = 0; m < lightmap.layout.maps.size(); ++m) {
+        const LightmapSize& size = lightmap.layout.maps[m];
+        const std::vector<GlObject> words = bind_words(lightmap, m, false);
+        const GlObject map = make_texture_2d(1, GL_RGBA32F, size.width, size.height);
+        glBindImageTexture(PRT_IMAGE_LIGHTMAP, map.name(), 0, GL_FALSE, 0, GL_WRITE_ONLY, GL_RGBA32F);
+        glDispatchCompute(static_cast<GLuint>(size.width + 7) / 8, static_cast<GLuint>(size.height + 7) / 8,
+                          1);
+        glMemoryBarrier(GL_TEXTURE_UPDATE_BARRIER_BIT);
+        append_texture(map, size, radiance);
+    }
+    return radiance;
+}
+
+std::vector<glm::vec3> lightmap_radiance_by_fragments(const CompressedLightmap& lightmap,
+                                                      const Lighting& lighting, const GlContext& context) {
+    context.make_current();
+    const ClusteredTransfer& transfer = lightmap.compressed.transfer;
+    const BoundConstants bound(transfer, lighting);
+    const GlObject program = make_program("background.vert", "prt_lightmap.frag", relight_defines(transfer)),
+                   empty = make_vertex_array(), framebuffer = make_framebuffer();
+    glUseProgram(program.name());
+    glBindVertexArray(empty.name());
+    glBindFramebuffer(GL_FRAMEBUFFER, framebuffer.name());
+    glDisable(GL_DEPTH_TEST);
+    glDisable(GL_CULL_FACE);
+    std::vector<glm::vec3> radiance;
+    for (std::size_t m = 0; m < lightmap.layout.maps.size(); ++m) {
+        const LightmapSize& size = lightmap.layout.maps[m];
+        const std::vector<GlObject> words = bind_words(lightmap, m, true);
+        const GlObject map = make_texture_2d(1, GL_RGBA32F, size.width, size.height);
+        glNamedFramebufferTexture(framebuffer.name(), GL_COLOR_ATTACHMENT0, map.name(), 0);
+        glViewport(0, 0, size.width, size.height);
+        glDrawArrays(GL_TRIANGLES, 0, 3);
+        append_texture(map, size, radiance);
+    }
+    return radiance;
+}
+
+} // namespace prt::test
