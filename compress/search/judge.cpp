@@ -1,5 +1,6 @@
 #include "search/judge.h"
 
+#include "prt/error_moments.h"
 #include "prt/jumps.h"
 
 #include <algorithm>
