@@ -51,7 +51,7 @@ FoundClusters find_clusters(const Task& task, const Progress& progress) {
                           : options.coding.bits > tuning::kFewBits ? tuning::kDroppedOfManyBits
                                                                    : tuning::kDroppedOfFewBits;
     for (double from = 0;;) { // a second attempt is rare
-        const double to = 1 - 0.1 * (1 - from);
+        const double to = 1 - 0.03 * (1 - from);
         FoundClusters found;
         found.frame = fit_frame(task.transfer, task.significance, task.metric, most_dropped, options.threads);
         if (found.frame.dimension > 0) // else there is nothing to tell
@@ -184,8 +184,8 @@ ClusteredTransfer code(const Task& task, const ReceiverSurface& surface, FoundCl
     if (bases_are_coded(options))
         round_frame(task, coding);
     if (options.coding.format == WeightFormat::packed)
-        alternate(coding.points, task.significance, how, progress.part(0, 0.7), coded);
-    progress.update(0.7);
+        alternate(coding.points, task.significance, how, progress.part(0, tuning::kAlternatedAt), coded);
+    progress.update(tuning::kAlternatedAt);
     if (options.seam_price > 0 && !surface.edges.empty() && !draft)
         smooth_seams(coding.points, task.significance, surface.edges, surface.jumps, coded.clusters,
                      {.seam_price = options.seam_price,
@@ -195,7 +195,7 @@ ClusteredTransfer code(const Task& task, const ReceiverSurface& surface, FoundCl
     coding.points = {};
     put_in_order(coded.clusters, coded.codes);
     fill_up(options.coding.fixed_bits, coded.clusters, coded.codes);
-    progress.update(0.9);
+    progress.update(1);
     return encode(coding.frame, coding.coded_frame, coded.clusters, coded.codes, coding.guides,
                   {options.coding.format, options.coding.cluster_bits, coded.step});
 }
@@ -228,10 +228,11 @@ CompressResult compress_from(const Course& course, const TransferView& transfer,
                     course};
     CompressResult result;
     CompressStatistics& statistics = result.statistics;
-    FoundClusters found = find_clusters(task, progress.part(0, 0.7));
+    FoundClusters found = find_clusters(task, progress.part(0, tuning::kClustersFoundAt));
     for (const double error : found.clustering.history)
         statistics.lit_rms_by_iteration.push_back(std::sqrt(error + found.frame.dropped));
-    result.transfer = code(task, surface, std::move(found), progress.part(0.7, 0.98));
+    result.transfer = code(task, surface, std::move(found),
+                           progress.part(tuning::kClustersFoundAt, tuning::kClustersCodedAt));
     statistics.clusters = static_cast<int>(result.transfer.bases.clusters());
     statistics.mean_components = mean_components_of(result.transfer);
     statistics.guide_rows = static_cast<int>(result.transfer.bases.guide_rows());

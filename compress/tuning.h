@@ -17,6 +17,14 @@
 
 namespace prt::tuning {
 
+/// Shares of time at which stages of compression end, for progress. Measured on the example scenes (tree u64,
+/// room u32, knot u32): the three agree within 0.03.
+inline constexpr double kClustersFoundAt = 0.84, kClustersCodedAt = 0.94; ///< of `compress`
+inline constexpr double kSeedsAt = 0.12, kComponentsGrownAt = 0.72,
+                        kImprovedAt = 0.97;                    ///< of finding clusters
+inline constexpr double kFirstRoundsAt = 0.5, kMovesAt = 0.85; ///< of improving them
+inline constexpr double kAlternatedAt = 0.45;                  ///< of coding
+
 // metric/
 
 /// Natural light: power of a coefficient of band l >= 1 over that of band 0, p / l^f, of whole light and of

@@ -66,13 +66,15 @@ void converge(const ClusterRounds& rounds, const ClusteringSchedule& schedule, c
 /// Rounds, moves as long as they pay, and rounds again.
 void improve(const ClusterRounds& rounds, const ClusteringSchedule& schedule, const Spending& spending,
              const Progress& progress, ClusterState& state, std::vector<double>& history) {
-    converge(rounds, schedule, spending, progress.part(0, 0.3), state, &history);
-    const double most = schedule.most_move_sweeps;
+    converge(rounds, schedule, spending, progress.part(0, tuning::kFirstRoundsAt), state, &history);
+    const double sweep = (tuning::kMovesAt - tuning::kFirstRoundsAt) / schedule.most_move_sweeps;
     for (int m = 0; m < schedule.most_move_sweeps; ++m)
-        if (!split_and_merge(rounds, spending, schedule.tolerance,
-                             progress.part(0.3 + 0.4 * m / most, 0.3 + 0.4 * (m + 1) / most), state))
+        if (!split_and_merge(
+                rounds, spending, schedule.tolerance,
+                progress.part(tuning::kFirstRoundsAt + sweep * m, tuning::kFirstRoundsAt + sweep * (m + 1)),
+                state))
             break;
-    converge(rounds, schedule, spending, progress.part(0.7, 1), state, nullptr);
+    converge(rounds, schedule, spending, progress.part(tuning::kMovesAt, 1), state, nullptr);
 }
 
 std::size_t clusters_in(std::span<const std::uint32_t> numbers) {
@@ -85,10 +87,11 @@ Clustering cluster_points(const PointBlocks& points, std::span<const float> sign
                           const ClusteringOptions& options, std::mt19937_64& random,
                           const Progress& progress) {
     const ClusterRounds rounds{points, significance, options.trace, options.threads};
-    ClusterState state = options.start.empty()
-                             ? rounds.start(vector_quantise(points, significance, options.clusters, random,
-                                                            options.threads, progress.part(0, 0.1)))
-                             : rounds.start(options.start, clusters_in(options.start));
+    ClusterState state =
+        options.start.empty()
+            ? rounds.start(vector_quantise(points, significance, options.clusters, random, options.threads,
+                                           progress.part(0, tuning::kSeedsAt)))
+            : rounds.start(options.start, clusters_in(options.start));
     rounds.tell(ClustersSeeded{state.fits.size(), points.dimension});
     Spending spending = options.spending;
     // Where the mean is limited clusters differ only at the end: earlier those with many components would
@@ -100,15 +103,17 @@ Clustering cluster_points(const PointBlocks& points, std::span<const float> sign
     if (!options.start.empty())
         resize(rounds, spending, options.clusters, state);
     else if (options.schedule.grow)
-        grow_components(rounds, spending, progress.part(0.1, 0.5), state);
+        grow_components(rounds, spending, progress.part(tuning::kSeedsAt, tuning::kComponentsGrownAt), state);
     rounds.refit(state, spending);
     if (options.rows_cost)
         spending.row_price = row_price(state);
     Clustering result;
-    improve(rounds, options.schedule, spending, progress.part(0.5, 0.9), state, result.history);
+    improve(rounds, options.schedule, spending,
+            progress.part(tuning::kComponentsGrownAt, tuning::kImprovedAt), state, result.history);
     if (limited) {
         spending.most_components = options.spending.most_components;
-        spend_components(rounds, options.mean_components, progress.part(0.9, 1), spending, state);
+        spend_components(rounds, options.mean_components, progress.part(tuning::kImprovedAt, 1), spending,
+                         state);
     }
     // Points that came and went have left rounding in the moments, outliers most of all.
     state.moments.build(points, significance, state.clusters, options.threads);

@@ -75,7 +75,7 @@ SearchResult compress_preset(const TransferView& transfer, const ReceiverSurface
     // The search that may follow is one of small meshes: it takes no time to speak of.
     CompressOptions whole = options;
     whole.bases_count = options.coding.fixed_bits.empty();
-    found.result = compress(transfer, surface, whole, progress.part(0, 0.9));
+    found.result = compress(transfer, surface, whole, progress.part(0, 0.99));
     const CompressStatistics& s = found.result.statistics;
     const auto receivers = static_cast<double>(transfer.receivers());
     const int payload = payload_of(options.coding, transfer.dimension());
@@ -90,7 +90,7 @@ SearchResult compress_preset(const TransferView& transfer, const ReceiverSurface
         fitting.choose_components = options.coding.format == WeightFormat::packed;
         fitting.choose_guides = false;
         fitting.budget.bytes_per_vertex = bound + most_bases / receivers;
-        const Progress rest = progress.part(0.9, 1);
+        const Progress rest = progress.part(0.99, 1);
         const SearchTask task = task_of(transfer, surface, fitting, rest);
         found = BudgetSearch(task, effort_of_preset(s)).run();
         found.result.statistics.seconds = stopwatch.seconds();
