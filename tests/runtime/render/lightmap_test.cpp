@@ -39,8 +39,9 @@ TEST_P(LightmapPasses, OfComputeAndFragmentsIsThatOfCpp) {
     const Lighting lighting{constant_light(3, glm::vec3(1, 0.5f, 2))};
     const std::vector<glm::vec3> expected = exit_radiance(lightmap.compressed.transfer, lighting);
     EXPECT_LT(largest_difference(expected, test::lightmap_radiance_gl(lightmap, lighting, *context)), 1e-5f);
-    EXPECT_LT(largest_difference(expected, test::lightmap_radiance_by_fragments(lightmap, lighting, *context)),
-              1e-5f);
+    EXPECT_LT(
+        largest_difference(expected, test::lightmap_radiance_by_fragments(lightmap, lighting, *context)),
+        1e-5f);
 }
 
 TEST(LightmapPictures, AreTheSameByRaysAndByOpenGl) {

@@ -47,8 +47,8 @@ inline constexpr int kNarrow = 8; ///< floats that a register of most processors
 
 // Functions marked so are compiled for several vector widths and chosen at run time, so that a portable build
 // uses what the processor has. A clone reaches only what is inlined into it: its helpers are
-// [[gnu::always_inline]]. Sanitizers cannot instrument the resolver that runs before them. PRTKIT_NO_CLONES: one
-// width, for builds that need not be fast (CMake's PRTKIT_CLONES).
+// [[gnu::always_inline]]. Sanitizers cannot instrument the resolver that runs before them. PRTKIT_NO_CLONES:
+// one width, for builds that need not be fast (CMake's PRTKIT_CLONES).
 #if defined(__GNUC__) && !defined(__clang__) && defined(__x86_64__) && defined(__linux__) &&                 \
     !defined(__SANITIZE_ADDRESS__) && !defined(PRTKIT_NO_CLONES)
 #define PRT_TARGET_CLONES [[gnu::target_clones("arch=x86-64-v4", "arch=x86-64-v3", "default")]]
