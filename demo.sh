@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Installs what is missing, builds the program, and takes the example scenes down the whole road:
-# glTF -> bake -> compress -> pictures -> evaluate, all in out/. Then builds the rest: the viewer and its tour.
+# Installs what is missing, builds the program, and takes the example scenes from glTF through bake, compress, pictures and
+# evaluate, all in out/: first the room, whose picture is the first to see. Then builds the rest: the viewer and its tour.
 set -euo pipefail
 cd "$(dirname "$0")"
 cmake/install_packages.sh
@@ -9,6 +9,9 @@ cmake --build --preset release --target prt example_scenes
 prt=build/release/cli/prt
 mkdir -p out
 build/release/examples/scenes/example_scenes out/scenes
+minutes() {
+    echo "$((SECONDS / 60)) min $((SECONDS % 60)) s"
+}
 sky=out/scenes/sky.exr
 
 # name, bounces, preset of the compressor, options of the camera; the sky, the rays of a vertex and metres between
@@ -30,11 +33,12 @@ made() {
 look_at() {
     local name=$1
     $prt render "out/$name.shipped.glb" --env "$sky" -o "out/$name.png" "${@:2}"
+    [ -n "${first-}" ] || first="out/$name.png after $(minutes)"
     $prt render "out/$name.shipped.glb" --env "$sky" --rotate 120 -o "out/$name.turned.png" "${@:2}"
     $prt evaluate "out/$name.baked.glb" "out/$name.shipped.glb" --lights "$sky" ${budget:+--budget} --html "out/$name.html" --json "out/$name.json"
 }
-made knot
 volume=0.5 road room 3 u32 --camera 1.2,1.9,4.2 --look-at 0,1.8,-5 --fov 45
+made knot
 road tree 3 u64 --camera 1.5,1.7,5.5 --look-at 0,1.9,0
 made terrain --camera 1,4.5,11 --look-at 0,2.6,0
 rays=256 sky=out/scenes/night.exr road night_room 3 u64 --camera 0.6,1.7,2.6 --look-at 0,1.8,-6 --fov 50
@@ -64,5 +68,6 @@ rm out/tour.json
 echo
 $prt bench out/scenes/knot.glb --to 256 --most-seconds 2 --html out/bench.html
 echo
+echo "First picture: $first; everything: $(minutes)"
 echo "Pictures and reports are in out/: open out/*.png and out/*.html"
 echo "To look at them yourself: $viewer out/room.baked.glb out/room.shipped.glb out/scenes/sky.exr"

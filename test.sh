@@ -47,7 +47,7 @@ tidy() {
     local base
     base=$(git merge-base HEAD origin/main 2>/dev/null || true)
     if [ -z "$base" ] || [ "$base" = "$(git rev-parse HEAD)" ]; then
-        base=$(git rev-list -1 --before=$(($(git show -s --format=%ct HEAD) - 86400)) HEAD)
+        base=$(git rev-list -1 --first-parent --before=$(($(git show -s --format=%ct HEAD) - 86400)) HEAD)
     fi
     run_tidy ${base:+"$base"}
 }
@@ -62,6 +62,11 @@ threads() {
 
 threads_all() {
     build_and_test threads_all
+    local program
+    for program in runtime_tests c_interface_tests compress_tests; do
+        "build/threads/tests/$program" --gtest_filter='*Threads*' | tee build/threads/log
+        grep -q '^\[  PASSED  \] [1-9]' build/threads/log
+    done
 }
 
 optimised() {
@@ -93,6 +98,7 @@ build_and_test() {
     esac
     cmake --build --preset "$1"
     ctest --preset "$1"
+    grep -hs '^\[  SKIPPED \] .* ms)$' build/*/Testing/Temporary/LastTest.log | sort -u || true
 }
 
 run_tidy() {
@@ -145,14 +151,18 @@ packages() {
         gltf-validator@2.0.0-dev.3.10 ajv@8.17.1 pngjs@7.0.0 >/dev/null
 }
 
-case "${1-}" in
+known=("${gate[@]}")
+for step in "${all[@]}"; do
+    [[ " ${known[*]} " == *" $step "* ]] || known+=("$step")
+done
+case "$*" in
 "") steps=("${gate[@]}") ;;
 all) steps=("${all[@]}") ;;
 *) steps=("$@") ;;
 esac
 for step in "${steps[@]}"; do
-    if ! [[ " ${gate[*]} ${all[*]} " == *" $step "* ]]; then
-        echo "test.sh: there is no step '$step'; there are ${gate[*]} ${all[*]}" >&2
+    if [[ ! $step =~ ^[a-z_]+$ || " ${known[*]} " != *" $step "* ]]; then
+        echo "test.sh: there is no step '$step'; there are: ${known[*]}" >&2
         exit 2
     fi
 done

@@ -17,7 +17,7 @@ set(long_tests
     PathTracer.AgreesWith* PlainSkies.GiveNo* PlainSkies.HaveNo* RenderSuns.* Road.ADecoder* Road.AutomaticExposure*
     Road.BouncesOnTheGpu* Road.EveryView* SamplingError.* SceneLamps.TheBakers* Script.KeysAnd* Script.MeasuresWhere*
     Script.OpensWaits* Search.FindsOn* Search.IsMonotone* Search.IsNeverWorse* Search.Keeps* Search.LimitsJumps*
-    Search.OperationsAlone* Search.OtherFormats* Search.Presets* Search.TakesAsLong* Search.WeightsThatAreNot*
+    Search.OperationsAlone* Search.Presets* Search.TakesAsLong* Search.WeightsThatAreNot*
     Skies/Suns.* Sky.AgreesWith* SphericalBowl.* Storage.* Subsurface.OfTheDensest* SunShadowPictures.AgreeWithRays*
     Suns.AndRemainder* Sweep.* TargetError.FindsTheWindow* TargetError.IsReached* TargetError.TakesFewer*
     Trace.NoCluster* ViewerPictures.OfSunsApart* ViewerTest.BakesWhatIsNot* ViewerTest.GivesSmall*

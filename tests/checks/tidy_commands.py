@@ -13,14 +13,15 @@ import re
 import subprocess
 import sys
 
+FOLDERS = {"runtime", "bake", "compress", "cli", "examples", "shaders"}
 MANY = 3  # members of a joined source: from here on it is cheaper to read the joined source
 
 
 def members(source):
     """The sources that a joined source includes; itself if it is none."""
     if "/Unity/" not in source.as_posix():
-        return [source]
-    return [pathlib.Path(name) for name in re.findall(r'^#include "(.*)"$', source.read_text(), re.M)]
+        return [source.resolve()]
+    return [pathlib.Path(name).resolve() for name in re.findall(r'^#include "(.*)"$', source.read_text(), re.M)]
 
 
 def changed_files(root, base):
@@ -29,15 +30,31 @@ def changed_files(root, base):
     return {root / name for name in output.split("\0") if name}
 
 
-def with_includers(changed, sources):
-    """Adds a source for each changed header that no changed source includes by its name."""
-    texts = {source: source.read_text() for source in sources}
-    result = {file for file in changed if file in texts}
-    for header in sorted(changed - result):
-        name = re.compile(rf'#include "(?:[^"]*/)?{re.escape(header.name)}"')
-        includers = [source for source, text in texts.items() if name.search(text)]
-        if includers and not result.intersection(includers):
-            result.add(includers[0])
+def with_includers(root, changed, sources):
+    """Adds, for each changed header that no changed source includes, one source that includes it, directly or not."""
+    files = [path for folder in FOLDERS for path in (root / folder).rglob("*") if path.suffix in (".cpp", ".h")]
+    by_name = {}
+    for file in files:
+        by_name.setdefault(file.name, []).append(file)
+    includers = {}
+    for file in files:
+        for included in re.findall(r'^#include "(.*)"$', file.read_text(), re.M):
+            for header in by_name.get(pathlib.Path(included).name, []):
+                if header.as_posix().endswith("/" + included.lstrip("./")):
+                    includers.setdefault(header, []).append(file)
+    result = {file for file in changed if file in sources}
+    for header in sorted(file for file in changed if file.suffix == ".h" and file.relative_to(root).parts[0] in FOLDERS):
+        reached, queue = set(), [header]
+        while queue:
+            for file in includers.get(queue.pop(), []):
+                if file not in reached:
+                    reached.add(file)
+                    queue.append(file)
+        found = sorted(reached & sources)
+        if not found:
+            print(f"clang-tidy: no source includes {header.relative_to(root)}")
+        elif not reached & result:
+            result.add(found[0])
     return result
 
 
@@ -53,7 +70,7 @@ def main():
             entries[source] = (entry, ours)
     selected = {file for _, ours in entries.values() for file in ours}
     if len(sys.argv) > 3:
-        selected &= with_includers(changed_files(root, sys.argv[3]), selected)
+        selected = with_includers(root, changed_files(root, sys.argv[3]), selected)
     commands = []
     for source, (entry, ours) in entries.items():
         chosen = [file for file in ours if file in selected]
@@ -62,6 +79,8 @@ def main():
         else:
             commands += [{**entry, "file": str(file), "command": entry["command"].replace(str(source), str(file))}
                          for file in chosen]
+    if not entries:
+        sys.exit(f"{build}/compile_commands.json has no source of {root}")
     output.mkdir(parents=True, exist_ok=True)
     (output / "compile_commands.json").write_text(json.dumps(commands, indent=1))
     print(f"clang-tidy: {len(selected)} sources")

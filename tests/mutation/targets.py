@@ -31,7 +31,7 @@ SUITES = {
     "runtime/light/": [Suite("runtime_tests", "Light*:Sky*:*Cube*:*Image*:LatLong*:OtherLayouts*"), RUNTIME],
     "runtime/transfer/": [Suite("runtime_tests", "Lobes*:*Clustered*:*Constants*:CodedRows*:Adjacency*:Evaluate*:Bits*:Edges*:RawTransfer*"), COMPRESS,
                           Suite("gltf_tests")],
-    "runtime/support/": [RUNTIME],
+    "runtime/support/": [Suite("thread_tests"), RUNTIME],
     "runtime/fit/": [Suite("runtime_tests", "Lobe*:*Suns*:*Skies*")],
     "runtime/include/": [RUNTIME, COMPRESS],
     "runtime/image/": [Suite("image_tests")],

@@ -2,6 +2,7 @@
 
 #include "prt/compress.h"
 #include "prt/gl_renderer.h"
+#include "prt/gl_transfer.h"
 #include "prt/shader_source.h"
 
 #include "support/gl_radiance.h"
