@@ -71,6 +71,7 @@ threads_all() {
 }
 
 optimised() {
+    install_page # for damaged files in the loader of the web page
     tests/support/fetch_drivers.sh build/drivers || echo "test.sh: no driver with ray queries: tests of them are skipped"
     build_and_test check
 }
