@@ -18,8 +18,8 @@ constexpr double kOnGround =
 
 AnimatedScene figure() {
     const test::TemporaryFolder folder;
-    const std::string command =
-        std::string(PRT_EXAMPLE_SCENES) + " '" + folder.path().string() + "' figure >/dev/null";
+    std::string command = PRT_EXAMPLE_SCENES " '";
+    command.append(folder.path().string()).append("' figure >/dev/null");
     EXPECT_EQ(std::system(command.c_str()), 0);
     return AnimatedScene(load_gltf(folder / "figure.glb"));
 }

@@ -13,9 +13,9 @@ namespace prt {
 namespace instanced_scenes {
 
 int make(const test::TemporaryFolder& folder, const std::string& scene) {
-    return std::system((std::string(PRT_EXAMPLE_SCENES) + " '" + folder.path().string() + "' " + scene +
-                        " >/dev/null 2>/dev/null")
-                           .c_str());
+    std::string command = PRT_EXAMPLE_SCENES " '";
+    command.append(folder.path().string()).append("' ").append(scene).append(" >/dev/null 2>/dev/null");
+    return std::system(command.c_str());
 }
 
 void expect_shared(const char* scene, std::size_t meshes, std::size_t instances) {
