@@ -27,12 +27,12 @@ sanitize() {
 
 # The same inputs every time, in the build of `sanitize`; docs/fuzzing.md says how to run more.
 fuzz() {
-    build_and_test fuzz
+    build_and_test fuzz sanitize
 }
 
 # Models that are wrong in one place or a few, through the program; more damaged shipped files than the gate reads.
 mutated_models() {
-    build_and_test mutated_models
+    build_and_test mutated_models sanitize
     build/sanitize/tests/hostile_tests --gtest_brief=1
 }
 
@@ -62,7 +62,8 @@ threads() {
 }
 
 threads_all() {
-    build_and_test threads_all
+    threads
+    cmake --build --preset threads_all
     local program
     for program in runtime_tests c_interface_tests compress_tests; do
         "build/threads/tests/$program" --gtest_filter='*Threads*' | tee build/threads/log
@@ -91,16 +92,14 @@ configure() {
     cmake --preset "$1" >/dev/null
 }
 
-# The preset of a build, of its tests, or of a part of another build's tests.
+# build_and_test PRESET [BUILD]: the targets and tests of a preset, in the build of that name or in BUILD. Lists tests that
+# were skipped.
 build_and_test() {
-    case "$1" in
-    fuzz | mutated_models) configure sanitize ;;
-    threads | threads_all) configure threads ;;
-    *) configure "$1" ;;
-    esac
+    local build=${2-$1}
+    configure "$build"
     cmake --build --preset "$1"
     ctest --preset "$1"
-    grep -hs '^\[  SKIPPED \] .* ms)$' build/*/Testing/Temporary/LastTest.log | sort -u || true
+    grep -s '^\[  SKIPPED \] .* ms)$' "build/$build/Testing/Temporary/LastTest.log" | sort -u || true
 }
 
 run_tidy() {

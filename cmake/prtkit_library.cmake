@@ -18,12 +18,9 @@ if(PRTKIT_WERROR)
     target_compile_options(prtkit_settings INTERFACE -Werror)
 endif()
 
-# For targets that take longer to build than they ever run: tests, and prt, whose CLI11 takes a minute to optimise.
-add_library(prtkit_quick INTERFACE)
-target_link_libraries(prtkit_quick INTERFACE prtkit_cold)
-
-# For libraries without inner loops. With debug information they are not optimised: clang takes twice as long to optimise
-# what sanitizers insert (one joined source of prt::gltf: 38 s of CPU at -O1, 18 s at -O0).
+# For what takes longer to build than it runs: libraries without inner loops, tests, and prt, whose CLI11 takes a minute to
+# optimise. With debug information it is not optimised: clang takes twice as long to optimise what sanitizers insert (one
+# joined source of prt::gltf: 38 s of CPU at -O1, 18 s at -O0).
 add_library(prtkit_cold INTERFACE)
 target_compile_options(prtkit_cold INTERFACE $<$<CONFIG:Release>:-O1> $<$<CONFIG:RelWithDebInfo>:-O0>)
 

@@ -45,7 +45,7 @@ inline constexpr int kSweepComponents[] = {1, 2, 4, 8};
 /// The tables of a sweep that a point goes into.
 enum class SweepTables { both, by_bytes, by_components };
 
-/// What a candidate codes, and at which setting.
+/// Coded transfer of a candidate, and its setting.
 struct CandidateResult {
     std::string setting; ///< as `SweepPoint::setting`
     BaselineResult coded;
