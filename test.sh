@@ -85,7 +85,7 @@ web() {
 # Needs the build of `optimised`.
 web_all() {
     check_page check knot,tree 64 ''
-    PRT=$PWD/build/check/cli/prt node examples/web/test/installed.mjs
+    PRT=$PWD/build/check/cli/prt PRTKIT_WEB=$PWD/build/web node examples/web/test/installed.mjs
 }
 
 configure() {
