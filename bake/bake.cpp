@@ -31,8 +31,8 @@ BakeResult bake(const Scene& scene, const BakeOptions& options, const Progress& 
     Measured measured = measure(plan, *tracer, asked, progress.part(0, traced_all));
     DirectLight& direct = measured.direct;
     const SealedIn& sealed = measured.sealed;
-    LampLight lamps = measure_lamps(plan, *tracer, measured.fit, progress.part(traced_all, traced_sky));
-    direct.rays += lamps.rays + asked.rays;
+    MeasuredLamps lamps = measure_lamps(plan, *tracer, measured.fit, progress.part(traced_all, traced_sky));
+    direct.rays += lamps.light.rays + asked.rays;
     seconds.tracing = tracer->seconds();
 
     const Stopwatch transport;
@@ -43,11 +43,10 @@ BakeResult bake(const Scene& scene, const BakeOptions& options, const Progress& 
                                        .gather = direct.gather ? &*direct.gather : nullptr,
                                        .product = product.get(),
                                        .fit = measured.fit ? &*measured.fit : nullptr};
-    Propagated exit =
-        propagate_all(plan, std::move(direct.transfer), operators, progress.part(traced_sky, 1));
+    Propagated exit = propagate_all(plan, std::move(direct.transfer), measured.sky, operators,
+                                    progress.part(traced_sky, 1));
     if (!plan.lamps.empty()) {
-        const Propagated lit =
-            propagate_lamps(plan, std::move(lamps.transfer), operators, progress.part(1, 1));
+        const Propagated lit = propagate_lamps(plan, std::move(lamps), operators, progress.part(1, 1));
         exit.transfer = with_lamps(exit.transfer, lit.transfer, plan.lamps);
         exit.bounces = std::max(exit.bounces, lit.bounces);
         exit.remaining = std::max(exit.remaining, lit.remaining);

@@ -23,8 +23,8 @@ BouncedSources bounced_sources(const BakePlan& plan, Tracer& tracer, const Progr
         return sources;
     BakeStatistics asked;
     Measured measured = measure(plan, tracer, asked, progress.part(0, 0.8));
-    LampLight lamps = measure_lamps(plan, tracer, measured.fit, progress.part(0.8, 0.9));
-    sources.rays = measured.direct.rays + measured.sealed.rays + lamps.rays + asked.rays;
+    MeasuredLamps lamps = measure_lamps(plan, tracer, measured.fit, progress.part(0.8, 0.9));
+    sources.rays = measured.direct.rays + measured.sealed.rays + lamps.light.rays + asked.rays;
     const std::unique_ptr<GatherProduct> product =
         measured.direct.gather ? tracer.gather_product(*measured.direct.gather) : nullptr;
     const TransportOperators operators{.refill = measured.sealed.refill,
@@ -40,7 +40,8 @@ BouncedSources bounced_sources(const BakePlan& plan, Tracer& tracer, const Progr
     sources.sky = std::move(lit.transfer);
     if (!plan.lamps.empty())
         sources.lamps =
-            propagate_lamps_on_both_sides(plan, std::move(lamps.transfer), operators, before, {}).transfer;
+            propagate_lamps_on_both_sides(plan, std::move(lamps.light.transfer), operators, before, {})
+                .transfer;
     return sources;
 }
 

@@ -6,8 +6,13 @@
 #include "prt/sh_basis.h"
 #include "prt/support/error.h"
 
+#include <fmt/ranges.h>
+
 #include <algorithm>
+#include <array>
+#include <string>
 #include <utility>
+#include <vector>
 
 namespace prt {
 namespace {
@@ -19,9 +24,31 @@ void leave_back_sides(const BakePlan& plan, Transfer& exit) {
     exit.vectors.resize(plan.transport->fronts * exit.dimension());
 }
 
-/// A lamp in a closed room whose walls reflect all of its light would fill it without end; what the solver
-/// then gives means nothing.
-void check_has_an_end(const Propagated& lit) {
+constexpr float kReflectsAll = 0.999f; ///< base colors above are as good as 1
+
+/// Names of the nodes whose surfaces reflect all light of some color, some of them.
+std::string nodes_that_reflect_all(const Surfaces& surfaces) {
+    constexpr std::size_t kNamed = 4;
+    std::vector<std::string> names;
+    for (std::uint32_t t = 0; t < surfaces.triangles(); ++t) {
+        const Scattering s = surfaces.scattering({t, {1.0f / 3, 1.0f / 3}, 0});
+        const glm::vec3 all = s.reflected + s.transmitted;
+        const std::string& name = surfaces.scene().primitives[surfaces.primitive(t)].node_name;
+        if (std::max({all.x, all.y, all.z}) >= kReflectsAll && std::ranges::count(names, name) == 0)
+            names.push_back(name);
+    }
+    if (names.size() > kNamed) {
+        names.resize(kNamed);
+        names.emplace_back("...");
+    }
+    return fmt::format("{}", fmt::join(names, ", "));
+}
+
+/// Light of a lamp in a closed room whose walls reflect all of it grows without end. Operators of bounces are
+/// not negative, so that a solution with negative light is no sum over bounces.
+void check_converged(const BakePlan& plan, const Propagated& lit, int bounces) {
+    if (bounces != kEndlessBounces)
+        return;
     float least = 0, most = 0;
     for (const float v : lit.transfer.vectors) {
         least = std::min(least, v);
@@ -29,23 +56,107 @@ void check_has_an_end(const Propagated& lit) {
     }
     if (!lit.converged || least < -1e-2f * most)
         throw Error(
-            "the light of lamps has no end: walls of a closed room reflect all of it (a base color of "
-            "1); make them darker, or give a number of bounces");
+            fmt::format("light of lamps grows without end in endless bounces: a closed room reflects all of "
+                        "it (base color 1: {}); lower these base colors, or limit the bounces (--bounces 8)",
+                        nodes_that_reflect_all(plan.scene.surfaces())));
+}
+
+/// Whether bounces treat each color of lamps alone, one after the other.
+bool colors_apart(const BakePlan& plan, const Transfer& light) {
+    return plan.channels == 1 && light.layout.channels() == 3;
+}
+
+/// The sum of what three colors took.
+void add_color(const Propagated& one, Propagated& all) {
+    all.bounces = std::max(all.bounces, one.bounces);
+    all.remaining = std::max(all.remaining, one.remaining);
+    all.converged = all.converged && one.converged;
+}
+
+/// One channel of light at samples.
+SampledLight one_channel(const SampledLight& light, std::size_t channels, std::size_t channel) {
+    const auto slice = [&](const std::vector<float>& all, std::size_t stride) {
+        std::vector<float> part;
+        part.reserve(all.size() / channels);
+        for (std::size_t begin = channel * (stride / channels); begin < all.size(); begin += stride)
+            part.insert(part.end(), all.begin() + static_cast<std::ptrdiff_t>(begin),
+                        all.begin() + static_cast<std::ptrdiff_t>(begin + stride / channels));
+        return part;
+    };
+    return {light.stride / channels, light.tests / channels, slice(light.sums, light.stride),
+            slice(light.values, light.tests)};
+}
+
+/// Sharp light of lamps, of one channel or of as many as bounces have.
+SharpTransfer sharp_lamps(const BakePlan& plan, Transfer smooth, const SampledLight& sampled,
+                          const TransportOperators& operators, const Progress& progress) {
+    const int channels = smooth.layout.channels();
+    const TestValues tests = TestValues::of_lamps(plan.lamps.size(), channels,
+                                                  smooth.dimension() / static_cast<std::size_t>(channels));
+    return propagate_sharply(std::move(smooth), {sampled, *operators.fit->lamps, tests, tests}, operators,
+                             plan.bounces, plan.options.threads, progress);
+}
+
+SharpTransfer sharp_lamps_in_color(const BakePlan& plan, const Transfer& smooth, const SampledLight& sampled,
+                                   const TransportOperators& operators, const Progress& progress) {
+    SharpTransfer all;
+    std::array<SharpTransfer, 3> colors;
+    for (std::size_t c = 0; c < 3; ++c) {
+        colors[c] = sharp_lamps(plan, one_channel(smooth, static_cast<int>(c)), one_channel(sampled, 3, c),
+                                operators, progress);
+        add_color(colors[c].exit, all.exit);
+    }
+    all.direct = in_color(colors[0].direct, colors[1].direct, colors[2].direct);
+    all.exit.transfer = in_color(colors[0].exit.transfer, colors[1].exit.transfer, colors[2].exit.transfer);
+    return all;
+}
+
+/// Incident light without a bounce, and exit light after all.
+SharpTransfer lit_by_lamps(const BakePlan& plan, MeasuredLamps lamps, const TransportOperators& operators,
+                           const Progress& progress) {
+    Transfer& light = lamps.light.transfer;
+    SharpTransfer lit;
+    if (!operators.fit) {
+        lit.direct = light;
+        lit.exit = propagate_lamps_on_both_sides(plan, std::move(light), operators, plan.bounces, progress);
+    } else {
+        lit = colors_apart(plan, light)
+                  ? sharp_lamps_in_color(plan, light, lamps.sampled, operators, progress)
+                  : sharp_lamps(plan, std::move(light), lamps.sampled, operators, progress);
+        check_converged(plan, lit.exit, plan.bounces);
+    }
+    return lit;
 }
 
 } // namespace
 
-Propagated propagate_all(const BakePlan& plan, Transfer direct, const TransportOperators& operators,
-                         const Progress& progress) {
+Propagated propagate_all(const BakePlan& plan, Transfer direct, const SampledLight& sampled,
+                         const TransportOperators& operators, const Progress& progress) {
+    const bool bounced = operators.gather || !operators.diffusion.empty();
+    const auto wide = [&](Transfer transfer) {
+        return plan.channels == 3 && transfer.layout.channels() == 1 ? in_color(transfer)
+                                                                     : std::move(transfer);
+    };
+    Propagated exit;
+    if (operators.fit) {
+        const TestValues of_direct = TestValues::of_sky(plan.options.order, 1),
+                         of_rest = TestValues::of_sky(plan.options.order, plan.channels);
+        SharpTransfer sharp =
+            propagate_sharply(wide(std::move(direct)), {sampled, *operators.fit->sky, of_direct, of_rest},
+                              operators, plan.bounces, plan.options.threads, progress);
+        direct = std::move(sharp.direct);
+        exit = std::move(sharp.exit);
+    }
     Transfer unbounced = exit_without_bounces(plan, direct, operators.refill);
     if (plan.direct_channels() == 3)
         unbounced = in_color(unbounced);
     leave_back_sides(plan, unbounced);
-    if (!operators.gather && operators.diffusion.empty())
-        return {.transfer = narrowed(std::move(unbounced))};
-    if (plan.channels == 3)
-        direct = in_color(direct);
-    Propagated exit = propagate(std::move(direct), operators, plan.bounces, plan.options.threads, progress);
+    if (!bounced) {
+        exit.transfer = narrowed(std::move(unbounced));
+        return exit;
+    }
+    if (!operators.fit)
+        exit = propagate(wide(std::move(direct)), operators, plan.bounces, plan.options.threads, progress);
     leave_back_sides(plan, exit.transfer);
     exit.transfer = in_parts(narrowed(std::move(unbounced)), exit.transfer);
     return exit;
@@ -56,38 +167,32 @@ Propagated propagate_lamps_on_both_sides(const BakePlan& plan, Transfer light,
                                          const Progress& progress) {
     const int threads = plan.options.threads;
     Propagated all;
-    if (plan.channels == 1 && light.layout.channels() == 3) { // colors one after the other
+    if (colors_apart(plan, light)) {
         Transfer colors[3];
         for (int c = 0; c < 3; ++c) {
             Propagated one = propagate(one_channel(light, c), operators, bounces, threads, progress);
             colors[c] = std::move(one.transfer);
-            all.bounces = std::max(all.bounces, one.bounces);
-            all.remaining = std::max(all.remaining, one.remaining);
-            all.converged = all.converged && one.converged;
+            add_color(one, all);
         }
         all.transfer = in_color(colors[0], colors[1], colors[2]);
     } else {
         all = propagate(std::move(light), operators, bounces, threads, progress);
     }
-    check_has_an_end(all);
+    check_converged(plan, all, bounces);
     return all;
 }
 
-Propagated propagate_lamps(const BakePlan& plan, Transfer light, const TransportOperators& operators,
+Propagated propagate_lamps(const BakePlan& plan, MeasuredLamps lamps, const TransportOperators& operators,
                            const Progress& progress) {
-    Transfer unbounced;
+    SharpTransfer lit = lit_by_lamps(plan, std::move(lamps), operators, progress);
+    leave_back_sides(plan, lit.exit.transfer);
     if (plan.options.lamps.mode == LampMode::indirect) {
-        unbounced = exit_without_bounces(plan, light, operators.refill);
+        Transfer unbounced = exit_without_bounces(plan, std::move(lit.direct), operators.refill);
         leave_back_sides(plan, unbounced);
+        for (std::size_t i = 0; i < unbounced.vectors.size(); ++i)
+            lit.exit.transfer.vectors[i] -= unbounced.vectors[i];
     }
-    Propagated exit =
-        propagate_lamps_on_both_sides(plan, std::move(light), operators, plan.bounces, progress);
-    leave_back_sides(plan, exit.transfer);
-    const std::size_t stride = static_cast<std::size_t>(coefficient_count(unbounced.layout.order));
-    for (std::size_t i = 0; i < unbounced.vectors.size(); ++i)
-        if (i % stride < plan.lamps.size())
-            exit.transfer.vectors[i] -= unbounced.vectors[i];
-    return exit;
+    return std::move(lit.exit);
 }
 
 } // namespace prt

@@ -56,15 +56,16 @@ Measured measure(const BakePlan& plan, Tracer& tracer, BakeStatistics& statistic
     const FitChoice choice = fit_choice(plan, tracer, statistics, progress.part(0, 0.03));
     if (choice.better) {
         FittedLight fitted = trace_fitted(plan, tracer, choice.samples, progress.part(0.03, 1));
-        return {std::move(fitted.direct), std::move(fitted.sealed), std::move(fitted.fit)};
+        return {std::move(fitted.direct), std::move(fitted.sealed), std::move(fitted.fit),
+                std::move(fitted.sky)};
     }
-    Measured measured{trace_direct(plan, tracer, progress.part(0.03, 1)), {}, {}};
+    Measured measured{trace_direct(plan, tracer, progress.part(0.03, 1)), {}, {}, {}};
     measured.sealed = find_sealed_in(plan, tracer, measured.direct.transfer, progress.stop);
     return measured;
 }
 
-LampLight measure_lamps(const BakePlan& plan, Tracer& tracer, const std::optional<SurfaceFit>& fit,
-                        const Progress& progress) {
+MeasuredLamps measure_lamps(const BakePlan& plan, Tracer& tracer, const std::optional<SurfaceFit>& fit,
+                            const Progress& progress) {
     LampTask task{.scene = plan.scene,
                   .receivers = fit ? fit->samples.receivers : plan.receivers(),
                   .lamps = plan.lamps,
@@ -73,15 +74,26 @@ LampLight measure_lamps(const BakePlan& plan, Tracer& tracer, const std::optiona
                   .seed = plan.options.seed,
                   .threads = plan.options.threads};
     if (!fit)
-        return tracer.lamp_light(task, progress);
+        return {tracer.lamp_light(task, progress), {}};
     task.options.rays = std::max(1, task.options.rays / static_cast<int>(fit->samples.layers));
-    const LampLight at_samples = tracer.lamp_light(task, progress);
-    LampLight light{zero_transfer(at_samples.transfer.layout, plan.receivers().size()), at_samples.rays};
-    fit->apply(at_samples.transfer.vectors, light.transfer.vectors, light.transfer.dimension(),
-               plan.options.threads);
-    for (float& v : light.transfer.vectors) // beside a peak the best fit falls below zero
-        v = std::max(v, 0.0f);
-    return light;
+    LampLight at_samples = tracer.lamp_light(task, progress);
+    MeasuredLamps lamps{{zero_transfer(at_samples.transfer.layout, plan.receivers().size()), at_samples.rays},
+                        {}};
+    const std::size_t stride = at_samples.transfer.dimension();
+    const TestValues tests = TestValues::of_lamps(plan.lamps.size(), task.channels,
+                                                  stride / static_cast<std::size_t>(task.channels));
+    lamps.sampled = {stride, tests.count(), std::vector<float>(fit->equations.unknowns * stride),
+                     std::vector<float>(fit->samples.size() * tests.count())};
+    add_samples(fit->equations, 0, std::span<const float>(at_samples.transfer.vectors), stride,
+                std::span(lamps.sampled.sums));
+    for (std::size_t s = 0; s < fit->samples.size(); ++s)
+        tests.evaluate(at_samples.transfer.vector(s),
+                       std::span(lamps.sampled.values).subspan(s * tests.count(), tests.count()));
+    std::vector<float> smooth = lamps.sampled.sums;
+    fit->smooth(std::span(smooth), stride);
+    spread_unknowns(fit->equations, std::span<const float>(smooth), stride,
+                    std::span(lamps.light.transfer.vectors));
+    return lamps;
 }
 
 } // namespace prt

@@ -16,13 +16,20 @@ struct Measured {
     DirectLight direct;
     SealedIn sealed;
     std::optional<SurfaceFit> fit; ///< none: measured at receivers
+    SampledLight sky;              ///< direct light at its samples
+};
+
+/// Light of lamps without a bounce, of the receivers of a plan.
+struct MeasuredLamps {
+    LampLight light;      ///< smooth where there is a fit
+    SampledLight sampled; ///< the same at the samples of a fit
 };
 
 /// Measures where `plan.options.fit` says. Rays that were spent on finding out where count in `statistics`.
 Measured measure(const BakePlan& plan, Tracer& tracer, BakeStatistics& statistics, const Progress& progress);
 
 /// Light of the plan's lamps at its receivers, by samples of `fit` where there is one.
-LampLight measure_lamps(const BakePlan& plan, Tracer& tracer, const std::optional<SurfaceFit>& fit,
-                        const Progress& progress);
+MeasuredLamps measure_lamps(const BakePlan& plan, Tracer& tracer, const std::optional<SurfaceFit>& fit,
+                            const Progress& progress);
 
 } // namespace prt

@@ -19,7 +19,7 @@ layout(std430, binding = PRT_BINDING_RECEIVERS) readonly buffer Receivers {
 };
 layout(std430, binding = PRT_BINDING_SUMS) buffer Sums {
     // Per receiver: sum of open minus blocked, [order²], and the rays that use the control variate; where kSummed the
-    // first coefficient of the vector.
+    // first coefficients of the vector, [kFirst].
     float sums[];
 };
 layout(std430, binding = PRT_BINDING_SIGNED_SUMS) buffer SignedSums {
@@ -40,6 +40,7 @@ layout(push_constant) uniform Push {
 };
 
 const int kCoefficients = kOrder * kOrder;
+const uint kFirst = uint(kCoefficients < PRT_FIRST_COEFFICIENTS ? kCoefficients : PRT_FIRST_COEFFICIENTS);
 shared float partial[kSubgroups * uint(kCoefficients)];
 shared float partial_blocked[kSubgroups];
 
@@ -122,8 +123,8 @@ void add_to_sums(uint receiver, uint k, float coefficient) {
             atomicAdd(fixed_sums[place], value);
             atomicAdd(signed_sums[place], row.sign < 0.0 ? -value : value);
         }
-    if (k == 0u)
-        sums[receiver] += coefficient;
+    if (k < kFirst)
+        sums[receiver * kFirst + k] += coefficient;
 }
 
 void main() {

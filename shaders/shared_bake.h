@@ -88,6 +88,8 @@
 #define PRT_FIXED_LIMIT 3.9
 // Threads of a workgroup that gathers.
 #define PRT_GATHER_THREADS 64
+// Coefficients of a vector that are handed out where vectors are summed: those of three bands.
+#define PRT_FIRST_COEFFICIENTS 9
 // Receivers of a workgroup whose rays to lamps are traced together.
 #define PRT_LAMP_THREADS 64
 

@@ -42,7 +42,9 @@ private:
             samples_of(surface, vertices_of(scene_.scene, node.finest), options_.seed);
         const LevelSamples samples = match_samples(points, surface, finest, progress_);
         check_distance(samples, node, level);
-        const FitEquations equations = fit_equations(surface.traced.surfaces(), surface.receivers, points);
+        const FitEquations equations =
+            fit_equations(surface.traced.surfaces(), surface.receivers, points,
+                          alike_receivers(surface.traced.surfaces(), surface.receivers));
         begin_at_nearest(surface, finest, equations);
         add_fit(surface, samples, equations);
         note(node, level, samples);

@@ -40,8 +40,9 @@ public:
 
     SurfaceError judge() {
         std::array<FitEquations, 2> equations;
+        const std::vector<std::uint32_t> alike = alike_receivers(mesh_.surfaces, mesh_.receivers);
         for (std::size_t f = 0; f < 2; ++f) {
-            equations[f] = fit_equations(mesh_.surfaces, mesh_.receivers, folds_[f].samples);
+            equations[f] = fit_equations(mesh_.surfaces, mesh_.receivers, folds_[f].samples, alike);
             for (std::size_t s = 0; s < folds_[f].of.size(); ++s)
                 if (points_.sealed(folds_[f].of[s]))
                     equations[f].rows[s].unknowns.fill(kNoReceiver);

@@ -12,8 +12,9 @@
 
 namespace prt {
 
-/// Which receivers are joined by an edge of a triangle. Receivers of one position and normal count as one, so
-/// that a mesh hangs together where vertices are split for other reasons; the first of them stands for all.
+/// Which receivers are joined by an edge of a triangle. Receivers of one node, position and normal count as
+/// one, so that a mesh hangs together where vertices are split for other reasons; the first of them stands
+/// for all.
 class MeshNeighbours {
 public:
     /// The first `fronts` of `receivers` are corners of `surfaces`; the others have no neighbours. Where

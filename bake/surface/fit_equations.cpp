@@ -3,29 +3,17 @@
 #include "surface/fit_equations.h"
 
 #include <algorithm>
-#include <tuple>
 
 namespace prt {
 namespace {
 
 /// Gives receivers that are alike one unknown, numbered in the order of the mesh.
-void number_unknowns(const TransportReceivers& receivers, FitEquations& equations) {
-    const Receivers& all = receivers.receivers;
-    const auto key = [&](std::uint32_t p) {
-        const glm::vec3 &at = all.positions[p], &n = all.normals[p];
-        return std::tuple(p >= receivers.fronts, at.x, at.y, at.z, n.x, n.y, n.z);
-    };
-    std::vector<std::uint32_t> order = receivers_on_surfaces(all);
-    std::sort(order.begin(), order.end(),
-              [&](std::uint32_t a, std::uint32_t b) { return key(a) != key(b) ? key(a) < key(b) : a < b; });
-    std::vector<std::uint32_t> first(all.size(), kNoReceiver); // of those that are alike
-    for (std::size_t i = 0; i < order.size(); ++i)
-        first[order[i]] = i > 0 && key(order[i]) == key(order[i - 1]) ? first[order[i - 1]] : order[i];
-    equations.unknown_of.assign(all.size(), kNoReceiver);
-    for (std::uint32_t p = 0; p < all.size(); ++p)
-        if (first[p] != kNoReceiver)
-            equations.unknown_of[p] = first[p] == p ? static_cast<std::uint32_t>(equations.unknowns++)
-                                                    : equations.unknown_of[first[p]];
+void number_unknowns(const Receivers& receivers, std::span<const std::uint32_t> alike,
+                     FitEquations& equations) {
+    equations.unknown_of.assign(receivers.size(), kNoReceiver);
+    for (const std::uint32_t p : receivers_on_surfaces(receivers))
+        equations.unknown_of[p] =
+            alike[p] == p ? static_cast<std::uint32_t>(equations.unknowns++) : equations.unknown_of[alike[p]];
 }
 
 std::array<std::uint32_t, 3> unknowns_at(const Surfaces& surfaces, const TransportReceivers& receivers,
@@ -60,9 +48,9 @@ std::vector<FitTriangle> triangles_over(const Surfaces& surfaces, const Transpor
 } // namespace
 
 FitEquations fit_equations(const Surfaces& surfaces, const TransportReceivers& receivers,
-                           const SurfaceSamples& samples) {
+                           const SurfaceSamples& samples, std::span<const std::uint32_t> alike) {
     FitEquations equations;
-    number_unknowns(receivers, equations);
+    number_unknowns(receivers.receivers, alike, equations);
     equations.rows.reserve(samples.size());
     for (std::size_t s = 0; s < samples.size(); ++s) {
         const SamplePlace& place = samples.places[s];

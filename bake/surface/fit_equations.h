@@ -21,16 +21,17 @@ struct FitRow {
     float area; ///< m²
 };
 
-/// The least-squares problem Σ_s a_s (Σ_i φ_i(s) x_i - T_s)². Receivers of one position and normal on the
-/// same side of surfaces are one unknown x_i; those on no surface are none, and stay dark.
+/// The least-squares problem Σ_s a_s (Σ_i φ_i(s) x_i - T_s)². Receivers that are alike are one unknown x_i;
+/// those on no surface are none, and stay dark.
 struct FitEquations {
     std::vector<std::uint32_t> unknown_of; ///< [receivers], kNoReceiver: none
     std::size_t unknowns = 0;
     std::vector<FitRow> rows; ///< [samples]
     std::vector<Bend> bends;  ///< of x
 };
+/// `alike` [receivers]: the first receiver that each is one unknown with.
 FitEquations fit_equations(const Surfaces& surfaces, const TransportReceivers& receivers,
-                           const SurfaceSamples& samples);
+                           const SurfaceSamples& samples, std::span<const std::uint32_t> alike);
 
 /// What a sample is added to in b, of positive sign.
 SumRow sum_row(const FitRow& row);

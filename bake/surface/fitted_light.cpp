@@ -7,6 +7,7 @@
 #include "prt/trace_receivers.h"
 #include "scene/sealed.h"
 #include "surface/bend_weights.h"
+#include "surface/separated_receivers.h"
 #include "trace/sample_sequence.h"
 #include "trace/scrambles.h"
 #include "trace/vector_sums.h"
@@ -15,14 +16,16 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <numeric>
 
 namespace prt {
 namespace {
 
-/// Sums over samples: b of the equations, and with a random sign for each group of samples that share the net
-/// of a receiver.
+/// What samples give: sums of the equations, and with a random sign for each group of samples that share the
+/// net of a receiver.
 struct SampleSums {
     std::vector<float> b, signed_b; ///< [unknowns][order²]
+    std::vector<float> values;      ///< [samples][tests]
     std::vector<std::uint32_t> dark;
 };
 
@@ -30,13 +33,26 @@ float sign_of_group(std::size_t group, std::uint64_t seed) {
     return receiver_seed(static_cast<std::uint32_t>(group), seed + 6 * kSecondScramble) & 1 ? 1.0f : -1.0f;
 }
 
+/// Adds the vector of a sample times `sign`.
+void add_signed(const FitEquations& equations, std::size_t sample, float sign, std::span<const float> vector,
+                std::span<float> b) {
+    const FitRow& row = equations.rows[sample];
+    for (std::size_t i = 0; i < 3; ++i)
+        if (row.unknowns[i] != kNoReceiver)
+            for (std::size_t c = 0; c < vector.size(); ++c)
+                b[row.unknowns[i] * vector.size() + c] += sign * row.area * row.shares[i] * vector[c];
+}
+
 class SampleTracer {
 public:
     SampleTracer(const BakePlan& plan, Tracer& tracer, const SurfaceSamples& samples,
                  const FitEquations& equations)
         : plan_(plan), tracer_(tracer), samples_(samples), equations_(equations),
+          tests_(TestValues::of_sky(plan.options.order, 1)),
           stride_(static_cast<std::size_t>(coefficient_count(plan.options.order))),
           rays_(std::max(1, plan.options.rays / static_cast<int>(samples.layers))) {}
+
+    int rays_of_sample() const { return rays_; }
 
     SampleSums trace(DirectLight& direct, const Progress& progress) {
         SampleSums sums;
@@ -57,21 +73,6 @@ public:
         return sums;
     }
 
-    /// What groups with random signs leave over at `x`, in the place of b.
-    std::vector<float> signed_rest(std::vector<float> signed_b, std::span<const float> x) const {
-        std::vector<float> here(stride_);
-        for (std::size_t s = 0; s < samples_.size(); ++s) {
-            const FitRow& row = equations_.rows[s];
-            std::fill(here.begin(), here.end(), 0.0f);
-            for (std::size_t i = 0; i < 3; ++i)
-                if (row.unknowns[i] != kNoReceiver)
-                    for (std::size_t c = 0; c < stride_; ++c)
-                        here[c] -= row.shares[i] * x[row.unknowns[i] * stride_ + c];
-            add(s, sign_of_group(s / samples_.layers, plan_.options.seed), here, signed_b);
-        }
-        return signed_b;
-    }
-
 private:
     double share(std::size_t layer) const {
         return static_cast<double>(layer) / static_cast<double>(samples_.layers);
@@ -81,6 +82,7 @@ private:
         SampleSums sums;
         sums.b.resize(equations_.unknowns * stride_);
         sums.signed_b.resize(sums.b.size());
+        sums.values.resize(samples_.size() * tests_.count());
         const std::unique_ptr<VectorSums> on_device =
             tracer_.vector_sums(plan_.options.order, unknown_weights(equations_));
         for (std::size_t k = 0; k < samples_.layers; ++k)
@@ -88,14 +90,6 @@ private:
         if (on_device)
             on_device->read(sums.b, sums.signed_b);
         return sums;
-    }
-
-    void add(std::size_t sample, float sign, std::span<const float> vector, std::span<float> b) const {
-        const FitRow& row = equations_.rows[sample];
-        for (std::size_t i = 0; i < 3; ++i)
-            if (row.unknowns[i] != kNoReceiver)
-                for (std::size_t c = 0; c < stride_; ++c)
-                    b[row.unknowns[i] * stride_ + c] += sign * row.area * row.shares[i] * vector[c];
     }
 
     /// Each layer takes a part of its own of its receivers' nets.
@@ -121,8 +115,10 @@ private:
         } else {
             options.hit_stride = 1;
         }
-        const auto note_dark = [&](std::uint32_t g, float first) {
-            if (first <= 0)
+        const auto note = [&](std::uint32_t g, std::span<const float> vector) {
+            tests_.evaluate(vector,
+                            std::span(sums.values).subspan(sample(g) * tests_.count(), tests_.count()));
+            if (vector[0] <= 0)
                 sums.dark.push_back(static_cast<std::uint32_t>(sample(g)));
         };
         if (on_device)
@@ -133,19 +129,21 @@ private:
                                rows.push_back(sum_row(equations_.rows[sample(g)]));
                                rows.back().sign = sign_of_group(g, plan_.options.seed);
                            }
-                           std::vector<float> first(batch.size());
+                           const std::size_t tested = first_coefficients(options.order);
+                           std::vector<float> first(batch.size() * tested);
                            on_device->trace(layer, batch, options, rows, first, sink_of(batch, sink),
                                             of_batch);
                            for (std::size_t i = 0; i < batch.size(); ++i)
-                               note_dark(batch[i], first[i]);
+                               note(batch[i], std::span<const float>(&first[i * tested], tested));
                        });
         else
             trace_receivers(
                 tracer_, layer, indices, options,
                 [&](std::uint32_t g, std::span<const float> vector) {
-                    add(sample(g), 1, vector, sums.b);
-                    add(sample(g), sign_of_group(g, plan_.options.seed), vector, sums.signed_b);
-                    note_dark(g, vector[0]);
+                    add_samples(equations_, sample(g), vector, stride_, std::span(sums.b));
+                    add_signed(equations_, sample(g), sign_of_group(g, plan_.options.seed), vector,
+                               sums.signed_b);
+                    note(g, vector);
                 },
                 progress, sink);
         direct.rays += indices.size() * static_cast<std::size_t>(rays_);
@@ -155,32 +153,26 @@ private:
     Tracer& tracer_;
     const SurfaceSamples& samples_;
     const FitEquations& equations_;
+    TestValues tests_;
     std::size_t stride_;
     int rays_; ///< of a sample
 };
 
-/// Samples that are sealed in tell nothing; receivers that none tells of take the light of their neighbours.
-SealedIn leave_out_sealed(const BakePlan& plan, Tracer& tracer, const SurfaceSamples& samples,
-                          std::vector<std::uint32_t> dark, FitEquations& equations,
-                          const std::stop_token& stop) {
-    const Sealed sealed =
-        find_sealed(tracer, plan.scene, samples.receivers, std::move(dark), plan.options.seed, stop);
+/// Receivers of which all samples are sealed in, and what becomes of them.
+SealedIn sealed_receivers(const BakePlan& plan, const FitEquations& equations, const Sealed& sealed) {
     SealedIn result;
     result.rays = sealed.rays;
-    std::vector<bool> told(equations.unknowns), asked(equations.unknowns);
-    for (std::size_t s = 0; s < samples.size(); ++s) {
+    std::vector<bool> open(equations.unknowns), asked(equations.unknowns);
+    for (std::size_t s = 0; s < equations.rows.size(); ++s)
         for (const std::uint32_t u : equations.rows[s].unknowns)
             if (u != kNoReceiver) {
                 asked[u] = true;
-                told[u] = told[u] || !sealed.receivers[s];
+                open[u] = open[u] || !sealed.receivers[s];
             }
-        if (sealed.receivers[s] && plan.options.repairs.inside == Inside::refill)
-            equations.rows[s].unknowns.fill(kNoReceiver);
-    }
     std::vector<bool> inside(plan.receivers().size());
     for (std::uint32_t p = 0; p < inside.size(); ++p) {
         const std::uint32_t u = equations.unknown_of[p];
-        inside[p] = u != kNoReceiver && asked[u] && !told[u];
+        inside[p] = u != kNoReceiver && asked[u] && !open[u];
         if (p < plan.transport->fronts && inside[p])
             result.receivers.push_back(p);
     }
@@ -188,6 +180,41 @@ SealedIn leave_out_sealed(const BakePlan& plan, Tracer& tracer, const SurfaceSam
         result.refill = Refill(
             MeshNeighbours(plan.scene.surfaces(), plan.receivers(), plan.transport->fronts, inside), inside);
     return result;
+}
+
+/// Samples that are sealed in tell nothing.
+void leave_out(const Sealed& sealed, FitEquations& equations) {
+    for (std::size_t s = 0; s < equations.rows.size(); ++s)
+        if (sealed.receivers[s])
+            equations.rows[s].unknowns.fill(kNoReceiver);
+}
+
+/// Sums of `from`, in which every receiver is an unknown, for `to`, in which some are one.
+std::vector<float> joined_sums(const FitEquations& from, const FitEquations& to, std::size_t stride,
+                               std::span<const float> sums) {
+    std::vector<float> joined(to.unknowns * stride);
+    for (std::size_t p = 0; p < from.unknown_of.size(); ++p)
+        for (std::size_t c = 0; from.unknown_of[p] != kNoReceiver && c < stride; ++c)
+            joined[to.unknown_of[p] * stride + c] += sums[from.unknown_of[p] * stride + c];
+    return joined;
+}
+
+/// What groups with random signs leave over at `x`, in the place of b.
+std::vector<float> signed_rest(const BakePlan& plan, const SurfaceSamples& samples,
+                               const FitEquations& equations, std::span<const float> x,
+                               std::vector<float> signed_b) {
+    const auto stride = static_cast<std::size_t>(coefficient_count(plan.options.order));
+    std::vector<float> here(stride);
+    for (std::size_t s = 0; s < samples.size(); ++s) {
+        const FitRow& row = equations.rows[s];
+        std::fill(here.begin(), here.end(), 0.0f);
+        for (std::size_t i = 0; i < 3; ++i)
+            if (row.unknowns[i] != kNoReceiver)
+                for (std::size_t c = 0; c < stride; ++c)
+                    here[c] -= row.shares[i] * x[row.unknowns[i] * stride + c];
+        add_signed(equations, s, sign_of_group(s / samples.layers, plan.options.seed), here, signed_b);
+    }
+    return signed_b;
 }
 
 /// Relative L2 of `noise` in `light`, both of receivers.
@@ -200,44 +227,85 @@ double relative_noise(const Receivers& receivers, const Transfer& light, const T
     return norm > 0 ? std::sqrt(error / norm) : 0;
 }
 
-} // namespace
-
-FittedLight trace_fitted(const BakePlan& plan, Tracer& tracer, int samples_each, const Progress& progress) {
-    const std::size_t on_surfaces = receivers_on_surfaces(plan.receivers()).size();
-    const auto layers = static_cast<std::size_t>(samples_each);
-    SurfaceSamples samples =
-        sample_surfaces(plan.scene.surfaces(), *plan.transport,
-                        {.count = on_surfaces * layers, .layers = layers, .seed = plan.options.seed});
-    FitEquations equations = fit_equations(plan.scene.surfaces(), *plan.transport, samples);
-    SampleTracer traced(plan, tracer, samples, equations);
-    DirectLight direct;
-    SampleSums sums = traced.trace(direct, progress.part(0, 0.95));
-    SealedIn sealed = leave_out_sealed(plan, tracer, samples, std::move(sums.dark), equations, progress.stop);
-
+/// The operator for distant light, whose bends are paid for as their noise asks for, and the noise that is
+/// left in its values.
+FitSolver sky_solver(const BakePlan& plan, const SurfaceFit& fit, const SampleSums& sums,
+                     DirectLight& direct) {
     const int threads = plan.options.threads;
+    const FitEquations& equations = fit.equations;
     const auto stride = static_cast<std::size_t>(coefficient_count(plan.options.order));
-    const auto even = [&](float weight) { return std::vector<float>(equations.bends.size(), weight); };
-    FitSolver solver(equations, even(kFirstBendWeight));
+    FitSolver solver(equations, std::vector<float>(equations.bends.size(), kFirstBendWeight));
     std::vector<float> first = sums.b;
     solver.solve(first, stride, threads);
-    std::vector<float> rest = traced.signed_rest(std::move(sums.signed_b), first), noise = rest;
+    std::vector<float> rest = signed_rest(plan, fit.samples, equations, first, sums.signed_b), noise = rest;
     solver.solve(noise, stride, threads);
     solver.factor(equations, bend_weights(equations, first, noise, stride));
-    const auto of_receivers = [&](std::vector<float>& b) {
+    const auto of_receivers = [&](std::vector<float> b) {
         solver.solve(b, stride, threads);
         Transfer transfer = zero_transfer(plan.options.order, 1, plan.receivers().size());
         spread_unknowns(equations, std::span<const float>(b), stride, std::span(transfer.vectors));
         return transfer;
     };
-    direct.transfer = of_receivers(sums.b);
+    direct.sampling_error = relative_noise(plan.receivers(), of_receivers(sums.b), of_receivers(rest));
+    return solver;
+}
+
+} // namespace
+
+FittedLight trace_fitted(const BakePlan& plan, Tracer& tracer, int samples_each, const Progress& progress) {
+    const Surfaces& surfaces = plan.scene.surfaces();
+    const std::size_t on_surfaces = receivers_on_surfaces(plan.receivers()).size();
+    const auto layers = static_cast<std::size_t>(samples_each);
+    SurfaceSamples samples =
+        sample_surfaces(surfaces, *plan.transport,
+                        {.count = on_surfaces * layers, .layers = layers, .seed = plan.options.seed});
+    std::vector<std::uint32_t> alike(plan.receivers().size());
+    std::iota(alike.begin(), alike.end(), 0u);
+    FitEquations alone = fit_equations(surfaces, *plan.transport, samples, alike);
+    SampleTracer traced(plan, tracer, samples, alone);
+    DirectLight direct;
+    SampleSums sums = traced.trace(direct, progress.part(0, 0.95));
+
+    const Sealed sealed = find_sealed(tracer, plan.scene, samples.receivers, std::move(sums.dark),
+                                      plan.options.seed, progress.stop);
+    const bool refilled = plan.options.repairs.inside == Inside::refill;
+    if (refilled)
+        leave_out(sealed, alone);
+    alike = separated(alike_receivers(surfaces, *plan.transport), alone,
+                      TestValues::of_sky(plan.options.order, 1), sums.values, traced.rays_of_sample());
+    FitEquations equations = fit_equations(surfaces, *plan.transport, samples, alike);
+    SealedIn inside = sealed_receivers(plan, equations, sealed);
+    if (refilled)
+        leave_out(sealed, equations);
+    const auto stride = static_cast<std::size_t>(coefficient_count(plan.options.order));
+    sums.b = joined_sums(alone, equations, stride, sums.b);
+    sums.signed_b = joined_sums(alone, equations, stride, sums.signed_b);
+
+    const auto plain = [](const FitEquations& e) {
+        return FitSolver(e, std::vector<float>(e.bends.size(), kPlainBendWeight));
+    };
+    const std::size_t samples_count = samples.size();
+    SurfaceFit fit{.samples = std::move(samples),
+                   .equations = std::move(equations),
+                   .weights = {},
+                   .sky = {},
+                   .lamps = {}};
+    fit.weights = unknown_weights(fit.equations);
+    fit.sky.emplace(sky_solver(plan, fit, sums, direct));
+    if (!plan.lamps.empty())
+        fit.lamps.emplace(plain(fit.equations)); // their light bends elsewhere
     direct.mean_rays = plan.options.rays;
+    direct.transfer = zero_transfer(plan.options.order, 1, plan.receivers().size());
+    std::vector<float> smooth = sums.b;
+    fit.smooth(std::span(smooth), stride);
+    spread_unknowns(fit.equations, std::span<const float>(smooth), stride,
+                    std::span(direct.transfer.vectors));
     direct.mean_visibility = mean_visibility(direct.transfer, plan.areas());
-    direct.sampling_error = relative_noise(plan.receivers(), direct.transfer, of_receivers(rest));
     progress.update(1);
-    if (plan.bounces != 0 || !plan.lamps.empty()) // their light bends elsewhere
-        solver.factor(equations, even(kPlainBendWeight));
-    return {
-        std::move(direct), {std::move(samples), std::move(equations), std::move(solver)}, std::move(sealed)};
+    return {std::move(direct),
+            {stride, sums.values.size() / samples_count, std::move(sums.b), std::move(sums.values)},
+            std::move(fit),
+            std::move(inside)};
 }
 
 } // namespace prt

@@ -9,9 +9,10 @@
 namespace prt {
 
 struct FittedLight {
-    DirectLight direct; ///< the rows of its gather are those of the samples
+    DirectLight direct; ///< smooth values of receivers; the rows of its gather are those of the samples
+    SampledLight sky;   ///< the same at the samples, of one channel
     SurfaceFit fit;
-    SealedIn sealed; ///< receivers that no sample tells of
+    SealedIn sealed; ///< receivers without a sample outside of geometry
 };
 
 /// Divides the rays of receivers among `samples` each. The gather operator keeps references to `plan`.

@@ -1,19 +1,58 @@
 #pragma once
 
 #include "surface/fit_solver.h"
+#include "surface/value_limits.h"
+
+#include <optional>
 
 namespace prt {
 
-/// Samples of the surface, and the operator from light at them to light at receivers (section 14 of
-/// docs/math.md).
+/// Samples of the surface, and the operators from light at them to light at receivers (section 14 of
+/// docs/math.md). The smooth one takes the mean of the samples around each vertex: it adds no light, so that
+/// bounces use it. The sharp one is nearest to the samples over the surface, and is for values that are
+/// written.
 struct SurfaceFit {
     SurfaceSamples samples;
     FitEquations equations;
-    FitSolver solver; ///< for any light
+    std::vector<float> weights;     ///< [unknowns] of all samples
+    std::optional<FitSolver> sky;   ///< of distant light
+    std::optional<FitSolver> lamps; ///< where there are lamps
 
-    /// Of light at the samples [samples][stride] that of receivers.
-    void apply(std::span<const float> at_samples, std::span<float> at_receivers, std::size_t stride,
-               int threads) const;
+    /// Smooth values [unknowns][stride] from sums over samples.
+    template <class Value>
+    void smooth(std::span<Value> sums_then_values, std::size_t stride) const {
+        for (std::size_t u = 0; u < equations.unknowns; ++u)
+            for (std::size_t c = 0; c < stride; ++c) {
+                Value& v = sums_then_values[u * stride + c];
+                v = weights[u] > 0 ? v / static_cast<Value>(weights[u]) : Value(0);
+            }
+    }
+};
+
+/// Light without a bounce and the rest of it, [unknowns][stride] each.
+struct SharpLight {
+    std::vector<float> direct, rest;
+};
+
+/// Sharp values as far as the values of both, and of their sum, stay within those of the samples. `rest` may
+/// be null; it has one channel, or as many as it likes beside one of `direct`.
+class SharpFit {
+public:
+    SharpFit(const SurfaceFit& fit, const FitSolver& solver, int threads)
+        : fit_(fit), solver_(solver), threads_(threads) {}
+    SharpLight solve(const TestValues& of_direct, const SampledLight& direct, const TestValues* of_rest,
+                     const SampledLight* rest) const;
+
+private:
+    struct Values {
+        std::vector<float> smooth, sharp; ///< [unknowns][stride]
+    };
+    Values values_of(const SampledLight& light) const;
+    void mix(const TestValues& tests, std::span<const float> shares, Values& values) const;
+
+    const SurfaceFit& fit_;
+    const FitSolver& solver_;
+    int threads_;
 };
 
 } // namespace prt

@@ -27,11 +27,16 @@ struct SumRows {
     std::span<const float> weights; ///< [sums]: what is added to each has so much weight in all
 };
 
+/// Coefficients that `VectorSums::trace` hands out.
+constexpr std::size_t first_coefficients(int order) {
+    return static_cast<std::size_t>(order < 3 ? order * order : 9);
+}
+
 class VectorSums {
 public:
     virtual ~VectorSums() = default;
     /// Traces as Tracer::trace does, and adds the vector of receivers[indices[i]] by rows[i] instead of
-    /// handing it out. `first` [indices]: the first coefficient of each.
+    /// handing it out. `first` [indices][...]: the first_coefficients of each.
     virtual void trace(const Receivers& receivers, std::span<const std::uint32_t> indices,
                        const TraceOptions& options, std::span<const SumRow> rows, std::span<float> first,
                        const HitSink& sink, const Progress& progress) = 0;

@@ -32,42 +32,70 @@ void exit_from_incident(const TransportOperators& operators, int order, int chan
         diffusion.apply(channels, order, vectors, threads);
 }
 
+/// Some rows [rows][stride] at a time.
+template <class Value, class Work>
+void in_blocks(std::size_t rows, std::size_t stride, Work&& work) {
+    constexpr std::size_t kRowsAtOnce = 1 << 14;
+    std::vector<Value> some(std::min(kRowsAtOnce, rows) * stride);
+    for (std::size_t first = 0; first < rows; first += kRowsAtOnce)
+        work(first, std::span(some).first(std::min(kRowsAtOnce, rows - first) * stride));
+}
+
 /// Incident transfer of receivers from exit transfer: `gather(first, to)` writes that of rows.
 template <class Value, class Gather>
 void incident_from_rows(const TransportOperators& operators, std::size_t stride, std::span<Value> incident,
-                        int threads, Gather&& gather) {
+                        Gather&& gather) {
     if (!operators.fit) {
         gather(0, incident);
         return;
     }
-    constexpr std::size_t kSamplesAtOnce = 1 << 14; // samples at a time
     const FitEquations& equations = operators.fit->equations;
-    std::vector<Value> x(equations.unknowns * stride),
-        some(std::min(kSamplesAtOnce, operators.gather->rows()) * stride);
-    for (std::size_t first = 0; first < operators.gather->rows(); first += kSamplesAtOnce) {
-        const std::span<Value> block(some.data(),
-                                     std::min(kSamplesAtOnce, operators.gather->rows() - first) * stride);
+    std::vector<Value> x(equations.unknowns * stride);
+    in_blocks<Value>(operators.gather->rows(), stride, [&](std::size_t first, std::span<Value> block) {
         gather(first, block);
         add_samples(equations, first, std::span<const Value>(block), stride, std::span(x));
-    }
-    operators.fit->solver.solve(x, stride, threads);
+    });
+    operators.fit->smooth(std::span(x), stride);
     spread_unknowns(equations, std::span<const Value>(x), stride, incident);
 }
 
 /// The same where the device has the samples, and room to sum them.
-bool incident_from_device(const TransportOperators& operators, std::size_t stride, std::span<float> incident,
-                          int threads) {
+bool incident_from_device(const TransportOperators& operators, std::size_t stride,
+                          std::span<float> incident) {
     if (!operators.product || !operators.fit)
         return false;
     const FitEquations& equations = operators.fit->equations;
-    const std::vector<float> weights = unknown_weights(equations);
     std::vector<float> x(equations.unknowns * stride);
-    if (!operators.product->apply_to_sums(
-            {equations.rows.size(), [&](std::size_t s) { return sum_row(equations.rows[s]); }, weights}, x))
+    if (!operators.product->apply_to_sums({equations.rows.size(),
+                                           [&](std::size_t s) { return sum_row(equations.rows[s]); },
+                                           operators.fit->weights},
+                                          x))
         return false;
-    operators.fit->solver.solve(x, stride, threads);
+    operators.fit->smooth(std::span(x), stride);
     spread_unknowns(equations, std::span<const float>(x), stride, incident);
     return true;
+}
+
+/// Makes exit transfer what rows gather from.
+void load_exit(const TransportOperators& operators, int order, std::span<float> exit, int threads) {
+    if (operators.product)
+        operators.product->load(order, exit);
+    else
+        operators.gather->reflect(order, exit, threads);
+}
+
+struct GatheredRows {
+    std::size_t first;
+    std::span<float> to; ///< [rows][stride]
+};
+
+/// What rows gather from loaded exit transfer.
+void gather_rows(const TransportOperators& operators, int order, std::span<const float> exit,
+                 const GatheredRows& rows, int threads) {
+    if (operators.product)
+        operators.product->apply(rows.first, rows.to);
+    else
+        operators.gather->apply(order, exit, rows.first, rows.to, threads);
 }
 
 /// One bounce: exit transfer from exit transfer.
@@ -75,23 +103,17 @@ ColumnOperator bounce_operator(const TransportOperators& operators, int order, i
     const auto stride = static_cast<std::size_t>(channels * coefficient_count(order));
     const auto apply = [&operators, order, channels, stride, threads](std::span<float> from,
                                                                       std::span<float> to) {
-        if (operators.product)
-            operators.product->load(order, from);
-        else
-            operators.gather->reflect(order, from, threads);
-        if (!incident_from_device(operators, stride, to, threads))
-            incident_from_rows(operators, stride, to, threads, [&](std::size_t first, std::span<float> rows) {
-                if (operators.product)
-                    operators.product->apply(first, rows);
-                else
-                    operators.gather->apply(order, from, first, rows, threads);
+        load_exit(operators, order, from, threads);
+        if (!incident_from_device(operators, stride, to))
+            incident_from_rows(operators, stride, to, [&](std::size_t first, std::span<float> rows) {
+                gather_rows(operators, order, from, {first, rows}, threads);
             });
         exit_from_incident(operators, order, channels, to, threads);
     };
     const auto residual = [&operators, order, stride, threads](std::span<const float> b,
                                                                std::span<const float> x, std::span<float> r) {
         std::vector<double> incident(x.size());
-        incident_from_rows(operators, stride, std::span(incident), threads,
+        incident_from_rows(operators, stride, std::span(incident),
                            [&](std::size_t first, std::span<double> rows) {
                                operators.gather->apply_in_double(order, x, first, rows, threads);
                            });
@@ -120,7 +142,7 @@ std::optional<Propagated> bounce_on_device(Transfer& transfer, const TransportOp
         return std::nullopt;
     const auto coefficients = static_cast<std::size_t>(coefficient_count(transfer.layout.order));
     const double total = largest_norm(transfer.vectors, coefficients);
-    return Propagated{std::move(transfer), bounces, remaining_after(*energy, total)};
+    return Propagated{std::move(transfer), bounces, remaining_after(*energy, total), energy->last};
 }
 
 /// Adds bounce after bounce, until so little remains.
@@ -140,7 +162,7 @@ Propagated bounce_often(Transfer transfer, const TransportOperators& operators, 
         ++result.bounces;
         const double energy = largest_norm(now, coefficients);
         result.remaining = remaining_after({before, energy}, largest_norm(transfer.vectors, coefficients));
-        before = energy;
+        before = result.last = energy;
         result.converged = result.remaining < least_remaining;
         if (result.converged)
             break;
@@ -188,6 +210,44 @@ Propagated bounce_endlessly(Transfer transfer, const TransportOperators& operato
     return result;
 }
 
+/// What `exit` transfer gives samples by one more bounce.
+SampledLight bounce_to_samples(Transfer exit, const TransportOperators& operators, const TestValues& tests,
+                               int threads) {
+    const SurfaceFit& fit = *operators.fit;
+    const int order = exit.layout.order;
+    const std::size_t stride = exit.dimension(), count = tests.count();
+    SampledLight light{stride, count, std::vector<float>(fit.equations.unknowns * stride),
+                       std::vector<float>(fit.samples.size() * count)};
+    load_exit(operators, order, exit.vectors, threads);
+    in_blocks<float>(operators.gather->rows(), stride, [&](std::size_t first, std::span<float> block) {
+        gather_rows(operators, order, exit.vectors, {first, block}, threads);
+        add_samples(fit.equations, first, std::span<const float>(block), stride, std::span(light.sums));
+        for (std::size_t s = 0; s * stride < block.size(); ++s)
+            tests.evaluate(block.subspan(s * stride, stride),
+                           std::span(light.values).subspan((first + s) * count, count));
+    });
+    return light;
+}
+
+/// Counts the bounce to samples in what is known of `exit`, whose sum began with `direct`.
+void add_last_bounce(const SurfaceFit& fit, const SampledLight& rest, const Transfer& direct,
+                     Propagated& exit) {
+    const auto coefficients = static_cast<std::size_t>(coefficient_count(direct.layout.order));
+    std::vector<float> x = rest.sums, last(exit.transfer.vectors.size());
+    fit.smooth(std::span(x), rest.stride);
+    spread_unknowns(fit.equations, std::span<const float>(x), rest.stride, std::span(last));
+    double before = exit.last;
+    if (exit.bounces == 0)
+        before = largest_norm(direct.vectors, coefficients);
+    for (std::size_t i = 0; i < last.size(); ++i)
+        last[i] -= exit.transfer.vectors[i] - direct.vectors[i];
+    const double energy = largest_norm(last, coefficients);
+    exit.remaining =
+        remaining_after({before, energy}, largest_norm(exit.transfer.vectors, coefficients) + energy);
+    exit.last = energy;
+    ++exit.bounces;
+}
+
 } // namespace
 
 Propagated propagate(Transfer direct, const TransportOperators& operators, int bounces, int threads,
@@ -205,6 +265,43 @@ Propagated propagate(Transfer direct, const TransportOperators& operators, int b
     return operators.diffusion.empty()
                ? bounce_endlessly(std::move(direct), operators, threads, progress)
                : bounce_often(std::move(direct), operators, kMostBounces, 1e-5, threads, progress);
+}
+
+SharpTransfer propagate_sharply(Transfer smooth, const LightAtSamples& light,
+                                const TransportOperators& operators, int bounces, int threads,
+                                const Progress& progress) {
+    const SurfaceFit& fit = *operators.fit;
+    const TransferLayout layout = smooth.layout;
+    const std::size_t receivers = smooth.receivers();
+    SharpTransfer sharp;
+    std::optional<SampledLight> rest;
+    if (operators.gather && bounces != 0) {
+        const bool endless = bounces == kEndlessBounces;
+        sharp.exit = propagate(smooth, operators, endless ? bounces : bounces - 1, threads, progress);
+        rest = bounce_to_samples(sharp.exit.transfer, operators, light.of_rest, threads);
+        if (!endless)
+            add_last_bounce(fit, *rest, smooth, sharp.exit);
+    }
+    const SharpLight values =
+        SharpFit(fit, light.solver, threads)
+            .solve(light.of_direct, light.direct, &light.of_rest, rest ? &*rest : nullptr);
+    const auto spread = [&](const std::vector<float>& x, std::size_t stride) {
+        std::vector<float> of_receivers(receivers * stride);
+        spread_unknowns(fit.equations, std::span<const float>(x), stride, std::span(of_receivers));
+        return of_receivers;
+    };
+    const std::size_t few = light.direct.stride, many = layout.dimension();
+    const std::vector<float> direct = spread(values.direct, few);
+    Transfer& exit = sharp.exit.transfer;
+    exit = rest ? Transfer{layout, spread(values.rest, many)} : zero_transfer(layout, receivers);
+    for (std::size_t p = 0; p < receivers; ++p)
+        for (std::size_t c = 0; c < many; ++c)
+            exit.vectors[p * many + c] += direct[p * few + c % few];
+    sharp.direct = {layout_of_one(layout.order, static_cast<int>(few) / coefficient_count(layout.order),
+                                  layout.parts.front().kind),
+                    direct};
+    exit_from_incident(operators, layout.order, layout.channels(), exit.vectors, threads);
+    return sharp;
 }
 
 void add_transmission(Transfer& transfer, const Surfaces& surfaces, const TransportReceivers& receivers) {

@@ -21,8 +21,8 @@ struct TransportOperators {
     std::span<const DiffusionOperator> diffusion;
     const GatherOperator* gather = nullptr; ///< null: no bounces
     GatherProduct* product = nullptr;       ///< by a device; null: by the processor
-    const SurfaceFit* fit = nullptr; ///< makes receivers of the samples that `gather` is of; null: it is
-                                     ///< of receivers
+    const SurfaceFit* fit = nullptr; ///< rows of `gather` are its samples, and receivers take smooth values
+                                     ///< of them; null: rows are receivers
 };
 
 struct Propagated {
@@ -32,12 +32,32 @@ struct Propagated {
     /// transfer, over that of the sum. For endless ones the estimated error of the solution, over its largest
     /// element.
     double remaining = 0;
+    double last = 0;       ///< energy of the last bounce; of direct light where none was done
     bool converged = true; ///< endless bounces reached the solver's tolerance
 };
 
 /// The sum over `direct` light and `bounces` bounces of it (or kEndlessBounces).
 Propagated propagate(Transfer direct, const TransportOperators& operators, int bounces, int threads,
                      const Progress& progress);
+
+/// Light that was measured at samples of the surface.
+struct LightAtSamples {
+    const SampledLight& direct;
+    const FitSolver& solver;
+    const TestValues& of_direct; ///< of the channels of `direct`
+    const TestValues& of_rest;   ///< of the channels of `gather`
+};
+
+struct SharpTransfer {
+    Transfer direct; ///< incident transfer without a bounce
+    Propagated exit; ///< of all light
+};
+
+/// The same for `direct` light by a surface fit: bounces go on between smooth values, of which `smooth` is
+/// the direct light, of as many channels as `operators.gather`; what is written is fitted sharply at the end.
+SharpTransfer propagate_sharply(Transfer smooth, const LightAtSamples& light,
+                                const TransportOperators& operators, int bounces, int threads,
+                                const Progress& progress);
 
 /// Light through thin sheets: replaces the transfer of front receivers by (1 - f) T_front + f c/rho T_back,
 /// so that it serves a receiver of base color rho whose surface transmits f c (docs/math.md, eq. 38).

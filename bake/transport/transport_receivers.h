@@ -4,6 +4,7 @@
 
 #include "prt/receivers.h"
 #include "prt/surfaces.h"
+#include "scene/alike_receivers.h"
 
 #include <cstdint>
 #include <vector>
@@ -25,5 +26,10 @@ struct TransportReceivers {
 /// Adds back sides to `fronts` where `surfaces` scatter on both sides.
 TransportReceivers with_back_sides(Receivers fronts, const Surfaces& surfaces);
 TransportReceivers without_back_sides(Receivers fronts);
+
+inline std::vector<std::uint32_t> alike_receivers(const Surfaces& surfaces,
+                                                  const TransportReceivers& receivers) {
+    return alike_receivers(surfaces, receivers.receivers, receivers.fronts, receivers.back);
+}
 
 } // namespace prt

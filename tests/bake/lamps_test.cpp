@@ -373,9 +373,12 @@ TEST(Lamps, ThatCannotBeAreRefused) {
 /// Light that nothing takes away would grow without end.
 TEST(Lamps, OfWhiteClosedRoomsAreRefusedButForANumberOfBounces) {
     Scene room = closed_room(12, glm::vec3(1));
+    room.primitives[0].node_name = "White room";
     for (const float intensity : {1e-4f, 1.0f}) {
         room.lights = {point("lamp", {0, 0, 0}, glm::vec3(intensity))};
-        EXPECT_NE(error_of(room, lamp_options(kEndlessBounces)).find("no end"), std::string::npos);
+        const std::string error = error_of(room, lamp_options(kEndlessBounces));
+        EXPECT_NE(error.find("without end"), std::string::npos);
+        EXPECT_NE(error.find("White room"), std::string::npos);
         EXPECT_EQ(error_of(room, lamp_options(3)), "no error");
     }
 }

@@ -38,7 +38,7 @@ struct TraceJob {
 /// what is noted.
 class TraceResults {
 public:
-    /// `vectors`: [indices][order²], or [indices] the first coefficients where vectors are summed.
+    /// `vectors`: [indices][order²], or [indices][first_coefficients] where vectors are summed.
     TraceResults(const TraceJob& job, std::span<float> vectors, const HitSink& sink, bool has_alpha);
 
     /// Where in the job a piece begins.

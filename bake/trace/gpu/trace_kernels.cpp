@@ -9,6 +9,7 @@
 #include "kernels/bake_trace_query.h"
 #include "prt/sh.h"
 #include "prt/sh_basis.h"
+#include "trace/vector_sums.h"
 
 namespace prt {
 namespace {
@@ -79,7 +80,9 @@ TraceKernels::TraceKernels(const VulkanDevice& device, GpuQueue& queue, const Gp
 }
 
 std::size_t TraceKernels::numbers() const {
-    return kind_.summed ? 1 : static_cast<std::size_t>(coefficient_count(kind_.order)) + 1;
+    static_assert(first_coefficients(kMaxOrder) == PRT_FIRST_COEFFICIENTS);
+    return kind_.summed ? first_coefficients(kind_.order)
+                        : static_cast<std::size_t>(coefficient_count(kind_.order)) + 1;
 }
 
 GpuResources TraceKernels::tables() const {

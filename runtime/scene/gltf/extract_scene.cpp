@@ -240,7 +240,15 @@ private:
             ++seen_.skipped_primitives;
             return;
         }
-        Primitive primitive{transform.node, node.mesh, index, 0, material_index(file.material), false, {}};
+        Primitive primitive{transform.node,
+                            node.mesh,
+                            index,
+                            0,
+                            material_index(file.material),
+                            false,
+                            {},
+                            node.name.empty() ? "node " + std::to_string(transform.node)
+                                              : printable(node.name)};
         // Flat normals depend on the triangles, so such a primitive shares its vertices with none.
         const int alone = attribute(file, "NORMAL") < 0 ? index : -1;
         const auto [vertices_of, is_new] =

@@ -25,7 +25,8 @@ struct Fitted {
     explicit Fitted(Scene of, std::size_t count = 4000)
         : scene(std::move(of)), traced(scene), receivers(without_back_sides(vertex_receivers(scene))),
           samples(sample_surfaces(traced.surfaces(), receivers, {.count = count, .seed = 3})),
-          equations(fit_equations(traced.surfaces(), receivers, samples)) {}
+          equations(fit_equations(traced.surfaces(), receivers, samples,
+                                  alike_receivers(traced.surfaces(), receivers))) {}
 
     /// The values of receivers of a function over space, and what bending costs.
     std::vector<float> fit(const std::function<double(const glm::vec3&)>& f, float bend_weight) const {

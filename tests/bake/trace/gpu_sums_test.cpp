@@ -10,6 +10,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <random>
 
@@ -51,10 +52,11 @@ public:
         const std::size_t half = indices_.size() / 2; // two batches
         const std::span all(indices_);
         const std::span<float> first(result.first);
-        sums->trace(receivers_, all.first(half), options, std::span(rows_).first(half), first.first(half),
+        const std::size_t of_half = half * first_coefficients(options.order);
+        sums->trace(receivers_, all.first(half), options, std::span(rows_).first(half), first.first(of_half),
                     sink, {});
         sums->trace(receivers_, all.subspan(half), options, std::span(rows_).subspan(half),
-                    first.subspan(half), sink, {});
+                    first.subspan(of_half), sink, {});
         sums->read(result.sums, result.signed_sums);
         return result;
     }
@@ -65,7 +67,8 @@ public:
         Result result = empty(options);
         for (std::size_t i = 0; i < rows_.size(); ++i) {
             const float* const vector = vectors.vector(indices_[i]).data();
-            result.first[i] = vector[0];
+            const std::size_t some = first_coefficients(options.order);
+            std::copy_n(vector, some, &result.first[i * some]);
             for (std::size_t k = 0; k < 3; ++k)
                 for (std::size_t c = 0; rows_[i].sums[k] != kNoSum && c < stride; ++c) {
                     const float part = rows_[i].weights[k] * vector[c];
@@ -79,7 +82,8 @@ public:
 private:
     Result empty(const TraceOptions& options) const {
         const std::size_t size = kSums * static_cast<std::size_t>(coefficient_count(options.order));
-        return {std::vector<float>(size), std::vector<float>(size), std::vector<float>(indices_.size())};
+        return {std::vector<float>(size), std::vector<float>(size),
+                std::vector<float>(indices_.size() * first_coefficients(options.order))};
     }
 
     Scene scene_;

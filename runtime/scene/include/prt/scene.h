@@ -105,6 +105,7 @@ struct Primitive {
     std::size_t material = 0;              ///< index into Scene::materials
     bool mirrored = false;                 ///< the node's transform mirrors, so triangles were turned round
     std::vector<glm::uvec3> triangles;     ///< counter-clockwise from the front, into the vertex array
+    std::string node_name = {};            ///< for messages; "node N" where the file has none
 };
 
 enum class PunctualKind { point, spot, directional };
