@@ -8,6 +8,7 @@
 #include "memory.h"
 #include "parts.h"
 #include "prt/support/stopwatch.h"
+#include "scene/places_without_area.h"
 
 #include <algorithm>
 #include <memory>
@@ -51,6 +52,7 @@ BakeResult bake(const Scene& scene, const BakeOptions& options, const Progress& 
         exit.bounces = std::max(exit.bounces, lit.bounces);
         exit.remaining = std::max(exit.remaining, lit.remaining);
     }
+    fill_without_area(plan.receivers(), plan.transport->fronts, exit.transfer);
     seconds.transport = transport.seconds();
 
     BakeResult result = record(plan, *tracer, direct, sealed, std::move(exit));

@@ -90,6 +90,28 @@ void add_notices(Report& report, const std::vector<std::string>& notices) {
     add_figures(report, {{"notices", all}});
 }
 
+/// A closed room is black where every surface blocks, however far it is.
+constexpr float kBlack = 0.01f;
+constexpr double kMostlyBlack = 0.5;
+std::vector<std::string> notices_of_black(const AoArguments& a, double share) {
+    if (share < kMostlyBlack || !a.options.tracer.falloff.blocks_everywhere())
+        return {};
+    return {fmt::format(
+        "{:.0f} % of the surface is black, as in a closed room: --falloff 1 lets surfaces block less "
+        "the farther they are",
+        100 * share)};
+}
+
+/// Share of the area of the vertices whose ambient light is black.
+double black_share(std::span<const float> ambient, std::span<const float> areas) {
+    double black = 0, all = 0;
+    for (std::size_t p = 0; p < areas.size(); ++p) {
+        all += static_cast<double>(areas[p]);
+        black += ambient[p] < kBlack ? static_cast<double>(areas[p]) : 0;
+    }
+    return all > 0 ? black / all : 0;
+}
+
 Report bake_vertices(const AoArguments& a, GltfDocument& document, const Scene& scene,
                      const Progress& progress) {
     const OcclusionResult result = ambient_occlusion(scene, a.options, progress);
@@ -119,7 +141,7 @@ Report bake_vertices(const AoArguments& a, GltfDocument& document, const Scene& 
                     "each, on {{device}}",
                     a.attribute == "COLOR_0" ? "COLOR_0, times the colors that are there" : a.attribute),
         s.fit.samples > 0 ? "fitted to the surface between vertices" : "measured at vertices"};
-    add_notices(report, {});
+    add_notices(report, notices_of_black(a, black_share(result.openness.ambient, receiver_areas(scene))));
     return report;
 }
 
@@ -128,7 +150,7 @@ Report bake_textures(const AoArguments& a, GltfDocument& document, const Scene& 
     const Finer finer = load_finer(a.textures, a.reading, scene);
     std::vector<SurfaceTexture> textures;
     Json maps = Json::array();
-    std::size_t lit = 0, measured = 0;
+    std::size_t lit = 0, measured = 0, bright = 0;
     const auto take = [&](const OcclusionMap& map) {
         textures.push_back({.primitives = map.atlas.primitives,
                             .texcoord = map.atlas.uv_set,
@@ -146,10 +168,16 @@ Report bake_textures(const AoArguments& a, GltfDocument& document, const Scene& 
                         {"seam_rms", map.seam}});
         lit += map.measured - map.sealed;
         measured += map.measured;
+        bright += static_cast<std::size_t>(
+            std::ranges::count_if(map.openness.ambient, [](float v) { return v >= kBlack; }));
     };
     OcclusionMapsStatistics result = occlusion_maps(scene, atlases, a.options, take, finer.model(), progress);
     if (const std::size_t replaced = write_surface_textures(document, scene, textures); replaced > 0)
         result.notices.push_back(fmt::format("occlusion textures of {} materials are replaced", replaced));
+    const double open = static_cast<double>(std::min(bright, measured)) /
+                        static_cast<double>(std::max<std::size_t>(measured, 1));
+    for (std::string& notice : notices_of_black(a, 1 - open))
+        result.notices.push_back(std::move(notice));
     Report report;
     add_figures(report, {{"textures", maps.size()},
                          {"texels", measured},

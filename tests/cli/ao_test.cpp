@@ -56,6 +56,27 @@ TEST_F(Occlusion, OfVerticesShadesTheirColors) {
     EXPECT_GT(read_json(folder / "o.json")["mean_ambient"], 0.5);
 }
 
+/// A closed room of four triangles that look inwards is black: the notice names the option that helps.
+TEST_F(Occlusion, OfClosedRoomsIsBlackAndSaysWhatToDo) {
+    GlbFile room = triangle_file();
+    const auto position =
+        room.accessor(std::vector<float>{0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1}, kFloat, "VEC3", 3);
+    room.json["accessors"][position]["min"] = {0, 0, 0};
+    room.json["accessors"][position]["max"] = {1, 1, 1};
+    const auto indices = room.accessor(std::vector<std::uint8_t>{0, 1, 2, 0, 3, 1, 0, 2, 3, 1, 3, 2},
+                                       kUnsignedByte, "SCALAR", 1);
+    room.json["meshes"][0]["primitives"] = {{{"attributes", {{"POSITION", position}}}, {"indices", indices}}};
+    room.write(folder / "room.glb");
+    ASSERT_EQ(ao({}, "room.glb").status, 0);
+    const nlohmann::json black = read_json(folder / "o.json");
+    EXPECT_EQ(black["mean_ambient"], 0);
+    ASSERT_EQ(black["notices"].size(), 1u);
+    EXPECT_NE(black["notices"][0].get<std::string>().find("--falloff"), std::string::npos);
+    ASSERT_EQ(ao({"--falloff", "1"}, "room.glb").status, 0);
+    EXPECT_GT(read_json(folder / "o.json")["mean_ambient"], 0.1);
+    EXPECT_TRUE(read_json(folder / "o.json")["notices"].empty());
+}
+
 TEST_F(Occlusion, HasAttributesOfItsOwn) {
     const Outcome outcome = ao({"--attribute", "_AO", "--bent-normals", "--fit", "vertex"});
     ASSERT_EQ(outcome.status, 0) << outcome.err;

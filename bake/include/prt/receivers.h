@@ -15,7 +15,7 @@ namespace prt {
 struct Receivers {
     std::vector<glm::vec3> positions; ///< metres
     std::vector<glm::vec3> normals;   ///< unit; zero: no surface here, the transfer is zero
-    std::vector<float> areas;         ///< m²; zero: nobody sees it, the transfer is zero
+    std::vector<float> areas;         ///< m²; zero: of triangles without area, the transfer is zero
     /// Where rays start, seen from the position, in units of RayScene::surface_offset; empty: the normals. A
     /// vertex needs more than its normal, which may lean below its faces.
     std::vector<glm::vec3> starts = {};

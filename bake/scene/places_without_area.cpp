@@ -1,0 +1,37 @@
+// Finds what lies at the position of a vertex.
+
+#include "scene/places_without_area.h"
+
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+#include <tuple>
+
+namespace prt {
+
+std::size_t fill_without_area(const Receivers& receivers, std::size_t fronts, Transfer& transfer) {
+    std::vector<std::uint32_t> lit, dark;
+    for (std::uint32_t p = 0; p < fronts; ++p)
+        if (receivers.normals[p] != glm::vec3(0))
+            (receivers.areas[p] > 0 ? lit : dark).push_back(p);
+    if (dark.empty())
+        return 0;
+    const auto position = [&](std::uint32_t p) {
+        const glm::vec3& at = receivers.positions[p];
+        return std::tuple(at.x, at.y, at.z);
+    };
+    std::ranges::stable_sort(lit, {}, position);
+    std::size_t filled = 0;
+    for (const std::uint32_t p : dark) {
+        const auto here = std::ranges::equal_range(lit, position(p), {}, position);
+        if (here.empty())
+            continue;
+        const std::uint32_t nearest = *std::ranges::max_element(
+            here, {}, [&](std::uint32_t q) { return glm::dot(receivers.normals[p], receivers.normals[q]); });
+        std::ranges::copy(transfer.vector(nearest), transfer.vector(p).begin());
+        ++filled;
+    }
+    return filled;
+}
+
+} // namespace prt
