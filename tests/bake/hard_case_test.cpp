@@ -55,6 +55,25 @@ TEST(HardCase, DegenerateDuplicatedAndNeedleTrianglesDoNoHarm) {
         expect_open(t, p);
 }
 
+/// Corners of a triangle without area have the light of the floor at the same place; elsewhere there is none.
+TEST(HardCase, VerticesWithoutAreaTakeTheLightOfTheirPosition) {
+    for (const FitMode fit : {FitMode::vertex, FitMode::surface}) {
+        BakeOptions options;
+        options.order = 3;
+        options.rays = 64;
+        options.fit = fit;
+        Scene scene = SceneBuilder().floor({0, 0, 0}, 1).triangle({-1, 0, -1}, {0, 0, 0}, {1, 0, 1}).build();
+        for (glm::vec3& normal : scene.vertex_arrays[0].normals)
+            normal = {0, 1, 0};
+        const Transfer t = bake(scene, options).baked.transfer;
+        const std::size_t first = t.receivers() - 3;
+        EXPECT_NEAR(t.vector(first)[0], t.vector(0)[0], 1e-5f);
+        EXPECT_GT(t.vector(first)[0], 0.2f);
+        EXPECT_EQ(t.vector(first + 1)[0], 0); // no vertex in the middle of the floor
+        EXPECT_GT(t.vector(first + 2)[0], 0.2f);
+    }
+}
+
 class Magnitude : public testing::TestWithParam<std::pair<float, float>> {};
 INSTANTIATE_TEST_SUITE_P(Scales, Magnitude,
                          testing::Values(std::pair{1e-6f, 0.0f}, std::pair{1e-3f, 0.0f},
