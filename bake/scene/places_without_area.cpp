@@ -23,11 +23,14 @@ std::size_t fill_without_area(const Receivers& receivers, std::size_t fronts, Tr
     std::ranges::stable_sort(lit, {}, position);
     std::size_t filled = 0;
     for (const std::uint32_t p : dark) {
-        const auto here = std::ranges::equal_range(lit, position(p), {}, position);
-        if (here.empty())
+        const auto first = std::ranges::lower_bound(lit, position(p), {}, position),
+                   end = std::ranges::upper_bound(lit, position(p), {}, position);
+        if (first == end)
             continue;
-        const std::uint32_t nearest = *std::ranges::max_element(
-            here, {}, [&](std::uint32_t q) { return glm::dot(receivers.normals[p], receivers.normals[q]); });
+        const auto alike = [&](std::uint32_t q) {
+            return glm::dot(receivers.normals[p], receivers.normals[q]);
+        };
+        const std::uint32_t nearest = *std::ranges::max_element(first, end, {}, alike);
         std::ranges::copy(transfer.vector(nearest), transfer.vector(p).begin());
         ++filled;
     }
