@@ -9,7 +9,6 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <array>
 #include <string>
 #include <utility>
 #include <vector>
@@ -66,11 +65,15 @@ bool colors_apart(const BakePlan& plan, const Transfer& light) {
     return plan.channels == 1 && light.layout.channels() == 3;
 }
 
-/// The sum of what three colors took.
-void add_color(const Propagated& one, Propagated& all) {
-    all.bounces = std::max(all.bounces, one.bounces);
-    all.remaining = std::max(all.remaining, one.remaining);
-    all.converged = all.converged && one.converged;
+/// One result of those of three colors.
+Propagated in_color(const Propagated& red, const Propagated& green, const Propagated& blue) {
+    Propagated all{.transfer = in_color(red.transfer, green.transfer, blue.transfer)};
+    for (const Propagated* one : {&red, &green, &blue}) {
+        all.bounces = std::max(all.bounces, one->bounces);
+        all.remaining = std::max(all.remaining, one->remaining);
+        all.converged = all.converged && one->converged;
+    }
+    return all;
 }
 
 /// One channel of light at samples.
@@ -83,11 +86,14 @@ SampledLight one_channel(const SampledLight& light, std::size_t channels, std::s
                         all.begin() + static_cast<std::ptrdiff_t>(begin + stride / channels));
         return part;
     };
-    return {light.stride / channels, light.tests / channels, slice(light.sums, light.stride),
-            slice(light.values, light.tests)};
+    return {.stride = light.stride / channels,
+            .tests = light.tests / channels,
+            .sums = slice(light.sums, light.stride),
+            .sharp = {},
+            .values = slice(light.values, light.tests)};
 }
 
-/// Sharp light of lamps, of one channel or of as many as bounces have.
+/// Sharp light of lamps. It has one channel, or as many channels as the bounces.
 SharpTransfer sharp_lamps(const BakePlan& plan, Transfer smooth, const SampledLight& sampled,
                           const TransportOperators& operators, const Progress& progress) {
     const int channels = smooth.layout.channels();
@@ -99,25 +105,22 @@ SharpTransfer sharp_lamps(const BakePlan& plan, Transfer smooth, const SampledLi
 
 SharpTransfer sharp_lamps_in_color(const BakePlan& plan, const Transfer& smooth, const SampledLight& sampled,
                                    const TransportOperators& operators, const Progress& progress) {
-    SharpTransfer all;
-    std::array<SharpTransfer, 3> colors;
-    for (std::size_t c = 0; c < 3; ++c) {
-        colors[c] = sharp_lamps(plan, one_channel(smooth, static_cast<int>(c)), one_channel(sampled, 3, c),
-                                operators, progress);
-        add_color(colors[c].exit, all.exit);
-    }
-    all.direct = in_color(colors[0].direct, colors[1].direct, colors[2].direct);
-    all.exit.transfer = in_color(colors[0].exit.transfer, colors[1].exit.transfer, colors[2].exit.transfer);
-    return all;
+    const auto color = [&](int c) {
+        return sharp_lamps(plan, one_channel(smooth, c), one_channel(sampled, 3, static_cast<std::size_t>(c)),
+                           operators, progress);
+    };
+    const SharpTransfer red = color(0), green = color(1), blue = color(2);
+    return {in_color(red.direct, green.direct, blue.direct), in_color(red.exit, green.exit, blue.exit)};
 }
 
-/// Incident light without a bounce, and exit light after all.
+/// Exit light after all bounces, and incident light without a bounce where it will be subtracted.
 SharpTransfer lit_by_lamps(const BakePlan& plan, MeasuredLamps lamps, const TransportOperators& operators,
                            const Progress& progress) {
     Transfer& light = lamps.light.transfer;
     SharpTransfer lit;
     if (!operators.fit) {
-        lit.direct = light;
+        if (plan.options.lamps.mode == LampMode::indirect)
+            lit.direct = light;
         lit.exit = propagate_lamps_on_both_sides(plan, std::move(light), operators, plan.bounces, progress);
     } else {
         lit = colors_apart(plan, light)
@@ -142,7 +145,7 @@ Propagated propagate_all(const BakePlan& plan, Transfer direct, const SampledLig
         const TestValues of_direct = TestValues::of_sky(plan.options.order, 1),
                          of_rest = TestValues::of_sky(plan.options.order, plan.channels);
         SharpTransfer sharp =
-            propagate_sharply(wide(std::move(direct)), {sampled, *operators.fit->sky, of_direct, of_rest},
+            propagate_sharply(wide(std::move(direct)), {sampled, operators.fit->sky, of_direct, of_rest},
                               operators, plan.bounces, plan.options.threads, progress);
         direct = std::move(sharp.direct);
         exit = std::move(sharp.exit);
@@ -168,13 +171,11 @@ Propagated propagate_lamps_on_both_sides(const BakePlan& plan, Transfer light,
     const int threads = plan.options.threads;
     Propagated all;
     if (colors_apart(plan, light)) {
-        Transfer colors[3];
-        for (int c = 0; c < 3; ++c) {
-            Propagated one = propagate(one_channel(light, c), operators, bounces, threads, progress);
-            colors[c] = std::move(one.transfer);
-            add_color(one, all);
-        }
-        all.transfer = in_color(colors[0], colors[1], colors[2]);
+        const auto color = [&](int c) {
+            return propagate(one_channel(light, c), operators, bounces, threads, progress);
+        };
+        const Propagated red = color(0), green = color(1), blue = color(2);
+        all = in_color(red, green, blue);
     } else {
         all = propagate(std::move(light), operators, bounces, threads, progress);
     }

@@ -82,8 +82,11 @@ MeasuredLamps measure_lamps(const BakePlan& plan, Tracer& tracer, const std::opt
     const std::size_t stride = at_samples.transfer.dimension();
     const TestValues tests = TestValues::of_lamps(plan.lamps.size(), task.channels,
                                                   stride / static_cast<std::size_t>(task.channels));
-    lamps.sampled = {stride, tests.count(), std::vector<float>(fit->equations.unknowns * stride),
-                     std::vector<float>(fit->samples.size() * tests.count())};
+    lamps.sampled = {.stride = stride,
+                     .tests = tests.count(),
+                     .sums = std::vector<float>(fit->equations.unknowns * stride),
+                     .sharp = {},
+                     .values = std::vector<float>(fit->samples.size() * tests.count())};
     add_samples(fit->equations, 0, std::span<const float>(at_samples.transfer.vectors), stride,
                 std::span(lamps.sampled.sums));
     for (std::size_t s = 0; s < fit->samples.size(); ++s)

@@ -9,19 +9,18 @@
 
 namespace prt {
 
-std::size_t fill_without_area(const Receivers& receivers, std::size_t fronts, Transfer& transfer) {
+void fill_without_area(const Receivers& receivers, std::size_t fronts, Transfer& transfer) {
     std::vector<std::uint32_t> lit, dark;
     for (std::uint32_t p = 0; p < fronts; ++p)
         if (receivers.normals[p] != glm::vec3(0))
             (receivers.areas[p] > 0 ? lit : dark).push_back(p);
     if (dark.empty())
-        return 0;
+        return;
     const auto position = [&](std::uint32_t p) {
         const glm::vec3& at = receivers.positions[p];
         return std::tuple(at.x, at.y, at.z);
     };
     std::ranges::stable_sort(lit, {}, position);
-    std::size_t filled = 0;
     for (const std::uint32_t p : dark) {
         const auto first = std::ranges::lower_bound(lit, position(p), {}, position),
                    end = std::ranges::upper_bound(lit, position(p), {}, position);
@@ -32,9 +31,7 @@ std::size_t fill_without_area(const Receivers& receivers, std::size_t fronts, Tr
         };
         const std::uint32_t nearest = *std::ranges::max_element(first, end, {}, alike);
         std::ranges::copy(transfer.vector(nearest), transfer.vector(p).begin());
-        ++filled;
     }
-    return filled;
 }
 
 } // namespace prt

@@ -10,7 +10,7 @@
 namespace prt {
 
 /// Copies to each of the first `fronts` receivers that has a normal and no area the transfer of the receiver
-/// with an area at its position whose normal is nearest. Others stay dark. Returns how many took light.
-std::size_t fill_without_area(const Receivers& receivers, std::size_t fronts, Transfer& transfer);
+/// with an area at its position whose normal is nearest. Others stay dark.
+void fill_without_area(const Receivers& receivers, std::size_t fronts, Transfer& transfer);
 
 } // namespace prt

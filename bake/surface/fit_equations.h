@@ -39,16 +39,17 @@ SumRow sum_row(const FitRow& row);
 /// How much weight the samples have in all that are added to each of b: [unknowns].
 std::vector<float> unknown_weights(const FitEquations& equations);
 
-/// Adds a_s φ_i(s) T_s to b [unknowns][stride], for T of the samples from `first` on, [some][stride].
+/// Adds a_s φ_i(s) T_s times `sign` to b [unknowns][stride], for T of the samples from `first` on,
+/// [some][stride].
 template <class Value>
 void add_samples(const FitEquations& equations, std::size_t first, std::span<const Value> samples,
-                 std::size_t stride, std::span<Value> b) {
+                 std::size_t stride, std::span<Value> b, float sign = 1) {
     for (std::size_t s = 0; s * stride < samples.size(); ++s) {
         const FitRow& row = equations.rows[first + s];
         for (std::size_t i = 0; i < 3; ++i) {
             if (row.unknowns[i] == kNoReceiver)
                 continue;
-            const auto weight = static_cast<Value>(row.area * row.shares[i]);
+            const auto weight = static_cast<Value>(sign * row.area * row.shares[i]);
             Value* const to = &b[row.unknowns[i] * stride];
             for (std::size_t c = 0; c < stride; ++c)
                 to[c] += weight * samples[s * stride + c];

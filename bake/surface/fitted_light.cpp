@@ -21,8 +21,8 @@
 namespace prt {
 namespace {
 
-/// What samples give: sums of the equations, and with a random sign for each group of samples that share the
-/// net of a receiver.
+/// Light at samples: summed for the equations, plainly and with a random sign for each group of samples that
+/// share the rays of one receiver; and by its test values.
 struct SampleSums {
     std::vector<float> b, signed_b; ///< [unknowns][order²]
     std::vector<float> values;      ///< [samples][tests]
@@ -31,16 +31,6 @@ struct SampleSums {
 
 float sign_of_group(std::size_t group, std::uint64_t seed) {
     return receiver_seed(static_cast<std::uint32_t>(group), seed + 6 * kSecondScramble) & 1 ? 1.0f : -1.0f;
-}
-
-/// Adds the vector of a sample times `sign`.
-void add_signed(const FitEquations& equations, std::size_t sample, float sign, std::span<const float> vector,
-                std::span<float> b) {
-    const FitRow& row = equations.rows[sample];
-    for (std::size_t i = 0; i < 3; ++i)
-        if (row.unknowns[i] != kNoReceiver)
-            for (std::size_t c = 0; c < vector.size(); ++c)
-                b[row.unknowns[i] * vector.size() + c] += sign * row.area * row.shares[i] * vector[c];
 }
 
 class SampleTracer {
@@ -141,8 +131,8 @@ private:
                 tracer_, layer, indices, options,
                 [&](std::uint32_t g, std::span<const float> vector) {
                     add_samples(equations_, sample(g), vector, stride_, std::span(sums.b));
-                    add_signed(equations_, sample(g), sign_of_group(g, plan_.options.seed), vector,
-                               sums.signed_b);
+                    add_samples(equations_, sample(g), vector, stride_, std::span(sums.signed_b),
+                                sign_of_group(g, plan_.options.seed));
                     note(g, vector);
                 },
                 progress, sink);
@@ -182,7 +172,7 @@ SealedIn sealed_receivers(const BakePlan& plan, const FitEquations& equations, c
     return result;
 }
 
-/// Samples that are sealed in tell nothing.
+/// Excludes samples that are sealed in.
 void leave_out(const Sealed& sealed, FitEquations& equations) {
     for (std::size_t s = 0; s < equations.rows.size(); ++s)
         if (sealed.receivers[s])
@@ -199,22 +189,30 @@ std::vector<float> joined_sums(const FitEquations& from, const FitEquations& to,
     return joined;
 }
 
-/// What groups with random signs leave over at `x`, in the place of b.
-std::vector<float> signed_rest(const BakePlan& plan, const SurfaceSamples& samples,
-                               const FitEquations& equations, std::span<const float> x,
-                               std::vector<float> signed_b) {
+/// Residuals of the samples at `x`, summed like `signed_b`: with the random sign of each group.
+std::vector<float> signed_residuals(const BakePlan& plan, const SurfaceSamples& samples,
+                                    const FitEquations& equations, std::span<const float> x,
+                                    std::vector<float> signed_b) {
     const auto stride = static_cast<std::size_t>(coefficient_count(plan.options.order));
-    std::vector<float> here(stride);
+    std::vector<float> fitted(stride);
     for (std::size_t s = 0; s < samples.size(); ++s) {
         const FitRow& row = equations.rows[s];
-        std::fill(here.begin(), here.end(), 0.0f);
+        std::fill(fitted.begin(), fitted.end(), 0.0f);
         for (std::size_t i = 0; i < 3; ++i)
             if (row.unknowns[i] != kNoReceiver)
                 for (std::size_t c = 0; c < stride; ++c)
-                    here[c] -= row.shares[i] * x[row.unknowns[i] * stride + c];
-        add_signed(equations, s, sign_of_group(s / samples.layers, plan.options.seed), here, signed_b);
+                    fitted[c] += row.shares[i] * x[row.unknowns[i] * stride + c];
+        add_samples(equations, s, std::span<const float>(fitted), stride, std::span(signed_b),
+                    -sign_of_group(s / samples.layers, plan.options.seed));
     }
     return signed_b;
+}
+
+/// Transfer of all receivers from values of unknowns.
+Transfer of_receivers(const BakePlan& plan, const FitEquations& equations, std::span<const float> x) {
+    Transfer transfer = zero_transfer(plan.options.order, 1, plan.receivers().size());
+    spread_unknowns(equations, x, transfer.dimension(), std::span(transfer.vectors));
+    return transfer;
 }
 
 /// Relative L2 of `noise` in `light`, both of receivers.
@@ -227,27 +225,35 @@ double relative_noise(const Receivers& receivers, const Transfer& light, const T
     return norm > 0 ? std::sqrt(error / norm) : 0;
 }
 
-/// The operator for distant light, whose bends are paid for as their noise asks for, and the noise that is
-/// left in its values.
-FitSolver sky_solver(const BakePlan& plan, const SurfaceFit& fit, const SampleSums& sums,
-                     DirectLight& direct) {
+/// Distant light at the samples, and the solver for it.
+struct FittedSky {
+    FitSolver solver;
+    SampledLight light;
+    double noise; ///< relative L2 in the sharp values
+};
+
+/// Solves for distant light with the bend weights that its noise asks for.
+FittedSky fit_sky(const BakePlan& plan, const SurfaceSamples& samples, const FitEquations& equations,
+                  SampleSums sums) {
     const int threads = plan.options.threads;
-    const FitEquations& equations = fit.equations;
     const auto stride = static_cast<std::size_t>(coefficient_count(plan.options.order));
     FitSolver solver(equations, std::vector<float>(equations.bends.size(), kFirstBendWeight));
     std::vector<float> first = sums.b;
     solver.solve(first, stride, threads);
-    std::vector<float> rest = signed_rest(plan, fit.samples, equations, first, sums.signed_b), noise = rest;
+    std::vector<float> residuals =
+                           signed_residuals(plan, samples, equations, first, std::move(sums.signed_b)),
+                       noise = residuals;
     solver.solve(noise, stride, threads);
     solver.factor(equations, bend_weights(equations, first, noise, stride));
-    const auto of_receivers = [&](std::vector<float> b) {
-        solver.solve(b, stride, threads);
-        Transfer transfer = zero_transfer(plan.options.order, 1, plan.receivers().size());
-        spread_unknowns(equations, std::span<const float>(b), stride, std::span(transfer.vectors));
-        return transfer;
-    };
-    direct.sampling_error = relative_noise(plan.receivers(), of_receivers(sums.b), of_receivers(rest));
-    return solver;
+    std::vector<float> sharp = sums.b;
+    solver.solve(sharp, stride, threads);
+    solver.solve(residuals, stride, threads);
+    const double relative = relative_noise(plan.receivers(), of_receivers(plan, equations, sharp),
+                                           of_receivers(plan, equations, residuals));
+    const std::size_t tests = sums.values.size() / std::max<std::size_t>(samples.size(), 1);
+    return {std::move(solver),
+            {stride, tests, std::move(sums.b), std::move(sharp), std::move(sums.values)},
+            relative};
 }
 
 } // namespace
@@ -281,31 +287,21 @@ FittedLight trace_fitted(const BakePlan& plan, Tracer& tracer, int samples_each,
     sums.b = joined_sums(alone, equations, stride, sums.b);
     sums.signed_b = joined_sums(alone, equations, stride, sums.signed_b);
 
-    const auto plain = [](const FitEquations& e) {
-        return FitSolver(e, std::vector<float>(e.bends.size(), kPlainBendWeight));
-    };
-    const std::size_t samples_count = samples.size();
-    SurfaceFit fit{.samples = std::move(samples),
-                   .equations = std::move(equations),
-                   .weights = {},
-                   .sky = {},
-                   .lamps = {}};
-    fit.weights = unknown_weights(fit.equations);
-    fit.sky.emplace(sky_solver(plan, fit, sums, direct));
-    if (!plan.lamps.empty())
-        fit.lamps.emplace(plain(fit.equations)); // their light bends elsewhere
-    direct.mean_rays = plan.options.rays;
-    direct.transfer = zero_transfer(plan.options.order, 1, plan.receivers().size());
-    std::vector<float> smooth = sums.b;
+    FittedSky sky = fit_sky(plan, samples, equations, std::move(sums));
+    std::optional<FitSolver> lamps;
+    if (!plan.lamps.empty()) // their light bends elsewhere
+        lamps.emplace(equations, std::vector<float>(equations.bends.size(), kPlainBendWeight));
+    std::vector<float> weights = unknown_weights(equations);
+    SurfaceFit fit{std::move(samples), std::move(equations), std::move(weights), std::move(sky.solver),
+                   std::move(lamps)};
+    std::vector<float> smooth = sky.light.sums;
     fit.smooth(std::span(smooth), stride);
-    spread_unknowns(fit.equations, std::span<const float>(smooth), stride,
-                    std::span(direct.transfer.vectors));
+    direct.transfer = of_receivers(plan, fit.equations, smooth);
+    direct.mean_rays = plan.options.rays;
     direct.mean_visibility = mean_visibility(direct.transfer, plan.areas());
+    direct.sampling_error = sky.noise;
     progress.update(1);
-    return {std::move(direct),
-            {stride, sums.values.size() / samples_count, std::move(sums.b), std::move(sums.values)},
-            std::move(fit),
-            std::move(inside)};
+    return {std::move(direct), std::move(sky.light), std::move(fit), std::move(inside)};
 }
 
 } // namespace prt

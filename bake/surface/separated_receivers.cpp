@@ -14,12 +14,12 @@ struct Member {
     float low, high; ///< of a test value
 };
 
-/// Differences that are no noise.
+/// Finds steps of a test value that noise does not explain.
 class Step {
 public:
     explicit Step(int rays) : rays_(static_cast<float>(rays)) {}
 
-    /// How many of `members`, sorted by value, are below the largest step between them; 0: there is none.
+    /// Number of `members` below the largest step. `members` are sorted by value. 0: no step.
     std::size_t find(std::span<const Member> members) const {
         std::size_t best = 0;
         float widest = 0, high = members[0].high;
@@ -55,7 +55,7 @@ private:
     float rays_;
 };
 
-/// Receivers at one place, split by steps of any test value until there is none.
+/// Splits the receivers at one place until no test value has a step between them.
 class Separation {
 public:
     Separation(const ValueRanges& ranges, std::size_t tests, const FitEquations& equations, int rays)
@@ -86,7 +86,7 @@ public:
     }
 
 private:
-    /// Those of which samples tell, by value.
+    /// Receivers that have samples, sorted by value.
     std::vector<Member> members_of(std::span<const std::uint32_t> place, std::size_t test) const {
         std::vector<Member> members;
         for (const std::uint32_t p : place) {

@@ -16,9 +16,12 @@ void add_to_channels(std::span<const float> few, std::size_t few_stride, std::sp
 } // namespace
 
 SharpFit::Values SharpFit::values_of(const SampledLight& light) const {
-    Values values{light.sums, light.sums};
+    Values values{light.sums, light.sharp};
     fit_.smooth(std::span(values.smooth), light.stride);
-    solver_.solve(values.sharp, light.stride, threads_);
+    if (light.sharp.empty()) {
+        values.sharp = light.sums;
+        solver_.solve(values.sharp, light.stride, threads_);
+    }
     return values;
 }
 

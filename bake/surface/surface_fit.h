@@ -15,7 +15,7 @@ struct SurfaceFit {
     SurfaceSamples samples;
     FitEquations equations;
     std::vector<float> weights;     ///< [unknowns] of all samples
-    std::optional<FitSolver> sky;   ///< of distant light
+    FitSolver sky;                  ///< of distant light
     std::optional<FitSolver> lamps; ///< where there are lamps
 
     /// Smooth values [unknowns][stride] from sums over samples.
@@ -34,8 +34,8 @@ struct SharpLight {
     std::vector<float> direct, rest;
 };
 
-/// Sharp values as far as the values of both, and of their sum, stay within those of the samples. `rest` may
-/// be null; it has one channel, or as many as it likes beside one of `direct`.
+/// Sharp values, limited so that direct light, the rest and their sum stay within the values of the samples.
+/// `rest` may be null; its channels are those of `direct`, or any number where `direct` has one.
 class SharpFit {
 public:
     SharpFit(const SurfaceFit& fit, const FitSolver& solver, int threads)

@@ -49,6 +49,7 @@ struct SampledLight {
     std::size_t stride = 0;    ///< numbers of a vector
     std::size_t tests = 0;     ///< test values of a sample
     std::vector<float> sums;   ///< [unknowns][stride] Σ_s a_s φ_i(s) T(s)
+    std::vector<float> sharp;  ///< [unknowns][stride] the solution for `sums`; empty: not solved yet
     std::vector<float> values; ///< [samples][tests]
 };
 

@@ -76,7 +76,7 @@ bool incident_from_device(const TransportOperators& operators, std::size_t strid
     return true;
 }
 
-/// Makes exit transfer what rows gather from.
+/// Prepares exit transfer for `gather_rows`.
 void load_exit(const TransportOperators& operators, int order, std::span<float> exit, int threads) {
     if (operators.product)
         operators.product->load(order, exit);
@@ -89,7 +89,7 @@ struct GatheredRows {
     std::span<float> to; ///< [rows][stride]
 };
 
-/// What rows gather from loaded exit transfer.
+/// Gathers loaded exit transfer into rows.
 void gather_rows(const TransportOperators& operators, int order, std::span<const float> exit,
                  const GatheredRows& rows, int threads) {
     if (operators.product)
@@ -210,14 +210,17 @@ Propagated bounce_endlessly(Transfer transfer, const TransportOperators& operato
     return result;
 }
 
-/// What `exit` transfer gives samples by one more bounce.
+/// Gathers `exit` transfer at the samples: one more bounce.
 SampledLight bounce_to_samples(Transfer exit, const TransportOperators& operators, const TestValues& tests,
                                int threads) {
     const SurfaceFit& fit = *operators.fit;
     const int order = exit.layout.order;
     const std::size_t stride = exit.dimension(), count = tests.count();
-    SampledLight light{stride, count, std::vector<float>(fit.equations.unknowns * stride),
-                       std::vector<float>(fit.samples.size() * count)};
+    SampledLight light{.stride = stride,
+                       .tests = count,
+                       .sums = std::vector<float>(fit.equations.unknowns * stride),
+                       .sharp = {},
+                       .values = std::vector<float>(fit.samples.size() * count)};
     load_exit(operators, order, exit.vectors, threads);
     in_blocks<float>(operators.gather->rows(), stride, [&](std::size_t first, std::span<float> block) {
         gather_rows(operators, order, exit.vectors, {first, block}, threads);

@@ -32,7 +32,7 @@ struct Propagated {
     /// transfer, over that of the sum. For endless ones the estimated error of the solution, over its largest
     /// element.
     double remaining = 0;
-    double last = 0;       ///< energy of the last bounce; of direct light where none was done
+    double last = 0;       ///< energy of the last bounce; 0 where none was done alone
     bool converged = true; ///< endless bounces reached the solver's tolerance
 };
 

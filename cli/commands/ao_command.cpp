@@ -104,12 +104,10 @@ std::vector<std::string> notices_of_black(const AoArguments& a, double share) {
 
 /// Share of the area of the vertices whose ambient light is black.
 double black_share(std::span<const float> ambient, std::span<const float> areas) {
-    double black = 0, all = 0;
-    for (std::size_t p = 0; p < areas.size(); ++p) {
-        all += static_cast<double>(areas[p]);
-        black += ambient[p] < kBlack ? static_cast<double>(areas[p]) : 0;
-    }
-    return all > 0 ? black / all : 0;
+    std::vector<float> black;
+    for (const float v : ambient)
+        black.push_back(v < kBlack ? 1.0f : 0.0f);
+    return mean_of(black, areas);
 }
 
 Report bake_vertices(const AoArguments& a, GltfDocument& document, const Scene& scene,
@@ -127,6 +125,7 @@ Report bake_vertices(const AoArguments& a, GltfDocument& document, const Scene& 
             bent.values.insert(bent.values.end(), {n.x, n.y, n.z});
     }
     write_vertex_attributes(document, scene, attributes);
+    const std::vector<float> areas = receiver_areas(scene);
     Report report;
     add_figures(report, {{"receivers", s.receivers.all},
                          {"receivers_sealed", s.receivers.sealed},
@@ -135,13 +134,13 @@ Report bake_vertices(const AoArguments& a, GltfDocument& document, const Scene& 
                          {"device", s.device},
                          {"fit", s.fit.samples > 0 ? "surface" : "vertex"},
                          {"sampling_error_relative_l2", s.sampling_error},
-                         {"mean_ambient", mean_of(result.openness.ambient, receiver_areas(scene))}});
+                         {"mean_ambient", mean_of(result.openness.ambient, areas)}});
     report.sentences = {
         fmt::format("{{output}}: occlusion of {{receivers}} vertices in {}, {{rays_per_receiver}} rays "
                     "each, on {{device}}",
                     a.attribute == "COLOR_0" ? "COLOR_0, times the colors that are there" : a.attribute),
         s.fit.samples > 0 ? "fitted to the surface between vertices" : "measured at vertices"};
-    add_notices(report, notices_of_black(a, black_share(result.openness.ambient, receiver_areas(scene))));
+    add_notices(report, notices_of_black(a, black_share(result.openness.ambient, areas)));
     return report;
 }
 

@@ -55,7 +55,8 @@ TEST(HardCase, DegenerateDuplicatedAndNeedleTrianglesDoNoHarm) {
         expect_open(t, p);
 }
 
-/// Corners of a triangle without area have the light of the floor at the same place; elsewhere there is none.
+/// A triangle without area lies on a floor. Two of its corners lie at corners of the floor and take their
+/// light; the third lies at no other vertex and stays black.
 TEST(HardCase, VerticesWithoutAreaTakeTheLightOfTheirPosition) {
     for (const FitMode fit : {FitMode::vertex, FitMode::surface}) {
         BakeOptions options;

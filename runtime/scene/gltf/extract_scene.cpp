@@ -247,8 +247,7 @@ private:
                             material_index(file.material),
                             false,
                             {},
-                            node.name.empty() ? "node " + std::to_string(transform.node)
-                                              : printable(node.name)};
+                            name_of(model_, transform.node)};
         // Flat normals depend on the triangles, so such a primitive shares its vertices with none.
         const int alone = attribute(file, "NORMAL") < 0 ? index : -1;
         const auto [vertices_of, is_new] =

@@ -2,6 +2,7 @@
 #include "gltf/node_transforms.h"
 
 #include "prt/support/error.h"
+#include "prt/support/printable.h"
 
 #include <glm/gtc/matrix_transform.hpp>
 #include <glm/gtc/type_ptr.hpp>
@@ -104,6 +105,11 @@ std::vector<NodeTransform> world_transforms(const tinygltf::Model& model) {
         result.push_back({place.node, world[node], visible[node]});
     }
     return result;
+}
+
+std::string name_of(const tinygltf::Model& model, int node) {
+    const std::string& name = model.nodes[static_cast<std::size_t>(node)].name;
+    return name.empty() ? "node " + std::to_string(node) : printable(name);
 }
 
 } // namespace prt

@@ -6,6 +6,7 @@
 
 #include <optional>
 #include <span>
+#include <string>
 #include <vector>
 
 namespace prt {
@@ -47,5 +48,8 @@ struct NodeTransform {
 
 /// World transforms of the nodes of `node_tree`, in its order.
 std::vector<NodeTransform> world_transforms(const tinygltf::Model& model);
+
+/// The printable name of a node; "node N" where it has none.
+std::string name_of(const tinygltf::Model& model, int node);
 
 } // namespace prt

@@ -5,7 +5,6 @@
 #include "gltf/accessor.h"
 #include "gltf/node_transforms.h"
 #include "gltf/transfer_json.h"
-#include "prt/support/printable.h"
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
@@ -218,11 +217,6 @@ Scene part_of(const Scene& scene, const Triangles& triangles) {
             material.transmission.factor > 0)
             part.images = scene.images;
     return part;
-}
-
-std::string name_of(const tinygltf::Model& model, int node) {
-    const std::string& name = model.nodes[static_cast<std::size_t>(node)].name;
-    return name.empty() ? "node " + std::to_string(node) : printable(name);
 }
 
 } // namespace

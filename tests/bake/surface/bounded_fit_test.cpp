@@ -49,27 +49,34 @@ BakeOptions options_of(int bounces, FitMode fit, int rays = 128) {
     return options;
 }
 
+/// Random points in the cube -1..1.
+class RandomPoints {
+public:
+    explicit RandomPoints(unsigned seed) : random_(seed) {}
+    glm::vec3 operator()() { return {unit_(random_), unit_(random_), unit_(random_)}; }
+
+private:
+    std::mt19937 random_;
+    std::uniform_real_distribution<float> unit_{-1, 1};
+};
+
 /// White two-sided triangles, long and thin, in a heap.
 Scene needles(int count) {
-    std::mt19937 random(7);
-    std::uniform_real_distribution<float> unit(-1, 1);
-    const auto anywhere = [&] { return glm::vec3(unit(random), unit(random), unit(random)); };
+    RandomPoints point(7);
     SceneBuilder builder;
     for (int i = 0; i < count; ++i) {
-        const glm::vec3 middle = anywhere(), along = glm::normalize(anywhere());
-        builder.triangle(middle - along, middle + along, middle + 0.01f * anywhere());
+        const glm::vec3 middle = point(), along = glm::normalize(point());
+        builder.triangle(middle - along, middle + along, middle + 0.01f * point());
     }
     return test::painted(builder.build(), glm::vec3(1), true);
 }
 
 /// White two-sided sheets that cross each other.
 Scene sheets(int count) {
-    std::mt19937 random(3);
-    std::uniform_real_distribution<float> unit(-1, 1);
-    const auto anywhere = [&] { return glm::vec3(unit(random), unit(random), unit(random)); };
+    RandomPoints point(3);
     SceneBuilder builder;
     for (int i = 0; i < count; ++i) {
-        const glm::vec3 a = anywhere(), b = 0.6f * anywhere(), d = 0.6f * anywhere();
+        const glm::vec3 a = point(), b = 0.6f * point(), d = 0.6f * point();
         builder.quad(a, a + b, a + b + d, a + d);
     }
     return test::painted(builder.build(), glm::vec3(1), true);
