@@ -4,6 +4,7 @@
 
 #include "prt/support/error.h"
 #include "scene/material_notices.h"
+#include "scene/small_objects.h"
 
 #include <fmt/core.h>
 
@@ -102,6 +103,8 @@ std::vector<std::string> scene_notices(const TraceScene& scene, const BakeOption
                 "image {} is missing or damaged: the factors of its materials are used alone", image));
     for (std::string& notice : material_notices(scene.scene(), options.bounces != 0))
         notices.push_back(std::move(notice));
+    if (auto notice = small_object_notice(scene.scene()))
+        notices.push_back(std::move(*notice));
     return notices;
 }
 

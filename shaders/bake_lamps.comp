@@ -136,7 +136,7 @@ vec3 irradiance_along(LampReceiver receiver, ShiningTriangle t, SeenTriangle see
     if (cosine > 0.0) {
         // The ray ends on the side that is seen, not on the triangle itself.
         vec3 outward = normalize(seen.volume > 0.0 ? -seen.normal : seen.normal);
-        vec3 way = point.place + t.offset * outward;
+        vec3 way = point.place + (t.offset + PRT_LENGTH_OFFSET * length(point.place)) * outward;
         float distance = length(way);
         float share = passing(receiver.origin.xyz, way / distance, distance) * cosine * point.angle / seen.angle;
         if (kAlpha)

@@ -11,6 +11,10 @@
 #define PRT_FUNCTION
 #endif
 
+// How far rays keep off a surface: this times the lengths of the triangle and of the ray that ends there
+// (docs/math.md, section 2): 16 roundings of a float.
+#define PRT_LENGTH_OFFSET 9.5367431640625e-7f
+
 // Storage buffers.
 #define PRT_BINDING_NODES 1
 #define PRT_BINDING_CORNERS 2

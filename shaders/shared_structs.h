@@ -76,7 +76,7 @@ struct ShiningTriangle {
     vec3 a;          // corners
     float luminance; // mean
     vec3 b;
-    float offset; // that takes a ray's end off it, metres
+    float offset; // that takes the end of a short ray off it, metres; a ray of length d needs PRT_LENGTH_OFFSET d more
     vec3 c;
     uint two_sided;
     vec3 radiance;    // times the texel

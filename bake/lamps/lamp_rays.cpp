@@ -140,7 +140,8 @@ ShiningTriangles::Sample ShiningTriangles::sample(const LampReceiver& receiver, 
         return {};
     // The ray ends on the side that is seen, not on the triangle itself.
     const glm::dvec3 outward = glm::normalize(seen.volume > 0 ? -seen.normal : seen.normal);
-    const auto off = static_cast<double>(scene_.rays().triangle_offset(t.triangle));
+    const auto off = static_cast<double>(
+        scene_.rays().triangle_offset(t.triangle, static_cast<float>(glm::length(point.place))));
     const glm::vec3 way(point.place + off * outward);
     const float open = transmittance(scene_.rays(), scene_.surfaces(), receiver.origin, way, 1);
     if (open <= 0)

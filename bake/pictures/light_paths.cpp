@@ -49,8 +49,7 @@ std::optional<SurfaceHit> LightPaths::nearest(const Ray& ray) const {
     if (!met)
         return std::nullopt;
     const SurfacePoint point{met->triangle, met->uv, 0};
-    const MetSurface surface = met_surface(scene.scene(), scene.rays(), point,
-                                           ray.origin + ray.direction * met->distance, ray.direction);
+    const MetSurface surface = met_surface(scene.scene(), scene.rays(), point, ray.direction);
     return SurfaceHit{met->distance, point, surface.side,
                       !surface.back || scene.surfaces().two_sided(met->triangle), surface.back};
 }

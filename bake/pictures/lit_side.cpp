@@ -7,7 +7,7 @@
 namespace prt {
 
 MetSurface met_surface(const Scene& scene, const RayScene& rays, const SurfacePoint& point,
-                       const glm::vec3& position, const glm::vec3& along) {
+                       const glm::vec3& along) {
     const RayScene::Triangle triangle = rays.triangle(point.triangle);
     const Primitive& primitive = scene.primitives[triangle.primitive];
     const VertexArray& vertices = scene.vertex_arrays[primitive.vertices];
@@ -16,7 +16,10 @@ MetSurface met_surface(const Scene& scene, const RayScene& rays, const SurfacePo
                                       vertices.positions[t.z] - vertices.positions[t.x]);
     const glm::vec3 normal = interpolated(vertices.normals, t, point.uv);
     const bool back = glm::dot(face, along) > 0;
-    LitSide side{position, glm::normalize(back ? -face : face), {}, rays.triangle_offset(point.triangle)};
+    LitSide side{interpolated(vertices.positions, t, point.uv),
+                 glm::normalize(back ? -face : face),
+                 {},
+                 rays.triangle_offset(point.triangle)};
     const float length = glm::length(normal);
     side.normal = length > 0 ? (back ? -normal : normal) / length : side.face;
     return {side, back};

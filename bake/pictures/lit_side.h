@@ -25,14 +25,15 @@ struct LitSide {
     glm::vec3 origin() const { return position + face * offset; }
 };
 
-/// A point of a triangle as a ray has met it.
+/// A point of a triangle as a ray has met it: from its barycentric coordinates, as the length of a ray rounds
+/// more.
 struct MetSurface {
     LitSide side; ///< that the ray came from
     bool back;    ///< of the triangle
 };
 
 MetSurface met_surface(const Scene& scene, const RayScene& rays, const SurfacePoint& point,
-                       const glm::vec3& position, const glm::vec3& along);
+                       const glm::vec3& along);
 
 /// What a camera sees of a surface, which need not be what light sees of it: all of its base color, as
 /// renderers multiply by it. Not `textured`: over that, so that it belongs to exit radiance for albedo 1.

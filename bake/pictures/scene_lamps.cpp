@@ -146,7 +146,8 @@ SceneLamps::Sample SceneLamps::sample_surface(const glm::vec3& place, const glm:
         return sample;
     const double cosine = -glm::dot(face, to) / distance;
     sample.towards = glm::vec3(to / distance);
-    const auto off = static_cast<double>(scene_.rays().triangle_offset(found->triangle));
+    const auto off =
+        static_cast<double>(scene_.rays().triangle_offset(found->triangle, static_cast<float>(distance)));
     sample.way = glm::vec3(to + std::copysign(off, cosine) * face); // the side that is seen, not the triangle
     sample.density =
         density(found->triangle, static_cast<float>(distance), static_cast<float>(std::abs(cosine)));

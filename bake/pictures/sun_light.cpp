@@ -2,7 +2,6 @@
 
 #include "pictures/sun_light.h"
 
-#include "scene/interpolated.h"
 #include "scene/transmittance.h"
 
 #include <glm/common.hpp>
@@ -46,14 +45,10 @@ Scattering SunLight::scattering(const SeenSurface& surface, float footprint) con
 glm::vec3 SunLight::radiance(const SeenSurface& surface, const ViewRay& ray, const DiscSample& sample) const {
     if (scene_.surfaces().solid(surface.triangle)) // all light passes a medium
         return glm::vec3(0);
-    const RayScene::Triangle triangle = scene_.rays().triangle(surface.triangle);
-    const Primitive& primitive = picture_.scene->primitives[triangle.primitive];
-    const glm::vec3 position = interpolated(picture_.scene->vertex_arrays[primitive.vertices].positions,
-                                            primitive.triangles[triangle.triangle], surface.barycentrics);
-    const LitSide side = met_surface(*picture_.scene, scene_.rays(),
-                                     {surface.triangle, surface.barycentrics, 0}, position, ray.along)
-                             .side;
-    const glm::vec3 way = picture_.camera.position - position;
+    const LitSide side =
+        met_surface(*picture_.scene, scene_.rays(), {surface.triangle, surface.barycentrics, 0}, ray.along)
+            .side;
+    const glm::vec3 way = picture_.camera.position - side.position;
     const float distance = glm::length(way);
     const Scattering s =
         scattering(surface, ray.solid_angle * distance * distance * distance / glm::dot(side.face, way));

@@ -4,6 +4,7 @@
 
 #include "prt/support/error.h"
 #include "prt/support/parallel.h"
+#include "shared_bake.h"
 
 #include <embree3/rtcore.h>
 #include <glm/common.hpp>
@@ -19,8 +20,8 @@
 namespace prt {
 namespace {
 
-/// 32 units of rounding.
-constexpr float kOffset = 32 * std::numeric_limits<float>::epsilon() / 2;
+/// How far rays keep off surfaces, relative to coordinates: 12 roundings of a float; see PRT_LENGTH_OFFSET.
+constexpr float kCoordinateOffset = 12 * std::numeric_limits<float>::epsilon() / 2;
 
 float largest_coordinate(const glm::vec3& v) {
     return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
@@ -114,9 +115,6 @@ RayScene::RayScene(const Scene& scene, int threads) {
                 (scene.materials[primitive.material].casts_shadow ? triangle : glm::uvec3(triangle.x)) +
                 static_cast<unsigned>(array.first_receiver);
             triangles_.push_back({static_cast<std::uint32_t>(p), static_cast<std::uint32_t>(t)});
-            extents_.push_back(std::max({largest_coordinate(array.positions[triangle.x]),
-                                         largest_coordinate(array.positions[triangle.y]),
-                                         largest_coordinate(array.positions[triangle.z])}));
         }
     }
     rtcCommitGeometry(geometry);
@@ -149,13 +147,20 @@ bool RayScene::triangle_reaches(unsigned id, const glm::vec3& position, float di
 }
 
 float RayScene::surface_offset(const glm::vec3& position) const {
-    float largest = largest_coordinate(position);
-    const float near = std::max(largest * 1e-6f, std::numeric_limits<float>::min());
+    const float coordinate = largest_coordinate(position);
+    const float near = std::max(coordinate * 1e-6f, std::numeric_limits<float>::min());
+    float length = 0;
     visit_near(position, near, [&](unsigned id) {
-        if (extents_[id] > largest && triangle_reaches(id, position, near))
-            largest = extents_[id];
+        if (!triangle_reaches(id, position, near))
+            return; // its leaf does
+        for (int corner = 0; corner < 3; ++corner)
+            length = std::max(length, largest_coordinate(positions_[corners_[id][corner]] - position));
     });
-    return kOffset * largest;
+    return coordinate_offset(position) + PRT_LENGTH_OFFSET * length;
+}
+
+float RayScene::coordinate_offset(const glm::vec3& position) {
+    return kCoordinateOffset * largest_coordinate(position);
 }
 
 void RayScene::triangles_near(const glm::vec3& position, float distance, std::vector<unsigned>& ids) const {
@@ -163,8 +168,13 @@ void RayScene::triangles_near(const glm::vec3& position, float distance, std::ve
     visit_near(position, distance, [&](unsigned id) { ids.push_back(id); });
 }
 
-float RayScene::triangle_offset(unsigned id) const {
-    return kOffset * extents_[id];
+float RayScene::triangle_offset(unsigned id, float distance) const {
+    const glm::uvec3& t = corners_[id];
+    const glm::vec3 &a = positions_[t.x], &b = positions_[t.y], &c = positions_[t.z];
+    const float coordinate = std::max({largest_coordinate(a), largest_coordinate(b), largest_coordinate(c)}),
+                length = std::max(
+                    {largest_coordinate(b - a), largest_coordinate(c - b), largest_coordinate(a - c)});
+    return kCoordinateOffset * coordinate + PRT_LENGTH_OFFSET * (length + distance);
 }
 
 glm::vec3 RayScene::ray_origin(const Receivers& receivers, std::uint32_t index) const {

@@ -71,8 +71,7 @@ std::optional<float> distance_at(const TraceScene& scene, const glm::vec3& place
         const auto hit = scene.rays().nearest({place, d});
         if (!hit)
             continue;
-        const MetSurface met = met_surface(scene.scene(), scene.rays(), {hit->triangle, hit->uv, 0},
-                                           place + d * hit->distance, d);
+        const MetSurface met = met_surface(scene.scene(), scene.rays(), {hit->triangle, hit->uv, 0}, d);
         nearest = std::min(nearest, hit->distance * std::abs(glm::dot(met.side.face, d)));
         backs += met.back && !scene.surfaces().two_sided(hit->triangle);
     }

@@ -41,9 +41,7 @@ void add(BandRadiance::Bands& sum, const BandRadiance::Bands& bands, const glm::
 SurfaceHit hit_at(const TraceScene& scene, const SurfacePoints& points, std::size_t p) {
     const SurfacePoint point{points.triangles[p], points.uv[p], 0};
     const glm::vec3 anywhere(0);
-    return {0, point,
-            met_surface(scene.scene(), scene.rays(), point, points.receivers.positions[p], anywhere).side,
-            true, false};
+    return {0, point, met_surface(scene.scene(), scene.rays(), point, anywhere).side, true, false};
 }
 
 /// Of the sequence of a point.

@@ -40,8 +40,7 @@ Around look_around(const TraceScene& scene, const glm::vec3& place) {
         const auto hit = scene.rays().nearest({place, d});
         if (!hit)
             continue;
-        const MetSurface met = met_surface(scene.scene(), scene.rays(), {hit->triangle, hit->uv, 0},
-                                           place + d * hit->distance, d);
+        const MetSurface met = met_surface(scene.scene(), scene.rays(), {hit->triangle, hit->uv, 0}, d);
         const float distance = hit->distance * std::abs(glm::dot(met.side.face, d));
         if (distance < around.nearest) {
             around.nearest = distance;

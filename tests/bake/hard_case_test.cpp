@@ -1,5 +1,6 @@
 #include "prt/bake.h"
 #include "prt/sh.h"
+#include "scene/small_objects.h"
 #include "support/scene_builder.h"
 #include "support/traced.h"
 
@@ -9,6 +10,8 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <tuple>
+#include <utility>
 
 namespace prt {
 namespace {
@@ -111,6 +114,53 @@ TEST(HardCase, OpenFloorsStayOpenAtEveryDistanceFromTheOrigin) {
                 if (areas[p] > 0) // at 1e6 a cell of 1e-2 has no area left
                     expect_open(t, p);
         }
+}
+
+/// A sphere over a floor, `size` m in all, that stands `distance` m from the middle of a world of that
+/// extent.
+Scene small_object_far_out(float size, float distance) {
+    Scene scene = SceneBuilder()
+                      .floor({0, 0, 0}, 1, 8)
+                      .sphere({0, 0.3f, 0}, 0.25f, 24)
+                      .transform([=](const glm::vec3& p) {
+                          return p * (size / 2) + glm::vec3(distance, 0, -0.3f * distance);
+                      })
+                      .triangle({-distance, -1, 0}, {-distance, -1, 1}, {-distance + 1, -1, 0})
+                      .build();
+    scene.primitives[0].node_name = "object";
+    return scene;
+}
+
+TEST(HardCase, SmallObjectsFarOutKeepTheirShadows) {
+    const Transfer near = bake_scene(small_object_far_out(0.08f, 1), 256),
+                   far = bake_scene(small_object_far_out(0.08f, 600), 256);
+    double squared = 0, norm = 0;
+    for (std::size_t p = 0; p + 3 < near.receivers(); ++p)
+        for (std::size_t i = 0; i < near.dimension(); ++i) {
+            const double d = static_cast<double>(far.vector(p)[i]) - static_cast<double>(near.vector(p)[i]);
+            squared += d * d;
+            norm += static_cast<double>(near.vector(p)[i]) * static_cast<double>(near.vector(p)[i]);
+        }
+    EXPECT_LT(std::sqrt(squared / norm), 0.03);
+}
+
+TEST(HardCase, ObjectsTooSmallForTheirDistanceAreNamed) {
+    for (const auto& [size, distance, too_small] :
+         {std::tuple{0.04f, 6000.0f, true}, {0.04f, 60.0f, false}, {1.0f, 6000.0f, false}}) {
+        // The far triangle is an object of its own, far larger than its rounding.
+        Scene scene = small_object_far_out(size, distance);
+        Primitive mark = scene.primitives[0];
+        mark.node_name = "mark";
+        mark.triangles = {mark.triangles.back()};
+        scene.primitives[0].triangles.pop_back();
+        scene.primitives.push_back(std::move(mark));
+        const auto notice = small_object_notice(scene);
+        EXPECT_EQ(notice.has_value(), too_small) << size << " " << distance;
+        if (notice) {
+            EXPECT_EQ(notice->substr(0, 10), "1 object i");
+            EXPECT_NE(notice->find("object is 0.04 m in size and 6000 m"), std::string::npos) << *notice;
+        }
+    }
 }
 
 TEST(HardCase, ALargeCoplanarFloorDoesNotBlockASmallOne) {

@@ -50,12 +50,15 @@ public:
     RTCSceneTy* handle() const { return scene_.get(); }
 
     /// How far to move a ray's origin off the surface at `position` so that the surface does not block it:
-    /// the largest coordinate of any triangle that `position` lies on, times 32 units of float rounding.
-    /// Rounding of the origin, and of the vertices seen from it, moves either by at most a few such units.
+    /// 2^-24 (12 c + 16 l), where c is the largest coordinate of `position` and l the largest distance on one
+    /// axis to a corner of any triangle that `position` lies on (docs/math.md, section 2).
     float surface_offset(const glm::vec3& position) const;
+    /// The first of its terms.
+    static float coordinate_offset(const glm::vec3& position);
 
-    /// The same for a point of triangle `id`, and quick.
-    float triangle_offset(unsigned id) const;
+    /// An upper bound of it for any point of triangle `id` alone, for a ray that ends there after `distance`;
+    /// quick.
+    float triangle_offset(unsigned id, float distance = 0) const;
 
     /// Replaces `ids` by the triangles whose boxes come as near as `distance` to `position`.
     void triangles_near(const glm::vec3& position, float distance, std::vector<unsigned>& ids) const;
@@ -88,7 +91,6 @@ private:
     const glm::vec3* positions_ = nullptr; ///< Embree's copies: [vertices], [triangles]
     const glm::uvec3* corners_ = nullptr;
     std::vector<Triangle> triangles_;
-    std::vector<float> extents_; ///< per triangle its largest absolute coordinate
 };
 
 } // namespace prt
