@@ -20,7 +20,6 @@ namespace {
 constexpr double kGatherSeconds = 0.05;            ///< of a dispatch
 constexpr std::size_t kRowsAtOnce = 1 << 14;       ///< that are asked for where they are no receivers
 constexpr const char* kTransfer = "exit transfer"; ///< what buffers hold
-constexpr const char* kNoRows = "no rows";
 
 GpuBuffer upload_reflectance(const VulkanDevice& device, GpuQueue& queue, const GatherOperator& gather) {
     std::vector<float> values;
@@ -54,12 +53,11 @@ public:
         sent = {device, transfer[0].bytes(), GpuMemory::upload, kTransfer};
         received = {device, transfer[0].bytes(), GpuMemory::download, kTransfer};
         energy.largest = {device, 2 * sizeof(std::uint32_t), GpuMemory::device, "energies"};
-        sums = {device, 0, GpuMemory::device, "no sums"};
         rows = make_gather(false);
         make_energy(device);
     }
 
-    GpuResources resources(const GatherBlocks::Buffers& block, std::size_t from) const {
+    GpuResources resources(const GatherBlocks::Buffers& block, std::size_t from, bool to_sums) const {
         return {{{PRT_BINDING_ROW_ENDS, &block.row_ends},
                  {PRT_BINDING_SOURCES, &block.sources},
                  {PRT_BINDING_WEIGHTS, &block.weights},
@@ -67,8 +65,8 @@ public:
                  {PRT_BINDING_EXIT, &transfer[from]},
                  {PRT_BINDING_GATHERED, &transfer[1 - from]},
                  {PRT_BINDING_TOTAL, &total},
-                 {PRT_BINDING_SUM_ROWS, &owner_.sum_rows_},
-                 {PRT_BINDING_FIXED_SUMS, &sums}}};
+                 {PRT_BINDING_SUM_ROWS, to_sums ? &*owner_.sum_rows_ : &owner_.unused_},
+                 {PRT_BINDING_FIXED_SUMS, to_sums ? &sums : &owner_.unused_}}};
     }
 
     const int order;
@@ -105,13 +103,13 @@ private:
                           {PRT_CONSTANT_ROW_THREADS, made.threads},
                           {PRT_CONSTANT_SUMMED, to_sums},
                           {PRT_CONSTANT_SHARED, !of_rows.reflectance().empty()}}};
-        source.take_bindings(resources({}, 0));
+        source.take_bindings(resources({}, 0, to_sums));
         made.kernel = GpuKernel(device, source);
         for (std::size_t i = 0; i < owner_.blocks_.all().size(); ++i) {
             made.bindings.emplace_back();
             for (const std::size_t from : {0u, 1u})
                 made.bindings.back()[from] = {device, made.kernel,
-                                              resources(owner_.blocks_.buffers(i), from)};
+                                              resources(owner_.blocks_.buffers(i), from, to_sums)};
         }
         return made;
     }
@@ -136,7 +134,7 @@ GpuGather::GpuGather(const VulkanDevice& device, GpuQueue& queue, const GatherOp
                      const GatherBlocks::Room& room)
     : device_(device), queue_(queue), gather_(gather), blocks_(device, queue, gather, room),
       reflectance_(upload_reflectance(device, queue, gather)),
-      sum_rows_(device, 0, GpuMemory::device, kNoRows) {}
+      unused_(device, 0, GpuMemory::device, "what is not used") {}
 
 GpuGather::~GpuGather() {
     queue_.wait_for_all();
@@ -179,9 +177,9 @@ void GpuGather::apply(std::size_t first, std::span<float> to) {
 }
 
 void GpuGather::upload_sum_rows(const SumRows& rows) {
-    sum_rows_ = {device_, rows.count * sizeof(gpu::SumRow), GpuMemory::device, "sums of rows"};
+    sum_rows_.emplace(device_, rows.count * sizeof(gpu::SumRow), GpuMemory::device, "sums of rows");
     const GpuBuffer staging(device_, StagedWrites::kBytes, GpuMemory::upload, "sums of rows");
-    StagedWrites writes(queue_, staging, sum_rows_);
+    StagedWrites writes(queue_, staging, *sum_rows_);
     for (std::size_t r = 0; r < rows.count; ++r) {
         const gpu::SumRow row = gpu_sum_row(rows.row(r), rows.weights);
         writes.append(std::span(&row, 1));
@@ -194,8 +192,11 @@ bool GpuGather::apply_to_sums(const SumRows& to, std::span<float> sums) {
     try {
         with_vulkan_errors([&] {
             Values& v = *values_;
-            if (sum_rows_.bytes() < to.count * sizeof(gpu::SumRow))
+            if (!sum_rows_ || sum_rows_->bytes() < to.count * sizeof(gpu::SumRow)) {
+                queue_.wait_for_all();
+                v.summed.reset(); // its bindings hold the rows before
                 upload_sum_rows(to);
+            }
             if (!v.summed)
                 v.make_summed(to.weights.size());
             const std::size_t bytes = sums.size() * sizeof(std::int32_t);

@@ -5,6 +5,7 @@
 #include "vulkan/gpu_kernel.h"
 
 #include <memory>
+#include <optional>
 
 namespace prt {
 
@@ -45,7 +46,9 @@ private:
     GpuQueue& queue_;
     const GatherOperator& gather_;
     GatherBlocks blocks_;
-    GpuBuffer reflectance_, sum_rows_;
+    GpuBuffer reflectance_;
+    GpuBuffer unused_;                  ///< for bindings that a kernel has and does not read
+    std::optional<GpuBuffer> sum_rows_; ///< what apply_to_sums was given
     std::unique_ptr<Values> values_;
     float largest_ = 0;            ///< of exit transfer
     double work_per_second_ = 1e8; ///< products, until measured those of a software device
