@@ -173,6 +173,36 @@ std::optional<CompressedVolume> shipped_volume(const BudgetRequest& request, con
     return std::move(small);
 }
 
+/// Light of the sky at places that no light of the sky reaches: what comes through walls.
+Table leak_table(const BakedVolume& volume, const VolumeLookup& lookup, const FreePlaces& places) {
+    const std::size_t coefficients = volume.coefficients();
+    double sum = 0, largest = 0;
+    std::size_t shut = 0;
+    for (std::size_t p = 0; p < places.positions.size(); ++p) {
+        if (!places.shut[p])
+            continue;
+        const VolumeCorners corners = lookup.find(places.positions[p]);
+        double sky = 0; // of 1 that comes from everywhere, without bounces
+        for (std::size_t i = 0; i < corners.probes.size(); ++i)
+            sky += static_cast<double>(corners.weights[i] *
+                                       volume.baked.transfer.vector(corners.probes[i] * coefficients)[0]);
+        ++shut;
+        sum += std::abs(sky);
+        largest = std::max(largest, std::abs(sky));
+    }
+    Table table{"volume_leaks", "Leaks of the volume through walls", "", {}, {}};
+    table.about =
+        fmt::format("Direct light of a uniform sky that the volume has at places which no ray to the "
+                    "sky leaves, among the {} places in free space: 0 where nothing leaks, 1 is "
+                    "what comes in under the open sky.",
+                    places.positions.size());
+    table.columns = {
+        {"places", "places without sky"}, {"mean", "mean", Unit::plain, 4}, {"max", "max", Unit::plain, 3}};
+    table.rows = {
+        {shut, shut > 0 ? Json(sum / static_cast<double>(shut)) : Json(), shut > 0 ? Json(largest) : Json()}};
+    return table;
+}
+
 /// A light that the volume is measured under.
 struct VolumeLight {
     std::string name;
@@ -277,7 +307,7 @@ void add_volume_errors(BudgetRequest request, SceneFile& baked, Report& report, 
         table.rows.push_back(row_of(lights[i].name, "shipped", of_small.back()));
     }
     add_means(of_baked, of_small, table);
-    report.tables.insert(report.tables.begin(), std::move(table));
+    report.tables.insert(report.tables.begin(), {std::move(table), leak_table(volume, lookup, places)});
 }
 
 } // namespace prt::cli

@@ -67,9 +67,11 @@ float prt_volume_sight(uvec2 sights, vec3 from) {
          above = vec3(sights.x >> 8 & 255u, sights.x >> 24, sights.y >> 8 & 255u);
     vec3 root = mix(below, above, greaterThan(from, vec3(0.0))) / 255.0;
     vec3 distances = PRT_VOLUME_SIGHT_CELLS * float(1u << (sights.y >> 16 & 3u)) * root * root;
-    float passed = dot(abs(from), 1.0 / max(distances, vec3(1e-18))); // 1: a surface is there
+    vec3 along = abs(from) / max(distances, vec3(1e-18));
+    float passed = max(along.x, max(along.y, along.z)); // 1: a surface is there
     float behind = clamp((passed - PRT_VOLUME_SIGHT_FULL) / (PRT_VOLUME_SIGHT_NONE - PRT_VOLUME_SIGHT_FULL), 0.0, 1.0);
-    return max(1.0 - behind * behind * (3.0 - 2.0 * behind), PRT_VOLUME_HIDDEN_WEIGHT);
+    float beyond = clamp(passed, 1.0, 16.0), squared = beyond * beyond, fourth = squared * squared;
+    return max(1.0 - behind * behind * (3.0 - 2.0 * behind), PRT_VOLUME_HIDDEN_WEIGHT / (fourth * fourth));
 }
 
 // `at`: in cells of a brick from its least corner, not necessarily inside of it.

@@ -71,8 +71,8 @@
 // Weights of the probes of a volume: prt/volume_weights.h says what they are.
 #define PRT_VOLUME_NORMAL_BIAS 0.25
 #define PRT_VOLUME_SIGHT_CELLS 4.0
-#define PRT_VOLUME_SIGHT_FULL 0.9
-#define PRT_VOLUME_SIGHT_NONE 1.2
+#define PRT_VOLUME_SIGHT_FULL 0.8
+#define PRT_VOLUME_SIGHT_NONE 1.03
 #define PRT_VOLUME_HIDDEN_WEIGHT 0.0001
 
 // Volumes of what moving objects block: prt/occlusion_volume.h says what these are.

@@ -6,6 +6,7 @@
 #include "prt/bake.h"
 #include "prt/sh.h"
 #include "prt/support/error.h"
+#include "scene/transmittance.h"
 #include "trace/each_receiver.h"
 #include "trace/sample_sequence.h"
 
@@ -59,25 +60,31 @@ void add_lamps(const SceneLamps& lamps, const glm::vec3& place, PathSamples& sam
         add(lamps.sample_surface(place, samples.next()));
 }
 
-/// Distance of the nearest surface, nothing where the place is inside of something.
-std::optional<float> distance_at(const TraceScene& scene, const glm::vec3& place) {
+struct Surroundings {
+    float distance = std::numeric_limits<float>::infinity(); ///< of the nearest surface, metres
+    bool shut = true;                                        ///< no light of the sky comes in
+};
+
+/// Nothing where the place is inside of something.
+std::optional<Surroundings> surroundings_of(const TraceScene& scene, const glm::vec3& place) {
     constexpr int kDirections = 256;
-    float nearest = std::numeric_limits<float>::infinity();
+    Surroundings around;
     int backs = 0;
     for (int i = 0; i < kDirections; ++i) {
         const float turn = 0.6180339887f * static_cast<float>(i);
         const glm::vec3 d =
             direction_of({(static_cast<float>(i) + 0.5f) / kDirections, turn - std::floor(turn)});
         const auto hit = scene.rays().nearest({place, d});
+        around.shut = around.shut && transmittance(scene.rays(), scene.surfaces(), place, d) <= 0;
         if (!hit)
             continue;
         const MetSurface met = met_surface(scene.scene(), scene.rays(), {hit->triangle, hit->uv, 0}, d);
-        nearest = std::min(nearest, hit->distance * std::abs(glm::dot(met.side.face, d)));
+        around.distance = std::min(around.distance, hit->distance * std::abs(glm::dot(met.side.face, d)));
         backs += met.back && !scene.surfaces().two_sided(hit->triangle);
     }
     if (static_cast<float>(backs) > kMostBacks * kDirections)
         return std::nullopt;
-    return nearest;
+    return around;
 }
 
 } // namespace
@@ -96,9 +103,10 @@ FreePlaces free_places_in(const TraceScene& scene, const VolumeGrid& grid, std::
             throw Error("there is next to no free space in the volume to measure light in");
         const float x = unit(random), y = unit(random), z = unit(random);
         const glm::vec3 place = low + (high - low) * glm::vec3(x, y, z);
-        if (const std::optional<float> distance = distance_at(scene, place)) {
+        if (const auto around = surroundings_of(scene, place)) {
             places.positions.push_back(place);
-            places.distances.push_back(*distance);
+            places.distances.push_back(around->distance);
+            places.shut.push_back(around->shut);
         }
     }
     return places;

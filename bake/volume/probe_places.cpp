@@ -31,45 +31,57 @@ std::array<glm::vec3, 26> directions_around() {
 struct Around {
     float nearest = std::numeric_limits<float>::infinity(); ///< surface, metres
     glm::vec3 off{0};                                       ///< unit, the way off it, to its front
+    bool two_sided = false; ///< it has no front: `off` is the side of the place
+    /// Too near for a probe of cells that wide.
+    bool is_near(float cell) const { return nearest < 0.9f * kClear * cell; }
+    int far = 0; ///< directions in which a surface is beyond a cell
 };
 
-Around look_around(const TraceScene& scene, const glm::vec3& place) {
+Around look_around(const TraceScene& scene, const glm::vec3& place, float cell) {
     static const std::array<glm::vec3, 26> directions = directions_around();
     Around around;
     for (const glm::vec3& d : directions) {
         const auto hit = scene.rays().nearest({place, d});
         if (!hit)
             continue;
+        around.far += hit->distance > cell ? 1 : 0;
         const MetSurface met = met_surface(scene.scene(), scene.rays(), {hit->triangle, hit->uv, 0}, d);
         const float distance = hit->distance * std::abs(glm::dot(met.side.face, d));
         if (distance < around.nearest) {
             around.nearest = distance;
-            around.off =
-                met.back && !scene.surfaces().two_sided(hit->triangle) ? -met.side.face : met.side.face;
+            around.two_sided = scene.surfaces().two_sided(hit->triangle);
+            around.off = met.back && !around.two_sided ? -met.side.face : met.side.face;
         }
     }
     return around;
 }
 
-glm::vec3 free_place(const TraceScene& scene, const glm::vec3& place, float cell) {
-    glm::vec3 moved = place;
+/// Whether `place` rather than `other`, on the other side of a wall, is in a room: there surfaces are all
+/// round, neither in the open nor between the two faces of a wall.
+bool is_inside(const TraceScene& scene, const glm::vec3& place, const glm::vec3& other, float cell) {
+    const Around around = look_around(scene, place, cell);
+    return !around.is_near(cell) && around.far > look_around(scene, other, cell).far;
+}
+
+glm::vec3 free_place(const TraceScene& scene, const ProbeCell& cell) {
+    glm::vec3 moved = cell.corner;
     for (int i = 0; i < kTries; ++i) {
-        const Around around = look_around(scene, moved);
-        if (!(around.nearest < 0.9f * kClear * cell))
+        const Around around = look_around(scene, moved, cell.width);
+        if (!around.is_near(cell.width))
             break;
-        moved += (kClear * cell) * around.off;
+        const glm::vec3 way = (kClear * cell.width) * around.off;
+        moved += around.two_sided && is_inside(scene, moved - way, moved + way, cell.width) ? -way : way;
     }
     return moved;
 }
 
 } // namespace
 
-std::vector<glm::vec3> free_places(const TraceScene& scene, std::span<const glm::vec3> places,
-                                   std::span<const float> cells, int threads) {
-    std::vector<glm::vec3> moved(places.size());
-    parallel_for(places.size(), 64, threads, [&](std::size_t begin, std::size_t end) {
+std::vector<glm::vec3> free_places(const TraceScene& scene, std::span<const ProbeCell> cells, int threads) {
+    std::vector<glm::vec3> moved(cells.size());
+    parallel_for(cells.size(), 64, threads, [&](std::size_t begin, std::size_t end) {
         for (std::size_t p = begin; p < end; ++p)
-            moved[p] = free_place(scene, places[p], cells[p]);
+            moved[p] = free_place(scene, cells[p]);
     });
     return moved;
 }

@@ -3,6 +3,7 @@
 // Where probes are measured: a little off the surfaces that their corners lie on, to their fronts.
 
 #include "prt/trace_scene.h"
+#include "volume/probe_tracer.h"
 
 #include <glm/vec3.hpp>
 
@@ -11,8 +12,7 @@
 
 namespace prt {
 
-/// The places themselves, or others at most 0.3 of their `cells` [places] away, metres.
-std::vector<glm::vec3> free_places(const TraceScene& scene, std::span<const glm::vec3> places,
-                                   std::span<const float> cells, int threads);
+/// The corners of `cells`, or places at most 0.3 cells away, metres.
+std::vector<glm::vec3> free_places(const TraceScene& scene, std::span<const ProbeCell> cells, int threads);
 
 } // namespace prt

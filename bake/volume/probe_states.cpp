@@ -15,17 +15,6 @@ Key key_of(const glm::ivec3& corner, std::uint8_t level) {
     return {corner.x, corner.y, corner.z, level};
 }
 
-/// Distances that are seen from the corner of a probe that was measured `way` off it.
-std::array<float, 6> seen_from(std::array<float, 6> distances, const glm::vec3& way) {
-    for (int a = 0; a < 3; ++a) {
-        float& low = distances[static_cast<std::size_t>(2 * a)];
-        float& high = distances[static_cast<std::size_t>(2 * a + 1)];
-        low = std::max(low - way[a], 0.02f * low);
-        high = std::max(high + way[a], 0.02f * high);
-    }
-    return distances;
-}
-
 float cell_of(const VolumeGrid& grid, std::uint8_t level) {
     return grid.spacing * static_cast<float>(1 << level);
 }
@@ -79,21 +68,18 @@ ProbeStates measure_probes(const ProbeTask& task, const VolumeGrid& grid, const 
     ProbeStates states = unmeasured(probes, layout.coefficients() * layout.numbers());
     const std::vector<std::uint32_t> missing = take_over(before, states);
     before = {};
-    std::vector<glm::vec3> corners;
-    std::vector<float> cells;
+    std::vector<ProbeCell> cells;
     for (const std::uint32_t p : missing) {
-        corners.push_back(position_of(grid, probes.corners[p]));
-        cells.push_back(cell_of(grid, probes.levels[p]));
+        cells.push_back({position_of(grid, probes.corners[p]), cell_of(grid, probes.levels[p])});
     }
-    const std::vector<glm::vec3> places = free_places(task.scene, corners, cells, task.threads);
-    const float most = kSightCells * cell_of(grid, kMostBrickLevel);
-    task.tracer.trace({places, most, task.rays, task.seed}, progress,
+    const std::vector<glm::vec3> places = free_places(task.scene, cells, task.threads);
+    task.tracer.trace({places, cells, task.rays, task.seed}, progress,
                       [&](std::size_t i, const PlaceSeen& seen) {
                           const std::size_t p = missing[i];
                           std::ranges::copy(seen.vectors, &states.values[p * states.stride]);
                           states.blind[p] = seen.backs > kMostBacks;
-                          states.moved[p] = places[i] != corners[i];
-                          states.distances[p] = seen_from(seen.distances, places[i] - corners[i]);
+                          states.moved[p] = places[i] != cells[i].corner;
+                          states.distances[p] = seen.distances;
                       });
     return states;
 }

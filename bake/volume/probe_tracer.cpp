@@ -28,6 +28,8 @@ namespace {
 /// As many as leave what their rays meet in a cache.
 constexpr std::size_t kPlacesAtOnce = 128;
 constexpr int kSides = 6;
+/// Surfaces further than that from the corner of a cell do not hide what is in it.
+constexpr float kReachCells = 1.0f;
 
 glm::vec3 side(int i) {
     glm::vec3 axis(0);
@@ -58,7 +60,7 @@ struct ProbeTracer::Space {
     /// By direction, [coefficients][order²]: of what is blocked, and of all rays; and what comes back.
     OuterSums blocked, all, reflected;
     ChunkDirections directions;
-    SightSums sight;
+    SightVotes sight;
     double shut = 0, backs = 0; ///< rays
     std::array<float, kMaxOrder * kMaxOrder> basis{};
     PlaceSeen seen;
@@ -89,7 +91,6 @@ ProbeTracer::ProbeTracer(const BakePlan& plan, Tracer& tracer, BouncedSources so
 
 void ProbeTracer::trace(const Task& task, const Progress& progress,
                         const std::function<void(std::size_t, const PlaceSeen&)>& take) {
-    sight_ = task.sight;
     rays_along_ = std::max(1, (task.rays + kSides - 1) / kSides);
     last_ = SobolChunk((rays_along_ - 1) % kChunk + 1);
     for (std::size_t begin = 0; begin < task.places.size(); begin += kPlacesAtOnce) {
@@ -123,8 +124,10 @@ void ProbeTracer::trace_batch(const Task& task, std::size_t begin, std::size_t e
     parallel_for(count, 16, plan_.options.threads, [&](std::size_t first, std::size_t last) {
         Space space;
         for (std::size_t i = first; i < last; ++i) {
-            see({.places = task.places.subspan(begin, count), .seed = options.seed}, i,
-                std::span(hits).subspan(i * kSides, kSides), space);
+            see({.places = task.places.subspan(begin, count),
+                 .cells = task.cells.empty() ? task.cells : task.cells.subspan(begin, count),
+                 .seed = options.seed},
+                i, std::span(hits).subspan(i * kSides, kSides), space);
             if (!plan_.lamps.empty())
                 of_lamps += add_lamps(task, begin + i, space);
             take(begin + i, space.seen);
@@ -137,14 +140,16 @@ void ProbeTracer::see(const Task& task, std::size_t place, std::span<const std::
                       Space& space) const {
     const std::size_t coefficients = layout_.coefficients(), direct = layout_.direct(),
                       numbers = layout_.numbers();
-    space.sight = SightSums(sight_);
+    if (!task.cells.empty())
+        space.sight.begin(task.cells[place].corner - task.places[place],
+                          kReachCells * task.cells[place].width);
     space.shut = space.backs = 0;
     space.blocked.begin(coefficients, direct);
     space.all.begin(coefficients, direct);
     space.reflected.begin(coefficients, numbers - direct);
     for (const std::vector<Hit>& of_side : hits)
         for (const Hit& hit : of_side)
-            add_hit(hit, task.places[place], space);
+            add_hit(hit, task, place, space);
     // All directions: the coefficients themselves, or where most are blocked the sum over the same rays.
     const double rays = kSides * rays_along_;
     const bool mostly_open = 2 * space.shut <= rays;
@@ -159,8 +164,8 @@ void ProbeTracer::see(const Task& task, std::size_t place, std::span<const std::
         std::copy_n(space.reflected.row(o).begin(), numbers - direct, &space.vectors[o * numbers + direct]);
     }
     space.seen = {space.vectors, static_cast<float>(space.backs / rays)};
-    if (asks_sight())
-        space.seen.distances = space.sight.distances();
+    if (!task.cells.empty())
+        space.seen.distances = space.sight.distances(rays, kSightCells * task.cells[place].width);
 }
 
 float ProbeTracer::look(const glm::vec3& d, Space& space) const {
@@ -178,7 +183,8 @@ void ProbeTracer::add_direction(float weight, const Space& space, OuterSums& sum
     std::copy_n(space.basis.begin(), layout_.direct(), room.values.begin());
 }
 
-void ProbeTracer::add_hit(const Hit& hit, const glm::vec3& from, Space& space) const {
+void ProbeTracer::add_hit(const Hit& hit, const Task& task, std::size_t place, Space& space) const {
+    const glm::vec3& from = task.places[place];
     const std::vector<glm::vec3>& positions = plan_.receivers().positions;
     const glm::uvec3& corners = plan_.scene.surfaces().corners(hit.triangle);
     const glm::vec3 way = (1 - hit.u - hit.v) * (positions[corners.x] - from) +
@@ -190,8 +196,11 @@ void ProbeTracer::add_hit(const Hit& hit, const glm::vec3& from, Space& space) c
     const float weight = hit.weight * look(d, space);
     space.shut += static_cast<double>(hit.weight);
     add_direction(weight, space, space.blocked);
-    if (asks_sight())
-        space.sight.add_hit(d, distance, hit.weight);
+    if (!task.cells.empty())
+        space.sight.add_hit(way,
+                            glm::normalize(glm::cross(positions[corners.y] - positions[corners.x],
+                                                      positions[corners.z] - positions[corners.x])),
+                            hit.weight);
     if (hit.back && !plan_.scene.surfaces().two_sided(hit.triangle))
         space.backs += static_cast<double>(hit.weight);
     else if (!sky_.empty() || !lamps_.empty())
@@ -200,7 +209,7 @@ void ProbeTracer::add_hit(const Hit& hit, const glm::vec3& from, Space& space) c
 
 /// What rays meet is not asked: where most directions are open it does not matter either.
 void ProbeTracer::add_rays(const Task& task, std::size_t place, bool mostly_open, Space& space) const {
-    if (mostly_open && !asks_sight())
+    if (mostly_open)
         return;
     for (int s = 0; s < kSides; ++s)
         for (int first = 0; first < rays_along_; first += kChunk) {
@@ -212,10 +221,7 @@ void ProbeTracer::add_rays(const Task& task, std::size_t place, bool mostly_open
                 tangent_frame(side(s)), space.directions);
             for (std::size_t r = 0; r < static_cast<std::size_t>(rays); ++r) {
                 const glm::vec3 d(space.directions.x[r], space.directions.y[r], space.directions.z[r]);
-                if (asks_sight())
-                    space.sight.add_ray(d);
-                if (!mostly_open)
-                    add_direction(look(d, space), space, space.all);
+                add_direction(look(d, space), space, space.all);
             }
         }
 }

@@ -39,8 +39,14 @@ struct PlaceSeen {
     /// [coefficients][numbers]: incident light by the sky, and by lamps.
     std::span<const float> vectors;
     float backs = 0; ///< share of its rays that end at the back of what has no light there
-    /// [-x, +x, -y, ..]: how far it sees, metres, up to what was asked.
+    /// [-x, +x, -y, ..]: how far the corner of its cell sees, metres, up to kSightCells cells.
     std::array<float, 6> distances{};
+};
+
+/// Where a probe stands for the grid.
+struct ProbeCell {
+    glm::vec3 corner; ///< that it is measured beside, metres
+    float width;      ///< of the cells around it, metres
 };
 
 class ProbeTracer {
@@ -53,8 +59,8 @@ public:
 
     struct Task {
         std::span<const glm::vec3> places;
-        /// Metres that matter of how far a place sees; 0: it is not asked.
-        float sight = 0;
+        /// [places] cells of probes, for how far they see; empty: that is not asked.
+        std::span<const ProbeCell> cells = {};
         int rays = 1024; ///< from each place, about
         std::uint64_t seed = 0;
     };
@@ -69,9 +75,8 @@ private:
     void see(const Task& task, std::size_t place, std::span<const std::vector<Hit>> hits, Space& space) const;
     /// Evaluates the basis in unit `d`; returns the solid angle that a ray stands for.
     float look(const glm::vec3& d, Space& space) const;
-    bool asks_sight() const { return sight_ > 0; }
     void add_direction(float weight, const Space& space, OuterSums& sums) const;
-    void add_hit(const Hit& hit, const glm::vec3& from, Space& space) const;
+    void add_hit(const Hit& hit, const Task& task, std::size_t place, Space& space) const;
     void add_rays(const Task& task, std::size_t place, bool mostly_open, Space& space) const;
     void add_reflected(const Hit& hit, float weight, Space& space) const;
     void mix_reflected(const Hit& hit, std::span<float> to) const;
@@ -80,7 +85,6 @@ private:
     const BakePlan& plan_;
     Tracer& tracer_;
     IncidentLayout layout_;
-    float sight_ = 0;    ///< of what is traced
     int rays_along_ = 1; ///< in each of the six directions
     SobolChunk whole_, last_;
     std::vector<glm::vec3> reflectance_;

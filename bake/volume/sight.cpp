@@ -1,40 +1,56 @@
 #include "volume/sight.h"
 
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
 
 namespace prt {
+namespace {
 
-void SightSums::add(const glm::vec3& d, float square, float linear) {
-    std::array<std::size_t, 3> at{};
-    std::array<double, 3> size{};
-    for (int a = 0; a < 3; ++a) {
-        at[static_cast<std::size_t>(a)] = static_cast<std::size_t>(2 * a + (d[a] > 0 ? 1 : 0));
-        size[static_cast<std::size_t>(a)] = static_cast<double>(std::abs(d[a]));
-    }
-    for (std::size_t i = 0; i < 3; ++i) {
-        for (std::size_t j = 0; j < 3; ++j)
-            a_[at[i]][at[j]] += static_cast<double>(square) * size[i] * size[j];
-        b_[at[i]] += static_cast<double>(linear) * size[i];
-    }
+/// Share of an axis's rays, a sixth of all, that must be blocked before the axis is.
+constexpr double kBlockedShare = 0.2;
+
+std::size_t largest_axis(const glm::vec3& v) {
+    return v.x >= v.y && v.x >= v.z ? 0 : v.y >= v.z ? 1 : 2;
 }
 
-std::array<float, 6> SightSums::distances() const {
-    // Coordinate descent with x >= 0: six numbers, well conditioned as rays go everywhere.
-    std::array<double, 6> x{};
-    for (int round = 0; round < 60; ++round)
-        for (std::size_t i = 0; i < 6; ++i) {
-            if (!(a_[i][i] > 0))
-                continue;
-            double rest = b_[i];
-            for (std::size_t j = 0; j < 6; ++j)
-                rest -= j == i ? 0 : a_[i][j] * x[j];
-            x[i] = std::max(0.0, rest / a_[i][i]);
+} // namespace
+
+void SightVotes::begin(const glm::vec3& off, float reach) {
+    off_ = off;
+    reach_ = reach;
+    for (auto& votes : votes_)
+        votes.clear();
+}
+
+void SightVotes::add_hit(const glm::vec3& way, const glm::vec3& face, float weight) {
+    const glm::vec3 away = glm::dot(face, way) < 0 ? -face : face, hit = way - off_;
+    // The plane is where away·x = away·hit; it lies along the axis that most of that comes from.
+    const glm::vec3 part = away * hit;
+    const bool behind = !(part.x + part.y + part.z > 0); // the corner: nothing of that side is seen from it
+    const std::size_t axis = largest_axis(behind ? glm::abs(away) : part);
+    const float distance = behind ? 0 : std::abs(hit[static_cast<int>(axis)]);
+    if (distance < reach_)
+        votes_[2 * axis + (away[static_cast<int>(axis)] > 0 ? 1 : 0)].push_back({distance, weight});
+}
+
+std::array<float, 6> SightVotes::distances(double rays, float open) {
+    std::array<float, 6> distances;
+    for (std::size_t a = 0; a < 6; ++a) {
+        std::ranges::sort(votes_[a], {}, &Vote::distance);
+        distances[a] = open;
+        double blocked = 0;
+        for (const Vote& vote : votes_[a]) {
+            blocked += static_cast<double>(vote.weight);
+            if (blocked >= kBlockedShare * rays / 6) {
+                distances[a] = vote.distance;
+                break;
+            }
         }
-    std::array<float, 6> distances{};
-    for (std::size_t i = 0; i < 6; ++i)
-        distances[i] = x[i] > 0 ? static_cast<float>(1 / x[i]) : HUGE_VALF;
+    }
     return distances;
 }
 

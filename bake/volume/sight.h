@@ -1,34 +1,34 @@
 #pragma once
 
-// How far a place sees along the axes: the distances whose planes come nearest to what its rays met.
+// How far a probe sees along the axes: the box around it that no surface cuts (docs/math.md, section 19).
 
 #include <glm/vec3.hpp>
 
 #include <array>
+#include <vector>
 
 namespace prt {
 
-/// Sums over rays of distances r, no further than `most`, that make x = 1 / distance along -x, +x, -y, .. by
-/// least squares: r sum_a |d_a| x_a = 1, x_a >= 0. For rays that meet one plane that is exact.
-class SightSums {
+/// Collects what the rays of a probe meet within `reach` and finds -x, +x, -y, .. distances to the nearest
+/// surfaces. Each hit counts for the axis along which the plane of its surface is nearest; a distance is that
+/// which a tenth of the rays of its axis do not reach, so that a pole or a leaf hides nothing behind it.
+class SightVotes {
 public:
-    explicit SightSums(float most = 1) : most_(most) {}
-
-    /// A ray in direction `d`, as if it met nothing.
-    void add_ray(const glm::vec3& d) { add(d, most_ * most_, most_); }
-    /// `weight` of it met something at `distance`.
-    void add_hit(const glm::vec3& d, float distance, float weight) {
-        if (distance < most_)
-            add(d, weight * (distance * distance - most_ * most_), weight * (distance - most_));
-    }
-    std::array<float, 6> distances() const;
+    /// Forgets all hits. Distances are those from a corner, which is so far `off` the start of the rays.
+    /// Metres.
+    void begin(const glm::vec3& off, float reach);
+    /// `weight` rays met a surface of that face normal, either way round, after `way`.
+    void add_hit(const glm::vec3& way, const glm::vec3& face, float weight);
+    /// `rays`: of the probe in all. `open`: the distance where nothing is in the way.
+    std::array<float, 6> distances(double rays, float open);
 
 private:
-    void add(const glm::vec3& d, float square, float linear);
-
-    float most_;
-    std::array<std::array<double, 6>, 6> a_{};
-    std::array<double, 6> b_{};
+    struct Vote {
+        float distance, weight;
+    };
+    std::array<std::vector<Vote>, 6> votes_;
+    glm::vec3 off_{0};
+    float reach_ = 0;
 };
 
 } // namespace prt

@@ -15,10 +15,11 @@
 
 namespace prt {
 
-/// Places that objects may be at, and how far the nearest surface is, metres.
+/// Places that objects may be at.
 struct FreePlaces {
     std::vector<glm::vec3> positions;
-    std::vector<float> distances;
+    std::vector<float> distances; ///< of the nearest surface, metres
+    std::vector<bool> shut;       ///< from which no ray of 256 reaches the sky
 };
 
 /// `count` places all over the box of `grid`, in the same box as the scene; those from which more than a

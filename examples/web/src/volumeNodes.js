@@ -96,9 +96,9 @@ function sightOf(sights, from) {
   const passed = AXES.map((axis, a) => {
     const root = from[axis].greaterThan(0).select(pairs[a][1], pairs[a][0]).div(255);
     return from[axis].abs().div(cells.mul(root).mul(root).max(1e-18));
-  }).reduce((sum, part) => sum.add(part));
-  const behind = passed.sub(0.9).div(1.2 - 0.9).clamp(0, 1).toVar();
-  return behind.mul(behind).mul(behind.mul(-2).add(3)).oneMinus().max(1e-4);
+  }).reduce((largest, part) => largest.max(part)).toVar();
+  const behind = passed.sub(0.8).div(1.03 - 0.8).clamp(0, 1).toVar();
+  return behind.mul(behind).mul(behind.mul(-2).add(3)).oneMinus().max(float(1e-4).div(passed.clamp(1, 16).pow(8)));
 }
 
 /** The eight probes around a place: { texel, weights }. */

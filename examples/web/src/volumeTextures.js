@@ -5,7 +5,7 @@ import { BRICK_PROBES, NO_BRICK, SIDE } from "./volumeGrid.js";
 const GUARANTEED_TEXELS = 256; // along a side of a 3D texture
 /** Of shared_layout.h: how far a probe sees at most, in cells, and where it begins to count less. */
 const SIGHT_CELLS = 4;
-const SIGHT_FULL = 0.9;
+const SIGHT_FULL = 0.8;
 const ROOM = 1e-3; // for rounding
 const BLIND = 1e18;
 
@@ -32,7 +32,7 @@ function seesCell(sights, probe, step, width) {
   let passed = 0; // at the corner that is opposite: 1 is where a surface is
   for (let axis = 0; axis < 3; ++axis) {
     const sight = sights[6 * probe + 2 * axis + ((step >> axis) & 1 ? 0 : 1)] / 255;
-    passed += sight > 0 ? 1 / (SIGHT_CELLS * width * sight ** 2) : BLIND;
+    passed = Math.max(passed, sight > 0 ? 1 / (SIGHT_CELLS * width * sight ** 2) : BLIND);
   }
   return passed <= SIGHT_FULL - ROOM;
 }

@@ -72,8 +72,8 @@ inline glm::vec3 position_of(const VolumeGrid& grid, const glm::ivec3& corner) {
 }
 
 /// How far a probe sees along -x, +x, -y, +y, -z, +z: 255 · sqrt(distance / (kSightCells cells)), a cell
-/// being as wide as those of the probe's level; 0: it is inside of something. A surface is where the sum over
-/// axes of |d_a| / distance_a is 1, d from the probe: exactly so for a plane (docs/math.md, section 19).
+/// being as wide as those of the probe's level; 0: it is inside of something. What lies at d
+/// from the probe is hidden where |d_a| / distance_a exceeds 1 on any axis (docs/math.md, section 19).
 using ProbeSight = std::array<std::uint8_t, 6>;
 inline constexpr float kSightCells = 4;
 

@@ -158,22 +158,25 @@ std::array<float, 6> distances_to_plane(const glm::vec3& n, float offset, const 
     return distances;
 }
 
-TEST(SightWeight, HidesExactlyWhatIsBehindAPlane) {
+TEST(SightWeight, HidesExactlyWhatIsOutsideTheBox) {
     std::mt19937 random(5);
-    std::normal_distribution<float> normal;
+    std::uniform_real_distribution<float> distance(0.2f, 3), share(-1, 1);
     for (int i = 0; i < 1000; ++i) {
-        const glm::vec3 n = glm::normalize(glm::vec3(normal(random), normal(random), normal(random)));
-        const float offset = 0.5f + std::abs(normal(random));
-        auto nearness = distances_to_plane(n, offset, glm::vec3(0));
-        for (float& d : nearness)
-            d = 1 / d;
-        // Along the octant that the plane cuts off; elsewhere axes do not meet it.
-        glm::vec3 d = glm::abs(glm::vec3(normal(random), normal(random), normal(random))) * glm::sign(n);
-        const float passed = glm::dot(n, d) / offset; // 1 in the plane
-        EXPECT_EQ(sight_weight(nearness, d / passed * (kSightFull - 0.01f)), 1);
-        EXPECT_EQ(sight_weight(nearness, d / passed * (kSightNone + 0.01f)), kHiddenWeight);
-        const float half = sight_weight(nearness, d / passed * (kSightFull + kSightNone) / 2.0f);
-        EXPECT_NEAR(half, 0.5f, 1e-4f);
+        std::array<float, 6> distances, nearness;
+        for (std::size_t a = 0; a < 6; ++a) {
+            distances[a] = distance(random);
+            nearness[a] = 1 / distances[a];
+        }
+        // On a face of the box around the probe.
+        glm::vec3 d;
+        const int face = i % 3;
+        for (int a = 0; a < 3; ++a) {
+            const float s = a != face ? share(random) : i % 2 == 0 ? 1.0f : -1.0f;
+            d[a] = s * distances[static_cast<std::size_t>(2 * a + (s > 0 ? 1 : 0))];
+        }
+        EXPECT_EQ(sight_weight(nearness, d * (kSightFull - 0.01f)), 1);
+        EXPECT_LE(sight_weight(nearness, d * (kSightNone + 0.01f)), kHiddenWeight);
+        EXPECT_NEAR(sight_weight(nearness, d * (kSightFull + kSightNone) / 2.0f), 0.5f, 1e-4f);
     }
 }
 
