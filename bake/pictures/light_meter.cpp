@@ -4,11 +4,13 @@
 
 #include "pictures/sun_light.h"
 #include "prt/color.h"
+#include "prt/lightmap_lookup.h"
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
 #include <algorithm>
+#include <optional>
 
 namespace prt {
 namespace {
@@ -27,17 +29,26 @@ LightMeter::LightMeter(const Picture& picture, const RayScene& ray_scene) {
         glm::vec3 weight;
     };
     std::vector<Reading> readings;
+    std::optional<LightmapLookup> lightmaps;
+    if (picture.in_shader.lightmaps.layout)
+        lightmaps.emplace(*picture.scene, *picture.in_shader.lightmaps.layout);
     float covered = 0;
     for (int y = 0; y < rays.rows(); ++y)
         for (int x = 0; x < rays.columns(); ++x)
             rays.walk(x, y, [&](const SeenSurface& surface, float transmittance) {
                 const float share = transmittance * surface.base.a;
                 const glm::vec2 uv = glm::clamp(surface.barycentrics, 0.0f, 1.0f);
-                const glm::vec3 corners(std::max(0.0f, 1 - uv.x - uv.y), uv.x, uv.y);
-                for (int corner = 0; corner < 3; ++corner)
-                    readings.push_back(
-                        {surface.receivers[corner],
-                         share * corners[corner] * glm::vec3(kLuminance) * glm::vec3(surface.base)});
+                const glm::vec3 luminances = share * glm::vec3(kLuminance) * glm::vec3(surface.base);
+                if (lightmaps) {
+                    const BilinearTexels filter = lightmaps->filter(surface.triangle, uv);
+                    for (std::size_t i = 0; i < 4; ++i)
+                        readings.push_back(
+                            {filter.texels[i], static_cast<float>(filter.weights[i]) * luminances});
+                } else {
+                    const glm::vec3 corners(std::max(0.0f, 1 - uv.x - uv.y), uv.x, uv.y);
+                    for (int corner = 0; corner < 3; ++corner)
+                        readings.push_back({surface.receivers[corner], corners[corner] * luminances});
+                }
                 covered += share;
             });
     std::stable_sort(readings.begin(), readings.end(),

@@ -263,8 +263,9 @@ float choose_exposure(const Exposure& exposure, const Picture& picture, const Tr
         return stops;
     const LightMeter meter(picture, scene.rays());
     std::vector<glm::vec3> radiance;
+    const PictureLightmaps& lightmaps = picture.in_shader.lightmaps;
     for (const std::uint32_t receiver : meter.receivers())
-        radiance.push_back(picture.radiance[receiver]);
+        radiance.push_back(lightmaps.layout ? lightmaps.radiance[receiver] : picture.radiance[receiver]);
     const float luminance = meter.luminance(radiance) + sun_luminance(picture, scene);
     const float automatic = luminance > 0 ? exposure_for(luminance) : automatic_exposure(light);
     return std::clamp(stops * automatic, 1e-30f, 1e30f); // beyond, floats do not hold what it is a factor of

@@ -19,7 +19,7 @@ public:
     /// of it. `ray_scene` was built from `*picture.scene`.
     LightMeter(const Picture& picture, const RayScene& ray_scene);
 
-    /// The receivers that it looks at, each once.
+    /// The receivers that it looks at, each once: of a picture with lightmaps the texels of their layout.
     std::span<const std::uint32_t> receivers() const { return receivers_; }
 
     /// Mean luminance (Rec. 709) of exit radiance times base color over what the model covers; 0 where it is

@@ -10,7 +10,7 @@
 namespace viewer {
 namespace {
 
-using Indices = std::span<const std::uint32_t>; ///< of receivers
+using Indices = std::span<const std::uint32_t>; ///< of receivers, ascending
 
 glm::vec3 normal_of(const prt::Scene& scene, std::uint32_t receiver) {
     const auto array = std::prev(std::upper_bound(
@@ -67,14 +67,15 @@ std::vector<glm::vec3> radiance_at(const LoadedModel& loaded, const prt::Light& 
     const prt::Lighting lighting =
         with_lamps({light}, lamps, loaded.compressed ? loaded.compressed->bases.layout : loaded.raw->layout);
     if (loaded.of_texels())
-        return texel_radiance_at(loaded, lighting, receivers);
+        return texel_radiance(loaded, lighting, receivers);
     return loaded.compressed ? compressed(*loaded.compressed, lighting, receivers)
                              : baked(*loaded.raw, lighting, receivers);
 }
 
-prt::LightMeter meter_of(const ExposureMeter::View& view) {
+prt::LightMeter meter_of(const ExposureMeter::View& view, const prt::LightmapLayout* lightmaps) {
     prt::Picture picture = picture_of(*view.model, {}, view.camera, view.width, view.height);
     picture.textured = view.textured;
+    picture.in_shader.lightmaps.layout = lightmaps;
     return {picture, view.model->trace->rays()};
 }
 
@@ -83,9 +84,11 @@ prt::LightMeter meter_of(const ExposureMeter::View& view) {
 float ExposureMeter::exposure(const View& view, const Lit& lit, const std::function<prt::Light()>& light) {
     if (view == view_ && lit.version == version_)
         return exposure_;
-    if (view != view_)
-        meter_ = meter_of(view);
+    const prt::LightmapLayout* const lightmaps = lit.loaded.lightmap.layout();
+    if (view != view_ || lightmaps != lightmaps_)
+        meter_ = meter_of(view, lightmaps);
     view_ = view;
+    lightmaps_ = lightmaps;
     version_ = lit.version;
     const prt::Light all = light();
     const float luminance = meter_->luminance(radiance_at(lit.loaded, all, lit.lamps, meter_->receivers()));

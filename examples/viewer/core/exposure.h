@@ -39,7 +39,8 @@ public:
     float stops() const { return std::log2(exposure_); }
 
 private:
-    std::optional<View> view_; ///< that `meter_` belongs to
+    std::optional<View> view_;                       ///< that `meter_` belongs to
+    const prt::LightmapLayout* lightmaps_ = nullptr; ///< the same
     std::optional<prt::LightMeter> meter_;
     RadianceVersion version_;
     float exposure_ = 1;

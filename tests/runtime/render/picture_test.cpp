@@ -279,6 +279,40 @@ TEST(LightMeter, MeasuresWhatTheModelShowsAndNotTheSky) {
         EXPECT_GE(receiver, behind);
 }
 
+TEST(LightMeter, MeasuresTheTexelsThatShow) {
+    // Two triangles with a lightmap that is bright in the middle and dark at all corners.
+    Scene scene = test::painted(
+        test::SceneBuilder().quad({-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}).build(), glm::vec3(0.5f));
+    VertexArray& vertices = scene.vertex_arrays[0];
+    vertices.texcoords.emplace_back();
+    for (const glm::vec3& p : vertices.positions)
+        vertices.texcoords[0].emplace_back(0.5f + 0.5f * p.x, 0.5f + 0.5f * p.y);
+    const LightmapLayout layout{{{16, 16, false}}, {{0, 0}}};
+    std::vector<glm::vec3> texels(layout.texels(), glm::vec3(0));
+    for (int y = 4; y < 12; ++y)
+        for (int x = 4; x < 12; ++x)
+            texels[static_cast<std::size_t>(16 * y + x)] = glm::vec3(8);
+    Picture picture;
+    picture.scene = &scene;
+    picture.in_shader.lightmaps = {.layout = &layout, .radiance = texels};
+    picture.width = picture.height = 480;
+    picture.samples = 1;
+    picture.camera = {{0, 0, 20}, {0, 0, 0}, {0, 1, 0}, 0.2f};
+    const std::vector<glm::vec3> unused(scene.receivers(), glm::vec3(0));
+    picture.radiance = unused;
+    const LightMeter meter(picture, RayScene(scene));
+    std::vector<glm::vec3> radiance;
+    for (const std::uint32_t texel : meter.receivers())
+        radiance.push_back(texels[texel]);
+    // A quarter of the sheet shows 8 times 0.5; rays are 2 % of the sheet apart.
+    EXPECT_NEAR(meter.luminance(radiance), 1, 0.05);
+    glm::vec3 shown(0);
+    for (const glm::vec3& pixel : render_rays(picture, TraceScene(scene)).pixels)
+        shown += pixel;
+    const float covered = std::pow(1 / (20 * std::tan(0.1f)), 2.0f); // of the picture
+    EXPECT_NEAR(meter.luminance(radiance), shown.g / (480.0f * 480.0f * covered), 0.05f);
+}
+
 TEST(GlRenderer, RefusesPicturesLargerThanTheDevice) {
     const auto context = GlContext::create(GlDevice::any);
     ASSERT_TRUE(context);
