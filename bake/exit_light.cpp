@@ -54,7 +54,7 @@ void check_converged(const BakePlan& plan, const Propagated& lit, int bounces) {
         most = std::max(most, v);
     }
     if (!lit.converged || least < -1e-2f * most)
-        throw Error(
+        throw EndlessLampLight(
             fmt::format("light of lamps grows without end in endless bounces: a closed room reflects all of "
                         "it (base color 1: {}); lower these base colors, or limit the bounces (--bounces 8)",
                         nodes_that_reflect_all(plan.scene.surfaces())));

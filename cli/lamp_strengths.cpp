@@ -2,11 +2,16 @@
 
 #include "inputs.h"
 #include "json_file.h"
+#include "options.h"
+#include "prt/color.h"
+#include "prt/sh.h"
 #include "prt/support/error.h"
 #include "prt/support/printable.h"
 
 #include <fmt/core.h>
 #include <fmt/ranges.h>
+
+#include <algorithm>
 
 namespace prt::cli {
 namespace {
@@ -52,6 +57,27 @@ std::vector<glm::vec3> strengths_of(const Json& file, const TransferLayout& layo
     return strengths;
 }
 
+/// Whether each lamp of `layout` has a light of `scene` in it: [layout.lamps()].
+std::vector<bool> punctual_lamps(const Scene& scene, const TransferLayout& layout) {
+    std::vector<bool> punctual;
+    for (const TransferPart& lamp : layout.lamp_parts())
+        punctual.push_back(std::ranges::any_of(scene.lights, [&](const PunctualLight& light) {
+            return lamp.members.empty() ? lamp.name == light.name
+                                        : std::ranges::count(lamp.members, light.name) > 0;
+        }));
+    return punctual;
+}
+
+double mean_luminance(const Relit& model, const Lighting& lighting) {
+    const std::vector<glm::vec3> radiance = model.radiance(lighting);
+    double sum = 0, area = 0;
+    for (std::size_t p = 0; p < radiance.size(); ++p) {
+        sum += static_cast<double>(model.areas[p]) * std::max(0.0, luminance(glm::dvec3(radiance[p])));
+        area += static_cast<double>(model.areas[p]);
+    }
+    return area > 0 ? sum / area : 0;
+}
+
 } // namespace
 
 void add_lamps(CLI::App* command, LampChoice& lamps) {
@@ -66,6 +92,47 @@ void add_lamps(CLI::App* command, LampChoice& lamps) {
             "blue, for each name, \"*\" for the others")
         ->type_name("on|off|FILE")
         ->default_str("on");
+}
+
+void add_lamp_scale(CLI::App* command, double& scale) {
+    command
+        ->add_option(
+            "--lamp-scale", scale,
+            "factor on point, spot and directional lights, not on materials that shine; 0.00146 (1/683) "
+            "for files with candela and lux, as Blender writes them, beside skies of radiance about 1")
+        ->capture_default_str()
+        ->check(above_zero());
+}
+
+void scale_lights(const Scene& scene, const TransferLayout& layout, double scale,
+                  std::span<glm::vec3> strengths) {
+    const std::vector<bool> punctual = punctual_lamps(scene, layout);
+    for (std::size_t k = 0; k < strengths.size(); ++k)
+        if (punctual[k])
+            strengths[k] *= static_cast<float>(scale);
+}
+
+std::optional<std::string> photometric_notice(const Scene& scene, const Relit& model,
+                                              const Lighting& lighting) {
+    constexpr double kLumensPerWatt = 683, kOutshines = 10; // lights in watts are rarely as bright
+    const std::vector<bool> punctual = punctual_lamps(scene, model.layout);
+    if (std::ranges::count(punctual, true) == 0)
+        return std::nullopt;
+    Lighting sky = lighting, lights = lighting;
+    std::ranges::fill(sky.lamps, glm::vec3(0));
+    lights.sky = constant_light(lighting.sky.order, glm::vec3(0));
+    lights.suns.reset();
+    for (std::size_t k = 0; k < punctual.size(); ++k)
+        if (!punctual[k])
+            lights.lamps[k] = glm::vec3(0);
+    const double of_sky = mean_luminance(model, sky), of_lights = mean_luminance(model, lights);
+    if (!(of_sky > 0) || of_lights < kOutshines * of_sky)
+        return std::nullopt;
+    const double ratio = of_lights / of_sky;
+    return fmt::format(
+        "its lights give {:.3g} times as much light as the sky, as lights in candela and lux do (683 "
+        "lumens are a watt; Blender writes them); --lamp-scale {:.3g} makes it {:.2g} times",
+        ratio, 1 / kLumensPerWatt, ratio / kLumensPerWatt);
 }
 
 std::vector<glm::vec3> lamp_strengths(const LampChoice& lamps, const TransferLayout& layout) {

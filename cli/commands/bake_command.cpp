@@ -1,6 +1,7 @@
 #include "commands/commands.h"
 
 #include "instance_arguments.h"
+#include "lamp_strengths.h"
 #include "level_arguments.h"
 #include "no_shadow.h"
 #include "options.h"
@@ -281,10 +282,23 @@ void write_vertices(const BakeArguments& a, GltfDocument& document, const Scene&
     write_transfer(document, all, whole);
 }
 
+/// Says where the lights of the scene outshine a sky of radiance 1.
+void note_lights(const BakeArguments& a, const Scene& scene, const Transfer& transfer,
+                 std::span<const float> areas) {
+    const Lighting lighting{.sky = constant_light(transfer.layout.order, glm::vec3(1)),
+                            .lamps = std::vector<glm::vec3>(transfer.layout.lamps(), glm::vec3(1))};
+    const Relit relit{transfer.layout,
+                      [&](const Lighting& l) { return exit_radiance(transfer, l, a.options.threads); },
+                      areas};
+    if (auto notice = photometric_notice(scene, relit, lighting))
+        print_notices(a.scene.string(), {std::move(*notice)});
+}
+
 void run_vertices(const BakeArguments& a, GltfDocument& document, Scene& scene, Session& session) {
     std::optional<BakedLevels> levels =
         about(a.scene, [&] { return find_levels(a.levels, a.scene, document, a.options.threads); });
     const Baked baked = about(a.scene, [&] { return bake_scene(a, document, scene, session); });
+    note_lights(a, scene, baked.result.baked.transfer, receiver_areas(scene));
     const std::optional<VolumeBake> volume = bake_probes(a, scene, session);
     about(a.scene, [&] { write_vertices(a, document, scene, baked.result.baked, levels, session); });
     const std::vector<std::byte> file = with_volume(a, document, scene, volume);
@@ -311,6 +325,7 @@ void run_texels(const BakeArguments& a, GltfDocument& document, Scene& scene, co
         ProgressBar bar = session.progress_bar("baking");
         return bake_lightmap(scene, room.atlases, a.options, finer.model(), bar.progress());
     });
+    note_lights(a, scene, baked.lightmap.baked.transfer, baked.lightmap.areas);
     const std::optional<VolumeBake> volume = bake_probes(a, scene, session);
     about(a.scene, [&] { write_lightmap(document, scene, baked.lightmap); });
     const std::vector<std::byte> file = with_volume(a, document, scene, volume);
@@ -413,6 +428,7 @@ void add_bake(CLI::App& app, Session& session) {
         ->excludes(rays);
     add_transport(command, a.options);
     add_lamps(command, a.options.lamps);
+    add_lamp_scale(command, a.reading.lamp_scale);
     add_no_shadow(command, a.no_shadow);
     add_method(command, a.options);
     add_refinement(command, a);

@@ -1,5 +1,6 @@
 #include "commands/commands.h"
 
+#include "lamp_strengths.h"
 #include "make/make_model.h"
 #include "no_shadow.h"
 #include "options.h"
@@ -75,6 +76,7 @@ void add_make(CLI::App& app, Session& session) {
         ->check(above_zero());
     command->add_flag("--best-effort", r.goal.best_effort, "write the nearest where nothing keeps the error");
     command->add_option("--baked", r.baked, "keep the bake, too")->check(named)->type_name("FILE.glb");
+    add_lamp_scale(command, r.reading.lamp_scale);
     add_no_shadow(command, r.no_shadow);
     const std::size_t before = command->get_options().size();
     add_light_options(command, r.reading_lights);

@@ -56,6 +56,7 @@ struct Lights {
     SunCount suns = {std::nullopt}; ///< as many as pay: their shadows show first, and no order has them
     int sun_rays = 32;              ///< for each pixel and sun
     LampChoice lamps;
+    double lamp_scale = 1;
 };
 
 struct RenderArguments {
@@ -176,6 +177,7 @@ TransferLayout layout_of_any(const SceneFile& model) {
 Lighting lighting_of(const RenderArguments& a, const SceneFile& model, const SplitLight& light) {
     Lighting lighting = cli::lighting_of(light);
     lighting.lamps = lamp_strengths(a.lights.lamps, layout_of_any(model));
+    scale_lights(model.scene, layout_of_any(model), a.lights.lamp_scale, lighting.lamps);
     return lighting;
 }
 
@@ -187,6 +189,23 @@ std::vector<glm::vec3> lit_colors(const SceneFile& model, const Lighting& lighti
     if (model.baked)
         return exit_radiance(model.baked->transfer, lighting, threads);
     return exit_radiance(unshadowed_transfer(model.scene, lighting.sky.order), lighting, threads);
+}
+
+/// Says where the lights of the model outshine its sky.
+void note_lights(const RenderArguments& a, const SceneFile& model, const Lighting& lighting) {
+    if (a.environment.empty() || a.look.show != Show::lit || !model.record())
+        return;
+    const TransferLayout layout = layout_of(model);
+    std::vector<float> areas;
+    if (!model.lightmap)
+        areas = receiver_areas(model.scene);
+    else if (model.baked)
+        areas = model.lightmap->areas;
+    else
+        areas.assign(model.lightmap->layout.texels(), 1.0f);
+    const Relit relit{layout, [&](const Lighting& l) { return lit_colors(model, l, a.threads); }, areas};
+    if (auto notice = photometric_notice(model.scene, relit, lighting))
+        print_notices(a.model.string(), {std::move(*notice)});
 }
 
 /// Of all texels of a shipped lightmap, against those that its bake has.
@@ -380,6 +399,7 @@ void run(RenderArguments a, Session& session) {
     const std::vector<bool> solid = solid_materials(model);
     const SplitLight light = load_lit(a, model, solid);
     const Lighting lighting = lighting_of(a, model, light);
+    note_lights(a, model, lighting);
     const bool suns = !light.split.suns.empty() && a.look.show == Show::lit;
     const TraceScene scene(
         model.scene,
@@ -486,6 +506,7 @@ void add_render(CLI::App& app, Session& session) {
              "shadows; those of a light file are lit so, too; 0: all light is in the sky",
              "auto");
     add_lamps(command, a.lights.lamps);
+    add_lamp_scale(command, a.lights.lamp_scale);
     command->add_option("--sun-rays", a.lights.sun_rays, "rays from a pixel to each sun")
         ->capture_default_str()
         ->check(CLI::Range(1, 1 << 20));

@@ -3,6 +3,7 @@
 #include "budget/budget_report.h"
 #include "budget/measure_budget.h"
 #include "compress_metric.h"
+#include "lamp_strengths.h"
 #include "make/choices.h"
 #include "no_shadow.h"
 #include "prt/encode_glb.h"
@@ -114,7 +115,26 @@ private:
             tried_.push_back(
                 fmt::format("{} bounces: bounces {}", bounces, percent(errors.bounces(bounces))));
         plan_.cut = choose_cut(errors, allowed());
+        check_lamps_end();
         check_possible(plan_.cut.squared, fmt::format("what {} bands cannot hold", plan_.cut.order));
+    }
+
+    /// Limits the bounces where light of lamps would grow without end.
+    void check_lamps_end() {
+        if (plan_.cut.bounces != kEndlessBounces)
+            return;
+        constexpr int kRays = 64, kManyBounces = 8; // the walls decide, not the noise
+        BakeOptions options = bake_options(kRays);
+        options.order = 1;
+        try {
+            baked(options, "looking at lamps");
+        } catch (const EndlessLampLight&) {
+            plan_.cut.bounces = kManyBounces;
+            notices_.push_back(
+                fmt::format("light of lamps has no end in a closed room that reflects all of it: baked "
+                            "with {} bounces",
+                            kManyBounces));
+        }
     }
 
     /// Ends where an error that was asked for is used up before compression.
@@ -214,6 +234,7 @@ private:
         const BakeResult result = baked(bake_options(plan_.rays), "baking");
         for (const std::string& notice : result.statistics.notices)
             notices_.push_back(notice);
+        note_lights(result.baked.transfer);
         if (has_levels(document_))
             notices_.emplace_back(
                 "coarser levels of detail get no light: prt bake and prt compress give them "
@@ -223,6 +244,17 @@ private:
         session_.write(r_.baked, file);
         model_.emplace(scene_file_of(parse_gltf(file, r_.output), r_.output));
         discard_transfer(model_->document);
+    }
+
+    /// Says where the lights of the scene outshine the first of the skies.
+    void note_lights(const Transfer& transfer) {
+        Lighting lighting = lights_.front().lighting(transfer.layout.order);
+        lighting.lamps.assign(transfer.layout.lamps(), glm::vec3(1));
+        const std::vector<float> areas = receiver_areas(scene_);
+        const Relit relit{transfer.layout,
+                          [&](const Lighting& l) { return exit_radiance(transfer, l, r_.threads); }, areas};
+        if (auto notice = photometric_notice(scene_, relit, lighting))
+            notices_.push_back(std::move(*notice));
     }
 
     const Transfer& transfer() const { return model_->baked->transfer; }
@@ -311,6 +343,8 @@ private:
                                        plan_.fit == FitMode::surface ? "surface" : "vertex");
         if (plan_.refine > 0)
             bake += fmt::format(" --refine {}", plan_.refine);
+        if (r_.reading.lamp_scale != 1)
+            bake += fmt::format(" --lamp-scale {}", r_.reading.lamp_scale);
         for (const std::string& material : r_.no_shadow)
             bake += " --no-shadow " + shell_word(material);
         std::string compress =

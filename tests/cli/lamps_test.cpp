@@ -70,6 +70,48 @@ protected:
     TemporaryFolder folder;
 };
 
+TEST_F(LampsOnTheRoad, AreScaledInTheFileToo) {
+    bake("scaled.glb", {"--lamp-scale", "0.25"});
+    const Scene before = extract_scene(load_gltf(folder / "b.glb")),
+                after = extract_scene(load_gltf(folder / "scaled.glb"));
+    ASSERT_EQ(after.lights.size(), 2u);
+    for (std::size_t i = 0; i < 2; ++i)
+        EXPECT_EQ(after.lights[i].intensity, 0.25f * before.lights[i].intensity);
+    const VertexArray whole = lit("b.glb", "on"), part = lit("scaled.glb", "on");
+    for (std::size_t v = 0; v < whole.size(); ++v)
+        for (int c = 0; c < 3; ++c)
+            EXPECT_NEAR(part.colors[v][c], 0.25f * whole.colors[v][c], 1e-3f);
+    EXPECT_EQ(prt({"bake", at("s.glb"), "-o", at("n.glb"), "--lamp-scale", "-1"}).status, 2);
+}
+
+TEST_F(LampsOnTheRoad, OfPhotometricUnitsAreNoticed) {
+    GlbFile bright = floor_with_lamps();
+    bright.json["extensions"]["KHR_lights_punctual"]["lights"][0]["intensity"] = 2 * 683;
+    bright.write(folder / "s.glb");
+    const auto notice = [&](const std::vector<std::string>& more) {
+        std::vector<std::string> all = {"bake",   at("s.glb"), "-o",      at("n.glb"),
+                                        "--rays", "64",        "--order", "3"};
+        all.insert(all.end(), more.begin(), more.end());
+        const Outcome outcome = prt(all);
+        EXPECT_EQ(outcome.status, 0) << outcome.err;
+        return outcome.err.find("--lamp-scale 0.00146") != std::string::npos;
+    };
+    EXPECT_TRUE(notice({}));
+    EXPECT_FALSE(notice({"--lamp-scale", "0.00146"}));
+    EXPECT_FALSE(notice({"--lamps", "none"}));
+    // The bake of them, drawn under a sky.
+    bake("bright.glb", {});
+    const std::vector<int> uniform = {1, 0, 0, 0, 0, 0, 0, 0, 0};
+    const nlohmann::json sky = {{"prtkit_light", 1},
+                                {"order", 3},
+                                {"coefficients", {{"red", uniform}, {"green", uniform}, {"blue", uniform}}}};
+    folder.file("sky.json", sky.dump());
+    const Outcome drawn = prt({"render", at("bright.glb"), "-o", at("p.png"), "--size", "32x32", "--backend",
+                               "cpu", "--env", at("sky.json")});
+    EXPECT_EQ(drawn.status, 0) << drawn.err;
+    EXPECT_NE(drawn.err.find("--lamp-scale 0.00146"), std::string::npos) << drawn.err;
+}
+
 TEST_F(LampsOnTheRoad, LightAsTheirStrengthsSay) {
     ASSERT_EQ(
         prt({"compress", at("b.glb"), "-o", at("c.glb"), "--weights", "float", "--clusters", "16"}).status,

@@ -145,9 +145,14 @@ struct BakeResult {
     BakeStatistics statistics;
 };
 
+/// Thrown for endless bounces where a closed room reflects all light of a lamp.
+struct EndlessLampLight : Error {
+    using Error::Error;
+};
+
 /// Bakes transfer for every vertex. On the CPU deterministic from the seed, whatever the number of threads.
 /// Throws `Error` for options outside their range, for a bake that does not fit into memory, and where a
-/// backend is not there; `Cancelled` when asked to stop.
+/// backend is not there; `EndlessLampLight`; `Cancelled` when asked to stop.
 BakeResult bake(const Scene& scene, const BakeOptions& options, const Progress& progress = {});
 
 /// Bytes that a bake takes at most at a time, roughly, but for the operator of its bounces, whose size is

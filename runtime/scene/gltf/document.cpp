@@ -11,6 +11,7 @@
 #include "gltf/glb.h"
 #include "gltf/instances.h"
 #include "gltf/json_text.h"
+#include "gltf/lights.h"
 #include "gltf/meshes_apart.h"
 #include "gltf/meshopt_views.h"
 #include "gltf/side_files.h"
@@ -299,6 +300,7 @@ GltfDocument parse_gltf(std::span<const std::byte> file, const std::filesystem::
         set_fallback_aside(*contents);
         if (options.instancing == Instancing::apart)
             set_meshes_apart(*contents);
+        scale_lights(contents->json, options.lamp_scale);
         expand_instances(*contents);
         embed_images(*contents);
     } catch (const std::exception& error) { // ours, and those of the standard and the JSON library

@@ -86,6 +86,17 @@ const Json* light_of(const GltfContents& contents, const Json& node, std::size_t
 
 } // namespace
 
+void scale_lights(Json& json, double factor) {
+    if (factor == 1 || !extension_of(json, kPunctual))
+        return;
+    Json& extension = json["extensions"][kPunctual];
+    if (!extension.contains("lights") || !extension["lights"].is_array())
+        return;
+    for (Json& light : extension["lights"])
+        if (light.is_object() && (!light.contains("intensity") || light["intensity"].is_number()))
+            light["intensity"] = factor * light.value("intensity", 1.0);
+}
+
 std::vector<PunctualLight> read_lights(const GltfContents& contents, const std::vector<NodeTransform>& nodes,
                                        const glm::dvec3& origin) {
     std::vector<PunctualLight> lights;

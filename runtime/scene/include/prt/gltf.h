@@ -48,6 +48,9 @@ struct GltfOptions {
     /// Files that will be written: a scene whose buffers or images are among them is refused.
     std::vector<std::filesystem::path> outputs = {};
     Instancing instancing = Instancing::nodes;
+    /// Factor on the intensity of the lights of KHR_lights_punctual, in the document, too: 1 / 683 makes watts
+    /// of what exporters write in candela and lux.
+    double lamp_scale = 1;
 };
 
 /// Reads .gltf or .glb with its buffers and images. Throws `Error` that names the file and the place in it.
