@@ -5,6 +5,7 @@
 #include "prt/trace_receivers.h"
 #include "trace/embree_tracer.h"
 
+#include <algorithm>
 #include <cmath>
 #include <optional>
 
@@ -12,6 +13,29 @@ namespace prt {
 namespace {
 
 constexpr double kLeastBacks = 0.98; ///< of all rays; among loose sheets nine of ten may be
+constexpr float kNotSealed = -1;
+constexpr int kMostShared = 16; ///< rays of a receiver where several share their rays
+
+/// `backs` of so many `rays` of each. Accepts receivers that lie side by side, may all be sealed in, and
+/// together have had as many rays as one needs: faces that touch over many texels cost few rays each. Moves
+/// them from `dark` to `sealed`.
+void accept_groups(const std::vector<float>& backs, int rays, int probes, std::vector<std::uint32_t>& dark,
+                   std::vector<bool>& sealed) {
+    const auto size = static_cast<std::size_t>((probes + rays - 1) / rays);
+    std::vector<std::uint32_t> left;
+    for (std::size_t begin = 0; begin < dark.size(); begin += size) {
+        const auto group = std::span(dark).subspan(begin, std::min(size, dark.size() - begin));
+        double all = 0;
+        for (const std::uint32_t p : group)
+            all += static_cast<double>(backs[p]);
+        if (group.size() < size || all < kLeastBacks * static_cast<double>(rays) * static_cast<double>(size))
+            left.insert(left.end(), group.begin(), group.end());
+        else
+            for (const std::uint32_t p : group)
+                sealed[p] = true;
+    }
+    dark = std::move(left);
+}
 
 } // namespace
 
@@ -39,20 +63,25 @@ Sealed find_sealed(Tracer& tracer, const TraceScene& scene, const Receivers& rec
     Sealed result{std::vector<bool>(receivers.size()), 0};
     std::optional<EmbreeTracer> on_cpu;
     Tracer& prober = tracer.notes_hits() ? tracer : on_cpu.emplace(scene);
+    std::vector<float> backs(receivers.size(), kNotSealed); // of those that may be sealed
     // Few rays for all of them, more for those that may be.
-    std::vector<std::uint8_t> sealed(receivers.size(), 0); // bytes, as several threads write
-    for (const int some : {16, 128, probes}) {
+    for (const int some : {16, 64, 256, probes}) {
         const bool last = some >= probes;
         const int rays = last ? probes : some;
         Transfer unused = zero_transfer(1, 1, receivers.size());
         trace_receivers(prober, receivers, dark, {.order = 1, .rays = rays, .seed = seed}, unused, {{}, stop},
                         [&](std::uint32_t p, std::span<const Hit> hits) {
-                            sealed[p] = looks_sealed(scene.surfaces(), hits, rays, !last);
+                            backs[p] = looks_sealed(scene.surfaces(), hits, rays, !last)
+                                           ? static_cast<float>(backs_of(scene.surfaces(), hits))
+                                           : kNotSealed;
                         });
         result.rays += dark.size() * static_cast<std::size_t>(rays);
-        std::erase_if(dark, [&](std::uint32_t p) { return sealed[p] == 0; });
+        std::erase_if(dark, [&](std::uint32_t p) { return backs[p] == kNotSealed; });
         if (last)
             break;
+        if (rays <=
+            kMostShared) // of more, a hole that one of them may find is not to be missed by the others
+            accept_groups(backs, rays, probes, dark, result.receivers);
     }
     for (const std::uint32_t p : dark)
         result.receivers[p] = true;

@@ -40,6 +40,12 @@ struct Layer {
     std::vector<std::uint32_t> indices; ///< of those that are there
 };
 
+/// Whether a texel whose first dark sample was asked is sealed in; samples of a texel are alike.
+enum class Verdict : std::uint8_t { unknown, sealed, dark };
+
+/// Of the dark texels in a row, one in so many is asked for the others.
+constexpr std::uint32_t kAskedInRow = 6;
+
 class TexelTracer {
 public:
     explicit TexelTracer(const TexelTask& task)
@@ -56,10 +62,11 @@ public:
 
     void trace(std::span<const TexelGroup> groups, TexelLight& light, const Progress& progress) {
         std::vector<int> lit(groups.size());
+        std::vector<Verdict> verdicts(groups.size(), Verdict::unknown);
         for (std::size_t k = 0; k < kSamplesOfTexel; ++k) {
             const Progress part = progress.part(static_cast<double>(k) / kSamplesOfTexel,
                                                 static_cast<double>(k + 1) / kSamplesOfTexel);
-            trace_layer(groups, k, lit, light, part);
+            trace_layer(groups, k, {lit, verdicts}, light, part);
         }
         for (std::size_t g = 0; g < groups.size(); ++g) {
             const std::uint32_t texel = groups[g].texel;
@@ -89,8 +96,14 @@ private:
         return layer;
     }
 
-    void trace_layer(std::span<const TexelGroup> groups, std::size_t k, std::vector<int>& lit,
-                     TexelLight& light, const Progress& progress) {
+    /// Of each of some texels.
+    struct Found {
+        std::vector<int>& lit; ///< samples that are not sealed in
+        std::vector<Verdict>& verdicts;
+    };
+
+    void trace_layer(std::span<const TexelGroup> groups, std::size_t k, const Found& found, TexelLight& light,
+                     const Progress& progress) {
         const Layer layer = this->layer(groups, k);
         TraceOptions options = options_;
         options.first_ray =
@@ -106,14 +119,15 @@ private:
         trace_receivers(task_.tracer, layer.receivers, layer.indices, options, traced, progress.part(0, 0.9),
                         sink);
         light.rays += layer.indices.size() * static_cast<std::size_t>(options.rays);
-        const std::vector<bool> sealed = sealed_of(layer, traced, light, progress.stop);
+        const std::vector<bool> sealed =
+            sealed_of(groups, layer, traced, found.verdicts, light, progress.stop);
         const auto add = [&](std::span<const float> values, std::size_t stride, std::vector<float>& to) {
             for (const std::uint32_t g : layer.indices)
                 for (std::size_t c = 0; !sealed[g] && c < stride; ++c)
                     to[groups[g].texel * stride + c] += values[g * stride + c];
         };
         for (const std::uint32_t g : layer.indices)
-            lit[g] += sealed[g] ? 0 : 1;
+            found.lit[g] += sealed[g] ? 0 : 1;
         add(traced.vectors, stride_, light.direct);
         if (!task_.transport)
             return;
@@ -133,17 +147,39 @@ private:
         return options_.seed + 7 * kSecondScramble + groups.front().texel * kSamplesOfTexel + k;
     }
 
-    std::vector<bool> sealed_of(const Layer& layer, const Transfer& traced, TexelLight& light,
+    std::vector<bool> sealed_of(std::span<const TexelGroup> groups, const Layer& layer,
+                                const Transfer& traced, std::vector<Verdict>& verdicts, TexelLight& light,
                                 const std::stop_token& stop) {
+        std::vector<bool> is_sealed(layer.receivers.size());
         if (task_.inside == Inside::keep)
-            return std::vector<bool>(layer.receivers.size());
-        std::vector<std::uint32_t> dark;
-        std::ranges::copy_if(layer.indices, std::back_inserter(dark),
-                             [&](std::uint32_t g) { return traced.vector(g)[0] <= 0; });
-        Sealed sealed =
-            find_sealed(task_.tracer, task_.scene, layer.receivers, std::move(dark), options_.seed, stop);
+            return is_sealed;
+        std::vector<std::uint32_t> dark, asked,
+            asked_for; // [dark], some of them, [dark] which one is asked for it
+        for (const std::uint32_t g : layer.indices) {
+            if (traced.vector(g)[0] > 0)
+                continue;
+            if (verdicts[g] == Verdict::unknown) {
+                const bool in_row = !dark.empty() && dark.back() + 1 == g &&
+                                    groups[dark.back()].texel + 1 == groups[g].texel && !asked.empty() &&
+                                    g - asked.back() < kAskedInRow;
+                if (!in_row)
+                    asked.push_back(g);
+                asked_for.push_back(asked.back());
+            } else {
+                asked_for.push_back(g);
+            }
+            dark.push_back(g);
+        }
+        const Sealed sealed =
+            find_sealed(task_.tracer, task_.scene, layer.receivers, asked, options_.seed, stop);
         light.rays += sealed.rays;
-        return std::move(sealed.receivers);
+        for (const std::uint32_t g : asked)
+            verdicts[g] = sealed.receivers[g] ? Verdict::sealed : Verdict::dark;
+        for (std::size_t i = 0; i < dark.size(); ++i) {
+            verdicts[dark[i]] = verdicts[asked_for[i]];
+            is_sealed[dark[i]] = verdicts[dark[i]] == Verdict::sealed;
+        }
+        return is_sealed;
     }
 
     const TexelTask& task_;
