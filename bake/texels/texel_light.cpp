@@ -43,8 +43,8 @@ struct Layer {
 /// Whether a texel whose first dark sample was asked is sealed in; samples of a texel are alike.
 enum class Verdict : std::uint8_t { unknown, sealed, dark };
 
-/// Of the dark texels in a row, one in so many is asked for the others.
-constexpr std::uint32_t kAskedInRow = 6;
+/// Of dark texels in a row, one in so many is asked for those between.
+constexpr std::size_t kAskedInRow = 12;
 
 class TexelTracer {
 public:
@@ -153,33 +153,52 @@ private:
         std::vector<bool> is_sealed(layer.receivers.size());
         if (task_.inside == Inside::keep)
             return is_sealed;
-        std::vector<std::uint32_t> dark, asked,
-            asked_for; // [dark], some of them, [dark] which one is asked for it
-        for (const std::uint32_t g : layer.indices) {
-            if (traced.vector(g)[0] > 0)
-                continue;
-            if (verdicts[g] == Verdict::unknown) {
-                const bool in_row = !dark.empty() && dark.back() + 1 == g &&
-                                    groups[dark.back()].texel + 1 == groups[g].texel && !asked.empty() &&
-                                    g - asked.back() < kAskedInRow;
-                if (!in_row)
-                    asked.push_back(g);
-                asked_for.push_back(asked.back());
-            } else {
-                asked_for.push_back(g);
-            }
-            dark.push_back(g);
-        }
-        const Sealed sealed =
-            find_sealed(task_.tracer, task_.scene, layer.receivers, asked, options_.seed, stop);
-        light.rays += sealed.rays;
-        for (const std::uint32_t g : asked)
-            verdicts[g] = sealed.receivers[g] ? Verdict::sealed : Verdict::dark;
-        for (std::size_t i = 0; i < dark.size(); ++i) {
-            verdicts[dark[i]] = verdicts[asked_for[i]];
-            is_sealed[dark[i]] = verdicts[dark[i]] == Verdict::sealed;
-        }
+        std::vector<std::uint32_t> dark, unknown;
+        for (const std::uint32_t g : layer.indices)
+            if (traced.vector(g)[0] <= 0)
+                dark.push_back(g);
+        std::ranges::copy_if(dark, std::back_inserter(unknown),
+                             [&](std::uint32_t g) { return verdicts[g] == Verdict::unknown; });
+        const auto ask = [&](std::vector<std::uint32_t> asked) {
+            const Sealed sealed =
+                find_sealed(task_.tracer, task_.scene, layer.receivers, asked, options_.seed, stop);
+            light.rays += sealed.rays;
+            for (const std::uint32_t g : asked)
+                verdicts[g] = sealed.receivers[g] ? Verdict::sealed : Verdict::dark;
+        };
+        // Some in each row, then those between two that differ.
+        const std::vector<std::size_t> posts = posts_of(groups, unknown);
+        std::vector<std::uint32_t> asked;
+        for (const std::size_t post : posts)
+            asked.push_back(unknown[post]);
+        ask(std::move(asked));
+        asked.clear();
+        for (std::size_t k = 0; k + 1 < posts.size(); ++k)
+            for (std::size_t i = posts[k] + 1; i < posts[k + 1]; ++i)
+                if (verdicts[unknown[posts[k]]] == verdicts[unknown[posts[k + 1]]])
+                    verdicts[unknown[i]] = verdicts[unknown[posts[k]]];
+                else
+                    asked.push_back(unknown[i]);
+        ask(std::move(asked));
+        for (const std::uint32_t g : dark)
+            is_sealed[g] = verdicts[g] == Verdict::sealed;
         return is_sealed;
+    }
+
+    /// Places in `unknown` of texels to ask: the ends of each row of texels, and some between.
+    static std::vector<std::size_t> posts_of(std::span<const TexelGroup> groups,
+                                             std::span<const std::uint32_t> unknown) {
+        std::vector<std::size_t> posts;
+        for (std::size_t i = 0, first = 0; i < unknown.size(); ++i) {
+            const auto follows = [&](std::size_t next) {
+                return next < unknown.size() &&
+                       groups[unknown[next]].texel == groups[unknown[next - 1]].texel + 1;
+            };
+            first = i > 0 && follows(i) ? first : i;
+            if ((i - first) % kAskedInRow == 0 || !follows(i + 1))
+                posts.push_back(i);
+        }
+        return posts;
     }
 
     const TexelTask& task_;

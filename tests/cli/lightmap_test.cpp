@@ -5,6 +5,7 @@
 #include "road.h"
 #include "support/glb_file.h"
 #include "support/lightmap_model.h"
+#include "support/scene_builder.h"
 
 #include <gtest/gtest.h>
 
@@ -32,6 +33,34 @@ protected:
         EXPECT_EQ(outcome.err.find("prt: error: "), outcome.err.rfind("prt: error: ")) << outcome.err;
     }
 };
+
+/// The six faces of a cube of 1 m.
+void add_cube(SceneBuilder& builder, const glm::vec3& low) {
+    for (int axis = 0; axis < 3; ++axis)
+        for (const bool far : {false, true}) {
+            glm::vec3 a = low, u(0), v(0);
+            a[axis] += far ? 1.0f : 0.0f;
+            u[(axis + 1) % 3] = v[(axis + 2) % 3] = 1;
+            if (far)
+                builder.quad(a, a + u, a + u + v, a + v);
+            else
+                builder.quad(a, a + v, a + u + v, a + u);
+        }
+}
+
+// Faces of which the neighbours touch each cost a few rays more, not a thousand.
+TEST_F(Lightmaps, OfBlocksThatTouchTakeTheRaysThatWereAsked) {
+    SceneBuilder blocks;
+    for (int i = 0; i < 12; ++i)
+        add_cube(blocks, glm::vec3(i % 3, i / 3 % 2, i / 6));
+    scene_file(blocks.build()).write(folder / "blocks.glb");
+    const Outcome baked = prt({"bake", at("blocks.glb"), "-o", at("b.glb"), "--size", "512", "--unwrap",
+                               "--rays", "64", "--order", "2", "--json", at("b.json")});
+    ASSERT_EQ(baked.status, 0) << baked.err;
+    const nlohmann::json report = read_json(folder / "b.json");
+    EXPECT_LT(report["rays"].get<double>(), 1.2 * 64 * report["texels_measured"].get<double>());
+    EXPECT_GT(report["texels_sealed"], 10000); // of 180 000
+}
 
 TEST_F(Lightmaps, GoAllTheRoad) {
     ASSERT_EQ(bake({"--size", "128", "--unwrap", "--bounces", "1", "--json", at("bake.json")}).status, 0);
