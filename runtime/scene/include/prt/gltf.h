@@ -48,8 +48,8 @@ struct GltfOptions {
     /// Files that will be written: a scene whose buffers or images are among them is refused.
     std::vector<std::filesystem::path> outputs = {};
     Instancing instancing = Instancing::nodes;
-    /// Factor on the intensity of the lights of KHR_lights_punctual, in the document, too: 1 / 683 makes watts
-    /// of what exporters write in candela and lux.
+    /// Factor on the intensity of the lights of KHR_lights_punctual, in the document, too: 1 / 683 makes
+    /// watts of what exporters write in candela and lux.
     double lamp_scale = 1;
 };
 
