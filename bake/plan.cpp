@@ -99,8 +99,9 @@ std::vector<std::string> scene_notices(const TraceScene& scene, const BakeOption
     std::vector<std::string> notices;
     for (const auto& [image, encoding] : needed_images(scene.scene(), texture_needs(options)))
         if (scene.textures()[static_cast<std::size_t>(image)].levels.empty())
-            notices.push_back(fmt::format(
-                "image {} is missing or damaged: the factors of its materials are used alone", image));
+            notices.push_back(fmt::format("image {} is missing or damaged: the factors of its materials are "
+                                          "used alone; emission with it is black",
+                                          image));
     for (std::string& notice : material_notices(scene.scene(), options.bounces != 0))
         notices.push_back(std::move(notice));
     if (auto notice = small_object_notice(scene.scene()))

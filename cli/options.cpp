@@ -15,8 +15,8 @@ const std::map<std::string, Backend> kBackends = {
 const std::map<std::string, Inside> kInsides = {{"refill", Inside::refill}, {"keep", Inside::keep}};
 const std::map<std::string, FitMode> kFits = {
     {"auto", FitMode::automatic}, {"vertex", FitMode::vertex}, {"surface", FitMode::surface}};
-const std::map<std::string, BadTextures> kBadTextures = {{"error", BadTextures::error},
-                                                         {"ignore", BadTextures::ignore}};
+const std::map<std::string, MissingImages> kBadTextures = {{"error", MissingImages::error},
+                                                           {"ignore", MissingImages::ignore}};
 const std::map<std::string, Window> kWindows = {{"none", Window::none},
                                                 {"hann", Window::hann},
                                                 {"lanczos", Window::lanczos},
@@ -71,6 +71,14 @@ void add_output(CLI::App* command, Path& output, const std::string& text) {
 void add_reading(CLI::App* command, GltfOptions& reading) {
     command->add_flag("--allow-outside", reading.allow_outside,
                       "a scene's buffers and images may lie outside its folder: for scenes that you trust");
+    choice(command, "--bad-textures", reading.missing_images, kBadTextures,
+           "textures that are missing, damaged or of a format that is not read: stop where one is needed, or "
+           "use the factors of their materials alone, and no emission where its texture is one",
+           "error");
+}
+
+BadTextures bad_textures(const GltfOptions& reading) {
+    return reading.missing_images == MissingImages::ignore ? BadTextures::ignore : BadTextures::error;
 }
 
 void add_threads(CLI::App* command, int& threads) {
@@ -115,13 +123,6 @@ void choose_gpu(TracerChoice& tracer) {
     if (tracer.method == BakeMethod::raster)
         throw Error("--gpu names a GPU for rays: depth maps are drawn where OpenGL is");
     tracer.backend = Backend::gpu;
-}
-
-void add_bad_textures(CLI::App* command, BadTextures& bad_textures) {
-    choice(command, "--bad-textures", bad_textures, kBadTextures,
-           "textures that are missing, damaged or of a format that is not read: stop where one is needed, or "
-           "use the factors of their materials alone",
-           "error");
 }
 
 void add_inside(CLI::App* command, Inside& inside) {

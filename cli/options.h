@@ -59,7 +59,8 @@ CLI::Option* add_backend(CLI::App* command, Backend& backend, const std::string&
 CLI::Option* add_gpu(CLI::App* command, std::string& gpu);
 /// Makes a GPU that is named the one to bake on. Throws `Error` where none is used.
 void choose_gpu(TracerChoice& tracer);
-void add_bad_textures(CLI::App* command, BadTextures& bad_textures);
+/// What `add_reading` was told of bad textures.
+BadTextures bad_textures(const GltfOptions& reading);
 void add_inside(CLI::App* command, Inside& inside);
 /// --fit, which is automatic where it is not given.
 void add_fit(CLI::App* command, FitMode& fit, const std::string& text);

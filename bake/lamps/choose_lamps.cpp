@@ -65,7 +65,7 @@ void add_lamps_of_scene(const Surfaces& surfaces, Lamps& lamps) {
     for (std::uint32_t i = 0; i < scene.lights.size(); ++i)
         lamps.called(scene.lights[i].name).lights.push_back(i);
     for (std::uint32_t t = 0; t < surfaces.triangles(); ++t)
-        if (surfaces.material(t).emission.radiance != glm::vec3(0))
+        if (surfaces.emits(t))
             lamps.called(lamp_name(scene, scene.primitives[surfaces.primitive(t)].material))
                 .triangles.push_back(t);
 }

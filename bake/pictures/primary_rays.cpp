@@ -42,6 +42,8 @@ std::optional<glm::vec4> filtered_texel(const Picture& picture, const VertexArra
         return std::nullopt;
     const auto& set = vertices.texcoords[static_cast<std::size_t>(use.texcoord)];
     const Texture& texture = picture.textures[static_cast<std::size_t>(use.image)];
+    if (texture.levels.empty()) // missing: factors alone
+        return std::nullopt;
     const glm::vec3& origin = picture.camera.position;
     const auto coordinate = [&](const glm::vec2& barycentrics) {
         return use.transform * glm::vec3(interpolated(set, t, barycentrics), 1);
@@ -103,6 +105,9 @@ SeenSurface PrimaryRays::surface_at(unsigned id, const glm::vec3& along, int x, 
         if (const auto texel = filtered_texel(picture_, vertices, material.emission.texture, corners, t,
                                               surface.barycentrics, next))
             surface.emission *= glm::vec3(*texel);
+        else if (const int image = material.emission.texture.image;
+                 image >= 0 && picture_.textures[static_cast<std::size_t>(image)].levels.empty())
+            surface.emission = glm::vec3(0);
     }
     if (!picture_.textured)
         return surface;

@@ -157,9 +157,18 @@ glm::vec4 Surfaces::base_color(const SurfacePoint& point, bool finest) const {
     return base;
 }
 
+bool Surfaces::emits(std::uint32_t triangle) const {
+    const Emission& emission = material(triangle).emission;
+    return emission.radiance != glm::vec3(0) &&
+           (emission.texture.image < 0 || textures_.empty() ||
+            !textures_[static_cast<std::size_t>(emission.texture.image)].levels.empty());
+}
+
 glm::vec3 Surfaces::emission(const SurfacePoint& point) const {
     const Emission& emission = material(point.triangle).emission;
-    if (emission.texture.image < 0 || emission.radiance == glm::vec3(0))
+    if (!emits(point.triangle))
+        return glm::vec3(0);
+    if (emission.texture.image < 0)
         return emission.radiance;
     return emission.radiance * glm::vec3(texel(point, emission.texture, false));
 }

@@ -41,7 +41,7 @@ constexpr double kShare = 1.0 / (1 + std::size(kSetups)); ///< of the time, for 
 class Bench {
 public:
     Bench(const Scene& scene, const BenchOptions& options)
-        : scene_(scene), options_(options), textures_(load_textures(scene)),
+        : scene_(scene), options_(options), textures_(load_textures(scene, options.bad_textures)),
           receivers_(vertex_receivers(scene)), indices_(receivers_on_surfaces(receivers_)) {}
 
     BenchResult run(const std::string& name, const Progress& progress) {
@@ -152,6 +152,7 @@ private:
         options.fit = FitMode::surface;
         options.tracer.backend = Backend::cpu;
         options.lamps.mode = LampMode::none;
+        options.repairs.bad_textures = options_.bad_textures;
         options.threads = options_.threads;
         options.seed = options_.seed;
         const BakeResult result = bake(scene_, options, progress);

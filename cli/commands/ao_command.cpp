@@ -222,8 +222,7 @@ void run(AoArguments a, Session& session) {
     a.options.rays = a.rays.value_or(a.options.rays);
     a.reading.outputs = check_outputs({{a.output, "--output", {".glb"}}, {a.json, "--json", {".json"}}},
                                       {a.scene, a.textures.casters});
-    if (a.options.repairs.bad_textures == BadTextures::ignore)
-        a.reading.missing_images = MissingImages::ignore;
+    a.options.repairs.bad_textures = bad_textures(a.reading);
     const Stopwatch watch;
     GltfDocument document = load_gltf(a.scene, a.reading);
     Scene scene = extract_scene(document);
@@ -312,7 +311,6 @@ void add_ao(CLI::App& app, Session& session) {
     add_inside(command, a.options.repairs.inside);
     for (const char* of_vertices : {"--fit", "--inside"})
         command->get_option("--volume")->excludes(command->get_option(of_vertices));
-    add_bad_textures(command, a.options.repairs.bad_textures);
     command->add_option("--seed", a.options.seed, "seed of the samples")
         ->capture_default_str()
         ->check(seed());

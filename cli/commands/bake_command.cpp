@@ -121,7 +121,6 @@ void add_transport(CLI::App* command, BakeOptions& options) {
                      "size of the scene's unit, where it is not glTF's metre; only media care")
         ->capture_default_str()
         ->check(real_in(1e-9, 1e9));
-    add_bad_textures(command, options.repairs.bad_textures);
     command
         ->add_option_function<std::uint64_t>(
             "--memory-limit",
@@ -381,10 +380,8 @@ void run(BakeArguments a, Session& session) {
     check_arguments(a);
     a.reading.outputs = check_outputs({{a.output, "--output", {".glb"}}, {a.json, "--json", {".json"}}},
                                       {a.scene, a.texels.casters});
-    GltfOptions reading = a.reading;
-    reading.missing_images =
-        a.options.repairs.bad_textures == BadTextures::ignore ? MissingImages::ignore : MissingImages::error;
-    GltfDocument document = load_gltf(a.scene, reading);
+    a.options.repairs.bad_textures = bad_textures(a.reading);
+    GltfDocument document = load_gltf(a.scene, a.reading);
     Scene scene = extract_scene(document);
     print_notices(a.scene.string(), scene.notices);
     TexelRoom room;

@@ -51,6 +51,7 @@ void run(BenchArguments a, Session& session) {
         return print_devices();
     if (a.scene.empty())
         throw CLI::RequiredError("scene or --list-devices");
+    a.options.bad_textures = bad_textures(a.reading);
     a.reading.outputs = check_outputs({{a.files.json, "--json", {".json"}},
                                        {a.files.html, "--html", {".html", ".htm"}},
                                        {a.files.csv, "--csv", {".csv"}}},

@@ -144,8 +144,7 @@ void run(LobesArguments a, Session& session) {
     choose_gpu(a.bake.tracer);
     a.reading.outputs =
         check_outputs({{a.output, "--output", {".glb"}}, {a.json, "--json", {".json"}}}, {a.model});
-    if (a.bake.bad_textures == BadTextures::ignore)
-        a.reading.missing_images = MissingImages::ignore;
+    a.bake.bad_textures = bad_textures(a.reading);
     a.fit.threads = a.bake.threads;
     set_band_costs(a.bake.order, a.fit);
     GltfDocument document = load_gltf(a.model, a.reading);
@@ -214,7 +213,6 @@ void add_lobes(CLI::App& app, Session& session) {
     add_backend(command, a.bake.tracer.backend,
                 "gpu: Vulkan 1.2 of any kind; auto: a hardware GPU, else the CPU");
     add_gpu(command, a.bake.tracer.gpu);
-    add_bad_textures(command, a.bake.bad_textures);
     command->add_option("--seed", a.bake.seed, "seed of the samples")->capture_default_str()->check(seed());
     add_reading(command, a.reading);
     add_threads(command, a.bake.threads);

@@ -6,6 +6,7 @@
 #include "lamp_strengths.h"
 #include "make/choices.h"
 #include "no_shadow.h"
+#include "options.h"
 #include "prt/encode_glb.h"
 #include "prt/jumps.h"
 #include "prt/levels.h"
@@ -152,6 +153,7 @@ private:
         options.bounces = plan_.cut.bounces;
         options.rays = rays;
         options.fit = plan_.fit;
+        options.repairs.bad_textures = bad_textures(r_.reading);
         options.threads = r_.threads;
         return options;
     }

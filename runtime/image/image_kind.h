@@ -23,6 +23,16 @@ inline bool is_jpeg(std::span<const std::byte> file) {
     return begins_with(file, "\xff\xd8\xff");
 }
 
+inline bool is_webp(std::span<const std::byte> file) {
+    return begins_with(file, "RIFF") && file.size() >= 12 && begins_with(file.subspan(8), "WEBP");
+}
+
+/// Still or a sequence.
+inline bool is_avif(std::span<const std::byte> file) {
+    return file.size() >= 12 &&
+           (begins_with(file.subspan(4), "ftypavif") || begins_with(file.subspan(4), "ftypavis"));
+}
+
 /// Radiance HDR.
 inline bool is_hdr(std::span<const std::byte> file) {
     return begins_with(file, "#?");

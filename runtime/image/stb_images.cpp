@@ -9,6 +9,7 @@
 #include "prt/image_size.h"
 #include "prt/support/error.h"
 #include "prt/support/printable.h"
+#include "web_images.h"
 
 #include <algorithm>
 #include <climits>
@@ -139,8 +140,12 @@ Image decode_hdr(std::span<const std::byte> file) {
 }
 
 ImageSize image_size(std::span<const std::byte> file) {
+    if (is_webp(file))
+        return webp_size(file);
+    if (is_avif(file))
+        return avif_size(file);
     if (!is_png(file) && !is_jpeg(file) && !is_hdr(file)) // stb reads more kinds, with less care
-        throw Error("is no image that is read here: PNG and JPEG are");
+        throw Error("is no image that is read here: PNG, JPEG, WebP and AVIF are");
     if (is_png(file))
         check_png_chunks(file);
     ImageSize size;
@@ -151,6 +156,10 @@ ImageSize image_size(std::span<const std::byte> file) {
 }
 
 Image8 decode_image(std::span<const std::byte> file) {
+    if (is_webp(file))
+        return decode_webp(file);
+    if (is_avif(file))
+        return decode_avif(file);
     if (is_hdr(file))
         throw Error("is a Radiance HDR, not a PNG or JPEG");
     const ImageSize size = image_size(file);

@@ -3,6 +3,7 @@
 #include "program.h"
 #include "prt/gltf.h"
 #include "support/glb_file.h"
+#include "support/lightmap_model.h"
 #include "support/scene_builder.h"
 #include "support/temporary_folder.h"
 
@@ -10,7 +11,9 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include <array>
 #include <cmath>
+#include <cstddef>
 #include <fstream>
 #include <numbers>
 
@@ -110,6 +113,23 @@ TEST_F(LampsOnTheRoad, OfPhotometricUnitsAreNoticed) {
                                "cpu", "--env", at("sky.json")});
     EXPECT_EQ(drawn.status, 0) << drawn.err;
     EXPECT_NE(drawn.err.find("--lamp-scale 0.00146"), std::string::npos) << drawn.err;
+}
+
+// White would make a lamp of every triangle.
+TEST_F(LampsOnTheRoad, WhoseTexturesAreMissingAreDark) {
+    GlbFile file = scene_file(SceneBuilder().floor({0, 0, 0}, 1, 6).build());
+    const std::array<std::byte, 4> damaged{};
+    file.json["textures"] = {{{"source", add_image(file, damaged, "image/webp")}}};
+    file.json["materials"] = {{{"emissiveFactor", {1, 1, 1}}, {"emissiveTexture", {{"index", 0}}}}};
+    file.json["meshes"][0]["primitives"][0]["material"] = 0;
+    file.write(folder / "s.glb");
+    bake("dark.glb", {"--bad-textures", "ignore"});
+    EXPECT_TRUE(lamps_of("dark.glb").empty());
+    const Outcome drawn = prt({"render", at("dark.glb"), "-o", at("p.png"), "--size", "32x32", "--backend",
+                               "cpu", "--bad-textures", "ignore"});
+    EXPECT_EQ(drawn.status, 0) << drawn.err;
+    EXPECT_EQ(
+        prt({"render", at("dark.glb"), "-o", at("p.png"), "--size", "32x32", "--backend", "cpu"}).status, 1);
 }
 
 TEST_F(LampsOnTheRoad, LightAsTheirStrengthsSay) {

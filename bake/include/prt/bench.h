@@ -4,6 +4,7 @@
 
 #include "prt/make_tracer.h"
 #include "prt/scene.h"
+#include "prt/texture.h"
 
 #include <cstdint>
 #include <string>
@@ -19,6 +20,7 @@ struct BenchOptions {
     double most_seconds = 60; ///< a run that would take longer is left out
     int threads = 0;
     std::uint64_t seed = 0;
+    BadTextures bad_textures = BadTextures::error;
 };
 
 /// One run over all receivers.

@@ -53,6 +53,8 @@ public:
     const SurfaceTraits& traits() const { return traits_; }
     /// The texture, if there is one, holds no color.
     bool is_grey(const TextureUse& use) const;
+    /// Whether the triangle shines: not where the texture of its emission is missing.
+    bool emits(std::uint32_t triangle) const;
 
     /// The texture is loaded and `vertices` have coordinates for it.
     bool has_texture(const VertexArray& vertices, const TextureUse& use) const;

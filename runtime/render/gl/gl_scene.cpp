@@ -187,8 +187,11 @@ void GlScene::prepare_lightmap(std::uint32_t array, std::size_t primitive) const
 void GlScene::prepare_emission(const GlObject& program, const Primitive& primitive) const {
     const Emission& emission = scene_.materials[primitive.material].emission;
     const Vertices& vertices = vertices_[primitive.vertices];
+    const auto image = static_cast<std::size_t>(emission.texture.image);
+    const bool missing =
+        emission.texture.image >= 0 && image < textures_.size() && textures_[image].name() == 0;
     const glm::vec3 radiance =
-        emission_.empty() ? glm::vec3(0) : emission.radiance * emission_[primitive.material];
+        emission_.empty() || missing ? glm::vec3(0) : emission.radiance * emission_[primitive.material];
     const GlObject* texture = radiance == glm::vec3(0) ? nullptr : texture_of(emission.texture, vertices);
     glUniform3fv(uniform(program, "emission"), 1, glm::value_ptr(radiance));
     glUniform1i(uniform(program, "has_emission_texture"), texture != nullptr);

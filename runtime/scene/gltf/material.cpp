@@ -47,7 +47,7 @@ int image_of(const tinygltf::Texture& texture) {
     if (texture.source >= 0)
         return texture.source;
     for (const char* name :
-         {"KHR_texture_basisu", "EXT_texture_webp", "EXT_texture_avif", "MSFT_texture_dds"})
+         {"EXT_texture_webp", "EXT_texture_avif", "KHR_texture_basisu", "MSFT_texture_dds"})
         if (const auto found = texture.extensions.find(name);
             found != texture.extensions.end() && found->second.Has("source"))
             return found->second.Get("source").GetNumberAsInt();
