@@ -14,7 +14,7 @@ PARTS = {
     "runtime": ("runtime", "", "glm"),
     "shader": ("runtime/shader", "runtime", "glm"),
     "fit": ("runtime/fit", "runtime", "glm ceres"),
-    "image": ("runtime/image", "runtime", "glm OpenEXR stb zlib"),
+    "image": ("runtime/image", "runtime", "glm OpenEXR stb zlib libwebp libavif"),
     "scene": ("runtime/scene", "runtime", "glm tinygltf nlohmann meshoptimizer draco"),
     "c": ("runtime/c", "runtime shader image scene", "glm"),
     "render": ("runtime/render", "runtime image scene", "glm"),
@@ -46,7 +46,7 @@ PACKAGES = {  # how their headers begin
     "glm/": "glm", "ceres/": "ceres", "Eigen/": "Eigen", "OpenEXR/": "OpenEXR", "Imath": "OpenEXR", "Imf": "OpenEXR",
     "stb/": "stb", "zlib": "zlib", "tiny_gltf": "tinygltf", "nlohmann/": "nlohmann", "meshoptimizer": "meshoptimizer",
     "draco/": "draco",
-    "epoxy/": "epoxy", "GLFW/": "glfw", "embree3/": "embree", "fmt/": "fmt", "CLI/": "CLI",
+    "epoxy/": "epoxy", "webp/": "libwebp", "avif/": "libavif", "GLFW/": "glfw", "embree3/": "embree", "fmt/": "fmt", "CLI/": "CLI",
     "imgui": "imgui", "backends/imgui": "imgui", "vulkan/vulkan_raii": "vulkan",
 }
 SYSTEM = re.compile(r"^[a-z_]+$|^(std[a-z]+|string|math|time|signal|errno|limits|unistd|dirent|fcntl|poll|dlfcn|windows)\.h$|^sys/|^linux/")
