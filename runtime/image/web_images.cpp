@@ -7,6 +7,8 @@
 #include <avif/avif.h>
 #include <webp/decode.h>
 
+#include <algorithm>
+#include <cstdint>
 #include <memory>
 #include <string>
 
@@ -22,6 +24,9 @@ Image8 empty_image(const ImageSize& size) {
     image.pixels.resize(static_cast<std::size_t>(size.width) * static_cast<std::size_t>(size.height));
     return image;
 }
+
+/// Planes of 16 bits with alpha, in the decoder and handed out, and pixels.
+constexpr std::uint64_t kAvifBytesPerPixel = 2 * 4 * sizeof(std::uint16_t) + sizeof(glm::u8vec4);
 
 struct AvifDestroy {
     void operator()(avifDecoder* decoder) const { avifDecoderDestroy(decoder); }
@@ -39,21 +44,19 @@ AvifDecoder parsed_avif(std::span<const std::byte> file) {
     AvifDecoder decoder(avifDecoderCreate());
     if (!decoder)
         throw Error("there is not enough memory for an AVIF");
-    if (avifCodecName(AVIF_CODEC_CHOICE_AOM, AVIF_CODEC_FLAG_CAN_DECODE))
-        decoder->codecChoice = AVIF_CODEC_CHOICE_AOM; // dav1d writes to stderr of what is damaged
     decoder->maxThreads = 1;
     decoder->ignoreExif = decoder->ignoreXMP = AVIF_TRUE;
     decoder->strictFlags = AVIF_STRICT_DISABLED; // what browsers show
-    decoder->imageSizeLimit = 1u << 28;
+    // Of the frame as well, which may be larger than the file says: dav1d keeps to it.
+    decoder->imageSizeLimit = static_cast<std::uint32_t>(std::min<std::uint64_t>(
+        1u << 28, (kFreeImageMemory + kImageMemoryPerByte * file.size()) / kAvifBytesPerPixel));
     check_avif(avifDecoderSetIOMemory(decoder.get(), bytes_of(file), file.size()));
     check_avif(avifDecoderParse(decoder.get()));
     return decoder;
 }
 
 ImageSize size_of(const avifDecoder& decoder, std::size_t file_bytes) {
-    // Planes of 16 bits with alpha, in the decoder and handed out, and pixels.
-    constexpr std::uint64_t kBytesPerPixel = 2 * 4 * sizeof(std::uint16_t) + sizeof(glm::u8vec4);
-    check_image_size(decoder.image->width, decoder.image->height, kBytesPerPixel, file_bytes);
+    check_image_size(decoder.image->width, decoder.image->height, kAvifBytesPerPixel, file_bytes);
     return {static_cast<int>(decoder.image->width), static_cast<int>(decoder.image->height)};
 }
 
