@@ -435,8 +435,10 @@ auto readable(const CompressArguments& a, Read&& read) {
 /// Stages the file and reads it back; its bytes stay in memory no longer than it takes to parse them.
 Written written(const CompressArguments& a, std::vector<std::byte> file, const Bake& bake, Session& session) {
     const std::optional<BakedLightmap>& lightmap = bake.lightmap;
-    GltfDocument document =
-        readable(a, [&] { return parse_gltf(file, a.output, {.instancing = Instancing::apart}); });
+    GltfDocument document = readable(a, [&] {
+        return parse_gltf(file, a.output,
+                          {.missing_images = MissingImages::ignore, .instancing = Instancing::apart});
+    });
     const std::uintmax_t bytes = session.write(a.output, file);
     file = {};
     SceneFile read = readable(a, [&] { return scene_file_of(std::move(document), a.output); });

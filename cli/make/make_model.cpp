@@ -244,7 +244,8 @@ private:
         write_transfer(document_, scene_, result.baked);
         const std::vector<std::byte> file = encode_glb(document_);
         session_.write(r_.baked, file);
-        model_.emplace(scene_file_of(parse_gltf(file, r_.output), r_.output));
+        model_.emplace(scene_file_of(
+            parse_gltf(file, r_.output, {.missing_images = r_.reading.missing_images}), r_.output));
         discard_transfer(model_->document);
     }
 
