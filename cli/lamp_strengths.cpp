@@ -61,10 +61,8 @@ std::vector<glm::vec3> strengths_of(const Json& file, const TransferLayout& layo
 std::vector<bool> punctual_lamps(const Scene& scene, const TransferLayout& layout) {
     std::vector<bool> punctual;
     for (const TransferPart& lamp : layout.lamp_parts())
-        punctual.push_back(std::ranges::any_of(scene.lights, [&](const PunctualLight& light) {
-            return lamp.members.empty() ? lamp.name == light.name
-                                        : std::ranges::count(lamp.members, light.name) > 0;
-        }));
+        punctual.push_back(std::ranges::any_of(
+            scene.lights, [&](const PunctualLight& light) { return lamp.has_member(light.name); }));
     return punctual;
 }
 
@@ -110,6 +108,13 @@ void scale_lights(const Scene& scene, const TransferLayout& layout, double scale
     for (std::size_t k = 0; k < strengths.size(); ++k)
         if (punctual[k])
             strengths[k] *= static_cast<float>(scale);
+}
+
+Relit relit_by(const Transfer& transfer, std::span<const float> areas, int threads) {
+    return {
+        transfer.layout,
+        [&transfer, threads](const Lighting& lighting) { return exit_radiance(transfer, lighting, threads); },
+        areas};
 }
 
 std::optional<std::string> photometric_notice(const Scene& scene, const Relit& model,

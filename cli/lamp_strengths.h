@@ -33,12 +33,15 @@ void add_lamp_scale(CLI::App* command, double& scale);
 void scale_lights(const Scene& scene, const TransferLayout& layout, double scale,
                   std::span<glm::vec3> strengths);
 
-/// What receivers send out in a light, and how much surface each stands for.
+/// How to compute the exit radiance of all receivers in a given light, and their areas.
 struct Relit {
     const TransferLayout& layout;
     std::function<std::vector<glm::vec3>(const Lighting&)> radiance;
     std::span<const float> areas;
 };
+/// Keeps references to `transfer` and `areas`.
+Relit relit_by(const Transfer& transfer, std::span<const float> areas, int threads);
+
 /// A line that suggests --lamp-scale where the lights of `scene` outshine the sky as lights in candela and
 /// lux do. `lighting`: sky and lamps; no sky, no line.
 std::optional<std::string> photometric_notice(const Scene& scene, const Relit& model,

@@ -38,12 +38,11 @@ struct NextRays {
 std::optional<glm::vec4> filtered_texel(const Picture& picture, const VertexArray& vertices,
                                         const TextureUse& use, const Corners& corners, const glm::uvec3& t,
                                         const glm::vec2& uv, const NextRays& next) {
-    if (use.image < 0 || static_cast<std::size_t>(use.texcoord) >= vertices.texcoords.size())
+    if (use.image < 0 || is_missing(use, picture.textures) ||
+        static_cast<std::size_t>(use.texcoord) >= vertices.texcoords.size())
         return std::nullopt;
     const auto& set = vertices.texcoords[static_cast<std::size_t>(use.texcoord)];
     const Texture& texture = picture.textures[static_cast<std::size_t>(use.image)];
-    if (texture.levels.empty()) // missing: factors alone
-        return std::nullopt;
     const glm::vec3& origin = picture.camera.position;
     const auto coordinate = [&](const glm::vec2& barycentrics) {
         return use.transform * glm::vec3(interpolated(set, t, barycentrics), 1);
@@ -105,8 +104,7 @@ SeenSurface PrimaryRays::surface_at(unsigned id, const glm::vec3& along, int x, 
         if (const auto texel = filtered_texel(picture_, vertices, material.emission.texture, corners, t,
                                               surface.barycentrics, next))
             surface.emission *= glm::vec3(*texel);
-        else if (const int image = material.emission.texture.image;
-                 image >= 0 && picture_.textures[static_cast<std::size_t>(image)].levels.empty())
+        else if (is_missing(material.emission.texture, picture_.textures))
             surface.emission = glm::vec3(0);
     }
     if (!picture_.textured)

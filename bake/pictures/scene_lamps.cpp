@@ -25,9 +25,7 @@ namespace {
 std::optional<glm::vec3> strength_of_name(const std::string& name, std::span<const TransferPart> lamps,
                                           std::span<const glm::vec3> strengths) {
     for (std::size_t k = 0; k < lamps.size(); ++k)
-        if ((lamps[k].members.empty() ? lamps[k].name == name
-                                      : std::ranges::count(lamps[k].members, name) > 0) &&
-            strengths[k] != glm::vec3(0))
+        if (lamps[k].has_member(name) && strengths[k] != glm::vec3(0))
             return strengths[k];
     return std::nullopt;
 }

@@ -171,10 +171,10 @@ void RayScene::triangles_near(const glm::vec3& position, float distance, std::ve
 float RayScene::triangle_offset(unsigned id, float distance) const {
     const glm::uvec3& t = corners_[id];
     const glm::vec3 &a = positions_[t.x], &b = positions_[t.y], &c = positions_[t.z];
-    const float coordinate = std::max({largest_coordinate(a), largest_coordinate(b), largest_coordinate(c)}),
-                length = std::max(
-                    {largest_coordinate(b - a), largest_coordinate(c - b), largest_coordinate(a - c)});
-    return kCoordinateOffset * coordinate + PRT_LENGTH_OFFSET * (length + distance);
+    const float length =
+        std::max({largest_coordinate(b - a), largest_coordinate(c - b), largest_coordinate(a - c)});
+    return coordinate_offset(glm::max(glm::abs(a), glm::max(glm::abs(b), glm::abs(c)))) +
+           PRT_LENGTH_OFFSET * (length + distance);
 }
 
 glm::vec3 RayScene::ray_origin(const Receivers& receivers, std::uint32_t index) const {

@@ -14,27 +14,28 @@ namespace {
 
 constexpr double kLeastBacks = 0.98; ///< of all rays; among loose sheets nine of ten may be
 constexpr float kNotSealed = -1;
-constexpr int kMostShared = 16; ///< rays of a receiver where several share their rays
+constexpr int kFirstRays = 16; ///< per receiver, in the first round
 
-/// `backs` of so many `rays` of each. Accepts receivers that lie side by side, may all be sealed in, and
-/// together have had as many rays as one needs: faces that touch over many texels cost few rays each. Moves
-/// them from `dark` to `sealed`.
-void accept_groups(const std::vector<float>& backs, int rays, int probes, std::vector<std::uint32_t>& dark,
+/// Decides for groups of neighbours after the first round. A group has as many receivers as it takes for its
+/// rays to add up to `probes`. If 98 % of these rays hit backs, all of its receivers are sealed in and move
+/// from `candidates` to `sealed`. `backs`: rays of each receiver that hit backs.
+void accept_groups(const std::vector<float>& backs, int probes, std::vector<std::uint32_t>& candidates,
                    std::vector<bool>& sealed) {
-    const auto size = static_cast<std::size_t>((probes + rays - 1) / rays);
+    const auto size = static_cast<std::size_t>((probes + kFirstRays - 1) / kFirstRays);
+    const double needed = kLeastBacks * kFirstRays * static_cast<double>(size);
     std::vector<std::uint32_t> left;
-    for (std::size_t begin = 0; begin < dark.size(); begin += size) {
-        const auto group = std::span(dark).subspan(begin, std::min(size, dark.size() - begin));
-        double all = 0;
+    for (std::size_t begin = 0; begin < candidates.size(); begin += size) {
+        const auto group = std::span(candidates).subspan(begin, std::min(size, candidates.size() - begin));
+        double sum = 0;
         for (const std::uint32_t p : group)
-            all += static_cast<double>(backs[p]);
-        if (group.size() < size || all < kLeastBacks * static_cast<double>(rays) * static_cast<double>(size))
+            sum += static_cast<double>(backs[p]);
+        if (group.size() < size || sum < needed)
             left.insert(left.end(), group.begin(), group.end());
         else
             for (const std::uint32_t p : group)
                 sealed[p] = true;
     }
-    dark = std::move(left);
+    candidates = std::move(left);
 }
 
 } // namespace
@@ -65,7 +66,7 @@ Sealed find_sealed(Tracer& tracer, const TraceScene& scene, const Receivers& rec
     Tracer& prober = tracer.notes_hits() ? tracer : on_cpu.emplace(scene);
     std::vector<float> backs(receivers.size(), kNotSealed); // of those that may be sealed
     // Few rays for all of them, more for those that may be.
-    for (const int some : {16, 64, 256, probes}) {
+    for (const int some : {kFirstRays, 64, 256, probes}) {
         const bool last = some >= probes;
         const int rays = last ? probes : some;
         Transfer unused = zero_transfer(1, 1, receivers.size());
@@ -79,9 +80,9 @@ Sealed find_sealed(Tracer& tracer, const TraceScene& scene, const Receivers& rec
         std::erase_if(dark, [&](std::uint32_t p) { return backs[p] == kNotSealed; });
         if (last)
             break;
-        if (rays <=
-            kMostShared) // of more, a hole that one of them may find is not to be missed by the others
-            accept_groups(backs, rays, probes, dark, result.receivers);
+        // Later rounds decide alone: pooling there missed small holes.
+        if (rays == kFirstRays)
+            accept_groups(backs, probes, dark, result.receivers);
     }
     for (const std::uint32_t p : dark)
         result.receivers[p] = true;

@@ -29,8 +29,9 @@ struct Sealed {
 };
 
 /// Which of the `dark` receivers are sealed in: none of `probes` rays escapes and 98 of 100 end at the back
-/// of a single-sided surface, which scatters nothing. Many in a row share these rays. Where fronts are seen,
-/// as in a dark room, darkness is the truth. Rays go to `tracer`, or where that notes no hits to the CPU.
+/// of a single-sided surface, which scatters nothing. Groups of neighbours share these rays. Where fronts are
+/// seen, as in a dark room, darkness is the truth. Rays go to `tracer`, or where that notes no hits to the
+/// CPU.
 Sealed find_sealed(Tracer& tracer, const TraceScene& scene, const Receivers& receivers,
                    std::vector<std::uint32_t> dark, std::uint64_t seed, const std::stop_token& stop,
                    int probes = kMostProbes);

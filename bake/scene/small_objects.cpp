@@ -6,33 +6,14 @@
 #include <glm/common.hpp>
 
 #include <algorithm>
-#include <limits>
 
 namespace prt {
 namespace {
 
 constexpr float kResolvedOffsets = 128; ///< the least size of an object, in offsets of its rays
 
-struct Box {
-    glm::vec3 least{std::numeric_limits<float>::infinity()}, largest{-std::numeric_limits<float>::infinity()};
-
-    void add(const glm::vec3& position) {
-        least = glm::min(least, position);
-        largest = glm::max(largest, position);
-    }
-    float size() const {
-        const glm::vec3 extent = largest - least;
-        return std::max({extent.x, extent.y, extent.z});
-    }
-    glm::vec3 farthest() const { return glm::max(glm::abs(least), glm::abs(largest)); }
-};
-
-Box box_of(const Scene& scene, const Primitive& primitive) {
-    Box box;
-    for (const glm::uvec3& t : primitive.triangles)
-        for (int corner = 0; corner < 3; ++corner)
-            box.add(scene.vertex_arrays[primitive.vertices].positions[t[corner]]);
-    return box;
+float largest(const glm::vec3& v) {
+    return std::max({v.x, v.y, v.z});
 }
 
 } // namespace
@@ -42,22 +23,21 @@ std::optional<std::string> small_object_notice(const Scene& scene) {
     float worst = kResolvedOffsets;
     std::string object;
     for (const Primitive& primitive : scene.primitives) {
-        const Box box = box_of(scene, primitive);
-        const float size = box.size();
+        const Bounds box = bounds(scene, primitive);
+        const float size = largest(box.high - box.low);
         if (!(size > 0))
             continue; // no triangle, or all at one place
-        const glm::vec3 farthest = box.farthest();
+        const glm::vec3 farthest = glm::max(glm::abs(box.low), glm::abs(box.high));
         const float offset = RayScene::coordinate_offset(farthest);
         if (!(size < kResolvedOffsets * offset))
             continue;
         ++small;
         if (size / offset < worst) {
             worst = size / offset;
-            object = fmt::format(
-                "{} is {:.2g} m in size and {:.0f} m from the middle of the scene, where rays "
-                "start {:.2g} m off "
-                "surfaces",
-                primitive.node_name, size, std::max({farthest.x, farthest.y, farthest.z}), offset);
+            object = fmt::format("{} is {:.2g} m in size and {:.0f} m from the middle of the scene, where "
+                                 "rays start {:.2g} m off "
+                                 "surfaces",
+                                 primitive.node_name, size, largest(farthest), offset);
         }
     }
     if (small == 0)

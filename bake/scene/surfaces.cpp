@@ -57,14 +57,13 @@ Surfaces::Surfaces(const Scene& scene, const std::vector<Texture>& textures, con
 }
 
 bool Surfaces::has_texture(const VertexArray& vertices, const TextureUse& use) const {
-    return use.image >= 0 && !textures_.empty() &&
-           !textures_[static_cast<std::size_t>(use.image)].levels.empty() &&
+    return use.image >= 0 && !textures_.empty() && !is_missing(use, textures_) &&
            static_cast<std::size_t>(use.texcoord) < vertices.texcoords.size() &&
            !vertices.texcoords[static_cast<std::size_t>(use.texcoord)].empty();
 }
 
 bool Surfaces::is_grey(const TextureUse& use) const {
-    if (use.image < 0 || textures_.empty() || textures_[static_cast<std::size_t>(use.image)].levels.empty())
+    if (use.image < 0 || textures_.empty() || is_missing(use, textures_))
         return true;
     const auto& pixels = textures_[static_cast<std::size_t>(use.image)].levels[0].pixels;
     return std::all_of(pixels.begin(), pixels.end(),
@@ -159,9 +158,7 @@ glm::vec4 Surfaces::base_color(const SurfacePoint& point, bool finest) const {
 
 bool Surfaces::emits(std::uint32_t triangle) const {
     const Emission& emission = material(triangle).emission;
-    return emission.radiance != glm::vec3(0) &&
-           (emission.texture.image < 0 || textures_.empty() ||
-            !textures_[static_cast<std::size_t>(emission.texture.image)].levels.empty());
+    return emission.radiance != glm::vec3(0) && !is_missing(emission.texture, textures_);
 }
 
 glm::vec3 Surfaces::emission(const SurfacePoint& point) const {

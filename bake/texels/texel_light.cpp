@@ -43,7 +43,7 @@ struct Layer {
 /// Whether a texel whose first dark sample was asked is sealed in; samples of a texel are alike.
 enum class Verdict : std::uint8_t { unknown, sealed, dark };
 
-/// Of dark texels in a row, one in so many is asked for those between.
+/// Distance between tested texels in a row of dark ones; texels between two equal verdicts take theirs.
 constexpr std::size_t kAskedInRow = 12;
 
 class TexelTracer {
@@ -96,7 +96,7 @@ private:
         return layer;
     }
 
-    /// Of each of some texels.
+    /// Results per texel, over all layers.
     struct Found {
         std::vector<int>& lit; ///< samples that are not sealed in
         std::vector<Verdict>& verdicts;

@@ -198,8 +198,8 @@ void ProbeTracer::add_hit(const Hit& hit, const Task& task, std::size_t place, S
     add_direction(weight, space, space.blocked);
     if (!task.cells.empty())
         space.sight.add_hit(way,
-                            glm::normalize(glm::cross(positions[corners.y] - positions[corners.x],
-                                                      positions[corners.z] - positions[corners.x])),
+                            glm::cross(positions[corners.y] - positions[corners.x],
+                                       positions[corners.z] - positions[corners.x]),
                             hit.weight);
     if (hit.back && !plan_.scene.surfaces().two_sided(hit.triangle))
         space.backs += static_cast<double>(hit.weight);

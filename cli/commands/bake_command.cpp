@@ -286,10 +286,7 @@ void note_lights(const BakeArguments& a, const Scene& scene, const Transfer& tra
                  std::span<const float> areas) {
     const Lighting lighting{.sky = constant_light(transfer.layout.order, glm::vec3(1)),
                             .lamps = std::vector<glm::vec3>(transfer.layout.lamps(), glm::vec3(1))};
-    const Relit relit{transfer.layout,
-                      [&](const Lighting& l) { return exit_radiance(transfer, l, a.options.threads); },
-                      areas};
-    if (auto notice = photometric_notice(scene, relit, lighting))
+    if (auto notice = photometric_notice(scene, relit_by(transfer, areas, a.options.threads), lighting))
         print_notices(a.scene.string(), {std::move(*notice)});
 }
 

@@ -437,7 +437,7 @@ Written written(const CompressArguments& a, std::vector<std::byte> file, const B
     const std::optional<BakedLightmap>& lightmap = bake.lightmap;
     GltfDocument document = readable(a, [&] {
         return parse_gltf(file, a.output,
-                          {.missing_images = MissingImages::ignore, .instancing = Instancing::apart});
+                          {.missing_images = a.reading.missing_images, .instancing = Instancing::apart});
     });
     const std::uintmax_t bytes = session.write(a.output, file);
     file = {};

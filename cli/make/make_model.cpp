@@ -254,9 +254,7 @@ private:
         Lighting lighting = lights_.front().lighting(transfer.layout.order);
         lighting.lamps.assign(transfer.layout.lamps(), glm::vec3(1));
         const std::vector<float> areas = receiver_areas(scene_);
-        const Relit relit{transfer.layout,
-                          [&](const Lighting& l) { return exit_radiance(transfer, l, r_.threads); }, areas};
-        if (auto notice = photometric_notice(scene_, relit, lighting))
+        if (auto notice = photometric_notice(scene_, relit_by(transfer, areas, r_.threads), lighting))
             notices_.push_back(std::move(*notice));
     }
 

@@ -1,4 +1,4 @@
-// Images from files by their kind: Radiance HDR, PNG and JPEG by stb.
+// Images from files by their kind.
 #include "prt/image_file.h"
 
 #include "exr.h"
@@ -9,6 +9,7 @@
 #include "prt/support/error.h"
 #include "prt/support/file.h"
 #include "stb_images.h"
+#include "web_images.h"
 
 #include <algorithm>
 #include <array>
@@ -91,6 +92,14 @@ Image read_faces(const std::string& pattern, bool& low_dynamic_range) {
 }
 
 } // namespace
+
+ImageSize image_size(std::span<const std::byte> file) {
+    return is_webp(file) ? webp_size(file) : is_avif(file) ? avif_size(file) : size_by_stb(file);
+}
+
+Image8 decode_image(std::span<const std::byte> file) {
+    return is_webp(file) ? decode_webp(file) : is_avif(file) ? decode_avif(file) : decode_by_stb(file);
+}
 
 EnvironmentFile load_environment(const std::filesystem::path& path, const EnvironmentOptions& options) {
     EnvironmentFile result;

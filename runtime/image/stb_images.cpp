@@ -5,11 +5,8 @@
 #include "image_kind.h"
 #include "image_limits.h"
 #include "png_check.h"
-#include "prt/image_file.h"
-#include "prt/image_size.h"
 #include "prt/support/error.h"
 #include "prt/support/printable.h"
-#include "web_images.h"
 
 #include <algorithm>
 #include <climits>
@@ -95,7 +92,7 @@ struct ByteStream {
     static int eof(void* user) { return static_cast<ByteStream*>(user)->rest.empty(); }
 };
 
-/// What stb and `decode_image` hold at once. Of a JPEG: samples, coefficients of three channels, and pixels;
+/// What stb and `decode_by_stb` hold at once. Of a JPEG: samples, coefficients of three channels, and pixels;
 /// of a PNG: inflated bytes and pixels, then both kinds of pixels.
 std::size_t bytes_per_pixel(std::span<const std::byte> file) {
     if (is_jpeg(file))
@@ -121,7 +118,7 @@ void check_jpeg(std::span<const std::byte> file) {
 } // namespace
 
 Image decode_hdr(std::span<const std::byte> file) {
-    const ImageSize size = image_size(file);
+    const ImageSize size = size_by_stb(file);
     check_image_size(size.width, size.height, 2 * sizeof(glm::vec3), file.size()); // stb's and ours
     Image image;
     int channels = 0;
@@ -139,11 +136,7 @@ Image decode_hdr(std::span<const std::byte> file) {
     return image;
 }
 
-ImageSize image_size(std::span<const std::byte> file) {
-    if (is_webp(file))
-        return webp_size(file);
-    if (is_avif(file))
-        return avif_size(file);
+ImageSize size_by_stb(std::span<const std::byte> file) {
     if (!is_png(file) && !is_jpeg(file) && !is_hdr(file)) // stb reads more kinds, with less care
         throw Error("is no image that is read here: PNG, JPEG, WebP and AVIF are");
     if (is_png(file))
@@ -155,14 +148,10 @@ ImageSize image_size(std::span<const std::byte> file) {
     return size;
 }
 
-Image8 decode_image(std::span<const std::byte> file) {
-    if (is_webp(file))
-        return decode_webp(file);
-    if (is_avif(file))
-        return decode_avif(file);
+Image8 decode_by_stb(std::span<const std::byte> file) {
     if (is_hdr(file))
         throw Error("is a Radiance HDR, not a PNG or JPEG");
-    const ImageSize size = image_size(file);
+    const ImageSize size = size_by_stb(file);
     check_image_size(size.width, size.height, bytes_per_pixel(file), file.size());
     std::vector<std::byte> whole;
     if (is_png(file)) {

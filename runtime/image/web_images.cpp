@@ -47,7 +47,7 @@ AvifDecoder parsed_avif(std::span<const std::byte> file) {
     decoder->maxThreads = 1;
     decoder->ignoreExif = decoder->ignoreXMP = AVIF_TRUE;
     decoder->strictFlags = AVIF_STRICT_DISABLED; // what browsers show
-    // Of the frame as well, which may be larger than the file says: dav1d keeps to it.
+    // dav1d also checks the size of the frame, which can be larger than the size in the file's header.
     decoder->imageSizeLimit = static_cast<std::uint32_t>(std::min<std::uint64_t>(
         1u << 28, (kFreeImageMemory + kImageMemoryPerByte * file.size()) / kAvifBytesPerPixel));
     check_avif(avifDecoderSetIOMemory(decoder.get(), bytes_of(file), file.size()));

@@ -24,9 +24,7 @@ std::vector<glm::vec3> emission_strengths(const Scene& scene, const TransferLayo
         const std::string name = lamp_name(scene, m);
         auto strength = lamps.begin();
         for (const TransferPart& lamp : layout.lamp_parts()) {
-            const bool is_member =
-                lamp.members.empty() ? lamp.name == name : std::ranges::count(lamp.members, name) > 0;
-            if (is_member)
+            if (lamp.has_member(name))
                 strengths[m] = *strength;
             ++strength;
         }

@@ -118,6 +118,11 @@ glm::vec4 sample(const Texture& texture, const TextureUse& use, const glm::vec2&
                     level - static_cast<float>(fine));
 }
 
+bool is_missing(const TextureUse& use, std::span<const Texture> textures) {
+    return use.image >= 0 && !textures.empty() &&
+           textures[static_cast<std::size_t>(use.image)].levels.empty();
+}
+
 std::map<int, TextureEncoding> needed_images(const Scene& scene, TextureNeeds needs) {
     std::map<int, TextureEncoding> images;
     const auto add = [&](const TextureUse& use, TextureEncoding encoding) {

@@ -66,18 +66,26 @@ std::string receivers_id(const Scene& scene) {
     return text;
 }
 
-Bounds bounds(const Scene& scene) {
+Bounds bounds(const Scene& scene, const Primitive& primitive) {
     Bounds box{glm::vec3(std::numeric_limits<float>::infinity()),
                glm::vec3(-std::numeric_limits<float>::infinity())};
-    for (const Primitive& primitive : scene.primitives) {
-        const VertexArray& vertices = scene.vertex_arrays[primitive.vertices];
-        for (const glm::uvec3& t : primitive.triangles)
-            for (int corner = 0; corner < 3; ++corner) {
-                box.low = glm::min(box.low, vertices.positions[t[corner]]);
-                box.high = glm::max(box.high, vertices.positions[t[corner]]);
-            }
-    }
+    const VertexArray& vertices = scene.vertex_arrays[primitive.vertices];
+    for (const glm::uvec3& t : primitive.triangles)
+        for (int corner = 0; corner < 3; ++corner) {
+            box.low = glm::min(box.low, vertices.positions[t[corner]]);
+            box.high = glm::max(box.high, vertices.positions[t[corner]]);
+        }
     return box;
+}
+
+Bounds bounds(const Scene& scene) {
+    Bounds all{glm::vec3(std::numeric_limits<float>::infinity()),
+               glm::vec3(-std::numeric_limits<float>::infinity())};
+    for (const Primitive& primitive : scene.primitives) {
+        const Bounds box = bounds(scene, primitive);
+        all = {glm::min(all.low, box.low), glm::max(all.high, box.high)};
+    }
+    return all;
 }
 
 } // namespace prt

@@ -47,6 +47,10 @@ void check_lamps(const TransferLayout& layout) {
 
 } // namespace
 
+bool TransferPart::has_member(const std::string& member) const {
+    return members.empty() ? name == member : std::ranges::find(members, member) != members.end();
+}
+
 const char* to_string(PartKind kind) {
     switch (kind) {
     case PartKind::direct:

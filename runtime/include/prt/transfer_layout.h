@@ -31,6 +31,8 @@ struct TransferPart {
     /// Names of the lights and materials of the scene that are in a group; empty: its own is the one.
     std::vector<std::string> members = {};
 
+    /// Whether a light or material of that name is in the lamp.
+    bool has_member(const std::string& member) const;
     friend bool operator==(const TransferPart&, const TransferPart&) = default;
 };
 

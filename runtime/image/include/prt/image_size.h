@@ -11,8 +11,8 @@ struct ImageSize {
     int width = 0, height = 0;
 };
 
-/// What a PNG, JPEG or Radiance HDR file in memory says of its size. Throws `Error` when it is something
-/// else.
+/// What a PNG, JPEG, WebP, AVIF or Radiance HDR file in memory says of its size. Throws `Error` when it is
+/// something else.
 ImageSize image_size(std::span<const std::byte> file);
 
 /// Whether a file in memory begins as a PNG does that has 8 bits in each of red, green, blue and alpha: bytes

@@ -48,6 +48,10 @@ enum class TextureNeeds {
 /// colors and numbers counts as colors.
 std::map<int, TextureEncoding> needed_images(const Scene& scene, TextureNeeds needs);
 
+/// Whether `use` has an image that is not among the loaded `textures`. Where none are given, none is asked
+/// for.
+bool is_missing(const TextureUse& use, std::span<const Texture> textures);
+
 /// Those images as textures, by image index; others stay empty.
 std::vector<Texture> load_textures(const Scene& scene, BadTextures bad = BadTextures::error,
                                    TextureNeeds needs = TextureNeeds::all);

@@ -158,5 +158,7 @@ struct Bounds {
     glm::vec3 low, high;
 };
 Bounds bounds(const Scene& scene);
+/// Of one of its primitives; infinite the wrong way round where that has no triangle.
+Bounds bounds(const Scene& scene, const Primitive& primitive);
 
 } // namespace prt
