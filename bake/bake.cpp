@@ -3,6 +3,7 @@
 #include "prt/bake.h"
 
 #include "bake_options.h"
+#include "error_check.h"
 #include "exit_light.h"
 #include "measured_light.h"
 #include "memory.h"
@@ -34,6 +35,13 @@ BakeResult bake(const Scene& scene, const BakeOptions& options, const Progress& 
     const SealedIn& sealed = measured.sealed;
     MeasuredLamps lamps = measure_lamps(plan, *tracer, measured.fit, progress.part(traced_all, traced_sky));
     direct.rays += lamps.light.rays + asked.rays;
+    std::optional<ErrorCheck> check;
+    if (options.measure_errors) {
+        check.emplace(plan, *tracer, measured, lamps, progress.stop);
+        direct.rays += check->rays();
+        if (!measured.fit && !options.target_error && tracer->method() == BakeMethod::trace)
+            direct.sampling_error = check->sampling_error();
+    }
     seconds.tracing = tracer->seconds();
 
     const Stopwatch transport;
@@ -43,11 +51,13 @@ BakeResult bake(const Scene& scene, const BakeOptions& options, const Progress& 
                                        .diffusion = plan.diffusion,
                                        .gather = direct.gather ? &*direct.gather : nullptr,
                                        .product = product.get(),
-                                       .fit = measured.fit ? &*measured.fit : nullptr};
+                                       .fit = measured.fit ? &*measured.fit : nullptr,
+                                       .check = check ? check->gather() : nullptr};
     Propagated exit = propagate_all(plan, std::move(direct.transfer), measured.sky, operators,
                                     progress.part(traced_sky, 1));
+    Propagated lit;
     if (!plan.lamps.empty()) {
-        const Propagated lit = propagate_lamps(plan, std::move(lamps), operators, progress.part(1, 1));
+        lit = propagate_lamps(plan, std::move(lamps), operators, progress.part(1, 1));
         exit.transfer = with_lamps(exit.transfer, lit.transfer, plan.lamps);
         exit.bounces = std::max(exit.bounces, lit.bounces);
         exit.remaining = std::max(exit.remaining, lit.remaining);
@@ -55,8 +65,12 @@ BakeResult bake(const Scene& scene, const BakeOptions& options, const Progress& 
     fill_without_area(plan.receivers(), plan.transport->fronts, exit.transfer);
     seconds.transport = transport.seconds();
 
+    if (check)
+        asked.errors = check->compare(exit.transfer, {.sky = exit.at_check, .lamps = lit.at_check});
+
     BakeResult result = record(plan, *tracer, direct, sealed, std::move(exit));
     result.statistics.fit = asked.fit;
+    result.statistics.errors = std::move(asked.errors);
     result.statistics.gather.bytes_moved = product ? product->bytes_moved() : 0;
     result.baked.record.fitted = measured.fit.has_value();
     seconds.all = all.seconds();

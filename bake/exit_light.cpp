@@ -65,9 +65,15 @@ bool colors_apart(const BakePlan& plan, const Transfer& light) {
     return plan.channels == 1 && light.layout.channels() == 3;
 }
 
-/// One result of those of three colors.
+/// One result of those of three colors, [rows][columns] each at the rows of a check.
 Propagated in_color(const Propagated& red, const Propagated& green, const Propagated& blue) {
     Propagated all{.transfer = in_color(red.transfer, green.transfer, blue.transfer)};
+    const std::size_t columns = red.transfer.dimension();
+    for (std::size_t begin = 0; begin < red.at_check.size(); begin += columns)
+        for (const Propagated* one : {&red, &green, &blue}) {
+            const auto from = one->at_check.begin() + static_cast<std::ptrdiff_t>(begin);
+            all.at_check.insert(all.at_check.end(), from, from + static_cast<std::ptrdiff_t>(columns));
+        }
     for (const Propagated* one : {&red, &green, &blue}) {
         all.bounces = std::max(all.bounces, one->bounces);
         all.remaining = std::max(all.remaining, one->remaining);

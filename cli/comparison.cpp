@@ -3,6 +3,7 @@
 #include "cluster_shares.h"
 #include "evaluation_lights.h"
 #include "instance_errors.h"
+#include "options.h"
 #include "prt/dering.h"
 #include "prt/error_measures.h"
 #include "prt/lightmap_file.h"
@@ -243,9 +244,9 @@ public:
     /// Lit by the bake and by what is shipped, as `prt render` lights them, at one exposure and without
     /// textures, which would hide errors; then the error as the figures count it, and clusters.
     void add_pictures(const SplitLight& light, Report& report) const {
-        const TraceScene scene(model_.scene,
-                               load_textures(model_.scene, BadTextures::ignore, TextureNeeds::visibility),
-                               {.solid = solid_materials(baked_), .threads = a_.threads});
+        const TraceScene scene(
+            model_.scene, load_textures(model_.scene, bad_textures(a_.reading), TextureNeeds::visibility),
+            {.solid = solid_materials(baked_), .threads = a_.threads});
         const Lighting lighting = judged(light);
         Lighting drawn = lighting;
         drawn.sky = deringed(drawn.sky);

@@ -69,7 +69,7 @@ void add_instances(CLI::App* command, InstanceArguments& arguments) {
     command
         ->add_option(
             "--instance-error", arguments.error,
-            "instances whose light errs by more, in relative L2 under soft skies, are baked alone: 0.1 is "
+            "instances whose light errs by more under some sky, in relative L2, are baked alone: 0.1 is "
             "10 %")
         ->capture_default_str()
         ->check(real_in(0, 1e9));

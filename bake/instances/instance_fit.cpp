@@ -8,9 +8,11 @@
 #include "prt/sh_basis.h"
 
 #include <glm/geometric.hpp>
+#include <glm/trigonometric.hpp>
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 namespace prt {
 namespace {
@@ -31,14 +33,25 @@ float band_weight(std::size_t coefficient) {
     return 1 / std::sqrt(band + 1);
 }
 
-/// Overcast, and broad light from four sides, in a frame where `up` is.
-std::vector<Light> soft_skies(int order, const glm::dvec3& up) {
+/// Skies under which errors are measured, in a frame where `up` is: overcast; broad light from four sides;
+/// and clear skies, whose sun stands low and high on each side.
+std::vector<Light> test_skies(int order, const glm::dvec3& up) {
+    constexpr float kAmbient = 0.25f; // radiance of a clear sky, where its sun gives an irradiance of pi
+    constexpr double kSunHeights[] = {25, 55};
     const glm::dvec3 other = std::abs(up.x) < 0.5 ? glm::dvec3(1, 0, 0) : glm::dvec3(0, 0, 1);
     const glm::dvec3 across = glm::normalize(glm::cross(up, other)), along = glm::cross(across, up);
     std::vector<Light> skies = {hemisphere_light(order, glm::vec3(up), glm::vec3(1), glm::vec3(0.1f))};
-    for (const glm::dvec3& side : {across, -across, along, -along})
+    for (const glm::dvec3& side : {across, -across, along, -along}) {
         skies.push_back(
             hemisphere_light(order, glm::vec3(glm::normalize(side + up)), glm::vec3(1), glm::vec3(0)));
+        for (const double height : kSunHeights) {
+            const double radians = glm::radians(height);
+            const glm::dvec3 sun = std::cos(radians) * side + std::sin(radians) * up;
+            skies.push_back(
+                sum(directional_light(order, glm::vec3(sun), glm::vec3(std::numbers::pi_v<float>)),
+                    constant_light(order, glm::vec3(kAmbient))));
+        }
+    }
     return skies;
 }
 
@@ -108,7 +121,7 @@ Eigen::MatrixXf InstanceFit::columns_of(const SharedTransfer& shared, std::size_
 }
 
 void InstanceFit::find_skies(const TransferLayout& layout, const glm::dvec3& up) {
-    const std::vector<Light> lights = soft_skies(layout.order, up);
+    const std::vector<Light> lights = test_skies(layout.order, up);
     const auto count = static_cast<Eigen::Index>(lights.front().coefficients.size());
     skies_ = Eigen::MatrixXf::Zero(dimension(), static_cast<Eigen::Index>(3 * lights.size()));
     for (std::size_t l = 0; l < lights.size(); ++l) {
@@ -193,28 +206,37 @@ InstanceFactors InstanceFit::fit(const Targets& targets, const UniformBound* bou
 double InstanceFit::error(const Targets& targets, const Noise& noise, const InstanceFactors& factors) const {
     const auto size = static_cast<std::size_t>(dimension());
     const Eigen::VectorXf modelled = seen_ * unknowns_of(factors).cast<float>();
-    double wrong = 0, all = 0, area = 0;
+    const Eigen::Index columns = skies_.cols();
+    Eigen::VectorXd wrong = Eigen::VectorXd::Zero(columns), all = wrong, noisy = wrong;
+    double area = 0, noisy_area = 0;
     for (std::size_t s = 0; s < samples_.receivers.size(); ++s) {
         if (targets.left_out[s])
             continue;
         const Eigen::VectorXf seen =
             skies_.transpose() * Eigen::Map<const Eigen::VectorXf>(&targets.light[s * size], dimension());
-        const auto of_sample = modelled.segment(static_cast<Eigen::Index>(s) * skies_.cols(), skies_.cols());
+        const auto of_sample = modelled.segment(static_cast<Eigen::Index>(s) * columns, columns);
         const auto share = static_cast<double>(samples_.areas[s]);
-        wrong += share * static_cast<double>((seen - of_sample).squaredNorm());
-        all += share * static_cast<double>(seen.squaredNorm());
+        wrong += share * (seen - of_sample).cwiseAbs2().cast<double>();
+        all += share * seen.cwiseAbs2().cast<double>();
         area += share;
     }
-    double noisy = 0, noisy_area = 0;
     for (std::size_t s = noise.first, n = 0; s < samples_.receivers.size(); s += kSamplesToOfNoise, ++n) {
         if (targets.left_out[s])
             continue;
         const Eigen::Map<const Eigen::VectorXf> half(&noise.differences[n * size], dimension());
-        noisy += static_cast<double>(samples_.areas[s] * (skies_.transpose() * half).squaredNorm());
-        noisy_area += static_cast<double>(samples_.areas[s]);
+        const auto share = static_cast<double>(samples_.areas[s]);
+        noisy += share * (skies_.transpose() * half).cwiseAbs2().cast<double>();
+        noisy_area += share;
     }
     noisy *= noisy_area > 0 ? area / noisy_area : 0;
-    return all > 0 ? std::sqrt(std::max(0.0, wrong - noisy) / all) : 0;
+    double most = 0;
+    for (Eigen::Index first = 0; first < columns; first += 3) { // colors of a sky
+        const double light = all.segment(first, 3).sum(),
+                     lost = wrong.segment(first, 3).sum() - noisy.segment(first, 3).sum();
+        if (light > 0)
+            most = std::max(most, lost / light);
+    }
+    return std::sqrt(most);
 }
 
 } // namespace prt

@@ -5,12 +5,11 @@
 #include "prt/trace_receivers.h"
 #include "scene/sealed.h"
 #include "surface/surface_samples.h"
-#include "trace/picked.h"
+#include "surface/varied_samples.h"
 #include "trace/scrambles.h"
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numeric>
 
 namespace prt {
@@ -22,8 +21,6 @@ constexpr std::size_t kReceiversPerPoint = 100, kLeastPoints = 16, kMostPoints =
 constexpr int kShareOfFirstLook = 32, kMostFirst = 64;
 /// Halves of more rays would tell no more.
 constexpr int kMostOfHalf = 4096;
-/// What a point may contribute where vertices agree, in mean squares.
-constexpr double kLeastLikely = 0.02;
 
 /// Light at receivers by two independent scrambles of half of a receiver's rays each.
 struct Halves {
@@ -85,39 +82,13 @@ private:
         return std::move(light.vectors);
     }
 
-    /// Points by what they may contribute to the error: where vertices of a triangle differ. Their areas are
-    /// what they stand for.
     SurfaceSamples points() {
         const std::size_t count =
             std::clamp(plan_.receivers().size() / kReceiversPerPoint, kLeastPoints, kMostPoints);
         const SurfaceSamples dense = sample_surfaces(plan_.scene.surfaces(), *plan_.transport,
                                                      {.count = 4 * count, .seed = plan_.options.seed + 1});
         const std::vector<float> light = first_look();
-        double mean = 0, areas = 0;
-        for (std::size_t p = 0; p < light.size(); ++p) {
-            mean +=
-                static_cast<double>(plan_.receivers().areas[p]) * static_cast<double>(light[p] * light[p]);
-            areas += static_cast<double>(plan_.receivers().areas[p]);
-        }
-        mean = areas > 0 ? mean / areas : 0;
-        const auto likely = [&](std::size_t s) {
-            const glm::uvec3 c = corners_of(dense.places[s]);
-            float low = std::numeric_limits<float>::infinity(), high = 0;
-            for (int i = 0; i < 3; ++i) {
-                const float here = c[i] == kNoReceiver ? 0 : light[c[i]];
-                low = std::min(low, here);
-                high = std::max(high, here);
-            }
-            return static_cast<double>(dense.receivers.areas[s]) *
-                   (static_cast<double>((high - low) * (high - low)) + kLeastLikely * mean);
-        };
-        SurfaceSamples some;
-        for (const Picked& picked : pick(dense.size(), count, likely)) {
-            some.places.push_back(dense.places[picked.index]);
-            some.receivers.append(dense.receivers, picked.index);
-            some.receivers.areas.back() *= static_cast<float>(picked.stands_for);
-        }
-        return some;
+        return pick_varied(dense, plan_.scene.surfaces(), *plan_.transport, {light}, count, false);
     }
 
     glm::uvec3 corners_of(const SamplePlace& place) const {

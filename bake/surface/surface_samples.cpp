@@ -26,7 +26,8 @@ glm::dvec3 doubled_area(const Receivers& receivers, const glm::uvec3& c) {
     return glm::cross(b - a, d - a);
 }
 
-std::vector<TriangleSide> sides_of(const Surfaces& surfaces, const TransportReceivers& receivers) {
+std::vector<TriangleSide> sides_of(const Surfaces& surfaces, const TransportReceivers& receivers,
+                                   bool backs) {
     const Receivers& all = receivers.receivers;
     std::vector<TriangleSide> sides;
     for (std::uint32_t t = 0; t < surfaces.triangles(); ++t) {
@@ -34,7 +35,7 @@ std::vector<TriangleSide> sides_of(const Surfaces& surfaces, const TransportRece
         if (!(doubled > 0))
             continue;
         for (const bool back : {false, true}) {
-            if (back && (receivers.back.empty() || !surfaces.two_sided(t)))
+            if (back && (!backs || receivers.back.empty() || !surfaces.two_sided(t)))
                 continue;
             const glm::uvec3 corners = corner_receivers(surfaces, receivers, t, back);
             if (corners == glm::uvec3(kNoReceiver))
@@ -54,7 +55,7 @@ struct Sample {
 
 std::vector<Sample> spread_samples(const Surfaces& surfaces, const TransportReceivers& receivers,
                                    const SampleSpread& spread) {
-    const std::vector<TriangleSide> sides = sides_of(surfaces, receivers);
+    const std::vector<TriangleSide> sides = sides_of(surfaces, receivers, spread.backs);
     double area = 0;
     for (const TriangleSide& side : sides)
         area += side.area;

@@ -50,6 +50,7 @@ struct SampleSpread {
     std::size_t count = 0; ///< about so many
     std::size_t layers = 1;
     std::uint64_t seed = 0;
+    bool backs = true; ///< of triangles whose backs have receivers, too
 };
 
 /// At least one sample on every side of every triangle that `receivers` are on, the others by area,

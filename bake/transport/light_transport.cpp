@@ -124,6 +124,17 @@ ColumnOperator bounce_operator(const TransportOperators& operators, int order, i
     return {apply, residual};
 }
 
+/// One more bounce of `exit` transfer to the points where errors are measured.
+std::vector<float> gather_at_check(const TransportOperators& operators, const Transfer& exit, int threads) {
+    if (!operators.check)
+        return {};
+    const int order = exit.layout.order;
+    std::vector<float> reflected = exit.vectors, gathered(operators.check->rows() * exit.dimension());
+    operators.check->reflect(order, reflected, threads);
+    operators.check->apply(order, reflected, 0, gathered, threads);
+    return gathered;
+}
+
 /// What is left after a bounce, as a geometric series, over the sum of all.
 double remaining_after(const BounceEnergy& energy, double total) {
     const double ratio = energy.before_last > 0 ? energy.last / energy.before_last : 0;
@@ -134,15 +145,26 @@ double remaining_after(const BounceEnergy& energy, double total) {
 
 /// So many bounces on the device, where nothing happens to light between them.
 std::optional<Propagated> bounce_on_device(Transfer& transfer, const TransportOperators& operators,
-                                           int bounces, const Progress& progress) {
+                                           int bounces, int threads, const Progress& progress) {
     if (!operators.product || operators.fit || !operators.diffusion.empty() || operators.refill.size() > 0)
         return std::nullopt;
+    std::vector<float> at_check;
+    if (operators.check) {
+        Transfer before = transfer;
+        if (bounces > 1 && !operators.product->bounce(before, bounces - 1, progress))
+            return std::nullopt;
+        at_check = gather_at_check(operators, before, threads);
+    }
     const std::optional<BounceEnergy> energy = operators.product->bounce(transfer, bounces, progress);
     if (!energy)
         return std::nullopt;
     const auto coefficients = static_cast<std::size_t>(coefficient_count(transfer.layout.order));
     const double total = largest_norm(transfer.vectors, coefficients);
-    return Propagated{std::move(transfer), bounces, remaining_after(*energy, total), energy->last};
+    return Propagated{.transfer = std::move(transfer),
+                      .bounces = bounces,
+                      .remaining = remaining_after(*energy, total),
+                      .last = energy->last,
+                      .at_check = std::move(at_check)};
 }
 
 /// Adds bounce after bounce, until so little remains.
@@ -155,6 +177,8 @@ Propagated bounce_often(Transfer transfer, const TransportOperators& operators, 
     std::vector<float> now = transfer.vectors, next(now.size());
     double before = largest_norm(now, coefficients);
     while (result.bounces < bounces) {
+        if (result.bounces == bounces - 1)
+            result.at_check = gather_at_check(operators, transfer, threads);
         bounce.apply(now, next);
         for (std::size_t i = 0; i < next.size(); ++i)
             transfer.vectors[i] += next[i];
@@ -168,6 +192,8 @@ Propagated bounce_often(Transfer transfer, const TransportOperators& operators, 
             break;
         progress.update(static_cast<double>(result.bounces) / bounces);
     }
+    if (result.bounces < bounces)
+        result.at_check = gather_at_check(operators, transfer, threads);
     result.converged |= least_remaining == 0;
     result.transfer = std::move(transfer);
     return result;
@@ -206,6 +232,7 @@ Propagated bounce_endlessly(Transfer transfer, const TransportOperators& operato
         result.remaining = std::max(result.remaining, solved.remaining);
         result.converged = result.converged && solved.converged;
     }
+    result.at_check = gather_at_check(operators, transfer, threads);
     result.transfer = std::move(transfer);
     return result;
 }
@@ -259,7 +286,7 @@ Propagated propagate(Transfer direct, const TransportOperators& operators, int b
     if (!operators.gather || bounces == 0)
         return {.transfer = std::move(direct)};
     if (bounces != kEndlessBounces) {
-        if (std::optional<Propagated> done = bounce_on_device(direct, operators, bounces, progress))
+        if (std::optional<Propagated> done = bounce_on_device(direct, operators, bounces, threads, progress))
             return std::move(*done);
         return bounce_often(std::move(direct), operators, bounces, 0, threads, progress);
     }
@@ -280,7 +307,10 @@ SharpTransfer propagate_sharply(Transfer smooth, const LightAtSamples& light,
     std::optional<SampledLight> rest;
     if (operators.gather && bounces != 0) {
         const bool endless = bounces == kEndlessBounces;
-        sharp.exit = propagate(smooth, operators, endless ? bounces : bounces - 1, threads, progress);
+        TransportOperators unchecked = operators;
+        unchecked.check = nullptr;
+        sharp.exit = propagate(smooth, unchecked, endless ? bounces : bounces - 1, threads, progress);
+        sharp.exit.at_check = gather_at_check(operators, sharp.exit.transfer, threads);
         rest = bounce_to_samples(sharp.exit.transfer, operators, light.of_rest, threads);
         if (!endless)
             add_last_bounce(fit, *rest, smooth, sharp.exit);
@@ -307,10 +337,22 @@ SharpTransfer propagate_sharply(Transfer smooth, const LightAtSamples& light,
     return sharp;
 }
 
-void add_transmission(Transfer& transfer, const Surfaces& surfaces, const TransportReceivers& receivers) {
+void mix_sides(const Surfaces& surfaces, const SurfacePoint& point, std::size_t channels,
+               std::span<float> front, std::span<const float> back) {
     // Where the base color is nearly black, no finite transfer can say what passes: it is taken as 1/255.
     constexpr float kLeastBase = 1.0f / 255;
-    const auto coefficients = static_cast<std::size_t>(coefficient_count(transfer.layout.order));
+    const Scattering s = surfaces.scattering(point);
+    const glm::vec3 base = surfaces.base_color(point);
+    const std::size_t columns = front.size() / channels;
+    for (std::size_t c = 0; c < channels; ++c) {
+        const auto color = static_cast<glm::length_t>(c);
+        const float scale = 1 / std::max(base[color], kLeastBase);
+        for (std::size_t i = c * columns; i < (c + 1) * columns; ++i)
+            front[i] = scale * (s.reflected[color] * front[i] + s.transmitted[color] * back[i]);
+    }
+}
+
+void add_transmission(Transfer& transfer, const Surfaces& surfaces, const TransportReceivers& receivers) {
     std::vector<bool> done(receivers.fronts);
     for (std::uint32_t t = 0; t < surfaces.triangles(); ++t) {
         if (!surfaces.transmits(t))
@@ -321,17 +363,9 @@ void add_transmission(Transfer& transfer, const Surfaces& surfaces, const Transp
                 continue;
             done[front] = true;
             const glm::vec2 uv(corner == 1 ? 1 : 0, corner == 2 ? 1 : 0);
-            const SurfacePoint point{t, uv, receivers.receivers.areas[front]};
-            const Scattering s = surfaces.scattering(point);
-            const glm::vec3 base = surfaces.base_color(point);
-            const std::span<float> to = transfer.vector(front);
-            const std::span<const float> from = transfer.vector(receivers.back_of(front));
-            for (int c = 0; c < transfer.layout.channels(); ++c) {
-                const float scale = 1 / std::max(base[c], kLeastBase);
-                for (std::size_t i = static_cast<std::size_t>(c) * coefficients;
-                     i < static_cast<std::size_t>(c + 1) * coefficients; ++i)
-                    to[i] = scale * (s.reflected[c] * to[i] + s.transmitted[c] * from[i]);
-            }
+            mix_sides(surfaces, {t, uv, receivers.receivers.areas[front]},
+                      static_cast<std::size_t>(transfer.layout.channels()), transfer.vector(front),
+                      transfer.vector(receivers.back_of(front)));
         }
     }
 }

@@ -23,6 +23,7 @@ struct TransportOperators {
     GatherProduct* product = nullptr;       ///< by a device; null: by the processor
     const SurfaceFit* fit = nullptr; ///< rows of `gather` are its samples, and receivers take smooth values
                                      ///< of them; null: rows are receivers
+    const GatherOperator* check = nullptr; ///< gathers at points where errors are measured; null: none
 };
 
 struct Propagated {
@@ -34,6 +35,8 @@ struct Propagated {
     double remaining = 0;
     double last = 0;       ///< energy of the last bounce; 0 where none was done alone
     bool converged = true; ///< endless bounces reached the solver's tolerance
+    /// Bounced light at the rows of `check`, [rows][channels][order²], as if they were receivers.
+    std::vector<float> at_check = {};
 };
 
 /// The sum over `direct` light and `bounces` bounces of it (or kEndlessBounces).
@@ -58,6 +61,11 @@ struct SharpTransfer {
 SharpTransfer propagate_sharply(Transfer smooth, const LightAtSamples& light,
                                 const TransportOperators& operators, int bounces, int threads,
                                 const Progress& progress);
+
+/// Replaces light [channels][columns] that comes in at the front of a sheet by (1 - f) T_front + f c/rho
+/// T_back (docs/math.md, eq. 38).
+void mix_sides(const Surfaces& surfaces, const SurfacePoint& point, std::size_t channels,
+               std::span<float> front, std::span<const float> back);
 
 /// Light through thin sheets: replaces the transfer of front receivers by (1 - f) T_front + f c/rho T_back,
 /// so that it serves a receiver of base color rho whose surface transmits f c (docs/math.md, eq. 38).

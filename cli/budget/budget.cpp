@@ -40,7 +40,7 @@ std::vector<glm::vec3> radiance_at(const BudgetReference& reference, const Trans
 
 BudgetReference::BudgetReference(const Scene& scene, const std::vector<BudgetLight>& lights,
                                  const BudgetEffort& effort, const Progress& progress)
-    : lights_(lights), scene_(scene, load_textures(scene, BadTextures::ignore), {.threads = effort.threads}),
+    : lights_(lights), scene_(scene, load_textures(scene, effort.bad_textures), {.threads = effort.threads}),
       points_(points_of(scene_, effort, progress)) {
     for (std::size_t i = 0; i < lights.size(); ++i) {
         const auto count = static_cast<double>(lights.size());

@@ -6,6 +6,7 @@
 #include "inputs.h"
 #include "prt/error_budget.h"
 #include "prt/support/progress.h"
+#include "prt/texture.h"
 
 #include <vector>
 
@@ -16,6 +17,7 @@ struct BudgetEffort {
     double noise = 5e-5; ///< of squared errors (`SurfaceRadianceOptions`)
     double seconds = 0;  ///< for each light, about; 0: any
     std::uint64_t seed = 0x9e3779b97f4a7c15;
+    BadTextures bad_textures = BadTextures::error;
     int threads = 0;
 };
 

@@ -3,6 +3,7 @@
 #include "budget/advice.h"
 #include "budget/budget_report.h"
 #include "no_shadow.h"
+#include "options.h"
 #include "prt/bake.h"
 #include "prt/lightmap_file.h"
 #include "prt/repeated_bake.h"
@@ -42,7 +43,7 @@ void measure(const BudgetRequest& request, const SceneFile& baked, const SceneFi
     const Progress progress = bar.progress();
     const std::vector<BudgetLight> lights = budget_lights(request.lights);
     const Transfer repeated = repeat(baked, threads, progress.part(0, 0.4));
-    const BudgetEffort effort{.threads = threads};
+    const BudgetEffort effort{.bad_textures = bad_textures(request.reading), .threads = threads};
     const BudgetReference reference(baked.scene, lights, effort, progress.part(0.4, 0.8));
     std::optional<Transfer> coded;
     if (shipped)

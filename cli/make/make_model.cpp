@@ -99,6 +99,7 @@ private:
             BudgetEffort{.noise = std::max(kShareOfNoise * allowed(), kLeastNoise),
                          .seconds =
                              kShareOfTime * r_.goal.seconds.value_or(0) / static_cast<double>(lights_.size()),
+                         .bad_textures = bad_textures(r_.reading),
                          .threads = r_.threads},
             bar.progress());
     }
@@ -346,6 +347,8 @@ private:
             bake += fmt::format(" --refine {}", plan_.refine);
         if (r_.reading.lamp_scale != 1)
             bake += fmt::format(" --lamp-scale {}", r_.reading.lamp_scale);
+        if (bad_textures(r_.reading) == BadTextures::ignore)
+            bake += " --bad-textures ignore";
         for (const std::string& material : r_.no_shadow)
             bake += " --no-shadow " + shell_word(material);
         std::string compress =

@@ -1,11 +1,16 @@
 #include "report/bake_report.h"
 
 #include "options.h"
+#include "prt/support/printable.h"
 #include "report/publish.h"
 
 #include <fmt/core.h>
+#include <fmt/ranges.h>
 
+#include <algorithm>
+#include <string>
 #include <utility>
+#include <vector>
 
 namespace prt::cli {
 namespace {
@@ -44,35 +49,115 @@ void add_refinement_sentences(const RefineStatistics& s, Report& report) {
                                    "triangles too small to split");
 }
 
+Json error_json(const BakeErrors::Error& error) {
+    return {{"relative_l2", error.relative_l2}, {"standard_error", error.standard_error}};
+}
+
+Json errors_json(const BakeErrors& errors) {
+    Json lamps = Json::array(), objects = Json::array();
+    for (const BakeErrors::Lamp& lamp : errors.lamps) {
+        lamps.push_back({{"name", lamp.name}});
+        lamps.back().update(error_json(lamp.error));
+    }
+    for (const BakeErrors::Node& node : errors.nodes)
+        objects.push_back({{"name", node.name},
+                           {"points", node.points},
+                           {"sky", error_json(node.distant)},
+                           {"lamps", error_json(node.lamps)}});
+    return {{"points", errors.points},
+            {"sky", error_json(errors.distant)},
+            {"direct", error_json(errors.direct)},
+            {"indirect", error_json(errors.indirect)},
+            {"lamps", error_json(errors.all_lamps)},
+            {"backs", error_json(errors.backs)},
+            {"each_lamp", lamps},
+            {"objects", objects}};
+}
+
+/// Objects whose light under the sky or under lamps errs more than twice as much as all together, beyond
+/// doubt.
+std::vector<std::string> much_worse_objects(const BakeErrors& errors) {
+    constexpr std::size_t kNamed = 5;
+    constexpr double kVisible = 0.02;
+    std::vector<std::pair<double, std::string>> worse;
+    for (const BakeErrors::Node& node : errors.nodes) {
+        double most = 0;
+        const auto judge = [&](const BakeErrors::Error& here, const BakeErrors::Error& all) {
+            if (here.relative_l2 - 2 * here.standard_error > 2 * all.relative_l2 + kVisible)
+                most = std::max(most, here.relative_l2);
+        };
+        judge(node.distant, errors.distant);
+        judge(node.lamps, errors.all_lamps);
+        if (most > 0)
+            worse.emplace_back(most, node.name);
+    }
+    std::ranges::stable_sort(worse, [](const auto& a, const auto& b) { return a.first > b.first; });
+    std::vector<std::string> lines;
+    for (const auto& [error, name] : worse) {
+        if (lines.size() == kNamed) {
+            lines.push_back(fmt::format("{} more", worse.size() - kNamed));
+            break;
+        }
+        lines.push_back(fmt::format("'{}' {:.2g} %", printable(name), 100 * error));
+    }
+    return lines;
+}
+
+void add_error_sentences(const BakeErrors& errors, Report& report) {
+    if (errors.distant.relative_l2 > 0)
+        report.sentences.push_back(
+            errors.indirect.relative_l2 > 0
+                ? "error over the surface: {errors/sky/relative_l2:.2f%} of the sky's light (± "
+                  "{errors/sky/standard_error:.2f%}); direct {errors/direct/relative_l2:.2f%}, bounced "
+                  "{errors/indirect/relative_l2:.2f%}"
+                : "error over the surface: {errors/sky/relative_l2:.2f%} of the sky's light (± "
+                  "{errors/sky/standard_error:.2f%})");
+    if (errors.all_lamps.relative_l2 > 0)
+        report.sentences.emplace_back(
+            "error over the surface: {errors/lamps/relative_l2:.2f%} of the light of "
+            "lamps (± {errors/lamps/standard_error:.2f%})");
+    if (const std::vector<std::string> worse = much_worse_objects(errors); !worse.empty())
+        report.sentences.push_back(
+            fmt::format("objects with much larger errors: {}", fmt::join(worse, ", ")));
+    constexpr double kBacksDiffer = 0.1;
+    if (errors.backs.relative_l2 - 2 * errors.backs.standard_error > kBacksDiffer)
+        report.sentences.emplace_back(
+            "backs of two-sided surfaces show the light of their fronts, which errs "
+            "there by {errors/backs/relative_l2:.0f%}");
+}
+
 Json statistics_json(const BakeStatistics& s) {
-    return {{"receivers", s.receivers.all},
-            {"receivers_traced", s.receivers.traced},
-            {"back_sides", s.receivers.back_sides},
-            {"receivers_sealed", s.receivers.sealed},
-            {"receivers_refilled", s.receivers.refilled},
-            {"rays", s.rays},
-            {"device", s.device},
-            {"seconds", s.seconds.all},
-            {"seconds_build", s.seconds.build},
-            {"seconds_trace", s.seconds.tracing.trace},
-            {"seconds_accumulate", s.seconds.tracing.accumulate},
-            {"seconds_transfer", s.seconds.tracing.transfer},
-            {"seconds_transport", s.seconds.transport},
-            {"rays_per_second", s.rays_per_second()},
-            {"mean_visibility", s.mean_visibility},
-            {"sampling_error_relative_l2", s.sampling_error},
-            {"float16_error_relative_l2", s.rounding_error},
-            {"remaining_energy", s.remaining_energy},
-            {"fit", s.fit.samples > 0 ? "surface" : "vertex"},
-            {"samples_per_receiver", s.fit.samples},
-            {"interpolation_error_relative_l2", s.fit.between},
-            {"lamps", s.lamps.count},
-            {"lamp_lights", s.lamps.lights},
-            {"lamp_triangles", s.lamps.triangles},
-            {"gather_entries", s.gather.entries},
-            {"gather_bytes", s.gather.bytes},
-            {"gather_bytes_moved", s.gather.bytes_moved},
-            {"notices", s.notices}};
+    Json json = {{"receivers", s.receivers.all},
+                 {"receivers_traced", s.receivers.traced},
+                 {"back_sides", s.receivers.back_sides},
+                 {"receivers_sealed", s.receivers.sealed},
+                 {"receivers_refilled", s.receivers.refilled},
+                 {"rays", s.rays},
+                 {"device", s.device},
+                 {"seconds", s.seconds.all},
+                 {"seconds_build", s.seconds.build},
+                 {"seconds_trace", s.seconds.tracing.trace},
+                 {"seconds_accumulate", s.seconds.tracing.accumulate},
+                 {"seconds_transfer", s.seconds.tracing.transfer},
+                 {"seconds_transport", s.seconds.transport},
+                 {"rays_per_second", s.rays_per_second()},
+                 {"mean_visibility", s.mean_visibility},
+                 {"sampling_error_relative_l2", s.sampling_error},
+                 {"float16_error_relative_l2", s.rounding_error},
+                 {"remaining_energy", s.remaining_energy},
+                 {"fit", s.fit.samples > 0 ? "surface" : "vertex"},
+                 {"samples_per_receiver", s.fit.samples},
+                 {"interpolation_error_relative_l2", s.fit.between},
+                 {"lamps", s.lamps.count},
+                 {"lamp_lights", s.lamps.lights},
+                 {"lamp_triangles", s.lamps.triangles},
+                 {"gather_entries", s.gather.entries},
+                 {"gather_bytes", s.gather.bytes},
+                 {"gather_bytes_moved", s.gather.bytes_moved},
+                 {"notices", s.notices}};
+    if (s.errors)
+        json["errors"] = errors_json(*s.errors);
+    return json;
 }
 
 constexpr double kDark = 0.05; ///< mean visibility; a cellar with a window has as much
@@ -100,8 +185,10 @@ void add_sentences(const BakeOutcome& baked, Report& report) {
     if (baked.options.target_error)
         say("error of the direct light: {target_error_relative_l2:.3f%} asked for, "
             "{sampling_error_relative_l2:.3f%} estimated");
-    else if (s.sampling_error > 0)
+    else if (!s.errors && s.sampling_error > 0)
         say("error of the direct light: {sampling_error_relative_l2:.3f%} estimated");
+    if (s.errors)
+        add_error_sentences(*s.errors, report);
     if (baked.refinement)
         add_refinement_sentences(*baked.refinement, report);
     else if (s.fit.between > 0 || s.fit.samples > 0)

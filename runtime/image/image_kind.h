@@ -2,6 +2,7 @@
 
 // What files of images begin with.
 
+#include <algorithm>
 #include <cstddef>
 #include <cstring>
 #include <span>
@@ -27,10 +28,19 @@ inline bool is_webp(std::span<const std::byte> file) {
     return begins_with(file, "RIFF") && file.size() >= 12 && begins_with(file.subspan(8), "WEBP");
 }
 
-/// Still or a sequence.
+/// Still or a sequence: the first box of the file lists "avif" or "avis" among its brands (ISO/IEC 14496-12,
+/// section 4.3), of which the first may be another one.
 inline bool is_avif(std::span<const std::byte> file) {
-    return file.size() >= 12 &&
-           (begins_with(file.subspan(4), "ftypavif") || begins_with(file.subspan(4), "ftypavis"));
+    constexpr std::size_t kBrands = 8, kBrand = 4;
+    if (file.size() < kBrands || !begins_with(file.subspan(4), "ftyp"))
+        return false;
+    std::size_t box = 0;
+    for (std::size_t i = 0; i < 4; ++i)
+        box = box << 8 | std::to_integer<std::size_t>(file[i]);
+    for (std::size_t at = kBrands; at + kBrand <= std::min(box, file.size()); at += kBrand)
+        if (begins_with(file.subspan(at), "avif") || begins_with(file.subspan(at), "avis"))
+            return true;
+    return false;
 }
 
 /// Radiance HDR.

@@ -77,6 +77,31 @@ struct BakeMemory {
     std::optional<TransferStorage> storage = {};
 };
 
+/// Relative L2 errors of what a bake wrote, noise and interpolation of all bounces, measured at points over
+/// the surface.
+struct BakeErrors {
+    struct Error {
+        double relative_l2 = 0, standard_error = 0;
+    };
+    struct Lamp {
+        std::string name;
+        Error error;
+    };
+    struct Node {
+        std::string name;
+        Error distant, lamps;
+        std::size_t points = 0;
+    };
+    std::size_t points = 0;
+    Error distant;          ///< of all light of a sky
+    Error direct, indirect; ///< without a bounce and the rest, relative to all light of a sky
+    Error all_lamps;        ///< of lamps at the strengths of the scene
+    Error backs; ///< of a sky's light on backs of two-sided surfaces that some of it reaches, where values of
+                 ///< the front are shown
+    std::vector<Lamp> lamps;
+    std::vector<Node> nodes; ///< in the order of their first primitive
+};
+
 struct BakeOptions {
     int order = 6;
     int rays = 1024;                    ///< per receiver; directions where method is raster
@@ -88,7 +113,8 @@ struct BakeOptions {
     LampOptions lamps;
     Repairs repairs;
     BakeMemory memory;
-    int threads = 0; ///< 0: all
+    bool measure_errors = false; ///< traces a few receivers' rays more
+    int threads = 0;             ///< 0: all
     std::uint64_t seed = 0;
 };
 
@@ -128,6 +154,7 @@ struct BakeStatistics {
     double mean_visibility = 0; ///< area-weighted T_0 / Y_00 of the direct light
     /// Estimated relative L2 error of the direct light by sampling, from independent samples.
     double sampling_error = 0;
+    std::optional<BakeErrors> errors; ///< where they were asked for
     double rounding_error = 0;   ///< relative L2 of storing float16
     double remaining_energy = 0; ///< of the bounces that were not done, over the largest transfer
     Lamps lamps;

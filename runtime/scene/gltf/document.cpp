@@ -211,7 +211,7 @@ const char* mime_type(std::span<const std::byte> bytes) {
         return "image/ktx2";
     if (text.starts_with("RIFF") && text.substr(0, 12).ends_with("WEBP"))
         return "image/webp";
-    if (text.substr(0, 12).ends_with("ftypavif") || text.substr(0, 12).ends_with("ftypavis"))
+    if (text.substr(0, 8).ends_with("ftyp")) // no other kind of these containers is an image of glTF
         return "image/avif";
     if (text.starts_with("DDS "))
         return "image/vnd-ms.dds";

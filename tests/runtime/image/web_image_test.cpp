@@ -11,8 +11,10 @@
 #include <algorithm>
 #include <cstdint>
 #include <cstdlib>
+#include <cstring>
 #include <random>
 #include <span>
+#include <string_view>
 #include <vector>
 
 namespace prt {
@@ -122,6 +124,16 @@ TEST(WebImages, ClaimsAreHeldAgainstTheFile) {
         file[21 + static_cast<std::size_t>(i)] = static_cast<std::byte>(size >> (8 * i) & 255);
     EXPECT_THROW(decode_image(file), Error);
     EXPECT_THROW(image_size(file), Error);
+}
+
+/// libheif writes the brand of any still image first, and "avif" behind it.
+TEST(WebImages, OfAvifMayHaveAnotherBrandFirst) {
+    std::vector<std::byte> file = avif_file(8);
+    const std::string_view brand = "mif1";
+    std::memcpy(&file[8], brand.data(), brand.size());
+    EXPECT_LE(largest_difference(decode_image(file)), 2);
+    file[3] = std::byte{16}; // the box ends before its list of brands
+    EXPECT_THROW(decode_image(file), Error);
 }
 
 } // namespace

@@ -1,0 +1,72 @@
+#pragma once
+
+// The error of a bake, measured at points over the surface.
+
+#include "measured_light.h"
+#include "plan.h"
+#include "surface/surface_samples.h"
+
+#include <array>
+#include <optional>
+#include <span>
+#include <stop_token>
+#include <vector>
+
+namespace prt {
+
+/// Points between vertices whose light is traced anew, twice and independently: the product of both
+/// differences from what is interpolated there has no noise of these rays in its mean (docs/math.md, section
+/// 9). Points inside geometry, where no light comes, and those over media are left out.
+class ErrorCheck {
+public:
+    /// Chooses points where measured light varies, and traces them. Keeps a reference to `plan`.
+    ErrorCheck(const BakePlan& plan, Tracer& tracer, const Measured& measured, const MeasuredLamps& lamps,
+               const std::stop_token& stop);
+
+    /// Gathers exit light at the points; null where nothing bounces.
+    const GatherOperator* gather() const { return gather_ ? &*gather_ : nullptr; }
+    std::size_t rays() const { return rays_; }
+
+    /// Relative L2 of direct light by as many rays as a receiver has.
+    double sampling_error() const;
+
+    /// Light at the rows of `gather` after a bounce, [rows][channels][columns]; empty: none.
+    struct Bounced {
+        std::span<const float> sky, lamps;
+    };
+    BakeErrors compare(const Transfer& baked, const Bounced& bounced) const;
+
+private:
+    struct Point {
+        std::uint32_t triangle;
+        glm::vec2 uv;
+        double area;                       ///< m², that it stands for
+        std::uint32_t front;               ///< row
+        std::optional<std::uint32_t> back; ///< row of the other side, where that scatters too
+    };
+    /// Light without a bounce and all light, [channels][columns], of one side.
+    struct Light {
+        std::vector<float> unbounced, all;
+    };
+
+    void choose_points(Tracer& tracer, const Measured& measured, const MeasuredLamps& lamps,
+                       const std::stop_token& stop);
+    /// About `count` of `many`, more often where a few rays differ from what is interpolated of `sky`.
+    SurfaceSamples look(Tracer& tracer, const Transfer& sky, const SurfaceSamples& many, std::size_t count,
+                        const std::stop_token& stop);
+    void add_backs();
+    void trace(Tracer& tracer, std::uint32_t rays, const std::stop_token& stop);
+    void leave_out_sealed(Tracer& tracer, const std::stop_token& stop);
+    Light light(const Point& point, bool back, std::size_t half, const Transfer& unbounced,
+                std::span<const float> bounced, std::size_t channels) const;
+    std::vector<float> interpolated(const Point& point, const Transfer& baked) const;
+
+    const BakePlan& plan_;
+    std::vector<Point> points_;
+    Receivers rows_;                       ///< fronts, then backs
+    std::array<Transfer, 2> sky_, lamps_;  ///< of rows, without a bounce, by each half
+    std::optional<GatherOperator> gather_; ///< rows of the first half, then of the second
+    std::size_t rays_ = 0;
+};
+
+} // namespace prt
