@@ -7,12 +7,12 @@
 #include "scene/sealed.h"
 #include "surface/varied_samples.h"
 #include "trace/embree_tracer.h"
-#include "trace/picked.h"
 #include "trace/scrambles.h"
 #include "trace_gather.h"
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <numeric>
 
@@ -123,14 +123,9 @@ SurfaceSamples ErrorCheck::look(Tracer& tracer, const Transfer& sky, const Surfa
         sum += squares[s];
     }
     const double mean = sum / static_cast<double>(many.size());
-    SurfaceSamples some;
-    for (const Picked& picked :
-         pick(many.size(), count, [&](std::size_t s) { return squares[s] + mean + 1e-300; })) {
-        some.places.push_back(many.places[picked.index]);
-        some.receivers.append(many.receivers, picked.index);
-        some.receivers.areas.back() *= static_cast<float>(picked.stands_for);
-    }
-    return some;
+    for (double& square : squares) // half of them as they are
+        square += mean + std::numeric_limits<double>::min();
+    return pick_samples(many, squares, count);
 }
 
 void ErrorCheck::choose_points(Tracer& tracer, const Measured& measured, const MeasuredLamps& lamps,
@@ -148,12 +143,12 @@ void ErrorCheck::choose_points(Tracer& tracer, const Measured& measured, const M
     }
     const std::size_t count =
         std::clamp(plan_.receivers().size() / kReceiversPerPoint, kMinPoints, kMaxPoints);
-    const SurfaceSamples dense =
-        sample_surfaces(surfaces, *plan_.transport,
-                        {.count = 4 * kLooks * count, .seed = plan_.options.seed + 2, .backs = false});
-    const SurfaceSamples some = look(
-        tracer, sky, pick_varied(dense, surfaces, *plan_.transport, {light, columns}, kLooks * count, true),
-        count, stop);
+    const SurfaceSamples some =
+        look(tracer, sky,
+             sample_varied(
+                 surfaces, *plan_.transport, {light, columns},
+                 {.count = kLooks * count, .seed = plan_.options.seed + 2, .backs = false, .by_node = true}),
+             count, stop);
 
     std::vector<bool> in_medium(plan_.receivers().size());
     for (const DiffusionOperator& body : plan_.diffusion)

@@ -67,12 +67,20 @@ void add_instances(CLI::App* command, InstanceArguments& arguments) {
         "and spares three quarters of the vertices",
         "own");
     command
-        ->add_option(
-            "--instance-error", arguments.error,
-            "instances whose light errs by more under some sky, in relative L2, are baked alone: 0.1 is "
-            "10 %")
+        ->add_option("--instance-error", arguments.error,
+                     "instances whose light errs by more, in relative L2, are baked alone: 0.1 is 10 %. "
+                     "Measured under "
+                     "five soft skies and --instance-lights")
         ->capture_default_str()
         ->check(real_in(0, 1e9));
+    CLI::Option* const lights =
+        command
+            ->add_option("--instance-lights", arguments.lights,
+                         "environment maps and light files under which --instance-error is kept, too")
+            ->check(CLI::ExistingFile);
+    add_suns(command, arguments.suns, "suns of --instance-lights that are lit apart, with sharp shadows",
+             "0");
+    command->get_option("--suns")->needs(lights);
     command
         ->add_option(
             "--instance-samples", arguments.bake.samples,
@@ -120,29 +128,33 @@ InstancedBake bake_shared(const InstanceArguments& arguments, const FlatScene& f
                           const BakeOptions& options, const Progress& progress) {
     InstancedBake result;
     const std::size_t all = meshes.placements();
-    for (const bool last : {false, true}) {
+    InstanceBakeOptions with_lights = arguments.bake;
+    for (const Path& path : arguments.lights)
+        with_lights.lights.push_back(
+            lighting_of(load_split_light(path, options.order, arguments.suns, {}, options.threads)));
+    double begin = 0;
+    for (bool good = false; !good;) { // those that stay change by a little where others are baked alone
         SharedDocument shared = with_shared_meshes(flat.document, meshes.meshes);
         Scene stored = extract_scene(shared.document);
         leave_out_shadows(stored, flat.no_shadow);
         result.bake = bake_instances({flat.scene, stored, meshes.meshes, shared.stand_ins, shared.node_of},
-                                     options, arguments.bake, progress.part(last ? 0.5 : 0, 1));
+                                     options, with_lights, progress.part(begin, 1));
+        begin = 0.5 + begin / 2;
         result.seconds += result.bake.statistics.seconds;
         result.rays += result.bake.statistics.rays;
-        if (!last) {
+        if (result.first_errors.empty())
             result.first_errors = result.bake.errors;
-            const SharedMeshes good = without_bad_ones(meshes, result.bake.errors, arguments.error);
-            if (good.placements() < all) {
-                result.baked_alone = all - good.placements();
-                meshes = good;
-                if (meshes.meshes.empty())
-                    return result;
-                continue;
-            }
-        }
+        SharedMeshes kept = without_bad_ones(meshes, result.bake.errors, arguments.error);
+        good = kept.placements() == meshes.placements();
+        meshes = std::move(kept);
+        result.baked_alone = all - meshes.placements();
+        if (meshes.meshes.empty())
+            return result;
+        if (!good)
+            continue;
         write_transfer(shared.document, stored, result.bake.baked);
         write_instances(shared.document, result.bake.instances);
         result.document = std::move(shared.document);
-        break;
     }
     result.meshes = std::move(meshes);
     return result;

@@ -3,6 +3,7 @@
 // How a bake deals with meshes that are drawn often.
 
 #include "prt/instance_bake.h"
+#include "split_light.h"
 
 #include <CLI/CLI.hpp>
 
@@ -21,6 +22,8 @@ enum class InstanceMode {
 struct InstanceArguments {
     InstanceMode mode = InstanceMode::own;
     double error = 0.1; ///< above that an instance is baked alone
+    std::vector<Path> lights;
+    SunCount suns; ///< of `lights`
     InstanceBakeOptions bake;
 };
 
@@ -51,7 +54,7 @@ struct FlatScene {
     const Scene& scene;
     const std::vector<std::string>& no_shadow;
 };
-/// Bakes, and once more where instances err too much to share.
+/// Bakes, and again while instances err too much to share. Throws `Error` for a light that cannot be read.
 InstancedBake bake_shared(const InstanceArguments& arguments, const FlatScene& flat, SharedMeshes meshes,
                           const BakeOptions& options, const Progress& progress);
 

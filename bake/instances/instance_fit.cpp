@@ -8,11 +8,10 @@
 #include "prt/sh_basis.h"
 
 #include <glm/geometric.hpp>
-#include <glm/trigonometric.hpp>
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
+#include <vector>
 
 namespace prt {
 namespace {
@@ -33,33 +32,44 @@ float band_weight(std::size_t coefficient) {
     return 1 / std::sqrt(band + 1);
 }
 
-/// Skies under which errors are measured, in a frame where `up` is: overcast; broad light from four sides;
-/// and clear skies, whose sun stands low and high on each side.
-std::vector<Light> test_skies(int order, const glm::dvec3& up) {
-    constexpr float kAmbient = 0.25f; // radiance of a clear sky, where its sun gives an irradiance of pi
-    constexpr double kSunHeights[] = {25, 55};
+/// Skies under which errors are always measured, in a frame where `up` is: overcast, and broad light from
+/// four sides.
+std::vector<Lighting> soft_skies(int order, const glm::dvec3& up) {
     const glm::dvec3 other = std::abs(up.x) < 0.5 ? glm::dvec3(1, 0, 0) : glm::dvec3(0, 0, 1);
     const glm::dvec3 across = glm::normalize(glm::cross(up, other)), along = glm::cross(across, up);
-    std::vector<Light> skies = {hemisphere_light(order, glm::vec3(up), glm::vec3(1), glm::vec3(0.1f))};
-    for (const glm::dvec3& side : {across, -across, along, -along}) {
+    std::vector<Lighting> skies = {{hemisphere_light(order, glm::vec3(up), glm::vec3(1), glm::vec3(0.1f))}};
+    for (const glm::dvec3& side : {across, -across, along, -along})
         skies.push_back(
-            hemisphere_light(order, glm::vec3(glm::normalize(side + up)), glm::vec3(1), glm::vec3(0)));
-        for (const double height : kSunHeights) {
-            const double radians = glm::radians(height);
-            const glm::dvec3 sun = std::cos(radians) * side + std::sin(radians) * up;
-            skies.push_back(
-                sum(directional_light(order, glm::vec3(sun), glm::vec3(std::numbers::pi_v<float>)),
-                    constant_light(order, glm::vec3(kAmbient))));
+            {hemisphere_light(order, glm::vec3(glm::normalize(side + up)), glm::vec3(1), glm::vec3(0))});
+    return skies;
+}
+
+/// What each number of transfer adds to each color under skies, [dimension][skies · 3].
+Eigen::MatrixXf radiance_columns(const TransferLayout& layout, std::span<const Lighting> skies) {
+    Eigen::MatrixXf result = Eigen::MatrixXf::Zero(static_cast<Eigen::Index>(layout.dimension()),
+                                                   static_cast<Eigen::Index>(3 * skies.size()));
+    for (std::size_t l = 0; l < skies.size(); ++l) {
+        const std::vector<glm::vec3> columns = light_columns(layout, skies[l]);
+        Eigen::Index row = 0;
+        std::size_t first = 0;
+        for (const TransferPart& part : layout.parts) {
+            const std::size_t count = layout.columns_of(part);
+            for (int c = 0; c < part.channels; ++c)
+                for (std::size_t i = 0; i < count; ++i, ++row)
+                    for (int color = 0; color < 3; ++color)
+                        if (part.channels == 1 || color == c)
+                            result(row, static_cast<Eigen::Index>(3 * l) + color) = columns[first + i][color];
+            first += count;
         }
     }
-    return skies;
+    return result;
 }
 
 } // namespace
 
 InstanceFit::InstanceFit(const SharedTransfer& shared, const InstanceSamples& samples, const glm::dvec3& up)
-    : samples_(samples) {
-    const TransferLayout& layout = shared.layout();
+    : layout_(shared.layout()), samples_(samples) {
+    const TransferLayout& layout = layout_;
     const auto count = static_cast<Eigen::Index>(shared.level().size());
     added_ = layout.parts.back().kind != PartKind::direct;
     channels_ = layout.parts.back().channels;
@@ -77,11 +87,10 @@ InstanceFit::InstanceFit(const SharedTransfer& shared, const InstanceSamples& sa
             const Eigen::Index row = dimension() - (channels_ - c) * count + i;
             level_(row, c) = weights_[row] * shared.level()[static_cast<std::size_t>(i)];
         }
-    find_skies(layout, up);
+    skies_ = radiance_columns(layout, soft_skies(layout.order, up));
     const auto all = static_cast<Eigen::Index>(samples_.receivers.size());
     constexpr auto kModes = static_cast<Eigen::Index>(kPassingModes);
     modes_.resize(dimension(), all * kModes);
-    seen_.resize(all * skies_.cols(), open_.size());
     normal_ = Eigen::MatrixXd::Zero(open_.size(), open_.size());
     for (Eigen::Index s = 0; s < all; ++s) {
         const auto sample = static_cast<std::size_t>(s);
@@ -94,7 +103,6 @@ InstanceFit::InstanceFit(const SharedTransfer& shared, const InstanceSamples& sa
         }
         responses_.push_back(shared.responses(samples_.receivers[sample]));
         const Eigen::MatrixXf columns = columns_of(shared, sample);
-        seen_.middleRows(s * skies_.cols(), skies_.cols()) = skies_.transpose() * columns;
         normals_.emplace_back(area * (columns.transpose() * weights_.asDiagonal() * columns));
         normal_ += normals_.back().cast<double>();
     }
@@ -118,21 +126,6 @@ Eigen::MatrixXf InstanceFit::columns_of(const SharedTransfer& shared, std::size_
                 .segment(dimension() - (channels_ - c) * count, count) =
                 shared.responses(receiver)[k][static_cast<int>(c)] * level;
     return columns;
-}
-
-void InstanceFit::find_skies(const TransferLayout& layout, const glm::dvec3& up) {
-    const std::vector<Light> lights = test_skies(layout.order, up);
-    const auto count = static_cast<Eigen::Index>(lights.front().coefficients.size());
-    skies_ = Eigen::MatrixXf::Zero(dimension(), static_cast<Eigen::Index>(3 * lights.size()));
-    for (std::size_t l = 0; l < lights.size(); ++l) {
-        Eigen::Index first = 0;
-        for (const TransferPart& part : layout.parts)
-            for (int c = 0; c < part.channels; ++c, first += count)
-                for (int color = part.channels == 1 ? 0 : c; color <= (part.channels == 1 ? 2 : c); ++color)
-                    for (Eigen::Index i = 0; i < count; ++i)
-                        skies_(first + i, static_cast<Eigen::Index>(3 * l) + color) =
-                            lights[l].coefficients[static_cast<std::size_t>(i)].x;
-    }
 }
 
 Eigen::VectorXd InstanceFit::unknowns_of(const InstanceFactors& factors) const {
@@ -203,34 +196,38 @@ InstanceFactors InstanceFit::fit(const Targets& targets, const UniformBound* bou
     return bound ? scaled(factors, bound->share(factors)) : factors;
 }
 
-double InstanceFit::error(const Targets& targets, const Noise& noise, const InstanceFactors& factors) const {
+double InstanceFit::error(const SharedTransfer& shared, const Targets& targets, const Noise& noise,
+                          const InstanceFactors& factors, std::span<const Lighting> lights) const {
     const auto size = static_cast<std::size_t>(dimension());
-    const Eigen::VectorXf modelled = seen_ * unknowns_of(factors).cast<float>();
-    const Eigen::Index columns = skies_.cols();
-    Eigen::VectorXd wrong = Eigen::VectorXd::Zero(columns), all = wrong, noisy = wrong;
+    const Eigen::MatrixXf of_lights = radiance_columns(layout_, lights);
+    Eigen::MatrixXf skies(dimension(), skies_.cols() + of_lights.cols());
+    skies << skies_, of_lights;
+    Eigen::VectorXd wrong = Eigen::VectorXd::Zero(skies.cols()), all = wrong, noisy = wrong;
     double area = 0, noisy_area = 0;
+    const auto add = [&](Eigen::VectorXd& sum, std::size_t sample, const Eigen::VectorXf& vector) {
+        sum += static_cast<double>(samples_.areas[sample]) *
+               (skies.transpose() * vector).cwiseAbs2().cast<double>();
+    };
+    std::vector<float> modelled(size);
     for (std::size_t s = 0; s < samples_.receivers.size(); ++s) {
         if (targets.left_out[s])
             continue;
-        const Eigen::VectorXf seen =
-            skies_.transpose() * Eigen::Map<const Eigen::VectorXf>(&targets.light[s * size], dimension());
-        const auto of_sample = modelled.segment(static_cast<Eigen::Index>(s) * columns, columns);
-        const auto share = static_cast<double>(samples_.areas[s]);
-        wrong += share * (seen - of_sample).cwiseAbs2().cast<double>();
-        all += share * seen.cwiseAbs2().cast<double>();
-        area += share;
+        shared.sum(samples_.receivers[s], mode_factors(factors, samples_.places[s]), modelled);
+        const Eigen::VectorXf light =
+            Eigen::Map<const Eigen::VectorXf>(&targets.light[s * size], dimension());
+        add(wrong, s, light - Eigen::Map<const Eigen::VectorXf>(modelled.data(), dimension()));
+        add(all, s, light);
+        area += static_cast<double>(samples_.areas[s]);
     }
     for (std::size_t s = noise.first, n = 0; s < samples_.receivers.size(); s += kSamplesToOfNoise, ++n) {
         if (targets.left_out[s])
             continue;
-        const Eigen::Map<const Eigen::VectorXf> half(&noise.differences[n * size], dimension());
-        const auto share = static_cast<double>(samples_.areas[s]);
-        noisy += share * (skies_.transpose() * half).cwiseAbs2().cast<double>();
-        noisy_area += share;
+        add(noisy, s, Eigen::Map<const Eigen::VectorXf>(&noise.differences[n * size], dimension()));
+        noisy_area += static_cast<double>(samples_.areas[s]);
     }
     noisy *= noisy_area > 0 ? area / noisy_area : 0;
     double most = 0;
-    for (Eigen::Index first = 0; first < columns; first += 3) { // colors of a sky
+    for (Eigen::Index first = 0; first < skies.cols(); first += 3) { // colors of a sky
         const double light = all.segment(first, 3).sum(),
                      lost = wrong.segment(first, 3).sum() - noisy.segment(first, 3).sum();
         if (light > 0)

@@ -25,6 +25,9 @@ struct InstanceSamples {
 /// Of every so many samples, by their number among those of all instances, one tells the noise of its rays.
 inline constexpr std::size_t kSamplesToOfNoise = 8;
 
+/// Skies under which errors are measured, whatever others are asked for.
+inline constexpr std::size_t kSoftSkies = 5;
+
 /// The least-squares problem of the instances of a mesh that see the world's up alike (docs/math.md, section
 /// 22). Immutable, thread-safe.
 class InstanceFit {
@@ -46,16 +49,17 @@ public:
         std::span<const float> differences;
         std::size_t first; ///< the sample of the first; those of the others follow, kSamplesToOfNoise apart
     };
-    /// As InstanceBake::errors, for factors in axes of the mesh.
-    double error(const Targets& targets, const Noise& noise, const InstanceFactors& factors) const;
+    /// As InstanceBake::errors, for factors and `lights` in axes of the mesh. `shared` as in the constructor.
+    double error(const SharedTransfer& shared, const Targets& targets, const Noise& noise,
+                 const InstanceFactors& factors, std::span<const Lighting> lights = {}) const;
 
 private:
     Eigen::Index dimension() const { return weights_.size(); }
-    void find_skies(const TransferLayout& layout, const glm::dvec3& up);
     Eigen::MatrixXf columns_of(const SharedTransfer& shared, std::size_t sample) const;
     Eigen::VectorXd unknowns_of(const InstanceFactors& factors) const;
     InstanceFactors factors_of_unknowns(const Eigen::VectorXd& unknowns) const;
 
+    TransferLayout layout_;
     bool added_ = false; ///< there is a part for it
     int channels_ = 1;   ///< of that part
     InstanceSamples samples_;
@@ -68,8 +72,7 @@ private:
     std::vector<Eigen::MatrixXf> normals_;                      ///< [samples]
     Eigen::MatrixXd normal_;                                    ///< their sum
     Eigen::VectorXd open_;                                      ///< the unknowns of open_factors()
-    Eigen::MatrixXf skies_;                                     ///< [dimension][skies · colors]
-    Eigen::MatrixXf seen_; ///< [samples · skies · colors][unknowns]: radiance
+    Eigen::MatrixXf skies_;                                     ///< [dimension][soft skies · colors]
 };
 
 } // namespace prt

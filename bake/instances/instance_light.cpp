@@ -300,8 +300,11 @@ void InstanceLight::fit(std::size_t step, bool gives) {
                      [&](std::size_t begin, std::size_t end) {
                          const std::span some = std::span(group.instances).subspan(begin, end - begin);
                          for (const std::size_t i : some)
-                             if (samples_.met[i])
-                                 fit_one(fit, bound, i, !gives);
+                             if (samples_.met[i]) {
+                                 fit_one(fit, bound, i);
+                                 if (!gives)
+                                     result_.errors[i] = error_of(fit, shared, i);
+                             }
                          for (std::size_t first = 0; gives && first < some.size(); first += kExpandedAtOnce)
                              expand(shared, places,
                                     some.subspan(first, std::min(kExpandedAtOnce, some.size() - first)));
@@ -346,24 +349,47 @@ void InstanceLight::bound_as_stored(const std::vector<UniformBound>& bounds) {
     }
 }
 
-void InstanceLight::fit_one(const InstanceFit& fit, const UniformBound& bound, std::size_t instance,
-                            bool errors) {
+/// [samples of the instance]
+std::vector<bool> InstanceLight::left_out_of(std::size_t instance) const {
+    const auto first =
+        samples_.left_out.begin() + static_cast<std::ptrdiff_t>(receivers_.instances[instance].first_sample);
+    return {first, first + static_cast<std::ptrdiff_t>(receivers_.samples_of(instance))};
+}
+
+InstanceFit::Targets InstanceLight::targets_of(std::size_t instance,
+                                               const std::vector<bool>& left_out) const {
+    const std::size_t first = receivers_.instances[instance].first_sample;
+    return {std::span(samples_.light)
+                .subspan(first * sizes_.dimension, receivers_.samples_of(instance) * sizes_.dimension),
+            left_out};
+}
+
+void InstanceLight::fit_one(const InstanceFit& fit, const UniformBound& bound, std::size_t instance) {
+    const std::vector<bool> left_out = left_out_of(instance);
+    result_.factors[instance] = in_axes_of_world(fit.fit(targets_of(instance, left_out), &bound),
+                                                 receivers_.instances[instance].rotation);
+}
+
+double InstanceLight::error_of(const InstanceFit& fit, const SharedTransfer& shared,
+                               std::size_t instance) const {
     const auto& placed = receivers_.instances[instance];
-    const std::size_t first = placed.first_sample, samples = receivers_.samples_of(instance);
-    const auto left_out = samples_.left_out.begin() + static_cast<std::ptrdiff_t>(first);
-    const std::vector<bool> none_asked(left_out, left_out + static_cast<std::ptrdiff_t>(samples));
-    const InstanceFit::Targets targets{
-        std::span(samples_.light).subspan(first * sizes_.dimension, samples * sizes_.dimension), none_asked};
-    const InstanceFactors factors = fit.fit(targets, &bound);
-    result_.factors[instance] = in_axes_of_world(factors, placed.rotation);
-    if (!errors)
-        return;
-    const std::size_t noisy = (first + kSamplesToOfNoise - 1) / kSamplesToOfNoise;
-    result_.errors[instance] =
-        fit.error(targets,
-                  {std::span<const float>(samples_.differences).subspan(noisy * sizes_.dimension),
-                   noisy * kSamplesToOfNoise - first},
-                  factors);
+    const std::vector<bool> left_out = left_out_of(instance);
+    const std::size_t first = placed.first_sample,
+                      noisy = (first + kSamplesToOfNoise - 1) / kSamplesToOfNoise;
+    std::vector<Lighting> lights = options_.lights;
+    for (Lighting& light : lights) {
+        const auto turn = [&](Light& part) {
+            part = truncated(part, plan_.options.order);
+            samples_.into_mesh[instance].apply(std::span(part.coefficients));
+        };
+        turn(light.sky);
+        if (light.suns)
+            turn(*light.suns);
+    }
+    return fit.error(shared, targets_of(instance, left_out),
+                     {std::span<const float>(samples_.differences).subspan(noisy * sizes_.dimension),
+                      noisy * kSamplesToOfNoise - first},
+                     in_axes_of_mesh(result_.factors[instance], placed.rotation), lights);
 }
 
 /// Writes the light that some instances of a mesh give to all their receivers.

@@ -2,6 +2,7 @@
 
 // Light of a scene whose instances are known by samples.
 
+#include "instances/instance_fit.h"
 #include "instances/instance_receivers.h"
 #include "instances/uniform_bound.h"
 #include "prt/sh_rotation.h"
@@ -53,7 +54,10 @@ private:
     double take_own();
     void fit(std::size_t step, bool gives);
     void bound_as_stored(const std::vector<UniformBound>& bounds);
-    void fit_one(const InstanceFit& fit, const UniformBound& bound, std::size_t instance, bool errors);
+    void fit_one(const InstanceFit& fit, const UniformBound& bound, std::size_t instance);
+    double error_of(const InstanceFit& fit, const SharedTransfer& shared, std::size_t instance) const;
+    InstanceFit::Targets targets_of(std::size_t instance, const std::vector<bool>& left_out) const;
+    std::vector<bool> left_out_of(std::size_t instance) const;
     void expand(const SharedTransfer& shared, std::span<const glm::vec3> places,
                 std::span<const std::size_t> instances);
     std::span<float> exit_of(std::size_t receiver) {

@@ -85,10 +85,9 @@ private:
     SurfaceSamples points() {
         const std::size_t count =
             std::clamp(plan_.receivers().size() / kReceiversPerPoint, kLeastPoints, kMostPoints);
-        const SurfaceSamples dense = sample_surfaces(plan_.scene.surfaces(), *plan_.transport,
-                                                     {.count = 4 * count, .seed = plan_.options.seed + 1});
         const std::vector<float> light = first_look();
-        return pick_varied(dense, plan_.scene.surfaces(), *plan_.transport, {light}, count, false);
+        return sample_varied(plan_.scene.surfaces(), *plan_.transport, {light},
+                             {.count = count, .seed = plan_.options.seed + 1});
     }
 
     glm::uvec3 corners_of(const SamplePlace& place) const {

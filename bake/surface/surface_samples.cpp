@@ -13,37 +13,10 @@
 namespace prt {
 namespace {
 
-/// One side of a triangle.
-struct TriangleSide {
-    std::uint32_t triangle;
-    bool back;
-    double area;
-};
-
 /// Normal of a triangle's front, as long as twice its area.
 glm::dvec3 doubled_area(const Receivers& receivers, const glm::uvec3& c) {
     const glm::dvec3 a(receivers.positions[c.x]), b(receivers.positions[c.y]), d(receivers.positions[c.z]);
     return glm::cross(b - a, d - a);
-}
-
-std::vector<TriangleSide> sides_of(const Surfaces& surfaces, const TransportReceivers& receivers,
-                                   bool backs) {
-    const Receivers& all = receivers.receivers;
-    std::vector<TriangleSide> sides;
-    for (std::uint32_t t = 0; t < surfaces.triangles(); ++t) {
-        const double doubled = glm::length(doubled_area(all, surfaces.corners(t)));
-        if (!(doubled > 0))
-            continue;
-        for (const bool back : {false, true}) {
-            if (back && (!backs || receivers.back.empty() || !surfaces.two_sided(t)))
-                continue;
-            const glm::uvec3 corners = corner_receivers(surfaces, receivers, t, back);
-            if (corners == glm::uvec3(kNoReceiver))
-                continue;
-            sides.push_back({t, back, 0.5 * doubled});
-        }
-    }
-    return sides;
 }
 
 struct Sample {
@@ -55,7 +28,7 @@ struct Sample {
 
 std::vector<Sample> spread_samples(const Surfaces& surfaces, const TransportReceivers& receivers,
                                    const SampleSpread& spread) {
-    const std::vector<TriangleSide> sides = sides_of(surfaces, receivers, spread.backs);
+    const std::vector<TriangleSide> sides = triangle_sides(surfaces, receivers, true);
     double area = 0;
     for (const TriangleSide& side : sides)
         area += side.area;
@@ -70,7 +43,7 @@ std::vector<Sample> spread_samples(const Surfaces& surfaces, const TransportRece
         const double more = std::floor(owed);
         owed -= more;
         const auto n = static_cast<std::size_t>(more) + 1;
-        const std::uint32_t hash = receiver_seed(2 * side.triangle + (side.back ? 1u : 0u), spread.seed);
+        const std::uint32_t hash = side_hash(side, spread.seed);
         const glm::uvec3 corners = corner_receivers(surfaces, receivers, side.triangle, side.back);
         for (std::size_t i = 0; i < n; ++i) {
             const SamplePlace place{side.triangle, side.back, even_point(hash, i)};
@@ -96,6 +69,30 @@ glm::vec3 normal_at(const Receivers& receivers, const glm::uvec3& corners, const
 }
 
 } // namespace
+
+std::vector<TriangleSide> triangle_sides(const Surfaces& surfaces, const TransportReceivers& receivers,
+                                         bool backs) {
+    const Receivers& all = receivers.receivers;
+    std::vector<TriangleSide> sides;
+    for (std::uint32_t t = 0; t < surfaces.triangles(); ++t) {
+        const double doubled = glm::length(doubled_area(all, surfaces.corners(t)));
+        if (!(doubled > 0))
+            continue;
+        for (const bool back : {false, true}) {
+            if (back && (!backs || receivers.back.empty() || !surfaces.two_sided(t)))
+                continue;
+            const glm::uvec3 corners = corner_receivers(surfaces, receivers, t, back);
+            if (corners == glm::uvec3(kNoReceiver))
+                continue;
+            sides.push_back({t, back, 0.5 * doubled});
+        }
+    }
+    return sides;
+}
+
+std::uint32_t side_hash(const TriangleSide& side, std::uint64_t seed) {
+    return receiver_seed(2 * side.triangle + (side.back ? 1u : 0u), seed);
+}
 
 glm::vec2 even_point(std::uint32_t hash, std::size_t i) {
     // Powers of the inverse of the plastic number: the two-dimensional sequence that is most even.

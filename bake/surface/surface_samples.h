@@ -37,6 +37,18 @@ struct SurfaceSamples {
 glm::uvec3 corner_receivers(const Surfaces& surfaces, const TransportReceivers& receivers,
                             std::uint32_t triangle, bool back);
 
+/// One side of a triangle that receivers are on.
+struct TriangleSide {
+    std::uint32_t triangle;
+    bool back;
+    double area;
+};
+std::vector<TriangleSide> triangle_sides(const Surfaces& surfaces, const TransportReceivers& receivers,
+                                         bool backs);
+
+/// For `even_point`, another for each side and seed.
+std::uint32_t side_hash(const TriangleSide& side, std::uint64_t seed);
+
 /// Barycentric coordinates of the i-th of points that are even over a triangle however many there are: the
 /// sequence R2 of M. Roberts, 2018, folded. `hash` moves it.
 glm::vec2 even_point(std::uint32_t hash, std::size_t i);
@@ -50,7 +62,6 @@ struct SampleSpread {
     std::size_t count = 0; ///< about so many
     std::size_t layers = 1;
     std::uint64_t seed = 0;
-    bool backs = true; ///< of triangles whose backs have receivers, too
 };
 
 /// At least one sample on every side of every triangle that `receivers` are on, the others by area,

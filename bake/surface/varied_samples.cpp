@@ -1,4 +1,4 @@
-// Picks few of many samples by the error that interpolation may have at them.
+// Spreads samples by the error that interpolation may have at them.
 
 #include "surface/varied_samples.h"
 
@@ -48,12 +48,13 @@ double variation(const glm::uvec3& corners, const ChoiceValues& light, std::span
     return sum > 0 ? sum : kLeastLikely;
 }
 
-/// Adds to what each sample may contribute so that every node has as much again as its share of all nodes.
-void share_among_nodes(const SurfaceSamples& dense, const Surfaces& surfaces, std::vector<double>& likely) {
+/// Adds to what each side may contribute so that every node has as much again as its share of all nodes.
+void share_among_nodes(const Surfaces& surfaces, std::span<const TriangleSide> sides,
+                       std::vector<double>& likely) {
     std::map<int, double> of_nodes;
     double all = 0;
     const auto node = [&](std::size_t s) {
-        return surfaces.scene().primitives[surfaces.primitive(dense.places[s].triangle)].node;
+        return surfaces.scene().primitives[surfaces.primitive(sides[s].triangle)].node;
     };
     for (std::size_t s = 0; s < likely.size(); ++s) {
         of_nodes[node(s)] += likely[s];
@@ -66,23 +67,35 @@ void share_among_nodes(const SurfaceSamples& dense, const Surfaces& surfaces, st
 
 } // namespace
 
-SurfaceSamples pick_varied(const SurfaceSamples& dense, const Surfaces& surfaces,
-                           const TransportReceivers& receivers, const ChoiceValues& light, std::size_t count,
-                           bool by_node) {
+SurfaceSamples sample_varied(const Surfaces& surfaces, const TransportReceivers& receivers,
+                             const ChoiceValues& light, const VariedSpread& spread) {
     const std::vector<double> means = mean_squares(receivers, light);
-    std::vector<double> likely(dense.size());
-    for (std::size_t s = 0; s < likely.size(); ++s) {
-        const SamplePlace& place = dense.places[s];
-        likely[s] =
-            static_cast<double>(dense.receivers.areas[s]) *
-            variation(corner_receivers(surfaces, receivers, place.triangle, place.back), light, means);
+    const std::vector<TriangleSide> sides = triangle_sides(surfaces, receivers, spread.backs);
+    std::vector<double> likely;
+    for (const TriangleSide& side : sides)
+        likely.push_back(
+            side.area *
+            variation(corner_receivers(surfaces, receivers, side.triangle, side.back), light, means));
+    if (spread.by_node)
+        share_among_nodes(surfaces, sides, likely);
+    SurfaceSamples samples;
+    for (const Picked& picked : pick(sides.size(), spread.count, [&](std::size_t s) { return likely[s]; })) {
+        const TriangleSide& side = sides[picked.index];
+        const std::uint32_t hash = side_hash(side, spread.seed);
+        const auto area =
+            static_cast<float>(side.area * picked.stands_for / static_cast<double>(picked.times));
+        for (std::size_t i = 0; i < picked.times; ++i)
+            append_sample(samples, surfaces, receivers, {side.triangle, side.back, even_point(hash, i)},
+                          area);
     }
-    if (by_node)
-        share_among_nodes(dense, surfaces, likely);
+    return samples;
+}
+
+SurfaceSamples pick_samples(const SurfaceSamples& many, std::span<const double> likely, std::size_t count) {
     SurfaceSamples some;
-    for (const Picked& picked : pick(dense.size(), count, [&](std::size_t s) { return likely[s]; })) {
-        some.places.push_back(dense.places[picked.index]);
-        some.receivers.append(dense.receivers, picked.index);
+    for (const Picked& picked : pick(many.size(), count, [&](std::size_t s) { return likely[s]; })) {
+        some.places.push_back(many.places[picked.index]);
+        some.receivers.append(many.receivers, picked.index);
         some.receivers.areas.back() *= static_cast<float>(picked.stands_for);
     }
     return some;

@@ -3,6 +3,7 @@
 #include "surface/surface_samples.h"
 
 #include <cstddef>
+#include <cstdint>
 #include <span>
 
 namespace prt {
@@ -13,11 +14,19 @@ struct ChoiceValues {
     std::size_t columns = 1;
 };
 
-/// About `count` of `dense`, those more often over which interpolation may err: where corners of a triangle
-/// differ in a column, relative to its mean. `by_node`: half of them go to each node alike, however small.
-/// Areas become what the samples stand for.
-SurfaceSamples pick_varied(const SurfaceSamples& dense, const Surfaces& surfaces,
-                           const TransportReceivers& receivers, const ChoiceValues& light, std::size_t count,
-                           bool by_node);
+struct VariedSpread {
+    std::size_t count = 0; ///< about so many
+    std::uint64_t seed = 0;
+    bool backs = true;    ///< as `SampleSpread`
+    bool by_node = false; ///< half of them go to each node alike, however small it is
+};
+
+/// Samples by the error that interpolation may have: more where corners of a triangle differ in a column,
+/// relative to its mean. The areas of samples are unbiased weights of sums over the surface.
+SurfaceSamples sample_varied(const Surfaces& surfaces, const TransportReceivers& receivers,
+                             const ChoiceValues& light, const VariedSpread& spread);
+
+/// About `count` of `many`, more often where `likely` [many] is large; areas become what each stands for.
+SurfaceSamples pick_samples(const SurfaceSamples& many, std::span<const double> likely, std::size_t count);
 
 } // namespace prt

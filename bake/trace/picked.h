@@ -6,9 +6,10 @@
 
 namespace prt {
 
-/// One of many, and how many it stands for.
+/// One of many, how often it was drawn, and how many all of these together stand for.
 struct Picked {
     std::uint32_t index;
+    std::size_t times;
     double stands_for;
 };
 
@@ -25,11 +26,12 @@ std::vector<Picked> pick(std::size_t all, std::size_t count, Likely&& likely) {
     for (std::size_t i = 0; i < all && step > 0; ++i) {
         const double here = likely(i);
         reached += here;
-        double times = 0;
+        std::size_t times = 0;
         for (; next < reached; next += step)
             ++times;
         if (times > 0)
-            picked.push_back({static_cast<std::uint32_t>(i), times * step / here});
+            picked.push_back(
+                {static_cast<std::uint32_t>(i), times, static_cast<double>(times) * step / here});
     }
     return picked;
 }

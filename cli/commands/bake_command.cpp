@@ -376,8 +376,10 @@ void check_arguments(const BakeArguments& a) {
 void run(BakeArguments a, Session& session) {
     choose_gpu(a.options.tracer);
     check_arguments(a);
-    a.reading.outputs = check_outputs({{a.output, "--output", {".glb"}}, {a.json, "--json", {".json"}}},
-                                      {a.scene, a.texels.casters});
+    std::vector<Path> inputs = a.instances.lights;
+    inputs.insert(inputs.end(), {a.scene, a.texels.casters});
+    a.reading.outputs =
+        check_outputs({{a.output, "--output", {".glb"}}, {a.json, "--json", {".json"}}}, inputs);
     a.options.repairs.bad_textures = bad_textures(a.reading);
     GltfDocument document = load_gltf(a.scene, a.reading);
     Scene scene = extract_scene(document);

@@ -85,11 +85,18 @@ TEST(BakeErrors, OfASkyAreThoseOfInterpolation) {
     const Scene wall = SceneBuilder().quad({0, 0, 1000}, {0, 0, -1000}, {0, 1, -1000}, {0, 1, 1000}).build();
     for (const int cells : {2, 4}) {
         const Scene scene = test::join({SceneBuilder().floor({2.001f, 0, 0}, 2, cells).build(), wall});
-        const BakeErrors errors = errors_of(scene, measured(1, 4096));
         const double expected = interpolation_error(
             scene, 0, [](const glm::dvec3& p) { return (1 + p.x / std::hypot(p.x, 1)) / 2; });
-        EXPECT_NEAR(errors.nodes[0].distant.relative_l2, expected, 0.12 * expected) << cells;
-        EXPECT_GT(expected, 0.005);
+        constexpr int kSeeds = 4;
+        double mean = 0;
+        for (int seed = 0; seed < kSeeds; ++seed) {
+            BakeOptions options = measured(1, 4096);
+            options.seed = static_cast<std::uint64_t>(seed);
+            mean += errors_of(scene, options).nodes[0].distant.relative_l2 / kSeeds;
+        }
+        // Some 50 of the points lie on the floor: 14 % in one standard deviation of one seed.
+        EXPECT_NEAR(mean, expected, 0.14 * expected) << cells;
+        EXPECT_GT(expected, 0.01);
     }
 }
 

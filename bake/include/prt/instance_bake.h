@@ -13,6 +13,8 @@ namespace prt {
 struct InstanceBakeOptions {
     int samples = 256;    ///< receivers of each instance that are traced where it stands, at most
     double rays = 0.0625; ///< of those of a receiver, from each sample; 16 at least
+    /// Under which errors are measured, beside five soft skies; of the bake's order at least, without lamps.
+    std::vector<Lighting> lights = {};
 };
 
 /// What is baked once: meshes in their own frames, beside what is drawn once.
@@ -28,7 +30,8 @@ struct InstanceStatistics {
     std::size_t receivers = 0; ///< traced in full: of meshes alone, and of what is drawn once
     std::size_t samples = 0;   ///< traced where instances stand
     std::size_t rays = 0;
-    std::size_t alone = 0; ///< instances none of whose rays met anything but themselves
+    std::size_t skies = 0;     ///< under which errors were measured
+    std::size_t alone = 0;     ///< instances none of whose rays met anything but themselves
     int bounces = 0;       ///< done
     double seconds = 0;
     std::vector<std::string> notices;
@@ -38,7 +41,7 @@ struct InstanceBake {
     BakedTransfer baked; ///< of the receivers of `stored`
     StoredInstances instances;
     /// [instances] relative L2 of exit radiance at the samples, without the noise of their rays: the largest
-    /// under 13 test skies, of them eight with a sun.
+    /// under each of five soft skies and of `InstanceBakeOptions::lights`.
     std::vector<double> errors;
     InstanceStatistics statistics;
 };
