@@ -13,7 +13,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <map>
 #include <numeric>
 
 namespace prt {
@@ -27,34 +26,6 @@ constexpr std::size_t kLooks = 4;
 constexpr int kShareOfLook = 16;
 /// Seeds of rays to points, in scrambles: no other part of a bake takes them.
 constexpr std::uint64_t kFirstHalf = 7, kSecondHalf = 8, kLookScramble = 9;
-
-/// A relative error from squared differences and squared norms at points, with its standard error.
-class SquareSums {
-public:
-    void add(double error, double norm) {
-        errors_.push_back(error);
-        norms_.push_back(norm);
-    }
-    std::size_t points() const { return errors_.size(); }
-    double norm() const { return std::accumulate(norms_.begin(), norms_.end(), 0.0); }
-    BakeErrors::Error relative() const {
-        const double all = norm();
-        if (!(all > 0) || points() < 2)
-            return {};
-        const double ratio = std::accumulate(errors_.begin(), errors_.end(), 0.0) / all;
-        double squares = 0;
-        for (std::size_t i = 0; i < errors_.size(); ++i) {
-            const double off = errors_[i] - ratio * norms_[i];
-            squares += off * off;
-        }
-        const double spread = std::sqrt(squares) / all, root = std::sqrt(std::max(ratio, 0.0));
-        // Of the root, from that of its square: half as much relative to it, but where it is nearly nothing.
-        return {root, std::min(spread / std::max(2 * root, 1e-12), std::sqrt(spread))};
-    }
-
-private:
-    std::vector<double> errors_, norms_;
-};
 
 /// One value for each of `channels`, of what has one or as many.
 std::vector<float> in_channels(std::span<const float> values, std::size_t channels, std::size_t columns) {
@@ -249,16 +220,16 @@ ErrorCheck::Light ErrorCheck::light(const Point& point, bool back, std::size_t h
     return here;
 }
 
-std::vector<float> ErrorCheck::interpolated(const Point& point, const Transfer& baked) const {
-    const glm::uvec3& corners = plan_.scene.surfaces().corners(point.triangle);
-    const std::array<float, 3> shares{1 - point.uv.x - point.uv.y, point.uv.x, point.uv.y};
-    std::vector<float> sum(baked.dimension());
-    for (std::size_t i = 0; i < 3; ++i) {
-        const std::span<const float> corner = baked.vector(corners[static_cast<glm::length_t>(i)]);
-        for (std::size_t k = 0; k < sum.size(); ++k)
-            sum[k] += shares[i] * corner[k];
-    }
-    return sum;
+ErrorCheck::Halves ErrorCheck::halves(const Point& point, bool back, const std::array<Transfer, 2>& unbounced,
+                                      std::span<const float> bounced, int channels) const {
+    const auto half = [&](std::size_t h) {
+        return light(point, back, h, unbounced[h], bounced, static_cast<std::size_t>(channels));
+    };
+    return {half(0), half(1)};
+}
+
+int ErrorCheck::node_of(const Point& point) const {
+    return plan_.scene.scene().primitives[plan_.scene.surfaces().primitive(point.triangle)].node;
 }
 
 double ErrorCheck::sampling_error() const {
@@ -272,100 +243,130 @@ double ErrorCheck::sampling_error() const {
     return norm > 0 ? std::sqrt(noise / norm) : 0;
 }
 
-BakeErrors ErrorCheck::compare(const Transfer& baked, const Bounced& bounced) const {
-    const auto channels = static_cast<std::size_t>(plan_.channels);
-    const auto columns = static_cast<std::size_t>(coefficient_count(plan_.options.order));
-    const auto lamp_channels = static_cast<std::size_t>(plan_.lamp_channels());
+ErrorCheck::Value ErrorCheck::interpolated(const Point& point, const Transfer& baked) const {
+    const glm::uvec3& corners = plan_.scene.surfaces().corners(point.triangle);
+    const std::array<float, 3> shares{1 - point.uv.x - point.uv.y, point.uv.x, point.uv.y};
+    std::vector<float> sum(baked.dimension());
+    for (std::size_t i = 0; i < 3; ++i) {
+        const std::span<const float> corner = baked.vector(corners[static_cast<glm::length_t>(i)]);
+        for (std::size_t k = 0; k < sum.size(); ++k)
+            sum[k] += shares[i] * corner[k];
+    }
+    const auto channels = static_cast<std::size_t>(plan_.channels),
+               lamp_channels = static_cast<std::size_t>(plan_.lamp_channels()),
+               columns = static_cast<std::size_t>(coefficient_count(plan_.options.order));
+    Value value{std::vector<float>(channels * columns), std::vector<float>(channels * columns), {}, {}};
+    std::size_t first = 0;
+    for (const TransferPart& part : baked.layout.parts) {
+        const std::size_t numbers = baked.layout.numbers_of(part);
+        const std::span<const float> here = std::span(sum).subspan(first, numbers);
+        first += numbers;
+        if (part.kind == PartKind::lamp) {
+            const std::vector<float> wide = in_channels(here, lamp_channels, 1);
+            value.lamps.insert(value.lamps.end(), wide.begin(), wide.end());
+        } else {
+            (part.kind == PartKind::indirect ? value.indirect : value.direct) =
+                in_channels(here, channels, columns);
+        }
+    }
+    value.sky = value.direct;
+    add_to(value.sky, value.indirect);
+    return value;
+}
+
+void ErrorCheck::add_sky(const Point& point, const Value& x, const Halves& halves, Sums& sums) const {
+    Sums::Node& node = sums.nodes[node_of(point)];
+    const double norm = product(halves[0].all, halves[1].all),
+                 error = squared_error(x.sky, halves[0].all, halves[1].all);
+    sums.sky.add(point.area, error, norm);
+    node.sky.add(point.area, error, norm);
+    sums.direct.add(point.area, squared_error(x.direct, halves[0].unbounced, halves[1].unbounced), norm);
+    sums.indirect.add(point.area,
+                      squared_error(x.indirect, difference(halves[0].all, halves[0].unbounced),
+                                    difference(halves[1].all, halves[1].unbounced)),
+                      norm);
+}
+
+std::vector<ErrorCheck::Square> ErrorCheck::lamp_squares(const Value& x, const Halves& halves) const {
+    const auto channels = static_cast<std::size_t>(plan_.lamp_channels());
+    const std::size_t stride = halves[0].all.size() / channels;
     const bool bounces_alone = plan_.options.lamps.mode == LampMode::indirect;
-    SquareSums distant, direct, indirect, all_lamps, backs;
-    std::vector<SquareSums> lamps(plan_.lamps.size());
-    std::map<int, std::array<SquareSums, 2>> nodes; // under the sky, under lamps
+    std::vector<Square> squares(plan_.lamps.size());
+    for (std::size_t k = 0; k < squares.size(); ++k)
+        for (std::size_t c = 0; c < channels; ++c) {
+            const std::size_t i = c * stride + k;
+            const auto truth = [&](const Light& half) {
+                return static_cast<double>(half.all[i] - (bounces_alone ? half.unbounced[i] : 0));
+            };
+            const auto here = static_cast<double>(x.lamps[k * channels + c]);
+            squares[k].error += (here - truth(halves[0])) * (here - truth(halves[1]));
+            squares[k].norm += truth(halves[0]) * truth(halves[1]);
+        }
+    return squares;
+}
+
+void ErrorCheck::add_lamps(const Point& point, const Value& x, const Halves& halves, Sums& sums) const {
+    Square all;
+    const std::vector<Square> squares = lamp_squares(x, halves);
+    for (std::size_t k = 0; k < squares.size(); ++k) {
+        sums.each_lamp[k].add(point.area, squares[k].error, squares[k].norm);
+        all.error += squares[k].error;
+        all.norm += squares[k].norm;
+    }
+    sums.lamps.add(point.area, all.error, all.norm);
+    sums.nodes[node_of(point)].lamps.add(point.area, all.error, all.norm);
+}
+
+void ErrorCheck::add_back(const Point& point, const Value& x, const Bounced& bounced, Sums& sums) const {
+    ErrorSums& node = sums.nodes[node_of(point)].backs;
+    const Halves sky = halves(point, true, sky_, bounced.sky, plan_.channels);
+    if (sky[0].all[0] > 0 && sky[1].all[0] > 0) {
+        const double error = squared_error(x.sky, sky[0].all, sky[1].all),
+                     norm = product(sky[0].all, sky[1].all);
+        sums.backs.add(point.area, error, norm);
+        node.add(point.area, error, norm);
+    }
+    if (plan_.lamps.empty())
+        return;
+    Square all;
+    for (const Square& square :
+         lamp_squares(x, halves(point, true, lamps_, bounced.lamps, plan_.lamp_channels()))) {
+        all.error += square.error;
+        all.norm += square.norm;
+    }
+    if (all.norm > 0) {
+        sums.backs_by_lamps.add(point.area, all.error, all.norm);
+        node.add(point.area, all.error, all.norm);
+    }
+}
+
+BakeErrors ErrorCheck::compare(const Transfer& baked, const Bounced& bounced) const {
+    Sums sums;
+    sums.each_lamp.resize(plan_.lamps.size());
     for (const Point& point : points_) {
-        const std::vector<float> x = interpolated(point, baked);
-        std::vector<float> x_direct(channels * columns), x_indirect(channels * columns), x_lamps;
-        std::size_t first = 0;
-        for (const TransferPart& part : baked.layout.parts) {
-            const std::size_t numbers = baked.layout.numbers_of(part);
-            const std::span<const float> here = std::span(x).subspan(first, numbers);
-            first += numbers;
-            if (part.kind == PartKind::lamp) {
-                const std::vector<float> wide = in_channels(here, lamp_channels, 1);
-                x_lamps.insert(x_lamps.end(), wide.begin(), wide.end());
-            } else {
-                (part.kind == PartKind::indirect ? x_indirect : x_direct) =
-                    in_channels(here, channels, columns);
-            }
-        }
-        std::vector<float> x_all = x_direct;
-        add_to(x_all, x_indirect);
-
-        const int node =
-            plan_.scene.scene().primitives[plan_.scene.surfaces().primitive(point.triangle)].node;
-        std::array<SquareSums, 2>& of_node = nodes[node];
-        const auto add = [&](SquareSums& sums, double error, double norm) {
-            sums.add(point.area * error, point.area * norm);
-        };
-        const Light sky[2] = {light(point, false, 0, sky_[0], bounced.sky, channels),
-                              light(point, false, 1, sky_[1], bounced.sky, channels)};
-        const double norm = product(sky[0].all, sky[1].all),
-                     error = squared_error(x_all, sky[0].all, sky[1].all);
-        add(distant, error, norm);
-        add(of_node[0], error, norm);
-        add(direct, squared_error(x_direct, sky[0].unbounced, sky[1].unbounced), norm);
-        add(indirect,
-            squared_error(x_indirect, difference(sky[0].all, sky[0].unbounced),
-                          difference(sky[1].all, sky[1].unbounced)),
-            norm);
-        if (point.back) {
-            const Light behind[2] = {light(point, true, 0, sky_[0], bounced.sky, channels),
-                                     light(point, true, 1, sky_[1], bounced.sky, channels)};
-            if (behind[0].all[0] > 0 && behind[1].all[0] > 0)
-                add(backs, squared_error(x_all, behind[0].all, behind[1].all),
-                    product(behind[0].all, behind[1].all));
-        }
-        if (lamps.empty())
-            continue;
-        const Light lit[2] = {light(point, false, 0, lamps_[0], bounced.lamps, lamp_channels),
-                              light(point, false, 1, lamps_[1], bounced.lamps, lamp_channels)};
-        const std::size_t stride = lit[0].all.size() / lamp_channels;
-        double lamp_error = 0, lamp_norm = 0;
-        for (std::size_t k = 0; k < lamps.size(); ++k) {
-            double e = 0, n = 0;
-            for (std::size_t c = 0; c < lamp_channels; ++c) {
-                const std::size_t i = c * stride + k;
-                const auto truth = [&](const Light& half) {
-                    return static_cast<double>(half.all[i] - (bounces_alone ? half.unbounced[i] : 0));
-                };
-                const auto here = static_cast<double>(x_lamps[k * lamp_channels + c]);
-                e += (here - truth(lit[0])) * (here - truth(lit[1]));
-                n += truth(lit[0]) * truth(lit[1]);
-            }
-            add(lamps[k], e, n);
-            lamp_error += e;
-            lamp_norm += n;
-        }
-        add(all_lamps, lamp_error, lamp_norm);
-        add(of_node[1], lamp_error, lamp_norm);
+        const Value x = interpolated(point, baked);
+        add_sky(point, x, halves(point, false, sky_, bounced.sky, plan_.channels), sums);
+        if (!plan_.lamps.empty())
+            add_lamps(point, x, halves(point, false, lamps_, bounced.lamps, plan_.lamp_channels()), sums);
+        if (point.back)
+            add_back(point, x, bounced, sums);
     }
-
     BakeErrors errors{.points = points_.size(),
-                      .distant = distant.relative(),
-                      .direct = direct.relative(),
-                      .indirect = indirect.relative(),
-                      .all_lamps = all_lamps.relative(),
-                      .backs = backs.relative(),
-                      .lamps = {},
-                      .nodes = {}};
-    for (std::size_t k = 0; k < lamps.size(); ++k)
-        errors.lamps.push_back({plan_.lamps[k].name, lamps[k].relative()});
-    for (const Primitive& primitive : plan_.scene.scene().primitives) {
-        const auto found = nodes.find(primitive.node);
-        if (found == nodes.end())
-            continue;
-        const auto& [sky, lit] = found->second;
-        errors.nodes.push_back({primitive.node_name, sky.relative(), lit.relative(), sky.points()});
-        nodes.erase(found);
-    }
+                      .sky = sums.sky.relative(),
+                      .direct = sums.direct.relative(),
+                      .indirect = sums.indirect.relative(),
+                      .lamps = sums.lamps.relative(),
+                      .backs = sums.backs.relative(),
+                      .backs_by_lamps = sums.backs_by_lamps.relative()};
+    for (std::size_t k = 0; k < plan_.lamps.size(); ++k)
+        errors.each_lamp.push_back({plan_.lamps[k].name, sums.each_lamp[k].relative()});
+    for (const Primitive& primitive : plan_.scene.scene().primitives)
+        if (const auto found = sums.nodes.find(primitive.node); found != sums.nodes.end()) {
+            const Sums::Node& node = found->second;
+            errors.nodes.push_back({primitive.node_name, node.sky.relative(), node.lamps.relative(),
+                                    node.backs.relative(), node.sky.points()});
+            sums.nodes.erase(found);
+        }
     return errors;
 }
 

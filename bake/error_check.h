@@ -2,11 +2,13 @@
 
 // The error of a bake, measured at points over the surface.
 
+#include "error_sums.h"
 #include "measured_light.h"
 #include "plan.h"
 #include "surface/surface_samples.h"
 
 #include <array>
+#include <map>
 #include <optional>
 #include <span>
 #include <stop_token>
@@ -48,6 +50,22 @@ private:
     struct Light {
         std::vector<float> unbounced, all;
     };
+    using Halves = std::array<Light, 2>;
+    /// What is interpolated, [channels][columns]; lamps: [lamps][channels].
+    struct Value {
+        std::vector<float> direct, indirect, lamps, sky;
+    };
+    struct Square {
+        double error = 0, norm = 0;
+    };
+    struct Sums {
+        struct Node {
+            ErrorSums sky, lamps, backs;
+        };
+        ErrorSums sky, direct, indirect, lamps, backs, backs_by_lamps;
+        std::vector<ErrorSums> each_lamp;
+        std::map<int, Node> nodes;
+    };
 
     void choose_points(Tracer& tracer, const Measured& measured, const MeasuredLamps& lamps,
                        const std::stop_token& stop);
@@ -59,7 +77,14 @@ private:
     void leave_out_sealed(Tracer& tracer, const std::stop_token& stop);
     Light light(const Point& point, bool back, std::size_t half, const Transfer& unbounced,
                 std::span<const float> bounced, std::size_t channels) const;
-    std::vector<float> interpolated(const Point& point, const Transfer& baked) const;
+    Halves halves(const Point& point, bool back, const std::array<Transfer, 2>& unbounced,
+                  std::span<const float> bounced, int channels) const;
+    int node_of(const Point& point) const;
+    Value interpolated(const Point& point, const Transfer& baked) const;
+    std::vector<Square> lamp_squares(const Value& x, const Halves& halves) const;
+    void add_sky(const Point& point, const Value& x, const Halves& halves, Sums& sums) const;
+    void add_lamps(const Point& point, const Value& x, const Halves& halves, Sums& sums) const;
+    void add_back(const Point& point, const Value& x, const Bounced& bounced, Sums& sums) const;
 
     const BakePlan& plan_;
     std::vector<Point> points_;

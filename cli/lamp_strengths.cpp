@@ -5,6 +5,7 @@
 #include "options.h"
 #include "prt/color.h"
 #include "prt/sh.h"
+#include "prt/sh_basis.h"
 #include "prt/support/error.h"
 #include "prt/support/printable.h"
 
@@ -123,19 +124,22 @@ std::optional<std::string> photometric_notice(const Scene& scene, const Relit& m
     const std::vector<bool> punctual = punctual_lamps(scene, model.layout);
     if (std::ranges::count(punctual, true) == 0)
         return std::nullopt;
-    Lighting sky = lighting, lights = lighting;
-    std::ranges::fill(sky.lamps, glm::vec3(0));
+    // In the open; of what comes into closed rooms any lamp is a multiple.
+    glm::dvec3 sky = glm::dvec3(lighting.sky.coefficients[0]);
+    if (lighting.suns)
+        sky += glm::dvec3(lighting.suns->coefficients[0]);
+    Lighting lights = lighting;
     lights.sky = constant_light(lighting.sky.order, glm::vec3(0));
     lights.suns.reset();
     for (std::size_t k = 0; k < punctual.size(); ++k)
         if (!punctual[k])
             lights.lamps[k] = glm::vec3(0);
-    const double of_sky = mean_luminance(model, sky), of_lights = mean_luminance(model, lights);
+    const double of_sky = kY00 * luminance(sky), of_lights = mean_luminance(model, lights);
     if (!(of_sky > 0) || of_lights < kOutshines * of_sky)
         return std::nullopt;
     const double ratio = of_lights / of_sky;
     return fmt::format(
-        "its lights give {:.3g} times as much light as the sky, as lights in candela and lux do (683 "
+        "its lights give {:.3g} times as much light as the open sky, as lights in candela and lux do (683 "
         "lumens are a watt; Blender writes them); --lamp-scale {:.3g} makes it {:.2g} times",
         ratio, 1 / kLumensPerWatt, ratio / kLumensPerWatt);
 }

@@ -42,8 +42,8 @@ struct Relit {
 /// Keeps references to `transfer` and `areas`.
 Relit relit_by(const Transfer& transfer, std::span<const float> areas, int threads);
 
-/// A line that suggests --lamp-scale where the lights of `scene` outshine the sky as lights in candela and
-/// lux do. `lighting`: sky and lamps; no sky, no line.
+/// A line that suggests --lamp-scale where the lights of `scene` outshine the open sky as lights in candela
+/// and lux do. `lighting`: sky and lamps; no sky, no line.
 std::optional<std::string> photometric_notice(const Scene& scene, const Relit& model,
                                               const Lighting& lighting);
 

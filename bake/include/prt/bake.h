@@ -89,17 +89,19 @@ struct BakeErrors {
     };
     struct Node {
         std::string name;
-        Error distant, lamps;
+        Error sky, lamps;
+        Error backs; ///< by the sky and by lamps
         std::size_t points = 0;
     };
     std::size_t points = 0;
-    Error distant;          ///< of all light of a sky
+    Error sky;              ///< of all its light
     Error direct, indirect; ///< without a bounce and the rest, relative to all light of a sky
-    Error all_lamps;        ///< of lamps at the strengths of the scene
-    Error backs; ///< of a sky's light on backs of two-sided surfaces that some of it reaches, where values of
-                 ///< the front are shown
-    std::vector<Lamp> lamps;
-    std::vector<Node> nodes; ///< in the order of their first primitive
+    Error lamps;            ///< at the strengths of the scene
+    /// Of values of the front on backs of two-sided surfaces, where some of the sky's light and where some of
+    /// lamps arrives.
+    Error backs, backs_by_lamps;
+    std::vector<Lamp> each_lamp = {};
+    std::vector<Node> nodes = {}; ///< in the order of their first primitive
 };
 
 struct BakeOptions {
@@ -155,8 +157,8 @@ struct BakeStatistics {
     /// Estimated relative L2 error of the direct light by sampling, from independent samples.
     double sampling_error = 0;
     std::optional<BakeErrors> errors; ///< where they were asked for
-    double rounding_error = 0;   ///< relative L2 of storing float16
-    double remaining_energy = 0; ///< of the bounces that were not done, over the largest transfer
+    double rounding_error = 0;        ///< relative L2 of storing float16
+    double remaining_energy = 0;      ///< of the bounces that were not done, over the largest transfer
     Lamps lamps;
     Gather gather;                    ///< the operator of the bounces
     std::vector<std::string> notices; ///< what was left out or repaired, and why, a line each
