@@ -138,7 +138,7 @@ private:
         statistics.receivers += light.receivers().own.size();
         statistics.samples = light.receivers().sampled.size();
         statistics.rays += light.rays();
-        statistics.skies = kSoftSkies + instances_.lights.size();
+        statistics.lights = instances_.lights.size();
         statistics.alone = light.alone();
         statistics.bounces = light.bounces();
         statistics.notices = plan_.notices;

@@ -226,10 +226,11 @@ double InstanceFit::error(const SharedTransfer& shared, const Targets& targets, 
         noisy_area += static_cast<double>(samples_.areas[s]);
     }
     noisy *= noisy_area > 0 ? area / noisy_area : 0;
+    // The soft skies together: of the largest of many noisy estimates noise makes too much.
     double most = 0;
-    for (Eigen::Index first = 0; first < skies.cols(); first += 3) { // colors of a sky
-        const double light = all.segment(first, 3).sum(),
-                     lost = wrong.segment(first, 3).sum() - noisy.segment(first, 3).sum();
+    for (Eigen::Index first = 0, count = skies_.cols(); first < skies.cols(); first += count, count = 3) {
+        const double light = all.segment(first, count).sum(),
+                     lost = wrong.segment(first, count).sum() - noisy.segment(first, count).sum();
         if (light > 0)
             most = std::max(most, lost / light);
     }

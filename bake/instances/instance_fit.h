@@ -25,9 +25,6 @@ struct InstanceSamples {
 /// Of every so many samples, by their number among those of all instances, one tells the noise of its rays.
 inline constexpr std::size_t kSamplesToOfNoise = 8;
 
-/// Skies under which errors are measured, whatever others are asked for.
-inline constexpr std::size_t kSoftSkies = 5;
-
 /// The least-squares problem of the instances of a mesh that see the world's up alike (docs/math.md, section
 /// 22). Immutable, thread-safe.
 class InstanceFit {

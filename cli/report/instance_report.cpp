@@ -46,7 +46,7 @@ Report instance_report(const InstanceOutcome& outcome) {
                            {"bent", baked.meshes.bent},
                            {"in_the_open", s.alone},
                            {"error_allowed_relative_l2", outcome.error},
-                           {"skies", s.skies},
+                           {"lights", s.lights},
                            {"error_relative_l2", percentiles(baked.bake.errors)},
                            {"error_before_relative_l2", percentiles(baked.first_errors)},
                            {"errors_before_relative_l2", baked.first_errors},
@@ -61,7 +61,7 @@ Report instance_report(const InstanceOutcome& outcome) {
         "more than {instances/error_allowed_relative_l2:.1f%} and are baked alone",
         "their light errs by {instances/error_relative_l2/median:.2f%} in the middle, "
         "{instances/error_relative_l2/percentile_99:.2f%} at the 99th of a hundred, "
-        "{instances/error_relative_l2/most:.2f%} at most (under the worst of {instances/skies} skies, at the samples)"};
+        "{instances/error_relative_l2/most:.2f%} at most (soft skies and {instances/lights} given ones, at the samples)"};
     for (std::size_t i = 0; i < s.notices.size(); ++i)
         report.sentences.push_back(fmt::format("{{notices/{}}}", i));
     report.sentences.emplace_back(

@@ -204,6 +204,33 @@ TEST_F(SharedInstances, ErrorsAreToldAlikeByFewRaysAndByMany) {
     EXPECT_NEAR(median[0] / median[1], 1, 0.2);
 }
 
+TEST_F(SharedInstances, KeepTheirLimitUnderGivenSkies) {
+    make("forest:12");
+    const auto errors = [&](const std::vector<std::string>& more) {
+        std::vector<std::string> all = {"--json", at("bake.json")};
+        all.insert(all.end(), more.begin(), more.end());
+        EXPECT_EQ(bake("forest.glb", "shared.glb", "shared", all).status, 0);
+        return read_json(folder / "bake.json")["instances"];
+    };
+    const std::vector<double> soft = errors({"--instance-error", "9"})["errors_relative_l2"],
+                              lit = errors({"--instance-error", "9", "--instance-lights",
+                                            at("sky.exr")})["errors_relative_l2"];
+    ASSERT_EQ(lit.size(), soft.size());
+    std::size_t more = 0;
+    for (std::size_t i = 0; i < lit.size(); ++i) {
+        EXPECT_GE(lit[i], soft[i]);
+        more += lit[i] > 1.05 * soft[i] ? 1 : 0;
+    }
+    EXPECT_GE(more, 3u); // its sun makes shadows that factors do not hold
+    std::vector<double> sorted = lit;
+    std::ranges::sort(sorted);
+    const nlohmann::json kept =
+        errors({"--instance-error", std::to_string(sorted[8]), "--instance-lights", at("sky.exr")});
+    EXPECT_GE(kept["baked_alone"], 3);
+    EXPECT_LE(kept["error_relative_l2"]["most"], sorted[8] + 1e-6);
+    EXPECT_NE(bake("forest.glb", "shared.glb", "shared", {"--suns", "auto"}).status, 0);
+}
+
 /// A mesh of instances that plain nodes draw, too, beside and below them.
 TEST_F(SharedInstances, ArePlainNodesAndInstancesAlike) {
     for (const bool below : {false, true}) {

@@ -115,6 +115,57 @@ TEST_F(LampsOnTheRoad, OfPhotometricUnitsAreNoticed) {
     EXPECT_NE(drawn.err.find("--lamp-scale 0.00146"), std::string::npos) << drawn.err;
 }
 
+/// A dim lamp over a floor of two triangles, a bright one over a fine floor.
+TEST_F(LampsOnTheRoad, NameObjectsThatErrMuchMore) {
+    GlbFile file = scene_file(SceneBuilder().floor({8, 0, 0}, 2, 24).build());
+    const Scene coarse = SceneBuilder().floor({0, 0, 0}, 2, 1).build();
+    const VertexArray& floor = coarse.vertex_arrays[0];
+    const auto& triangles = coarse.primitives[0].triangles;
+    const auto floats = [](const std::vector<glm::vec3>& values) {
+        return std::vector<float>(&values[0].x, &values[0].x + 3 * values.size());
+    };
+    const std::size_t positions = file.accessor(floats(floor.positions), kFloat, "VEC3", 3),
+                      normals = file.accessor(floats(floor.normals), kFloat, "VEC3", 3);
+    file.json["accessors"][positions]["min"] = {-2, 0, -2};
+    file.json["accessors"][positions]["max"] = {2, 0, 2};
+    file.json["materials"] = {{{"doubleSided", true}}};
+    file.json["meshes"].push_back(
+        {{"primitives",
+          {{{"attributes", {{"POSITION", positions}, {"NORMAL", normals}}},
+            {"indices", file.accessor(std::vector<std::uint32_t>(&triangles[0].x,
+                                                                 &triangles[0].x + 3 * triangles.size()),
+                                      kUnsignedInt, "SCALAR", 1)},
+            {"material", 0}}}}});
+    file.json["nodes"][0]["name"] = "Fine";
+    file.json["nodes"].push_back({{"name", "Coarse"}, {"mesh", 1}});
+    file.json["scenes"][0]["nodes"].push_back(1);
+    file.json["extensionsUsed"].push_back("KHR_lights_punctual");
+    file.json["extensions"]["KHR_lights_punctual"]["lights"] = {{{"type", "point"}, {"intensity", 1}},
+                                                                {{"type", "point"}, {"intensity", 0.2}}};
+    for (const int light : {0, 1}) {
+        file.json["scenes"][0]["nodes"].push_back(file.json["nodes"].size());
+        file.json["nodes"].push_back({{"translation", {light == 0 ? 8 : 0, 1, 0}},
+                                      {"extensions", {{"KHR_lights_punctual", {{"light", light}}}}}});
+    }
+    file.write(folder / "two.glb");
+    const Outcome baked = prt({"bake", at("two.glb"), "-o", at("n.glb"), "--rays", "64", "--order", "2",
+                               "--fit", "vertex", "--json", at("n.json")});
+    ASSERT_EQ(baked.status, 0) << baked.err;
+    EXPECT_NE(
+        baked.out.find("seen from behind, two-sided surfaces show the light of their fronts, which errs "
+                       "there: 'Coarse'"),
+        std::string::npos)
+        << baked.out;
+    EXPECT_NE(baked.out.find("objects with much larger errors: 'Coarse'"), std::string::npos) << baked.out;
+    const auto errors = nlohmann::json::parse(std::ifstream(folder / "n.json"))["errors"];
+    ASSERT_EQ(errors["objects"].size(), 2u);
+    const auto& fine = errors["objects"][0];
+    EXPECT_EQ(fine["name"], "Fine");
+    EXPECT_LT(fine["lamps"]["relative_l2"], 0.02);
+    EXPECT_EQ(fine["backs"]["relative_l2"], 0);
+    EXPECT_GT(errors["objects"][1]["lamps"]["relative_l2"], 0.5); // the middle is brightest, corners far away
+}
+
 // White would make a lamp of every triangle.
 TEST_F(LampsOnTheRoad, WhoseTexturesAreMissingAreDark) {
     GlbFile file = scene_file(SceneBuilder().floor({0, 0, 0}, 1, 6).build());

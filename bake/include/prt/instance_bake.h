@@ -30,7 +30,7 @@ struct InstanceStatistics {
     std::size_t receivers = 0; ///< traced in full: of meshes alone, and of what is drawn once
     std::size_t samples = 0;   ///< traced where instances stand
     std::size_t rays = 0;
-    std::size_t skies = 0;     ///< under which errors were measured
+    std::size_t lights = 0;    ///< given, under which errors were measured, too
     std::size_t alone = 0;     ///< instances none of whose rays met anything but themselves
     int bounces = 0;       ///< done
     double seconds = 0;
@@ -40,8 +40,8 @@ struct InstanceStatistics {
 struct InstanceBake {
     BakedTransfer baked; ///< of the receivers of `stored`
     StoredInstances instances;
-    /// [instances] relative L2 of exit radiance at the samples, without the noise of their rays: the largest
-    /// under each of five soft skies and of `InstanceBakeOptions::lights`.
+    /// [instances] relative L2 of exit radiance at the samples, without the noise of their rays: the
+    /// largest under five soft skies together and under each of `InstanceBakeOptions::lights`.
     std::vector<double> errors;
     InstanceStatistics statistics;
 };
