@@ -7,13 +7,18 @@
 namespace prt {
 namespace {
 
-/// Gives receivers that are alike one unknown, numbered in the order of the mesh.
+/// Gives receivers that are alike one unknown, numbered in the order of the mesh. The first of them may be on
+/// no surface, where it has degenerate triangles alone.
 void number_unknowns(const Receivers& receivers, std::span<const std::uint32_t> alike,
                      FitEquations& equations) {
     equations.unknown_of.assign(receivers.size(), kNoReceiver);
-    for (const std::uint32_t p : receivers_on_surfaces(receivers))
-        equations.unknown_of[p] =
-            alike[p] == p ? static_cast<std::uint32_t>(equations.unknowns++) : equations.unknown_of[alike[p]];
+    std::vector<std::uint32_t> of_class(receivers.size(), kNoReceiver);
+    for (const std::uint32_t p : receivers_on_surfaces(receivers)) {
+        std::uint32_t& unknown = of_class[alike[p]];
+        if (unknown == kNoReceiver)
+            unknown = static_cast<std::uint32_t>(equations.unknowns++);
+        equations.unknown_of[p] = unknown;
+    }
 }
 
 std::array<std::uint32_t, 3> unknowns_at(const Surfaces& surfaces, const TransportReceivers& receivers,

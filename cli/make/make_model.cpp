@@ -234,7 +234,9 @@ private:
 
     /// Written and read, as those do who take one step after the other.
     void bake_all() {
-        const BakeResult result = baked(bake_options(plan_.rays), "baking");
+        BakeOptions options = bake_options(plan_.rays);
+        options.measure_errors = true; // as prt bake does
+        const BakeResult result = baked(options, "baking");
         for (const std::string& notice : result.statistics.notices)
             notices_.push_back(notice);
         note_lights(result.baked.transfer);

@@ -296,6 +296,21 @@ TEST(FittedBake, ErrsLessBetweenVerticesThanOneAtVertices) {
     EXPECT_LT(error(fitted), 0.9 * error(plain));
 }
 
+/// The first vertex at a place may belong to triangles without area alone.
+TEST(FittedBake, HasNoUseForTheFirstOfVerticesWhereThatHasNoArea) {
+    Scene scene = SceneBuilder().floor({0, 0, 0}, 1, 2).build();
+    VertexArray& vertices = scene.vertex_arrays[0];
+    vertices.positions.insert(vertices.positions.begin(), 3, vertices.positions[0]);
+    vertices.normals.insert(vertices.normals.begin(), 3, vertices.normals[0]);
+    std::vector<glm::uvec3>& triangles = scene.primitives[0].triangles;
+    for (glm::uvec3& t : triangles)
+        t += 3u;
+    triangles.insert(triangles.begin(), {0, 1, 2});
+    const Transfer transfer = bake(scene, fitted_options()).baked.transfer;
+    for (std::size_t p = 0; p < transfer.receivers(); ++p) // in the open
+        EXPECT_NEAR(static_cast<double>(transfer.vector(p)[0]), kY00, 0.01) << p;
+}
+
 TEST(FittedBake, IsDeterministic) {
     const Scene scene = floor_with_wall();
     BakeOptions options = fitted_options();
