@@ -21,6 +21,9 @@ namespace {
 /// One receiver of so many has a point, within these bounds. A half has as many rays as a receiver: of fewer
 /// the noise hides what is sought (rays of a quarter: the estimate varies by 20 % between seeds, not by 6 %).
 constexpr std::size_t kReceiversPerPoint = 64, kMinPoints = 320, kMaxPoints = 2048;
+/// In small scenes of many rays all points of a half have at most so many rays of all receivers together, and
+/// each at least so many.
+constexpr double kMaxShareOfRays = 0.5, kMinCapped = 1024;
 /// Points that are looked at first for each that is traced, by one ray of so many.
 constexpr std::size_t kLooks = 4;
 constexpr int kShareOfLook = 16;
@@ -65,7 +68,7 @@ ErrorCheck::ErrorCheck(const BakePlan& plan, Tracer& tracer, const Measured& mea
     Tracer& rays = tracer.notes_hits() ? tracer : static_cast<Tracer&>(other.emplace(plan.scene));
     choose_points(rays, measured, lamps, stop);
     add_backs();
-    trace(rays, static_cast<std::uint32_t>(std::max(1, measured.direct.mean_rays)), stop);
+    trace(rays, static_cast<double>(std::max(1, measured.direct.mean_rays)), stop);
     leave_out_sealed(rays, stop);
 }
 
@@ -155,11 +158,15 @@ void ErrorCheck::add_backs() {
     }
 }
 
-void ErrorCheck::trace(Tracer& tracer, std::uint32_t rays, const std::stop_token& stop) {
+void ErrorCheck::trace(Tracer& tracer, double rays, const std::stop_token& stop) {
     const std::size_t rows = rows_.size();
     std::vector<std::uint32_t> indices(rows);
     std::iota(indices.begin(), indices.end(), 0u);
-    TraceOptions options = gather_options(plan_, rays);
+    const double share = kMaxShareOfRays * static_cast<double>(plan_.receivers().size()) /
+                         static_cast<double>(std::max<std::size_t>(rows, 1));
+    const double half = std::min(rays, std::max(share * rays, kMinCapped));
+    rays_of_half_ = half / rays;
+    TraceOptions options = gather_options(plan_, static_cast<std::uint32_t>(half));
     if (plan_.bounces != 0)
         gather_.emplace(plan_.scene.surfaces(), *plan_.transport, 2 * rows, plan_.channels);
     for (std::size_t h = 0; h < 2; ++h) {
@@ -240,7 +247,8 @@ double ErrorCheck::sampling_error() const {
         noise += point.area * squared_distance(first, second) / 2; // both have it
         norm += point.area * product(first, second);
     }
-    return norm > 0 ? std::sqrt(noise / norm) : 0;
+    // The squared noise of nets of n rays falls as n^-1.5.
+    return norm > 0 ? std::sqrt(noise * std::pow(rays_of_half_, 1.5) / norm) : 0;
 }
 
 ErrorCheck::Value ErrorCheck::interpolated(const Point& point, const Transfer& baked) const {
@@ -317,27 +325,28 @@ void ErrorCheck::add_lamps(const Point& point, const Value& x, const Halves& hal
     sums.nodes[node_of(point)].lamps.add(point.area, all.error, all.norm);
 }
 
+/// Only where light arrives without a bounce: insides of solids get none, but for what is interpolated.
 void ErrorCheck::add_back(const Point& point, const Value& x, const Bounced& bounced, Sums& sums) const {
-    ErrorSums& node = sums.nodes[node_of(point)].backs;
+    Sums::Node& node = sums.nodes[node_of(point)];
     const Halves sky = halves(point, true, sky_, bounced.sky, plan_.channels);
-    if (sky[0].all[0] > 0 && sky[1].all[0] > 0) {
+    if (sky[0].unbounced[0] > 0 && sky[1].unbounced[0] > 0) {
         const double error = squared_error(x.sky, sky[0].all, sky[1].all),
                      norm = product(sky[0].all, sky[1].all);
         sums.backs.add(point.area, error, norm);
-        node.add(point.area, error, norm);
+        node.backs.add(point.area, error, norm);
     }
     if (plan_.lamps.empty())
         return;
+    const Halves lit = halves(point, true, lamps_, bounced.lamps, plan_.lamp_channels());
+    if (!(product(lit[0].unbounced, lit[1].unbounced) > 0))
+        return;
     Square all;
-    for (const Square& square :
-         lamp_squares(x, halves(point, true, lamps_, bounced.lamps, plan_.lamp_channels()))) {
+    for (const Square& square : lamp_squares(x, lit)) {
         all.error += square.error;
         all.norm += square.norm;
     }
-    if (all.norm > 0) {
-        sums.backs_by_lamps.add(point.area, all.error, all.norm);
-        node.add(point.area, all.error, all.norm);
-    }
+    sums.backs_by_lamps.add(point.area, all.error, all.norm);
+    node.backs_by_lamps.add(point.area, all.error, all.norm);
 }
 
 BakeErrors ErrorCheck::compare(const Transfer& baked, const Bounced& bounced) const {
@@ -356,15 +365,16 @@ BakeErrors ErrorCheck::compare(const Transfer& baked, const Bounced& bounced) co
                       .direct = sums.direct.relative(),
                       .indirect = sums.indirect.relative(),
                       .lamps = sums.lamps.relative(),
-                      .backs = sums.backs.relative(),
-                      .backs_by_lamps = sums.backs_by_lamps.relative()};
+                      .backs = sums.backs.relative(sums.sky),
+                      .backs_by_lamps = sums.backs_by_lamps.relative(sums.lamps)};
     for (std::size_t k = 0; k < plan_.lamps.size(); ++k)
         errors.each_lamp.push_back({plan_.lamps[k].name, sums.each_lamp[k].relative()});
     for (const Primitive& primitive : plan_.scene.scene().primitives)
         if (const auto found = sums.nodes.find(primitive.node); found != sums.nodes.end()) {
             const Sums::Node& node = found->second;
-            errors.nodes.push_back({primitive.node_name, node.sky.relative(), node.lamps.relative(),
-                                    node.backs.relative(), node.sky.points()});
+            errors.nodes.push_back({primitive.node_name, node.sky.relative(sums.sky),
+                                    node.lamps.relative(sums.lamps), node.backs.relative(sums.sky),
+                                    node.backs_by_lamps.relative(sums.lamps), node.sky.points()});
             sums.nodes.erase(found);
         }
     return errors;

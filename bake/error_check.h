@@ -60,7 +60,7 @@ private:
     };
     struct Sums {
         struct Node {
-            ErrorSums sky, lamps, backs;
+            ErrorSums sky, lamps, backs, backs_by_lamps;
         };
         ErrorSums sky, direct, indirect, lamps, backs, backs_by_lamps;
         std::vector<ErrorSums> each_lamp;
@@ -73,7 +73,7 @@ private:
     SurfaceSamples look(Tracer& tracer, const Transfer& sky, const SurfaceSamples& many, std::size_t count,
                         const std::stop_token& stop);
     void add_backs();
-    void trace(Tracer& tracer, std::uint32_t rays, const std::stop_token& stop);
+    void trace(Tracer& tracer, double rays, const std::stop_token& stop);
     void leave_out_sealed(Tracer& tracer, const std::stop_token& stop);
     Light light(const Point& point, bool back, std::size_t half, const Transfer& unbounced,
                 std::span<const float> bounced, std::size_t channels) const;
@@ -91,6 +91,7 @@ private:
     Receivers rows_;                       ///< fronts, then backs
     std::array<Transfer, 2> sky_, lamps_;  ///< of rows, without a bounce, by each half
     std::optional<GatherOperator> gather_; ///< rows of the first half, then of the second
+    double rays_of_half_ = 1;              ///< over those of a receiver
     std::size_t rays_ = 0;
 };
 

@@ -7,20 +7,35 @@
 #include <numeric>
 
 namespace prt {
+namespace {
 
-BakeErrors::Error ErrorSums::relative() const {
-    const double norm = std::accumulate(norms_.begin(), norms_.end(), 0.0);
-    if (!(norm > 0) || points() < 2)
-        return {};
-    const double ratio = std::accumulate(errors_.begin(), errors_.end(), 0.0) / norm;
+double sum(const std::vector<double>& values) {
+    return std::accumulate(values.begin(), values.end(), 0.0);
+}
+
+} // namespace
+
+BakeErrors::Error ErrorSums::relative(const ErrorSums& scene) const {
+    BakeErrors::Error result;
+    if (points() < 2)
+        return result;
+    const double error = std::max(sum(errors_), 0.0), norm = sum(norms_), of_scene = sum(scene.norms_);
+    if (of_scene > 0)
+        result.of_scene = std::sqrt(error / area_ * scene.area_ / of_scene);
+    if (!(norm > 0))
+        return result;
+    const double ratio = error / norm;
     double squares = 0;
     for (std::size_t i = 0; i < errors_.size(); ++i) {
         const double off = errors_[i] - ratio * norms_[i];
         squares += off * off;
     }
     // Of the root half as much relative to it as of the square, but where the square is nearly nothing.
-    const double spread = std::sqrt(squares) / norm, root = std::sqrt(std::max(ratio, 0.0));
-    return {root, std::min(spread / std::max(2 * root, 1e-12), std::sqrt(spread))};
+    const double spread = std::sqrt(squares) / norm;
+    result.relative_l2 = std::sqrt(ratio);
+    result.standard_error = std::min(spread / std::max(2 * result.relative_l2, 1e-12), std::sqrt(spread));
+    result.known = true;
+    return result;
 }
 
 } // namespace prt

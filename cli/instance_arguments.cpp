@@ -91,8 +91,11 @@ void add_instances(CLI::App* command, InstanceArguments& arguments) {
 
 SharedMeshes meshes_to_share(const InstanceArguments& arguments, const GltfDocument& document,
                              const Scene& scene, const AskedFor& asked) {
-    if (arguments.mode == InstanceMode::own)
+    if (arguments.mode == InstanceMode::own) {
+        if (!arguments.lights.empty())
+            throw Error("--instance-lights is for --instances shared or auto");
         return {};
+    }
     const bool must = arguments.mode == InstanceMode::shared;
     if (asked.other) {
         if (must)
@@ -132,8 +135,9 @@ InstancedBake bake_shared(const InstanceArguments& arguments, const FlatScene& f
     for (const Path& path : arguments.lights)
         with_lights.lights.push_back(
             lighting_of(load_split_light(path, options.order, arguments.suns, {}, options.threads)));
-    double begin = 0;
-    for (bool good = false; !good;) { // those that stay change by a little where others are baked alone
+    constexpr double kFirstShare = 0.93; // those that stay change by a little where others are baked alone
+    double begin = 0, limit = kFirstShare * arguments.error;
+    for (bool good = false; !good; limit = arguments.error) {
         SharedDocument shared = with_shared_meshes(flat.document, meshes.meshes);
         Scene stored = extract_scene(shared.document);
         leave_out_shadows(stored, flat.no_shadow);
@@ -144,7 +148,7 @@ InstancedBake bake_shared(const InstanceArguments& arguments, const FlatScene& f
         result.rays += result.bake.statistics.rays;
         if (result.first_errors.empty())
             result.first_errors = result.bake.errors;
-        SharedMeshes kept = without_bad_ones(meshes, result.bake.errors, arguments.error);
+        SharedMeshes kept = without_bad_ones(meshes, result.bake.errors, limit);
         good = kept.placements() == meshes.placements();
         meshes = std::move(kept);
         result.baked_alone = all - meshes.placements();

@@ -2,12 +2,22 @@
 
 #include "scene/alike_receivers.h"
 
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+
 #include <algorithm>
+#include <cmath>
+#include <limits>
 #include <numeric>
 #include <tuple>
 
 namespace prt {
 namespace {
+
+/// Normals of one plane differ by rounding, in files and where they are computed.
+constexpr float kSameNormal = 1e-4f;
+/// Of the largest coordinate: the pole of a sphere has positions 1e-16 from one another.
+constexpr float kSamePosition = 1e-7f;
 
 /// Node of each receiver at a corner, [receivers]; -1: of none.
 std::vector<int> nodes_of(const Surfaces& surfaces, std::size_t receivers,
@@ -30,9 +40,13 @@ std::vector<int> nodes_of(const Surfaces& surfaces, std::size_t receivers,
 std::vector<std::uint32_t> alike_receivers(const Surfaces& surfaces, const Receivers& receivers,
                                            std::size_t fronts, std::span<const std::uint32_t> back) {
     const std::vector<int> nodes = nodes_of(surfaces, receivers.size(), back);
+    float largest = 0;
+    for (const glm::vec3& at : receivers.positions)
+        largest = std::max({largest, std::abs(at.x), std::abs(at.y), std::abs(at.z)});
+    const float cell = std::max(kSamePosition * largest, std::numeric_limits<float>::min());
     const auto key = [&](std::uint32_t p) {
-        const glm::vec3 &at = receivers.positions[p], &n = receivers.normals[p];
-        return std::tuple(nodes[p], p >= fronts, at.x, at.y, at.z, n.x, n.y, n.z);
+        const glm::vec3 at = glm::round(receivers.positions[p] / cell);
+        return std::tuple(nodes[p], p >= fronts, at.x, at.y, at.z);
     };
     std::vector<std::uint32_t> order, first(receivers.size());
     std::iota(first.begin(), first.end(), 0u);
@@ -41,9 +55,19 @@ std::vector<std::uint32_t> alike_receivers(const Surfaces& surfaces, const Recei
             order.push_back(p);
     std::sort(order.begin(), order.end(),
               [&](std::uint32_t a, std::uint32_t b) { return key(a) != key(b) ? key(a) < key(b) : a < b; });
-    for (std::size_t i = 1; i < order.size(); ++i)
-        if (key(order[i]) == key(order[i - 1]))
-            first[order[i]] = first[order[i - 1]];
+    std::vector<std::uint32_t> here; // the first of each normal at one position
+    for (std::size_t i = 0; i < order.size(); ++i) {
+        const std::uint32_t p = order[i];
+        if (i == 0 || key(p) != key(order[i - 1]))
+            here.clear();
+        const auto found = std::ranges::find_if(here, [&](std::uint32_t q) {
+            return glm::distance(receivers.normals[p], receivers.normals[q]) <= kSameNormal;
+        });
+        if (found == here.end())
+            here.push_back(p);
+        else
+            first[p] = *found;
+    }
     return first;
 }
 

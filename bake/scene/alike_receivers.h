@@ -11,9 +11,9 @@
 
 namespace prt {
 
-/// For each receiver the first one of its node with the same position, normal and side of the surface:
-/// [receivers]. The first `fronts` are corners of `surfaces`; `back` [fronts], or empty, as in
-/// TransportReceivers. Others are alone.
+/// For each receiver the first one of its node with the same position and side of the surface, and the same
+/// normal to rounding: [receivers]. The first `fronts` are corners of `surfaces`; `back` [fronts], or empty,
+/// as in TransportReceivers. Others are alone.
 std::vector<std::uint32_t> alike_receivers(const Surfaces& surfaces, const Receivers& receivers,
                                            std::size_t fronts, std::span<const std::uint32_t> back = {});
 

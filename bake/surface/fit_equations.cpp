@@ -33,14 +33,16 @@ std::array<std::uint32_t, 3> unknowns_at(const Surfaces& surfaces, const Transpo
     return unknowns;
 }
 
-/// One for each side of a triangle, where all corners are unknowns.
+/// One for each side of a triangle, where its corners are three unknowns: needles at the pole of a sphere are
+/// of two, and bend without measure.
 std::vector<FitTriangle> triangles_over(const Surfaces& surfaces, const TransportReceivers& receivers,
                                         std::span<const std::uint32_t> unknown_of) {
     std::vector<FitTriangle> triangles;
     for (std::uint32_t t = 0; t < surfaces.triangles(); ++t)
         for (const bool back : {false, true}) {
             FitTriangle triangle{unknowns_at(surfaces, receivers, unknown_of, t, back), {}};
-            if (std::ranges::count(triangle.unknowns, kNoReceiver) > 0)
+            const auto& [a, b, c] = triangle.unknowns;
+            if (std::ranges::count(triangle.unknowns, kNoReceiver) > 0 || a == b || b == c || c == a)
                 continue;
             for (std::size_t i = 0; i < 3; ++i)
                 triangle.corners[i] =

@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <functional>
+#include <limits>
 #include <string>
 #include <utility>
 #include <vector>
@@ -51,7 +52,41 @@ void add_refinement_sentences(const RefineStatistics& s, Report& report) {
 }
 
 Json error_json(const BakeErrors::Error& error) {
-    return {{"relative_l2", error.relative_l2}, {"standard_error", error.standard_error}};
+    Json json = {{"relative_l2", nullptr}, {"standard_error", nullptr}, {"of_scene", error.of_scene}};
+    if (error.known) {
+        json["relative_l2"] = error.relative_l2;
+        json["standard_error"] = error.standard_error;
+    }
+    return json;
+}
+
+constexpr double kVisible = 0.02; ///< of the light of the scene
+
+/// The error, where it is visible, and beyond doubt above `limit`; else 0.
+double above(const BakeErrors::Error& error, double limit) {
+    const bool is_above =
+        error.of_scene > kVisible && (!error.known || error.relative_l2 - 2 * error.standard_error > limit);
+    return !is_above ? 0 : error.known ? error.relative_l2 : std::numeric_limits<double>::infinity();
+}
+
+/// Objects with `error(node)` above 0, the worst first: "'Pole' 78 %, 'Hood' 31 %, 3 more"; empty: none.
+template <class Error>
+std::string worst_objects(const BakeErrors& errors, Error&& error) {
+    constexpr std::size_t kNamed = 5;
+    constexpr double kMostShown = 10;
+    std::vector<std::pair<double, std::string>> worst;
+    for (const BakeErrors::Node& node : errors.nodes)
+        if (const double here = error(node); here > 0)
+            worst.emplace_back(here, node.name);
+    std::ranges::stable_sort(worst, std::greater{}, &std::pair<double, std::string>::first);
+    std::vector<std::string> words;
+    for (const auto& [here, name] : worst)
+        if (words.size() < kNamed)
+            words.push_back(here > kMostShown ? fmt::format("'{}' over 1000 %", printable(name))
+                                              : fmt::format("'{}' {:.2g} %", printable(name), 100 * here));
+    if (worst.size() > kNamed)
+        words.push_back(fmt::format("{} more", worst.size() - kNamed));
+    return fmt::format("{}", fmt::join(words, ", "));
 }
 
 Json errors_json(const BakeErrors& errors) {
@@ -63,7 +98,16 @@ Json errors_json(const BakeErrors& errors) {
                            {"points", node.points},
                            {"sky", error_json(node.sky)},
                            {"lamps", error_json(node.lamps)},
-                           {"backs", error_json(node.backs)}});
+                           {"backs", error_json(node.backs)},
+                           {"backs_by_lamps", error_json(node.backs_by_lamps)}});
+    constexpr double kBacksDiffer = 0.1;
+    const std::string worse = worst_objects(errors, [&](const BakeErrors::Node& node) {
+        return std::max(above(node.sky, 2 * errors.sky.relative_l2 + kVisible),
+                        above(node.lamps, 2 * errors.lamps.relative_l2 + kVisible));
+    });
+    const std::string behind = worst_objects(errors, [](const BakeErrors::Node& node) {
+        return std::max(above(node.backs, kBacksDiffer), above(node.backs_by_lamps, kBacksDiffer));
+    });
     return {{"points", errors.points},
             {"sky", error_json(errors.sky)},
             {"direct", error_json(errors.direct)},
@@ -72,59 +116,34 @@ Json errors_json(const BakeErrors& errors) {
             {"backs", error_json(errors.backs)},
             {"backs_by_lamps", error_json(errors.backs_by_lamps)},
             {"each_lamp", lamps},
-            {"objects", objects}};
+            {"objects", objects},
+            {"much_worse", worse},
+            {"much_worse_behind", behind}};
 }
 
-/// The error, where it is beyond doubt above `limit`; else 0.
-double above(const BakeErrors::Error& error, double limit) {
-    return error.relative_l2 - 2 * error.standard_error > limit ? error.relative_l2 : 0;
-}
-
-/// Objects with `error(node)` above 0, the worst first: "'Pole' 78 %, 'Hood' 31 %, 3 more"; empty: none.
-template <class Error>
-std::string worst_objects(const BakeErrors& errors, Error&& error) {
-    constexpr std::size_t kNamed = 5;
-    std::vector<std::pair<double, std::string>> worst;
-    for (const BakeErrors::Node& node : errors.nodes)
-        if (const double here = error(node); here > 0)
-            worst.emplace_back(here, node.name);
-    std::ranges::stable_sort(worst, std::greater{}, &std::pair<double, std::string>::first);
-    std::vector<std::string> words;
-    for (const auto& [here, name] : worst)
-        if (words.size() < kNamed)
-            words.push_back(fmt::format("'{}' {:.2g} %", printable(name), 100 * here));
-    if (worst.size() > kNamed)
-        words.push_back(fmt::format("{} more", worst.size() - kNamed));
-    return fmt::format("{}", fmt::join(words, ", "));
-}
-
-void add_error_sentences(const BakeErrors& errors, Report& report) {
-    if (errors.sky.relative_l2 > 0)
+void add_error_sentences(const Json& errors, Report& report) {
+    const auto known = [&](const char* what) { return !errors[what]["relative_l2"].is_null(); };
+    if (known("sky"))
         report.sentences.push_back(
-            errors.indirect.relative_l2 > 0
+            known("indirect") && errors["indirect"]["relative_l2"] > 0
                 ? "error over the surface: {errors/sky/relative_l2:.2f%} of the sky's light (± "
                   "{errors/sky/standard_error:.2f%}); direct {errors/direct/relative_l2:.2f%}, bounced "
                   "{errors/indirect/relative_l2:.2f%}"
                 : "error over the surface: {errors/sky/relative_l2:.2f%} of the sky's light (± "
                   "{errors/sky/standard_error:.2f%})");
-    if (errors.lamps.relative_l2 > 0)
+    if (known("lamps"))
         report.sentences.emplace_back(
             "error over the surface: {errors/lamps/relative_l2:.2f%} of the light of "
             "lamps (± {errors/lamps/standard_error:.2f%})");
-    constexpr double kVisible = 0.02, kBacksDiffer = 0.1;
-    const std::string worse = worst_objects(errors, [&](const BakeErrors::Node& node) {
-        return std::max(above(node.sky, 2 * errors.sky.relative_l2 + kVisible),
-                        above(node.lamps, 2 * errors.lamps.relative_l2 + kVisible));
-    });
-    if (!worse.empty())
-        report.sentences.push_back("objects with much larger errors: " + worse);
-    const std::string behind =
-        worst_objects(errors, [](const BakeErrors::Node& node) { return above(node.backs, kBacksDiffer); });
-    if (!behind.empty())
-        report.sentences.push_back(
-            "seen from behind, two-sided surfaces show the light of their fronts, which "
-            "errs there: " +
-            behind + "; each side of a wall with a thickness has its own");
+    if (errors["points"] == 0)
+        report.sentences.emplace_back(
+            "error over the surface: not measured, all of it is over media or sealed in");
+    if (errors["much_worse"] != "")
+        report.sentences.emplace_back("objects with much larger errors: {errors/much_worse}");
+    if (errors["much_worse_behind"] != "")
+        report.sentences.emplace_back(
+            "seen from behind, two-sided surfaces show the light of their fronts, which errs there: "
+            "{errors/much_worse_behind}; each side of a wall with a thickness has its own");
 }
 
 Json statistics_json(const BakeStatistics& s) {
@@ -189,7 +208,7 @@ void add_sentences(const BakeOutcome& baked, Report& report) {
     else if (!s.errors && s.sampling_error > 0)
         say("error of the direct light: {sampling_error_relative_l2:.3f%} estimated");
     if (s.errors)
-        add_error_sentences(*s.errors, report);
+        add_error_sentences(errors_json(*s.errors), report);
     if (baked.refinement)
         add_refinement_sentences(*baked.refinement, report);
     else if (s.fit.between > 0 || s.fit.samples > 0)

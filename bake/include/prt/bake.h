@@ -82,6 +82,9 @@ struct BakeMemory {
 struct BakeErrors {
     struct Error {
         double relative_l2 = 0, standard_error = 0;
+        /// Root mean square, over that of the light of the whole scene.
+        double of_scene = 0;
+        bool known = false; ///< there are points enough, and light; else `relative_l2` is 0
     };
     struct Lamp {
         std::string name;
@@ -89,16 +92,15 @@ struct BakeErrors {
     };
     struct Node {
         std::string name;
-        Error sky, lamps;
-        Error backs; ///< by the sky and by lamps
+        Error sky, lamps, backs, backs_by_lamps;
         std::size_t points = 0;
     };
     std::size_t points = 0;
     Error sky;              ///< of all its light
     Error direct, indirect; ///< without a bounce and the rest, relative to all light of a sky
     Error lamps;            ///< at the strengths of the scene
-    /// Of values of the front on backs of two-sided surfaces, where some of the sky's light and where some of
-    /// lamps arrives.
+    /// Of values of the front on backs of two-sided surfaces, where direct light of the sky and of lamps
+    /// arrives.
     Error backs, backs_by_lamps;
     std::vector<Lamp> each_lamp = {};
     std::vector<Node> nodes = {}; ///< in the order of their first primitive
