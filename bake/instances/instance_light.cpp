@@ -303,7 +303,7 @@ void InstanceLight::fit(std::size_t step, bool gives) {
                              if (samples_.met[i]) {
                                  fit_one(fit, bound, i);
                                  if (!gives)
-                                     result_.errors[i] = error_of(fit, shared, bound, i);
+                                     result_.errors[i] = error_of(fit, shared, i);
                              }
                          for (std::size_t first = 0; gives && first < some.size(); first += kExpandedAtOnce)
                              expand(shared, places,
@@ -370,12 +370,11 @@ void InstanceLight::fit_one(const InstanceFit& fit, const UniformBound& bound, s
                                                  receivers_.instances[instance].rotation);
 }
 
-/// By factors that are fitted to the other half of the samples, half by half: those of all samples know the
-/// ones that they were fitted to better than others.
 double InstanceLight::error_of(const InstanceFit& fit, const SharedTransfer& shared,
-                               const UniformBound& bound, std::size_t instance) const {
+                               std::size_t instance) const {
+    const auto& placed = receivers_.instances[instance];
     const std::vector<bool> left_out = left_out_of(instance);
-    const std::size_t first = receivers_.instances[instance].first_sample,
+    const std::size_t first = placed.first_sample,
                       noisy = (first + kSamplesToOfNoise - 1) / kSamplesToOfNoise;
     std::vector<Lighting> lights = options_.lights;
     for (Lighting& light : lights) {
@@ -387,20 +386,10 @@ double InstanceLight::error_of(const InstanceFit& fit, const SharedTransfer& sha
         if (light.suns)
             turn(*light.suns);
     }
-    double squares = 0;
-    for (const std::size_t half : {0, 1}) {
-        std::vector<bool> fitted = left_out, judged = left_out;
-        for (std::size_t s = 0; s < left_out.size(); ++s) // blocks, so that both halves tell noise
-            (s / kSamplesToOfNoise % 2 == half ? fitted : judged)[s] = true;
-        const InstanceFactors factors = fit.fit(targets_of(instance, fitted), &bound);
-        const double error =
-            fit.error(shared, targets_of(instance, judged),
-                      {std::span<const float>(samples_.differences).subspan(noisy * sizes_.dimension),
-                       noisy * kSamplesToOfNoise - first},
-                      factors, lights);
-        squares += error * error / 2;
-    }
-    return std::sqrt(squares);
+    return fit.error(shared, targets_of(instance, left_out),
+                     {std::span<const float>(samples_.differences).subspan(noisy * sizes_.dimension),
+                      noisy * kSamplesToOfNoise - first},
+                     in_axes_of_mesh(result_.factors[instance], placed.rotation), lights);
 }
 
 /// Writes the light that some instances of a mesh give to all their receivers.

@@ -55,8 +55,7 @@ private:
     void fit(std::size_t step, bool gives);
     void bound_as_stored(const std::vector<UniformBound>& bounds);
     void fit_one(const InstanceFit& fit, const UniformBound& bound, std::size_t instance);
-    double error_of(const InstanceFit& fit, const SharedTransfer& shared, const UniformBound& bound,
-                    std::size_t instance) const;
+    double error_of(const InstanceFit& fit, const SharedTransfer& shared, std::size_t instance) const;
     InstanceFit::Targets targets_of(std::size_t instance, const std::vector<bool>& left_out) const;
     std::vector<bool> left_out_of(std::size_t instance) const;
     void expand(const SharedTransfer& shared, std::span<const glm::vec3> places,
