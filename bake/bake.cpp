@@ -13,16 +13,57 @@
 
 #include <algorithm>
 #include <memory>
+#include <optional>
+#include <utility>
+#include <vector>
 
 namespace prt {
+namespace {
 
-BakeResult bake(const Scene& scene, const BakeOptions& options, const Progress& progress) {
+/// Traces points of the surface where the plan measures errors. The sampling error of direct light that is
+/// measured at receivers is then told by them.
+std::optional<ErrorCheck> check_errors(const BakePlan& plan, Tracer& tracer, Measured& measured,
+                                       const MeasuredLamps& lamps, const std::stop_token& stop) {
+    if (!plan.measures_errors)
+        return std::nullopt;
+    std::optional<ErrorCheck> check(std::in_place, plan, tracer, measured, lamps, stop);
+    measured.direct.rays += check->rays();
+    if (!measured.fit && !plan.options.target_error && tracer.method() == BakeMethod::trace)
+        measured.direct.sampling_error = check->sampling_error();
+    return check;
+}
+
+/// Exit light of the sky, and of lamps in the same transfer.
+struct ExitLight {
+    Propagated all;
+    std::vector<float> lamps_at_check; ///< as Propagated::at_check
+};
+
+ExitLight exit_light(const BakePlan& plan, Measured& measured, MeasuredLamps lamps,
+                     const TransportOperators& operators, const Progress& progress) {
+    ExitLight exit{
+        propagate_all(plan, std::move(measured.direct.transfer), measured.sky, operators, progress), {}};
+    if (plan.lamps.empty())
+        return exit;
+    Propagated lit = propagate_lamps(plan, std::move(lamps), operators, {{}, progress.stop});
+    exit.all.transfer = with_lamps(exit.all.transfer, lit.transfer, plan.lamps);
+    exit.all.bounces = std::max(exit.all.bounces, lit.bounces);
+    exit.all.remaining = std::max(exit.all.remaining, lit.remaining);
+    exit.lamps_at_check = std::move(lit.at_check);
+    return exit;
+}
+
+} // namespace
+
+BakeResult bake(const Scene& scene, const BakeOptions& options, const Progress& progress,
+                MeasureErrors errors) {
     check_options(options);
     const Media media = choose_media(scene, options);
     const TraceScene traced = trace_scene(scene, media, options);
     BakeStatistics::Seconds seconds;
     const Stopwatch all;
-    const BakePlan plan = plan_bake(traced, media, options);
+    BakePlan plan = plan_bake(traced, media, options);
+    plan.measures_errors = errors == MeasureErrors::yes;
     check_memory(plan);
     const std::unique_ptr<Tracer> tracer = make_tracer(traced, options.tracer);
     seconds.build = all.seconds();
@@ -35,13 +76,7 @@ BakeResult bake(const Scene& scene, const BakeOptions& options, const Progress& 
     const SealedIn& sealed = measured.sealed;
     MeasuredLamps lamps = measure_lamps(plan, *tracer, measured.fit, progress.part(traced_all, traced_sky));
     direct.rays += lamps.light.rays + asked.rays;
-    std::optional<ErrorCheck> check;
-    if (options.measure_errors) {
-        check.emplace(plan, *tracer, measured, lamps, progress.stop);
-        direct.rays += check->rays();
-        if (!measured.fit && !options.target_error && tracer->method() == BakeMethod::trace)
-            direct.sampling_error = check->sampling_error();
-    }
+    const std::optional<ErrorCheck> check = check_errors(plan, *tracer, measured, lamps, progress.stop);
     seconds.tracing = tracer->seconds();
 
     const Stopwatch transport;
@@ -53,24 +88,17 @@ BakeResult bake(const Scene& scene, const BakeOptions& options, const Progress& 
                                        .product = product.get(),
                                        .fit = measured.fit ? &*measured.fit : nullptr,
                                        .check = check ? check->gather() : nullptr};
-    Propagated exit = propagate_all(plan, std::move(direct.transfer), measured.sky, operators,
-                                    progress.part(traced_sky, 1));
-    Propagated lit;
-    if (!plan.lamps.empty()) {
-        lit = propagate_lamps(plan, std::move(lamps), operators, progress.part(1, 1));
-        exit.transfer = with_lamps(exit.transfer, lit.transfer, plan.lamps);
-        exit.bounces = std::max(exit.bounces, lit.bounces);
-        exit.remaining = std::max(exit.remaining, lit.remaining);
-    }
-    fill_without_area(plan.receivers(), plan.transport->fronts, exit.transfer);
+    ExitLight exit = exit_light(plan, measured, std::move(lamps), operators, progress.part(traced_sky, 1));
+    fill_without_area(plan.receivers(), plan.transport->fronts, exit.all.transfer);
     seconds.transport = transport.seconds();
 
+    std::optional<BakeErrors> found;
     if (check)
-        asked.errors = check->compare(exit.transfer, {.sky = exit.at_check, .lamps = lit.at_check});
+        found = check->compare(exit.all.transfer, {.sky = exit.all.at_check, .lamps = exit.lamps_at_check});
 
-    BakeResult result = record(plan, *tracer, direct, sealed, std::move(exit));
+    BakeResult result = record(plan, *tracer, direct, sealed, std::move(exit.all));
     result.statistics.fit = asked.fit;
-    result.statistics.errors = std::move(asked.errors);
+    result.errors = std::move(found);
     result.statistics.gather.bytes_moved = product ? product->bytes_moved() : 0;
     result.baked.record.fitted = measured.fit.has_value();
     seconds.all = all.seconds();

@@ -61,7 +61,7 @@ DirectLight trace_direct(const BakePlan& plan, Tracer& tracer, const Progress& p
         trace_receivers(tracer, receivers, indices, options, direct.transfer, progress);
         direct.rays = indices.size() * static_cast<std::size_t>(options.rays);
     }
-    if (!adaptive && !plan.options.measure_errors && tracer.method() == BakeMethod::trace) {
+    if (!adaptive && !plan.measures_errors && tracer.method() == BakeMethod::trace) {
         const SamplingError sampling =
             sampling_error(tracer, receivers, options, direct.transfer, progress.stop);
         direct.sampling_error = sampling.error;

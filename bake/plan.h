@@ -29,6 +29,7 @@ TraceScene trace_scene(const Scene& scene, const Media& media, const BakeOptions
 struct BakePlan {
     const TraceScene& scene;
     const BakeOptions& options;
+    bool measures_errors = false;                        ///< of this bake, and so that of sampling
     int bounces = 0;                                     ///< or kEndlessBounces
     int channels = 1;                                    ///< of all light together
     std::unique_ptr<const TransportReceivers> transport; ///< stays where it is: operators keep references

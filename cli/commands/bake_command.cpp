@@ -230,13 +230,12 @@ Baked bake_scene(const BakeArguments& a, GltfDocument& document, Scene& scene, S
     leave_out_shadows(scene, a.no_shadow);
     Baked baked;
     BakeOptions options = a.options;
-    options.measure_errors = true;
     if (a.finer.refine) {
         baked.refinement = refine(a, document, scene, session);
         options.fit = FitMode::surface; // as the error was measured
     }
     ProgressBar bar = session.progress_bar("baking");
-    baked.result = bake(scene, options, bar.progress());
+    baked.result = bake(scene, options, bar.progress(), MeasureErrors::yes);
     return baked;
 }
 

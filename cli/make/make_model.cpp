@@ -159,9 +159,10 @@ private:
         return options;
     }
 
-    BakeResult baked(const BakeOptions& options, const std::string& title) {
+    BakeResult baked(const BakeOptions& options, const std::string& title,
+                     MeasureErrors errors = MeasureErrors::no) {
         ProgressBar bar = session_.progress_bar(title);
-        return bake(scene_, options, bar.progress());
+        return bake(scene_, options, bar.progress(), errors);
     }
 
     /// Tells what vertices and rays cost, and whether vertices are fitted.
@@ -234,9 +235,8 @@ private:
 
     /// Written and read, as those do who take one step after the other.
     void bake_all() {
-        BakeOptions options = bake_options(plan_.rays);
-        options.measure_errors = true; // as prt bake does
-        const BakeResult result = baked(options, "baking");
+        const BakeResult result =
+            baked(bake_options(plan_.rays), "baking", MeasureErrors::yes); // as prt bake does
         for (const std::string& notice : result.statistics.notices)
             notices_.push_back(notice);
         note_lights(result.baked.transfer);

@@ -147,37 +147,34 @@ void add_error_sentences(const Json& errors, Report& report) {
 }
 
 Json statistics_json(const BakeStatistics& s) {
-    Json json = {{"receivers", s.receivers.all},
-                 {"receivers_traced", s.receivers.traced},
-                 {"back_sides", s.receivers.back_sides},
-                 {"receivers_sealed", s.receivers.sealed},
-                 {"receivers_refilled", s.receivers.refilled},
-                 {"rays", s.rays},
-                 {"device", s.device},
-                 {"seconds", s.seconds.all},
-                 {"seconds_build", s.seconds.build},
-                 {"seconds_trace", s.seconds.tracing.trace},
-                 {"seconds_accumulate", s.seconds.tracing.accumulate},
-                 {"seconds_transfer", s.seconds.tracing.transfer},
-                 {"seconds_transport", s.seconds.transport},
-                 {"rays_per_second", s.rays_per_second()},
-                 {"mean_visibility", s.mean_visibility},
-                 {"sampling_error_relative_l2", s.sampling_error},
-                 {"float16_error_relative_l2", s.rounding_error},
-                 {"remaining_energy", s.remaining_energy},
-                 {"fit", s.fit.samples > 0 ? "surface" : "vertex"},
-                 {"samples_per_receiver", s.fit.samples},
-                 {"interpolation_error_relative_l2", s.fit.between},
-                 {"lamps", s.lamps.count},
-                 {"lamp_lights", s.lamps.lights},
-                 {"lamp_triangles", s.lamps.triangles},
-                 {"gather_entries", s.gather.entries},
-                 {"gather_bytes", s.gather.bytes},
-                 {"gather_bytes_moved", s.gather.bytes_moved},
-                 {"notices", s.notices}};
-    if (s.errors)
-        json["errors"] = errors_json(*s.errors);
-    return json;
+    return {{"receivers", s.receivers.all},
+            {"receivers_traced", s.receivers.traced},
+            {"back_sides", s.receivers.back_sides},
+            {"receivers_sealed", s.receivers.sealed},
+            {"receivers_refilled", s.receivers.refilled},
+            {"rays", s.rays},
+            {"device", s.device},
+            {"seconds", s.seconds.all},
+            {"seconds_build", s.seconds.build},
+            {"seconds_trace", s.seconds.tracing.trace},
+            {"seconds_accumulate", s.seconds.tracing.accumulate},
+            {"seconds_transfer", s.seconds.tracing.transfer},
+            {"seconds_transport", s.seconds.transport},
+            {"rays_per_second", s.rays_per_second()},
+            {"mean_visibility", s.mean_visibility},
+            {"sampling_error_relative_l2", s.sampling_error},
+            {"float16_error_relative_l2", s.rounding_error},
+            {"remaining_energy", s.remaining_energy},
+            {"fit", s.fit.samples > 0 ? "surface" : "vertex"},
+            {"samples_per_receiver", s.fit.samples},
+            {"interpolation_error_relative_l2", s.fit.between},
+            {"lamps", s.lamps.count},
+            {"lamp_lights", s.lamps.lights},
+            {"lamp_triangles", s.lamps.triangles},
+            {"gather_entries", s.gather.entries},
+            {"gather_bytes", s.gather.bytes},
+            {"gather_bytes_moved", s.gather.bytes_moved},
+            {"notices", s.notices}};
 }
 
 constexpr double kDark = 0.05; ///< mean visibility; a cellar with a window has as much
@@ -205,10 +202,10 @@ void add_sentences(const BakeOutcome& baked, Report& report) {
     if (baked.options.target_error)
         say("error of the direct light: {target_error_relative_l2:.3f%} asked for, "
             "{sampling_error_relative_l2:.3f%} estimated");
-    else if (!s.errors && s.sampling_error > 0)
+    else if (!result.errors && s.sampling_error > 0)
         say("error of the direct light: {sampling_error_relative_l2:.3f%} estimated");
-    if (s.errors)
-        add_error_sentences(errors_json(*s.errors), report);
+    if (result.errors)
+        add_error_sentences(errors_json(*result.errors), report);
     if (baked.refinement)
         add_refinement_sentences(*baked.refinement, report);
     else if (s.fit.between > 0 || s.fit.samples > 0)
@@ -246,6 +243,8 @@ Report bake_report(const BakeOutcome& baked) {
     statistics["triangles"] = baked.scene.triangles();
     for (const std::string& notice : baked.scene.notices)
         statistics["notices"].push_back(notice);
+    if (result.errors)
+        statistics["errors"] = errors_json(*result.errors);
     add_figures(report, statistics);
     add_figures(report, {{"bytes_file", baked.bytes}});
     if (baked.refinement)

@@ -61,7 +61,8 @@ Report instance_report(const InstanceOutcome& outcome) {
         "more than {instances/error_allowed_relative_l2:.1f%} and are baked alone",
         "their light errs by {instances/error_relative_l2/median:.2f%} in the middle, "
         "{instances/error_relative_l2/percentile_99:.2f%} at the 99th of a hundred, "
-        "{instances/error_relative_l2/most:.2f%} at most (soft skies and {instances/lights} given ones, at the samples)"};
+        "{instances/error_relative_l2/most:.2f%} at most (soft skies and {instances/lights} given ones, at "
+        "the samples)"};
     for (std::size_t i = 0; i < s.notices.size(); ++i)
         report.sentences.push_back(fmt::format("{{notices/{}}}", i));
     report.sentences.emplace_back(

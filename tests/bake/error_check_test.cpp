@@ -21,13 +21,12 @@ BakeOptions measured(int order, int rays, int bounces = 0) {
     options.order = order;
     options.rays = rays;
     options.bounces = bounces;
-    options.measure_errors = true;
     options.tracer.backend = Backend::cpu;
     return options;
 }
 
 BakeErrors errors_of(const Scene& scene, const BakeOptions& options) {
-    return bake(scene, options).statistics.errors.value();
+    return bake(scene, options, {}, MeasureErrors::yes).errors.value();
 }
 
 /// Relative L2 over the triangles of a primitive of interpolating `truth` linearly, by midpoints of small
@@ -107,7 +106,7 @@ TEST(BakeErrors, KnowTheNoiseOfRays) {
     const auto transfer = [&](int rays, std::uint64_t seed) {
         BakeOptions options = measured(3, rays);
         options.seed = seed;
-        return bake(scene, options);
+        return bake(scene, options, {}, MeasureErrors::yes);
     };
     const BakeResult few = transfer(64, 1), many = transfer(1 << 12, 2);
     double noise = 0, norm = 0;
@@ -134,7 +133,7 @@ TEST(BakeErrors, KnowTheNoiseOfRays) {
         }
     const double expected = std::sqrt(noise / norm);
     EXPECT_GT(expected, 0.02);
-    EXPECT_NEAR(few.statistics.errors->sky.relative_l2, expected, 0.15 * expected);
+    EXPECT_NEAR(few.errors->sky.relative_l2, expected, 0.15 * expected);
 }
 
 /// Between two plates as fine as that no bounce is missing or counted twice.

@@ -117,8 +117,7 @@ struct BakeOptions {
     LampOptions lamps;
     Repairs repairs;
     BakeMemory memory;
-    bool measure_errors = false; ///< traces a few receivers' rays more
-    int threads = 0;             ///< 0: all
+    int threads = 0; ///< 0: all
     std::uint64_t seed = 0;
 };
 
@@ -158,9 +157,8 @@ struct BakeStatistics {
     double mean_visibility = 0; ///< area-weighted T_0 / Y_00 of the direct light
     /// Estimated relative L2 error of the direct light by sampling, from independent samples.
     double sampling_error = 0;
-    std::optional<BakeErrors> errors; ///< where they were asked for
-    double rounding_error = 0;        ///< relative L2 of storing float16
-    double remaining_energy = 0;      ///< of the bounces that were not done, over the largest transfer
+    double rounding_error = 0;   ///< relative L2 of storing float16
+    double remaining_energy = 0; ///< of the bounces that were not done, over the largest transfer
     Lamps lamps;
     Gather gather;                    ///< the operator of the bounces
     std::vector<std::string> notices; ///< what was left out or repaired, and why, a line each
@@ -174,7 +172,11 @@ struct BakeResult {
     /// Receivers inside geometry, where no light reaches, ascending: nobody sees them.
     std::vector<std::uint32_t> sealed;
     BakeStatistics statistics;
+    std::optional<BakeErrors> errors; ///< where they were asked for
 };
+
+/// Whether a bake measures its errors over the surface, by some hundred receivers' rays more.
+enum class MeasureErrors { no, yes };
 
 /// Thrown for endless bounces where a closed room reflects all light of a lamp.
 struct EndlessLampLight : Error {
@@ -184,7 +186,8 @@ struct EndlessLampLight : Error {
 /// Bakes transfer for every vertex. On the CPU deterministic from the seed, whatever the number of threads.
 /// Throws `Error` for options outside their range, for a bake that does not fit into memory, and where a
 /// backend is not there; `EndlessLampLight`; `Cancelled` when asked to stop.
-BakeResult bake(const Scene& scene, const BakeOptions& options, const Progress& progress = {});
+BakeResult bake(const Scene& scene, const BakeOptions& options, const Progress& progress = {},
+                MeasureErrors errors = MeasureErrors::no);
 
 /// Bytes that a bake takes at most at a time, roughly, but for the operator of its bounces, whose size is
 /// found by tracing some receivers. `numbers`: of a transfer vector, all parts together.

@@ -30,9 +30,9 @@ struct InstanceStatistics {
     std::size_t receivers = 0; ///< traced in full: of meshes alone, and of what is drawn once
     std::size_t samples = 0;   ///< traced where instances stand
     std::size_t rays = 0;
-    std::size_t lights = 0;    ///< given, under which errors were measured, too
-    std::size_t alone = 0;     ///< instances none of whose rays met anything but themselves
-    int bounces = 0;       ///< done
+    std::size_t lights = 0; ///< given, under which errors were measured, too
+    std::size_t alone = 0;  ///< instances none of whose rays met anything but themselves
+    int bounces = 0;        ///< done
     double seconds = 0;
     std::vector<std::string> notices;
 };

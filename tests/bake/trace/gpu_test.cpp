@@ -230,7 +230,7 @@ TEST(GpuTrace, TakesDegenerateTrianglesAsTheCpuDoes) {
 BakeResult bake_on(Backend backend, const Scene& scene, BakeOptions options) {
     options.tracer.backend = backend;
     options.tracer.traversal = vulkan_choice().traversal;
-    return bake(scene, options);
+    return bake(scene, options, {}, MeasureErrors::yes);
 }
 
 TEST(GpuBake, OfEveryTransportIsTheCpus) {
@@ -243,13 +243,12 @@ TEST(GpuBake, OfEveryTransportIsTheCpus) {
     options.order = 4;
     options.rays = 128;
     options.bounces = 3;
-    options.measure_errors = true;
     const std::vector<float> areas = receiver_areas(leaf);
     const auto difference = [&](const BakeOptions& o) {
         const BakeResult cpu = bake_on(Backend::cpu, leaf, o), gpu = bake_on(Backend::gpu, leaf, o);
         EXPECT_EQ(gpu.baked.record.backend, Backend::gpu);
         EXPECT_EQ(cpu.baked.transfer.layout.channels(), 3);
-        EXPECT_NEAR(gpu.statistics.errors->sky.relative_l2, cpu.statistics.errors->sky.relative_l2, 2e-3);
+        EXPECT_NEAR(gpu.errors->sky.relative_l2, cpu.errors->sky.relative_l2, 2e-3);
         return relative_l2(cpu.baked.transfer, gpu.baked.transfer, areas);
     };
     EXPECT_LT(difference(options), kGrazing);
