@@ -20,8 +20,8 @@
 namespace prt {
 namespace {
 
-/// Traces points of the surface where the plan measures errors. The sampling error of direct light that is
-/// measured at receivers is then told by them.
+/// Traces points of the surface where the plan measures errors. They also estimate the sampling error of
+/// direct light at receivers.
 std::optional<ErrorCheck> check_errors(const BakePlan& plan, Tracer& tracer, Measured& measured,
                                        const MeasuredLamps& lamps, const std::stop_token& stop) {
     if (!plan.measures_errors)

@@ -3,7 +3,6 @@
 #include "error_check.h"
 
 #include "prt/trace_receivers.h"
-#include "scene/interpolated.h"
 #include "scene/sealed.h"
 #include "surface/varied_samples.h"
 #include "trace/embree_tracer.h"

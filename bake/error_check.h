@@ -51,7 +51,7 @@ private:
         std::vector<float> unbounced, all;
     };
     using Halves = std::array<Light, 2>;
-    /// What is interpolated, [channels][columns]; lamps: [lamps][channels].
+    /// Interpolated transfer: [channels][columns]; `lamps` [lamps][channels].
     struct Value {
         std::vector<float> direct, indirect, lamps, sky;
     };

@@ -30,7 +30,7 @@ BakeErrors::Error ErrorSums::relative(const ErrorSums& scene) const {
         const double off = errors_[i] - ratio * norms_[i];
         squares += off * off;
     }
-    // Of the root half as much relative to it as of the square, but where the square is nearly nothing.
+    // The relative error of a root is half that of its square, except where the square is nearly 0.
     const double spread = std::sqrt(squares) / norm;
     result.relative_l2 = std::sqrt(ratio);
     result.standard_error = std::min(spread / std::max(2 * result.relative_l2, 1e-12), std::sqrt(spread));

@@ -78,7 +78,7 @@ void add_instances(CLI::App* command, InstanceArguments& arguments) {
             ->add_option("--instance-lights", arguments.lights,
                          "environment maps and light files under which --instance-error is kept, too")
             ->check(CLI::ExistingFile);
-    add_suns(command, arguments.suns, "suns of --instance-lights that are lit apart, with sharp shadows",
+    add_suns(command, arguments.suns, "suns of --instance-lights that the renderer adds with sharp shadows",
              "0");
     command->get_option("--suns")->needs(lights);
     command

@@ -44,7 +44,7 @@ std::vector<Lighting> soft_skies(int order, const glm::dvec3& up) {
     return skies;
 }
 
-/// What each number of transfer adds to each color under skies, [dimension][skies · 3].
+/// Radiance per unit of each number of transfer under skies, [dimension][skies · 3 colors].
 Eigen::MatrixXf radiance_columns(const TransferLayout& layout, std::span<const Lighting> skies) {
     Eigen::MatrixXf result = Eigen::MatrixXf::Zero(static_cast<Eigen::Index>(layout.dimension()),
                                                    static_cast<Eigen::Index>(3 * skies.size()));

@@ -16,7 +16,7 @@ namespace {
 
 /// Normals of one plane differ by rounding, in files and where they are computed.
 constexpr float kSameNormal = 1e-4f;
-/// Of the largest coordinate: the pole of a sphere has positions 1e-16 from one another.
+/// Relative to the largest coordinate; positions at the pole of a sphere differ by 1e-16.
 constexpr float kSamePosition = 1e-7f;
 
 /// Node of each receiver at a corner, [receivers]; -1: of none.

@@ -11,8 +11,8 @@
 namespace prt {
 namespace {
 
-/// What a sample may contribute where vertices agree, in mean squares.
-constexpr double kLeastLikely = 0.02;
+/// Weight of a sample where vertices agree, in mean squares.
+constexpr double kMinLikely = 0.02;
 
 /// Mean square of each column over the surface.
 std::vector<double> mean_squares(const TransportReceivers& receivers, const ChoiceValues& light) {
@@ -43,9 +43,9 @@ double variation(const glm::uvec3& corners, const ChoiceValues& light, std::span
             low = std::min(low, here);
             high = std::max(high, here);
         }
-        sum += static_cast<double>((high - low) * (high - low)) / means[c] + kLeastLikely;
+        sum += static_cast<double>((high - low) * (high - low)) / means[c] + kMinLikely;
     }
-    return sum > 0 ? sum : kLeastLikely;
+    return sum > 0 ? sum : kMinLikely;
 }
 
 /// Adds to what each side may contribute so that every node has as much again as its share of all nodes.

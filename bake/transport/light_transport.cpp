@@ -340,13 +340,13 @@ SharpTransfer propagate_sharply(Transfer smooth, const LightAtSamples& light,
 void mix_sides(const Surfaces& surfaces, const SurfacePoint& point, std::size_t channels,
                std::span<float> front, std::span<const float> back) {
     // Where the base color is nearly black, no finite transfer can say what passes: it is taken as 1/255.
-    constexpr float kLeastBase = 1.0f / 255;
+    constexpr float kMinBase = 1.0f / 255;
     const Scattering s = surfaces.scattering(point);
     const glm::vec3 base = surfaces.base_color(point);
     const std::size_t columns = front.size() / channels;
     for (std::size_t c = 0; c < channels; ++c) {
         const auto color = static_cast<glm::length_t>(c);
-        const float scale = 1 / std::max(base[color], kLeastBase);
+        const float scale = 1 / std::max(base[color], kMinBase);
         for (std::size_t i = c * columns; i < (c + 1) * columns; ++i)
             front[i] = scale * (s.reflected[color] * front[i] + s.transmitted[color] * back[i]);
     }

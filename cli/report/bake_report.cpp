@@ -73,7 +73,7 @@ double above(const BakeErrors::Error& error, double limit) {
 template <class Error>
 std::string worst_objects(const BakeErrors& errors, Error&& error) {
     constexpr std::size_t kNamed = 5;
-    constexpr double kMostShown = 10;
+    constexpr double kMaxShown = 10;
     std::vector<std::pair<double, std::string>> worst;
     for (const BakeErrors::Node& node : errors.nodes)
         if (const double here = error(node); here > 0)
@@ -82,8 +82,8 @@ std::string worst_objects(const BakeErrors& errors, Error&& error) {
     std::vector<std::string> words;
     for (const auto& [here, name] : worst)
         if (words.size() < kNamed)
-            words.push_back(here > kMostShown ? fmt::format("'{}' over 1000 %", printable(name))
-                                              : fmt::format("'{}' {:.2g} %", printable(name), 100 * here));
+            words.push_back(here > kMaxShown ? fmt::format("'{}' over 1000 %", printable(name))
+                                             : fmt::format("'{}' {:.2g} %", printable(name), 100 * here));
     if (worst.size() > kNamed)
         words.push_back(fmt::format("{} more", worst.size() - kNamed));
     return fmt::format("{}", fmt::join(words, ", "));

@@ -99,7 +99,7 @@ struct BakeErrors {
     Error sky;              ///< of all its light
     Error direct, indirect; ///< without a bounce and the rest, relative to all light of a sky
     Error lamps;            ///< at the strengths of the scene
-    /// Of values of the front on backs of two-sided surfaces, where direct light of the sky and of lamps
+    /// Errors of the front's values on backs of two-sided surfaces, where direct light of the sky or of lamps
     /// arrives.
     Error backs, backs_by_lamps;
     std::vector<Lamp> each_lamp = {};
