@@ -59,6 +59,8 @@ void check_repeats(const Transfer& baked, const Transfer& repeated, std::span<co
     // fitted by four. A scene that was baked otherwise differs by tens of per cents.
     constexpr double kNoise = 6, kRounding = 0.05;
     const std::size_t parts = baked.layout.distant_parts().size();
+    if (parts == 0)
+        throw Error("a budget is of the light of a sky, and none of it reaches this scene");
     bool same = parts == repeated.layout.parts.size() && baked.receivers() == repeated.receivers();
     for (std::size_t i = 0; same && i < parts; ++i)
         same = baked.layout.parts[i] == repeated.layout.parts[i];

@@ -401,10 +401,11 @@ void run(RenderArguments a, Session& session) {
     const Lighting lighting = lighting_of(a, model, light);
     note_lights(a, model, lighting);
     const bool suns = !light.split.suns.empty() && a.look.show == Show::lit;
-    const TraceScene scene(model.scene,
-                           load_textures(model.scene, bad_textures(a.reading),
-                                         suns ? TextureNeeds::all : TextureNeeds::pictures),
-                           {.solid = solid, .threads = a.threads});
+    std::vector<Texture> textures = about(a.model, [&] {
+        return load_textures(model.scene, bad_textures(a.reading),
+                             suns ? TextureNeeds::all : TextureNeeds::pictures);
+    });
+    const TraceScene scene(model.scene, std::move(textures), {.solid = solid, .threads = a.threads});
     const std::vector<glm::vec3> colors = colors_to_show(a, model, lighting);
     Picture picture = empty_picture(a, model.scene);
     picture.textures = scene.textures();

@@ -166,6 +166,19 @@ TEST_F(LampsOnTheRoad, NameObjectsThatErrMuchMore) {
     EXPECT_GT(errors["objects"][1]["lamps"]["relative_l2"], 0.5); // the middle is brightest, corners far away
 }
 
+TEST_F(LampsOnTheRoad, AloneHaveNoBudgetOfTheSky) {
+    GlbFile file = scene_file(SceneBuilder().bowl({0, 0, 0}, 1, 6, 0).build());
+    file.json["extensionsUsed"].push_back("KHR_lights_punctual");
+    file.json["extensions"]["KHR_lights_punctual"]["lights"] = {{{"type", "point"}, {"intensity", 1}}};
+    file.json["nodes"].push_back({{"extensions", {{"KHR_lights_punctual", {{"light", 0}}}}}});
+    file.json["scenes"][0]["nodes"].push_back(1);
+    file.write(folder / "s.glb");
+    bake("n.glb", {});
+    const Outcome outcome = prt({"evaluate", at("n.glb"), "--budget"});
+    EXPECT_EQ(outcome.status, 1);
+    EXPECT_NE(outcome.err.find("none of it reaches this scene"), std::string::npos) << outcome.err;
+}
+
 // White would make a lamp of every triangle.
 TEST_F(LampsOnTheRoad, WhoseTexturesAreMissingAreDark) {
     GlbFile file = scene_file(SceneBuilder().floor({0, 0, 0}, 1, 6).build());
