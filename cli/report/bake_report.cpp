@@ -138,9 +138,9 @@ void add_error_sentences(const Json& errors, Report& report) {
     if (errors["points"] == 0)
         report.sentences.emplace_back(
             "error over the surface: not measured, all of it is over media or sealed in");
-    if (errors["much_worse"] != "")
+    if (!errors["much_worse"].get<std::string>().empty())
         report.sentences.emplace_back("objects with much larger errors: {errors/much_worse}");
-    if (errors["much_worse_behind"] != "")
+    if (!errors["much_worse_behind"].get<std::string>().empty())
         report.sentences.emplace_back(
             "seen from behind, two-sided surfaces show the light of their fronts, which errs there: "
             "{errors/much_worse_behind}; each side of a wall with a thickness has its own");
