@@ -19,13 +19,13 @@ namespace {
 
 /// One receiver of so many has a point, within these bounds. A half has as many rays as a receiver: of fewer
 /// the noise hides what is sought (rays of a quarter: the estimate varies by 20 % between seeds, not by 6 %).
-constexpr std::size_t kReceiversPerPoint = 64, kMinPoints = 320, kMaxPoints = 2048;
+constexpr std::size_t kReceiversPerPoint = 64, kMinPoints = 288, kMaxPoints = 2048;
 /// In small scenes of many rays all points of a half have at most so many rays of all receivers together, and
 /// each at least so many.
 constexpr double kMaxShareOfRays = 0.5, kMinCapped = 1024;
 /// Points that are looked at first for each that is traced, by one ray of so many.
-constexpr std::size_t kLooks = 4;
-constexpr int kShareOfLook = 16;
+constexpr std::size_t kLooks = 16;
+constexpr int kShareOfLook = 64;
 /// Seeds of rays to points, in scrambles: no other part of a bake takes them.
 constexpr std::uint64_t kFirstHalf = 7, kSecondHalf = 8, kLookScramble = 9;
 
