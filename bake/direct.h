@@ -19,7 +19,7 @@ struct DirectLight {
     std::size_t rays = 0;       ///< traced in all
     int mean_rays = 0;          ///< that a receiver has
     double mean_visibility = 0; ///< area-weighted T_0 / Y_00
-    double sampling_error = 0;  ///< estimated relative L2; 0 where the method does not tell, or others will
+    double sampling_error = 0;  ///< estimated relative L2; 0: not estimated here
     std::vector<std::string> notices;
 };
 

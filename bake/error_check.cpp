@@ -17,19 +17,19 @@
 namespace prt {
 namespace {
 
-/// One receiver of so many has a point, within these bounds. A half has as many rays as a receiver: of fewer
-/// the noise hides what is sought (rays of a quarter: the estimate varies by 20 % between seeds, not by 6 %).
+/// Points: one per kReceiversPerPoint receivers, clamped to these limits. Each half traces as many rays as a
+/// receiver has. With a quarter of them the estimate varied by 20 % between seeds, with all of them by 6 %.
 constexpr std::size_t kReceiversPerPoint = 64, kMinPoints = 288, kMaxPoints = 2048;
-/// In small scenes of many rays all points of a half have at most so many rays of all receivers together, and
-/// each at least so many.
+/// Limits the cost in small scenes with many rays: a half of the check traces at most this share of the rays
+/// of the bake, unless that is less than kMinCapped rays per point.
 constexpr double kMaxShareOfRays = 0.5, kMinCapped = 1024;
-/// Points that are looked at first for each that is traced, by one ray of so many.
+/// Candidates per point, each traced with 1 / kShareOfLook of a receiver's rays before points are chosen.
 constexpr std::size_t kLooks = 16;
 constexpr int kShareOfLook = 64;
-/// Seeds of rays to points, in scrambles: no other part of a bake takes them.
+/// Multiples of kSecondScramble, added to the seed; no other part of a bake uses them.
 constexpr std::uint64_t kFirstHalf = 7, kSecondHalf = 8, kLookScramble = 9;
 
-/// One value for each of `channels`, of what has one or as many.
+/// Repeats values of one channel for all `channels`; copies those that have as many already.
 std::vector<float> in_channels(std::span<const float> values, std::size_t channels, std::size_t columns) {
     std::vector<float> wide;
     for (std::size_t c = 0; c < channels; ++c) {
@@ -52,7 +52,7 @@ std::vector<float> difference(std::span<const float> a, std::span<const float> b
     return result;
 }
 
-/// The product of what `baked` has more than each half.
+/// (baked - first) · (baked - second): the squared error without the noise of the halves.
 double squared_error(std::span<const float> baked, std::span<const float> first,
                      std::span<const float> second) {
     return product(difference(baked, first), difference(baked, second));
@@ -63,7 +63,7 @@ double squared_error(std::span<const float> baked, std::span<const float> first,
 ErrorCheck::ErrorCheck(const BakePlan& plan, Tracer& tracer, const Measured& measured,
                        const MeasuredLamps& lamps, const std::stop_token& stop)
     : plan_(plan) {
-    std::optional<EmbreeTracer> other; // where depth maps are: their own error is to be seen
+    std::optional<EmbreeTracer> other; // depth maps are checked by rays, which do not share their error
     Tracer& rays = tracer.notes_hits() ? tracer : static_cast<Tracer&>(other.emplace(plan.scene));
     choose_points(rays, measured, lamps, stop);
     add_backs();
@@ -96,7 +96,7 @@ SurfaceSamples ErrorCheck::look(Tracer& tracer, const Transfer& sky, const Surfa
         sum += squares[s];
     }
     const double mean = sum / static_cast<double>(many.size());
-    for (double& square : squares) // half of them as they are
+    for (double& square : squares) // half of the points ignore what was seen
         square += mean + std::numeric_limits<double>::min();
     return pick_samples(many, squares, count);
 }
@@ -136,8 +136,7 @@ void ErrorCheck::choose_points(Tracer& tracer, const Measured& measured, const M
         const float seen = surfaces.coverage({place.triangle, place.uv, 0});
         if (!known || !(seen > 0))
             continue;
-        points_.push_back({.triangle = place.triangle,
-                           .uv = place.uv,
+        points_.push_back({.place = place,
                            .area = static_cast<double>(seen * some.receivers.areas[s]),
                            .front = static_cast<std::uint32_t>(rows_.size()),
                            .back = {}});
@@ -147,7 +146,7 @@ void ErrorCheck::choose_points(Tracer& tracer, const Measured& measured, const M
 
 void ErrorCheck::add_backs() {
     for (Point& point : points_) {
-        if (!plan_.scene.surfaces().two_sided(point.triangle))
+        if (!plan_.scene.surfaces().two_sided(point.place.triangle))
             continue;
         point.back = static_cast<std::uint32_t>(rows_.size());
         rows_.positions.push_back(rows_.positions[point.front]);
@@ -164,7 +163,7 @@ void ErrorCheck::trace(Tracer& tracer, double rays, const std::stop_token& stop)
     const double share = kMaxShareOfRays * static_cast<double>(plan_.receivers().size()) /
                          static_cast<double>(std::max<std::size_t>(rows, 1));
     const double half = std::min(rays, std::max(share * rays, kMinCapped));
-    rays_of_half_ = half / rays;
+    half_share_ = half / rays;
     TraceOptions options = gather_options(plan_, static_cast<std::uint32_t>(half));
     if (plan_.bounces != 0)
         gather_.emplace(plan_.scene.surfaces(), *plan_.transport, 2 * rows, plan_.channels);
@@ -217,9 +216,9 @@ ErrorCheck::Light ErrorCheck::light(const Point& point, bool back, std::size_t h
     };
     Light here = of_side(back ? *point.back : point.front);
     const Surfaces& surfaces = plan_.scene.surfaces();
-    if (surfaces.transmits(point.triangle) && point.back) {
+    if (surfaces.transmits(point.place.triangle) && point.back) {
         const Light there = of_side(back ? point.front : *point.back);
-        const SurfacePoint at{point.triangle, point.uv, static_cast<float>(point.area)};
+        const SurfacePoint at{point.place.triangle, point.place.uv, static_cast<float>(point.area)};
         mix_sides(surfaces, at, channels, here.unbounced, there.unbounced);
         mix_sides(surfaces, at, channels, here.all, there.all);
     }
@@ -235,7 +234,7 @@ ErrorCheck::Halves ErrorCheck::halves(const Point& point, bool back, const std::
 }
 
 int ErrorCheck::node_of(const Point& point) const {
-    return plan_.scene.scene().primitives[plan_.scene.surfaces().primitive(point.triangle)].node;
+    return plan_.scene.scene().primitives[plan_.scene.surfaces().primitive(point.place.triangle)].node;
 }
 
 double ErrorCheck::sampling_error() const {
@@ -247,18 +246,12 @@ double ErrorCheck::sampling_error() const {
         norm += point.area * product(first, second);
     }
     // The squared noise of nets of n rays falls as n^-1.5.
-    return norm > 0 ? std::sqrt(noise * std::pow(rays_of_half_, 1.5) / norm) : 0;
+    return norm > 0 ? std::sqrt(noise * std::pow(half_share_, 1.5) / norm) : 0;
 }
 
 ErrorCheck::Value ErrorCheck::interpolated(const Point& point, const Transfer& baked) const {
-    const glm::uvec3& corners = plan_.scene.surfaces().corners(point.triangle);
-    const std::array<float, 3> shares{1 - point.uv.x - point.uv.y, point.uv.x, point.uv.y};
-    std::vector<float> sum(baked.dimension());
-    for (std::size_t i = 0; i < 3; ++i) {
-        const std::span<const float> corner = baked.vector(corners[static_cast<glm::length_t>(i)]);
-        for (std::size_t k = 0; k < sum.size(); ++k)
-            sum[k] += shares[i] * corner[k];
-    }
+    const std::vector<float> sum =
+        prt::interpolated(baked, plan_.scene.surfaces().corners(point.place.triangle), point.place);
     const auto channels = static_cast<std::size_t>(plan_.channels),
                lamp_channels = static_cast<std::size_t>(plan_.lamp_channels()),
                columns = static_cast<std::size_t>(coefficient_count(plan_.options.order));

@@ -40,8 +40,7 @@ public:
 
 private:
     struct Point {
-        std::uint32_t triangle;
-        glm::vec2 uv;
+        SamplePlace place;
         double area;                       ///< m², that it stands for
         std::uint32_t front;               ///< row
         std::optional<std::uint32_t> back; ///< row of the other side, where that scatters too
@@ -91,7 +90,7 @@ private:
     Receivers rows_;                       ///< fronts, then backs
     std::array<Transfer, 2> sky_, lamps_;  ///< of rows, without a bounce, by each half
     std::optional<GatherOperator> gather_; ///< rows of the first half, then of the second
-    double rays_of_half_ = 1;              ///< over those of a receiver
+    double half_share_ = 1;                ///< rays of a half, relative to those of a receiver
     std::size_t rays_ = 0;
 };
 

@@ -124,11 +124,9 @@ private:
     /// What interpolation between vertices `c` has more than point `s`, whose light is `here`.
     std::vector<float> missing(const Transfer& vertices, const glm::uvec3& c, std::uint32_t s,
                                std::span<const float> here) const {
-        const std::array<float, 3> shares = samples_.places[s].shares();
-        std::vector<float> difference(here.size());
+        std::vector<float> difference = interpolated(vertices, c, samples_.places[s]);
         for (std::size_t k = 0; k < here.size(); ++k)
-            difference[k] = shares[0] * vertices.vector(c.x)[k] + shares[1] * vertices.vector(c.y)[k] +
-                            shares[2] * vertices.vector(c.z)[k] - here[k];
+            difference[k] -= here[k];
         return difference;
     }
 

@@ -115,6 +115,16 @@ glm::uvec3 corner_receivers(const Surfaces& surfaces, const TransportReceivers& 
     return corners;
 }
 
+std::vector<float> interpolated(const Transfer& transfer, const glm::uvec3& corners,
+                                const SamplePlace& place) {
+    const std::array<float, 3> shares = place.shares();
+    std::vector<float> sum(transfer.dimension());
+    for (std::size_t k = 0; k < sum.size(); ++k)
+        sum[k] = shares[0] * transfer.vector(corners.x)[k] + shares[1] * transfer.vector(corners.y)[k] +
+                 shares[2] * transfer.vector(corners.z)[k];
+    return sum;
+}
+
 Receivers SurfaceSamples::layer(std::size_t k) const {
     Receivers result;
     for (std::size_t s = k; s < size(); s += layers)

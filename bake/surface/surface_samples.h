@@ -37,6 +37,10 @@ struct SurfaceSamples {
 glm::uvec3 corner_receivers(const Surfaces& surfaces, const TransportReceivers& receivers,
                             std::uint32_t triangle, bool back);
 
+/// The vector at `place`, interpolated between those of `corners`, which are all there.
+std::vector<float> interpolated(const Transfer& transfer, const glm::uvec3& corners,
+                                const SamplePlace& place);
+
 /// One side of a triangle that receivers are on.
 struct TriangleSide {
     std::uint32_t triangle;

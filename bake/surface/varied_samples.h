@@ -15,9 +15,9 @@ struct ChoiceValues {
 };
 
 struct VariedSpread {
-    std::size_t count = 0; ///< about so many
+    std::size_t count = 0; ///< approximate
     std::uint64_t seed = 0;
-    bool backs = true;    ///< as `SampleSpread`
+    bool backs = true;    ///< also on backs that have receivers
     bool by_node = false; ///< half of them go to each node alike, however small it is
 };
 

@@ -180,7 +180,7 @@ Json statistics_json(const BakeStatistics& s) {
 constexpr double kDark = 0.05; ///< mean visibility; a cellar with a window has as much
 
 /// What the statistics say in words.
-void add_sentences(const BakeOutcome& baked, Report& report) {
+void add_sentences(const BakeOutcome& baked, const Json& statistics, Report& report) {
     const BakeResult& result = baked.result;
     const BakeStatistics& s = result.statistics;
     const bool raster = baked.options.tracer.method == BakeMethod::raster;
@@ -205,7 +205,7 @@ void add_sentences(const BakeOutcome& baked, Report& report) {
     else if (!result.errors && s.sampling_error > 0)
         say("error of the direct light: {sampling_error_relative_l2:.3f%} estimated");
     if (result.errors)
-        add_error_sentences(errors_json(*result.errors), report);
+        add_error_sentences(statistics["errors"], report);
     if (baked.refinement)
         add_refinement_sentences(*baked.refinement, report);
     else if (s.fit.between > 0 || s.fit.samples > 0)
@@ -249,7 +249,7 @@ Report bake_report(const BakeOutcome& baked) {
     add_figures(report, {{"bytes_file", baked.bytes}});
     if (baked.refinement)
         add_figures(report, refinement_json(*baked.refinement, baked.refine_target));
-    add_sentences(baked, report);
+    add_sentences(baked, statistics, report);
     return report;
 }
 

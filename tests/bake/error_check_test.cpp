@@ -99,8 +99,8 @@ TEST(BakeErrors, OfASkyAreThoseOfInterpolation) {
     }
 }
 
-/// What few rays add is known from the same bake by many: one mesh so fine that nothing is lost between
-/// vertices.
+/// The noise of few rays is the difference from a bake with many. The mesh is so fine that interpolation adds
+/// no error.
 TEST(BakeErrors, KnowTheNoiseOfRays) {
     const Scene scene = SceneBuilder().floor({0, 0, 0}, 1, 24).sphere({0, 0.7f, 0}, 0.4f, 24).build();
     const auto transfer = [&](int rays, std::uint64_t seed) {
@@ -112,7 +112,6 @@ TEST(BakeErrors, KnowTheNoiseOfRays) {
     double noise = 0, norm = 0;
     for (const Primitive& primitive : scene.primitives)
         for (const glm::uvec3& t : primitive.triangles) {
-            // Of the middle of the triangle: a third of the noise of its corners is left.
             const VertexArray& vertices = scene.vertex_arrays[primitive.vertices];
             const double area = static_cast<double>(
                 glm::length(glm::cross(vertices.positions[t.y] - vertices.positions[t.x],
