@@ -4,6 +4,7 @@
 
 #include "prt/trace_receivers.h"
 #include "scene/sealed.h"
+#include "sides/light_reach.h"
 #include "surface/varied_samples.h"
 #include "trace/embree_tracer.h"
 #include "trace/scrambles.h"
@@ -12,6 +13,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <numeric>
 
 namespace prt {
@@ -66,7 +68,7 @@ ErrorCheck::ErrorCheck(const BakePlan& plan, Tracer& tracer, const Measured& mea
     std::optional<EmbreeTracer> other; // depth maps are checked by rays, which do not share their error
     Tracer& rays = tracer.notes_hits() ? tracer : static_cast<Tracer&>(other.emplace(plan.scene));
     choose_points(rays, measured, lamps, stop);
-    add_backs();
+    add_backs(stop);
     trace(rays, static_cast<double>(std::max(1, measured.direct.mean_rays)), stop);
     leave_out_sealed(rays, stop);
 }
@@ -144,15 +146,32 @@ void ErrorCheck::choose_points(Tracer& tracer, const Measured& measured, const M
     }
 }
 
-void ErrorCheck::add_backs() {
-    for (Point& point : points_) {
-        if (!plan_.scene.surfaces().two_sided(point.place.triangle))
+/// Of nodes whose backs some light reaches: nobody sees the others. What passes light shows that of its back.
+void ErrorCheck::add_backs(const std::stop_token& stop) {
+    std::vector<Point*> two_sided;
+    std::vector<std::uint32_t> triangles;
+    for (Point& point : points_)
+        if (plan_.scene.surfaces().two_sided(point.place.triangle)) {
+            two_sided.push_back(&point);
+            triangles.push_back(point.place.triangle);
+        }
+    const std::vector<float> reach =
+        light_reach(plan_.scene, triangles, Side::back,
+                    {.lamps = !plan_.lamps.empty(), .seed = plan_.options.seed}, stop);
+    std::map<int, double> of_nodes, areas;
+    for (std::size_t i = 0; i < two_sided.size(); ++i) {
+        of_nodes[node_of(*two_sided[i])] += two_sided[i]->area * static_cast<double>(reach[i]);
+        areas[node_of(*two_sided[i])] += two_sided[i]->area;
+    }
+    for (Point* const point : two_sided) {
+        const bool reached = of_nodes[node_of(*point)] > kLeastReach * areas[node_of(*point)];
+        if (!reached && !plan_.scene.surfaces().transmits(point->place.triangle))
             continue;
-        point.back = static_cast<std::uint32_t>(rows_.size());
-        rows_.positions.push_back(rows_.positions[point.front]);
-        rows_.normals.push_back(-rows_.normals[point.front]);
-        rows_.areas.push_back(rows_.areas[point.front]);
-        rows_.starts.push_back(-rows_.starts[point.front]);
+        point->back = static_cast<std::uint32_t>(rows_.size());
+        rows_.positions.push_back(rows_.positions[point->front]);
+        rows_.normals.push_back(-rows_.normals[point->front]);
+        rows_.areas.push_back(rows_.areas[point->front]);
+        rows_.starts.push_back(-rows_.starts[point->front]);
     }
 }
 

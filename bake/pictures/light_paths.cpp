@@ -25,18 +25,18 @@ float unit(std::uint32_t reversed) {
     return static_cast<float>(reverse_bits(reversed) >> 8) * 0x1p-24f;
 }
 
+float largest(const glm::vec3& v) {
+    return std::max({v.r, v.g, v.b});
+}
+
+} // namespace
+
 glm::vec3 cosine_direction(const glm::vec3& normal, const glm::vec2& u) {
     const float radius = std::sqrt(u.x), angle = 2 * kPi * u.y;
     const TangentFrame frame = tangent_frame(normal);
     return frame.tangent * (radius * std::cos(angle)) + frame.bitangent * (radius * std::sin(angle)) +
            frame.normal * std::sqrt(std::max(0.0f, 1 - u.x));
 }
-
-float largest(const glm::vec3& v) {
-    return std::max({v.r, v.g, v.b});
-}
-
-} // namespace
 
 glm::vec2 PathSamples::next() {
     const std::uint32_t hash = pcg_hash(seed_ + 3 * ++pair_);

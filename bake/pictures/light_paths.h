@@ -27,6 +27,9 @@ private:
     std::uint32_t seed_, reversed_, pair_ = 0;
 };
 
+/// A direction about unit `normal` with density cos / pi, of a point `u` of the unit square.
+glm::vec3 cosine_direction(const glm::vec3& normal, const glm::vec2& u);
+
 struct SurfaceHit {
     float distance;
     SurfacePoint point;

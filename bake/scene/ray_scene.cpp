@@ -4,6 +4,7 @@
 
 #include "prt/support/error.h"
 #include "prt/support/parallel.h"
+#include "scene/opposite_triangles.h"
 #include "shared_bake.h"
 
 #include <embree3/rtcore.h>
@@ -32,13 +33,19 @@ RTCRay embree_ray(const Ray& ray) {
     return {o.x, o.y, o.z, ray.from, d.x, d.y, d.z, 0, ray.to, ~0u, 0, 0};
 }
 
-std::optional<RayHit> nearest_hit(RTCScene scene, RTCIntersectContext& context, const Ray& ray) {
+struct SidedHit {
+    RayHit hit;
+    bool back;
+};
+
+std::optional<SidedHit> nearest_hit(RTCScene scene, RTCIntersectContext& context, const Ray& ray) {
     RTCRayHit hit{embree_ray(ray), {}};
     hit.hit.geomID = RTC_INVALID_GEOMETRY_ID;
     rtcIntersect1(scene, &context, &hit);
     if (hit.hit.geomID == RTC_INVALID_GEOMETRY_ID)
         return std::nullopt;
-    return RayHit{hit.hit.primID, {hit.hit.u, hit.hit.v}, hit.ray.tfar};
+    const bool back = glm::dot(glm::vec3(hit.hit.Ng_x, hit.hit.Ng_y, hit.hit.Ng_z), ray.direction) > 0;
+    return SidedHit{{hit.hit.primID, {hit.hit.u, hit.hit.v}, hit.ray.tfar}, back};
 }
 
 /// Embree hands back the address of its first member.
@@ -66,14 +73,20 @@ void RayScene::Release::operator()(RTCSceneTy* scene) const {
 std::optional<RayHit> RayScene::nearest(const Ray& ray) const {
     RTCIntersectContext context;
     rtcInitIntersectContext(&context);
-    return nearest_hit(scene_.get(), context, ray);
+    std::optional<SidedHit> met = nearest_hit(scene_.get(), context, ray);
+    if (!met)
+        return std::nullopt;
+    if (met->back)
+        opposites_->turn_to_front(met->hit.triangle, met->hit.uv);
+    return met->hit;
 }
 
 std::optional<RayHit> RayScene::nearest(const Ray& ray, const std::function<bool(unsigned)>& accepts) const {
     FilteringContext filtering{{}, accepts};
     rtcInitIntersectContext(&filtering.context);
     filtering.context.filter = filter;
-    return nearest_hit(scene_.get(), filtering.context, ray);
+    const std::optional<SidedHit> met = nearest_hit(scene_.get(), filtering.context, ray);
+    return met ? std::optional(met->hit) : std::nullopt;
 }
 
 bool RayScene::occluded(const Ray& ray) const {
@@ -84,7 +97,11 @@ bool RayScene::occluded(const Ray& ray) const {
     return blocked.tfar < 0;
 }
 
-RayScene::RayScene(const Scene& scene, int threads) {
+RayScene::RayScene(RayScene&&) noexcept = default;
+RayScene::~RayScene() = default;
+
+RayScene::RayScene(const Scene& scene, int threads)
+    : opposites_(std::make_unique<const OppositeTriangles>(scene)) {
     device_.reset(rtcNewDevice(("threads=" + std::to_string(thread_count(threads))).c_str()));
     if (!device_)
         throw Error("Embree cannot be started");

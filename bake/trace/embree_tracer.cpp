@@ -8,6 +8,7 @@
 #include "prt/sh.h"
 #include "prt/support/parallel.h"
 #include "prt/support/stopwatch.h"
+#include "scene/opposite_triangles.h"
 #include "shared_bake.h"
 #include "trace/chunk_kernels.h"
 
@@ -110,7 +111,8 @@ Hit hit_of(const Plan& plan, const glm::vec3& normal, const RTCRayHit16& packet,
         footprint = std::numbers::pi_v<float> * distance * distance * glm::length(face) /
                     (static_cast<float>(plan.options.rays) * glm::dot(normal, direction) * std::abs(facing));
     footprint *= static_cast<float>(plan.options.hit_stride);
-    return {packet.hit.primID[lane], packet.hit.u[lane], packet.hit.v[lane], weight, footprint, facing > 0};
+    return plan.rays.opposites().shown(
+        {packet.hit.primID[lane], packet.hit.u[lane], packet.hit.v[lane], weight, footprint, facing > 0});
 }
 
 constexpr float kLeastTransmittance = PRT_LEAST_TRANSMITTANCE;

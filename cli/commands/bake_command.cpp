@@ -1,5 +1,6 @@
 #include "commands/commands.h"
 
+#include "back_sides.h"
 #include "instance_arguments.h"
 #include "lamp_strengths.h"
 #include "level_arguments.h"
@@ -31,6 +32,7 @@ struct BakeArguments {
         std::optional<double> refine;  ///< relative L2 over the surface to split triangles for
         std::size_t most_vertices = 0; ///< of a refined scene; 0: as many as `refine` allows
     } finer;
+    BackSides back_sides = BackSides::automatic;
     TexelArguments texels;  ///< given: instead of vertices
     VolumeArguments volume; ///< given: beside them
     InstanceArguments instances;
@@ -223,6 +225,7 @@ RefineStatistics refine(const BakeArguments& a, GltfDocument& document, Scene& s
 /// What was baked, and of which mesh.
 struct Baked {
     std::optional<RefineStatistics> refinement;
+    bool other_mesh = false; ///< than the one that was given
     BakeResult result;
 };
 
@@ -234,6 +237,8 @@ Baked bake_scene(const BakeArguments& a, GltfDocument& document, Scene& scene, S
         baked.refinement = refine(a, document, scene, session);
         options.fit = FitMode::surface; // as the error was measured
     }
+    baked.other_mesh = separate_sides({a.back_sides, a.scene, options, a.no_shadow}, document, scene) ||
+                       a.finer.refine.has_value();
     ProgressBar bar = session.progress_bar("baking");
     baked.result = bake(scene, options, bar.progress(), MeasureErrors::yes);
     return baked;
@@ -262,13 +267,14 @@ std::vector<std::byte> with_volume(const BakeArguments& a, GltfDocument& documen
 }
 
 /// Writes what vertices of level 0 have, and those of coarser levels where these get some.
-void write_vertices(const BakeArguments& a, GltfDocument& document, const Scene& scene,
-                    const BakedTransfer& baked, std::optional<BakedLevels>& levels, Session& session) {
+void write_vertices(const BakeArguments& a, GltfDocument& document, const Scene& scene, const Baked& bake,
+                    std::optional<BakedLevels>& levels, Session& session) {
+    const BakedTransfer& baked = bake.result.baked;
     if (!levels || a.levels == LevelMode::ignore) {
         write_transfer(document, scene, baked);
         return;
     }
-    if (a.finer.refine) // the mesh of level 0 is another one
+    if (bake.other_mesh)
         levels->scene = extract_levels(document);
     Scene& all = levels->scene.scene;
     leave_out_shadows(all, a.no_shadow);
@@ -296,7 +302,7 @@ void run_vertices(const BakeArguments& a, GltfDocument& document, Scene& scene, 
     const Baked baked = about(a.scene, [&] { return bake_scene(a, document, scene, session); });
     note_lights(a, scene, baked.result.baked.transfer, receiver_areas(scene));
     const std::optional<VolumeBake> volume = bake_probes(a, scene, session);
-    about(a.scene, [&] { write_vertices(a, document, scene, baked.result.baked, levels, session); });
+    about(a.scene, [&] { write_vertices(a, document, scene, baked, levels, session); });
     const std::vector<std::byte> file = with_volume(a, document, scene, volume);
     Report report = bake_report({.output = a.output.string(),
                                  .options = a.options,
@@ -384,6 +390,10 @@ void run(BakeArguments a, Session& session) {
     Scene scene = extract_scene(document);
     print_notices(a.scene.string(), scene.notices);
     TexelRoom room;
+    if (a.texels.given() && a.texels.unwrap)
+        about(a.scene, [&] {
+            separate_sides({a.back_sides, a.scene, a.options, a.no_shadow}, document, scene);
+        });
     if (a.texels.given())
         room = about(a.scene, [&] { return make_room(a.texels, a.scene, document, scene); });
     const SharedMeshes meshes = about(a.scene, [&] {
@@ -428,6 +438,7 @@ void add_bake(CLI::App& app, Session& session) {
     add_no_shadow(command, a.no_shadow);
     add_method(command, a.options);
     add_refinement(command, a);
+    add_back_sides(command, a.back_sides);
     add_texels(command, a.texels, "into a lightmap instead of vertices");
     add_volume(command, a.volume);
     add_instances(command, a.instances);

@@ -78,6 +78,7 @@ void add_make(CLI::App& app, Session& session) {
     command->add_option("--baked", r.baked, "keep the bake, too")->check(named)->type_name("FILE.glb");
     add_lamp_scale(command, r.reading.lamp_scale);
     add_no_shadow(command, r.no_shadow);
+    add_back_sides(command, r.back_sides);
     const std::size_t before = command->get_options().size();
     add_light_options(command, r.reading_lights);
     const auto all = command->get_options();

@@ -66,6 +66,7 @@ public:
           scene_(extract_scene(document_)), lights_(std::move(lights)) {
         print_notices(r_.scene.string(), scene_.notices);
         leave_out_shadows(scene_, r_.no_shadow);
+        separate();
     }
 
     void run(Report& report) {
@@ -90,6 +91,21 @@ private:
     double allowed() const { return plan_.error * plan_.error; }
     bool in_time(double share) const {
         return !r_.goal.seconds || watch_.seconds() < share * *r_.goal.seconds;
+    }
+
+    /// Gives sides their own vertices.
+    void separate() {
+        BakeOptions options;
+        options.repairs.bad_textures = bad_textures(r_.reading);
+        options.threads = r_.threads;
+        separated_ = separate_sides({r_.back_sides, r_.scene, options, r_.no_shadow}, document_, scene_);
+    }
+
+    /// Takes the file as it was given.
+    void reload() {
+        document_ = load_gltf(r_.scene, r_.reading);
+        scene_ = extract_scene(document_);
+        leave_out_shadows(scene_, r_.no_shadow);
     }
 
     void trace_paths() {
@@ -190,6 +206,15 @@ private:
 
     /// Splits triangles until vertices have their share of the error; false where none is split.
     bool refine_mesh(const Pilot& pilot) {
+        if (separated_) // pairs of triangles would be split in different ways
+            reload();
+        const bool refined = refine_surfaces(pilot);
+        if (separated_ || refined)
+            separate();
+        return refined;
+    }
+
+    bool refine_surfaces(const Pilot& pilot) {
         constexpr double kLook = 1e3; // a target that is met at once
         BakeOptions options = bake_options(kPilotRays);
         options.fit = FitMode::surface;
@@ -351,6 +376,8 @@ private:
             bake += fmt::format(" --lamp-scale {}", r_.reading.lamp_scale);
         if (bad_textures(r_.reading) == BadTextures::ignore)
             bake += " --bad-textures ignore";
+        if (r_.back_sides == BackSides::shared)
+            bake += " --back-sides shared";
         for (const std::string& material : r_.no_shadow)
             bake += " --no-shadow " + shell_word(material);
         std::string compress =
@@ -418,6 +445,7 @@ private:
     std::unique_ptr<BudgetReference> reference_;
     Stopwatch watch_;
     MakePlan plan_;
+    bool separated_ = false; ///< sides have vertices of their own
     Transfer pilot_;
     std::optional<SceneFile> model_;
     std::vector<std::string> tried_, notices_;

@@ -2,6 +2,7 @@
 
 // The whole road from a scene to what a game loads, spending where it pays.
 
+#include "back_sides.h"
 #include "budget/budget.h"
 #include "inputs.h"
 #include "report/report.h"
@@ -28,6 +29,7 @@ struct MakeRequest {
     LightOptions reading_lights;
     std::string light_options; ///< as they were given, to be said again
     std::vector<std::string> no_shadow;
+    BackSides back_sides = BackSides::automatic;
     MakeGoal goal;
     GltfOptions reading;
     int threads = 0;

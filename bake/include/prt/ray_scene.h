@@ -19,6 +19,8 @@ struct RTCSceneTy;
 
 namespace prt {
 
+class OppositeTriangles;
+
 struct Ray {
     glm::vec3 origin, direction;
     float from = 0; ///< distance, in lengths of `direction`
@@ -38,13 +40,19 @@ class RayScene {
 public:
     /// Copies what it needs of `scene`. `threads` build it (0: all). Throws `Error` when memory runs out.
     explicit RayScene(const Scene& scene, int threads = 0);
+    RayScene(RayScene&&) noexcept;
+    ~RayScene();
 
-    /// The nearest triangle on the way; nothing where there is none.
+    /// The nearest triangle on the way; nothing where there is none. Of two opposite ones at one place it is
+    /// the one that shows its front.
     std::optional<RayHit> nearest(const Ray& ray) const;
     /// The nearest of those triangles that `accepts`.
     std::optional<RayHit> nearest(const Ray& ray,
                                   const std::function<bool(unsigned triangle)>& accepts) const;
     bool occluded(const Ray& ray) const;
+
+    /// Of surfaces that a mesh holds twice. What reads hits of `handle()` has to ask them.
+    const OppositeTriangles& opposites() const { return *opposites_; }
 
     /// An RTCScene, for packets of rays.
     RTCSceneTy* handle() const { return scene_.get(); }
@@ -91,6 +99,7 @@ private:
     const glm::vec3* positions_ = nullptr; ///< Embree's copies: [vertices], [triangles]
     const glm::uvec3* corners_ = nullptr;
     std::vector<Triangle> triangles_;
+    std::unique_ptr<const OppositeTriangles> opposites_;
 };
 
 } // namespace prt

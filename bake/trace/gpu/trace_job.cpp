@@ -5,6 +5,7 @@
 #include "prt/gpu_failure.h"
 #include "prt/sh.h"
 #include "prt/support/parallel.h"
+#include "scene/opposite_triangles.h"
 
 #include <algorithm>
 #include <array>
@@ -27,15 +28,16 @@ std::vector<glm::uvec2> TraceJob::samples() const {
     return table;
 }
 
-TraceResults::TraceResults(const TraceJob& job, std::span<float> vectors, const HitSink& sink, bool has_alpha)
-    : job_(job), vectors_(vectors), coefficients_(vectors.size() / job.indices.size()), sink_(sink),
-      has_alpha_(has_alpha), control_(job.sum_rows.empty() ? job.indices.size() : 0, 0.0),
+TraceResults::TraceResults(const TraceJob& job, const TraceScene& scene, std::span<float> vectors,
+                           const HitSink& sink)
+    : job_(job), scene_(scene), vectors_(vectors), coefficients_(vectors.size() / job.indices.size()),
+      sink_(sink), control_(job.sum_rows.empty() ? job.indices.size() : 0, 0.0),
       hits_(sink ? job.indices.size() : 0) {
     std::ranges::fill(vectors, 0.0f);
 }
 
 void TraceResults::add_hits(Place at, const TracePiece& piece, std::span<const gpu::HitRecord> records) {
-    if (has_alpha_)
+    if (scene_.surfaces().traits().alpha)
         for (const gpu::HitRecord& r : records)
             add(at.receiver + r.row / piece.push().chunks, r, r.weight);
     else
@@ -62,8 +64,8 @@ void TraceResults::add_sums(Place at, const TracePiece& piece, int threads) {
 }
 
 void TraceResults::add(std::size_t i, const gpu::HitRecord& r, float weight) {
-    hits_[i].push_back(
-        {r.triangle & ~PRT_HIT_BACK, r.u, r.v, weight, r.footprint, (r.triangle & PRT_HIT_BACK) != 0});
+    hits_[i].push_back(scene_.rays().opposites().shown(
+        {r.triangle & ~PRT_HIT_BACK, r.u, r.v, weight, r.footprint, (r.triangle & PRT_HIT_BACK) != 0}));
 }
 
 /// Those that were followed of a chunk stand for all that is blocked of it.

@@ -2,6 +2,7 @@
 
 // What a tracer of the device is asked, and what its pieces give, put together.
 
+#include "prt/trace_scene.h"
 #include "prt/tracer.h"
 #include "trace/gpu/trace_piece.h"
 #include "trace/sample_sequence.h"
@@ -39,7 +40,7 @@ struct TraceJob {
 class TraceResults {
 public:
     /// `vectors`: [indices][order²], or [indices][first_coefficients] where vectors are summed.
-    TraceResults(const TraceJob& job, std::span<float> vectors, const HitSink& sink, bool has_alpha);
+    TraceResults(const TraceJob& job, const TraceScene& scene, std::span<float> vectors, const HitSink& sink);
 
     /// Where in the job a piece begins.
     struct Place {
@@ -55,10 +56,10 @@ private:
     void finish(std::size_t i);
 
     const TraceJob& job_;
+    const TraceScene& scene_;
     std::span<float> vectors_;
     std::size_t coefficients_; ///< of a vector
     const HitSink& sink_;
-    bool has_alpha_;
     std::vector<double> control_; ///< [indices] rays of the chunks that use the control variate
     std::vector<std::vector<Hit>> hits_;
 };

@@ -30,8 +30,7 @@ public:
             return;
         TraceJob job(receivers, indices, options, static_cast<bool>(sink), rows, weights_);
         const TracePiece::Sums sums{plain_, with_signs_};
-        tracer_.trace(job, pieces_, &sums, TraceResults(job, first, sink, tracer_.scene_on_gpu_.has_alpha()),
-                      progress);
+        tracer_.trace(job, pieces_, &sums, TraceResults(job, tracer_.scene_, first, sink), progress);
     }
 
     void read(std::span<float> sums, std::span<float> signed_sums) override {

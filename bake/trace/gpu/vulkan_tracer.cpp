@@ -113,7 +113,7 @@ void VulkanTracer::trace(const Receivers& receivers, std::span<const std::uint32
     if (indices.empty())
         return;
     TraceJob job(receivers, indices, options, static_cast<bool>(sink));
-    trace(job, pieces_, nullptr, TraceResults(job, vectors, sink, scene_on_gpu_.has_alpha()), progress);
+    trace(job, pieces_, nullptr, TraceResults(job, scene_, vectors, sink), progress);
 }
 
 void VulkanTracer::trace(TraceJob& job, Pieces& pieces, const TracePiece::Sums* sums, TraceResults results,

@@ -54,16 +54,21 @@ std::size_t add_vertex_accessor(GltfContents& contents, Json accessor, std::span
     return contents.add_accessor(std::move(accessor));
 }
 
-std::size_t add_gathered_accessor(GltfContents& contents, const Json& reference,
-                                  const std::vector<std::uint32_t>& source) {
-    const int index = reference.get<int>();
-    const std::size_t size = check_accessor(contents.model, index);
-    const std::vector<std::byte> elements = read_elements(contents.model, index);
+std::vector<std::byte> gathered_elements(const tinygltf::Model& model, int accessor,
+                                         const std::vector<std::uint32_t>& source) {
+    const std::size_t size = check_accessor(model, accessor);
+    const std::vector<std::byte> elements = read_elements(model, accessor);
     std::vector<std::byte> gathered(source.size() * size);
     for (std::size_t i = 0; i < source.size(); ++i)
         std::memcpy(&gathered[i * size], &elements[source[i] * size], size);
+    return gathered;
+}
+
+std::size_t add_gathered_accessor(GltfContents& contents, const Json& reference,
+                                  const std::vector<std::uint32_t>& source) {
+    const int index = reference.get<int>();
     return add_vertex_accessor(contents, contents.json["accessors"][static_cast<std::size_t>(index)],
-                               gathered);
+                               gathered_elements(contents.model, index, source));
 }
 
 std::size_t add_index_accessor(GltfContents& contents, std::span<const std::uint32_t> indices) {

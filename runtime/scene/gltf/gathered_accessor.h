@@ -16,6 +16,10 @@ namespace prt {
 /// attributes. Returns its index.
 std::size_t add_vertex_accessor(GltfContents& contents, Json accessor, std::span<const std::byte> elements);
 
+/// Elements source[i] of an accessor, tightly packed.
+std::vector<std::byte> gathered_elements(const tinygltf::Model& model, int accessor,
+                                         const std::vector<std::uint32_t>& source);
+
 /// Adds an accessor whose element i is element source[i] of accessor `reference`, laid out for vertex
 /// attributes. Returns its index.
 std::size_t add_gathered_accessor(GltfContents& contents, const Json& reference,

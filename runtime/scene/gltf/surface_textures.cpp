@@ -2,6 +2,7 @@
 
 #include "prt/gltf.h"
 
+#include "gltf/material_choices.h"
 #include "gltf/transfer_json.h"
 #include "gltf/unshare.h"
 #include "prt/support/error.h"
@@ -46,18 +47,6 @@ Json& own_extras(Json& material, std::size_t m) {
                         "place there");
     }
     return *at;
-}
-
-/// Calls `visit` with all that may name a material of a primitive: itself, and the mappings of its variants.
-template <class AnyJson, class Visit>
-void for_each_choice(AnyJson& primitive, Visit&& visit) {
-    visit(primitive);
-    if (!primitive.contains("extensions") || !primitive["extensions"].contains("KHR_materials_variants"))
-        return;
-    auto& variants = primitive["extensions"]["KHR_materials_variants"];
-    if (variants.contains("mappings"))
-        for (auto& mapping : variants["mappings"])
-            visit(mapping);
 }
 
 /// Gives the primitives of a texture materials that no others have.

@@ -1,0 +1,112 @@
+#include "scene/opposite_triangles.h"
+
+#include <algorithm>
+#include <bit>
+#include <optional>
+
+namespace prt {
+namespace {
+
+struct SingleSidedFace {
+    std::uint64_t hash; ///< of the vertex array and the positions of the corners in any order
+    std::uint32_t triangle;
+    std::uint32_t primitive;
+    glm::uvec3 corners; ///< into the vertex array
+};
+
+/// Finalizer of MurmurHash3 (A. Appleby).
+std::uint64_t mixed(std::uint64_t h) {
+    h = (h ^ (h >> 33)) * 0xff51afd7ed558ccdull;
+    h = (h ^ (h >> 33)) * 0xc4ceb9fe1a85ec53ull;
+    return h ^ (h >> 33);
+}
+
+std::uint64_t position_hash(const glm::vec3& at) {
+    const glm::vec3 p = at + 0.0f; // no negative zeros
+    return mixed(
+        (std::uint64_t{std::bit_cast<std::uint32_t>(p.x)} << 32 | std::bit_cast<std::uint32_t>(p.y)) +
+        mixed(std::bit_cast<std::uint32_t>(p.z)));
+}
+
+bool shows_one_side(const Material& material) {
+    return !material.double_sided && material.transmission.factor <= 0 && material.casts_shadow;
+}
+
+std::vector<SingleSidedFace> single_sided_faces(const Scene& scene) {
+    std::vector<SingleSidedFace> faces;
+    std::uint32_t first = 0;
+    for (std::uint32_t p = 0; p < scene.primitives.size(); ++p) {
+        const Primitive& primitive = scene.primitives[p];
+        const std::vector<glm::vec3>& at = scene.vertex_arrays[primitive.vertices].positions;
+        if (shows_one_side(scene.materials[primitive.material]))
+            for (std::uint32_t t = 0; t < primitive.triangles.size(); ++t) {
+                const glm::uvec3& c = primitive.triangles[t];
+                faces.push_back({position_hash(at[c.x]) + position_hash(at[c.y]) + position_hash(at[c.z]) +
+                                     mixed(primitive.vertices),
+                                 first + t, p, c});
+            }
+        first += static_cast<std::uint32_t>(primitive.triangles.size());
+    }
+    std::ranges::sort(faces, [](const SingleSidedFace& a, const SingleSidedFace& b) {
+        return a.hash != b.hash ? a.hash < b.hash : a.triangle < b.triangle;
+    });
+    return faces;
+}
+
+/// The corner of `a` at each corner of `b`; nothing unless they are opposite triangles with area.
+std::optional<std::array<std::uint8_t, 3>> opposite_corners(const std::vector<glm::vec3>& at,
+                                                            const glm::uvec3& a, const glm::uvec3& b) {
+    if (at[a.x] == at[a.y] || at[a.y] == at[a.z] || at[a.z] == at[a.x])
+        return std::nullopt;
+    for (int start = 0; start < 3; ++start) {
+        const std::array corners{static_cast<std::uint8_t>(start), static_cast<std::uint8_t>((start + 2) % 3),
+                                 static_cast<std::uint8_t>((start + 1) % 3)};
+        if (at[a[corners[0]]] == at[b.x] && at[a[corners[1]]] == at[b.y] && at[a[corners[2]]] == at[b.z])
+            return corners;
+    }
+    return std::nullopt;
+}
+
+} // namespace
+
+OppositeTriangles::OppositeTriangles(const Scene& scene) {
+    const std::vector<SingleSidedFace> faces = single_sided_faces(scene);
+    std::vector<bool> taken(faces.size());
+    for (std::size_t i = 0; i < faces.size(); ++i)
+        for (std::size_t j = i + 1; j < faces.size() && faces[j].hash == faces[i].hash && !taken[i]; ++j) {
+            const SingleSidedFace &a = faces[i], &b = faces[j];
+            const std::size_t array = scene.primitives[a.primitive].vertices;
+            if (taken[j] || scene.primitives[b.primitive].vertices != array)
+                continue;
+            const std::vector<glm::vec3>& at = scene.vertex_arrays[array].positions;
+            const auto of_a = opposite_corners(at, a.corners, b.corners);
+            if (!of_a)
+                continue;
+            taken[i] = taken[j] = true;
+            of_.resize(scene.triangles());
+            of_[a.triangle] = {b.triangle, *of_a};
+            of_[b.triangle] = {a.triangle, *opposite_corners(at, b.corners, a.corners)};
+        }
+}
+
+bool OppositeTriangles::turn_to_front(unsigned& triangle, glm::vec2& uv) const {
+    if (of_.empty() || of_[triangle].triangle == kNone)
+        return false;
+    const Opposite& opposite = of_[triangle];
+    const glm::vec3 barycentrics(1 - uv.x - uv.y, uv.x, uv.y);
+    triangle = opposite.triangle;
+    uv = {barycentrics[opposite.corners[1]], barycentrics[opposite.corners[2]]};
+    return true;
+}
+
+Hit OppositeTriangles::shown(Hit hit) const {
+    glm::vec2 uv(hit.u, hit.v);
+    if (hit.back && turn_to_front(hit.triangle, uv)) {
+        hit.u = uv.x;
+        hit.v = uv.y;
+        hit.back = false;
+    }
+    return hit;
+}
+
+} // namespace prt

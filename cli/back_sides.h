@@ -1,0 +1,35 @@
+#pragma once
+
+// What the backs of double-sided surfaces show.
+
+#include "inputs.h"
+#include "prt/bake.h"
+#include "prt/gltf.h"
+
+#include <CLI/CLI.hpp>
+
+#include <string>
+#include <vector>
+
+namespace prt::cli {
+
+enum class BackSides {
+    automatic, ///< their own light, where light reaches both sides
+    shared,    ///< the light of the front
+};
+
+/// --back-sides
+void add_back_sides(CLI::App* command, BackSides& sides);
+
+/// What a bake makes of a scene.
+struct SidesRequest {
+    BackSides sides;
+    const Path& path; ///< of the scene, for messages
+    const BakeOptions& options;
+    const std::vector<std::string>& no_shadow;
+};
+/// Puts document and scene with vertices for both sides in the place of these where sides need them, and says
+/// so on stderr and in the notices of the scene. Returns whether any does.
+bool separate_sides(const SidesRequest& request, GltfDocument& document, Scene& scene);
+
+} // namespace prt::cli

@@ -1,0 +1,213 @@
+#include "prt/separate_sides.h"
+
+#include "gltf/accessor.h"
+#include "gltf/gathered_accessor.h"
+#include "gltf/material_choices.h"
+#include "gltf/reread.h"
+#include "gltf/transfer_json.h"
+#include "gltf/unshare.h"
+
+#include <algorithm>
+#include <cstring>
+#include <limits>
+#include <map>
+#include <optional>
+#include <set>
+#include <string_view>
+#include <type_traits>
+
+namespace prt {
+namespace {
+
+/// What a vertex array gets: the vertices that copies are made of, and where they go.
+struct BackVertices {
+    std::size_t fronts = 0;
+    std::vector<std::uint32_t> source;           ///< all vertices: of the file, then of the copies
+    std::map<std::uint32_t, std::uint32_t> back; ///< of a vertex
+
+    explicit BackVertices(std::size_t vertices) : fronts(vertices) {
+        for (std::uint32_t v = 0; v < vertices; ++v)
+            source.push_back(v);
+    }
+    std::uint32_t of(std::uint32_t front) {
+        const auto [found, is_new] = back.try_emplace(front, static_cast<std::uint32_t>(source.size()));
+        if (is_new)
+            source.push_back(front);
+        return found->second;
+    }
+};
+
+template <class Component>
+Component negated(Component value) {
+    if constexpr (std::is_integral_v<Component>)
+        return static_cast<Component>(std::min<int>(-int{value}, std::numeric_limits<Component>::max()));
+    else
+        return -value;
+}
+
+/// Components of `elements` with the opposite sign.
+void negate(int component_type, std::span<std::byte> elements) {
+    with_component_type(component_type, [&](auto type) {
+        if constexpr (std::is_signed_v<decltype(type)>)
+            for (std::size_t at = 0; at < elements.size(); at += sizeof type) {
+                std::memcpy(&type, &elements[at], sizeof type);
+                type = negated(type);
+                std::memcpy(&elements[at], &type, sizeof type);
+            }
+    });
+}
+
+class SideSeparator {
+public:
+    SideSeparator(GltfContents& contents, const Scene& scene, const std::vector<bool>& triangles)
+        : contents_(contents), scene_(scene) {
+        std::size_t t = 0;
+        for (const Primitive& primitive : scene.primitives) {
+            std::vector<glm::uvec3>& own = separated_.emplace_back();
+            std::vector<glm::uvec3>& rest = rest_.emplace_back();
+            for (const glm::uvec3& corners : primitive.triangles)
+                (triangles[t++] ? own : rest).push_back(corners);
+        }
+        for (const VertexArray& vertices : scene.vertex_arrays)
+            backs_.emplace_back(vertices.size());
+    }
+
+    void separate() {
+        for (std::size_t p = 0; p < separated_.size(); ++p)
+            add_backs(p);
+        std::vector<JsonPlace> added;
+        for (std::size_t p = 0; p < separated_.size(); ++p) {
+            write_vertices(p);
+            if (!separated_[p].empty())
+                added.push_back(write_triangles(p));
+        }
+        single_sided(added);
+        contents_.remove_unused(std::move(replaced_));
+    }
+
+private:
+    struct JsonPlace {
+        std::size_t mesh, primitive;
+    };
+    using Moved =
+        std::map<std::pair<int, bool>, std::size_t>; ///< new accessors by old ones and whether they turn
+
+    JsonPlace place(std::size_t p) const {
+        const Primitive& primitive = scene_.primitives[p];
+        return {contents_.json["nodes"][static_cast<std::size_t>(primitive.node)]["mesh"].get<std::size_t>(),
+                static_cast<std::size_t>(primitive.primitive)};
+    }
+    Json& json(const JsonPlace& at) const {
+        return contents_.json["meshes"][at.mesh]["primitives"][at.primitive];
+    }
+
+    void add_backs(std::size_t p) {
+        BackVertices& backs = backs_[scene_.primitives[p].vertices];
+        const std::size_t count = separated_[p].size();
+        for (std::size_t t = 0; t < count; ++t) {
+            const glm::uvec3 c = separated_[p][t];
+            separated_[p].emplace_back(backs.of(c.x), backs.of(c.z), backs.of(c.y));
+        }
+    }
+
+    /// Primitives of one vertex array have the same attributes.
+    void write_vertices(std::size_t p) {
+        const BackVertices& backs = backs_[scene_.primitives[p].vertices];
+        if (backs.back.empty())
+            return;
+        Json& primitive = json(place(p));
+        Moved& moved = moved_[scene_.primitives[p].vertices];
+        const auto move = [&](Json& attributes) {
+            for (auto it = attributes.begin(); it != attributes.end(); ++it)
+                *it = moved_accessor(it->get<int>(), it.key() == "NORMAL" || it.key() == "TANGENT", backs,
+                                     moved);
+        };
+        move(primitive["attributes"]);
+        if (primitive.contains("targets"))
+            for (Json& target : primitive["targets"])
+                move(target);
+    }
+
+    std::size_t moved_accessor(int old, bool turns, const BackVertices& backs, Moved& moved) {
+        const auto [found, is_new] = moved.try_emplace({old, turns}, 0);
+        if (!is_new)
+            return found->second;
+        replaced_.insert(static_cast<std::size_t>(old));
+        std::vector<std::byte> elements = gathered_elements(contents_.model, old, backs.source);
+        const std::size_t size = elements.size() / backs.source.size();
+        if (turns)
+            negate(get_accessor(contents_.model, old).componentType,
+                   std::span(elements).subspan(backs.fronts * size));
+        return found->second = add_vertex_accessor(
+                   contents_, contents_.json["accessors"][static_cast<std::size_t>(old)], elements);
+    }
+
+    /// Those with a back go into a primitive of their own, unless all have one.
+    JsonPlace write_triangles(std::size_t p) {
+        JsonPlace at = place(p);
+        const bool mirrored = scene_.primitives[p].mirrored;
+        if (!rest_[p].empty()) {
+            Json copy = json(at);
+            replace_triangles(contents_, json(at), rest_[p], mirrored, replaced_);
+            Json& primitives = contents_.json["meshes"][at.mesh]["primitives"];
+            at.primitive = primitives.size();
+            primitives.push_back(std::move(copy));
+        }
+        replace_triangles(contents_, json(at), separated_[p], mirrored, replaced_);
+        return at;
+    }
+
+    /// Makes the materials of these primitives single-sided; those that others have, too, are copied.
+    void single_sided(const std::vector<JsonPlace>& primitives) {
+        std::map<std::size_t, std::size_t> users;
+        for_each_primitive(contents_.json, [&](Json& primitive) {
+            for_each_choice(primitive, [&](const Json& choice) {
+                if (choice.contains("material"))
+                    ++users[choice["material"].get<std::size_t>()];
+            });
+        });
+        std::map<std::size_t, std::vector<Json*>> ours;
+        for (const JsonPlace& at : primitives)
+            for_each_choice(json(at), [&](Json& choice) {
+                if (choice.contains("material"))
+                    ours[choice["material"].get<std::size_t>()].push_back(&choice);
+            });
+        Json& materials = contents_.json["materials"];
+        for (const auto& [material, choices] : ours) {
+            if (!materials.at(material).value("doubleSided", false))
+                continue;
+            std::size_t now = material;
+            if (users[material] > choices.size()) {
+                now = materials.size();
+                Json copy = materials[material];
+                copy["name"] = lamp_name(scene_, material); // one lamp, and one name to choose it by
+                materials.push_back(std::move(copy));
+            }
+            materials[now].erase("doubleSided");
+            for (Json* const choice : choices)
+                (*choice)["material"] = now;
+        }
+    }
+
+    GltfContents& contents_;
+    const Scene& scene_;
+    std::vector<std::vector<glm::uvec3>> separated_, rest_; ///< [primitives]
+    std::vector<BackVertices> backs_;                       ///< [vertex arrays]
+    std::map<std::size_t, Moved> moved_;                    ///< by vertex array
+    std::set<std::size_t> replaced_;                        ///< accessors
+};
+
+} // namespace
+
+GltfDocument with_separate_sides(GltfDocument document, const Scene& scene,
+                                 const std::vector<bool>& triangles) {
+    named(document, [&](GltfContents& contents) {
+        unshare(contents, scene);
+        contents.remove_transfer();
+    });
+    document = reread(document);
+    named(document, [&](GltfContents& contents) { SideSeparator(contents, scene, triangles).separate(); });
+    return reread(document);
+}
+
+} // namespace prt
