@@ -25,16 +25,19 @@ public:
     ReachTracer(const TraceScene& scene, const ReachOptions& options) : scene_(scene), options_(options) {}
 
     /// `sample` numbers the paths.
-    float mean(std::uint32_t triangle, Side which, std::uint32_t sample) const {
-        const SurfacePoint middle{triangle, glm::vec2(1.0f / 3), 0};
-        const LitSide front =
-            met_surface(scene_.scene(), scene_.rays(), middle, glm::vec3(0)).side; // the front
-        if (!(glm::dot(front.face, front.face) > 0))
-            return 0; // it has no area
+    float mean(std::uint32_t triangle, Side side, std::uint32_t sample) const {
+        const std::uint32_t seed = receiver_seed(2 * sample + (side == Side::back), options_.seed);
         float sum = 0;
-        for (std::uint32_t i = 0; i < kPaths; ++i)
-            sum += follow(which == Side::front ? front : front.other(),
-                          PathSamples(receiver_seed(2 * sample + (which == Side::back), options_.seed), i));
+        for (std::uint32_t i = 0; i < kPaths; ++i) {
+            PathSamples samples(seed, i);
+            const glm::vec2 u = samples.next();
+            const float root = std::sqrt(u.x);
+            const SurfacePoint start{triangle, {root * (1 - u.y), root * u.y}, 0};
+            const LitSide front = met_surface(scene_.scene(), scene_.rays(), start, glm::vec3(0)).side;
+            if (!(glm::dot(front.face, front.face) > 0))
+                return 0; // it has no area
+            sum += follow(side == Side::front ? front : front.other(), samples);
+        }
         return sum / kPaths;
     }
 

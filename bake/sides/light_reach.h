@@ -20,7 +20,7 @@ struct ReachOptions {
     std::uint64_t seed = 0;
 };
 
-/// Mean over a few paths from the middle of that side of each of `triangles` of 1/2 for each surface that
+/// Mean over a few paths from that side of each of `triangles` of 1/2 for each surface that
 /// they meet before they end in the sky above the horizon, on what shines, or where a light of the scene is
 /// in sight; 0 of those that do not get there in eight bounces. An order of magnitude, and 0 where no light
 /// gets in. Throws `Cancelled` when asked to stop.

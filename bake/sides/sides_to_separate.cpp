@@ -11,11 +11,12 @@
 #include <map>
 #include <numeric>
 #include <tuple>
+#include <utility>
 
 namespace prt {
 namespace {
 
-constexpr std::size_t kMostSamples = 1024; ///< of a side of a piece
+constexpr std::size_t kMinSamples = 8, kMaxSamples = 1024; ///< of a side of a piece
 
 bool can_separate(const Surfaces& surfaces, std::uint32_t t) {
     const Material& material = surfaces.material(t);
@@ -87,22 +88,19 @@ std::vector<Piece> pieces_of(const Surfaces& surfaces, const std::vector<std::ui
     return result;
 }
 
-/// Triangles that stand for pieces, and how much for.
+/// Triangles that stand for pieces, drawn by area.
 struct Samples {
     std::vector<std::uint32_t> triangles;
-    std::vector<double> weights;
     std::vector<std::size_t> ends; ///< [pieces]
 };
 
-/// All triangles of small pieces; of large ones so many by area.
 Samples sample(const Surfaces& surfaces, std::span<const Piece> pieces) {
     Samples samples;
     for (const Piece& piece : pieces) {
+        const std::size_t all = piece.triangles.size();
         const auto area = [&](std::size_t i) { return doubled_area(surfaces, piece.triangles[i]); };
-        for (const Picked& picked : pick(piece.triangles.size(), kMostSamples, area)) {
-            samples.triangles.push_back(piece.triangles[picked.index]);
-            samples.weights.push_back(picked.stands_for * area(picked.index));
-        }
+        for (const Picked& picked : pick(all, std::clamp(all, kMinSamples, kMaxSamples), area))
+            samples.triangles.insert(samples.triangles.end(), picked.times, piece.triangles[picked.index]);
         samples.ends.push_back(samples.triangles.size());
     }
     return samples;
@@ -113,14 +111,14 @@ void keep_reached(const TraceScene& scene, Side side, const ReachOptions& option
                   const std::stop_token& stop, std::vector<Piece>& pieces) {
     const Samples samples = sample(scene.surfaces(), pieces);
     const std::vector<float> reach = light_reach(scene, samples.triangles, side, options, stop);
-    std::size_t s = 0, piece = 0;
+    std::size_t begin = 0, piece = 0;
     std::erase_if(pieces, [&](const Piece&) {
-        double sum = 0, weights = 0;
-        for (const std::size_t end = samples.ends[piece++]; s < end; ++s) {
-            sum += samples.weights[s] * static_cast<double>(reach[s]);
-            weights += samples.weights[s];
-        }
-        return !(sum > kLeastReach * weights);
+        const std::size_t end = samples.ends[piece++];
+        double sum = 0;
+        for (std::size_t s = begin; s < end; ++s)
+            sum += static_cast<double>(reach[s]);
+        const double least = kLeastReach * static_cast<double>(end - std::exchange(begin, end));
+        return !(sum > least);
     });
 }
 

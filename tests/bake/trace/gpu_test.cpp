@@ -263,6 +263,28 @@ TEST(GpuBake, OfEveryTransportIsTheCpus) {
     EXPECT_LT(difference(options), kGrazing);
 }
 
+/// Walls that are there twice show their fronts on both sides.
+TEST(GpuTrace, MeetsTheFrontsOfOppositeTriangles) {
+    Pair pair(SceneBuilder()
+                  .floor({0, 0, 0}, 1, 3)
+                  .quad({-1, 0.5f, -1}, {1, 0.5f, -1}, {1, 0.5f, 1}, {-1, 0.5f, 1})
+                  .quad({-1, 0.5f, -1}, {-1, 0.5f, 1}, {1, 0.5f, 1}, {1, 0.5f, -1})
+                  .build());
+    std::size_t from_below = 0;
+    pair.trace(pair.gpu(), {2, 96, 3, 0}, [&](std::uint32_t p, std::span<const Hit> hits) {
+        for (const Hit& hit : hits) {
+            EXPECT_FALSE(hit.back);
+            if (pair.receivers().positions[p].y > 0) {
+                EXPECT_LT(hit.triangle, 18u); // the floor
+            } else {
+                EXPECT_TRUE(hit.triangle == 18 || hit.triangle == 19) << hit.triangle; // those that look down
+                ++from_below;
+            }
+        }
+    });
+    EXPECT_GT(from_below, 100u);
+}
+
 TEST(GpuBake, OfATriangleThatVariesSendsWhatIsThere) {
     using test::Varying;
     for (const Varying varying : {Varying::light, Varying::texture, Varying::vertex_colors_of_the_back}) {

@@ -1,0 +1,225 @@
+// Double-sided surfaces, and surfaces that a mesh holds twice.
+
+#include "prt/sides.h"
+
+#include "scene/opposite_triangles.h"
+#include "support/scene_builder.h"
+
+#include <glm/geometric.hpp>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace prt {
+namespace {
+
+using test::SceneBuilder;
+
+struct Box {
+    glm::vec3 low, high;
+    bool open = false;  ///< no side at +X
+    bool twice = false; ///< an opposite triangle at each of its triangles
+};
+
+SceneBuilder& add(SceneBuilder& scene, const Box& box) {
+    const glm::vec3 &l = box.low, &h = box.high;
+    const auto quad = [&](const glm::vec3& a, const glm::vec3& b, const glm::vec3& c, const glm::vec3& d) {
+        scene.quad(a, b, c, d);
+        if (box.twice)
+            scene.quad(a, d, c, b);
+    };
+    quad({l.x, l.y, h.z}, {h.x, l.y, h.z}, {h.x, h.y, h.z}, {l.x, h.y, h.z});
+    quad({h.x, l.y, l.z}, {l.x, l.y, l.z}, {l.x, h.y, l.z}, {h.x, h.y, l.z});
+    quad({l.x, l.y, l.z}, {l.x, l.y, h.z}, {l.x, h.y, h.z}, {l.x, h.y, l.z});
+    quad({l.x, h.y, h.z}, {h.x, h.y, h.z}, {h.x, h.y, l.z}, {l.x, h.y, l.z});
+    quad({l.x, l.y, l.z}, {h.x, l.y, l.z}, {h.x, l.y, h.z}, {l.x, l.y, h.z});
+    if (!box.open)
+        quad({h.x, l.y, h.z}, {h.x, l.y, l.z}, {h.x, h.y, l.z}, {h.x, h.y, h.z});
+    return scene;
+}
+
+Scene scene_of(const Box& box) {
+    SceneBuilder builder;
+    return add(builder, box).build();
+}
+
+constexpr Box kClosed{{-1, 0, -1}, {1, 2, 1}}, kOpen{{-1, 0, -1}, {1, 2, 1}, true},
+    kOpenTwice{{-1, 0, -1}, {1, 2, 1}, true, true}, kClosedTwice{{-1, 0, -1}, {1, 2, 1}, false, true};
+
+glm::vec3 point_of(const Scene& scene, unsigned triangle, const glm::vec2& uv) {
+    const glm::uvec3& t = scene.primitives[0].triangles[triangle];
+    const std::vector<glm::vec3>& at = scene.vertex_arrays[0].positions;
+    return (1 - uv.x - uv.y) * at[t.x] + uv.x * at[t.y] + uv.y * at[t.z];
+}
+
+TEST(OppositeTriangles, HaveTheSamePointWhateverCornerTheyBeginWith) {
+    const glm::vec3 corners[] = {{1, 2, 3}, {4, 1, 0}, {-2, 0, 5}};
+    for (int start = 0; start < 3; ++start) {
+        const Scene scene = SceneBuilder()
+                                .triangle(corners[0], corners[1], corners[2])
+                                .triangle(corners[start], corners[(start + 2) % 3], corners[(start + 1) % 3])
+                                .build();
+        const OppositeTriangles opposites(scene);
+        for (const unsigned from : {0u, 1u}) {
+            unsigned triangle = from;
+            glm::vec2 uv(0.2f, 0.7f);
+            const glm::vec3 before = point_of(scene, triangle, uv);
+            ASSERT_TRUE(opposites.turn_to_front(triangle, uv));
+            EXPECT_EQ(triangle, 1 - from);
+            EXPECT_LT(glm::distance(point_of(scene, triangle, uv), before), 1e-6f) << start;
+        }
+    }
+}
+
+TEST(OppositeTriangles, AreSingleSidedAndOfOneMesh) {
+    const Scene pair = SceneBuilder()
+                           .triangle({0, 0, 0}, {1, 0, 0}, {0, 1, 0})
+                           .triangle({0, 0, 0}, {0, 1, 0}, {1, 0, 0})
+                           .build();
+    EXPECT_FALSE(OppositeTriangles(pair).empty());
+    EXPECT_TRUE(OppositeTriangles(test::painted(pair, glm::vec3(1), /*double_sided=*/true)).empty());
+    const Scene same = SceneBuilder()
+                           .triangle({0, 0, 0}, {1, 0, 0}, {0, 1, 0})
+                           .triangle({1, 0, 0}, {0, 1, 0}, {0, 0, 0})
+                           .build();
+    EXPECT_TRUE(OppositeTriangles(same).empty());
+    const Scene apart = test::join({SceneBuilder().triangle({0, 0, 0}, {1, 0, 0}, {0, 1, 0}).build(),
+                                    SceneBuilder().triangle({0, 0, 0}, {0, 1, 0}, {1, 0, 0}).build()});
+    EXPECT_TRUE(OppositeTriangles(apart).empty());
+}
+
+TEST(OppositeTriangles, GoInPairs) {
+    SceneBuilder builder;
+    for (int i = 0; i < 2; ++i)
+        builder.triangle({0, 0, 0}, {1, 0, 0}, {0, 1, 0}).triangle({0, 0, 0}, {0, 1, 0}, {1, 0, 0});
+    const Scene scene = builder.build();
+    const OppositeTriangles opposites(scene);
+    for (unsigned t = 0; t < 4; ++t) {
+        unsigned other = t;
+        glm::vec2 uv(0.5f, 0.25f);
+        ASSERT_TRUE(opposites.turn_to_front(other, uv));
+        EXPECT_NE(other % 2, t % 2);
+        ASSERT_TRUE(opposites.turn_to_front(other, uv));
+        EXPECT_EQ(other, t);
+    }
+}
+
+double shown(const Transfer& transfer, std::size_t receiver) {
+    double sum = 0;
+    for (std::size_t from = 0; from < transfer.dimension(); ++from) // one coefficient of each part
+        sum += static_cast<double>(transfer.vector(receiver)[from]);
+    return sum * std::sqrt(4 * std::numbers::pi);
+}
+
+/// White walls that are there twice reflect all of a uniform sky, inside and outside. A ray that took the
+/// back of one for a wall would lose it.
+TEST(WallsThatAreThereTwice, ReflectAllOfAUniformSky) {
+    BakeOptions options;
+    options.order = 1;
+    options.rays = 256;
+    options.bounces = kEndlessBounces;
+    options.tracer.backend = Backend::cpu;
+    const Scene scene = test::painted(scene_of(kOpenTwice), glm::vec3(1));
+    const BakeResult result = bake(scene, options);
+    EXPECT_GT(result.statistics.gather.entries, 0u);
+    for (std::size_t p = 0; p < scene.receivers(); ++p)
+        EXPECT_NEAR(shown(result.baked.transfer, p), 1, 1e-3) << p;
+}
+
+/// No light comes in, but nothing is inside of anything.
+TEST(WallsThatAreThereTwice, AreDarkInAClosedRoom) {
+    BakeOptions options;
+    options.order = 1;
+    options.rays = 256;
+    options.tracer.backend = Backend::cpu;
+    const Scene scene = scene_of(kClosedTwice);
+    const BakeResult result = bake(scene, options);
+    EXPECT_TRUE(result.sealed.empty());
+    const VertexArray& vertices = scene.vertex_arrays[0];
+    for (std::size_t p = 0; p < scene.receivers(); ++p) {
+        const bool inside = glm::dot(vertices.normals[p], glm::vec3(0, 1, 0) - vertices.positions[p]) > 0;
+        EXPECT_NEAR(shown(result.baked.transfer, p), inside ? 0 : 1, 1e-6) << p;
+    }
+}
+
+std::size_t separated(const Scene& scene, const BakeOptions& options = {}) {
+    const std::vector<bool> triangles = sides_to_separate(scene, options);
+    return static_cast<std::size_t>(std::ranges::count(triangles, true));
+}
+
+Scene double_sided(const Scene& scene) {
+    return test::painted(scene, glm::vec3(0.5f), /*double_sided=*/true);
+}
+
+TEST(SidesToSeparate, AreThoseOfAnOpenBox) {
+    EXPECT_EQ(separated(double_sided(scene_of(kOpen))), 10u);
+    EXPECT_TRUE(sides_to_separate(scene_of(kOpen), {}).empty()); // one-sided
+}
+
+TEST(SidesToSeparate, AreNoneWhereNoLightGetsIn) {
+    EXPECT_EQ(separated(double_sided(scene_of(kClosed))), 0u);
+}
+
+/// The bottom of the box and the floor under it are one plane.
+TEST(SidesToSeparate, AreNoneOfABoxThatStandsOnAFloor) {
+    EXPECT_EQ(separated(double_sided(
+                  test::join({scene_of(kClosed), SceneBuilder().floor({0, 0, 0}, 5, 3).build()}))),
+              0u);
+}
+
+TEST(SidesToSeparate, AreNoneOfGround) {
+    EXPECT_EQ(separated(double_sided(SceneBuilder().floor({0, 0, 0}, 5, 3).build())), 0u);
+}
+
+TEST(SidesToSeparate, AreLitByALampInside) {
+    Scene scene = double_sided(scene_of(kClosed));
+    PunctualLight light;
+    light.position = {0.2f, 1, 0.3f};
+    scene.lights = {light};
+    EXPECT_EQ(separated(scene), 12u);
+    BakeOptions without;
+    without.lamps.mode = LampMode::none;
+    EXPECT_EQ(separated(scene, without), 0u);
+    scene.lights[0].position = {0.2f, 3, 0.3f};
+    EXPECT_EQ(separated(scene), 0u);
+}
+
+/// A sphere that shines lights the room that it hangs in, and itself stays dark inside, but for its own
+/// light.
+TEST(SidesToSeparate, AreLitByWhatShines) {
+    Scene scene =
+        double_sided(test::join({scene_of(kClosed), SceneBuilder().sphere({0, 1, 0}, 0.1f, 4).build()}));
+    scene.materials[1].double_sided = false;
+    scene.materials[1].emission.radiance = glm::vec3(1);
+    EXPECT_EQ(separated(scene), 12u);
+}
+
+TEST(SidesToSeparate, AreThoseOfThePiecesThatAreLitAlone) {
+    SceneBuilder builder;
+    add(builder, kClosed);
+    add(builder, {{4, 0, -1}, {6, 2, 1}, true});
+    const Scene scene = double_sided(builder.build());
+    const std::vector<bool> triangles = sides_to_separate(scene, {});
+    ASSERT_EQ(triangles.size(), 22u);
+    for (std::size_t t = 0; t < triangles.size(); ++t)
+        EXPECT_EQ(triangles[t], t >= 12) << t;
+}
+
+TEST(SidesToSeparate, LeaveOutWhatRaysPass) {
+    const Scene open = double_sided(scene_of(kOpen));
+    for (const auto& change :
+         {+[](Material& m) { m.alpha_mode = AlphaMode::blend; }, +[](Material& m) { m.glass.factor = 0.5f; },
+          +[](Material& m) { m.transmission.factor = 0.5f; }, +[](Material& m) { m.casts_shadow = false; }}) {
+        Scene scene = open;
+        change(scene.materials[0]);
+        EXPECT_EQ(separated(scene), 0u);
+    }
+    Scene cut_out = open;
+    cut_out.materials[0].alpha_mode = AlphaMode::mask;
+    EXPECT_EQ(separated(cut_out), 10u);
+}
+
+} // namespace
+} // namespace prt

@@ -1,0 +1,169 @@
+// Files whose double-sided surfaces become two.
+
+#include "prt/separate_sides.h"
+
+#include "support/glb_file.h"
+#include "support/temporary_folder.h"
+
+#include <gtest/gtest.h>
+
+#include <cstring>
+
+namespace prt {
+namespace {
+
+using test::GlbFile;
+using Json = nlohmann::ordered_json;
+
+/// A square of two triangles, both sides of material 0, with all that says which way its vertices look.
+GlbFile square_file() {
+    GlbFile file = test::triangle_file();
+    Json& primitive = file.json["meshes"][0]["primitives"][0];
+    primitive["attributes"]["POSITION"] =
+        file.accessor(std::vector<float>{0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0}, test::kFloat, "VEC3", 3);
+    primitive["attributes"]["NORMAL"] =
+        file.accessor(std::vector<std::int8_t>{0, 0, 127, 0, 0, 0, 127, 0, 0, 0, 127, 0, -128, 0, 0, 0},
+                      test::kByte, "VEC3", 4, true, 4);
+    primitive["attributes"]["TANGENT"] = file.accessor(
+        std::vector<float>{1, 0, 0, 1, 1, 0, 0, 1, 1, 0, 0, -1, 0, 1, 0, -1}, test::kFloat, "VEC4", 4);
+    primitive["attributes"]["TEXCOORD_0"] =
+        file.accessor(std::vector<float>{0, 0, 1, 0, 1, 1, 0, 1}, test::kFloat, "VEC2", 2);
+    const std::size_t deltas =
+        file.accessor(std::vector<float>{1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12}, test::kFloat, "VEC3", 3);
+    primitive["targets"] = {{{"POSITION", deltas}, {"NORMAL", deltas}}};
+    primitive["indices"] =
+        file.accessor(std::vector<std::uint16_t>{0, 1, 2, 0, 2, 3}, test::kUnsignedShort, "SCALAR", 1);
+    primitive["material"] = 0;
+    file.json["extensionsUsed"] = file.json["extensionsRequired"] = {"KHR_mesh_quantization"};
+    file.json["materials"] = {{{"doubleSided", true}, {"extras", {{"keep", 1}}}}};
+    return file;
+}
+
+struct Separated {
+    Separated(const GlbFile& file, const std::vector<bool>& triangles) {
+        file.write(folder / "in.glb");
+        GltfDocument document = load_gltf(folder / "in.glb");
+        before = extract_scene(document);
+        const GltfDocument separate = with_separate_sides(std::move(document), before, triangles);
+        after = extract_scene(separate);
+        save_glb(separate, folder / "out.glb");
+        written = test::read_glb(folder / "out.glb");
+    }
+
+    template <class T>
+    std::vector<T> element(const Json& index, std::size_t i, std::size_t components) const {
+        const Json of = written.json["accessors"][index.get<std::size_t>()],
+                   view = written.json["bufferViews"][of["bufferView"].get<std::size_t>()];
+        std::vector<T> values(components);
+        const std::size_t stride = view.value("byteStride", components * sizeof(T));
+        std::memcpy(values.data(),
+                    written.binary.data() + view.value("byteOffset", std::size_t{0}) + i * stride,
+                    components * sizeof(T));
+        return values;
+    }
+    Json primitive(std::size_t index) const { return written.json["meshes"][0]["primitives"][index]; }
+    bool double_sided(std::size_t index) const {
+        return written.json["materials"][primitive(index)["material"].get<std::size_t>()].value("doubleSided",
+                                                                                                false);
+    }
+
+    test::TemporaryFolder folder;
+    Scene before, after;
+    GlbFile written;
+};
+
+TEST(SeparateSides, TurnAllThatLooksSomewhere) {
+    const Separated file(square_file(), {true, true});
+    ASSERT_EQ(file.written.json["meshes"][0]["primitives"].size(), 1u);
+    EXPECT_FALSE(file.double_sided(0));
+    ASSERT_EQ(file.written.json["materials"].size(), 1u); // nobody else has it
+    EXPECT_EQ(file.written.json["materials"][0]["extras"]["keep"], 1);
+    const Json attributes = file.primitive(0)["attributes"], target = file.primitive(0)["targets"][0];
+    using Bytes = std::vector<std::int8_t>;
+    using Floats = std::vector<float>;
+    EXPECT_EQ(file.element<std::int8_t>(attributes["NORMAL"], 4, 3), (Bytes{0, 0, -127}));
+    EXPECT_EQ(file.element<std::int8_t>(attributes["NORMAL"], 7, 3), (Bytes{127, 0, 0})); // of -128
+    EXPECT_EQ(file.element<float>(attributes["TANGENT"], 6, 4), (Floats{-1, 0, 0, 1}));
+    EXPECT_EQ(file.element<float>(attributes["TEXCOORD_0"], 6, 2), (Floats{1, 1}));
+    EXPECT_EQ(file.element<float>(target["POSITION"], 5, 3), (Floats{4, 5, 6}));
+    EXPECT_EQ(file.element<float>(target["NORMAL"], 5, 3), (Floats{-4, -5, -6}));
+    for (std::size_t v = 0; v < 4; ++v) { // the fronts are as they were
+        EXPECT_EQ(file.after.vertex_arrays[0].positions[v], file.before.vertex_arrays[0].positions[v]);
+        EXPECT_EQ(file.after.vertex_arrays[0].normals[v], file.before.vertex_arrays[0].normals[v]);
+    }
+    const auto& triangles = file.after.primitives[0].triangles;
+    ASSERT_EQ(triangles.size(), 4u);
+    EXPECT_EQ(triangles[0], glm::uvec3(0, 1, 2));
+    EXPECT_EQ(triangles[2], glm::uvec3(4, 6, 5));
+}
+
+TEST(SeparateSides, LeaveTheOtherTrianglesDoubleSided) {
+    const Separated file(square_file(), {false, true});
+    ASSERT_EQ(file.written.json["meshes"][0]["primitives"].size(), 2u);
+    EXPECT_TRUE(file.double_sided(0));
+    EXPECT_FALSE(file.double_sided(1));
+    EXPECT_EQ(file.primitive(0)["attributes"], file.primitive(1)["attributes"]);
+    ASSERT_EQ(file.after.vertex_arrays.size(), 1u); // corners that both have are one receiver
+    EXPECT_EQ(file.after.receivers(), 7u);
+    EXPECT_EQ(file.after.triangles(), 3u);
+    EXPECT_EQ(lamp_name(file.after, file.after.primitives[1].material), "material 0");
+}
+
+TEST(SeparateSides, GoWithVariantsAndLeaveMaterialsToOthers) {
+    GlbFile file = square_file();
+    Json& primitive = file.json["meshes"][0]["primitives"][0];
+    file.json["materials"].push_back({{"name", "other"}, {"doubleSided", true}});
+    file.json["materials"].push_back({{"name", "front"}});
+    file.json["extensionsUsed"].push_back("KHR_materials_variants");
+    file.json["extensions"]["KHR_materials_variants"]["variants"] = {{{"name", "a"}}, {{"name", "b"}}};
+    primitive["extensions"]["KHR_materials_variants"]["mappings"] = {{{"material", 1}, {"variants", {0}}},
+                                                                     {{"material", 2}, {"variants", {1}}}};
+    Json plain = primitive;
+    plain.erase("extensions");
+    plain["material"] = 1;
+    file.json["meshes"][0]["primitives"].push_back(plain);
+    const Separated result(file, {true, true, false, false});
+    EXPECT_FALSE(result.double_sided(0));
+    EXPECT_TRUE(result.double_sided(1));
+    const Json mappings = result.primitive(0)["extensions"]["KHR_materials_variants"]["mappings"];
+    const auto& materials = result.written.json["materials"];
+    const Json copy = materials[mappings[0]["material"].get<std::size_t>()];
+    EXPECT_EQ(copy["name"], "other");
+    EXPECT_FALSE(copy.contains("doubleSided"));
+    EXPECT_EQ(mappings[1]["material"], 2);
+}
+
+/// Nodes of one mesh, one of them mirrored, where one side of one of them is lit.
+TEST(SeparateSides, AreOfANode) {
+    GlbFile file = square_file();
+    file.json["nodes"] = {{{"mesh", 0}}, {{"mesh", 0}, {"scale", {-1, 1, 1}}}};
+    file.json["scenes"][0]["nodes"] = {0, 1};
+    const Separated result(file, {false, false, true, true});
+    ASSERT_EQ(result.after.primitives.size(), 2u);
+    EXPECT_EQ(result.after.primitives[0].triangles.size(), 2u);
+    const Primitive& mirrored = result.after.primitives[1];
+    ASSERT_EQ(mirrored.triangles.size(), 4u);
+    const VertexArray& vertices = result.after.vertex_arrays[mirrored.vertices];
+    for (std::size_t t = 0; t < 4; ++t) { // normals and turns agree
+        const glm::uvec3& c = mirrored.triangles[t];
+        const glm::vec3 &a = vertices.positions[c.x], &b = vertices.positions[c.y],
+                        &d = vertices.positions[c.z];
+        const float turn = (b.x - a.x) * (d.y - a.y) - (b.y - a.y) * (d.x - a.x);
+        EXPECT_GT(turn * vertices.normals[c.x].z, 0) << t;
+        EXPECT_EQ(vertices.normals[c.x].z, t < 2 ? 1 : -1) << t;
+    }
+}
+
+/// Without normals in the file, too.
+TEST(SeparateSides, HaveFlatNormals) {
+    GlbFile file = square_file();
+    Json& attributes = file.json["meshes"][0]["primitives"][0]["attributes"];
+    attributes.erase("NORMAL");
+    attributes.erase("TANGENT");
+    const Separated result(file, {true, false});
+    ASSERT_EQ(result.after.receivers(), 9u); // six corners, and three backs
+    EXPECT_EQ(result.after.vertex_arrays[0].normals[8], glm::vec3(0, 0, -1));
+}
+
+} // namespace
+} // namespace prt
