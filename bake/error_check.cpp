@@ -155,9 +155,8 @@ void ErrorCheck::add_backs(const std::stop_token& stop) {
             two_sided.push_back(&point);
             triangles.push_back(point.place.triangle);
         }
-    const std::vector<float> reach =
-        light_reach(plan_.scene, triangles, Side::back,
-                    {.lamps = !plan_.lamps.empty(), .seed = plan_.options.seed}, stop);
+    const std::vector<float> reach = light_reach(plan_.scene, triangles, Side::back,
+                                                 {.lamps = plan_.lamps, .seed = plan_.options.seed}, stop);
     std::map<int, double> of_nodes, areas;
     for (std::size_t i = 0; i < two_sided.size(); ++i) {
         of_nodes[node_of(*two_sided[i])] += two_sided[i]->area * static_cast<double>(reach[i]);

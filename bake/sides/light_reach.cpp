@@ -1,10 +1,8 @@
 #include "sides/light_reach.h"
 
-#include "lamps/punctual.h"
 #include "pictures/light_paths.h"
-#include "prt/bake.h"
+#include "prt/scene_lamps.h"
 #include "prt/support/parallel.h"
-#include "scene/transmittance.h"
 
 #include <glm/geometric.hpp>
 
@@ -20,13 +18,22 @@ constexpr std::uint32_t kPaths = 2; ///< of a side
 constexpr int kBounces = 8;
 constexpr float kReflected = 0.5f; ///< of what reaches a surface, whatever its color
 
+/// All of them at strength 1.
+SceneLamps lit(const TraceScene& scene, std::span<const Lamp> lamps) {
+    std::vector<TransferPart> parts;
+    for (const Lamp& lamp : lamps)
+        parts.push_back({PartKind::lamp, 3, lamp.name, lamp.members});
+    return {scene, parts, std::vector<glm::vec3>(parts.size(), glm::vec3(1))};
+}
+
 class ReachTracer {
 public:
-    ReachTracer(const TraceScene& scene, const ReachOptions& options) : scene_(scene), options_(options) {}
+    ReachTracer(const TraceScene& scene, const ReachOptions& options)
+        : scene_(scene), lamps_(lit(scene, options.lamps)), seed_(options.seed) {}
 
     /// `sample` numbers the paths.
     float mean(std::uint32_t triangle, Side side, std::uint32_t sample) const {
-        const std::uint32_t seed = receiver_seed(2 * sample + (side == Side::back), options_.seed);
+        const std::uint32_t seed = receiver_seed(2 * sample + (side == Side::back), seed_);
         float sum = 0;
         for (std::uint32_t i = 0; i < kPaths; ++i) {
             PathSamples samples(seed, i);
@@ -45,22 +52,32 @@ private:
     float follow(LitSide side, PathSamples samples) const {
         float weight = 1;
         for (int bounce = 0; bounce <= kBounces; ++bounce) {
-            if (options_.lamps && sees_lights(side))
+            if (sees_lamp(side, samples))
                 return weight;
             const glm::vec3 along = cosine_direction(side.face, samples.next());
             const std::optional<SurfacePoint> met = nearest({side.origin(), along}, samples);
             if (!met)
                 return along.y > 0 ? weight : 0.0f;
             const MetSurface surface = met_surface(scene_.scene(), scene_.rays(), *met, along);
-            const bool scatters = !surface.back || scene_.surfaces().two_sided(met->triangle);
-            if (options_.lamps && scatters && scene_.surfaces().emits(met->triangle))
+            if (lamps_.radiance(*met, surface.back) != glm::vec3(0))
                 return weight;
-            if (!scatters)
+            if (surface.back && !scene_.surfaces().two_sided(met->triangle))
                 return 0;
             side = surface.side;
             weight *= kReflected;
         }
         return 0;
+    }
+
+    /// By one light and one point of what shines.
+    bool sees_lamp(const LitSide& side, PathSamples& samples) const {
+        const glm::vec3 origin = side.origin();
+        const auto arrives = [&](const SceneLamps::Sample& sample) {
+            return sample.irradiance != glm::vec3(0) && glm::dot(side.face, sample.towards) > 0 &&
+                   lamps_.open(origin, sample) > 0;
+        };
+        return (lamps_.has_lights() && arrives(lamps_.sample_light(origin, samples.next().x))) ||
+               (lamps_.has_surfaces() && arrives(lamps_.sample_surface(origin, samples.next())));
     }
 
     /// What stops the ray, by chance where it covers in part.
@@ -74,24 +91,9 @@ private:
         return std::nullopt;
     }
 
-    bool sees_lights(const LitSide& side) const {
-        return std::ranges::any_of(scene_.scene().lights, [&](const PunctualLight& light) {
-            const bool far = light.kind == PunctualKind::directional;
-            const glm::vec3 origin = side.origin(), way = far ? -light.direction : light.position - origin;
-            const float distance = glm::length(way);
-            if (!(distance > 0) || !(glm::dot(side.face, way) > 0) || light.intensity == glm::vec3(0))
-                return false;
-            const glm::vec3 towards = way / distance;
-            if (!far && !(cone_share(light, glm::dvec3(-towards)) > 0 &&
-                          range_share(light, static_cast<double>(distance)) > 0))
-                return false;
-            const float to = far ? std::numeric_limits<float>::infinity() : distance;
-            return transmittance(scene_.rays(), scene_.surfaces(), origin, towards, to) > 0;
-        });
-    }
-
     const TraceScene& scene_;
-    const ReachOptions& options_;
+    SceneLamps lamps_;
+    std::uint64_t seed_;
 };
 
 } // namespace

@@ -2,6 +2,7 @@
 
 // Which sides of surfaces any light reaches.
 
+#include "lamps/choose_lamps.h"
 #include "prt/trace_scene.h"
 #include "scene/ray_starts.h"
 
@@ -16,14 +17,14 @@ namespace prt {
 inline constexpr double kLeastReach = 1e-3;
 
 struct ReachOptions {
-    bool lamps = true;
+    std::span<const Lamp> lamps = {}; ///< those that are lit
     std::uint64_t seed = 0;
 };
 
 /// Mean over a few paths from that side of each of `triangles` of 1/2 for each surface that
-/// they meet before they end in the sky above the horizon, on what shines, or where a light of the scene is
-/// in sight; 0 of those that do not get there in eight bounces. An order of magnitude, and 0 where no light
-/// gets in. Throws `Cancelled` when asked to stop.
+/// they meet before they end in the sky above the horizon, or where a point of a lamp that is drawn by chance
+/// is in sight; 0 of those that do not get there in eight bounces. An order of magnitude, and 0 where no
+/// light gets in. Throws `Cancelled` when asked to stop.
 std::vector<float> light_reach(const TraceScene& scene, std::span<const std::uint32_t> triangles, Side side,
                                const ReachOptions& options, const std::stop_token& stop);
 

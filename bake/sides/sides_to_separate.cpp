@@ -135,7 +135,8 @@ std::vector<bool> sides_to_separate(const Scene& scene, const BakeOptions& optio
         if (can_separate(surfaces, t))
             triangles.push_back(t);
     std::vector<Piece> pieces = pieces_of(surfaces, triangles);
-    const ReachOptions reach{.lamps = options.lamps.mode != LampMode::none, .seed = options.seed};
+    const std::vector<Lamp> lamps = choose_lamps(surfaces, options.lamps);
+    const ReachOptions reach{.lamps = lamps, .seed = options.seed};
     for (const Side side : {Side::back, Side::front})
         keep_reached(traced, side, reach, stop, pieces);
     if (pieces.empty())

@@ -1,31 +1,33 @@
-// Factors the normal equations once by sparse Cholesky decomposition, and substitutes for some columns at a
-// time, so that the factor is read once for all of them.
+// Solves the normal equations by conjugate gradients with Jacobi's preconditioner (Hestenes and Stiefel
+// 1952), some columns at a time, so that the matrix is read once for all of them. The diagonal of a mass
+// matrix is so near to it that some tens of steps are enough, which takes less than to factor it.
 
 #include "surface/fit_solver.h"
 
-#include "prt/support/error.h"
 #include "prt/support/parallel.h"
 
-#include <Eigen/SparseCholesky>
+#include <Eigen/SparseCore>
 
 #include <algorithm>
 
 namespace prt {
 namespace {
 
-using Matrix = Eigen::SparseMatrix<double>;
+using Matrix = Eigen::SparseMatrix<double, Eigen::RowMajor>;
 
-constexpr std::size_t kColumns = 8; ///< substituted together
+constexpr std::size_t kColumns = 8; ///< solved together
 using Columns [[gnu::vector_size(kColumns * sizeof(double))]] = double;
 
-/// Lower triangle of M + R.
+constexpr double kResidual = 1e-5; ///< over that of zero, in the norm of the preconditioner
+constexpr int kMaxSteps = 500;     ///< for triangles that are needles
+
 Matrix normal_matrix(const FitEquations& equations, std::span<const float> bend_weights) {
     std::vector<Eigen::Triplet<double>> entries;
     std::vector<double> diagonal(equations.unknowns, 0);
     const auto add = [&](std::uint32_t i, std::uint32_t j, double value) {
         if (i == j)
             diagonal[i] += value;
-        else if (i > j)
+        else
             entries.emplace_back(static_cast<int>(i), static_cast<int>(j), value);
     };
     // A triangle of one sample that shares no edge has no other values than that of the sample.
@@ -58,82 +60,117 @@ Matrix normal_matrix(const FitEquations& equations, std::span<const float> bend_
 
 } // namespace
 
-struct FitSolver::Factor {
-    Eigen::SimplicialLDLT<Matrix, Eigen::Lower> ldlt;
-    Eigen::VectorXd pivots;
+struct FitSolver::System {
+    Matrix matrix;
+    std::vector<double> inverse_diagonal, inverse_sum; ///< [unknowns], of the row; 0 where it is not positive
 
-    /// The pattern of `matrix` is known.
-    void factor(const Matrix& matrix) {
-        ldlt.factorize(matrix);
-        if (ldlt.info() != Eigen::Success)
-            throw Error("the values of vertices cannot be fitted to the surface");
-        pivots = ldlt.vectorD();
+    System(const FitEquations& equations, std::span<const float> bend_weights)
+        : matrix(normal_matrix(equations, bend_weights)) {
+        for (Eigen::Index i = 0; i < matrix.rows(); ++i) {
+            double sum = 0, diagonal = 0;
+            for (Matrix::InnerIterator entry(matrix, i); entry; ++entry) {
+                sum += entry.value();
+                diagonal += entry.col() == i ? entry.value() : 0;
+            }
+            inverse_diagonal.push_back(1 / diagonal);
+            inverse_sum.push_back(sum > 1e-6 * diagonal ? 1 / sum : 0);
+        }
     }
-    std::size_t unknowns() const { return static_cast<std::size_t>(ldlt.rows()); }
-    /// Rows of the factor that unknowns have become.
-    const int* order() const { return ldlt.permutationP().indices().data(); }
 
-    /// Replaces b by x, in the factor's order.
-    void substitute(std::span<Columns> x) const;
+    std::size_t unknowns() const { return inverse_diagonal.size(); }
+    Columns row_times(std::size_t i, std::span<const Columns> x) const;
+    /// Replaces b by x.
+    void solve(std::span<Columns> b_then_x) const;
     template <class Value>
-    void solve(std::span<Value> values, std::size_t stride, int threads) const;
+    void solve_all(std::span<Value> b_then_x, std::size_t stride, int threads) const;
 };
 
-void FitSolver::Factor::substitute(std::span<Columns> x) const {
-    const auto& lower = ldlt.matrixL().nestedExpression(); // strictly below its diagonal of ones
-    const int* const first = lower.outerIndexPtr();
-    const int* const rows = lower.innerIndexPtr();
-    const double* const values = lower.valuePtr();
-    for (std::size_t j = 0; j < x.size(); ++j)
-        for (int e = first[j]; e < first[j + 1]; ++e)
-            x[static_cast<std::size_t>(rows[e])] -= values[e] * x[j];
-    for (std::size_t j = x.size(); j-- > 0;) {
-        Columns sum = x[j] / pivots[static_cast<Eigen::Index>(j)];
-        for (int e = first[j]; e < first[j + 1]; ++e)
-            sum -= values[e] * x[static_cast<std::size_t>(rows[e])];
-        x[j] = sum;
+Columns FitSolver::System::row_times(std::size_t i, std::span<const Columns> x) const {
+    const int* const first = matrix.outerIndexPtr();
+    const int* const columns = matrix.innerIndexPtr();
+    const double* const values = matrix.valuePtr();
+    Columns sum{};
+    for (int e = first[i]; e < first[i + 1]; ++e)
+        sum += values[e] * x[static_cast<std::size_t>(columns[e])];
+    return sum;
+}
+
+void FitSolver::System::solve(std::span<Columns> b_then_x) const {
+    const std::size_t count = unknowns();
+    std::vector<Columns> x(count), residual(b_then_x.begin(), b_then_x.end()), way(count), moved(count);
+    Columns squared_b{}, squared{};
+    for (std::size_t i = 0; i < count; ++i) {
+        squared_b += residual[i] * residual[i] * inverse_diagonal[i];
+        x[i] = residual[i] * inverse_sum[i]; // the mean of the samples around it
     }
+    for (std::size_t i = 0; i < count; ++i) {
+        residual[i] -= row_times(i, x);
+        way[i] = residual[i] * inverse_diagonal[i];
+        squared += residual[i] * way[i];
+    }
+    const auto done = [&] {
+        for (std::size_t c = 0; c < kColumns; ++c)
+            if (squared[c] > kResidual * kResidual * squared_b[c])
+                return false;
+        return true;
+    };
+    const auto ratio = [](const Columns& a, const Columns& b) { // 0 for a column that is solved exactly
+        Columns result{};
+        for (std::size_t c = 0; c < kColumns; ++c)
+            result[c] = b[c] > 0 ? a[c] / b[c] : 0;
+        return result;
+    };
+    for (int step = 0; step < kMaxSteps && !done(); ++step) {
+        Columns along{};
+        for (std::size_t i = 0; i < count; ++i) {
+            moved[i] = row_times(i, way);
+            along += way[i] * moved[i];
+        }
+        const Columns length = ratio(squared, along), before = squared;
+        squared = Columns{};
+        for (std::size_t i = 0; i < count; ++i) {
+            x[i] += length * way[i];
+            residual[i] -= length * moved[i];
+            squared += residual[i] * residual[i] * inverse_diagonal[i];
+        }
+        const Columns turn = ratio(squared, before);
+        for (std::size_t i = 0; i < count; ++i)
+            way[i] = residual[i] * inverse_diagonal[i] + turn * way[i];
+    }
+    std::ranges::copy(x, b_then_x.begin());
 }
 
 template <class Value>
-void FitSolver::Factor::solve(std::span<Value> values, std::size_t stride, int threads) const {
+void FitSolver::System::solve_all(std::span<Value> b_then_x, std::size_t stride, int threads) const {
     parallel_for((stride + kColumns - 1) / kColumns, 1, threads, [&](std::size_t begin, std::size_t end) {
         std::vector<Columns> x(unknowns());
         for (std::size_t block = begin; block < end; ++block) {
             const std::size_t from = block * kColumns, width = std::min(kColumns, stride - from);
-            const auto each = [&](auto&& visit) {
-                for (std::size_t i = 0; i < x.size(); ++i)
-                    for (std::size_t c = 0; c < width; ++c)
-                        visit(x[static_cast<std::size_t>(order()[i])], c, values[i * stride + from + c]);
-            };
-            each([](Columns& row, std::size_t c, Value& v) { row[c] = static_cast<double>(v); });
-            substitute(x);
-            each([](Columns& row, std::size_t c, Value& v) { v = static_cast<Value>(row[c]); });
+            std::ranges::fill(x, Columns{});
+            for (std::size_t i = 0; i < x.size(); ++i)
+                for (std::size_t c = 0; c < width; ++c)
+                    x[i][c] = static_cast<double>(b_then_x[i * stride + from + c]);
+            solve(x);
+            for (std::size_t i = 0; i < x.size(); ++i)
+                for (std::size_t c = 0; c < width; ++c)
+                    b_then_x[i * stride + from + c] = static_cast<Value>(x[i][c]);
         }
     });
 }
 
 FitSolver::FitSolver(const FitEquations& equations, std::span<const float> bend_weights)
-    : factor_(std::make_unique<Factor>()) {
-    const Matrix matrix = normal_matrix(equations, bend_weights);
-    factor_->ldlt.analyzePattern(matrix);
-    factor_->factor(matrix);
-}
-
-void FitSolver::factor(const FitEquations& equations, std::span<const float> bend_weights) {
-    factor_->factor(normal_matrix(equations, bend_weights));
-}
+    : system_(std::make_unique<const System>(equations, bend_weights)) {}
 
 FitSolver::~FitSolver() = default;
 FitSolver::FitSolver(FitSolver&&) noexcept = default;
 FitSolver& FitSolver::operator=(FitSolver&&) noexcept = default;
 
 void FitSolver::solve(std::span<float> b_then_x, std::size_t stride, int threads) const {
-    factor_->solve(b_then_x, stride, threads);
+    system_->solve_all(b_then_x, stride, threads);
 }
 
 void FitSolver::solve(std::span<double> b_then_x, std::size_t stride, int threads) const {
-    factor_->solve(b_then_x, stride, threads);
+    system_->solve_all(b_then_x, stride, threads);
 }
 
 } // namespace prt

@@ -11,22 +11,20 @@ namespace prt {
 /// thread-safe.
 class FitSolver {
 public:
-    /// Factors the matrix. `bend_weights` [bends]: w_e, what bending costs against squared error over the
-    /// surface.
+    /// `bend_weights` [bends]: w_e, what bending costs against squared error over the surface.
     FitSolver(const FitEquations& equations, std::span<const float> bend_weights);
-    /// Factors it anew for other weights, in the order that was found for the first.
-    void factor(const FitEquations& equations, std::span<const float> bend_weights);
     ~FitSolver();
     FitSolver(FitSolver&&) noexcept;
     FitSolver& operator=(FitSolver&&) noexcept;
 
-    /// Replaces b by x, [unknowns][stride]; zero where no sample tells. Deterministic, whatever the threads.
+    /// Replaces b by x, [unknowns][stride], to 1e-5 of the residual; zero where no sample tells.
+    /// Deterministic, whatever the threads.
     void solve(std::span<float> b_then_x, std::size_t stride, int threads) const;
     void solve(std::span<double> b_then_x, std::size_t stride, int threads) const;
 
 private:
-    struct Factor;
-    std::unique_ptr<Factor> factor_;
+    struct System;
+    std::unique_ptr<const System> system_;
 };
 
 } // namespace prt

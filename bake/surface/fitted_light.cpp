@@ -189,23 +189,32 @@ std::vector<float> joined_sums(const FitEquations& from, const FitEquations& to,
     return joined;
 }
 
-/// Residuals of the samples at `x`, summed like `signed_b`: with the random sign of each group.
-std::vector<float> signed_residuals(const BakePlan& plan, const SurfaceSamples& samples,
-                                    const FitEquations& equations, std::span<const float> x,
-                                    std::vector<float> signed_b) {
-    const auto stride = static_cast<std::size_t>(coefficient_count(plan.options.order));
-    std::vector<float> fitted(stride);
+/// Columns `some` of `all` [unknowns][stride].
+std::vector<float> columns_of(std::span<const float> all, std::size_t stride,
+                              std::span<const std::size_t> some) {
+    std::vector<float> result;
+    result.reserve(all.size() / stride * some.size());
+    for (std::size_t row = 0; row < all.size(); row += stride)
+        for (const std::size_t c : some)
+            result.push_back(all[row + c]);
+    return result;
+}
+
+/// Takes the samples' values at `x` [unknowns][columns] out of `signed_sums` of them, with the random sign of
+/// each group: what is left is that of residuals.
+void subtract_signed(const BakePlan& plan, const SurfaceSamples& samples, const FitEquations& equations,
+                     std::span<const float> x, std::size_t columns, std::span<float> signed_sums) {
+    std::vector<float> fitted(columns);
     for (std::size_t s = 0; s < samples.size(); ++s) {
         const FitRow& row = equations.rows[s];
         std::fill(fitted.begin(), fitted.end(), 0.0f);
         for (std::size_t i = 0; i < 3; ++i)
             if (row.unknowns[i] != kNoReceiver)
-                for (std::size_t c = 0; c < stride; ++c)
-                    fitted[c] += row.shares[i] * x[row.unknowns[i] * stride + c];
-        add_samples(equations, s, std::span<const float>(fitted), stride, std::span(signed_b),
+                for (std::size_t c = 0; c < columns; ++c)
+                    fitted[c] += row.shares[i] * x[row.unknowns[i] * columns + c];
+        add_samples(equations, s, std::span<const float>(fitted), columns, signed_sums,
                     -sign_of_group(s / samples.layers, plan.options.seed));
     }
-    return signed_b;
 }
 
 /// Transfer of all receivers from values of unknowns.
@@ -215,14 +224,15 @@ Transfer of_receivers(const BakePlan& plan, const FitEquations& equations, std::
     return transfer;
 }
 
-/// Relative L2 of `noise` in `light`, both of receivers.
-double relative_noise(const Receivers& receivers, const Transfer& light, const Transfer& noise) {
-    double error = 0, norm = 0;
-    for (std::uint32_t p = 0; p < receivers.size(); ++p) {
-        error += static_cast<double>(receivers.areas[p]) * squared_norm(noise.vector(p));
-        norm += static_cast<double>(receivers.areas[p]) * squared_norm(light.vector(p));
-    }
-    return norm > 0 ? std::sqrt(error / norm) : 0;
+/// Sum of squares over receivers, weighted by area, of values [unknowns][columns].
+double weighted_square(const BakePlan& plan, const FitEquations& equations, std::span<const float> x,
+                       std::size_t columns) {
+    double sum = 0;
+    for (std::uint32_t p = 0; p < plan.receivers().size(); ++p)
+        if (const std::uint32_t u = equations.unknown_of[p]; u != kNoReceiver)
+            sum += static_cast<double>(plan.receivers().areas[p]) *
+                   squared_norm(x.subspan(u * columns, columns));
+    return sum;
 }
 
 /// Distant light at the samples, and the solver for it.
@@ -232,28 +242,39 @@ struct FittedSky {
     double noise; ///< relative L2 in the sharp values
 };
 
+/// Columns that tell noise and bends of all: these vary little between columns.
+std::vector<std::size_t> telling_columns(std::size_t stride) {
+    constexpr std::size_t kTelling = 12;
+    std::vector<std::size_t> columns;
+    for (std::size_t c = 0; c < stride; c += std::max<std::size_t>(1, stride / kTelling))
+        columns.push_back(c);
+    return columns;
+}
+
 /// Solves for distant light with the bend weights that its noise asks for.
 FittedSky fit_sky(const BakePlan& plan, const SurfaceSamples& samples, const FitEquations& equations,
                   SampleSums sums) {
     const int threads = plan.options.threads;
     const auto stride = static_cast<std::size_t>(coefficient_count(plan.options.order));
-    FitSolver solver(equations, std::vector<float>(equations.bends.size(), kFirstBendWeight));
-    std::vector<float> first = sums.b;
-    solver.solve(first, stride, threads);
-    std::vector<float> residuals =
-                           signed_residuals(plan, samples, equations, first, std::move(sums.signed_b)),
-                       noise = residuals;
-    solver.solve(noise, stride, threads);
-    solver.factor(equations, bend_weights(equations, first, noise, stride));
+    const std::vector<std::size_t> some = telling_columns(stride);
+    const FitSolver first(equations, std::vector<float>(equations.bends.size(), kFirstBendWeight));
+    std::vector<float> x = columns_of(sums.b, stride, some),
+                       residuals = columns_of(sums.signed_b, stride, some);
+    first.solve(x, some.size(), threads);
+    subtract_signed(plan, samples, equations, x, some.size(), residuals);
+    std::vector<float> noise = residuals;
+    first.solve(noise, some.size(), threads);
+    FitSolver solver(equations, bend_weights(equations, x, noise, some.size()));
     std::vector<float> sharp = sums.b;
     solver.solve(sharp, stride, threads);
-    solver.solve(residuals, stride, threads);
-    const double relative = relative_noise(plan.receivers(), of_receivers(plan, equations, sharp),
-                                           of_receivers(plan, equations, residuals));
+    solver.solve(residuals, some.size(), threads);
+    const double all = static_cast<double>(stride) / static_cast<double>(some.size()),
+                 norm = weighted_square(plan, equations, sharp, stride),
+                 error = all * weighted_square(plan, equations, residuals, some.size());
     const std::size_t tests = sums.values.size() / std::max<std::size_t>(samples.size(), 1);
     return {std::move(solver),
             {stride, tests, std::move(sums.b), std::move(sharp), std::move(sums.values)},
-            relative};
+            norm > 0 ? std::sqrt(error / norm) : 0};
 }
 
 } // namespace

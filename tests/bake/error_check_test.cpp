@@ -155,15 +155,22 @@ TEST(BakeErrors, CountBouncesAsTheBakeDoes) {
         }
 }
 
+Scene wall() {
+    return SceneBuilder().quad({-1, 0, 0}, {1, 0, 0}, {1, 2, 0}, {-1, 2, 0}).build();
+}
+
 /// The back of a sheet in the open shows the lobe of its front: T_lm of odd bands has the wrong sign.
 TEST(BakeErrors, OfBacksAreThoseOfTheWrongSide) {
-    const Scene sheet = test::painted(SceneBuilder().floor({0, 0, 0}, 1, 4).build(), glm::vec3(0.5f), true);
+    const Scene sheet = test::painted(wall(), glm::vec3(0.5f), true);
     const BakeErrors errors = errors_of(sheet, measured(2, 1024));
     const double t0 = 0.2820948, t1 = 0.4886025 * 2 / 3;
     EXPECT_NEAR(errors.backs.relative_l2, 2 * t1 / std::hypot(t0, t1), 0.02);
     EXPECT_LT(errors.sky.relative_l2, 0.02);
-    const Scene one_sided = test::painted(SceneBuilder().floor({0, 0, 0}, 1, 4).build(), glm::vec3(0.5f));
+    const Scene one_sided = test::painted(wall(), glm::vec3(0.5f));
     EXPECT_EQ(errors_of(one_sided, measured(2, 64)).backs.relative_l2, 0);
+    // The underside of ground is seen by nobody.
+    const Scene ground = test::painted(SceneBuilder().floor({0, 0, 0}, 1, 4).build(), glm::vec3(0.5f), true);
+    EXPECT_EQ(errors_of(ground, measured(2, 64)).backs.relative_l2, 0);
 }
 
 } // namespace

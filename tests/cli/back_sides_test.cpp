@@ -78,7 +78,7 @@ TEST_F(BackSides, HaveChartsOfTheirOwnInALightmap) {
 
 TEST_F(BackSides, ComeAfterARefinement) {
     roof_file().write(folder / "roof.glb");
-    const Outcome baked = bake("roof.glb", "b.glb", {"--refine", "0.05"});
+    const Outcome baked = bake("roof.glb", "b.glb", {"--refine", "0.02"});
     ASSERT_EQ(baked.status, 0) << baked.err;
     EXPECT_NE(baked.err.find("both sides of "), std::string::npos) << baked.err;
     EXPECT_NE(baked.out.find("refined in "), std::string::npos) << baked.out;

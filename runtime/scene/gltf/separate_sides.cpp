@@ -19,22 +19,35 @@
 namespace prt {
 namespace {
 
-/// What a vertex array gets: the vertices that copies are made of, and where they go.
-struct BackVertices {
-    std::size_t fronts = 0;
-    std::vector<std::uint32_t> source;           ///< all vertices: of the file, then of the copies
-    std::map<std::uint32_t, std::uint32_t> back; ///< of a vertex
+/// The vertices of an array that get a copy, in their order.
+class BackVertices {
+public:
+    explicit BackVertices(std::size_t vertices) : back_(vertices, kNone) {}
 
-    explicit BackVertices(std::size_t vertices) : fronts(vertices) {
-        for (std::uint32_t v = 0; v < vertices; ++v)
-            source.push_back(v);
+    void add(const glm::uvec3& corners) {
+        for (int corner = 0; corner < 3; ++corner)
+            back_[corners[corner]] = 0;
     }
-    std::uint32_t of(std::uint32_t front) {
-        const auto [found, is_new] = back.try_emplace(front, static_cast<std::uint32_t>(source.size()));
-        if (is_new)
-            source.push_back(front);
-        return found->second;
+    /// After the last `add`.
+    void number() {
+        for (std::uint32_t v = 0; v < back_.size(); ++v)
+            source_.push_back(v);
+        for (std::uint32_t v = 0; v < back_.size(); ++v)
+            if (back_[v] != kNone) {
+                back_[v] = static_cast<std::uint32_t>(source_.size());
+                source_.push_back(v);
+            }
     }
+    std::size_t fronts() const { return back_.size(); }
+    bool empty() const { return source_.size() == back_.size(); }
+    /// What all vertices are copies of, [fronts and backs].
+    const std::vector<std::uint32_t>& source() const { return source_; }
+    glm::uvec3 opposite(const glm::uvec3& t) const { return {back_[t.x], back_[t.z], back_[t.y]}; }
+
+private:
+    static constexpr std::uint32_t kNone = ~0u;
+    std::vector<std::uint32_t> back_; ///< [fronts]
+    std::vector<std::uint32_t> source_;
 };
 
 template <class Component>
@@ -74,7 +87,10 @@ public:
 
     void separate() {
         for (std::size_t p = 0; p < separated_.size(); ++p)
-            add_backs(p);
+            for (const glm::uvec3& corners : separated_[p])
+                backs_[scene_.primitives[p].vertices].add(corners);
+        for (BackVertices& backs : backs_)
+            backs.number();
         std::vector<JsonPlace> added;
         for (std::size_t p = 0; p < separated_.size(); ++p) {
             write_vertices(p);
@@ -101,19 +117,10 @@ private:
         return contents_.json["meshes"][at.mesh]["primitives"][at.primitive];
     }
 
-    void add_backs(std::size_t p) {
-        BackVertices& backs = backs_[scene_.primitives[p].vertices];
-        const std::size_t count = separated_[p].size();
-        for (std::size_t t = 0; t < count; ++t) {
-            const glm::uvec3 c = separated_[p][t];
-            separated_[p].emplace_back(backs.of(c.x), backs.of(c.z), backs.of(c.y));
-        }
-    }
-
     /// Primitives of one vertex array have the same attributes.
     void write_vertices(std::size_t p) {
         const BackVertices& backs = backs_[scene_.primitives[p].vertices];
-        if (backs.back.empty())
+        if (backs.empty())
             return;
         Json& primitive = json(place(p));
         Moved& moved = moved_[scene_.primitives[p].vertices];
@@ -133,11 +140,11 @@ private:
         if (!is_new)
             return found->second;
         replaced_.insert(static_cast<std::size_t>(old));
-        std::vector<std::byte> elements = gathered_elements(contents_.model, old, backs.source);
-        const std::size_t size = elements.size() / backs.source.size();
+        std::vector<std::byte> elements = gathered_elements(contents_.model, old, backs.source());
+        const std::size_t size = elements.size() / backs.source().size();
         if (turns)
             negate(get_accessor(contents_.model, old).componentType,
-                   std::span(elements).subspan(backs.fronts * size));
+                   std::span(elements).subspan(backs.fronts() * size));
         return found->second = add_vertex_accessor(
                    contents_, contents_.json["accessors"][static_cast<std::size_t>(old)], elements);
     }
@@ -153,7 +160,10 @@ private:
             at.primitive = primitives.size();
             primitives.push_back(std::move(copy));
         }
-        replace_triangles(contents_, json(at), separated_[p], mirrored, replaced_);
+        std::vector<glm::uvec3> both = separated_[p];
+        for (const glm::uvec3& corners : separated_[p])
+            both.push_back(backs_[scene_.primitives[p].vertices].opposite(corners));
+        replace_triangles(contents_, json(at), both, mirrored, replaced_);
         return at;
     }
 
