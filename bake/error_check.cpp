@@ -4,7 +4,7 @@
 
 #include "prt/trace_receivers.h"
 #include "scene/sealed.h"
-#include "sides/light_reach.h"
+#include "sides/back_reach.h"
 #include "surface/varied_samples.h"
 #include "trace/embree_tracer.h"
 #include "trace/scrambles.h"
@@ -68,7 +68,7 @@ ErrorCheck::ErrorCheck(const BakePlan& plan, Tracer& tracer, const Measured& mea
     std::optional<EmbreeTracer> other; // depth maps are checked by rays, which do not share their error
     Tracer& rays = tracer.notes_hits() ? tracer : static_cast<Tracer&>(other.emplace(plan.scene));
     choose_points(rays, measured, lamps, stop);
-    add_backs(stop);
+    add_backs();
     trace(rays, static_cast<double>(std::max(1, measured.direct.mean_rays)), stop);
     leave_out_sealed(rays, stop);
 }
@@ -147,7 +147,7 @@ void ErrorCheck::choose_points(Tracer& tracer, const Measured& measured, const M
 }
 
 /// Of nodes whose backs some light reaches: nobody sees the others. What passes light shows that of its back.
-void ErrorCheck::add_backs(const std::stop_token& stop) {
+void ErrorCheck::add_backs() {
     std::vector<Point*> two_sided;
     std::vector<std::uint32_t> triangles;
     for (Point& point : points_)
@@ -155,8 +155,9 @@ void ErrorCheck::add_backs(const std::stop_token& stop) {
             two_sided.push_back(&point);
             triangles.push_back(point.place.triangle);
         }
-    const std::vector<float> reach = light_reach(plan_.scene, triangles, Side::back,
-                                                 {.lamps = plan_.lamps, .seed = plan_.options.seed}, stop);
+    if (two_sided.empty())
+        return;
+    const std::vector<float> reach = BackReach(plan_.scene, plan_.lamps, plan_.options.seed).means(triangles);
     std::map<int, double> of_nodes, areas;
     for (std::size_t i = 0; i < two_sided.size(); ++i) {
         of_nodes[node_of(*two_sided[i])] += two_sided[i]->area * static_cast<double>(reach[i]);

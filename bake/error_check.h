@@ -71,7 +71,7 @@ private:
     /// About `count` of `many`, more often where a few rays differ from what is interpolated of `sky`.
     SurfaceSamples look(Tracer& tracer, const Transfer& sky, const SurfaceSamples& many, std::size_t count,
                         const std::stop_token& stop);
-    void add_backs(const std::stop_token& stop);
+    void add_backs();
     void trace(Tracer& tracer, double rays, const std::stop_token& stop);
     void leave_out_sealed(Tracer& tracer, const std::stop_token& stop);
     Light light(const Point& point, bool back, std::size_t half, const Transfer& unbounced,

@@ -3,18 +3,39 @@
 #include "no_shadow.h"
 #include "options.h"
 #include "outputs.h"
+#include "prt/levels.h"
 #include "prt/separate_sides.h"
 #include "prt/sides.h"
 
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <map>
+#include <optional>
 
 namespace prt::cli {
 namespace {
 
 const std::map<std::string, BackSides> kBackSides = {{"auto", BackSides::automatic},
                                                      {"shared", BackSides::shared}};
+
+/// All levels of detail; light passes the coarser ones.
+Scene scene_of_levels(const GltfDocument& document, const std::vector<std::string>& no_shadow) {
+    LeveledScene levels = extract_levels(document);
+    Scene& scene = levels.scene;
+    leave_out_shadows(scene, no_shadow);
+    std::map<std::size_t, std::size_t> coarse; // copies of materials
+    for (std::size_t p = levels.finest_primitives; p < scene.primitives.size(); ++p) {
+        const std::size_t material = scene.primitives[p].material;
+        const auto [copy, is_new] = coarse.try_emplace(material, scene.materials.size());
+        if (is_new) {
+            scene.materials.push_back(Material(scene.materials[material]));
+            scene.materials.back().casts_shadow = false;
+        }
+        scene.primitives[p].material = copy->second;
+    }
+    return std::move(scene);
+}
 
 } // namespace
 
@@ -28,13 +49,20 @@ void add_back_sides(CLI::App* command, BackSides& sides) {
 bool separate_sides(const SidesRequest& request, GltfDocument& document, Scene& scene) {
     if (request.sides == BackSides::shared)
         return false;
-    const std::vector<bool> triangles = sides_to_separate(scene, request.options);
+    leave_out_shadows(scene, request.no_shadow);
+    std::optional<Scene> levels;
+    if (request.levels && has_levels(document))
+        levels = scene_of_levels(document, request.no_shadow);
+    const Scene& all = levels ? *levels : scene;
+    const std::vector<bool> triangles = sides_to_separate(all, request.options);
     if (triangles.empty())
         return false;
-    document = with_separate_sides(std::move(document), scene, triangles);
+    document = with_separate_sides(std::move(document), all, triangles);
     Scene separate = extract_scene(document);
     leave_out_shadows(separate, request.no_shadow);
     separate.notices = std::move(scene.notices); // of the file that was given
+    if (separate.receivers() == scene.receivers())
+        return false; // a variant is single-sided
     const std::string notice =
         fmt::format("light reaches both sides of {} double-sided triangles: {} vertices more hold that of "
                     "their backs (--back-sides shared leaves them out)",
@@ -43,6 +71,16 @@ bool separate_sides(const SidesRequest& request, GltfDocument& document, Scene& 
     separate.notices.push_back(notice);
     scene = std::move(separate);
     return true;
+}
+
+void note_shared_sides(const SidesRequest& request, const Scene& scene) {
+    const std::vector<bool> triangles =
+        request.sides == BackSides::shared ? std::vector<bool>{} : sides_to_separate(scene, request.options);
+    if (!triangles.empty())
+        print_notices(request.path.string(),
+                      {fmt::format("light reaches both sides of {} double-sided triangles: instances that "
+                                   "share light show that of the front on both",
+                                   std::ranges::count(triangles, true))});
 }
 
 } // namespace prt::cli

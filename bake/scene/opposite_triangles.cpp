@@ -41,6 +41,8 @@ std::vector<SingleSidedFace> single_sided_faces(const Scene& scene) {
         if (shows_one_side(scene.materials[primitive.material]))
             for (std::uint32_t t = 0; t < primitive.triangles.size(); ++t) {
                 const glm::uvec3& c = primitive.triangles[t];
+                if (at[c.x] == at[c.y] || at[c.y] == at[c.z] || at[c.z] == at[c.x])
+                    continue; // without area
                 faces.push_back({position_hash(at[c.x]) + position_hash(at[c.y]) + position_hash(at[c.z]) +
                                      mixed(primitive.vertices),
                                  first + t, p, c});
@@ -53,11 +55,9 @@ std::vector<SingleSidedFace> single_sided_faces(const Scene& scene) {
     return faces;
 }
 
-/// The corner of `a` at each corner of `b`; nothing unless they are opposite triangles with area.
+/// The corner of `a` at each corner of `b`; nothing unless they are opposite.
 std::optional<std::array<std::uint8_t, 3>> opposite_corners(const std::vector<glm::vec3>& at,
                                                             const glm::uvec3& a, const glm::uvec3& b) {
-    if (at[a.x] == at[a.y] || at[a.y] == at[a.z] || at[a.z] == at[a.x])
-        return std::nullopt;
     for (int start = 0; start < 3; ++start) {
         const std::array corners{static_cast<std::uint8_t>(start), static_cast<std::uint8_t>((start + 2) % 3),
                                  static_cast<std::uint8_t>((start + 1) % 3)};
@@ -70,23 +70,30 @@ std::optional<std::array<std::uint8_t, 3>> opposite_corners(const std::vector<gl
 } // namespace
 
 OppositeTriangles::OppositeTriangles(const Scene& scene) {
-    const std::vector<SingleSidedFace> faces = single_sided_faces(scene);
-    std::vector<bool> taken(faces.size());
-    for (std::size_t i = 0; i < faces.size(); ++i)
-        for (std::size_t j = i + 1; j < faces.size() && faces[j].hash == faces[i].hash && !taken[i]; ++j) {
-            const SingleSidedFace &a = faces[i], &b = faces[j];
-            const std::size_t array = scene.primitives[a.primitive].vertices;
-            if (taken[j] || scene.primitives[b.primitive].vertices != array)
-                continue;
-            const std::vector<glm::vec3>& at = scene.vertex_arrays[array].positions;
-            const auto of_a = opposite_corners(at, a.corners, b.corners);
-            if (!of_a)
-                continue;
-            taken[i] = taken[j] = true;
+    std::vector<SingleSidedFace> faces = single_sided_faces(scene);
+    for (auto begin = faces.begin(), end = begin; begin != faces.end(); begin = end) {
+        end = std::find_if(begin, faces.end(),
+                           [&](const SingleSidedFace& face) { return face.hash != begin->hash; });
+        const std::vector<glm::vec3>& at =
+            scene.vertex_arrays[scene.primitives[begin->primitive].vertices].positions;
+        const glm::uvec3 corners = begin->corners;
+        const auto turned = std::stable_partition(begin, end, [&](const SingleSidedFace& face) {
+            return !opposite_corners(at, corners, face.corners);
+        });
+        const std::span<const SingleSidedFace> these(begin, turned), those(turned, end);
+        if (!those.empty())
             of_.resize(scene.triangles());
-            of_[a.triangle] = {b.triangle, *of_a};
-            of_[b.triangle] = {a.triangle, *opposite_corners(at, b.corners, a.corners)};
-        }
+        const auto set = [&](std::span<const SingleSidedFace> from, std::span<const SingleSidedFace> to) {
+            for (std::size_t i = 0; i < from.size() && !to.empty(); ++i) {
+                const SingleSidedFace& other =
+                    to[std::min(i, to.size() - 1)]; // the last for all that is over
+                if (const auto of_from = opposite_corners(at, from[i].corners, other.corners))
+                    of_[from[i].triangle] = {other.triangle, *of_from};
+            }
+        };
+        set(these, those);
+        set(those, these);
+    }
 }
 
 bool OppositeTriangles::turn_to_front(unsigned& triangle, glm::vec2& uv) const {

@@ -13,8 +13,8 @@
 
 namespace prt {
 
-/// Pairs of triangles of one vertex array that have the same corners in opposite order, both of single-sided
-/// materials. A ray meets both at once; the front of one is what shows there.
+/// Triangles of one vertex array that have the same corners in opposite order, of single-sided materials. A
+/// ray meets both at once; the front of one is what shows there.
 class OppositeTriangles {
 public:
     explicit OppositeTriangles(const Scene& scene);

@@ -1,9 +1,9 @@
-// Finds double-sided surfaces that are lit on both sides, piece by piece.
+// Finds double-sided surfaces whose backs are lit, patch by patch.
 
 #include "plan.h"
 #include "prt/sides.h"
-#include "sides/light_reach.h"
-#include "trace/picked.h"
+#include "prt/support/parallel.h"
+#include "sides/back_reach.h"
 
 #include <glm/geometric.hpp>
 
@@ -11,23 +11,31 @@
 #include <map>
 #include <numeric>
 #include <tuple>
-#include <utility>
 
 namespace prt {
 namespace {
 
-constexpr std::size_t kMinSamples = 8, kMaxSamples = 1024; ///< of a side of a piece
+constexpr std::size_t kPatchTriangles = 64;
+/// Paths of a patch: at first, in all, and where none of them leaves the inside of its piece. Where the first
+/// ones of all patches of a piece find no light, it is dark: they are at least kPiecePaths together.
+constexpr std::uint32_t kFirstPaths = 8, kMaxPaths = 512, kHomePaths = 64, kPiecePaths = 256;
+/// Neighbours tell of a patch, too, in a piece of many.
+constexpr std::uint32_t kManyPatches = 16, kFewPaths = 128;
+/// So many paths that found light are enough.
+constexpr std::uint32_t kCertain = 4;
+/// A piece is separated as a whole where so much of its area is lit.
+constexpr double kMostly = 0.5;
 
 bool can_separate(const Surfaces& surfaces, std::uint32_t t) {
     const Material& material = surfaces.material(t);
-    return material.double_sided && material.casts_shadow && material.alpha_mode != AlphaMode::blend &&
-           material.glass.factor <= 0 && !surfaces.transmits(t) && !surfaces.solid(t);
+    return material.double_sided && material.alpha_mode != AlphaMode::blend && material.glass.factor <= 0 &&
+           !surfaces.transmits(t) && !surfaces.solid(t);
 }
 
-/// Receivers that hang together.
+/// Receivers that hang together: by `triangles`, and where corners of one vertex array have the same
+/// position.
 class ConnectedReceivers {
 public:
-    /// Joined by `triangles`, and where corners of one vertex array have the same position.
     ConnectedReceivers(const Surfaces& surfaces, std::span<const std::uint32_t> triangles)
         : first_(surfaces.scene().receivers()) {
         std::iota(first_.begin(), first_.end(), 0u);
@@ -48,7 +56,7 @@ public:
                 join(corners[i].receiver, corners[i - 1].receiver);
     }
 
-    /// The receiver that stands for the piece of receiver `p`.
+    /// The receiver that stands for all that hang together with `p`.
     std::uint32_t piece_of(std::uint32_t p) {
         while (first_[p] != p)
             p = first_[p] = first_[first_[p]];
@@ -73,54 +81,133 @@ double doubled_area(const Surfaces& surfaces, std::uint32_t t) {
     return static_cast<double>(glm::length(glm::cross(at(c.y) - at(c.x), at(c.z) - at(c.x))));
 }
 
-struct Piece {
+/// Some triangles of a piece that follow each other in the file.
+struct Patch {
     std::vector<std::uint32_t> triangles;
-};
+    std::vector<double> areas; ///< sums up to each triangle
 
-std::vector<Piece> pieces_of(const Surfaces& surfaces, const std::vector<std::uint32_t>& triangles) {
-    ConnectedReceivers connected(surfaces, triangles);
-    std::map<std::uint32_t, Piece> pieces;
-    for (const std::uint32_t t : triangles)
-        pieces[connected.piece_of(surfaces.corners(t).x)].triangles.push_back(t);
-    std::vector<Piece> result;
-    for (auto& [receiver, piece] : pieces)
-        result.push_back(std::move(piece));
-    return result;
-}
+    std::uint32_t dark_paths = kMaxPaths; ///< so many that find no light tell that there is none
+    std::uint32_t paths = 0, found = 0;   ///< those that were followed, and those that found light
+    double reach = 0;                     ///< their sum
+    bool at_home = true;                  ///< all of them
 
-/// Triangles that stand for pieces, drawn by area.
-struct Samples {
-    std::vector<std::uint32_t> triangles;
-    std::vector<std::size_t> ends; ///< [pieces]
-};
+    bool is_lit() const { return found > 0 && reach > kLeastReach * paths; }
+    bool is_surely_lit() const { return found >= kCertain && is_lit(); }
+    bool is_surely_dark() const { return found == 0 && paths >= (at_home ? kHomePaths : dark_paths); }
 
-Samples sample(const Surfaces& surfaces, std::span<const Piece> pieces) {
-    Samples samples;
-    for (const Piece& piece : pieces) {
-        const std::size_t all = piece.triangles.size();
-        const auto area = [&](std::size_t i) { return doubled_area(surfaces, piece.triangles[i]); };
-        for (const Picked& picked : pick(all, std::clamp(all, kMinSamples, kMaxSamples), area))
-            samples.triangles.insert(samples.triangles.end(), picked.times, piece.triangles[picked.index]);
-        samples.ends.push_back(samples.triangles.size());
+    /// Where the next path starts: by area in one half of the paths, by number in the other, so that a hut
+    /// that hangs together with a plain counts as much as the plain.
+    std::uint32_t next() const {
+        const double at = static_cast<double>(reverse_bits(paths / 2)) * 0x1p-32; // van der Corput
+        if (paths % 2 == 0)
+            return triangles[static_cast<std::size_t>(at * static_cast<double>(triangles.size()))];
+        const auto here = std::upper_bound(areas.begin(), areas.end() - 1, at * areas.back());
+        return triangles[static_cast<std::size_t>(here - areas.begin())];
     }
-    return samples;
-}
+    void add(const BackReach::Path& path) {
+        ++paths;
+        found += path.reach > 0;
+        reach += static_cast<double>(path.reach);
+        at_home = at_home && path.at_home;
+    }
+};
 
-/// Takes those pieces out that no light reaches on that side.
-void keep_reached(const TraceScene& scene, Side side, const ReachOptions& options,
-                  const std::stop_token& stop, std::vector<Piece>& pieces) {
-    const Samples samples = sample(scene.surfaces(), pieces);
-    const std::vector<float> reach = light_reach(scene, samples.triangles, side, options, stop);
-    std::size_t begin = 0, piece = 0;
-    std::erase_if(pieces, [&](const Piece&) {
-        const std::size_t end = samples.ends[piece++];
-        double sum = 0;
-        for (std::size_t s = begin; s < end; ++s)
-            sum += static_cast<double>(reach[s]);
-        const double least = kLeastReach * static_cast<double>(end - std::exchange(begin, end));
-        return !(sum > least);
-    });
-}
+class SideFinder {
+public:
+    SideFinder(const TraceScene& scene, const BakeOptions& options)
+        : scene_(scene), surfaces_(scene.surfaces()), pieces_(surfaces_.triangles(), kNone),
+          reach_(scene, choose_lamps(surfaces_, options.lamps), options.seed) {
+        for (std::uint32_t t = 0; t < surfaces_.triangles(); ++t)
+            if (can_separate(surfaces_, t))
+                candidates_.push_back(t);
+        ConnectedReceivers connected(surfaces_, candidates_);
+        for (const std::uint32_t t : candidates_)
+            pieces_[t] = connected.piece_of(surfaces_.corners(t).x);
+        make_patches();
+    }
+
+    std::vector<bool> find(const std::stop_token& stop) {
+        std::map<std::uint32_t, std::uint32_t> patches, found; // of pieces
+        for (const Patch& patch : patches_)
+            ++patches[piece_of(patch)];
+        trace(
+            [&](const Patch& patch) {
+                return std::max(kFirstPaths, (kPiecePaths - 1) / patches.at(piece_of(patch)) + 1);
+            },
+            [](const Patch& patch) { return patch.is_surely_lit(); }, stop);
+        for (Patch& patch : patches_) {
+            found[piece_of(patch)] += patch.found;
+            if (patches[piece_of(patch)] >= kManyPatches)
+                patch.dark_paths = kFewPaths;
+        }
+        trace([&](const Patch& patch) { return found.at(piece_of(patch)) > 0 ? kMaxPaths : 0; },
+              [](const Patch& patch) { return patch.is_surely_lit() || patch.is_surely_dark(); }, stop);
+        return separated();
+    }
+
+private:
+    static constexpr std::uint32_t kNone = ~0u;
+    struct Areas {
+        double lit = 0, all = 0;
+    };
+
+    void make_patches() {
+        std::map<std::uint32_t, std::size_t> open; // patch of a piece
+        for (const std::uint32_t t : candidates_) {
+            const auto [found, is_new] = open.try_emplace(pieces_[t], patches_.size());
+            if (!is_new && patches_[found->second].triangles.size() == kPatchTriangles)
+                found->second = patches_.size();
+            if (found->second == patches_.size())
+                patches_.emplace_back();
+            Patch& patch = patches_[found->second];
+            patch.triangles.push_back(t);
+            patch.areas.push_back((patch.areas.empty() ? 0 : patch.areas.back()) +
+                                  doubled_area(surfaces_, t));
+        }
+    }
+
+    std::uint32_t piece_of(const Patch& patch) const { return pieces_[patch.triangles.front()]; }
+
+    /// Follows paths until a patch is `clear`, or has as many as `paths` of it.
+    template <class Paths, class Clear>
+    void trace(Paths&& paths, Clear&& clear, const std::stop_token& stop) {
+        parallel_for(patches_.size(), 1, scene_.threads(), [&](std::size_t begin, std::size_t end) {
+            for (std::size_t i = begin; i < end; ++i) {
+                if (stop.stop_requested())
+                    throw Cancelled();
+                Patch& patch = patches_[i];
+                for (const std::uint32_t most = paths(patch); patch.paths < most && !clear(patch);)
+                    patch.add(reach_.path(patch.next(), static_cast<std::uint32_t>(i), patch.paths, pieces_));
+            }
+        });
+    }
+
+    std::vector<bool> separated() const {
+        std::map<std::uint32_t, Areas> of_pieces;
+        for (const Patch& patch : patches_) {
+            Areas& areas = of_pieces[piece_of(patch)];
+            areas.all += patch.areas.back();
+            areas.lit += patch.is_lit() ? patch.areas.back() : 0;
+        }
+        std::vector<bool> result;
+        for (const Patch& patch : patches_) {
+            const Areas& areas = of_pieces[piece_of(patch)];
+            if (patch.is_lit() || areas.lit > kMostly * areas.all) {
+                result.resize(surfaces_.triangles());
+                for (const std::uint32_t t : patch.triangles)
+                    result[t] = true;
+            }
+        }
+        return result;
+    }
+
+    const TraceScene& scene_;
+    const Surfaces& surfaces_;
+    std::vector<std::uint32_t> candidates_; ///< triangles
+    std::vector<std::uint32_t> pieces_;     ///< [triangles]
+    std::vector<Patch> patches_;
+    BackReach reach_;
+};
 
 } // namespace
 
@@ -129,23 +216,7 @@ std::vector<bool> sides_to_separate(const Scene& scene, const BakeOptions& optio
     if (std::ranges::none_of(scene.materials, &Material::double_sided))
         return {};
     const TraceScene traced = trace_scene(scene, choose_media(scene, options), options);
-    const Surfaces& surfaces = traced.surfaces();
-    std::vector<std::uint32_t> triangles;
-    for (std::uint32_t t = 0; t < surfaces.triangles(); ++t)
-        if (can_separate(surfaces, t))
-            triangles.push_back(t);
-    std::vector<Piece> pieces = pieces_of(surfaces, triangles);
-    const std::vector<Lamp> lamps = choose_lamps(surfaces, options.lamps);
-    const ReachOptions reach{.lamps = lamps, .seed = options.seed};
-    for (const Side side : {Side::back, Side::front})
-        keep_reached(traced, side, reach, stop, pieces);
-    if (pieces.empty())
-        return {};
-    std::vector<bool> result(surfaces.triangles());
-    for (const Piece& piece : pieces)
-        for (const std::uint32_t t : piece.triangles)
-            result[t] = true;
-    return result;
+    return SideFinder(traced, options).find(stop);
 }
 
 } // namespace prt

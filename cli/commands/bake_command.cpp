@@ -225,7 +225,6 @@ RefineStatistics refine(const BakeArguments& a, GltfDocument& document, Scene& s
 /// What was baked, and of which mesh.
 struct Baked {
     std::optional<RefineStatistics> refinement;
-    bool other_mesh = false; ///< than the one that was given
     BakeResult result;
 };
 
@@ -237,11 +236,17 @@ Baked bake_scene(const BakeArguments& a, GltfDocument& document, Scene& scene, S
         baked.refinement = refine(a, document, scene, session);
         options.fit = FitMode::surface; // as the error was measured
     }
-    baked.other_mesh = separate_sides({a.back_sides, a.scene, options, a.no_shadow}, document, scene) ||
-                       a.finer.refine.has_value();
     ProgressBar bar = session.progress_bar("baking");
     baked.result = bake(scene, options, bar.progress(), MeasureErrors::yes);
     return baked;
+}
+
+SidesRequest sides_of(const BakeArguments& a) {
+    return {.sides = a.back_sides,
+            .path = a.scene,
+            .options = a.options,
+            .no_shadow = a.no_shadow,
+            .levels = a.levels != LevelMode::ignore};
 }
 
 /// The volume that is asked for.
@@ -267,14 +272,13 @@ std::vector<std::byte> with_volume(const BakeArguments& a, GltfDocument& documen
 }
 
 /// Writes what vertices of level 0 have, and those of coarser levels where these get some.
-void write_vertices(const BakeArguments& a, GltfDocument& document, const Scene& scene, const Baked& bake,
-                    std::optional<BakedLevels>& levels, Session& session) {
-    const BakedTransfer& baked = bake.result.baked;
+void write_vertices(const BakeArguments& a, GltfDocument& document, const Scene& scene,
+                    const BakedTransfer& baked, std::optional<BakedLevels>& levels, Session& session) {
     if (!levels || a.levels == LevelMode::ignore) {
         write_transfer(document, scene, baked);
         return;
     }
-    if (bake.other_mesh)
+    if (a.finer.refine) // the mesh of level 0 is another one
         levels->scene = extract_levels(document);
     Scene& all = levels->scene.scene;
     leave_out_shadows(all, a.no_shadow);
@@ -297,12 +301,13 @@ void note_lights(const BakeArguments& a, const Scene& scene, const Transfer& tra
 }
 
 void run_vertices(const BakeArguments& a, GltfDocument& document, Scene& scene, Session& session) {
+    about(a.scene, [&] { separate_sides(sides_of(a), document, scene); });
     std::optional<BakedLevels> levels =
         about(a.scene, [&] { return find_levels(a.levels, a.scene, document, a.options.threads); });
     const Baked baked = about(a.scene, [&] { return bake_scene(a, document, scene, session); });
     note_lights(a, scene, baked.result.baked.transfer, receiver_areas(scene));
     const std::optional<VolumeBake> volume = bake_probes(a, scene, session);
-    about(a.scene, [&] { write_vertices(a, document, scene, baked, levels, session); });
+    about(a.scene, [&] { write_vertices(a, document, scene, baked.result.baked, levels, session); });
     const std::vector<std::byte> file = with_volume(a, document, scene, volume);
     Report report = bake_report({.output = a.output.string(),
                                  .options = a.options,
@@ -352,6 +357,7 @@ void run_instances(const BakeArguments& a, const SharedMeshes& meshes, GltfDocum
         run_vertices(a, document, scene, session);
         return;
     }
+    about(a.scene, [&] { note_shared_sides(sides_of(a), scene); });
     const std::vector<std::byte> file = with_volume(a, *baked.document, scene, std::nullopt);
     Report report = instance_report({.output = a.output.string(),
                                      .scene = scene,
@@ -391,9 +397,7 @@ void run(BakeArguments a, Session& session) {
     print_notices(a.scene.string(), scene.notices);
     TexelRoom room;
     if (a.texels.given() && a.texels.unwrap)
-        about(a.scene, [&] {
-            separate_sides({a.back_sides, a.scene, a.options, a.no_shadow}, document, scene);
-        });
+        about(a.scene, [&] { separate_sides(sides_of(a), document, scene); });
     if (a.texels.given())
         room = about(a.scene, [&] { return make_room(a.texels, a.scene, document, scene); });
     const SharedMeshes meshes = about(a.scene, [&] {

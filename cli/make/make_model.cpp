@@ -98,14 +98,9 @@ private:
         BakeOptions options;
         options.repairs.bad_textures = bad_textures(r_.reading);
         options.threads = r_.threads;
-        separated_ = separate_sides({r_.back_sides, r_.scene, options, r_.no_shadow}, document_, scene_);
-    }
-
-    /// Takes the file as it was given.
-    void reload() {
-        document_ = load_gltf(r_.scene, r_.reading);
-        scene_ = extract_scene(document_);
-        leave_out_shadows(scene_, r_.no_shadow);
+        separate_sides(
+            {.sides = r_.back_sides, .path = r_.scene, .options = options, .no_shadow = r_.no_shadow},
+            document_, scene_);
     }
 
     void trace_paths() {
@@ -206,15 +201,6 @@ private:
 
     /// Splits triangles until vertices have their share of the error; false where none is split.
     bool refine_mesh(const Pilot& pilot) {
-        if (separated_) // pairs of triangles would be split in different ways
-            reload();
-        const bool refined = refine_surfaces(pilot);
-        if (separated_ || refined)
-            separate();
-        return refined;
-    }
-
-    bool refine_surfaces(const Pilot& pilot) {
         constexpr double kLook = 1e3; // a target that is met at once
         BakeOptions options = bake_options(kPilotRays);
         options.fit = FitMode::surface;
@@ -445,7 +431,6 @@ private:
     std::unique_ptr<BudgetReference> reference_;
     Stopwatch watch_;
     MakePlan plan_;
-    bool separated_ = false; ///< sides have vertices of their own
     Transfer pilot_;
     std::optional<SceneFile> model_;
     std::vector<std::string> tried_, notices_;

@@ -2,10 +2,15 @@
 
 #include "prt/encode_glb.h"
 #include "prt/gltf.h"
+#include "prt/levels.h"
 #include "prt/support/file.h"
 #include "road.h"
 #include "support/glb_file.h"
 #include "support/scene_builder.h"
+
+#include <array>
+#include <map>
+#include <set>
 
 namespace prt::test {
 namespace {
@@ -76,13 +81,67 @@ TEST_F(BackSides, HaveChartsOfTheirOwnInALightmap) {
     EXPECT_EQ(extract_scene(load_gltf(folder / "b.glb")).triangles(), 32u + 2 * 18);
 }
 
-TEST_F(BackSides, ComeAfterARefinement) {
+/// Both sides are split in the same way: every triangle of the roof still has its opposite.
+TEST_F(BackSides, AreRefinedAlike) {
     roof_file().write(folder / "roof.glb");
     const Outcome baked = bake("roof.glb", "b.glb", {"--refine", "0.02"});
     ASSERT_EQ(baked.status, 0) << baked.err;
-    EXPECT_NE(baked.err.find("both sides of "), std::string::npos) << baked.err;
     EXPECT_NE(baked.out.find("refined in "), std::string::npos) << baked.out;
-    EXPECT_GT(extract_scene(load_gltf(folder / "b.glb")).triangles(), 2 * 32u);
+    const Scene scene = extract_scene(load_gltf(folder / "b.glb"));
+    std::map<std::set<std::array<float, 3>>, int> turned; // triangles by their corners: up minus down
+    std::size_t roof = 0;
+    for (const Primitive& primitive : scene.primitives)
+        for (const glm::uvec3& t : primitive.triangles) {
+            const VertexArray& vertices = scene.vertex_arrays[primitive.vertices];
+            if (vertices.positions[t.x].y < 0.1f)
+                continue;
+            std::set<std::array<float, 3>> corners;
+            for (int i = 0; i < 3; ++i)
+                corners.insert(
+                    {vertices.positions[t[i]].x, vertices.positions[t[i]].y, vertices.positions[t[i]].z});
+            turned[corners] += vertices.normals[t.x].y > 0 ? 1 : -1;
+            ++roof;
+        }
+    EXPECT_GT(roof, 2 * 18u);
+    for (const auto& [corners, sum] : turned)
+        EXPECT_EQ(sum, 0);
+}
+
+/// Both levels, and light of the same kinds.
+TEST_F(BackSides, AreThoseOfCoarserLevels) {
+    GlbFile file = roof_file();
+    file.json["meshes"].push_back(file.json["meshes"][0]);
+    file.json["nodes"].push_back({{"name", "coarse"}, {"mesh", 1}});
+    file.json["nodes"][0]["extensions"]["MSFT_lod"]["ids"] = {1};
+    file.json["extensionsUsed"] = {"MSFT_lod"};
+    file.write(folder / "roof.glb");
+    for (const char* mode : {"carry", "own"}) {
+        const Outcome baked = bake("roof.glb", "b.glb", {"--levels", mode});
+        ASSERT_EQ(baked.status, 0) << mode << baked.err;
+        EXPECT_NE(baked.err.find("both sides of 36 "), std::string::npos) << baked.err;
+        const LeveledScene levels = extract_levels(load_gltf(folder / "b.glb"));
+        EXPECT_EQ(levels.scene.receivers(), 2 * levels.finest_receivers) << mode;
+    }
+}
+
+/// Nothing shades the underside of the roof where its own material stops no light, in texels, too.
+TEST_F(BackSides, SeeThroughWhatStopsNoLight) {
+    scene_file(SceneBuilder().floor({0, 1, 0}, 1, 3).sphere({0, 1, 0}, 3, 8).build())
+        .write(folder / "plain.glb");
+    GlbFile file = read_glb(folder / "plain.glb");
+    file.json["materials"] = {{{"name", "board"}, {"doubleSided", true}}};
+    file.json["meshes"][0]["primitives"][0]["material"] = 0;
+    file.write(folder / "closed.glb");
+    const std::vector<std::string> texels{"--size", "128", "--unwrap"}, shell{"--no-shadow", "board"};
+    for (const bool in_texels : {false, true})
+        for (const bool open : {false, true}) {
+            std::vector<std::string> options = in_texels ? texels : std::vector<std::string>{};
+            if (open)
+                options.insert(options.end(), shell.begin(), shell.end());
+            const Outcome baked = bake("closed.glb", "b.glb", options);
+            ASSERT_EQ(baked.status, 0) << baked.err;
+            EXPECT_EQ(baked.err.find("both sides of ") != std::string::npos, open) << in_texels << baked.err;
+        }
 }
 
 } // namespace

@@ -6,6 +6,7 @@
 #include "gltf/reread.h"
 #include "gltf/transfer_json.h"
 #include "gltf/unshare.h"
+#include "prt/support/error.h"
 
 #include <algorithm>
 #include <cstring>
@@ -13,6 +14,7 @@
 #include <map>
 #include <optional>
 #include <set>
+#include <string>
 #include <string_view>
 #include <type_traits>
 
@@ -78,8 +80,9 @@ public:
         for (const Primitive& primitive : scene.primitives) {
             std::vector<glm::uvec3>& own = separated_.emplace_back();
             std::vector<glm::uvec3>& rest = rest_.emplace_back();
+            const bool can = always_double_sided(json(place(separated_.size() - 1)));
             for (const glm::uvec3& corners : primitive.triangles)
-                (triangles[t++] ? own : rest).push_back(corners);
+                (triangles[t++] && can ? own : rest).push_back(corners);
         }
         for (const VertexArray& vertices : scene.vertex_arrays)
             backs_.emplace_back(vertices.size());
@@ -115,6 +118,23 @@ private:
     }
     Json& json(const JsonPlace& at) const {
         return contents_.json["meshes"][at.mesh]["primitives"][at.primitive];
+    }
+
+    /// In all variants: what is culled in one would show its back there.
+    bool always_double_sided(const Json& primitive) const {
+        bool all = true;
+        for_each_choice(primitive, [&](const Json& choice) {
+            if (choice.contains("material"))
+                all = all && material(choice["material"].get<std::size_t>()).value("doubleSided", false);
+        });
+        return all;
+    }
+
+    const Json& material(std::size_t index) const {
+        const Json& materials = contents_.json["materials"];
+        if (index >= materials.size())
+            throw Error("there is no material " + std::to_string(index));
+        return materials[index];
     }
 
     /// Primitives of one vertex array have the same attributes.
@@ -184,19 +204,36 @@ private:
             });
         Json& materials = contents_.json["materials"];
         for (const auto& [material, choices] : ours) {
-            if (!materials.at(material).value("doubleSided", false))
-                continue;
             std::size_t now = material;
             if (users[material] > choices.size()) {
                 now = materials.size();
                 Json copy = materials[material];
                 copy["name"] = lamp_name(scene_, material); // one lamp, and one name to choose it by
                 materials.push_back(std::move(copy));
+                animate_alike(material, now);
             }
             materials[now].erase("doubleSided");
             for (Json* const choice : choices)
                 (*choice)["material"] = now;
         }
+    }
+
+    /// Copies the channels of KHR_animation_pointer for what is animated of a material.
+    void animate_alike(std::size_t material, std::size_t copy) {
+        if (!contents_.json.contains("animations"))
+            return;
+        const std::string from = "/materials/" + std::to_string(material) + "/",
+                          to = "/materials/" + std::to_string(copy) + "/";
+        for (Json& animation : contents_.json["animations"])
+            for (const Json& channel : Json(animation.value("channels", Json::array()))) {
+                const Json::json_pointer at("/target/extensions/KHR_animation_pointer/pointer");
+                const std::string pointer = channel.contains(at) ? channel.at(at).get<std::string>() : "";
+                if (!pointer.starts_with(from))
+                    continue;
+                Json other = channel;
+                other[at] = to + pointer.substr(from.size());
+                animation["channels"].push_back(std::move(other));
+            }
     }
 
     GltfContents& contents_;

@@ -106,6 +106,24 @@ TEST(OppositeTriangles, GoInPairs) {
     }
 }
 
+/// Of two of one side and one of the other each has one.
+TEST(OppositeTriangles, StandForSeveralWhereOneSideHasMore) {
+    SceneBuilder builder;
+    builder.triangle({0, 0, 0}, {1, 0, 0}, {0, 1, 0}).triangle({0, 0, 0}, {1, 0, 0}, {0, 1, 0});
+    builder.triangle({0, 0, 0}, {0, 1, 0}, {1, 0, 0}).triangle({0, 0, 0}, {0, 0, 0}, {1, 0, 0});
+    const Scene scene = builder.build();
+    const OppositeTriangles opposites(scene);
+    for (const auto& [from, to] : {std::pair{0u, 2u}, {1u, 2u}, {2u, 0u}}) {
+        unsigned other = from;
+        glm::vec2 uv(0.5f, 0.25f);
+        ASSERT_TRUE(opposites.turn_to_front(other, uv)) << from;
+        EXPECT_EQ(other, to);
+    }
+    unsigned without_area = 3;
+    glm::vec2 uv(0);
+    EXPECT_FALSE(opposites.turn_to_front(without_area, uv));
+}
+
 double shown(const Transfer& transfer, std::size_t receiver) {
     double sum = 0;
     for (std::size_t from = 0; from < transfer.dimension(); ++from) // one coefficient of each part
@@ -205,6 +223,47 @@ TEST(SidesToSeparate, AreThoseOfThePiecesThatAreLitAlone) {
     ASSERT_EQ(triangles.size(), 22u);
     for (std::size_t t = 0; t < triangles.size(); ++t)
         EXPECT_EQ(triangles[t], t >= 12) << t;
+}
+
+/// The back is the side that is seen.
+TEST(SidesToSeparate, AreThoseWithALitBackAlone) {
+    const Scene ground =
+        SceneBuilder().quad({-1, 0, -1}, {1, 0, -1}, {1, 0, 1}, {-1, 0, 1}).build(); // looks down
+    EXPECT_EQ(separated(double_sided(ground)), 2u);
+    const Scene inverted = SceneBuilder().bowl({0, 1, 0}, 1, 4, 0).build(); // looks inside, and is closed
+    EXPECT_GT(separated(double_sided(inverted)), 0u);
+}
+
+/// A room of four metres with a window of half a metre, whatever the seed.
+TEST(SidesToSeparate, AreLitThroughASmallWindow) {
+    SceneBuilder builder;
+    add(builder, {{-2, 0, -2}, {2, 3, 2}, true});
+    const float l = -0.25f, h = 0.25f; // the wall at +X, round the window
+    builder.quad({2, 0, 2}, {2, 0, -2}, {2, 1 + l, -2}, {2, 1 + l, 2});
+    builder.quad({2, 1 + h, 2}, {2, 1 + h, -2}, {2, 3, -2}, {2, 3, 2});
+    builder.quad({2, 1 + l, 2}, {2, 1 + l, h}, {2, 1 + h, h}, {2, 1 + h, 2});
+    builder.quad({2, 1 + l, l}, {2, 1 + l, -2}, {2, 1 + h, -2}, {2, 1 + h, l});
+    const Scene room =
+        double_sided(test::join({builder.build(), SceneBuilder().floor({0, 0, 0}, 20).build()}));
+    for (std::uint64_t seed = 0; seed < 8; ++seed) {
+        BakeOptions options;
+        options.seed = seed;
+        EXPECT_EQ(separated(room, options), 18u) << seed;
+    }
+}
+
+/// A box that hangs together with a plain which nobody sees from below: as many of its triangles as come in
+/// one patch with it get backs, too.
+TEST(SidesToSeparate, AreThoseOfABoxOnAPlain) {
+    SceneBuilder builder;
+    builder.floor({0, 0, 0}, 100, 40);
+    add(builder, {{0, 0, 0}, {5, 2, 5}, true});
+    const Scene scene = double_sided(builder.build());
+    const std::vector<bool> triangles = sides_to_separate(scene, {});
+    ASSERT_EQ(triangles.size(), 3210u);
+    for (std::size_t t = 3200; t < triangles.size(); ++t)
+        EXPECT_TRUE(triangles[t]) << t;
+    EXPECT_LT(std::ranges::count(triangles, true), 100);
 }
 
 TEST(SidesToSeparate, LeaveOutWhatRaysPass) {

@@ -109,28 +109,56 @@ TEST(SeparateSides, LeaveTheOtherTrianglesDoubleSided) {
     EXPECT_EQ(lamp_name(file.after, file.after.primitives[1].material), "material 0");
 }
 
-TEST(SeparateSides, GoWithVariantsAndLeaveMaterialsToOthers) {
+/// A square of variants: material 1, and another one that is `double_sided` or not.
+GlbFile file_of_variants(bool double_sided) {
     GlbFile file = square_file();
     Json& primitive = file.json["meshes"][0]["primitives"][0];
     file.json["materials"].push_back({{"name", "other"}, {"doubleSided", true}});
-    file.json["materials"].push_back({{"name", "front"}});
+    file.json["materials"].push_back({{"name", "front"}, {"doubleSided", double_sided}});
     file.json["extensionsUsed"].push_back("KHR_materials_variants");
     file.json["extensions"]["KHR_materials_variants"]["variants"] = {{{"name", "a"}}, {{"name", "b"}}};
     primitive["extensions"]["KHR_materials_variants"]["mappings"] = {{{"material", 1}, {"variants", {0}}},
                                                                      {{"material", 2}, {"variants", {1}}}};
-    Json plain = primitive;
+    return file;
+}
+
+TEST(SeparateSides, GoWithVariantsAndLeaveMaterialsToOthers) {
+    GlbFile file = file_of_variants(true);
+    Json plain = file.json["meshes"][0]["primitives"][0];
     plain.erase("extensions");
     plain["material"] = 1;
     file.json["meshes"][0]["primitives"].push_back(plain);
+    const auto channel = [](const char* pointer) {
+        return Json{
+            {"sampler", 0},
+            {"target",
+             {{"path", "pointer"}, {"extensions", {{"KHR_animation_pointer", {{"pointer", pointer}}}}}}}};
+    };
+    const std::size_t times = file.accessor(std::vector<float>{0, 1}, test::kFloat, "SCALAR", 1);
+    file.json["animations"] = {
+        {{"samplers", {{{"input", times}, {"output", times}}}},
+         {"channels", {channel("/materials/1/alphaCutoff"), channel("/materials/2/alphaCutoff")}}}};
     const Separated result(file, {true, true, false, false});
     EXPECT_FALSE(result.double_sided(0));
     EXPECT_TRUE(result.double_sided(1));
     const Json mappings = result.primitive(0)["extensions"]["KHR_materials_variants"]["mappings"];
     const auto& materials = result.written.json["materials"];
-    const Json copy = materials[mappings[0]["material"].get<std::size_t>()];
-    EXPECT_EQ(copy["name"], "other");
-    EXPECT_FALSE(copy.contains("doubleSided"));
-    EXPECT_EQ(mappings[1]["material"], 2);
+    const auto copy = mappings[0]["material"].get<std::size_t>();
+    EXPECT_EQ(copy, 3u);
+    EXPECT_EQ(materials[copy]["name"], "other");
+    EXPECT_FALSE(materials[copy].contains("doubleSided"));
+    EXPECT_EQ(mappings[1]["material"], 2); // nobody else has it
+    EXPECT_FALSE(materials[2].contains("doubleSided"));
+    const Json& channels = result.written.json["animations"][0]["channels"];
+    ASSERT_EQ(channels.size(), 3u);
+    EXPECT_EQ(channels[2]["target"]["extensions"]["KHR_animation_pointer"]["pointer"],
+              "/materials/3/alphaCutoff");
+}
+
+TEST(SeparateSides, LeaveOutWhatAVariantCulls) {
+    const Separated result(file_of_variants(false), {true, true});
+    EXPECT_TRUE(result.double_sided(0));
+    EXPECT_EQ(result.after.receivers(), result.before.receivers());
 }
 
 /// Nodes of one mesh, one of them mirrored, where one side of one of them is lit.
