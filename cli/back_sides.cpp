@@ -41,8 +41,9 @@ Scene scene_of_levels(const GltfDocument& document, const std::vector<std::strin
 
 void add_back_sides(CLI::App* command, BackSides& sides) {
     choice(command, "--back-sides", sides, kBackSides,
-           "backs of double-sided surfaces: auto: where light reaches both sides, the file gets a "
-           "single-sided surface with vertices of its own for each; shared: they show the light of the front",
+           "backs of double-sided surfaces: auto: where light reaches them, the file gets single-sided "
+           "surfaces with "
+           "vertices for each side; shared: they show the light of fronts",
            "auto");
 }
 
@@ -63,10 +64,10 @@ bool separate_sides(const SidesRequest& request, GltfDocument& document, Scene& 
     separate.notices = std::move(scene.notices); // of the file that was given
     if (separate.receivers() == scene.receivers())
         return false; // a variant is single-sided
-    const std::string notice =
-        fmt::format("light reaches both sides of {} double-sided triangles: {} vertices more hold that of "
-                    "their backs (--back-sides shared leaves them out)",
-                    std::ranges::count(triangles, true), separate.receivers() - scene.receivers());
+    const std::string notice = fmt::format(
+        "light reaches the backs of {} double-sided triangles: {} more vertices hold it (--back-sides "
+        "shared: backs show the light of fronts)",
+        std::ranges::count(triangles, true), separate.receivers() - scene.receivers());
     print_notices(request.path.string(), {notice});
     separate.notices.push_back(notice);
     scene = std::move(separate);
@@ -77,10 +78,11 @@ void note_shared_sides(const SidesRequest& request, const Scene& scene) {
     const std::vector<bool> triangles =
         request.sides == BackSides::shared ? std::vector<bool>{} : sides_to_separate(scene, request.options);
     if (!triangles.empty())
-        print_notices(request.path.string(),
-                      {fmt::format("light reaches both sides of {} double-sided triangles: instances that "
-                                   "share light show that of the front on both",
-                                   std::ranges::count(triangles, true))});
+        print_notices(
+            request.path.string(),
+            {fmt::format("light reaches the backs of {} double-sided triangles: instances that share "
+                         "transfer show the light of fronts there",
+                         std::ranges::count(triangles, true))});
 }
 
 } // namespace prt::cli

@@ -270,7 +270,7 @@ TEST(SidesToSeparate, LeaveOutWhatRaysPass) {
     const Scene open = double_sided(scene_of(kOpen));
     for (const auto& change :
          {+[](Material& m) { m.alpha_mode = AlphaMode::blend; }, +[](Material& m) { m.glass.factor = 0.5f; },
-          +[](Material& m) { m.transmission.factor = 0.5f; }, +[](Material& m) { m.casts_shadow = false; }}) {
+          +[](Material& m) { m.transmission.factor = 0.5f; }}) {
         Scene scene = open;
         change(scene.materials[0]);
         EXPECT_EQ(separated(scene), 0u);
