@@ -1,5 +1,6 @@
 #include "commands/commands.h"
 
+#include "back_sides.h"
 #include "no_shadow.h"
 #include "occluders.h"
 #include "options.h"
@@ -21,6 +22,7 @@ namespace {
 struct AoArguments {
     Path scene, output, json;
     std::vector<std::string> no_shadow; ///< names of materials
+    BackSides back_sides = BackSides::automatic;
     std::string attribute = "COLOR_0";
     TexelArguments textures;
     OcclusionOptions options;
@@ -208,6 +210,16 @@ void check_arguments(const AoArguments& a) {
         throw Error("--falloff and --distance are of surfaces: an occlusion volume ends at its reach");
 }
 
+/// Gives sides their own vertices.
+void separate(const AoArguments& a, GltfDocument& document, Scene& scene) {
+    BakeOptions options;
+    options.repairs = {.bad_textures = a.options.repairs.bad_textures};
+    options.threads = a.options.threads;
+    options.seed = a.options.seed;
+    separate_sides({.sides = a.back_sides, .path = a.scene, .options = options, .no_shadow = a.no_shadow},
+                   document, scene);
+}
+
 Report bake_asked(const AoArguments& a, GltfDocument& document, const Scene& scene, const TexelRoom& room,
                   const Progress& progress) {
     if (a.what.volume)
@@ -227,6 +239,8 @@ void run(AoArguments a, Session& session) {
     GltfDocument document = load_gltf(a.scene, a.reading);
     Scene scene = extract_scene(document);
     print_notices(a.scene.string(), scene.notices);
+    if (!a.what.volume && (!a.in_textures() || a.textures.unwrap))
+        about(a.scene, [&] { separate(a, document, scene); });
     const TexelRoom room =
         a.in_textures() ? about(a.scene, [&] { return make_room(a.textures, a.scene, document, scene); })
                         : TexelRoom{};
@@ -305,6 +319,7 @@ void add_ao(CLI::App& app, Session& session) {
         "of vertices: measured there; fitted to the surface between them; auto: as points between vertices "
         "tell");
     add_no_shadow(command, a.no_shadow);
+    add_back_sides(command, a.back_sides);
     add_backend(command, a.options.tracer.backend,
                 "gpu: Vulkan 1.2 of any kind; auto: a hardware GPU, else the CPU");
     add_gpu(command, a.options.tracer.gpu);

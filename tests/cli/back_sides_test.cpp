@@ -107,6 +107,16 @@ TEST_F(BackSides, AreRefinedAlike) {
         EXPECT_EQ(sum, 0);
 }
 
+/// The underside of the roof is not as open as its top.
+TEST_F(BackSides, HaveOcclusionOfTheirOwn) {
+    roof_file().write(folder / "roof.glb");
+    const Outcome ao = prt({"ao", at("roof.glb"), "-o", at("b.glb"), "--rays", "64", "--attribute", "_AO"});
+    ASSERT_EQ(ao.status, 0) << ao.err;
+    EXPECT_NE(ao.err.find("the backs of 18 "), std::string::npos) << ao.err;
+    EXPECT_EQ(extract_scene(load_gltf(folder / "b.glb")).triangles(), 32u + 2 * 18);
+    EXPECT_NE(validator_errors(folder / "b.glb"), 1);
+}
+
 /// Both levels, and light of the same kinds.
 TEST_F(BackSides, AreThoseOfCoarserLevels) {
     GlbFile file = roof_file();
