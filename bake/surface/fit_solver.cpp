@@ -18,8 +18,7 @@ using Matrix = Eigen::SparseMatrix<double, Eigen::RowMajor>;
 constexpr std::size_t kColumns = 8; ///< solved together
 using Columns [[gnu::vector_size(kColumns * sizeof(double))]] = double;
 
-constexpr double kResidual = 1e-5; ///< over that of zero, in the norm of the preconditioner
-constexpr int kMaxSteps = 500;     ///< for triangles that are needles
+constexpr int kMaxSteps = 500; ///< for triangles that are needles
 
 Matrix normal_matrix(const FitEquations& equations, std::span<const float> bend_weights) {
     std::vector<Eigen::Triplet<double>> entries;
@@ -80,9 +79,9 @@ struct FitSolver::System {
     std::size_t unknowns() const { return inverse_diagonal.size(); }
     Columns row_times(std::size_t i, std::span<const Columns> x) const;
     /// Replaces b by x.
-    void solve(std::span<Columns> b_then_x) const;
+    void solve(std::span<Columns> b_then_x, double tolerance) const;
     template <class Value>
-    void solve_all(std::span<Value> b_then_x, std::size_t stride, int threads) const;
+    void solve_all(std::span<Value> b_then_x, std::size_t stride, int threads, double tolerance) const;
 };
 
 Columns FitSolver::System::row_times(std::size_t i, std::span<const Columns> x) const {
@@ -95,7 +94,7 @@ Columns FitSolver::System::row_times(std::size_t i, std::span<const Columns> x) 
     return sum;
 }
 
-void FitSolver::System::solve(std::span<Columns> b_then_x) const {
+void FitSolver::System::solve(std::span<Columns> b_then_x, double tolerance) const {
     const std::size_t count = unknowns();
     std::vector<Columns> x(count), residual(b_then_x.begin(), b_then_x.end()), way(count), moved(count);
     Columns squared_b{}, squared{};
@@ -110,7 +109,7 @@ void FitSolver::System::solve(std::span<Columns> b_then_x) const {
     }
     const auto done = [&] {
         for (std::size_t c = 0; c < kColumns; ++c)
-            if (squared[c] > kResidual * kResidual * squared_b[c])
+            if (squared[c] > tolerance * tolerance * squared_b[c])
                 return false;
         return true;
     };
@@ -141,7 +140,8 @@ void FitSolver::System::solve(std::span<Columns> b_then_x) const {
 }
 
 template <class Value>
-void FitSolver::System::solve_all(std::span<Value> b_then_x, std::size_t stride, int threads) const {
+void FitSolver::System::solve_all(std::span<Value> b_then_x, std::size_t stride, int threads,
+                                  double tolerance) const {
     parallel_for((stride + kColumns - 1) / kColumns, 1, threads, [&](std::size_t begin, std::size_t end) {
         std::vector<Columns> x(unknowns());
         for (std::size_t block = begin; block < end; ++block) {
@@ -150,7 +150,7 @@ void FitSolver::System::solve_all(std::span<Value> b_then_x, std::size_t stride,
             for (std::size_t i = 0; i < x.size(); ++i)
                 for (std::size_t c = 0; c < width; ++c)
                     x[i][c] = static_cast<double>(b_then_x[i * stride + from + c]);
-            solve(x);
+            solve(x, tolerance);
             for (std::size_t i = 0; i < x.size(); ++i)
                 for (std::size_t c = 0; c < width; ++c)
                     b_then_x[i * stride + from + c] = static_cast<Value>(x[i][c]);
@@ -165,12 +165,12 @@ FitSolver::~FitSolver() = default;
 FitSolver::FitSolver(FitSolver&&) noexcept = default;
 FitSolver& FitSolver::operator=(FitSolver&&) noexcept = default;
 
-void FitSolver::solve(std::span<float> b_then_x, std::size_t stride, int threads) const {
-    system_->solve_all(b_then_x, stride, threads);
+void FitSolver::solve(std::span<float> b_then_x, std::size_t stride, int threads, double tolerance) const {
+    system_->solve_all(b_then_x, stride, threads, tolerance);
 }
 
-void FitSolver::solve(std::span<double> b_then_x, std::size_t stride, int threads) const {
-    system_->solve_all(b_then_x, stride, threads);
+void FitSolver::solve(std::span<double> b_then_x, std::size_t stride, int threads, double tolerance) const {
+    system_->solve_all(b_then_x, stride, threads, tolerance);
 }
 
 } // namespace prt

@@ -189,14 +189,34 @@ std::vector<float> joined_sums(const FitEquations& from, const FitEquations& to,
     return joined;
 }
 
-/// Columns `some` of `all` [unknowns][stride].
-std::vector<float> columns_of(std::span<const float> all, std::size_t stride,
-                              std::span<const std::size_t> some) {
+/// Columns that stand for all, and by what values of them are multiplied so that sums of their squares do:
+/// one block of the solver. Of the first two bands all, since they hold the light of curved surfaces.
+struct TellingColumns {
+    std::vector<std::size_t> columns;
+    std::vector<float> factors;
+};
+TellingColumns telling_columns(std::size_t stride) {
+    constexpr std::size_t kFirst = 4, kOthers = 4;
+    TellingColumns telling;
+    const std::size_t first = std::min(stride, kFirst), rest = stride - first,
+                      others = std::min(rest, kOthers);
+    for (std::size_t c = 0; c < first; ++c)
+        telling.columns.push_back(c);
+    for (std::size_t i = 0; i < others; ++i)
+        telling.columns.push_back(first + (2 * i + 1) * rest / (2 * others));
+    telling.factors.assign(telling.columns.size(), 1.0f);
+    for (std::size_t i = first; i < telling.columns.size(); ++i)
+        telling.factors[i] = std::sqrt(static_cast<float>(rest) / static_cast<float>(others));
+    return telling;
+}
+
+/// Some columns of `all` [unknowns][stride], with their factors.
+std::vector<float> columns_of(std::span<const float> all, std::size_t stride, const TellingColumns& some) {
     std::vector<float> result;
-    result.reserve(all.size() / stride * some.size());
+    result.reserve(all.size() / stride * some.columns.size());
     for (std::size_t row = 0; row < all.size(); row += stride)
-        for (const std::size_t c : some)
-            result.push_back(all[row + c]);
+        for (std::size_t i = 0; i < some.columns.size(); ++i)
+            result.push_back(some.factors[i] * all[row + some.columns[i]]);
     return result;
 }
 
@@ -242,35 +262,26 @@ struct FittedSky {
     double noise; ///< relative L2 in the sharp values
 };
 
-/// Columns that tell noise and bends of all: these vary little between columns.
-std::vector<std::size_t> telling_columns(std::size_t stride) {
-    constexpr std::size_t kTelling = 12;
-    std::vector<std::size_t> columns;
-    for (std::size_t c = 0; c < stride; c += std::max<std::size_t>(1, stride / kTelling))
-        columns.push_back(c);
-    return columns;
-}
-
 /// Solves for distant light with the bend weights that its noise asks for.
 FittedSky fit_sky(const BakePlan& plan, const SurfaceSamples& samples, const FitEquations& equations,
                   SampleSums sums) {
     const int threads = plan.options.threads;
     const auto stride = static_cast<std::size_t>(coefficient_count(plan.options.order));
-    const std::vector<std::size_t> some = telling_columns(stride);
+    const TellingColumns some = telling_columns(stride);
+    const std::size_t few = some.columns.size();
     const FitSolver first(equations, std::vector<float>(equations.bends.size(), kFirstBendWeight));
     std::vector<float> x = columns_of(sums.b, stride, some),
                        residuals = columns_of(sums.signed_b, stride, some);
-    first.solve(x, some.size(), threads);
-    subtract_signed(plan, samples, equations, x, some.size(), residuals);
+    first.solve(x, few, threads, FitSolver::kEstimate);
+    subtract_signed(plan, samples, equations, x, few, residuals);
     std::vector<float> noise = residuals;
-    first.solve(noise, some.size(), threads);
-    FitSolver solver(equations, bend_weights(equations, x, noise, some.size()));
+    first.solve(noise, few, threads, FitSolver::kEstimate);
+    FitSolver solver(equations, bend_weights(equations, x, noise, few));
     std::vector<float> sharp = sums.b;
     solver.solve(sharp, stride, threads);
-    solver.solve(residuals, some.size(), threads);
-    const double all = static_cast<double>(stride) / static_cast<double>(some.size()),
-                 norm = weighted_square(plan, equations, sharp, stride),
-                 error = all * weighted_square(plan, equations, residuals, some.size());
+    solver.solve(residuals, few, threads, FitSolver::kEstimate);
+    const double norm = weighted_square(plan, equations, sharp, stride),
+                 error = weighted_square(plan, equations, residuals, few);
     const std::size_t tests = sums.values.size() / std::max<std::size_t>(samples.size(), 1);
     return {std::move(solver),
             {stride, tests, std::move(sums.b), std::move(sharp), std::move(sums.values)},
