@@ -10,6 +10,7 @@
 #include "parts.h"
 #include "prt/support/stopwatch.h"
 #include "scene/places_without_area.h"
+#include "scene/shared_places.h"
 
 #include <algorithm>
 #include <memory>
@@ -89,6 +90,8 @@ BakeResult bake(const Scene& scene, const BakeOptions& options, const Progress& 
                                        .fit = measured.fit ? &*measured.fit : nullptr,
                                        .check = check ? check->gather() : nullptr};
     ExitLight exit = exit_light(plan, measured, std::move(lamps), operators, progress.part(traced_sky, 1));
+    if (!measured.fit) // which has one value for them
+        SharedPlaces(traced, *plan.transport).average(exit.all.transfer);
     fill_without_area(plan.receivers(), plan.transport->fronts, exit.all.transfer);
     seconds.transport = transport.seconds();
 

@@ -19,6 +19,11 @@ constexpr float kSameNormal = 1e-4f;
 /// Relative to the largest coordinate; positions at the pole of a sphere differ by 1e-16.
 constexpr float kSamePosition = 1e-7f;
 
+struct Place {
+    std::tuple<int, bool, float, float, float> key; ///< node, side and position
+    std::uint32_t receiver;
+};
+
 /// Node of each receiver at a corner, [receivers]; -1: of none.
 std::vector<int> nodes_of(const Surfaces& surfaces, std::size_t receivers,
                           std::span<const std::uint32_t> back) {
@@ -44,21 +49,21 @@ std::vector<std::uint32_t> alike_receivers(const Surfaces& surfaces, const Recei
     for (const glm::vec3& at : receivers.positions)
         largest = std::max({largest, std::abs(at.x), std::abs(at.y), std::abs(at.z)});
     const float cell = std::max(kSamePosition * largest, std::numeric_limits<float>::min());
-    const auto key = [&](std::uint32_t p) {
-        const glm::vec3 at = glm::round(receivers.positions[p] / cell);
-        return std::tuple(nodes[p], p >= fronts, at.x, at.y, at.z);
-    };
-    std::vector<std::uint32_t> order, first(receivers.size());
+    std::vector<Place> places;
+    std::vector<std::uint32_t> first(receivers.size());
     std::iota(first.begin(), first.end(), 0u);
     for (std::uint32_t p = 0; p < receivers.size(); ++p)
-        if (nodes[p] >= 0)
-            order.push_back(p);
-    std::sort(order.begin(), order.end(),
-              [&](std::uint32_t a, std::uint32_t b) { return key(a) != key(b) ? key(a) < key(b) : a < b; });
+        if (nodes[p] >= 0) {
+            const glm::vec3 at = glm::round(receivers.positions[p] / cell);
+            places.push_back({{nodes[p], p >= fronts, at.x, at.y, at.z}, p});
+        }
+    std::ranges::sort(places, [](const Place& a, const Place& b) {
+        return a.key != b.key ? a.key < b.key : a.receiver < b.receiver;
+    });
     std::vector<std::uint32_t> here; // the first of each normal at one position
-    for (std::size_t i = 0; i < order.size(); ++i) {
-        const std::uint32_t p = order[i];
-        if (i == 0 || key(p) != key(order[i - 1]))
+    for (std::size_t i = 0; i < places.size(); ++i) {
+        const std::uint32_t p = places[i].receiver;
+        if (i == 0 || places[i].key != places[i - 1].key)
             here.clear();
         const auto found = std::ranges::find_if(here, [&](std::uint32_t q) {
             return glm::distance(receivers.normals[p], receivers.normals[q]) <= kSameNormal;

@@ -1,0 +1,86 @@
+#include "scene/shared_places.h"
+
+#include "prt/support/parallel.h"
+#include "scene/alike_receivers.h"
+
+#include <algorithm>
+#include <numeric>
+
+namespace prt {
+namespace {
+
+/// [fronts]
+std::vector<bool> on_plain_surfaces(const Surfaces& surfaces, std::size_t fronts) {
+    std::vector<bool> plain(fronts, true);
+    for (std::uint32_t t = 0; t < surfaces.triangles(); ++t)
+        if (surfaces.transmits(t) || surfaces.solid(t))
+            for (int corner = 0; corner < 3; ++corner)
+                plain[surfaces.corners(t)[corner]] = false;
+    return plain;
+}
+
+/// Whether a ray goes from where the rays of one start to where those of the other do. Starts lie a little
+/// towards the triangles of their receivers, so that a wall which stands on an edge of a floor is between.
+bool see_each_other(const RayScene& rays, const Receivers& receivers, std::uint32_t a, std::uint32_t b) {
+    const glm::vec3 from = rays.ray_origin(receivers, a), to = rays.ray_origin(receivers, b);
+    return from == to || !rays.occluded({from, to - from, 0, 1});
+}
+
+/// Splits receivers at one place into groups that see each other.
+void split(const RayScene& rays, const Receivers& receivers, std::span<const std::uint32_t> place,
+           std::vector<std::vector<std::uint32_t>>& groups) {
+    std::vector<std::vector<std::uint32_t>> here;
+    for (const std::uint32_t p : place) {
+        const auto seen = std::ranges::find_if(
+            here, [&](const auto& group) { return see_each_other(rays, receivers, group.front(), p); });
+        if (seen == here.end())
+            here.push_back({p});
+        else
+            seen->push_back(p);
+    }
+    for (std::vector<std::uint32_t>& group : here)
+        if (group.size() > 1)
+            groups.push_back(std::move(group));
+}
+
+} // namespace
+
+SharedPlaces::SharedPlaces(const TraceScene& scene, const TransportReceivers& receivers) {
+    const std::vector<bool> plain = on_plain_surfaces(scene.surfaces(), receivers.fronts);
+    const std::vector<std::uint32_t> alike = alike_receivers(scene.surfaces(), receivers);
+    std::vector<std::uint32_t> order;
+    for (std::uint32_t p = 0; p < receivers.fronts; ++p)
+        if (plain[p] && receivers.receivers.areas[p] > 0 && receivers.receivers.normals[p] != glm::vec3(0))
+            order.push_back(p);
+    std::ranges::stable_sort(order, {}, [&](std::uint32_t p) { return alike[p]; });
+    std::vector<std::span<const std::uint32_t>> places;
+    for (std::size_t begin = 0, end = 0; begin < order.size(); begin = end) {
+        while (end < order.size() && alike[order[end]] == alike[order[begin]])
+            ++end;
+        if (end > begin + 1)
+            places.emplace_back(std::span(order).subspan(begin, end - begin));
+    }
+    std::vector<std::vector<std::vector<std::uint32_t>>> groups(places.size());
+    parallel_for(places.size(), 64, scene.threads(), [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i)
+            split(scene.rays(), receivers.receivers, places[i], groups[i]);
+    });
+    for (auto& of_place : groups)
+        for (std::vector<std::uint32_t>& group : of_place)
+            groups_.push_back(std::move(group));
+}
+
+void SharedPlaces::average(Transfer& transfer) const {
+    std::vector<double> sum(transfer.dimension());
+    for (const std::vector<std::uint32_t>& group : groups_) {
+        std::ranges::fill(sum, 0.0);
+        for (const std::uint32_t p : group)
+            for (std::size_t i = 0; i < sum.size(); ++i)
+                sum[i] += static_cast<double>(transfer.vector(p)[i]);
+        for (const std::uint32_t p : group)
+            for (std::size_t i = 0; i < sum.size(); ++i)
+                transfer.vector(p)[i] = static_cast<float>(sum[i] / static_cast<double>(group.size()));
+    }
+}
+
+} // namespace prt
