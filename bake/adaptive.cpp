@@ -25,9 +25,9 @@ constexpr double kExponent = 1.5;
 
 class AdaptiveSampler {
 public:
-    AdaptiveSampler(Tracer& tracer, const Receivers& receivers, const TraceOptions& options,
-                    const Progress& progress)
-        : tracer_(tracer), receivers_(receivers), options_(options), progress_(progress),
+    AdaptiveSampler(Tracer& tracer, const Receivers& receivers, std::span<const float> left,
+                    const TraceOptions& options, const Progress& progress)
+        : tracer_(tracer), receivers_(receivers), left_(left), options_(options), progress_(progress),
           indices_(receivers_on_surfaces(receivers)), rays_(receivers.size(), 0),
           planned_(receivers.size(), 0), error_(receivers.size(), 0), transfer_(empty_transfer()) {}
 
@@ -64,7 +64,8 @@ private:
 
     /// Contribution of a receiver to the squared error with `rays`, by what the first rays predict.
     double predicted(std::uint32_t p, std::uint32_t rays) const {
-        return area(p) * error_[p] * std::pow(static_cast<double>(rays) / kFirstRays, -kExponent);
+        return area(p) * static_cast<double>(left_[p]) * error_[p] *
+               std::pow(static_cast<double>(rays) / kFirstRays, -kExponent);
     }
 
     /// Two independent scrambles of a few rays each tell how much a receiver errs: the mean over it and its
@@ -204,8 +205,8 @@ private:
             trace(members, options, again);
             rays_checked += rays * members.size();
             for (const std::uint32_t p : members)
-                ratios += 0.5 * area(p) * squared_distance(transfer_.vector(p), again.vector(p)) /
-                          predicted(p, rays);
+                ratios += 0.5 * area(p) * static_cast<double>(left_[p]) *
+                          squared_distance(transfer_.vector(p), again.vector(p)) / predicted(p, rays);
             count += members.size();
         }
         return count > 0 ? ratios / static_cast<double>(count) : 1;
@@ -213,6 +214,7 @@ private:
 
     Tracer& tracer_;
     const Receivers& receivers_;
+    std::span<const float> left_; ///< [receivers] of squared errors
     TraceOptions options_;
     const Progress& progress_;
     std::vector<std::uint32_t> indices_;
@@ -226,8 +228,9 @@ private:
 } // namespace
 
 AdaptiveResult adaptive_transfer(Tracer& tracer, const Receivers& receivers, const MeshNeighbours& neighbours,
-                                 const TraceOptions& options, double target, const Progress& progress) {
-    return AdaptiveSampler(tracer, receivers, options, progress).run(neighbours, target);
+                                 std::span<const float> left, const TraceOptions& options, double target,
+                                 const Progress& progress) {
+    return AdaptiveSampler(tracer, receivers, left, options, progress).run(neighbours, target);
 }
 
 } // namespace prt

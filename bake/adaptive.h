@@ -19,8 +19,10 @@ struct AdaptiveResult {
 /// Direct transfer with a relative L2 error of `target`. Two independent scrambles of a few rays estimate the
 /// error of every receiver; from that the number of rays of each is planned, so that together they cost
 /// least; a sample of the receivers, traced again, tells what came out, and if it is not enough the plan is
-/// extended (docs/math.md, section 9).
+/// extended (docs/math.md, section 9). `left` [receivers]: what later means over receivers leave of the
+/// squared error of each, which the target is of.
 AdaptiveResult adaptive_transfer(Tracer& tracer, const Receivers& receivers, const MeshNeighbours& neighbours,
-                                 const TraceOptions& options, double target, const Progress& progress);
+                                 std::span<const float> left, const TraceOptions& options, double target,
+                                 const Progress& progress);
 
 } // namespace prt

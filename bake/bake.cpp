@@ -10,7 +10,6 @@
 #include "parts.h"
 #include "prt/support/stopwatch.h"
 #include "scene/places_without_area.h"
-#include "scene/shared_places.h"
 
 #include <algorithm>
 #include <memory>
@@ -30,7 +29,8 @@ std::optional<ErrorCheck> check_errors(const BakePlan& plan, Tracer& tracer, Mea
     std::optional<ErrorCheck> check(std::in_place, plan, tracer, measured, lamps, stop);
     measured.direct.rays += check->rays();
     if (!measured.fit && !plan.options.target_error && tracer.method() == BakeMethod::trace)
-        measured.direct.sampling_error = check->sampling_error();
+        measured.direct.sampling_error =
+            check->sampling_error() * noise_left(plan, measured.shared->left(plan.receivers().size()));
     return check;
 }
 
@@ -90,8 +90,8 @@ BakeResult bake(const Scene& scene, const BakeOptions& options, const Progress& 
                                        .fit = measured.fit ? &*measured.fit : nullptr,
                                        .check = check ? check->gather() : nullptr};
     ExitLight exit = exit_light(plan, measured, std::move(lamps), operators, progress.part(traced_sky, 1));
-    if (!measured.fit) // which has one value for them
-        SharedPlaces(traced, *plan.transport).average(exit.all.transfer);
+    if (measured.shared)
+        measured.shared->average(exit.all.transfer);
     fill_without_area(plan.receivers(), plan.transport->fronts, exit.all.transfer);
     seconds.transport = transport.seconds();
 

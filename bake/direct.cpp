@@ -9,6 +9,7 @@
 
 #include <fmt/core.h>
 
+#include <cmath>
 #include <numeric>
 
 namespace prt {
@@ -16,11 +17,12 @@ namespace {
 
 /// Finds the rays that each receiver needs, and their direct light: [receivers].
 std::vector<std::uint32_t> trace_adaptively(const BakePlan& plan, Tracer& tracer, const TraceOptions& options,
-                                            DirectLight& direct, const Progress& progress) {
+                                            std::span<const float> left, DirectLight& direct,
+                                            const Progress& progress) {
     AdaptiveResult adaptive =
         adaptive_transfer(tracer, plan.receivers(),
                           MeshNeighbours(plan.scene.surfaces(), plan.receivers(), plan.transport->fronts),
-                          options, *plan.options.target_error, progress);
+                          left, options, *plan.options.target_error, progress);
     direct.transfer = std::move(adaptive.transfer);
     direct.rays = std::accumulate(adaptive.rays.begin(), adaptive.rays.end(), adaptive.rays_checked);
     direct.sampling_error = adaptive.error;
@@ -42,7 +44,18 @@ void add_gather(const BakePlan& plan, Tracer& tracer, std::span<const std::uint3
 
 } // namespace
 
-DirectLight trace_direct(const BakePlan& plan, Tracer& tracer, const Progress& progress) {
+double noise_left(const BakePlan& plan, std::span<const float> left) {
+    double all = 0, sum = 0;
+    for (std::size_t p = 0; p < plan.areas().size(); ++p) {
+        const auto area = static_cast<double>(plan.areas()[p]);
+        all += area;
+        sum += area * static_cast<double>(left[p]);
+    }
+    return all > 0 ? std::sqrt(sum / all) : 1;
+}
+
+DirectLight trace_direct(const BakePlan& plan, Tracer& tracer, std::span<const float> left,
+                         const Progress& progress) {
     const Receivers& receivers = plan.receivers();
     const std::vector<std::uint32_t> indices = receivers_on_surfaces(receivers);
     const TraceOptions options{
@@ -51,7 +64,7 @@ DirectLight trace_direct(const BakePlan& plan, Tracer& tracer, const Progress& p
     DirectLight direct;
     std::vector<std::uint32_t> rays_of(receivers.size(), static_cast<std::uint32_t>(options.rays));
     if (adaptive)
-        rays_of = trace_adaptively(plan, tracer, options, direct,
+        rays_of = trace_adaptively(plan, tracer, options, left, direct,
                                    plan.bounces != 0 ? progress.part(0, 0.5) : progress);
     else
         direct.transfer = zero_transfer(options.order, 1, receivers.size());
@@ -64,7 +77,7 @@ DirectLight trace_direct(const BakePlan& plan, Tracer& tracer, const Progress& p
     if (!adaptive && !plan.measures_errors && tracer.method() == BakeMethod::trace) {
         const SamplingError sampling =
             sampling_error(tracer, receivers, options, direct.transfer, progress.stop);
-        direct.sampling_error = sampling.error;
+        direct.sampling_error = sampling.error * noise_left(plan, left);
         direct.rays += sampling.rays;
     }
     direct.mean_rays = indices.empty()

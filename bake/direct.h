@@ -7,6 +7,7 @@
 #include "transport/gather.h"
 
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -23,7 +24,11 @@ struct DirectLight {
     std::vector<std::string> notices;
 };
 
-/// The gather operator keeps references to `plan`.
-DirectLight trace_direct(const BakePlan& plan, Tracer& tracer, const Progress& progress);
+/// The gather operator keeps references to `plan`. `left` [receivers]: what later means over receivers leave
+/// of the squared noise of each; the target and the estimate of the sampling error are of that.
+DirectLight trace_direct(const BakePlan& plan, Tracer& tracer, std::span<const float> left,
+                         const Progress& progress);
+/// What is left of noise that all receivers on the fronts have alike.
+double noise_left(const BakePlan& plan, std::span<const float> left);
 
 } // namespace prt

@@ -59,7 +59,10 @@ Measured measure(const BakePlan& plan, Tracer& tracer, BakeStatistics& statistic
         return {std::move(fitted.direct), std::move(fitted.sealed), std::move(fitted.fit),
                 std::move(fitted.sky)};
     }
-    Measured measured{trace_direct(plan, tracer, progress.part(0.03, 1)), {}, {}, {}};
+    SharedPlaces shared(plan.scene, *plan.transport);
+    const std::vector<float> left = shared.left(plan.receivers().size());
+    Measured measured{
+        trace_direct(plan, tracer, left, progress.part(0.03, 1)), {}, {}, {}, std::move(shared)};
     measured.sealed = find_sealed_in(plan, tracer, measured.direct.transfer, progress.stop);
     return measured;
 }

@@ -5,6 +5,7 @@
 #include "direct.h"
 #include "lamps/lamp_light.h"
 #include "record.h"
+#include "scene/shared_places.h"
 #include "surface/surface_fit.h"
 
 #include <optional>
@@ -17,6 +18,8 @@ struct Measured {
     SealedIn sealed;
     std::optional<SurfaceFit> fit; ///< none: measured at receivers
     SampledLight sky;              ///< direct light at its samples
+    std::optional<SharedPlaces> shared =
+        {}; ///< of receivers, to take means over at the end; none: a fit does
 };
 
 /// Light of lamps without a bounce, of the receivers of a plan.

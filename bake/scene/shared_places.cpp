@@ -4,7 +4,6 @@
 #include "scene/alike_receivers.h"
 
 #include <algorithm>
-#include <numeric>
 
 namespace prt {
 namespace {
@@ -68,6 +67,14 @@ SharedPlaces::SharedPlaces(const TraceScene& scene, const TransportReceivers& re
     for (auto& of_place : groups)
         for (std::vector<std::uint32_t>& group : of_place)
             groups_.push_back(std::move(group));
+}
+
+std::vector<float> SharedPlaces::left(std::size_t receivers) const {
+    std::vector<float> left(receivers, 1.0f);
+    for (const std::vector<std::uint32_t>& group : groups_)
+        for (const std::uint32_t p : group)
+            left[p] = 1 / static_cast<float>(group.size());
+    return left;
 }
 
 void SharedPlaces::average(Transfer& transfer) const {

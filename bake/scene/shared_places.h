@@ -18,6 +18,8 @@ public:
     /// Receivers of surfaces that light passes, or with a medium inside, are in no group.
     SharedPlaces(const TraceScene& scene, const TransportReceivers& receivers);
 
+    /// What means leave of the squared noise of each of so many receivers, the fronts first.
+    std::vector<float> left(std::size_t receivers) const;
     /// Gives every receiver the mean of its group. `transfer` is of the fronts.
     void average(Transfer& transfer) const;
 

@@ -131,7 +131,7 @@ TEST(BakeErrors, KnowTheNoiseOfRays) {
             }
         }
     const double expected = std::sqrt(noise / norm);
-    EXPECT_GT(expected, 0.02);
+    EXPECT_GT(expected, 0.01);
     EXPECT_NEAR(few.errors->sky.relative_l2, expected, 0.15 * expected);
 }
 
