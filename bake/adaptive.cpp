@@ -36,11 +36,11 @@ public:
         AdaptiveResult result;
         double correction = 1; // of the squared errors that the first rays predict, by what came out
         for (double share = 0;; share = 0.5 * (1 + share)) {
-            const bool enough = plan(target * target * norm_ / correction);
+            const bool enough = plan(target * target * squares_.norm / correction);
             progress_.update(share);
             extend();
             correction = check(result.rays_checked);
-            result.error = norm_ > 0 ? std::sqrt(correction * predicted_ / norm_) : 0;
+            result.error = squares_.norm > 0 ? std::sqrt(correction * squares_.predicted / squares_.norm) : 0;
             result.reached = result.error <= target;
             if (result.reached || !enough)
                 break;
@@ -81,7 +81,8 @@ private:
         for (const std::uint32_t p : indices_) {
             rays_[p] = planned_[p] = kFirstRays;
             own[p] = 0.5 * squared_distance(transfer_.vector(p), second.vector(p));
-            norm_ += area(p) * product(transfer_.vector(p), second.vector(p)); // without the noise of either
+            squares_.norm +=
+                area(p) * product(transfer_.vector(p), second.vector(p)); // without the noise of either
         }
         add_missed_light(second, own);
         for (const std::uint32_t p : indices_) {
@@ -124,7 +125,7 @@ private:
             errors[p] = missed > 0 ? missed / areas : 0;
             dark_norm += area(p) * errors[p];
         }
-        norm_ = std::max(norm_, dark_norm);
+        squares_.norm = std::max(squares_.norm, dark_norm);
     }
 
     /// Doubles planned rays, those first that lower the error most per ray, until the predicted squared error
@@ -142,23 +143,23 @@ private:
         const auto candidate = [&](std::uint32_t p) {
             return Candidate{(predicted(p, planned_[p]) - predicted(p, 2 * planned_[p])) / planned_[p], p};
         };
-        predicted_ = 0;
+        squares_.predicted = 0;
         std::priority_queue<Candidate> queue;
         for (const std::uint32_t p : indices_) {
-            predicted_ += predicted(p, planned_[p]);
+            squares_.predicted += predicted(p, planned_[p]);
             if (error_[p] > 0 && planned_[p] < static_cast<std::uint32_t>(kMostRays))
                 queue.push(candidate(p));
         }
-        while (predicted_ > wanted && !queue.empty()) {
+        while (squares_.predicted > wanted && !queue.empty()) {
             const Candidate best = queue.top();
             queue.pop();
             const std::uint32_t p = best.receiver;
-            predicted_ -= best.gain_per_ray * planned_[p];
+            squares_.predicted -= best.gain_per_ray * planned_[p];
             planned_[p] *= 2;
             if (planned_[p] < static_cast<std::uint32_t>(kMostRays))
                 queue.push(candidate(p));
         }
-        return predicted_ <= wanted;
+        return squares_.predicted <= wanted;
     }
 
     /// Traces the rest of the sequences up to what is planned.
@@ -185,7 +186,7 @@ private:
     /// contribute to the error. Returns the mean of squared error over prediction.
     double check(std::size_t& rays_checked) {
         std::map<std::uint32_t, std::vector<std::uint32_t>> by_rays;
-        const double step = predicted_ / kCheckedReceivers;
+        const double step = squares_.predicted / kCheckedReceivers;
         double sum = 0, next = 0.5 * step;
         for (const std::uint32_t p : indices_) {
             sum += predicted(p, rays_[p]);
@@ -220,7 +221,10 @@ private:
     std::vector<std::uint32_t> indices_;
     std::vector<std::uint32_t> rays_, planned_; ///< [receivers]
     std::vector<double> error_;                 ///< squared, predicted for kFirstRays, [receivers]
-    double norm_ = 0, predicted_ = 0;           ///< squared, weighted by area
+    struct Squares {
+        double norm = 0, predicted = 0;
+    };
+    Squares squares_; ///< weighted by area
     std::size_t rays_on_dark_ = 0;
     Transfer transfer_;
 };
