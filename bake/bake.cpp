@@ -10,6 +10,7 @@
 #include "parts.h"
 #include "prt/support/stopwatch.h"
 #include "scene/places_without_area.h"
+#include "surface/bounce_filter.h"
 
 #include <algorithm>
 #include <memory>
@@ -33,6 +34,35 @@ std::optional<ErrorCheck> check_errors(const BakePlan& plan, Tracer& tracer, Mea
             check->sampling_error() * noise_left(plan, measured.shared->left(plan.receivers().size()));
     return check;
 }
+
+/// What is gathered beside the light of receivers: at points of the check, then by half of the rays.
+struct GatheredBeside {
+    std::optional<GatherOperator> gather;
+    std::size_t points = 0; ///< rows of the check
+    std::optional<BounceFilter> filter;
+
+    GatheredBeside(const BakePlan& plan, Measured& measured, std::optional<ErrorCheck>& check) {
+        if (check)
+            if (std::optional<GatherOperator> rows = check->take_gather()) {
+                points = rows->rows();
+                gather.emplace(std::move(*rows));
+            }
+        std::optional<GatherOperator>& half = measured.direct.half;
+        if (!half)
+            return;
+        if (gather)
+            gather->append(std::move(*half));
+        else
+            gather.emplace(std::move(*half));
+        std::vector<bool> sealed(plan.receivers().size());
+        for (const std::uint32_t p : measured.sealed.receivers)
+            sealed[p] = true;
+        filter.emplace(plan, *measured.shared, sealed, points);
+    }
+    std::span<const float> at_points(std::span<const float> light) const {
+        return light.first(gather ? light.size() / gather->rows() * points : 0);
+    }
+};
 
 /// Exit light of the sky, and of lamps in the same transfer.
 struct ExitLight {
@@ -65,6 +95,7 @@ BakeResult bake(const Scene& scene, const BakeOptions& options, const Progress& 
     const Stopwatch all;
     BakePlan plan = plan_bake(traced, media, options);
     plan.measures_errors = errors == MeasureErrors::yes;
+    plan.filters_bounces = options.denoise;
     check_memory(plan);
     const std::unique_ptr<Tracer> tracer = make_tracer(traced, options.tracer);
     seconds.build = all.seconds();
@@ -77,18 +108,20 @@ BakeResult bake(const Scene& scene, const BakeOptions& options, const Progress& 
     const SealedIn& sealed = measured.sealed;
     MeasuredLamps lamps = measure_lamps(plan, *tracer, measured.fit, progress.part(traced_all, traced_sky));
     direct.rays += lamps.light.rays + asked.rays;
-    const std::optional<ErrorCheck> check = check_errors(plan, *tracer, measured, lamps, progress.stop);
+    std::optional<ErrorCheck> check = check_errors(plan, *tracer, measured, lamps, progress.stop);
     seconds.tracing = tracer->seconds();
 
     const Stopwatch transport;
     const std::unique_ptr<GatherProduct> product =
         direct.gather ? tracer->gather_product(*direct.gather) : nullptr;
+    const GatheredBeside beside(plan, measured, check);
     const TransportOperators operators{.refill = sealed.refill,
                                        .diffusion = plan.diffusion,
                                        .gather = direct.gather ? &*direct.gather : nullptr,
                                        .product = product.get(),
                                        .fit = measured.fit ? &*measured.fit : nullptr,
-                                       .check = check ? check->gather() : nullptr};
+                                       .check = beside.gather ? &*beside.gather : nullptr,
+                                       .filter = beside.filter ? &*beside.filter : nullptr};
     ExitLight exit = exit_light(plan, measured, std::move(lamps), operators, progress.part(traced_sky, 1));
     if (measured.shared)
         measured.shared->average(exit.all.transfer);
@@ -97,10 +130,12 @@ BakeResult bake(const Scene& scene, const BakeOptions& options, const Progress& 
 
     std::optional<BakeErrors> found;
     if (check)
-        found = check->compare(exit.all.transfer, {.sky = exit.all.at_check, .lamps = exit.lamps_at_check});
+        found = check->compare(exit.all.transfer, {.sky = beside.at_points(exit.all.at_check),
+                                                   .lamps = beside.at_points(exit.lamps_at_check)});
 
     BakeResult result = record(plan, *tracer, direct, sealed, std::move(exit.all));
     result.statistics.fit = asked.fit;
+    result.statistics.denoised = beside.filter.has_value();
     result.errors = std::move(found);
     result.statistics.gather.bytes_moved = product ? product->bytes_moved() : 0;
     result.baked.record.fitted = measured.fit.has_value();

@@ -36,10 +36,13 @@ void add_gather(const BakePlan& plan, Tracer& tracer, std::span<const std::uint3
                 DirectLight& direct, const Progress& progress) {
     TracedGather traced = trace_gather(plan, tracer, rays_of, direct.transfer, progress);
     direct.rays += traced.rays;
-    if (traced.gather.entries() > 0)
-        direct.gather.emplace(std::move(traced.gather));
-    else
+    if (traced.gather.entries() == 0) {
         direct.notices.push_back("no bounces: no ray from a receiver meets a surface that scatters");
+        return;
+    }
+    direct.gather.emplace(std::move(traced.gather));
+    if (traced.half)
+        direct.half.emplace(std::move(*traced.half));
 }
 
 } // namespace

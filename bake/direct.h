@@ -16,11 +16,12 @@ namespace prt {
 struct DirectLight {
     Transfer transfer; ///< of receivers and back sides, one channel
     std::optional<GatherOperator>
-        gather;                 ///< of the same rays, where there are bounces and they see something
-    std::size_t rays = 0;       ///< traced in all
-    int mean_rays = 0;          ///< that a receiver has
-    double mean_visibility = 0; ///< area-weighted T_0 / Y_00
-    double sampling_error = 0;  ///< estimated relative L2; 0: not estimated here
+        gather;                         ///< of the same rays, where there are bounces and they see something
+    std::optional<GatherOperator> half; ///< of every other of its rays; see BounceFilter
+    std::size_t rays = 0;               ///< traced in all
+    int mean_rays = 0;                  ///< that a receiver has
+    double mean_visibility = 0;         ///< area-weighted T_0 / Y_00
+    double sampling_error = 0;          ///< estimated relative L2; 0: not estimated here
     std::vector<std::string> notices;
 };
 

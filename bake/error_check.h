@@ -25,8 +25,14 @@ public:
     ErrorCheck(const BakePlan& plan, Tracer& tracer, const Measured& measured, const MeasuredLamps& lamps,
                const std::stop_token& stop);
 
-    /// Gathers exit light at the points; null where nothing bounces.
-    const GatherOperator* gather() const { return gather_ ? &*gather_ : nullptr; }
+    /// Moves out what gathers exit light at the points; nothing where nothing bounces.
+    std::optional<GatherOperator> take_gather() {
+        std::optional<GatherOperator> taken;
+        if (gather_)
+            taken.emplace(std::move(*gather_));
+        gather_.reset();
+        return taken;
+    }
     std::size_t rays() const { return rays_; }
 
     /// Relative L2 of direct light by as many rays as a receiver has.

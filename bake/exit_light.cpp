@@ -5,6 +5,7 @@
 #include "parts.h"
 #include "prt/sh_basis.h"
 #include "prt/support/error.h"
+#include "surface/bounce_filter.h"
 
 #include <fmt/ranges.h>
 
@@ -127,7 +128,10 @@ SharpTransfer lit_by_lamps(const BakePlan& plan, MeasuredLamps lamps, const Tran
     if (!operators.fit) {
         if (plan.options.lamps.mode == LampMode::indirect)
             lit.direct = light;
+        const Transfer unbounced = operators.filter ? light : Transfer();
         lit.exit = propagate_lamps_on_both_sides(plan, std::move(light), operators, plan.bounces, progress);
+        if (operators.filter)
+            operators.filter->apply(lit.exit.transfer, unbounced, lit.exit.at_check);
     } else {
         lit = colors_apart(plan, light)
                   ? sharp_lamps_in_color(plan, light, lamps.sampled, operators, progress)
@@ -157,6 +161,11 @@ Propagated propagate_all(const BakePlan& plan, Transfer direct, const SampledLig
         exit = std::move(sharp.exit);
     }
     Transfer unbounced = exit_without_bounces(plan, direct, operators.refill);
+    if (!operators.fit && bounced) {
+        exit = propagate(wide(std::move(direct)), operators, plan.bounces, plan.options.threads, progress);
+        if (operators.filter)
+            operators.filter->apply(exit.transfer, unbounced, exit.at_check);
+    }
     if (plan.direct_channels() == 3)
         unbounced = in_color(unbounced);
     leave_back_sides(plan, unbounced);
@@ -164,8 +173,6 @@ Propagated propagate_all(const BakePlan& plan, Transfer direct, const SampledLig
         exit.transfer = narrowed(std::move(unbounced));
         return exit;
     }
-    if (!operators.fit)
-        exit = propagate(wide(std::move(direct)), operators, plan.bounces, plan.options.threads, progress);
     leave_back_sides(plan, exit.transfer);
     exit.transfer = in_parts(narrowed(std::move(unbounced)), exit.transfer);
     return exit;

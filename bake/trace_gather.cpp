@@ -14,6 +14,22 @@ GatherOperator empty_gather(const BakePlan& plan, std::size_t rows) {
     return {plan.scene.surfaces(), *plan.transport, rows, plan.channels};
 }
 
+/// Of every other hit, which stand for all.
+void set_half_row(GatherOperator& gather, std::size_t row, std::span<const Hit> hits, int rays) {
+    std::vector<Hit> half;
+    float all = 0, sum = 0;
+    for (std::size_t i = 0; i < hits.size(); ++i) {
+        all += hits[i].weight;
+        if (i % 2 == 1) {
+            half.push_back(hits[i]);
+            sum += hits[i].weight;
+        }
+    }
+    for (Hit& hit : half)
+        hit.weight *= all / sum;
+    gather.set_row(row, half, rays);
+}
+
 struct GatherEstimate {
     double bytes = 0;
     std::size_t rays = 0; ///< traced to find out
@@ -75,8 +91,10 @@ TracedGather trace_gather(const BakePlan& plan, Tracer& tracer, std::span<const 
         by_rays[rays_of[p]].push_back(p);
         all += rays_of[p];
     }
-    TracedGather traced{empty_gather(plan, plan.receivers().size()),
+    TracedGather traced{empty_gather(plan, plan.receivers().size()), std::nullopt,
                         all + check_gather_memory(plan, tracer, plan.receivers(), by_rays, 1, progress.stop)};
+    if (plan.filters_bounces)
+        traced.half.emplace(empty_gather(plan, plan.receivers().size()));
     const auto share = [&](std::size_t rays) { return static_cast<double>(rays) / static_cast<double>(all); };
     for (const auto& [rays, members] : by_rays) {
         const TraceOptions options = gather_options(plan, rays);
@@ -85,6 +103,8 @@ TracedGather trace_gather(const BakePlan& plan, Tracer& tracer, std::span<const 
                         progress.part(share(done), share(done + here)),
                         [&](std::uint32_t p, std::span<const Hit> hits) {
                             traced.gather.set_row(p, hits, options.rays);
+                            if (traced.half)
+                                set_half_row(*traced.half, p, hits, options.rays);
                         });
         done += here;
     }

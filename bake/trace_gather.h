@@ -8,6 +8,7 @@
 
 #include <cstdint>
 #include <map>
+#include <optional>
 #include <vector>
 
 namespace prt {
@@ -30,7 +31,8 @@ std::size_t check_gather_memory(const BakePlan& plan, Tracer& tracer, const Rece
 
 struct TracedGather {
     GatherOperator gather;
-    std::size_t rays; ///< traced
+    std::optional<GatherOperator> half; ///< of every other ray that met something, where it is asked for
+    std::size_t rays;                   ///< traced
 };
 
 /// Traces rays_of[p] rays of every receiver p on a surface into rows of the gather operator, which keeps

@@ -4,6 +4,7 @@
 #include "scene/alike_receivers.h"
 
 #include <algorithm>
+#include <numeric>
 
 namespace prt {
 namespace {
@@ -75,6 +76,15 @@ std::vector<float> SharedPlaces::left(std::size_t receivers) const {
         for (const std::uint32_t p : group)
             left[p] = 1 / static_cast<float>(group.size());
     return left;
+}
+
+std::vector<std::uint32_t> SharedPlaces::first_of_each(std::size_t receivers) const {
+    std::vector<std::uint32_t> first(receivers);
+    std::iota(first.begin(), first.end(), 0u);
+    for (const std::vector<std::uint32_t>& group : groups_)
+        for (const std::uint32_t p : group)
+            first[p] = group.front();
+    return first;
 }
 
 void SharedPlaces::average(Transfer& transfer) const {

@@ -20,6 +20,8 @@ public:
 
     /// What means leave of the squared noise of each of so many receivers, the fronts first.
     std::vector<float> left(std::size_t receivers) const;
+    /// The first receiver of the group of each of so many, itself where it has none.
+    std::vector<std::uint32_t> first_of_each(std::size_t receivers) const;
     /// Gives every receiver the mean of its group. `transfer` is of the fronts.
     void average(Transfer& transfer) const;
 

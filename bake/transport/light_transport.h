@@ -16,6 +16,8 @@ namespace prt {
 
 /// The linear operators of a scene. Incident transfer becomes exit transfer by `refill`, then `diffusion`;
 /// exit transfer becomes the incident transfer of the next bounce by `gather`.
+class BounceFilter;
+
 struct TransportOperators {
     const Refill& refill;
     std::span<const DiffusionOperator> diffusion;
@@ -24,6 +26,7 @@ struct TransportOperators {
     const SurfaceFit* fit = nullptr; ///< rows of `gather` are its samples, and receivers take smooth values
                                      ///< of them; null: rows are receivers
     const GatherOperator* check = nullptr; ///< gathers at points where errors are measured; null: none
+    const BounceFilter* filter = nullptr;  ///< of bounced light; null: none
 };
 
 struct Propagated {

@@ -47,6 +47,7 @@ const std::map<std::string, BakeMethod> kBakeMethods = {{"trace", BakeMethod::tr
                                                         {"raster", BakeMethod::raster}};
 const std::map<std::string, std::optional<TransferStorage>> kStorages = {
     {"auto", std::nullopt}, {"float32", TransferStorage::float32}, {"float16", TransferStorage::float16}};
+const std::map<std::string, bool> kDenoise = {{"on", true}, {"off", false}};
 const std::map<std::string, LampMode> kLampModes = {
     {"all", LampMode::all}, {"indirect", LampMode::indirect}, {"none", LampMode::none}};
 
@@ -106,6 +107,8 @@ void add_transport(CLI::App* command, BakeOptions& options) {
             "bounces of light between surfaces; inf: all of them")
         ->type_name("N|inf")
         ->default_str("0");
+    choice(command, "--denoise", options.denoise, kDenoise,
+           "filter bounced light that is measured at vertices over the surface, as far as it is noise", "on");
     command
         ->add_option_function<std::vector<std::string>>(
             "--subsurface",

@@ -153,6 +153,7 @@ Json statistics_json(const BakeStatistics& s) {
             {"receivers_sealed", s.receivers.sealed},
             {"receivers_refilled", s.receivers.refilled},
             {"rays", s.rays},
+            {"denoised", s.denoised},
             {"device", s.device},
             {"seconds", s.seconds.all},
             {"seconds_build", s.seconds.build},

@@ -112,6 +112,8 @@ struct BakeOptions {
     std::optional<double> target_error; ///< relative L2 to reach, with as many rays as each receiver needs
     FitMode fit = FitMode::vertex;
     int bounces = 0; ///< or kEndlessBounces
+    /// Bounced light that is measured at vertices is filtered over the surface as far as it is noise.
+    bool denoise = true;
     TracerChoice tracer;
     SubsurfaceOptions subsurface;
     LampOptions lamps;
@@ -151,7 +153,8 @@ struct BakeStatistics {
     };
     Receivers receivers;
     Fit fit;
-    std::size_t rays = 0; ///< traced in all
+    bool denoised = false; ///< bounced light is filtered
+    std::size_t rays = 0;  ///< traced in all
     std::string device;
     Seconds seconds;
     double mean_visibility = 0; ///< area-weighted T_0 / Y_00 of the direct light
