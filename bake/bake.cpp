@@ -95,7 +95,7 @@ BakeResult bake(const Scene& scene, const BakeOptions& options, const Progress& 
     const Stopwatch all;
     BakePlan plan = plan_bake(traced, media, options);
     plan.measures_errors = errors == MeasureErrors::yes;
-    plan.filters_bounces = options.denoise;
+    plan.filters_bounces = options.lamps.denoise && !plan.lamps.empty();
     check_memory(plan);
     const std::unique_ptr<Tracer> tracer = make_tracer(traced, options.tracer);
     seconds.build = all.seconds();
@@ -135,7 +135,7 @@ BakeResult bake(const Scene& scene, const BakeOptions& options, const Progress& 
 
     BakeResult result = record(plan, *tracer, direct, sealed, std::move(exit.all));
     result.statistics.fit = asked.fit;
-    result.statistics.denoised = beside.filter.has_value();
+    result.statistics.lamps.denoised = beside.filter.has_value();
     result.errors = std::move(found);
     result.statistics.gather.bytes_moved = product ? product->bytes_moved() : 0;
     result.baked.record.fitted = measured.fit.has_value();

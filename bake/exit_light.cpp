@@ -161,11 +161,8 @@ Propagated propagate_all(const BakePlan& plan, Transfer direct, const SampledLig
         exit = std::move(sharp.exit);
     }
     Transfer unbounced = exit_without_bounces(plan, direct, operators.refill);
-    if (!operators.fit && bounced) {
+    if (!operators.fit && bounced)
         exit = propagate(wide(std::move(direct)), operators, plan.bounces, plan.options.threads, progress);
-        if (operators.filter)
-            operators.filter->apply(exit.transfer, unbounced, exit.at_check);
-    }
     if (plan.direct_channels() == 3)
         unbounced = in_color(unbounced);
     leave_back_sides(plan, unbounced);

@@ -26,7 +26,7 @@ struct TransportOperators {
     const SurfaceFit* fit = nullptr; ///< rows of `gather` are its samples, and receivers take smooth values
                                      ///< of them; null: rows are receivers
     const GatherOperator* check = nullptr; ///< gathers at points where errors are measured; null: none
-    const BounceFilter* filter = nullptr;  ///< of bounced light; null: none
+    const BounceFilter* filter = nullptr;  ///< of bounced light of lamps; null: none
 };
 
 struct Propagated {

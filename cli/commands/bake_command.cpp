@@ -107,8 +107,6 @@ void add_transport(CLI::App* command, BakeOptions& options) {
             "bounces of light between surfaces; inf: all of them")
         ->type_name("N|inf")
         ->default_str("0");
-    choice(command, "--denoise", options.denoise, kDenoise,
-           "filter bounced light that is measured at vertices over the surface, as far as it is noise", "on");
     command
         ->add_option_function<std::vector<std::string>>(
             "--subsurface",
@@ -168,6 +166,9 @@ void add_lamps(CLI::App* command, LampOptions& lamps) {
                      "radius of points and spots, metres: the larger, the softer their shadows")
         ->capture_default_str()
         ->check(real_in(0, 1e9));
+    choice(command, "--denoise", lamps.denoise, kDenoise,
+           "filter bounces of lamps that are measured at vertices over the surface, as far as they are noise",
+           "on");
     command->add_option("--lamp-rays", lamps.rays, "rays from a vertex to the lamps of a name with extent")
         ->capture_default_str()
         ->check(CLI::Range(1, kMostRays));

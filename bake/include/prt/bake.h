@@ -63,6 +63,9 @@ struct LampOptions {
     std::vector<LampGroup> groups; ///< a lamp is of the first that it matches
     double radius = 0;             ///< metres: of points and spots, whose shadows get soft by it
     int rays = 64;                 ///< from a receiver to the lamps of a name that have extent
+    /// Their bounces, where light is measured at vertices, are filtered over the surface as far as they are
+    /// noise. Those of a sky are not: they make up for what rays of direct light miss.
+    bool denoise = true;
 };
 
 /// What is done about what is wrong with a scene.
@@ -112,8 +115,6 @@ struct BakeOptions {
     std::optional<double> target_error; ///< relative L2 to reach, with as many rays as each receiver needs
     FitMode fit = FitMode::vertex;
     int bounces = 0; ///< or kEndlessBounces
-    /// Bounced light that is measured at vertices is filtered over the surface as far as it is noise.
-    bool denoise = true;
     TracerChoice tracer;
     SubsurfaceOptions subsurface;
     LampOptions lamps;
@@ -150,11 +151,11 @@ struct BakeStatistics {
     };
     struct Lamps {
         std::size_t count = 0, lights = 0, triangles = 0; ///< names, and what shines under them
+        bool denoised = false;                            ///< their bounces
     };
     Receivers receivers;
     Fit fit;
-    bool denoised = false; ///< bounced light is filtered
-    std::size_t rays = 0;  ///< traced in all
+    std::size_t rays = 0; ///< traced in all
     std::string device;
     Seconds seconds;
     double mean_visibility = 0; ///< area-weighted T_0 / Y_00 of the direct light
