@@ -19,8 +19,8 @@ struct AdaptiveResult {
 /// Direct transfer with a relative L2 error of `target`. Two independent scrambles of a few rays estimate the
 /// error of every receiver; from that the number of rays of each is planned, so that together they cost
 /// least; a sample of the receivers, traced again, tells what came out, and if it is not enough the plan is
-/// extended (docs/math.md, section 9). `left` [receivers]: what later means over receivers leave of the
-/// squared error of each, which the target is of.
+/// extended (docs/math.md, section 9). `left` [receivers]: factor that later means over receivers apply to
+/// the squared error of each; the target includes it.
 AdaptiveResult adaptive_transfer(Tracer& tracer, const Receivers& receivers, const MeshNeighbours& neighbours,
                                  std::span<const float> left, const TraceOptions& options, double target,
                                  const Progress& progress);

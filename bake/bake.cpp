@@ -35,7 +35,7 @@ std::optional<ErrorCheck> check_errors(const BakePlan& plan, Tracer& tracer, Mea
     return check;
 }
 
-/// What is gathered beside the light of receivers: at points of the check, then by half of the rays.
+/// Gathers light at the points of the error check, then by half of the rays of each receiver.
 struct GatheredBeside {
     std::optional<GatherOperator> gather;
     std::size_t points = 0; ///< rows of the check

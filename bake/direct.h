@@ -25,11 +25,11 @@ struct DirectLight {
     std::vector<std::string> notices;
 };
 
-/// The gather operator keeps references to `plan`. `left` [receivers]: what later means over receivers leave
-/// of the squared noise of each; the target and the estimate of the sampling error are of that.
+/// The gather operator keeps references to `plan`. `left` [receivers]: factor that later means over receivers
+/// apply to the squared noise of each. The target and the estimate of the sampling error include it.
 DirectLight trace_direct(const BakePlan& plan, Tracer& tracer, std::span<const float> left,
                          const Progress& progress);
-/// What is left of noise that all receivers on the fronts have alike.
+/// Factor on the relative noise of a bake in which all receivers have the same noise.
 double noise_left(const BakePlan& plan, std::span<const float> left);
 
 } // namespace prt

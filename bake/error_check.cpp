@@ -146,7 +146,7 @@ void ErrorCheck::choose_points(Tracer& tracer, const Measured& measured, const M
     }
 }
 
-/// Of nodes whose backs some light reaches: nobody sees the others. What passes light shows that of its back.
+/// Adds backs in nodes whose backs light reaches: nobody sees the others. Sheets that pass light need both.
 void ErrorCheck::add_backs() {
     std::vector<Point*> two_sided;
     std::vector<std::uint32_t> triangles;

@@ -14,7 +14,7 @@ GatherOperator empty_gather(const BakePlan& plan, std::size_t rows) {
     return {plan.scene.surfaces(), *plan.transport, rows, plan.channels};
 }
 
-/// Of every other hit, which stand for all.
+/// Sets a row from every other hit, weighted to stand for all.
 void set_half_row(GatherOperator& gather, std::size_t row, std::span<const Hit> hits, int rays) {
     std::vector<Hit> half;
     float all = 0, sum = 0;

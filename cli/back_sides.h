@@ -1,6 +1,6 @@
 #pragma once
 
-// What the backs of double-sided surfaces show.
+// Vertices for both sides of double-sided surfaces.
 
 #include "inputs.h"
 #include "prt/bake.h"
@@ -21,7 +21,7 @@ enum class BackSides {
 /// --back-sides
 void add_back_sides(CLI::App* command, BackSides& sides);
 
-/// What a bake makes of a scene.
+/// Input of `separate_sides`.
 struct SidesRequest {
     BackSides sides;
     const Path& path; ///< of the scene, for messages

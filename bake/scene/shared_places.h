@@ -18,7 +18,7 @@ public:
     /// Receivers of surfaces that light passes, or with a medium inside, are in no group.
     SharedPlaces(const TraceScene& scene, const TransportReceivers& receivers);
 
-    /// What means leave of the squared noise of each of so many receivers, the fronts first.
+    /// Factor that `average` applies to the squared noise of each receiver, [receivers], fronts first.
     std::vector<float> left(std::size_t receivers) const;
     /// The first receiver of the group of each of so many, itself where it has none.
     std::vector<std::uint32_t> first_of_each(std::size_t receivers) const;

@@ -57,7 +57,7 @@ BackReach::Path BackReach::path(std::uint32_t triangle, std::uint32_t seed, std:
     return path;
 }
 
-/// By one light and one point of what shines.
+/// Tests one light and one point on emissive surfaces, both drawn by chance.
 bool BackReach::sees_lamp(const LitSide& side, PathSamples& samples) const {
     const glm::vec3 origin = side.origin();
     const auto arrives = [&](const SceneLamps::Sample& sample) {
@@ -68,7 +68,7 @@ bool BackReach::sees_lamp(const LitSide& side, PathSamples& samples) const {
            (lamps_.has_surfaces() && arrives(lamps_.sample_surface(origin, samples.next())));
 }
 
-/// What stops the ray, by chance where it covers in part.
+/// Returns the hit that stops the ray; partial coverage stops it by chance.
 std::optional<SurfacePoint> BackReach::nearest(Ray ray, PathSamples& samples) const {
     while (const std::optional<RayHit> met = scene_.rays().nearest(ray)) {
         const SurfacePoint point{met->triangle, met->uv, 0};

@@ -31,7 +31,7 @@ public:
     /// is empty where nobody asks.
     Path path(std::uint32_t triangle, std::uint32_t seed, std::uint32_t index,
               std::span<const std::uint32_t> pieces = {}) const;
-    /// Of two paths from the back of each of `triangles`.
+    /// Mean reach of two paths from the back of each of `triangles`.
     std::vector<float> means(std::span<const std::uint32_t> triangles) const;
 
 private:

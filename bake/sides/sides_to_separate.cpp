@@ -21,7 +21,7 @@ constexpr std::size_t kPatchTriangles = 64;
 constexpr std::uint32_t kFirstPaths = 8, kMaxPaths = 512, kHomePaths = 64, kPiecePaths = 256;
 /// Neighbours tell of a patch, too, in a piece of many.
 constexpr std::uint32_t kManyPatches = 16, kFewPaths = 128;
-/// So many paths that found light are enough.
+/// A patch is lit where this many paths found light.
 constexpr std::uint32_t kCertain = 4;
 /// A piece is separated as a whole where so much of its area is lit.
 constexpr double kMostly = 0.5;

@@ -80,7 +80,8 @@ std::vector<float> BounceFilter::sums(const Columns& columns, Value&& value) con
     return sums;
 }
 
-/// Those with most light, over their root mean square: one lamp tells as much as another.
+/// Selects the columns with most light and normalizes them by their root mean square, so that lamps count
+/// alike.
 BounceFilter::Columns BounceFilter::telling(const Light& light) const {
     constexpr std::size_t kTelling = 8; // one block of the solver
     std::vector<double> squares(light.all.dimension());

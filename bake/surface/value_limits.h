@@ -29,7 +29,7 @@ public:
     /// The value may not leave the range at all; others may by a share of it, as values at vertices do where
     /// the surface is curved.
     bool exact(std::size_t test) const { return tests_[test].exact; }
-    /// What the value does not exceed unless samples do: 1 under uniform light.
+    /// Upper bound unless samples exceed it: 1 under uniform light.
     float bound(std::size_t test) const { return tests_[test].bound; }
     /// Writes [count]. Of a sky of one channel `vector` may end after `first_coefficients`.
     void evaluate(std::span<const float> vector, std::span<float> values) const;

@@ -51,7 +51,7 @@ public:
                                   const std::function<bool(unsigned triangle)>& accepts) const;
     bool occluded(const Ray& ray) const;
 
-    /// Of surfaces that a mesh holds twice. What reads hits of `handle()` has to ask them.
+    /// Pairs of opposite triangles. Code that reads hits of `handle()` must apply them.
     const OppositeTriangles& opposites() const { return *opposites_; }
 
     /// An RTCScene, for packets of rays.

@@ -42,7 +42,7 @@ public:
     }
     std::size_t fronts() const { return back_.size(); }
     bool empty() const { return source_.size() == back_.size(); }
-    /// What all vertices are copies of, [fronts and backs].
+    /// Source vertex of each vertex, [fronts and backs].
     const std::vector<std::uint32_t>& source() const { return source_; }
     glm::uvec3 opposite(const glm::uvec3& t) const { return {back_[t.x], back_[t.z], back_[t.y]}; }
 
@@ -169,7 +169,7 @@ private:
                    contents_, contents_.json["accessors"][static_cast<std::size_t>(old)], elements);
     }
 
-    /// Those with a back go into a primitive of their own, unless all have one.
+    /// Moves separated triangles to a new primitive, unless all are separated.
     JsonPlace write_triangles(std::size_t p) {
         JsonPlace at = place(p);
         const bool mirrored = scene_.primitives[p].mirrored;

@@ -106,7 +106,7 @@ TEST(OppositeTriangles, GoInPairs) {
     }
 }
 
-/// Of two of one side and one of the other each has one.
+/// Two triangles of one side share the one of the other.
 TEST(OppositeTriangles, StandForSeveralWhereOneSideHasMore) {
     SceneBuilder builder;
     builder.triangle({0, 0, 0}, {1, 0, 0}, {0, 1, 0}).triangle({0, 0, 0}, {1, 0, 0}, {0, 1, 0});
