@@ -164,7 +164,8 @@ void ErrorCheck::add_backs() {
         areas[node_of(*two_sided[i])] += two_sided[i]->area;
     }
     for (Point* const point : two_sided) {
-        const bool reached = of_nodes[node_of(*point)] > kLeastReach * areas[node_of(*point)];
+        const int node = node_of(*point);
+        const bool reached = of_nodes[node] > kMinReach * areas[node];
         if (!reached && !plan_.scene.surfaces().transmits(point->place.triangle))
             continue;
         point->back = static_cast<std::uint32_t>(rows_.size());

@@ -47,9 +47,9 @@ void add_back_sides(CLI::App* command, BackSides& sides) {
            "auto");
 }
 
-bool separate_sides(const SidesRequest& request, GltfDocument& document, Scene& scene) {
+void separate_sides(const SidesRequest& request, GltfDocument& document, Scene& scene) {
     if (request.sides == BackSides::shared)
-        return false;
+        return;
     leave_out_shadows(scene, request.no_shadow);
     std::optional<Scene> levels;
     if (request.levels && has_levels(document))
@@ -57,21 +57,21 @@ bool separate_sides(const SidesRequest& request, GltfDocument& document, Scene& 
     const Scene& all = levels ? *levels : scene;
     const std::vector<bool> triangles = sides_to_separate(all, request.options);
     if (triangles.empty())
-        return false;
+        return;
     document = with_separate_sides(std::move(document), all, triangles);
     Scene separate = extract_scene(document);
     leave_out_shadows(separate, request.no_shadow);
     separate.notices = std::move(scene.notices); // of the file that was given
-    if (separate.receivers() == scene.receivers())
-        return false; // a variant is single-sided
+    const std::size_t added = separate.receivers() - scene.receivers();
+    scene = std::move(separate); // the one of the document, also where a variant culls all of the backs
+    if (added == 0)
+        return;
     const std::string notice = fmt::format(
         "light reaches the backs of {} double-sided triangles: {} more vertices hold it (--back-sides "
         "shared: backs show the light of fronts)",
-        std::ranges::count(triangles, true), separate.receivers() - scene.receivers());
+        std::ranges::count(triangles, true), added);
     print_notices(request.path.string(), {notice});
-    separate.notices.push_back(notice);
-    scene = std::move(separate);
-    return true;
+    scene.notices.push_back(notice);
 }
 
 void note_shared_sides(const SidesRequest& request, const Scene& scene) {

@@ -30,8 +30,8 @@ struct SidesRequest {
     bool levels = false; ///< coarser levels of detail, too
 };
 /// Puts document and scene with vertices for both sides in the place of these where sides need them, and says
-/// so on stderr and in the notices of the scene. Returns whether any does.
-bool separate_sides(const SidesRequest& request, GltfDocument& document, Scene& scene);
+/// so on stderr and in the notices of the scene.
+void separate_sides(const SidesRequest& request, GltfDocument& document, Scene& scene);
 /// Says on stderr where sides of `scene` need vertices that they do not get.
 void note_shared_sides(const SidesRequest& request, const Scene& scene);
 

@@ -20,7 +20,7 @@ public:
 
     /// Factor that `average` applies to the squared noise of each receiver, [receivers], fronts first.
     std::vector<float> left(std::size_t receivers) const;
-    /// The first receiver of the group of each of so many, itself where it has none.
+    /// First receiver of the group of each receiver, or the receiver itself, [receivers].
     std::vector<std::uint32_t> first_of_each(std::size_t receivers) const;
     /// Gives every receiver the mean of its group. `transfer` is of the fronts.
     void average(Transfer& transfer) const;

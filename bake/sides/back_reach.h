@@ -13,7 +13,7 @@
 namespace prt {
 
 /// Mean reach of a part of a surface, above what comes through the cracks of solids.
-inline constexpr double kLeastReach = 1e-3;
+inline constexpr double kMinReach = 1e-3;
 
 /// Paths that look for light. A path has reach 1/2 for each surface that it meets before it ends in the sky
 /// above the horizon or where a point of a lamp that is drawn by chance is in sight, 0 where it does not get

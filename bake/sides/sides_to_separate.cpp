@@ -19,7 +19,7 @@ constexpr std::size_t kPatchTriangles = 64;
 /// Paths of a patch: at first, in all, and where none of them leaves the inside of its piece. Where the first
 /// ones of all patches of a piece find no light, it is dark: they are at least kPiecePaths together.
 constexpr std::uint32_t kFirstPaths = 8, kMaxPaths = 512, kHomePaths = 64, kPiecePaths = 256;
-/// Neighbours tell of a patch, too, in a piece of many.
+/// In a piece with at least this many patches, kFewPaths dark paths make a patch dark.
 constexpr std::uint32_t kManyPatches = 16, kFewPaths = 128;
 /// A patch is lit where this many paths found light.
 constexpr std::uint32_t kCertain = 4;
@@ -86,12 +86,12 @@ struct Patch {
     std::vector<std::uint32_t> triangles;
     std::vector<double> areas; ///< sums up to each triangle
 
-    std::uint32_t dark_paths = kMaxPaths; ///< so many that find no light tell that there is none
+    std::uint32_t dark_paths = kMaxPaths; ///< the patch is dark after this many dark paths
     std::uint32_t paths = 0, found = 0;   ///< those that were followed, and those that found light
     double reach = 0;                     ///< their sum
     bool at_home = true;                  ///< all of them
 
-    bool is_lit() const { return found > 0 && reach > kLeastReach * paths; }
+    bool is_lit() const { return found > 0 && reach > kMinReach * paths; }
     bool is_surely_lit() const { return found >= kCertain && is_lit(); }
     bool is_surely_dark() const { return found == 0 && paths >= (at_home ? kHomePaths : dark_paths); }
 
@@ -168,7 +168,7 @@ private:
 
     std::uint32_t piece_of(const Patch& patch) const { return pieces_[patch.triangles.front()]; }
 
-    /// Follows paths until a patch is `clear`, or has as many as `paths` of it.
+    /// Traces paths of each patch until `clear(patch)`, or until it has `paths(patch)` of them.
     template <class Paths, class Clear>
     void trace(Paths&& paths, Clear&& clear, const std::stop_token& stop) {
         parallel_for(patches_.size(), 1, scene_.threads(), [&](std::size_t begin, std::size_t end) {

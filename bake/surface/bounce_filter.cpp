@@ -126,7 +126,7 @@ void BounceFilter::limit(std::span<const float> means, std::size_t columns, std:
                     high[u * columns + c] = std::max(high[u * columns + c], means[v * columns + c]);
                 }
     for (std::size_t i = 0; i < x.size(); ++i)
-        // Where no ray met light there is none, whatever the neighbours have.
+        // Exact zeros stay: the filter adds no light where no ray met any.
         x[i] = means[i] == 0 ? 0 : std::clamp(x[i], low[i], high[i]);
 }
 

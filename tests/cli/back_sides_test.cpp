@@ -107,6 +107,36 @@ TEST_F(BackSides, AreRefinedAlike) {
         EXPECT_EQ(sum, 0);
 }
 
+/// A variant that culls backs leaves the mesh as it is, also where flat normals split its vertices.
+TEST_F(BackSides, StayWhereAVariantCullsThem) {
+    GlbFile file = triangle_file();
+    const std::size_t tent = file.accessor(
+        std::vector<float>{-1, 0.5f, 1, 0, 1, 1, 1, 0.5f, 1, -1, 0.5f, -1, 0, 1, -1, 1, 0.5f, -1}, kFloat,
+        "VEC3", 3);
+    file.json["accessors"][tent]["min"] = {-1, 0.5, -1};
+    file.json["accessors"][tent]["max"] = {1, 1, 1};
+    const std::size_t indices = file.accessor(std::vector<std::uint16_t>{0, 1, 4, 0, 4, 3, 1, 2, 5, 1, 5, 4},
+                                              kUnsignedShort, "SCALAR", 1);
+    file.json["materials"] = {{{"name", "cloth"}, {"doubleSided", true}}};
+    auto& primitive = file.json["meshes"][0]["primitives"][0];
+    primitive["attributes"] = {{"POSITION", tent}};
+    primitive["indices"] = indices;
+    primitive["material"] = 0;
+    primitive["extensions"]["KHR_materials_variants"]["mappings"] = {{{"material", 1}, {"variants", {0}}}};
+    file.json["materials"].push_back({{"name", "front"}});
+    file.json["extensionsUsed"] = {"KHR_materials_variants"};
+    file.json["extensions"]["KHR_materials_variants"]["variants"] = {{{"name", "a"}}};
+    file.write(folder / "roof.glb");
+    const Outcome baked = bake("roof.glb", "b.glb");
+    ASSERT_EQ(baked.status, 0) << baked.err;
+    EXPECT_EQ(baked.err.find("the backs of"), std::string::npos) << baked.err;
+    const Scene before = extract_scene(load_gltf(folder / "roof.glb")),
+                after = extract_scene(load_gltf(folder / "b.glb"));
+    EXPECT_EQ(after.vertex_arrays[0].positions, before.vertex_arrays[0].positions);
+    EXPECT_EQ(after.vertex_arrays[0].normals, before.vertex_arrays[0].normals);
+    EXPECT_NE(validator_errors(folder / "b.glb"), 1);
+}
+
 /// The underside of the roof is not as open as its top.
 TEST_F(BackSides, HaveOcclusionOfTheirOwn) {
     roof_file().write(folder / "roof.glb");

@@ -43,8 +43,8 @@ public:
     RayScene(RayScene&&) noexcept;
     ~RayScene();
 
-    /// The nearest triangle on the way; nothing where there is none. Of two opposite ones at one place it is
-    /// the one that shows its front.
+    /// The nearest triangle along the ray, or nothing. Of a pair of opposite triangles, the one that faces
+    /// the ray.
     std::optional<RayHit> nearest(const Ray& ray) const;
     /// The nearest of those triangles that `accepts`.
     std::optional<RayHit> nearest(const Ray& ray,

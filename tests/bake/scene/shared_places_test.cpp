@@ -50,7 +50,7 @@ TEST(SharedPlaces, HaveOneValue) {
 /// Six triangles meet at a vertex inside the floor: the mean of as many nets of rays has less noise than one.
 TEST(SharedPlaces, HaveTheNoiseOfAllTheirRays) {
     const Scene scene = floor_under_lid();
-    // Corners of one triangle of the floor, moved apart by too little to change their light.
+    // Corners of different triangles get different positions; 0.1 mm does not change their light.
     Scene apart = scene;
     for (std::size_t v = 0; v < apart.vertex_arrays[0].size(); ++v) {
         glm::vec3& at = apart.vertex_arrays[0].positions[v];

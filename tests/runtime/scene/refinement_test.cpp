@@ -4,14 +4,13 @@
 
 #include "prt/encode_glb.h"
 #include "prt/support/error.h"
-#include "support/glb_file.h"
+#include "support/glb_elements.h"
 #include "support/temporary_folder.h"
 
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <cstring>
 #include <numbers>
 
 namespace prt {
@@ -50,14 +49,7 @@ struct Finer {
     /// The components of element `i` of an accessor.
     template <class T>
     std::vector<T> element(const Json& index, std::size_t i, std::size_t components) const {
-        const Json of = accessor(index),
-                   view = written.json["bufferViews"][of["bufferView"].get<std::size_t>()];
-        std::vector<T> values(components);
-        const std::size_t stride = view.value("byteStride", components * sizeof(T));
-        std::memcpy(values.data(),
-                    written.binary.data() + view.value("byteOffset", std::size_t{0}) + i * stride,
-                    components * sizeof(T));
-        return values;
+        return test::glb_element<T>(written, index.get<std::size_t>(), i, components);
     }
     template <class T>
     std::vector<T> element(const char* attribute, std::size_t i, std::size_t components) const {

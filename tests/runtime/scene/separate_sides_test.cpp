@@ -2,12 +2,10 @@
 
 #include "prt/separate_sides.h"
 
-#include "support/glb_file.h"
+#include "support/glb_elements.h"
 #include "support/temporary_folder.h"
 
 #include <gtest/gtest.h>
-
-#include <cstring>
 
 namespace prt {
 namespace {
@@ -52,14 +50,7 @@ struct Separated {
 
     template <class T>
     std::vector<T> element(const Json& index, std::size_t i, std::size_t components) const {
-        const Json of = written.json["accessors"][index.get<std::size_t>()],
-                   view = written.json["bufferViews"][of["bufferView"].get<std::size_t>()];
-        std::vector<T> values(components);
-        const std::size_t stride = view.value("byteStride", components * sizeof(T));
-        std::memcpy(values.data(),
-                    written.binary.data() + view.value("byteOffset", std::size_t{0}) + i * stride,
-                    components * sizeof(T));
-        return values;
+        return test::glb_element<T>(written, index.get<std::size_t>(), i, components);
     }
     Json primitive(std::size_t index) const { return written.json["meshes"][0]["primitives"][index]; }
     bool double_sided(std::size_t index) const {
