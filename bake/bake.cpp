@@ -5,12 +5,12 @@
 #include "bake_options.h"
 #include "error_check.h"
 #include "exit_light.h"
+#include "lamps/lamp_bounces.h"
 #include "measured_light.h"
 #include "memory.h"
 #include "parts.h"
 #include "prt/support/stopwatch.h"
 #include "scene/places_without_area.h"
-#include "surface/bounce_filter.h"
 
 #include <algorithm>
 #include <memory>
@@ -24,10 +24,10 @@ namespace {
 /// Traces points of the surface where the plan measures errors. They also estimate the sampling error of
 /// direct light at receivers.
 std::optional<ErrorCheck> check_errors(const BakePlan& plan, Tracer& tracer, Measured& measured,
-                                       const MeasuredLamps& lamps, const std::stop_token& stop) {
+                                       const std::stop_token& stop) {
     if (!plan.measures_errors)
         return std::nullopt;
-    std::optional<ErrorCheck> check(std::in_place, plan, tracer, measured, lamps, stop);
+    std::optional<ErrorCheck> check(std::in_place, plan, tracer, measured, stop);
     measured.direct.rays += check->rays();
     if (!measured.fit && !plan.options.target_error && tracer.method() == BakeMethod::trace)
         measured.direct.sampling_error =
@@ -35,11 +35,11 @@ std::optional<ErrorCheck> check_errors(const BakePlan& plan, Tracer& tracer, Mea
     return check;
 }
 
-/// Gathers light at the points of the error check, then by half of the rays of each receiver.
+/// Gathers light at the points of the error check, then by the rows of lamps.
 struct GatheredBeside {
     std::optional<GatherOperator> gather;
     std::size_t points = 0; ///< rows of the check
-    std::optional<BounceFilter> filter;
+    std::optional<LampBounces> lamps;
 
     GatheredBeside(const BakePlan& plan, Measured& measured, std::optional<ErrorCheck>& check) {
         if (check)
@@ -47,17 +47,19 @@ struct GatheredBeside {
                 points = rows->rows();
                 gather.emplace(std::move(*rows));
             }
-        std::optional<GatherOperator>& half = measured.direct.half;
-        if (!half)
+        std::optional<LampRows>& rows = measured.direct.lamps;
+        if (!rows || measured.fit)
             return;
         if (gather)
-            gather->append(std::move(*half));
+            gather->append(std::move(rows->all));
         else
-            gather.emplace(std::move(*half));
+            gather.emplace(std::move(rows->all));
+        if (rows->half)
+            gather->append(std::move(*rows->half));
         std::vector<bool> sealed(plan.receivers().size());
         for (const std::uint32_t p : measured.sealed.receivers)
             sealed[p] = true;
-        filter.emplace(plan, *measured.shared, sealed, points);
+        lamps.emplace(plan, *measured.shared, std::move(sealed), points);
     }
     std::span<const float> at_points(std::span<const float> light) const {
         return light.first(gather ? light.size() / gather->rows() * points : 0);
@@ -70,13 +72,13 @@ struct ExitLight {
     std::vector<float> lamps_at_check; ///< as Propagated::at_check
 };
 
-ExitLight exit_light(const BakePlan& plan, Measured& measured, MeasuredLamps lamps,
-                     const TransportOperators& operators, const Progress& progress) {
+ExitLight exit_light(const BakePlan& plan, Measured& measured, const TransportOperators& operators,
+                     const Progress& progress) {
     ExitLight exit{
         propagate_all(plan, std::move(measured.direct.transfer), measured.sky, operators, progress), {}};
     if (plan.lamps.empty())
         return exit;
-    Propagated lit = propagate_lamps(plan, std::move(lamps), operators, {{}, progress.stop});
+    Propagated lit = propagate_lamps(plan, std::move(measured.lamps), operators, {{}, progress.stop});
     exit.all.transfer = with_lamps(exit.all.transfer, lit.transfer, plan.lamps);
     exit.all.bounces = std::max(exit.all.bounces, lit.bounces);
     exit.all.remaining = std::max(exit.all.remaining, lit.remaining);
@@ -95,20 +97,17 @@ BakeResult bake(const Scene& scene, const BakeOptions& options, const Progress& 
     const Stopwatch all;
     BakePlan plan = plan_bake(traced, media, options);
     plan.measures_errors = errors == MeasureErrors::yes;
-    plan.filters_bounces = options.lamps.denoise && !plan.lamps.empty();
     check_memory(plan);
     const std::unique_ptr<Tracer> tracer = make_tracer(traced, options.tracer);
     seconds.build = all.seconds();
 
-    const double traced_sky = plan.bounces != 0 ? 0.85 : 0.95,
-                 traced_all = plan.lamps.empty() ? traced_sky : traced_sky - 0.2;
+    const double traced_sky = plan.bounces != 0 ? 0.85 : 0.95;
     BakeStatistics asked;
-    Measured measured = measure(plan, *tracer, asked, progress.part(0, traced_all));
+    Measured measured = measure(plan, *tracer, LastOfLamps::connected, asked, progress.part(0, traced_sky));
     DirectLight& direct = measured.direct;
     const SealedIn& sealed = measured.sealed;
-    MeasuredLamps lamps = measure_lamps(plan, *tracer, measured.fit, progress.part(traced_all, traced_sky));
-    direct.rays += lamps.light.rays + asked.rays;
-    std::optional<ErrorCheck> check = check_errors(plan, *tracer, measured, lamps, progress.stop);
+    direct.rays += measured.lamps.light.rays + asked.rays;
+    std::optional<ErrorCheck> check = check_errors(plan, *tracer, measured, progress.stop);
     seconds.tracing = tracer->seconds();
 
     const Stopwatch transport;
@@ -121,8 +120,10 @@ BakeResult bake(const Scene& scene, const BakeOptions& options, const Progress& 
                                        .product = product.get(),
                                        .fit = measured.fit ? &*measured.fit : nullptr,
                                        .check = beside.gather ? &*beside.gather : nullptr,
-                                       .filter = beside.filter ? &*beside.filter : nullptr};
-    ExitLight exit = exit_light(plan, measured, std::move(lamps), operators, progress.part(traced_sky, 1));
+                                       .lamps = beside.lamps ? &*beside.lamps : nullptr,
+                                       .last_of_lamps =
+                                           measured.fit && direct.lamps ? &direct.lamps->all : nullptr};
+    ExitLight exit = exit_light(plan, measured, operators, progress.part(traced_sky, 1));
     if (measured.shared)
         measured.shared->average(exit.all.transfer);
     fill_without_area(plan.receivers(), plan.transport->fronts, exit.all.transfer);
@@ -135,7 +136,7 @@ BakeResult bake(const Scene& scene, const BakeOptions& options, const Progress& 
 
     BakeResult result = record(plan, *tracer, direct, sealed, std::move(exit.all));
     result.statistics.fit = asked.fit;
-    result.statistics.lamps.denoised = beside.filter.has_value();
+    result.statistics.lamps.denoised = beside.lamps && beside.lamps->filters();
     result.errors = std::move(found);
     result.statistics.gather.bytes_moved = product ? product->bytes_moved() : 0;
     result.baked.record.fitted = measured.fit.has_value();

@@ -22,9 +22,8 @@ BouncedSources bounced_sources(const BakePlan& plan, Tracer& tracer, const Progr
     if (plan.bounces == 0)
         return sources;
     BakeStatistics asked;
-    Measured measured = measure(plan, tracer, asked, progress.part(0, 0.8));
-    MeasuredLamps lamps = measure_lamps(plan, tracer, measured.fit, progress.part(0.8, 0.9));
-    sources.rays = measured.direct.rays + measured.sealed.rays + lamps.light.rays + asked.rays;
+    Measured measured = measure(plan, tracer, LastOfLamps::as_others, asked, progress.part(0, 0.9));
+    sources.rays = measured.direct.rays + measured.sealed.rays + measured.lamps.light.rays + asked.rays;
     const std::unique_ptr<GatherProduct> product =
         measured.direct.gather ? tracer.gather_product(*measured.direct.gather) : nullptr;
     const TransportOperators operators{.refill = measured.sealed.refill,
@@ -39,9 +38,9 @@ BouncedSources bounced_sources(const BakePlan& plan, Tracer& tracer, const Progr
     sources.bounces = lit.bounces + 1;
     sources.sky = std::move(lit.transfer);
     if (!plan.lamps.empty())
-        sources.lamps =
-            propagate_lamps_on_both_sides(plan, std::move(lamps.light.transfer), operators, before, {})
-                .transfer;
+        sources.lamps = propagate_lamps_on_both_sides(plan, std::move(measured.lamps.light.transfer),
+                                                      operators, before, {})
+                            .transfer;
     return sources;
 }
 

@@ -32,17 +32,17 @@ std::vector<std::uint32_t> trace_adaptively(const BakePlan& plan, Tracer& tracer
     return std::move(adaptive.rays);
 }
 
-void add_gather(const BakePlan& plan, Tracer& tracer, std::span<const std::uint32_t> rays_of,
-                DirectLight& direct, const Progress& progress) {
-    TracedGather traced = trace_gather(plan, tracer, rays_of, direct.transfer, progress);
+void add_gather(const BakePlan& plan, Tracer& tracer, const LampConnections* lamps,
+                std::span<const std::uint32_t> rays_of, DirectLight& direct, const Progress& progress) {
+    TracedGather traced = trace_gather(plan, tracer, lamps, rays_of, direct.transfer, progress);
     direct.rays += traced.rays;
     if (traced.gather.entries() == 0) {
         direct.notices.push_back("no bounces: no ray from a receiver meets a surface that scatters");
         return;
     }
     direct.gather.emplace(std::move(traced.gather));
-    if (traced.half)
-        direct.half.emplace(std::move(*traced.half));
+    if (traced.lamps)
+        direct.lamps.emplace(std::move(*traced.lamps));
 }
 
 } // namespace
@@ -57,8 +57,8 @@ double noise_left(const BakePlan& plan, std::span<const float> left) {
     return all > 0 ? std::sqrt(sum / all) : 1;
 }
 
-DirectLight trace_direct(const BakePlan& plan, Tracer& tracer, std::span<const float> left,
-                         const Progress& progress) {
+DirectLight trace_direct(const BakePlan& plan, Tracer& tracer, const LampConnections* lamps,
+                         std::span<const float> left, const Progress& progress) {
     const Receivers& receivers = plan.receivers();
     const std::vector<std::uint32_t> indices = receivers_on_surfaces(receivers);
     const TraceOptions options{
@@ -72,7 +72,7 @@ DirectLight trace_direct(const BakePlan& plan, Tracer& tracer, std::span<const f
     else
         direct.transfer = zero_transfer(options.order, 1, receivers.size());
     if (plan.bounces != 0) {
-        add_gather(plan, tracer, rays_of, direct, progress.part(adaptive ? 0.5 : 0, 1));
+        add_gather(plan, tracer, lamps, rays_of, direct, progress.part(adaptive ? 0.5 : 0, 1));
     } else if (!adaptive) {
         trace_receivers(tracer, receivers, indices, options, direct.transfer, progress);
         direct.rays = indices.size() * static_cast<std::size_t>(options.rays);

@@ -2,6 +2,7 @@
 
 // Direct light of a scene, and what its rays tell beside it.
 
+#include "lamps/lamp_rows.h"
 #include "plan.h"
 #include "prt/tracer.h"
 #include "transport/gather.h"
@@ -16,19 +17,20 @@ namespace prt {
 struct DirectLight {
     Transfer transfer; ///< of receivers and back sides, one channel
     std::optional<GatherOperator>
-        gather;                         ///< of the same rays, where there are bounces and they see something
-    std::optional<GatherOperator> half; ///< of every other of its rays; see BounceFilter
-    std::size_t rays = 0;               ///< traced in all
-    int mean_rays = 0;                  ///< that a receiver has
-    double mean_visibility = 0;         ///< area-weighted T_0 / Y_00
-    double sampling_error = 0;          ///< estimated relative L2; 0: not estimated here
+        gather;                    ///< of the same rays, where there are bounces and they see something
+    std::optional<LampRows> lamps; ///< for the last bounce of lamps
+    std::size_t rays = 0;          ///< traced in all
+    int mean_rays = 0;             ///< that a receiver has
+    double mean_visibility = 0;    ///< area-weighted T_0 / Y_00
+    double sampling_error = 0;     ///< estimated relative L2; 0: not estimated here
     std::vector<std::string> notices;
 };
 
-/// The gather operator keeps references to `plan`. `left` [receivers]: factor that later means over receivers
-/// apply to the squared noise of each. The target and the estimate of the sampling error include it.
-DirectLight trace_direct(const BakePlan& plan, Tracer& tracer, std::span<const float> left,
-                         const Progress& progress);
+/// The gather operator keeps references to `plan`. `lamps`: joins rows for lamps; may be null. `left`
+/// [receivers]: factor that later means over receivers apply to the squared noise of each. The target and the
+/// estimate of the sampling error include it.
+DirectLight trace_direct(const BakePlan& plan, Tracer& tracer, const LampConnections* lamps,
+                         std::span<const float> left, const Progress& progress);
 /// Factor on the relative noise of a bake in which all receivers have the same noise.
 double noise_left(const BakePlan& plan, std::span<const float> left);
 

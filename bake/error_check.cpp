@@ -63,11 +63,11 @@ double squared_error(std::span<const float> baked, std::span<const float> first,
 } // namespace
 
 ErrorCheck::ErrorCheck(const BakePlan& plan, Tracer& tracer, const Measured& measured,
-                       const MeasuredLamps& lamps, const std::stop_token& stop)
+                       const std::stop_token& stop)
     : plan_(plan) {
     std::optional<EmbreeTracer> other; // depth maps are checked by rays, which do not share their error
     Tracer& rays = tracer.notes_hits() ? tracer : static_cast<Tracer&>(other.emplace(plan.scene));
-    choose_points(rays, measured, lamps, stop);
+    choose_points(rays, measured, stop);
     add_backs();
     trace(rays, static_cast<double>(std::max(1, measured.direct.mean_rays)), stop);
     leave_out_sealed(rays, stop);
@@ -103,10 +103,9 @@ SurfaceSamples ErrorCheck::look(Tracer& tracer, const Transfer& sky, const Surfa
     return pick_samples(many, squares, count);
 }
 
-void ErrorCheck::choose_points(Tracer& tracer, const Measured& measured, const MeasuredLamps& lamps,
-                               const std::stop_token& stop) {
+void ErrorCheck::choose_points(Tracer& tracer, const Measured& measured, const std::stop_token& stop) {
     const Surfaces& surfaces = plan_.scene.surfaces();
-    const Transfer &sky = measured.direct.transfer, &lit = lamps.light.transfer;
+    const Transfer &sky = measured.direct.transfer, &lit = measured.lamps.light.transfer;
     const std::size_t columns = 1 + plan_.lamps.size(),
                       stride = lit.dimension() / static_cast<std::size_t>(lit.layout.channels());
     std::vector<float> light(plan_.receivers().size() * columns);

@@ -22,8 +22,7 @@ namespace prt {
 class ErrorCheck {
 public:
     /// Chooses points where measured light varies, and traces them. Keeps a reference to `plan`.
-    ErrorCheck(const BakePlan& plan, Tracer& tracer, const Measured& measured, const MeasuredLamps& lamps,
-               const std::stop_token& stop);
+    ErrorCheck(const BakePlan& plan, Tracer& tracer, const Measured& measured, const std::stop_token& stop);
 
     /// Moves out what gathers exit light at the points; nothing where nothing bounces.
     std::optional<GatherOperator> take_gather() {
@@ -72,8 +71,7 @@ private:
         std::map<int, Node> nodes;
     };
 
-    void choose_points(Tracer& tracer, const Measured& measured, const MeasuredLamps& lamps,
-                       const std::stop_token& stop);
+    void choose_points(Tracer& tracer, const Measured& measured, const std::stop_token& stop);
     /// About `count` of `many`, more often where a few rays differ from what is interpolated of `sky`.
     SurfaceSamples look(Tracer& tracer, const Transfer& sky, const SurfaceSamples& many, std::size_t count,
                         const std::stop_token& stop);

@@ -2,10 +2,11 @@
 
 #include "exit_light.h"
 
+#include "lamps/lamp_bounces.h"
 #include "parts.h"
 #include "prt/sh_basis.h"
 #include "prt/support/error.h"
-#include "surface/bounce_filter.h"
+#include "surface/fit_noise.h"
 
 #include <fmt/ranges.h>
 
@@ -106,8 +107,22 @@ SharpTransfer sharp_lamps(const BakePlan& plan, Transfer smooth, const SampledLi
     const int channels = smooth.layout.channels();
     const TestValues tests = TestValues::of_lamps(plan.lamps.size(), channels,
                                                   smooth.dimension() / static_cast<std::size_t>(channels));
-    return propagate_sharply(std::move(smooth), {sampled, *operators.fit->lamps, tests, tests}, operators,
-                             plan.bounces, plan.options.threads, progress);
+    std::optional<FitSolver> solver;
+    const auto by_noise = [&](const SampledLight& direct, const SampledLight* rest) -> const FitSolver& {
+        std::vector<float> values = direct.values;
+        for (std::size_t i = 0; rest && i < values.size(); ++i)
+            values[i] += rest->values[i];
+        const SurfaceFit& fit = *operators.fit;
+        return solver.emplace(lamp_solver(fit.samples, fit.equations, values, tests.count(),
+                                          plan.options.seed, plan.options.threads));
+    };
+    return propagate_sharply(std::move(smooth),
+                             {.direct = sampled,
+                              .solver = by_noise,
+                              .of_direct = tests,
+                              .of_rest = tests,
+                              .last = operators.last_of_lamps},
+                             operators, plan.bounces, plan.options.threads, progress);
 }
 
 SharpTransfer sharp_lamps_in_color(const BakePlan& plan, const Transfer& smooth, const SampledLight& sampled,
@@ -128,10 +143,10 @@ SharpTransfer lit_by_lamps(const BakePlan& plan, MeasuredLamps lamps, const Tran
     if (!operators.fit) {
         if (plan.options.lamps.mode == LampMode::indirect)
             lit.direct = light;
-        const Transfer unbounced = operators.filter ? light : Transfer();
+        const Transfer unbounced = operators.lamps ? light : Transfer();
         lit.exit = propagate_lamps_on_both_sides(plan, std::move(light), operators, plan.bounces, progress);
-        if (operators.filter)
-            operators.filter->apply(lit.exit.transfer, unbounced, lit.exit.at_check);
+        if (operators.lamps)
+            operators.lamps->apply(lit.exit.transfer, unbounced, lit.exit.at_check);
     } else {
         lit = colors_apart(plan, light)
                   ? sharp_lamps_in_color(plan, light, lamps.sampled, operators, progress)
@@ -155,7 +170,13 @@ Propagated propagate_all(const BakePlan& plan, Transfer direct, const SampledLig
         const TestValues of_direct = TestValues::of_sky(plan.options.order, 1),
                          of_rest = TestValues::of_sky(plan.options.order, plan.channels);
         SharpTransfer sharp =
-            propagate_sharply(wide(std::move(direct)), {sampled, operators.fit->sky, of_direct, of_rest},
+            propagate_sharply(wide(std::move(direct)),
+                              {.direct = sampled,
+                               .solver = [&](const SampledLight&, const SampledLight*) -> const FitSolver& {
+                                   return operators.fit->sky;
+                               },
+                               .of_direct = of_direct,
+                               .of_rest = of_rest},
                               operators, plan.bounces, plan.options.threads, progress);
         direct = std::move(sharp.direct);
         exit = std::move(sharp.exit);

@@ -52,54 +52,31 @@ FitChoice fit_choice(const BakePlan& plan, Tracer& tracer, BakeStatistics& stati
 
 } // namespace
 
-Measured measure(const BakePlan& plan, Tracer& tracer, BakeStatistics& statistics, const Progress& progress) {
+Measured measure(const BakePlan& plan, Tracer& tracer, LastOfLamps last, BakeStatistics& statistics,
+                 const Progress& progress) {
     const FitChoice choice = fit_choice(plan, tracer, statistics, progress.part(0, 0.03));
     if (choice.better) {
-        FittedLight fitted = trace_fitted(plan, tracer, choice.samples, progress.part(0.03, 1));
-        return {std::move(fitted.direct), std::move(fitted.sealed), std::move(fitted.fit),
-                std::move(fitted.sky)};
+        FittedLight fitted = trace_fitted(plan, tracer, last, choice.samples, progress.part(0.03, 1));
+        return {.direct = std::move(fitted.direct),
+                .lamps = std::move(fitted.lamps),
+                .sealed = std::move(fitted.sealed),
+                .fit = std::move(fitted.fit),
+                .sky = std::move(fitted.sky)};
     }
+    const double lit = plan.lamps.empty() ? 0.03 : 0.25;
+    MeasuredLamps lamps{light_of_lamps(plan, tracer, plan.receivers(), 1, progress.part(0.03, lit)), {}};
+    const std::optional<LampConnections> connections = connections_to(plan, last, lamps.light.transfer);
     SharedPlaces shared(plan.scene, *plan.transport);
-    const std::vector<float> left = shared.left(plan.receivers().size());
-    Measured measured{
-        trace_direct(plan, tracer, left, progress.part(0.03, 1)), {}, {}, {}, std::move(shared)};
+    DirectLight direct = trace_direct(plan, tracer, connections ? &*connections : nullptr,
+                                      shared.left(plan.receivers().size()), progress.part(lit, 1));
+    Measured measured{.direct = std::move(direct),
+                      .lamps = std::move(lamps),
+                      .sealed = {},
+                      .fit = {},
+                      .sky = {},
+                      .shared = std::move(shared)};
     measured.sealed = find_sealed_in(plan, tracer, measured.direct.transfer, progress.stop);
     return measured;
-}
-
-MeasuredLamps measure_lamps(const BakePlan& plan, Tracer& tracer, const std::optional<SurfaceFit>& fit,
-                            const Progress& progress) {
-    LampTask task{.scene = plan.scene,
-                  .receivers = fit ? fit->samples.receivers : plan.receivers(),
-                  .lamps = plan.lamps,
-                  .options = plan.options.lamps,
-                  .channels = plan.lamp_channels(),
-                  .seed = plan.options.seed,
-                  .threads = plan.options.threads};
-    if (!fit)
-        return {tracer.lamp_light(task, progress), {}};
-    task.options.rays = std::max(1, task.options.rays / static_cast<int>(fit->samples.layers));
-    LampLight at_samples = tracer.lamp_light(task, progress);
-    MeasuredLamps lamps{{zero_transfer(at_samples.transfer.layout, plan.receivers().size()), at_samples.rays},
-                        {}};
-    const std::size_t stride = at_samples.transfer.dimension();
-    const TestValues tests = TestValues::of_lamps(plan.lamps.size(), task.channels,
-                                                  stride / static_cast<std::size_t>(task.channels));
-    lamps.sampled = {.stride = stride,
-                     .tests = tests.count(),
-                     .sums = std::vector<float>(fit->equations.unknowns * stride),
-                     .sharp = {},
-                     .values = std::vector<float>(fit->samples.size() * tests.count())};
-    add_samples(fit->equations, 0, std::span<const float>(at_samples.transfer.vectors), stride,
-                std::span(lamps.sampled.sums));
-    for (std::size_t s = 0; s < fit->samples.size(); ++s)
-        tests.evaluate(at_samples.transfer.vector(s),
-                       std::span(lamps.sampled.values).subspan(s * tests.count(), tests.count()));
-    std::vector<float> smooth = lamps.sampled.sums;
-    fit->smooth(std::span(smooth), stride);
-    spread_unknowns(fit->equations, std::span<const float>(smooth), stride,
-                    std::span(lamps.light.transfer.vectors));
-    return lamps;
 }
 
 } // namespace prt

@@ -3,10 +3,9 @@
 // Light as a bake measures it, before it bounces.
 
 #include "direct.h"
-#include "lamps/lamp_light.h"
 #include "record.h"
 #include "scene/shared_places.h"
-#include "surface/surface_fit.h"
+#include "surface/fitted_light.h"
 
 #include <optional>
 
@@ -15,6 +14,7 @@ namespace prt {
 /// Direct light, and how it becomes that of receivers.
 struct Measured {
     DirectLight direct;
+    MeasuredLamps lamps;
     SealedIn sealed;
     std::optional<SurfaceFit> fit; ///< none: measured at receivers
     SampledLight sky;              ///< direct light at its samples
@@ -22,17 +22,9 @@ struct Measured {
         {}; ///< of receivers, to take means over at the end; none: a fit does
 };
 
-/// Light of lamps without a bounce, of the receivers of a plan.
-struct MeasuredLamps {
-    LampLight light;      ///< smooth where there is a fit
-    SampledLight sampled; ///< the same at the samples of a fit
-};
-
 /// Measures where `plan.options.fit` says. Rays that were spent on finding out where count in `statistics`.
-Measured measure(const BakePlan& plan, Tracer& tracer, BakeStatistics& statistics, const Progress& progress);
-
-/// Light of the plan's lamps at its receivers, by samples of `fit` where there is one.
-MeasuredLamps measure_lamps(const BakePlan& plan, Tracer& tracer, const std::optional<SurfaceFit>& fit,
-                            const Progress& progress);
+/// `last`: whether the last bounce of lamps is to be gathered at the same places (DirectLight::lamps).
+Measured measure(const BakePlan& plan, Tracer& tracer, LastOfLamps last, BakeStatistics& statistics,
+                 const Progress& progress);
 
 } // namespace prt

@@ -30,7 +30,6 @@ struct BakePlan {
     const TraceScene& scene;
     const BakeOptions& options;
     bool measures_errors = false;                        ///< of this bake, and so that of sampling
-    bool filters_bounces = false;                        ///< of lamps, where light is measured at receivers
     int bounces = 0;                                     ///< or kEndlessBounces
     int channels = 1;                                    ///< of all light together
     std::unique_ptr<const TransportReceivers> transport; ///< stays where it is: operators keep references

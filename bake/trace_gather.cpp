@@ -14,22 +14,6 @@ GatherOperator empty_gather(const BakePlan& plan, std::size_t rows) {
     return {plan.scene.surfaces(), *plan.transport, rows, plan.channels};
 }
 
-/// Sets a row from every other hit, weighted to stand for all.
-void set_half_row(GatherOperator& gather, std::size_t row, std::span<const Hit> hits, int rays) {
-    std::vector<Hit> half;
-    float all = 0, sum = 0;
-    for (std::size_t i = 0; i < hits.size(); ++i) {
-        all += hits[i].weight;
-        if (i % 2 == 1) {
-            half.push_back(hits[i]);
-            sum += hits[i].weight;
-        }
-    }
-    for (Hit& hit : half)
-        hit.weight *= all / sum;
-    gather.set_row(row, half, rays);
-}
-
 struct GatherEstimate {
     double bytes = 0;
     std::size_t rays = 0; ///< traced to find out
@@ -66,25 +50,26 @@ TraceOptions gather_options(const BakePlan& plan, std::uint32_t rays) {
 }
 
 std::size_t check_gather_memory(const BakePlan& plan, Tracer& tracer, const Receivers& receivers,
-                                const ByRays& by_rays, std::size_t copies, const std::stop_token& stop) {
+                                const ByRays& by_rays, double copies, const std::stop_token& stop) {
     double most = 0, likely = 0;
     std::size_t traced = 0;
     for (const auto& [rays, members] : by_rays)
         most += static_cast<double>(members.size()) * rays * GatherOperator::kMostBytesPerRay;
     // Through blended surfaces a ray meets any number.
-    if (!plan.scene.surfaces().traits().alpha && fits_memory(plan, most * static_cast<double>(copies)))
+    if (!plan.scene.surfaces().traits().alpha && fits_memory(plan, most * copies))
         return 0;
     for (const auto& [rays, members] : by_rays) {
         const GatherEstimate estimate = estimate_gather(plan, tracer, rays, receivers, members, stop);
         likely += estimate.bytes;
         traced += estimate.rays;
     }
-    check_memory(plan, likely * static_cast<double>(copies));
+    check_memory(plan, likely * copies);
     return traced;
 }
 
-TracedGather trace_gather(const BakePlan& plan, Tracer& tracer, std::span<const std::uint32_t> rays_of,
-                          Transfer& transfer, const Progress& progress) {
+TracedGather trace_gather(const BakePlan& plan, Tracer& tracer, const LampConnections* lamps,
+                          std::span<const std::uint32_t> rays_of, Transfer& transfer,
+                          const Progress& progress) {
     ByRays by_rays;
     std::size_t all = 0, done = 0;
     for (const std::uint32_t p : receivers_on_surfaces(plan.receivers())) {
@@ -92,20 +77,21 @@ TracedGather trace_gather(const BakePlan& plan, Tracer& tracer, std::span<const 
         all += rays_of[p];
     }
     TracedGather traced{empty_gather(plan, plan.receivers().size()), std::nullopt,
-                        all + check_gather_memory(plan, tracer, plan.receivers(), by_rays, 1, progress.stop)};
-    if (plan.filters_bounces)
-        traced.half.emplace(empty_gather(plan, plan.receivers().size()));
+                        all + check_gather_memory(plan, tracer, plan.receivers(), by_rays,
+                                                  lamps ? 1 + LampRows::kCopies : 1, progress.stop)};
+    if (lamps)
+        traced.lamps.emplace(plan, plan.receivers().size(), plan.options.lamps.denoise);
     const auto share = [&](std::size_t rays) { return static_cast<double>(rays) / static_cast<double>(all); };
     for (const auto& [rays, members] : by_rays) {
         const TraceOptions options = gather_options(plan, rays);
         const std::size_t here = members.size() * rays;
-        trace_receivers(tracer, plan.receivers(), members, options, transfer,
-                        progress.part(share(done), share(done + here)),
-                        [&](std::uint32_t p, std::span<const Hit> hits) {
-                            traced.gather.set_row(p, hits, options.rays);
-                            if (traced.half)
-                                set_half_row(*traced.half, p, hits, options.rays);
-                        });
+        trace_receivers(
+            tracer, plan.receivers(), members, options, transfer,
+            progress.part(share(done), share(done + here)), [&](std::uint32_t p, std::span<const Hit> hits) {
+                traced.gather.set_row(p, hits, options.rays);
+                if (lamps)
+                    traced.lamps->set(p, lamps->join(plan.receivers(), p, hits, options), options.rays);
+            });
         done += here;
     }
     return traced;

@@ -2,6 +2,7 @@
 
 // Rays that serve direct light and bounces.
 
+#include "lamps/lamp_rows.h"
 #include "plan.h"
 #include "prt/tracer.h"
 #include "transport/gather.h"
@@ -27,18 +28,20 @@ TraceOptions gather_options(const BakePlan& plan, std::uint32_t rays);
 /// Asks whether the rows of `copies` times so many receivers fit: by what there can be at most, else by what
 /// some of them see. Returns how many rays were traced. Throws `Error` where they do not fit.
 std::size_t check_gather_memory(const BakePlan& plan, Tracer& tracer, const Receivers& receivers,
-                                const ByRays& by_rays, std::size_t copies, const std::stop_token& stop);
+                                const ByRays& by_rays, double copies, const std::stop_token& stop);
 
 struct TracedGather {
     GatherOperator gather;
-    std::optional<GatherOperator> half; ///< of every other ray that met something, where it is asked for
-    std::size_t rays;                   ///< traced
+    std::optional<LampRows> lamps; ///< where they are asked for
+    std::size_t rays;              ///< traced
 };
 
 /// Traces rays_of[p] rays of every receiver p on a surface into rows of the gather operator, which keeps
-/// references to `plan`. The direct transfer in `transfer` is replaced by that of the same rays: then light
-/// is neither lost nor won between the two. Throws `Error` where the rows do not fit into memory.
-TracedGather trace_gather(const BakePlan& plan, Tracer& tracer, std::span<const std::uint32_t> rays_of,
-                          Transfer& transfer, const Progress& progress);
+/// references to `plan`; and, where `lamps` is not null, into rows that gather the light of lamps. The direct
+/// transfer in `transfer` is replaced by that of the same rays: then light is neither lost nor won between
+/// the two. Throws `Error` where the rows do not fit into memory.
+TracedGather trace_gather(const BakePlan& plan, Tracer& tracer, const LampConnections* lamps,
+                          std::span<const std::uint32_t> rays_of, Transfer& transfer,
+                          const Progress& progress);
 
 } // namespace prt

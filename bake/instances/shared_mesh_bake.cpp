@@ -73,7 +73,7 @@ SharedMeshBake bake_shared_mesh(const Scene& stored, int node, int channels, con
 
     const std::unique_ptr<Tracer> tracer = make_tracer(*mesh.traced, options.tracer);
     BakeStatistics asked;
-    Measured measured = measure(*mesh.plan, *tracer, asked, progress);
+    Measured measured = measure(*mesh.plan, *tracer, LastOfLamps::as_others, asked, progress);
     mesh.rays = measured.direct.rays + measured.sealed.rays;
     mesh.sampling_error = measured.direct.sampling_error;
     const Transfer direct =

@@ -3,6 +3,7 @@
 #include "lamps/lamp_light.h"
 
 #include "lamps/lamp_rays.h"
+#include "prt/tracer.h"
 #include "trace/each_receiver.h"
 #include "trace/sample_sequence.h"
 
@@ -34,6 +35,19 @@ void put_irradiance(const LampTask& task, std::uint32_t p, std::size_t lamp, con
     for (int c = 0; c < task.channels; ++c)
         light.transfer.vector(p)[static_cast<std::size_t>(c) * stride + lamp] =
             static_cast<float>(irradiance[c] / std::numbers::pi);
+}
+
+LampLight light_of_lamps(const BakePlan& plan, Tracer& tracer, const Receivers& receivers, std::size_t share,
+                         const Progress& progress) {
+    LampTask task{.scene = plan.scene,
+                  .receivers = receivers,
+                  .lamps = plan.lamps,
+                  .options = plan.options.lamps,
+                  .channels = plan.lamp_channels(),
+                  .seed = plan.options.seed,
+                  .threads = plan.options.threads};
+    task.options.rays = std::max(1, task.options.rays / static_cast<int>(share));
+    return tracer.lamp_light(task, progress);
 }
 
 LampLight lamp_light_on_cpu(const LampTask& task, const Progress& progress) {

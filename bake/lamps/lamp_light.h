@@ -3,6 +3,7 @@
 // Light of a scene's lamps at its receivers, by shadow rays (docs/math.md, section 13).
 
 #include "lamps/choose_lamps.h"
+#include "plan.h"
 #include "prt/receivers.h"
 #include "prt/support/progress.h"
 #include "prt/trace_scene.h"
@@ -12,6 +13,8 @@
 #include <span>
 
 namespace prt {
+
+class Tracer;
 
 /// Which light is asked for: what `lamps` give at strength 1, without a bounce, of receivers of albedo 1.
 struct LampTask {
@@ -34,6 +37,10 @@ LampLight no_lamp_light(const LampTask& task);
 /// Writes the irradiance of receiver `p` by lamp `lamp`, as light of the task.
 void put_irradiance(const LampTask& task, std::uint32_t p, std::size_t lamp, const glm::dvec3& irradiance,
                     LampLight& light);
+
+/// Light of the lamps of `plan` at `receivers`, which share the rays of one by so many.
+LampLight light_of_lamps(const BakePlan& plan, Tracer& tracer, const Receivers& receivers, std::size_t share,
+                         const Progress& progress);
 
 /// By rays through Embree's tree. Throws `Cancelled` when asked to stop.
 LampLight lamp_light_on_cpu(const LampTask& task, const Progress& progress);

@@ -4,9 +4,6 @@
 #include "surface/bend_weights.h"
 
 #include <algorithm>
-#include <cmath>
-#include <functional>
-#include <numeric>
 
 namespace prt {
 namespace {
@@ -38,11 +35,11 @@ SurfaceSamples samples_at_receivers(const BakePlan& plan, const std::vector<bool
     return samples;
 }
 
-/// Where light passes, or goes through a medium, it is more than what rays gathered.
-void leave_out_media(const BakePlan& plan, std::vector<bool>& left_out) {
+/// Light that passes is more than what rays gathered.
+void leave_out_sheets(const BakePlan& plan, std::vector<bool>& left_out) {
     const Surfaces& surfaces = plan.scene.surfaces();
     for (std::uint32_t t = 0; t < surfaces.triangles(); ++t)
-        if (surfaces.transmits(t) || surfaces.solid(t))
+        if (surfaces.transmits(t))
             for (const bool back : {false, true}) {
                 const glm::uvec3 corners = corner_receivers(surfaces, *plan.transport, t, back);
                 for (int i = 0; i < 3; ++i)
@@ -58,10 +55,10 @@ float bounced(const Transfer& all, const Transfer& unbounced, std::uint32_t p, s
 } // namespace
 
 BounceFilter::BounceFilter(const BakePlan& plan, const SharedPlaces& shared,
-                           const std::vector<bool>& left_out, std::size_t first_row)
-    : plan_(plan), first_row_(first_row) {
+                           const std::vector<bool>& left_out)
+    : plan_(plan) {
     std::vector<bool> out = left_out;
-    leave_out_media(plan, out);
+    leave_out_sheets(plan, out);
     const SurfaceSamples samples = samples_at_receivers(plan, out, receivers_);
     equations_ = fit_equations(plan.scene.surfaces(), *plan.transport, samples,
                                shared.first_of_each(plan.receivers().size()));
@@ -69,8 +66,8 @@ BounceFilter::BounceFilter(const BakePlan& plan, const SharedPlaces& shared,
 }
 
 template <class Value>
-std::vector<float> BounceFilter::sums(const Columns& columns, Value&& value) const {
-    const std::size_t count = columns.columns.size();
+std::vector<float> BounceFilter::sums(const TellingColumns& columns, Value&& value) const {
+    const std::size_t count = columns.size();
     std::vector<float> sums(equations_.unknowns * count), row(count);
     for (std::size_t s = 0; s < receivers_.size(); ++s) {
         for (std::size_t i = 0; i < count; ++i)
@@ -80,35 +77,23 @@ std::vector<float> BounceFilter::sums(const Columns& columns, Value&& value) con
     return sums;
 }
 
-/// Selects the columns with most light and normalizes them by their root mean square, so that lamps count
-/// alike.
-BounceFilter::Columns BounceFilter::telling(const Light& light) const {
-    constexpr std::size_t kTelling = 8; // one block of the solver
+TellingColumns BounceFilter::telling(const Light& light) const {
     std::vector<double> squares(light.all.dimension());
     for (const std::uint32_t p : receivers_)
         for (std::size_t c = 0; c < squares.size(); ++c) {
             const auto value = static_cast<double>(bounced(light.all, light.unbounced, p, c));
             squares[c] += static_cast<double>(plan_.receivers().areas[p]) * value * value;
         }
-    std::vector<std::size_t> order(squares.size());
-    std::iota(order.begin(), order.end(), std::size_t{0});
-    std::ranges::stable_sort(order, std::greater{}, [&](std::size_t c) { return squares[c]; });
-    Columns telling;
-    for (std::size_t i = 0; i < std::min(order.size(), kTelling) && squares[order[i]] > 0; ++i) {
-        telling.columns.push_back(order[i]);
-        telling.factors.push_back(static_cast<float>(1 / std::sqrt(squares[order[i]])));
-    }
-    return telling;
+    return brightest_columns(squares);
 }
 
 FitSolver BounceFilter::solver(const Light& light) const {
-    const Columns columns = telling(light);
-    const std::size_t count = columns.columns.size(), stride = light.all.dimension();
+    const TellingColumns columns = telling(light);
+    const std::size_t count = columns.size(), stride = light.all.dimension();
     std::vector<float> x = sums(
         columns, [&](std::uint32_t p, std::size_t c) { return bounced(light.all, light.unbounced, p, c); });
     std::vector<float> noise = sums(columns, [&](std::uint32_t p, std::size_t c) {
-        return kNoiseOfHalves *
-               (light.gathered[(first_row_ + p) * stride + c] - bounced(light.all, light.unbounced, p, c));
+        return kNoiseOfHalves * (light.half[p * stride + c] - bounced(light.all, light.unbounced, p, c));
     });
     const FitSolver first(equations_, std::vector<float>(equations_.bends.size(), kFirstBendWeight));
     first.solve(x, count, plan_.options.threads, FitSolver::kEstimate);
@@ -130,17 +115,17 @@ void BounceFilter::limit(std::span<const float> means, std::size_t columns, std:
         x[i] = means[i] == 0 ? 0 : std::clamp(x[i], low[i], high[i]);
 }
 
-void BounceFilter::apply(Transfer& light, const Transfer& unbounced, std::span<const float> gathered) const {
+void BounceFilter::apply(Transfer& light, const Transfer& unbounced, std::span<const float> half) const {
     constexpr std::size_t kBlock = 8; // columns of the solver, which keeps little in memory
-    const FitSolver fit = solver({light, unbounced, gathered});
+    const FitSolver fit = solver({light, unbounced, half});
     const std::size_t stride = light.dimension();
     parallel_for((stride + kBlock - 1) / kBlock, 1, plan_.options.threads,
                  [&](std::size_t begin, std::size_t end) {
                      for (std::size_t block = begin; block < end; ++block) {
-                         Columns columns;
+                         TellingColumns columns;
                          for (std::size_t c = block * kBlock; c < std::min(stride, (block + 1) * kBlock); ++c)
                              columns.columns.push_back(c);
-                         const std::size_t count = columns.columns.size();
+                         const std::size_t count = columns.size();
                          columns.factors.assign(count, 1.0f);
                          std::vector<float> x = sums(columns, [&](std::uint32_t p, std::size_t c) {
                              return bounced(light, unbounced, p, c);

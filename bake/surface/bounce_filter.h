@@ -4,7 +4,7 @@
 
 #include "plan.h"
 #include "scene/shared_places.h"
-#include "surface/fit_solver.h"
+#include "surface/fit_noise.h"
 
 #include <cstdint>
 #include <span>
@@ -19,35 +19,27 @@ namespace prt {
 class BounceFilter {
 public:
     /// Receivers that `shared` takes means of are one unknown. `left_out` [receivers]: those whose light is
-    /// not what their own rays gathered. `first_row`: of the half, behind other rows that light is gathered
-    /// at.
-    BounceFilter(const BakePlan& plan, const SharedPlaces& shared, const std::vector<bool>& left_out,
-                 std::size_t first_row);
+    /// not what their own rays gathered.
+    BounceFilter(const BakePlan& plan, const SharedPlaces& shared, const std::vector<bool>& left_out);
 
     /// Filters what `light` has more than `unbounced`, [receivers][channels][columns] both, the latter of as
-    /// many channels or one. `gathered` is Propagated::at_check.
-    void apply(Transfer& light, const Transfer& unbounced, std::span<const float> gathered) const;
+    /// many channels or one. `half` [receivers][channels][columns]: the same as half of the rays gather it.
+    void apply(Transfer& light, const Transfer& unbounced, std::span<const float> half) const;
 
 private:
     struct Light {
         const Transfer &all, &unbounced;
-        std::span<const float> gathered;
+        std::span<const float> half;
     };
-    /// Columns, and factors on their values.
-    struct Columns {
-        std::vector<std::size_t> columns;
-        std::vector<float> factors;
-    };
-    Columns telling(const Light& light) const;
+    TellingColumns telling(const Light& light) const;
     /// Sums over samples [unknowns][columns] of `value(receiver, column)`.
     template <class Value>
-    std::vector<float> sums(const Columns& columns, Value&& value) const;
+    std::vector<float> sums(const TellingColumns& columns, Value&& value) const;
     FitSolver solver(const Light& light) const;
     /// Limits x [unknowns][columns] to the range of `means` over each unknown and those that it bends with.
     void limit(std::span<const float> means, std::size_t columns, std::span<float> x) const;
 
     const BakePlan& plan_;
-    std::size_t first_row_;
     std::vector<std::uint32_t> receivers_; ///< [samples]
     FitEquations equations_;
     std::vector<float> weights_; ///< [unknowns]

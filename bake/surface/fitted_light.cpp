@@ -6,7 +6,7 @@
 #include "prt/sh_basis.h"
 #include "prt/trace_receivers.h"
 #include "scene/sealed.h"
-#include "surface/bend_weights.h"
+#include "surface/fit_noise.h"
 #include "surface/separated_receivers.h"
 #include "trace/sample_sequence.h"
 #include "trace/scrambles.h"
@@ -29,15 +29,11 @@ struct SampleSums {
     std::vector<std::uint32_t> dark;
 };
 
-float sign_of_group(std::size_t group, std::uint64_t seed) {
-    return receiver_seed(static_cast<std::uint32_t>(group), seed + 6 * kSecondScramble) & 1 ? 1.0f : -1.0f;
-}
-
 class SampleTracer {
 public:
     SampleTracer(const BakePlan& plan, Tracer& tracer, const SurfaceSamples& samples,
-                 const FitEquations& equations)
-        : plan_(plan), tracer_(tracer), samples_(samples), equations_(equations),
+                 const FitEquations& equations, const LampConnections* lamps)
+        : plan_(plan), tracer_(tracer), samples_(samples), equations_(equations), lamps_(lamps),
           tests_(TestValues::of_sky(plan.options.order, 1)),
           stride_(static_cast<std::size_t>(coefficient_count(plan.options.order))),
           rays_(std::max(1, plan.options.rays / static_cast<int>(samples.layers))) {}
@@ -52,6 +48,7 @@ public:
             if (tracer_.backend() == Backend::gpu)
                 throw;
             direct.gather.reset(); // what the GPU had summed is gone
+            direct.lamps.reset();
             direct.rays = 0;
             sums = trace_layers(direct, progress);
         }
@@ -82,6 +79,16 @@ private:
         return sums;
     }
 
+    void make_rows(const Receivers& layer, const std::vector<std::uint32_t>& indices, DirectLight& direct,
+                   const Progress& progress) {
+        const double copies = static_cast<double>(samples_.layers) * (lamps_ ? 1 + LampRows::kCopies : 1);
+        direct.rays += check_gather_memory(
+            plan_, tracer_, layer, {{static_cast<std::uint32_t>(rays_), indices}}, copies, progress.stop);
+        direct.gather.emplace(plan_.scene.surfaces(), *plan_.transport, samples_.size(), plan_.channels);
+        if (lamps_)
+            direct.lamps.emplace(plan_, samples_.size(), false);
+    }
+
     /// Each layer takes a part of its own of its receivers' nets.
     void trace_layer(std::size_t k, DirectLight& direct, SampleSums& sums, VectorSums* on_device,
                      const Progress& progress) {
@@ -92,15 +99,12 @@ private:
         options.first_ray = static_cast<std::uint32_t>(k) * std::bit_ceil(static_cast<std::uint32_t>(rays_));
         ReceiverSink sink;
         if (plan_.bounces != 0) {
-            if (!direct.gather) {
-                const auto rays = static_cast<std::uint32_t>(rays_);
-                direct.rays += check_gather_memory(plan_, tracer_, layer, {{rays, indices}}, samples_.layers,
-                                                   progress.stop);
-                direct.gather.emplace(plan_.scene.surfaces(), *plan_.transport, samples_.size(),
-                                      plan_.channels);
-            }
-            sink = [&](std::uint32_t g, std::span<const Hit> hits) {
+            if (!direct.gather)
+                make_rows(layer, indices, direct, progress);
+            sink = [&, options](std::uint32_t g, std::span<const Hit> hits) {
                 direct.gather->set_row(sample(g), hits, rays_);
+                if (lamps_)
+                    direct.lamps->set(sample(g), lamps_->join(layer, g, hits, options), rays_);
             };
         } else {
             options.hit_stride = 1;
@@ -143,6 +147,7 @@ private:
     Tracer& tracer_;
     const SurfaceSamples& samples_;
     const FitEquations& equations_;
+    const LampConnections* lamps_; ///< may be null
     TestValues tests_;
     std::size_t stride_;
     int rays_; ///< of a sample
@@ -189,27 +194,6 @@ std::vector<float> joined_sums(const FitEquations& from, const FitEquations& to,
     return joined;
 }
 
-/// Columns that stand for all, and by what values of them are multiplied so that sums of their squares do:
-/// one block of the solver. Of the first two bands all, since they hold the light of curved surfaces.
-struct TellingColumns {
-    std::vector<std::size_t> columns;
-    std::vector<float> factors;
-};
-TellingColumns telling_columns(std::size_t stride) {
-    constexpr std::size_t kFirst = 4, kOthers = 4;
-    TellingColumns telling;
-    const std::size_t first = std::min(stride, kFirst), rest = stride - first,
-                      others = std::min(rest, kOthers);
-    for (std::size_t c = 0; c < first; ++c)
-        telling.columns.push_back(c);
-    for (std::size_t i = 0; i < others; ++i)
-        telling.columns.push_back(first + (2 * i + 1) * rest / (2 * others));
-    telling.factors.assign(telling.columns.size(), 1.0f);
-    for (std::size_t i = first; i < telling.columns.size(); ++i)
-        telling.factors[i] = std::sqrt(static_cast<float>(rest) / static_cast<float>(others));
-    return telling;
-}
-
 /// Some columns of `all` [unknowns][stride], with their factors.
 std::vector<float> columns_of(std::span<const float> all, std::size_t stride, const TellingColumns& some) {
     std::vector<float> result;
@@ -218,23 +202,6 @@ std::vector<float> columns_of(std::span<const float> all, std::size_t stride, co
         for (std::size_t i = 0; i < some.columns.size(); ++i)
             result.push_back(some.factors[i] * all[row + some.columns[i]]);
     return result;
-}
-
-/// Takes the samples' values at `x` [unknowns][columns] out of `signed_sums` of them, with the random sign of
-/// each group: what is left is that of residuals.
-void subtract_signed(const BakePlan& plan, const SurfaceSamples& samples, const FitEquations& equations,
-                     std::span<const float> x, std::size_t columns, std::span<float> signed_sums) {
-    std::vector<float> fitted(columns);
-    for (std::size_t s = 0; s < samples.size(); ++s) {
-        const FitRow& row = equations.rows[s];
-        std::fill(fitted.begin(), fitted.end(), 0.0f);
-        for (std::size_t i = 0; i < 3; ++i)
-            if (row.unknowns[i] != kNoReceiver)
-                for (std::size_t c = 0; c < columns; ++c)
-                    fitted[c] += row.shares[i] * x[row.unknowns[i] * columns + c];
-        add_samples(equations, s, std::span<const float>(fitted), columns, signed_sums,
-                    -sign_of_group(s / samples.layers, plan.options.seed));
-    }
 }
 
 /// Transfer of all receivers from values of unknowns.
@@ -267,30 +234,57 @@ FittedSky fit_sky(const BakePlan& plan, const SurfaceSamples& samples, const Fit
                   SampleSums sums) {
     const int threads = plan.options.threads;
     const auto stride = static_cast<std::size_t>(coefficient_count(plan.options.order));
-    const TellingColumns some = telling_columns(stride);
-    const std::size_t few = some.columns.size();
-    const FitSolver first(equations, std::vector<float>(equations.bends.size(), kFirstBendWeight));
-    std::vector<float> x = columns_of(sums.b, stride, some),
-                       residuals = columns_of(sums.signed_b, stride, some);
-    first.solve(x, few, threads, FitSolver::kEstimate);
-    subtract_signed(plan, samples, equations, x, few, residuals);
-    std::vector<float> noise = residuals;
-    first.solve(noise, few, threads, FitSolver::kEstimate);
-    FitSolver solver(equations, bend_weights(equations, x, noise, few));
+    const TellingColumns some = columns_of_sky(stride);
+    auto [solver, residuals] =
+        noise_solver(samples, equations,
+                     {some.size(), columns_of(sums.b, stride, some), columns_of(sums.signed_b, stride, some)},
+                     plan.options.seed, threads);
     std::vector<float> sharp = sums.b;
     solver.solve(sharp, stride, threads);
-    solver.solve(residuals, few, threads, FitSolver::kEstimate);
+    solver.solve(residuals, some.size(), threads, FitSolver::kEstimate);
     const double norm = weighted_square(plan, equations, sharp, stride),
-                 error = weighted_square(plan, equations, residuals, few);
+                 error = weighted_square(plan, equations, residuals, some.size());
     const std::size_t tests = sums.values.size() / std::max<std::size_t>(samples.size(), 1);
     return {std::move(solver),
             {stride, tests, std::move(sums.b), std::move(sharp), std::move(sums.values)},
             norm > 0 ? std::sqrt(error / norm) : 0};
 }
 
+/// Light of lamps at the vertices, smooth, from that at the samples.
+LampLight smooth_lamps(const BakePlan& plan, const FitEquations& equations, const LampLight& at_samples) {
+    const std::size_t stride = at_samples.transfer.dimension();
+    LampLight light{zero_transfer(at_samples.transfer.layout, plan.receivers().size()), at_samples.rays};
+    std::vector<float> sums(equations.unknowns * stride);
+    add_samples(equations, 0, std::span<const float>(at_samples.transfer.vectors), stride, std::span(sums));
+    smooth(unknown_weights(equations), std::span(sums), stride);
+    spread_unknowns(equations, std::span<const float>(sums), stride, std::span(light.transfer.vectors));
+    return light;
+}
+
+MeasuredLamps measured_lamps(const BakePlan& plan, const FitEquations& equations,
+                             const LampLight& at_samples) {
+    const std::size_t stride = at_samples.transfer.dimension(),
+                      channels = static_cast<std::size_t>(at_samples.transfer.layout.channels());
+    const TestValues tests =
+        TestValues::of_lamps(plan.lamps.size(), static_cast<int>(channels), stride / channels);
+    MeasuredLamps lamps{smooth_lamps(plan, equations, at_samples),
+                        {.stride = stride,
+                         .tests = tests.count(),
+                         .sums = std::vector<float>(equations.unknowns * stride),
+                         .sharp = {},
+                         .values = std::vector<float>(equations.rows.size() * tests.count())}};
+    add_samples(equations, 0, std::span<const float>(at_samples.transfer.vectors), stride,
+                std::span(lamps.sampled.sums));
+    for (std::size_t s = 0; s < equations.rows.size(); ++s)
+        tests.evaluate(at_samples.transfer.vector(s),
+                       std::span(lamps.sampled.values).subspan(s * tests.count(), tests.count()));
+    return lamps;
+}
+
 } // namespace
 
-FittedLight trace_fitted(const BakePlan& plan, Tracer& tracer, int samples_each, const Progress& progress) {
+FittedLight trace_fitted(const BakePlan& plan, Tracer& tracer, LastOfLamps last, int samples_each,
+                         const Progress& progress) {
     const Surfaces& surfaces = plan.scene.surfaces();
     const std::size_t on_surfaces = receivers_on_surfaces(plan.receivers()).size();
     const auto layers = static_cast<std::size_t>(samples_each);
@@ -300,9 +294,13 @@ FittedLight trace_fitted(const BakePlan& plan, Tracer& tracer, int samples_each,
     std::vector<std::uint32_t> alike(plan.receivers().size());
     std::iota(alike.begin(), alike.end(), 0u);
     FitEquations alone = fit_equations(surfaces, *plan.transport, samples, alike);
-    SampleTracer traced(plan, tracer, samples, alone);
+    const double lit = plan.lamps.empty() ? 0 : 0.2;
+    const LampLight lamps = light_of_lamps(plan, tracer, samples.receivers, layers, progress.part(0, lit));
+    const std::optional<LampConnections> connections =
+        connections_to(plan, last, smooth_lamps(plan, alone, lamps).transfer);
+    SampleTracer traced(plan, tracer, samples, alone, connections ? &*connections : nullptr);
     DirectLight direct;
-    SampleSums sums = traced.trace(direct, progress.part(0, 0.95));
+    SampleSums sums = traced.trace(direct, progress.part(lit, 0.95));
 
     const Sealed sealed = find_sealed(tracer, plan.scene, samples.receivers, std::move(sums.dark),
                                       plan.options.seed, progress.stop);
@@ -320,12 +318,9 @@ FittedLight trace_fitted(const BakePlan& plan, Tracer& tracer, int samples_each,
     sums.signed_b = joined_sums(alone, equations, stride, sums.signed_b);
 
     FittedSky sky = fit_sky(plan, samples, equations, std::move(sums));
-    std::optional<FitSolver> lamps;
-    if (!plan.lamps.empty()) // their light bends elsewhere
-        lamps.emplace(equations, std::vector<float>(equations.bends.size(), kPlainBendWeight));
+    MeasuredLamps lit_by_lamps = measured_lamps(plan, equations, lamps);
     std::vector<float> weights = unknown_weights(equations);
-    SurfaceFit fit{std::move(samples), std::move(equations), std::move(weights), std::move(sky.solver),
-                   std::move(lamps)};
+    SurfaceFit fit{std::move(samples), std::move(equations), std::move(weights), std::move(sky.solver)};
     std::vector<float> smooth = sky.light.sums;
     fit.smooth(std::span(smooth), stride);
     direct.transfer = of_receivers(plan, fit.equations, smooth);
@@ -333,7 +328,11 @@ FittedLight trace_fitted(const BakePlan& plan, Tracer& tracer, int samples_each,
     direct.mean_visibility = mean_visibility(direct.transfer, plan.areas());
     direct.sampling_error = sky.noise;
     progress.update(1);
-    return {std::move(direct), std::move(sky.light), std::move(fit), std::move(inside)};
+    return {.direct = std::move(direct),
+            .sky = std::move(sky.light),
+            .lamps = std::move(lit_by_lamps),
+            .fit = std::move(fit),
+            .sealed = std::move(inside)};
 }
 
 } // namespace prt

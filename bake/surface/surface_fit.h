@@ -3,9 +3,17 @@
 #include "surface/fit_solver.h"
 #include "surface/value_limits.h"
 
-#include <optional>
-
 namespace prt {
+
+/// Divides sums over samples [unknowns][stride] by `weights` [unknowns]; zero where there are none.
+template <class Value>
+void smooth(std::span<const float> weights, std::span<Value> sums_then_values, std::size_t stride) {
+    for (std::size_t u = 0; u < weights.size(); ++u)
+        for (std::size_t c = 0; c < stride; ++c) {
+            Value& v = sums_then_values[u * stride + c];
+            v = weights[u] > 0 ? v / static_cast<Value>(weights[u]) : Value(0);
+        }
+}
 
 /// Samples of the surface, and the operators from light at them to light at receivers (section 14 of
 /// docs/math.md). The smooth one takes the mean of the samples around each vertex: it adds no light, so that
@@ -14,18 +22,13 @@ namespace prt {
 struct SurfaceFit {
     SurfaceSamples samples;
     FitEquations equations;
-    std::vector<float> weights;     ///< [unknowns] of all samples
-    FitSolver sky;                  ///< of distant light
-    std::optional<FitSolver> lamps; ///< where there are lamps
+    std::vector<float> weights; ///< [unknowns] of all samples
+    FitSolver sky;              ///< of distant light
 
     /// Smooth values [unknowns][stride] from sums over samples.
     template <class Value>
     void smooth(std::span<Value> sums_then_values, std::size_t stride) const {
-        for (std::size_t u = 0; u < equations.unknowns; ++u)
-            for (std::size_t c = 0; c < stride; ++c) {
-                Value& v = sums_then_values[u * stride + c];
-                v = weights[u] > 0 ? v / static_cast<Value>(weights[u]) : Value(0);
-            }
+        prt::smooth(weights, sums_then_values, stride);
     }
 };
 

@@ -238,9 +238,14 @@ Propagated bounce_endlessly(Transfer transfer, const TransportOperators& operato
 }
 
 /// Gathers `exit` transfer at the samples: one more bounce.
-SampledLight bounce_to_samples(Transfer exit, const TransportOperators& operators, const TestValues& tests,
+SampledLight bounce_to_samples(Transfer exit, TransportOperators operators, const LightAtSamples& sampled,
                                int threads) {
+    if (sampled.last) {
+        operators.gather = sampled.last;
+        operators.product = nullptr;
+    }
     const SurfaceFit& fit = *operators.fit;
+    const TestValues& tests = sampled.of_rest;
     const int order = exit.layout.order;
     const std::size_t stride = exit.dimension(), count = tests.count();
     SampledLight light{.stride = stride,
@@ -311,12 +316,12 @@ SharpTransfer propagate_sharply(Transfer smooth, const LightAtSamples& light,
         unchecked.check = nullptr;
         sharp.exit = propagate(smooth, unchecked, endless ? bounces : bounces - 1, threads, progress);
         sharp.exit.at_check = gather_at_check(operators, sharp.exit.transfer, threads);
-        rest = bounce_to_samples(sharp.exit.transfer, operators, light.of_rest, threads);
+        rest = bounce_to_samples(sharp.exit.transfer, operators, light, threads);
         if (!endless)
             add_last_bounce(fit, *rest, smooth, sharp.exit);
     }
     const SharpLight values =
-        SharpFit(fit, light.solver, threads)
+        SharpFit(fit, light.solver(light.direct, rest ? &*rest : nullptr), threads)
             .solve(light.of_direct, light.direct, &light.of_rest, rest ? &*rest : nullptr);
     const auto spread = [&](const std::vector<float>& x, std::size_t stride) {
         std::vector<float> of_receivers(receivers * stride);

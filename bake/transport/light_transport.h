@@ -10,13 +10,14 @@
 #include "transport/gather.h"
 #include "transport/gather_product.h"
 
+#include <functional>
 #include <span>
 
 namespace prt {
 
 /// The linear operators of a scene. Incident transfer becomes exit transfer by `refill`, then `diffusion`;
 /// exit transfer becomes the incident transfer of the next bounce by `gather`.
-class BounceFilter;
+class LampBounces;
 
 struct TransportOperators {
     const Refill& refill;
@@ -26,7 +27,8 @@ struct TransportOperators {
     const SurfaceFit* fit = nullptr; ///< rows of `gather` are its samples, and receivers take smooth values
                                      ///< of them; null: rows are receivers
     const GatherOperator* check = nullptr; ///< gathers at points where errors are measured; null: none
-    const BounceFilter* filter = nullptr;  ///< of bounced light of lamps; null: none
+    const LampBounces* lamps = nullptr;    ///< last bounce of lamps at receivers; null: as all bounces
+    const GatherOperator* last_of_lamps = nullptr; ///< the same at the samples of `fit`
 };
 
 struct Propagated {
@@ -49,9 +51,12 @@ Propagated propagate(Transfer direct, const TransportOperators& operators, int b
 /// Light that was measured at samples of the surface.
 struct LightAtSamples {
     const SampledLight& direct;
-    const FitSolver& solver;
+    /// For direct light and the rest, which may be null; stays as long as this.
+    std::function<const FitSolver&(const SampledLight& direct, const SampledLight* rest)> solver;
     const TestValues& of_direct; ///< of the channels of `direct`
     const TestValues& of_rest;   ///< of the channels of `gather`
+    /// Rows of the last bounce to the samples; null: as of all bounces.
+    const GatherOperator* last = nullptr;
 };
 
 struct SharpTransfer {
