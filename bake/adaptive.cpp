@@ -29,7 +29,8 @@ public:
                     const TraceOptions& options, const Progress& progress)
         : tracer_(tracer), receivers_(receivers), left_(left), options_(options), progress_(progress),
           indices_(receivers_on_surfaces(receivers)), rays_(receivers.size(), 0),
-          planned_(receivers.size(), 0), error_(receivers.size(), 0), transfer_(empty_transfer()) {}
+          planned_(receivers.size(), 0), error_(receivers.size(), 0), transfer_(empty_transfer()),
+          half_(empty_transfer()) {}
 
     AdaptiveResult run(const MeshNeighbours& neighbours, double target) {
         estimate_errors(neighbours);
@@ -46,6 +47,7 @@ public:
                 break;
         }
         result.transfer = std::move(transfer_);
+        result.half = std::move(half_);
         result.rays = rays_;
         result.rays_checked += kFirstRays * indices_.size() + rays_on_dark_; // of the second scramble
         progress_.update(1);
@@ -73,7 +75,7 @@ private:
     void estimate_errors(const MeshNeighbours& neighbours) {
         TraceOptions options = options_;
         options.rays = static_cast<int>(kFirstRays);
-        trace(indices_, options, transfer_);
+        trace_in_halves(tracer_, receivers_, indices_, options, transfer_, half_, {{}, progress_.stop});
         options.seed += kSecondScramble;
         Transfer second = empty_transfer();
         trace(indices_, options, second);
@@ -175,6 +177,7 @@ private:
             options.rays = static_cast<int>(rays);
             trace(members, options, added);
             for (const std::uint32_t p : members) {
+                std::ranges::copy(transfer_.vector(p), half_.vector(p).begin());
                 for (std::size_t k = 0; k < added.dimension(); ++k)
                     transfer_.vector(p)[k] = 0.5f * (transfer_.vector(p)[k] + added.vector(p)[k]);
                 rays_[p] = 2 * rays;
@@ -226,7 +229,7 @@ private:
     };
     Squares squares_; ///< weighted by area
     std::size_t rays_on_dark_ = 0;
-    Transfer transfer_;
+    Transfer transfer_, half_; ///< of all rays, and of the first half
 };
 
 } // namespace

@@ -10,6 +10,7 @@ namespace prt {
 
 struct AdaptiveResult {
     Transfer transfer;               ///< of the receivers on surfaces
+    Transfer half;                   ///< by the first half of the rays of each
     std::vector<std::uint32_t> rays; ///< [receivers]
     std::size_t rays_checked = 0;    ///< traced beside them, to estimate errors
     double error = 0;                ///< estimated relative L2 of the transfer

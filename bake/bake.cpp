@@ -35,54 +35,37 @@ std::optional<ErrorCheck> check_errors(const BakePlan& plan, Tracer& tracer, Mea
     return check;
 }
 
-/// Gathers light at the points of the error check, then by the rows of lamps.
-struct GatheredBeside {
-    std::optional<GatherOperator> gather;
-    std::size_t points = 0; ///< rows of the check
-    std::optional<LampBounces> lamps;
-
-    GatheredBeside(const BakePlan& plan, Measured& measured, std::optional<ErrorCheck>& check) {
-        if (check)
-            if (std::optional<GatherOperator> rows = check->take_gather()) {
-                points = rows->rows();
-                gather.emplace(std::move(*rows));
-            }
-        std::optional<LampRows>& rows = measured.direct.lamps;
-        if (!rows || measured.fit)
-            return;
-        if (gather)
-            gather->append(std::move(rows->all));
-        else
-            gather.emplace(std::move(rows->all));
-        if (rows->half)
-            gather->append(std::move(*rows->half));
-        std::vector<bool> sealed(plan.receivers().size());
-        for (const std::uint32_t p : measured.sealed.receivers)
-            sealed[p] = true;
-        lamps.emplace(plan, *measured.shared, std::move(sealed), points);
-    }
-    std::span<const float> at_points(std::span<const float> light) const {
-        return light.first(gather ? light.size() / gather->rows() * points : 0);
-    }
-};
+/// Receivers whose light is not what their own rays gathered: inside geometry, and of media.
+std::vector<bool> not_told_by_rays(const BakePlan& plan, const SealedIn& sealed) {
+    std::vector<bool> out(plan.receivers().size());
+    for (const std::uint32_t p : sealed.receivers)
+        out[p] = true;
+    for (const DiffusionOperator& body : plan.diffusion)
+        for (const std::uint32_t p : body.members())
+            out[p] = true;
+    return out;
+}
 
 /// Exit light of the sky, and of lamps in the same transfer.
 struct ExitLight {
     Propagated all;
-    std::vector<float> lamps_at_check; ///< as Propagated::at_check
+    ErrorCheck::Bounced at_points;
 };
 
 ExitLight exit_light(const BakePlan& plan, Measured& measured, const TransportOperators& operators,
-                     const Progress& progress) {
-    ExitLight exit{
-        propagate_all(plan, std::move(measured.direct.transfer), measured.sky, operators, progress), {}};
+                     const Beside& beside, const Progress& progress) {
+    const auto at_points = [](Propagated& light) {
+        return light.beside.empty() ? std::vector<float>() : std::move(light.beside.front());
+    };
+    ExitLight exit{propagate_all(plan, measured, operators, beside, progress), {}};
+    exit.at_points.sky = at_points(exit.all);
     if (plan.lamps.empty())
         return exit;
-    Propagated lit = propagate_lamps(plan, std::move(measured.lamps), operators, {{}, progress.stop});
+    Propagated lit = propagate_lamps(plan, measured, operators, beside, {{}, progress.stop});
     exit.all.transfer = with_lamps(exit.all.transfer, lit.transfer, plan.lamps);
     exit.all.bounces = std::max(exit.all.bounces, lit.bounces);
     exit.all.remaining = std::max(exit.all.remaining, lit.remaining);
-    exit.lamps_at_check = std::move(lit.at_check);
+    exit.at_points.lamps = at_points(lit);
     return exit;
 }
 
@@ -113,17 +96,22 @@ BakeResult bake(const Scene& scene, const BakeOptions& options, const Progress& 
     const Stopwatch transport;
     const std::unique_ptr<GatherProduct> product =
         direct.gather ? tracer->gather_product(*direct.gather) : nullptr;
-    const GatheredBeside beside(plan, measured, check);
+    const std::vector<bool> left_out = not_told_by_rays(plan, sealed);
+    std::optional<NoiseFilter> filter;
+    if (direct.half)
+        filter.emplace(plan, *measured.shared, left_out);
     const TransportOperators operators{.refill = sealed.refill,
                                        .diffusion = plan.diffusion,
                                        .gather = direct.gather ? &*direct.gather : nullptr,
                                        .product = product.get(),
-                                       .fit = measured.fit ? &*measured.fit : nullptr,
-                                       .check = beside.gather ? &*beside.gather : nullptr,
-                                       .lamps = beside.lamps ? &*beside.lamps : nullptr,
-                                       .last_of_lamps =
-                                           measured.fit && direct.lamps ? &direct.lamps->all : nullptr};
-    ExitLight exit = exit_light(plan, measured, operators, progress.part(traced_sky, 1));
+                                       .fit = measured.fit ? &*measured.fit : nullptr};
+    ExitLight exit = exit_light(plan, measured, operators,
+                                {.points = check ? check->gather() : nullptr,
+                                 .filter = filter ? &*filter : nullptr,
+                                 .left_out = &left_out},
+                                progress.part(traced_sky, 1));
+    if (exit.all.noise > 0)
+        direct.sampling_error = exit.all.noise;
     if (measured.shared)
         measured.shared->average(exit.all.transfer);
     fill_without_area(plan.receivers(), plan.transport->fronts, exit.all.transfer);
@@ -131,12 +119,11 @@ BakeResult bake(const Scene& scene, const BakeOptions& options, const Progress& 
 
     std::optional<BakeErrors> found;
     if (check)
-        found = check->compare(exit.all.transfer, {.sky = beside.at_points(exit.all.at_check),
-                                                   .lamps = beside.at_points(exit.lamps_at_check)});
+        found = check->compare(exit.all.transfer, exit.at_points);
 
     BakeResult result = record(plan, *tracer, direct, sealed, std::move(exit.all));
     result.statistics.fit = asked.fit;
-    result.statistics.lamps.denoised = beside.lamps && beside.lamps->filters();
+    result.statistics.denoised = filter.has_value();
     result.errors = std::move(found);
     result.statistics.gather.bytes_moved = product ? product->bytes_moved() : 0;
     result.baked.record.fitted = measured.fit.has_value();

@@ -24,6 +24,8 @@ std::vector<std::uint32_t> trace_adaptively(const BakePlan& plan, Tracer& tracer
                           MeshNeighbours(plan.scene.surfaces(), plan.receivers(), plan.transport->fronts),
                           left, options, *plan.options.target_error, progress);
     direct.transfer = std::move(adaptive.transfer);
+    if (direct.half)
+        direct.half->direct = std::move(adaptive.half);
     direct.rays = std::accumulate(adaptive.rays.begin(), adaptive.rays.end(), adaptive.rays_checked);
     direct.sampling_error = adaptive.error;
     if (!adaptive.reached)
@@ -34,10 +36,13 @@ std::vector<std::uint32_t> trace_adaptively(const BakePlan& plan, Tracer& tracer
 
 void add_gather(const BakePlan& plan, Tracer& tracer, const LampConnections* lamps,
                 std::span<const std::uint32_t> rays_of, DirectLight& direct, const Progress& progress) {
-    TracedGather traced = trace_gather(plan, tracer, lamps, rays_of, direct.transfer, progress);
+    TracedGather traced = trace_gather(plan, tracer, lamps, rays_of, direct.transfer,
+                                       direct.half ? &*direct.half : nullptr, progress);
     direct.rays += traced.rays;
     if (traced.gather.entries() == 0) {
         direct.notices.push_back("no bounces: no ray from a receiver meets a surface that scatters");
+        if (direct.half)
+            direct.half->gather.reset();
         return;
     }
     direct.gather.emplace(std::move(traced.gather));
@@ -46,6 +51,14 @@ void add_gather(const BakePlan& plan, Tracer& tracer, const LampConnections* lam
 }
 
 } // namespace
+
+HalfOfRays::HalfOfRays(const BakePlan& plan, std::span<const std::uint32_t> rays_of)
+    : direct(zero_transfer(plan.options.order, 1, plan.receivers().size())) {
+    for (const std::uint32_t rays : rays_of) {
+        const auto half = static_cast<float>(first_half(static_cast<int>(rays)));
+        scale.push_back(std::sqrt(half / (static_cast<float>(rays) - half)));
+    }
+}
 
 double noise_left(const BakePlan& plan, std::span<const float> left) {
     double all = 0, sum = 0;
@@ -64,20 +77,29 @@ DirectLight trace_direct(const BakePlan& plan, Tracer& tracer, const LampConnect
     const TraceOptions options{
         .order = plan.options.order, .rays = plan.options.rays, .seed = plan.options.seed};
     const bool adaptive = plan.options.target_error.has_value();
+    const bool traces = tracer.method() == BakeMethod::trace,
+               halves = plan.options.denoise && traces && first_half(options.rays) > 0;
     DirectLight direct;
     std::vector<std::uint32_t> rays_of(receivers.size(), static_cast<std::uint32_t>(options.rays));
-    if (adaptive)
+    if (halves)
+        direct.half.emplace(plan, rays_of);
+    if (adaptive) {
         rays_of = trace_adaptively(plan, tracer, options, left, direct,
                                    plan.bounces != 0 ? progress.part(0, 0.5) : progress);
-    else
+    } else {
         direct.transfer = zero_transfer(options.order, 1, receivers.size());
+    }
     if (plan.bounces != 0) {
         add_gather(plan, tracer, lamps, rays_of, direct, progress.part(adaptive ? 0.5 : 0, 1));
     } else if (!adaptive) {
-        trace_receivers(tracer, receivers, indices, options, direct.transfer, progress);
+        if (halves)
+            trace_in_halves(tracer, receivers, indices, options, direct.transfer, direct.half->direct,
+                            progress);
+        else
+            trace_receivers(tracer, receivers, indices, options, direct.transfer, progress);
         direct.rays = indices.size() * static_cast<std::size_t>(options.rays);
     }
-    if (!adaptive && !plan.measures_errors && tracer.method() == BakeMethod::trace) {
+    if (!adaptive && !halves && !plan.measures_errors && traces) {
         const SamplingError sampling =
             sampling_error(tracer, receivers, options, direct.transfer, progress.stop);
         direct.sampling_error = sampling.error * noise_left(plan, left);

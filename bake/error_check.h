@@ -24,14 +24,8 @@ public:
     /// Chooses points where measured light varies, and traces them. Keeps a reference to `plan`.
     ErrorCheck(const BakePlan& plan, Tracer& tracer, const Measured& measured, const std::stop_token& stop);
 
-    /// Moves out what gathers exit light at the points; nothing where nothing bounces.
-    std::optional<GatherOperator> take_gather() {
-        std::optional<GatherOperator> taken;
-        if (gather_)
-            taken.emplace(std::move(*gather_));
-        gather_.reset();
-        return taken;
-    }
+    /// Gathers exit light at the points; null where nothing bounces.
+    const GatherOperator* gather() const { return gather_ ? &*gather_ : nullptr; }
     std::size_t rays() const { return rays_; }
 
     /// Relative L2 of direct light by as many rays as a receiver has.
@@ -39,7 +33,7 @@ public:
 
     /// Light at the rows of `gather` after a bounce, [rows][channels][columns]; empty: none.
     struct Bounced {
-        std::span<const float> sky, lamps;
+        std::vector<float> sky, lamps;
     };
     BakeErrors compare(const Transfer& baked, const Bounced& bounced) const;
 

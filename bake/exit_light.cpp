@@ -2,7 +2,6 @@
 
 #include "exit_light.h"
 
-#include "lamps/lamp_bounces.h"
 #include "parts.h"
 #include "prt/sh_basis.h"
 #include "prt/support/error.h"
@@ -67,15 +66,18 @@ bool colors_apart(const BakePlan& plan, const Transfer& light) {
     return plan.channels == 1 && light.layout.channels() == 3;
 }
 
-/// One result of those of three colors, [rows][columns] each at the rows of a check.
+/// One result of those of three colors, each of one channel.
 Propagated in_color(const Propagated& red, const Propagated& green, const Propagated& blue) {
     Propagated all{.transfer = in_color(red.transfer, green.transfer, blue.transfer)};
     const std::size_t columns = red.transfer.dimension();
-    for (std::size_t begin = 0; begin < red.at_check.size(); begin += columns)
-        for (const Propagated* one : {&red, &green, &blue}) {
-            const auto from = one->at_check.begin() + static_cast<std::ptrdiff_t>(begin);
-            all.at_check.insert(all.at_check.end(), from, from + static_cast<std::ptrdiff_t>(columns));
-        }
+    for (std::size_t rows = 0; rows < red.beside.size(); ++rows) {
+        std::vector<float>& to = all.beside.emplace_back();
+        for (std::size_t begin = 0; begin < red.beside[rows].size(); begin += columns)
+            for (const Propagated* one : {&red, &green, &blue}) {
+                const auto from = one->beside[rows].begin() + static_cast<std::ptrdiff_t>(begin);
+                to.insert(to.end(), from, from + static_cast<std::ptrdiff_t>(columns));
+            }
+    }
     for (const Propagated* one : {&red, &green, &blue}) {
         all.bounces = std::max(all.bounces, one->bounces);
         all.remaining = std::max(all.remaining, one->remaining);
@@ -103,87 +105,153 @@ SampledLight one_channel(const SampledLight& light, std::size_t channels, std::s
 
 /// Sharp light of lamps. It has one channel, or as many channels as the bounces.
 SharpTransfer sharp_lamps(const BakePlan& plan, Transfer smooth, const SampledLight& sampled,
-                          const TransportOperators& operators, const Progress& progress) {
+                          const GatherOperator* last, const TransportOperators& operators,
+                          const Progress& progress) {
     const int channels = smooth.layout.channels();
     const TestValues tests = TestValues::of_lamps(plan.lamps.size(), channels,
                                                   smooth.dimension() / static_cast<std::size_t>(channels));
-    std::optional<FitSolver> solver;
-    const auto by_noise = [&](const SampledLight& direct, const SampledLight* rest) -> const FitSolver& {
-        std::vector<float> values = direct.values;
-        for (std::size_t i = 0; rest && i < values.size(); ++i)
-            values[i] += rest->values[i];
-        const SurfaceFit& fit = *operators.fit;
-        return solver.emplace(lamp_solver(fit.samples, fit.equations, values, tests.count(),
-                                          plan.options.seed, plan.options.threads));
+    const SurfaceFit& fit = *operators.fit;
+    const auto by_noise = [&](const SampledLight& rest) {
+        return lamp_solver(fit.samples, fit.equations, rest.values, tests.count(), plan.options.seed,
+                           plan.options.threads);
     };
     return propagate_sharply(std::move(smooth),
                              {.direct = sampled,
-                              .solver = by_noise,
+                              .solver = *fit.lamps,
+                              .for_rest = by_noise,
                               .of_direct = tests,
                               .of_rest = tests,
-                              .last = operators.last_of_lamps},
+                              .last = last},
                              operators, plan.bounces, plan.options.threads, progress);
 }
 
 SharpTransfer sharp_lamps_in_color(const BakePlan& plan, const Transfer& smooth, const SampledLight& sampled,
-                                   const TransportOperators& operators, const Progress& progress) {
+                                   const GatherOperator* last, const TransportOperators& operators,
+                                   const Progress& progress) {
     const auto color = [&](int c) {
         return sharp_lamps(plan, one_channel(smooth, c), one_channel(sampled, 3, static_cast<std::size_t>(c)),
-                           operators, progress);
+                           last, operators, progress);
     };
     const SharpTransfer red = color(0), green = color(1), blue = color(2);
     return {in_color(red.direct, green.direct, blue.direct), in_color(red.exit, green.exit, blue.exit)};
 }
 
+/// Operators that gather the last bounce at other rows, too.
+TransportOperators with_rows(TransportOperators operators,
+                             std::initializer_list<const GatherOperator*> rows) {
+    for (const GatherOperator* one : rows)
+        if (one)
+            operators.beside.push_back(one);
+    return operators;
+}
+
+/// Light of lamps at receivers after all bounces.
+Propagated lamps_at_receivers(const BakePlan& plan, Transfer light, const std::optional<LampRows>& rows,
+                              const TransportOperators& operators, const Beside& beside,
+                              const Progress& progress) {
+    const Transfer unbounced = rows ? light : Transfer();
+    const bool halves = rows && rows->half && beside.filter;
+    Propagated lit = propagate_lamps_on_both_sides(
+        plan, std::move(light),
+        with_rows(operators, {beside.points, rows ? &rows->all : nullptr, halves ? &*rows->half : nullptr}),
+        plan.bounces, progress);
+    if (rows) {
+        const std::size_t first = beside.points ? 1 : 0;
+        lit.noise =
+            take_last_of_lamps({lit.beside[first], halves ? std::span<const float>(lit.beside[first + 1])
+                                                          : std::span<const float>()},
+                               *beside.left_out, beside.filter, unbounced, lit.transfer);
+        lit.beside.resize(first);
+    }
+    return lit;
+}
+
 /// Exit light after all bounces, and incident light without a bounce where it will be subtracted.
-SharpTransfer lit_by_lamps(const BakePlan& plan, MeasuredLamps lamps, const TransportOperators& operators,
-                           const Progress& progress) {
-    Transfer& light = lamps.light.transfer;
+SharpTransfer lit_by_lamps(const BakePlan& plan, Measured& measured, const TransportOperators& operators,
+                           const Beside& beside, const Progress& progress) {
+    Transfer& light = measured.lamps.light.transfer;
+    const SampledLight& sampled = measured.lamps.sampled;
+    const std::optional<LampRows>& rows = measured.direct.lamps;
     SharpTransfer lit;
     if (!operators.fit) {
         if (plan.options.lamps.mode == LampMode::indirect)
             lit.direct = light;
-        const Transfer unbounced = operators.lamps ? light : Transfer();
-        lit.exit = propagate_lamps_on_both_sides(plan, std::move(light), operators, plan.bounces, progress);
-        if (operators.lamps)
-            operators.lamps->apply(lit.exit.transfer, unbounced, lit.exit.at_check);
+        lit.exit = lamps_at_receivers(plan, std::move(light), rows, operators, beside, progress);
     } else {
+        const GatherOperator* last = rows ? &rows->all : nullptr;
+        const TransportOperators with_points = with_rows(operators, {beside.points});
         lit = colors_apart(plan, light)
-                  ? sharp_lamps_in_color(plan, light, lamps.sampled, operators, progress)
-                  : sharp_lamps(plan, std::move(light), lamps.sampled, operators, progress);
+                  ? sharp_lamps_in_color(plan, light, sampled, last, with_points, progress)
+                  : sharp_lamps(plan, std::move(light), sampled, last, with_points, progress);
         check_converged(plan, lit.exit, plan.bounces);
     }
     return lit;
 }
 
+/// Noise over half of the difference between two halves of a net: 0.74 where squares of the noise of n rays
+/// fall as n^-1.5, as the halves then fit together.
+constexpr float kNoiseOfHalves = 0.75f;
+
+/// Filters light of a sky at receivers, of which `direct` is without a bounce. `gathered` is what half of the
+/// rays gather, as `all`; empty: no bounces. Returns the relative noise that is left.
+double filter_sky(const NoiseFilter& filter, const HalfOfRays& half, std::span<const float> gathered,
+                  Transfer& direct, Transfer& all) {
+    const std::size_t stride = all.dimension(), columns = direct.dimension();
+    TellingColumns telling = columns_of_sky(columns);
+    if (stride > columns) // green of three channels
+        for (std::size_t& c : telling.columns)
+            c += columns;
+    const NoiseFilter::Fitted fitted = filter.fit(all, telling, [&](std::uint32_t p, std::size_t c) {
+        const float bounced = gathered.empty() ? 0.0f : gathered[p * stride + c];
+        return kNoiseOfHalves * half.scale[p] *
+               (half.direct.vector(p)[c % columns] + bounced - all.vector(p)[c]);
+    });
+    filter.apply(fitted.solver, all);
+    filter.apply(fitted.solver, direct);
+    return fitted.noise;
+}
+
 } // namespace
 
-Propagated propagate_all(const BakePlan& plan, Transfer direct, const SampledLight& sampled,
-                         const TransportOperators& operators, const Progress& progress) {
+Propagated propagate_all(const BakePlan& plan, Measured& measured, const TransportOperators& operators,
+                         const Beside& beside, const Progress& progress) {
     const bool bounced = operators.gather || !operators.diffusion.empty();
+    const int threads = plan.options.threads;
     const auto wide = [&](Transfer transfer) {
         return plan.channels == 3 && transfer.layout.channels() == 1 ? in_color(transfer)
                                                                      : std::move(transfer);
     };
+    Transfer direct = std::move(measured.direct.transfer);
+    const HalfOfRays* half = measured.direct.half && beside.filter ? &*measured.direct.half : nullptr;
+    const GatherOperator* rows_of_half = half && half->gather ? &*half->gather : nullptr;
+    const TransportOperators all_rows = with_rows(operators, {beside.points, rows_of_half});
     Propagated exit;
     if (operators.fit) {
         const TestValues of_direct = TestValues::of_sky(plan.options.order, 1),
                          of_rest = TestValues::of_sky(plan.options.order, plan.channels);
-        SharpTransfer sharp =
-            propagate_sharply(wide(std::move(direct)),
-                              {.direct = sampled,
-                               .solver = [&](const SampledLight&, const SampledLight*) -> const FitSolver& {
-                                   return operators.fit->sky;
-                               },
-                               .of_direct = of_direct,
-                               .of_rest = of_rest},
-                              operators, plan.bounces, plan.options.threads, progress);
+        SharpTransfer sharp = propagate_sharply(wide(std::move(direct)),
+                                                {.direct = measured.sky,
+                                                 .solver = operators.fit->sky,
+                                                 .for_rest = {},
+                                                 .of_direct = of_direct,
+                                                 .of_rest = of_rest},
+                                                all_rows, plan.bounces, threads, progress);
         direct = std::move(sharp.direct);
         exit = std::move(sharp.exit);
     }
     Transfer unbounced = exit_without_bounces(plan, direct, operators.refill);
     if (!operators.fit && bounced)
-        exit = propagate(wide(std::move(direct)), operators, plan.bounces, plan.options.threads, progress);
+        exit = propagate(wide(std::move(direct)), all_rows, plan.bounces, threads, progress);
+    if (half) {
+        if (!bounced)
+            exit.transfer = unbounced;
+        exit.noise =
+            filter_sky(*beside.filter, *half,
+                       rows_of_half ? std::span<const float>(exit.beside.back()) : std::span<const float>(),
+                       unbounced, exit.transfer);
+        if (rows_of_half)
+            exit.beside.pop_back();
+    }
     if (plan.direct_channels() == 3)
         unbounced = in_color(unbounced);
     leave_back_sides(plan, unbounced);
@@ -214,9 +282,9 @@ Propagated propagate_lamps_on_both_sides(const BakePlan& plan, Transfer light,
     return all;
 }
 
-Propagated propagate_lamps(const BakePlan& plan, MeasuredLamps lamps, const TransportOperators& operators,
-                           const Progress& progress) {
-    SharpTransfer lit = lit_by_lamps(plan, std::move(lamps), operators, progress);
+Propagated propagate_lamps(const BakePlan& plan, Measured& measured, const TransportOperators& operators,
+                           const Beside& beside, const Progress& progress) {
+    SharpTransfer lit = lit_by_lamps(plan, measured, operators, beside, progress);
     leave_back_sides(plan, lit.exit.transfer);
     if (plan.options.lamps.mode == LampMode::indirect) {
         Transfer unbounced = exit_without_bounces(plan, std::move(lit.direct), operators.refill);

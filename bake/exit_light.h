@@ -2,16 +2,24 @@
 
 // Light that leaves the receivers of a plan, after all bounces.
 
+#include "lamps/lamp_bounces.h"
 #include "measured_light.h"
 #include "plan.h"
 #include "transport/light_transport.h"
 
 namespace prt {
 
+/// What a bake does beside bouncing light between receivers; null: not.
+struct Beside {
+    const GatherOperator* points = nullptr;      ///< gathers at points where errors are measured
+    const NoiseFilter* filter = nullptr;         ///< of light at receivers
+    const std::vector<bool>* left_out = nullptr; ///< [receivers] those whose rays do not tell their light
+};
+
 /// Exit transfer of the scene's receivers in its parts: direct, and all bounces and subsurface scattering.
-/// `sampled`: the same direct light at the samples of a fit, where there is one.
-Propagated propagate_all(const BakePlan& plan, Transfer direct, const SampledLight& sampled,
-                         const TransportOperators& operators, const Progress& progress);
+/// Takes the light out of `measured`. Propagated::beside: light at `points`.
+Propagated propagate_all(const BakePlan& plan, Measured& measured, const TransportOperators& operators,
+                         const Beside& beside, const Progress& progress);
 
 /// Smooth exit light of lamps of all receivers of the plan, on both sides of surfaces, after `bounces`
 /// bounces. Throws `Error` where endless bounces do not converge.
@@ -19,9 +27,9 @@ Propagated propagate_lamps_on_both_sides(const BakePlan& plan, Transfer light,
                                          const TransportOperators& operators, int bounces,
                                          const Progress& progress);
 
-/// Exit light of lamps after all bounces, of the scene's receivers. Throws `Error` where endless bounces do
-/// not converge.
-Propagated propagate_lamps(const BakePlan& plan, MeasuredLamps lamps, const TransportOperators& operators,
-                           const Progress& progress);
+/// Exit light of lamps after all bounces, of the scene's receivers, as above. Throws `Error` where endless
+/// bounces do not converge.
+Propagated propagate_lamps(const BakePlan& plan, Measured& measured, const TransportOperators& operators,
+                           const Beside& beside, const Progress& progress);
 
 } // namespace prt

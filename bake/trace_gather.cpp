@@ -2,6 +2,7 @@
 
 #include "trace_gather.h"
 
+#include "direct.h"
 #include "memory.h"
 #include "prt/trace_receivers.h"
 
@@ -68,7 +69,7 @@ std::size_t check_gather_memory(const BakePlan& plan, Tracer& tracer, const Rece
 }
 
 TracedGather trace_gather(const BakePlan& plan, Tracer& tracer, const LampConnections* lamps,
-                          std::span<const std::uint32_t> rays_of, Transfer& transfer,
+                          std::span<const std::uint32_t> rays_of, Transfer& transfer, HalfOfRays* half,
                           const Progress& progress) {
     ByRays by_rays;
     std::size_t all = 0, done = 0;
@@ -76,22 +77,32 @@ TracedGather trace_gather(const BakePlan& plan, Tracer& tracer, const LampConnec
         by_rays[rays_of[p]].push_back(p);
         all += rays_of[p];
     }
-    TracedGather traced{empty_gather(plan, plan.receivers().size()), std::nullopt,
-                        all + check_gather_memory(plan, tracer, plan.receivers(), by_rays,
-                                                  lamps ? 1 + LampRows::kCopies : 1, progress.stop)};
+    const double copies = 1 + (lamps ? LampRows::kCopies : 0) + (half ? 0.5 : 0);
+    TracedGather traced{
+        empty_gather(plan, plan.receivers().size()), std::nullopt,
+        all + check_gather_memory(plan, tracer, plan.receivers(), by_rays, copies, progress.stop)};
     if (lamps)
-        traced.lamps.emplace(plan, plan.receivers().size(), plan.options.lamps.denoise);
+        traced.lamps.emplace(plan, plan.receivers().size(), half != nullptr);
+    if (half)
+        half->gather.emplace(empty_gather(plan, plan.receivers().size()));
     const auto share = [&](std::size_t rays) { return static_cast<double>(rays) / static_cast<double>(all); };
     for (const auto& [rays, members] : by_rays) {
         const TraceOptions options = gather_options(plan, rays);
         const std::size_t here = members.size() * rays;
-        trace_receivers(
-            tracer, plan.receivers(), members, options, transfer,
-            progress.part(share(done), share(done + here)), [&](std::uint32_t p, std::span<const Hit> hits) {
-                traced.gather.set_row(p, hits, options.rays);
-                if (lamps)
-                    traced.lamps->set(p, lamps->join(plan.receivers(), p, hits, options), options.rays);
-            });
+        const Progress part = progress.part(share(done), share(done + here));
+        const auto set_rows = [&](std::uint32_t p, std::span<const Hit> hits) {
+            traced.gather.set_row(p, hits, options.rays);
+            if (lamps)
+                traced.lamps->set(p, lamps->join(plan.receivers(), p, hits, options), options.rays);
+        };
+        if (half && first_half(options.rays) > 0)
+            trace_in_halves(tracer, plan.receivers(), members, options, transfer, half->direct, part,
+                            [&](std::uint32_t p, std::span<const Hit> hits, std::span<const Hit> first) {
+                                set_rows(p, hits);
+                                half->gather->set_row(p, first, first_half(options.rays));
+                            });
+        else
+            trace_receivers(tracer, plan.receivers(), members, options, transfer, part, set_rows);
         done += here;
     }
     return traced;

@@ -30,6 +30,8 @@ TraceOptions gather_options(const BakePlan& plan, std::uint32_t rays);
 std::size_t check_gather_memory(const BakePlan& plan, Tracer& tracer, const Receivers& receivers,
                                 const ByRays& by_rays, double copies, const std::stop_token& stop);
 
+struct HalfOfRays;
+
 struct TracedGather {
     GatherOperator gather;
     std::optional<LampRows> lamps; ///< where they are asked for
@@ -37,11 +39,11 @@ struct TracedGather {
 };
 
 /// Traces rays_of[p] rays of every receiver p on a surface into rows of the gather operator, which keeps
-/// references to `plan`; and, where `lamps` is not null, into rows that gather the light of lamps. The direct
-/// transfer in `transfer` is replaced by that of the same rays: then light is neither lost nor won between
-/// the two. Throws `Error` where the rows do not fit into memory.
+/// references to `plan`. The direct transfer in `transfer` is replaced by that of the same rays: then light
+/// is neither lost nor won between the two. `lamps`: makes rows for the light of lamps; may be null. `half`:
+/// takes what half of the rays tell; may be null. Throws `Error` where the rows do not fit into memory.
 TracedGather trace_gather(const BakePlan& plan, Tracer& tracer, const LampConnections* lamps,
-                          std::span<const std::uint32_t> rays_of, Transfer& transfer,
+                          std::span<const std::uint32_t> rays_of, Transfer& transfer, HalfOfRays* half,
                           const Progress& progress);
 
 } // namespace prt

@@ -19,6 +19,7 @@ using std::numbers::pi;
 /// Triangles of a leaf, which are picked by their power alone: 4 are no better, and slower.
 constexpr std::uint32_t kMostInLeaf = 32;
 constexpr int kBins = 12;
+constexpr double kInPlane = 1e-6; ///< height over distance
 constexpr double kLargestChoice = 1 - 0x1p-53;
 
 /// Cosine and sine of an angle in [0, π].
@@ -77,10 +78,10 @@ std::array<glm::dvec3, 3> BrightPatches::corners(std::uint32_t triangle) const {
 
 BrightPatches::BrightPatches(const BakePlan& plan, const Transfer& light) : plan_(plan) {
     add_patches(light);
+    patch_of_.assign(2 * plan.scene.surfaces().triangles(), kNoReceiver);
     if (patches_.empty())
         return;
     build(0, static_cast<std::uint32_t>(patches_.size()), 0);
-    patch_of_.assign(2 * plan.scene.surfaces().triangles(), kNoReceiver);
     for (std::uint32_t i = 0; i < patches_.size(); ++i)
         patch_of_[2 * patches_[i].triangle + (patches_[i].back ? 1 : 0)] = i;
 }
@@ -151,6 +152,7 @@ std::uint32_t BrightPatches::build(std::uint32_t begin, std::uint32_t end, std::
     for (std::uint32_t i = begin + 1; i < end; ++i)
         all = joined(all, bounds_of(patches_[i]));
     nodes_.push_back({.center = 0.5 * (all.low + all.high),
+                      .half = 0.5 * (all.high - all.low),
                       .radius = 0.5 * glm::length(all.high - all.low),
                       .normals = all.normals,
                       .power = all.power,
@@ -227,10 +229,13 @@ std::uint32_t BrightPatches::split(std::uint32_t begin, std::uint32_t end, const
 
 double BrightPatches::importance(const Node& node, const Receiver& receiver) {
     const glm::dvec3 to = node.center - receiver.place;
-    const double squared = glm::dot(to, to), radius = node.radius;
-    if (squared <= radius * radius) // within the sphere round it
-        return node.power / (radius * radius);
-    const double distance = std::sqrt(squared);
+    const double squared = glm::dot(to, to), radius = node.radius, distance = std::sqrt(squared);
+    // Of the box, over the plane of the receiver: nothing comes from that plane itself.
+    const double height = glm::dot(receiver.normal, to) + glm::dot(glm::abs(receiver.normal), node.half);
+    if (!(height > kInPlane * (radius + distance)))
+        return 0;
+    if (distance <= radius)
+        return node.power / (radius * radius) * std::min(1.0, height / radius);
     const Angle round = Angle::of_cosine(std::sqrt(std::max(0.0, 1 - radius * radius / squared)));
     const double here = Angle::of_cosine(std::clamp(glm::dot(receiver.normal, to) / distance, -1.0, 1.0))
                             .less(round)
@@ -239,7 +244,8 @@ double BrightPatches::importance(const Node& node, const Receiver& receiver) {
                              .less(Angle::of_cosine(node.normals.cosine))
                              .less(round)
                              .cosine;
-    return here > 0 && there > 0 ? node.power * here * there / squared : 0;
+    const double most = std::min(here, height / std::max(distance - radius, height));
+    return most > 0 && there > 0 ? node.power * most * there / squared : 0;
 }
 
 double BrightPatches::share_of_left(std::uint32_t node, const Receiver& receiver) const {
@@ -250,6 +256,8 @@ double BrightPatches::share_of_left(std::uint32_t node, const Receiver& receiver
 
 std::optional<BrightPatches::Point> BrightPatches::pick(const Receiver& receiver, double choice,
                                                         const glm::dvec2& uv) const {
+    if (patches_.empty())
+        return std::nullopt;
     std::uint32_t node = 0;
     double probability = 1;
     while (nodes_[node].right != 0) {

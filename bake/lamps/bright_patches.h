@@ -62,8 +62,8 @@ private:
         double power = 0;
     };
     struct Node {
-        glm::dvec3 center{0};
-        double radius = 0;
+        glm::dvec3 center{0}, half{0}; ///< of the box
+        double radius = 0;             ///< of the sphere round it
         Cone normals;
         double power = 0;
         std::uint32_t begin = 0, end = 0;    ///< patches

@@ -1,33 +1,24 @@
 #pragma once
 
-// Bounces of lamps at receivers, with less noise than between them.
+// The last bounce of lamps at receivers, with less noise than those before it.
 
 #include "lamps/lamp_rows.h"
-#include "surface/bounce_filter.h"
+#include "surface/noise_filter.h"
 
-#include <optional>
 #include <span>
 #include <vector>
 
 namespace prt {
 
-/// Gathers the last bounce of lamps by LampRows, and filters it.
-class LampBounces {
-public:
-    /// `first_row`: of LampRows::all among the rows of TransportOperators::check; those of `half` follow.
-    /// `left_out` [receivers]: those whose light is not what their own rays gathered.
-    LampBounces(const BakePlan& plan, const SharedPlaces& shared, std::vector<bool> left_out,
-                std::size_t first_row);
-
-    bool filters() const { return filter_.has_value(); }
-    /// Replaces what `light` has more than `unbounced`, [receivers][channels][columns] both. `gathered` is
-    /// Propagated::at_check.
-    void apply(Transfer& light, const Transfer& unbounced, std::span<const float> gathered) const;
-
-private:
-    std::vector<bool> left_out_;
-    std::size_t first_row_;
-    std::optional<BounceFilter> filter_;
+/// What LampRows gathered, [receivers][channels][columns]; `half` may be empty.
+struct LastOfLampsGathered {
+    std::span<const float> all, half;
 };
+
+/// Replaces what `light` has more than `unbounced`, [receivers][channels][columns] both, by what was
+/// gathered, and filters that where there is a filter and a half. `left_out` [receivers]: those whose light
+/// is not what their own rays gathered. Returns the relative noise that is left, 0 where it is not known.
+double take_last_of_lamps(const LastOfLampsGathered& gathered, const std::vector<bool>& left_out,
+                          const NoiseFilter* filter, const Transfer& unbounced, Transfer& light);
 
 } // namespace prt

@@ -12,7 +12,7 @@ namespace {
 constexpr double kWeightOfNoise = 0.15;
 /// Signal is at least this share of noise: by chance the two estimates cancel.
 constexpr double kLeastSignal = 0.02;
-constexpr double kLeastWeight = 0.0005, kMostWeight = 5;
+constexpr double kLeastWeight = 0.0005, kMostWeight = 0.5;
 
 /// Sums of squares of bends.
 struct Squares {

@@ -143,11 +143,12 @@ FitTrial try_fit(const BakePlan& plan, Tracer& tracer, const Progress& progress)
     return Trial(plan, tracer, progress).run();
 }
 
-FitChoice choose_fit(const FitTrial& trial, int rays) {
+FitChoice choose_fit(const FitTrial& trial, int rays, bool filtered) {
     // Measured on nine scenes: the best fit has 0.7 of the error of interpolation, and of few samples more. A
     // ray's noise falls faster than the number of samples grows (n^-1.5 against n^-1), and between vertices
-    // half of its square is left.
-    constexpr double kBestFit = 0.5, kOfFewSamples = 0.6, kNoise = 0.75;
+    // half of its square is left, or an eighth where it is filtered.
+    constexpr double kBestFit = 0.5, kOfFewSamples = 0.6, kNoise = 0.75, kVertexNoise = 0.5,
+                     kFiltered = 0.125;
     constexpr double kNothing = 1e-3;                  // nobody sees it
     constexpr int kMostSamples = 16, kLeastRays = 128; // of a sample: fewer take longer
     const double between = trial.between * trial.between, noise = trial.sampling * trial.sampling;
@@ -161,7 +162,7 @@ FitChoice choose_fit(const FitTrial& trial, int rays) {
         best.samples = samples;
         least = error;
     }
-    best.better = trial.between > kNothing && least < between + noise / 2;
+    best.better = trial.between > kNothing && least < between + (filtered ? kFiltered : kVertexNoise) * noise;
     return best;
 }
 

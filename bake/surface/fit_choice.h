@@ -19,12 +19,12 @@ struct FitTrial {
 FitTrial try_fit(const BakePlan& plan, Tracer& tracer, const Progress& progress);
 
 /// How many samples a receiver's rays are best divided among, and whether that is better than one at the
-/// vertex.
+/// vertex, whose light is `filtered`.
 struct FitChoice {
     int samples = 1; ///< for each receiver
     bool better = false;
 };
 
-FitChoice choose_fit(const FitTrial& trial, int rays);
+FitChoice choose_fit(const FitTrial& trial, int rays, bool filtered);
 
 } // namespace prt

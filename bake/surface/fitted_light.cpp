@@ -6,6 +6,7 @@
 #include "prt/sh_basis.h"
 #include "prt/trace_receivers.h"
 #include "scene/sealed.h"
+#include "surface/bend_weights.h"
 #include "surface/fit_noise.h"
 #include "surface/separated_receivers.h"
 #include "trace/sample_sequence.h"
@@ -318,9 +319,13 @@ FittedLight trace_fitted(const BakePlan& plan, Tracer& tracer, LastOfLamps last,
     sums.signed_b = joined_sums(alone, equations, stride, sums.signed_b);
 
     FittedSky sky = fit_sky(plan, samples, equations, std::move(sums));
+    std::optional<FitSolver> of_lamps;
+    if (!plan.lamps.empty()) // their light bends elsewhere
+        of_lamps.emplace(equations, std::vector<float>(equations.bends.size(), kPlainBendWeight));
     MeasuredLamps lit_by_lamps = measured_lamps(plan, equations, lamps);
     std::vector<float> weights = unknown_weights(equations);
-    SurfaceFit fit{std::move(samples), std::move(equations), std::move(weights), std::move(sky.solver)};
+    SurfaceFit fit{std::move(samples), std::move(equations), std::move(weights), std::move(sky.solver),
+                   std::move(of_lamps)};
     std::vector<float> smooth = sky.light.sums;
     fit.smooth(std::span(smooth), stride);
     direct.transfer = of_receivers(plan, fit.equations, smooth);

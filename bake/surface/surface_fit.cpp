@@ -15,12 +15,12 @@ void add_to_channels(std::span<const float> few, std::size_t few_stride, std::sp
 
 } // namespace
 
-SharpFit::Values SharpFit::values_of(const SampledLight& light) const {
+SharpFit::Values SharpFit::values_of(const SampledLight& light, const FitSolver& solver) const {
     Values values{light.sums, light.sharp};
     fit_.smooth(std::span(values.smooth), light.stride);
     if (light.sharp.empty()) {
         values.sharp = light.sums;
-        solver_.solve(values.sharp, light.stride, threads_);
+        solver.solve(values.sharp, light.stride, threads_);
     }
     return values;
 }
@@ -42,12 +42,12 @@ SharpLight SharpFit::solve(const TestValues& of_direct, const SampledLight& dire
                            const SampledLight* rest) const {
     const FitEquations& equations = fit_.equations;
     std::vector<float> shares(equations.unknowns * of_direct.groups(), 1.0f);
-    Values first = values_of(direct);
+    Values first = values_of(direct, of_direct_);
     limit_shares(of_direct, value_ranges(equations, direct.values, of_direct.count()), first.smooth,
                  first.sharp, shares);
     SharpLight result;
     if (rest) {
-        Values second = values_of(*rest);
+        Values second = values_of(*rest, of_rest_);
         limit_shares(*of_rest, value_ranges(equations, rest->values, of_rest->count()), second.smooth,
                      second.sharp, shares);
         std::vector<float> values = rest->values;

@@ -3,6 +3,8 @@
 #include "surface/fit_solver.h"
 #include "surface/value_limits.h"
 
+#include <optional>
+
 namespace prt {
 
 /// Divides sums over samples [unknowns][stride] by `weights` [unknowns]; zero where there are none.
@@ -22,8 +24,9 @@ void smooth(std::span<const float> weights, std::span<Value> sums_then_values, s
 struct SurfaceFit {
     SurfaceSamples samples;
     FitEquations equations;
-    std::vector<float> weights; ///< [unknowns] of all samples
-    FitSolver sky;              ///< of distant light
+    std::vector<float> weights;     ///< [unknowns] of all samples
+    FitSolver sky;                  ///< of distant light
+    std::optional<FitSolver> lamps; ///< of light of lamps without a bounce, where there are lamps
 
     /// Smooth values [unknowns][stride] from sums over samples.
     template <class Value>
@@ -41,8 +44,9 @@ struct SharpLight {
 /// `rest` may be null; its channels are those of `direct`, or any number where `direct` has one.
 class SharpFit {
 public:
-    SharpFit(const SurfaceFit& fit, const FitSolver& solver, int threads)
-        : fit_(fit), solver_(solver), threads_(threads) {}
+    /// One solver keeps the sum of both parts what it is.
+    SharpFit(const SurfaceFit& fit, const FitSolver& of_direct, const FitSolver& of_rest, int threads)
+        : fit_(fit), of_direct_(of_direct), of_rest_(of_rest), threads_(threads) {}
     SharpLight solve(const TestValues& of_direct, const SampledLight& direct, const TestValues* of_rest,
                      const SampledLight* rest) const;
 
@@ -50,11 +54,11 @@ private:
     struct Values {
         std::vector<float> smooth, sharp; ///< [unknowns][stride]
     };
-    Values values_of(const SampledLight& light) const;
+    Values values_of(const SampledLight& light, const FitSolver& solver) const;
     void mix(const TestValues& tests, std::span<const float> shares, Values& values) const;
 
     const SurfaceFit& fit_;
-    const FitSolver& solver_;
+    const FitSolver &of_direct_, &of_rest_;
     int threads_;
 };
 

@@ -7,6 +7,8 @@
 #include "transport/gather_product.h"
 
 #include <algorithm>
+#include <array>
+#include <bit>
 #include <cassert>
 
 namespace prt {
@@ -63,6 +65,51 @@ void trace_receivers(Tracer& tracer, const Receivers& receivers, std::span<const
         std::copy(vector.begin(), vector.end(), transfer.vector(p).begin());
     };
     trace_receivers(tracer, receivers, indices, options, take, progress, sink);
+}
+
+int first_half(int rays) {
+    constexpr int kFewest = 8;
+    return rays < kFewest ? 0 : static_cast<int>(std::bit_ceil(static_cast<unsigned>(rays)) / 2);
+}
+
+void trace_in_halves(Tracer& tracer, const Receivers& receivers, std::span<const std::uint32_t> indices,
+                     const TraceOptions& options, Transfer& transfer, Transfer& half,
+                     const Progress& progress, const HalvesSink& sink) {
+    const auto dimension = static_cast<std::size_t>(coefficient_count(options.order));
+    std::array<TraceOptions, 2> options_of{options, options};
+    options_of[0].rays = first_half(options.rays);
+    options_of[1].rays = options.rays - options_of[0].rays;
+    options_of[1].first_ray += static_cast<std::uint32_t>(options_of[0].rays);
+    const float share = static_cast<float>(options_of[0].rays) / static_cast<float>(options.rays);
+    in_batches(tracer, indices, options, progress,
+               [&](std::span<const std::uint32_t> part, const Progress& part_progress) {
+                   std::vector<std::vector<Hit>> hits(sink ? part.size() : 0);
+                   const HitSink keep = [&](std::size_t i, std::span<const Hit> first) {
+                       hits[i].assign(first.begin(), first.end());
+                   };
+                   const HitSink join = [&](std::size_t i, std::span<const Hit> second) {
+                       const std::size_t first = hits[i].size();
+                       hits[i].insert(hits[i].end(), second.begin(), second.end());
+                       sink(part[i], hits[i], std::span(hits[i]).first(first));
+                   };
+                   std::array<std::vector<float>, 2> vectors;
+                   for (const std::size_t h : {0u, 1u}) {
+                       vectors[h].resize(part.size() * dimension);
+                       tracer.trace(receivers, part, options_of[h], vectors[h],
+                                    !sink    ? HitSink()
+                                    : h == 0 ? keep
+                                             : join,
+                                    part_progress.part(0.5 * static_cast<double>(h),
+                                                       0.5 * static_cast<double>(h + 1)));
+                   }
+                   for (std::size_t i = 0; i < part.size(); ++i)
+                       for (std::size_t k = 0; k < dimension; ++k) {
+                           const float first = vectors[0][i * dimension + k];
+                           half.vector(part[i])[k] = first;
+                           transfer.vector(part[i])[k] =
+                               share * first + (1 - share) * vectors[1][i * dimension + k];
+                       }
+               });
 }
 
 } // namespace prt

@@ -8,9 +8,7 @@
 
 #include <glm/vec3.hpp>
 
-#include <algorithm>
 #include <cstdint>
-#include <iterator>
 #include <memory>
 #include <span>
 #include <vector>
@@ -33,11 +31,6 @@ public:
     /// Makes a row from what `rays` of its rays met. Rows may be made from several threads.
     void set_row(std::size_t row, std::span<const Hit> hits, int rays);
     std::size_t rows() const { return rows_.size(); }
-    /// Takes the rows of an operator between the same surfaces, behind these.
-    void append(GatherOperator&& other) {
-        std::move(other.rows_.begin(), other.rows_.end(), std::back_inserter(rows_));
-    }
-
     /// A row holds three entries per ray at most, each a source and a weight per channel.
     static constexpr double kMostBytesPerRay = 3 * 16;
 

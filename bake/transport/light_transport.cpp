@@ -124,14 +124,20 @@ ColumnOperator bounce_operator(const TransportOperators& operators, int order, i
     return {apply, residual};
 }
 
-/// One more bounce of `exit` transfer to the points where errors are measured.
-std::vector<float> gather_at_check(const TransportOperators& operators, const Transfer& exit, int threads) {
-    if (!operators.check)
-        return {};
+/// One more bounce of `exit` transfer to other rows.
+std::vector<std::vector<float>> gather_beside(const TransportOperators& operators, const Transfer& exit,
+                                              int threads) {
     const int order = exit.layout.order;
-    std::vector<float> reflected = exit.vectors, gathered(operators.check->rows() * exit.dimension());
-    operators.check->reflect(order, reflected, threads);
-    operators.check->apply(order, reflected, 0, gathered, threads);
+    std::vector<std::vector<float>> gathered;
+    std::vector<float> reflected;
+    for (const GatherOperator* rows : operators.beside) {
+        if (reflected.empty()) {
+            reflected = exit.vectors;
+            rows->reflect(order, reflected, threads);
+        }
+        gathered.emplace_back(rows->rows() * exit.dimension());
+        rows->apply(order, reflected, 0, gathered.back(), threads);
+    }
     return gathered;
 }
 
@@ -148,12 +154,12 @@ std::optional<Propagated> bounce_on_device(Transfer& transfer, const TransportOp
                                            int bounces, int threads, const Progress& progress) {
     if (!operators.product || operators.fit || !operators.diffusion.empty() || operators.refill.size() > 0)
         return std::nullopt;
-    std::vector<float> at_check;
-    if (operators.check) {
+    std::vector<std::vector<float>> beside;
+    if (!operators.beside.empty()) {
         Transfer before = transfer;
         if (bounces > 1 && !operators.product->bounce(before, bounces - 1, progress))
             return std::nullopt;
-        at_check = gather_at_check(operators, before, threads);
+        beside = gather_beside(operators, before, threads);
     }
     const std::optional<BounceEnergy> energy = operators.product->bounce(transfer, bounces, progress);
     if (!energy)
@@ -164,7 +170,7 @@ std::optional<Propagated> bounce_on_device(Transfer& transfer, const TransportOp
                       .bounces = bounces,
                       .remaining = remaining_after(*energy, total),
                       .last = energy->last,
-                      .at_check = std::move(at_check)};
+                      .beside = std::move(beside)};
 }
 
 /// Adds bounce after bounce, until so little remains.
@@ -178,7 +184,7 @@ Propagated bounce_often(Transfer transfer, const TransportOperators& operators, 
     double before = largest_norm(now, coefficients);
     while (result.bounces < bounces) {
         if (result.bounces == bounces - 1)
-            result.at_check = gather_at_check(operators, transfer, threads);
+            result.beside = gather_beside(operators, transfer, threads);
         bounce.apply(now, next);
         for (std::size_t i = 0; i < next.size(); ++i)
             transfer.vectors[i] += next[i];
@@ -193,7 +199,7 @@ Propagated bounce_often(Transfer transfer, const TransportOperators& operators, 
         progress.update(static_cast<double>(result.bounces) / bounces);
     }
     if (result.bounces < bounces)
-        result.at_check = gather_at_check(operators, transfer, threads);
+        result.beside = gather_beside(operators, transfer, threads);
     result.converged |= least_remaining == 0;
     result.transfer = std::move(transfer);
     return result;
@@ -232,7 +238,7 @@ Propagated bounce_endlessly(Transfer transfer, const TransportOperators& operato
         result.remaining = std::max(result.remaining, solved.remaining);
         result.converged = result.converged && solved.converged;
     }
-    result.at_check = gather_at_check(operators, transfer, threads);
+    result.beside = gather_beside(operators, transfer, threads);
     result.transfer = std::move(transfer);
     return result;
 }
@@ -312,16 +318,19 @@ SharpTransfer propagate_sharply(Transfer smooth, const LightAtSamples& light,
     std::optional<SampledLight> rest;
     if (operators.gather && bounces != 0) {
         const bool endless = bounces == kEndlessBounces;
-        TransportOperators unchecked = operators;
-        unchecked.check = nullptr;
-        sharp.exit = propagate(smooth, unchecked, endless ? bounces : bounces - 1, threads, progress);
-        sharp.exit.at_check = gather_at_check(operators, sharp.exit.transfer, threads);
+        TransportOperators alone = operators;
+        alone.beside.clear();
+        sharp.exit = propagate(smooth, alone, endless ? bounces : bounces - 1, threads, progress);
+        sharp.exit.beside = gather_beside(operators, sharp.exit.transfer, threads);
         rest = bounce_to_samples(sharp.exit.transfer, operators, light, threads);
         if (!endless)
             add_last_bounce(fit, *rest, smooth, sharp.exit);
     }
+    std::optional<FitSolver> of_rest;
+    if (rest && light.for_rest)
+        of_rest.emplace(light.for_rest(*rest));
     const SharpLight values =
-        SharpFit(fit, light.solver(light.direct, rest ? &*rest : nullptr), threads)
+        SharpFit(fit, light.solver, of_rest ? *of_rest : light.solver, threads)
             .solve(light.of_direct, light.direct, &light.of_rest, rest ? &*rest : nullptr);
     const auto spread = [&](const std::vector<float>& x, std::size_t stride) {
         std::vector<float> of_receivers(receivers * stride);

@@ -17,8 +17,6 @@ namespace prt {
 
 /// The linear operators of a scene. Incident transfer becomes exit transfer by `refill`, then `diffusion`;
 /// exit transfer becomes the incident transfer of the next bounce by `gather`.
-class LampBounces;
-
 struct TransportOperators {
     const Refill& refill;
     std::span<const DiffusionOperator> diffusion;
@@ -26,9 +24,7 @@ struct TransportOperators {
     GatherProduct* product = nullptr;       ///< by a device; null: by the processor
     const SurfaceFit* fit = nullptr; ///< rows of `gather` are its samples, and receivers take smooth values
                                      ///< of them; null: rows are receivers
-    const GatherOperator* check = nullptr; ///< gathers at points where errors are measured; null: none
-    const LampBounces* lamps = nullptr;    ///< last bounce of lamps at receivers; null: as all bounces
-    const GatherOperator* last_of_lamps = nullptr; ///< the same at the samples of `fit`
+    std::vector<const GatherOperator*> beside = {}; ///< other rows that gather the last bounce
 };
 
 struct Propagated {
@@ -39,9 +35,10 @@ struct Propagated {
     /// element.
     double remaining = 0;
     double last = 0;       ///< energy of the last bounce; 0 where none was done alone
+    double noise = 0;      ///< of the rays, relative L2 of all light; 0: not known
     bool converged = true; ///< endless bounces reached the solver's tolerance
-    /// Bounced light at the rows of `check`, [rows][channels][order²], as if they were receivers.
-    std::vector<float> at_check = {};
+    /// Bounced light at the rows of each of `beside`, [rows][channels][order²], as if they were receivers.
+    std::vector<std::vector<float>> beside = {};
 };
 
 /// The sum over `direct` light and `bounces` bounces of it (or kEndlessBounces).
@@ -51,10 +48,10 @@ Propagated propagate(Transfer direct, const TransportOperators& operators, int b
 /// Light that was measured at samples of the surface.
 struct LightAtSamples {
     const SampledLight& direct;
-    /// For direct light and the rest, which may be null; stays as long as this.
-    std::function<const FitSolver&(const SampledLight& direct, const SampledLight* rest)> solver;
-    const TestValues& of_direct; ///< of the channels of `direct`
-    const TestValues& of_rest;   ///< of the channels of `gather`
+    const FitSolver& solver;                                     ///< for direct light
+    std::function<FitSolver(const SampledLight& rest)> for_rest; ///< none: the same
+    const TestValues& of_direct;                                 ///< of the channels of `direct`
+    const TestValues& of_rest;                                   ///< of the channels of `gather`
     /// Rows of the last bounce to the samples; null: as of all bounces.
     const GatherOperator* last = nullptr;
 };

@@ -166,15 +166,14 @@ void add_lamps(CLI::App* command, LampOptions& lamps) {
                      "radius of points and spots, metres: the larger, the softer their shadows")
         ->capture_default_str()
         ->check(real_in(0, 1e9));
-    choice(command, "--denoise", lamps.denoise, kDenoise,
-           "filter bounces of lamps that are measured at vertices over the surface, as far as they are noise",
-           "on");
     command->add_option("--lamp-rays", lamps.rays, "rays from a vertex to the lamps of a name with extent")
         ->capture_default_str()
         ->check(CLI::Range(1, kMostRays));
 }
 
 void add_method(CLI::App* command, BakeOptions& options) {
+    choice(command, "--denoise", options.denoise, kDenoise,
+           "filter light that is measured at vertices over the surface, as far as it is noise", "on");
     add_backend(command, options.tracer.backend,
                 "gpu: Vulkan 1.2 of any kind; auto: a hardware GPU, else the CPU");
     add_gpu(command, options.tracer.gpu);

@@ -171,7 +171,7 @@ Json statistics_json(const BakeStatistics& s) {
             {"lamps", s.lamps.count},
             {"lamp_lights", s.lamps.lights},
             {"lamp_triangles", s.lamps.triangles},
-            {"lamps_denoised", s.lamps.denoised},
+            {"denoised", s.denoised},
             {"gather_entries", s.gather.entries},
             {"gather_bytes", s.gather.bytes},
             {"gather_bytes_moved", s.gather.bytes_moved},

@@ -63,9 +63,6 @@ struct LampOptions {
     std::vector<LampGroup> groups; ///< a lamp is of the first that it matches
     double radius = 0;             ///< metres: of points and spots, whose shadows get soft by it
     int rays = 64;                 ///< from a receiver to the lamps of a name that have extent
-    /// Their bounces, where light is measured at vertices, are filtered over the surface as far as they are
-    /// noise. Those of a sky are not: they make up for what rays of direct light miss.
-    bool denoise = true;
 };
 
 /// What is done about what is wrong with a scene.
@@ -114,6 +111,8 @@ struct BakeOptions {
     int rays = 1024;                    ///< per receiver; directions where method is raster
     std::optional<double> target_error; ///< relative L2 to reach, with as many rays as each receiver needs
     FitMode fit = FitMode::vertex;
+    /// Light that is measured at receivers is filtered over the surface as far as it is noise.
+    bool denoise = true;
     int bounces = 0; ///< or kEndlessBounces
     TracerChoice tracer;
     SubsurfaceOptions subsurface;
@@ -151,7 +150,6 @@ struct BakeStatistics {
     };
     struct Lamps {
         std::size_t count = 0, lights = 0, triangles = 0; ///< names, and what shines under them
-        bool denoised = false;                            ///< their bounces
     };
     Receivers receivers;
     Fit fit;
@@ -159,8 +157,10 @@ struct BakeStatistics {
     std::string device;
     Seconds seconds;
     double mean_visibility = 0; ///< area-weighted T_0 / Y_00 of the direct light
-    /// Estimated relative L2 error of the direct light by sampling, from independent samples.
+    /// Estimated relative L2 error by sampling: of the light of the sky where it was filtered, else of its
+    /// direct light, from independent samples.
     double sampling_error = 0;
+    bool denoised = false;
     double rounding_error = 0;   ///< relative L2 of storing float16
     double remaining_energy = 0; ///< of the bounces that were not done, over the largest transfer
     Lamps lamps;

@@ -29,4 +29,17 @@ void trace_receivers(Tracer& tracer, const Receivers& receivers, std::span<const
                      const TraceOptions& options, Transfer& transfer, const Progress& progress = {},
                      const ReceiverSink& sink = {});
 
+/// Number of the first rays of a sequence of `rays` that trace_in_halves takes as half of them; 0: too few.
+int first_half(int rays);
+
+/// Takes the hits of a receiver, and those of the first half of its rays.
+using HalvesSink =
+    std::function<void(std::uint32_t receiver, std::span<const Hit> all, std::span<const Hit> half)>;
+
+/// The same from a tracer that takes ranges of rays, and the transfer of the first half of the rays alone in
+/// `half`. There must be a half.
+void trace_in_halves(Tracer& tracer, const Receivers& receivers, std::span<const std::uint32_t> indices,
+                     const TraceOptions& options, Transfer& transfer, Transfer& half,
+                     const Progress& progress = {}, const HalvesSink& sink = {});
+
 } // namespace prt

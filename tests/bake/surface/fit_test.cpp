@@ -214,14 +214,16 @@ TEST(Fit, DoesNotDependOnThreads) {
 }
 
 TEST(FitChoice, IsWhatErrsLess) {
-    EXPECT_TRUE(choose_fit({.between = 0.05, .sampling = 0.002}, 1024).better);
-    EXPECT_FALSE(choose_fit({.between = 0.005, .sampling = 0.02}, 1024).better);
-    EXPECT_FALSE(choose_fit({}, 1024).better); // nothing errs: as it was
-    EXPECT_FALSE(choose_fit({.between = 1e-7}, 1024).better);
+    EXPECT_TRUE(choose_fit({.between = 0.05, .sampling = 0.002}, 1024, false).better);
+    EXPECT_FALSE(choose_fit({.between = 0.005, .sampling = 0.02}, 1024, false).better);
+    EXPECT_FALSE(choose_fit({}, 1024, false).better); // nothing errs: as it was
+    EXPECT_FALSE(choose_fit({.between = 1e-7}, 1024, false).better);
     // The clearer it is, the more samples, of no fewer than 128 rays.
-    EXPECT_EQ(choose_fit({.between = 0.05, .sampling = 0.001}, 4096).samples, 16);
-    EXPECT_EQ(choose_fit({.between = 0.05, .sampling = 0.001}, 1024).samples, 8);
-    EXPECT_EQ(choose_fit({.between = 0.01, .sampling = 0.05}, 4096).samples, 2);
+    EXPECT_TRUE(choose_fit({.between = 0.02, .sampling = 0.014}, 1024, false).better);
+    EXPECT_FALSE(choose_fit({.between = 0.02, .sampling = 0.014}, 1024, true).better); // the filter is
+    EXPECT_EQ(choose_fit({.between = 0.05, .sampling = 0.001}, 4096, false).samples, 16);
+    EXPECT_EQ(choose_fit({.between = 0.05, .sampling = 0.001}, 1024, false).samples, 8);
+    EXPECT_EQ(choose_fit({.between = 0.01, .sampling = 0.05}, 4096, false).samples, 2);
 }
 
 } // namespace

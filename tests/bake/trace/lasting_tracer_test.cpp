@@ -65,7 +65,9 @@ private:
 class Fitted {
 public:
     const TraceScene& traced() const { return traced_; }
-    FittedLight of(Tracer& tracer) const { return trace_fitted(plan_, tracer, 2, {}); }
+    FittedLight of(Tracer& tracer) const {
+        return trace_fitted(plan_, tracer, LastOfLamps::as_others, 2, {});
+    }
 
 private:
     static BakeOptions some_options() {

@@ -1,4 +1,4 @@
-// Bounced light without the noise of its rays.
+// Light at receivers without the noise of its rays.
 
 #include "prt/bake.h"
 #include "prt/error_measures.h"
@@ -7,6 +7,8 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <numbers>
+#include <utility>
 
 namespace prt {
 namespace {
@@ -19,7 +21,7 @@ BakeOptions bounced(int rays, std::uint64_t seed, bool denoise) {
     options.rays = rays;
     options.seed = seed;
     options.bounces = 1;
-    options.lamps.denoise = denoise;
+    options.denoise = denoise;
     options.tracer.backend = Backend::cpu;
     return options;
 }
@@ -29,7 +31,7 @@ Transfer indirect(const Scene& scene, BakeOptions options, bool* denoised = null
     options.lamps.mode = LampMode::indirect;
     const BakeResult result = bake(scene, options);
     if (denoised)
-        *denoised = result.statistics.lamps.denoised;
+        *denoised = result.statistics.denoised;
     const Transfer& all = result.baked.transfer;
     Transfer light = zero_transfer(1, 1, all.receivers());
     for (std::size_t v = 0; v < all.receivers(); ++v)
@@ -59,7 +61,7 @@ Scene corner() {
     return scene;
 }
 
-TEST(BounceFilter, TakesMostOfTheNoise) {
+TEST(NoiseFilter, TakesMostOfTheNoise) {
     const Scene scene = corner();
     const std::vector<float> areas = receiver_areas(scene);
     const Transfer truth = indirect(scene, bounced(1 << 14, 9, false));
@@ -75,7 +77,7 @@ TEST(BounceFilter, TakesMostOfTheNoise) {
     }
 }
 
-TEST(BounceFilter, ChangesLittleWhereThereIsLittleNoise) {
+TEST(NoiseFilter, ChangesLittleWhereThereIsLittleNoise) {
     const Scene scene = corner();
     const std::vector<float> areas = receiver_areas(scene);
     const Transfer truth = indirect(scene, bounced(1 << 14, 9, false));
@@ -83,21 +85,74 @@ TEST(BounceFilter, ChangesLittleWhereThereIsLittleNoise) {
               1.05 * relative_l2(truth, indirect(scene, bounced(1 << 12, 1, false)), areas));
 }
 
-/// Light of a sky and that of lamps without a bounce stay as they are, bit by bit.
-TEST(BounceFilter, LeavesWhatIsNoBounceOfALamp) {
+/// Light of lamps without a bounce has no noise of hemisphere rays, and stays as it is, bit by bit.
+TEST(NoiseFilter, LeavesDirectLightOfLamps) {
     const Scene scene = corner();
     BakeOptions with = bounced(64, 1, true), without = bounced(64, 1, false);
+    with.bounces = without.bounces = 0;
     const Transfer filtered = bake(scene, with).baked.transfer, noisy = bake(scene, without).baked.transfer;
     ASSERT_EQ(filtered.layout.parts.back().kind, PartKind::lamp);
     for (std::size_t v = 0; v < filtered.receivers(); ++v)
-        for (std::size_t i = 0; i + 1 < filtered.dimension(); ++i)
-            ASSERT_EQ(filtered.vector(v)[i], noisy.vector(v)[i]);
-    with.bounces = without.bounces = 0;
-    EXPECT_EQ(bake(scene, with).baked.transfer.vectors, bake(scene, without).baked.transfer.vectors);
+        ASSERT_EQ(filtered.vector(v).back(), noisy.vector(v).back());
+}
+
+/// The same of the sky, whose direct light has an edge where the ball touches the floor.
+TEST(NoiseFilter, TakesMostOfTheNoiseOfASky) {
+    const Scene scene = corner();
+    const std::vector<float> areas = receiver_areas(scene);
+    for (const int bounces : {0, 2}) {
+        const auto sky = [&](int rays, std::uint64_t seed, bool denoise) {
+            BakeOptions options = bounced(rays, seed, denoise);
+            options.bounces = bounces;
+            options.order = 4;
+            options.lamps.mode = LampMode::none;
+            return bake(scene, options);
+        };
+        const Transfer truth = sky(1 << 14, 9, false).baked.transfer;
+        const BakeResult filtered = sky(128, 1, true);
+        const double before = relative_l2(truth, sky(128, 1, false).baked.transfer, areas),
+                     after = relative_l2(truth, filtered.baked.transfer, areas);
+        EXPECT_GT(before, 0.01);
+        EXPECT_LT(after, 0.75 * before) << bounces;
+        EXPECT_NEAR(filtered.statistics.sampling_error, after, 0.35 * after) << bounces;
+        EXPECT_LT(relative_l2(truth, sky(1 << 12, 1, true).baked.transfer, areas),
+                  1.02 * relative_l2(truth, sky(1 << 12, 1, false).baked.transfer, areas));
+    }
+}
+
+/// Noise of rays that miss the sky is that of rays that meet a wall: filtered apart they would not add up.
+TEST(NoiseFilter, KeepsAllLightOfAWhiteFurnace) {
+    Scene scene = corner();
+    scene.lights.clear();
+    scene = test::painted(std::move(scene), glm::vec3(1));
+    BakeOptions options = bounced(64, 1, true);
+    options.bounces = kEndlessBounces;
+    const BakeResult result = bake(scene, options);
+    EXPECT_TRUE(result.statistics.denoised);
+    const Transfer& transfer = result.baked.transfer;
+    for (std::size_t v = 0; v < transfer.receivers(); ++v) {
+        float all = 0;
+        for (std::size_t first = 0; first < transfer.dimension(); first += 4) // direct, and the rest
+            all += transfer.vector(v)[first];
+        ASSERT_NEAR(all * std::sqrt(4 * std::numbers::pi_v<float>), 1, 1e-3f) << v;
+    }
+}
+
+/// Transfer is that of a surface of albedo 1: where two materials meet there is no step in it.
+TEST(NoiseFilter, SeesNoBoundaryOfMaterials) {
+    const Scene one = corner();
+    Scene two = one;
+    const auto dark = static_cast<std::uint32_t>(two.materials.size());
+    two.materials.push_back(two.materials.front());
+    two.materials.back().base_color = glm::vec4(0.1f, 0.1f, 0.1f, 1);
+    two.primitives.front().material = dark;
+    BakeOptions options = bounced(128, 1, true);
+    options.bounces = 0;
+    EXPECT_EQ(bake(one, options).baked.transfer.vectors, bake(two, options).baked.transfer.vectors);
 }
 
 /// Two rooms on one floor, a lamp in one of them. The wall between them stands on vertices of the floor.
-TEST(BounceFilter, LightsNoDarkRoom) {
+TEST(NoiseFilter, LightsNoDarkRoom) {
     const auto room = [](float low, float high) {
         SceneBuilder walls;
         walls.quad({low, 0, -1}, {high, 0, -1}, {high, 2, -1}, {low, 2, -1});
@@ -118,7 +173,7 @@ TEST(BounceFilter, LightsNoDarkRoom) {
     BakeOptions options = bounced(64, 1, true);
     options.bounces = 3;
     const BakeResult result = bake(scene, options);
-    EXPECT_TRUE(result.statistics.lamps.denoised);
+    EXPECT_TRUE(result.statistics.denoised);
     double lit = 0;
     for (const glm::uvec3& t : scene.primitives[0].triangles)
         for (int i = 0; i < 3; ++i) {

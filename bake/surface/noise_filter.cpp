@@ -1,16 +1,16 @@
-#include "surface/bounce_filter.h"
+#include "surface/noise_filter.h"
 
+#include "prt/sh_basis.h"
 #include "prt/support/parallel.h"
 #include "surface/bend_weights.h"
+#include "surface/surface_fit.h"
+#include "trace/scrambles.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace prt {
 namespace {
-
-/// Noise over half of the difference between two halves of a net: the whole net has less, since its parts fit
-/// together. Between 0.7 and 1 errors of four scenes differ by a fifth.
-constexpr float kNoiseOfHalves = 0.85f;
 
 /// A sample at a corner of each triangle side for the receiver there, once for each receiver that is asked
 /// for.
@@ -18,7 +18,9 @@ SurfaceSamples samples_at_receivers(const BakePlan& plan, const std::vector<bool
                                     std::vector<std::uint32_t>& receivers) {
     const Surfaces& surfaces = plan.scene.surfaces();
     SurfaceSamples samples;
-    std::vector<bool> done = left_out;
+    std::vector<bool> done(left_out.size(), true);
+    for (const std::uint32_t p : receivers_on_surfaces(plan.receivers()))
+        done[p] = left_out[p];
     for (const TriangleSide& side : triangle_sides(surfaces, *plan.transport, true)) {
         const glm::uvec3 corners = corner_receivers(surfaces, *plan.transport, side.triangle, side.back);
         for (int i = 0; i < 3; ++i) {
@@ -48,14 +50,9 @@ void leave_out_sheets(const BakePlan& plan, std::vector<bool>& left_out) {
             }
 }
 
-float bounced(const Transfer& all, const Transfer& unbounced, std::uint32_t p, std::size_t c) {
-    return all.vector(p)[c] - unbounced.vector(p)[c % unbounced.dimension()];
-}
-
 } // namespace
 
-BounceFilter::BounceFilter(const BakePlan& plan, const SharedPlaces& shared,
-                           const std::vector<bool>& left_out)
+NoiseFilter::NoiseFilter(const BakePlan& plan, const SharedPlaces& shared, const std::vector<bool>& left_out)
     : plan_(plan) {
     std::vector<bool> out = left_out;
     leave_out_sheets(plan, out);
@@ -66,7 +63,7 @@ BounceFilter::BounceFilter(const BakePlan& plan, const SharedPlaces& shared,
 }
 
 template <class Value>
-std::vector<float> BounceFilter::sums(const TellingColumns& columns, Value&& value) const {
+std::vector<float> NoiseFilter::sums(const TellingColumns& columns, Value&& value) const {
     const std::size_t count = columns.size();
     std::vector<float> sums(equations_.unknowns * count), row(count);
     for (std::size_t s = 0; s < receivers_.size(); ++s) {
@@ -77,31 +74,42 @@ std::vector<float> BounceFilter::sums(const TellingColumns& columns, Value&& val
     return sums;
 }
 
-TellingColumns BounceFilter::telling(const Light& light) const {
-    std::vector<double> squares(light.all.dimension());
+double NoiseFilter::square(std::span<const float> x, std::size_t columns) const {
+    double sum = 0;
+    for (std::size_t u = 0; u < weights_.size(); ++u)
+        sum += static_cast<double>(weights_[u]) * squared_norm(x.subspan(u * columns, columns));
+    return sum;
+}
+
+TellingColumns NoiseFilter::brightest(const Transfer& light) const {
+    std::vector<double> squares(light.dimension());
     for (const std::uint32_t p : receivers_)
         for (std::size_t c = 0; c < squares.size(); ++c) {
-            const auto value = static_cast<double>(bounced(light.all, light.unbounced, p, c));
+            const auto value = static_cast<double>(light.vector(p)[c]);
             squares[c] += static_cast<double>(plan_.receivers().areas[p]) * value * value;
         }
     return brightest_columns(squares);
 }
 
-FitSolver BounceFilter::solver(const Light& light) const {
-    const TellingColumns columns = telling(light);
-    const std::size_t count = columns.size(), stride = light.all.dimension();
-    std::vector<float> x = sums(
-        columns, [&](std::uint32_t p, std::size_t c) { return bounced(light.all, light.unbounced, p, c); });
-    std::vector<float> noise = sums(columns, [&](std::uint32_t p, std::size_t c) {
-        return kNoiseOfHalves * (light.half[p * stride + c] - bounced(light.all, light.unbounced, p, c));
-    });
+NoiseFilter::Fitted NoiseFilter::fit(const Transfer& light, const TellingColumns& columns,
+                                     const Noise& noise_of) const {
+    const int threads = plan_.options.threads;
+    const std::size_t count = columns.size();
+    const std::vector<float> light_sums =
+        sums(columns, [&](std::uint32_t p, std::size_t c) { return light.vector(p)[c]; });
+    const std::vector<float> noise_sums = sums(columns, noise_of);
+    std::vector<float> x = light_sums, noise = noise_sums;
     const FitSolver first(equations_, std::vector<float>(equations_.bends.size(), kFirstBendWeight));
-    first.solve(x, count, plan_.options.threads, FitSolver::kEstimate);
-    first.solve(noise, count, plan_.options.threads, FitSolver::kEstimate);
-    return {equations_, bend_weights(equations_, x, noise, count)};
+    first.solve(x, count, threads, FitSolver::kEstimate);
+    first.solve(noise, count, threads, FitSolver::kEstimate);
+    FitSolver solver(equations_, bend_weights(equations_, x, noise, count));
+    noise = noise_sums;
+    solver.solve(noise, count, threads, FitSolver::kRough);
+    const double norm = square(x, count);
+    return {std::move(solver), norm > 0 ? std::sqrt(square(noise, count) / norm) : 0};
 }
 
-void BounceFilter::limit(std::span<const float> means, std::size_t columns, std::span<float> x) const {
+void NoiseFilter::limit(std::span<const float> means, std::size_t columns, std::span<float> x) const {
     std::vector<float> low(means.begin(), means.end()), high = low;
     for (const Bend& bend : equations_.bends)
         for (const std::uint32_t u : bend.unknowns)
@@ -115,9 +123,20 @@ void BounceFilter::limit(std::span<const float> means, std::size_t columns, std:
         x[i] = means[i] == 0 ? 0 : std::clamp(x[i], low[i], high[i]);
 }
 
-void BounceFilter::apply(Transfer& light, const Transfer& unbounced, std::span<const float> half) const {
+void NoiseFilter::apply_to(const FitSolver& solver, const TellingColumns& columns, Transfer& light) const {
+    const std::size_t count = columns.size();
+    std::vector<float> x = sums(columns, [&](std::uint32_t p, std::size_t c) { return light.vector(p)[c]; });
+    std::vector<float> means = x;
+    smooth(weights_, std::span(means), count);
+    solver.solve(x, count, 1, FitSolver::kRough);
+    limit(means, count, x);
+    for (const std::uint32_t p : receivers_)
+        for (std::size_t i = 0; i < count; ++i)
+            light.vector(p)[columns.columns[i]] = x[equations_.unknown_of[p] * count + i];
+}
+
+void NoiseFilter::apply(const FitSolver& solver, Transfer& light) const {
     constexpr std::size_t kBlock = 8; // columns of the solver, which keeps little in memory
-    const FitSolver fit = solver({light, unbounced, half});
     const std::size_t stride = light.dimension();
     parallel_for((stride + kBlock - 1) / kBlock, 1, plan_.options.threads,
                  [&](std::size_t begin, std::size_t end) {
@@ -125,22 +144,8 @@ void BounceFilter::apply(Transfer& light, const Transfer& unbounced, std::span<c
                          TellingColumns columns;
                          for (std::size_t c = block * kBlock; c < std::min(stride, (block + 1) * kBlock); ++c)
                              columns.columns.push_back(c);
-                         const std::size_t count = columns.size();
-                         columns.factors.assign(count, 1.0f);
-                         std::vector<float> x = sums(columns, [&](std::uint32_t p, std::size_t c) {
-                             return bounced(light, unbounced, p, c);
-                         });
-                         std::vector<float> means = x;
-                         for (std::size_t i = 0; i < means.size(); ++i)
-                             means[i] = weights_[i / count] > 0 ? means[i] / weights_[i / count] : 0;
-                         fit.solve(x, count, 1, FitSolver::kEstimate);
-                         limit(means, count, x);
-                         for (const std::uint32_t p : receivers_)
-                             for (std::size_t i = 0; i < count; ++i) {
-                                 const std::size_t c = columns.columns[i];
-                                 light.vector(p)[c] = unbounced.vector(p)[c % unbounced.dimension()] +
-                                                      x[equations_.unknown_of[p] * count + i];
-                             }
+                         columns.factors.assign(columns.size(), 1.0f);
+                         apply_to(solver, columns, light);
                      }
                  });
 }
