@@ -24,6 +24,8 @@ BouncedSources bounced_sources(const BakePlan& plan, Tracer& tracer, const Progr
     BakeStatistics asked;
     Measured measured = measure(plan, tracer, LastOfLamps::as_others, asked, progress.part(0, 0.9));
     sources.rays = measured.direct.rays + measured.sealed.rays + measured.lamps.light.rays + asked.rays;
+    if (!plan.lamps.empty())
+        sources.connections.emplace(plan, measured.lamps.light.transfer);
     const std::unique_ptr<GatherProduct> product =
         measured.direct.gather ? tracer.gather_product(*measured.direct.gather) : nullptr;
     const TransportOperators operators{.refill = measured.sealed.refill,

@@ -38,7 +38,7 @@ namespace {
 /// and more, since no edge of it is longer.
 constexpr double kTexelsBetweenSources = 8;
 /// Rows of the gather that are there at a time take about so many bytes at most.
-constexpr double kBytesOfRows = 1e9;
+constexpr double kBytesOfRows = 1e9; ///< of rows of one gather; lamps have more beside them
 
 /// A side of a texel, metres, in the mean of all.
 double texel_size(const TexelPlaces& places, const std::vector<std::vector<ChartTriangle>>& charts) {

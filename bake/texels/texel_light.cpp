@@ -113,7 +113,7 @@ private:
         if (task_.transport && task_.transport->bounces()) {
             task_.transport->clear();
             sink = [&](std::uint32_t g, std::span<const Hit> hits) {
-                task_.transport->set_row(g, hits, options.rays);
+                task_.transport->set_row(g, layer.receivers, hits, options);
             };
         }
         trace_receivers(task_.tracer, layer.receivers, layer.indices, options, traced, progress.part(0, 0.9),

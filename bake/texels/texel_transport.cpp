@@ -27,6 +27,8 @@ TexelTransport::TexelTransport(const BakePlan& plan, BouncedSources sources, std
     lamp_layout_ = sources.lamps.layout;
     if (plan.bounces == 0)
         return;
+    connections_.emplace(std::move(*sources.connections));
+    lamp_rows_.emplace(plan, rows, false);
     if (plan.channels == lamp_layout_.channels())
         lamps_.push_back(reflected(std::move(sources.lamps)));
     else
@@ -43,8 +45,19 @@ std::size_t TexelTransport::lamp_stride() const {
 }
 
 void TexelTransport::clear() {
-    for (std::size_t row = 0; row < gather_.rows(); ++row)
+    for (std::size_t row = 0; row < gather_.rows(); ++row) {
         gather_.set_row(row, {}, 1);
+        if (lamp_rows_)
+            lamp_rows_->set(row, {}, 1);
+    }
+}
+
+void TexelTransport::set_row(std::size_t row, const Receivers& receivers, std::span<const Hit> hits,
+                             const TraceOptions& options) {
+    gather_.set_row(row, hits, options.rays);
+    if (lamp_rows_)
+        lamp_rows_->set(row, connections_->join(receivers, static_cast<std::uint32_t>(row), hits, options),
+                        options.rays);
 }
 
 void TexelTransport::gather_sky(std::span<float> to) const {
@@ -68,7 +81,7 @@ std::size_t TexelTransport::light_of_lamps(Tracer& tracer, const Receivers& rece
     for (std::size_t part = 0; part < lamps_.size(); ++part) {
         const std::size_t stride = lamp_stride() / lamps_.size();
         bounced.resize(receivers.size() * stride);
-        gather_.apply(lamp_layout_.order, lamps_[part], 0, bounced, plan_.options.threads);
+        lamp_rows_->all.apply(lamp_layout_.order, lamps_[part], 0, bounced, plan_.options.threads);
         for (std::size_t r = 0; r < receivers.size(); ++r)
             for (std::size_t i = 0; i < stride; ++i)
                 to[r * lamp_stride() + part * stride + i] += bounced[r * stride + i];

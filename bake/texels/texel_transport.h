@@ -7,6 +7,7 @@
 #include "transport/gather.h"
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -23,9 +24,10 @@ public:
     std::size_t sky_stride() const;
     std::size_t lamp_stride() const;
 
-    /// Notes what rays of row `row` met. A triangle that rays start on is no exception: an interpolated
-    /// normal sends some below it, and whatever they miss would be lost.
-    void set_row(std::size_t row, std::span<const Hit> hits, int rays) { gather_.set_row(row, hits, rays); }
+    /// Notes what rays of row `row`, those of receiver `row`, met. Thread-safe. A triangle that rays start on
+    /// is no exception: an interpolated normal sends some below it, and whatever they miss would be lost.
+    void set_row(std::size_t row, const Receivers& receivers, std::span<const Hit> hits,
+                 const TraceOptions& options);
     /// Forgets what rows met.
     void clear();
     /// Bounced sky light of the first rows, `to` [rows][sky_stride()].
@@ -40,6 +42,8 @@ public:
 private:
     const BakePlan& plan_;
     GatherOperator gather_;
+    std::optional<LampConnections> connections_; ///< where lamps bounce
+    std::optional<LampRows> lamp_rows_;
     int sky_order_ = 0;
     std::vector<float> sky_; ///< reflected
     std::vector<std::vector<float>>
