@@ -99,7 +99,7 @@ BakeResult bake(const Scene& scene, const BakeOptions& options, const Progress& 
     const std::vector<bool> left_out = not_told_by_rays(plan, sealed);
     std::optional<NoiseFilter> filter;
     if (direct.half)
-        filter.emplace(plan, *measured.shared, left_out);
+        filter.emplace(vertex_filter(plan, *measured.shared, left_out));
     const TransportOperators operators{.refill = sealed.refill,
                                        .diffusion = plan.diffusion,
                                        .gather = direct.gather ? &*direct.gather : nullptr,

@@ -201,7 +201,8 @@ double filter_sky(const NoiseFilter& filter, const HalfOfRays& half, std::span<c
     if (stride > columns) // green of three channels
         for (std::size_t& c : telling.columns)
             c += columns;
-    const NoiseFilter::Fitted fitted = filter.fit(all, telling, [&](std::uint32_t p, std::size_t c) {
+    const auto value = [&](std::uint32_t p, std::size_t c) { return all.vector(p)[c]; };
+    const NoiseFilter::Fitted fitted = filter.fit(value, telling, [&](std::uint32_t p, std::size_t c) {
         const float bounced = gathered.empty() ? 0.0f : gathered[p * stride + c];
         return kNoiseOfHalves * half.scale[p] *
                (half.direct.vector(p)[c % columns] + bounced - all.vector(p)[c]);

@@ -11,8 +11,9 @@ double take_last_of_lamps(const LastOfLampsGathered& gathered, const std::vector
                 left_out[p] ? light.vector(p)[c] - unbounced.vector(p)[c] : gathered.all[p * stride + c];
     double noise = 0;
     if (filter && !gathered.half.empty()) {
+        const auto value = [&](std::uint32_t p, std::size_t c) { return light.vector(p)[c]; };
         const NoiseFilter::Fitted fitted =
-            filter->fit(light, filter->brightest(light), [&](std::uint32_t p, std::size_t c) {
+            filter->fit(value, filter->brightest(value, stride), [&](std::uint32_t p, std::size_t c) {
                 return gathered.half[p * stride + c] - gathered.all[p * stride + c];
             });
         filter->apply(fitted.solver, light);

@@ -52,23 +52,27 @@ void leave_out_sheets(const BakePlan& plan, std::vector<bool>& left_out) {
 
 } // namespace
 
-NoiseFilter::NoiseFilter(const BakePlan& plan, const SharedPlaces& shared, const std::vector<bool>& left_out)
-    : plan_(plan) {
+NoiseFilter::NoiseFilter(FitEquations equations, std::vector<std::uint32_t> places, int threads)
+    : equations_(std::move(equations)), places_(std::move(places)), weights_(unknown_weights(equations_)),
+      threads_(threads) {}
+
+NoiseFilter vertex_filter(const BakePlan& plan, const SharedPlaces& shared,
+                          const std::vector<bool>& left_out) {
     std::vector<bool> out = left_out;
     leave_out_sheets(plan, out);
-    const SurfaceSamples samples = samples_at_receivers(plan, out, receivers_);
-    equations_ = fit_equations(plan.scene.surfaces(), *plan.transport, samples,
-                               shared.first_of_each(plan.receivers().size()));
-    weights_ = unknown_weights(equations_);
+    std::vector<std::uint32_t> receivers;
+    const SurfaceSamples samples = samples_at_receivers(plan, out, receivers);
+    return {fit_equations(plan.scene.surfaces(), *plan.transport, samples,
+                          shared.first_of_each(plan.receivers().size())),
+            std::move(receivers), plan.options.threads};
 }
 
-template <class Value>
-std::vector<float> NoiseFilter::sums(const TellingColumns& columns, Value&& value) const {
+std::vector<float> NoiseFilter::sums(const TellingColumns& columns, const Values& values) const {
     const std::size_t count = columns.size();
     std::vector<float> sums(equations_.unknowns * count), row(count);
-    for (std::size_t s = 0; s < receivers_.size(); ++s) {
+    for (std::size_t s = 0; s < places_.size(); ++s) {
         for (std::size_t i = 0; i < count; ++i)
-            row[i] = columns.factors[i] * value(receivers_[s], columns.columns[i]);
+            row[i] = columns.factors[i] * values(places_[s], columns.columns[i]);
         add_samples(equations_, s, std::span<const float>(row), count, std::span(sums));
     }
     return sums;
@@ -81,30 +85,27 @@ double NoiseFilter::square(std::span<const float> x, std::size_t columns) const 
     return sum;
 }
 
-TellingColumns NoiseFilter::brightest(const Transfer& light) const {
-    std::vector<double> squares(light.dimension());
-    for (const std::uint32_t p : receivers_)
-        for (std::size_t c = 0; c < squares.size(); ++c) {
-            const auto value = static_cast<double>(light.vector(p)[c]);
-            squares[c] += static_cast<double>(plan_.receivers().areas[p]) * value * value;
+TellingColumns NoiseFilter::brightest(const Values& light, std::size_t columns) const {
+    std::vector<double> squares(columns);
+    for (std::size_t s = 0; s < places_.size(); ++s)
+        for (std::size_t c = 0; c < columns; ++c) {
+            const auto value = static_cast<double>(light(places_[s], c));
+            squares[c] += static_cast<double>(equations_.rows[s].area) * value * value;
         }
     return brightest_columns(squares);
 }
 
-NoiseFilter::Fitted NoiseFilter::fit(const Transfer& light, const TellingColumns& columns,
-                                     const Noise& noise_of) const {
-    const int threads = plan_.options.threads;
+NoiseFilter::Fitted NoiseFilter::fit(const Values& light, const TellingColumns& columns,
+                                     const Values& noise_of) const {
     const std::size_t count = columns.size();
-    const std::vector<float> light_sums =
-        sums(columns, [&](std::uint32_t p, std::size_t c) { return light.vector(p)[c]; });
     const std::vector<float> noise_sums = sums(columns, noise_of);
-    std::vector<float> x = light_sums, noise = noise_sums;
+    std::vector<float> x = sums(columns, light), noise = noise_sums;
     const FitSolver first(equations_, std::vector<float>(equations_.bends.size(), kFirstBendWeight));
-    first.solve(x, count, threads, FitSolver::kEstimate);
-    first.solve(noise, count, threads, FitSolver::kEstimate);
+    first.solve(x, count, threads_, FitSolver::kEstimate);
+    first.solve(noise, count, threads_, FitSolver::kEstimate);
     FitSolver solver(equations_, bend_weights(equations_, x, noise, count));
     noise = noise_sums;
-    solver.solve(noise, count, threads, FitSolver::kRough);
+    solver.solve(noise, count, threads_, FitSolver::kRough);
     const double norm = square(x, count);
     return {std::move(solver), norm > 0 ? std::sqrt(square(noise, count) / norm) : 0};
 }
@@ -123,31 +124,36 @@ void NoiseFilter::limit(std::span<const float> means, std::size_t columns, std::
         x[i] = means[i] == 0 ? 0 : std::clamp(x[i], low[i], high[i]);
 }
 
-void NoiseFilter::apply_to(const FitSolver& solver, const TellingColumns& columns, Transfer& light) const {
+void NoiseFilter::apply_to(const FitSolver& solver, const TellingColumns& columns, const Values& light,
+                           const Write& write) const {
     const std::size_t count = columns.size();
-    std::vector<float> x = sums(columns, [&](std::uint32_t p, std::size_t c) { return light.vector(p)[c]; });
-    std::vector<float> means = x;
+    std::vector<float> x = sums(columns, light), means = x;
     smooth(weights_, std::span(means), count);
     solver.solve(x, count, 1, FitSolver::kRough);
     limit(means, count, x);
-    for (const std::uint32_t p : receivers_)
+    for (const std::uint32_t place : places_)
         for (std::size_t i = 0; i < count; ++i)
-            light.vector(p)[columns.columns[i]] = x[equations_.unknown_of[p] * count + i];
+            write(place, columns.columns[i], x[equations_.unknown_of[place] * count + i]);
+}
+
+void NoiseFilter::apply(const FitSolver& solver, std::size_t columns, const Values& light,
+                        const Write& write) const {
+    constexpr std::size_t kBlock = 8; // columns of the solver, which keeps little in memory
+    parallel_for((columns + kBlock - 1) / kBlock, 1, threads_, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t block = begin; block < end; ++block) {
+            TellingColumns some;
+            for (std::size_t c = block * kBlock; c < std::min(columns, (block + 1) * kBlock); ++c)
+                some.columns.push_back(c);
+            some.factors.assign(some.size(), 1.0f);
+            apply_to(solver, some, light, write);
+        }
+    });
 }
 
 void NoiseFilter::apply(const FitSolver& solver, Transfer& light) const {
-    constexpr std::size_t kBlock = 8; // columns of the solver, which keeps little in memory
-    const std::size_t stride = light.dimension();
-    parallel_for((stride + kBlock - 1) / kBlock, 1, plan_.options.threads,
-                 [&](std::size_t begin, std::size_t end) {
-                     for (std::size_t block = begin; block < end; ++block) {
-                         TellingColumns columns;
-                         for (std::size_t c = block * kBlock; c < std::min(stride, (block + 1) * kBlock); ++c)
-                             columns.columns.push_back(c);
-                         columns.factors.assign(columns.size(), 1.0f);
-                         apply_to(solver, columns, light);
-                     }
-                 });
+    apply(
+        solver, light.dimension(), [&](std::uint32_t p, std::size_t c) { return light.vector(p)[c]; },
+        [&](std::uint32_t p, std::size_t c, float value) { light.vector(p)[c] = value; });
 }
 
 } // namespace prt

@@ -1,6 +1,6 @@
 #pragma once
 
-// Light at receivers without the noise of its rays.
+// Light without the noise of its rays.
 
 #include "plan.h"
 #include "scene/shared_places.h"
@@ -13,43 +13,51 @@
 
 namespace prt {
 
-/// Replaces light of receivers by light that bends less where bends are noise: the equations of a surface fit
-/// whose samples are the receivers (docs/math.md, section 14). It is linear, and its rows sum to 1.
+/// Replaces light at places of a surface by light that bends less where bends are noise: the equations of a
+/// surface fit with a sample for each place, at an unknown (docs/math.md, section 14). It is linear, and its
+/// rows sum to 1.
 class NoiseFilter {
 public:
-    /// Receivers that `shared` takes means of are one unknown. `left_out` [receivers]: those whose light is
-    /// not what their own rays gathered. Keeps a reference to `plan`.
-    NoiseFilter(const BakePlan& plan, const SharedPlaces& shared, const std::vector<bool>& left_out);
+    /// `places` [samples of `equations`]: by what values are asked for; FitEquations::unknown_of is of them.
+    NoiseFilter(FitEquations equations, std::vector<std::uint32_t> places, int threads);
 
-    /// What is likely to be the noise of a receiver in a column of a transfer, of random sign.
-    using Noise = std::function<float(std::uint32_t receiver, std::size_t column)>;
+    using Values = std::function<float(std::uint32_t place, std::size_t column)>;
+    using Write = std::function<void(std::uint32_t place, std::size_t column, float value)>;
+
     struct Fitted {
         FitSolver solver;
         double noise; ///< relative L2 that is left in the filtered light of the telling columns
     };
-    /// Bends that serve all columns, by the noise of some.
-    Fitted fit(const Transfer& light, const TellingColumns& columns, const Noise& noise) const;
-    /// The brightest columns of `light`.
-    TellingColumns brightest(const Transfer& light) const;
+    /// Bends that serve all columns of `light`, by some. `noise`: what is likely to be noise, of random sign.
+    Fitted fit(const Values& light, const TellingColumns& columns, const Values& noise) const;
+    /// The brightest of the columns of `light`.
+    TellingColumns brightest(const Values& light, std::size_t columns) const;
 
-    /// Filters `light` of all receivers. A value stays within the range of its own and of those across the
-    /// edges of its vertex; exact zeros stay.
+    /// Filters all columns. A value stays within the range of its own and of those that it bends with; exact
+    /// zeros stay. Reads some columns before it writes them. `write` is called from several threads.
+    void apply(const FitSolver& solver, std::size_t columns, const Values& light, const Write& write) const;
+    /// The same of a transfer of all places.
     void apply(const FitSolver& solver, Transfer& light) const;
 
 private:
-    /// Sums over samples [unknowns][columns] of `value(receiver, column)`.
-    template <class Value>
-    std::vector<float> sums(const TellingColumns& columns, Value&& value) const;
+    /// Sums over samples [unknowns][columns].
+    std::vector<float> sums(const TellingColumns& columns, const Values& values) const;
     /// Sum of squares over the surface of x [unknowns][columns].
     double square(std::span<const float> x, std::size_t columns) const;
-    void apply_to(const FitSolver& solver, const TellingColumns& columns, Transfer& light) const;
+    void apply_to(const FitSolver& solver, const TellingColumns& columns, const Values& light,
+                  const Write& write) const;
     /// Limits x [unknowns][columns] to the range of `means` over each unknown and those that it bends with.
     void limit(std::span<const float> means, std::size_t columns, std::span<float> x) const;
 
-    const BakePlan& plan_;
-    std::vector<std::uint32_t> receivers_; ///< [samples]
     FitEquations equations_;
-    std::vector<float> weights_; ///< [unknowns]
+    std::vector<std::uint32_t> places_; ///< [samples]
+    std::vector<float> weights_;        ///< [unknowns]
+    int threads_;
 };
+
+/// Of the receivers of `plan`. Those that `shared` takes means of are one unknown. `left_out` [receivers]:
+/// those whose light is not what their own rays gathered.
+NoiseFilter vertex_filter(const BakePlan& plan, const SharedPlaces& shared,
+                          const std::vector<bool>& left_out);
 
 } // namespace prt

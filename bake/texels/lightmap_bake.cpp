@@ -18,6 +18,7 @@
 #include "texels/gutters.h"
 #include "texels/seams.h"
 #include "texels/texel_areas.h"
+#include "texels/texel_filter.h"
 #include "texels/texel_light.h"
 
 #include <fmt/core.h>
@@ -169,12 +170,26 @@ private:
                 .places = places,
                 .options = {.order = options_.order, .rays = options_.rays, .seed = options_.seed + a},
                 .inside = options_.repairs.inside,
-                .transport = &transport};
+                .transport = &transport,
+                .notes_noise = options_.denoise};
             TexelLight light = trace_texels(task, atlases_[a], samples.samples, part);
             statistics().rays += light.rays;
+            if (options_.denoise)
+                filter(a, places, samples.samples, light);
+            for (std::size_t i = 0; i < light.lamps.size(); ++i)
+                light.lamps[i] += light.bounced_lamps[i];
             take(a, first, places, samples.samples, std::move(light), transport);
             first += atlases_[a].texels();
         }
+    }
+
+    void filter(std::size_t a, const TexelPlaces& places, std::span<const TexelSample> samples,
+                TexelLight& light) {
+        const TexelNet net(scene_, atlases_[a], charts_[a], samples, places, light.lit);
+        const double noise = filter_texels(net, options_.threads, light);
+        const auto measured = static_cast<double>(light.measured);
+        noise_.squares += measured * noise * noise;
+        noise_.texels += measured;
     }
 
     /// Fills and stitches the light of a map and keeps what filters read.
@@ -258,7 +273,10 @@ private:
         if (std::optional<std::string> notice = places.check_casters())
             s.notices.push_back(std::move(*notice));
         s.mean_visibility = mean_visibility(light_.direct, map.areas);
-        estimate_error(tracer, places);
+        if (noise_.texels > 0)
+            s.sampling_error = std::sqrt(noise_.squares / noise_.texels);
+        else
+            estimate_error(tracer, places);
         BakedTransfer& baked = map.baked;
         baked.transfer = plan.bounces != 0 ? joined(light_.direct, narrowed(std::move(light_.rest)))
                                            : std::move(light_.direct);
@@ -304,6 +322,9 @@ private:
         double before = 0, after = 0; ///< squared
         std::size_t points = 0;
     } jumps_;
+    struct Noise {
+        double squares = 0, texels = 0; ///< relative, weighted by texels
+    } noise_;                           ///< of filtered maps
     int bounces_done_ = 0;
     LightmapBake result_;
 };

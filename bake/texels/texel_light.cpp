@@ -68,22 +68,30 @@ public:
                                                 static_cast<double>(k + 1) / kSamplesOfTexel);
             trace_layer(groups, k, {lit, verdicts}, light, part);
         }
-        for (std::size_t g = 0; g < groups.size(); ++g) {
-            const std::uint32_t texel = groups[g].texel;
-            light.lit[texel] = lit[g] > 0;
-            const auto divide = [&](std::vector<float>& values, std::size_t stride) {
-                for (std::size_t c = 0; lit[g] > 0 && c < stride; ++c)
-                    values[texel * stride + c] /= static_cast<float>(lit[g]);
-            };
-            divide(light.direct, stride_);
-            if (task_.transport) {
-                divide(light.sky, task_.transport->sky_stride());
-                divide(light.lamps, task_.transport->lamp_stride());
-            }
-        }
+        for (std::size_t g = 0; g < groups.size(); ++g)
+            divide(groups[g].texel, lit[g], light);
     }
 
 private:
+    /// Sums over `count` samples that are not sealed in become means.
+    void divide(std::uint32_t texel, int count, TexelLight& light) const {
+        light.lit[texel] = count > 0;
+        const auto of = [&](std::vector<float>& values, std::size_t stride, float factor) {
+            for (std::size_t c = 0; c < stride; ++c)
+                values[texel * stride + c] *= factor;
+        };
+        const float mean = count > 0 ? 1 / static_cast<float>(count) : 0, paired = count % 2 == 0 ? mean : 0;
+        of(light.direct, stride_, mean);
+        of(light.noise.sky, light.noise.telling.size(), paired);
+        if (!task_.transport)
+            return;
+        const std::size_t lamps = task_.transport->lamp_stride();
+        of(light.sky, task_.transport->sky_stride(), mean);
+        of(light.lamps, lamps, mean);
+        of(light.bounced_lamps, lamps, mean);
+        of(light.noise.lamps, light.noise.lamps.empty() ? 0 : lamps, paired);
+    }
+
     /// The k-th sample of every texel that has so many: a receiver each, so that a texel's samples share a
     /// net.
     Layer layer(std::span<const TexelGroup> groups, std::size_t k) const {
@@ -129,17 +137,50 @@ private:
         for (const std::uint32_t g : layer.indices)
             found.lit[g] += sealed[g] ? 0 : 1;
         add(traced.vectors, stride_, light.direct);
-        if (!task_.transport)
+        std::vector<float> more;
+        if (task_.transport) {
+            more.assign(groups.size() * task_.transport->sky_stride(), 0.0f);
+            if (!more.empty())
+                task_.transport->gather_sky(more);
+            add(more, task_.transport->sky_stride(), light.sky);
+        }
+        const float sign = k % 2 == 0 ? 1.0f : -1.0f;
+        if (task_.notes_noise)
+            add(signed_sky(traced, more, light.noise.telling, sign), light.noise.telling.size(),
+                light.noise.sky);
+        if (task_.transport)
+            add_lamps(groups, layer, k, sign, add, light, progress);
+    }
+
+    /// Columns of all light of a sky, with a sign: [receivers][telling].
+    std::vector<float> signed_sky(const Transfer& direct, std::span<const float> bounced,
+                                  const TellingColumns& telling, float sign) const {
+        const std::size_t stride = bounced.size() / direct.receivers(),
+                          middle = stride > stride_ ? stride_ : 0; // green of three channels
+        std::vector<float> values;
+        for (std::uint32_t g = 0; g < direct.receivers(); ++g)
+            for (const std::size_t c : telling.columns)
+                values.push_back(
+                    sign * (direct.vector(g)[c] + (stride > 0 ? bounced[g * stride + middle + c] : 0.0f)));
+        return values;
+    }
+
+    template <class Add>
+    void add_lamps(std::span<const TexelGroup> groups, const Layer& layer, std::size_t k, float sign,
+                   const Add& add, TexelLight& light, const Progress& progress) {
+        const std::size_t stride = task_.transport->lamp_stride();
+        if (stride == 0)
             return;
-        std::vector<float> more(groups.size() * task_.transport->sky_stride());
-        if (!more.empty())
-            task_.transport->gather_sky(more);
-        add(more, task_.transport->sky_stride(), light.sky);
-        more.assign(groups.size() * task_.transport->lamp_stride(), 0.0f);
-        if (!more.empty())
-            light.rays += task_.transport->light_of_lamps(task_.tracer, layer.receivers, lamp_seed(groups, k),
-                                                          more, progress.part(0.9, 1));
-        add(more, task_.transport->lamp_stride(), light.lamps);
+        std::vector<float> direct(groups.size() * stride), bounced(direct.size());
+        light.rays += task_.transport->light_of_lamps(task_.tracer, layer.receivers, lamp_seed(groups, k),
+                                                      direct, bounced, progress.part(0.9, 1));
+        add(direct, stride, light.lamps);
+        add(bounced, stride, light.bounced_lamps);
+        if (!task_.notes_noise)
+            return;
+        for (float& value : bounced)
+            value *= sign;
+        add(bounced, stride, light.noise.lamps);
     }
 
     /// Places of a texel, and texels that are traced after each other, see lamps by samples of their own.
@@ -216,6 +257,12 @@ TexelLight trace_texels(const TexelTask& task, const Atlas& atlas, std::span<con
     if (task.transport) {
         light.sky.resize(atlas.texels() * task.transport->sky_stride());
         light.lamps.resize(atlas.texels() * task.transport->lamp_stride());
+        light.bounced_lamps.resize(light.lamps.size());
+    }
+    if (task.notes_noise) {
+        light.noise.telling = columns_of_sky(static_cast<std::size_t>(coefficient_count(task.options.order)));
+        light.noise.sky.resize(atlas.texels() * light.noise.telling.size());
+        light.noise.lamps.resize(light.bounced_lamps.size());
     }
     light.lit.resize(atlas.texels());
     light.measured = groups.size();

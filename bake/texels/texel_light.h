@@ -4,6 +4,7 @@
 
 #include "prt/bake.h"
 #include "prt/tracer.h"
+#include "surface/fit_noise.h"
 #include "texels/texel_places.h"
 #include "texels/texel_transport.h"
 
@@ -19,14 +20,25 @@ struct TexelTask {
     TraceOptions options;
     Inside inside = Inside::refill;
     TexelTransport* transport = nullptr; ///< null: direct light alone
+    bool notes_noise = false;
+};
+
+/// What samples of a texel with one sign and with the other differ by, over their number: as large as the
+/// noise of their mean. Zero of texels without a pair.
+struct TexelNoise {
+    TellingColumns telling;   ///< of a sky, of one channel
+    std::vector<float> sky;   ///< [texels][telling], direct and bounced, of the channel in the middle
+    std::vector<float> lamps; ///< [texels][lamp_stride()], bounces
 };
 
 /// Light of the texels of an atlas, zero where nothing was measured.
 struct TexelLight {
-    std::vector<float> direct; ///< [texels][order²]
-    std::vector<float> sky;    ///< [texels][sky_stride()], bounced
-    std::vector<float> lamps;  ///< [texels][lamp_stride()]
-    std::vector<bool> lit;     ///< [texels]: measured, and not sealed in unless that is kept
+    std::vector<float> direct;        ///< [texels][order²]
+    std::vector<float> sky;           ///< [texels][sky_stride()], bounced
+    std::vector<float> lamps;         ///< [texels][lamp_stride()], without a bounce
+    std::vector<float> bounced_lamps; ///< [texels][lamp_stride()]
+    TexelNoise noise;                 ///< where it is asked for
+    std::vector<bool> lit;            ///< [texels]: measured, and not sealed in unless that is kept
     std::size_t measured = 0, rays = 0;
 };
 

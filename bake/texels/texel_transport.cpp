@@ -65,7 +65,8 @@ void TexelTransport::gather_sky(std::span<float> to) const {
 }
 
 std::size_t TexelTransport::light_of_lamps(Tracer& tracer, const Receivers& receivers, std::uint64_t seed,
-                                           std::span<float> to, const Progress& progress) const {
+                                           std::span<float> direct, std::span<float> bounced,
+                                           const Progress& progress) const {
     LampTask task{.scene = plan_.scene,
                   .receivers = receivers,
                   .lamps = plan_.lamps,
@@ -74,19 +75,19 @@ std::size_t TexelTransport::light_of_lamps(Tracer& tracer, const Receivers& rece
                   .seed = seed,
                   .threads = plan_.options.threads};
     task.options.rays = std::max(1, task.options.rays / 4); // a texel has four places
-    const LampLight direct = tracer.lamp_light(task, progress);
-    for (std::size_t i = 0; i < to.size(); ++i)
-        to[i] = plan_.options.lamps.mode == LampMode::all ? direct.transfer.vectors[i] : 0.0f;
-    std::vector<float> bounced;
+    const LampLight light = tracer.lamp_light(task, progress);
+    if (plan_.options.lamps.mode == LampMode::all)
+        std::ranges::copy(light.transfer.vectors, direct.begin());
+    std::vector<float> some;
     for (std::size_t part = 0; part < lamps_.size(); ++part) {
         const std::size_t stride = lamp_stride() / lamps_.size();
-        bounced.resize(receivers.size() * stride);
-        lamp_rows_->all.apply(lamp_layout_.order, lamps_[part], 0, bounced, plan_.options.threads);
+        some.resize(receivers.size() * stride);
+        lamp_rows_->all.apply(lamp_layout_.order, lamps_[part], 0, some, plan_.options.threads);
         for (std::size_t r = 0; r < receivers.size(); ++r)
             for (std::size_t i = 0; i < stride; ++i)
-                to[r * lamp_stride() + part * stride + i] += bounced[r * stride + i];
+                bounced[r * lamp_stride() + part * stride + i] = some[r * stride + i];
     }
-    return direct.rays;
+    return light.rays;
 }
 
 } // namespace prt

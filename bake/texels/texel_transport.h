@@ -32,10 +32,11 @@ public:
     void clear();
     /// Bounced sky light of the first rows, `to` [rows][sky_stride()].
     void gather_sky(std::span<float> to) const;
-    /// Light of lamps at `receivers`, one for each of the first rows, and bounced, `to`
-    /// [rows][lamp_stride()], by samples of `seed`. Returns how many rays it took.
+    /// Light of lamps at `receivers`, one for each of the first rows, without a bounce and bounced,
+    /// [rows][lamp_stride()] each, by samples of `seed`. Returns how many rays it took.
     std::size_t light_of_lamps(Tracer& tracer, const Receivers& receivers, std::uint64_t seed,
-                               std::span<float> to, const Progress& progress) const;
+                               std::span<float> direct, std::span<float> bounced,
+                               const Progress& progress) const;
     /// How lamp light is laid out: coefficient k is that of lamp k.
     const TransferLayout& lamp_layout() const { return lamp_layout_; }
 

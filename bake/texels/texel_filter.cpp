@@ -1,0 +1,229 @@
+// Treats texels as the vertices of a net over the surface.
+
+#include "texels/texel_filter.h"
+
+#include "prt/sh_basis.h"
+
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+namespace prt {
+namespace {
+
+/// Texels side by side in space, too, lie within so many of their sizes.
+constexpr double kFarthest = 4;
+/// Texels that are filtered at a time, about, and rows on either side that they bend with.
+constexpr std::uint32_t kTexelsOfBand = 1 << 17, kRowsBeside = 16;
+
+/// Noise of a mean over what samples of different sign differ by: their rays are parts of one net.
+constexpr float kNoiseOfSamples = 0.75f;
+
+/// The first vertex of the connected triangles that each triangle is of.
+std::vector<std::uint32_t> connected_triangles(const Scene& scene) {
+    std::vector<std::uint32_t> first;
+    for (const VertexArray& vertices : scene.vertex_arrays)
+        for (std::size_t v = 0; v < vertices.positions.size(); ++v)
+            first.push_back(static_cast<std::uint32_t>(first.size()));
+    const auto root = [&](std::uint32_t v) {
+        while (first[v] != v)
+            v = first[v] = first[first[v]];
+        return v;
+    };
+    std::vector<std::uint32_t> corner_of;
+    for (const Primitive& primitive : scene.primitives) {
+        const auto begin = static_cast<std::uint32_t>(scene.vertex_arrays[primitive.vertices].first_receiver);
+        for (const glm::uvec3& t : primitive.triangles) {
+            const std::uint32_t a = root(begin + t.x);
+            first[root(begin + t.y)] = a;
+            first[root(begin + t.z)] = a;
+            corner_of.push_back(begin + t.x);
+        }
+    }
+    for (std::uint32_t& corner : corner_of)
+        corner = root(corner);
+    return corner_of;
+}
+
+} // namespace
+
+TexelNet::TexelNet(const Scene& scene, const Atlas& atlas, std::span<const ChartTriangle> charts,
+                   std::span<const TexelSample> samples, const TexelPlaces& places,
+                   const std::vector<bool>& lit)
+    : width_(static_cast<std::uint32_t>(atlas.width)), height_(static_cast<std::uint32_t>(atlas.height)),
+      places_(atlas.texels()), charts_(atlas.texels(), kNoReceiver), sizes_(atlas.texels()) {
+    const std::vector<std::uint32_t> connected = connected_triangles(scene);
+    std::vector<float> size_of(connected.size());
+    for (const ChartTriangle& t : charts) {
+        const glm::dvec2 ab = t.corners[1] - t.corners[0], ac = t.corners[2] - t.corners[0];
+        const double texels = 0.5 * std::abs(ab.x * ac.y - ab.y * ac.x);
+        if (texels > 0)
+            size_of[t.triangle] = static_cast<float>(std::sqrt(places.area(t.triangle) / texels));
+    }
+    Receivers receivers;
+    for (std::size_t begin = 0, end = 0; begin < samples.size(); begin = end) {
+        const std::uint32_t texel = samples[begin].texel;
+        glm::dvec3 sum(0);
+        while (end < samples.size() && samples[end].texel == texel) {
+            places.append(samples[end++], 1, receivers);
+            sum += glm::dvec3(receivers.positions.back());
+        }
+        if (!lit[texel])
+            continue;
+        places_[texel] = sum / static_cast<double>(end - begin);
+        charts_[texel] = connected[samples[begin].triangle];
+        sizes_[texel] = size_of[samples[begin].triangle];
+        receivers = {};
+    }
+}
+
+bool TexelNet::together(std::uint32_t a, std::uint32_t b) const {
+    return charts_[a] != kNoReceiver && charts_[a] == charts_[b] &&
+           glm::distance(places_[a], places_[b]) <
+               kFarthest * static_cast<double>(std::max(sizes_[a], sizes_[b]));
+}
+
+FitEquations TexelNet::equations(std::uint32_t first, std::uint32_t last) const {
+    FitEquations equations;
+    equations.unknown_of.assign(places_.size(), kNoReceiver);
+    for (std::uint32_t texel = first * width_; texel < last * width_; ++texel)
+        if (charts_[texel] != kNoReceiver) {
+            const auto unknown = static_cast<std::uint32_t>(equations.unknowns++);
+            equations.unknown_of[texel] = unknown;
+            equations.rows.push_back(
+                {{unknown, kNoReceiver, kNoReceiver}, {1, 0, 0}, sizes_[texel] * sizes_[texel]});
+        }
+    std::vector<FitTriangle> triangles;
+    const auto add = [&](std::uint32_t a, std::uint32_t b, std::uint32_t c) {
+        if (together(a, b) && together(b, c) && together(c, a))
+            triangles.push_back({{equations.unknown_of[a], equations.unknown_of[b], equations.unknown_of[c]},
+                                 {places_[a], places_[b], places_[c]}});
+    };
+    for (std::uint32_t y = first; y + 1 < last; ++y)
+        for (std::uint32_t x = 0; x + 1 < width_; ++x) {
+            const std::uint32_t a = y * width_ + x, b = a + 1, c = a + width_, d = c + 1;
+            if (together(b, c)) {
+                add(a, b, c);
+                add(b, d, c);
+            } else {
+                add(a, b, d);
+                add(a, d, c);
+            }
+        }
+    equations.bends = bends_of(triangles);
+    return equations;
+}
+
+namespace {
+
+/// Rows [begin, end) of an atlas, filtered with those of [first, last).
+struct Band {
+    std::uint32_t first, last, begin, end;
+};
+
+std::vector<Band> bands_of(const TexelNet& net) {
+    const std::uint32_t rows = std::max(1u, kTexelsOfBand / net.width());
+    std::vector<Band> bands;
+    for (std::uint32_t begin = 0; begin < net.height(); begin += rows) {
+        const std::uint32_t end = std::min(net.height(), begin + rows);
+        bands.push_back(
+            {begin - std::min(begin, kRowsBeside), std::min(net.height(), end + kRowsBeside), begin, end});
+    }
+    return bands;
+}
+
+/// Texels of a band that are filtered.
+std::vector<std::uint32_t> texels_of(const FitEquations& equations) {
+    std::vector<std::uint32_t> texels;
+    for (std::uint32_t texel = 0; texel < equations.unknown_of.size(); ++texel)
+        if (equations.unknown_of[texel] != kNoReceiver)
+            texels.push_back(texel);
+    return texels;
+}
+
+/// Light before it was filtered: bands read what others write.
+class TexelFilter {
+public:
+    TexelFilter(const TexelNet& net, int threads, TexelLight& light)
+        : net_(net), threads_(threads), light_(light), direct_(light.direct), sky_(light.sky),
+          bounced_lamps_(light.bounced_lamps), texels_(light.lit.size()) {}
+
+    double run() {
+        for (const Band& band : bands_of(net_)) {
+            FitEquations equations = net_.equations(band.first, band.last);
+            std::vector<std::uint32_t> texels = texels_of(equations);
+            if (texels.empty())
+                continue;
+            const NoiseFilter filter(std::move(equations), std::move(texels), threads_);
+            filter_sky(band, filter);
+            filter_lamps(band, filter);
+        }
+        return norm_ > 0 ? std::sqrt(noise_ / norm_) : 0;
+    }
+
+private:
+    bool is_in(const Band& band, std::uint32_t texel) const {
+        return texel >= band.begin * net_.width() && texel < band.end * net_.width();
+    }
+
+    void filter_sky(const Band& band, const NoiseFilter& filter) {
+        const std::size_t columns = direct_.size() / texels_, stride = sky_.size() / texels_,
+                          channels = std::max<std::size_t>(1, stride / columns),
+                          middle = channels > 1 ? columns : 0, count = light_.noise.telling.size();
+        const auto direct = [&](std::uint32_t t, std::size_t c) { return direct_[t * columns + c]; };
+        const auto all = [&](std::uint32_t t, std::size_t c) {
+            return direct(t, c % columns) + (stride > 0 ? sky_[t * stride + c] : 0.0f);
+        };
+        // Noise is of the telling columns alone.
+        std::vector<std::size_t> place_of(columns);
+        for (std::size_t i = 0; i < count; ++i)
+            place_of[light_.noise.telling.columns[i]] = i;
+        const NoiseFilter::Fitted fitted = filter.fit(
+            [&](std::uint32_t t, std::size_t c) { return all(t, middle + c); }, light_.noise.telling,
+            [&](std::uint32_t t, std::size_t c) {
+                return kNoiseOfSamples * light_.noise.sky[t * count + place_of[c]];
+            });
+        const double rows = band.end - band.begin;
+        noise_ += rows * fitted.noise * fitted.noise;
+        norm_ += rows;
+        filter.apply(fitted.solver, columns, direct, [&](std::uint32_t t, std::size_t c, float value) {
+            if (is_in(band, t))
+                light_.direct[t * columns + c] = value;
+        });
+        filter.apply(fitted.solver, stride, all, [&](std::uint32_t t, std::size_t c, float value) {
+            if (is_in(band, t))
+                light_.sky[t * stride + c] = value - light_.direct[t * columns + c % columns];
+        });
+    }
+
+    void filter_lamps(const Band& band, const NoiseFilter& filter) {
+        const std::size_t stride = bounced_lamps_.size() / texels_;
+        if (stride == 0)
+            return;
+        const auto bounced = [&](std::uint32_t t, std::size_t c) { return bounced_lamps_[t * stride + c]; };
+        const NoiseFilter::Fitted fitted =
+            filter.fit(bounced, filter.brightest(bounced, stride),
+                       [&](std::uint32_t t, std::size_t c) { return light_.noise.lamps[t * stride + c]; });
+        filter.apply(fitted.solver, stride, bounced, [&](std::uint32_t t, std::size_t c, float value) {
+            if (is_in(band, t))
+                light_.bounced_lamps[t * stride + c] = value;
+        });
+    }
+
+    const TexelNet& net_;
+    int threads_;
+    TexelLight& light_;
+    const std::vector<float> direct_, sky_, bounced_lamps_;
+    std::size_t texels_;
+    double noise_ = 0, norm_ = 0; ///< squares over bands, by their rows
+};
+
+} // namespace
+
+double filter_texels(const TexelNet& net, int threads, TexelLight& light) {
+    return TexelFilter(net, threads, light).run();
+}
+
+} // namespace prt

@@ -1,0 +1,39 @@
+#pragma once
+
+// Light of texels without the noise of its rays.
+
+#include "surface/noise_filter.h"
+#include "texels/texel_light.h"
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace prt {
+
+/// Texels of an atlas that bend together: those that lie side by side in it and on one surface.
+class TexelNet {
+public:
+    /// `lit` [texels]: those that are filtered.
+    TexelNet(const Scene& scene, const Atlas& atlas, std::span<const ChartTriangle> charts,
+             std::span<const TexelSample> samples, const TexelPlaces& places, const std::vector<bool>& lit);
+
+    /// Equations of rows [first, last) of the atlas.
+    FitEquations equations(std::uint32_t first, std::uint32_t last) const;
+    std::uint32_t width() const { return width_; }
+    std::uint32_t height() const { return height_; }
+
+private:
+    bool together(std::uint32_t a, std::uint32_t b) const;
+
+    std::uint32_t width_, height_;
+    std::vector<glm::dvec3> places_;    ///< [texels] means of their samples
+    std::vector<std::uint32_t> charts_; ///< [texels], kNoReceiver where there is no light
+    std::vector<float> sizes_;          ///< [texels] of a texel, m
+};
+
+/// Filters direct and bounced light of a sky by one filter, and bounces of lamps, as TexelLight::noise asks.
+/// Some rows of the atlas at a time. Returns the relative noise that is left of the sky.
+double filter_texels(const TexelNet& net, int threads, TexelLight& light);
+
+} // namespace prt
