@@ -105,13 +105,15 @@ BakeResult bake(const Scene& scene, const BakeOptions& options, const Progress& 
                                        .gather = direct.gather ? &*direct.gather : nullptr,
                                        .product = product.get(),
                                        .fit = measured.fit ? &*measured.fit : nullptr};
+    BakeNoise noise;
     ExitLight exit = exit_light(plan, measured, operators,
                                 {.points = check ? check->gather() : nullptr,
                                  .filter = filter ? &*filter : nullptr,
-                                 .left_out = &left_out},
+                                 .left_out = &left_out,
+                                 .noise = &noise},
                                 progress.part(traced_sky, 1));
-    if (exit.all.noise > 0)
-        direct.sampling_error = exit.all.noise;
+    if (noise.sky > 0)
+        direct.sampling_error = noise.sky;
     if (measured.shared)
         measured.shared->average(exit.all.transfer);
     fill_without_area(plan.receivers(), plan.transport->fronts, exit.all.transfer);
@@ -124,6 +126,7 @@ BakeResult bake(const Scene& scene, const BakeOptions& options, const Progress& 
     BakeResult result = record(plan, *tracer, direct, sealed, std::move(exit.all));
     result.statistics.fit = asked.fit;
     result.statistics.denoised = filter.has_value();
+    result.statistics.noise = std::move(noise);
     result.errors = std::move(found);
     result.statistics.gather.bytes_moved = product ? product->bytes_moved() : 0;
     result.baked.record.fitted = measured.fit.has_value();

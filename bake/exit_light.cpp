@@ -10,6 +10,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <cmath>
 #include <string>
 #include <utility>
 #include <vector>
@@ -145,6 +146,22 @@ TransportOperators with_rows(TransportOperators operators,
     return operators;
 }
 
+/// Root of the sum of squares over the surface of the light that is written of a lamp.
+double norm_of_lamp(const BakePlan& plan, const Transfer& light, const Transfer& unbounced,
+                    std::size_t lamp) {
+    const auto channels = static_cast<std::size_t>(light.layout.channels());
+    const bool bounces_alone = plan.options.lamps.mode == LampMode::indirect;
+    double sum = 0;
+    for (std::uint32_t p = 0; p < light.receivers(); ++p)
+        for (std::size_t c = 0; c < channels; ++c) {
+            const std::size_t i = c * (light.dimension() / channels) + lamp;
+            const auto value =
+                static_cast<double>(light.vector(p)[i] - (bounces_alone ? unbounced.vector(p)[i] : 0.0f));
+            sum += static_cast<double>(plan.receivers().areas[p]) * value * value;
+        }
+    return std::sqrt(sum);
+}
+
 /// Light of lamps at receivers after all bounces.
 Propagated lamps_at_receivers(const BakePlan& plan, Transfer light, const std::optional<LampRows>& rows,
                               const TransportOperators& operators, const Beside& beside,
@@ -157,10 +174,14 @@ Propagated lamps_at_receivers(const BakePlan& plan, Transfer light, const std::o
         plan.bounces, progress);
     if (rows) {
         const std::size_t first = beside.points ? 1 : 0;
-        lit.noise =
+        std::vector<double>& noise = beside.noise->lamps;
+        noise =
             take_last_of_lamps({lit.beside[first], halves ? std::span<const float>(lit.beside[first + 1])
                                                           : std::span<const float>()},
-                               *beside.left_out, beside.filter, unbounced, lit.transfer);
+                               *beside.left_out, beside.filter, plan.lamps.size(), unbounced, lit.transfer);
+        for (std::size_t k = 0; k < noise.size(); ++k)
+            if (const double norm = norm_of_lamp(plan, lit.transfer, unbounced, k); norm > 0)
+                noise[k] /= norm;
         lit.beside.resize(first);
     }
     return lit;
@@ -193,23 +214,32 @@ SharpTransfer lit_by_lamps(const BakePlan& plan, Measured& measured, const Trans
 constexpr float kNoiseOfHalves = 0.75f;
 
 /// Filters light of a sky at receivers, of which `direct` is without a bounce. `gathered` is what half of the
-/// rays gather, as `all`; empty: no bounces. Returns the relative noise that is left.
-double filter_sky(const NoiseFilter& filter, const HalfOfRays& half, std::span<const float> gathered,
-                  Transfer& direct, Transfer& all) {
+/// rays gather, as `all`; empty: no bounces.
+void filter_sky(const NoiseFilter& filter, const HalfOfRays& half, std::span<const float> gathered,
+                Transfer& direct, Transfer& all, BakeNoise& left) {
     const std::size_t stride = all.dimension(), columns = direct.dimension();
     TellingColumns telling = columns_of_sky(columns);
     if (stride > columns) // green of three channels
         for (std::size_t& c : telling.columns)
             c += columns;
+    const auto of_direct = [&](std::uint32_t p, std::size_t c) {
+        const std::size_t i = c % columns;
+        return kNoiseOfHalves * half.scale[p] * (half.direct.vector(p)[i] - direct.vector(p)[i]);
+    };
+    const auto of_rest = [&](std::uint32_t p, std::size_t c) {
+        const float bounced = gathered.empty() ? 0.0f : gathered[p * stride + c],
+                    rest = all.vector(p)[c] - direct.vector(p)[c % columns];
+        return kNoiseOfHalves * half.scale[p] * (bounced - rest);
+    };
+    const auto of_all = [&](std::uint32_t p, std::size_t c) { return of_direct(p, c) + of_rest(p, c); };
     const auto value = [&](std::uint32_t p, std::size_t c) { return all.vector(p)[c]; };
-    const NoiseFilter::Fitted fitted = filter.fit(value, telling, [&](std::uint32_t p, std::size_t c) {
-        const float bounced = gathered.empty() ? 0.0f : gathered[p * stride + c];
-        return kNoiseOfHalves * half.scale[p] *
-               (half.direct.vector(p)[c % columns] + bounced - all.vector(p)[c]);
-    });
-    filter.apply(fitted.solver, all);
-    filter.apply(fitted.solver, direct);
-    return fitted.noise;
+    const FitSolver solver = filter.fit(value, telling, of_all);
+    if (const double norm = filter.norm(solver, telling, value); norm > 0)
+        left = {.sky = filter.norm(solver, telling, of_all) / norm,
+                .direct = filter.norm(solver, telling, of_direct) / norm,
+                .indirect = filter.norm(solver, telling, of_rest) / norm};
+    filter.apply(solver, all);
+    filter.apply(solver, direct);
 }
 
 } // namespace
@@ -246,10 +276,9 @@ Propagated propagate_all(const BakePlan& plan, Measured& measured, const Transpo
     if (half) {
         if (!bounced)
             exit.transfer = unbounced;
-        exit.noise =
-            filter_sky(*beside.filter, *half,
-                       rows_of_half ? std::span<const float>(exit.beside.back()) : std::span<const float>(),
-                       unbounced, exit.transfer);
+        filter_sky(*beside.filter, *half,
+                   rows_of_half ? std::span<const float>(exit.beside.back()) : std::span<const float>(),
+                   unbounced, exit.transfer, *beside.noise);
         if (rows_of_half)
             exit.beside.pop_back();
     }

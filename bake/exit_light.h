@@ -9,11 +9,13 @@
 
 namespace prt {
 
-/// What a bake does beside bouncing light between receivers; null: not.
+/// What a bake does beside bouncing light between receivers; null: not. Where there are halves of rays there
+/// is `noise`.
 struct Beside {
     const GatherOperator* points = nullptr;      ///< gathers at points where errors are measured
     const NoiseFilter* filter = nullptr;         ///< of light at receivers
     const std::vector<bool>* left_out = nullptr; ///< [receivers] those whose rays do not tell their light
+    BakeNoise* noise = nullptr;                  ///< takes what is left
 };
 
 /// Exit transfer of the scene's receivers in its parts: direct, and all bounces and subsurface scattering.

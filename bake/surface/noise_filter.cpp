@@ -78,13 +78,6 @@ std::vector<float> NoiseFilter::sums(const TellingColumns& columns, const Values
     return sums;
 }
 
-double NoiseFilter::square(std::span<const float> x, std::size_t columns) const {
-    double sum = 0;
-    for (std::size_t u = 0; u < weights_.size(); ++u)
-        sum += static_cast<double>(weights_[u]) * squared_norm(x.subspan(u * columns, columns));
-    return sum;
-}
-
 TellingColumns NoiseFilter::brightest(const Values& light, std::size_t columns) const {
     std::vector<double> squares(columns);
     for (std::size_t s = 0; s < places_.size(); ++s)
@@ -95,19 +88,24 @@ TellingColumns NoiseFilter::brightest(const Values& light, std::size_t columns) 
     return brightest_columns(squares);
 }
 
-NoiseFilter::Fitted NoiseFilter::fit(const Values& light, const TellingColumns& columns,
-                                     const Values& noise_of) const {
+FitSolver NoiseFilter::fit(const Values& light, const TellingColumns& columns, const Values& noise_of) const {
     const std::size_t count = columns.size();
-    const std::vector<float> noise_sums = sums(columns, noise_of);
-    std::vector<float> x = sums(columns, light), noise = noise_sums;
+    std::vector<float> x = sums(columns, light), noise = sums(columns, noise_of);
     const FitSolver first(equations_, std::vector<float>(equations_.bends.size(), kFirstBendWeight));
     first.solve(x, count, threads_, FitSolver::kEstimate);
     first.solve(noise, count, threads_, FitSolver::kEstimate);
-    FitSolver solver(equations_, bend_weights(equations_, x, noise, count));
-    noise = noise_sums;
-    solver.solve(noise, count, threads_, FitSolver::kRough);
-    const double norm = square(x, count);
-    return {std::move(solver), norm > 0 ? std::sqrt(square(noise, count) / norm) : 0};
+    return {equations_, bend_weights(equations_, x, noise, count)};
+}
+
+double NoiseFilter::norm(const FitSolver& solver, const TellingColumns& columns, const Values& values) const {
+    const std::size_t count = columns.size();
+    std::vector<float> x = sums(columns, values);
+    solver.solve(x, count, threads_, FitSolver::kRough);
+    double sum = 0;
+    for (std::size_t u = 0; u < weights_.size(); ++u)
+        sum += static_cast<double>(weights_[u]) *
+               squared_norm(std::span<const float>(x).subspan(u * count, count));
+    return std::sqrt(sum);
 }
 
 void NoiseFilter::limit(std::span<const float> means, std::size_t columns, std::span<float> x) const {

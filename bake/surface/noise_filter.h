@@ -24,12 +24,10 @@ public:
     using Values = std::function<float(std::uint32_t place, std::size_t column)>;
     using Write = std::function<void(std::uint32_t place, std::size_t column, float value)>;
 
-    struct Fitted {
-        FitSolver solver;
-        double noise; ///< relative L2 that is left in the filtered light of the telling columns
-    };
     /// Bends that serve all columns of `light`, by some. `noise`: what is likely to be noise, of random sign.
-    Fitted fit(const Values& light, const TellingColumns& columns, const Values& noise) const;
+    FitSolver fit(const Values& light, const TellingColumns& columns, const Values& noise) const;
+    /// Root of the sum of squares over the surface of some columns, filtered.
+    double norm(const FitSolver& solver, const TellingColumns& columns, const Values& values) const;
     /// The brightest of the columns of `light`.
     TellingColumns brightest(const Values& light, std::size_t columns) const;
 
@@ -42,8 +40,6 @@ public:
 private:
     /// Sums over samples [unknowns][columns].
     std::vector<float> sums(const TellingColumns& columns, const Values& values) const;
-    /// Sum of squares over the surface of x [unknowns][columns].
-    double square(std::span<const float> x, std::size_t columns) const;
     void apply_to(const FitSolver& solver, const TellingColumns& columns, const Values& light,
                   const Write& write) const;
     /// Limits x [unknowns][columns] to the range of `means` over each unknown and those that it bends with.

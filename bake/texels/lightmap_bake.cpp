@@ -273,6 +273,7 @@ private:
         if (std::optional<std::string> notice = places.check_casters())
             s.notices.push_back(std::move(*notice));
         s.mean_visibility = mean_visibility(light_.direct, map.areas);
+        s.denoised = options_.denoise;
         if (noise_.texels > 0)
             s.sampling_error = std::sqrt(noise_.squares / noise_.texels);
         else

@@ -160,7 +160,7 @@ public:
             filter_sky(band, filter);
             filter_lamps(band, filter);
         }
-        return norm_ > 0 ? std::sqrt(noise_ / norm_) : 0;
+        return norm_ > 0 ? noise_ / norm_ : 0;
     }
 
 private:
@@ -180,19 +180,18 @@ private:
         std::vector<std::size_t> place_of(columns);
         for (std::size_t i = 0; i < count; ++i)
             place_of[light_.noise.telling.columns[i]] = i;
-        const NoiseFilter::Fitted fitted = filter.fit(
-            [&](std::uint32_t t, std::size_t c) { return all(t, middle + c); }, light_.noise.telling,
-            [&](std::uint32_t t, std::size_t c) {
-                return kNoiseOfSamples * light_.noise.sky[t * count + place_of[c]];
-            });
-        const double rows = band.end - band.begin;
-        noise_ += rows * fitted.noise * fitted.noise;
-        norm_ += rows;
-        filter.apply(fitted.solver, columns, direct, [&](std::uint32_t t, std::size_t c, float value) {
+        const auto middle_of_all = [&](std::uint32_t t, std::size_t c) { return all(t, middle + c); };
+        const auto noise = [&](std::uint32_t t, std::size_t c) {
+            return kNoiseOfSamples * light_.noise.sky[t * count + place_of[c]];
+        };
+        const FitSolver solver = filter.fit(middle_of_all, light_.noise.telling, noise);
+        noise_ = std::hypot(noise_, filter.norm(solver, light_.noise.telling, noise));
+        norm_ = std::hypot(norm_, filter.norm(solver, light_.noise.telling, middle_of_all));
+        filter.apply(solver, columns, direct, [&](std::uint32_t t, std::size_t c, float value) {
             if (is_in(band, t))
                 light_.direct[t * columns + c] = value;
         });
-        filter.apply(fitted.solver, stride, all, [&](std::uint32_t t, std::size_t c, float value) {
+        filter.apply(solver, stride, all, [&](std::uint32_t t, std::size_t c, float value) {
             if (is_in(band, t))
                 light_.sky[t * stride + c] = value - light_.direct[t * columns + c % columns];
         });
@@ -203,10 +202,10 @@ private:
         if (stride == 0)
             return;
         const auto bounced = [&](std::uint32_t t, std::size_t c) { return bounced_lamps_[t * stride + c]; };
-        const NoiseFilter::Fitted fitted =
+        const FitSolver solver =
             filter.fit(bounced, filter.brightest(bounced, stride),
                        [&](std::uint32_t t, std::size_t c) { return light_.noise.lamps[t * stride + c]; });
-        filter.apply(fitted.solver, stride, bounced, [&](std::uint32_t t, std::size_t c, float value) {
+        filter.apply(solver, stride, bounced, [&](std::uint32_t t, std::size_t c, float value) {
             if (is_in(band, t))
                 light_.bounced_lamps[t * stride + c] = value;
         });
@@ -217,7 +216,7 @@ private:
     TexelLight& light_;
     const std::vector<float> direct_, sky_, bounced_lamps_;
     std::size_t texels_;
-    double noise_ = 0, norm_ = 0; ///< squares over bands, by their rows
+    double noise_ = 0, norm_ = 0; ///< over bands, whose edges count twice
 };
 
 } // namespace

@@ -35,7 +35,6 @@ struct Propagated {
     /// element.
     double remaining = 0;
     double last = 0;       ///< energy of the last bounce; 0 where none was done alone
-    double noise = 0;      ///< of the rays, relative L2 of all light; 0: not known
     bool converged = true; ///< endless bounces reached the solver's tolerance
     /// Bounced light at the rows of each of `beside`, [rows][channels][order²], as if they were receivers.
     std::vector<std::vector<float>> beside = {};

@@ -172,6 +172,11 @@ Json statistics_json(const BakeStatistics& s) {
             {"lamp_lights", s.lamps.lights},
             {"lamp_triangles", s.lamps.triangles},
             {"denoised", s.denoised},
+            {"noise",
+             {{"sky", s.noise.sky},
+              {"direct", s.noise.direct},
+              {"indirect", s.noise.indirect},
+              {"lamps", s.noise.lamps}}},
             {"gather_entries", s.gather.entries},
             {"gather_bytes", s.gather.bytes},
             {"gather_bytes_moved", s.gather.bytes_moved},
@@ -203,8 +208,15 @@ void add_sentences(const BakeOutcome& baked, const Json& statistics, Report& rep
     if (baked.options.target_error)
         say("error of the direct light: {target_error_relative_l2:.3f%} asked for, "
             "{sampling_error_relative_l2:.3f%} estimated");
-    else if (!result.errors && s.sampling_error > 0)
+    else if (!result.errors && !s.denoised && s.sampling_error > 0)
         say("error of the direct light: {sampling_error_relative_l2:.3f%} estimated");
+    if (s.noise.sky > 0)
+        say("noise of rays: {noise/sky:.2f%} of the sky's light; direct {noise/direct:.2f%}, bounced "
+            "{noise/indirect:.2f%}");
+    if (!s.noise.lamps.empty())
+        say(fmt::format(
+            "noise of rays in bounces of lamps: at most {{noise/lamps/{}:.2f%}} of the light of one",
+            std::ranges::max_element(s.noise.lamps) - s.noise.lamps.begin()));
     if (result.errors)
         add_error_sentences(statistics["errors"], report);
     if (baked.refinement)

@@ -81,7 +81,10 @@ Report lightmap_report(const LightmapOutcome& baked) {
     report.sentences.emplace_back("{seconds:.3f} s: vertices {seconds_sources:.3f}, texels "
                                   "{seconds_texels:.3f}; {rays_per_second:.2fM} "
                                   "million rays/s");
-    report.sentences.emplace_back("error of the direct light: {sampling_error_relative_l2:.3f%} estimated");
+    report.sentences.emplace_back(s.denoised
+                                      ? "noise of rays: {sampling_error_relative_l2:.2f%} of the sky's light"
+                                      : "error of the direct light: {sampling_error_relative_l2:.3f%} "
+                                        "estimated");
     report.sentences.emplace_back("jumps of visibility across seams of {seam_before_rms:.4f} are now "
                                   "{seam_rms:.5f}, root mean square");
     report.sentences.emplace_back("{mean_visibility:.1f%} of the light of a uniform sky arrives, on average");

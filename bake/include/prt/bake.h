@@ -123,6 +123,15 @@ struct BakeOptions {
     std::uint64_t seed = 0;
 };
 
+/// Noise of rays that is left in each term of filtered light, relative L2, as halves of the rays tell it; 0
+/// where that is not known.
+struct BakeNoise {
+    double sky = 0;              ///< of all light of a sky
+    double direct = 0;           ///< without a bounce, over all light of a sky
+    double indirect = 0;         ///< of the rest, over all light of a sky
+    std::vector<double> lamps{}; ///< of the bounces of each, over its light that is written
+};
+
 struct BakeStatistics {
     /// How light was measured, and what points between vertices told of it; 0 where none was asked.
     struct Fit {
@@ -161,6 +170,7 @@ struct BakeStatistics {
     /// direct light, from independent samples.
     double sampling_error = 0;
     bool denoised = false;
+    BakeNoise noise;
     double rounding_error = 0;   ///< relative L2 of storing float16
     double remaining_energy = 0; ///< of the bounces that were not done, over the largest transfer
     Lamps lamps;

@@ -30,6 +30,7 @@ struct LightmapStatistics {
     double mean_visibility = 0; ///< area-weighted T_0 / Y_00 of the direct light
     /// Estimated relative L2: of the filtered light of a sky, or of direct light at places of texels.
     double sampling_error = 0;
+    bool denoised = false;
     double rounding_error = 0;        ///< relative L2 of storing float16
     double seam_before = 0, seam = 0; ///< jumps of T_0 / Y_00 across seams, root mean square
     std::vector<std::string> notices;
