@@ -129,9 +129,11 @@ void NoiseFilter::apply_to(const FitSolver& solver, const TellingColumns& column
     smooth(weights_, std::span(means), count);
     solver.solve(x, count, 1, FitSolver::kRough);
     limit(means, count, x);
-    for (const std::uint32_t place : places_)
-        for (std::size_t i = 0; i < count; ++i)
-            write(place, columns.columns[i], x[equations_.unknown_of[place] * count + i]);
+    for (const std::uint32_t place : places_) {
+        const std::uint32_t u = equations_.unknown_of[place];
+        for (std::size_t i = 0; i < count && weights_[u] > 0; ++i)
+            write(place, columns.columns[i], x[u * count + i]);
+    }
 }
 
 void NoiseFilter::apply(const FitSolver& solver, std::size_t columns, const Values& light,

@@ -7,6 +7,7 @@
 #include <glm/geometric.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numeric>
 
@@ -21,30 +22,61 @@ constexpr std::uint32_t kTexelsOfBand = 1 << 17, kRowsBeside = 16;
 /// Noise of a mean over what samples of different sign differ by: their rays are parts of one net.
 constexpr float kNoiseOfSamples = 0.75f;
 
-/// The first vertex of the connected triangles that each triangle is of.
-std::vector<std::uint32_t> connected_triangles(const Scene& scene) {
-    std::vector<std::uint32_t> first;
-    for (const VertexArray& vertices : scene.vertex_arrays)
-        for (std::size_t v = 0; v < vertices.positions.size(); ++v)
-            first.push_back(static_cast<std::uint32_t>(first.size()));
-    const auto root = [&](std::uint32_t v) {
-        while (first[v] != v)
-            v = first[v] = first[first[v]];
+/// Sets of vertices that are one.
+class VertexSets {
+public:
+    explicit VertexSets(std::size_t vertices) : first_(vertices) {
+        std::iota(first_.begin(), first_.end(), 0u);
+    }
+    std::uint32_t first_of(std::uint32_t v) {
+        while (first_[v] != v)
+            v = first_[v] = first_[first_[v]];
         return v;
+    }
+    void join(std::uint32_t a, std::uint32_t b) { first_[first_of(b)] = first_of(a); }
+
+private:
+    std::vector<std::uint32_t> first_;
+};
+
+/// Joins vertices of one array at one place of the surface and of the atlas.
+void join_alike(const VertexArray& vertices, int uv_set, VertexSets& sets) {
+    if (vertices.texcoords.size() <= static_cast<std::size_t>(uv_set))
+        return;
+    const std::vector<glm::vec2>& uvs = vertices.texcoords[static_cast<std::size_t>(uv_set)];
+    const auto key = [&](std::uint32_t v) {
+        const glm::vec3 &p = vertices.positions[v], &n = vertices.normals[v];
+        return std::array<float, 8>{p.x, p.y, p.z, n.x, n.y, n.z, uvs[v].x, uvs[v].y};
     };
-    std::vector<std::uint32_t> corner_of;
+    std::vector<std::uint32_t> order(vertices.positions.size());
+    std::iota(order.begin(), order.end(), 0u);
+    std::ranges::sort(order, {}, key);
+    const auto first = static_cast<std::uint32_t>(vertices.first_receiver);
+    for (std::size_t i = 1; i < order.size(); ++i)
+        if (key(order[i - 1]) == key(order[i]))
+            sets.join(first + order[i - 1], first + order[i]);
+}
+
+/// The first vertex of the connected triangles that each triangle is of.
+std::vector<std::uint32_t> connected_triangles(const Scene& scene, int uv_set) {
+    std::size_t count = 0;
+    for (const VertexArray& vertices : scene.vertex_arrays)
+        count += vertices.positions.size();
+    VertexSets sets(count);
+    for (const VertexArray& vertices : scene.vertex_arrays)
+        join_alike(vertices, uv_set, sets);
+    std::vector<std::uint32_t> of_triangles;
     for (const Primitive& primitive : scene.primitives) {
-        const auto begin = static_cast<std::uint32_t>(scene.vertex_arrays[primitive.vertices].first_receiver);
+        const auto first = static_cast<std::uint32_t>(scene.vertex_arrays[primitive.vertices].first_receiver);
         for (const glm::uvec3& t : primitive.triangles) {
-            const std::uint32_t a = root(begin + t.x);
-            first[root(begin + t.y)] = a;
-            first[root(begin + t.z)] = a;
-            corner_of.push_back(begin + t.x);
+            sets.join(first + t.x, first + t.y);
+            sets.join(first + t.x, first + t.z);
+            of_triangles.push_back(first + t.x);
         }
     }
-    for (std::uint32_t& corner : corner_of)
-        corner = root(corner);
-    return corner_of;
+    for (std::uint32_t& vertex : of_triangles)
+        vertex = sets.first_of(vertex);
+    return of_triangles;
 }
 
 } // namespace
@@ -54,8 +86,8 @@ TexelNet::TexelNet(const Scene& scene, const Atlas& atlas, std::span<const Chart
                    const std::vector<bool>& lit)
     : width_(static_cast<std::uint32_t>(atlas.width)), height_(static_cast<std::uint32_t>(atlas.height)),
       places_(atlas.texels()), charts_(atlas.texels(), kNoReceiver), sizes_(atlas.texels()) {
-    const std::vector<std::uint32_t> connected = connected_triangles(scene);
-    std::vector<float> size_of(connected.size());
+    const std::vector<std::uint32_t> connected = connected_triangles(scene, atlas.uv_set);
+    std::vector<float> size_of(connected.size(), 1.0f); // where coordinates are one point: any
     for (const ChartTriangle& t : charts) {
         const glm::dvec2 ab = t.corners[1] - t.corners[0], ac = t.corners[2] - t.corners[0];
         const double texels = 0.5 * std::abs(ab.x * ac.y - ab.y * ac.x);

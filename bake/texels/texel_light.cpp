@@ -80,7 +80,8 @@ private:
             for (std::size_t c = 0; c < stride; ++c)
                 values[texel * stride + c] *= factor;
         };
-        const float mean = count > 0 ? 1 / static_cast<float>(count) : 0, paired = count % 2 == 0 ? mean : 0;
+        const float mean = count > 0 ? 1 / static_cast<float>(count) : 0,
+                    paired = count == static_cast<int>(kSamplesOfTexel) ? mean : 0;
         of(light.direct, stride_, mean);
         of(light.noise.sky, light.noise.telling.size(), paired);
         if (!task_.transport)
@@ -144,7 +145,8 @@ private:
                 task_.transport->gather_sky(more);
             add(more, task_.transport->sky_stride(), light.sky);
         }
-        const float sign = k % 2 == 0 ? 1.0f : -1.0f;
+        // Of four samples, opposite ones have the same: what grows evenly over a texel is no noise.
+        const float sign = k == 0 || k == 3 ? 1.0f : -1.0f;
         if (task_.notes_noise)
             add(signed_sky(traced, more, light.noise.telling, sign), light.noise.telling.size(),
                 light.noise.sky);

@@ -23,8 +23,8 @@ struct TexelTask {
     bool notes_noise = false;
 };
 
-/// What samples of a texel with one sign and with the other differ by, over their number: as large as the
-/// noise of their mean. Zero of texels without a pair.
+/// What two and two samples of a texel differ by, over their number: as large as the noise of the mean. Zero
+/// of texels that have fewer than four.
 struct TexelNoise {
     TellingColumns telling;   ///< of a sky, of one channel
     std::vector<float> sky;   ///< [texels][telling], direct and bounced, of the channel in the middle

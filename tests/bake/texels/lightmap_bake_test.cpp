@@ -277,6 +277,85 @@ TEST(LightmapBake, IsTheSameForAnyNumberOfThreads) {
               bake_lightmap(bowl.scene, bowl.atlases, three).lightmap.baked.transfer.vectors);
 }
 
+/// `scene`, which has a map, and `more` whose coordinates are one point.
+Scene beside_map(const Scene& scene, const Scene& more) {
+    Scene both = test::join({scene, more});
+    VertexArray& last = both.vertex_arrays.back();
+    last.texcoords.assign(1, std::vector<glm::vec2>(last.positions.size(), glm::vec2(0.5f)));
+    return both;
+}
+
+/// For the second primitive.
+Atlas of_one_texel() {
+    return {.primitives = {1}, .uv_set = 0, .width = 1, .height = 1};
+}
+
+/// Of all light of a sky, direct and bounced: their noise makes up for each other.
+double relative_distance(const Transfer& truth, const Transfer& x) {
+    const auto columns = static_cast<std::size_t>(coefficient_count(truth.layout.order));
+    double error = 0, norm = 0;
+    for (std::size_t p = 0; p < truth.receivers(); ++p)
+        for (std::size_t c = 0; c < columns; ++c) {
+            double here = 0, there = 0;
+            for (std::size_t i = c; i < truth.dimension(); i += columns) {
+                here += static_cast<double>(x.vector(p)[i]);
+                there += static_cast<double>(truth.vector(p)[i]);
+            }
+            error += (here - there) * (here - there);
+            norm += there * there;
+        }
+    return std::sqrt(error / norm);
+}
+
+/// Noise falls, little is lost where there is none, and the estimate is that of what is left.
+TEST(LightmapBake, FiltersNoise) {
+    const Scene floor = floor_map(SceneBuilder().floor({0, 0, 0}, 1, 4).build());
+    const Scene scene = test::painted(
+        beside_map(floor, SceneBuilder().sphere({0, 0.5f, 0}, 0.4f, 12).build()), glm::vec3(0.7f));
+    const std::vector<Atlas> atlases{whole(floor, 64), of_one_texel()};
+    const auto baked = [&](int rays, std::uint64_t seed, bool denoise) {
+        BakeOptions options = options_of(3, rays, 1);
+        options.seed = seed;
+        options.denoise = denoise;
+        return bake_lightmap(scene, atlases, options);
+    };
+    const Transfer truth = baked(1 << 12, 9, false).lightmap.baked.transfer;
+    const LightmapBake filtered = baked(64, 1, true);
+    const double before = relative_distance(truth, baked(64, 1, false).lightmap.baked.transfer),
+                 after = relative_distance(truth, filtered.lightmap.baked.transfer);
+    EXPECT_LT(after, 0.6 * before) << before;
+    EXPECT_TRUE(filtered.statistics.denoised);
+    EXPECT_NEAR(filtered.statistics.sampling_error, after, 0.35 * after);
+    EXPECT_LT(relative_distance(truth, baked(1 << 10, 2, true).lightmap.baked.transfer),
+              1.02 * relative_distance(truth, baked(1 << 10, 2, false).lightmap.baked.transfer));
+}
+
+/// Two floors side by side in a map and in space, one of them under a low ceiling: two surfaces.
+TEST(LightmapBake, FiltersNoLightFromOneSurfaceToAnother) {
+    const auto floor = [](float low, float high) {
+        return SceneBuilder().quad({low, 0, 1}, {high, 0, 1}, {high, 0, -1}, {low, 0, -1}).build();
+    };
+    SceneBuilder cover; // of the right floor, closed all round
+    cover.quad({0, 0.3f, -1}, {1, 0.3f, -1}, {1, 0.3f, 1}, {0, 0.3f, 1});
+    cover.quad({0, 0, -1}, {0, 0.3f, -1}, {0, 0.3f, 1}, {0, 0, 1});
+    cover.quad({1, 0, 1}, {1, 0.3f, 1}, {1, 0.3f, -1}, {1, 0, -1});
+    cover.quad({0, 0, 1}, {0, 0.3f, 1}, {1, 0.3f, 1}, {1, 0, 1});
+    cover.quad({1, 0, -1}, {1, 0.3f, -1}, {0, 0.3f, -1}, {0, 0, -1});
+    const Scene floors = floor_map(test::join({floor(-1, 0), floor(0, 1)})),
+                scene = beside_map(floors, cover.build());
+    BakeOptions options = options_of(2, 16, 0);
+    options.repairs.inside = Inside::keep;
+    Atlas of_cover = of_one_texel();
+    of_cover.primitives = {2};
+    const LightmapBake baked = bake_lightmap(scene, {whole(floors, 32), of_cover}, options);
+    for (std::size_t p = 0; p < baked.lightmap.texels.size(); ++p) {
+        const std::uint32_t texel = baked.lightmap.texels[p];
+        if (texel < 32 * 32 && texel % 32 >= 17) { // beyond those that filters blend
+            EXPECT_EQ(baked.lightmap.baked.transfer.vector(p)[0], 0) << texel;
+        }
+    }
+}
+
 TEST(LightmapBake, SaysWhereAFinerModelLiesElsewhere) {
     const Scene scene = floor_map(SceneBuilder().floor({0, 0, 0}, 1).build());
     const auto bake_with = [&](const Scene& finer) {
