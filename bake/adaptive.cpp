@@ -29,8 +29,8 @@ public:
                     const TraceOptions& options, const Progress& progress)
         : tracer_(tracer), receivers_(receivers), left_(left), options_(options), progress_(progress),
           indices_(receivers_on_surfaces(receivers)), rays_(receivers.size(), 0),
-          planned_(receivers.size(), 0), error_(receivers.size(), 0), transfer_(empty_transfer()),
-          half_(empty_transfer()) {}
+          planned_(receivers.size(), 0),
+          error_(receivers.size(), 0), light_{empty_transfer(), empty_transfer()} {}
 
     AdaptiveResult run(const MeshNeighbours& neighbours, double target) {
         estimate_errors(neighbours);
@@ -46,8 +46,8 @@ public:
             if (result.reached || !enough)
                 break;
         }
-        result.transfer = std::move(transfer_);
-        result.half = std::move(half_);
+        result.transfer = std::move(light_.all);
+        result.half = std::move(light_.first_half);
         result.rays = rays_;
         result.rays_checked += kFirstRays * indices_.size() + rays_on_dark_; // of the second scramble
         progress_.update(1);
@@ -75,16 +75,17 @@ private:
     void estimate_errors(const MeshNeighbours& neighbours) {
         TraceOptions options = options_;
         options.rays = static_cast<int>(kFirstRays);
-        trace_in_halves(tracer_, receivers_, indices_, options, transfer_, half_, {{}, progress_.stop});
+        trace_in_halves(tracer_, receivers_, indices_, options, {light_.all, light_.first_half},
+                        {{}, progress_.stop});
         options.seed += kSecondScramble;
         Transfer second = empty_transfer();
         trace(indices_, options, second);
         std::vector<double> own(receivers_.size(), 0);
         for (const std::uint32_t p : indices_) {
             rays_[p] = planned_[p] = kFirstRays;
-            own[p] = 0.5 * squared_distance(transfer_.vector(p), second.vector(p));
+            own[p] = 0.5 * squared_distance(light_.all.vector(p), second.vector(p));
             squares_.norm +=
-                area(p) * product(transfer_.vector(p), second.vector(p)); // without the noise of either
+                area(p) * product(light_.all.vector(p), second.vector(p)); // without the noise of either
         }
         add_missed_light(second, own);
         for (const std::uint32_t p : indices_) {
@@ -105,7 +106,7 @@ private:
     void add_missed_light(const Transfer& second, std::vector<double>& errors) {
         std::vector<std::uint32_t> dark;
         for (const std::uint32_t p : indices_)
-            if (squared_norm(transfer_.vector(p)) + squared_norm(second.vector(p)) == 0)
+            if (squared_norm(light_.all.vector(p)) + squared_norm(second.vector(p)) == 0)
                 dark.push_back(p);
         std::vector<std::uint32_t> some;
         const std::size_t count = std::min(kCheckedDark, dark.size());
@@ -177,9 +178,9 @@ private:
             options.rays = static_cast<int>(rays);
             trace(members, options, added);
             for (const std::uint32_t p : members) {
-                std::ranges::copy(transfer_.vector(p), half_.vector(p).begin());
+                std::ranges::copy(light_.all.vector(p), light_.first_half.vector(p).begin());
                 for (std::size_t k = 0; k < added.dimension(); ++k)
-                    transfer_.vector(p)[k] = 0.5f * (transfer_.vector(p)[k] + added.vector(p)[k]);
+                    light_.all.vector(p)[k] = 0.5f * (light_.all.vector(p)[k] + added.vector(p)[k]);
                 rays_[p] = 2 * rays;
             }
         }
@@ -210,7 +211,7 @@ private:
             rays_checked += rays * members.size();
             for (const std::uint32_t p : members)
                 ratios += 0.5 * area(p) * static_cast<double>(left_[p]) *
-                          squared_distance(transfer_.vector(p), again.vector(p)) / predicted(p, rays);
+                          squared_distance(light_.all.vector(p), again.vector(p)) / predicted(p, rays);
             count += members.size();
         }
         return count > 0 ? ratios / static_cast<double>(count) : 1;
@@ -229,7 +230,9 @@ private:
     };
     Squares squares_; ///< weighted by area
     std::size_t rays_on_dark_ = 0;
-    Transfer transfer_, half_; ///< of all rays, and of the first half
+    struct Light {
+        Transfer all, first_half; ///< of the rays
+    } light_;
 };
 
 } // namespace

@@ -50,22 +50,34 @@ std::vector<bool> not_told_by_rays(const BakePlan& plan, const SealedIn& sealed)
 struct ExitLight {
     Propagated all;
     ErrorCheck::Bounced at_points;
+    BakeNoise noise;
 };
 
+/// `points`: where errors are measured; may be null.
 ExitLight exit_light(const BakePlan& plan, Measured& measured, const TransportOperators& operators,
-                     const Beside& beside, const Progress& progress) {
+                     const GatherOperator* points, const Progress& progress) {
+    const std::vector<bool> left_out = not_told_by_rays(plan, measured.sealed);
+    std::optional<NoiseFilter> filter;
+    if (measured.direct.half)
+        filter.emplace(vertex_filter(plan, *measured.shared, left_out));
+    BakeNoise noise{.filtered = filter.has_value()};
+    const Beside beside{
+        .points = points, .filter = filter ? &*filter : nullptr, .left_out = &left_out, .noise = &noise};
     const auto at_points = [](Propagated& light) {
         return light.beside.empty() ? std::vector<float>() : std::move(light.beside.front());
     };
-    ExitLight exit{propagate_all(plan, measured, operators, beside, progress), {}};
+    ExitLight exit{propagate_all(plan, measured, operators, beside, progress), {}, {}};
     exit.at_points.sky = at_points(exit.all);
-    if (plan.lamps.empty())
+    if (plan.lamps.empty()) {
+        exit.noise = std::move(noise);
         return exit;
+    }
     Propagated lit = propagate_lamps(plan, measured, operators, beside, {{}, progress.stop});
     exit.all.transfer = with_lamps(exit.all.transfer, lit.transfer, plan.lamps);
     exit.all.bounces = std::max(exit.all.bounces, lit.bounces);
     exit.all.remaining = std::max(exit.all.remaining, lit.remaining);
     exit.at_points.lamps = at_points(lit);
+    exit.noise = std::move(noise);
     return exit;
 }
 
@@ -96,24 +108,15 @@ BakeResult bake(const Scene& scene, const BakeOptions& options, const Progress& 
     const Stopwatch transport;
     const std::unique_ptr<GatherProduct> product =
         direct.gather ? tracer->gather_product(*direct.gather) : nullptr;
-    const std::vector<bool> left_out = not_told_by_rays(plan, sealed);
-    std::optional<NoiseFilter> filter;
-    if (direct.half)
-        filter.emplace(vertex_filter(plan, *measured.shared, left_out));
     const TransportOperators operators{.refill = sealed.refill,
                                        .diffusion = plan.diffusion,
                                        .gather = direct.gather ? &*direct.gather : nullptr,
                                        .product = product.get(),
                                        .fit = measured.fit ? &*measured.fit : nullptr};
-    BakeNoise noise;
-    ExitLight exit = exit_light(plan, measured, operators,
-                                {.points = check ? check->gather() : nullptr,
-                                 .filter = filter ? &*filter : nullptr,
-                                 .left_out = &left_out,
-                                 .noise = &noise},
+    ExitLight exit = exit_light(plan, measured, operators, check ? check->gather() : nullptr,
                                 progress.part(traced_sky, 1));
-    if (noise.sky > 0)
-        direct.sampling_error = noise.sky;
+    if (exit.noise.sky > 0)
+        direct.sampling_error = exit.noise.sky;
     if (measured.shared)
         measured.shared->average(exit.all.transfer);
     fill_without_area(plan.receivers(), plan.transport->fronts, exit.all.transfer);
@@ -125,8 +128,7 @@ BakeResult bake(const Scene& scene, const BakeOptions& options, const Progress& 
 
     BakeResult result = record(plan, *tracer, direct, sealed, std::move(exit.all));
     result.statistics.fit = asked.fit;
-    result.statistics.denoised = filter.has_value();
-    result.statistics.noise = std::move(noise);
+    result.noise = std::move(exit.noise);
     result.errors = std::move(found);
     result.statistics.gather.bytes_moved = product ? product->bytes_moved() : 0;
     result.baked.record.fitted = measured.fit.has_value();

@@ -78,7 +78,7 @@ DirectLight trace_direct(const BakePlan& plan, Tracer& tracer, const LampConnect
         .order = plan.options.order, .rays = plan.options.rays, .seed = plan.options.seed};
     const bool adaptive = plan.options.target_error.has_value();
     const bool traces = tracer.method() == BakeMethod::trace,
-               halves = plan.options.denoise && traces && first_half(options.rays) > 0;
+               halves = plan.options.repairs.denoise && traces && first_half(options.rays) > 0;
     DirectLight direct;
     std::vector<std::uint32_t> rays_of(receivers.size(), static_cast<std::uint32_t>(options.rays));
     if (halves)
@@ -93,7 +93,7 @@ DirectLight trace_direct(const BakePlan& plan, Tracer& tracer, const LampConnect
         add_gather(plan, tracer, lamps, rays_of, direct, progress.part(adaptive ? 0.5 : 0, 1));
     } else if (!adaptive) {
         if (halves)
-            trace_in_halves(tracer, receivers, indices, options, direct.transfer, direct.half->direct,
+            trace_in_halves(tracer, receivers, indices, options, {direct.transfer, direct.half->direct},
                             progress);
         else
             trace_receivers(tracer, receivers, indices, options, direct.transfer, progress);

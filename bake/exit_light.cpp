@@ -235,7 +235,8 @@ void filter_sky(const NoiseFilter& filter, const HalfOfRays& half, std::span<con
     const auto value = [&](std::uint32_t p, std::size_t c) { return all.vector(p)[c]; };
     const FitSolver solver = filter.fit(value, telling, of_all);
     if (const double norm = filter.norm(solver, telling, value); norm > 0)
-        left = {.sky = filter.norm(solver, telling, of_all) / norm,
+        left = {.filtered = true,
+                .sky = filter.norm(solver, telling, of_all) / norm,
                 .direct = filter.norm(solver, telling, of_direct) / norm,
                 .indirect = filter.norm(solver, telling, of_rest) / norm};
     filter.apply(solver, all);

@@ -42,7 +42,7 @@ FitChoice fit_choice(const BakePlan& plan, Tracer& tracer, BakeStatistics& stati
     if (options.fit == FitMode::vertex || !possible)
         return {};
     const FitTrial trial = try_fit(plan, tracer, progress);
-    FitChoice choice = choose_fit(trial, options.rays, options.denoise);
+    FitChoice choice = choose_fit(trial, options.rays, options.repairs.denoise);
     choice.better = choice.better || options.fit == FitMode::surface;
     statistics.fit = {
         .samples = choice.better ? choice.samples : 0, .between = trial.between, .sampling = trial.sampling};

@@ -96,7 +96,7 @@ TracedGather trace_gather(const BakePlan& plan, Tracer& tracer, const LampConnec
                 traced.lamps->set(p, lamps->join(plan.receivers(), p, hits, options), options.rays);
         };
         if (half && first_half(options.rays) > 0)
-            trace_in_halves(tracer, plan.receivers(), members, options, transfer, half->direct, part,
+            trace_in_halves(tracer, plan.receivers(), members, options, {transfer, half->direct}, part,
                             [&](std::uint32_t p, std::span<const Hit> hits, std::span<const Hit> first) {
                                 set_rows(p, hits);
                                 half->gather->set_row(p, first, first_half(options.rays));

@@ -171,10 +171,10 @@ private:
                 .options = {.order = options_.order, .rays = options_.rays, .seed = options_.seed + a},
                 .inside = options_.repairs.inside,
                 .transport = &transport,
-                .notes_noise = options_.denoise};
+                .notes_noise = options_.repairs.denoise};
             TexelLight light = trace_texels(task, atlases_[a], samples.samples, part);
             statistics().rays += light.rays;
-            if (options_.denoise)
+            if (options_.repairs.denoise)
                 filter(a, places, samples.samples, light);
             for (std::size_t i = 0; i < light.lamps.size(); ++i)
                 light.lamps[i] += light.bounced_lamps[i];
@@ -273,7 +273,7 @@ private:
         if (std::optional<std::string> notice = places.check_casters())
             s.notices.push_back(std::move(*notice));
         s.mean_visibility = mean_visibility(light_.direct, map.areas);
-        s.denoised = options_.denoise;
+        s.denoised = options_.repairs.denoise;
         if (noise_.texels > 0)
             s.sampling_error = std::sqrt(noise_.squares / noise_.texels);
         else

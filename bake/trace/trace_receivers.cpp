@@ -73,8 +73,8 @@ int first_half(int rays) {
 }
 
 void trace_in_halves(Tracer& tracer, const Receivers& receivers, std::span<const std::uint32_t> indices,
-                     const TraceOptions& options, Transfer& transfer, Transfer& half,
-                     const Progress& progress, const HalvesSink& sink) {
+                     const TraceOptions& options, const TracedHalves& to, const Progress& progress,
+                     const HalvesSink& sink) {
     const auto dimension = static_cast<std::size_t>(coefficient_count(options.order));
     std::array<TraceOptions, 2> options_of{options, options};
     options_of[0].rays = first_half(options.rays);
@@ -105,8 +105,8 @@ void trace_in_halves(Tracer& tracer, const Receivers& receivers, std::span<const
                    for (std::size_t i = 0; i < part.size(); ++i)
                        for (std::size_t k = 0; k < dimension; ++k) {
                            const float first = vectors[0][i * dimension + k];
-                           half.vector(part[i])[k] = first;
-                           transfer.vector(part[i])[k] =
+                           to.half.vector(part[i])[k] = first;
+                           to.all.vector(part[i])[k] =
                                share * first + (1 - share) * vectors[1][i * dimension + k];
                        }
                });

@@ -172,7 +172,7 @@ void add_lamps(CLI::App* command, LampOptions& lamps) {
 }
 
 void add_method(CLI::App* command, BakeOptions& options) {
-    choice(command, "--denoise", options.denoise, kDenoise,
+    choice(command, "--denoise", options.repairs.denoise, kDenoise,
            "filter light that is measured at vertices over the surface, as far as it is noise", "on");
     add_backend(command, options.tracer.backend,
                 "gpu: Vulkan 1.2 of any kind; auto: a hardware GPU, else the CPU");

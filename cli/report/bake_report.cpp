@@ -146,6 +146,31 @@ void add_error_sentences(const Json& errors, Report& report) {
             "{errors/much_worse_behind}; each side of a wall with a thickness has its own");
 }
 
+Json noise_json(const BakeNoise& noise) {
+    return {{"filtered", noise.filtered},
+            {"sky", noise.sky},
+            {"direct", noise.direct},
+            {"indirect", noise.indirect},
+            {"lamps", noise.lamps}};
+}
+
+void add_noise_sentences(const BakeOutcome& baked, Report& report) {
+    const BakeNoise& noise = baked.result.noise;
+    if (baked.options.target_error)
+        report.sentences.emplace_back("error of rays: {target_error_relative_l2:.3f%} of the direct light "
+                                      "asked for, {sampling_error_relative_l2:.3f%} estimated");
+    else if (!baked.result.errors && !noise.filtered && baked.result.statistics.sampling_error > 0)
+        report.sentences.emplace_back(
+            "error of the direct light: {sampling_error_relative_l2:.3f%} estimated");
+    if (noise.sky > 0)
+        report.sentences.emplace_back("noise of rays: {noise/sky:.2f%} of the sky's light; direct "
+                                      "{noise/direct:.2f%}, bounced {noise/indirect:.2f%}");
+    if (!noise.lamps.empty())
+        report.sentences.push_back(fmt::format(
+            "noise of rays in bounces of lamps: at most {{noise/lamps/{}:.2f%}} of the light of one",
+            std::ranges::max_element(noise.lamps) - noise.lamps.begin()));
+}
+
 Json statistics_json(const BakeStatistics& s) {
     return {{"receivers", s.receivers.all},
             {"receivers_traced", s.receivers.traced},
@@ -171,12 +196,6 @@ Json statistics_json(const BakeStatistics& s) {
             {"lamps", s.lamps.count},
             {"lamp_lights", s.lamps.lights},
             {"lamp_triangles", s.lamps.triangles},
-            {"denoised", s.denoised},
-            {"noise",
-             {{"sky", s.noise.sky},
-              {"direct", s.noise.direct},
-              {"indirect", s.noise.indirect},
-              {"lamps", s.noise.lamps}}},
             {"gather_entries", s.gather.entries},
             {"gather_bytes", s.gather.bytes},
             {"gather_bytes_moved", s.gather.bytes_moved},
@@ -205,18 +224,7 @@ void add_sentences(const BakeOutcome& baked, const Json& statistics, Report& rep
                     "{{seconds_accumulate:.3f}}, transfer {{seconds_transfer:.3f}}, transport "
                     "{{seconds_transport:.3f}}; {{rays_per_second:.2fM}} million {}/s",
                     raster ? "tests" : "rays"));
-    if (baked.options.target_error)
-        say("error of the direct light: {target_error_relative_l2:.3f%} asked for, "
-            "{sampling_error_relative_l2:.3f%} estimated");
-    else if (!result.errors && !s.denoised && s.sampling_error > 0)
-        say("error of the direct light: {sampling_error_relative_l2:.3f%} estimated");
-    if (s.noise.sky > 0)
-        say("noise of rays: {noise/sky:.2f%} of the sky's light; direct {noise/direct:.2f%}, bounced "
-            "{noise/indirect:.2f%}");
-    if (!s.noise.lamps.empty())
-        say(fmt::format(
-            "noise of rays in bounces of lamps: at most {{noise/lamps/{}:.2f%}} of the light of one",
-            std::ranges::max_element(s.noise.lamps) - s.noise.lamps.begin()));
+    add_noise_sentences(baked, report);
     if (result.errors)
         add_error_sentences(statistics["errors"], report);
     if (baked.refinement)
@@ -256,6 +264,7 @@ Report bake_report(const BakeOutcome& baked) {
     statistics["triangles"] = baked.scene.triangles();
     for (const std::string& notice : baked.scene.notices)
         statistics["notices"].push_back(notice);
+    statistics["noise"] = noise_json(result.noise);
     if (result.errors)
         statistics["errors"] = errors_json(*result.errors);
     add_figures(report, statistics);

@@ -51,7 +51,7 @@ TEST(TargetError, IsReachedAndSoIsTheEstimate) {
 TEST(TargetError, TakesFewerRaysThanTheSameForAll) {
     const Scene scene = balls_over_floor();
     BakeOptions options = cpu_options();
-    options.denoise = false;
+    options.repairs.denoise = false;
     options.target_error = 0.01;
     const BakeResult adaptive = bake(scene, options);
     options.target_error.reset();
@@ -84,7 +84,7 @@ TEST(TargetError, ThatTheFirstRaysReachToTheLastDigitTakesNoMore) {
     // Of every other seed or so a sample errs more than predicted: then the prediction asks for no more rays.
     BakeOptions options = cpu_options();
     options.order = 2;
-    options.denoise = false;
+    options.repairs.denoise = false;
     const Scene scene = balls_over_floor();
     bool same = false;
     for (; !same && options.seed < 12; ++options.seed) {
@@ -168,7 +168,7 @@ TEST(SamplingError, OfFixedRaysIsNeitherLowNorScattered) {
         options.seed = seed;
         options.tracer.backend = Backend::cpu;
         options.memory.storage = TransferStorage::float32;
-        options.denoise = false;
+        options.repairs.denoise = false;
         return bake(scene, options);
     };
     const Transfer reference = baked(1 << 14, 77).baked.transfer;

@@ -30,7 +30,7 @@ Transfer bake_with(int rays, std::uint64_t seed, int threads = 0, bool denoise =
     options.rays = rays;
     options.seed = seed;
     options.threads = threads;
-    options.denoise = denoise;
+    options.repairs.denoise = denoise;
     return bake(sphere_over_floor(), options).baked.transfer;
 }
 

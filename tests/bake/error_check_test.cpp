@@ -106,7 +106,7 @@ TEST(BakeErrors, KnowTheNoiseOfRays) {
     const auto transfer = [&](int rays, std::uint64_t seed) {
         BakeOptions options = measured(3, rays);
         options.seed = seed;
-        options.denoise = false;
+        options.repairs.denoise = false;
         return bake(scene, options, {}, MeasureErrors::yes);
     };
     const BakeResult few = transfer(64, 1), many = transfer(1 << 12, 2);

@@ -237,7 +237,7 @@ TEST(HardCase, OrdersOneAndTenWork) {
         BakeOptions options;
         options.order = order;
         options.rays = 200;
-        options.denoise = false; // looks at all bands
+        options.repairs.denoise = false; // looks at all bands
         return bake(scene, options).baked.transfer;
     };
     const Transfer low = baked(1), high = baked(10);

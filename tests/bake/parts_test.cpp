@@ -24,7 +24,7 @@ Transfer parts_of(const Scene& scene, int bounces, const SubsurfaceOptions& medi
     options.rays = 256;
     options.bounces = bounces;
     options.subsurface = media;
-    options.denoise = denoise;
+    options.repairs.denoise = denoise;
     options.memory.storage = TransferStorage::float32;
     options.tracer.backend = Backend::cpu;
     return bake(scene, options).baked.transfer;

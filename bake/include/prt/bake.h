@@ -65,10 +65,11 @@ struct LampOptions {
     int rays = 64;                 ///< from a receiver to the lamps of a name that have extent
 };
 
-/// What is done about what is wrong with a scene.
+/// What is done about what is wrong with a scene, and about noise.
 struct Repairs {
     BadTextures bad_textures = BadTextures::error;
     Inside inside = Inside::refill;
+    bool denoise = true; ///< light at receivers is filtered over the surface as far as it is noise
 };
 
 struct BakeMemory {
@@ -111,8 +112,6 @@ struct BakeOptions {
     int rays = 1024;                    ///< per receiver; directions where method is raster
     std::optional<double> target_error; ///< relative L2 to reach, with as many rays as each receiver needs
     FitMode fit = FitMode::vertex;
-    /// Light that is measured at receivers is filtered over the surface as far as it is noise.
-    bool denoise = true;
     int bounces = 0; ///< or kEndlessBounces
     TracerChoice tracer;
     SubsurfaceOptions subsurface;
@@ -126,6 +125,7 @@ struct BakeOptions {
 /// Noise of rays that is left in each term of filtered light, relative L2, as halves of the rays tell it; 0
 /// where that is not known.
 struct BakeNoise {
+    bool filtered = false;
     double sky = 0;              ///< of all light of a sky
     double direct = 0;           ///< without a bounce, over all light of a sky
     double indirect = 0;         ///< of the rest, over all light of a sky
@@ -169,8 +169,6 @@ struct BakeStatistics {
     /// Estimated relative L2 error by sampling: of the light of the sky where it was filtered, else of its
     /// direct light, from independent samples.
     double sampling_error = 0;
-    bool denoised = false;
-    BakeNoise noise;
     double rounding_error = 0;   ///< relative L2 of storing float16
     double remaining_energy = 0; ///< of the bounces that were not done, over the largest transfer
     Lamps lamps;
@@ -186,6 +184,7 @@ struct BakeResult {
     /// Receivers inside geometry, where no light reaches, ascending: nobody sees them.
     std::vector<std::uint32_t> sealed;
     BakeStatistics statistics;
+    BakeNoise noise;
     std::optional<BakeErrors> errors; ///< where they were asked for
 };
 

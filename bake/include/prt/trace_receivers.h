@@ -36,10 +36,14 @@ int first_half(int rays);
 using HalvesSink =
     std::function<void(std::uint32_t receiver, std::span<const Hit> all, std::span<const Hit> half)>;
 
-/// The same from a tracer that takes ranges of rays, and the transfer of the first half of the rays alone in
-/// `half`. There must be a half.
+/// Transfer of all rays, and of the first half of them alone.
+struct TracedHalves {
+    Transfer &all, &half;
+};
+
+/// The same from a tracer that takes ranges of rays. There must be a half.
 void trace_in_halves(Tracer& tracer, const Receivers& receivers, std::span<const std::uint32_t> indices,
-                     const TraceOptions& options, Transfer& transfer, Transfer& half,
-                     const Progress& progress = {}, const HalvesSink& sink = {});
+                     const TraceOptions& options, const TracedHalves& to, const Progress& progress = {},
+                     const HalvesSink& sink = {});
 
 } // namespace prt

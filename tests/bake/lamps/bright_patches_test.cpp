@@ -142,7 +142,7 @@ std::vector<float> on_floor(const Scene& scene, std::uint64_t seed, FitMode fit)
     options.bounces = 1;
     options.seed = seed;
     options.fit = fit;
-    options.denoise = false;
+    options.repairs.denoise = false;
     options.lamps.mode = LampMode::indirect;
     options.tracer.backend = Backend::cpu;
     const Transfer light = bake(scene, options).baked.transfer;

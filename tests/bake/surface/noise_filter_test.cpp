@@ -21,7 +21,7 @@ BakeOptions bounced(int rays, std::uint64_t seed, bool denoise) {
     options.rays = rays;
     options.seed = seed;
     options.bounces = 1;
-    options.denoise = denoise;
+    options.repairs.denoise = denoise;
     options.tracer.backend = Backend::cpu;
     return options;
 }
@@ -31,7 +31,7 @@ Transfer indirect(const Scene& scene, BakeOptions options, bool* denoised = null
     options.lamps.mode = LampMode::indirect;
     const BakeResult result = bake(scene, options);
     if (denoised)
-        *denoised = result.statistics.denoised;
+        *denoised = result.noise.filtered;
     const Transfer& all = result.baked.transfer;
     Transfer light = zero_transfer(1, 1, all.receivers());
     for (std::size_t v = 0; v < all.receivers(); ++v)
@@ -128,7 +128,7 @@ TEST(NoiseFilter, KeepsAllLightOfAWhiteFurnace) {
     BakeOptions options = bounced(64, 1, true);
     options.bounces = kEndlessBounces;
     const BakeResult result = bake(scene, options);
-    EXPECT_TRUE(result.statistics.denoised);
+    EXPECT_TRUE(result.noise.filtered);
     const Transfer& transfer = result.baked.transfer;
     for (std::size_t v = 0; v < transfer.receivers(); ++v) {
         float all = 0;
@@ -173,7 +173,7 @@ TEST(NoiseFilter, LightsNoDarkRoom) {
     BakeOptions options = bounced(64, 1, true);
     options.bounces = 3;
     const BakeResult result = bake(scene, options);
-    EXPECT_TRUE(result.statistics.denoised);
+    EXPECT_TRUE(result.noise.filtered);
     double lit = 0;
     for (const glm::uvec3& t : scene.primitives[0].triangles)
         for (int i = 0; i < 3; ++i) {

@@ -316,7 +316,7 @@ TEST(LightmapBake, FiltersNoise) {
     const auto baked = [&](int rays, std::uint64_t seed, bool denoise) {
         BakeOptions options = options_of(3, rays, 1);
         options.seed = seed;
-        options.denoise = denoise;
+        options.repairs.denoise = denoise;
         return bake_lightmap(scene, atlases, options);
     };
     const Transfer truth = baked(1 << 12, 9, false).lightmap.baked.transfer;
