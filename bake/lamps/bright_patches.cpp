@@ -99,7 +99,7 @@ void BrightPatches::add_patches(const Transfer& light) {
             mean += (radiosity(light, here[i], s.reflected, scales) +
                      radiosity(light, there[i], s.transmitted, scales)) /
                     3;
-        if (mean > 0 && side.area > 0)
+        if (mean > 0 && side.area > 0 && surfaces.material(side.triangle).casts_shadow)
             patches_.push_back({side.triangle, side.back, mean * side.area, side.area});
     }
 }

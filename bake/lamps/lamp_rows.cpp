@@ -3,7 +3,6 @@
 #include "lamps/lamp_rows.h"
 
 #include "lamps/lamp_geometry.h"
-#include "scene/transmittance.h"
 #include "surface/surface_samples.h"
 #include "trace/sample_sequence.h"
 #include "trace/scrambles.h"
@@ -12,6 +11,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 namespace prt {
@@ -28,6 +28,24 @@ double form_factor(const glm::dvec3& way, const glm::dvec3& here, const glm::dve
         return 0;
     return std::max(0.0, glm::dot(here, way)) * std::max(0.0, -glm::dot(there, way)) /
            (std::numbers::pi * squared * squared);
+}
+
+/// Share of what a point of `target`, at the end of `way`, sends that arrives at `origin`. Of surfaces at one
+/// place a ray meets one, whichever it is, as hemisphere rays do.
+float arriving(const TraceScene& scene, const glm::vec3& origin, const glm::vec3& way, std::uint32_t target) {
+    constexpr float kBeyond = 1 + 1e-4f;
+    Ray ray{origin, way, 0, kBeyond};
+    for (float left = 1; left > 0;) {
+        const std::optional<RayHit> met = scene.rays().nearest(ray);
+        if (!met)
+            return 0;
+        const float coverage = scene.surfaces().coverage({met->triangle, met->uv, 0});
+        if (met->triangle == target)
+            return left * coverage;
+        left *= 1 - coverage;
+        ray.from = std::nextafter(met->distance, std::numeric_limits<float>::infinity());
+    }
+    return 0;
 }
 
 } // namespace
@@ -52,7 +70,6 @@ glm::dvec3 LampConnections::normal(std::uint32_t triangle, bool back) const {
 std::vector<Hit> LampConnections::connect(const Sampled& sampled, const Start& start,
                                           const TraceOptions& options) const {
     const Surfaces& surfaces = plan_.scene.surfaces();
-    const RayScene& rays = plan_.scene.rays();
     const double shift = lamp_geometry::unit_number(start.seed);
     std::vector<Hit> hits;
     for (int i = 0; i < sampled.connections; ++i) {
@@ -66,11 +83,7 @@ std::vector<Hit> LampConnections::connect(const Sampled& sampled, const Start& s
         const double factor = form_factor(way, sampled.receiver.normal, there);
         if (!(factor > 0))
             continue;
-        const auto off =
-            static_cast<double>(rays.triangle_offset(point->triangle, static_cast<float>(glm::length(way))));
-        const SurfacePoint place{point->triangle, uv, 0};
-        const float open = transmittance(rays, surfaces, start.origin, glm::vec3(way + off * there), 1) *
-                           surfaces.coverage(place);
+        const float open = arriving(plan_.scene, start.origin, glm::vec3(way), point->triangle);
         if (open <= 0)
             continue;
         const double density = sampled.density(factor, point->density);

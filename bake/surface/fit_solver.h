@@ -19,7 +19,7 @@ public:
 
     /// Norms of the residual, weighted by the inverse diagonal, over that of b: less changes no error of the
     /// surface in four digits; what tells noise and bends; and what filters noise.
-    static constexpr double kPrecise = 1e-5, kEstimate = 1e-3, kRough = 1e-2;
+    static constexpr double kPrecise = 1e-5, kEstimate = 1e-3, kRough = 3e-3;
 
     /// Replaces b by x, [unknowns][stride]; zero where no sample tells. Deterministic, whatever the threads.
     void solve(std::span<float> b_then_x, std::size_t stride, int threads, double tolerance = kPrecise) const;

@@ -54,7 +54,12 @@ void leave_out_sheets(const BakePlan& plan, std::vector<bool>& left_out) {
 
 NoiseFilter::NoiseFilter(FitEquations equations, std::vector<std::uint32_t> places, int threads)
     : equations_(std::move(equations)), places_(std::move(places)), weights_(unknown_weights(equations_)),
-      threads_(threads) {}
+      threads_(threads) {
+    // What no sample tells of would pull its neighbours down.
+    std::erase_if(equations_.bends, [&](const Bend& bend) {
+        return std::ranges::any_of(bend.unknowns, [&](std::uint32_t u) { return !(weights_[u] > 0); });
+    });
+}
 
 NoiseFilter vertex_filter(const BakePlan& plan, const SharedPlaces& shared,
                           const std::vector<bool>& left_out) {

@@ -16,6 +16,8 @@ namespace {
 
 /// Texels side by side in space, too, lie within so many of their sizes.
 constexpr double kFarthest = 4;
+/// Across sharper folds light is another.
+constexpr double kLeastCosine = 0.9;
 /// Texels that are filtered at a time, about, and rows on either side that they bend with.
 constexpr std::uint32_t kTexelsOfBand = 1 << 17, kRowsBeside = 16;
 
@@ -85,26 +87,29 @@ TexelNet::TexelNet(const Scene& scene, const Atlas& atlas, std::span<const Chart
                    std::span<const TexelSample> samples, const TexelPlaces& places,
                    const std::vector<bool>& lit)
     : width_(static_cast<std::uint32_t>(atlas.width)), height_(static_cast<std::uint32_t>(atlas.height)),
-      places_(atlas.texels()), charts_(atlas.texels(), kNoReceiver), sizes_(atlas.texels()) {
+      places_(atlas.texels()), normals_(atlas.texels()), charts_(atlas.texels(), kNoReceiver),
+      sizes_(atlas.texels()) {
     const std::vector<std::uint32_t> connected = connected_triangles(scene, atlas.uv_set);
     std::vector<float> size_of(connected.size(), 1.0f); // where coordinates are one point: any
     for (const ChartTriangle& t : charts) {
         const glm::dvec2 ab = t.corners[1] - t.corners[0], ac = t.corners[2] - t.corners[0];
         const double texels = 0.5 * std::abs(ab.x * ac.y - ab.y * ac.x);
-        if (texels > 0)
+        if (texels > 0 && places.area(t.triangle) > 0)
             size_of[t.triangle] = static_cast<float>(std::sqrt(places.area(t.triangle) / texels));
     }
     Receivers receivers;
     for (std::size_t begin = 0, end = 0; begin < samples.size(); begin = end) {
         const std::uint32_t texel = samples[begin].texel;
-        glm::dvec3 sum(0);
+        glm::dvec3 sum(0), normal(0);
         while (end < samples.size() && samples[end].texel == texel) {
             places.append(samples[end++], 1, receivers);
             sum += glm::dvec3(receivers.positions.back());
+            normal += glm::dvec3(receivers.normals.back());
         }
         if (!lit[texel])
             continue;
         places_[texel] = sum / static_cast<double>(end - begin);
+        normals_[texel] = glm::length(normal) > 0 ? glm::normalize(normal) : normal;
         charts_[texel] = connected[samples[begin].triangle];
         sizes_[texel] = size_of[samples[begin].triangle];
         receivers = {};
@@ -113,6 +118,7 @@ TexelNet::TexelNet(const Scene& scene, const Atlas& atlas, std::span<const Chart
 
 bool TexelNet::together(std::uint32_t a, std::uint32_t b) const {
     return charts_[a] != kNoReceiver && charts_[a] == charts_[b] &&
+           glm::dot(normals_[a], normals_[b]) > kLeastCosine &&
            glm::distance(places_[a], places_[b]) <
                kFarthest * static_cast<double>(std::max(sizes_[a], sizes_[b]));
 }

@@ -11,7 +11,8 @@
 
 namespace prt {
 
-/// Texels of an atlas that bend together: those that lie side by side in it and on one surface.
+/// Texels of an atlas that bend together: those that lie side by side in it and on one surface without a
+/// fold.
 class TexelNet {
 public:
     /// `lit` [texels]: those that are filtered.
@@ -27,9 +28,9 @@ private:
     bool together(std::uint32_t a, std::uint32_t b) const;
 
     std::uint32_t width_, height_;
-    std::vector<glm::dvec3> places_;    ///< [texels] means of their samples
-    std::vector<std::uint32_t> charts_; ///< [texels], kNoReceiver where there is no light
-    std::vector<float> sizes_;          ///< [texels] of a texel, m
+    std::vector<glm::dvec3> places_, normals_; ///< [texels] means of their samples
+    std::vector<std::uint32_t> charts_;        ///< [texels], kNoReceiver where there is no light
+    std::vector<float> sizes_;                 ///< [texels] of a texel, m
 };
 
 /// Filters direct and bounced light of a sky by one filter, and bounces of lamps, as TexelLight::noise asks.

@@ -7,7 +7,6 @@
 #include "transport/gather_product.h"
 
 #include <algorithm>
-#include <array>
 #include <bit>
 #include <cassert>
 
@@ -69,47 +68,63 @@ void trace_receivers(Tracer& tracer, const Receivers& receivers, std::span<const
 
 int first_half(int rays) {
     constexpr int kFewest = 8;
-    return rays < kFewest ? 0 : static_cast<int>(std::bit_ceil(static_cast<unsigned>(rays)) / 2);
+    const auto even = static_cast<int>(std::bit_floor(static_cast<unsigned>(rays)));
+    if (rays < kFewest)
+        return 0;
+    return rays - even >= even / 2 ? even : even / 2;
 }
+
+namespace {
+
+/// The first half of the rays, then the others, in parts that Tracer::trace takes.
+std::vector<TraceOptions> parts_of(const TraceOptions& options) {
+    std::vector<TraceOptions> parts;
+    for (int begin = 0; begin < options.rays;) {
+        TraceOptions part = options;
+        part.first_ray += static_cast<std::uint32_t>(begin);
+        part.rays = std::min(begin == 0 ? first_half(options.rays) : begin, options.rays - begin);
+        begin += part.rays;
+        parts.push_back(part);
+    }
+    return parts;
+}
+
+} // namespace
 
 void trace_in_halves(Tracer& tracer, const Receivers& receivers, std::span<const std::uint32_t> indices,
                      const TraceOptions& options, const TracedHalves& to, const Progress& progress,
                      const HalvesSink& sink) {
     const auto dimension = static_cast<std::size_t>(coefficient_count(options.order));
-    std::array<TraceOptions, 2> options_of{options, options};
-    options_of[0].rays = first_half(options.rays);
-    options_of[1].rays = options.rays - options_of[0].rays;
-    options_of[1].first_ray += static_cast<std::uint32_t>(options_of[0].rays);
-    const float share = static_cast<float>(options_of[0].rays) / static_cast<float>(options.rays);
-    in_batches(tracer, indices, options, progress,
-               [&](std::span<const std::uint32_t> part, const Progress& part_progress) {
-                   std::vector<std::vector<Hit>> hits(sink ? part.size() : 0);
-                   const HitSink keep = [&](std::size_t i, std::span<const Hit> first) {
-                       hits[i].assign(first.begin(), first.end());
-                   };
-                   const HitSink join = [&](std::size_t i, std::span<const Hit> second) {
-                       const std::size_t first = hits[i].size();
-                       hits[i].insert(hits[i].end(), second.begin(), second.end());
-                       sink(part[i], hits[i], std::span(hits[i]).first(first));
-                   };
-                   std::array<std::vector<float>, 2> vectors;
-                   for (const std::size_t h : {0u, 1u}) {
-                       vectors[h].resize(part.size() * dimension);
-                       tracer.trace(receivers, part, options_of[h], vectors[h],
-                                    !sink    ? HitSink()
-                                    : h == 0 ? keep
-                                             : join,
-                                    part_progress.part(0.5 * static_cast<double>(h),
-                                                       0.5 * static_cast<double>(h + 1)));
-                   }
-                   for (std::size_t i = 0; i < part.size(); ++i)
-                       for (std::size_t k = 0; k < dimension; ++k) {
-                           const float first = vectors[0][i * dimension + k];
-                           to.half.vector(part[i])[k] = first;
-                           to.all.vector(part[i])[k] =
-                               share * first + (1 - share) * vectors[1][i * dimension + k];
-                       }
-               });
+    const std::vector<TraceOptions> parts = parts_of(options);
+    const auto trace = [&](std::span<const std::uint32_t> batch, const Progress& batch_progress) {
+        std::vector<std::vector<Hit>> hits(sink ? batch.size() : 0);
+        std::vector<std::size_t> of_half(hits.size());
+        std::vector<float> vectors(batch.size() * dimension);
+        for (std::size_t k = 0; k < parts.size(); ++k) {
+            const HitSink keep = [&](std::size_t i, std::span<const Hit> more) {
+                hits[i].insert(hits[i].end(), more.begin(), more.end());
+                if (k == 0)
+                    of_half[i] = hits[i].size();
+                if (k + 1 == parts.size())
+                    sink(batch[i], hits[i], std::span(hits[i]).first(of_half[i]));
+            };
+            const auto share = [&](std::size_t done) {
+                return static_cast<double>(done) / static_cast<double>(parts.size());
+            };
+            tracer.trace(receivers, batch, parts[k], vectors, sink ? keep : HitSink(),
+                         batch_progress.part(share(k), share(k + 1)));
+            const float weight = static_cast<float>(parts[k].rays) / static_cast<float>(options.rays);
+            for (std::size_t i = 0; i < batch.size(); ++i)
+                for (std::size_t c = 0; c < dimension; ++c) {
+                    const float value = vectors[i * dimension + c];
+                    if (k == 0)
+                        to.half.vector(batch[i])[c] = value;
+                    float& all = to.all.vector(batch[i])[c];
+                    all = (k == 0 ? 0 : all) + weight * value;
+                }
+        }
+    };
+    in_batches(tracer, indices, options, progress, trace);
 }
 
 } // namespace prt
