@@ -239,7 +239,11 @@ void filter_sky(const NoiseFilter& filter, const HalfOfRays& half, std::span<con
                 .sky = filter.norm(solver, telling, of_all) / norm,
                 .direct = filter.norm(solver, telling, of_direct) / norm,
                 .indirect = filter.norm(solver, telling, of_rest) / norm};
-    filter.apply(solver, all);
+    // Channel by channel: columns are solved in groups, and what is the same in both stays so.
+    for (std::size_t first = 0; first < stride; first += columns)
+        filter.apply(
+            solver, columns, [&](std::uint32_t p, std::size_t c) { return all.vector(p)[first + c]; },
+            [&](std::uint32_t p, std::size_t c, float filtered) { all.vector(p)[first + c] = filtered; });
     filter.apply(solver, direct);
 }
 
