@@ -143,7 +143,15 @@ TEST(Shell, OfAMaterialThatCastsNoShadowLetsAllLightIn) {
     // An outline: a closed hull whose fronts look inwards.
     Scene hull = SceneBuilder().bowl({0, 0, 0}, 3, 8, 0).build();
     const Scene inside = SceneBuilder().floor({0, 0, 0}, 1, 4).sphere({0, 0.5f, 0}, 0.3f, 8).build();
-    const auto light = [](const Scene& scene) { return bake_kept(scene).baked.transfer; };
+    const auto light = [](const Scene& scene) {
+        BakeOptions options;
+        options.order = 3;
+        options.rays = 64;
+        options.repairs.inside = Inside::keep;
+        options.repairs.denoise = false; // its steps depend on all that there is
+        options.tracer.backend = Backend::cpu;
+        return bake(scene, options).baked.transfer;
+    };
     const Transfer dark = light(test::join({inside, hull}));
     hull.materials[0].casts_shadow = false;
     const Transfer lit = light(test::join({inside, hull})), alone = light(inside);
