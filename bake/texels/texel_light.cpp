@@ -262,6 +262,8 @@ TexelLight trace_texels(const TexelTask& task, const Atlas& atlas, std::span<con
         light.bounced_lamps.resize(light.lamps.size());
     }
     if (task.notes_noise) {
+        const bool bounces = task.transport && task.transport->bounces();
+        light.noise.rays = static_cast<double>(task.options.rays) / (bounces ? kHitStride : 1);
         light.noise.telling = columns_of_sky(static_cast<std::size_t>(coefficient_count(task.options.order)));
         light.noise.sky.resize(atlas.texels() * light.noise.telling.size());
         light.noise.lamps.resize(light.bounced_lamps.size());

@@ -26,6 +26,7 @@ struct TexelTask {
 /// What two and two samples of a texel differ by, over their number: as large as the noise of the mean. Zero
 /// of texels that have fewer than four.
 struct TexelNoise {
+    double rays = 0;          ///< of a texel that are followed
     TellingColumns telling;   ///< of a sky, of one channel
     std::vector<float> sky;   ///< [texels][telling], direct and bounced, of the channel in the middle
     std::vector<float> lamps; ///< [texels][lamp_stride()], bounces
