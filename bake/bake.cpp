@@ -5,7 +5,6 @@
 #include "bake_options.h"
 #include "error_check.h"
 #include "exit_light.h"
-#include "lamps/lamp_bounces.h"
 #include "measured_light.h"
 #include "memory.h"
 #include "parts.h"
@@ -60,24 +59,22 @@ ExitLight exit_light(const BakePlan& plan, Measured& measured, const TransportOp
     std::optional<NoiseFilter> filter;
     if (measured.direct.half)
         filter.emplace(vertex_filter(plan, *measured.shared, left_out));
-    BakeNoise noise{.filtered = filter.has_value()};
+    ExitLight exit;
+    exit.noise.filtered = filter.has_value();
     const Beside beside{
-        .points = points, .filter = filter ? &*filter : nullptr, .left_out = &left_out, .noise = &noise};
+        .points = points, .filter = filter ? &*filter : nullptr, .left_out = &left_out, .noise = &exit.noise};
     const auto at_points = [](Propagated& light) {
         return light.beside.empty() ? std::vector<float>() : std::move(light.beside.front());
     };
-    ExitLight exit{propagate_all(plan, measured, operators, beside, progress), {}, {}};
+    exit.all = propagate_all(plan, measured, operators, beside, progress);
     exit.at_points.sky = at_points(exit.all);
-    if (plan.lamps.empty()) {
-        exit.noise = std::move(noise);
+    if (plan.lamps.empty())
         return exit;
-    }
     Propagated lit = propagate_lamps(plan, measured, operators, beside, {{}, progress.stop});
     exit.all.transfer = with_lamps(exit.all.transfer, lit.transfer, plan.lamps);
     exit.all.bounces = std::max(exit.all.bounces, lit.bounces);
     exit.all.remaining = std::max(exit.all.remaining, lit.remaining);
     exit.at_points.lamps = at_points(lit);
-    exit.noise = std::move(noise);
     return exit;
 }
 

@@ -14,7 +14,7 @@
 
 namespace prt {
 
-/// What half of the rays of each receiver tell, as if they were all.
+/// Light by half of the rays of each receiver.
 struct HalfOfRays {
     Transfer direct;                      ///< of receivers and back sides, one channel
     std::optional<GatherOperator> gather; ///< where there are bounces

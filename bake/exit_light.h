@@ -9,8 +9,8 @@
 
 namespace prt {
 
-/// What a bake does beside bouncing light between receivers; null: not. Where there are halves of rays there
-/// is `noise`.
+/// Optional work of a bake beside bounces between receivers; null: not done. `noise` is needed where
+/// `measured` has halves of rays or rows of lamps.
 struct Beside {
     const GatherOperator* points = nullptr;      ///< gathers at points where errors are measured
     const NoiseFilter* filter = nullptr;         ///< of light at receivers

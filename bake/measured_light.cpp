@@ -64,7 +64,9 @@ Measured measure(const BakePlan& plan, Tracer& tracer, LastOfLamps last, BakeSta
                 .sky = std::move(fitted.sky)};
     }
     const double lit = plan.lamps.empty() ? 0.03 : 0.25;
-    MeasuredLamps lamps{light_of_lamps(plan, tracer, plan.receivers(), 1, progress.part(0.03, lit)), {}};
+    MeasuredLamps lamps{
+        light_of_lamps(plan, tracer, plan.receivers(), {.seed = plan.options.seed}, progress.part(0.03, lit)),
+        {}};
     const std::optional<LampConnections> connections = connections_to(plan, last, lamps.light.transfer);
     SharedPlaces shared(plan.scene, *plan.transport);
     DirectLight direct = trace_direct(plan, tracer, connections ? &*connections : nullptr,

@@ -17,7 +17,7 @@ namespace {
 using std::numbers::pi;
 
 /// Triangles of a leaf, which are picked by their power alone: 4 are no better, and slower.
-constexpr std::uint32_t kMostInLeaf = 32;
+constexpr std::uint32_t kLeafTriangles = 32;
 constexpr int kBins = 12;
 constexpr double kInPlane = 1e-6; ///< height over distance
 constexpr double kLargestChoice = 1 - 0x1p-53;
@@ -159,7 +159,7 @@ std::uint32_t BrightPatches::build(std::uint32_t begin, std::uint32_t end, std::
                       .begin = begin,
                       .end = end,
                       .parent = parent});
-    if (end - begin <= kMostInLeaf) {
+    if (end - begin <= kLeafTriangles) {
         for (std::uint32_t i = begin; i < end; ++i)
             patches_[i].leaf = index;
         return index;
@@ -230,7 +230,7 @@ std::uint32_t BrightPatches::split(std::uint32_t begin, std::uint32_t end, const
 double BrightPatches::importance(const Node& node, const Receiver& receiver) {
     const glm::dvec3 to = node.center - receiver.place;
     const double squared = glm::dot(to, to), radius = node.radius, distance = std::sqrt(squared);
-    // Of the box, over the plane of the receiver: nothing comes from that plane itself.
+    // Height of the box over the receiver's plane. Patches in that plane do not light the receiver.
     const double height = glm::dot(receiver.normal, to) + glm::dot(glm::abs(receiver.normal), node.half);
     if (!(height > kInPlane * (radius + distance)))
         return 0;

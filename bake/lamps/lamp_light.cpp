@@ -37,16 +37,16 @@ void put_irradiance(const LampTask& task, std::uint32_t p, std::size_t lamp, con
             static_cast<float>(irradiance[c] / std::numbers::pi);
 }
 
-LampLight light_of_lamps(const BakePlan& plan, Tracer& tracer, const Receivers& receivers, std::size_t share,
-                         const Progress& progress) {
+LampLight light_of_lamps(const BakePlan& plan, Tracer& tracer, const Receivers& receivers,
+                         const LampSamples& samples, const Progress& progress) {
     LampTask task{.scene = plan.scene,
                   .receivers = receivers,
                   .lamps = plan.lamps,
                   .options = plan.options.lamps,
                   .channels = plan.lamp_channels(),
-                  .seed = plan.options.seed,
+                  .seed = samples.seed,
                   .threads = plan.options.threads};
-    task.options.rays = std::max(1, task.options.rays / static_cast<int>(share));
+    task.options.rays = std::max(1, task.options.rays / static_cast<int>(samples.divisor));
     return tracer.lamp_light(task, progress);
 }
 

@@ -38,9 +38,15 @@ LampLight no_lamp_light(const LampTask& task);
 void put_irradiance(const LampTask& task, std::uint32_t p, std::size_t lamp, const glm::dvec3& irradiance,
                     LampLight& light);
 
-/// Light of the lamps of `plan` at `receivers`, which share the rays of one by so many.
-LampLight light_of_lamps(const BakePlan& plan, Tracer& tracer, const Receivers& receivers, std::size_t share,
-                         const Progress& progress);
+/// Samples of lamps at receivers.
+struct LampSamples {
+    std::size_t divisor = 1; ///< each receiver takes LampOptions::rays over this
+    std::uint64_t seed = 0;
+};
+
+/// Light of the lamps of `plan` at `receivers`.
+LampLight light_of_lamps(const BakePlan& plan, Tracer& tracer, const Receivers& receivers,
+                         const LampSamples& samples, const Progress& progress);
 
 /// By rays through Embree's tree. Throws `Cancelled` when asked to stop.
 LampLight lamp_light_on_cpu(const LampTask& task, const Progress& progress);

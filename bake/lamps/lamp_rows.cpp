@@ -3,6 +3,7 @@
 #include "lamps/lamp_rows.h"
 
 #include "lamps/lamp_geometry.h"
+#include "scene/transmittance.h"
 #include "surface/surface_samples.h"
 #include "trace/sample_sequence.h"
 #include "trace/scrambles.h"
@@ -11,13 +12,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numbers>
 
 namespace prt {
 namespace {
 
-/// One connection for so many rays of a receiver.
+/// A receiver has one connection for this number of rays.
 constexpr int kRaysPerConnection = 8;
 /// Multiple of kSecondScramble, added to the seed; no other part of a bake uses it.
 constexpr std::uint64_t kConnections = 20;
@@ -28,24 +28,6 @@ double form_factor(const glm::dvec3& way, const glm::dvec3& here, const glm::dve
         return 0;
     return std::max(0.0, glm::dot(here, way)) * std::max(0.0, -glm::dot(there, way)) /
            (std::numbers::pi * squared * squared);
-}
-
-/// Share of what a point of `target`, at the end of `way`, sends that arrives at `origin`. Of surfaces at one
-/// place a ray meets one, whichever it is, as hemisphere rays do.
-float arriving(const TraceScene& scene, const glm::vec3& origin, const glm::vec3& way, std::uint32_t target) {
-    constexpr float kBeyond = 1 + 1e-4f;
-    Ray ray{origin, way, 0, kBeyond};
-    for (float left = 1; left > 0;) {
-        const std::optional<RayHit> met = scene.rays().nearest(ray);
-        if (!met)
-            return 0;
-        const float coverage = scene.surfaces().coverage({met->triangle, met->uv, 0});
-        if (met->triangle == target)
-            return left * coverage;
-        left *= 1 - coverage;
-        ray.from = std::nextafter(met->distance, std::numeric_limits<float>::infinity());
-    }
-    return 0;
 }
 
 } // namespace
@@ -83,7 +65,8 @@ std::vector<Hit> LampConnections::connect(const Sampled& sampled, const Start& s
         const double factor = form_factor(way, sampled.receiver.normal, there);
         if (!(factor > 0))
             continue;
-        const float open = arriving(plan_.scene, start.origin, glm::vec3(way), point->triangle);
+        const float open =
+            arriving_from(plan_.scene.rays(), surfaces, start.origin, glm::vec3(way), point->triangle);
         if (open <= 0)
             continue;
         const double density = sampled.density(factor, point->density);

@@ -19,8 +19,9 @@ public:
     /// `light`: as for BrightPatches. Keeps a reference to `plan`.
     LampConnections(const BakePlan& plan, const Transfer& light) : plan_(plan), patches_(plan, light) {}
 
-    /// What rays of a receiver met, of which `options` has the number, and what its connections reach, with
-    /// weights by the balance heuristic (E. Veach and L. Guibas, SIGGRAPH 1995). Thread-safe.
+    /// Appends hits of connections to `hits`, the hits of the receiver's hemisphere rays, which `options`
+    /// traced. Both get weights by the balance heuristic (E. Veach and L. Guibas, SIGGRAPH 1995).
+    /// Thread-safe.
     struct Joined {
         std::vector<Hit> all;
         std::vector<Hit> half; ///< every other one, weighted to stand for all

@@ -12,4 +12,9 @@ namespace prt {
 float transmittance(const RayScene& rays, const Surfaces& surfaces, const glm::vec3& origin,
                     const glm::vec3& direction, float to = std::numeric_limits<float>::infinity());
 
+/// Share of what a point of triangle `target` sends that arrives at `origin`, from which `way` leads to the
+/// point. Where surfaces coincide the ray meets one of them, as any other ray does.
+float arriving_from(const RayScene& rays, const Surfaces& surfaces, const glm::vec3& origin,
+                    const glm::vec3& way, std::uint32_t target);
+
 } // namespace prt

@@ -12,7 +12,7 @@ namespace {
 constexpr double kWeightOfNoise = 0.15;
 /// Signal is at least this share of noise: by chance the two estimates cancel.
 constexpr double kLeastSignal = 0.02;
-constexpr double kLeastWeight = 0.0005, kMostWeight = 0.5;
+constexpr double kMinWeight = 0.0005, kMaxWeight = 0.5;
 
 /// Sums of squares of bends.
 struct Squares {
@@ -54,8 +54,8 @@ std::vector<float> bend_weights(const FitEquations& equations, std::span<const f
             near += round[u];
         const double signal = std::max(near.all - near.noise, kLeastSignal * near.noise);
         weights.push_back(static_cast<float>(
-            signal > 0 ? std::clamp(kWeightOfNoise * near.noise / signal, kLeastWeight, kMostWeight)
-                       : kLeastWeight));
+            signal > 0 ? std::clamp(kWeightOfNoise * near.noise / signal, kMinWeight, kMaxWeight)
+                       : kMinWeight));
     }
     return weights;
 }

@@ -296,7 +296,9 @@ FittedLight trace_fitted(const BakePlan& plan, Tracer& tracer, LastOfLamps last,
     std::iota(alike.begin(), alike.end(), 0u);
     FitEquations alone = fit_equations(surfaces, *plan.transport, samples, alike);
     const double lit = plan.lamps.empty() ? 0 : 0.2;
-    const LampLight lamps = light_of_lamps(plan, tracer, samples.receivers, layers, progress.part(0, lit));
+    const LampLight lamps =
+        light_of_lamps(plan, tracer, samples.receivers, {.divisor = layers, .seed = plan.options.seed},
+                       progress.part(0, lit));
     const std::optional<LampConnections> connections =
         connections_to(plan, last, smooth_lamps(plan, alone, lamps).transfer);
     SampleTracer traced(plan, tracer, samples, alone, connections ? &*connections : nullptr);

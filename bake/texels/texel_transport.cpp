@@ -6,6 +6,7 @@
 #include "lamps/lamp_light.h"
 #include "parts.h"
 #include "prt/sh_basis.h"
+#include "texels/texel_samples.h"
 
 #include <algorithm>
 
@@ -67,15 +68,8 @@ void TexelTransport::gather_sky(std::span<float> to) const {
 std::size_t TexelTransport::light_of_lamps(Tracer& tracer, const Receivers& receivers, std::uint64_t seed,
                                            std::span<float> direct, std::span<float> bounced,
                                            const Progress& progress) const {
-    LampTask task{.scene = plan_.scene,
-                  .receivers = receivers,
-                  .lamps = plan_.lamps,
-                  .options = plan_.options.lamps,
-                  .channels = lamp_layout_.channels(),
-                  .seed = seed,
-                  .threads = plan_.options.threads};
-    task.options.rays = std::max(1, task.options.rays / 4); // a texel has four places
-    const LampLight light = tracer.lamp_light(task, progress);
+    const LampLight light =
+        prt::light_of_lamps(plan_, tracer, receivers, {.divisor = kSamplesOfTexel, .seed = seed}, progress);
     if (plan_.options.lamps.mode == LampMode::all)
         std::ranges::copy(light.transfer.vectors, direct.begin());
     std::vector<float> some;

@@ -138,4 +138,11 @@ Scene painted(Scene scene, const glm::vec3& color, bool double_sided) {
     return scene;
 }
 
+PunctualLight lamp_at(const glm::vec3& position) {
+    PunctualLight light;
+    light.name = "lamp";
+    light.position = position;
+    return light;
+}
+
 } // namespace prt::test

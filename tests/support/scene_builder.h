@@ -37,4 +37,7 @@ Scene join(const std::vector<Scene>& parts);
 /// `scene` with this base colour on both sides or one.
 Scene painted(Scene scene, const glm::vec3& color, bool double_sided = false);
 
+/// A point lamp named "lamp" of intensity 1.
+PunctualLight lamp_at(const glm::vec3& position);
+
 } // namespace prt::test

@@ -65,7 +65,7 @@ struct LampOptions {
     int rays = 64;                 ///< from a receiver to the lamps of a name that have extent
 };
 
-/// What is done about what is wrong with a scene, and about noise.
+/// Repairs of faults of a scene, and of noise.
 struct Repairs {
     BadTextures bad_textures = BadTextures::error;
     Inside inside = Inside::refill;

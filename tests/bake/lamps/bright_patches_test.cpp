@@ -17,13 +17,6 @@ namespace {
 using std::numbers::pi;
 using test::SceneBuilder;
 
-PunctualLight lamp(const glm::vec3& position) {
-    PunctualLight light;
-    light.name = "lamp";
-    light.position = position;
-    return light;
-}
-
 /// A floor of 0.5 m cells, a ball, and a wall that faces away.
 Scene room() {
     Scene scene =
@@ -31,7 +24,7 @@ Scene room() {
                                   SceneBuilder().sphere({0.5f, 1, 0.5f}, 0.4f, 8).build(),
                                   SceneBuilder().quad({-2, 0, 2}, {2, 0, 2}, {2, 1, 2}, {-2, 1, 2}).build()}),
                       glm::vec3(0.5f));
-    scene.lights = {lamp({0, 2, 0})};
+    scene.lights = {test::lamp_at({0, 2, 0})};
     return scene;
 }
 
@@ -125,7 +118,7 @@ Scene small_panel(bool sheet_between) {
     if (sheet_between)
         parts.push_back(SceneBuilder().floor({0, 1, 0}, 5).build());
     Scene scene = test::painted(test::join(parts), glm::vec3(0.6f));
-    PunctualLight spot = lamp({0, 1.85f, 0});
+    PunctualLight spot = test::lamp_at({0, 1.85f, 0});
     spot.kind = PunctualKind::spot;
     spot.direction = {0, 1, 0};
     spot.inner_cone = 1.2f;

@@ -39,13 +39,6 @@ Transfer indirect(const Scene& scene, BakeOptions options, bool* denoised = null
     return light;
 }
 
-PunctualLight lamp(const glm::vec3& position) {
-    PunctualLight light;
-    light.name = "lamp";
-    light.position = position;
-    return light;
-}
-
 /// A floor beside a wall that lights it, and a ball that shades both.
 Scene corner() {
     SceneBuilder wall;
@@ -57,7 +50,7 @@ Scene corner() {
     Scene scene = test::painted(test::join({SceneBuilder().floor({0, 0, 0}, 2, 16).build(), wall.build(),
                                             SceneBuilder().sphere({0, 0.6f, 0}, 0.5f, 16).build()}),
                                 glm::vec3(0.8f));
-    scene.lights = {lamp({1.2f, 1.5f, 1})};
+    scene.lights = {test::lamp_at({1.2f, 1.5f, 1})};
     return scene;
 }
 
@@ -169,7 +162,7 @@ TEST(NoiseFilter, LightsNoDarkRoom) {
             floor.quad({x, 0, z + 0.25f}, {x + 0.25f, 0, z + 0.25f}, {x + 0.25f, 0, z}, {x, 0, z});
         }
     Scene scene = test::painted(test::join({floor.build(), room(-2, 0), room(0, 2)}), glm::vec3(0.7f));
-    scene.lights = {lamp({-0.5f, 1, 0.2f})};
+    scene.lights = {test::lamp_at({-0.5f, 1, 0.2f})};
     BakeOptions options = bounced(64, 1, true);
     options.bounces = 3;
     const BakeResult result = bake(scene, options);
