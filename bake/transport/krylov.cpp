@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <vector>
 
 namespace prt {
@@ -205,9 +206,12 @@ private:
         return change;
     }
 
-    /// One step of Arnoldi's process with the modified orthogonalisation of Gram and Schmidt.
+    /// One step of Arnoldi's process with the modified orthogonalisation of Gram and Schmidt. Where rounding
+    /// errors are all that is left of a column, its basis is complete: it gets no further direction.
     void extend(std::vector<Vector>& basis, std::vector<SmallSystem>& systems) {
+        constexpr double kRounding = 4 * std::numeric_limits<float>::epsilon();
         Vector next = applied(basis.back());
+        const Columns before = with_.norms(next);
         std::vector<std::vector<double>> hessenberg(options_.columns);
         for (const Vector& direction : basis) {
             Columns along = with_.dot(next, direction);
@@ -217,8 +221,10 @@ private:
             }
             with_.add(next, along, direction);
         }
-        const Columns norms = with_.norms(next);
+        Columns norms = with_.norms(next);
         for (std::size_t c = 0; c < norms.size(); ++c) {
+            if (norms[c] <= kRounding * before[c])
+                norms[c] = 0;
             hessenberg[c].push_back(norms[c]);
             systems[c].add(std::move(hessenberg[c]));
         }
