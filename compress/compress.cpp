@@ -124,8 +124,17 @@ std::vector<std::uint32_t> clusters_in_order(std::span<const std::uint32_t> of_r
     return order;
 }
 
-void put_in_order(QuantisedClusters& clusters, Codes& codes) {
+void put_in_order(CodedClusters& coded) {
+    QuantisedClusters& clusters = coded.clusters;
+    Codes& codes = coded.codes;
     const std::vector<std::uint32_t> order = clusters_in_order(codes.clusters, clusters.clusters());
+    const std::vector<int> exponents = coded.steps.exponents;
+    const auto groups = static_cast<std::ptrdiff_t>(coded.steps.groups());
+    coded.steps.exponents.clear();
+    for (const std::uint32_t from : order)
+        if (!exponents.empty())
+            coded.steps.exponents.insert(coded.steps.exponents.end(), exponents.begin() + from * groups,
+                                         exponents.begin() + (from + 1) * groups);
     const QuantisedClusters before = clusters;
     std::vector<std::uint32_t> new_index(clusters.clusters(), 0);
     const std::size_t most = clusters.max_components;
@@ -193,11 +202,11 @@ ClusteredTransfer code(const Task& task, const ReceiverSurface& surface, FoundCl
                       .threads = options.threads},
                      coded.codes);
     coding.points = {};
-    put_in_order(coded.clusters, coded.codes);
+    put_in_order(coded);
     fill_up(options.coding.fixed_bits, coded.clusters, coded.codes);
     progress.update(1);
     return encode(coding.frame, coding.coded_frame, coded.clusters, coded.codes, coding.guides,
-                  {options.coding.format, options.coding.cluster_bits, coded.step});
+                  {options.coding.format, options.coding.cluster_bits, coded.steps});
 }
 
 double mean_components_of(const ClusteredTransfer& transfer) {

@@ -107,7 +107,7 @@ std::vector<std::uint32_t> reassign(const PointBlocks& points, const PenalisedCl
                                     const ClusterLists& candidates, std::span<const std::uint32_t> now,
                                     int threads) {
     return reassign_members(points, candidates, now, threads,
-                            [&](const float* block, std::span<const std::uint32_t> near,
+                            [&](const MemberBlock&, const float* block, std::span<const std::uint32_t> near,
                                 std::uint32_t* nearest,
                                 float* errors) { nearest_of_block(block, clusters, near, nearest, errors); });
 }

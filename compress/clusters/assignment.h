@@ -74,8 +74,8 @@ template <int Width, class Distance>
     }
 }
 
-/// For points that have clusters `now`: `nearest_of(block, candidates, clusters, errors)` chooses among those
-/// of their own one, kLanes points at a time.
+/// For points that have clusters `now`: `nearest_of(members, block, candidates, clusters, errors)` chooses
+/// among those of their own one, kLanes points at a time.
 template <class NearestOf>
 std::vector<std::uint32_t> reassign_members(const PointBlocks& points, const ClusterLists& candidates,
                                             std::span<const std::uint32_t> now, int threads,
@@ -84,7 +84,7 @@ std::vector<std::uint32_t> reassign_members(const PointBlocks& points, const Clu
     for_member_blocks(points, now, threads, [&](const MemberBlock& members, const float* block) {
         alignas(64) std::array<std::uint32_t, kLanes> clusters{};
         alignas(64) std::array<float, kLanes> errors{};
-        nearest_of(block, candidates[members.cluster], clusters.data(), errors.data());
+        nearest_of(members, block, candidates[members.cluster], clusters.data(), errors.data());
         for (std::size_t lane = 0; lane < members.points.size(); ++lane)
             result[members.points[lane]] = clusters[lane];
     });

@@ -27,6 +27,14 @@ void multiply_steps(const std::int16_t* from, const float* steps, std::size_t wi
 
 } // namespace
 
+void PointScales::gather(std::span<const std::uint32_t> points, float* to) const {
+    for (std::size_t lane = 0; lane < kLanes && groups > 0; ++lane) {
+        const std::span<const float> own = of(points[lane < points.size() ? lane : 0]);
+        for (std::size_t g = 0; g < groups; ++g)
+            to[g * kLanes + lane] = own[g];
+    }
+}
+
 template <class Take>
 void PointBlocks::project(const TransferView& transfer, const Frame& frame,
                           const GuideCoordinates& coordinates, int threads, Take&& take) const {
@@ -124,17 +132,17 @@ void PointBlocks::gather(std::span<const std::uint32_t> points, float* to) const
     }
 }
 
-void PointBlocks::scale_guides(std::span<const float> scales) {
+void PointBlocks::scale_guides(std::span<const float> factors) {
     if (!rounded.empty()) {
         for (std::size_t at = 0; at < steps.size(); ++at)
             if (const std::size_t i = at % width(); i >= dimension)
-                steps[at] *= scales[i - dimension];
+                steps[at] *= factors[i - dimension];
         return;
     }
     for (std::size_t b = 0; b < blocks(); ++b)
         for (std::size_t g = 0; g < guides; ++g)
             for (std::size_t lane = 0; lane < kLanes; ++lane)
-                values[(b * width() + dimension + g) * kLanes + lane] *= scales[g];
+                values[(b * width() + dimension + g) * kLanes + lane] *= factors[g];
 }
 
 double total_error(std::span<const float> significance, std::span<const float> errors) {

@@ -15,6 +15,26 @@ namespace prt {
 inline constexpr std::size_t kLanes = kLaneCount;
 inline constexpr std::size_t kMostDimensions = kMostTransferNumbers;
 
+/// How much errors of each point count along groups of axes: an error of light is seen against the light
+/// that is there (docs/math.md, eq. 29). Without groups all count alike.
+struct PointScales {
+    std::vector<std::uint8_t> group_of; ///< [axes]
+    std::vector<float> scales;          ///< [points][groups] of distances
+    std::size_t groups = 0;
+
+    bool all_alike() const { return groups == 0; }
+    std::span<const float> of(std::size_t point) const {
+        return std::span(scales).subspan(point * groups, groups);
+    }
+    /// Side by side, [groups][kLanes], at most kLanes and at least one, which fills what is left.
+    void gather(std::span<const std::uint32_t> points, float* to) const;
+    /// Multiplies `vector` [axes] by the scales of `point`.
+    void multiply(std::size_t point, float* vector) const {
+        for (std::size_t i = 0; i < (groups > 0 ? group_of.size() : 0); ++i)
+            vector[i] *= scales[point * groups + group_of[i]];
+    }
+};
+
 /// Transfer vectors as points of the space of a frame, laid out for vector units: blocks of kLanes points, in
 /// each block coordinate by coordinate, and then its guides. The last block is filled up with copies of its
 /// first point. Floats, or whole numbers of 16 bits in steps that suit kStepBlocks blocks each.
@@ -25,6 +45,7 @@ struct PointBlocks {
     std::vector<float> values;         ///< [blocks][width][kLanes]; nothing where they are rounded
     std::vector<std::int16_t> rounded; ///< the same over their steps
     std::vector<float> steps;          ///< [blocks / kStepBlocks, rounded up][width]
+    PointScales scales;
 
     PointBlocks() = default;
     /// Rounded where the mean squared error of that is at most `most_rounding`.
@@ -45,8 +66,8 @@ struct PointBlocks {
     /// Copies points side by side, [width][kLanes], at most kLanes of them and at least one, which fills what
     /// is left.
     void gather(std::span<const std::uint32_t> points, float* to) const;
-    /// Multiplies the guides by `scales` [guides].
-    void scale_guides(std::span<const float> scales);
+    /// Multiplies the guides by `factors` [guides].
+    void scale_guides(std::span<const float> factors);
     /// Coordinates and guides, [width].
     void copy_point(std::size_t point, float* to) const {
         for (std::size_t i = 0; i < width(); ++i)

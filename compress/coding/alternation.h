@@ -9,10 +9,11 @@ namespace prt {
 struct CodedClusters {
     QuantisedClusters clusters;
     Codes codes;
-    double step = 0; ///< of the rounded bases; 0: they are not rounded
+    RowSteps steps; ///< of the rounded bases
 };
 
 struct AlternationOptions {
+    const ClusterLists* candidates = nullptr; ///< of the points of each cluster; null: by what codes reach
     bool stay = false;      ///< points stay in their clusters: a mean number of components is promised
     double basis_share = 0; ///< error that rounding the bases may add, as a share of what there is; 0: none
     int rounds = tuning::kCodingRounds;

@@ -15,26 +15,43 @@ namespace {
 
 constexpr std::int32_t kLargestValue = (1 << (kMostRowBits - 1)) - 1;
 
-/// Rows of all clusters over the axes of the frame, in units of the step.
-std::vector<std::int32_t> integer_rows(const QuantisedClusters& clusters, double step, std::size_t axes) {
+/// Rows of all clusters over the axes of the frame, in units of their steps.
+std::vector<std::int32_t> integer_rows(const QuantisedClusters& clusters, const RowSteps& steps,
+                                       std::size_t axes) {
     std::vector<std::int32_t> values;
-    const auto put = [&](const float* row, double unit) {
-        for (std::size_t i = 0; i < axes; ++i)
-            values.push_back(static_cast<std::int32_t>(std::lround(static_cast<double>(row[i]) / unit)));
-    };
     for (std::size_t k = 0; k < clusters.clusters(); ++k) {
-        put(clusters.mean(k), step);
+        const std::vector<double> of = steps.of(k);
+        const auto put = [&](const float* row, double factor) {
+            for (std::size_t i = 0; i < axes; ++i)
+                values.push_back(
+                    static_cast<std::int32_t>(std::lround(static_cast<double>(row[i]) / (factor * of[i]))));
+        };
+        put(clusters.mean(k), 1);
         for (std::size_t g = 0; g < clusters.guides; ++g)
-            put(clusters.slope(k, g), step);
+            put(clusters.slope(k, g), 1);
         for (std::size_t j = 0; j < clusters.components_of(k); ++j)
-            put(clusters.row(k, j), 2 * step);
+            put(clusters.row(k, j), 2);
     }
     return values;
 }
 
+/// The exponents as a file has them, of the first `axes` axes: none where all are 0.
+StepExponents code_exponents(const RowSteps& steps, std::size_t axes) {
+    if (std::ranges::all_of(steps.exponents, [](int e) { return e == 0; }))
+        return {};
+    StepExponents result;
+    for (const int of_group : steps.axes) {
+        result.axes.push_back(std::min(of_group, static_cast<int>(axes)));
+        axes -= static_cast<std::size_t>(result.axes.back());
+    }
+    const std::vector<std::int32_t> values(steps.exponents.begin(), steps.exponents.end());
+    result.code = encode_rows(values, steps.groups());
+    return result;
+}
+
 /// Axes up to the last that any row uses.
-std::size_t axes_in_use(const QuantisedClusters& clusters, double step) {
-    const std::vector<std::int32_t> values = integer_rows(clusters, step, clusters.dimension);
+std::size_t axes_in_use(const QuantisedClusters& clusters, const RowSteps& steps) {
+    const std::vector<std::int32_t> values = integer_rows(clusters, steps, clusters.dimension);
     std::size_t used = 0;
     for (std::size_t v = 0; v < values.size(); ++v)
         if (values[v] != 0)
@@ -80,21 +97,23 @@ std::size_t axes_left(std::span<const std::int32_t> values, std::size_t full) {
 }
 
 ClusteredBases make_bases(const Frame& frame, const QuantisedClusters& clusters,
-                          const CodedBases& coded_frame, const std::vector<Guide>& guides, double step) {
+                          const CodedBases& coded_frame, const std::vector<Guide>& guides,
+                          const RowSteps& steps) {
     ClusteredBases bases;
     bases.layout = frame.layout;
     bases.components = clusters.components;
     bases.guides = guides;
     for (std::size_t c = 0; c < clusters.clusters() * clusters.guides; ++c)
         bases.centers.push_back(static_cast<std::int32_t>(std::lround(clusters.centers[c])));
-    if (step > 0) {
-        const std::size_t axes = axes_in_use(clusters, step);
+    if (steps.least > 0) {
+        const std::size_t axes = axes_in_use(clusters, steps);
         bases.coded = coded_frame;
-        bases.coded.step = static_cast<float>(step);
+        bases.coded.step = static_cast<float>(steps.least);
+        bases.coded.exponents = code_exponents(steps, axes);
         bases.coded.scales.resize(axes);
         const std::vector<std::int32_t> all = decode_rows(coded_frame.axes, coded_frame.scales.size());
         bases.coded.axes = encode_rows(std::span(all).first(axes * frame.full()), frame.full());
-        bases.coded.values = encode_rows(integer_rows(clusters, step, axes), axes);
+        bases.coded.values = encode_rows(integer_rows(clusters, steps, axes), axes);
         bases.rows = decode_bases(bases.coded, bases.components, bases.guide_rows());
         return bases;
     }
@@ -202,7 +221,7 @@ CodedBases code_frame(Frame& frame, const LightMetric& metric, double most_error
 ClusteredTransfer encode(const Frame& frame, const CodedBases& coded_frame, const QuantisedClusters& clusters,
                          const Codes& codes, const GuideCoordinates& guides, const Encoding& encoding) {
     ClusteredTransfer result;
-    result.bases = make_bases(frame, clusters, coded_frame, guides.guides, encoding.step);
+    result.bases = make_bases(frame, clusters, coded_frame, guides.guides, encoding.steps);
     ClusteredReceivers& receivers = result.receivers;
     receivers.guides.resize(codes.clusters.size() * guides.count());
     for (std::size_t at = 0; at < receivers.guides.size(); ++at)

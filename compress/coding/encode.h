@@ -10,7 +10,7 @@ namespace prt {
 struct Encoding {
     WeightFormat format = WeightFormat::packed;
     int cluster_bits = 0; ///< 0: as few as do
-    double step = 0;      ///< clusters were rounded to it and are written in code; 0: as float32
+    RowSteps steps = {};  ///< clusters were rounded to them and are written in code; none: as float32
 };
 
 /// The frame as a file holds it: its axes are rounded so that this adds a squared error of about

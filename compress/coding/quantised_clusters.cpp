@@ -106,16 +106,28 @@ std::vector<float> scale_guides(const Clustering& clustering, QuantisedClusters&
     return scales;
 }
 
-void round_rows(AffineClusters& clusters, double step) {
-    const auto to_multiple = [](float v, double of) {
-        return static_cast<float>(std::round(static_cast<double>(v) / of) * of);
-    };
-    for (float& v : clusters.means)
-        v = to_multiple(v, step);
-    for (float& v : clusters.slopes)
-        v = to_multiple(v, step);
-    for (float& v : clusters.rows)
-        v = to_multiple(v, 2 * step);
+std::vector<double> RowSteps::of(std::size_t k) const {
+    std::vector<double> result;
+    for (std::size_t g = 0; g < groups(); ++g)
+        result.insert(result.end(), static_cast<std::size_t>(axes[g]),
+                      std::ldexp(least, exponents[k * groups() + g]));
+    return result;
+}
+
+void round_rows(AffineClusters& clusters, const RowSteps& steps) {
+    for (std::size_t k = 0; k < clusters.clusters(); ++k) {
+        const std::vector<double> of = steps.of(k);
+        const auto round = [&](float* row, double factor) {
+            for (std::size_t i = 0; i < clusters.dimension; ++i)
+                row[i] = static_cast<float>(std::round(static_cast<double>(row[i]) / (factor * of[i])) *
+                                            factor * of[i]);
+        };
+        round(clusters.mean(k), 1);
+        for (std::size_t g = 0; g < clusters.guides; ++g)
+            round(clusters.slope(k, g), 1);
+        for (std::size_t j = 0; j < clusters.components_of(k); ++j)
+            round(clusters.row(k, j), 2);
+    }
 }
 
 QuantisedClusters truncated(const QuantisedClusters& clusters, std::size_t dimension) {

@@ -25,8 +25,19 @@ QuantisedClusters quantised_clusters(const PointBlocks& points, std::span<const 
 /// the digits of means; centers become whole numbers. Returns what the guides are to be multiplied with.
 std::vector<float> scale_guides(const Clustering& clustering, QuantisedClusters& clusters);
 
-/// Rounds means and slopes to multiples of `step` and rows to multiples of 2 `step`.
-void round_rows(AffineClusters& clusters, double step);
+/// Steps of rounded rows: in each cluster and group of axes `least` times a power of two.
+struct RowSteps {
+    double least = 0;           ///< 0: rows are not rounded
+    std::vector<int> axes;      ///< [groups] axes of each, one group behind the other
+    std::vector<int> exponents; ///< [clusters][groups]
+
+    std::size_t groups() const { return axes.size(); }
+    /// Of the axes of cluster `k`, [axes].
+    std::vector<double> of(std::size_t k) const;
+};
+
+/// Rounds means and slopes to multiples of their steps and rows to multiples of twice as much.
+void round_rows(AffineClusters& clusters, const RowSteps& steps);
 
 /// The same clusters over the first `dimension` axes.
 QuantisedClusters truncated(const QuantisedClusters& clusters, std::size_t dimension);

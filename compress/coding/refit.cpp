@@ -10,10 +10,11 @@
 namespace prt {
 namespace {
 
-/// sum_p a_p z_p z_p^T and sum_p a_p z_p (y_p - what its code stands for)^T, z = (1, guides - center, w_1,
-/// ..., w_m).
+/// sum_p a_p z_p z_p^T, a_p with the scales of each group, and sum_p a_p z_p (y_p - what its code stands
+/// for)^T, z = (1, guides - center, w_1, ..., w_m).
 struct NormalEquations {
-    Eigen::MatrixXd left, right;
+    std::vector<Eigen::MatrixXd> left; ///< [groups]
+    Eigen::MatrixXd right;
 };
 
 NormalEquations normal_equations(const PointBlocks& points, std::span<const float> significance,
@@ -21,7 +22,9 @@ NormalEquations normal_equations(const PointBlocks& points, std::span<const floa
                                  std::span<const std::uint32_t> members) {
     const auto d = static_cast<Eigen::Index>(clusters.dimension), m = Eigen::Index{clusters.components[k]},
                known = 1 + static_cast<Eigen::Index>(clusters.guides), n = known + m;
-    NormalEquations equations{Eigen::MatrixXd::Zero(n, n), Eigen::MatrixXd::Zero(n, d)};
+    const PointScales& scales = points.scales;
+    NormalEquations equations{{std::max<std::size_t>(scales.groups, 1), Eigen::MatrixXd::Zero(n, n)},
+                              Eigen::MatrixXd::Zero(n, d)};
     std::vector<float> point(points.width()), w(clusters.max_components);
     Eigen::VectorXd z(n), residual(d);
     z[0] = 1;
@@ -41,8 +44,15 @@ NormalEquations normal_equations(const PointBlocks& points, std::span<const floa
             residual -=
                 z[known + j] * Eigen::Map<const Eigen::VectorXf>(clusters.row(k, at), d).cast<double>();
         }
-        equations.left.selfadjointView<Eigen::Lower>().rankUpdate(z, static_cast<double>(significance[p]));
-        equations.right += static_cast<double>(significance[p]) * z * residual.transpose();
+        const auto squared = [&](std::size_t group) {
+            const double scale = scales.all_alike() ? 1 : static_cast<double>(scales.of(p)[group]);
+            return static_cast<double>(significance[p]) * scale * scale;
+        };
+        for (std::size_t g = 0; g < equations.left.size(); ++g)
+            equations.left[g].selfadjointView<Eigen::Lower>().rankUpdate(z, squared(g));
+        for (Eigen::Index i = 0; i < d; ++i)
+            residual[i] *= squared(scales.all_alike() ? 0 : scales.group_of[static_cast<std::size_t>(i)]);
+        equations.right += z * residual.transpose();
     }
     return equations;
 }
@@ -57,12 +67,18 @@ void refit(const PointBlocks& points, std::span<const float> significance, const
     parallel_for(clusters.clusters(), 1, threads, [&](std::size_t begin, std::size_t end) {
         for (std::size_t k = begin; k < end; ++k) {
             auto [left, right] = normal_equations(points, significance, codes, clusters, k, members[k]);
-            if (!(left(0, 0) > 0))
+            if (!(left[0](0, 0) > 0))
                 continue;
-            // What the points hardly determine stays as it is: one slope of 30 would make the rounding of all
-            // rows coarse.
-            left.diagonal().array() += tuning::kRefitRidge * left(0, 0);
-            const Eigen::MatrixXd change = left.selfadjointView<Eigen::Lower>().ldlt().solve(right);
+            Eigen::MatrixXd change(right.rows(), right.cols());
+            for (std::size_t g = 0; g < left.size(); ++g) {
+                // What the points hardly determine stays as it is: one slope of 30 would make the rounding of
+                // all rows coarse.
+                left[g].diagonal().array() += tuning::kRefitRidge * left[g](0, 0);
+                const auto solver = left[g].selfadjointView<Eigen::Lower>().ldlt();
+                for (Eigen::Index i = 0; i < change.cols(); ++i)
+                    if (points.scales.all_alike() || points.scales.group_of[static_cast<std::size_t>(i)] == g)
+                        change.col(i) = solver.solve(right.col(i));
+            }
             const auto add = [&](Eigen::Index from, float* to) {
                 for (Eigen::Index i = 0; i < change.cols(); ++i)
                     to[i] += static_cast<float>(change(from, i));

@@ -26,19 +26,48 @@ template <class Value>
     return (v + kMagic) - kMagic;
 }
 
-/// Squared distance of `Width` points from the first of `block` on to what their codes in this cluster stand
-/// for; the weights go to `weights` [components][kLanes] unless it is null.
-template <int Width, class Value = typename Floats<Width>::Value>
-[[gnu::always_inline]] inline Value code_points(const float* block, std::size_t dimension,
-                                                const KernelCluster& k, float* weights) {
+/// Points as the kernel reads them, [width][kLanes].
+struct KernelPoints {
+    const float* block;
+    std::size_t dimension;
+    const float* scales; ///< [groups][kLanes], or null: all count alike
+    const std::uint8_t* group_of;
+
+    KernelPoints from(int lane) const {
+        return {points_from(block, lane), dimension, points_from(scales, lane), group_of};
+    }
+};
+
+/// Squared distance of `Width` points to what their codes in this cluster stand for; the weights go to
+/// `weights` [components][kLanes] unless it is null. `Scaled`: points have scales, so that the length of a
+/// row is another for each.
+template <int Width, bool Scaled, class Value = typename Floats<Width>::Value>
+[[gnu::always_inline]] inline Value code_points(const KernelPoints& points, const KernelCluster& k,
+                                                float* weights) {
+    const std::size_t dimension = points.dimension;
+    const auto scale = [&](std::size_t i) __attribute__((always_inline)) {
+        return floats_at<Width>(points.scales + points.group_of[i] * kLanes);
+    };
     Value d[kMostDimensions];
-    known_subtracted<Width>(block, dimension, k.mean, k.center, k.slopes, k.guides, d);
+    known_subtracted<Width>(points.block, dimension, k.mean, k.center, k.slopes, k.guides, d);
+    for (std::size_t i = 0; Scaled && i < dimension; ++i)
+        d[i] *= scale(i);
     for (std::size_t j = 0; j < k.components; ++j) {
         const float* row = k.rows + j * dimension;
-        Value dot = {};
-        for (std::size_t i = 0; i < dimension; ++i)
-            dot += row[i] * d[i];
-        Value w = dot * k.reaches[j].inverse_norm;
+        Value dot = {}, w;
+        if constexpr (Scaled) {
+            Value norm = {};
+            for (std::size_t i = 0; i < dimension; ++i) {
+                const Value r = row[i] * scale(i);
+                dot += r * d[i];
+                norm += r * r;
+            }
+            w = dot / (norm > 1e-30f ? norm : Value{} + 1e30f);
+        } else {
+            for (std::size_t i = 0; i < dimension; ++i)
+                dot += row[i] * d[i];
+            w = dot * k.reaches[j].inverse_norm;
+        }
         if (!k.grids[j].is_any()) {
             const float steps = k.grids[j].steps();
             w = w < -1.0f ? Value{} - 1.0f : w;
@@ -46,7 +75,10 @@ template <int Width, class Value = typename Floats<Width>::Value>
             w = rounded((w + 1.0f) * steps) / steps - 1.0f;
         }
         for (std::size_t i = 0; i < dimension; ++i)
-            d[i] -= w * row[i];
+            if constexpr (Scaled)
+                d[i] -= w * (row[i] * scale(i));
+            else
+                d[i] -= w * row[i];
         if (weights)
             for (int lane = 0; lane < Width; ++lane)
                 weights[j * kLanes + static_cast<std::size_t>(lane)] = w[lane];
@@ -57,43 +89,68 @@ template <int Width, class Value = typename Floats<Width>::Value>
     return total;
 }
 
-template <int Width>
+template <int Width, bool Scaled>
 [[gnu::always_inline]] inline void
-best_of(const float* block, std::size_t dimension, std::span<const KernelCluster> clusters,
+best_of(const KernelPoints& points, std::span<const KernelCluster> clusters,
         std::span<const std::uint32_t> candidates, std::uint32_t* best, float* errors) {
     const auto distance = [&](std::uint32_t k) __attribute__((always_inline)) {
-        return code_points<Width>(block, dimension, clusters[k], nullptr);
+        return code_points<Width, Scaled>(points, clusters[k], nullptr);
     };
     keep_nearest<Width>(candidates, best, errors, distance);
 }
 
 PRT_WIDE_TARGET
-void best_at_once(const float* block, std::size_t dimension, std::span<const KernelCluster> clusters,
+void best_at_once(const KernelPoints& points, std::span<const KernelCluster> clusters,
                   std::span<const std::uint32_t> candidates, std::uint32_t* best, float* errors) {
-    best_of<kLaneCount>(block, dimension, clusters, candidates, best, errors);
+    if (points.scales)
+        best_of<kLaneCount, true>(points, clusters, candidates, best, errors);
+    else
+        best_of<kLaneCount, false>(points, clusters, candidates, best, errors);
 }
 
 PRT_TWO_CLONES
-void best_by_parts(const float* block, std::size_t dimension, std::span<const KernelCluster> clusters,
+void best_by_parts(const KernelPoints& points, std::span<const KernelCluster> clusters,
                    std::span<const std::uint32_t> candidates, std::uint32_t* best, float* errors) {
     for (int first = 0; first < kLaneCount; first += kNarrow)
-        best_of<kNarrow>(points_from(block, first), dimension, clusters, candidates, best + first,
-                         errors + first);
+        if (points.scales)
+            best_of<kNarrow, true>(points.from(first), clusters, candidates, best + first, errors + first);
+        else
+            best_of<kNarrow, false>(points.from(first), clusters, candidates, best + first, errors + first);
 }
 
-void best_of_block(const float* block, std::size_t dimension, std::span<const KernelCluster> clusters,
+void best_of_block(const KernelPoints& points, std::span<const KernelCluster> clusters,
                    std::span<const std::uint32_t> candidates, std::uint32_t* best, float* errors) {
-    (has_wide_registers() ? best_at_once : best_by_parts)(block, dimension, clusters, candidates, best,
-                                                          errors);
+    (has_wide_registers() ? best_at_once : best_by_parts)(points, clusters, candidates, best, errors);
 }
 
 PRT_TWO_CLONES
-void weights_of_block(const float* block, std::size_t dimension, const KernelCluster& cluster, float* weights,
+void weights_of_block(const KernelPoints& points, const KernelCluster& cluster, float* weights,
                       float* errors) {
-    for (int first = 0; first < kLaneCount; first += kNarrow)
-        *reinterpret_cast<Floats<kNarrow>::InMemory*>(errors + first) =
-            code_points<kNarrow>(points_from(block, first), dimension, cluster, weights + first);
+    for (int first = 0; first < kLaneCount; first += kNarrow) {
+        auto* const to = reinterpret_cast<Floats<kNarrow>::InMemory*>(errors + first);
+        *to = points.scales ? code_points<kNarrow, true>(points.from(first), cluster, weights + first)
+                            : code_points<kNarrow, false>(points.from(first), cluster, weights + first);
+    }
 }
+
+/// Room for the scales of points that are worked on together.
+class GatheredScales {
+public:
+    explicit GatheredScales(const PointBlocks& points)
+        : points_(points), scales_(points.scales.groups * kLanes) {}
+
+    /// The members of `block`.
+    KernelPoints of(const MemberBlock& members, const float* block) {
+        if (points_.scales.all_alike())
+            return {block, points_.dimension, nullptr, nullptr};
+        points_.scales.gather(members.points, scales_.data());
+        return {block, points_.dimension, scales_.data(), points_.scales.group_of.data()};
+    }
+
+private:
+    const PointBlocks& points_;
+    std::vector<float> scales_;
+};
 
 /// [clusters][max_components]
 std::vector<RowReach> reaches_of_codes(const AffineClusters& clusters) {
@@ -136,7 +193,8 @@ void code_in_clusters(const PointBlocks& points, const QuantisedClusters& cluste
         alignas(64) std::array<float, kMostDimensions * kLanes> weights;
         alignas(64) std::array<float, kLanes> errors{};
         std::array<float, kMostDimensions> own;
-        weights_of_block(block, points.dimension, cluster, weights.data(), errors.data());
+        GatheredScales scales(points);
+        weights_of_block(scales.of(members, block), cluster, weights.data(), errors.data());
         for (std::size_t lane = 0; lane < members.points.size(); ++lane) {
             const std::size_t p = members.points[lane];
             codes.errors[p] = errors[lane];
@@ -157,11 +215,13 @@ void encode_in_place(const PointBlocks& points, const QuantisedClusters& cluster
 void encode_points(const PointBlocks& points, const QuantisedClusters& clusters,
                    const ClusterLists& candidates, Codes& codes, int threads) {
     const Kernel kernel(clusters);
-    codes.clusters = reassign_members(
-        points, candidates, codes.clusters, threads,
-        [&](const float* block, std::span<const std::uint32_t> near, std::uint32_t* best, float* errors) {
-            best_of_block(block, points.dimension, kernel.clusters, near, best, errors);
-        });
+    codes.clusters =
+        reassign_members(points, candidates, codes.clusters, threads,
+                         [&](const MemberBlock& members, const float* block,
+                             std::span<const std::uint32_t> near, std::uint32_t* best, float* errors) {
+                             GatheredScales scales(points);
+                             best_of_block(scales.of(members, block), kernel.clusters, near, best, errors);
+                         });
     code_in_clusters(points, clusters, kernel, codes, threads);
 }
 
@@ -181,6 +241,7 @@ void keep_better(const PointBlocks& points, const QuantisedClusters& clusters, c
             for (std::size_t j = 0; j < clusters.components_of(k); ++j)
                 for (std::size_t i = 0; i < clusters.dimension; ++i)
                     rest[i] -= w[j] * clusters.row(k, j)[i];
+            points.scales.multiply(p, rest.data());
             float error = 0;
             for (std::size_t i = 0; i < clusters.dimension; ++i)
                 error += rest[i] * rest[i];

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cassert>
+#include <cmath>
 
 namespace prt {
 
@@ -29,8 +30,33 @@ std::size_t coded_bytes(const RowCode& code) {
 
 std::size_t coded_bytes(const CodedBases& coded) {
     return (coded.origin.size() + coded.units.size() + coded.scales.size() + 1) * sizeof(float) +
-           coded_bytes(coded.axes) + coded_bytes(coded.values);
+           coded_bytes(coded.axes) + coded_bytes(coded.values) + coded.exponents.axes.size() +
+           coded_bytes(coded.exponents.code);
 }
+
+namespace {
+
+/// The step of each axis in each cluster times its scale, [clusters][axes].
+std::vector<float> steps_of(const CodedBases& coded, std::size_t clusters) {
+    const std::size_t axes = coded.scales.size(), groups = coded.exponents.axes.size();
+    std::vector<std::size_t> group_of;
+    for (std::size_t g = 0; g < groups; ++g)
+        for (int i = 0; i < coded.exponents.axes[g] && group_of.size() <= axes; ++i)
+            group_of.push_back(g);
+    if (groups > 0 && (group_of.size() != axes || coded.exponents.code.drops.size() != groups))
+        throw Error("the steps of the bases are of another number of axes");
+    std::vector<std::int32_t> exponents;
+    if (groups > 0)
+        exponents = decode_rows(coded.exponents.code, clusters);
+    std::vector<float> steps;
+    for (std::size_t k = 0; k < clusters; ++k)
+        for (std::size_t i = 0; i < axes; ++i)
+            steps.push_back(std::ldexp(coded.step * coded.scales[i],
+                                       groups > 0 ? exponents[k * groups + group_of[i]] : 0));
+    return steps;
+}
+
+} // namespace
 
 std::vector<float> decode_bases(const CodedBases& coded, const std::vector<int>& components,
                                 std::size_t guide_rows) {
@@ -44,13 +70,15 @@ std::vector<float> decode_bases(const CodedBases& coded, const std::vector<int>&
     const std::vector<std::int32_t> axis_values = decode_rows(coded.axes, axes),
                                     values = decode_rows(coded.values, rows);
     std::vector<float> result(rows * dimension, 0.0f);
-    std::size_t row = 0;
-    for (const int m : components)
+    const std::vector<float> steps = steps_of(coded, components.size());
+    std::size_t row = 0, cluster = 0;
+    for (const int m : components) {
+        const float* step = steps.data() + cluster++ * axes;
         for (std::size_t j = 0; j <= guide_rows + static_cast<std::size_t>(m); ++j, ++row) {
             float* to = &result[row * dimension];
-            const float step = j <= guide_rows ? coded.step : 2 * coded.step;
+            const float factor = j <= guide_rows ? 1.0f : 2.0f;
             for (std::size_t i = 0; i < axes; ++i) {
-                const float y = step * coded.scales[i] * static_cast<float>(values[row * axes + i]);
+                const float y = factor * step[i] * static_cast<float>(values[row * axes + i]);
                 for (std::size_t a = 0; y != 0 && a < dimension; ++a)
                     to[a] += y * static_cast<float>(axis_values[i * dimension + a]);
             }
@@ -59,6 +87,7 @@ std::vector<float> decode_bases(const CodedBases& coded, const std::vector<int>&
             for (std::size_t a = 0; j == 0 && a < dimension; ++a)
                 to[a] += coded.origin[a];
         }
+    }
     return result;
 }
 

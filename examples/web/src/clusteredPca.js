@@ -85,6 +85,19 @@ function checkRows(rows, axes, dimension, bytes) {
   expect(4 * values <= 256e6 + 64 * bytes, `the bases would take ${Math.round((4 * values) / 1e6)} MB`);
 }
 
+/** The step of each axis in each cluster, [clusters][axes]: one for all, or times powers of two. */
+function stepsOf({ step, steps }, clusterCount, axisCount, view) {
+  const result = new Float64Array(clusterCount * axisCount).fill(steps ? steps.least : step);
+  if (!steps) return result;
+  const groupOf = steps.axes.flatMap((count, group) => new Array(count).fill(group));
+  const exponents = codedRows(view(steps.bufferView), steps.drops, clusterCount);
+  for (let k = 0; k < clusterCount; ++k)
+    groupOf.forEach((group, i) => {
+      result[k * axisCount + i] *= 2 ** exponents[k * steps.axes.length + group];
+    });
+  return result;
+}
+
 /** The rows that coded bases stand for. */
 function decodedRows({ order, parts, outputs, components, guides, firstRows, rowCount }, bases, view) {
   const dimension = dimensionOf({ order, parts, outputs });
@@ -98,6 +111,7 @@ function decodedRows({ order, parts, outputs, components, guides, firstRows, row
   checkRows(rowCount, axisCount, dimension, codes[0].length + codes[1].length);
   const axes = codedRows(codes[0], bases.axes.drops, axisCount);
   const values = codedRows(codes[1], bases.values.drops, rowCount);
+  const steps = stepsOf(bases, components.length, axisCount, view);
   const rows = new Float32Array(rowCount * dimension);
   const row = new Float64Array(dimension);
   components.forEach((m, k) => {
@@ -108,7 +122,7 @@ function decodedRows({ order, parts, outputs, components, guides, firstRows, row
       for (let i = 0; i < axisCount; ++i) {
         const value = values[r * axisCount + i];
         if (value === 0) continue;
-        const factor = (r < firstDirection ? 1 : 2) * bases.step * scales[i] * value;
+        const factor = (r < firstDirection ? 1 : 2) * steps[k * axisCount + i] * scales[i] * value;
         for (let a = 0; a < dimension; ++a) row[a] += factor * axes[i * dimension + a] * units[a];
       }
       rows.set(row, r * dimension);

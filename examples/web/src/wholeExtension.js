@@ -71,6 +71,19 @@ function areGuides(guides) {
   );
 }
 
+/** One step for all axes, or one for groups of axes in each cluster. */
+function checkSteps({ step, steps, values }) {
+  const least = steps === undefined ? step : steps?.least;
+  expect(Number.isFinite(least) && least >= 0, "the step of the bases is no number from 0 on");
+  if (steps === undefined) return;
+  const axes = Array.isArray(steps.axes) ? steps.axes : [];
+  const total = axes.reduce((sum, count) => (isWhole(count, 0, 65536) ? sum + count : NaN), 0);
+  expect(
+    areRows(steps) && steps.drops.length === axes.length && total === values.drops.length,
+    "the steps of the bases are of another number of axes",
+  );
+}
+
 function checkBases(bases) {
   expect(isObject(bases), "there are no bases");
   if (bases.values === undefined) return expect(areFloats(bases), "the bases are no floats");
@@ -79,7 +92,7 @@ function checkBases(bases) {
     areFloats(bases.origin) && areFloats(bases.scales) && (bases.units === undefined || areFloats(bases.units)),
     "what the coded bases are of are no floats",
   );
-  expect(Number.isFinite(bases.step) && bases.step >= 0, "the step of the bases is no number from 0 on");
+  checkSteps(bases);
 }
 
 function checkPacking({ packing, components }) {

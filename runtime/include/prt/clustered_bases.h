@@ -30,6 +30,15 @@ struct Guide {
     bool operator==(const Guide&) const = default;
 };
 
+/// Powers of two that the step of bases has in each cluster and group of axes: light of a lamp is a thousand
+/// times as bright in one cluster as in another.
+struct StepExponents {
+    std::vector<int> axes; ///< [groups] axes of each group; all together those of the bases
+    RowCode code;          ///< rows [clusters], columns [groups]
+
+    bool empty() const { return axes.empty(); }
+};
+
 /// Rows as sums over a few axes: row = [origin, for means] + sum_i step · scales[i] · value_i · axis_i, with
 /// twice the step for directions. Values and axes are integers of few bits (docs/format.md).
 struct CodedBases {
@@ -41,12 +50,13 @@ struct CodedBases {
     /// [dimension]: what the axes' numbers are multiplied with in each column; empty: 1. A lamp that is a
     /// thousand times as bright as a sky would leave it no digits otherwise.
     std::vector<float> units = {};
+    StepExponents exponents = {}; ///< empty: all 0
 };
 
 /// Bytes of drops and bits.
 std::size_t coded_bytes(const RowCode& code);
 
-/// Bytes of origin, units, scales, axes and values.
+/// Bytes of origin, units, scales, axes, exponents and values.
 std::size_t coded_bytes(const CodedBases& coded);
 
 /// The rows that `coded` stands for, [rows][dimension]; cluster k has one mean, `guide_rows` of guides and

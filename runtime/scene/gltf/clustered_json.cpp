@@ -22,6 +22,22 @@ void check_rows(const GltfContents& contents, std::size_t rows, std::size_t axes
     check_allowed(values * sizeof(float), contents.file_bytes, "its bases");
 }
 
+/// The step of all axes, or those of groups of axes in each cluster.
+void read_steps(const GltfContents& contents, const Json& json, CodedBases& coded) {
+    const bool many = json.contains("steps");
+    const Json& step = many ? json["steps"].at("least") : json.at("step");
+    coded.step = step.is_number() ? step.get<float>() : -1.0f;
+    if (!(coded.step >= 0) || !std::isfinite(coded.step))
+        throw Error("the step of the bases is " + step.dump() + ", no number from 0 on");
+    if (!many)
+        return;
+    coded.exponents.code = read_row_code(contents, json["steps"]);
+    for (const Json& axes : json["steps"].at("axes"))
+        coded.exponents.axes.push_back(whole_number(axes, "a number of axes", 0, 1 << 16));
+    if (coded.exponents.empty())
+        throw Error("the steps of the bases are of no axes");
+}
+
 } // namespace
 
 Json write_bases(GltfContents& contents, const ClusteredBases& bases) {
@@ -30,9 +46,15 @@ Json write_bases(GltfContents& contents, const ClusteredBases& bases) {
     const CodedBases& coded = bases.coded;
     Json json = {{"origin", write_float_view(contents, coded.origin)},
                  {"scales", write_float_view(contents, coded.scales)},
-                 {"step", coded.step},
                  {"axes", write_row_code(contents, coded.axes)},
                  {"values", write_row_code(contents, coded.values)}};
+    if (coded.exponents.empty()) {
+        json["step"] = coded.step;
+    } else {
+        json["steps"] = write_row_code(contents, coded.exponents.code);
+        json["steps"]["least"] = coded.step;
+        json["steps"]["axes"] = coded.exponents.axes;
+    }
     if (!coded.units.empty())
         json["units"] = write_float_view(contents, coded.units);
     return json;
@@ -53,10 +75,7 @@ void read_bases(const GltfContents& contents, const Json& json, ClusteredBases& 
     coded.values = read_row_code(contents, json.at("values"));
     const std::size_t axes = coded.values.drops.size();
     coded.scales = read_float_view(contents, json.at("scales"), axes, kAnyFinite, "the scales");
-    const Json& step = json.at("step");
-    coded.step = step.is_number() ? step.get<float>() : -1.0f;
-    if (!(coded.step >= 0) || !std::isfinite(coded.step))
-        throw Error("the step of the bases is " + step.dump() + ", no number from 0 on");
+    read_steps(contents, json, coded);
     check_rows(contents, rows, axes, dimension);
     bases.rows = decode_bases(coded, bases.components, bases.guide_rows());
     check_magnitudes(bases.rows, kLargestTransfer, "the decoded bases");
