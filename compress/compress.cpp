@@ -5,9 +5,11 @@
 
 #include "coding/alternation.h"
 #include "coding/encode.h"
+#include "coding/refit.h"
 #include "coding/seams.h"
 #include "compress_from.h"
 #include "compress_options.h"
+#include "metric/seen_lamps.h"
 #include "metric/significance.h"
 #include "prt/support/stopwatch.h"
 
@@ -20,9 +22,17 @@ struct Task {
     const CompressOptions& options;
     std::vector<float> significance;
     LightMetric metric;
+    std::optional<SeenLamps> lamps; ///< where there are lamps, and one output
     GuideCoordinates guides;
     const Course& course;
 };
+
+std::optional<SeenLamps> lamps_of(const TransferView& transfer, std::span<const float> significance,
+                                  const LightMetric& metric, int threads) {
+    if (transfer.layout().lamps() == 0 || transfer.layout().outputs > 1)
+        return std::nullopt;
+    return SeenLamps(transfer, significance, metric, threads);
+}
 
 /// Points in a frame, and the clusters found there.
 struct FoundClusters {
@@ -50,13 +60,15 @@ FoundClusters find_clusters(const Task& task, const Progress& progress) {
                           : task.transfer.layout().outputs > 1     ? tuning::kDroppedOfOutputs
                           : options.coding.bits > tuning::kFewBits ? tuning::kDroppedOfManyBits
                                                                    : tuning::kDroppedOfFewBits;
+    const TransferView transfer = task.lamps ? task.lamps->logarithmic() : task.transfer;
+    const LightMetric& metric = task.lamps ? task.lamps->metric() : task.metric;
     for (double from = 0;;) { // a second attempt is rare
         const double to = 1 - 0.03 * (1 - from);
         FoundClusters found;
-        found.frame = fit_frame(task.transfer, task.significance, task.metric, most_dropped, options.threads);
+        found.frame = fit_frame(transfer, task.significance, metric, most_dropped, options.threads);
         if (found.frame.dimension > 0) // else there is nothing to tell
             found.guides = task.guides;
-        found.points = PointBlocks(task.transfer, found.frame, found.guides, options.threads,
+        found.points = PointBlocks(transfer, found.frame, found.guides, options.threads,
                                    rounding_allowed(task, tuning::kRoundingOverDropped * most_dropped));
         std::mt19937_64 random(options.seed);
         found.clustering =
@@ -105,6 +117,27 @@ void round_frame(const Task& task, Coding& coding) {
     coding.points = PointBlocks(task.transfer, coding.frame, coding.guides, task.options.threads,
                                 rounding_allowed(task, tuning::kPointsRoundingShare * error));
     encode_in_place(coding.points, coding.coded.clusters, coding.coded.codes, task.options.threads);
+}
+
+/// Goes over from logarithms of lamps to light: the axes of a file, clusters of the same receivers fitted to
+/// their codes, and errors that count as seen. A cluster's neighbours are those that it had.
+void leave_logarithms(const Task& task, Coding& coding, ClusterLists& candidates) {
+    const CompressOptions& options = task.options;
+    candidates = neighbours_of_codes(coding.coded.clusters, tuning::kNeighboursOfCodes, options.threads);
+    const double error =
+        total_error(task.significance, coding.coded.codes.errors) / (coding.frame.scale * coding.frame.scale);
+    const bool coded = bases_are_coded(options);
+    coding.frame = task.lamps->frame(coded ? tuning::kAxesShare * error : 0);
+    if (coded)
+        coding.coded_frame =
+            code_frame(coding.frame, task.lamps->metric(), tuning::kAxisRoundingShare * error);
+    coding.coded.clusters = without_rows(coding.coded.clusters, coding.frame.dimension);
+    coding.points = {};
+    coding.points = PointBlocks(task.transfer, coding.frame, coding.guides, options.threads);
+    coding.points.scales = task.lamps->scales(coding.frame);
+    for (int round = 0; round < tuning::kRoundsFromNothing; ++round)
+        refit(coding.points, task.significance, coding.coded.codes, coding.coded.clusters, options.threads);
+    encode_in_place(coding.points, coding.coded.clusters, coding.coded.codes, options.threads);
 }
 
 /// Clusters that have receivers, by the middle of the first and the last of these: those of one mesh follow
@@ -182,17 +215,23 @@ ClusteredTransfer code(const Task& task, const ReceiverSurface& surface, FoundCl
                        const Progress& progress) {
     const CompressOptions& options = task.options;
     const bool draft = task.course.draft;
-    const AlternationOptions how{.stay = options.mean_components > 0,
-                                 .basis_share = basis_share(options),
-                                 .rounds = draft ? 1 : tuning::kCodingRounds,
-                                 .rounded_from = draft ? 0 : tuning::kRoundedFrom,
-                                 .trace = options.trace,
-                                 .threads = options.threads};
+    ClusterLists candidates;
+    AlternationOptions how{.candidates = nullptr,
+                           .stay = options.mean_components > 0,
+                           .basis_share = basis_share(options),
+                           .rounds = draft ? 1 : tuning::kCodingRounds,
+                           .rounded_from = draft ? 0 : tuning::kRoundedFrom,
+                           .trace = options.trace,
+                           .threads = options.threads};
     Coding coding = first_codes(task, how, std::move(found));
     CodedClusters& coded = coding.coded;
-    if (bases_are_coded(options))
+    if (task.lamps) {
+        leave_logarithms(task, coding, candidates);
+        how.candidates = &candidates;
+    } else if (bases_are_coded(options)) {
         round_frame(task, coding);
-    if (options.coding.format == WeightFormat::packed)
+    }
+    if (options.coding.format == WeightFormat::packed || task.lamps)
         alternate(coding.points, task.significance, how, progress.part(0, tuning::kAlternatedAt), coded);
     progress.update(tuning::kAlternatedAt);
     if (options.seam_price > 0 && !surface.edges.empty() && !draft)
@@ -229,10 +268,13 @@ CompressResult compress_from(const Course& course, const TransferView& transfer,
     check_input(transfer, surface, options);
     const std::span<const float> areas = surface.areas;
     const Stopwatch stopwatch;
+    const std::vector<float> significance = significance_of(areas);
+    const LightMetric metric = metric_of(options, transfer, areas);
     const Task task{transfer,
                     options,
-                    significance_of(areas),
-                    metric_of(options, transfer, areas),
+                    significance,
+                    metric,
+                    lamps_of(transfer, significance, metric, options.threads),
                     guide_coordinates(surface, options.guides),
                     course};
     CompressResult result;

@@ -51,6 +51,18 @@ inline constexpr double kNaturalShare = 0.01;
 /// for the others. By hand; HardCase.AHugeOutlierIsKeptAndSpoilsNothing.
 inline constexpr float kOutlierLength = 100;
 
+/// Eyes see errors against this share of what they adapt to where less light is. DESIGN of the error measure,
+/// docs/math.md, section 6.
+inline constexpr double kAdaptation = 0.1;
+/// What the squared contrast error of lamps counts, their mean, against the squared relative error under the
+/// sky. [preset] on a room with seven lamps.
+inline constexpr double kLampsShare = 1;
+/// What their squared error relative to all of their light counts beside contrast: next to a lamp contrast
+/// alone leaves its brightest spots to chance. [preset] likewise.
+inline constexpr double kSpotsShare = 0.25;
+/// Share of a lamp's contrast below which a colour has no axis. By hand.
+inline constexpr double kLeastColor = 1e-7;
+
 // The frame: squared errors relative to the mean squared exit radiance, as lit_rms².
 
 /// Error that axes may drop at first, for up to kFewBits bits of weights and beyond. By hand: a hundredth of
@@ -129,6 +141,8 @@ inline constexpr int kPriceRounds = 12;
 
 /// Rounds of codes and clusters in turn, and the first with rounded bases. The best is kept. By hand. [trace]
 inline constexpr int kCodingRounds = 6, kRoundedFrom = 2;
+/// Fits of clusters to codes from nothing: each leaves a share of kRefitRidge of the one before. By hand.
+inline constexpr int kRoundsFromNothing = 2;
 /// Variance of weights and guides, in units of a weight's most, below which refitting leaves their rows as
 /// they are. At 1e-9, clusters of nine points on 2 478 had slopes of 34, and 1.32 instead of 0.43 %. [preset]
 inline constexpr double kRefitRidge = 1e-4;

@@ -130,6 +130,15 @@ void round_rows(AffineClusters& clusters, const RowSteps& steps) {
     }
 }
 
+QuantisedClusters without_rows(const QuantisedClusters& clusters, std::size_t dimension) {
+    QuantisedClusters result{
+        AffineClusters(clusters.clusters(), dimension, clusters.max_components, clusters.guides),
+        clusters.grids};
+    result.components = clusters.components;
+    result.centers = clusters.centers;
+    return result;
+}
+
 QuantisedClusters truncated(const QuantisedClusters& clusters, std::size_t dimension) {
     QuantisedClusters result = clusters;
     result.dimension = dimension;

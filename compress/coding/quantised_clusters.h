@@ -39,6 +39,9 @@ struct RowSteps {
 /// Rounds means and slopes to multiples of their steps and rows to multiples of twice as much.
 void round_rows(AffineClusters& clusters, const RowSteps& steps);
 
+/// Clusters of as many components, grids and centers, all rows zero.
+QuantisedClusters without_rows(const QuantisedClusters& clusters, std::size_t dimension);
+
 /// The same clusters over the first `dimension` axes.
 QuantisedClusters truncated(const QuantisedClusters& clusters, std::size_t dimension);
 

@@ -66,14 +66,19 @@ struct Stretch {
 };
 constexpr std::uint32_t kElsewhere = ~0u; ///< has no unknowns in the stretch
 
-std::vector<Eigen::MatrixXf> products_of_rows(const QuantisedClusters& clusters) {
+/// Products of a cluster's rows with each other, along the axes of each group of points.
+std::vector<Eigen::MatrixXf> products_of_rows(const QuantisedClusters& clusters, const PointScales& scales) {
     std::vector<Eigen::MatrixXf> result;
-    for (std::size_t k = 0; k < clusters.clusters(); ++k) {
-        const Eigen::Map<const Eigen::MatrixXf> rows(clusters.row(k, 0),
-                                                     static_cast<Eigen::Index>(clusters.dimension),
-                                                     static_cast<Eigen::Index>(clusters.components[k]));
-        result.emplace_back(rows.transpose() * rows);
-    }
+    for (std::size_t k = 0; k < clusters.clusters(); ++k)
+        for (std::size_t g = 0; g < std::max<std::size_t>(scales.groups, 1); ++g) {
+            Eigen::MatrixXf rows = Eigen::Map<const Eigen::MatrixXf>(
+                clusters.row(k, 0), static_cast<Eigen::Index>(clusters.dimension),
+                static_cast<Eigen::Index>(clusters.components[k]));
+            for (std::size_t i = 0; i < scales.group_of.size(); ++i)
+                if (scales.group_of[i] != g)
+                    rows.row(static_cast<Eigen::Index>(i)).setZero();
+            result.emplace_back(rows.transpose() * rows);
+        }
     return result;
 }
 
@@ -125,20 +130,34 @@ private:
     float edge_price(std::size_t p, std::size_t q) const {
         return static_cast<float>(options_.seam_price * edge(p, q));
     }
+    /// Errors count by the scales of their receiver: all vectors but rows are multiplied by them.
+    void multiply_scales(std::size_t p, PointVector& vector) const {
+        points_.scales.multiply(p, vector.data());
+    }
     /// What cluster k's mean and guides leave of receiver p.
     PointVector left_of(std::size_t p, std::uint32_t k) const {
         PointVector point(static_cast<Eigen::Index>(points_.width()));
         points_.copy_point(p, point.data());
         subtract_known(clusters_, k, point.data());
         point.conservativeResize(dimension_);
+        multiply_scales(p, point);
         return point;
     }
     /// Code minus point.
     void error_of(std::size_t p, PointVector& error) const {
-        error = -left_of(p, codes_.clusters[p]);
         std::array<float, kMostDimensions> weights;
         codes_.read(clusters_, p, weights.data());
+        error.setZero(dimension_);
         add_combination(p, weights.data(), error);
+        multiply_scales(p, error);
+        error -= left_of(p, codes_.clusters[p]);
+    }
+    std::size_t groups() const { return std::max<std::size_t>(points_.scales.groups, 1); }
+    float scale(std::size_t p, std::size_t group) const {
+        return points_.scales.all_alike() ? 1.0f : points_.scales.of(p)[group];
+    }
+    const Eigen::MatrixXf& products(std::uint32_t k, std::size_t group) const {
+        return products_[k * groups() + group];
     }
 
     /// Weights of a stretch as real numbers, and then rounded.
@@ -155,8 +174,8 @@ private:
     void pull_at(std::size_t p, Pull& pull) const;
     /// Of an error `e` at p with a code in cluster k, in eq. 28.
     double cost_at(std::size_t p, const Pull& pull, std::uint32_t k, const PointVector& e) const;
-    /// The code in cluster k whose rows come nearest to `left`; returns its error vector.
-    PointVector code_in(std::uint32_t k, PointVector left, std::span<float> code) const;
+    /// The code of receiver p in cluster k whose rows come nearest to `left`; returns its error vector.
+    PointVector code_in(std::size_t p, std::uint32_t k, PointVector left, std::span<float> code) const;
     /// A code that is cheaper than p's while the neighbours stay, with at most `spare` more components.
     bool find_better(std::size_t p, const Pull& pull, std::ptrdiff_t spare, BetterCode& better) const;
     /// How many components more receivers may have in all.
@@ -174,7 +193,7 @@ private:
     SeamJumps jumps_; ///< count once they are measured, after all else
     // While weights are solved for:
     std::vector<std::uint32_t> first_;      ///< [points] a receiver's first unknown of as many as components
-    std::vector<Eigen::MatrixXf> products_; ///< [clusters] of their rows with each other
+    std::vector<Eigen::MatrixXf> products_; ///< [clusters][groups] of their rows with each other
 };
 
 std::vector<float> SeamSmoother::descent(const Stretch& stretch) const {
@@ -188,6 +207,7 @@ std::vector<float> SeamSmoother::descent(const Stretch& stretch) const {
                 error_of(q, other);
                 sum += edge_price(p, q) * (own - other);
             }
+            multiply_scales(p, sum);
             for (std::size_t j = 0; j < components(p); ++j)
                 result[first_[p] + j] = -sum.dot(row(codes_.clusters[p], j));
         }
@@ -200,13 +220,19 @@ std::vector<float> SeamSmoother::descent(const Stretch& stretch) const {
 std::vector<float> SeamSmoother::curvature(const Stretch& stretch, std::span<const float> change) const {
     std::vector<float> result(stretch.unknowns, 0.0f);
     parallel_for(stretch.receivers.size(), 1024, options_.threads, [&](std::size_t begin, std::size_t end) {
-        PointVector across(dimension_);
-        Eigen::VectorXf within(static_cast<Eigen::Index>(clusters_.max_components));
+        PointVector across(dimension_), beyond(dimension_);
+        Eigen::MatrixXf within(static_cast<Eigen::Index>(clusters_.max_components),
+                               static_cast<Eigen::Index>(groups()));
         for (const std::uint32_t p : stretch.receivers.subspan(begin, end - begin)) {
             const std::uint32_t k = codes_.clusters[p];
             const auto m = static_cast<Eigen::Index>(components(p));
             float own = significance_[p];
-            within.head(m).setZero();
+            within.topRows(m).setZero();
+            const auto add_within = [&](std::uint32_t q, float factor) {
+                for (std::size_t g = 0; g < groups(); ++g)
+                    within.col(static_cast<Eigen::Index>(g)).head(m) +=
+                        factor * scale(q, g) * weights_of(q, change);
+            };
             bool at_border = false;
             for (const std::uint32_t q : neighbours_.of(p)) {
                 const float price = edge_price(p, q);
@@ -214,17 +240,23 @@ std::vector<float> SeamSmoother::curvature(const Stretch& stretch, std::span<con
                 if (first_[q] == kElsewhere)
                     continue;
                 if (codes_.clusters[q] == k) {
-                    within.head(m) -= price * weights_of(q, change);
+                    add_within(q, -price);
                     continue;
                 }
                 if (!at_border)
                     across.setZero();
                 at_border = true;
-                add_combination(q, change.data() + first_[q], across, -price);
+                beyond.setZero();
+                add_combination(q, change.data() + first_[q], beyond, -price);
+                multiply_scales(q, beyond);
+                across += beyond;
             }
-            within.head(m) += own * weights_of(p, change);
+            add_within(p, own);
             Eigen::Map<Eigen::VectorXf> to(result.data() + first_[p], m);
-            to.noalias() = products_[k] * within.head(m);
+            for (std::size_t g = 0; g < groups(); ++g)
+                to += scale(p, g) * (products(k, g) * within.col(static_cast<Eigen::Index>(g)).head(m));
+            if (at_border)
+                multiply_scales(p, across);
             for (Eigen::Index j = 0; j < m && at_border; ++j)
                 to[j] += across.dot(row(k, static_cast<std::size_t>(j)));
         }
@@ -239,7 +271,11 @@ std::vector<float> SeamSmoother::inverse_diagonal(const Stretch& stretch) const 
         for (const std::uint32_t q : neighbours_.of(p))
             total += options_.seam_price * edge(p, q);
         for (std::size_t j = 0; j < components(p); ++j) {
-            const double d = total * static_cast<double>(row(codes_.clusters[p], j).squaredNorm());
+            double d = 0;
+            const auto at = static_cast<Eigen::Index>(j);
+            for (std::size_t g = 0; g < groups(); ++g)
+                d += total *
+                     static_cast<double>(scale(p, g) * scale(p, g) * products(codes_.clusters[p], g)(at, at));
             result[first_[p] + j] = d > 1e-30 ? static_cast<float>(1 / d) : 1.0f;
         }
     }
@@ -269,7 +305,7 @@ void SeamSmoother::solve(std::span<const std::uint32_t> receivers) {
 /// So many receivers at a time that vectors of all unknowns, of which the solver has six, take next to no
 /// memory. What few edges cross from one stretch to the next is seen by the sweeps that follow.
 void SeamSmoother::solve_weights() {
-    products_ = products_of_rows(clusters_);
+    products_ = products_of_rows(clusters_, points_.scales);
     first_.assign(points_.count, kElsewhere);
     const std::vector<std::uint32_t> order = order_of_stretches(neighbours_, options_.solved_together);
     for (std::size_t begin = 0; begin < order.size(); begin += options_.solved_together)
@@ -278,9 +314,12 @@ void SeamSmoother::solve_weights() {
     products_ = {};
 }
 
-PointVector SeamSmoother::code_in(std::uint32_t k, PointVector left, std::span<float> code) const {
+PointVector SeamSmoother::code_in(std::size_t p, std::uint32_t k, PointVector left,
+                                  std::span<float> code) const {
+    PointVector direction(dimension_);
     for (std::size_t j = 0; j < clusters_.components_of(k); ++j) {
-        const auto direction = row(k, j);
+        direction = row(k, j);
+        multiply_scales(p, direction);
         const float norm = direction.squaredNorm();
         code[j] = clusters_.grid(k, j).nearest(norm > 1e-30f ? left.dot(direction) / norm : 0.0f);
         left -= code[j] * direction;
@@ -338,7 +377,7 @@ bool SeamSmoother::find_better(std::size_t p, const Pull& pull, std::ptrdiff_t s
     for (const std::uint32_t k : pull.candidates) {
         if (clusters_.components[k] - clusters_.components[codes_.clusters[p]] > spare)
             continue;
-        const PointVector e = code_in(k, left_of(p, k) + pull.vector, code) + pull.vector;
+        const PointVector e = code_in(p, k, left_of(p, k) + pull.vector, code) + pull.vector;
         const double cost = cost_at(p, pull, k, e);
         if (cost < least * (1 - tuning::kLeastSeamGain)) {
             least = cost;
