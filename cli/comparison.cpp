@@ -95,7 +95,10 @@ std::string about_lights(const Evaluation& evaluation) {
            "receiver, and that which 99.9 % stay below. Darker half: relative L2 of the half of the area "
            "where the radiance is least. Seam: the largest jump of the error along an edge between two "
            "clusters; 99 %: what 99 % of such edges, and of those inside a cluster, stay below. All but the "
-           "relative ones are over the mean radiance. The worst sun is that of 64 all over the sphere whose "
+           "relative ones are over the mean radiance. Visible: the error over the radiance that is there, "
+           "and a "
+           "tenth of the logarithmic mean: 95 % of the area are within it; jumps: 99 % of all edges. The "
+           "worst sun is that of 64 all over the sphere whose "
            "error is largest; errors under it are over the radiance of all 64, since one that lights nothing "
            "leaves nothing to divide by. It stands " +
            evaluation.worst_sun + ". Random white: every coefficient alike; over the root mean square of R." +
@@ -104,7 +107,7 @@ std::string about_lights(const Evaluation& evaluation) {
                   : "") +
            (lamps
                 ? " Lamps: all of the scene as bright as they are there, without a sky; under skies they are "
-                  "off. The worst lamp is that whose error is largest when it shines alone."
+                  "off. Below, each lamp alone."
                 : "");
 }
 
@@ -121,20 +124,41 @@ Table lights_table(const Evaluation& evaluation, const SceneFile& baked) {
                      {"lit_max", "lit_max", share, 2},
                      {"percentile_999", "99.9 %", share, 2},
                      {"darker_half_rms", "darker half", share},
+                     {"visible_percentile_95", "visible, 95 %", share, 2},
+                     {"visible_jumps_99", "jumps, 99 %", share, 2},
                      {"seam", "seam", share, 2},
                      {"crossing_percentile_99", "seams, 99 %", share, 2},
                      {"inner_percentile_99", "inner, 99 %", share, 2},
                      {"mean_radiance", "mean radiance"}};
-    for (const char* key : {"crossing_edges", "crossing_rms", "seam_place_metres", "inner_edges", "inner_rms",
-                            "inner_max", "suns_apart", "judged"})
+    for (const char* key :
+         {"crossing_edges", "crossing_rms", "seam_place_metres", "inner_edges", "inner_rms", "inner_max",
+          "suns_apart", "judged", "visible_mean", "visible_percentile_99", "visible_above_5_percent"})
         table.columns.push_back({key});
     for (const auto* lights : {&evaluation.named, &evaluation.standard})
         for (const auto& [name, e, suns, judged] : *lights)
             table.rows.push_back(
-                {name, e.rms, e.max, e.percentile_999, finite(e.darker_half_rms), e.crossing.max,
-                 e.crossing.percentile_99, e.inner.percentile_99, e.mean, e.crossing.edges, e.crossing.rms,
-                 e.crossing.edges > 0 ? Json(place_of(baked, e.crossing.worst.first)) : Json(), e.inner.edges,
-                 e.inner.rms, e.inner.max, suns, judged});
+                {name,
+                 e.rms,
+                 e.max,
+                 e.percentile_999,
+                 finite(e.darker_half_rms),
+                 finite(e.visible.percentile_95),
+                 finite(e.visible.jumps_99),
+                 e.crossing.max,
+                 e.crossing.percentile_99,
+                 e.inner.percentile_99,
+                 e.mean,
+                 e.crossing.edges,
+                 e.crossing.rms,
+                 e.crossing.edges > 0 ? Json(place_of(baked, e.crossing.worst.first)) : Json(),
+                 e.inner.edges,
+                 e.inner.rms,
+                 e.inner.max,
+                 suns,
+                 judged,
+                 finite(e.visible.mean),
+                 finite(e.visible.percentile_99),
+                 e.visible.area_above_5_percent});
     return table;
 }
 
@@ -230,6 +254,10 @@ public:
                 apart = apart || suns > 0;
                 v.under = name;
                 v.lit_rms = std::max(v.lit_rms, error.rms);
+                if (v.visible_under.empty() || error.visible.percentile_95 > v.visible) {
+                    v.visible = error.visible.percentile_95;
+                    v.visible_under = name;
+                }
                 v.seam_99 = std::max(v.seam_99, error.crossing.percentile_99);
                 if (error.crossing.edges > 0)
                     v.seam = std::max(v.seam.value_or(0), error.crossing.max);
@@ -309,29 +337,24 @@ private:
         return error_under(
             {.sky = constant_light(reference().layout.order, glm::vec3(0)), .lamps = std::move(strengths)});
     }
-    /// The error of the lamp that shines worst alone.
-    NamedError worst_lamp() const {
+    void add_each_lamp(Evaluation& evaluation) const {
         const std::span<const TransferPart> lamps = reference().layout.lamp_parts();
-        std::optional<NamedError> worst;
         for (std::size_t k = 0; k < lamps.size(); ++k) {
             std::vector<glm::vec3> strengths(lamps.size(), glm::vec3(0));
             strengths[k] = glm::vec3(1);
-            const LitError error = error_by_lamps(std::move(strengths));
-            if (!worst || error.rms > worst->error.rms)
-                worst = NamedError{"worst lamp: " + printable(lamps[k].name), error};
+            evaluation.standard.push_back(
+                {"lamp " + printable(lamps[k].name), error_by_lamps(std::move(strengths)), 0, true});
         }
-        return *worst;
     }
 
-    /// All lamps of the scene as bright as they are there, by which the verdict goes, and the one that is
-    /// worst alone.
+    /// All lamps of the scene as bright as they are there, and each alone.
     void add_lamps(Evaluation& evaluation) const {
         const std::size_t lamps = reference().layout.lamps();
         if (lamps > 0)
             evaluation.standard.push_back(
                 {"lamps", error_by_lamps(std::vector<glm::vec3>(lamps, glm::vec3(1))), 0, true});
         if (lamps > 1)
-            evaluation.standard.push_back(worst_lamp());
+            add_each_lamp(evaluation);
     }
 
     /// With its suns apart errors are over what the whole light gives, since suns are in the picture.

@@ -228,6 +228,8 @@ ClusteredTransfer code(const Task& task, const ReceiverSurface& surface, FoundCl
     if (task.lamps) {
         leave_logarithms(task, coding, candidates);
         how.candidates = &candidates;
+        settle(coding.points, task.significance, how,
+               draft ? tuning::kSettlingRoundsOfDrafts : tuning::kSettlingRounds, coded);
     } else if (bases_are_coded(options)) {
         round_frame(task, coding);
     }
@@ -291,6 +293,8 @@ CompressResult compress_from(const Course& course, const TransferView& transfer,
     statistics.bits_per_receiver = bits_per_receiver(result.transfer);
     statistics.basis_bytes = basis_bytes(result.transfer.bases);
     statistics.lit_rms = expected_lit_rms(transfer, result.transfer, areas, task.metric, options.threads);
+    if (task.lamps)
+        statistics.lamp_contrast = task.lamps->contrast(result.transfer);
     statistics.seconds = stopwatch.seconds();
     progress.update(1);
     return result;

@@ -114,8 +114,9 @@ void add_sizes(CLI::App* command, SearchOptions& o) {
         "normal, with a budget whatever serves it best");
     command
         ->add_option("--max-error", o.budget.max_error,
-                     "the cheapest whose lit_rms is at most this: as expected under the metric, and at every "
-                     "turn of each --lights, or, without, of each sky of the metric's family")
+                     "the cheapest whose lit_rms is at most this, as expected under the metric, and at every "
+                     "turn of each --lights, or, without, of each sky of the metric's family; and so the "
+                     "contrast error of lamps, each alone")
         ->check(above_zero());
     command
         ->add_option_function<std::string>(
@@ -560,6 +561,11 @@ Report report_of(const CompressArguments& a, const SearchOptions& options, const
         report,
         {{"bytes_file", result.bytes}, {"trials", trials_json(outcome.trials)}, {"seconds", s.seconds}});
     report.sentences = sentences(a, a.preset && !outcome.trials.empty());
+    if (s.lamp_contrast > 0) {
+        add_figures(report, {{"lamp_contrast", s.lamp_contrast}});
+        report.sentences.emplace_back("light of each lamp alone differs by {lamp_contrast:.2f%} of what is "
+                                      "seen (contrast error, root mean square)");
+    }
     if (outcome.best)
         add_promises(options.budget, *outcome.best, report);
     return report;

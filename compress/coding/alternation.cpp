@@ -92,7 +92,95 @@ RowSteps basis_steps(const PointBlocks& points, std::span<const float> significa
     return steps;
 }
 
+/// One round: returns the error.
+double improve(const PointBlocks& points, std::span<const float> significance,
+               const AlternationOptions& options, CodedClusters& coded) {
+    const Codes before = coded.codes;
+    encode_all(points, options, coded);
+    keep_better(points, coded.clusters, before, coded.codes, options.threads);
+    return total_error(significance, coded.codes.errors);
+}
+
+/// Makes cluster `to` one of as many rows and bits as `from`.
+void copy_cluster(std::size_t from, std::size_t to, QuantisedClusters& clusters) {
+    const std::size_t d = clusters.dimension, most = clusters.max_components;
+    std::copy_n(clusters.mean(from), d, clusters.mean(to));
+    std::copy_n(clusters.center(from), clusters.guides, clusters.center(to));
+    std::copy_n(clusters.slope(from, 0), clusters.guides * d, clusters.slope(to, 0));
+    std::copy_n(clusters.row(from, 0), most * d, clusters.row(to, 0));
+    std::copy_n(clusters.grids.begin() + static_cast<std::ptrdiff_t>(from * most), most,
+                clusters.grids.begin() + static_cast<std::ptrdiff_t>(to * most));
+    clusters.components[to] = clusters.components[from];
+}
+
+/// Points along the group in which their scales differ most: what one subspace reaches least is light of many
+/// magnitudes.
+void sort_by_scale(const PointScales& scales, std::vector<std::uint32_t>& members) {
+    std::size_t widest = 0;
+    float most = 0;
+    for (std::size_t g = 0; g < scales.groups; ++g) {
+        const auto [least, largest] =
+            std::ranges::minmax(members, {}, [&](std::uint32_t p) { return scales.of(p)[g]; });
+        const float ratio = scales.of(largest)[g] / scales.of(least)[g];
+        if (ratio > most) {
+            most = ratio;
+            widest = g;
+        }
+    }
+    std::ranges::stable_sort(members, {}, [&](std::uint32_t p) { return scales.of(p)[widest]; });
+}
+
+/// Cluster `to` has taken points of `from`: those near it may move there.
+void become_neighbours(std::uint32_t from, std::uint32_t to, ClusterLists& candidates) {
+    candidates[to] = candidates[from];
+    if (std::ranges::find(candidates[to], to) == candidates[to].end())
+        candidates[to].push_back(to);
+    for (const std::uint32_t near : candidates[to])
+        if (near != to && std::ranges::find(candidates[near], to) == candidates[near].end())
+            candidates[near].push_back(to);
+}
+
+/// Gives clusters without points half of those of the clusters that err most.
+void fill_empty(const PointBlocks& points, std::span<const float> significance,
+                const AlternationOptions& options, CodedClusters& coded) {
+    constexpr std::size_t kSplit = 4; // of fewer points nothing is gained
+    ClusterLists members = members_of(coded.codes.clusters, coded.clusters.clusters());
+    std::vector<double> errors(members.size(), 0);
+    for (std::size_t p = 0; p < points.count; ++p)
+        errors[coded.codes.clusters[p]] +=
+            static_cast<double>(significance[p]) * static_cast<double>(coded.codes.errors[p]);
+    for (std::size_t empty = 0; empty < members.size(); ++empty) {
+        if (!members[empty].empty())
+            continue;
+        const auto worst = static_cast<std::size_t>(std::ranges::max_element(errors) - errors.begin());
+        if (members[worst].size() < kSplit || !(errors[worst] > 0))
+            return;
+        copy_cluster(worst, empty, coded.clusters);
+        if (options.candidates)
+            become_neighbours(static_cast<std::uint32_t>(worst), static_cast<std::uint32_t>(empty),
+                              *options.candidates);
+        sort_by_scale(points.scales, members[worst]);
+        const auto half = members[worst].begin() + static_cast<std::ptrdiff_t>(members[worst].size() / 2);
+        members[empty].assign(half, members[worst].end());
+        members[worst].erase(half, members[worst].end());
+        for (const std::uint32_t p : members[empty])
+            coded.codes.clusters[p] = static_cast<std::uint32_t>(empty);
+        errors[empty] = errors[worst] *= 0.25; // as the square of what a half spans
+    }
+}
+
 } // namespace
+
+void settle(const PointBlocks& points, std::span<const float> significance, const AlternationOptions& options,
+            int rounds, CodedClusters& coded) {
+    for (int round = 0; round < rounds; ++round) {
+        const double before = total_error(significance, coded.codes.errors);
+        fill_empty(points, significance, options, coded);
+        refit(points, significance, coded.codes, coded.clusters, options.threads);
+        if (improve(points, significance, options, coded) > (1 - tuning::kSettled) * before)
+            break;
+    }
+}
 
 void encode_all(const PointBlocks& points, const AlternationOptions& options, CodedClusters& coded) {
     if (options.stay)
@@ -118,10 +206,7 @@ void alternate(const PointBlocks& points, std::span<const float> significance,
             coded.steps = basis_steps(points, significance, coded, options.basis_share);
             round_rows(coded.clusters, coded.steps);
         }
-        const Codes before = coded.codes;
-        encode_all(points, options, coded);
-        keep_better(points, coded.clusters, before, coded.codes, options.threads);
-        const double error = total_error(significance, coded.codes.errors);
+        const double error = improve(points, significance, options, coded);
         if (options.trace)
             options.trace(CodingRound{rounded, error});
         if (rounded == rounds_bases && error < least) {

@@ -13,7 +13,7 @@ struct CodedClusters {
 };
 
 struct AlternationOptions {
-    const ClusterLists* candidates = nullptr; ///< of the points of each cluster; null: by what codes reach
+    ClusterLists* candidates = nullptr; ///< of the points of each cluster; null: by what codes reach
     bool stay = false;      ///< points stay in their clusters: a mean number of components is promised
     double basis_share = 0; ///< error that rounding the bases may add, as a share of what there is; 0: none
     int rounds = tuning::kCodingRounds;
@@ -25,6 +25,12 @@ struct AlternationOptions {
 
 /// Codes all points anew for the clusters.
 void encode_all(const PointBlocks& points, const AlternationOptions& options, CodedClusters& coded);
+
+/// Alternates before bases are rounded, until the error hardly falls: of clusters that were found in another
+/// space, at most `rounds` times. Clusters that lose all their points take half of those of the one that errs
+/// most.
+void settle(const PointBlocks& points, std::span<const float> significance, const AlternationOptions& options,
+            int rounds, CodedClusters& coded);
 
 /// Alternates codes, given the clusters, and clusters, given the codes; in the end with the bases
 /// rounded. Leaves the best of the rounds that could be written.

@@ -187,6 +187,24 @@ Frame SeenLamps::frame(double most_dropped) const {
     return frame;
 }
 
+double SeenLamps::contrast(const TransferView& approximation) const {
+    double squares = 0;
+    std::vector<float> other(transfer_.dimension());
+    for_vectors(transfer_, [&](std::size_t p, const float* vector) {
+        approximation.read(p, other);
+        for (const Lamp& lamp : lamps_) {
+            const double seen = luminance(lamp, vector) + lamp.adaptation;
+            for (std::size_t c = 0; c < (lamp.adaptation > 0 ? lamp.channels : 0); ++c) {
+                const double error = static_cast<double>(vector[lamp.first + c] - other[lamp.first + c]);
+                squares += static_cast<double>(significance_[p]) * luminance_share(c, lamp.channels) * error *
+                           error / (seen * seen);
+            }
+        }
+    });
+    const auto shining = std::ranges::count_if(lamps_, [](const Lamp& lamp) { return lamp.adaptation > 0; });
+    return shining > 0 ? std::sqrt(squares / static_cast<double>(shining)) : 0;
+}
+
 PointScales SeenLamps::scales(const Frame& frame) const {
     PointScales result;
     std::vector<const Lamp*> of_groups;

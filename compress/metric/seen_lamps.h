@@ -32,6 +32,8 @@ public:
     Frame frame(double most_dropped) const;
     /// The root of 1 / (Y + a)² and a share of 1 over the mean Y² along axes of lamps; 1 along the others.
     PointScales scales(const Frame& frame) const;
+    /// The root of the mean squared contrast error of `approximation`, over receivers and lamps that shine.
+    double contrast(const TransferView& approximation) const;
 
 private:
     struct Lamp {

@@ -15,7 +15,7 @@ Judge::Judge(const TransferView& transfer, const ReceiverSurface& surface, const
 }
 
 Verdict Judge::operator()(const CompressResult& result) const {
-    Verdict verdict{result.statistics.lit_rms};
+    Verdict verdict{result.statistics.error()};
     if (budget_.skies.empty() && !budget_.max_jump)
         return verdict;
     const TransferView decoded(result.transfer);

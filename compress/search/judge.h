@@ -7,7 +7,7 @@ namespace prt {
 /// What a result is to be judged by.
 struct Verdict {
     double worst_lit_rms =
-        0;           ///< the greatest of the expected one and, at their worst turns, of promised skies
+        0;           ///< the greatest of the expected error and, at their worst turns, of promised skies
     double jump = 0; ///< `jump_across_clusters`; 0 where none is asked about
 };
 

@@ -106,7 +106,7 @@ const SearchTrial& Trials::attempt(int clusters, const Line& line) {
     const SearchTrial trial{.draft = draft,
                             .clusters = clusters,
                             .payload_bytes = static_cast<int>(s.bytes_per_receiver),
-                            .lit_rms = finished * s.lit_rms,
+                            .lit_rms = finished * s.error(),
                             .worst_lit_rms = finished * verdict.worst_lit_rms,
                             .jump = finished * verdict.jump,
                             .bytes_per_vertex = s.bytes_with_bases(task_.transfer.receivers()),

@@ -171,6 +171,69 @@ private:
     EdgeJumps jumps_of_;
 };
 
+/// Of linear sRGB, IEC 61966-2-1.
+const glm::dvec3 kLuminance{0.2126, 0.7152, 0.0722};
+
+/// The value below which a share of the area lies.
+double percentile_by_area(std::span<const double> values, std::span<const float> areas, double area,
+                          double share) {
+    std::vector<std::uint32_t> order(values.size());
+    std::iota(order.begin(), order.end(), 0u);
+    std::ranges::sort(order, {}, [&](std::uint32_t p) { return values[p]; });
+    double seen = 0;
+    for (const std::uint32_t p : order)
+        if (seen += static_cast<double>(areas[p]); seen >= share * area)
+            return values[p];
+    return values.empty() ? 0 : values[order.back()];
+}
+
+/// A tenth of the logarithmic mean of the luminance over the area that has light. Less than a millionth of
+/// the most counts as that: darkness has no logarithm.
+double adaptation_of(std::span<const glm::vec3> radiance, std::span<const float> areas) {
+    double most = 0, sum = 0, area = 0;
+    for (std::size_t p = 0; p < radiance.size(); ++p)
+        if (areas[p] > 0)
+            most = std::max(most, glm::dot(kLuminance, glm::dvec3(radiance[p])));
+    for (std::size_t p = 0; p < radiance.size(); ++p)
+        if (const double y = glm::dot(kLuminance, glm::dvec3(radiance[p])); y > 0) {
+            sum += static_cast<double>(areas[p]) * std::log(std::max(y, 1e-6 * most));
+            area += static_cast<double>(areas[p]);
+        }
+    return area > 0 ? 0.1 * std::exp(sum / area) : 0;
+}
+
+VisibleError visible_error(std::span<const glm::vec3> reference, std::span<const glm::dvec3> differences,
+                           std::span<const float> areas, std::span<const Edge> edges) {
+    VisibleError result;
+    result.adaptation = adaptation_of(reference, areas);
+    std::vector<double> contrast(reference.size()), sign(reference.size());
+    double area = 0, squares = 0;
+    for (std::size_t p = 0; p < reference.size(); ++p) {
+        const double a = static_cast<double>(areas[p]);
+        const double y = std::abs(glm::dot(kLuminance, glm::dvec3(reference[p]))) + result.adaptation;
+        contrast[p] = ratio(std::sqrt(glm::dot(kLuminance, differences[p] * differences[p])), y);
+        sign[p] = y > 0 ? glm::dot(kLuminance, differences[p]) / y : 0;
+        area += a;
+        if (!(a > 0))
+            continue;
+        result.mean += a * contrast[p];
+        squares += a * contrast[p] * contrast[p];
+        result.area_above_5_percent += contrast[p] > 0.05 ? a : 0;
+    }
+    if (!(area > 0))
+        return result;
+    result.mean /= area;
+    result.rms = std::sqrt(squares / area);
+    result.area_above_5_percent /= area;
+    result.percentile_95 = percentile_by_area(contrast, areas, area, 0.95);
+    result.percentile_99 = percentile_by_area(contrast, areas, area, 0.99);
+    std::vector<double> jumps;
+    for (const Edge& edge : edges)
+        jumps.push_back(std::abs(sign[edge.first] - sign[edge.second]));
+    result.jumps_99 = percentile(jumps, 0.99);
+    return result;
+}
+
 } // namespace
 
 double lit_rms(std::span<const glm::vec3> reference, std::span<const glm::vec3> approximation,
@@ -226,6 +289,7 @@ LitError lit_error(std::span<const glm::vec3> reference, std::span<const glm::ve
     result.max = ratio(largest, mean);
     result.percentile_999 = ratio(percentile(sizes, 0.999), mean);
     result.darker_half_rms = darker_half(reference, differences, areas, area);
+    result.visible = visible_error(reference, differences, areas, edges);
     if (!clusters)
         return result;
     JumpCollector crossing, inner;

@@ -330,6 +330,56 @@ TEST(Compress, TakesAllNumbersOfColoredPartsOfOrderTenAndAllLamps) {
     EXPECT_LT(result.statistics.lit_rms, 1.01);
 }
 
+/// A floor under three lamps, the first a hand's breadth above it: light falls from 1 to 1e-5 of the most, as
+/// (h / r)^3. A sky that is nearly even.
+Transfer lit_floor(std::size_t side) {
+    TransferLayout layout{2, {{PartKind::whole, 1}}};
+    for (const char* name : {"near", "far", "red"})
+        layout.parts.push_back({PartKind::lamp, name == std::string("red") ? 3 : 1, name});
+    Transfer t = zero_transfer(layout, side * side);
+    for (std::size_t p = 0; p < t.receivers(); ++p) {
+        const float x = 4 * static_cast<float>(p % side) / static_cast<float>(side),
+                    z = 4 * static_cast<float>(p / side) / static_cast<float>(side);
+        const auto from = [&](float h, float lamp_x, float lamp_z) {
+            const float square = h * h + (x - lamp_x) * (x - lamp_x) + (z - lamp_z) * (z - lamp_z);
+            return h / (square * std::sqrt(square));
+        };
+        const std::span<float> vector = t.vector(p);
+        vector[0] = 0.8f + 0.1f * std::sin(x + z);
+        vector[2] = 0.3f;
+        vector[4] = from(0.06f, 0.5f, 0.5f);
+        vector[5] = from(1.5f, 2, 3);
+        for (std::size_t c = 0; c < 3; ++c)
+            vector[6 + c] = (c == 0 ? 1.0f : 0.1f) * from(0.1f, 3.5f, 2);
+    }
+    return t;
+}
+
+TEST(Compress, KeepsFaintLightOfLampsFarBelowTheirBrightest) {
+    const Transfer t = lit_floor(48);
+    CompressOptions options;
+    options.clusters = 96;
+    options.coding = preset_u32();
+    options.guides = GuideChoice::none;
+    const std::vector<float> areas(t.receivers(), 1.0f);
+    const CompressResult result = compress(t, {areas}, options);
+    const Transfer decoded = decode(result.transfer);
+    double squares = 0;
+    for (std::size_t k = 0; k < 3; ++k) {
+        Lighting lighting{constant_light(2, glm::vec3(0))};
+        lighting.lamps.assign(3, glm::vec3(0));
+        lighting.lamps[k] = glm::vec3(1);
+        const LitError error =
+            lit_error(exit_radiance(t, lighting), exit_radiance(decoded, lighting), areas, {}, std::nullopt);
+        EXPECT_LT(error.visible.percentile_95, 0.03) << k;
+        EXPECT_LT(error.rms, 0.03) << k;
+        squares += error.visible.rms * error.visible.rms / 3;
+    }
+    EXPECT_NEAR(result.statistics.lamp_contrast, std::sqrt(squares), 1e-4);
+    EXPECT_EQ(result.statistics.error(),
+              std::max(result.statistics.lit_rms, result.statistics.lamp_contrast));
+}
+
 TEST(Compress, RefusesWhatItCannotDo) {
     Transfer t = random_transfer(10, 3, 1, 1);
     EXPECT_THROW(run(t, 0, 4), Error);

@@ -69,6 +69,12 @@ void code_bases(ClusteredBases& bases, const std::vector<float>& scales, std::mt
     coded.units.back() = 4;
     coded.axes = encode_rows(integers(scales.size() * bases.dimension()), bases.dimension());
     coded.values = encode_rows(integers(bases.first_rows().back() * scales.size()), scales.size());
+    const auto axes = static_cast<int>(scales.size());
+    coded.exponents.axes = {1, axes - 1};
+    std::vector<std::int32_t> exponents(2 * bases.clusters());
+    for (std::int32_t& exponent : exponents)
+        exponent = static_cast<std::int32_t>(random() % 4);
+    coded.exponents.code = encode_rows(exponents, 2);
     bases.rows = decode_bases(coded, bases.components, bases.guide_rows());
 }
 

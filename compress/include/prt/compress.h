@@ -14,6 +14,7 @@
 #include "prt/receiver_surface.h"
 #include "prt/support/progress.h"
 
+#include <algorithm>
 #include <cstdint>
 #include <optional>
 #include <vector>
@@ -89,7 +90,10 @@ struct CompressStatistics {
     /// Expected lit_rms under the metric after each round of clustered PCA at the full number of components,
     /// before weights are quantised.
     std::vector<double> lit_rms_by_iteration;
-    double lit_rms = 0;         ///< expected under the metric, of what is returned
+    double lit_rms = 0; ///< expected under the metric, of what is returned
+    /// Contrast errors of lamps, each alone: the root of their mean square over receivers and lamps
+    /// (prt/error_measures.h). 0 without lamps, and of probes.
+    double lamp_contrast = 0;
     int clusters = 0;           ///< that hold receivers; empty ones are dropped
     double mean_components = 0; ///< of all receivers
     int guide_rows = 0;         ///< of every cluster
@@ -98,6 +102,8 @@ struct CompressStatistics {
     std::size_t bits_per_receiver = 0;  ///< of them in use
     std::size_t basis_bytes = 0;        ///< all bases, and the layout of packed weights
 
+    /// What a budget goes by.
+    double error() const { return std::max(lit_rms, lamp_contrast); }
     /// What the vertex shader adds to a mean, on average.
     double operations() const { return mean_components + guide_rows; }
     double bytes_with_bases(std::size_t receivers) const {

@@ -76,6 +76,7 @@ function checkSteps({ step, steps, values }) {
   const least = steps === undefined ? step : steps?.least;
   expect(Number.isFinite(least) && least >= 0, "the step of the bases is no number from 0 on");
   if (steps === undefined) return;
+  expect(step === undefined, "the bases have one step and many");
   const axes = Array.isArray(steps.axes) ? steps.axes : [];
   const total = axes.reduce((sum, count) => (isWhole(count, 0, 65536) ? sum + count : NaN), 0);
   expect(

@@ -146,6 +146,40 @@ test("the shader's rows times coordinates are the rows times scaled ones less th
   });
 });
 
+test("steps of coded bases are powers of two in each cluster and group of axes", () => {
+  const extension = {
+    version: 6,
+    order: 1,
+    parts: [{ kind: "direct", channels: 3 }],
+    components: [0, 0],
+    bases: {
+      origin: { bufferView: 0, componentType: 5126 },
+      scales: { bufferView: 1, componentType: 5126 },
+      steps: { least: 0.5, axes: [1, 2], bufferView: 2, drops: [0, 0] },
+      axes: { bufferView: 3, drops: [0, 0, 0] },
+      values: { bufferView: 4, drops: [0, 0, 0] },
+    },
+  };
+  const views = [
+    bytesOf(100, 200, 300),
+    bytesOf(1, 2, 4),
+    encodedRows([0, 0], [[4, [0, 3]], [4, [5, -1]]]),
+    encodedRows([0, 0, 0], [[2, [1, 0, 0]], [2, [0, 1, 0]], [2, [0, 0, 1]]]),
+    encodedRows([0, 0, 0], [[5, [5, 6, 7]], [5, [9, 10, 11]]]),
+  ];
+  const { rows } = decodeClusters(extension, (i) => views[i]);
+  assert.deepEqual([...rows], [102.5, 248, 412, 244, 205, 311]);
+  for (const axes of [[1, 1], [3], [1, -1, 3], "12", [1, 65537]])
+    assert.throws(
+      () => decodeClusters({ ...extension, bases: { ...extension.bases, steps: { ...extension.bases.steps, axes } } }, (i) => views[i]),
+      /steps of the bases/,
+    );
+  assert.throws(
+    () => decodeClusters({ ...extension, bases: { ...extension.bases, steps: { ...extension.bases.steps, least: -1 } } }, (i) => views[i]),
+    /step of the bases/,
+  );
+});
+
 test("rows of guides have the step of means in coded bases", () => {
   const extension = {
     ...guided,

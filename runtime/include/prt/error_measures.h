@@ -31,6 +31,16 @@ struct EdgeJumps {
     Edge worst{0, 0}; ///< where the largest is
 };
 
+/// Errors as a viewer sees them: contrast c = |R - R'| / (Y + Y_a), both weighted by channel as luminance is,
+/// with Y the luminance of R and Y_a a tenth of its logarithmic mean over the area that has light
+/// (docs/math.md, eq. 33b). Percentiles by area.
+struct VisibleError {
+    double adaptation = 0; ///< Y_a; 0: nothing is lit
+    double mean = 0, rms = 0, percentile_95 = 0, percentile_99 = 0;
+    double area_above_5_percent = 0; ///< share of the area
+    double jumps_99 = 0;             ///< of (Y - Y') / (Y + Y_a) along 99 % of the edges
+};
+
 struct LitError {
     double rms = 0;            ///< lit_rms
     double mean = 0;           ///< mean R, area-weighted, over the channels
@@ -40,6 +50,7 @@ struct LitError {
     double darker_half_rms = 0;
     EdgeJumps crossing; ///< edges between two clusters; their largest is `seam`
     EdgeJumps inner;    ///< all others
+    VisibleError visible;
 };
 
 /// What errors of exit radiance are measured in.

@@ -31,6 +31,8 @@ void read_steps(const GltfContents& contents, const Json& json, CodedBases& code
         throw Error("the step of the bases is " + step.dump() + ", no number from 0 on");
     if (!many)
         return;
+    if (json.contains("step"))
+        throw Error("the bases have one step and many");
     coded.exponents.code = read_row_code(contents, json["steps"]);
     for (const Json& axes : json["steps"].at("axes"))
         coded.exponents.axes.push_back(whole_number(axes, "a number of axes", 0, 1 << 16));

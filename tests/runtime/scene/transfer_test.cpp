@@ -339,7 +339,7 @@ TEST(TransferInGltf, DamagedPackedTransferIsRefused) {
     EXPECT_THROW(read_changed([&](auto& j) { extension(j)["bases"]["values"]["drops"].push_back(1); }),
                  Error);
     EXPECT_THROW(read_changed([&](auto& j) { extension(j)["bases"]["axes"]["drops"].erase(0); }), Error);
-    EXPECT_THROW(read_changed([&](auto& j) { extension(j)["bases"].erase("step"); }), Error);
+    EXPECT_THROW(read_changed([&](auto& j) { extension(j)["bases"].erase("steps"); }), Error);
     EXPECT_THROW(read_changed([&](auto& j) { extension(j)["bases"]["scales"]["bufferView"] = 99; }), Error);
 }
 
@@ -432,9 +432,16 @@ TEST(TransferInGltf, EverythingThatTheSchemaForbidsIsRefused) {
         [&](auto& j) { extension(j)["components"][0] = -1; },
         [&](auto& j) { extension(j)["packing"]["clusterBits"] = 0; }, // for two clusters
         [&](auto& j) { extension(j)["packing"]["clusterBits"] = 1.5; },
-        [&](auto& j) { bases(j)["step"] = -0.01; },
-        [&](auto& j) { bases(j)["step"] = "small"; },
-        [&](auto& j) { bases(j)["step"] = 1e39; },
+        [&](auto& j) { bases(j)["step"] = 0.01; }, // beside "steps"
+        [&](auto& j) { bases(j)["steps"]["least"] = -0.01; },
+        [&](auto& j) { bases(j)["steps"]["least"] = "small"; },
+        [&](auto& j) { bases(j)["steps"]["least"] = 1e39; },
+        [&](auto& j) { bases(j)["steps"]["axes"] = nlohmann::ordered_json::array(); },
+        [&](auto& j) { bases(j)["steps"]["axes"][0] = 65536; },
+        [&](auto& j) { bases(j)["steps"]["axes"][0] = -1; },
+        [&](auto& j) { bases(j)["steps"]["axes"] = "all"; },
+        [&](auto& j) { bases(j)["steps"]["drops"].push_back(0); },
+        [&](auto& j) { bases(j)["steps"].erase("drops"); },
         [&](auto& j) { bases(j)["axes"]["drops"][0] = 16; },
         [&](auto& j) { bases(j)["values"]["drops"][0] = 257; },
         [&](auto& j) { bases(j)["values"]["drops"][0] = 0.5; },
@@ -454,7 +461,7 @@ TEST(TransferInGltf, DecodedBasesAreFinite) {
     const Damage read_changed(WeightFormat::packed);
     const auto huge = [](GlbFile& file) {
         auto& bases = extension(file.json)["bases"];
-        bases["step"] = 3e38;
+        bases["steps"]["least"] = 3e38;
         put_float(file, bases["scales"]["bufferView"], 0, 3e38f);
     };
     EXPECT_NE(refusal(read_changed, huge).find("decoded bases"), std::string::npos);

@@ -158,6 +158,24 @@ TEST(CodedBases, AreTheOriginInMeansAndScaledSumsOfTheAxes) {
     EXPECT_THROW(decode_bases(other, components), Error);
 }
 
+TEST(CodedBases, HaveStepsOfTheirOwnInEachClusterAndGroupOfAxes) {
+    const std::vector<int> components = {1, 0};
+    const std::vector<std::int32_t> axes = {1, 0, 0, 0, 1, 0, 0, 0, 1}, // three, each of one number
+        values = {5, 6, 7, -1, -2, -3, 9, 10, 11};                      // mean, direction; mean
+    CodedBases coded{{100, 200, 300}, {1, 2, 4}, 0.5f, encode_rows(axes, 3), encode_rows(values, 3)};
+    coded.exponents = {{1, 2}, encode_rows(std::vector<std::int32_t>{0, 3, 5, -1}, 2)};
+    EXPECT_EQ(decode_bases(coded, components),
+              (std::vector<float>{100 + 0.5f * 5, 200 + 4.0f * 2 * 6, 300 + 4.0f * 4 * 7, // steps 0.5, 4, 4
+                                  -2 * 0.5f, -2 * 4.0f * 2 * 2, -2 * 4.0f * 4 * 3,        // twice as much
+                                  100 + 16.0f * 9, 200 + 0.25f * 2 * 10, 300 + 0.25f * 4 * 11}));
+    EXPECT_EQ(coded_bytes(coded), (3 + 3 + 1) * 4 + 3 + coded.axes.bits.size() + 3 +
+                                      coded.values.bits.size() + 2 + 2 + coded.exponents.code.bits.size());
+    for (const std::vector<int>& wrong : {std::vector<int>{1, 1}, {1, 3}, {3}, {1, 1, 1}, {-1, 4}}) {
+        coded.exponents.axes = wrong;
+        EXPECT_THROW(decode_bases(coded, components), Error);
+    }
+}
+
 TEST(CodedBases, RowsOfGuidesHaveTheStepOfMeansAndNoOrigin) {
     const std::vector<std::int32_t> values = {5, 6, 7, 8, 9, -5, -6, -7, -8}; // a direction, then none
     const CodedBases coded{

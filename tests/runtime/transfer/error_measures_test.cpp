@@ -78,6 +78,53 @@ TEST(LitError, UnderALightThatReachesNothingIsOverTheScaleThatIsGiven) {
     EXPECT_EQ(found.mean, 0);
 }
 
+TEST(LitError, IsSeenAgainstTheLightThatIsThere) {
+    // Five decades: every receiver errs by a tenth of its own light, and the darkest by what the brightest
+    // has.
+    std::vector<glm::vec3> reference, approximation;
+    std::vector<float> areas;
+    double logarithms = 0;
+    for (int p = 0; p < 100; ++p) {
+        const float y = std::pow(10.0f, 0.049f * static_cast<float>(p) - 3);
+        reference.emplace_back(y);
+        approximation.emplace_back(1.1f * y);
+        areas.push_back(p < 50 ? 3.0f : 1.0f);
+        logarithms += static_cast<double>(areas.back()) * std::log(static_cast<double>(y)) / 200;
+    }
+    const double a = 0.1 * std::exp(logarithms);
+    const auto contrast = [&](std::size_t p) {
+        const double y = static_cast<double>(reference[p].x);
+        return 0.1 * y / (y + a);
+    };
+    const std::vector<Edge> edges = {{10, 11}, {50, 49}};
+    VisibleError seen = lit_error(reference, approximation, areas, edges, std::nullopt).visible;
+    EXPECT_NEAR(seen.adaptation, a, 1e-5 * a);
+    EXPECT_NEAR(seen.percentile_95, contrast(89), 1e-5); // 50 receivers of three, and 40 of one: 95 %
+    EXPECT_NEAR(seen.percentile_99, contrast(97), 1e-5);
+    EXPECT_NEAR(seen.jumps_99, contrast(50) - contrast(49), 1e-5); // of two, the lower
+    approximation[0] += approximation[99];
+    seen = lit_error(reference, approximation, areas, {}, std::nullopt).visible;
+    EXPECT_GT(seen.rms, 1000);
+    EXPECT_NEAR(
+        seen.area_above_5_percent,
+        3.0 / 200 +
+            [&] {
+                double area = 0;
+                for (std::size_t p = 1; p < 100; ++p)
+                    area += contrast(p) > 0.05 ? static_cast<double>(areas[p]) / 200 : 0;
+                return area;
+            }(),
+        1e-9);
+}
+
+TEST(LitError, OfAColourCountsAsItsLuminance) {
+    const std::vector<float> areas = {1};
+    const std::vector<glm::vec3> grey = {glm::vec3(1)}, blue = {glm::vec3(1, 1, 2)};
+    const VisibleError seen = lit_error(grey, blue, areas, {}, std::nullopt).visible;
+    EXPECT_NEAR(seen.adaptation, 0.1, 1e-6);
+    EXPECT_NEAR(seen.mean, std::sqrt(0.0722) / 1.1, 1e-6);
+}
+
 TEST(LitError, OfTheDarkerHalfIsWhereTheThreeChannelsTogetherAreLeast) {
     // Two receivers, one of 10 in one channel, the other of 2 in the next; both err by 1.
     for (const int channel : {0, 1, 2})
