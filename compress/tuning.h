@@ -146,6 +146,9 @@ inline constexpr int kCodingRounds = 6, kRoundedFrom = 2;
 /// [preset]
 inline constexpr int kSettlingRounds = 30, kSettlingRoundsOfDrafts = 6;
 inline constexpr double kSettled = 0.02;
+/// Share of a cluster's error that a split is taken to save, at most what another loses by being merged. By
+/// hand. [preset] on a room with seven lamps.
+inline constexpr double kSplitGain = 0.5;
 /// Fits of clusters to codes from nothing: each leaves a share of kRefitRidge of the one before. By hand.
 inline constexpr int kRoundsFromNothing = 2;
 /// Variance of weights and guides, in units of a weight's most, below which refitting leaves their rows as

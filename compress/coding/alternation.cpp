@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 namespace prt {
 namespace {
@@ -140,45 +141,97 @@ void become_neighbours(std::uint32_t from, std::uint32_t to, ClusterLists& candi
             candidates[near].push_back(to);
 }
 
-/// Gives clusters without points half of those of the clusters that err most.
-void fill_empty(const PointBlocks& points, std::span<const float> significance,
-                const AlternationOptions& options, CodedClusters& coded) {
-    constexpr std::size_t kSplit = 4; // of fewer points nothing is gained
-    ClusterLists members = members_of(coded.codes.clusters, coded.clusters.clusters());
-    std::vector<double> errors(members.size(), 0);
-    for (std::size_t p = 0; p < points.count; ++p)
-        errors[coded.codes.clusters[p]] +=
-            static_cast<double>(significance[p]) * static_cast<double>(coded.codes.errors[p]);
-    for (std::size_t empty = 0; empty < members.size(); ++empty) {
-        if (!members[empty].empty())
-            continue;
-        const auto worst = static_cast<std::size_t>(std::ranges::max_element(errors) - errors.begin());
-        if (members[worst].size() < kSplit || !(errors[worst] > 0))
-            return;
-        copy_cluster(worst, empty, coded.clusters);
-        if (options.candidates)
-            become_neighbours(static_cast<std::uint32_t>(worst), static_cast<std::uint32_t>(empty),
-                              *options.candidates);
-        sort_by_scale(points.scales, members[worst]);
-        const auto half = members[worst].begin() + static_cast<std::ptrdiff_t>(members[worst].size() / 2);
-        members[empty].assign(half, members[worst].end());
-        members[worst].erase(half, members[worst].end());
-        for (const std::uint32_t p : members[empty])
-            coded.codes.clusters[p] = static_cast<std::uint32_t>(empty);
-        errors[empty] = errors[worst] *= 0.25; // as the square of what a half spans
+/// Takes points of clusters that others serve nearly as well there, and gives these clusters half of the
+/// points of those that err most: splits and merges, as of clusters before they have codes.
+class Splitter {
+public:
+    Splitter(const PointBlocks& points, std::span<const float> significance,
+             const AlternationOptions& options, CodedClusters& coded)
+        : points_(points), significance_(significance), options_(options), coded_(coded),
+          elsewhere_(coded.codes), members_(members_of(coded.codes.clusters, coded.clusters.clusters())) {
+        ClusterLists others = *options.candidates;
+        for (std::uint32_t k = 0; k < others.size(); ++k)
+            std::erase(others[k], k);
+        encode_points(points, coded.clusters, others, elsewhere_, options.threads);
+        errors_.resize(members_.size());
+        losses_.resize(members_.size());
+        for (std::size_t p = 0; p < points.count; ++p) {
+            const std::uint32_t k = coded.codes.clusters[p];
+            const auto share = static_cast<double>(significance[p]);
+            errors_[k] += share * static_cast<double>(coded.codes.errors[p]);
+            losses_[k] += share * static_cast<double>(elsewhere_.errors[p] - coded.codes.errors[p]);
+        }
     }
-}
+
+    void run() {
+        constexpr std::size_t kSplit = 4; // of fewer points nothing is gained
+        std::vector<std::uint32_t> cheapest(members_.size());
+        std::iota(cheapest.begin(), cheapest.end(), 0U);
+        std::ranges::stable_sort(cheapest, {}, [&](std::uint32_t k) { return losses_[k]; });
+        std::vector<bool> stays(members_.size(), false);
+        for (const std::uint32_t merged : cheapest) {
+            if (stays[merged])
+                continue;
+            const auto worst =
+                static_cast<std::uint32_t>(std::ranges::max_element(errors_) - errors_.begin());
+            if (worst == merged || members_[worst].size() < kSplit ||
+                !(tuning::kSplitGain * errors_[worst] > losses_[merged]))
+                break;
+            for (const std::uint32_t p : members_[merged])
+                stays[elsewhere_.clusters[p]] = true;
+            stays[worst] = true;
+            merge(merged);
+            split(worst, merged);
+        }
+    }
+
+private:
+    void merge(std::uint32_t k) {
+        for (const std::uint32_t p : members_[k]) {
+            coded_.codes.clusters[p] = elsewhere_.clusters[p];
+            coded_.codes.weights.copy(elsewhere_.weights, p);
+            members_[elsewhere_.clusters[p]].push_back(p);
+        }
+        members_[k].clear();
+    }
+
+    void split(std::uint32_t from, std::uint32_t to) {
+        copy_cluster(from, to, coded_.clusters);
+        become_neighbours(from, to, *options_.candidates);
+        std::vector<std::uint32_t>& members = members_[from];
+        sort_by_scale(points_.scales, members);
+        const auto half = members.begin() + static_cast<std::ptrdiff_t>(members.size() / 2);
+        members_[to].assign(half, members.end());
+        members.erase(half, members.end());
+        for (const std::uint32_t p : members_[to])
+            coded_.codes.clusters[p] = to;
+        errors_[to] = errors_[from] *= 0.25; // as the square of what a half spans
+    }
+
+    const PointBlocks& points_;
+    std::span<const float> significance_;
+    const AlternationOptions& options_;
+    CodedClusters& coded_;
+    Codes elsewhere_; ///< the best of each point in another cluster
+    ClusterLists members_;
+    std::vector<double> errors_, losses_; ///< [clusters]; what is lost where all points go elsewhere
+};
 
 } // namespace
 
 void settle(const PointBlocks& points, std::span<const float> significance, const AlternationOptions& options,
             int rounds, CodedClusters& coded) {
+    const bool splits = options.candidates && !options.stay && coded.clusters.clusters() > 1;
+    double before = total_error(significance, coded.codes.errors);
     for (int round = 0; round < rounds; ++round) {
-        const double before = total_error(significance, coded.codes.errors);
-        fill_empty(points, significance, options, coded);
+        const bool even = round % 2 == 0; // a split shows its worth in the round after it
+        if (splits && even)
+            Splitter(points, significance, options, coded).run();
         refit(points, significance, coded.codes, coded.clusters, options.threads);
-        if (improve(points, significance, options, coded) > (1 - tuning::kSettled) * before)
+        const double after = improve(points, significance, options, coded);
+        if (!even && after > (1 - tuning::kSettled) * before)
             break;
+        before = even ? before : after;
     }
 }
 

@@ -27,8 +27,8 @@ struct AlternationOptions {
 void encode_all(const PointBlocks& points, const AlternationOptions& options, CodedClusters& coded);
 
 /// Alternates before bases are rounded, until the error hardly falls: of clusters that were found in another
-/// space, at most `rounds` times. Clusters that lose all their points take half of those of the one that errs
-/// most.
+/// space, at most `rounds` times. Clusters that others serve nearly as well take half of the points of those
+/// that err most, and become their neighbours among the candidates.
 void settle(const PointBlocks& points, std::span<const float> significance, const AlternationOptions& options,
             int rounds, CodedClusters& coded);
 

@@ -371,7 +371,8 @@ TEST(Compress, KeepsFaintLightOfLampsFarBelowTheirBrightest) {
         lighting.lamps[k] = glm::vec3(1);
         const LitError error =
             lit_error(exit_radiance(t, lighting), exit_radiance(decoded, lighting), areas, {}, std::nullopt);
-        EXPECT_LT(error.visible.percentile_95, 0.12) << k; // 1.0 and 0.5 where errors cost the same everywhere
+        EXPECT_LT(error.visible.percentile_95, 0.12)
+            << k; // 1.0 and 0.5 where errors cost the same everywhere
         EXPECT_LT(error.rms, 0.05) << k;
         squares += error.visible.rms * error.visible.rms / 3;
     }
