@@ -69,7 +69,9 @@ RowSteps basis_steps(const PointBlocks& points, std::span<const float> significa
                  static_cast<double>(clusters.dimension) / 12;
     const double error = total_error(significance, coded.codes.errors);
     const double step = noise > 0 ? std::sqrt(share * error / noise) : 0; // where errors cost 1
-    const double dearest = costs.empty() ? 0 : *std::max_element(costs.begin(), costs.end());
+    std::vector<double> dearest(groups, 0);
+    for (std::size_t at = 0; at < costs.size(); ++at)
+        dearest[at % groups] = std::max(dearest[at % groups], costs[at]);
     constexpr double kMost = (1 << (kMostRowBits - 1)) - 1, kLeastStep = 1e-30;
     std::vector<double> wanted(clusters.clusters() * groups, 0), least(wanted.size(), kLeastStep);
     for (std::size_t k = 0; k < clusters.clusters(); ++k) {
@@ -78,7 +80,7 @@ RowSteps basis_steps(const PointBlocks& points, std::span<const float> significa
         for (std::size_t g = 0; g < groups; ++g) {
             for (const std::size_t end = i + static_cast<std::size_t>(steps.axes[g]); i < end; ++i)
                 least[k * groups + g] = std::max(least[k * groups + g], largest[i] / kMost);
-            const double cost = std::max(costs[k * groups + g], 1e-6 * dearest);
+            const double cost = std::max(costs[k * groups + g], 1e-6 * dearest[g]);
             wanted[k * groups + g] = cost > 0 ? step / std::sqrt(cost) : 0;
         }
     }

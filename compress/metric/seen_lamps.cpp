@@ -3,6 +3,7 @@
 #include "metric/seen_lamps.h"
 
 #include "metric/transfer_columns.h"
+#include "prt/color.h"
 #include "prt/support/parallel.h"
 #include "tuning.h"
 
@@ -14,11 +15,8 @@
 namespace prt {
 namespace {
 
-/// Of linear sRGB, IEC 61966-2-1.
-constexpr double kLuminance[] = {0.2126, 0.7152, 0.0722};
-
 double luminance_share(std::size_t channel, std::size_t channels) {
-    return channels == 3 ? kLuminance[channel] : 1;
+    return channels == 3 ? kLuminance[static_cast<glm::length_t>(channel)] : 1;
 }
 
 std::size_t numbers_of_sky(const TransferLayout& layout) {
@@ -58,7 +56,7 @@ void for_vectors(const TransferView& transfer, Visit&& visit) {
 
 SeenLamps::SeenLamps(const TransferView& transfer, std::span<const float> significance,
                      const LightMetric& metric, int threads)
-    : transfer_(transfer), significance_(significance), metric_{transfer.layout(), {}}, threads_(threads) {
+    : transfer_(transfer), significance_(significance) {
     const TransferLayout& layout = transfer.layout();
     const std::size_t full = layout.dimension(), sky = numbers_of_sky(layout);
     std::size_t first = sky;
@@ -66,42 +64,50 @@ SeenLamps::SeenLamps(const TransferView& transfer, std::span<const float> signif
         lamps_.push_back({first, static_cast<std::size_t>(part.channels)});
         first += lamps_.back().channels;
     }
-    // Where a lamp gives less than a millionth of its most, it counts as that: darkness has no logarithm.
+    measure_lamps();
+    metric_ = {layout, std::vector<double>(full * full, 0)};
+    if (sky > 0) {
+        const TransferView of_sky = sky_of(transfer);
+        LightMetric block{of_sky.layout(), std::vector<double>(sky * sky)};
+        for (std::size_t i = 0; i < sky; ++i)
+            std::copy_n(&metric.moments[i * full], sky, &block.moments[i * sky]);
+        sky_ = fit_frame(of_sky, significance, block, 0, threads);
+        for (std::size_t i = 0; i < sky; ++i)
+            for (std::size_t j = 0; j < sky; ++j)
+                metric_.moments[i * full + j] = sky_->scale * sky_->scale * block.moments[i * sky + j];
+    }
+    for (const Lamp& lamp : lamps_)
+        for (std::size_t c = 0; c < lamp.channels; ++c)
+            metric_.moments[(lamp.first + c) * (full + 1)] = tuning::kLampsShare *
+                                                             luminance_share(c, lamp.channels) /
+                                                             static_cast<double>(std::max(shining(), 1));
+}
+
+/// Where a lamp gives less than a millionth of its most, it counts as that: darkness has no logarithm.
+void SeenLamps::measure_lamps() {
     std::vector<double> most(lamps_.size(), 0), sums(lamps_.size(), 0), areas(lamps_.size(), 0);
-    for_vectors(transfer, [&](std::size_t p, const float* vector) {
+    for_vectors(transfer_, [&](std::size_t p, const float* vector) {
         for (std::size_t l = 0; l < lamps_.size(); ++l)
-            if (significance[p] > 0)
+            if (significance_[p] > 0)
                 most[l] = std::max(most[l], luminance(lamps_[l], vector));
     });
-    for_vectors(transfer, [&](std::size_t p, const float* vector) {
+    for_vectors(transfer_, [&](std::size_t p, const float* vector) {
+        const auto share = static_cast<double>(significance_[p]);
         for (std::size_t l = 0; l < lamps_.size(); ++l)
             if (const double y = luminance(lamps_[l], vector); y > 0) {
-                sums[l] += static_cast<double>(significance[p]) * std::log(std::max(y, 1e-6 * most[l]));
-                areas[l] += static_cast<double>(significance[p]);
-                lamps_[l].square += static_cast<double>(significance[p]) * y * y;
+                sums[l] += share * std::log(std::max(y, 1e-6 * most[l]));
+                areas[l] += share;
+                lamps_[l].square += share * y * y;
             }
     });
     for (std::size_t l = 0; l < lamps_.size(); ++l)
         if (areas[l] > 0)
             lamps_[l].adaptation = tuning::kAdaptation * std::exp(sums[l] / areas[l]);
+}
 
-    metric_.moments.assign(full * full, 0);
-    double share = tuning::kLampsShare;
-    if (sky > 0) {
-        LightMetric of_sky{sky_of(transfer).layout(), std::vector<double>(sky * sky)};
-        for (std::size_t i = 0; i < sky; ++i)
-            std::copy_n(&metric.moments[i * full], sky, &of_sky.moments[i * sky]);
-        sky_ = fit_frame(sky_of(transfer), significance, of_sky, 0, threads);
-        for (std::size_t i = 0; i < sky; ++i)
-            for (std::size_t j = 0; j < sky; ++j)
-                metric_.moments[i * full + j] = sky_->scale * sky_->scale * of_sky.moments[i * sky + j];
-    }
-    const auto shining = std::ranges::count_if(lamps_, [](const Lamp& lamp) { return lamp.adaptation > 0; });
-    for (const Lamp& lamp : lamps_)
-        for (std::size_t c = 0; c < lamp.channels; ++c)
-            metric_.moments[(lamp.first + c) * (full + 1)] =
-                share * luminance_share(c, lamp.channels) /
-                static_cast<double>(std::max<std::ptrdiff_t>(shining, 1));
+int SeenLamps::shining() const {
+    return static_cast<int>(
+        std::ranges::count_if(lamps_, [](const Lamp& lamp) { return lamp.adaptation > 0; }));
 }
 
 double SeenLamps::luminance(const Lamp& lamp, const float* vector) const {
@@ -201,8 +207,7 @@ double SeenLamps::contrast(const TransferView& approximation) const {
             }
         }
     });
-    const auto shining = std::ranges::count_if(lamps_, [](const Lamp& lamp) { return lamp.adaptation > 0; });
-    return shining > 0 ? std::sqrt(squares / static_cast<double>(shining)) : 0;
+    return shining() > 0 ? std::sqrt(squares / shining()) : 0;
 }
 
 PointScales SeenLamps::scales(const Frame& frame) const {

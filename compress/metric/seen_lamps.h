@@ -41,6 +41,9 @@ private:
         double adaptation = 0;       ///< a: a tenth of the logarithmic mean over what it lights; 0: it is off
         double square = 0;           ///< mean of Y²
     };
+    /// Adaptation and squares of all.
+    void measure_lamps();
+    int shining() const; ///< lamps that are on
     double luminance(const Lamp& lamp, const float* vector) const;
     /// What a squared error of the luminance counts where it is `y`.
     double cost(const Lamp& lamp, double y) const;
@@ -52,7 +55,6 @@ private:
     std::vector<Lamp> lamps_;
     std::optional<Frame> sky_; ///< of the columns of the sky, where there is one
     LightMetric metric_;
-    int threads_;
 };
 
 } // namespace prt

@@ -1,6 +1,7 @@
 // The measures of docs/math.md, section 6: errors of transfer, and of exit radiance under a light.
 #include "prt/error_measures.h"
 
+#include "prt/color.h"
 #include "prt/support/error.h"
 
 #include <glm/geometric.hpp>
@@ -171,9 +172,6 @@ private:
     EdgeJumps jumps_of_;
 };
 
-/// Of linear sRGB, IEC 61966-2-1.
-const glm::dvec3 kLuminance{0.2126, 0.7152, 0.0722};
-
 /// The value below which a share of the area lies.
 double percentile_by_area(std::span<const double> values, std::span<const float> areas, double area,
                           double share) {
@@ -193,9 +191,9 @@ double adaptation_of(std::span<const glm::vec3> radiance, std::span<const float>
     double most = 0, sum = 0, area = 0;
     for (std::size_t p = 0; p < radiance.size(); ++p)
         if (areas[p] > 0)
-            most = std::max(most, glm::dot(kLuminance, glm::dvec3(radiance[p])));
+            most = std::max(most, luminance(glm::dvec3(radiance[p])));
     for (std::size_t p = 0; p < radiance.size(); ++p)
-        if (const double y = glm::dot(kLuminance, glm::dvec3(radiance[p])); y > 0) {
+        if (const double y = luminance(glm::dvec3(radiance[p])); y > 0) {
             sum += static_cast<double>(areas[p]) * std::log(std::max(y, 1e-6 * most));
             area += static_cast<double>(areas[p]);
         }
@@ -210,9 +208,9 @@ VisibleError visible_error(std::span<const glm::vec3> reference, std::span<const
     double area = 0, squares = 0;
     for (std::size_t p = 0; p < reference.size(); ++p) {
         const double a = static_cast<double>(areas[p]);
-        const double y = std::abs(glm::dot(kLuminance, glm::dvec3(reference[p]))) + result.adaptation;
+        const double y = std::abs(luminance(glm::dvec3(reference[p]))) + result.adaptation;
         contrast[p] = ratio(std::sqrt(glm::dot(kLuminance, differences[p] * differences[p])), y);
-        sign[p] = y > 0 ? glm::dot(kLuminance, differences[p]) / y : 0;
+        sign[p] = y > 0 ? luminance(differences[p]) / y : 0;
         area += a;
         if (!(a > 0))
             continue;

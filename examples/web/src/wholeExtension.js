@@ -220,8 +220,8 @@ export function checkLobes(extension) {
 
 /** The buffer views that an extension, which is right, names. */
 export function viewsOf({ packing, centers, guides, bases, bricks, sights, words }) {
-  const { origin, units, scales, axes, values } = bases;
-  const coded = values ? [origin, units, scales, axes, values] : [bases];
+  const { origin, units, scales, steps, axes, values } = bases;
+  const coded = values ? [origin, units, scales, steps, axes, values] : [bases];
   const used = [packing, guides && centers, ...coded, bricks, sights, words];
   return used.filter((part) => part !== undefined).map(({ bufferView }) => bufferView);
 }

@@ -2,6 +2,7 @@ import assert from "node:assert/strict";
 import { test } from "node:test";
 import { clusterTable, decodeClusters, formConstants, lightColumns, shaderRows } from "../src/clusteredPca.js";
 import { codedRows } from "../src/codedRows.js";
+import { viewsOf } from "../src/wholeExtension.js";
 import { encodedRows } from "./encodedRows.js";
 
 /** Numbers of given widths as bytes, lowest bit first. */
@@ -167,6 +168,7 @@ test("steps of coded bases are powers of two in each cluster and group of axes",
     encodedRows([0, 0, 0], [[2, [1, 0, 0]], [2, [0, 1, 0]], [2, [0, 0, 1]]]),
     encodedRows([0, 0, 0], [[5, [5, 6, 7]], [5, [9, 10, 11]]]),
   ];
+  assert.deepEqual(viewsOf(extension).sort(), [0, 1, 2, 3, 4]);
   const { rows } = decodeClusters(extension, (i) => views[i]);
   assert.deepEqual([...rows], [102.5, 248, 412, 244, 205, 311]);
   for (const axes of [[1, 1], [3], [1, -1, 3], "12", [1, 65537]])
