@@ -170,17 +170,9 @@ void put_in_order(CodedClusters& coded) {
                                          exponents.begin() + (from + 1) * groups);
     const QuantisedClusters before = clusters;
     std::vector<std::uint32_t> new_index(clusters.clusters(), 0);
-    const std::size_t most = clusters.max_components;
     for (std::uint32_t k = 0; k < order.size(); ++k) {
         const std::uint32_t from = order[k];
-        std::copy_n(before.mean(from), before.dimension, clusters.mean(k));
-        std::copy_n(before.center(from), before.guides, clusters.center(k));
-        std::copy_n(before.slope(from, 0), before.guides * before.dimension, clusters.slope(k, 0));
-        if (most > 0) {
-            std::copy_n(before.row(from, 0), most * before.dimension, clusters.row(k, 0));
-            std::copy_n(&before.grids[from * most], most, &clusters.grids[k * most]);
-        }
-        clusters.components[k] = before.components[from];
+        copy_cluster(before, from, clusters, k);
         new_index[from] = k;
     }
     clusters.components.resize(order.size());

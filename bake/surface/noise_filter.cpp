@@ -55,7 +55,7 @@ void leave_out_sheets(const BakePlan& plan, std::vector<bool>& left_out) {
 NoiseFilter::NoiseFilter(FitEquations equations, std::vector<std::uint32_t> places, int threads)
     : equations_(std::move(equations)), places_(std::move(places)), weights_(unknown_weights(equations_)),
       threads_(threads) {
-    // What no sample tells of would pull its neighbours down.
+    // An unknown without samples is 0 and would darken its neighbours.
     std::erase_if(equations_.bends, [&](const Bend& bend) {
         return std::ranges::any_of(bend.unknowns, [&](std::uint32_t u) { return !(weights_[u] > 0); });
     });

@@ -17,7 +17,7 @@ namespace {
 /// Texels side by side in space, too, lie within so many of their sizes.
 constexpr double kFarthest = 4;
 /// Across sharper folds light is another.
-constexpr double kLeastCosine = 0.9;
+constexpr double kMinCosine = 0.9;
 /// Texels that are filtered at a time, about, and rows on either side that they bend with.
 constexpr std::uint32_t kTexelsOfBand = 1 << 17, kRowsBeside = 16;
 
@@ -118,7 +118,7 @@ TexelNet::TexelNet(const Scene& scene, const Atlas& atlas, std::span<const Chart
 
 bool TexelNet::together(std::uint32_t a, std::uint32_t b) const {
     return charts_[a] != kNoReceiver && charts_[a] == charts_[b] &&
-           glm::dot(normals_[a], normals_[b]) > kLeastCosine &&
+           glm::dot(normals_[a], normals_[b]) > kMinCosine &&
            glm::distance(places_[a], places_[b]) <
                kFarthest * static_cast<double>(std::max(sizes_[a], sizes_[b]));
 }

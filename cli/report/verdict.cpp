@@ -7,7 +7,7 @@
 namespace prt::cli {
 namespace {
 
-/// How far two pictures must be looked at to be told apart.
+/// How two pictures must be viewed for a difference to be seen.
 enum class Seen { same, flicking, side_by_side, plainly };
 
 /// Errors spread about as Gaussians do: below half of what is visible in the root mean square, 95 % of the

@@ -41,6 +41,17 @@ struct AffineClusters {
     }
 };
 
+/// Calls `visit(row, factor)` for the rows of cluster `k` in the order of a file: its mean and guides' rows
+/// with 1, its directions with 2, the multiple of the step that they are rounded to.
+template <class Clusters, class Visit>
+void for_rows(Clusters& clusters, std::size_t k, Visit&& visit) {
+    visit(clusters.mean(k), 1);
+    for (std::size_t g = 0; g < clusters.guides; ++g)
+        visit(clusters.slope(k, g), 1);
+    for (std::size_t j = 0; j < clusters.components_of(k); ++j)
+        visit(clusters.row(k, j), 2);
+}
+
 /// What is left of `point` [dimension + guides] when the mean and the guides of cluster `k` have told what
 /// they know; in place, the first `dimension` numbers.
 inline void subtract_known(const AffineClusters& clusters, std::size_t k, float* point) {

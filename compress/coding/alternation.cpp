@@ -27,19 +27,14 @@ std::vector<int> axes_of_groups(const PointBlocks& points) {
 /// Largest values of cluster `k` along each axis, of rows the half.
 std::vector<double> largest_values(const AffineClusters& clusters, std::size_t k) {
     std::vector<double> largest(clusters.dimension, 0);
-    const auto see = [&](const float* row, double factor) {
+    for_rows(clusters, k, [&](const float* row, int factor) {
         for (std::size_t i = 0; i < clusters.dimension; ++i)
-            largest[i] = std::max(largest[i], factor * static_cast<double>(std::abs(row[i])));
-    };
-    see(clusters.mean(k), 1);
-    for (std::size_t g = 0; g < clusters.guides; ++g)
-        see(clusters.slope(k, g), 1);
-    for (std::size_t j = 0; j < clusters.components_of(k); ++j)
-        see(clusters.row(k, j), 0.5);
+            largest[i] = std::max(largest[i], static_cast<double>(std::abs(row[i])) / factor);
+    });
     return largest;
 }
 
-/// What a squared error along the axes of each group costs, summed over the points of each cluster:
+/// Cost of a squared error along the axes of each group, summed over the points of each cluster:
 /// [clusters][groups].
 std::vector<double> costs_of_groups(const PointBlocks& points, std::span<const float> significance,
                                     const Codes& codes, std::size_t clusters) {
@@ -72,26 +67,26 @@ RowSteps basis_steps(const PointBlocks& points, std::span<const float> significa
     std::vector<double> dearest(groups, 0);
     for (std::size_t at = 0; at < costs.size(); ++at)
         dearest[at % groups] = std::max(dearest[at % groups], costs[at]);
-    constexpr double kMost = (1 << (kMostRowBits - 1)) - 1, kLeastStep = 1e-30;
-    std::vector<double> wanted(clusters.clusters() * groups, 0), least(wanted.size(), kLeastStep);
+    constexpr double kMaxValue = (1 << (kMostRowBits - 1)) - 1, kMinStep = 1e-30;
+    std::vector<double> wanted(clusters.clusters() * groups, 0), smallest(wanted.size(), kMinStep);
     for (std::size_t k = 0; k < clusters.clusters(); ++k) {
         const std::vector<double> largest = largest_values(clusters, k);
         std::size_t i = 0;
         for (std::size_t g = 0; g < groups; ++g) {
             for (const std::size_t end = i + static_cast<std::size_t>(steps.axes[g]); i < end; ++i)
-                least[k * groups + g] = std::max(least[k * groups + g], largest[i] / kMost);
+                smallest[k * groups + g] = std::max(smallest[k * groups + g], largest[i] / kMaxValue);
             const double cost = std::max(costs[k * groups + g], 1e-6 * dearest[g]);
             wanted[k * groups + g] = cost > 0 ? step / std::sqrt(cost) : 0;
         }
     }
     steps.least = std::numeric_limits<double>::infinity();
     for (std::size_t at = 0; at < wanted.size(); ++at)
-        steps.least = std::min(steps.least, std::max(wanted[at], least[at]));
+        steps.least = std::min(steps.least, std::max(wanted[at], smallest[at]));
     steps.least = static_cast<double>(static_cast<float>(steps.least)); // as the file has it
     for (std::size_t at = 0; at < wanted.size(); ++at)
         steps.exponents.push_back(static_cast<int>(
-            std::max({0.0, std::ceil(std::log2(least[at] / steps.least) - 1e-9),
-                      std::round(std::log2(std::max(wanted[at], kLeastStep) / steps.least))})));
+            std::max({0.0, std::ceil(std::log2(smallest[at] / steps.least) - 1e-9),
+                      std::round(std::log2(std::max(wanted[at], kMinStep) / steps.least))})));
     return steps;
 }
 
@@ -104,20 +99,8 @@ double improve(const PointBlocks& points, std::span<const float> significance,
     return total_error(significance, coded.codes.errors);
 }
 
-/// Makes cluster `to` one of as many rows and bits as `from`.
-void copy_cluster(std::size_t from, std::size_t to, QuantisedClusters& clusters) {
-    const std::size_t d = clusters.dimension, most = clusters.max_components;
-    std::copy_n(clusters.mean(from), d, clusters.mean(to));
-    std::copy_n(clusters.center(from), clusters.guides, clusters.center(to));
-    std::copy_n(clusters.slope(from, 0), clusters.guides * d, clusters.slope(to, 0));
-    std::copy_n(clusters.row(from, 0), most * d, clusters.row(to, 0));
-    std::copy_n(clusters.grids.begin() + static_cast<std::ptrdiff_t>(from * most), most,
-                clusters.grids.begin() + static_cast<std::ptrdiff_t>(to * most));
-    clusters.components[to] = clusters.components[from];
-}
-
-/// Points along the group in which their scales differ most: what one subspace reaches least is light of many
-/// magnitudes.
+/// Sorts points along the group in which their scales differ most: one subspace serves light of many
+/// magnitudes worst.
 void sort_by_scale(const PointScales& scales, std::vector<std::uint32_t>& members) {
     std::size_t widest = 0;
     float most = 0;
@@ -143,8 +126,7 @@ void become_neighbours(std::uint32_t from, std::uint32_t to, ClusterLists& candi
             candidates[near].push_back(to);
 }
 
-/// Takes points of clusters that others serve nearly as well there, and gives these clusters half of the
-/// points of those that err most: splits and merges, as of clusters before they have codes.
+/// Merges clusters whose points others serve nearly as well, and splits those that err most into them.
 class Splitter {
 public:
     Splitter(const PointBlocks& points, std::span<const float> significance,
@@ -198,7 +180,7 @@ private:
     }
 
     void split(std::uint32_t from, std::uint32_t to) {
-        copy_cluster(from, to, coded_.clusters);
+        copy_cluster(coded_.clusters, from, coded_.clusters, to);
         become_neighbours(from, to, *options_.candidates);
         std::vector<std::uint32_t>& members = members_[from];
         sort_by_scale(points_.scales, members);

@@ -21,16 +21,11 @@ std::vector<std::int32_t> integer_rows(const QuantisedClusters& clusters, const 
     std::vector<std::int32_t> values;
     for (std::size_t k = 0; k < clusters.clusters(); ++k) {
         const std::vector<double> of = steps.of(k);
-        const auto put = [&](const float* row, double factor) {
+        for_rows(clusters, k, [&](const float* row, int factor) {
             for (std::size_t i = 0; i < axes; ++i)
                 values.push_back(
                     static_cast<std::int32_t>(std::lround(static_cast<double>(row[i]) / (factor * of[i]))));
-        };
-        put(clusters.mean(k), 1);
-        for (std::size_t g = 0; g < clusters.guides; ++g)
-            put(clusters.slope(k, g), 1);
-        for (std::size_t j = 0; j < clusters.components_of(k); ++j)
-            put(clusters.row(k, j), 2);
+        });
     }
     return values;
 }

@@ -117,17 +117,24 @@ std::vector<double> RowSteps::of(std::size_t k) const {
 void round_rows(AffineClusters& clusters, const RowSteps& steps) {
     for (std::size_t k = 0; k < clusters.clusters(); ++k) {
         const std::vector<double> of = steps.of(k);
-        const auto round = [&](float* row, double factor) {
+        for_rows(clusters, k, [&](float* row, int factor) {
             for (std::size_t i = 0; i < clusters.dimension; ++i)
                 row[i] = static_cast<float>(std::round(static_cast<double>(row[i]) / (factor * of[i])) *
                                             factor * of[i]);
-        };
-        round(clusters.mean(k), 1);
-        for (std::size_t g = 0; g < clusters.guides; ++g)
-            round(clusters.slope(k, g), 1);
-        for (std::size_t j = 0; j < clusters.components_of(k); ++j)
-            round(clusters.row(k, j), 2);
+        });
     }
+}
+
+void copy_cluster(const QuantisedClusters& source, std::size_t from, QuantisedClusters& clusters,
+                  std::size_t to) {
+    const std::size_t d = source.dimension, most = source.max_components;
+    std::copy_n(source.mean(from), d, clusters.mean(to));
+    std::copy_n(source.center(from), source.guides, clusters.center(to));
+    std::copy_n(source.slope(from, 0), source.guides * d, clusters.slope(to, 0));
+    std::copy_n(source.row(from, 0), most * d, clusters.row(to, 0));
+    std::copy_n(source.grids.begin() + static_cast<std::ptrdiff_t>(from * most), most,
+                clusters.grids.begin() + static_cast<std::ptrdiff_t>(to * most));
+    clusters.components[to] = source.components[from];
 }
 
 QuantisedClusters without_rows(const QuantisedClusters& clusters, std::size_t dimension) {

@@ -32,12 +32,17 @@ struct RowSteps {
     std::vector<int> exponents; ///< [clusters][groups]
 
     std::size_t groups() const { return axes.size(); }
-    /// Of the axes of cluster `k`, [axes].
+    /// Steps in cluster `k`, [axes].
     std::vector<double> of(std::size_t k) const;
 };
 
 /// Rounds means and slopes to multiples of their steps and rows to multiples of twice as much.
 void round_rows(AffineClusters& clusters, const RowSteps& steps);
+
+/// Copies cluster `from` of `source` over cluster `to` of `clusters`, which has as many components and guides
+/// at most; both may be the same.
+void copy_cluster(const QuantisedClusters& source, std::size_t from, QuantisedClusters& clusters,
+                  std::size_t to);
 
 /// Clusters of as many components, grids and centers, all rows zero.
 QuantisedClusters without_rows(const QuantisedClusters& clusters, std::size_t dimension);

@@ -71,8 +71,8 @@ void refit(const PointBlocks& points, std::span<const float> significance, const
                 continue;
             Eigen::MatrixXd change(right.rows(), right.cols());
             for (std::size_t g = 0; g < left.size(); ++g) {
-                // What the points hardly determine stays as it is: one slope of 30 would make the rounding of
-                // all rows coarse.
+                // A ridge keeps what the points hardly determine as it is: one slope of 30 would make the
+                // rounding of all rows coarse.
                 left[g].diagonal().array() += tuning::kRefitRidge * left[g](0, 0);
                 const auto solver = left[g].selfadjointView<Eigen::Lower>().ldlt();
                 for (Eigen::Index i = 0; i < change.cols(); ++i)

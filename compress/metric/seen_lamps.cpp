@@ -4,7 +4,6 @@
 
 #include "metric/transfer_columns.h"
 #include "prt/color.h"
-#include "prt/support/parallel.h"
 #include "tuning.h"
 
 #include <Eigen/Dense>

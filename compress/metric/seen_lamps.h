@@ -23,7 +23,8 @@ public:
     SeenLamps(const TransferView& transfer, std::span<const float> significance, const LightMetric& metric,
               int threads);
 
-    /// The transfer with T log(1 + Y/a)/Y in the place of T for lamps, Y the luminance of T.
+    /// The transfer with T (log(1 + Y/a)/Y + a constant of the lamp) in the place of T for lamps, Y the
+    /// luminance of T.
     TransferView logarithmic() const;
     /// What errors cost there; and those of light where Y + a is 1.
     const LightMetric& metric() const { return metric_; }
