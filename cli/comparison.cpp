@@ -290,7 +290,7 @@ public:
         add("Before: the bake, under " + light.sky.name, before, exposure, suns);
         add("After: as shipped", shipped_under(drawn), exposure, suns);
         const auto wanted = wanted_under(lighting), lit = shipped_under(lighting);
-        add(fmt::format("Error (white: {:.0f} % of the mean radiance)", 100 * kWhiteError),
+        add(fmt::format("Contrast error (white: {:.0f} %)", 100 * kWhiteError),
             error_colors(wanted, lit, areas_), 1);
         if (model_.compressed)
             add("Clusters", cluster_colors(model_.compressed->transfer), 1);

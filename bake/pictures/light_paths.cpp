@@ -108,6 +108,8 @@ void LightPaths::add_lamp_light(const LitSide& side, LightPath& path, PathSample
 
 /// Of a surface that shines, as far as samples of it do not count it.
 void LightPaths::add_emission(const SurfaceHit& hit, LightPath& path) const {
+    if (path.from_camera() && !rules.lamps)
+        return;
     const glm::vec3 radiance = light.lamps->radiance(hit.point, hit.back);
     if (radiance == glm::vec3(0))
         return;

@@ -58,7 +58,8 @@ struct PathRules {
     int bounces; ///< between surfaces; kEndlessBounces: until roulette ends the path
     /// Multiply by the base color of what the camera sees; else exit radiance for albedo 1.
     bool textured;
-    bool background; ///< distant light behind the scene is seen
+    bool background;   ///< distant light behind the scene is seen
+    bool lamps = true; ///< surfaces that shine are seen to
 };
 
 /// What paths share.

@@ -19,7 +19,7 @@ glm::vec3 unit_direction(const CameraFrame& frame, const PathTraceOptions& optio
 }
 
 LightPaths paths_of(const TraceScene& scene, const PathLight& light, const PathTraceOptions& options) {
-    return {scene, light, {options.bounces, options.textured, options.background}};
+    return {scene, light, {options.bounces, options.textured, options.background, options.shining}};
 }
 
 } // namespace
@@ -76,6 +76,26 @@ std::vector<bool> PathTracer::surface_mask() const {
             mask.push_back(hit.has_value());
         }
     return mask;
+}
+
+PathTracedPicture path_traced(const TraceScene& scene, const DistantLight& light,
+                              const PathTraceOptions& options, int paths, const SceneLamps* lamps,
+                              const Progress& progress) {
+    const int passes = std::max(1, (paths + 1) / 2);
+    PathTracedPicture result;
+    for (std::size_t half = 0; half < 2; ++half) {
+        PathTraceOptions own = options;
+        own.seed = 2 * options.seed + half;
+        PathTracer tracer(scene, light, own, lamps);
+        for (int pass = 0; pass < passes; ++pass) {
+            tracer.add_pass(0, progress.stop);
+            progress.update((static_cast<double>(half) * passes + pass + 1) / (2.0 * passes));
+        }
+        result.halves[half] = tracer.image();
+        if (half == 0)
+            result.surfaces = tracer.surface_mask();
+    }
+    return result;
 }
 
 } // namespace prt

@@ -49,6 +49,20 @@ double brightness_of(const Surfaces& surfaces, std::uint32_t triangle, double ar
 
 } // namespace
 
+std::vector<TransferPart> lamps_of(const Scene& scene) {
+    std::vector<TransferPart> lamps;
+    const auto add = [&](const std::string& name) {
+        if (std::ranges::none_of(lamps, [&](const TransferPart& lamp) { return lamp.name == name; }))
+            lamps.push_back({.kind = PartKind::lamp, .channels = 3, .name = name});
+    };
+    for (const PunctualLight& light : scene.lights)
+        add(light.name);
+    for (std::size_t m = 0; m < scene.materials.size(); ++m)
+        if (scene.materials[m].emission.radiance != glm::vec3(0))
+            add(lamp_name(scene, m));
+    return lamps;
+}
+
 SceneLamps::SceneLamps(const TraceScene& scene, std::span<const TransferPart> lamps,
                        std::span<const glm::vec3> strengths)
     : scene_(scene), strengths_(scene.scene().materials.size(), glm::vec3(0)) {

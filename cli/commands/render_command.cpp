@@ -19,6 +19,8 @@
 #include "prt/tone_map.h"
 #include "solid_materials.h"
 #include "split_light.h"
+#include "traced_picture.h"
+#include "view_arguments.h"
 
 #include <fmt/core.h>
 #include <glm/trigonometric.hpp>
@@ -31,22 +33,10 @@ namespace {
 
 enum class Show { lit, clusters, error, ao };
 
-/// How bright a picture is.
-struct Exposure {
-    bool automatic = true; ///< by what the model shows
-    double stops = 0;      ///< of radiance, or beside the automatic ones
-};
-
-/// From where, and with how many pixels.
-struct View {
-    int width = 1280, height = 720, samples = 2;
-    std::optional<glm::dvec3> camera, look_at; ///< metres, world
-    double field_of_view_degrees = 35;
-};
-
 struct Look {
     Show show = Show::lit;
     Exposure exposure;
+    int paths = 0; ///< for each pixel by path tracing; 0: none are traced
     ToneMap tone_map = ToneMap::filmic;
     bool background = true;
 };
@@ -59,6 +49,9 @@ struct Lights {
     double lamp_scale = 1;
 };
 
+/// What `--show error` shows.
+enum class ErrorOf { none, baked, traced };
+
 struct RenderArguments {
     Path model, environment, output, json, baked;
     LightOptions light_options = {{}, Window::automatic, 0}; ///< a picture shows ringing as bruises
@@ -68,53 +61,20 @@ struct RenderArguments {
     Look look;
     GltfOptions reading;
     int threads = 0;
+
+    ErrorOf error() const {
+        if (look.show != Show::error)
+            return ErrorOf::none;
+        return look.paths > 0 ? ErrorOf::traced : ErrorOf::baked;
+    }
+    /// Whether the picture is drawn with light, with its textures and exposed.
+    bool drawn_lit() const { return look.show == Show::lit || error() == ErrorOf::traced; }
+    bool traced() const { return look.paths > 0; }
 };
 
 const std::map<std::string, Show> kShows = {
     {"lit", Show::lit}, {"clusters", Show::clusters}, {"error", Show::error}, {"ao", Show::ao}};
 const std::map<std::string, ToneMap> kToneMaps = {{"filmic", ToneMap::filmic}, {"srgb", ToneMap::srgb}};
-
-void parse_vector(const std::string& name, const std::string& text, std::optional<glm::dvec3>& target) {
-    glm::dvec3 v(0);
-    int used = 0;
-    if (std::sscanf(text.c_str(), "%lf,%lf,%lf%n", &v.x, &v.y, &v.z, &used) != 3 ||
-        static_cast<std::size_t>(used) != text.size() || !std::isfinite(v.x + v.y + v.z))
-        throw CLI::ValidationError(name, "'" + text + "' is not x,y,z, three finite numbers");
-    target = v;
-}
-
-void vector_option(CLI::App* command, const std::string& name, std::optional<glm::dvec3>& target,
-                   const std::string& text) {
-    command
-        ->add_option_function<std::string>(
-            name, [name, &target](const std::string& value) { parse_vector(name, value, target); }, text)
-        ->type_name("x,y,z");
-}
-
-void parse_size(const std::string& text, int& width, int& height) {
-    constexpr int kMost = 16384;
-    int used = 0;
-    if (std::sscanf(text.c_str(), "%5dx%5d%n", &width, &height, &used) != 2 ||
-        static_cast<std::size_t>(used) != text.size() || width < 1 || height < 1 || width > kMost ||
-        height > kMost)
-        throw CLI::ValidationError("--size", "'" + text + "' is not WIDTHxHEIGHT in 1..16384");
-}
-
-constexpr double kMostStops = 100; ///< floats go from -126 to 127
-
-Exposure parse_exposure(const std::string& text) {
-    Exposure exposure;
-    exposure.automatic = text.starts_with("auto");
-    const std::string number = exposure.automatic ? text.substr(4) : text;
-    const bool sign_follows = number.empty() || number[0] == '+' || number[0] == '-';
-    const std::optional<double> stops = number.empty() ? exposure.stops : real_number(number);
-    if ((exposure.automatic && !sign_follows) || text.empty() || !stops || !(std::abs(*stops) <= kMostStops))
-        throw CLI::ValidationError("--exposure", "'" + text +
-                                                     "' is neither a number of stops in -100..100 nor auto, "
-                                                     "auto+STOPS or auto-STOPS");
-    exposure.stops = *stops;
-    return exposure;
-}
 
 constexpr int kUnshadowedOrder = 6;
 
@@ -155,7 +115,7 @@ SplitLight load_lit(const RenderArguments& a, const SceneFile& model, const std:
     const int order = model.order() > 0 ? model.order() : kUnshadowedOrder;
     if (a.environment.empty())
         return dark_sky(order);
-    const bool lit = a.look.show == Show::lit || a.look.show == Show::error;
+    const bool lit = a.drawn_lit() || a.look.show == Show::error;
     const std::string why = lit ? why_together(a, model, solid) : "";
     if (!why.empty() && a.lights.suns.count.value_or(0) > 0)
         throw Error(why + ", or light it with --suns 0");
@@ -193,7 +153,7 @@ std::vector<glm::vec3> lit_colors(const SceneFile& model, const Lighting& lighti
 
 /// Says where the lights of the model outshine its sky.
 void note_lights(const RenderArguments& a, const SceneFile& model, const Lighting& lighting) {
-    if (a.environment.empty() || a.look.show != Show::lit || !model.record())
+    if (a.environment.empty() || !a.drawn_lit() || !model.record())
         return;
     const TransferLayout layout = layout_of(model);
     std::vector<float> areas;
@@ -234,6 +194,8 @@ std::vector<glm::vec3> colors_to_show(const RenderArguments& a, const SceneFile&
                            .lamps = std::vector<glm::vec3>(layout_of_any(model).lamps(), glm::vec3(0))},
                           a.threads);
     case Show::error: {
+        if (a.error() == ErrorOf::traced)
+            break;
         SceneFile baked = load_scene_file(a.baked, a.reading);
         if (!baked.baked)
             throw Error(a.baked.string() + ": holds no raw transfer; --baked is the output of prt bake");
@@ -263,38 +225,31 @@ LitMaps lit_maps(const SceneFile& model, const std::vector<glm::vec3>& colors) {
     return lit;
 }
 
-Camera choose_camera(const View& view, const Scene& scene) {
-    const float aspect = static_cast<float>(view.width) / static_cast<float>(view.height);
-    const auto fov = static_cast<float>(glm::radians(view.field_of_view_degrees));
-    Camera camera = automatic_camera(scene, aspect, fov);
-    if (view.look_at)
-        camera.target = glm::vec3(*view.look_at - scene.origin);
-    if (view.camera)
-        camera.position = glm::vec3(*view.camera - scene.origin);
-    return camera;
-}
-
 /// Factor on radiance. Where the picture shows nothing of the model that is lit, the light is measured.
 float choose_exposure(const Exposure& exposure, const Picture& picture, const TraceScene& scene,
-                      const Light& light) {
+                      const Light& light, const TracedLights* traced) {
     const auto stops = static_cast<float>(std::exp2(exposure.stops));
     if (!exposure.automatic)
         return stops;
+    const auto shown = [&](float luminance) {
+        const float automatic = luminance > 0 ? exposure_for(luminance) : automatic_exposure(light);
+        return std::clamp(stops * automatic, 1e-30f, 1e30f); // floats hold the product with radiance
+    };
+    if (traced)
+        return shown(traced_luminance(picture, scene, *traced));
     const LightMeter meter(picture, scene.rays());
     std::vector<glm::vec3> radiance;
     const PictureLightmaps& lightmaps = picture.in_shader.lightmaps;
     for (const std::uint32_t receiver : meter.receivers())
         radiance.push_back(lightmaps.layout ? lightmaps.radiance[receiver] : picture.radiance[receiver]);
-    const float luminance = meter.luminance(radiance) + sun_luminance(picture, scene);
-    const float automatic = luminance > 0 ? exposure_for(luminance) : automatic_exposure(light);
-    return std::clamp(stops * automatic, 1e-30f, 1e30f); // beyond, floats do not hold what it is a factor of
+    return shown(meter.luminance(radiance) + sun_luminance(picture, scene));
 }
 
 /// A picture that shows nothing yet.
 Picture empty_picture(const RenderArguments& a, const Scene& scene) {
     Picture picture;
     picture.scene = &scene;
-    picture.textured = a.look.show == Show::lit;
+    picture.textured = a.drawn_lit();
     picture.camera = choose_camera(a.view, scene);
     picture.width = a.view.width;
     picture.height = a.view.height;
@@ -306,7 +261,7 @@ Picture empty_picture(const RenderArguments& a, const Scene& scene) {
 /// Lets OpenGL light what is compressed in the vertex shader, where it fits.
 void light_in_shader(const RenderArguments& a, const SceneFile& model, const Lighting& lighting,
                      Picture& picture) {
-    if (a.look.show != Show::lit || !model.compressed || model.lightmap)
+    if (!a.drawn_lit() || !model.compressed || model.lightmap)
         return;
     const ClusteredBases& bases = model.compressed->transfer.bases;
     if (bases.max_components() <= most_vertex_components(bases)) {
@@ -321,36 +276,94 @@ void light_in_shader(const RenderArguments& a, const SceneFile& model, const Lig
     }
 }
 
-struct Rendered {
-    Image image;
-    double seconds = 0;
-    std::optional<float> exposure; ///< unset: the numbers are shown as they are
+/// What a picture is made from.
+struct Drawing {
+    const Picture& picture;
+    const TraceScene& scene;
+    const Light& light;           ///< all of it, as SH
+    const TracedLights& lights;   ///< the same for paths
+    GlContext* context = nullptr; ///< that draws; null: the CPU does
+    bool holds_transfer = true;   ///< by which exposure is metered
 };
 
-/// Draws with `context`, or on the CPU where that is null.
-Rendered render(const RenderArguments& a, const Picture& picture, const TraceScene& scene, const Light& light,
-                GlContext* context) {
-    const bool exposed = a.look.show == Show::lit && suffix_of(a.output) != ".exr";
+struct Rendered {
+    Image image;
+    int samples = 1; ///< of `image` per pixel along each axis
+    double seconds = 0;
+    std::optional<float> exposure = {}; ///< unset: the numbers are shown as they are
+    std::optional<double> noise = {};   ///< of path tracing, relative L2
+    std::optional<PictureError> error = {};
+};
+
+Image drawn(const RenderArguments& a, const Drawing& drawing) {
+    return drawing.context ? render_gl(drawing.picture, *drawing.context)
+                           : render_rays(drawing.picture, drawing.scene,
+                                         {.sun_rays = a.lights.sun_rays, .threads = a.threads});
+}
+
+/// The reference, or the error of what is drawn against it.
+Rendered path_traced(const RenderArguments& a, const Drawing& drawing, Session& session) {
+    Rendered result;
+    ProgressBar bar = session.progress_bar("path tracing");
+    const PathTracedPicture traced =
+        traced_picture(drawing.picture, drawing.scene, drawing.lights, a.look.paths, bar.progress());
+    result.noise = noise_of(traced.halves, traced.surfaces);
+    if (a.error() == ErrorOf::none) {
+        result.image = mean_of(traced.halves);
+        return result;
+    }
+    result.error = picture_error(downsampled(drawn(a, drawing), drawing.picture.samples), traced.halves,
+                                 traced.surfaces, {.threads = a.threads});
+    result.image = heat_image(drawing.picture.width, drawing.picture.height, result.error->flip);
+    return result;
+}
+
+Rendered render(const RenderArguments& a, const Drawing& drawing, Session& session) {
     const Stopwatch stopwatch;
     Rendered result;
-    result.image = context
-                       ? render_gl(picture, *context)
-                       : render_rays(picture, scene, {.sun_rays = a.lights.sun_rays, .threads = a.threads});
+    if (a.traced()) {
+        result = path_traced(a, drawing, session);
+    } else {
+        result.image = drawn(a, drawing);
+        result.samples = drawing.picture.samples;
+    }
     result.seconds = stopwatch.seconds();
-    if (exposed)
-        result.exposure = choose_exposure(a.look.exposure, picture, scene, light);
+    if (a.look.show == Show::lit && suffix_of(a.output) != ".exr")
+        result.exposure = choose_exposure(a.look.exposure, drawing.picture, drawing.scene, drawing.light,
+                                          a.traced() && !drawing.holds_transfer ? &drawing.lights : nullptr);
     return result;
 }
 
 void write_picture(const RenderArguments& a, const Rendered& rendered, Session& session) {
     if (suffix_of(a.output) == ".exr") {
-        session.write(a.output, encode_exr(downsampled(rendered.image, a.view.samples)));
+        session.write(a.output, encode_exr(downsampled(rendered.image, rendered.samples)));
         return;
     }
     // Views of numbers are shown as they are.
-    const auto pixels = tone_mapped(rendered.image, a.view.samples, rendered.exposure.value_or(1.0f),
+    const auto pixels = tone_mapped(rendered.image, rendered.samples, rendered.exposure.value_or(1.0f),
                                     rendered.exposure ? a.look.tone_map : ToneMap::srgb);
     session.write(a.output, encode_png(a.view.width, a.view.height, pixels));
+}
+
+/// Figures of path tracing, and the words that show them.
+std::string add_traced(const RenderArguments& a, const Rendered& rendered, Report& report) {
+    add_figures(report, {{"paths_per_pixel", a.look.paths}, {"noise_relative_l2", *rendered.noise}});
+    std::string words = ", {paths_per_pixel} paths a pixel, noise {noise_relative_l2:.2%}";
+    if (const auto& error = rendered.error) {
+        add_figures(report, {{"flip_mean", error->flip_mean},
+                             {"flip_percentile_95", error->flip_percentile_95},
+                             {"relative_l2", error->relative_l2}});
+        words += "; against path tracing: HDR-FLIP {flip_mean:.3f} (95 % below {flip_percentile_95:.3f}), "
+                 "relative L2 {relative_l2:.2%}";
+    }
+    return words;
+}
+
+std::string renderer_name(const RenderArguments& a, const GlContext* context) {
+    const std::string drawn_by = context ? context->renderer() : "CPU ray casting";
+    if (!a.traced())
+        return drawn_by;
+    return a.error() == ErrorOf::none ? "path tracing" : drawn_by + " against path tracing";
 }
 
 Report report_of(const RenderArguments& a, const Picture& picture, const Rendered& rendered,
@@ -363,13 +376,15 @@ Report report_of(const RenderArguments& a, const Picture& picture, const Rendere
                          {"height_pixels", a.view.height},
                          {"seconds", rendered.seconds},
                          {"backend", context ? "gpu" : "cpu"},
-                         {"renderer", context ? context->renderer() : "CPU ray casting"},
+                         {"renderer", renderer_name(a, context)},
                          {"suns", picture.suns.size()},
                          {"camera_metres", {position.x, position.y, position.z}},
                          {"look_at_metres", {target.x, target.y, target.z}}});
     std::string sentence = "{output}: {width_pixels} x {height_pixels}, {seconds:.3f} s, {renderer}";
     if (!picture.suns.empty())
         sentence += ", {suns} suns apart";
+    if (rendered.noise)
+        sentence += add_traced(a, rendered, report);
     if (rendered.exposure) {
         add_figures(report, {{"exposure_stops", std::log2(static_cast<double>(*rendered.exposure))},
                              {"exposure_automatic", a.look.exposure.automatic}});
@@ -382,8 +397,89 @@ Report report_of(const RenderArguments& a, const Picture& picture, const Rendere
 
 /// What CLI11 cannot see: options that need each other.
 void check_together(const RenderArguments& a) {
-    if ((a.look.show == Show::error) == a.baked.empty())
-        throw CLI::ValidationError("--show error", "and --baked FILE go together");
+    const bool error = a.look.show == Show::error;
+    if ((error && a.baked.empty() == !a.traced()) || (!error && !a.baked.empty()))
+        throw CLI::ValidationError("--show error",
+                                   "goes with --baked FILE or with --path-trace N, one of them");
+    if (a.traced() && !error && a.look.show != Show::lit)
+        throw CLI::ValidationError("--path-trace", "goes with --show lit and --show error");
+}
+
+/// Reads the model. One that holds only lobes gets the transfer that they stand for.
+SceneFile load_model(const RenderArguments& a) {
+    SceneFile model = load_scene_file(a.model, a.reading);
+    if (!model.record() && model.lobes)
+        model.baked = lobes_as_transfer(model);
+    if (!model.record() && (!a.traced() || a.error() == ErrorOf::traced))
+        print_notices(a.model.string(), {"holds no transfer: its sky casts no shadows"});
+    return model;
+}
+
+/// The lights of a path-traced picture: those of the transfer; all lamps of a scene that holds none.
+TracedLights traced_lights(const RenderArguments& a, const SceneFile& model, const Lighting& lighting) {
+    TracedLights lights{.environment = a.environment, .reading = a.light_options, .threads = a.threads};
+    lights.reading.window = Window::none;
+    TransferLayout layout = layout_of_any(model);
+    if (!model.record())
+        for (TransferPart& lamp : lamps_of(model.scene))
+            layout.parts.push_back(std::move(lamp));
+    lights.lamps.assign(layout.lamp_parts().begin(), layout.lamp_parts().end());
+    lights.strengths = lighting.lamps;
+    if (!model.record()) {
+        lights.strengths = lamp_strengths(a.lights.lamps, layout);
+        scale_lights(model.scene, layout, a.lights.lamp_scale, lights.strengths);
+    }
+    return lights;
+}
+
+/// Says what path tracing leaves out of the scene.
+void note_media(const RenderArguments& a, const std::vector<bool>& solid) {
+    if (a.traced() && std::ranges::count(solid, true) > 0)
+        print_notices(a.model.string(),
+                      {fmt::format("{} of its materials have a medium inside, which path tracing does not "
+                                   "enter: they are opaque in the reference",
+                                   std::ranges::count(solid, true))});
+}
+
+/// What the model shows: numbers that a picture refers to.
+struct Shown {
+    std::vector<glm::vec3> colors, emission;
+    LitMaps maps;
+    Image background;
+    std::optional<CompressedLightmap> on_gpu;
+};
+
+/// Fills `picture`, which refers to what is returned.
+std::unique_ptr<Shown> show(const RenderArguments& a, const SceneFile& model, const Lighting& lighting,
+                            const SplitLight& light, Picture& picture) {
+    auto shown = std::make_unique<Shown>();
+    shown->colors = colors_to_show(a, model, lighting);
+    if (model.lightmap) {
+        shown->maps = lit_maps(model, shown->colors);
+        picture.in_shader.lightmaps = {.layout = &model.lightmap->layout, .radiance = shown->maps.texels};
+    }
+    picture.radiance = model.lightmap ? shown->maps.at_vertices : shown->colors;
+    if (!a.drawn_lit())
+        return shown;
+    picture.suns = light.split.suns;
+    shown->emission = emission_strengths(model.scene, layout_of_any(model), lighting.lamps);
+    picture.emission = shown->emission;
+    if (a.look.background && light.sky.environment) {
+        shown->background = resampled_lat_long(*light.sky.environment);
+        picture.background.image = &shown->background;
+    }
+    return shown;
+}
+
+/// Lets OpenGL form the light of a compressed model itself.
+void light_on_gpu(const RenderArguments& a, const SceneFile& model, const Lighting& lighting, Shown& shown,
+                  Picture& picture) {
+    light_in_shader(a, model, lighting, picture);
+    if (!model.lightmap || !model.compressed || !a.drawn_lit())
+        return;
+    shown.on_gpu = {model.lightmap->layout, *model.compressed};
+    picture.in_shader.lightmaps.on_gpu = &*shown.on_gpu;
+    picture.in_shader.lightmaps.lighting = &lighting;
 }
 
 void run(RenderArguments a, Session& session) {
@@ -391,82 +487,34 @@ void run(RenderArguments a, Session& session) {
     a.reading.outputs =
         check_outputs({{a.output, "--output", {".png", ".exr"}, true}, {a.json, "--json", {".json"}}},
                       {a.model, a.environment, a.lights.lamps.file, a.baked});
-    SceneFile model = load_scene_file(a.model, a.reading);
-    if (!model.record() && model.lobes)
-        model.baked = lobes_as_transfer(model);
-    if (!model.record())
-        print_notices(a.model.string(), {"holds no transfer: its sky casts no shadows"});
+    const SceneFile model = load_model(a);
     const std::vector<bool> solid = solid_materials(model);
+    note_media(a, solid);
     const SplitLight light = load_lit(a, model, solid);
     const Lighting lighting = lighting_of(a, model, light);
     note_lights(a, model, lighting);
-    const bool suns = !light.split.suns.empty() && a.look.show == Show::lit;
+    const bool suns = !light.split.suns.empty() && a.drawn_lit();
     std::vector<Texture> textures = about(a.model, [&] {
         return load_textures(model.scene, bad_textures(a.reading),
-                             suns ? TextureNeeds::all : TextureNeeds::pictures);
+                             suns || a.traced() ? TextureNeeds::all : TextureNeeds::pictures);
     });
     const TraceScene scene(model.scene, std::move(textures), {.solid = solid, .threads = a.threads});
-    const std::vector<glm::vec3> colors = colors_to_show(a, model, lighting);
     Picture picture = empty_picture(a, model.scene);
     picture.textures = scene.textures();
-    LitMaps maps;
-    if (model.lightmap)
-        maps = lit_maps(model, colors);
-    picture.radiance = model.lightmap ? maps.at_vertices : colors;
-    if (model.lightmap)
-        picture.in_shader.lightmaps = {.layout = &model.lightmap->layout, .radiance = maps.texels};
-    if (suns)
-        picture.suns = light.split.suns;
-    const std::vector<glm::vec3> emission =
-        emission_strengths(model.scene, layout_of_any(model), lighting.lamps);
-    if (a.look.show == Show::lit)
-        picture.emission = emission;
-    Image background;
-    if (a.look.background && a.look.show == Show::lit && light.sky.environment) {
-        background = resampled_lat_long(*light.sky.environment);
-        picture.background.image = &background;
-    }
-    const std::unique_ptr<GlContext> context = choose_backend(
-        a.backend, suns && (picture.suns.size() > kMostShadowedSuns || has_unnamed_media(model, solid)));
-    std::optional<CompressedLightmap> on_gpu;
+    const std::unique_ptr<Shown> shown = show(a, model, lighting, light, picture);
+    const bool draws = !a.traced() || a.error() == ErrorOf::traced;
+    const std::unique_ptr<GlContext> context =
+        draws ? choose_backend(a.backend, suns && (picture.suns.size() > kMostShadowedSuns ||
+                                                   has_unnamed_media(model, solid)))
+              : nullptr;
     if (context)
-        light_in_shader(a, model, lighting, picture);
-    if (context && model.lightmap && model.compressed && a.look.show == Show::lit) {
-        on_gpu = {model.lightmap->layout, *model.compressed};
-        picture.in_shader.lightmaps.on_gpu = &*on_gpu;
-        picture.in_shader.lightmaps.lighting = &lighting;
-    }
+        light_on_gpu(a, model, lighting, *shown, picture);
     const Light all_light = lighting.suns ? sum(lighting.sky, *lighting.suns) : lighting.sky;
-    const Rendered rendered = render(a, picture, scene, all_light, context.get());
+    const TracedLights traced = traced_lights(a, model, lighting);
+    const Rendered rendered =
+        render(a, {picture, scene, all_light, traced, context.get(), model.record() != nullptr}, session);
     write_picture(a, rendered, session);
     publish(report_of(a, picture, rendered, context.get()), a.json, session);
-}
-
-void add_view(CLI::App* command, View& view) {
-    command
-        ->add_option_function<std::string>(
-            "--size", [&view](const std::string& text) { parse_size(text, view.width, view.height); },
-            "size in pixels")
-        ->type_name("WxH")
-        ->default_str("1280x720");
-    vector_option(command, "--camera", view.camera,
-                  "position of the camera, metres; otherwise it sees the whole scene");
-    vector_option(command, "--look-at", view.look_at,
-                  "point the camera looks at; otherwise the middle of the scene");
-    command->add_option("--fov", view.field_of_view_degrees, "vertical field of view, degrees")
-        ->capture_default_str()
-        ->check(real_in(1, 170));
-}
-
-void add_exposure(CLI::App* command, Look& look) {
-    command
-        ->add_option_function<std::string>(
-            "--exposure", [&look](const std::string& text) { look.exposure = parse_exposure(text); },
-            "stops; or auto: the mean luminance of what shows of the model becomes 0.22; or stops "
-            "beside it: auto+1, auto-0.5")
-        ->type_name("STOPS")
-        ->default_str("auto");
-    choice(command, "--tone-map", look.tone_map, kToneMaps, "tone curve of .png", "filmic");
 }
 
 } // namespace
@@ -489,14 +537,22 @@ void add_render(CLI::App& app, Session& session) {
     add_view(command, a.view);
     add_backend(command, a.backend,
                 "gpu: OpenGL 4.5 of any kind; cpu: ray casting; auto: a hardware GPU, else the CPU");
-    choice(
-        command, "--show", a.look.show, kShows,
-        "lit; the clusters; the error against --baked (white: 10 % of the mean radiance); ambient occlusion",
-        "lit");
+    choice(command, "--show", a.look.show, kShows,
+           "lit; the clusters; the error against --baked (contrast; white: 10 %) or --path-trace (HDR-FLIP; "
+           "white: 1); "
+           "ambient occlusion",
+           "lit");
     command->add_option("--baked", a.baked, "the bake that --show error compares with")
         ->type_name("FILE")
         ->check(named);
-    add_exposure(command, a.look);
+    command
+        ->add_option(
+            "--path-trace", a.look.paths,
+            "trace N paths a pixel instead: the reference, with the sky, suns, lamps and all bounces")
+        ->type_name("N")
+        ->check(CLI::Range(2, 1 << 20));
+    add_exposure(command, a.look.exposure);
+    choice(command, "--tone-map", a.look.tone_map, kToneMaps, "tone curve of .png", "filmic");
     command->add_option("--samples", a.view.samples, "samples per pixel along each axis")
         ->capture_default_str()
         ->check(CLI::Range(1, 16));

@@ -10,19 +10,6 @@
 #include <cmath>
 
 namespace prt {
-namespace {
-
-double mean_radiance(std::span<const glm::vec3> reference, std::span<const float> areas) {
-    return lit_error(reference, reference, areas, {}, std::nullopt).mean;
-}
-
-double largest(const glm::vec3& difference) {
-    const glm::vec3 d = glm::abs(difference);
-    return static_cast<double>(std::max({d.r, d.g, d.b}));
-}
-
-} // namespace
-
 glm::vec3 heat_color(double share) {
     const auto ramp = static_cast<float>(3 * std::min(share, 1.0));
     return glm::clamp(glm::vec3(ramp, ramp - 1, ramp - 2), 0.0f, 1.0f);
@@ -56,31 +43,27 @@ std::vector<glm::vec3> component_colors(const ClusteredTransfer& transfer) {
 
 std::vector<glm::vec3> error_colors(std::span<const glm::vec3> reference,
                                     std::span<const glm::vec3> approximation, std::span<const float> areas) {
-    const double mean = mean_radiance(reference, areas);
     std::vector<glm::vec3> colors;
-    for (std::size_t p = 0; p < reference.size(); ++p)
-        colors.push_back(
-            heat_color(mean > 0 ? largest(reference[p] - approximation[p]) / (mean * kWhiteError) : 0));
+    for (const double error : contrast_errors(reference, approximation, areas).magnitudes)
+        colors.push_back(heat_color(error / kWhiteError));
     return colors;
 }
 
 std::vector<glm::vec3> seam_colors(std::span<const glm::vec3> reference,
                                    std::span<const glm::vec3> approximation, std::span<const float> areas,
                                    std::span<const Edge> edges, std::span<const std::uint16_t> clusters) {
-    const double mean = mean_radiance(reference, areas);
+    const std::vector<double> errors = contrast_errors(reference, approximation, areas).luminances;
     std::vector<double> jumps(reference.size(), -1);
     for (const Edge& edge : edges) {
         if (clusters[edge.first] == clusters[edge.second])
             continue;
-        const double jump = largest((reference[edge.first] - approximation[edge.first]) -
-                                    (reference[edge.second] - approximation[edge.second]));
+        const double jump = std::abs(errors[edge.first] - errors[edge.second]);
         for (const std::uint32_t end : {edge.first, edge.second})
             jumps[end] = std::max(jumps[end], jump);
     }
     std::vector<glm::vec3> colors;
     for (const double jump : jumps)
-        colors.push_back(jump < 0 ? glm::vec3(0.01f, 0.02f, 0.08f)
-                                  : heat_color(mean > 0 ? jump / (mean * kWhiteSeam) : 0));
+        colors.push_back(jump < 0 ? glm::vec3(0.01f, 0.02f, 0.08f) : heat_color(jump / kWhiteSeam));
     return colors;
 }
 

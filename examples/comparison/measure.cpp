@@ -31,17 +31,6 @@ constexpr double kBytes[] = {5, 8, 12, 16};
 /// SSAO is given the radius that suits the scene best, of the scene's radius.
 constexpr float kSsaoRadii[] = {0.02f, 0.05f, 0.1f, 0.2f, 0.4f};
 
-struct Reference {
-    prt::Image a, b;
-};
-
-prt::Image mean_of(const prt::Image& a, const prt::Image& b) {
-    prt::Image mean = a;
-    for (std::size_t i = 0; i < mean.pixels.size(); ++i)
-        mean.pixels[i] = 0.5f * (a.pixels[i] + b.pixels[i]);
-    return mean;
-}
-
 class SceneMeasurement {
 public:
     SceneMeasurement(const std::filesystem::path& path, const std::vector<Sky>& skies, const Options& options,
@@ -61,7 +50,7 @@ public:
     SceneResult run() {
         for (const Sky& sky : skies_)
             trace_reference(sky);
-        result_.reference = mean_of(references_[0].a, references_[0].b);
+        result_.reference = prt::mean_of(references_[0]);
         add_row("unshadowed irradiance", PictureKind::unshadowed, 0);
         add_ssao("SSAO, from depth", PictureKind::ssao);
         add_ssao("SSAO, with normals", PictureKind::ssao_normals);
@@ -83,25 +72,17 @@ private:
         trace.width = options_.width;
         trace.height = options_.height;
         trace.textured = trace.background = trace.antialiased = false;
-        std::array<prt::Image, 2> images;
-        for (std::size_t i = 0; i < 2; ++i) {
-            trace.seed = i + 1;
-            prt::PathTracer tracer(*model_->trace, light, trace);
-            for (int pass = 0; pass < options_.passes; ++pass)
-                tracer.add_pass();
-            images[i] = tracer.image();
-            if (result_.surfaces.empty())
-                result_.surfaces = tracer.surface_mask();
-        }
-        double squared = 0, norm = 0;
-        for (std::size_t i = 0; i < images[0].pixels.size(); ++i)
-            if (result_.surfaces[i]) {
-                const glm::dvec3 a(images[0].pixels[i]), b(images[1].pixels[i]);
-                squared += glm::dot(a - b, a - b);
-                norm += glm::dot(a, b);
-            }
-        result_.reference_noise.push_back(std::sqrt(squared / norm / 2));
-        references_.push_back({std::move(images[0]), std::move(images[1])});
+        prt::PathTracedPicture traced = prt::path_traced(*model_->trace, light, trace, 2 * options_.passes);
+        result_.surfaces = std::move(traced.surfaces);
+        result_.reference_noise.push_back(prt::noise_of(traced.halves, result_.surfaces));
+        references_.push_back(std::move(traced.halves));
+    }
+
+    /// Error of a picture under sky i.
+    prt::PictureError error_of(const prt::Image& picture, std::size_t i) const {
+        prt::PictureError error = prt::picture_error(picture, references_[i], result_.surfaces);
+        error.flip.clear();
+        return error;
     }
 
     void set_light(const Sky& sky) { gpu_.set_light(prt::truncated(sky.light, light_order_)); }
@@ -111,12 +92,12 @@ private:
         return renderer_.read(0);
     }
 
-    std::vector<double> errors(PictureKind kind, prt::Image* first_picture) {
-        std::vector<double> errors;
+    std::vector<prt::PictureError> errors(PictureKind kind, prt::Image* first_picture) {
+        std::vector<prt::PictureError> errors;
         for (std::size_t i = 0; i < skies_.size(); ++i) {
             set_light(skies_[i]);
             prt::Image picture = draw(kind);
-            errors.push_back(error_against(picture, references_[i].a, references_[i].b, result_.surfaces));
+            errors.push_back(error_of(picture, i));
             if (i == 0 && first_picture)
                 *first_picture = std::move(picture);
         }
@@ -157,8 +138,8 @@ private:
         for (const float radius : kSsaoRadii) {
             settings_.ssao.radius = radius;
             double sum = 0;
-            for (const double error : errors(kind, nullptr))
-                sum += error;
+            for (const prt::PictureError& error : errors(kind, nullptr))
+                sum += error.relative_l2;
             if (best_radius == 0 || sum < best) {
                 best = sum;
                 best_radius = radius;
@@ -278,7 +259,7 @@ private:
 
     /// Of sky i.
     void add_picture(std::size_t i, prt::Image picture, Row& row) const {
-        row.errors.push_back(error_against(picture, references_[i].a, references_[i].b, result_.surfaces));
+        row.errors.push_back(error_of(picture, i));
         if (i == 0)
             row.picture = std::move(picture);
     }
@@ -293,7 +274,7 @@ private:
     viewer::DrawSettings settings_;
     viewer::FrameView view_;
     int light_order_ = 6;
-    std::vector<Reference> references_;
+    std::vector<std::array<prt::Image, 2>> references_; ///< [skies]
     SceneResult result_;
 };
 
@@ -305,18 +286,6 @@ Sky load_sky(const std::filesystem::path& path) {
     const prt::SunSplit split = prt::find_suns(environment, {.order = kOrder, .count = 1});
     return {path.stem().string(), prt::resampled_lat_long(environment),
             prt::project(environment, prt::kMaxOrder), split.suns, prt::project(split.remainder, kOrder)};
-}
-
-double error_against(const prt::Image& picture, const prt::Image& a, const prt::Image& b,
-                     const std::vector<bool>& surfaces) {
-    double squared = 0, norm = 0;
-    for (std::size_t i = 0; i < surfaces.size(); ++i)
-        if (surfaces[i]) {
-            const glm::dvec3 p(picture.pixels[i]), u(a.pixels[i]), v(b.pixels[i]);
-            squared += glm::dot(p - u, p - v);
-            norm += glm::dot(u, v);
-        }
-    return std::sqrt(std::max(0.0, squared / norm));
 }
 
 SceneResult measure(const std::filesystem::path& scene, const std::vector<Sky>& skies, const Options& options,

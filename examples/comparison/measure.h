@@ -8,6 +8,7 @@
 #include "prt/environment.h"
 #include "prt/gl_context.h"
 #include "prt/image_file.h"
+#include "prt/picture_error.h"
 #include "prt/sun_disc.h"
 
 #include <functional>
@@ -19,7 +20,7 @@ namespace comparison {
 
 struct Options {
     int width = 640, height = 360;
-    int passes = 64; ///< paths per pixel of each of the two references
+    int passes = 64; ///< paths per pixel of each half of the reference
     int bake_rays = 4096;
     int lightmap_size = 512;  ///< texels along each side
     double frame_seconds = 1; ///< to measure frame times for
@@ -38,7 +39,7 @@ Sky load_sky(const std::filesystem::path& path);
 struct Row {
     std::string method;
     double bytes_per_vertex = 0;
-    std::vector<double> errors; ///< [skies] relative L2 of exit radiance over the pixels of the scene
+    std::vector<prt::PictureError> errors; ///< [skies]; their maps are empty
     /// Drawing, and once per change of the light; none where the row is not a frame of the viewer's.
     std::optional<double> frame_milliseconds = {}, relight_milliseconds = {};
     prt::Image picture; ///< under the first sky, linear
@@ -52,18 +53,12 @@ struct SceneResult {
     std::vector<Row> rows;
     prt::Image reference; ///< under the first sky
     std::vector<bool> surfaces;
-    float exposure = 1; ///< of the first sky
-    std::vector<double>
-        reference_noise; ///< [skies] relative L2 of one reference against the other, over sqrt 2
+    float exposure = 1;                  ///< of the first sky
+    std::vector<double> reference_noise; ///< [skies] relative L2 of the mean of both references
 };
 
 /// Everything of one scene; base color 1 where the camera looks. `say` gets what is done next.
 SceneResult measure(const std::filesystem::path& scene, const std::vector<Sky>& skies, const Options& options,
                     const prt::GlContext& context, const std::function<void(const std::string&)>& say);
-
-/// Relative L2 of `picture` against what `a` and `b`, independent and without bias, are estimates of. Their
-/// noise does not count: the mean of (p - a)(p - b) is the squared error of p.
-double error_against(const prt::Image& picture, const prt::Image& a, const prt::Image& b,
-                     const std::vector<bool>& surfaces);
 
 } // namespace comparison

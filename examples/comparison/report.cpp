@@ -85,8 +85,8 @@ private:
 
 double mean(const Row& row) {
     double sum = 0;
-    for (const double error : row.errors)
-        sum += error;
+    for (const prt::PictureError& error : row.errors)
+        sum += error.relative_l2;
     return sum / static_cast<double>(row.errors.size());
 }
 
@@ -117,7 +117,9 @@ std::string explanation(const SceneResult& scene, const Options& options) {
         "scene, {} x {}, against path tracing under the whole environment map with endless "
         "bounces. Two independent references "
         "of {} paths per pixel are taken, so that their noise does not count: the mean of (p - "
-        "a)(p - b). Bytes are those of a "
+        "a)(p - b). FLIP: mean HDR-FLIP of the whole picture against the mean of both, 67 pixels per degree; "
+        "0 is the same, the "
+        "noise of the references counts. Bytes are those of a "
         "vertex beside position and normal, the bases of the compressed shared out; raw transfer "
         "as float16; AO, of direct light, 8 bits; of lightmaps ({} x {} texels on charts of their own, drawn "
         "by rays, not timed) those of a texel. Times "
@@ -140,15 +142,15 @@ std::string milliseconds(const std::optional<double>& time, int digits) {
 std::string table(const SceneResult& scene, const std::vector<Sky>& skies) {
     std::string table = "| method | bytes per vertex |";
     for (const Sky& sky : skies)
-        table += " error, " + sky.name + " |";
+        table += " error, " + sky.name + " | FLIP |";
     table += " frame | light change |\n| --- | --- |";
-    for (std::size_t i = 0; i < skies.size() + 2; ++i)
+    for (std::size_t i = 0; i < 2 * skies.size() + 2; ++i)
         table += " --- |";
     table += "\n";
     for (const Row& row : scene.rows) {
         table += fmt::format("| {} | {:.4g} |", row.method, row.bytes_per_vertex);
-        for (const double error : row.errors)
-            table += fmt::format(" {:.2f} % |", 100 * error);
+        for (const prt::PictureError& error : row.errors)
+            table += fmt::format(" {:.2f} % | {:.3f} |", 100 * error.relative_l2, error.flip_mean);
         table += milliseconds(row.frame_milliseconds, 1) + milliseconds(row.relight_milliseconds, 3) + "\n";
     }
     table += "\nNoise of a reference:";

@@ -200,17 +200,14 @@ double adaptation_of(std::span<const glm::vec3> radiance, std::span<const float>
     return area > 0 ? 0.1 * std::exp(sum / area) : 0;
 }
 
-VisibleError visible_error(std::span<const glm::vec3> reference, std::span<const glm::dvec3> differences,
-                           std::span<const float> areas, std::span<const Edge> edges) {
+VisibleError visible_error(const ContrastErrors& errors, std::span<const float> areas,
+                           std::span<const Edge> edges) {
+    const std::vector<double>&contrast = errors.magnitudes, &sign = errors.luminances;
     VisibleError result;
-    result.adaptation = adaptation_of(reference, areas);
-    std::vector<double> contrast(reference.size()), sign(reference.size());
+    result.adaptation = errors.adaptation;
     double area = 0, squares = 0;
-    for (std::size_t p = 0; p < reference.size(); ++p) {
+    for (std::size_t p = 0; p < contrast.size(); ++p) {
         const double a = static_cast<double>(areas[p]);
-        const double y = std::abs(luminance(glm::dvec3(reference[p]))) + result.adaptation;
-        contrast[p] = ratio(std::sqrt(glm::dot(kLuminance, differences[p] * differences[p])), y);
-        sign[p] = y > 0 ? luminance(differences[p]) / y : 0;
         area += a;
         if (!(a > 0))
             continue;
@@ -233,6 +230,19 @@ VisibleError visible_error(std::span<const glm::vec3> reference, std::span<const
 }
 
 } // namespace
+
+ContrastErrors contrast_errors(std::span<const glm::vec3> reference, std::span<const glm::vec3> approximation,
+                               std::span<const float> areas) {
+    ContrastErrors errors;
+    errors.adaptation = adaptation_of(reference, areas);
+    for (std::size_t p = 0; p < reference.size(); ++p) {
+        const glm::dvec3 r(reference[p]), difference = r - glm::dvec3(approximation[p]);
+        const double y = std::abs(luminance(r)) + errors.adaptation;
+        errors.magnitudes.push_back(ratio(std::sqrt(glm::dot(kLuminance, difference * difference)), y));
+        errors.luminances.push_back(y > 0 ? luminance(difference) / y : 0);
+    }
+    return errors;
+}
 
 double lit_rms(std::span<const glm::vec3> reference, std::span<const glm::vec3> approximation,
                std::span<const float> areas) {
@@ -287,7 +297,7 @@ LitError lit_error(std::span<const glm::vec3> reference, std::span<const glm::ve
     result.max = ratio(largest, mean);
     result.percentile_999 = ratio(percentile(sizes, 0.999), mean);
     result.darker_half_rms = darker_half(reference, differences, areas, area);
-    result.visible = visible_error(reference, differences, areas, edges);
+    result.visible = visible_error(contrast_errors(reference, approximation, areas), areas, edges);
     if (!clusters)
         return result;
     JumpCollector crossing, inner;

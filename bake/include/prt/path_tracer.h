@@ -9,6 +9,7 @@
 #include "prt/scene_lamps.h"
 #include "prt/trace_scene.h"
 
+#include <array>
 #include <cstdint>
 #include <stop_token>
 #include <vector>
@@ -22,6 +23,7 @@ struct PathTraceOptions {
     /// Multiply by the base color of what the camera sees; else exit radiance for albedo 1.
     bool textured = true;
     bool background = true; ///< show the environment behind the scene; else black
+    bool shining = true;    ///< show the emission of surfaces; else only light that they reflect
     /// Rays through random points of each pixel; else through its center.
     bool antialiased = true;
     std::uint64_t seed = 0;
@@ -58,5 +60,17 @@ private:
     std::vector<glm::vec3> sums_; ///< [height][width]
     std::vector<int> counts_;     ///< [height]
 };
+
+/// A path-traced picture in two independent halves, for the measures of prt/picture_error.h.
+struct PathTracedPicture {
+    std::array<Image, 2> halves; ///< [height][width]
+    std::vector<bool> surfaces;  ///< as `PathTracer::surface_mask`
+};
+
+/// Traces `paths` paths for each pixel, rounded up to an even number. `scene`, `light` and `lamps` as for
+/// `PathTracer`. Throws `Cancelled`.
+PathTracedPicture path_traced(const TraceScene& scene, const DistantLight& light,
+                              const PathTraceOptions& options, int paths, const SceneLamps* lamps = nullptr,
+                              const Progress& progress = {});
 
 } // namespace prt

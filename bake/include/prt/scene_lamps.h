@@ -14,6 +14,9 @@
 
 namespace prt {
 
+/// A part for each lamp of a scene that holds no transfer: lights and shining materials, by name.
+std::vector<TransferPart> lamps_of(const Scene& scene);
+
 /// Thread-safe.
 class SceneLamps {
 public:

@@ -24,14 +24,14 @@ std::vector<glm::vec3> cluster_colors(const ClusteredTransfer& transfer);
 /// Components of the receiver's cluster, as heat over the largest number of components there is.
 std::vector<glm::vec3> component_colors(const ClusteredTransfer& transfer);
 
-/// Error of exit radiance `approximation` against `reference`, the largest of three channels: heat over
-/// `kWhiteError` of the mean radiance.
+/// Contrast error of exit radiance `approximation` against `reference` (`contrast_errors`): heat over
+/// `kWhiteError`.
 inline constexpr double kWhiteError = 0.1;
 std::vector<glm::vec3> error_colors(std::span<const glm::vec3> reference,
                                     std::span<const glm::vec3> approximation, std::span<const float> areas);
 
-/// The largest jump of that error along an edge of the receiver that crosses into another cluster, over the
-/// mean radiance: heat over `kWhiteSeam`. Receivers without such an edge are dark blue.
+/// The largest jump of the signed contrast error along an edge of the receiver that crosses into another
+/// cluster: heat over `kWhiteSeam`. Receivers without such an edge are dark blue.
 inline constexpr double kWhiteSeam = 0.05;
 std::vector<glm::vec3> seam_colors(std::span<const glm::vec3> reference,
                                    std::span<const glm::vec3> approximation, std::span<const float> areas,

@@ -89,11 +89,10 @@ Legend legend_of(const Viewer& viewer, const SidePicture& picture) {
                 fmt::format("{}", loaded.compressed ? loaded.compressed->bases.max_components() : 0),
                 fmt::format("components of the {} cluster", loaded.of_texels() ? "texel's" : "vertex'")};
     case PictureKind::error:
-        return {true, "0", fmt::format("{:.0f} %", 100 * prt::kWhiteError),
-                "of the mean radiance, this light"};
+        return {true, "0", fmt::format("{:.0f} %", 100 * prt::kWhiteError), "contrast error, this light"};
     case PictureKind::seams:
         return {true, "0", fmt::format("{:.0f} %", 100 * prt::kWhiteSeam),
-                "jump between clusters, of the mean; blue: inside one"};
+                "jump of contrast between clusters; blue: inside one"};
     case PictureKind::surface_error:
         return {true, "0", fmt::format("{:.0f} %", 100 * kWhiteSurfaceError),
                 "of the mean radiance (RMS), by path tracing"};

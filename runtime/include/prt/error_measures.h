@@ -9,6 +9,7 @@
 
 #include <optional>
 #include <span>
+#include <vector>
 
 namespace prt {
 
@@ -30,6 +31,16 @@ struct EdgeJumps {
     double max = 0;
     Edge worst{0, 0}; ///< where the largest is
 };
+
+/// Contrast errors of receivers, [receivers], with Y_a as in `VisibleError`; infinite where there is an error
+/// and no light at all.
+struct ContrastErrors {
+    double adaptation = 0;          ///< Y_a; 0: nothing is lit
+    std::vector<double> magnitudes; ///< |R - R'| / (Y + Y_a), weighted by channel as luminance is
+    std::vector<double> luminances; ///< (Y - Y') / (Y + Y_a)
+};
+ContrastErrors contrast_errors(std::span<const glm::vec3> reference, std::span<const glm::vec3> approximation,
+                               std::span<const float> areas);
 
 /// Errors as a viewer sees them: contrast c = |R - R'| / (Y + Y_a), both weighted by channel as luminance is,
 /// with Y the luminance of R and Y_a a tenth of its logarithmic mean over the area that has light

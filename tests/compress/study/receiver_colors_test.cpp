@@ -3,6 +3,8 @@
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 namespace prt {
 namespace {
 
@@ -45,7 +47,7 @@ TEST(ReceiverColors, OfClustersAreThoseOfTheirNumbersAndOfComponentsTheirShareAs
     EXPECT_EQ(component_colors(transfer), std::vector(3, glm::vec3(0)));
 }
 
-/// Radiance of 2 on a quarter and of 6 on three quarters of the area: 5 in the mean.
+/// Luminance of 2 on a quarter and of 6 on three quarters of the area.
 struct ColoredMesh {
     std::vector<float> areas = {1, 3, 0, 0};
     std::vector<glm::vec3> reference = {glm::vec3(2), glm::vec3(6), glm::vec3(4), glm::vec3(4)};
@@ -58,14 +60,19 @@ void expect_colors(const std::vector<glm::vec3>& colors, const std::vector<glm::
         EXPECT_LT(glm::distance(colors[p], expected[p]), 1e-4f) << p;
 }
 
-TEST(ReceiverColors, OfErrorsAreTheLargestChannelOverTheMeanRadiance) {
+/// A tenth of the logarithmic mean over the area.
+const double kAdaptation = 0.1 * std::exp((std::log(2) + 3 * std::log(6)) / 4);
+
+TEST(ReceiverColors, OfErrorsAreContrastAtTheAdaptation) {
     ColoredMesh mesh;
     mesh.approximation[0] += glm::vec3(0.125f, -0.25f, 0);
     mesh.approximation[1] -= glm::vec3(0, 0.1f, 5);
+    const double first = std::sqrt(0.2126 * 0.125 * 0.125 + 0.7152 * 0.25 * 0.25) / (2 + kAdaptation);
     expect_colors(error_colors(mesh.reference, mesh.approximation, mesh.areas),
-                  {heat_color(0.05 / kWhiteError), glm::vec3(1), glm::vec3(0), glm::vec3(0)});
-    const std::vector<glm::vec3> dark(4, glm::vec3(0)); // where there is no light there is no measure
-    expect_colors(error_colors(dark, mesh.approximation, mesh.areas), dark);
+                  {heat_color(first / kWhiteError), glm::vec3(1), glm::vec3(0), glm::vec3(0)});
+    const std::vector<glm::vec3> dark(4, glm::vec3(0)); // any light is an infinite contrast to none
+    expect_colors(error_colors(dark, mesh.approximation, mesh.areas), std::vector(4, glm::vec3(1)));
+    expect_colors(error_colors(dark, dark, mesh.areas), dark);
 }
 
 TEST(ReceiverColors, OfSeamsAreTheLargestJumpIntoAnotherCluster) {
@@ -73,14 +80,16 @@ TEST(ReceiverColors, OfSeamsAreTheLargestJumpIntoAnotherCluster) {
     mesh.approximation[0] += glm::vec3(0.05f, 0, 0);
     mesh.approximation[1] -= glm::vec3(0.05f, 0, 0.01f);
     mesh.approximation[3] += glm::vec3(9);
-    // 0 and 1 are apart by 0.1; 1 and 2, too, but by less; 2 and 3 are in one cluster.
+    // 1 and 2 jump by less than 0 and 1; 2 and 3 are in one cluster.
     const std::vector<Edge> edges = {{0, 1}, {1, 2}, {2, 3}};
     const std::vector<std::uint16_t> clusters = {0, 1, 2, 2};
+    const double second = (0.2126 * 0.05 + 0.0722 * 0.01) / (6 + kAdaptation),
+                 jump = 0.2126 * 0.05 / (2 + kAdaptation) + second;
     expect_colors(seam_colors(mesh.reference, mesh.approximation, mesh.areas, edges, clusters),
-                  {heat_color(0.02 / kWhiteSeam), heat_color(0.02 / kWhiteSeam),
-                   heat_color(0.01 / kWhiteSeam), glm::vec3(0.01f, 0.02f, 0.08f)});
+                  {heat_color(jump / kWhiteSeam), heat_color(jump / kWhiteSeam),
+                   heat_color(second / kWhiteSeam), glm::vec3(0.01f, 0.02f, 0.08f)});
     const std::vector<glm::vec3> dark(4, glm::vec3(0));
-    EXPECT_EQ(seam_colors(dark, mesh.approximation, mesh.areas, edges, clusters)[0], glm::vec3(0));
+    EXPECT_EQ(seam_colors(dark, dark, mesh.areas, edges, clusters)[0], glm::vec3(0));
 }
 
 } // namespace

@@ -1,0 +1,36 @@
+#pragma once
+
+// Errors of a picture against path tracing (docs/math.md, section 11). Experimental.
+
+#include "prt/flip.h"
+
+#include <array>
+#include <vector>
+
+namespace prt {
+
+/// Mean of two pictures of one size.
+Image mean_of(const std::array<Image, 2>& halves);
+
+/// Expected relative L2 of the mean of two independent unbiased pictures over `surfaces` [height][width].
+double noise_of(const std::array<Image, 2>& halves, const std::vector<bool>& surfaces);
+
+/// Error of a picture against a reference with noise. The noise counts in FLIP, not in `relative_l2`.
+struct PictureError {
+    double relative_l2 = 0;                       ///< over the pixels that show surfaces
+    double flip_mean = 0, flip_percentile_95 = 0; ///< HDR-FLIP over all pixels
+    std::vector<float> flip;                      ///< [height][width]
+};
+
+/// Relative L2 of `picture` over `surfaces` [height][width] against the value that `halves`, two independent
+/// unbiased pictures, are estimates of: the mean of (p - a)(p - b) is the squared error of p without noise.
+/// 0 where that is negative.
+double relative_l2(const Image& picture, const std::array<Image, 2>& halves,
+                   const std::vector<bool>& surfaces);
+
+/// All of it; FLIP is against the mean of the halves. Throws `Error` where sizes differ and where a value is
+/// not finite.
+PictureError picture_error(const Image& picture, const std::array<Image, 2>& halves,
+                           const std::vector<bool>& surfaces, const FlipOptions& options = {});
+
+} // namespace prt
