@@ -37,22 +37,22 @@ look_at() {
     $prt render "out/$name.shipped.glb" --env "$sky" --rotate 120 -o "out/$name.turned.png" "${@:2}"
     $prt evaluate "out/$name.baked.glb" "out/$name.shipped.glb" --lights "$sky" ${budget:+--budget} --html "out/$name.html" --json "out/$name.json"
 }
-volume=0.5 road room 3 u32 --camera 1.2,1.9,4.2 --look-at 0,1.8,-5 --fov 45
+volume=0.5 road room inf u32 --camera 1.2,1.9,4.2 --look-at 0,1.8,-5 --fov 45
 made knot
-road tree 3 u64 --camera 1.5,1.7,5.5 --look-at 0,1.9,0
+road tree inf u64 --camera 1.5,1.7,5.5 --look-at 0,1.9,0
 made terrain --camera 1,4.5,11 --look-at 0,2.6,0
-rays=256 sky=out/scenes/night.exr road night_room 3 u64 --camera 0.6,1.7,2.6 --look-at 0,1.8,-6 --fov 50
+rays=256 sky=out/scenes/night.exr road night_room inf u64 --camera 0.6,1.7,2.6 --look-at 0,1.8,-6 --fov 50
 # The courtyard, 139 000 vertices: minutes on a few cores.
-rays=128 sky=out/scenes/noon.exr road courtyard 3 u64 --camera 3.9,1.75,4.9 --look-at -1.3,2.75,-6 --fov 46
+rays=128 sky=out/scenes/noon.exr road courtyard inf u64 --camera 3.9,1.75,4.9 --look-at -1.3,2.75,-6 --fov 46
 echo
 # The room again, with its light in the texels of a map instead of at vertices.
-$prt bake out/scenes/room.glb -o out/room.lightmap.baked.glb --size 256 --unwrap --bounces 3 --rays 1024
+$prt bake out/scenes/room.glb -o out/room.lightmap.baked.glb --size 256 --unwrap --bounces inf --rays 1024
 $prt compress out/room.lightmap.baked.glb -o out/room.lightmap.shipped.glb --preset u64
 $prt render out/room.lightmap.shipped.glb --env "$sky" -o out/room.lightmap.png --camera 1.2,1.9,4.2 --look-at 0,1.8,-5 --fov 45
 echo
 # A forest whose trees share the transfer of three, and a figure that shadows itself.
 build/release/examples/scenes/example_scenes out/scenes forest:200
-$prt bake out/scenes/forest.glb -o out/forest.baked.glb --instances shared --bounces 2 --rays 512
+$prt bake out/scenes/forest.glb -o out/forest.baked.glb --instances shared --bounces inf --rays 512
 $prt compress out/forest.baked.glb -o out/forest.shipped.glb --clusters 64
 $prt render out/forest.shipped.glb --env "$sky" -o out/forest.png --camera 4,3,16 --look-at 0,2,0 --fov 50
 $prt lobes out/scenes/figure.glb -o out/figure.lobes.glb

@@ -352,9 +352,11 @@ std::string add_traced(const RenderArguments& a, const Rendered& rendered, Repor
     if (const auto& error = rendered.error) {
         add_figures(report, {{"flip_mean", error->flip_mean},
                              {"flip_percentile_95", error->flip_percentile_95},
-                             {"relative_l2", error->relative_l2}});
-        words += "; against path tracing: HDR-FLIP {flip_mean:.3f} (95 % below {flip_percentile_95:.3f}), "
-                 "relative L2 {relative_l2:.2%}";
+                             {"relative_l2", error->relative_l2},
+                             {"contrast_rms", error->contrast_rms},
+                             {"contrast_percentile_95", error->contrast_percentile_95}});
+        words += "; against path tracing: contrast error {contrast_rms:.2%} RMS, 95 % of blocks below "
+                 "{contrast_percentile_95:.2%}; HDR-FLIP {flip_mean:.3f}; relative L2 {relative_l2:.2%}";
     }
     return words;
 }

@@ -2,6 +2,8 @@
 
 #include "prt/picture_error.h"
 
+#include "prt/color.h"
+
 #include <glm/geometric.hpp>
 
 #include <algorithm>
@@ -40,11 +42,88 @@ double relative_l2(const Image& picture, const std::array<Image, 2>& halves,
     return norm > 0 ? std::sqrt(std::max(0.0, squares / norm)) : 0;
 }
 
+namespace {
+
+/// Sums of luminance over the pixels of a block that show surfaces.
+struct Block {
+    std::size_t pixels = 0;
+    double first = 0, second = 0, picture = 0,
+           product = 0; ///< of the halves, of the picture, of (p - a)(p - b)
+
+    double reference() const { return 0.5 * (first + second) / static_cast<double>(pixels); }
+};
+
+std::vector<Block> blocks_of(const Image& picture, const std::array<Image, 2>& halves,
+                             const std::vector<bool>& surfaces) {
+    const int columns = (picture.width + kContrastBlock - 1) / kContrastBlock,
+              rows = (picture.height + kContrastBlock - 1) / kContrastBlock;
+    std::vector<Block> blocks(static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows));
+    for (int y = 0; y < picture.height; ++y)
+        for (int x = 0; x < picture.width; ++x) {
+            const std::size_t i = static_cast<std::size_t>(y) * static_cast<std::size_t>(picture.width) +
+                                  static_cast<std::size_t>(x);
+            if (!surfaces[i])
+                continue;
+            Block& block =
+                blocks[static_cast<std::size_t>(y / kContrastBlock * columns + x / kContrastBlock)];
+            const double p = luminance(glm::dvec3(picture.pixels[i])),
+                         a = luminance(glm::dvec3(halves[0].pixels[i])),
+                         b = luminance(glm::dvec3(halves[1].pixels[i]));
+            ++block.pixels;
+            block.first += a;
+            block.second += b;
+            block.picture += p;
+            block.product += (p - a) * (p - b);
+        }
+    std::erase_if(blocks, [](const Block& block) { return block.pixels == 0; });
+    return blocks;
+}
+
+/// A tenth of the logarithmic mean of the blocks that have light, each by its pixels.
+double adaptation_of(const std::vector<Block>& blocks) {
+    double sum = 0;
+    std::size_t pixels = 0;
+    for (const Block& block : blocks)
+        if (block.reference() > 0) {
+            sum += static_cast<double>(block.pixels) * std::log(block.reference());
+            pixels += block.pixels;
+        }
+    return pixels > 0 ? 0.1 * std::exp(sum / static_cast<double>(pixels)) : 0;
+}
+
+void add_contrast(std::vector<Block> blocks, PictureError& error) {
+    const double adaptation = adaptation_of(blocks);
+    if (!(adaptation > 0))
+        return;
+    const auto contrast = [&](const Block& block) {
+        return std::abs(block.picture / static_cast<double>(block.pixels) - block.reference()) /
+               (std::abs(block.reference()) + adaptation);
+    };
+    double squares = 0;
+    std::size_t pixels = 0;
+    for (const Block& block : blocks) {
+        const double level = std::abs(block.reference()) + adaptation;
+        squares += block.product / (level * level);
+        pixels += block.pixels;
+    }
+    error.contrast_rms = std::sqrt(std::max(0.0, squares / static_cast<double>(pixels)));
+    std::ranges::sort(blocks, {}, contrast);
+    std::size_t seen = 0;
+    for (const Block& block : blocks)
+        if (seen += block.pixels; static_cast<double>(seen) >= 0.95 * static_cast<double>(pixels)) {
+            error.contrast_percentile_95 = contrast(block);
+            break;
+        }
+}
+
+} // namespace
+
 PictureError picture_error(const Image& picture, const std::array<Image, 2>& halves,
                            const std::vector<bool>& surfaces, const FlipOptions& options) {
     PictureError error;
     error.flip = hdr_flip(mean_of(halves), picture, options);
     error.relative_l2 = relative_l2(picture, halves, surfaces);
+    add_contrast(blocks_of(picture, halves, surfaces), error);
     std::vector<float> sorted = error.flip;
     error.flip_mean = std::accumulate(sorted.begin(), sorted.end(), 0.0) / static_cast<double>(sorted.size());
     const auto at =

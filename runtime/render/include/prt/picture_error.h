@@ -15,11 +15,19 @@ Image mean_of(const std::array<Image, 2>& halves);
 /// Expected relative L2 of the mean of two independent unbiased pictures over `surfaces` [height][width].
 double noise_of(const std::array<Image, 2>& halves, const std::vector<bool>& surfaces);
 
-/// Error of a picture against a reference with noise. The noise counts in FLIP, not in `relative_l2`.
+/// Side of the blocks of pixels over which contrast errors are means.
+inline constexpr int kContrastBlock = 8;
+
+/// Error of a picture against a reference with noise. The noise counts in FLIP; it does not in `relative_l2`
+/// and `contrast_rms`, and only a 1/8 of it does in `contrast_percentile_95`.
 struct PictureError {
     double relative_l2 = 0;                       ///< over the pixels that show surfaces
     double flip_mean = 0, flip_percentile_95 = 0; ///< HDR-FLIP over all pixels
-    std::vector<float> flip;                      ///< [height][width]
+    /// Errors of luminance over Y + Y_a as in `VisibleError`, of the pixels that show surfaces: RMS, and 95th
+    /// percentile of the means over blocks of 8 x 8 pixels, which are blotches and wrong levels and not
+    /// edges.
+    double contrast_rms = 0, contrast_percentile_95 = 0;
+    std::vector<float> flip; ///< [height][width]
 };
 
 /// Relative L2 of `picture` over `surfaces` [height][width] against the value that `halves`, two independent
