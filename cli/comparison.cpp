@@ -258,9 +258,16 @@ public:
                     v.visible = error.visible.percentile_95;
                     v.visible_under = name;
                 }
-                v.seam_99 = std::max(v.seam_99, error.crossing.percentile_99);
-                if (error.crossing.edges > 0)
-                    v.seam = std::max(v.seam.value_or(0), error.crossing.max);
+                if (v.jumps_under.empty() || error.visible.jumps_99 > v.jumps) {
+                    v.jumps = error.visible.jumps_99;
+                    v.jumps_under = name;
+                }
+                const EdgeJumps& seams = error.visible.seams;
+                v.seam_99 = std::max(v.seam_99, seams.percentile_99);
+                if (seams.edges > 0 && seams.max > v.seam.value_or(-1)) {
+                    v.seam = seams.max;
+                    v.seam_at = place_of(baked_, seams.worst.first);
+                }
             }
         if (lights > 1)
             v.under = fmt::format("these {} lights{}", lights, apart ? ", suns apart" : "");
@@ -362,11 +369,19 @@ private:
         const bool apart = suns_apart(light);
         const Lighting whole{light.whole};
         evaluation.named.push_back({light.sky.name, error_under(whole), 0, !apart});
-        if (apart)
+        if (apart) {
+            std::vector<glm::vec3> shown = wanted_under(whole);
+            LitScale scale = lit_scale(shown, areas_);
+            scale.shown = std::move(shown);
+            evaluation.named.push_back({light.sky.name + ", suns apart",
+                                        error_under(lighting_of(light), scale), light.split.suns.size(),
+                                        true});
+        }
+        if (const std::size_t lamps = reference().layout.lamps(); lamps > 0)
             evaluation.named.push_back(
-                {light.sky.name + ", suns apart",
-                 error_under(lighting_of(light), lit_scale(wanted_under(whole), areas_)),
-                 light.split.suns.size(), true});
+                {light.sky.name + " with lamps",
+                 error_under({.sky = light.whole, .lamps = std::vector<glm::vec3>(lamps, glm::vec3(1))}), 0,
+                 !apart});
     }
 
     /// Suns of one strength: errors are over what all of them light (docs/math.md, eq. 35).

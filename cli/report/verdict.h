@@ -10,19 +10,24 @@ namespace prt::cli {
 /// (docs/math.md, section 6).
 inline constexpr double kVisible = 0.02;
 
-/// What a verdict rests on, over the lights that were named.
+/// Measures that a verdict is based on, each the worst of the lights that were named.
 struct Verdict {
     std::optional<std::size_t> bytes_per_vertex; ///< to bind; unset: not compressed
     std::string under;                           ///< "these 3 lights"
-    double lit_rms = 0;                          ///< the worst of them
-    double visible = 0;                          ///< contrast error of 95 % of the area, the worst of them
-    std::string visible_under;                   ///< that light
-    std::optional<double> seam;                  ///< the largest jump between clusters
-    double seam_99 = 0;                          ///< what 99 % of such edges stay below
+    double lit_rms = 0;
+    double visible = 0;        ///< contrast error of 95 % of the area
+    std::string visible_under; ///< that light
+    double jumps = 0;          ///< of contrast, of 99 % of the edges
+    std::string jumps_under;
+    std::optional<double> seam; ///< the largest jump of contrast between clusters
+    double seam_99 = 0;         ///< 99 % of such edges stay below
+    std::string seam_at;        ///< position of the largest
 };
 
 /// One line: "4 bytes a vertex, 0.9 % under these 3 lights; 95 % of the area within 1.1 % of what is seen;
-/// worst seam 2 % of the mean radiance: looks the same as the bake".
+/// worst seam 2 %: looks the same as the bake". Otherwise it ends in "visible on close
+/// comparison: " (beyond `kVisible`) or "visibly wrong: " (beyond five times that) and the cause: "lamp
+/// LampTable".
 std::string in_one_line(const Verdict& verdict);
 
 } // namespace prt::cli

@@ -232,12 +232,14 @@ VisibleError visible_error(const ContrastErrors& errors, std::span<const float> 
 } // namespace
 
 ContrastErrors contrast_errors(std::span<const glm::vec3> reference, std::span<const glm::vec3> approximation,
-                               std::span<const float> areas) {
+                               std::span<const float> areas, std::span<const glm::vec3> shown) {
+    if (shown.empty())
+        shown = reference;
     ContrastErrors errors;
-    errors.adaptation = adaptation_of(reference, areas);
+    errors.adaptation = adaptation_of(shown, areas);
     for (std::size_t p = 0; p < reference.size(); ++p) {
-        const glm::dvec3 r(reference[p]), difference = r - glm::dvec3(approximation[p]);
-        const double y = std::abs(luminance(r)) + errors.adaptation;
+        const glm::dvec3 difference = glm::dvec3(reference[p]) - glm::dvec3(approximation[p]);
+        const double y = std::abs(luminance(glm::dvec3(shown[p]))) + errors.adaptation;
         errors.magnitudes.push_back(ratio(std::sqrt(glm::dot(kLuminance, difference * difference)), y));
         errors.luminances.push_back(y > 0 ? luminance(difference) / y : 0);
     }
@@ -297,14 +299,19 @@ LitError lit_error(std::span<const glm::vec3> reference, std::span<const glm::ve
     result.max = ratio(largest, mean);
     result.percentile_999 = ratio(percentile(sizes, 0.999), mean);
     result.darker_half_rms = darker_half(reference, differences, areas, area);
-    result.visible = visible_error(contrast_errors(reference, approximation, areas), areas, edges);
+    const ContrastErrors contrast = contrast_errors(reference, approximation, areas, in.shown);
+    result.visible = visible_error(contrast, areas, edges);
     if (!clusters)
         return result;
-    JumpCollector crossing, inner;
+    JumpCollector crossing, inner, seams;
     for (const Edge& edge : edges) {
         const double jump = largest_of(differences[edge.first] - differences[edge.second]);
-        ((*clusters)[edge.first] != (*clusters)[edge.second] ? crossing : inner).add(edge, jump);
+        const bool crosses = (*clusters)[edge.first] != (*clusters)[edge.second];
+        (crosses ? crossing : inner).add(edge, jump);
+        if (crosses)
+            seams.add(edge, std::abs(contrast.luminances[edge.first] - contrast.luminances[edge.second]));
     }
+    result.visible.seams = seams.over(1);
     result.crossing = crossing.over(mean);
     result.inner = inner.over(mean);
     return result;

@@ -23,7 +23,7 @@ double relative_l2(const TransferView& reference, const TransferView& approximat
 double lit_rms(std::span<const glm::vec3> reference, std::span<const glm::vec3> approximation,
                std::span<const float> areas);
 
-/// Jumps of the error of exit radiance along edges, each the largest of three channels, over the mean R.
+/// Jumps of an error along edges.
 struct EdgeJumps {
     std::size_t edges = 0;
     double rms = 0;
@@ -39,8 +39,9 @@ struct ContrastErrors {
     std::vector<double> magnitudes; ///< |R - R'| / (Y + Y_a), weighted by channel as luminance is
     std::vector<double> luminances; ///< (Y - Y') / (Y + Y_a)
 };
+/// `shown`: radiance that the picture has, where that is not `reference` alone.
 ContrastErrors contrast_errors(std::span<const glm::vec3> reference, std::span<const glm::vec3> approximation,
-                               std::span<const float> areas);
+                               std::span<const float> areas, std::span<const glm::vec3> shown = {});
 
 /// Errors as a viewer sees them: contrast c = |R - R'| / (Y + Y_a), both weighted by channel as luminance is,
 /// with Y the luminance of R and Y_a a tenth of its logarithmic mean over the area that has light
@@ -50,6 +51,7 @@ struct VisibleError {
     double mean = 0, rms = 0, percentile_95 = 0, percentile_99 = 0;
     double area_above_5_percent = 0; ///< share of the area
     double jumps_99 = 0;             ///< of (Y - Y') / (Y + Y_a) along 99 % of the edges
+    EdgeJumps seams = {};            ///< the same along edges between two clusters
 };
 
 struct LitError {
@@ -59,8 +61,10 @@ struct LitError {
     double percentile_999 = 0; ///< the same, 99.9 % of receivers with area are below
     /// sqrt of the mean squared error over the mean squared R, of the half of the area where R is least.
     double darker_half_rms = 0;
-    EdgeJumps crossing; ///< edges between two clusters; their largest is `seam`
-    EdgeJumps inner;    ///< all others
+    /// Jumps of exit radiance, each the largest of three channels, over the mean R: along edges between two
+    /// clusters.
+    EdgeJumps crossing;
+    EdgeJumps inner; ///< the same along all other edges
     VisibleError visible;
 };
 
@@ -68,8 +72,11 @@ struct LitError {
 struct LitScale {
     double mean_square = 0; ///< area-weighted mean of |R|² over the receivers, three channels together
     double mean = 0;        ///< area-weighted mean of R over the channels
+    /// [receivers] radiance of the picture, by which contrast is measured; empty: the reference.
+    std::vector<glm::vec3> shown = {};
 };
 
+/// `shown` is left empty.
 LitScale lit_scale(std::span<const glm::vec3> reference, std::span<const float> areas);
 
 /// Errors of exit radiance `approximation` against `reference`, both [receivers]. `clusters` [receivers]:
