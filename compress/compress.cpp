@@ -11,6 +11,7 @@
 #include "compress_options.h"
 #include "metric/seen_lamps.h"
 #include "metric/significance.h"
+#include "metric/sky_contrast.h"
 #include "prt/support/stopwatch.h"
 
 namespace prt {
@@ -23,6 +24,7 @@ struct Task {
     std::vector<float> significance;
     LightMetric metric;
     std::optional<SeenLamps> lamps; ///< where there are lamps, and one output
+    std::vector<float> sky_costs;   ///< [receivers] of errors under skies, where there are lamps
     GuideCoordinates guides;
     const Course& course;
 };
@@ -32,6 +34,25 @@ std::optional<SeenLamps> lamps_of(const TransferView& transfer, std::span<const 
     if (transfer.layout().lamps() == 0 || transfer.layout().outputs > 1)
         return std::nullopt;
     return SeenLamps(transfer, significance, metric, threads);
+}
+
+/// Contrast under skies; none of probes and where there are lamps alone.
+std::optional<SkyContrast> sky_contrast_of(const TransferView& transfer, std::span<const float> significance,
+                                           const LightMetric& metric, int threads) {
+    if (transfer.layout().distant_parts().empty() || transfer.layout().outputs > 1)
+        return std::nullopt;
+    return SkyContrast(transfer, significance, metric, threads);
+}
+
+/// Significance times costs, of sum 1.
+std::vector<float> weighted(std::span<const float> significance, std::span<const float> costs) {
+    double sum = 0;
+    for (std::size_t p = 0; p < costs.size(); ++p)
+        sum += static_cast<double>(significance[p]) * static_cast<double>(costs[p]);
+    std::vector<float> result(significance.begin(), significance.end());
+    for (std::size_t p = 0; p < costs.size() && sum > 0; ++p)
+        result[p] = static_cast<float>(static_cast<double>(significance[p] * costs[p]) / sum);
+    return result;
 }
 
 /// Points in a frame, and the clusters found there.
@@ -134,7 +155,7 @@ void leave_logarithms(const Task& task, Coding& coding, ClusterLists& candidates
     coding.coded.clusters = without_rows(coding.coded.clusters, coding.frame.dimension);
     coding.points = {};
     coding.points = PointBlocks(task.transfer, coding.frame, coding.guides, options.threads);
-    coding.points.scales = task.lamps->scales(coding.frame);
+    coding.points.scales = task.lamps->scales(coding.frame, task.sky_costs);
     for (int round = 0; round < tuning::kRoundsFromNothing; ++round)
         refit(coding.points, task.significance, coding.coded.codes, coding.coded.clusters, options.threads);
     encode_in_place(coding.points, coding.coded.clusters, coding.coded.codes, options.threads);
@@ -264,13 +285,11 @@ CompressResult compress_from(const Course& course, const TransferView& transfer,
     const Stopwatch stopwatch;
     const std::vector<float> significance = significance_of(areas);
     const LightMetric metric = metric_of(options, transfer, areas);
-    const Task task{transfer,
-                    options,
-                    significance,
-                    metric,
-                    lamps_of(transfer, significance, metric, options.threads),
-                    guide_coordinates(surface, options.guides),
-                    course};
+    const std::optional<SkyContrast> sky = sky_contrast_of(transfer, significance, metric, options.threads);
+    const std::vector<float> costs = sky ? sky->costs() : std::vector<float>(significance.size(), 1.0f);
+    std::optional<SeenLamps> lamps = lamps_of(transfer, significance, metric, options.threads);
+    const Task task{transfer,         options, lamps ? significance : weighted(significance, costs), metric,
+                    std::move(lamps), costs,   guide_coordinates(surface, options.guides),           course};
     CompressResult result;
     CompressStatistics& statistics = result.statistics;
     FoundClusters found = find_clusters(task, progress.part(0, tuning::kClustersFoundAt));
@@ -287,6 +306,8 @@ CompressResult compress_from(const Course& course, const TransferView& transfer,
     statistics.lit_rms = expected_lit_rms(transfer, result.transfer, areas, task.metric, options.threads);
     if (task.lamps)
         statistics.lamp_contrast = task.lamps->contrast(result.transfer);
+    if (sky)
+        statistics.sky_contrast = sky->contrast(result.transfer);
     statistics.seconds = stopwatch.seconds();
     progress.update(1);
     return result;

@@ -60,6 +60,10 @@ inline constexpr double kLampsShare = 1;
 /// What their squared error relative to all of their light counts beside contrast: next to a lamp contrast
 /// alone leaves its brightest spots to chance. [preset] likewise.
 inline constexpr double kSpotsShare = 0.25;
+/// Share that contrast errors under skies have in what an error costs; the rest counts the error itself.
+/// [preset] on room, knot, terrain and tree under photographs: with 0.3 lit_rms stays within 1 %, and 95 % of
+/// the area has a tenth less contrast error.
+inline constexpr double kSkyContrastShare = 0.3;
 /// Share of a lamp's contrast below which a colour has no axis. By hand.
 inline constexpr double kLeastColor = 1e-7;
 

@@ -561,9 +561,15 @@ Report report_of(const CompressArguments& a, const SearchOptions& options, const
         report,
         {{"bytes_file", result.bytes}, {"trials", trials_json(outcome.trials)}, {"seconds", s.seconds}});
     report.sentences = sentences(a, a.preset && !outcome.trials.empty());
+    if (s.sky_contrast > 0) {
+        add_figures(report, {{"sky_contrast", s.sky_contrast}});
+        report.sentences.emplace_back(
+            "light of skies differs by {sky_contrast:.2%} of what is seen (contrast error, "
+            "root mean square)");
+    }
     if (s.lamp_contrast > 0) {
         add_figures(report, {{"lamp_contrast", s.lamp_contrast}});
-        report.sentences.emplace_back("light of each lamp alone differs by {lamp_contrast:.2f%} of what is "
+        report.sentences.emplace_back("light of each lamp alone differs by {lamp_contrast:.2%} of what is "
                                       "seen (contrast error, root mean square)");
     }
     if (outcome.best)

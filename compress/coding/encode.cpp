@@ -59,9 +59,7 @@ std::size_t axes_in_use(const QuantisedClusters& clusters, const RowSteps& steps
 Eigen::ArrayXd units_of(const TransferLayout& layout, const Eigen::MatrixXd& moments) {
     const Eigen::ArrayXd costs = moments.diagonal();
     const auto of_output = costs.size() / static_cast<Eigen::Index>(layout.outputs);
-    Eigen::Index skies = 0;
-    for (const TransferPart& part : layout.distant_parts())
-        skies += static_cast<Eigen::Index>(layout.numbers_of(part));
+    const auto skies = static_cast<Eigen::Index>(layout.distant_numbers());
     const double usual = skies > 0 ? costs.head(skies).mean() : costs.head(of_output).mean();
     Eigen::ArrayXd units = Eigen::ArrayXd::Ones(costs.size());
     for (Eigen::Index a = 0; a < units.size(); ++a)

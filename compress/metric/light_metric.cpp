@@ -36,10 +36,7 @@ Eigen::Map<const Matrix> matrix_of(const LightMetric& metric) {
 
 /// Numbers of a vector that are of distant light; lamps follow.
 Eigen::Index of_sky_in(const TransferLayout& layout) {
-    std::size_t numbers = 0;
-    for (const TransferPart& part : layout.distant_parts())
-        numbers += layout.numbers_of(part);
-    return static_cast<Eigen::Index>(numbers);
+    return static_cast<Eigen::Index>(layout.distant_numbers());
 }
 
 LightMetric zero_metric(const TransferLayout& layout) {

@@ -18,13 +18,6 @@ double luminance_share(std::size_t channel, std::size_t channels) {
     return channels == 3 ? kLuminance[static_cast<glm::length_t>(channel)] : 1;
 }
 
-std::size_t numbers_of_sky(const TransferLayout& layout) {
-    std::size_t numbers = 0;
-    for (const TransferPart& part : layout.distant_parts())
-        numbers += layout.numbers_of(part);
-    return numbers;
-}
-
 /// The part of `transfer` that the sky lights: the first numbers of each vector.
 TransferView sky_of(const TransferView& transfer) {
     TransferLayout layout = transfer.layout();
@@ -57,7 +50,7 @@ SeenLamps::SeenLamps(const TransferView& transfer, std::span<const float> signif
                      const LightMetric& metric, int threads)
     : transfer_(transfer), significance_(significance) {
     const TransferLayout& layout = transfer.layout();
-    const std::size_t full = layout.dimension(), sky = numbers_of_sky(layout);
+    const std::size_t full = layout.dimension(), sky = layout.distant_numbers();
     std::size_t first = sky;
     for (const TransferPart& part : layout.lamp_parts()) {
         lamps_.push_back({first, static_cast<std::size_t>(part.channels)});
@@ -209,7 +202,7 @@ double SeenLamps::contrast(const TransferView& approximation) const {
     return shining() > 0 ? std::sqrt(squares / shining()) : 0;
 }
 
-PointScales SeenLamps::scales(const Frame& frame) const {
+PointScales SeenLamps::scales(const Frame& frame, std::span<const float> sky_costs) const {
     PointScales result;
     std::vector<const Lamp*> of_groups;
     const std::size_t full = frame.full();
@@ -228,9 +221,10 @@ PointScales SeenLamps::scales(const Frame& frame) const {
     result.scales.resize(transfer_.receivers() * result.groups, 1);
     for_vectors(transfer_, [&](std::size_t p, const float* vector) {
         for (std::size_t g = 0; g < result.groups; ++g)
-            if (const Lamp* lamp = of_groups[g])
-                result.scales[p * result.groups + g] =
-                    static_cast<float>(std::sqrt(cost(*lamp, luminance(*lamp, vector))));
+            result.scales[p * result.groups + g] =
+                of_groups[g]
+                    ? static_cast<float>(std::sqrt(cost(*of_groups[g], luminance(*of_groups[g], vector))))
+                    : std::sqrt(sky_costs[p]);
     });
     return result;
 }

@@ -31,8 +31,9 @@ public:
     /// Axes of each lamp and then of the sky, which do not mix. As few as add at most `most_dropped` in
     /// squared error by being left out.
     Frame frame(double most_dropped) const;
-    /// The root of 1 / (Y + a)² and a share of 1 over the mean Y² along axes of lamps; 1 along the others.
-    PointScales scales(const Frame& frame) const;
+    /// The root of 1 / (Y + a)² and a share of 1 over the mean Y² along axes of lamps; of `sky_costs`
+    /// [receivers] along the others.
+    PointScales scales(const Frame& frame, std::span<const float> sky_costs) const;
     /// The root of the mean squared contrast error of `approximation`, over receivers and lamps that shine.
     double contrast(const TransferView& approximation) const;
 

@@ -95,6 +95,13 @@ std::span<const TransferPart> TransferLayout::distant_parts() const {
     return std::span(parts).first(parts.size() - lamps());
 }
 
+std::size_t TransferLayout::distant_numbers() const {
+    std::size_t numbers = 0;
+    for (const TransferPart& part : distant_parts())
+        numbers += numbers_of(part);
+    return numbers;
+}
+
 std::span<const TransferPart> TransferLayout::lamp_parts() const {
     const auto first = std::find_if(parts.begin(), parts.end(),
                                     [](const TransferPart& part) { return part.kind == PartKind::lamp; });

@@ -94,6 +94,8 @@ struct CompressStatistics {
     /// Contrast errors of lamps, each alone: the root of their mean square over receivers and lamps
     /// (prt/error_measures.h). 0 without lamps, and of probes.
     double lamp_contrast = 0;
+    /// The same under skies, over the light that a receiver has on average; 0 of probes and of lamps alone.
+    double sky_contrast = 0;
     int clusters = 0;           ///< that hold receivers; empty ones are dropped
     double mean_components = 0; ///< of all receivers
     int guide_rows = 0;         ///< of every cluster
@@ -102,8 +104,8 @@ struct CompressStatistics {
     std::size_t bits_per_receiver = 0;  ///< of them in use
     std::size_t basis_bytes = 0;        ///< all bases, and the layout of packed weights
 
-    /// What a budget goes by.
-    double error() const { return std::max(lit_rms, lamp_contrast); }
+    /// The error that budgets limit.
+    double error() const { return std::max({lit_rms, lamp_contrast, sky_contrast}); }
     /// What the vertex shader adds to a mean, on average.
     double operations() const { return mean_components + guide_rows; }
     double bytes_with_bases(std::size_t receivers) const {

@@ -70,6 +70,8 @@ struct TransferLayout {
     std::span<const TransferPart> distant_parts() const;
     std::span<const TransferPart> lamp_parts() const;
     std::size_t lamps() const { return lamp_parts().size(); }
+    /// Numbers of a vector that distant light is multiplied with: the first of one output.
+    std::size_t distant_numbers() const;
 
     friend bool operator==(const TransferLayout&, const TransferLayout&) = default;
 };

@@ -1,0 +1,94 @@
+// Weights errors under skies by the light that is there (docs/math.md, eq. 28c).
+
+#include "metric/sky_contrast.h"
+
+#include "metric/transfer_columns.h"
+#include "prt/support/parallel.h"
+#include "tuning.h"
+
+#include <Eigen/Dense>
+
+#include <algorithm>
+#include <cmath>
+
+namespace prt {
+namespace {
+
+/// Calls `visit(receiver, vector)` with the columns of the sky of `a`, or of a minus `b` where given.
+template <class Visit>
+void for_sky_columns(const TransferView& a, const TransferView* b, int threads, Visit visit) {
+    constexpr std::size_t kGrain = 1024;
+    const auto sky = static_cast<Eigen::Index>(a.layout().distant_numbers());
+    parallel_for(a.receivers(), kGrain, threads, [&](std::size_t begin, std::size_t end) {
+        Eigen::MatrixXd columns = columns_of(a, begin, end).topRows(sky).cast<double>();
+        if (b)
+            columns -= columns_of(*b, begin, end).topRows(sky).cast<double>();
+        visit(begin, columns);
+    });
+}
+
+/// Expected squared light of each column.
+std::vector<double> expected_squares(const TransferView& a, const TransferView* b, const LightMetric& metric,
+                                     int threads) {
+    const auto full = static_cast<Eigen::Index>(metric.layout.dimension());
+    const auto sky = static_cast<Eigen::Index>(metric.layout.distant_numbers());
+    const Eigen::MatrixXd moments =
+        Eigen::Map<const Eigen::MatrixXd>(metric.moments.data(), full, full).topLeftCorner(sky, sky);
+    std::vector<double> squares(a.receivers());
+    for_sky_columns(a, b, threads, [&](std::size_t begin, const Eigen::MatrixXd& columns) {
+        const Eigen::VectorXd of_block = columns.cwiseProduct(moments * columns).colwise().sum();
+        for (Eigen::Index i = 0; i < of_block.size(); ++i)
+            squares[begin + static_cast<std::size_t>(i)] = std::max(0.0, of_block[i]);
+    });
+    return squares;
+}
+
+} // namespace
+
+SkyContrast::SkyContrast(const TransferView& transfer, std::span<const float> significance,
+                         const LightMetric& metric, int threads)
+    : transfer_(transfer), significance_(significance), metric_(metric), threads_(threads),
+      luminance_(expected_squares(transfer, nullptr, metric, threads)) {
+    double most = 0, logarithms = 0, area = 0;
+    for (std::size_t p = 0; p < luminance_.size(); ++p) {
+        mean_square_ += static_cast<double>(significance[p]) * luminance_[p];
+        luminance_[p] = std::sqrt(luminance_[p]);
+        if (significance[p] > 0)
+            most = std::max(most, luminance_[p]);
+    }
+    for (std::size_t p = 0; p < luminance_.size(); ++p)
+        if (luminance_[p] >
+            0) { // less than a millionth of the most counts as that: darkness has no logarithm
+            logarithms +=
+                static_cast<double>(significance[p]) * std::log(std::max(luminance_[p], 1e-6 * most));
+            area += static_cast<double>(significance[p]);
+        }
+    if (area > 0)
+        adaptation_ = tuning::kAdaptation * std::exp(logarithms / area);
+}
+
+std::vector<float> SkyContrast::costs() const {
+    std::vector<float> costs(luminance_.size(), 1.0f);
+    if (!(adaptation_ > 0))
+        return costs;
+    constexpr double kShare = tuning::kSkyContrastShare;
+    for (std::size_t p = 0; p < costs.size(); ++p) {
+        const double seen = luminance_[p] + adaptation_;
+        costs[p] = static_cast<float>(1 - kShare + kShare * mean_square_ / (seen * seen));
+    }
+    return costs;
+}
+
+double SkyContrast::contrast(const TransferView& approximation) const {
+    if (!(adaptation_ > 0))
+        return 0;
+    const std::vector<double> squares = expected_squares(transfer_, &approximation, metric_, threads_);
+    double sum = 0;
+    for (std::size_t p = 0; p < squares.size(); ++p) {
+        const double seen = luminance_[p] + adaptation_;
+        sum += static_cast<double>(significance_[p]) * squares[p] / (seen * seen);
+    }
+    return std::sqrt(sum);
+}
+
+} // namespace prt
