@@ -116,6 +116,51 @@ TEST(Search, KeepsTheErrorThatWasAskedFor) {
     }
 }
 
+/// Three random vectors, mixed at random: one cluster with three components has them all, and clusters only
+/// take bits from weights.
+TEST(Search, FindsFewClustersWhereTransferHasFewDimensions) {
+    Transfer transfer = zero_transfer(5, 1, 500);
+    std::mt19937 random(9);
+    std::normal_distribution<float> normal;
+    std::vector<float> rows(3 * transfer.dimension());
+    for (float& v : rows)
+        v = normal(random);
+    for (std::size_t p = 0; p < transfer.receivers(); ++p) {
+        const float weights[] = {normal(random), normal(random), normal(random)};
+        for (std::size_t i = 0; i < rows.size(); ++i)
+            transfer.vector(p)[i % transfer.dimension()] += weights[i / transfer.dimension()] * rows[i];
+    }
+    const Tried scene(std::move(transfer));
+    const SearchResult found = scene.within({.bytes_per_vertex = 8});
+    ASSERT_TRUE(found.kept);
+    CompressOptions by_hand{
+        .clusters = 1, .coding = {.components = 3, .bits = 32}, .guides = GuideChoice::none};
+    EXPECT_LE(found.result.statistics.lit_rms,
+              1.05 * compress(scene.transfer, {scene.areas}, by_hand).statistics.lit_rms);
+}
+
+/// Transfer of one vector with both signs is dark at some turn of every sky, where any error is infinite
+/// times the light.
+TEST(Search, KeepsAnErrorWhereLightVanishesAtSomeTurn) {
+    Transfer signs = zero_transfer(4, 1, 300), constant = signs;
+    std::mt19937 random(4);
+    std::normal_distribution<float> normal;
+    for (std::size_t p = 0; p < signs.receivers(); ++p)
+        for (std::size_t i = 0; i < signs.dimension(); ++i) {
+            const float direction = std::sin(3.0f * static_cast<float>(i) + 1);
+            signs.vector(p)[i] = (p % 3 == 0 ? -1.0f : 1.0f) * direction;
+            constant.vector(p)[i] = direction + 1e-7f * normal(random);
+        }
+    Budget budget{.max_error = 0.01};
+    for (const Lighting& day : members_of_family(LightFamily::outdoor, 4))
+        budget.skies.push_back({day.suns ? sum(day.sky, *day.suns) : day.sky});
+    for (Transfer& transfer : {std::ref(signs), std::ref(constant)}) {
+        const SearchResult found = Tried(std::move(transfer)).within(budget);
+        EXPECT_TRUE(found.kept);
+        EXPECT_LE(found.best.worst_lit_rms, 0.01);
+    }
+}
+
 TEST(Search, KeepsTheErrorAtEveryTurnOfSkiesThatWereGiven) {
     const Tried scene(700, 1, 1);
     const std::vector<Lighting> days = members_of_family(LightFamily::outdoor, 4);
