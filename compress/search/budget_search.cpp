@@ -71,8 +71,11 @@ int BudgetSearch::most_clusters() const {
     if (!task_.options.choose_clusters)
         return task_.options.compress.clusters;
     const std::size_t receivers = task_.transfer.receivers(),
-                      enough = std::max(tuning::kAlwaysClusters, receivers / tuning::kReceiversPerCluster);
-    return static_cast<int>(std::clamp<std::size_t>(std::min(enough, receivers), 1, 65536));
+                      enough = std::max(tuning::kAlwaysClusters, receivers / tuning::kReceiversPerCluster),
+                      most = trials_.saves_bytes() || budget_.bytes_per_vertex
+                                 ? 65536
+                                 : tuning::kMostClustersOfOperations;
+    return static_cast<int>(std::clamp<std::size_t>(std::min(enough, receivers), 1, most));
 }
 
 int BudgetSearch::least_payload() const {
@@ -107,7 +110,9 @@ int BudgetSearch::first_payload() const {
     if (budget_.bytes_per_vertex)
         bytes = (budget_.operations ? tuning::kWeightsShareOfFewComponents : tuning::kWeightsShare) *
                 *budget_.bytes_per_vertex;
-    const double payload = bytes / task_.payload_bytes(1);
+    double payload = bytes / task_.payload_bytes(1);
+    if (!trials_.saves_bytes() && !budget_.bytes_per_vertex)
+        payload = 0.5 * most_payload(); // each word costs a try, and the last ones give next to nothing
     return std::clamp(static_cast<int>(std::lround(payload)), least_payload(), most_payload());
 }
 
@@ -142,9 +147,11 @@ void BudgetSearch::vary() {
     const bool other_way = budget_.operations ||
                            (task_.packed() && best.bytes_per_vertex > effort_.both_ways * best.payload_bytes);
     if (other_way) {
+        const double found = trials_.cost(best);
         Line line = trials_.best()->line;
         line.bases_count = !line.bases_count;
-        walk(line);
+        if (best_on(line) < found)
+            walk(line);
     }
     if (!task_.options.choose_guides)
         return;

@@ -1,5 +1,6 @@
 #include "prt/search.h"
 
+#include "metric/light_family.h"
 #include "prt/baselines.h"
 #include "prt/error_measures.h"
 #include "prt/error_moments.h"
@@ -181,7 +182,8 @@ TEST(Search, KeepsTheErrorAtEveryTurnOfSkiesThatWereGiven) {
     EXPECT_GT(worst, 0.01);
 }
 
-/// What is promised under the members of a family holds for days between them.
+/// What is promised under the members of a family holds for days between them, and with texture of the
+/// family's power (clouds, trees) up to a twentieth.
 TEST(Search, KeepsTheErrorUnderSkiesDrawnFromTheFamily) {
     const Tried scene(500, 1, 2);
     Budget budget{.max_error = 0.02};
@@ -191,11 +193,36 @@ TEST(Search, KeepsTheErrorUnderSkiesDrawnFromTheFamily) {
     const ErrorMoments moments = error_moments(scene.transfer, decoded, scene.areas);
     std::mt19937 random(3);
     std::uniform_real_distribution<double> elevation(0.105, 1.48), turbidity(2.5, 6);
+    std::normal_distribution<double> normal;
+    const std::vector<double> texture = family_model(LightFamily::outdoor, 4).texture;
     for (int draw = 0; draw < 20; ++draw) {
         const Lighting day =
             daylight(4, {.sun_elevation = elevation(random), .turbidity = turbidity(random)});
-        EXPECT_LE(lit_rms_over_turns(moments, {sum(day.sky, *day.suns)}).worst, 0.02);
+        Light light = sum(day.sky, *day.suns);
+        EXPECT_LE(lit_rms_over_turns(moments, {light}).worst, 0.02);
+        for (int i = 1; i < 16; ++i) {
+            const auto band = static_cast<std::size_t>(std::sqrt(i));
+            const double power = texture[band] * std::pow(static_cast<double>(day.sky.coefficients[0].x), 2);
+            light.coefficients[static_cast<std::size_t>(i)] +=
+                glm::vec3(static_cast<float>(std::sqrt(power) * normal(random)));
+        }
+        EXPECT_LE(lit_rms_over_turns(moments, {light}).worst, 1.05 * 0.02);
     }
+}
+
+TEST(Search, OrdersPromisesByHowNearTheyAreToTheirLimits) {
+    const Budget budget{.max_error = 0.1, .operations = 8.0, .max_jump = 0.05};
+    const SearchTrial trial{.lit_rms = 0.03,
+                            .worst_lit_rms = 0.04,
+                            .lamp_contrast = 0.09,
+                            .jump = 0.049,
+                            .bytes_per_vertex = 99,
+                            .operations = 2};
+    std::vector<Promise> order;
+    for (const PromiseKept& kept : promises_of(budget, trial))
+        order.push_back(kept.promise);
+    EXPECT_EQ(order, (std::vector{Promise::jump, Promise::lamps, Promise::error, Promise::operations}));
+    EXPECT_DOUBLE_EQ(promises_of(budget, trial)[0].share(), 0.98);
 }
 
 /// Neighbours in a row along one parameter of the transfer.
@@ -224,6 +251,30 @@ TEST(Search, LimitsJumpsAcrossClusters) {
     EXPECT_GT(free, 0.01);
     options.budget.max_jump = 0.5 * free;
     EXPECT_LE(jump(), 0.5 * free);
+    // The same under each of two skies at every one of the rotations.
+    for (const double elevation : {0.3, 1.0})
+        options.budget.skies_of_jumps.push_back({*daylight(3, {.sun_elevation = elevation}).suns});
+    const SearchResult found = compress_within(transfer, surface, options);
+    EXPECT_TRUE(found.kept);
+    const Transfer decoded = decode(found.result.transfer);
+    for (const Lighting& sky : options.budget.skies_of_jumps)
+        for (int rotation = 0; rotation < 24; ++rotation) {
+            const Light light = rotated_about_y(sky.sky, rotation * std::numbers::pi / 12);
+            const auto wanted = exit_radiance(transfer, light), given = exit_radiance(decoded, light);
+            double mean = 0;
+            for (const glm::vec3& radiance : wanted)
+                mean += static_cast<double>(radiance.x) / 700;
+            std::vector<double> jumps; // of receivers of one area
+            for (const Edge& edge : edges)
+                if (found.result.transfer.receivers.clusters[edge.first] !=
+                    found.result.transfer.receivers.clusters[edge.second])
+                    jumps.push_back(
+                        std::abs(static_cast<double>(given[edge.first].x - wanted[edge.first].x -
+                                                     given[edge.second].x + wanted[edge.second].x)));
+            std::ranges::sort(jumps, std::greater());
+            EXPECT_LE(jumps.empty() ? 0 : jumps[jumps.size() / 100], 0.5001 * free * std::abs(mean));
+        }
+    options.budget.skies_of_jumps.clear();
     options.budget.max_error.reset(); // one cluster jumps nowhere
     EXPECT_THROW(compress_within(transfer, surface, options), Error);
 }
