@@ -4,6 +4,8 @@
 
 #include "split_light.h"
 
+#include <fmt/core.h>
+
 #include <map>
 #include <optional>
 
@@ -54,7 +56,42 @@ std::vector<Lighting> skies_to_promise(const std::vector<Lighting>& given, std::
     return skies;
 }
 
+/// "outdoor"
+std::string name_of(MetricChoice choice) {
+    for (const auto& [name, value] : kMetrics)
+        if (value == choice)
+            return name;
+    return {};
+}
+
+std::string coverage(const MetricArguments& arguments, const TransferLayout& layout, std::size_t promised) {
+    if (layout.distant_parts().empty())
+        return "promises hold for each lamp alone";
+    if (!arguments.lights.empty())
+        return fmt::format(
+            "promises hold under each of the {} --lights at every rotation about +Y, their suns "
+            "in the sky or apart; other skies may exceed them",
+            arguments.lights.size());
+    if (promised == 0)
+        return fmt::format(
+            "promises hold on average over the {} metric; a single sky may exceed them: pass it "
+            "by --lights",
+            name_of(arguments.metric));
+    return fmt::format(
+        "the error is promised under each of {} skies of the {} family at every rotation about "
+        "+Y, jumps on average over the family; other skies may exceed them: pass them by "
+        "--lights",
+        promised, name_of(arguments.metric));
+}
+
 } // namespace
+
+void promise(ErrorTerms& terms, Budget& budget) {
+    if (budget.max_error)
+        budget.skies = std::move(terms.promised);
+    if (budget.max_jump)
+        budget.skies_of_jumps = std::move(terms.given);
+}
 
 void add_metric(CLI::App* command, MetricArguments& arguments) {
     CLI::Option* metric =
@@ -96,13 +133,17 @@ ErrorTerms error_terms(const MetricArguments& arguments, const std::vector<Named
         lightings.push_back(one.lighting);
     lightings = as_used(lightings, layout);
     const auto family = family_of(arguments.metric);
-    std::vector<Lighting> promised = skies_to_promise(lightings, family, layout);
+    ErrorTerms terms{{}, skies_to_promise(lightings, family, layout), {}, {}};
+    terms.covers = coverage(arguments, layout, terms.promised.size());
+    if (!lightings.empty())
+        terms.given = terms.promised;
     if (lightings.empty() && !family)
-        return {plain_metric(layout), std::move(promised)};
-    return {
-        balanced(lightings.empty() ? metric_of_family(*family, layout) : metric_of_lights(lightings, layout),
-                 transfer, areas, threads),
-        std::move(promised)};
+        terms.metric = plain_metric(layout);
+    else
+        terms.metric = balanced(lightings.empty() ? metric_of_family(*family, layout)
+                                                  : metric_of_lights(lightings, layout),
+                                transfer, areas, threads);
+    return terms;
 }
 
 } // namespace prt::cli

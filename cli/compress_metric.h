@@ -2,6 +2,7 @@
 
 #include "options.h"
 #include "prt/light_metric.h"
+#include "prt/search.h"
 #include "sky_errors.h"
 
 namespace prt::cli {
@@ -19,7 +20,12 @@ struct MetricArguments {
 struct ErrorTerms {
     LightMetric metric;
     std::vector<Lighting> promised; ///< lamps are dark in them
+    std::vector<Lighting> given;    ///< those of `promised` that are `--lights`
+    std::string covers;             ///< a sentence: the lightings under which promises hold
 };
+
+/// Has `budget` hold under the lightings of `terms`.
+void promise(ErrorTerms& terms, Budget& budget);
 
 void add_metric(CLI::App* command, MetricArguments& arguments);
 

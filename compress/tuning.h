@@ -208,6 +208,8 @@ inline constexpr int kBytesTries = 6, kErrorTries = 6;
 inline constexpr double kBasesOverWeights = 2, kAlwaysForBases = 4096;
 /// With fewer receivers a cluster, tables outweigh weights; so many clusters may be tried always. [budget]
 inline constexpr std::size_t kReceiversPerCluster = 12, kAlwaysClusters = 64;
+/// Clusters where operations alone are given, and nothing else limits them. [budget] --shader-ops
+inline constexpr std::size_t kMostClustersOfOperations = 512;
 /// Share of the bytes that ends a line; of a preset that does not fit, whose bytes are a rule of thumb, a
 /// tenth is not worth a try. By hand. [budget]
 inline constexpr double kLeastFilled = 0.975, kLeastFilledOfPreset = 0.9;

@@ -129,7 +129,8 @@ void add_sizes(CLI::App* command, SearchOptions& o) {
                 o.budget.max_jump = real_number(value);
             },
             "errors that jump by at most this share of the mean radiance across 99 % of the borders "
-            "between clusters, beside another budget")
+            "between clusters, beside another budget: under each of --lights at 24 rotations, or, without, "
+            "on average over the metric's family")
         ->type_name("FLOAT|none")
         ->default_str(fmt::format("{} with --max-error alone", kUnseenJump));
     command
@@ -194,14 +195,41 @@ std::string in_words(const CompressStatistics& s, std::size_t receivers) {
                        s.bytes_with_bases(receivers), s.operations());
 }
 
-/// "at the worst turn of the skies promised 0.017, across clusters it jumps by 0.03"
-std::string promises_in_words(const Budget& budget, const SearchTrial& best) {
+/// A promise, by its option and in words with the unit of its figures.
+struct PromiseWords {
+    const char *option, *what;
+    bool percent = false;
+};
+
+PromiseWords words_of(Promise promise) {
+    switch (promise) {
+    case Promise::error:
+        return {"--max-error", "lit_rms under the worst sky", true};
+    case Promise::lamps:
+        return {"--max-error", "contrast error of lamps", true};
+    case Promise::jump:
+        return {"--max-jump", "jumps across clusters", true};
+    case Promise::bytes:
+        return {"--bytes-per-vertex", "bytes per vertex"};
+    case Promise::operations:
+        break;
+    }
+    return {"--shader-ops", "shader operations"};
+}
+
+/// "jumps across clusters 4.95 % of 5 % (--max-jump)"
+std::string in_words(const PromiseKept& kept) {
+    const PromiseWords words = words_of(kept.promise);
+    return words.percent
+               ? fmt::format("{} {:.4g} % of {:.4g} % ({})", words.what, 100 * kept.reached, 100 * kept.limit,
+                             words.option)
+               : fmt::format("{} {:.4g} of {:.4g} ({})", words.what, kept.reached, kept.limit, words.option);
+}
+
+std::string in_words(std::span<const PromiseKept> promises) {
     std::vector<std::string> words;
-    if (!budget.skies.empty())
-        words.push_back(fmt::format("under the worst of the skies promised, at its worst turn, {:.4g}",
-                                    best.worst_lit_rms));
-    if (budget.max_jump)
-        words.push_back(fmt::format("across clusters it jumps by {:.4g}", best.jump));
+    for (const PromiseKept& kept : promises)
+        words.push_back(in_words(kept));
     return fmt::format("{}", fmt::join(words, "; "));
 }
 
@@ -353,10 +381,9 @@ Outcome run_compressor(const CompressArguments& a, const TransferView& transfer,
         return {compress(transfer, surface, o, bar.progress()), {}, {}};
     SearchResult found = compress_within(transfer, surface, options, bar.progress());
     if (!found.kept && !a.best_effort) {
-        const std::string promises = promises_in_words(options.budget, found.best);
         throw Error(a.baked.string() + ": nothing keeps the budget; the nearest has " +
-                    in_words(found.result.statistics, transfer.receivers()) +
-                    (promises.empty() ? "" : "; " + promises) + " (--best-effort writes it)");
+                    in_words(found.result.statistics, transfer.receivers()) + "; " +
+                    in_words(promises_of(options.budget, found.best)) + " (--best-effort writes it)");
     }
     return {std::move(found.result), std::move(found.trials), found.best};
 }
@@ -514,13 +541,27 @@ Json reuse_json(const VertexReuse& before, const VertexReuse& after) {
             {"vertex_overfetch_before", before.overfetch}};
 }
 
-/// What was asked for may be more than what the skies show that are printed.
-void add_promises(const Budget& budget, const SearchTrial& best, Report& report) {
-    if (!budget.skies.empty()) {
+/// Which limit decided the result, the figures of all limits, and the skies that they hold for.
+void add_promises(const SearchOptions& options, const SearchTrial& best, const std::string& covers,
+                  Report& report) {
+    const std::vector<PromiseKept> promises = promises_of(options.budget, best);
+    Json list = Json::array();
+    for (const PromiseKept& kept : promises)
+        list.push_back({{"option", words_of(kept.promise).option},
+                        {"figure", words_of(kept.promise).what},
+                        {"reached", kept.reached},
+                        {"limit", kept.limit}});
+    add_figures(report, {{"decided_by", words_of(promises.front().promise).option},
+                         {"promises", std::move(list)},
+                         {"promises_cover", covers}});
+    if (options.budget.max_error)
         add_figures(report, {{"worst_lit_rms_promised", best.worst_lit_rms}});
-        report.sentences.emplace_back("at the worst turn of the worst of the skies promised "
-                                      "{worst_lit_rms_promised:.3f%}");
-    }
+    std::string sentence = "decided by " + in_words(promises.front());
+    if (promises.size() > 1)
+        sentence += "; " + in_words(std::span(promises).subspan(1));
+    report.sentences.push_back(std::move(sentence));
+    if (options.budget.max_error || options.budget.max_jump)
+        report.sentences.push_back(covers);
 }
 
 std::vector<std::string> sentences(const CompressArguments& a, bool fitted) {
@@ -531,9 +572,10 @@ std::vector<std::string> sentences(const CompressArguments& a, bool fitted) {
             fmt::format("the mesh is small: {} fitted to it, so that bases do not outweigh weights",
                         a.options.compress.coding.format == WeightFormat::packed ? "clusters and bits are"
                                                                                  : "clusters are"));
-    list.emplace_back("expected error of the lit surface (lit_rms) {lit_rms:.3f%}, of the transfer (relative "
-                      "L2) {relative_l2:.3f%}; across borders of clusters it jumps by at most "
-                      "{jump_across_clusters:.2f%} of the mean radiance in 99 % of places");
+    list.emplace_back(
+        "expected error of the lit surface (lit_rms) {lit_rms:.3f%}, of the transfer (relative "
+        "L2) {relative_l2:.3f%}; across borders of clusters it jumps by at most "
+        "{jump_across_clusters:.2f%} of the mean radiance in 99 % of places, on average over skies");
     list.emplace_back(
         "{bytes_bound_per_vertex} bytes per vertex to bind ({bits_used_per_vertex} bits in use), "
         "{bytes_bound_per_vertex_with_bases:.2f} with the bases; uncompressed "
@@ -551,8 +593,8 @@ std::vector<std::string> sentences(const CompressArguments& a, bool fitted) {
 }
 
 /// All but errors under skies.
-Report report_of(const CompressArguments& a, const SearchOptions& options, const TransferView& transfer,
-                 const Outcome& outcome, const Written& result) {
+Report report_of(const CompressArguments& a, const SearchOptions& options, const std::string& covers,
+                 const TransferView& transfer, const Outcome& outcome, const Written& result) {
     const CompressStatistics& s = outcome.result.statistics;
     Report report;
     add_figures(report, {{"output", a.output.string()}});
@@ -573,7 +615,7 @@ Report report_of(const CompressArguments& a, const SearchOptions& options, const
                                       "seen (contrast error, root mean square)");
     }
     if (outcome.best)
-        add_promises(options.budget, *outcome.best, report);
+        add_promises(options, *outcome.best, covers, report);
     return report;
 }
 
@@ -650,8 +692,7 @@ void run(CompressArguments a, Session& session) {
     std::vector<NamedLighting> skies = given_lights(a.metric, transfer.layout(), threads);
     ErrorTerms terms = error_terms(a.metric, skies, transfer, surface->areas, threads);
     options.compress.metric = std::move(terms.metric);
-    if (options.budget.max_error)
-        options.budget.skies = std::move(terms.promised);
+    promise(terms, options.budget);
     check_components(a, transfer);
     std::string trace;
     if (!a.reports.trace.empty())
@@ -678,7 +719,7 @@ void run(CompressArguments a, Session& session) {
         transfer = in_order(std::move(transfer), matching_receivers(result.scene, scene));
         scene = {};
     }
-    Report report = report_of(a, options, transfer, outcome, result);
+    Report report = report_of(a, options, terms.covers, transfer, outcome, result);
     add_figures(report, reuse_json(reuse_before, vertex_reuse(result.scene)));
     add_errors(error_moments(transfer, result.transfer, result.areas, threads), *options.compress.metric,
                std::move(skies), report);

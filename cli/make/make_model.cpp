@@ -286,10 +286,9 @@ private:
         options.compress.threads = r_.threads;
         options.budget.max_error = max_error;
         options.budget.bytes_per_vertex = bytes;
-        if (max_error) {
-            options.budget.skies = std::move(terms.promised);
+        if (max_error)
             options.budget.max_jump = kUnseenJump;
-        }
+        promise(terms, options.budget);
         ProgressBar bar = session_.progress_bar("compressing");
         SearchResult found = compress_within(transfer(), surface.view(), options, bar.progress());
         if (!found.kept && bytes)

@@ -108,11 +108,11 @@ void add_sweep(const Sweep& sweep, Report& report) {
     bytes.charts = {chart(sweep.by_bytes, "bytes per vertex, bases counted in", bytes_of)};
     Table ops = best_table(sweep, sweep.by_components, kSweepComponents, "operations", best_by_components);
     ops.title = "Error at equal shader operations";
-    ops.about =
-        fmt::format("Multiply-adds of a colour per vertex, on average. Clustered methods of the literature "
-                    "have {} clusters; prtkit has as many as take no more bytes than classic CPCA at the "
-                    "same operations.",
-                    kSweepClusters);
+    ops.about = fmt::format(
+        "Multiply-adds of a colour per vertex, on average. Clustered methods of the literature "
+        "have {} clusters, or one for {} vertices where that is fewer; prtkit has any number that "
+        "takes no more bytes than classic CPCA at the same operations.",
+        kSweepClusters, kLeastReceiversPerCluster);
     ops.charts = {chart(sweep.by_components, "multiply-adds per vertex", ops_of)};
     report.tables.push_back(std::move(bytes));
     report.tables.push_back(std::move(ops));

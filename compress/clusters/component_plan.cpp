@@ -25,64 +25,88 @@ double tail(std::span<const double> variances, std::size_t components) {
     return sum;
 }
 
+/// What the next bit takes away of a variance that has `bits` of them.
+double gain_of_bit(double variance, int bits) {
+    return bits < kMostBits ? variance * (left_after(bits) - left_after(bits + 1)) : 0;
+}
+
 /// Gives `bits` to the first `components` axes, one at a time. Axes that get none end the plan.
 std::vector<std::uint8_t> divide_bits(std::span<const double> variances, std::size_t components, int bits) {
     std::vector<std::uint8_t> plan(components, 0);
+    std::vector<double> gains;
+    for (std::size_t j = 0; j < components; ++j)
+        gains.push_back(gain_of_bit(variances[j], 0));
     for (; bits > 0; --bits) {
-        std::size_t best = components;
-        double most = 0;
-        for (std::size_t j = 0; j < components; ++j) {
-            if (plan[j] == kMostBits)
-                continue;
-            const double gain = variances[j] * (left_after(plan[j]) - left_after(plan[j] + 1));
-            if (gain > most) {
-                most = gain;
-                best = j;
-            }
-        }
-        if (best == components)
+        const auto best = std::max_element(gains.begin(), gains.end());
+        if (best == gains.end() || !(*best > 0))
             break;
-        ++plan[best];
+        const auto j = static_cast<std::size_t>(best - gains.begin());
+        *best = gain_of_bit(variances[j], ++plan[j]);
     }
     while (!plan.empty() && plan.back() == 0)
         plan.pop_back();
     return plan;
 }
 
+/// Bits of `components` axes, or of fewer where there are no more.
+std::vector<std::uint8_t> bits_of(std::span<const double> variances, std::size_t components,
+                                  const Spending& spending) {
+    if (spending.fixed_bits.empty())
+        return spending.bits > 0 ? divide_bits(variances, components, spending.bits)
+                                 : std::vector<std::uint8_t>(components, 0);
+    std::vector<std::uint8_t> bits;
+    for (std::size_t j = 0; j < std::min(components, spending.fixed_bits.size()); ++j)
+        bits.push_back(static_cast<std::uint8_t>(spending.fixed_bits[j]));
+    return bits;
+}
+
+/// What rounding weights of these bits adds.
+double rounding_of(std::span<const double> variances, std::span<const std::uint8_t> bits,
+                   const Spending& spending) {
+    double sum = 0;
+    if (spending.bits > 0 || !spending.fixed_bits.empty())
+        for (std::size_t j = 0; j < bits.size(); ++j)
+            sum += variances[j] * left_after(bits[j]);
+    return sum;
+}
+
 } // namespace
 
-ComponentPlan plan_components(std::span<const double> variances, double significance,
-                              const Spending& spending) {
+std::vector<double> errors_by_components(std::span<const double> variances, const Spending& spending) {
     const auto rank = static_cast<std::size_t>(
         std::find_if(variances.begin(), variances.end(), [](double v) { return !(v > 0); }) -
         variances.begin());
     const std::size_t most = std::min(rank, static_cast<std::size_t>(spending.most_components));
-    ComponentPlan best{{}, 0, tail(variances, 0)};
-    double best_cost = best.error;
-    const double row_price = significance > 0 ? spending.row_price / significance : 0;
+    std::vector<double> errors = {tail(variances, 0)};
     for (std::size_t m = 1; m <= most; ++m) {
-        std::vector<std::uint8_t> bits;
-        if (!spending.fixed_bits.empty())
-            for (std::size_t j = 0; j < std::min(m, spending.fixed_bits.size()); ++j)
-                bits.push_back(static_cast<std::uint8_t>(spending.fixed_bits[j]));
-        else if (spending.bits > 0)
-            bits = divide_bits(variances, m, spending.bits);
-        else
-            bits.assign(m, 0);
+        const std::vector<std::uint8_t> bits = bits_of(variances, m, spending);
         if (bits.size() < m)
             break; // no bits left for another component
-        double penalty = spending.component_price * static_cast<double>(m);
-        if (spending.bits > 0 || !spending.fixed_bits.empty())
-            for (std::size_t j = 0; j < m; ++j)
-                penalty += variances[j] * left_after(bits[j]);
-        const double error = tail(variances, m) + penalty;
-        const double cost = error + row_price * static_cast<double>(m);
-        if (cost < best_cost) {
-            best_cost = cost;
-            best = {std::move(bits), penalty, error};
-        }
+        errors.push_back(tail(variances, m) + rounding_of(variances, bits, spending));
     }
+    return errors;
+}
+
+std::size_t cheapest_components(std::span<const double> errors, double significance,
+                                const Spending& spending) {
+    const double price =
+        spending.component_price + (significance > 0 ? spending.row_price / significance : 0);
+    const auto cost = [&](std::size_t m) { return errors[m] + price * static_cast<double>(m); };
+    std::size_t best = 0;
+    for (std::size_t m = 1; m < errors.size(); ++m)
+        if (cost(m) < cost(best))
+            best = m;
     return best;
+}
+
+ComponentPlan plan_components(std::span<const double> variances, double significance,
+                              const Spending& spending) {
+    const std::vector<double> errors = errors_by_components(variances, spending);
+    const std::size_t m = cheapest_components(errors, significance, spending);
+    std::vector<std::uint8_t> bits = bits_of(variances, m, spending);
+    const double prices = spending.component_price * static_cast<double>(m),
+                 penalty = prices + rounding_of(variances, bits, spending);
+    return {std::move(bits), penalty, errors[m] + prices};
 }
 
 } // namespace prt

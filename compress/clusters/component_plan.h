@@ -27,6 +27,14 @@ struct ComponentPlan {
 /// Most bits of a weight.
 inline constexpr int kMostBits = 16;
 
+/// The error that 0, 1, 2 and more components leave, without prices: tail of the variances, and rounding of
+/// weights. As far as there are bits and `Spending::most_components`.
+std::vector<double> errors_by_components(std::span<const double> variances, const Spending& spending);
+
+/// The number of components that is cheapest with the prices of `spending`, of such errors.
+std::size_t cheapest_components(std::span<const double> errors, double significance,
+                                const Spending& spending);
+
 /// The cheapest plan for a cluster whose variances along its principal axes are `variances`, descending: bits
 /// go one by one to where they take away most. `significance` is that of all its points.
 ComponentPlan plan_components(std::span<const double> variances, double significance,

@@ -24,13 +24,15 @@ double component_price(const ClusterState& state, Spending spending, double most
     std::vector<double> members(state.fits.size(), 0);
     for (const std::uint32_t k : state.clusters)
         members[k] += 1;
+    std::vector<std::vector<double>> errors; // the price changes what is chosen among them, and not them
+    for (const ClusterFit& fit : state.fits)
+        errors.push_back(errors_by_components(fit.variances, spending));
     const auto mean = [&](double price) {
         spending.component_price = price;
         double sum = 0;
         for (std::size_t k = 0; k < state.fits.size(); ++k)
-            sum += members[k] * static_cast<double>(plan_components(state.fits[k].variances,
-                                                                    state.fits[k].significance, spending)
-                                                        .bits.size());
+            sum += members[k] *
+                   static_cast<double>(cheapest_components(errors[k], state.fits[k].significance, spending));
         return sum / static_cast<double>(state.clusters.size());
     };
     double low = 0, high = 1;

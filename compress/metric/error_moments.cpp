@@ -6,8 +6,10 @@
 #include "metric/transfer_columns.h"
 #include "prt/support/error.h"
 #include "prt/support/parallel.h"
+#include "tuning.h"
 
 #include <Eigen/Dense>
+#include <glm/geometric.hpp>
 
 #include <algorithm>
 #include <array>
@@ -80,6 +82,66 @@ Squares squares_under(const ErrorMoments& moments, const LightingView& lighting)
         sums.reference += light.dot(references * light);
     }
     return sums;
+}
+
+/// Mean of a^T R b over all rotations of two lights in space, without band 0. Rotations mix the coefficients
+/// of a band evenly (Schur's lemma): sum_l (a_l . b_l) tr(R_l) / (2l + 1).
+double rotated_mean(const Eigen::VectorXd& a, const Eigen::VectorXd& b, const Matrix& squares) {
+    double sum = 0;
+    for (Eigen::Index l = 1; l * l < a.size(); ++l) {
+        const Eigen::Index count = 2 * l + 1;
+        sum += a.segment(l * l, count).dot(b.segment(l * l, count)) *
+               squares.diagonal().segment(l * l, count).sum() / static_cast<double>(count);
+    }
+    return sum;
+}
+
+/// Square of exit radiance, summed over receivers and colors, mean over all rotations of distant light in
+/// space; lamps stay.
+double mean_square_over_rotations(const ErrorMoments& moments, const Lighting& lighting) {
+    const TransferLayout& layout = moments.layout;
+    const auto n = static_cast<Eigen::Index>(layout.dimension());
+    const Eigen::Map<const Matrix> references(moments.references.data(), n, n);
+    const std::vector<glm::vec3> columns = light_columns(layout, lighting);
+    const std::size_t parts = layout.distant_parts().size();
+    const Eigen::Index size = coefficient_count(layout.order);
+    double sum = 0;
+    for (int c = 0; c < 3; ++c) {
+        const std::vector<std::size_t> numbers = numbers_of_color(layout, c);
+        Eigen::VectorXd constant = Eigen::VectorXd::Zero(n); // band 0, and lamps
+        std::vector<Eigen::VectorXd> lights(parts, Eigen::VectorXd::Zero(size));
+        for (std::size_t k = 0; k < columns.size(); ++k) {
+            const auto value = static_cast<double>(columns[k][c]);
+            const std::size_t part = k / static_cast<std::size_t>(size),
+                              i = k % static_cast<std::size_t>(size);
+            if (part < parts)
+                lights[part][static_cast<Eigen::Index>(i)] = value;
+            if (part >= parts || i == 0)
+                constant[static_cast<Eigen::Index>(numbers[k])] = value;
+        }
+        sum += constant.dot(references * constant);
+        const auto first = [&](std::size_t part) {
+            return static_cast<Eigen::Index>(numbers[part * static_cast<std::size_t>(size)]);
+        };
+        for (std::size_t a = 0; a < parts; ++a)
+            for (std::size_t b = 0; b < parts; ++b)
+                sum += rotated_mean(lights[a], lights[b], references.block(first(a), first(b), size, size));
+    }
+    return sum;
+}
+
+/// Light that is so little of `references` is their rounding: they are of vectors of floats.
+constexpr double kRoundingOfFloats = 1e-6 * 1e-6;
+
+/// The least square of exit radiance that errors are compared with.
+double least_square(const ErrorMoments& moments, const Lighting& lighting) {
+    const auto n = static_cast<Eigen::Index>(moments.layout.dimension());
+    double energy = 0;
+    for (const glm::vec3& column : light_columns(moments.layout, lighting))
+        energy += static_cast<double>(glm::dot(column, column));
+    const double possible = energy * Eigen::Map<const Matrix>(moments.references.data(), n, n).trace();
+    return tuning::kAdaptation * tuning::kAdaptation *
+           std::max(mean_square_over_rotations(moments, lighting), kRoundingOfFloats * possible);
 }
 
 Lighting turned(const Lighting& lighting, int order, double angle) {
@@ -196,8 +258,9 @@ LitRmsOverTurns lit_rms_over_turns(const ErrorMoments& moments, const Lighting& 
         references[k] = squares.reference;
     }
     const TrigonometricPolynomial error(errors), reference(references);
-    const auto at = [&](double angle) { return ratio(error(angle), reference(angle)); };
-    LitRmsOverTurns result{ratio(error.mean(), reference.mean())};
+    const double least = least_square(moments, lighting);
+    const auto at = [&](double angle) { return ratio(error(angle), std::max(reference(angle), least)); };
+    LitRmsOverTurns result{ratio(error.mean(), std::max(reference.mean(), least))};
     // A polynomial of degree d has at most 2d maxima, so that neighbours on a grid of 16 d enclose one.
     const double step = 2 * pi / (32 * order);
     int best = 0;

@@ -71,8 +71,11 @@ int BudgetSearch::most_clusters() const {
     if (!task_.options.choose_clusters)
         return task_.options.compress.clusters;
     const std::size_t receivers = task_.transfer.receivers(),
-                      enough = std::max(tuning::kAlwaysClusters, receivers / tuning::kReceiversPerCluster);
-    return static_cast<int>(std::clamp<std::size_t>(std::min(enough, receivers), 1, 65536));
+                      enough = std::max(tuning::kAlwaysClusters, receivers / tuning::kReceiversPerCluster),
+                      most = trials_.saves_bytes() || budget_.bytes_per_vertex
+                                 ? 65536
+                                 : tuning::kMostClustersOfOperations;
+    return static_cast<int>(std::clamp<std::size_t>(std::min(enough, receivers), 1, most));
 }
 
 int BudgetSearch::least_payload() const {
@@ -107,7 +110,9 @@ int BudgetSearch::first_payload() const {
     if (budget_.bytes_per_vertex)
         bytes = (budget_.operations ? tuning::kWeightsShareOfFewComponents : tuning::kWeightsShare) *
                 *budget_.bytes_per_vertex;
-    const double payload = bytes / task_.payload_bytes(1);
+    double payload = bytes / task_.payload_bytes(1);
+    if (!trials_.saves_bytes() && !budget_.bytes_per_vertex)
+        payload = 0.5 * most_payload(); // each word costs a try, and the last ones give next to nothing
     return std::clamp(static_cast<int>(std::lround(payload)), least_payload(), most_payload());
 }
 
@@ -142,9 +147,11 @@ void BudgetSearch::vary() {
     const bool other_way = budget_.operations ||
                            (task_.packed() && best.bytes_per_vertex > effort_.both_ways * best.payload_bytes);
     if (other_way) {
+        const double found = trials_.cost(best);
         Line line = trials_.best()->line;
         line.bases_count = !line.bases_count;
-        walk(line);
+        if (best_on(line) < found)
+            walk(line);
     }
     if (!task_.options.choose_guides)
         return;
@@ -267,17 +274,36 @@ double BudgetSearch::first_clusters_of_bytes(const Line& line, double aim) const
     return (aim - task_.payload_bytes(line.payload)) * task_.receivers() / bytes_per_cluster(line);
 }
 
-/// As many clusters as the bytes have room for, between a number that fits and one that does not.
+/// Halves the clusters as long as that lowers the cost. Where transfer has few dimensions, more clusters take
+/// bits from weights and give nothing: fewer leave bytes unused, and have the smaller error.
+void BudgetSearch::reduce_clusters(const Line& line, int clusters, double& least) {
+    int worse = 0;
+    while (clusters > 1 && worse < tuning::kPatience) {
+        clusters /= 2;
+        const double cost = trials_.cost(trials_.attempt(clusters, line));
+        worse = cost < least ? 0 : worse + 1;
+        least = std::min(least, cost);
+    }
+}
+
+/// As many clusters as the bytes have room for, between a number that fits and one that does not; fewer where
+/// the error grew with them.
 void BudgetSearch::fill_bytes(const Line& line, double& least) {
     const double most = most_bytes(line), aim = 0.5 * (1 + effort_.least_filled) * most;
     KnownClusters fits{0, task_.payload_bytes(line.payload)},
         too_many{static_cast<double>(most_clusters_) + 1, 0}, before;
     double next = first_clusters_of_bytes(line, aim);
+    int best = 0, most_kept = 0;
     for (int i = 0; i < tuning::kBytesTries && fits.clusters + 1 < too_many.clusters; ++i) {
         const int clusters = clamped(std::clamp(next, fits.clusters + 1, too_many.clusters - 1));
         const SearchTrial& trial = trials_.attempt(clusters, line);
         const double bytes = trial.bytes_per_vertex;
-        least = std::min(least, trials_.cost(trial));
+        if (const double cost = trials_.cost(trial); cost < least) {
+            least = cost;
+            best = clusters;
+        }
+        if (trials_.keeps(trial))
+            most_kept = std::max(most_kept, clusters);
         if (before.clusters > 0)
             observed_exponent(before, {static_cast<double>(clusters), trial.lit_rms});
         before = {static_cast<double>(clusters), trial.lit_rms};
@@ -289,6 +315,8 @@ void BudgetSearch::fill_bytes(const Line& line, double& least) {
         else
             next = clusters + (aim - bytes) * task_.receivers() / trials_.bytes_per_cluster();
     }
+    if (best > 0 && best < most_kept)
+        reduce_clusters(line, best, least);
 }
 
 /// A word more halves the error, as a rule.

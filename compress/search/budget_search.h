@@ -51,6 +51,7 @@ private:
     double bytes_per_cluster(const Line& line) const;
     double first_clusters_of_bytes(const Line& line, double aim) const;
     void fill_bytes(const Line& line, double& least);
+    void reduce_clusters(const Line& line, int clusters, double& least);
     void reach_error(const Line& line, double& least);
     int first_clusters(const Line& line) const;
     double observed_exponent(const KnownClusters& a, const KnownClusters& b);

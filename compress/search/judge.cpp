@@ -15,7 +15,7 @@ Judge::Judge(const TransferView& transfer, const ReceiverSurface& surface, const
 }
 
 Verdict Judge::operator()(const CompressResult& result) const {
-    Verdict verdict{result.statistics.error()};
+    Verdict verdict{result.statistics.lit_rms};
     if (budget_.skies.empty() && !budget_.max_jump)
         return verdict;
     const TransferView decoded(result.transfer);
@@ -24,9 +24,12 @@ Verdict Judge::operator()(const CompressResult& result) const {
         for (const Lighting& sky : budget_.skies)
             verdict.worst_lit_rms = std::max(verdict.worst_lit_rms, lit_rms_over_turns(moments, sky).worst);
     }
+    const std::vector<std::uint16_t>& clusters = result.transfer.receivers.clusters;
     if (budget_.max_jump)
-        verdict.jump = jump_across_clusters(transfer_, decoded, result.transfer.receivers.clusters, surface_,
-                                            metric_, threads_);
+        verdict.jump = budget_.skies_of_jumps.empty()
+                           ? jump_across_clusters(transfer_, decoded, clusters, surface_, metric_, threads_)
+                           : worst_jump_across_clusters(transfer_, decoded, clusters, surface_,
+                                                        budget_.skies_of_jumps, threads_);
     return verdict;
 }
 

@@ -8,7 +8,7 @@ namespace prt {
 struct Verdict {
     double worst_lit_rms =
         0;           ///< the greatest of the expected error and, at their worst turns, of promised skies
-    double jump = 0; ///< `jump_across_clusters`; 0 where none is asked about
+    double jump = 0; ///< `Budget::max_jump`; 0 where none is asked about
 };
 
 /// Judges results of one transfer by what a budget promises. Keeps references.

@@ -5,7 +5,9 @@
 #include "prt/support/stopwatch.h"
 #include "search/budget_search.h"
 
+#include <algorithm>
 #include <cmath>
+#include <functional>
 #include <string>
 
 namespace prt {
@@ -25,6 +27,8 @@ void check_budget(const SearchOptions& o, const ReceiverSurface& surface) {
             "one cluster jumps nowhere: a limit on jumps needs one on the error, bytes or operations");
     if (!o.budget.skies.empty() && !o.budget.max_error)
         throw Error("skies are given for a promise without an error");
+    if (!o.budget.skies_of_jumps.empty() && !o.budget.max_jump)
+        throw Error("skies are given for a limit on jumps without the limit");
     const int rows = guide_rows_of(o.compress.guides, surface);
     if (!o.choose_guides && o.budget.operations && rows > *o.budget.operations)
         throw Error("the guides alone take " + std::to_string(rows) + " shader operations");
@@ -57,6 +61,22 @@ SearchResult within(const SearchTask& task) {
 }
 
 } // namespace
+
+std::vector<PromiseKept> promises_of(const Budget& budget, const SearchTrial& trial) {
+    std::vector<PromiseKept> kept;
+    const auto add = [&](Promise promise, double reached, const std::optional<double>& limit) {
+        if (limit)
+            kept.push_back({promise, reached, *limit});
+    };
+    add(Promise::error, trial.worst_lit_rms, budget.max_error);
+    if (trial.lamp_contrast > 0)
+        add(Promise::lamps, trial.lamp_contrast, budget.max_error);
+    add(Promise::jump, trial.jump, budget.max_jump);
+    add(Promise::bytes, trial.bytes_per_vertex, budget.bytes_per_vertex);
+    add(Promise::operations, trial.operations, budget.operations);
+    std::ranges::stable_sort(kept, std::greater(), &PromiseKept::share);
+    return kept;
+}
 
 SearchResult compress_within(const TransferView& transfer, const ReceiverSurface& surface,
                              const SearchOptions& options, const Progress& progress) {

@@ -26,14 +26,15 @@ Trials::Trials(const SearchTask& task)
       bytes_per_cluster_(tuning::kBytesPerClusterAndNumber * task.dimension()) {}
 
 double Trials::excess_of_error(const SearchTrial& t) const {
-    return std::max(budget_.max_error ? t.worst_lit_rms / *budget_.max_error : 0.0,
-                    budget_.max_jump ? t.jump / *budget_.max_jump : 0.0);
+    double excess = 0;
+    for (const PromiseKept& kept : promises_of(budget_, t))
+        if (kept.promise != Promise::bytes && kept.promise != Promise::operations)
+            excess = std::max(excess, kept.share());
+    return excess;
 }
 
 double Trials::excess(const SearchTrial& t) const {
-    return std::max({excess_of_error(t),
-                     budget_.bytes_per_vertex ? t.bytes_per_vertex / *budget_.bytes_per_vertex : 0.0,
-                     budget_.operations ? t.operations / *budget_.operations : 0.0});
+    return promises_of(budget_, t).front().share();
 }
 
 double Trials::cost(const SearchTrial& t) const {
@@ -108,6 +109,7 @@ const SearchTrial& Trials::attempt(int clusters, const Line& line) {
                             .payload_bytes = static_cast<int>(s.bytes_per_receiver),
                             .lit_rms = finished * s.error(),
                             .worst_lit_rms = finished * verdict.worst_lit_rms,
+                            .lamp_contrast = finished * s.lamp_contrast,
                             .jump = finished * verdict.jump,
                             .bytes_per_vertex = s.bytes_with_bases(task_.transfer.receivers()),
                             .operations = s.operations(),

@@ -153,10 +153,15 @@ private:
         return static_cast<int>(count) - 1;
     }
 
+    /// With a cluster for each of a few receivers, a method has no error and compresses nothing.
+    int most_clusters() const {
+        const std::size_t most = transfer_.receivers() / kLeastReceiversPerCluster;
+        return static_cast<int>(std::clamp<std::size_t>(most, 1, 1024));
+    }
+
     void clustered() {
-        const int most_clusters = static_cast<int>(std::min<std::size_t>(1024, transfer_.receivers()));
         double done = 0.07;
-        for (int clusters = 4; clusters <= most_clusters; clusters *= 2) {
+        for (int clusters = std::min(4, most_clusters()); clusters <= most_clusters(); clusters *= 2) {
             std::set<int> components; // fewer than fit are never better
             for (const double bytes : kSweepBytes)
                 components.insert(classic_components(clusters, bytes));
@@ -172,7 +177,7 @@ private:
                 sweep_.by_bytes.push_back(
                     classic("vector quantisation", clusters, 0, false, progress_.part(done, done)));
         }
-        const int clusters = std::min(kSweepClusters, most_clusters);
+        const int clusters = std::min(kSweepClusters, most_clusters());
         for (const int m : kSweepComponents) {
             if (static_cast<std::size_t>(m) > transfer_.dimension())
                 break;

@@ -1,5 +1,6 @@
 #include "prt/search.h"
 
+#include "metric/light_family.h"
 #include "prt/baselines.h"
 #include "prt/error_measures.h"
 #include "prt/error_moments.h"
@@ -116,6 +117,51 @@ TEST(Search, KeepsTheErrorThatWasAskedFor) {
     }
 }
 
+/// Three random vectors, mixed at random: one cluster with three components has them all, and clusters only
+/// take bits from weights.
+TEST(Search, FindsFewClustersWhereTransferHasFewDimensions) {
+    Transfer transfer = zero_transfer(5, 1, 500);
+    std::mt19937 random(9);
+    std::normal_distribution<float> normal;
+    std::vector<float> rows(3 * transfer.dimension());
+    for (float& v : rows)
+        v = normal(random);
+    for (std::size_t p = 0; p < transfer.receivers(); ++p) {
+        const float weights[] = {normal(random), normal(random), normal(random)};
+        for (std::size_t i = 0; i < rows.size(); ++i)
+            transfer.vector(p)[i % transfer.dimension()] += weights[i / transfer.dimension()] * rows[i];
+    }
+    const Tried scene(std::move(transfer));
+    const SearchResult found = scene.within({.bytes_per_vertex = 8});
+    ASSERT_TRUE(found.kept);
+    CompressOptions by_hand{
+        .clusters = 1, .coding = {.components = 3, .bits = 32}, .guides = GuideChoice::none};
+    EXPECT_LE(found.result.statistics.lit_rms,
+              1.05 * compress(scene.transfer, {scene.areas}, by_hand).statistics.lit_rms);
+}
+
+/// Transfer of one vector with both signs is dark at some turn of every sky, where any error is infinite
+/// times the light.
+TEST(Search, KeepsAnErrorWhereLightVanishesAtSomeTurn) {
+    Transfer signs = zero_transfer(4, 1, 300), constant = signs;
+    std::mt19937 random(4);
+    std::normal_distribution<float> normal;
+    for (std::size_t p = 0; p < signs.receivers(); ++p)
+        for (std::size_t i = 0; i < signs.dimension(); ++i) {
+            const float direction = std::sin(3.0f * static_cast<float>(i) + 1);
+            signs.vector(p)[i] = (p % 3 == 0 ? -1.0f : 1.0f) * direction;
+            constant.vector(p)[i] = direction + 1e-7f * normal(random);
+        }
+    Budget budget{.max_error = 0.01};
+    for (const Lighting& day : members_of_family(LightFamily::outdoor, 4))
+        budget.skies.push_back({day.suns ? sum(day.sky, *day.suns) : day.sky});
+    for (Transfer& transfer : {std::ref(signs), std::ref(constant)}) {
+        const SearchResult found = Tried(std::move(transfer)).within(budget);
+        EXPECT_TRUE(found.kept);
+        EXPECT_LE(found.best.worst_lit_rms, 0.01);
+    }
+}
+
 TEST(Search, KeepsTheErrorAtEveryTurnOfSkiesThatWereGiven) {
     const Tried scene(700, 1, 1);
     const std::vector<Lighting> days = members_of_family(LightFamily::outdoor, 4);
@@ -136,7 +182,8 @@ TEST(Search, KeepsTheErrorAtEveryTurnOfSkiesThatWereGiven) {
     EXPECT_GT(worst, 0.01);
 }
 
-/// What is promised under the members of a family holds for days between them.
+/// What is promised under the members of a family holds for days between them, and with texture of the
+/// family's power (clouds, trees) up to a twentieth.
 TEST(Search, KeepsTheErrorUnderSkiesDrawnFromTheFamily) {
     const Tried scene(500, 1, 2);
     Budget budget{.max_error = 0.02};
@@ -146,11 +193,36 @@ TEST(Search, KeepsTheErrorUnderSkiesDrawnFromTheFamily) {
     const ErrorMoments moments = error_moments(scene.transfer, decoded, scene.areas);
     std::mt19937 random(3);
     std::uniform_real_distribution<double> elevation(0.105, 1.48), turbidity(2.5, 6);
+    std::normal_distribution<double> normal;
+    const std::vector<double> texture = family_model(LightFamily::outdoor, 4).texture;
     for (int draw = 0; draw < 20; ++draw) {
         const Lighting day =
             daylight(4, {.sun_elevation = elevation(random), .turbidity = turbidity(random)});
-        EXPECT_LE(lit_rms_over_turns(moments, {sum(day.sky, *day.suns)}).worst, 0.02);
+        Light light = sum(day.sky, *day.suns);
+        EXPECT_LE(lit_rms_over_turns(moments, {light}).worst, 0.02);
+        for (int i = 1; i < 16; ++i) {
+            const auto band = static_cast<std::size_t>(std::sqrt(i));
+            const double power = texture[band] * std::pow(static_cast<double>(day.sky.coefficients[0].x), 2);
+            light.coefficients[static_cast<std::size_t>(i)] +=
+                glm::vec3(static_cast<float>(std::sqrt(power) * normal(random)));
+        }
+        EXPECT_LE(lit_rms_over_turns(moments, {light}).worst, 1.05 * 0.02);
     }
+}
+
+TEST(Search, OrdersPromisesByHowNearTheyAreToTheirLimits) {
+    const Budget budget{.max_error = 0.1, .operations = 8.0, .max_jump = 0.05};
+    const SearchTrial trial{.lit_rms = 0.03,
+                            .worst_lit_rms = 0.04,
+                            .lamp_contrast = 0.09,
+                            .jump = 0.049,
+                            .bytes_per_vertex = 99,
+                            .operations = 2};
+    std::vector<Promise> order;
+    for (const PromiseKept& kept : promises_of(budget, trial))
+        order.push_back(kept.promise);
+    EXPECT_EQ(order, (std::vector{Promise::jump, Promise::lamps, Promise::error, Promise::operations}));
+    EXPECT_DOUBLE_EQ(promises_of(budget, trial)[0].share(), 0.98);
 }
 
 /// Neighbours in a row along one parameter of the transfer.
@@ -179,6 +251,30 @@ TEST(Search, LimitsJumpsAcrossClusters) {
     EXPECT_GT(free, 0.01);
     options.budget.max_jump = 0.5 * free;
     EXPECT_LE(jump(), 0.5 * free);
+    // The same under each of two skies at every one of the rotations.
+    for (const double elevation : {0.3, 1.0})
+        options.budget.skies_of_jumps.push_back({*daylight(3, {.sun_elevation = elevation}).suns});
+    const SearchResult found = compress_within(transfer, surface, options);
+    EXPECT_TRUE(found.kept);
+    const Transfer decoded = decode(found.result.transfer);
+    for (const Lighting& sky : options.budget.skies_of_jumps)
+        for (int rotation = 0; rotation < 24; ++rotation) {
+            const Light light = rotated_about_y(sky.sky, rotation * std::numbers::pi / 12);
+            const auto wanted = exit_radiance(transfer, light), given = exit_radiance(decoded, light);
+            double mean = 0;
+            for (const glm::vec3& radiance : wanted)
+                mean += static_cast<double>(radiance.x) / 700;
+            std::vector<double> jumps; // of receivers of one area
+            for (const Edge& edge : edges)
+                if (found.result.transfer.receivers.clusters[edge.first] !=
+                    found.result.transfer.receivers.clusters[edge.second])
+                    jumps.push_back(
+                        std::abs(static_cast<double>(given[edge.first].x - wanted[edge.first].x -
+                                                     given[edge.second].x + wanted[edge.second].x)));
+            std::ranges::sort(jumps, std::greater());
+            EXPECT_LE(jumps.empty() ? 0 : jumps[jumps.size() / 100], 0.5001 * free * std::abs(mean));
+        }
+    options.budget.skies_of_jumps.clear();
     options.budget.max_error.reset(); // one cluster jumps nowhere
     EXPECT_THROW(compress_within(transfer, surface, options), Error);
 }

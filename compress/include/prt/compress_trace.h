@@ -49,9 +49,10 @@ struct CodingRound {
 struct SearchTrial {
     bool draft = false;                  ///< few rounds and no seams: what more of them lead to is estimated
     int clusters = 0, payload_bytes = 0; ///< `bytes_per_receiver`
-    double lit_rms = 0;                  ///< expected under the metric
+    double lit_rms = 0;                  ///< expected under the metric, or `lamp_contrast` if that is greater
     double worst_lit_rms = 0;            ///< the greatest of that and of those under skies that are promised
-    double jump = 0;                     ///< `jump_across_clusters`, where it is promised
+    double lamp_contrast = 0;            ///< `CompressStatistics::lamp_contrast`
+    double jump = 0;                     ///< the greatest that is promised (`Budget::max_jump`)
     double bytes_per_vertex = 0;         ///< payload and bases
     double operations = 0;               ///< `CompressStatistics::operations`
     double seconds = 0;

@@ -38,7 +38,10 @@ double lit_rms(const ErrorMoments& moments, const LightingView& lighting);
 /// `expected_lit_rms` of prt/light_metric.h. Throws `Error` for a metric of another layout.
 double expected_lit_rms(const ErrorMoments& moments, const LightMetric& metric);
 
-/// `lit_rms` of one lighting, turned about +Y as a whole; lamps stay.
+/// `lit_rms` of one lighting, turned about +Y as a whole; lamps stay. Errors are compared with the exit
+/// radiance at that angle, or with a tenth of its root mean square over all rotations of the lighting in
+/// space where that is more: light that vanishes at some angle would make any error infinite there
+/// (docs/math.md, section 4).
 struct LitRmsOverTurns {
     double mean = 0;        ///< root of the mean squared error over the mean square, over all angles: exact
     double worst = 0;       ///< at the worst angle

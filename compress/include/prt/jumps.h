@@ -26,4 +26,15 @@ double jump_across_clusters(const TransferView& reference, const TransferView& a
                             std::span<const std::uint16_t> clusters, const ReceiverSurface& surface,
                             const LightMetric& metric, int threads = 0);
 
+/// Rotations about +Y, by equal angles, at which `worst_jump_across_clusters` looks.
+inline constexpr int kRotationsOfJumps = 24;
+
+/// The greatest of the same percentile under each of `skies` alone, at each of its rotations: under one
+/// lighting the error of exit radiance differs between the ends of an edge by |sum_i L_i d_i|, the root of
+/// the mean square over the colors, over that of the mean exit radiance. Skies that leave the mean dark do
+/// not count.
+double worst_jump_across_clusters(const TransferView& reference, const TransferView& approximation,
+                                  std::span<const std::uint16_t> clusters, const ReceiverSurface& surface,
+                                  std::span<const Lighting> skies, int threads = 0);
+
 } // namespace prt

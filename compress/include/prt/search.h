@@ -15,15 +15,31 @@ struct Budget {
     std::optional<double> max_error = {};        ///< lit_rms, as expected under the metric, and under `skies`
     std::optional<double> bytes_per_vertex = {}; ///< what a game binds (`bytes_per_receiver`), and bases
     std::optional<double> operations = {};       ///< of all receivers, guides with them: what the shader pays
-    /// `jump_across_clusters` (prt/jumps.h) under the metric: beside another, since one cluster jumps
-    /// nowhere.
+    /// `jump_across_clusters` (prt/jumps.h) under the metric, or of `skies_of_jumps` where there are some:
+    /// beside another, since one cluster jumps nowhere.
     std::optional<double> max_jump = {};
     /// Under each of these, at every turn about +Y, `max_error` holds, too.
     std::vector<Lighting> skies = {};
+    /// Under each of these, turned about +Y, `max_jump` holds (`worst_jump_across_clusters`).
+    std::vector<Lighting> skies_of_jumps = {};
 
     bool any() const { return max_error || max_jump || bytes_per_vertex || operations; }
     bool aims() const { return max_error || bytes_per_vertex || operations; }
 };
+
+/// What a budget limits.
+enum class Promise { error, lamps, jump, bytes, operations };
+
+/// A figure of a result and its limit.
+struct PromiseKept {
+    Promise promise;
+    double reached = 0, limit = 1;
+    double share() const { return reached / limit; }
+};
+
+/// The figures of `trial` that `budget` limits, nearest to its limit first: the first one decided the size or
+/// the error of what a search found.
+std::vector<PromiseKept> promises_of(const Budget& budget, const SearchTrial& trial);
 
 struct SearchOptions {
     CompressOptions compress;      ///< what the search does not choose: metric, seams, seed, threads, format
@@ -45,9 +61,9 @@ struct SearchResult {
 
 /// Compresses with the guides and numbers of clusters, components and bits that are cheapest in bytes under
 /// `max_error`, or best in error under `bytes_per_vertex`, or, under `operations` alone, in as
-/// many bytes as a preset may take. Takes three to six times as long as `compress`: later tries start from
-/// the clusters of earlier ones. Throws as `compress` does, for budgets that are not positive, and for guides
-/// that take more operations than there may be.
+/// many bytes as a preset may take, and at most 512 clusters. Takes three to six times as long as `compress`:
+/// later tries start from the clusters of earlier ones. Throws as `compress` does, for budgets that are not
+/// positive, and for guides that take more operations than there may be.
 SearchResult compress_within(const TransferView& transfer, const ReceiverSurface& surface,
                              const SearchOptions& options, const Progress& progress = {});
 

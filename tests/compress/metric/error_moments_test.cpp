@@ -113,6 +113,34 @@ TEST_P(OfLayouts, NoTurnIsWorseThanTheWorstAndItIsFound) {
     EXPECT_NEAR(c.measured(at(found.worst_angle)), found.worst, 1e-5 * found.worst);
 }
 
+/// A receiver that sees band 1 along X alone is dark where the light comes along Z. In space, the mean square
+/// of a coefficient of band 1 is a third of its power.
+TEST(ErrorMomentsOverTurns, CompareWithATenthOfTheMeanOverAllRotationsInTheDark) {
+    const TransferLayout layout = layout_of_one(2, 1);
+    Transfer reference = zero_transfer(layout, 1), approximation = reference;
+    reference.vector(0)[3] = 2;
+    approximation.vector(0)[3] = 2;
+    approximation.vector(0)[0] = 0.001f;
+    Light light{2, std::vector<glm::vec3>(4, glm::vec3(0))};
+    light.coefficients[0] = glm::vec3(5);
+    light.coefficients[3] = glm::vec3(1);
+    const LitRmsOverTurns found =
+        lit_rms_over_turns(error_moments(reference, approximation, std::vector<float>(1, 1.0f)), {light});
+    EXPECT_NEAR(found.worst, 0.005 / (0.1 * std::sqrt(4.0 / 3)), 1e-6);
+    EXPECT_NEAR(found.mean, 0.005 / std::sqrt(4.0 / 2), 1e-6);
+}
+
+/// Light of bands that transfer does not have: there is nothing to compare with but float's rounding.
+TEST(ErrorMomentsOverTurns, AreFiniteWhereTransferHasOtherBandsThanTheLight) {
+    const TransferLayout layout = layout_of_one(2, 1);
+    Transfer reference = zero_transfer(layout, 1), approximation = reference;
+    reference.vector(0)[3] = 1;
+    approximation.vector(0)[0] = 1e-9f;
+    approximation.vector(0)[3] = 1;
+    const ErrorMoments moments = error_moments(reference, approximation, std::vector<float>(1, 1.0f));
+    EXPECT_NEAR(lit_rms_over_turns(moments, {constant_light(2, glm::vec3(1))}).worst, 0.01, 1e-5);
+}
+
 TEST(ErrorMomentsOverTurns, HaveTheMeanThatTheMetricOfThatLightExpects) {
     Case c(kLayouts[2]);
     const Lighting lighting = c.lighting();

@@ -51,6 +51,36 @@ TEST(Jumps, InsideClustersAndOfWhatBothEndsShareDoNotCount) {
     EXPECT_EQ(pairs.jump(), 0);
 }
 
+/// Pairs whose errors are along X: light from X lights the error, and lowers the mean where it is turned
+/// away.
+TEST(Jumps, UnderSkiesAreThoseOfTheWorstSkyAtItsWorstRotation) {
+    Pairs pairs;
+    const auto along_x = [](const Transfer& from) {
+        Transfer to = zero_transfer(2, 1, from.receivers());
+        for (std::size_t p = 0; p < from.receivers(); ++p) {
+            to.vector(p)[0] = 1;
+            to.vector(p)[3] = from.vector(p)[0];
+        }
+        return to;
+    };
+    const Transfer reference = along_x(pairs.reference), approximation = along_x(pairs.approximation);
+    const auto light = [](float constant, float x) {
+        Light result{2, std::vector<glm::vec3>(4, glm::vec3(0))};
+        result.coefficients[0] = glm::vec3(constant, 0, 0);
+        result.coefficients[3] = glm::vec3(x, 0, 0);
+        return Lighting{result};
+    };
+    const auto jump = [&](const std::vector<Lighting>& skies) {
+        return worst_jump_across_clusters(reference, approximation, pairs.clusters,
+                                          {pairs.areas, pairs.edges}, skies);
+    };
+    // Jumps of 98 thousandths along X: 0.098 x / |constant + x|, largest with x against the constant.
+    EXPECT_NEAR(jump({light(3, 1)}), 0.098 / 2, 1e-5);
+    EXPECT_NEAR(jump({light(5, 1), light(3, 1), light(4, 1)}), 0.098 / 2, 1e-5);
+    EXPECT_NEAR(jump({light(1, 0)}), 0, 1e-6);
+    EXPECT_EQ(jump({light(0, 0)}), 0); // dark
+}
+
 TEST(Jumps, RefuseTransfersThatDoNotBelongTogether) {
     Pairs pairs;
     pairs.clusters.pop_back();

@@ -109,20 +109,26 @@ TEST(Sweep, MeasuresJumpsAlongAllEdgesAlike) {
     EXPECT_NEAR(best_by_bytes(result, "bright", 3)->lit_rms, 0.25, 1e-6);
 }
 
-TEST(Sweep, SaysWhyOursIsMissing) {
-    // Forty receivers: no bases fit five bytes, and classic CPCA has a cluster for each of them.
-    Transfer few = zero_transfer(2, 1, 40);
+TEST(Sweep, OfFewReceiversSaysWhyOursIsMissingAndGivesMethodsNoClusterForEach) {
+    constexpr std::size_t kReceivers = 20; // no bases fit five bytes
+    Transfer few = zero_transfer(2, 1, kReceivers);
     std::copy_n(strip().vectors.begin(), few.vectors.size(), few.vectors.begin());
     const std::vector<Light> lights = {constant_light(2, {1, 1, 1})};
-    const Sweep result = sweep(few, {std::vector<float>(40, 1.0f)}, lights, {});
-    std::size_t ours = 0, asked = std::size(kSweepBytes);
+    const Sweep result = sweep(few, {std::vector<float>(kReceivers, 1.0f)}, lights, {});
+    std::size_t ours = 0, asked = std::size(kSweepBytes), clustered = 0;
     for (const auto* points : {&result.by_bytes, &result.by_components})
         for (const SweepPoint& point : *points) {
             ours += point.method == kOurs;
             asked += points == &result.by_components && point.method == kClassic;
+            if (point.method == "static CPCA" || point.method == kClassic ||
+                point.method == "vector quantisation") {
+                EXPECT_LE(std::stoi(point.setting), 2) << point.setting;
+                ++clustered;
+            }
         }
     EXPECT_LT(ours, asked);
     EXPECT_EQ(ours + result.left_out.size(), asked);
+    EXPECT_GT(clustered, 6u);
 }
 
 } // namespace
