@@ -34,6 +34,29 @@ std::vector<Event> those_of(const std::vector<CompressEvent>& events) {
     return found;
 }
 
+/// Mean of Y² / (Y + a)² under natural light, receivers alike: weight of the squared light where errors count
+/// by contrast (docs/math.md, eq. 28c).
+double light_seen(const Transfer& t) {
+    const LightMetric metric = natural_metric(t.layout);
+    const std::size_t n = t.dimension();
+    std::vector<double> luminance;
+    double logarithms = 0;
+    for (std::size_t p = 0; p < t.receivers(); ++p) {
+        double square = 0;
+        for (std::size_t i = 0; i < n; ++i)
+            for (std::size_t j = 0; j < n; ++j)
+                square += static_cast<double>(t.vector(p)[i]) * metric.moments[i * n + j] *
+                          static_cast<double>(t.vector(p)[j]);
+        luminance.push_back(std::sqrt(square));
+        logarithms += std::log(luminance.back()) / static_cast<double>(t.receivers());
+    }
+    const double a = 0.1 * std::exp(logarithms);
+    double sum = 0;
+    for (const double y : luminance)
+        sum += y * y / ((y + a) * (y + a)) / static_cast<double>(t.receivers());
+    return sum;
+}
+
 TEST(Trace, TellsHowTheResultCameAbout) {
     const Transfer t = curved_sheets(1200);
     const std::vector<float> areas(t.receivers(), 1.0f);
@@ -75,7 +98,11 @@ TEST(Trace, TellsHowTheResultCameAbout) {
     for (const CodingRound& round : those_of<CodingRound>(events))
         if (round.rounded)
             least = std::min(least, round.error);
-    EXPECT_NEAR(std::sqrt(least), with.statistics.lit_rms, 0.02 * with.statistics.lit_rms);
+    constexpr double kShare = 0.3; // of contrast in the cost
+    const double lit = with.statistics.lit_rms, contrast = with.statistics.sky_contrast,
+                 cost = std::sqrt(((1 - kShare) * lit * lit + kShare * contrast * contrast) /
+                                  (1 - kShare + kShare * light_seen(t)));
+    EXPECT_NEAR(std::sqrt(least), cost, 0.02 * cost);
 }
 
 /// What is cheap to merge and what gains by a split may be one cluster, where some receivers count for

@@ -14,8 +14,8 @@ struct ClustersSeeded {
     std::size_t clusters, axes;
 };
 
-/// A round of clustered PCA before weights are quantised. Costs are squared lit_rms under the metric, with
-/// what quantisation is expected to lose, and prices.
+/// A round of clustered PCA before weights are quantised. Costs are squared and weighted errors
+/// (docs/math.md, eq. 28c), with what quantisation is expected to lose, and prices.
 struct ClusteringRound {
     int most_components;
     double cost;
@@ -42,19 +42,19 @@ struct MovesTried {
 /// A round of codes and clusters in turn.
 struct CodingRound {
     bool rounded; ///< with bases rounded as they will be written; only such results may be kept
-    double error; ///< squared lit_rms under the metric
+    double error; ///< squared, weighted as docs/math.md, eq. 28c: near the squared lit_rms
 };
 
 /// One try of a search for a budget (`prt/search.h`), after the events of its own compression.
 struct SearchTrial {
     bool draft = false;                  ///< few rounds and no seams: what more of them lead to is estimated
     int clusters = 0, payload_bytes = 0; ///< `bytes_per_receiver`
-    double lit_rms = 0;                  ///< expected under the metric, or `lamp_contrast` if that is greater
-    double worst_lit_rms = 0;            ///< the greatest of that and of those under skies that are promised
-    double lamp_contrast = 0;            ///< `CompressStatistics::lamp_contrast`
-    double jump = 0;                     ///< the greatest that is promised (`Budget::max_jump`)
-    double bytes_per_vertex = 0;         ///< payload and bases
-    double operations = 0;               ///< `CompressStatistics::operations`
+    double lit_rms = 0; ///< expected under the metric, or the greatest contrast error if that is greater
+    double worst_lit_rms = 0;    ///< the greatest of that and of those under skies that are promised
+    double lamp_contrast = 0;    ///< `CompressStatistics::lamp_contrast`
+    double jump = 0;             ///< the greatest that is promised (`Budget::max_jump`)
+    double bytes_per_vertex = 0; ///< payload and bases
+    double operations = 0;       ///< `CompressStatistics::operations`
     double seconds = 0;
 };
 
