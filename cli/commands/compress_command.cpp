@@ -205,6 +205,8 @@ PromiseWords words_of(Promise promise) {
     switch (promise) {
     case Promise::error:
         return {"--max-error", "lit_rms under the worst sky", true};
+    case Promise::skies:
+        return {"--max-error", "contrast error under skies", true};
     case Promise::lamps:
         return {"--max-error", "contrast error of lamps", true};
     case Promise::jump:

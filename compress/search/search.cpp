@@ -69,6 +69,8 @@ std::vector<PromiseKept> promises_of(const Budget& budget, const SearchTrial& tr
             kept.push_back({promise, reached, *limit});
     };
     add(Promise::error, trial.worst_lit_rms, budget.max_error);
+    if (trial.sky_contrast > 0)
+        add(Promise::skies, trial.sky_contrast, budget.max_error);
     if (trial.lamp_contrast > 0)
         add(Promise::lamps, trial.lamp_contrast, budget.max_error);
     add(Promise::jump, trial.jump, budget.max_jump);

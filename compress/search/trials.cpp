@@ -109,6 +109,7 @@ const SearchTrial& Trials::attempt(int clusters, const Line& line) {
                             .payload_bytes = static_cast<int>(s.bytes_per_receiver),
                             .lit_rms = finished * s.error(),
                             .worst_lit_rms = finished * verdict.worst_lit_rms,
+                            .sky_contrast = finished * s.sky_contrast,
                             .lamp_contrast = finished * s.lamp_contrast,
                             .jump = finished * verdict.jump,
                             .bytes_per_vertex = s.bytes_with_bases(task_.transfer.receivers()),

@@ -214,6 +214,7 @@ TEST(Search, OrdersPromisesByHowNearTheyAreToTheirLimits) {
     const Budget budget{.max_error = 0.1, .operations = 8.0, .max_jump = 0.05};
     const SearchTrial trial{.lit_rms = 0.03,
                             .worst_lit_rms = 0.04,
+                            .sky_contrast = 0.05,
                             .lamp_contrast = 0.09,
                             .jump = 0.049,
                             .bytes_per_vertex = 99,
@@ -221,7 +222,8 @@ TEST(Search, OrdersPromisesByHowNearTheyAreToTheirLimits) {
     std::vector<Promise> order;
     for (const PromiseKept& kept : promises_of(budget, trial))
         order.push_back(kept.promise);
-    EXPECT_EQ(order, (std::vector{Promise::jump, Promise::lamps, Promise::error, Promise::operations}));
+    EXPECT_EQ(order, (std::vector{Promise::jump, Promise::lamps, Promise::skies, Promise::error,
+                                  Promise::operations}));
     EXPECT_DOUBLE_EQ(promises_of(budget, trial)[0].share(), 0.98);
 }
 

@@ -51,7 +51,8 @@ struct SearchTrial {
     int clusters = 0, payload_bytes = 0; ///< `bytes_per_receiver`
     double lit_rms = 0; ///< expected under the metric, or the greatest contrast error if that is greater
     double worst_lit_rms = 0;    ///< the greatest of that and of those under skies that are promised
-    double lamp_contrast = 0;    ///< `CompressStatistics::lamp_contrast`
+    double sky_contrast = 0;     ///< `CompressStatistics::sky_contrast`
+    double lamp_contrast = 0;    ///< the same of `lamp_contrast`
     double jump = 0;             ///< the greatest that is promised (`Budget::max_jump`)
     double bytes_per_vertex = 0; ///< payload and bases
     double operations = 0;       ///< `CompressStatistics::operations`

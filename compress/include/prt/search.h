@@ -12,7 +12,8 @@ namespace prt {
 
 /// What the result must keep. At least one is given.
 struct Budget {
-    std::optional<double> max_error = {};        ///< lit_rms, as expected under the metric, and under `skies`
+    std::optional<double> max_error =
+        {}; ///< lit_rms, expected under the metric, and under `skies`; contrast errors
     std::optional<double> bytes_per_vertex = {}; ///< what a game binds (`bytes_per_receiver`), and bases
     std::optional<double> operations = {};       ///< of all receivers, guides with them: what the shader pays
     /// `jump_across_clusters` (prt/jumps.h) under the metric, or of `skies_of_jumps` where there are some:
@@ -28,7 +29,7 @@ struct Budget {
 };
 
 /// What a budget limits.
-enum class Promise { error, lamps, jump, bytes, operations };
+enum class Promise { error, skies, lamps, jump, bytes, operations };
 
 /// A figure of a result and its limit.
 struct PromiseKept {

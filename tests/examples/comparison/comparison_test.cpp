@@ -13,6 +13,17 @@
 namespace comparison {
 namespace {
 
+/// The page and the sheet of pictures that hold the figures of `result`.
+void expect_page(const SceneResult& result, const std::vector<Sky>& skies, const Options& options,
+                 const prt::test::TemporaryFolder& folder) {
+    const std::string page = report({result}, skies, options, "images", "Made by a test.");
+    for (const char* part : {"## ball", "| baked AO | 1 |", "error, sky | FLIP |", "images/ball.png",
+                             "Made by a test.", "Mean error"})
+        EXPECT_NE(page.find(part), std::string::npos) << part;
+    write_pictures({result}, options, folder / "images");
+    EXPECT_EQ(prt::decode_image(prt::read_file(folder / "images/ball.png")).width, 7 * 96);
+}
+
 TEST(Comparison, MeasuresEveryMethodAndWritesItsPage) {
     const prt::test::TemporaryFolder folder;
     prt::test::scene_file(
@@ -70,13 +81,7 @@ TEST(Comparison, MeasuresEveryMethodAndWritesItsPage) {
     EXPECT_LE(row("PRT, order 6, 8 bytes").bytes_per_vertex, 8);
     EXPECT_NEAR(row("PRT, order 6, 16 bytes").errors[0].relative_l2,
                 row("PRT, order 6").errors[0].relative_l2, 0.02);
-
-    const std::string page = report({result}, skies, options, "images", "Made by a test.");
-    for (const char* part : {"## ball", "| baked AO | 1 |", "error, sky | FLIP |", "images/ball.png",
-                             "Made by a test.", "Mean error"})
-        EXPECT_NE(page.find(part), std::string::npos) << part;
-    write_pictures({result}, options, folder / "images");
-    EXPECT_EQ(prt::decode_image(prt::read_file(folder / "images/ball.png")).width, 7 * 96);
+    expect_page(result, skies, options, folder);
 }
 
 } // namespace
