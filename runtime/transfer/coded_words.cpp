@@ -140,10 +140,10 @@ template <int kCount>
     const std::uint32_t a = p.weights[0][j];
     if constexpr (kCount == 1)
         return {a, field.first_context + 1u};
-    const std::uint32_t b = p.weights[1][j], c = p.weights[kCount - 1][j];
+    const std::uint32_t b = p.weights[1][j], c = p.weights[kCount == 3 ? 2 : 1][j];
     const std::uint32_t range = std::max({a, b, c}) - std::min({a, b, c});
     const auto width = static_cast<std::uint32_t>(std::bit_width(range >> field.plain));
-    return {kCount == 2 ? (a + b + 1) / 2 : (2 * (a + b + c) + 3) / 6, field.first_context + 2u + width};
+    return {kCount == 2 ? (a + b + 1) / 2 : (a + b + c + 1) / 3, field.first_context + 2u + width};
 }
 
 template <int kCount, class Coder>

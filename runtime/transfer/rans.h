@@ -84,9 +84,7 @@ private:
             std::memcpy(&value, bytes_.data() + position, sizeof value);
         return value;
     }
-    std::uint32_t first_state(std::size_t state) const {
-        return unit(4 * state) | unit(4 * state + 2) << 16;
-    }
+    std::uint32_t first_state(std::size_t state) const { return unit(4 * state) | unit(4 * state + 2) << 16; }
 
     std::span<const std::byte> bytes_;
     std::uint32_t state_, second_, third_, fourth_; ///< the one that is next, first

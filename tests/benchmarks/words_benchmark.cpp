@@ -54,12 +54,13 @@ void measure(const char* path) {
     }
     const double bytes = 4 * static_cast<double>(given.words.size());
     const std::size_t frequencies = coded_bytes(code.frequencies);
-    std::printf("%s: %zu vertices, %.0f bytes coded in %zu and %zu of frequencies: %.3f; %.0f MB/s, %.0f ns a "
-                "vertex, of which neighbors %.0f\n",
-                path, receivers, bytes, code.bits.size(), frequencies,
-                static_cast<double>(code.bits.size() + frequencies) / bytes, 1e-6 * bytes / seconds,
-                1e9 * seconds / static_cast<double>(receivers),
-                1e9 * neighbor_seconds / static_cast<double>(receivers));
+    std::printf(
+        "%s: %zu vertices, %.0f bytes coded in %zu and %zu of frequencies: %.3f; %.0f MB/s, %.0f ns a "
+        "vertex, of which neighbors %.0f\n",
+        path, receivers, bytes, code.bits.size(), frequencies,
+        static_cast<double>(code.bits.size() + frequencies) / bytes, 1e-6 * bytes / seconds,
+        1e9 * seconds / static_cast<double>(receivers),
+        1e9 * neighbor_seconds / static_cast<double>(receivers));
 }
 
 } // namespace

@@ -121,7 +121,7 @@ function expected(weights, same, j, width, plain) {
   const sum = values.reduce((total, value) => total + value);
   if (values.length === 1) return [sum, first + 1];
   const range = Math.max(...values) - Math.min(...values);
-  const mean = values.length === 2 ? (sum + 1) >> 1 : Math.floor((2 * sum + 3) / 6);
+  const mean = values.length === 2 ? (sum + 1) >> 1 : Math.floor((sum + 1) / 3);
   return [mean, first + 2 + bitWidth(range >> plain)];
 }
 

@@ -81,8 +81,7 @@ std::optional<std::size_t> first_vertex(const Json& primitive) {
 
 /// The coded words of all vertices.
 std::vector<std::uint32_t> decoded(const GltfContents& contents, const Json& json, const WordLayout& layout) {
-    const auto vertices =
-        static_cast<std::size_t>(whole_number(json.at("vertices"), "vertices", 1, INT_MAX));
+    const auto vertices = static_cast<std::size_t>(whole_number(json.at("vertices"), "vertices", 1, INT_MAX));
     check_allowed(static_cast<double>(vertices) * (kBytesPerVertex + 16.0 * layout.words),
                   contents.file_bytes, "its coded words");
     WordMesh mesh(vertices);

@@ -70,7 +70,8 @@ CompressedTransfer transfer_of(const Scene& scene, std::uint32_t size) {
     receivers.cluster_bits = 2;
     receivers.words = 1;
     for (std::uint32_t v = 0; v < scene.receivers(); ++v) {
-        const float x = static_cast<float>(v % size), y = static_cast<float>(v / size);
+        const float x = static_cast<float>(v % size),
+                    y = std::floor(static_cast<float>(v) / static_cast<float>(size));
         const std::uint32_t cluster = v % size / 10 % 3;
         const auto wave = static_cast<std::uint32_t>((0.5f + 0.4f * std::sin(0.2f * x + 0.1f * y)) * 512);
         const std::uint32_t bits = cluster == 0 ? 9 : cluster == 1 ? 14 : 0;
