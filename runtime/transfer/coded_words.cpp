@@ -3,17 +3,21 @@
 
 #include "prt/clustered_transfer.h"
 #include "prt/support/error.h"
+#include "prt/support/parallel.h"
 #include "transfer/packed_weights.h"
 #include "transfer/rans.h"
 
 #include <algorithm>
 #include <bit>
+#include <cstring>
 #include <numeric>
 #include <string>
 
 namespace prt {
 namespace {
 
+/// Receivers that are coded by themselves, so that threads share the work.
+constexpr std::uint32_t kBlock = 16384;
 constexpr int kMaxSymbolBits = 6; ///< of a weight's difference; bits below are plain
 constexpr std::uint32_t kColumns = 16;
 constexpr std::uint32_t kClusterContexts = 9;
@@ -82,7 +86,7 @@ struct ClusterPrediction {
     std::uint32_t context = 0;
 };
 
-/// By the receivers before `v`; v > 0. Without neighbours: by the one before.
+/// By the receivers before `v`, which is not the first of its block. Without neighbours: by the one before.
 ClusterPrediction predict_cluster(const Fields& fields, const EarlierNeighbors& neighbors, std::uint32_t v) {
     ClusterPrediction p;
     for (; p.count < 3 && neighbors[p.count] < v; ++p.count)
@@ -159,7 +163,7 @@ template <class Coder>
                                                  std::uint32_t v, const Fields& fields,
                                                  std::span<const ClusterFields> clusters) {
     ClusterPrediction by;
-    if (v > 0)
+    if (v % kBlock != 0)
         by = predict_cluster(fields, neighbors, v);
     const std::uint16_t cluster = coder.cluster(by, v);
     const WeightPrediction prediction = predict_weights(fields, by, cluster);
@@ -200,7 +204,7 @@ public:
     std::uint16_t cluster(const ClusterPrediction& by, std::uint32_t v) {
         const std::uint16_t cluster = fields_.clusters[v];
         const auto end = by.clusters.begin() + by.distinct, at = std::find(by.clusters.begin(), end, cluster);
-        if (v > 0)
+        if (v % kBlock != 0)
             add_symbol(at != end ? static_cast<std::uint32_t>(at - by.clusters.begin()) : kNewCluster,
                        by.context);
         if (at == end)
@@ -231,16 +235,18 @@ private:
 class WordPacker {
 public:
     explicit WordPacker(std::uint32_t* to) : to_(to) {}
-    /// Writes the word that it is in, too: one behind the last may be written.
     [[gnu::always_inline]] void add(std::uint32_t value, int width) {
         bits_ |= std::uint64_t{value} << used_;
         used_ += width;
-        *to_ = static_cast<std::uint32_t>(bits_);
-        const int full = used_ >> 5; // 0 or 1: no branch, which nothing could predict
-        to_ += full;
-        bits_ >>= 32 * full;
-        used_ &= 31;
-        *to_ = static_cast<std::uint32_t>(bits_);
+        if (used_ < 32)
+            return;
+        *to_++ = static_cast<std::uint32_t>(bits_);
+        bits_ >>= 32;
+        used_ -= 32;
+    }
+    void finish() {
+        if (used_ > 0)
+            *to_ = static_cast<std::uint32_t>(bits_);
     }
 
 private:
@@ -257,8 +263,9 @@ public:
         : fields_(fields), clusters_(layout.clusters.size()), cluster_bits_(layout.cluster_bits),
           decoder_(bytes), slots_(slots.data()) {}
     void begin(std::uint32_t* words) { packer_ = WordPacker(words); }
+    void finish() { packer_.finish(); }
     [[gnu::always_inline]] std::uint16_t cluster(const ClusterPrediction& by, std::uint32_t v) {
-        const std::uint32_t symbol = v > 0 ? read(by.context) : kNewCluster;
+        const std::uint32_t symbol = v % kBlock != 0 ? read(by.context) : kNewCluster;
         std::uint32_t cluster = 0;
         if (symbol < by.distinct)
             cluster = by.clusters[symbol];
@@ -282,6 +289,7 @@ public:
         packer_.add(value, field.width);
         fields_.weights[v][j] = static_cast<std::uint16_t>(value);
     }
+    bool is_beyond_end() const { return decoder_.is_beyond_end(); }
     bool ends_well() const { return decoder_.ends_well(); }
 
 private:
@@ -342,7 +350,11 @@ std::vector<RansSlot> slots_of(std::span<const std::int32_t> frequencies) {
             for (std::uint32_t i = 0; i < static_cast<std::uint32_t>(frequency); ++i)
                 slots[slot++] = RansSlot(symbol, static_cast<std::uint32_t>(frequency), i);
         }
-        if (slot != end && slot + kFrequencyTotal != end)
+        if (slot + kFrequencyTotal == end) { // not used
+            for (std::uint32_t i = 0; i < kFrequencyTotal; ++i)
+                slots[slot++] = RansSlot(0, kFrequencyTotal, i);
+        }
+        if (slot != end)
             throw Error("the coded words are damaged: the frequencies have another sum than " +
                         std::to_string(kFrequencyTotal));
     }
@@ -352,16 +364,34 @@ std::vector<RansSlot> slots_of(std::span<const std::int32_t> frequencies) {
 std::vector<RansStep> steps_of(std::span<const WordSymbol> symbols, std::span<const RansSlot> slots) {
     std::array<std::array<RansStep, 64>, kContexts> models{};
     for (std::uint32_t c = 0; c < kContexts; ++c)
-        for (std::uint32_t s = 0; s < kFrequencyTotal; ++s)
-            if (const RansSlot& slot = slots[std::size_t{c} * kFrequencyTotal + s]; !slot.is_empty())
-                models[c][slot.symbol()] = {slot.frequency(), s - slot.offset(), kFrequencyBits};
+        for (std::uint32_t s = 0; s < kFrequencyTotal; ++s) {
+            const RansSlot& slot = slots[std::size_t{c} * kFrequencyTotal + s];
+            models[c][slot.symbol()] = {slot.frequency(), s - slot.offset(), kFrequencyBits};
+        }
     std::vector<RansStep> steps;
     for (const auto& [value, context, bits] : symbols)
         steps.push_back(context < kContexts ? models[context][value] : RansStep{1, value, bits});
     return steps;
 }
 
-/// Whether the words of one receiver are those of its fields.
+/// The bytes of each block.
+std::vector<std::span<const std::byte>> split_blocks(std::span<const std::byte> bytes,
+                                                     std::size_t receivers) {
+    const std::size_t count = (receivers + kBlock - 1) / kBlock;
+    std::vector<std::span<const std::byte>> blocks;
+    std::span<const std::byte> rest = bytes.subspan(std::min(4 * count, bytes.size()));
+    for (std::size_t b = 0; b < count; ++b) {
+        const std::size_t length = 4 * count <= bytes.size() ? load<std::uint32_t>(&bytes[4 * b]) : ~0u;
+        if (length > rest.size())
+            throw Error("the coded words end too early");
+        blocks.push_back(rest.first(length));
+        rest = rest.subspan(length);
+    }
+    if (!rest.empty())
+        throw Error("the coded words are damaged");
+    return blocks;
+}
+
 Fields unpacked(const WordLayout& layout, std::span<const std::uint32_t> words) {
     const auto stride = static_cast<std::size_t>(layout.words);
     Fields fields(words.size() / stride);
@@ -402,6 +432,8 @@ std::vector<EarlierNeighbors> earlier_neighbors(std::span<const std::uint32_t> t
     for (std::uint32_t v = 0; v < receivers; ++v)
         neighbors[v].fill(v);
     const auto add = [&](std::uint32_t v, std::uint32_t before) {
+        if (v / kBlock != before / kBlock)
+            return;
         for (std::uint32_t& entry : neighbors[v]) {
             if (entry == v)
                 entry = before;
@@ -432,34 +464,52 @@ bool can_code_words(const WordLayout& layout, std::span<const std::uint32_t> wor
 
 WordCode encode_words(const WordLayout& layout, std::span<const EarlierNeighbors> neighbors,
                       std::span<const std::uint32_t> words) {
-    Fields fields = unpacked(layout, words);
+    const Fields fields = unpacked(layout, words);
     const std::vector<ClusterFields> clusters = cluster_fields(layout.clusters);
     SymbolWriter writer(fields, layout.cluster_bits);
-    for (std::uint32_t v = 0; v < neighbors.size(); ++v)
+    std::vector<std::size_t> ends; // of the symbols of each block
+    for (std::uint32_t v = 0; v < neighbors.size(); ++v) {
         code_receiver(writer, neighbors[v], v, fields, clusters);
+        if ((v + 1) % kBlock == 0 || v + 1 == neighbors.size())
+            ends.push_back(writer.symbols.size());
+    }
     const std::vector<std::int32_t> frequencies = count_symbols(writer.symbols);
-    return {encode_rows(frequencies, kColumns), encode_rans(steps_of(writer.symbols, slots_of(frequencies)))};
+    const std::vector<RansStep> steps = steps_of(writer.symbols, slots_of(frequencies));
+    WordCode code{encode_rows(frequencies, kColumns), std::vector<std::byte>(4 * ends.size())};
+    for (std::size_t b = 0; b < ends.size(); ++b) {
+        const std::size_t begin = b > 0 ? ends[b - 1] : 0;
+        const std::vector<std::byte> block = encode_rans(std::span(steps).subspan(begin, ends[b] - begin));
+        const auto length = static_cast<std::uint32_t>(block.size());
+        std::memcpy(&code.bits[4 * b], &length, sizeof length); // little-endian, as glTF is
+        code.bits.insert(code.bits.end(), block.begin(), block.end());
+    }
+    return code;
 }
 
 std::vector<std::uint32_t> decode_words(const WordCode& code, const WordLayout& layout,
-                                        std::span<const EarlierNeighbors> neighbors) {
+                                        std::span<const EarlierNeighbors> neighbors, int threads) {
     if (code.frequencies.drops.size() != kColumns)
         throw Error("the frequencies of the coded words have " +
                     std::to_string(code.frequencies.drops.size()) + " columns, not " +
                     std::to_string(kColumns));
     const std::vector<RansSlot> slots = slots_of(decode_rows(code.frequencies, kRows));
+    const std::vector<std::span<const std::byte>> blocks = split_blocks(code.bits, neighbors.size());
     const std::vector<ClusterFields> clusters = cluster_fields(layout.clusters);
-    Fields fields(neighbors.size());
-    SymbolReader reader(fields, layout, code.bits, slots);
     const auto stride = static_cast<std::size_t>(layout.words);
-    std::vector<std::uint32_t> words(neighbors.size() * stride + 1); // WordPacker
-    for (std::uint32_t v = 0; v < neighbors.size(); ++v) {
-        reader.begin(words.data() + v * stride);
-        code_receiver(reader, neighbors[v], v, fields, clusters);
-    }
-    if (!reader.ends_well())
-        throw Error("the coded words are damaged");
-    words.pop_back();
+    Fields fields(neighbors.size());
+    std::vector<std::uint32_t> words(neighbors.size() * stride);
+    parallel_for(neighbors.size(), kBlock, threads, [&](std::size_t begin, std::size_t end) {
+        SymbolReader reader(fields, layout, blocks[begin / kBlock], slots);
+        for (auto v = static_cast<std::uint32_t>(begin); v < end; ++v) {
+            reader.begin(words.data() + v * stride);
+            code_receiver(reader, neighbors[v], v, fields, clusters);
+            reader.finish();
+            if (reader.is_beyond_end())
+                throw Error("the coded words end too early");
+        }
+        if (!reader.ends_well())
+            throw Error("the coded words are damaged");
+    });
     return words;
 }
 

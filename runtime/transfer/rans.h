@@ -3,6 +3,7 @@
 // Range asymmetric numeral systems (rANS; Duda 2013) with four states that take turns (Giesen 2014), as
 // docs/format.md says it.
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -27,13 +28,12 @@ struct RansStep {
 /// Bytes from which RansDecoder takes these steps in their order.
 std::vector<std::byte> encode_rans(std::span<const RansStep> steps);
 
-/// Symbol of each slot of a model; what is 0 stands for no symbol.
+/// Symbol of a slot of a model.
 class RansSlot {
 public:
     RansSlot() = default;
     RansSlot(std::uint32_t symbol, std::uint32_t frequency, std::uint32_t offset)
         : bits_(symbol | frequency << 8 | offset << 20) {}
-    bool is_empty() const { return bits_ == 0; }
     std::uint32_t symbol() const { return bits_ & 0xff; }
     std::uint32_t frequency() const { return bits_ >> 8 & 0xfff; }
     std::uint32_t offset() const { return bits_ >> 20; } ///< of the slot from the first of its symbol
@@ -42,54 +42,56 @@ private:
     std::uint32_t bits_ = 0;
 };
 
-/// Reads zeros where the bytes end.
+/// Takes up to kMaxSteps steps between two looks at is_beyond_end. Reads zeros where the bytes end.
 class RansDecoder {
 public:
+    static constexpr std::size_t kMaxSteps = 64;
+
     explicit RansDecoder(std::span<const std::byte> bytes)
-        : bytes_(bytes), state_(first_state(0)), second_(first_state(1)), third_(first_state(2)),
-          fourth_(first_state(3)), position_(4 * kRansStates) {}
+        : bytes_(bytes.begin(), bytes.end()), end_(bytes.size()) {
+        bytes_.resize(end_ + position_ + 2 * kMaxSteps);
+        for (std::size_t i = 0; i < kRansStates; ++i)
+            states_[i] = unit(4 * i) | unit(4 * i + 2) << 16;
+    }
+    bool is_beyond_end() const { return position_ > end_; }
     /// A symbol of the model whose slots are `slots` [kFrequencyTotal].
     [[gnu::always_inline]] std::uint32_t read(const RansSlot* slots) {
-        const RansSlot slot = slots[state_ & (kFrequencyTotal - 1)];
-        damaged_ |= slot.is_empty();
-        take_turns(slot.frequency() * (state_ >> kFrequencyBits) + slot.offset());
+        const std::uint32_t state = states_[turn_];
+        const RansSlot slot = slots[state & (kFrequencyTotal - 1)];
+        take_turns(slot.frequency() * (state >> kFrequencyBits) + slot.offset());
         return slot.symbol();
     }
     /// `width` bits, 0..16, each as likely as not.
     [[gnu::always_inline]] std::uint32_t read_plain(int width) {
-        const std::uint32_t value = state_ & ((1u << width) - 1);
-        take_turns(state_ >> width);
-        return value;
+        const std::uint32_t state = states_[turn_];
+        take_turns(state >> width);
+        return state & ((1u << width) - 1);
     }
     /// Whether an encoder wrote these bytes, and all of them were read.
     bool ends_well() const {
-        return !damaged_ && position_ == bytes_.size() && state_ == kLeastRansState &&
-               second_ == kLeastRansState && third_ == kLeastRansState && fourth_ == kLeastRansState;
+        return position_ == end_ &&
+               std::ranges::all_of(states_, [](std::uint32_t state) { return state == kLeastRansState; });
     }
 
 private:
     /// Without a branch on the state, which nothing could predict.
     [[gnu::always_inline]] void take_turns(std::uint32_t state) {
-        const bool is_small = state < kLeastRansState;
-        const std::uint32_t longer = state << 16 | unit(position_);
-        position_ += is_small ? 2 : 0;
-        state_ = second_;
-        second_ = third_;
-        third_ = fourth_;
-        fourth_ = is_small ? longer : state;
+        const std::uint32_t is_small = state < kLeastRansState ? 1 : 0;
+        states_[turn_] = state << (16 * is_small) | (unit(position_) & (0u - is_small));
+        position_ += 2 * is_small;
+        turn_ = (turn_ + 1) % kRansStates;
     }
     [[gnu::always_inline]] std::uint32_t unit(std::size_t position) const {
         std::uint16_t value = 0; // little-endian, as glTF is
-        if (position + 2 <= bytes_.size())
-            std::memcpy(&value, bytes_.data() + position, sizeof value);
+        std::memcpy(&value, bytes_.data() + position, sizeof value);
         return value;
     }
-    std::uint32_t first_state(std::size_t state) const { return unit(4 * state) | unit(4 * state + 2) << 16; }
 
-    std::span<const std::byte> bytes_;
-    std::uint32_t state_, second_, third_, fourth_; ///< the one that is next, first
-    std::size_t position_;
-    bool damaged_ = false;
+    std::vector<std::byte> bytes_; ///< and zeros, so that no step has to look for the end
+    std::size_t end_;
+    std::array<std::uint32_t, kRansStates> states_{};
+    std::size_t turn_ = 0;
+    std::size_t position_ = 4 * kRansStates;
 };
 
 } // namespace prt

@@ -8,6 +8,7 @@ const FREQUENCY_BITS = 10;
 const TOTAL = 1 << FREQUENCY_BITS;
 const LEAST_STATE = 1 << 16;
 const STATES = 4;
+const BLOCK = 16384; // vertices that are coded by themselves
 const COLUMNS = 16; // of rows of frequencies
 const SYMBOL_BITS = 6; // most of a weight's difference
 const CLUSTER_CONTEXTS = 9;
@@ -31,6 +32,7 @@ function slotsOf(bytes, drops) {
     row += rowsOf(context);
     const sum = own.reduce((total, frequency) => (frequency < 0 ? NaN : total + frequency), 0);
     expect(sum === 0 || sum === TOTAL, `${DAMAGED}: the frequencies have another sum than ${TOTAL}`);
+    if (sum === 0) own[0] = TOTAL; // not used
     let slot = context * TOTAL;
     own.forEach((frequency, symbol) => {
       for (let i = 0; i < frequency; ++i) slots.set([symbol, frequency, i], 3 * slot++);
@@ -45,7 +47,6 @@ class RansDecoder {
     this.bytes = bytes;
     this.slots = slots;
     this.position = 0;
-    this.isDamaged = false;
     this.turn = 0;
     this.states = Array.from({ length: STATES }, () => {
       const low = this.unit();
@@ -65,7 +66,6 @@ class RansDecoder {
     const state = this.states[this.turn];
     const at = 3 * (context * TOTAL + (state & (TOTAL - 1)));
     const frequency = this.slots[at + 1];
-    if (frequency === 0) this.isDamaged = true;
     this.takeTurns(frequency * (state >>> FREQUENCY_BITS) + this.slots[at + 2]);
     return this.slots[at];
   }
@@ -75,7 +75,7 @@ class RansDecoder {
     return state & ((1 << width) - 1);
   }
   endsWell() {
-    return !this.isDamaged && this.position === this.bytes.length && this.states.every((state) => state === LEAST_STATE);
+    return this.position === this.bytes.length && this.states.every((state) => state === LEAST_STATE);
   }
 }
 
@@ -83,6 +83,7 @@ class RansDecoder {
 export function earlierNeighbors(triangles, vertices) {
   const neighbors = Uint32Array.from({ length: 3 * vertices }, (_, i) => Math.floor(i / 3));
   const add = (v, before) => {
+    if (Math.floor(v / BLOCK) !== Math.floor(before / BLOCK)) return; // of another block
     for (let i = 3 * v; i < 3 * v + 3; ++i) {
       if (neighbors[i] === v) neighbors[i] = before;
       if (neighbors[i] === before) return;
@@ -98,7 +99,19 @@ export function earlierNeighbors(triangles, vertices) {
   return neighbors;
 }
 
-/** The vertices that predict vertex v > 0, the context of its cluster, and the distinct clusters of them. */
+/** The bytes of each block. */
+function blocksOf(bytes, count) {
+  const tooEarly = "the coded words end too early";
+  expect(4 * count <= bytes.length, tooEarly);
+  const lengths = new DataView(bytes.buffer, bytes.byteOffset, 4 * count);
+  let begin = 4 * count;
+  const blocks = Array.from({ length: count }, (_, b) => bytes.subarray(begin, (begin += lengths.getUint32(4 * b, true))));
+  expect(begin <= bytes.length, tooEarly);
+  expect(begin === bytes.length, DAMAGED);
+  return blocks;
+}
+
+/** The vertices that predict vertex v, which is not the first of its block, the context of its cluster, and the distinct clusters of them. */
 function prediction(clusters, neighbors, v) {
   const by = [];
   for (let i = 3 * v; i < 3 * v + 3 && neighbors[i] < v; ++i) by.push(neighbors[i]);
@@ -133,21 +146,30 @@ export function codedWords({ frequencies, drops, bits }, clusters, neighbors) {
   const { widths, clusterBits } = clusters;
   const vertices = neighbors.length / 3;
   const stride = wordsOf(clusters);
-  const decoder = new RansDecoder(bits, slotsOf(frequencies, drops));
+  const slots = slotsOf(frequencies, drops);
+  const blocks = blocksOf(bits, Math.ceil(vertices / BLOCK));
+  let decoder = null;
   const numbers = new Uint16Array(vertices);
   const weights = new Uint16Array(16 * vertices);
   const words = new Uint32Array(stride * vertices);
   for (let v = 0; v < vertices; ++v) {
-    let at = 32 * stride * v;
+    const isFirst = v % BLOCK === 0;
+    if (isFirst) {
+      expect(decoder?.endsWell() ?? true, DAMAGED);
+      decoder = new RansDecoder(blocks[v / BLOCK], slots);
+    }
+    let word = stride * v;
+    let shift = 0;
     const pack = (value, width) => {
-      const shift = at & 31;
-      const word = at >>> 5; // few enough
       words[word] |= value << shift;
-      if (shift + width > 32) words[word + 1] |= value >>> (32 - shift);
-      at += width;
+      shift += width;
+      if (shift < 32) return;
+      shift -= 32;
+      ++word;
+      if (shift > 0) words[word] = value >>> (width - shift);
     };
-    const { by, distinct, context } = v > 0 ? prediction(numbers, neighbors, v) : { by: [], distinct: [], context: -1 };
-    const symbol = v > 0 ? decoder.symbol(context) : NEW_CLUSTER;
+    const { by, distinct, context } = !isFirst ? prediction(numbers, neighbors, v) : { by: [], distinct: [], context: -1 };
+    const symbol = !isFirst ? decoder.symbol(context) : NEW_CLUSTER;
     expect(symbol < distinct.length || symbol === NEW_CLUSTER, `${DAMAGED}: vertex ${v} has the cluster of a neighbor that does not exist`);
     const cluster = symbol < distinct.length ? distinct[symbol] : decoder.plain(clusterBits);
     expect(cluster < widths.length, `${DAMAGED}: vertex ${v} is in cluster ${cluster} of ${widths.length}`);

@@ -29,7 +29,7 @@ function evenFrequencies() {
   const add = (bits, contexts, symbols) => {
     for (let c = 0; c < contexts; ++c)
       for (let first = 0; first < symbols; first += 16)
-        rows.push([12, Array.from({ length: 16 }, (_, s) => (USED[bits].includes(c) && first + s < symbols ? 1024 / symbols : 0))]);
+        rows.push([12, Array.from({ length: 16 }, (_, s) => (USED[bits].includes(c) && first + s < symbols ? 1024 / symbols : 0))]); // a context that is not used has but one symbol
   };
   add(0, 9, 4);
   for (let bits = 1; bits <= 6; ++bits) add(bits, bits + 3, 2 ** bits);
@@ -54,8 +54,10 @@ const STEPS = [
   [even(0, 4), even(5, 8), even(0, 64), plain(0, 2)], // by 0, 1 and 2: 4 - 3, 195
 ].flat();
 
-const decoded = (change = {}) =>
-  codedWords({ frequencies: evenFrequencies(), drops: DROPS, bits: encodedSteps(STEPS), ...change }, CLUSTERS, earlierNeighbors(TRIANGLES, 7));
+/** The one block of so few vertices, behind its length. */
+const block = (bytes) => Uint8Array.from([bytes.length & 255, bytes.length >> 8, 0, 0, ...bytes]);
+const decoded = ({ bits = encodedSteps(STEPS), ...change } = {}) =>
+  codedWords({ frequencies: evenFrequencies(), drops: DROPS, bits: block(bits), ...change }, CLUSTERS, earlierNeighbors(TRIANGLES, 7));
 
 test("neighbours are the first three that precede a vertex", () => {
   assert.deepEqual([...earlierNeighbors(TRIANGLES, 7)], [0, 0, 0, 0, 1, 1, 0, 1, 2, 1, 2, 3, 2, 3, 1, 5, 5, 5, 0, 1, 2]);
@@ -70,6 +72,9 @@ test("damaged words are refused", () => {
   assert.throws(() => decoded({ bits: bits.subarray(0, bits.length - 2) }), /coded words are damaged/);
   assert.throws(() => decoded({ bits: Uint8Array.from([...bits, 0, 0]) }), /coded words are damaged/);
   assert.throws(() => decoded({ bits: new Uint8Array(0) }), /coded words are damaged/);
+  const code = { frequencies: evenFrequencies(), drops: DROPS };
+  for (const [wrong, message] of [[[1, 2, 3], /end too early/], [block(bits).subarray(0, 20), /end too early/], [[...block(bits), 0], /damaged/]])
+    assert.throws(() => codedWords({ ...code, bits: Uint8Array.from(wrong) }, CLUSTERS, earlierNeighbors(TRIANGLES, 7)), message);
   assert.throws(() => decoded({ drops: [0] }), /1 columns, not 16/);
   assert.throws(() => decoded({ frequencies: encodedRows(DROPS, new Array(83).fill([3, new Array(16).fill(1)])) }), /another sum than 1024/);
   const cluster = encodedSteps([plain(3, 2), ...STEPS.slice(1)]);

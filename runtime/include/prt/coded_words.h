@@ -25,8 +25,8 @@ struct WordLayout {
 using EarlierNeighbors = std::array<std::uint32_t, 3>;
 
 /// Neighbours of each of `receivers` vertices along the edges of `triangles` [triangles][3]: the first three
-/// distinct ones with a smaller index, in the order of the triangles, within one the smaller first. Throws
-/// `Error` where a triangle has a vertex that does not exist.
+/// distinct ones of its block with a smaller index, in the order of the triangles, within one the smaller
+/// first. Throws `Error` where a triangle has a vertex that does not exist.
 std::vector<EarlierNeighbors> earlier_neighbors(std::span<const std::uint32_t> triangles,
                                                 std::size_t receivers);
 
@@ -44,8 +44,9 @@ WordCode encode_words(const WordLayout& layout, std::span<const EarlierNeighbors
                       std::span<const std::uint32_t> words);
 
 /// The words [receivers][layout.words], bit for bit. Throws `Error` where the code is damaged. A few bytes
-/// may stand for any number of equal receivers: callers limit it.
+/// may stand for any number of equal receivers: callers limit it. Blocks of 16384 receivers are shared out
+/// among `threads` threads (0: all).
 std::vector<std::uint32_t> decode_words(const WordCode& code, const WordLayout& layout,
-                                        std::span<const EarlierNeighbors> neighbors);
+                                        std::span<const EarlierNeighbors> neighbors, int threads = 0);
 
 } // namespace prt
