@@ -763,7 +763,9 @@ void add_compress(CLI::App& app, Session& session) {
         ->type_name("FILE");
     add_volume_sizes(command, a);
     command->add_flag("--reorder", a.writing.reorder, "put the vertices of a cluster side by side");
-    command->add_flag("--meshopt", a.writing.meshopt, "write vertex data through EXT_meshopt_compression");
+    command->add_flag("--meshopt", a.writing.meshopt,
+                      "make the file small: vertex data through EXT_meshopt_compression, packed weights "
+                      "in our own code where that is smaller");
     command->add_option("--seed", a.options.compress.seed, "seed of the clustering")
         ->capture_default_str()
         ->check(seed());

@@ -130,7 +130,7 @@ std::vector<Damage> damages_to_maps() {
          "mesh 0 primitive 0 has no PRTKIT_lightmap"},
         {"vertices_too",
          [](GlbFile& f) {
-             f.json["extensions"]["PRTKIT_clustered_pca"] = {{"version", 6}};
+             f.json["extensions"]["PRTKIT_clustered_pca"] = {{"version", 7}};
          },
          "", kRefuses},
     };

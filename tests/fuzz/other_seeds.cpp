@@ -1,5 +1,6 @@
-// Seeds: compressed buffer views, light files, and transfer for the round trip.
+// Seeds: compressed buffer views, light files, coded words, and transfer for the round trip.
 #include "seeds.h"
+#include "word_input.h"
 
 #include <meshoptimizer.h>
 #include <nlohmann/json.hpp>
@@ -74,12 +75,35 @@ void write_round_trip_seeds(const Path& folder) {
                       values);
 }
 
+/// As words_target.cpp reads them; the frequencies are padded to whole words.
+void write_word_seeds(const Path& folder) {
+    for (const int clusters : {0, 3, 19})
+        for (const int components : {0, 4, 12}) {
+            std::string seed{char(clusters), char(components), '\x03', '\x7f', '\x05', '\x00'};
+            const WordInput input =
+                word_input({reinterpret_cast<const std::uint8_t*>(seed.data()), kWordHead});
+            const auto stride = static_cast<std::size_t>(input.layout.words);
+            std::vector<std::uint32_t> words(input.neighbors.size() * stride);
+            for (std::size_t v = 0; v < input.neighbors.size(); ++v)
+                words[v * stride] = static_cast<std::uint32_t>(v / 40) % static_cast<unsigned>(clusters + 1);
+            WordCode code = encode_words(input.layout, input.neighbors, words);
+            std::vector<std::byte>& all = code.frequencies.bits;
+            all.resize((all.size() + 3) / 4 * 4);
+            seed[kWordHead - 1] = static_cast<char>(all.size() / 4);
+            all.insert(all.end(), code.bits.begin(), code.bits.end());
+            seed.append(code.frequencies.drops.begin(), code.frequencies.drops.end());
+            write(folder / (std::to_string(clusters) + "." + std::to_string(components)),
+                  seed.append(reinterpret_cast<const char*>(all.data()), all.size()));
+        }
+}
+
 } // namespace
 
 void write_other_seeds(const Path& folder) {
     write_view_seeds(folder / "meshopt");
     write_light_seeds(folder / "light");
     write_round_trip_seeds(folder / "round_trip");
+    write_word_seeds(folder / "words");
 }
 
 } // namespace prt::fuzz

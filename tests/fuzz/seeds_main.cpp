@@ -10,7 +10,8 @@
 
 namespace {
 
-constexpr const char* kCorpora[] = {"models", "exr", "hdr", "pictures", "meshopt", "light", "round_trip"};
+constexpr const char* kCorpora[] = {"models",  "exr",   "hdr",        "pictures",
+                                    "meshopt", "light", "round_trip", "words"};
 
 void write_list(const prt::fuzz::Path& corpus) {
     std::vector<std::string> files;

@@ -21,6 +21,7 @@
 //
 // Models made with --meshopt want loader.setMeshoptDecoder(MeshoptDecoder), as three's loader does for all such files.
 
+import { decodeVertices } from "./codedVertices.js";
 import { setFallbackAside } from "./fallback.js";
 import { putInstancesBack, takeInstancesAside } from "./instanceNodes.js";
 import { PrtkitInstances } from "./PrtkitInstances.js";
@@ -61,6 +62,7 @@ export class PrtkitPlugin {
   async beforeRoot() {
     const { json } = this.parser;
     setFallbackAside(json);
+    await decodeVertices(this.parser, (list) => this.viewsOf(list, VERTICES));
     const { [VERTICES]: vertices, [LOBES]: lobes } = json.extensions ?? {};
     if (vertices) this.instances = takeInstancesAside(json);
     const isDrawn = (have, name) => expect(!have || this.canShare, "WebGPURenderer does not draw them yet; use WebGLRenderer and prtkit-web", name);

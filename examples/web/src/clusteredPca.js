@@ -71,12 +71,14 @@ export function clustersOf(extension, view, outputs = 1) {
   const rows = bases.values
     ? decodedRows(clusters, bases, view)
     : floats(view(bases.bufferView), rowCount * dimension, LARGEST_TRANSFER, "the bases");
-  let widths = null;
-  if (packing) {
-    const bits = new BitReader(view(packing.bufferView));
-    widths = components.map((m) => Array.from({ length: m }, () => bits.read(4) + 1));
-  }
+  const widths = packing ? packedWidths(extension, view) : null;
   return { ...clusters, rows, widths, clusterBits: packing ? packing.clusterBits : 0 };
+}
+
+/** Bits of the packed weights of each cluster. */
+export function packedWidths({ components, packing }, view) {
+  const bits = new BitReader(view(packing.bufferView));
+  return components.map((m) => Array.from({ length: m }, () => bits.read(4) + 1));
 }
 
 /** Throws where rows of few bytes would take more memory than a file of this size may: 256 MB, and 64 bytes for each. */

@@ -34,7 +34,8 @@ const isObject = (v) => typeof v === "object" && v !== null && !Array.isArray(v)
 const isWhole = (v, least, most) => Number.isInteger(v) && v >= least && v <= most;
 const isView = (v) => isObject(v) && isWhole(v.bufferView, 0, 2 ** 31);
 const areFloats = (v) => isView(v) && (v.componentType ?? 5126) === 5126;
-const areRows = (v) => isView(v) && Array.isArray(v.drops) && v.drops.every((drop) => isWhole(drop, 0, 15));
+const areDrops = (v) => Array.isArray(v) && v.every((drop) => isWhole(drop, 0, 15));
+const areRows = (v) => isView(v) && areDrops(v.drops);
 
 const LAYOUTS = [[], ["direct"], ["indirect"], ["whole"], ["direct", "indirect"]];
 
@@ -101,13 +102,18 @@ function checkPacking({ packing, components }) {
   expect(isView(packing) && isWhole(packing.clusterBits, 0, 16), "the packing is wrong");
   expect(components.length <= 2 ** packing.clusterBits, "the clusters do not fit their bits");
   expect(components.every((m) => m <= 16), "a cluster has more than 16 packed components");
+  const { words } = packing;
+  if (words === undefined) return;
+  const { frequencies } = words;
+  expect(isView(words) && isWhole(words.vertices, 1, 2 ** 31 - 1), "the coded words are wrong");
+  expect(isWhole(frequencies?.byteLength, 0, 2 ** 31 - 1) && areDrops(frequencies.drops), "the frequencies of the coded words are wrong");
 }
 
 /** Throws an Error that says what is wrong with the object at the top level of a glTF. */
 export function checkExtension(extension) {
   expect(isObject(extension), "the extension is no object");
   const { version } = extension;
-  expect(version === 6, `version ${version} is not known, only 6; compress the model again`);
+  expect(version === 7, `version ${version} is not known, only 7; compress the model again`);
   checkClusters(extension);
 }
 

@@ -45,7 +45,7 @@ function scene(attributes, extension, material = {}) {
 }
 
 const packed = {
-  version: 6,
+  version: 7,
   order: 1,
   parts: [{ kind: "whole", channels: 1 }],
   components: [1],
@@ -298,7 +298,7 @@ test("suns of three's light what keeps direct light apart, while they are apart"
 });
 
 const WITH_LAMPS = {
-  version: 6,
+  version: 7,
   order: 1,
   parts: [{ kind: "direct", channels: 1 }, { kind: "lamp", channels: 1, name: "Lantern" }, { kind: "lamp", channels: 3, name: "Sign" }],
   components: [0],

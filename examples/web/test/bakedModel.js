@@ -170,7 +170,7 @@ export function bakedModel(by, change = () => {}) {
     const none = new Array(rows).fill(0);
     const centers = { bufferView: binary.view(encodedRows(none, COMPONENTS.map(() => [0, none]))), drops: none };
     const { packing, ...rest } = clusters(binary, rows);
-    json.extensions = { PRTKIT_clustered_pca: { version: 6, ...rest, ...(by === "weights" ? {} : { packing }), guides, centers } };
+    json.extensions = { PRTKIT_clustered_pca: { version: 7, ...rest, ...(by === "weights" ? {} : { packing }), guides, centers } };
   }
   change(json, binary);
   return binary.file(json);

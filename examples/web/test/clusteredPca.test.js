@@ -20,7 +20,7 @@ const bytesOf = (...values) => new Uint8Array(new Float32Array(values).buffer);
 
 /** Two clusters of order 1: mean 2 with directions 0.5 and 0.25, mean 3 with none. Widths 3 and 5. */
 const plain = {
-  version: 6,
+  version: 7,
   order: 1,
   parts: [{ kind: "whole", channels: 1 }],
   components: [2, 0],
@@ -54,7 +54,7 @@ test("the shader's rows times integers are the rows times weights", () => {
 test("coded bases are sums over axes", () => {
   // One axis (3, -1) of three channels and order 1 would be dimension 3; here dimension 3, two axes.
   const extension = {
-    version: 6,
+    version: 7,
     order: 1,
     parts: [{ kind: "direct", channels: 3 }],
     components: [1],
@@ -91,7 +91,7 @@ test("coded bases are sums over axes", () => {
 
 /** Two clusters of order 1 with guides: mean, six rows, one direction of two bits; mean and six rows. */
 const guided = {
-  version: 6,
+  version: 7,
   order: 1,
   parts: [{ kind: "whole", channels: 1 }],
   components: [1, 0],
@@ -149,7 +149,7 @@ test("the shader's rows times coordinates are the rows times scaled ones less th
 
 test("steps of coded bases are powers of two in each cluster and group of axes", () => {
   const extension = {
-    version: 6,
+    version: 7,
     order: 1,
     parts: [{ kind: "direct", channels: 3 }],
     components: [0, 0],
@@ -278,7 +278,7 @@ test("rows of zeros take no more memory than a file may", () => {
 
 test("a row has a value for each coefficient of each channel", () => {
   const extension = {
-    version: 6,
+    version: 7,
     order: 2,
     parts: [{ kind: "whole", channels: 3 }],
     components: [0],

@@ -31,7 +31,7 @@ const allNear = (actual, expected, tolerance, what) => expected.forEach((value, 
 /** A model of one cluster without components whose mean is that of an open receiver in a light of order 2 that looks at +X. */
 function modelTowardsX(root) {
   const values = [0.25, 0, 0, -0.3];
-  const extension = { version: 6, order: 2, parts: [{ kind: "whole", channels: 1 }], components: [0], bases: { bufferView: 0 } };
+  const extension = { version: 7, order: 2, parts: [{ kind: "whole", channels: 1 }], components: [0], bases: { bufferView: 0 } };
   return new PrtkitModel(decodeClusters(extension, () => new Uint8Array(new Float32Array(values).buffer)), root);
 }
 

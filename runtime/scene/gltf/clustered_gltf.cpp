@@ -19,8 +19,6 @@
 namespace prt {
 namespace {
 
-constexpr int kClusteredVersion = 6;
-
 int component_type(WeightFormat format) {
     return format == WeightFormat::packed ? TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE
                                           : TINYGLTF_COMPONENT_TYPE_FLOAT;

@@ -7,6 +7,8 @@
 
 namespace prt {
 
+inline constexpr int kClusteredVersion = 7;
+
 /// Order, parts and components of an extension. Throws `Error` where they make no sense.
 ClusteredBases read_clusters_of(const Json& extension, std::size_t outputs = 1);
 

@@ -5,6 +5,7 @@
 #include "gltf/allowance.h"
 #include "gltf/check_data.h"
 #include "gltf/check_shape.h"
+#include "gltf/coded_vertices.h"
 #include "gltf/contents.h"
 #include "gltf/draco_primitives.h"
 #include "gltf/fallback.h"
@@ -14,6 +15,7 @@
 #include "gltf/lights.h"
 #include "gltf/meshes_apart.h"
 #include "gltf/meshopt_views.h"
+#include "gltf/reread.h"
 #include "gltf/side_files.h"
 #include "prt/encode_glb.h"
 #include "prt/support/error.h"
@@ -234,20 +236,30 @@ void embed_images(GltfContents& contents) {
     }
 }
 
-/// The whole file.
-std::vector<std::byte> glb_bytes(const GltfContents& contents, BufferCompression compression) {
-    CompressedGlb glb;
-    std::span<const std::byte> binary = contents.binary();
-    if (compression == BufferCompression::meshopt) {
-        glb = compress_views(contents);
-        binary = glb.binary;
-    } else {
-        glb.json = contents.json;
-    }
-    put_meshes_back(contents.apart, glb.json);
-    if (!binary.empty() && !glb.json.contains("buffers"))
-        glb.json["buffers"] = Json::array({Json{{"byteLength", binary.size()}}});
-    return make_glb(glb.json.dump(-1, ' ', false, Json::error_handler_t::replace), binary);
+/// The whole file, of these views.
+std::vector<std::byte> glb_bytes(const GltfContents& contents, Json json, std::span<const std::byte> binary) {
+    put_meshes_back(contents.apart, json);
+    if (!binary.empty() && !json.contains("buffers"))
+        json["buffers"] = Json::array({Json{{"byteLength", binary.size()}}});
+    return make_glb(json.dump(-1, ' ', false, Json::error_handler_t::replace), binary);
+}
+
+/// The whole file, its views compressed.
+std::vector<std::byte> compressed_glb(const GltfContents& contents) {
+    CompressedGlb glb = compress_views(contents);
+    return glb_bytes(contents, std::move(glb.json), glb.binary);
+}
+
+/// The smaller of the files with coded words and with compressed attributes.
+std::vector<std::byte> smallest_glb(const GltfDocument& document) {
+    std::vector<std::byte> file = compressed_glb(document.contents());
+    if (!extension_of(document.contents().json, kClusteredExtension))
+        return file;
+    const auto coded = with_coded_vertices(document.contents(), reread(document).contents());
+    if (!coded)
+        return file;
+    std::vector<std::byte> other = compressed_glb(*coded);
+    return other.size() < file.size() ? other : file;
 }
 
 } // namespace
@@ -297,6 +309,7 @@ GltfDocument parse_gltf(std::span<const std::byte> file, const std::filesystem::
         if (draco)
             contents->cut_unused_bytes();
         check_data(*contents);
+        decode_vertices(*contents);
         set_fallback_aside(*contents);
         if (options.instancing == Instancing::apart)
             set_meshes_apart(*contents);
@@ -311,7 +324,10 @@ GltfDocument parse_gltf(std::span<const std::byte> file, const std::filesystem::
 
 std::vector<std::byte> encode_glb(const GltfDocument& document, BufferCompression compression) {
     try {
-        return glb_bytes(document.contents(), compression);
+        const GltfContents& contents = document.contents();
+        return compression == BufferCompression::meshopt
+                   ? smallest_glb(document)
+                   : glb_bytes(contents, contents.json, contents.binary());
     } catch (const std::exception& error) { // ours, and those of the standard and the JSON library
         throw Error(in_plain_words(error));
     }

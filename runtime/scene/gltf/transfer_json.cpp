@@ -255,10 +255,14 @@ Json write_row_code(GltfContents& contents, const RowCode& code) {
 
 RowCode read_row_code(const GltfContents& contents, const Json& json) {
     const auto bytes = std::as_bytes(buffer_view_bytes(contents.model, json.at("bufferView").get<int>()));
-    RowCode code{{}, {bytes.begin(), bytes.end()}};
+    return {read_drops(json), {bytes.begin(), bytes.end()}};
+}
+
+std::vector<std::uint8_t> read_drops(const Json& json) {
+    std::vector<std::uint8_t> drops;
     for (const Json& drop : json.at("drops"))
-        code.drops.push_back(static_cast<std::uint8_t>(whole_number(drop, "a drop", 0, kMostRowBits)));
-    return code;
+        drops.push_back(static_cast<std::uint8_t>(whole_number(drop, "a drop", 0, kMostRowBits)));
+    return drops;
 }
 
 } // namespace prt

@@ -76,6 +76,8 @@ Json write_half_view(GltfContents& contents, std::span<const float> values);
 Json write_row_code(GltfContents& contents, const RowCode& code);
 /// Throws `Error` for drops that no code has.
 RowCode read_row_code(const GltfContents& contents, const Json& json);
+/// Its drops alone.
+std::vector<std::uint8_t> read_drops(const Json& json);
 
 /// What `work` makes of the contents; errors get the name of the file.
 template <class Document, class Work>

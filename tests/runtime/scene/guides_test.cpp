@@ -148,7 +148,7 @@ TEST(GuidesInFile, OriginsArePlacesInItsWorld) {
     write_clustered(model.document, model.scene, c);
     save_glb(model.document, folder / "written.glb");
     const auto json = test::read_glb(folder / "written.glb").json["extensions"]["PRTKIT_clustered_pca"];
-    EXPECT_EQ(json["version"], 6);
+    EXPECT_EQ(json["version"], 7);
     EXPECT_FALSE(json["guides"][0].contains("origin"));
     for (std::size_t i = 0; i < 3; ++i) {
         const int axis = static_cast<int>(i);

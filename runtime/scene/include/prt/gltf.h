@@ -115,7 +115,7 @@ std::size_t write_surface_textures(GltfDocument& document, const Scene& scene,
 void discard_transfer(GltfDocument& document);
 
 /// What is done with vertex and index data on disk. meshopt: EXT_meshopt_compression, without loss; a reader
-/// has to know it.
+/// has to know it. Packed weights are in a code of our own where that is smaller.
 enum class BufferCompression { none, meshopt };
 
 /// Writes a .glb with everything inside. Throws `Error` when it cannot, or when it would pass 4 GB.

@@ -1,0 +1,70 @@
+// Coded words of vertices in a file that GLTFLoader is about to read: they become attributes as any others.
+
+import { packedWidths } from "./clusteredPca.js";
+import { codedWords, earlierNeighbors } from "./codedWords.js";
+import { wordsOf } from "./packedWords.js";
+import { checkExtension, expect, VERTICES } from "./wholeExtension.js";
+
+const STRIP = 5;
+const FAN = 6;
+const BYTES_PER_VERTEX = 120; // what is made of one beside its words
+
+/** Corners of the triangles of a primitive, each three in any order. */
+async function trianglesOf(parser, { indices, mode }, count) {
+  const accessor = indices === undefined ? null : await parser.getDependency("accessor", indices);
+  const list = Array.from({ length: accessor ? accessor.count : count }, (_, i) => (accessor ? accessor.getX(i) : i));
+  expect(list.every((index) => index < count), `an index of a primitive is beyond its ${count} vertices`);
+  if (mode === STRIP) return list.slice(2).flatMap((last, i) => [list[i], list[i + 1], last]);
+  if (mode === FAN) return list.slice(2).flatMap((last, i) => [list[0], list[i + 1], last]);
+  return list.slice(0, list.length - (list.length % 3));
+}
+
+/** Primitives with coded words: { primitive, first, count }. */
+function codedPrimitives(json, vertices) {
+  const coded = [];
+  for (const { primitives } of json.meshes ?? [])
+    for (const primitive of primitives) {
+      const first = primitive.extensions?.[VERTICES]?.firstVertex;
+      if (first === undefined) continue;
+      const count = json.accessors?.[primitive.attributes.POSITION]?.count;
+      expect(Number.isInteger(first) && first >= 0 && first + count <= vertices, `the coded words of a primitive are beyond the ${vertices} of the file`);
+      coded.push({ primitive, first, count });
+    }
+  return coded;
+}
+
+/** Puts attributes in the place of coded words in the JSON of `parser`. `views(list)`: the bytes of buffer views. */
+export async function decodeVertices(parser, views) {
+  const { json } = parser;
+  const extension = json.extensions?.[VERTICES];
+  const coded = extension?.packing?.words;
+  if (!coded) return;
+  checkExtension(extension);
+  const { vertices, bufferView, frequencies } = coded;
+  const bytes = await views([bufferView, extension.packing.bufferView]);
+  const clusters = { widths: packedWidths(extension, (i) => bytes.get(i)), clusterBits: extension.packing.clusterBits };
+  const words = wordsOf(clusters);
+  const all = bytes.get(bufferView);
+  expect(frequencies.byteLength <= all.length, "the frequencies of the coded words end too early");
+  expect(vertices * (BYTES_PER_VERTEX + 16 * words) <= 256e6 + 64 * all.length, `${vertices} coded vertices take too much memory`);
+  const primitives = codedPrimitives(json, vertices);
+  const triangles = [];
+  for (const { primitive, first, count } of primitives)
+    for (const corner of await trianglesOf(parser, primitive, count)) triangles.push(first + corner);
+  const code = { frequencies: all.subarray(0, frequencies.byteLength), drops: frequencies.drops, bits: all.subarray(frequencies.byteLength) };
+  const decoded = codedWords(code, clusters, earlierNeighbors(triangles, vertices));
+  parser.cache.add(`bufferView:${json.bufferViews.length}`, Promise.resolve(decoded.buffer));
+  json.bufferViews.push({ buffer: 0, byteLength: decoded.byteLength, byteStride: 4 * words });
+  const accessors = new Map(); // primitives may share their vertices
+  for (const { primitive, first, count } of primitives) {
+    const key = `${first} ${count}`;
+    if (!accessors.has(key)) {
+      accessors.set(key, json.accessors.length);
+      for (let w = 0; w < words; ++w)
+        json.accessors.push({ bufferView: json.bufferViews.length - 1, byteOffset: 4 * (first * words + w), componentType: 5121, count, type: "VEC4" });
+    }
+    for (let w = 0; w < words; ++w) primitive.attributes[`_PRT_WEIGHTS_${w}`] = accessors.get(key) + w;
+    delete primitive.extensions[VERTICES];
+  }
+  delete extension.packing.words;
+}
