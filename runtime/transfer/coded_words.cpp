@@ -17,7 +17,7 @@ namespace prt {
 namespace {
 
 /// Receivers that are coded by themselves, so that threads share the work.
-constexpr std::uint32_t kBlock = 16384;
+constexpr std::uint32_t kWordBlock = 16384;
 constexpr int kMaxSymbolBits = 6; ///< of a weight's difference; bits below are plain
 constexpr std::uint32_t kColumns = 16;
 constexpr std::uint32_t kClusterContexts = 9;
@@ -163,7 +163,7 @@ template <class Coder>
                                                  std::uint32_t v, const Fields& fields,
                                                  std::span<const ClusterFields> clusters) {
     ClusterPrediction by;
-    if (v % kBlock != 0)
+    if (v % kWordBlock != 0)
         by = predict_cluster(fields, neighbors, v);
     const std::uint16_t cluster = coder.cluster(by, v);
     const WeightPrediction prediction = predict_weights(fields, by, cluster);
@@ -204,7 +204,7 @@ public:
     std::uint16_t cluster(const ClusterPrediction& by, std::uint32_t v) {
         const std::uint16_t cluster = fields_.clusters[v];
         const auto end = by.clusters.begin() + by.distinct, at = std::find(by.clusters.begin(), end, cluster);
-        if (v % kBlock != 0)
+        if (v % kWordBlock != 0)
             add_symbol(at != end ? static_cast<std::uint32_t>(at - by.clusters.begin()) : kNewCluster,
                        by.context);
         if (at == end)
@@ -265,7 +265,7 @@ public:
     void begin(std::uint32_t* words) { packer_ = WordPacker(words); }
     void finish() { packer_.finish(); }
     [[gnu::always_inline]] std::uint16_t cluster(const ClusterPrediction& by, std::uint32_t v) {
-        const std::uint32_t symbol = v % kBlock != 0 ? read(by.context) : kNewCluster;
+        const std::uint32_t symbol = v % kWordBlock != 0 ? read(by.context) : kNewCluster;
         std::uint32_t cluster = 0;
         if (symbol < by.distinct)
             cluster = by.clusters[symbol];
@@ -377,7 +377,7 @@ std::vector<RansStep> steps_of(std::span<const WordSymbol> symbols, std::span<co
 /// The bytes of each block.
 std::vector<std::span<const std::byte>> split_blocks(std::span<const std::byte> bytes,
                                                      std::size_t receivers) {
-    const std::size_t count = (receivers + kBlock - 1) / kBlock;
+    const std::size_t count = (receivers + kWordBlock - 1) / kWordBlock;
     std::vector<std::span<const std::byte>> blocks;
     std::span<const std::byte> rest = bytes.subspan(std::min(4 * count, bytes.size()));
     for (std::size_t b = 0; b < count; ++b) {
@@ -432,7 +432,7 @@ std::vector<EarlierNeighbors> earlier_neighbors(std::span<const std::uint32_t> t
     for (std::uint32_t v = 0; v < receivers; ++v)
         neighbors[v].fill(v);
     const auto add = [&](std::uint32_t v, std::uint32_t before) {
-        if (v / kBlock != before / kBlock)
+        if (v / kWordBlock != before / kWordBlock)
             return;
         for (std::uint32_t& entry : neighbors[v]) {
             if (entry == v)
@@ -470,7 +470,7 @@ WordCode encode_words(const WordLayout& layout, std::span<const EarlierNeighbors
     std::vector<std::size_t> ends; // of the symbols of each block
     for (std::uint32_t v = 0; v < neighbors.size(); ++v) {
         code_receiver(writer, neighbors[v], v, fields, clusters);
-        if ((v + 1) % kBlock == 0 || v + 1 == neighbors.size())
+        if ((v + 1) % kWordBlock == 0 || v + 1 == neighbors.size())
             ends.push_back(writer.symbols.size());
     }
     const std::vector<std::int32_t> frequencies = count_symbols(writer.symbols);
@@ -498,8 +498,8 @@ std::vector<std::uint32_t> decode_words(const WordCode& code, const WordLayout& 
     const auto stride = static_cast<std::size_t>(layout.words);
     Fields fields(neighbors.size());
     std::vector<std::uint32_t> words(neighbors.size() * stride);
-    parallel_for(neighbors.size(), kBlock, threads, [&](std::size_t begin, std::size_t end) {
-        SymbolReader reader(fields, layout, blocks[begin / kBlock], slots);
+    parallel_for(neighbors.size(), kWordBlock, threads, [&](std::size_t begin, std::size_t end) {
+        SymbolReader reader(fields, layout, blocks[begin / kWordBlock], slots);
         for (auto v = static_cast<std::uint32_t>(begin); v < end; ++v) {
             reader.begin(words.data() + v * stride);
             code_receiver(reader, neighbors[v], v, fields, clusters);

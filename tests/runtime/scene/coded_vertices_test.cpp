@@ -175,7 +175,7 @@ TEST(CodedVertices, DamagedAreRefused) {
     };
     expect_refused("vertices is 0", [&](Json& json) { words(json)["vertices"] = 0; });
     expect_refused("would take", [&](Json& json) { words(json)["vertices"] = 2'000'000'000; });
-    expect_refused("coded words are damaged",
+    expect_refused("the coded words end too early",
                    [&](Json& json) { words(json)["vertices"] = 2 * kSize * kSize + 1; });
     expect_refused("beyond the", [&](Json& json) { words(json)["vertices"] = kSize * kSize; });
     expect_refused("beyond the", [&](Json& json) { first(json) = kSize * kSize + 1; });
