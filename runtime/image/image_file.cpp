@@ -8,6 +8,7 @@
 #include "prt/srgb.h"
 #include "prt/support/error.h"
 #include "prt/support/file.h"
+#include "prt/support/lfs_pointer.h"
 #include "stb_images.h"
 #include "web_images.h"
 
@@ -51,19 +52,32 @@ struct AnyImage {
     Image image;
     std::optional<EnvironmentLayout> layout;
     bool low_dynamic_range = false;
+    std::vector<std::string> notices = {};
 };
 
-AnyImage read_any(const std::filesystem::path& path) {
+AnyImage read_radiance(std::span<const std::byte> file) {
+    RadianceImage radiance = decode_hdr(file);
+    AnyImage result{std::move(radiance.image), {}};
+    if (radiance.factor != glm::dvec3(1))
+        result.notices.emplace_back("its EXPOSURE and COLORCORR are divided out of its pixels");
+    return result;
+}
+
+AnyImage read_any(const std::filesystem::path& path, const std::string& layer) {
     const std::vector<std::byte> file = read_file(path);
     try {
         if (is_exr(file)) {
-            ExrFile exr = read_exr(file);
-            return {std::move(exr.image), exr.layout};
+            ExrFile exr = read_exr(file, layer);
+            return {std::move(exr.image), exr.layout, false, std::move(exr.notices)};
         }
+        if (!layer.empty())
+            throw Error("is no EXR, and has no layers: leave out --layer");
         if (is_hdr(file))
-            return {decode_hdr(file), {}};
+            return read_radiance(file);
         if (is_png(file) || is_jpeg(file))
             return {read_low_dynamic_range(file), {}, true};
+        if (is_lfs_pointer(file))
+            throw Error(kLfsRemedy);
         throw Error("is no image that is read here: OpenEXR, Radiance HDR, PNG and JPEG are");
     } catch (const Error& error) {
         throw Error(path.string() + ": " + error.what());
@@ -73,13 +87,15 @@ AnyImage read_any(const std::filesystem::path& path) {
 constexpr std::string_view kFaceMark = "{face}";
 
 /// The six faces of a cube map, of one size, in a column.
-Image read_faces(const std::string& pattern, bool& low_dynamic_range) {
+Image read_faces(const std::string& pattern, const std::string& layer, EnvironmentFile& result) {
     Image column;
     for (const char* face : {"px", "nx", "py", "ny", "pz", "nz"}) {
         std::string path = pattern;
         path.replace(path.find(kFaceMark), kFaceMark.size(), face);
-        AnyImage file = read_any(path);
-        low_dynamic_range |= file.low_dynamic_range;
+        AnyImage file = read_any(path, layer);
+        result.low_dynamic_range |= file.low_dynamic_range;
+        for (const std::string& notice : file.notices)
+            result.notices.push_back(std::filesystem::path(path).filename().string() + ": " + notice);
         const Image image = std::move(file.image);
         if (image.width != image.height || (column.width != 0 && image.width != column.width))
             throw Error(path + ": is " + std::to_string(image.width) + " x " + std::to_string(image.height) +
@@ -105,11 +121,12 @@ EnvironmentFile load_environment(const std::filesystem::path& path, const Enviro
     EnvironmentFile result;
     std::optional<EnvironmentLayout> layout = options.layout;
     if (path.string().find(kFaceMark) != std::string::npos) {
-        result.environment.image = read_faces(path.string(), result.low_dynamic_range);
+        result.environment.image = read_faces(path.string(), options.layer, result);
         layout = layout.value_or(EnvironmentLayout::cube_faces);
     } else {
-        AnyImage file = read_any(path);
+        AnyImage file = read_any(path, options.layer);
         result.low_dynamic_range = file.low_dynamic_range;
+        result.notices = std::move(file.notices);
         result.environment.image = std::move(file.image);
         if (!layout)
             layout = file.layout;

@@ -111,6 +111,16 @@ void check_required_extensions(const Json& json) {
                         ", which is not supported");
 }
 
+/// Brings JSON that exporters write against the letter of glTF, or by a newer name, to the form that the rest
+/// of the reader takes. Returns whether anything was changed.
+bool accept_deviations(GltfContents& contents) {
+    const std::size_t nulls = remove_nulls(contents.json);
+    if (nulls > 0)
+        contents.notices.push_back(std::to_string(nulls) +
+                                   " members of its JSON are null: they are read as absent");
+    return use_ext_meshopt(contents.json) || nulls > 0;
+}
+
 /// Keeps the file of an image that stands in a URI. Images in buffer views are taken later, with bounds
 /// checked.
 void keep_encoded(std::vector<std::vector<std::byte>>& images, std::size_t i, const tinygltf::Image& image,
@@ -272,11 +282,12 @@ GltfDocument parse_gltf(std::span<const std::byte> file, const std::filesystem::
             binary ? glb_json(file)
                    : std::string_view(reinterpret_cast<const char*>(file.data()), file.size());
         contents->json = parse_json(text);
+        const bool edited = accept_deviations(*contents);
         check_shape(contents->json, text.size());
         check_required_extensions(contents->json);
         contents->file_bytes = file.size();
         const bool meshopt = has_meshopt_views(contents->json), draco = has_draco_primitives(contents->json);
-        if (meshopt || draco) {
+        if (meshopt || draco || edited) {
             Json plain = meshopt ? without_meshopt(contents->json) : contents->json;
             if (draco)
                 plain = without_draco_indices(std::move(plain));

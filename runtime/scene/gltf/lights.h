@@ -20,6 +20,6 @@ void scale_lights(Json& json, double factor);
 /// The lights of all visible nodes, in the order of the nodes; positions are seen from `origin`. Throws
 /// `Error` for what the extension does not allow.
 std::vector<PunctualLight> read_lights(const GltfContents& contents, const std::vector<NodeTransform>& nodes,
-                                       const glm::dvec3& origin);
+                                       const glm::dvec3& origin, std::vector<std::string>& notices);
 
 } // namespace prt
