@@ -178,5 +178,113 @@ TEST(GltfCorpus, GltfpackQuantizedPositionsOfSixteenBits) {
     EXPECT_NEAR(scene.world(positions[2]).y, 1, 1e-6);
 }
 
+/// What a scene in a folder with "textures/Brick One.png" gives whose base color or normal map is `uri`.
+struct UriResult {
+    std::string refusal;
+    std::vector<std::string> notices;
+};
+UriResult read_with_uri(const std::string& uri, const char* slot = "baseColorTexture") {
+    const test::TemporaryFolder folder;
+    std::filesystem::create_directories(folder / "textures");
+    folder.file("textures/Brick One.png", "any bytes");
+    folder.file("textures/twin.png", "any bytes");
+    folder.file("textures/TWIN.png", "any bytes");
+    folder.file("pointer.png", "version https://git-lfs.github.com/spec/v1\noid sha256:0\nsize 9\n");
+    GlbFile file = test::triangle_file();
+    file.json["images"] = {{{"uri", uri}}};
+    file.json["textures"] = {{{"source", 0}}};
+    Json material = {{slot, {{"index", 0}}}};
+    if (std::string(slot) == "baseColorTexture")
+        material = {{"pbrMetallicRoughness", material}};
+    file.json["materials"] = {material};
+    file.write(folder / "scene.glb");
+    try {
+        return {"", extract_scene(load_gltf(folder / "scene.glb")).notices};
+    } catch (const Error& error) {
+        return {error.what(), {}};
+    }
+}
+
+TEST(GltfCorpus, UrisThatMeanOneFile) {
+    for (const char* uri : {"textures/Brick%20One.png", "textures/Brick One.png"}) {
+        const UriResult result = read_with_uri(uri);
+        EXPECT_EQ(result.refusal, "") << uri;
+        EXPECT_TRUE(result.notices.empty()) << uri;
+    }
+    for (const char* uri :
+         {"textures\\Brick One.png", "Textures/brick one.PNG", "textures/Brick%20One.png?v=2",
+          ".\\textures\\brick%20one.png#t", "textures/Brick%2520One.png"}) {
+        const UriResult result = read_with_uri(uri);
+        EXPECT_EQ(result.refusal, "") << uri;
+        ASSERT_EQ(result.notices.size(), 1u) << uri;
+        EXPECT_NE(result.notices[0].find("'textures/Brick One.png' is read"), std::string::npos)
+            << result.notices[0];
+    }
+    const UriResult twin = read_with_uri("textures/Twin.png");
+    EXPECT_NE(twin.refusal.find("more than one is alike"), std::string::npos) << twin.refusal;
+    EXPECT_NE(read_with_uri("textures/gone.png").refusal.find("there is no such file"), std::string::npos);
+    EXPECT_NE(read_with_uri("pointer.png").refusal.find("git lfs pull"), std::string::npos);
+}
+
+TEST(GltfCorpus, MissingNormalMap) {
+    const UriResult result = read_with_uri("gone.png", "normalTexture");
+    EXPECT_EQ(result.refusal, "");
+    EXPECT_EQ(std::count_if(result.notices.begin(), result.notices.end(),
+                            [](const std::string& notice) {
+                                return notice.find("light does not need it") != std::string::npos;
+                            }),
+              1);
+    EXPECT_NE(read_with_uri("gone.png", "emissiveTexture").refusal, "");
+}
+
+/// A tile of 3D Tiles around `glb`: magic, version, length, and four tables of which one has eight bytes.
+std::string tile(const std::string& magic, const std::string& glb) {
+    std::string bytes = magic;
+    const auto add = [&](std::size_t number) {
+        for (int i = 0; i < 4; ++i)
+            bytes += static_cast<char>(number >> (8 * i) & 0xff);
+    };
+    const bool instanced = magic == "i3dm";
+    for (const std::size_t number :
+         {std::size_t{1}, glb.size() + 36, std::size_t{8}, std::size_t{0}, std::size_t{0}, std::size_t{0}})
+        add(number);
+    if (instanced)
+        add(1);
+    return bytes + "        " + glb;
+}
+
+TEST(GltfCorpus, CesiumTiles) {
+    const std::string batched = tile("b3dm", test::triangle_file().bytes()),
+                      instanced = tile("i3dm", test::triangle_file().bytes());
+    const Scene scene = extract_scene(parse_gltf(std::as_bytes(std::span(batched)), "a.b3dm"));
+    EXPECT_EQ(scene.primitives.at(0).triangles.size(), 1u);
+    EXPECT_EQ(notices_with(scene, "3D Tiles"), 1);
+    try {
+        parse_gltf(std::as_bytes(std::span(instanced)), "a.i3dm");
+        FAIL();
+    } catch (const Error& error) {
+        EXPECT_NE(std::string(error.what()).find("begins at byte 40"), std::string::npos) << error.what();
+    }
+}
+
+TEST(GltfCorpus, CesiumOffset) {
+    GlbFile file = test::triangle_file();
+    file.json["extensionsUsed"] = file.json["extensionsRequired"] = {"CESIUM_RTC"};
+    file.json["extensions"]["CESIUM_RTC"]["center"] = {4e6, 5e6, 6e6};
+    const Scene scene = scene_of(file), plain = scene_of(test::triangle_file());
+    EXPECT_EQ(scene.vertex_arrays.at(0).positions, plain.vertex_arrays.at(0).positions);
+    EXPECT_EQ(notices_with(scene, "CESIUM_RTC"), 1);
+}
+
+TEST(GltfCorpus, GitLfsPointer) {
+    const std::string bytes = "version https://git-lfs.github.com/spec/v1\noid sha256:0\nsize 9\n";
+    try {
+        parse_gltf(std::as_bytes(std::span(bytes)), "a.glb");
+        FAIL();
+    } catch (const Error& error) {
+        EXPECT_NE(std::string(error.what()).find("git lfs pull"), std::string::npos) << error.what();
+    }
+}
+
 } // namespace
 } // namespace prt

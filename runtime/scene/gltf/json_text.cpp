@@ -58,12 +58,15 @@ Json parse_json(std::string_view text) {
 }
 
 std::size_t remove_nulls(Json& json) {
+    const auto is_open = [](const std::string& key) {
+        return key != "extras" && !key.starts_with("PRTKIT_");
+    };
     std::size_t removed = 0;
     if (auto* object = json.get_ptr<Json::object_t*>()) {
         for (auto& [key, value] : *object)
-            if (key != "extras")
+            if (is_open(key))
                 removed += value.is_null() ? 1 : remove_nulls(value);
-        const auto absent = [](const auto& item) { return item.second.is_null() && item.first != "extras"; };
+        const auto absent = [&](const auto& item) { return item.second.is_null() && is_open(item.first); };
         if (std::any_of(object->begin(), object->end(), absent)) {
             Json::object_t kept; // its keys are constant: they cannot be moved down
             for (auto& item : *object)

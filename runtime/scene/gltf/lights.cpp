@@ -114,6 +114,22 @@ void add_notices(const LightDeviations& deviations, std::vector<std::string>& no
 
 } // namespace
 
+bool complete_spots(Json& json) {
+    if (!extension_of(json, kPunctual))
+        return false;
+    Json& extension = json["extensions"][kPunctual];
+    if (!extension.is_object() || !extension.contains("lights") || !extension["lights"].is_array())
+        return false;
+    bool changed = false;
+    for (Json& light : extension["lights"])
+        if (light.is_object() && light.contains("type") && light["type"] == "spot" &&
+            !light.contains("spot")) {
+            light["spot"] = Json::object();
+            changed = true;
+        }
+    return changed;
+}
+
 void scale_lights(Json& json, double factor) {
     if (factor == 1 || !extension_of(json, kPunctual))
         return;
