@@ -1,6 +1,7 @@
 // Images from files by their kind.
 #include "prt/image_file.h"
 
+#include "cube_cross.h"
 #include "exr.h"
 #include "image_kind.h"
 #include "image_limits.h"
@@ -15,6 +16,7 @@
 #include <algorithm>
 #include <array>
 #include <string>
+#include <system_error>
 
 namespace prt {
 namespace {
@@ -86,12 +88,30 @@ AnyImage read_any(const std::filesystem::path& path, const std::string& layer) {
 
 constexpr std::string_view kFaceMark = "{face}";
 
+using FaceNames = std::array<const char*, 6>;
+
+std::string with_face(std::string pattern, const char* face) {
+    return pattern.replace(pattern.find(kFaceMark), kFaceMark.size(), face);
+}
+
+/// The names of the faces +X -X +Y -Y +Z -Z whose first file is there; else the first names, for the message.
+const FaceNames& face_names(const std::string& pattern) {
+    static constexpr FaceNames kNames[] = {{"px", "nx", "py", "ny", "pz", "nz"},
+                                           {"PX", "NX", "PY", "NY", "PZ", "NZ"},
+                                           {"posx", "negx", "posy", "negy", "posz", "negz"},
+                                           {"+x", "-x", "+y", "-y", "+z", "-z"},
+                                           {"right", "left", "top", "bottom", "front", "back"}};
+    for (const FaceNames& names : kNames)
+        if (std::error_code error; std::filesystem::exists(with_face(pattern, names[0]), error))
+            return names;
+    return kNames[0];
+}
+
 /// The six faces of a cube map, of one size, in a column.
 Image read_faces(const std::string& pattern, const std::string& layer, EnvironmentFile& result) {
     Image column;
-    for (const char* face : {"px", "nx", "py", "ny", "pz", "nz"}) {
-        std::string path = pattern;
-        path.replace(path.find(kFaceMark), kFaceMark.size(), face);
+    for (const char* face : face_names(pattern)) {
+        const std::string path = with_face(pattern, face);
         AnyImage file = read_any(path, layer);
         result.low_dynamic_range |= file.low_dynamic_range;
         for (const std::string& notice : file.notices)
@@ -105,6 +125,16 @@ Image read_faces(const std::string& pattern, const std::string& layer, Environme
         column.pixels.insert(column.pixels.end(), image.pixels.begin(), image.pixels.end());
     }
     return column;
+}
+
+/// Makes a column of a cube map that is a cross or a row.
+std::optional<EnvironmentLayout> unfold_cross(EnvironmentFile& file) {
+    std::optional<Image> faces = faces_of_cross(file.environment.image);
+    if (!faces)
+        return std::nullopt;
+    file.environment.image = std::move(*faces);
+    file.notices.emplace_back("is read as a cube map, by its shape; --env-layout reads it otherwise");
+    return EnvironmentLayout::cube_faces;
 }
 
 } // namespace
@@ -130,6 +160,8 @@ EnvironmentFile load_environment(const std::filesystem::path& path, const Enviro
         result.environment.image = std::move(file.image);
         if (!layout)
             layout = file.layout;
+        if (!layout)
+            layout = unfold_cross(result);
     }
     try {
         result.environment.layout = layout_of(result.environment.image, layout);

@@ -249,6 +249,49 @@ TEST(ImageCorpus, NukePartsExr) {
               glm::vec3(2, 0, 0));
 }
 
+/// An image of cells of 2 x 2 pixels; `cells` are numbers of faces, -1: black.
+EnvironmentFile read_cells(int width, const std::vector<int>& cells, float marked = 0) {
+    const int height = static_cast<int>(cells.size()) / width;
+    Image image{2 * width, 2 * height, {}};
+    for (int y = 0; y < image.height; ++y)
+        for (int x = 0; x < image.width; ++x)
+            image.pixels.emplace_back(
+                static_cast<float>(1 + cells[static_cast<std::size_t>(y / 2 * width + x / 2)]));
+    image.pixels[0].x = marked > 0 ? marked : image.pixels[0].x;
+    const test::TemporaryFolder folder;
+    write_exr(folder / "a.exr", image);
+    return load_environment(folder / "a.exr");
+}
+
+TEST(ImageCorpus, CubeMapsAsCrossesAndRows) {
+    const std::pair<int, std::vector<int>> kUnfolded[] = {{4, {-1, 2, -1, -1, 1, 4, 0, 5, -1, 3, -1, -1}},
+                                                          {3, {-1, 2, -1, 1, 4, 0, -1, 3, -1, -1, 5, -1}},
+                                                          {6, {0, 1, 2, 3, 4, 5}}};
+    const glm::vec3 directions[] = {{1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}};
+    for (const auto& [width, cells] : kUnfolded) {
+        const EnvironmentFile file = read_cells(width, cells);
+        EXPECT_EQ(file.notices.size(), 1u);
+        for (int face = 0; face < 6; ++face)
+            EXPECT_EQ(sample(file.environment, directions[face]), glm::vec3(static_cast<float>(1 + face)))
+                << width << " " << face;
+    }
+    EXPECT_THROW(read_cells(4, kUnfolded[0].second, 7), Error); // a picture of 4:3
+}
+
+TEST(ImageCorpus, SixFilesOfACubeMap) {
+    const char* const kNames[][6] = {{"posx", "negx", "posy", "negy", "posz", "negz"},
+                                     {"right", "left", "top", "bottom", "front", "back"}};
+    for (const auto& names : kNames) {
+        const test::TemporaryFolder folder;
+        for (int face = 0; face < 6; ++face)
+            write_exr(folder / (std::string("sky_") + names[face] + ".exr"),
+                      {2, 2, std::vector<glm::vec3>(4, glm::vec3(static_cast<float>(face)))});
+        const Environment environment = load_environment(folder / "sky_{face}.exr").environment;
+        EXPECT_EQ(sample(environment, {0, 0, -1}), glm::vec3(5)) << names[0];
+        EXPECT_EQ(sample(environment, {0, 1, 0}), glm::vec3(2)) << names[0];
+    }
+}
+
 TEST(ImageCorpus, GitLfsPointer) {
     try {
         read("a.hdr", "version https://git-lfs.github.com/spec/v1\noid sha256:00\nsize 3\n");
