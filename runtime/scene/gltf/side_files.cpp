@@ -108,7 +108,8 @@ fs::path SideFiles::place_of(const std::string& name) {
     fs::path path = fs::weakly_canonical(folder / name, error);
     if (error)
         throw Error(error.message());
-    if (!fs::exists(path) && is_below(path, folder))
+    constexpr int kMaxSearches = 1000; // of folders, each in proportion to the files there
+    if (!fs::exists(path) && is_below(path, folder) && searches_++ < kMaxSearches)
         if (const fs::path other = alike(folder, name); !other.empty()) {
             path = fs::weakly_canonical(folder / other, error);
             notices_.insert("'" + printable(name) + "' is not there: '" + printable(other.string()) +

@@ -39,6 +39,7 @@ private:
     std::uint64_t bytes_there_, bytes_read_ = 0; ///< of the scene and of all files once; as often as named
     std::string first_trouble_;
     std::set<std::string> notices_;
+    int searches_ = 0; ///< for files that are not there
 };
 
 } // namespace prt
