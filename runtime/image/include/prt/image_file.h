@@ -36,10 +36,10 @@ struct EnvironmentFile {
 /// Reads an environment map from OpenEXR (any channel type and compression, scanline or tiled, RGB, luminance
 /// or luminance-chroma; other primaries are converted; a crop of a 2:1 display window is placed in it),
 /// Radiance HDR (RGBE or XYZE, any orientation, EXPOSURE and COLORCORR divided out), or PNG and JPEG, which
-/// are read as sRGB. A path that holds "{face}" stands for six files, with px, nx, py, ny, pz and nz in its
-/// place, laid out as `EnvironmentLayout::cube_faces`. Throws `Error` that names the file for anything that
-/// is damaged or no environment map. Of what a header claims 192 MB are believed, and 64 bytes for each byte
-/// of the file.
+/// are read as sRGB. A path that holds "{face}" stands for six files, with px, nx, py, ny, pz and nz (or posx
+/// .., +x .., right, left, top, bottom, front, back) in its place, laid out as
+/// `EnvironmentLayout::cube_faces`. Throws `Error` that names the file for anything that is damaged or no
+/// environment map. Of what a header claims 192 MB are believed, and 64 bytes for each byte of the file.
 EnvironmentFile load_environment(const std::filesystem::path& path, const EnvironmentOptions& options = {});
 
 /// 8-bit RGBA pixels as stored, without any conversion of color.
