@@ -106,6 +106,7 @@ SceneFile scene_file_of(GltfDocument document, const Path& path) {
 
 Environment load_environment_map(const Path& path, const EnvironmentOptions& options) {
     EnvironmentFile file = load_environment(path, options);
+    print_notices(path.string(), file.notices);
     if (file.repaired_pixels > 0)
         print_notices(path.string(), {fmt::format("{} bad pixels were repaired", file.repaired_pixels)});
     if (file.low_dynamic_range)

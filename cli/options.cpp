@@ -150,6 +150,9 @@ void add_light_options(CLI::App* command, LightOptions& options) {
         ->check(real_in(-1e6, 1e6));
     choice(command, "--env-layout", options.environment.layout, kLayouts,
            "how to read an image that does not say; otherwise by its shape", "by shape");
+    command->add_option(
+        "--layer", options.environment.layer,
+        "layer or part of an OpenEXR environment; otherwise its plain channels or its only layer");
     choice(
         command, "--env-center", options.environment.center, kCenters,
         "what the centre column of a lat-long image looks at: z as OpenEXR says, x as three.js, glTF viewers "

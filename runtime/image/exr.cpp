@@ -2,7 +2,9 @@
 #include "exr.h"
 
 #include "exr_header.h"
+#include "exr_layers.h"
 #include "exr_stream.h"
+#include "image_limits.h"
 #include "prt/image_file.h"
 #include "prt/support/error.h"
 #include "prt/support/printable.h"
@@ -14,16 +16,31 @@
 #include <OpenEXR/ImfChromaticities.h>
 #include <OpenEXR/ImfFrameBuffer.h>
 #include <OpenEXR/ImfInputFile.h>
+#include <OpenEXR/ImfInputPart.h>
+#include <OpenEXR/ImfMultiPartInputFile.h>
+#include <OpenEXR/ImfPartType.h>
 #include <OpenEXR/ImfRgbaFile.h>
 #include <OpenEXR/ImfStandardAttributes.h>
 #include <OpenEXR/ImfVersion.h>
 
 #include <algorithm>
+#include <cstdint>
+#include <cstring>
 #include <exception>
 #include <string>
+#include <utility>
+#include <vector>
 
 namespace prt {
 namespace {
+
+/// The second word of the file.
+int version_of(std::span<const std::byte> file) {
+    std::uint32_t version = 0;
+    if (file.size() >= 2 * sizeof(version))
+        std::memcpy(&version, &file[sizeof(version)], sizeof(version));
+    return static_cast<int>(version);
+}
 
 /// Rows to decode at once: about four million pixels, so that a header's claim costs no memory until it is
 /// true.
@@ -31,22 +48,17 @@ int rows_per_strip(int width) {
     return std::clamp((1 << 22) / width, 1, 256);
 }
 
-bool has_rgb(const Imf::ChannelList& channels) {
-    return channels.findChannel("R") || channels.findChannel("G") || channels.findChannel("B");
-}
-
 /// R, G and B, or Y alone for all of them.
-void insert_rgb(Imf::FrameBuffer& buffer, const Imf::ChannelList& channels, glm::vec3* base,
-                const Imath::Box2i& strip) {
-    const bool grey = !has_rgb(channels);
-    const char* names[3] = {"R", "G", "B"};
-    for (int c = 0; c < 3; ++c) {
-        const char* name = grey ? "Y" : names[c];
+void insert_rgb(Imf::FrameBuffer& buffer, const Imf::ChannelList& channels, const ExrLayer& layer,
+                glm::vec3* base, const Imath::Box2i& strip) {
+    const bool grey = !layer.grey.empty();
+    for (int c = 0; c < (grey ? 1 : 3); ++c) {
+        const std::string& name = grey ? layer.grey : layer.channels[static_cast<std::size_t>(c)];
+        if (name.empty())
+            continue; // stays zero
         if (const Imf::Channel* channel = channels.findChannel(name);
             channel && (channel->xSampling != 1 || channel->ySampling != 1))
-            throw Error(std::string("its channel ") + name + " is subsampled");
-        if (grey && c > 0)
-            continue;
+            throw Error("its channel " + printable(name, 60) + " is subsampled");
         buffer.insert(name, Imf::Slice::Make(Imf::FLOAT, &(*base)[c], strip, sizeof(glm::vec3),
                                              sizeof(glm::vec3) *
                                                  static_cast<std::size_t>(strip.max.x - strip.min.x + 1)));
@@ -73,15 +85,18 @@ Image read_in_strips(const Imath::Box2i& window, ReadStrip&& read_strip) {
     return image;
 }
 
-Image read_rgb(Imf::InputFile& file, const Imath::Box2i& window) {
+/// From an `Imf::InputFile` or an `Imf::InputPart`.
+template <class File>
+Image read_rgb(File& file, const ExrLayer& layer) {
     const Imf::ChannelList& channels = file.header().channels();
-    Image image = read_in_strips(window, [&](glm::vec3* pixels, const Imath::Box2i& strip) {
-        Imf::FrameBuffer buffer;
-        insert_rgb(buffer, channels, pixels, strip);
-        file.setFrameBuffer(buffer);
-        file.readPixels(strip.min.y, strip.max.y);
-    });
-    if (!has_rgb(channels))
+    Image image =
+        read_in_strips(file.header().dataWindow(), [&](glm::vec3* pixels, const Imath::Box2i& strip) {
+            Imf::FrameBuffer buffer;
+            insert_rgb(buffer, channels, layer, pixels, strip);
+            file.setFrameBuffer(buffer);
+            file.readPixels(strip.min.y, strip.max.y);
+        });
+    if (!layer.grey.empty())
         for (glm::vec3& pixel : image.pixels)
             pixel = glm::vec3(pixel.x);
     return image;
@@ -113,19 +128,36 @@ void convert_primaries(Image& image, const Imf::Chromaticities& from) {
     }
 }
 
-ExrFile read_checked(std::span<const std::byte> bytes) {
-    MemoryStream stream(bytes);
-    Imf::InputFile file(stream);
-    const Imf::Header& header = file.header();
-    const Imath::Box2i window = header.dataWindow();
-    const Imf::ChannelList& channels = header.channels();
-    ExrFile result;
-    if (!has_rgb(channels) && !channels.findChannel("Y"))
-        throw Error("it has none of the channels R, G, B and Y");
-    if (!has_rgb(channels) && (channels.findChannel("RY") || channels.findChannel("BY")))
-        result.image = read_luminance_chroma(bytes, window);
-    else
-        result.image = read_rgb(file, window);
+/// Puts pixels that are a crop of a 2:1 picture, or reach over its border, where they are in it; the rest is
+/// black.
+void place_in_display(ExrFile& file, const Imf::Header& header, std::size_t file_bytes) {
+    const Imath::Box2i data = header.dataWindow(), display = header.displayWindow();
+    const std::int64_t width = std::int64_t{display.max.x} - display.min.x + 1,
+                       height = std::int64_t{display.max.y} - display.min.y + 1;
+    Image& image = file.image;
+    const bool cube = image.height == 6 * image.width || file.layout == EnvironmentLayout::cube;
+    if (cube || width != 2 * height || height < 1 || (width == image.width && height == image.height))
+        return;
+    check_image_size(width, height, 2 * sizeof(glm::vec3), file_bytes);
+    Image placed{static_cast<int>(width), static_cast<int>(height), {}};
+    placed.pixels.resize(static_cast<std::size_t>(width * height));
+    const int left = std::max(data.min.x, display.min.x), right = std::min(data.max.x, display.max.x);
+    for (int y = std::max(data.min.y, display.min.y);
+         y <= std::min(data.max.y, display.max.y) && left <= right; ++y) {
+        const auto row = (std::int64_t{y} - data.min.y) * image.width + left - data.min.x,
+                   to = (std::int64_t{y} - display.min.y) * width + left - display.min.x;
+        std::copy_n(image.pixels.begin() + row, right - left + 1, placed.pixels.begin() + to);
+    }
+    file.notices.push_back("its " + std::to_string(image.width) + " x " + std::to_string(image.height) +
+                           " pixels are placed in its display window of " + std::to_string(width) + " x " +
+                           std::to_string(height) + "; what they leave is black");
+    image = std::move(placed);
+}
+
+/// Applies what the header reports about the pixels of `result`.
+void apply_header(ExrFile& result, const Imf::Header& header, std::size_t file_bytes) {
+    if (header.hasType() && Imf::isDeepData(header.type()))
+        result.notices.emplace_back("is a deep EXR: the samples of each pixel are composited by depth");
     if (Imf::hasChromaticities(header))
         convert_primaries(result.image, Imf::chromaticities(header));
     if (Imf::hasEnvmap(header)) {
@@ -134,6 +166,37 @@ ExrFile read_checked(std::span<const std::byte> bytes) {
             throw Error("its attribute envmap has the unknown value " + std::to_string(envmap));
         result.layout = envmap == Imf::ENVMAP_CUBE ? EnvironmentLayout::cube : EnvironmentLayout::lat_long;
     }
+    place_in_display(result, header, file_bytes);
+}
+
+ExrFile read_parts(std::span<const std::byte> bytes, const std::string& wanted) {
+    MemoryStream stream(bytes);
+    Imf::MultiPartInputFile file(stream);
+    std::vector<Imf::Header> headers;
+    for (int part = 0; part < file.parts(); ++part)
+        headers.push_back(file.header(part));
+    ExrFile result;
+    const ExrLayer layer = choose_layer(color_layers(headers), wanted, result.notices);
+    Imf::InputPart part(file, layer.part);
+    result.image = read_rgb(part, layer);
+    apply_header(result, part.header(), bytes.size());
+    return result;
+}
+
+ExrFile read_checked(std::span<const std::byte> bytes, const std::string& wanted) {
+    if (Imf::isMultiPart(version_of(bytes)))
+        return read_parts(bytes, wanted);
+    MemoryStream stream(bytes);
+    Imf::InputFile file(stream);
+    const Imf::Header& header = file.header();
+    const Imf::ChannelList& channels = header.channels();
+    ExrFile result;
+    const ExrLayer layer = choose_layer(color_layers({&header, 1}), wanted, result.notices);
+    if (layer.plain && layer.grey == "Y" && (channels.findChannel("RY") || channels.findChannel("BY")))
+        result.image = read_luminance_chroma(bytes, header.dataWindow());
+    else
+        result.image = read_rgb(file, layer);
+    apply_header(result, header, bytes.size());
     return result;
 }
 
@@ -143,10 +206,10 @@ bool is_exr(std::span<const std::byte> file) {
     return file.size() >= 4 && Imf::isImfMagic(reinterpret_cast<const char*>(file.data()));
 }
 
-ExrFile read_exr(std::span<const std::byte> file) {
+ExrFile read_exr(std::span<const std::byte> file, const std::string& layer) {
     check_exr_header(file);
     try {
-        return read_checked(file);
+        return read_checked(file, layer);
     } catch (const Error&) {
         throw;
     } catch (const std::exception& error) {

@@ -197,22 +197,30 @@ void check_chunk_tables(const Headers& headers, std::size_t file_bytes) {
                     std::to_string(file_bytes) + " bytes can hold");
 }
 
+/// Throws unless the pixels of a part may be read from a file of that many bytes.
+void check_window(const Headers& headers, int part, std::size_t file_bytes) {
+    exr_attr_box2i_t window{};
+    headers.check(exr_get_data_window(headers.context(), part, &window));
+    std::uint64_t chunk = 0;
+    headers.check(exr_get_chunk_unpacked_size(headers.context(), part, &chunk));
+    // A chunk is held packed, unpacked and between the two; chroma is rebuilt from some 32 rows of halves.
+    constexpr std::uint64_t kChromaRows = 40, kHalves = 8;
+    const std::int64_t width = std::int64_t{window.max.x} - window.min.x + 1;
+    check_image_size(width, std::int64_t{window.max.y} - window.min.y + 1, sizeof(glm::vec3), file_bytes,
+                     3 * chunk + kChromaRows * kHalves *
+                                     static_cast<std::uint64_t>(std::max<std::int64_t>(width, 0)));
+}
+
 } // namespace
 
 void check_exr_header(std::span<const std::byte> file) {
     check_attributes(file);
     const Headers headers(file);
     check_chunk_tables(headers, file.size());
-    exr_attr_box2i_t window{};
-    headers.check(exr_get_data_window(headers.context(), 0, &window));
-    std::uint64_t chunk = 0;
-    headers.check(exr_get_chunk_unpacked_size(headers.context(), 0, &chunk));
-    // A chunk is held packed, unpacked and between the two; chroma is rebuilt from some 32 rows of halves.
-    constexpr std::uint64_t kChromaRows = 40, kHalves = 8;
-    const std::int64_t width = std::int64_t{window.max.x} - window.min.x + 1;
-    check_image_size(width, std::int64_t{window.max.y} - window.min.y + 1, sizeof(glm::vec3), file.size(),
-                     3 * chunk + kChromaRows * kHalves *
-                                     static_cast<std::uint64_t>(std::max<std::int64_t>(width, 0)));
+    int parts = 0;
+    headers.check(exr_get_count(headers.context(), &parts));
+    for (int part = 0; part < parts; ++part)
+        check_window(headers, part, file.size());
 }
 
 } // namespace prt

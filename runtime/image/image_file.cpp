@@ -1,6 +1,7 @@
 // Images from files by their kind.
 #include "prt/image_file.h"
 
+#include "cube_cross.h"
 #include "exr.h"
 #include "image_kind.h"
 #include "image_limits.h"
@@ -8,12 +9,14 @@
 #include "prt/srgb.h"
 #include "prt/support/error.h"
 #include "prt/support/file.h"
+#include "prt/support/lfs_pointer.h"
 #include "stb_images.h"
 #include "web_images.h"
 
 #include <algorithm>
 #include <array>
 #include <string>
+#include <system_error>
 
 namespace prt {
 namespace {
@@ -51,19 +54,32 @@ struct AnyImage {
     Image image;
     std::optional<EnvironmentLayout> layout;
     bool low_dynamic_range = false;
+    std::vector<std::string> notices = {};
 };
 
-AnyImage read_any(const std::filesystem::path& path) {
+AnyImage read_radiance(std::span<const std::byte> file) {
+    RadianceImage radiance = decode_hdr(file);
+    AnyImage result{std::move(radiance.image), {}};
+    if (radiance.factor != glm::dvec3(1))
+        result.notices.emplace_back("its EXPOSURE and COLORCORR are divided out of its pixels");
+    return result;
+}
+
+AnyImage read_any(const std::filesystem::path& path, const std::string& layer) {
     const std::vector<std::byte> file = read_file(path);
     try {
         if (is_exr(file)) {
-            ExrFile exr = read_exr(file);
-            return {std::move(exr.image), exr.layout};
+            ExrFile exr = read_exr(file, layer);
+            return {std::move(exr.image), exr.layout, false, std::move(exr.notices)};
         }
+        if (!layer.empty())
+            throw Error("is no EXR, and has no layers: leave out --layer");
         if (is_hdr(file))
-            return {decode_hdr(file), {}};
+            return read_radiance(file);
         if (is_png(file) || is_jpeg(file))
             return {read_low_dynamic_range(file), {}, true};
+        if (is_lfs_pointer(file))
+            throw Error(kLfsRemedy);
         throw Error("is no image that is read here: OpenEXR, Radiance HDR, PNG and JPEG are");
     } catch (const Error& error) {
         throw Error(path.string() + ": " + error.what());
@@ -72,14 +88,34 @@ AnyImage read_any(const std::filesystem::path& path) {
 
 constexpr std::string_view kFaceMark = "{face}";
 
+using FaceNames = std::array<const char*, 6>;
+
+std::string with_face(std::string pattern, const char* face) {
+    return pattern.replace(pattern.find(kFaceMark), kFaceMark.size(), face);
+}
+
+/// The names of the faces +X -X +Y -Y +Z -Z whose first file is there; else the first names, for the message.
+const FaceNames& face_names(const std::string& pattern) {
+    static constexpr FaceNames kNames[] = {{"px", "nx", "py", "ny", "pz", "nz"},
+                                           {"PX", "NX", "PY", "NY", "PZ", "NZ"},
+                                           {"posx", "negx", "posy", "negy", "posz", "negz"},
+                                           {"+x", "-x", "+y", "-y", "+z", "-z"},
+                                           {"right", "left", "top", "bottom", "front", "back"}};
+    for (const FaceNames& names : kNames)
+        if (std::error_code error; std::filesystem::exists(with_face(pattern, names[0]), error))
+            return names;
+    return kNames[0];
+}
+
 /// The six faces of a cube map, of one size, in a column.
-Image read_faces(const std::string& pattern, bool& low_dynamic_range) {
+Image read_faces(const std::string& pattern, const std::string& layer, EnvironmentFile& result) {
     Image column;
-    for (const char* face : {"px", "nx", "py", "ny", "pz", "nz"}) {
-        std::string path = pattern;
-        path.replace(path.find(kFaceMark), kFaceMark.size(), face);
-        AnyImage file = read_any(path);
-        low_dynamic_range |= file.low_dynamic_range;
+    for (const char* face : face_names(pattern)) {
+        const std::string path = with_face(pattern, face);
+        AnyImage file = read_any(path, layer);
+        result.low_dynamic_range |= file.low_dynamic_range;
+        for (const std::string& notice : file.notices)
+            result.notices.push_back(std::filesystem::path(path).filename().string() + ": " + notice);
         const Image image = std::move(file.image);
         if (image.width != image.height || (column.width != 0 && image.width != column.width))
             throw Error(path + ": is " + std::to_string(image.width) + " x " + std::to_string(image.height) +
@@ -89,6 +125,16 @@ Image read_faces(const std::string& pattern, bool& low_dynamic_range) {
         column.pixels.insert(column.pixels.end(), image.pixels.begin(), image.pixels.end());
     }
     return column;
+}
+
+/// Makes a column of a cube map that is a cross or a row.
+std::optional<EnvironmentLayout> unfold_cross(EnvironmentFile& file) {
+    std::optional<Image> faces = faces_of_cross(file.environment.image);
+    if (!faces)
+        return std::nullopt;
+    file.environment.image = std::move(*faces);
+    file.notices.emplace_back("is read as a cube map, by its shape; --env-layout reads it otherwise");
+    return EnvironmentLayout::cube_faces;
 }
 
 } // namespace
@@ -105,14 +151,17 @@ EnvironmentFile load_environment(const std::filesystem::path& path, const Enviro
     EnvironmentFile result;
     std::optional<EnvironmentLayout> layout = options.layout;
     if (path.string().find(kFaceMark) != std::string::npos) {
-        result.environment.image = read_faces(path.string(), result.low_dynamic_range);
+        result.environment.image = read_faces(path.string(), options.layer, result);
         layout = layout.value_or(EnvironmentLayout::cube_faces);
     } else {
-        AnyImage file = read_any(path);
+        AnyImage file = read_any(path, options.layer);
         result.low_dynamic_range = file.low_dynamic_range;
+        result.notices = std::move(file.notices);
         result.environment.image = std::move(file.image);
         if (!layout)
             layout = file.layout;
+        if (!layout)
+            layout = unfold_cross(result);
     }
     try {
         result.environment.layout = layout_of(result.environment.image, layout);

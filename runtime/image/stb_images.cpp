@@ -7,6 +7,9 @@
 #include "png_check.h"
 #include "prt/support/error.h"
 #include "prt/support/printable.h"
+#include "radiance_header.h"
+
+#include <glm/mat3x3.hpp>
 
 #include <algorithm>
 #include <climits>
@@ -117,28 +120,45 @@ void check_jpeg(std::span<const std::byte> file) {
 
 } // namespace
 
-Image decode_hdr(std::span<const std::byte> file) {
-    const ImageSize size = size_by_stb(file);
+RadianceImage decode_hdr(std::span<const std::byte> file) {
+    const RadianceHeader header = read_radiance_header(file);
+    const ImageSize size = header.size;
     check_image_size(size.width, size.height, 2 * sizeof(glm::vec3), file.size()); // stb's and ours
-    Image image;
-    int channels = 0;
+    // stb reads lines from left to right and down alone: it gets them as if they were such.
+    std::string plain = "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y " + std::to_string(header.lines()) +
+                        " +X " + std::to_string(header.line_length()) + "\n";
+    const std::span<const std::byte> pixel_bytes = file.subspan(header.bytes);
+    plain.append(reinterpret_cast<const char*>(pixel_bytes.data()), pixel_bytes.size());
+    int line_length = 0, lines = 0, channels = 0;
     const stbi_io_callbacks callbacks{ByteStream::read, ByteStream::skip, ByteStream::eof};
-    ByteStream stream{file};
+    ByteStream stream{std::as_bytes(std::span(plain))};
     const std::unique_ptr<float, StbFree> pixels(
-        stbi_loadf_from_callbacks(&callbacks, &stream, &image.width, &image.height, &channels, 3));
+        stbi_loadf_from_callbacks(&callbacks, &stream, &line_length, &lines, &channels, 3));
     if (stream.past_end)
         throw Error("is a damaged Radiance HDR: it ends before its last pixel");
     if (!pixels)
         throw Error(std::string("is a damaged or unsupported Radiance HDR: ") +
                     printable(stbi_failure_reason()));
-    image.pixels.resize(static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height));
-    std::memcpy(image.pixels.data(), pixels.get(), image.pixels.size() * sizeof(glm::vec3));
-    return image;
+    RadianceImage result{{size.width, size.height, {}}, header.factor};
+    result.image.pixels.resize(header.lines() * header.line_length());
+    // The inverse of the matrix of Rec. 709 to XYZ (ITU-R BT.709, white D65), by columns.
+    const glm::dmat3 to_rgb(3.2404542, -0.9692660, 0.0556434, -1.5371385, 1.8760108, -0.2040259, -0.4985314,
+                            0.0415560, 1.0572252);
+    const glm::dvec3 scale = 1.0 / header.factor;
+    const float* from = pixels.get();
+    for (std::size_t line = 0; line < header.lines(); ++line)
+        for (std::size_t i = 0; i < header.line_length(); ++i, from += 3) {
+            const glm::dvec3 pixel = scale * glm::dvec3(from[0], from[1], from[2]);
+            result.image.pixels[header.index(line, i)] = glm::vec3(header.xyz ? to_rgb * pixel : pixel);
+        }
+    return result;
 }
 
 ImageSize size_by_stb(std::span<const std::byte> file) {
     if (!is_png(file) && !is_jpeg(file) && !is_hdr(file)) // stb reads more kinds, with less care
         throw Error("is no image that is read here: PNG, JPEG, WebP and AVIF are");
+    if (is_hdr(file))
+        return read_radiance_header(file).size;
     if (is_png(file))
         check_png_chunks(file);
     ImageSize size;

@@ -11,8 +11,14 @@
 
 namespace prt {
 
-/// The pixels of a Radiance HDR. Throws `Error`.
-Image decode_hdr(std::span<const std::byte> file);
+/// Radiance HDR, with the multipliers of its header divided out.
+struct RadianceImage {
+    Image image;
+    glm::dvec3 factor; ///< product of these multipliers
+};
+
+/// Reads RGBE or XYZE in any orientation as linear Rec. 709. Throws `Error`.
+RadianceImage decode_hdr(std::span<const std::byte> file);
 
 /// Of a PNG, JPEG or Radiance HDR. Throws `Error`.
 ImageSize size_by_stb(std::span<const std::byte> file);

@@ -10,6 +10,7 @@
 #include "gltf/draco_primitives.h"
 #include "gltf/fallback.h"
 #include "gltf/glb.h"
+#include "gltf/image_uses.h"
 #include "gltf/instances.h"
 #include "gltf/json_text.h"
 #include "gltf/lights.h"
@@ -20,11 +21,16 @@
 #include "prt/encode_glb.h"
 #include "prt/support/error.h"
 #include "prt/support/file.h"
+#include "prt/support/lfs_pointer.h"
+#include "prt/support/printable.h"
 
 #include <algorithm>
 #include <array>
 #include <cctype>
 #include <climits>
+#include <cstdint>
+#include <cstring>
+#include <set>
 #include <string>
 #include <string_view>
 #include <tuple>
@@ -33,9 +39,11 @@
 namespace prt {
 namespace {
 
+constexpr const char* kCesiumOffset = "CESIUM_RTC";
+
 /// What may stand in extensionsRequired. Materials and lights change nothing but what is reflected; their
 /// base color is used. Textures of other formats are missed only where they are needed.
-constexpr std::array<std::string_view, 34> kSupportedExtensions = {
+constexpr std::array<std::string_view, 35> kSupportedExtensions = {
     kTransferExtension,
     kClusteredExtension,
     kLightmapExtension,
@@ -70,6 +78,7 @@ constexpr std::array<std::string_view, 34> kSupportedExtensions = {
     "KHR_materials_variants",
     "KHR_materials_volume",
     "EXT_lights_image_based",
+    kCesiumOffset, // moves the whole scene: light stays
 };
 
 /// What other formats for scenes are called, by suffix.
@@ -89,10 +98,40 @@ std::string_view other_format(const std::filesystem::path& path) {
     return {};
 }
 
+/// A tile of 3D Tiles 1.0 begins with a magic word and its lengths in words of 32 bits: byte 12 on, those of
+/// four tables before the glTF ("3D Tiles Specification", sections on Batched and Instanced 3D Models).
+std::span<const std::byte> without_tile(std::span<const std::byte> file, std::vector<std::string>& notices) {
+    const auto begins = [&](std::string_view magic) {
+        return file.size() >= 32 && std::memcmp(file.data(), magic.data(), magic.size()) == 0;
+    };
+    const bool batched = begins("b3dm"), instanced = begins("i3dm");
+    if (begins("cmpt") || begins("pnts"))
+        throw Error("is a composite or a point cloud of 3D Tiles, no glTF: extract the models in it as .glb");
+    if (!batched && !instanced)
+        return file;
+    std::size_t begin = batched ? 28 : 32;
+    for (std::size_t at = 12; at < 28; at += 4) {
+        std::uint32_t length = 0;
+        std::memcpy(&length, &file[at], sizeof(length));
+        begin += length;
+    }
+    if (begin >= file.size() || !is_glb(file.subspan(begin)))
+        throw Error("is a tile of 3D Tiles without a GLB in it");
+    if (instanced)
+        throw Error(
+            "is an instanced model of 3D Tiles (.i3dm), whose instances are not read: take the GLB that "
+            "begins at byte " +
+            std::to_string(begin));
+    notices.emplace_back("is a tile of 3D Tiles (.b3dm): the GLB in it is read");
+    return file.subspan(begin);
+}
+
 /// Refuses what is no glTF before any parser sees it.
 void check_is_gltf(std::span<const std::byte> file, const std::filesystem::path& path) {
     if (is_glb(file))
         return;
+    if (is_lfs_pointer(file))
+        throw Error(kLfsRemedy);
     const std::string_view text(reinterpret_cast<const char*>(file.data()), file.size());
     const std::size_t first = text.find_first_not_of(" \t\r\n\xef\xbb\xbf");
     if (first != std::string_view::npos && text[first] == '{')
@@ -113,6 +152,19 @@ void check_required_extensions(const Json& json) {
                         ", which is not supported");
 }
 
+/// Brings JSON that exporters write against the letter of glTF, or by a newer name, to the form that the rest
+/// of the reader takes. Returns whether anything was changed.
+bool accept_deviations(GltfContents& contents) {
+    const std::size_t nulls = remove_nulls(contents.json);
+    if (nulls > 0)
+        contents.notices.push_back(std::to_string(nulls) +
+                                   " members of its JSON are null: they are read as absent");
+    if (extension_of(contents.json, kCesiumOffset))
+        contents.notices.emplace_back("its offset CESIUM_RTC is not applied: light does not depend on it");
+    const bool meshopt = use_ext_meshopt(contents.json), spots = complete_spots(contents.json);
+    return meshopt || spots || nulls > 0;
+}
+
 /// Keeps the file of an image that stands in a URI. Images in buffer views are taken later, with bounds
 /// checked.
 void keep_encoded(std::vector<std::vector<std::byte>>& images, std::size_t i, const tinygltf::Image& image,
@@ -127,6 +179,7 @@ void keep_encoded(std::vector<std::vector<std::byte>>& images, std::size_t i, co
 void take_images(GltfContents& contents, const GltfOptions& options, const SideFiles& files) {
     double total = 0;
     contents.images.resize(contents.model.images.size());
+    const std::set<std::size_t> unneeded = images_without_light(contents.json);
     for (std::size_t i = 0; i < contents.images.size(); ++i) {
         const tinygltf::Image& image = contents.model.images[i];
         if (image.bufferView >= 0) {
@@ -135,7 +188,12 @@ void take_images(GltfContents& contents, const GltfOptions& options, const SideF
             check_allowed(2 * total, contents.file_bytes, "its images, still encoded,");
             contents.images[i].assign(bytes.begin(), bytes.end());
         }
-        if (contents.images[i].empty() && options.missing_images == MissingImages::error)
+        if (!contents.images[i].empty())
+            continue;
+        if (unneeded.contains(i))
+            contents.notices.push_back("image " + std::to_string(i) + " '" + printable(image.uri) +
+                                       "' cannot be read, and light does not need it");
+        else if (options.missing_images == MissingImages::error)
             throw Error("image " + std::to_string(i) +
                         (image.uri.empty()
                              ? " is empty"
@@ -171,6 +229,7 @@ void load_model(GltfContents& contents, std::span<const std::byte> file, std::st
     for (const tinygltf::Buffer& buffer : contents.model.buffers)
         if (!buffer.uri.empty())
             contents.file_bytes += buffer.data.size();
+    contents.notices.insert(contents.notices.end(), files.notices().begin(), files.notices().end());
     take_images(contents, options, files);
 }
 
@@ -273,22 +332,24 @@ GltfDocument load_gltf(const std::filesystem::path& path, const GltfOptions& opt
     return parse_gltf(read_file(path), path, options);
 }
 
-GltfDocument parse_gltf(std::span<const std::byte> file, const std::filesystem::path& path,
+GltfDocument parse_gltf(std::span<const std::byte> whole_file, const std::filesystem::path& path,
                         const GltfOptions& options) {
     auto contents = std::make_unique<GltfContents>();
     contents->path = path;
     try {
+        const std::span<const std::byte> file = without_tile(whole_file, contents->notices);
         check_is_gltf(file, path);
         const bool binary = is_glb(file);
         const std::string_view text =
             binary ? glb_json(file)
                    : std::string_view(reinterpret_cast<const char*>(file.data()), file.size());
         contents->json = parse_json(text);
+        const bool edited = accept_deviations(*contents);
         check_shape(contents->json, text.size());
         check_required_extensions(contents->json);
         contents->file_bytes = file.size();
         const bool meshopt = has_meshopt_views(contents->json), draco = has_draco_primitives(contents->json);
-        if (meshopt || draco) {
+        if (meshopt || draco || edited) {
             Json plain = meshopt ? without_meshopt(contents->json) : contents->json;
             if (draco)
                 plain = without_draco_indices(std::move(plain));

@@ -186,7 +186,7 @@ private:
         for (const NodeTransform& node : coarser)
             add_node(node);
         place_about_middle(finest);
-        scene_.lights = read_lights(contents_, nodes.finest, scene_.origin);
+        scene_.lights = read_lights(contents_, nodes.finest, scene_.origin, scene_.notices);
         make_flat_normals();
         seen_.coarser_levels = nodes.left_out;
         add_notices();

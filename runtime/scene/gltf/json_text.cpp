@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <string>
+#include <utility>
 
 namespace prt {
 namespace {
@@ -54,6 +55,30 @@ Json parse_json(std::string_view text) {
     } catch (const nlohmann::json::parse_error& error) {
         throw Error("is damaged: its JSON cannot be read at " + place_of(text, error.byte));
     }
+}
+
+std::size_t remove_nulls(Json& json) {
+    const auto is_open = [](const std::string& key) {
+        return key != "extras" && !key.starts_with("PRTKIT_");
+    };
+    std::size_t removed = 0;
+    if (auto* object = json.get_ptr<Json::object_t*>()) {
+        for (auto& [key, value] : *object)
+            if (is_open(key))
+                removed += value.is_null() ? 1 : remove_nulls(value);
+        const auto absent = [&](const auto& item) { return item.second.is_null() && is_open(item.first); };
+        if (std::any_of(object->begin(), object->end(), absent)) {
+            Json::object_t kept; // its keys are constant: they cannot be moved down
+            for (auto& item : *object)
+                if (!absent(item))
+                    kept.push_back({item.first, std::move(item.second)});
+            object->swap(kept);
+        }
+    } else if (auto* array = json.get_ptr<Json::array_t*>()) {
+        for (Json& value : *array)
+            removed += remove_nulls(value);
+    }
+    return removed;
 }
 
 double json_bytes(const Json& json) {

@@ -12,6 +12,10 @@ namespace prt {
 /// damaged or nests deeper than the readers of JSON, which call themselves, have stack for.
 Json parse_json(std::string_view text);
 
+/// Removes members that are null, which some exporters write for "not given", from all objects but extras
+/// and the extensions of prtkit. Returns their number.
+std::size_t remove_nulls(Json& json);
+
 /// Bytes that `json` takes in memory, about.
 double json_bytes(const Json& json);
 

@@ -6,6 +6,7 @@
 
 #include <glm/geometric.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -49,25 +50,43 @@ glm::vec3 color_of(const Json& light) {
     return color;
 }
 
-void read_cone(const Json& light, PunctualLight& to) {
+/// Lights that exporters write against the letter of the extension, counted.
+struct LightDeviations {
+    int endless_ranges = 0, hard_cones = 0;
+};
+
+/// Babylon's exporter for 3ds Max writes the largest float for "no attenuation", and three.js reads 0 so.
+float read_range(const Json& light, LightDeviations& deviations) {
+    constexpr float kNoLimit = std::numeric_limits<float>::infinity();
+    if (!light.contains("range"))
+        return kNoLimit;
+    constexpr double kMaxRange = 1e30; // metres; its inverse is a normal float
+    const double range = number(light, "range", 0, 0, std::numeric_limits<double>::max());
+    if (range >= 1e-30 && range <= kMaxRange)
+        return static_cast<float>(range);
+    ++deviations.endless_ranges;
+    return kNoLimit;
+}
+
+/// Blender writes equal angles for a blend of 0.
+void read_cone(const Json& light, PunctualLight& to, LightDeviations& deviations) {
     const Json spot = light.value("spot", Json::object());
-    const double inner = number(spot, "innerConeAngle", 0, 0, std::numbers::pi / 2),
-                 outer = number(spot, "outerConeAngle", std::numbers::pi / 4, 0, std::numbers::pi / 2 + 1e-6);
-    if (!(inner < outer))
-        throw Error("its inner cone is not within the outer one");
-    to.inner_cone = static_cast<float>(inner);
+    const double limit = std::numbers::pi / 2 + 1e-6;
+    const double inner = number(spot, "innerConeAngle", 0, 0, limit),
+                 outer = number(spot, "outerConeAngle", std::numbers::pi / 4, 0, limit);
+    deviations.hard_cones += inner < outer ? 0 : 1;
+    to.inner_cone = static_cast<float>(std::min(inner, outer));
     to.outer_cone = static_cast<float>(outer);
 }
 
-PunctualLight read_light(const Json& light) {
+PunctualLight read_light(const Json& light, LightDeviations& deviations) {
     PunctualLight result;
     result.name = light.value("name", "");
     result.kind = kind_of(light.at("type").get<std::string>());
     result.intensity = color_of(light) * static_cast<float>(number(light, "intensity", 1, 0, kMostIntensity));
-    if (light.contains("range")) // 0 would be a light that shines nowhere
-        result.range = static_cast<float>(number(light, "range", 0, 1e-30, 1e30));
+    result.range = read_range(light, deviations);
     if (result.kind == PunctualKind::spot)
-        read_cone(light, result);
+        read_cone(light, result, deviations);
     return result;
 }
 
@@ -84,7 +103,32 @@ const Json* light_of(const GltfContents& contents, const Json& node, std::size_t
     return &list->at("lights").at(index);
 }
 
+void add_notices(const LightDeviations& deviations, std::vector<std::string>& notices) {
+    if (deviations.endless_ranges > 0)
+        notices.push_back(std::to_string(deviations.endless_ranges) +
+                          " lights have a range of 0 or beyond 1e30 m: they get no limit of range");
+    if (deviations.hard_cones > 0)
+        notices.push_back(std::to_string(deviations.hard_cones) +
+                          " spots have an inner cone that is not within the outer one: they get a hard edge");
+}
+
 } // namespace
+
+bool complete_spots(Json& json) {
+    if (!extension_of(json, kPunctual))
+        return false;
+    Json& extension = json["extensions"][kPunctual];
+    if (!extension.is_object() || !extension.contains("lights") || !extension["lights"].is_array())
+        return false;
+    bool changed = false;
+    for (Json& light : extension["lights"])
+        if (light.is_object() && light.contains("type") && light["type"] == "spot" &&
+            !light.contains("spot")) {
+            light["spot"] = Json::object();
+            changed = true;
+        }
+    return changed;
+}
 
 void scale_lights(Json& json, double factor) {
     if (factor == 1 || !extension_of(json, kPunctual))
@@ -98,8 +142,9 @@ void scale_lights(Json& json, double factor) {
 }
 
 std::vector<PunctualLight> read_lights(const GltfContents& contents, const std::vector<NodeTransform>& nodes,
-                                       const glm::dvec3& origin) {
+                                       const glm::dvec3& origin, std::vector<std::string>& notices) {
     std::vector<PunctualLight> lights;
+    LightDeviations deviations;
     if (!contents.json.contains("nodes"))
         return lights;
     for (const NodeTransform& transform : nodes) {
@@ -110,7 +155,7 @@ std::vector<PunctualLight> read_lights(const GltfContents& contents, const std::
             continue;
         const std::string numbered = "light " + std::to_string(index);
         try {
-            PunctualLight light = read_light(*json);
+            PunctualLight light = read_light(*json, deviations);
             light.name = node.value("name", "").empty() ? light.name : node.value("name", "");
             if (light.name.empty())
                 light.name = numbered;
@@ -130,6 +175,7 @@ std::vector<PunctualLight> read_lights(const GltfContents& contents, const std::
             throw Error(numbered + ": " + error.what());
         }
     }
+    add_notices(deviations, notices);
     return lights;
 }
 

@@ -60,6 +60,12 @@ std::vector<unsigned char> decompressed(const MeshoptCode& code, std::span<const
     if (count > source.size() * 1024)
         throw Error("claims " + std::to_string(count) + " elements in " + std::to_string(source.size()) +
                     " bytes");
+    // The upper half of the first byte marks the codec, the lower half is its version.
+    constexpr unsigned char kAttributes = 0xa0;
+    if (attributes && !source.empty() && (source[0] & 0xf0) == kAttributes && source[0] != kAttributes)
+        throw Error("uses version " + std::to_string(source[0] & 0x0f) +
+                    " of the attribute codec, and this program decodes version 0: write it with "
+                    "EXT_meshopt_compression or without compression");
     std::vector<unsigned char> result(count * stride);
     const int status =
         attributes ? meshopt_decodeVertexBuffer(result.data(), count, stride, source.data(), source.size())
@@ -183,6 +189,30 @@ std::size_t append(std::vector<std::byte>& to, std::span<const std::byte> bytes)
 }
 
 } // namespace
+
+bool use_ext_meshopt(Json& json) {
+    constexpr const char* kKhronos = "KHR_meshopt_compression";
+    bool found = false;
+    for (const char* list : {"bufferViews", "buffers"})
+        if (json.contains(list) && json[list].is_array())
+            for (Json& owner : json[list])
+                if (const Json* extension = owner.is_object() ? extension_of(owner, kKhronos) : nullptr) {
+                    Json renamed = *extension;
+                    owner["extensions"].erase(kKhronos);
+                    if (!owner["extensions"].contains(
+                            kMeshoptExtension)) // else that one needs no newer codec
+                        owner["extensions"][kMeshoptExtension] = std::move(renamed);
+                    found = true;
+                }
+    for (const char* list : {"extensionsUsed", "extensionsRequired"})
+        if (json.contains(list) && json[list].is_array())
+            for (Json& name : json[list])
+                if (name == kKhronos) {
+                    name = kMeshoptExtension;
+                    found = true;
+                }
+    return found;
+}
 
 bool has_meshopt_views(const Json& json) {
     const auto views = json.find("bufferViews");

@@ -1,12 +1,16 @@
 #pragma once
 
-// Buffer views that are compressed with EXT_meshopt_compression.
+// Buffer views that are compressed with EXT_meshopt_compression or KHR_meshopt_compression.
 
 #include "gltf/contents.h"
 
 namespace prt {
 
 inline constexpr const char* kMeshoptExtension = "EXT_meshopt_compression";
+
+/// Renames KHR_meshopt_compression (gltfpack 1.x), which has the same members, to EXT_meshopt_compression.
+/// Returns whether it was there.
+bool use_ext_meshopt(Json& json);
 
 /// Whether any buffer view of `json` is compressed.
 bool has_meshopt_views(const Json& json);

@@ -2,8 +2,13 @@
 
 #include "prt/support/error.h"
 #include "prt/support/file.h"
+#include "prt/support/lfs_pointer.h"
+#include "prt/support/printable.h"
 
 #include <algorithm>
+#include <cctype>
+#include <charconv>
+#include <span>
 #include <system_error>
 
 namespace prt {
@@ -13,6 +18,61 @@ namespace fs = std::filesystem;
 
 bool is_below(const fs::path& path, const fs::path& folder) {
     return std::mismatch(folder.begin(), folder.end(), path.begin(), path.end()).first == folder.end();
+}
+
+/// Upper case of ASCII as lower case; where it is a file's name, escapes of URIs as the bytes they stand for.
+std::string folded(std::string name, bool escapes) {
+    for (std::size_t at = 0; escapes && (at = name.find('%', at)) != std::string::npos; ++at) {
+        unsigned byte = 0;
+        const char* digits = name.data() + at + 1;
+        if (at + 2 < name.size() && std::from_chars(digits, digits + 2, byte, 16).ptr == digits + 2)
+            name.replace(at, 3, 1, static_cast<char>(byte));
+    }
+    std::transform(name.begin(), name.end(), name.begin(),
+                   [](unsigned char c) { return static_cast<char>(c < 128 ? std::tolower(c) : c); });
+    return name;
+}
+
+/// Adds the files below `folder` that `parts` name but for case and escapes to `found`, until it holds two.
+void find_alike(const fs::path& folder, std::span<const fs::path> parts, std::vector<fs::path>& found) {
+    std::error_code error;
+    if (parts.empty()) {
+        if (fs::is_regular_file(folder, error))
+            found.push_back(folder);
+        return;
+    }
+    const std::string wanted = folded(parts[0].string(), false), decoded = folded(parts[0].string(), true);
+    for (fs::directory_iterator entry(folder, error), end; !error && entry != end && found.size() < 2;
+         entry.increment(error)) {
+        const std::string name = entry->path().filename().string(), plain = folded(name, true);
+        if (folded(name, false) == wanted || plain == wanted || plain == decoded)
+            find_alike(entry->path(), parts.subspan(1), found);
+    }
+}
+
+/// A URI as a path of this system: with slashes, without a query or a fragment.
+std::string plain_name(std::string name) {
+    std::replace(name.begin(), name.end(), '\\', '/');
+    return name.substr(0, name.find_first_of("?#"));
+}
+
+/// The one file below `folder` that exporters can mean by `name`, as a path within it; empty: none. Throws
+/// `Error` where several can be meant.
+fs::path alike(const fs::path& folder, const std::string& name) {
+    for (const std::string& variant : {name, plain_name(name)}) {
+        const fs::path path = fs::path(variant).lexically_normal();
+        const std::vector<fs::path> parts(path.begin(), path.end());
+        if (path.is_absolute() || parts.empty() || std::find(parts.begin(), parts.end(), "..") != parts.end())
+            continue;
+        std::vector<fs::path> found;
+        find_alike(folder, parts, found);
+        if (found.size() > 1)
+            throw Error("there is no such file, and more than one is alike but for case: '" +
+                        found[0].filename().string() + "', '" + found[1].filename().string() + "'");
+        if (!found.empty())
+            return found[0].lexically_relative(folder);
+    }
+    return {};
 }
 
 } // namespace
@@ -40,7 +100,7 @@ tinygltf::FsCallbacks SideFiles::callbacks() {
     return {exists, expand, read, nullptr, this};
 }
 
-fs::path SideFiles::place_of(const std::string& name) const {
+fs::path SideFiles::place_of(const std::string& name) {
     if (name.find('\0') != std::string::npos)
         throw Error("is no name of a file");
     std::error_code error;
@@ -48,6 +108,13 @@ fs::path SideFiles::place_of(const std::string& name) const {
     fs::path path = fs::weakly_canonical(folder / name, error);
     if (error)
         throw Error(error.message());
+    constexpr int kMaxSearches = 1000; // of folders, each in proportion to the files there
+    if (!fs::exists(path) && is_below(path, folder) && searches_++ < kMaxSearches)
+        if (const fs::path other = alike(folder, name); !other.empty()) {
+            path = fs::weakly_canonical(folder / other, error);
+            notices_.insert("'" + printable(name) + "' is not there: '" + printable(other.string()) +
+                            "' is read");
+        }
     if (!options_.allow_outside && !is_below(path, folder))
         throw Error("lies outside the folder of the scene, where only --allow-outside reads it");
     const fs::file_status status = fs::status(path, error);
@@ -79,6 +146,8 @@ std::vector<unsigned char> SideFiles::read(const std::string& name) {
     if (bytes_read_ > kFree + kTimes * bytes_there_)
         throw Error("is named too often: files are read to 256 MB and 64 times their size in all");
     const std::vector<std::byte> bytes = read_file(path);
+    if (is_lfs_pointer(bytes))
+        throw Error(kLfsRemedy);
     const auto* begin = reinterpret_cast<const unsigned char*>(bytes.data());
     return {begin, begin + bytes.size()};
 }

@@ -14,7 +14,8 @@ namespace prt {
 
 /// The files that the URIs of a scene name, as tinygltf asks for them. A scene may come from a stranger: it
 /// reaches regular files in its folder and below, after ".." and links are followed, and no others unless it
-/// is allowed to.
+/// is allowed to. A name that no file has stands for the one file that differs by backslashes, case, escapes
+/// or a query.
 class SideFiles {
 public:
     /// Those of a scene of `scene_bytes` at `scene`.
@@ -24,17 +25,21 @@ public:
     tinygltf::FsCallbacks callbacks();
     /// What was wrong with the first file that could not be read.
     const std::string& first_trouble() const { return first_trouble_; }
+    /// Files that were read in the place of those named, a line each.
+    const std::set<std::string>& notices() const { return notices_; }
     /// Throws `Error` where one of them is an output.
     void check_outputs() const;
 
 private:
-    std::filesystem::path place_of(const std::string& name) const;
+    std::filesystem::path place_of(const std::string& name);
     std::vector<unsigned char> read(const std::string& name);
     std::filesystem::path folder_;
     const GltfOptions& options_;
     std::set<std::filesystem::path> seen_;
     std::uint64_t bytes_there_, bytes_read_ = 0; ///< of the scene and of all files once; as often as named
     std::string first_trouble_;
+    std::set<std::string> notices_;
+    int searches_ = 0; ///< for files that are not there
 };
 
 } // namespace prt

@@ -11,6 +11,7 @@
 #include <filesystem>
 #include <optional>
 #include <span>
+#include <string>
 #include <vector>
 
 namespace prt {
@@ -20,6 +21,8 @@ struct EnvironmentOptions {
     std::optional<EnvironmentLayout> layout;
     BadPixels bad_pixels = BadPixels::error;
     LatLongCenter center = LatLongCenter::z; ///< files do not say it
+    /// Layer or part of an OpenEXR file. Empty: the channels without a prefix, or the only layer.
+    std::string layer = {};
 };
 
 struct EnvironmentFile {
@@ -27,13 +30,16 @@ struct EnvironmentFile {
     std::size_t repaired_pixels = 0;
     /// Eight bits per channel, read as sRGB: nothing is brighter than 1, and suns and lamps are clipped.
     bool low_dynamic_range = false;
+    std::vector<std::string> notices; ///< what a user should know about how it was read, a line each
 };
 
 /// Reads an environment map from OpenEXR (any channel type and compression, scanline or tiled, RGB, luminance
-/// or luminance-chroma; other primaries are converted), Radiance HDR, or PNG and JPEG, which are read as
-/// sRGB. A path that holds "{face}" stands for six files, with px, nx, py, ny, pz and nz in its place, laid
-/// out as `EnvironmentLayout::cube_faces`. Throws `Error` that names the file for anything that is damaged or
-/// no environment map. Of what a header claims 192 MB are believed, and 64 bytes for each byte of the file.
+/// or luminance-chroma; other primaries are converted; a crop of a 2:1 display window is placed in it),
+/// Radiance HDR (RGBE or XYZE, any orientation, EXPOSURE and COLORCORR divided out), or PNG and JPEG, which
+/// are read as sRGB. A path that holds "{face}" stands for six files, with px, nx, py, ny, pz and nz (or posx
+/// .., +x .., right, left, top, bottom, front, back) in its place, laid out as
+/// `EnvironmentLayout::cube_faces`. Throws `Error` that names the file for anything that is damaged or no
+/// environment map. Of what a header claims 192 MB are believed, and 64 bytes for each byte of the file.
 EnvironmentFile load_environment(const std::filesystem::path& path, const EnvironmentOptions& options = {});
 
 /// 8-bit RGBA pixels as stored, without any conversion of color.

@@ -1,0 +1,22 @@
+#pragma once
+
+// Pointers that Git LFS leaves in place of files it has not fetched.
+
+#include <cstddef>
+#include <cstring>
+#include <span>
+#include <string_view>
+
+namespace prt {
+
+/// Whether a file is such a pointer ("Git LFS Specification", the pointer's first line).
+inline bool is_lfs_pointer(std::span<const std::byte> file) {
+    constexpr std::string_view kFirstLine = "version https://git-lfs.github.com/spec/";
+    return file.size() >= kFirstLine.size() &&
+           std::memcmp(file.data(), kFirstLine.data(), kFirstLine.size()) == 0;
+}
+
+inline constexpr const char* kLfsRemedy =
+    "is a pointer of Git LFS, not the file itself: fetch it by git lfs pull";
+
+} // namespace prt
