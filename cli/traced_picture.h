@@ -12,7 +12,7 @@
 
 namespace prt::cli {
 
-/// What lights a path-traced picture: the sky and its suns as the file has them, not as SH.
+/// Lights of a path-traced picture: the sky and its suns as the file has them, not as SH.
 struct TracedLights {
     Path environment; ///< empty: the sky is dark
     LightOptions reading;

@@ -49,7 +49,7 @@ struct Lights {
     double lamp_scale = 1;
 };
 
-/// What `--show error` shows.
+/// The reference of `--show error`.
 enum class ErrorOf { none, baked, traced };
 
 struct RenderArguments {
@@ -276,7 +276,7 @@ void light_in_shader(const RenderArguments& a, const SceneFile& model, const Lig
     }
 }
 
-/// What a picture is made from.
+/// Input of a picture.
 struct Drawing {
     const Picture& picture;
     const TraceScene& scene;
@@ -443,7 +443,7 @@ void note_media(const RenderArguments& a, const std::vector<bool>& solid) {
                                    std::ranges::count(solid, true))});
 }
 
-/// What the model shows: numbers that a picture refers to.
+/// Colors of the model: numbers that a picture refers to.
 struct Shown {
     std::vector<glm::vec3> colors, emission;
     LitMaps maps;

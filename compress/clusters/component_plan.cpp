@@ -25,7 +25,7 @@ double tail(std::span<const double> variances, std::size_t components) {
     return sum;
 }
 
-/// What the next bit takes away of a variance that has `bits` of them.
+/// Reduction of a variance of `bits` bits by the next bit.
 double gain_of_bit(double variance, int bits) {
     return bits < kMostBits ? variance * (left_after(bits) - left_after(bits + 1)) : 0;
 }
@@ -60,7 +60,7 @@ std::vector<std::uint8_t> bits_of(std::span<const double> variances, std::size_t
     return bits;
 }
 
-/// What rounding weights of these bits adds.
+/// Error that rounding weights to these bits adds.
 double rounding_of(std::span<const double> variances, std::span<const std::uint8_t> bits,
                    const Spending& spending) {
     double sum = 0;

@@ -79,8 +79,8 @@ float percentile(std::span<const float> jumps, std::span<const Edge> edges, std:
     return 0; // borders have no area
 }
 
-/// What sees errors: groups of as many rows each, that errors and the mean are multiplied with. The jump of a
-/// group is the length of what its rows give of an error over that of the mean.
+/// Lights of an error: groups of the same number of rows, which errors and the mean are multiplied with. The
+/// jump of a group is the length of what its rows give of an error over that of the mean.
 struct Views {
     Eigen::MatrixXd rows;
     Eigen::Index rows_of_group = 1;

@@ -12,7 +12,7 @@ struct Cell {
     bool turned = false; ///< by half a turn
 };
 
-/// Where the faces +X -X +Y -Y +Z -Z are in a grid of `width` by `height` cells.
+/// Positions of the faces +X -X +Y -Y +Z -Z in a grid of `width` by `height` cells.
 struct Unfolding {
     int width, height;
     std::array<Cell, 6> faces;

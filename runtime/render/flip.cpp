@@ -212,7 +212,7 @@ std::vector<float> features(const Plane& lightness, const FeatureKernels& kernel
     return strength;
 }
 
-/// What is compared of one picture.
+/// The parts of one picture that are compared.
 struct SeenPicture {
     std::vector<glm::vec3> lab; ///< after the contrast sensitivity
     std::vector<float> edges, points;
@@ -255,7 +255,7 @@ float tone_curve(float x) {
     return std::clamp(v * (2.51f * v + 0.03f) / (v * (2.43f * v + 0.59f) + 0.14f), 0.0f, 1.0f);
 }
 
-/// Where that curve is `kShown`.
+/// Input at which that curve is `kShown`.
 double input_of_shown() {
     const double a = 2.51 - kShown * 2.43, b = 0.03 - kShown * 0.59, c = -kShown * 0.14;
     return (-b + std::sqrt(b * b - 4 * a * c)) / (2 * a) / 0.6;

@@ -77,7 +77,7 @@ struct Fields {
     explicit Fields(std::size_t receivers) : clusters(receivers), weights(receivers) {}
 };
 
-/// What is known of a cluster before it is decoded.
+/// Prior knowledge of a cluster before it is decoded.
 struct ClusterPrediction {
     std::array<std::uint32_t, 3> receivers{}; ///< that predict
     std::uint32_t count = 0;                  ///< of them
@@ -135,7 +135,7 @@ struct ExpectedWeight {
     std::uint32_t value, context;
 };
 
-/// Of `kCount` receivers.
+/// Transfer of `kCount` receivers.
 template <int kCount>
 [[gnu::always_inline]] inline ExpectedWeight expect_weight(const WeightPrediction& p, std::size_t j,
                                                            const WeightField& field) {

@@ -182,7 +182,7 @@ TEST(Search, KeepsTheErrorAtEveryTurnOfSkiesThatWereGiven) {
     EXPECT_GT(worst, 0.01);
 }
 
-/// What is promised under the members of a family holds for days between them, and with texture of the
+/// A promise under the members of a family holds for days between them, and with texture of the
 /// family's power (clouds, trees) up to a twentieth.
 TEST(Search, KeepsTheErrorUnderSkiesDrawnFromTheFamily) {
     const Tried scene(500, 1, 2);

@@ -178,7 +178,8 @@ TEST(GltfCorpus, GltfpackQuantizedPositionsOfSixteenBits) {
     EXPECT_NEAR(scene.world(positions[2]).y, 1, 1e-6);
 }
 
-/// What a scene in a folder with "textures/Brick One.png" gives whose base color or normal map is `uri`.
+/// Result of reading a scene whose base color or normal map is `uri`, in a folder with "textures/Brick
+/// One.png".
 struct UriResult {
     std::string refusal;
     std::vector<std::string> notices;

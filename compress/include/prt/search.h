@@ -28,7 +28,7 @@ struct Budget {
     bool aims() const { return max_error || bytes_per_vertex || operations; }
 };
 
-/// What a budget limits.
+/// A figure that a budget limits.
 enum class Promise { error, skies, lamps, jump, bytes, operations };
 
 /// A figure of a result and its limit.
