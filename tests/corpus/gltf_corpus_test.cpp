@@ -197,7 +197,7 @@ UriResult read_with_uri(const std::string& uri, const char* slot = "baseColorTex
     Json material = {{slot, {{"index", 0}}}};
     if (std::string(slot) == "baseColorTexture")
         material = {{"pbrMetallicRoughness", material}};
-    file.json["materials"] = {material};
+    file.json["materials"] = Json::array({material});
     file.write(folder / "scene.glb");
     try {
         return {"", extract_scene(load_gltf(folder / "scene.glb")).notices};
