@@ -362,7 +362,7 @@ std::string add_traced(const RenderArguments& a, const Rendered& rendered, Repor
 }
 
 std::string renderer_name(const RenderArguments& a, const GlContext* context) {
-    const std::string drawn_by = context ? context->renderer() : "CPU ray casting";
+    std::string drawn_by = context ? context->renderer() : "CPU ray casting";
     if (!a.traced())
         return drawn_by;
     return a.error() == ErrorOf::none ? "path tracing" : drawn_by + " against path tracing";

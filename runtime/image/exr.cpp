@@ -131,7 +131,7 @@ void convert_primaries(Image& image, const Imf::Chromaticities& from) {
 /// Puts pixels that are a crop of a 2:1 picture, or reach over its border, where they are in it; the rest is
 /// black.
 void place_in_display(ExrFile& file, const Imf::Header& header, std::size_t file_bytes) {
-    const Imath::Box2i data = header.dataWindow(), display = header.displayWindow();
+    const Imath::Box2i &data = header.dataWindow(), &display = header.displayWindow();
     const std::int64_t width = std::int64_t{display.max.x} - display.min.x + 1,
                        height = std::int64_t{display.max.y} - display.min.y + 1;
     Image& image = file.image;
