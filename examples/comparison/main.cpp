@@ -22,12 +22,15 @@ nlohmann::json json_of(const std::vector<comparison::SceneResult>& scenes,
     for (const comparison::SceneResult& scene : scenes) {
         nlohmann::json rows = nlohmann::json::array();
         for (const comparison::Row& row : scene.rows) {
-            nlohmann::json errors;
-            for (std::size_t i = 0; i < skies.size(); ++i)
-                errors[skies[i].name] = row.errors[i];
+            nlohmann::json errors, flips;
+            for (std::size_t i = 0; i < skies.size(); ++i) {
+                errors[skies[i].name] = row.errors[i].relative_l2;
+                flips[skies[i].name] = row.errors[i].flip_mean;
+            }
             rows.push_back({{"method", row.method},
                             {"bytes_per_vertex", row.bytes_per_vertex},
                             {"relative_l2", errors},
+                            {"flip_mean", flips},
                             {"frame_milliseconds", json_of(row.frame_milliseconds)},
                             {"relight_milliseconds", json_of(row.relight_milliseconds)}});
         }
