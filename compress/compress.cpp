@@ -9,9 +9,7 @@
 #include "coding/seams.h"
 #include "compress_from.h"
 #include "compress_options.h"
-#include "metric/seen_lamps.h"
-#include "metric/significance.h"
-#include "metric/sky_contrast.h"
+#include "metric/seen_light.h"
 #include "prt/support/stopwatch.h"
 
 namespace prt {
@@ -21,39 +19,11 @@ namespace {
 struct Task {
     const TransferView& transfer;
     const CompressOptions& options;
-    std::vector<float> significance;
-    LightMetric metric;
-    std::optional<SeenLamps> lamps; ///< where there are lamps, and one output
-    std::vector<float> sky_costs;   ///< [receivers] of errors under skies, where there are lamps
+    const SeenLight& light;
+    const std::vector<float>& significance; ///< [receivers] `SeenLight::weights`
     GuideCoordinates guides;
     const Course& course;
 };
-
-std::optional<SeenLamps> lamps_of(const TransferView& transfer, std::span<const float> significance,
-                                  const LightMetric& metric, int threads) {
-    if (transfer.layout().lamps() == 0 || transfer.layout().outputs > 1)
-        return std::nullopt;
-    return SeenLamps(transfer, significance, metric, threads);
-}
-
-/// Contrast under skies; none of probes and where there are lamps alone.
-std::optional<SkyContrast> sky_contrast_of(const TransferView& transfer, std::span<const float> significance,
-                                           const LightMetric& metric, int threads) {
-    if (transfer.layout().distant_parts().empty() || transfer.layout().outputs > 1)
-        return std::nullopt;
-    return SkyContrast(transfer, significance, metric, threads);
-}
-
-/// Significance times costs, of sum 1.
-std::vector<float> weighted(std::span<const float> significance, std::span<const float> costs) {
-    double sum = 0;
-    for (std::size_t p = 0; p < costs.size(); ++p)
-        sum += static_cast<double>(significance[p]) * static_cast<double>(costs[p]);
-    std::vector<float> result(significance.begin(), significance.end());
-    for (std::size_t p = 0; p < costs.size() && sum > 0; ++p)
-        result[p] = static_cast<float>(static_cast<double>(significance[p] * costs[p]) / sum);
-    return result;
-}
 
 /// Points in a frame, and the clusters found there.
 struct FoundClusters {
@@ -81,8 +51,9 @@ FoundClusters find_clusters(const Task& task, const Progress& progress) {
                           : task.transfer.layout().outputs > 1     ? tuning::kDroppedOfOutputs
                           : options.coding.bits > tuning::kFewBits ? tuning::kDroppedOfManyBits
                                                                    : tuning::kDroppedOfFewBits;
-    const TransferView transfer = task.lamps ? task.lamps->logarithmic() : task.transfer;
-    const LightMetric& metric = task.lamps ? task.lamps->metric() : task.metric;
+    const std::optional<SeenLamps>& lamps = task.light.lamps();
+    const TransferView transfer = lamps ? lamps->logarithmic() : task.transfer;
+    const LightMetric& metric = lamps ? lamps->metric() : task.light.metric();
     for (double from = 0;;) { // a second attempt is rare
         const double to = 1 - 0.03 * (1 - from);
         FoundClusters found;
@@ -132,7 +103,7 @@ void round_frame(const Task& task, Coding& coding) {
     const double error = total_error(task.significance, coding.coded.codes.errors) *
                          (task.transfer.layout().outputs > 1 ? tuning::kSharesOfOutputs : 1);
     truncate(coding.frame, axes_needed(coding.frame, tuning::kAxesShare * error));
-    coding.coded_frame = code_frame(coding.frame, task.metric, tuning::kAxisRoundingShare * error);
+    coding.coded_frame = code_frame(coding.frame, task.light.metric(), tuning::kAxisRoundingShare * error);
     coding.coded.clusters = truncated(coding.coded.clusters, coding.frame.dimension);
     coding.points = {}; // the points of the one frame make room for those of the other
     coding.points = PointBlocks(task.transfer, coding.frame, coding.guides, task.options.threads,
@@ -144,18 +115,19 @@ void round_frame(const Task& task, Coding& coding) {
 /// their codes, and errors that count as seen. A cluster's neighbours are those that it had.
 void leave_logarithms(const Task& task, Coding& coding, ClusterLists& candidates) {
     const CompressOptions& options = task.options;
+    const SeenLamps& lamps = *task.light.lamps();
     candidates = neighbours_of_codes(coding.coded.clusters, tuning::kNeighboursOfCodes, options.threads);
     const double error =
         total_error(task.significance, coding.coded.codes.errors) / (coding.frame.scale * coding.frame.scale);
     const bool coded = bases_are_coded(options);
-    coding.frame = task.lamps->frame(coded ? tuning::kAxesShare * error : 0);
+    coding.frame = lamps.frame(coded ? tuning::kAxesShare * error : 0);
     if (coded)
         coding.coded_frame =
-            code_frame(coding.frame, task.lamps->metric(), tuning::kAxisRoundingShare * error);
+            code_frame(coding.frame, lamps.metric(), tuning::kAxisRoundingShare * error);
     coding.coded.clusters = without_rows(coding.coded.clusters, coding.frame.dimension);
     coding.points = {};
     coding.points = PointBlocks(task.transfer, coding.frame, coding.guides, options.threads);
-    coding.points.scales = task.lamps->scales(coding.frame, task.sky_costs);
+    coding.points.scales = lamps.scales(coding.frame, task.light.sky_costs());
     for (int round = 0; round < tuning::kRoundsFromNothing; ++round)
         refit(coding.points, task.significance, coding.coded.codes, coding.coded.clusters, options.threads);
     encode_in_place(coding.points, coding.coded.clusters, coding.coded.codes, options.threads);
@@ -238,7 +210,7 @@ ClusteredTransfer code(const Task& task, const ReceiverSurface& surface, FoundCl
                            .threads = options.threads};
     Coding coding = first_codes(task, how, std::move(found));
     CodedClusters& coded = coding.coded;
-    if (task.lamps) {
+    if (task.light.lamps()) {
         leave_logarithms(task, coding, candidates);
         how.candidates = &candidates;
         settle(coding.points, task.significance, how,
@@ -246,7 +218,7 @@ ClusteredTransfer code(const Task& task, const ReceiverSurface& surface, FoundCl
     } else if (bases_are_coded(options)) {
         round_frame(task, coding);
     }
-    if (options.coding.format == WeightFormat::packed || task.lamps)
+    if (options.coding.format == WeightFormat::packed || task.light.lamps())
         alternate(coding.points, task.significance, how, progress.part(0, tuning::kAlternatedAt), coded);
     progress.update(tuning::kAlternatedAt);
     if (options.seam_price > 0 && !surface.edges.empty() && !draft)
@@ -283,13 +255,12 @@ CompressResult compress_from(const Course& course, const TransferView& transfer,
     check_input(transfer, surface, options);
     const std::span<const float> areas = surface.areas;
     const Stopwatch stopwatch;
-    const std::vector<float> significance = significance_of(areas);
-    const LightMetric metric = metric_of(options, transfer, areas);
-    const std::optional<SkyContrast> sky = sky_contrast_of(transfer, significance, metric, options.threads);
-    const std::vector<float> costs = sky ? sky->costs() : std::vector<float>(significance.size(), 1.0f);
-    std::optional<SeenLamps> lamps = lamps_of(transfer, significance, metric, options.threads);
-    const Task task{transfer,         options, lamps ? significance : weighted(significance, costs), metric,
-                    std::move(lamps), costs,   guide_coordinates(surface, options.guides),           course};
+    std::optional<SeenLight> own;
+    const SeenLight& light = course.light ? *course.light
+                                          : own.emplace(transfer, areas, metric_of(options, transfer, areas),
+                                                        options.threads);
+    const Task task{transfer, options, light, light.weights(), guide_coordinates(surface, options.guides),
+                    course};
     CompressResult result;
     CompressStatistics& statistics = result.statistics;
     FoundClusters found = find_clusters(task, progress.part(0, tuning::kClustersFoundAt));
@@ -303,11 +274,11 @@ CompressResult compress_from(const Course& course, const TransferView& transfer,
     statistics.bytes_per_receiver = bytes_per_receiver(result.transfer);
     statistics.bits_per_receiver = bits_per_receiver(result.transfer);
     statistics.basis_bytes = basis_bytes(result.transfer.bases);
-    statistics.lit_rms = expected_lit_rms(transfer, result.transfer, areas, task.metric, options.threads);
-    if (task.lamps)
-        statistics.lamp_contrast = task.lamps->contrast(result.transfer);
-    if (sky)
-        statistics.sky_contrast = sky->contrast(result.transfer);
+    statistics.lit_rms = expected_lit_rms(transfer, result.transfer, areas, light.metric(), options.threads);
+    if (light.lamps())
+        statistics.lamp_contrast = light.lamps()->contrast(result.transfer);
+    if (light.sky())
+        statistics.sky_contrast = light.sky()->contrast(result.transfer);
     statistics.seconds = stopwatch.seconds();
     progress.update(1);
     return result;

@@ -51,9 +51,6 @@ inline constexpr double kNaturalShare = 0.01;
 /// for the others. By hand; HardCase.AHugeOutlierIsKeptAndSpoilsNothing.
 inline constexpr float kOutlierLength = 100;
 
-/// Eyes see errors against this share of what they adapt to where less light is. DESIGN of the error measure,
-/// docs/math.md, section 6.
-inline constexpr double kAdaptation = 0.1;
 /// What the squared contrast error of lamps counts, their mean, against the squared relative error under the
 /// sky. [preset] on a room with seven lamps.
 inline constexpr double kLampsShare = 1;

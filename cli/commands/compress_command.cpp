@@ -522,8 +522,8 @@ Json result_json(const CompressStatistics& s, const CompressOptions& options, co
             {"guides", guides_in_words(bases)},
             {"shader_operations", s.operations()},
             {"jump_across_clusters",
-             jump_across_clusters(transfer, written.transfer, written.transfer.receivers.clusters,
-                                  {areas, edges}, *options.metric, options.threads)},
+             ClusterJumps(transfer, {areas, edges}, *options.metric, options.threads)
+                 .percentile_99(written.transfer, written.transfer.receivers.clusters)},
             {"relative_l2", relative_l2(transfer, written.transfer, areas)},
             {"lit_rms_by_iteration", s.lit_rms_by_iteration},
             {"bytes_bound_per_vertex", s.bytes_per_receiver},
@@ -576,8 +576,8 @@ std::vector<std::string> sentences(const CompressArguments& a, bool fitted) {
                                                                                  : "clusters are"));
     list.emplace_back(
         "expected error of the lit surface (lit_rms) {lit_rms:.3f%}, of the transfer (relative "
-        "L2) {relative_l2:.3f%}; across borders of clusters it jumps by at most "
-        "{jump_across_clusters:.2f%} of the mean radiance in 99 % of places, on average over skies");
+        "L2) {relative_l2:.3f%}; between clusters it jumps by at most "
+        "{jump_across_clusters:.2f%} of what is seen in 99 % of places, on average over skies");
     list.emplace_back(
         "{bytes_bound_per_vertex} bytes per vertex to bind ({bits_used_per_vertex} bits in use), "
         "{bytes_bound_per_vertex_with_bases:.2f} with the bases; uncompressed "

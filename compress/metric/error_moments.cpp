@@ -4,6 +4,7 @@
 
 #include "metric/color_blocks.h"
 #include "metric/transfer_columns.h"
+#include "prt/error_measures.h"
 #include "prt/support/error.h"
 #include "prt/support/parallel.h"
 #include "tuning.h"
@@ -140,7 +141,7 @@ double least_square(const ErrorMoments& moments, const Lighting& lighting) {
     for (const glm::vec3& column : light_columns(moments.layout, lighting))
         energy += static_cast<double>(glm::dot(column, column));
     const double possible = energy * Eigen::Map<const Matrix>(moments.references.data(), n, n).trace();
-    return tuning::kAdaptation * tuning::kAdaptation *
+    return kAdaptationShare * kAdaptationShare *
            std::max(mean_square_over_rotations(moments, lighting), kRoundingOfFloats * possible);
 }
 

@@ -58,6 +58,19 @@ Moments moments_about(const Vector& shift, const TransferView& transfer, std::sp
     return total;
 }
 
+/// The mean of all vectors, by significance of sum 1, each block in double and summed in order.
+Vector mean_of(const TransferView& transfer, std::span<const float> significance) {
+    Vector sum = Vector::Zero(static_cast<Eigen::Index>(transfer.dimension()));
+    constexpr std::size_t kRead = 256;
+    for (std::size_t begin = 0; begin < significance.size(); begin += kRead) {
+        const std::size_t end = std::min(begin + kRead, significance.size());
+        const Eigen::Map<const Eigen::VectorXf> shares(&significance[begin],
+                                                       static_cast<Eigen::Index>(end - begin));
+        sum += columns_of(transfer, begin, end).cast<double>() * shares.cast<double>();
+    }
+    return sum;
+}
+
 /// The significance, scaled to the sum 1 again, without outliers, whose vector is far longer than the median.
 std::vector<float> without_outliers(const TransferView& transfer, std::span<const float> significance) {
     std::vector<float> lengths(significance.size());
@@ -123,11 +136,10 @@ Matrix largest_axes(const Matrix& eigenvectors, std::size_t count) {
 
 Frame fit_frame(const TransferView& transfer, std::span<const float> significance, const LightMetric& metric,
                 double most_dropped, int threads) {
-    const auto n = static_cast<Eigen::Index>(transfer.dimension());
     Matrix root, inverse;
     square_roots(metric, root, inverse);
     const std::vector<float> usual = without_outliers(transfer, significance);
-    const Vector origin = moments_about(Vector::Zero(n), transfer, usual, threads).sum;
+    const Vector origin = mean_of(transfer, usual);
     const Moments moments = moments_about(origin, transfer, significance, threads);
     const Matrix covariance = root * (moments.outer - moments.sum * moments.sum.transpose()) * root;
     const Eigen::SelfAdjointEigenSolver<Matrix> solver(covariance);
@@ -136,7 +148,7 @@ Frame fit_frame(const TransferView& transfer, std::span<const float> significanc
 
     Frame frame{transfer.layout(), transfer.dimension(), {}, {}, {}, {}, 0, scale};
     frame.origin.assign(origin.begin(), origin.end());
-    for (Eigen::Index i = n; i-- > 0;) // eigenvalues ascend
+    for (Eigen::Index i = covariance.cols(); i-- > 0;) // eigenvalues ascend
         frame.variances.push_back(std::max(0.0, solver.eigenvalues()[i]) * scale * scale);
     // Beside an outlier's the variances of all others are too inexact to tell which axes matter.
     bool outliers = false;

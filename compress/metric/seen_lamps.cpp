@@ -4,6 +4,7 @@
 
 #include "metric/transfer_columns.h"
 #include "prt/color.h"
+#include "prt/error_measures.h"
 #include "tuning.h"
 
 #include <Eigen/Dense>
@@ -75,26 +76,16 @@ SeenLamps::SeenLamps(const TransferView& transfer, std::span<const float> signif
                                                              static_cast<double>(std::max(shining(), 1));
 }
 
-/// Where a lamp gives less than a millionth of its most, it counts as that: darkness has no logarithm.
 void SeenLamps::measure_lamps() {
-    std::vector<double> most(lamps_.size(), 0), sums(lamps_.size(), 0), areas(lamps_.size(), 0);
+    std::vector<std::vector<double>> luminances(lamps_.size(), std::vector<double>(transfer_.receivers()));
     for_vectors(transfer_, [&](std::size_t p, const float* vector) {
-        for (std::size_t l = 0; l < lamps_.size(); ++l)
-            if (significance_[p] > 0)
-                most[l] = std::max(most[l], luminance(lamps_[l], vector));
-    });
-    for_vectors(transfer_, [&](std::size_t p, const float* vector) {
-        const auto share = static_cast<double>(significance_[p]);
-        for (std::size_t l = 0; l < lamps_.size(); ++l)
-            if (const double y = luminance(lamps_[l], vector); y > 0) {
-                sums[l] += share * std::log(std::max(y, 1e-6 * most[l]));
-                areas[l] += share;
-                lamps_[l].square += share * y * y;
-            }
+        for (std::size_t l = 0; l < lamps_.size(); ++l) {
+            const double y = luminances[l][p] = luminance(lamps_[l], vector);
+            lamps_[l].square += static_cast<double>(significance_[p]) * y * y;
+        }
     });
     for (std::size_t l = 0; l < lamps_.size(); ++l)
-        if (areas[l] > 0)
-            lamps_[l].adaptation = tuning::kAdaptation * std::exp(sums[l] / areas[l]);
+        lamps_[l].adaptation = adaptation_luminance(luminances[l], significance_);
 }
 
 int SeenLamps::shining() const {

@@ -3,6 +3,7 @@
 #include "metric/sky_contrast.h"
 
 #include "metric/transfer_columns.h"
+#include "prt/error_measures.h"
 #include "prt/support/parallel.h"
 #include "tuning.h"
 
@@ -49,22 +50,11 @@ SkyContrast::SkyContrast(const TransferView& transfer, std::span<const float> si
                          const LightMetric& metric, int threads)
     : transfer_(transfer), significance_(significance), metric_(metric), threads_(threads),
       luminance_(expected_squares(transfer, nullptr, metric, threads)) {
-    double most = 0, logarithms = 0, area = 0;
     for (std::size_t p = 0; p < luminance_.size(); ++p) {
         mean_square_ += static_cast<double>(significance[p]) * luminance_[p];
         luminance_[p] = std::sqrt(luminance_[p]);
-        if (significance[p] > 0)
-            most = std::max(most, luminance_[p]);
     }
-    for (std::size_t p = 0; p < luminance_.size(); ++p)
-        if (luminance_[p] >
-            0) { // less than a millionth of the most counts as that: darkness has no logarithm
-            logarithms +=
-                static_cast<double>(significance[p]) * std::log(std::max(luminance_[p], 1e-6 * most));
-            area += static_cast<double>(significance[p]);
-        }
-    if (area > 0)
-        adaptation_ = tuning::kAdaptation * std::exp(logarithms / area);
+    adaptation_ = adaptation_luminance(luminance_, significance);
 }
 
 std::vector<float> SkyContrast::costs() const {

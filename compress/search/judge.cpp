@@ -1,7 +1,6 @@
 #include "search/judge.h"
 
 #include "prt/error_moments.h"
-#include "prt/jumps.h"
 
 #include <algorithm>
 
@@ -9,9 +8,15 @@ namespace prt {
 
 Judge::Judge(const TransferView& transfer, const ReceiverSurface& surface, const LightMetric& metric,
              const Budget& budget, int threads)
-    : transfer_(transfer), surface_(surface), metric_(metric), budget_(budget), threads_(threads) {
+    : transfer_(transfer), surface_(surface), budget_(budget), threads_(threads) {
     if (!budget.skies.empty())
         squares_ = second_moments(transfer, surface.areas, threads);
+    if (!budget.max_jump)
+        return;
+    if (budget.skies_of_jumps.empty())
+        jumps_.emplace(transfer, surface, metric, threads);
+    else
+        jumps_.emplace(transfer, surface, budget.skies_of_jumps, threads);
 }
 
 Verdict Judge::operator()(const CompressResult& result) const {
@@ -24,12 +29,8 @@ Verdict Judge::operator()(const CompressResult& result) const {
         for (const Lighting& sky : budget_.skies)
             verdict.worst_lit_rms = std::max(verdict.worst_lit_rms, lit_rms_over_turns(moments, sky).worst);
     }
-    const std::vector<std::uint16_t>& clusters = result.transfer.receivers.clusters;
-    if (budget_.max_jump)
-        verdict.jump = budget_.skies_of_jumps.empty()
-                           ? jump_across_clusters(transfer_, decoded, clusters, surface_, metric_, threads_)
-                           : worst_jump_across_clusters(transfer_, decoded, clusters, surface_,
-                                                        budget_.skies_of_jumps, threads_);
+    if (jumps_)
+        verdict.jump = jumps_->percentile_99(decoded, result.transfer.receivers.clusters);
     return verdict;
 }
 

@@ -1,6 +1,9 @@
 #pragma once
 
+#include "prt/jumps.h"
 #include "prt/search.h"
+
+#include <optional>
 
 namespace prt {
 
@@ -22,10 +25,10 @@ public:
 private:
     const TransferView& transfer_;
     const ReceiverSurface& surface_;
-    const LightMetric& metric_;
     const Budget& budget_;
     int threads_;
     std::vector<double> squares_; ///< `ErrorMoments::references`, where skies are promised
+    std::optional<ClusterJumps> jumps_; ///< where jumps are promised
 };
 
 } // namespace prt

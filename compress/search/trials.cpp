@@ -21,6 +21,7 @@ std::optional<double> SearchTask::components_beside(GuideChoice guides) const {
 
 Trials::Trials(const SearchTask& task)
     : task_(task), budget_(task.options.budget),
+      light_(task.transfer, task.surface.areas, *task.options.compress.metric, task.options.compress.threads),
       judge_(task.transfer, task.surface, *task.options.compress.metric, budget_,
              task.options.compress.threads),
       bytes_per_cluster_(tuning::kBytesPerClusterAndNumber * task.dimension()) {}
@@ -99,7 +100,7 @@ const SearchTrial& Trials::attempt(int clusters, const Line& line) {
     const double done = 1 - std::pow(0.9, static_cast<double>(tried_.size()));
     const bool draft = !line.finished && task_.has_drafts();
     CompressResult result =
-        compress_from({start_for(clusters), draft}, task_.transfer, task_.surface, options_on(line, clusters),
+        compress_from({start_for(clusters), draft, &light_}, task_.transfer, task_.surface, options_on(line, clusters),
                       task_.progress.part(done, done + 0.1 * (1 - done)));
     const CompressStatistics& s = result.statistics;
     const Verdict verdict = judge_(result);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "metric/seen_light.h"
 #include "prt/search.h"
 #include "search/judge.h"
 #include "search/line.h"
@@ -69,6 +70,7 @@ private:
 
     const SearchTask& task_;
     const Budget& budget_;
+    SeenLight light_;
     Judge judge_;
     double bytes_per_cluster_;
     std::map<std::pair<int, Line>, SearchTrial> tried_;

@@ -3,6 +3,7 @@
 #include "prt/picture_error.h"
 
 #include "prt/color.h"
+#include "prt/error_measures.h"
 
 #include <glm/geometric.hpp>
 
@@ -79,20 +80,19 @@ std::vector<Block> blocks_of(const Image& picture, const std::array<Image, 2>& h
     return blocks;
 }
 
-/// A tenth of the logarithmic mean of the blocks that have light, each by its pixels.
-double adaptation_of(const std::vector<Block>& blocks) {
-    double sum = 0;
-    std::size_t pixels = 0;
-    for (const Block& block : blocks)
-        if (block.reference() > 0) {
-            sum += static_cast<double>(block.pixels) * std::log(block.reference());
-            pixels += block.pixels;
-        }
-    return pixels > 0 ? 0.1 * std::exp(sum / static_cast<double>(pixels)) : 0;
+/// Adaptation to the blocks, each by its pixels.
+double adaptation_to(const std::vector<Block>& blocks) {
+    std::vector<double> luminances;
+    std::vector<float> pixels;
+    for (const Block& block : blocks) {
+        luminances.push_back(block.reference());
+        pixels.push_back(static_cast<float>(block.pixels));
+    }
+    return adaptation_luminance(luminances, pixels);
 }
 
 void add_contrast(std::vector<Block> blocks, PictureError& error) {
-    const double adaptation = adaptation_of(blocks);
+    const double adaptation = adaptation_to(blocks);
     if (!(adaptation > 0))
         return;
     const auto contrast = [&](const Block& block) {

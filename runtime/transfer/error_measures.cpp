@@ -145,33 +145,6 @@ double darker_half(std::span<const glm::vec3> reference, std::span<const glm::dv
     return std::sqrt(ratio(error, norm));
 }
 
-/// Collects jumps, then says what they are like.
-class JumpCollector {
-public:
-    void add(const Edge& edge, double jump) {
-        if (jumps_.empty() || jump > jumps_of_.max) {
-            jumps_of_.max = jump;
-            jumps_of_.worst = edge;
-        }
-        squares_ += jump * jump;
-        jumps_.push_back(jump);
-    }
-    EdgeJumps over(double mean) {
-        jumps_of_.edges = jumps_.size();
-        if (jumps_.empty())
-            return jumps_of_;
-        jumps_of_.rms = ratio(std::sqrt(squares_ / static_cast<double>(jumps_.size())), mean);
-        jumps_of_.percentile_99 = ratio(percentile(jumps_, 0.99), mean);
-        jumps_of_.max = ratio(jumps_of_.max, mean);
-        return jumps_of_;
-    }
-
-private:
-    std::vector<double> jumps_;
-    double squares_ = 0;
-    EdgeJumps jumps_of_;
-};
-
 /// The value below which a share of the area lies.
 double percentile_by_area(std::span<const double> values, std::span<const float> areas, double area,
                           double share) {
@@ -185,19 +158,21 @@ double percentile_by_area(std::span<const double> values, std::span<const float>
     return values.empty() ? 0 : values[order.back()];
 }
 
-/// A tenth of the logarithmic mean of the luminance over the area that has light. Less than a millionth of
-/// the most counts as that: darkness has no logarithm.
-double adaptation_of(std::span<const glm::vec3> radiance, std::span<const float> areas) {
-    double most = 0, sum = 0, area = 0;
-    for (std::size_t p = 0; p < radiance.size(); ++p)
-        if (areas[p] > 0)
-            most = std::max(most, luminance(glm::dvec3(radiance[p])));
-    for (std::size_t p = 0; p < radiance.size(); ++p)
-        if (const double y = luminance(glm::dvec3(radiance[p])); y > 0) {
-            sum += static_cast<double>(areas[p]) * std::log(std::max(y, 1e-6 * most));
-            area += static_cast<double>(areas[p]);
-        }
-    return area > 0 ? 0.1 * std::exp(sum / area) : 0;
+/// Jumps of `values` along `edges`.
+template <class Value, class Size>
+std::vector<double> jumps_along(std::span<const Edge> edges, const std::vector<Value>& values, Size size) {
+    std::vector<double> jumps(edges.size());
+    std::ranges::transform(edges, jumps.begin(), [&](const Edge& edge) {
+        return size(values[edge.first] - values[edge.second]);
+    });
+    return jumps;
+}
+
+/// `jumps` over `mean`.
+EdgeJumps relative_to(double mean, EdgeJumps jumps) {
+    for (double* value : {&jumps.rms, &jumps.percentile_99, &jumps.max})
+        *value = ratio(*value, mean);
+    return jumps;
 }
 
 VisibleError visible_error(const ContrastErrors& errors, std::span<const float> areas,
@@ -222,24 +197,61 @@ VisibleError visible_error(const ContrastErrors& errors, std::span<const float> 
     result.area_above_5_percent /= area;
     result.percentile_95 = percentile_by_area(contrast, areas, area, 0.95);
     result.percentile_99 = percentile_by_area(contrast, areas, area, 0.99);
-    std::vector<double> jumps;
-    for (const Edge& edge : edges)
-        jumps.push_back(std::abs(sign[edge.first] - sign[edge.second]));
-    result.jumps_99 = percentile(jumps, 0.99);
+    result.jumps_99 =
+        edge_jumps(edges, jumps_along(edges, sign, [](double v) { return std::abs(v); }), areas).percentile_99;
     return result;
 }
 
 } // namespace
+
+double adaptation_luminance(std::span<const double> luminances, std::span<const float> areas) {
+    double largest = 0, sum = 0, area = 0;
+    for (std::size_t p = 0; p < luminances.size(); ++p)
+        if (areas[p] > 0)
+            largest = std::max(largest, luminances[p]);
+    for (std::size_t p = 0; p < luminances.size(); ++p)
+        if (luminances[p] > 0 && areas[p] > 0) {
+            sum += static_cast<double>(areas[p]) * std::log(std::max(luminances[p], 1e-6 * largest));
+            area += static_cast<double>(areas[p]);
+        }
+    return area > 0 ? kAdaptationShare * std::exp(sum / area) : 0;
+}
+
+EdgeJumps edge_jumps(std::span<const Edge> edges, std::span<const double> jumps,
+                     std::span<const float> areas) {
+    EdgeJumps result;
+    result.edges = edges.size();
+    if (edges.empty())
+        return result;
+    std::vector<float> beside(edges.size());
+    double area = 0, squares = 0;
+    for (std::size_t e = 0; e < edges.size(); ++e) {
+        beside[e] = areas[edges[e].first] + areas[edges[e].second];
+        area += static_cast<double>(beside[e]);
+        squares += static_cast<double>(beside[e]) * jumps[e] * jumps[e];
+    }
+    const auto largest = std::ranges::max_element(jumps);
+    result.max = *largest;
+    result.worst = edges[static_cast<std::size_t>(largest - jumps.begin())];
+    if (area > 0) {
+        result.rms = std::sqrt(squares / area);
+        result.percentile_99 = percentile_by_area(jumps, beside, area, 0.99);
+    }
+    return result;
+}
 
 ContrastErrors contrast_errors(std::span<const glm::vec3> reference, std::span<const glm::vec3> approximation,
                                std::span<const float> areas, std::span<const glm::vec3> shown) {
     if (shown.empty())
         shown = reference;
     ContrastErrors errors;
-    errors.adaptation = adaptation_of(shown, areas);
+    std::vector<double> luminances(shown.size());
+    std::ranges::transform(shown, luminances.begin(),
+                           [](const glm::vec3& r) { return luminance(glm::dvec3(r)); });
+    errors.adaptation = adaptation_luminance(luminances, areas);
     for (std::size_t p = 0; p < reference.size(); ++p) {
         const glm::dvec3 difference = glm::dvec3(reference[p]) - glm::dvec3(approximation[p]);
-        const double y = std::abs(luminance(glm::dvec3(shown[p]))) + errors.adaptation;
+        const double y = std::abs(luminances[p]) + errors.adaptation;
         errors.magnitudes.push_back(ratio(std::sqrt(glm::dot(kLuminance, difference * difference)), y));
         errors.luminances.push_back(y > 0 ? luminance(difference) / y : 0);
     }
@@ -303,17 +315,16 @@ LitError lit_error(std::span<const glm::vec3> reference, std::span<const glm::ve
     result.visible = visible_error(contrast, areas, edges);
     if (!clusters)
         return result;
-    JumpCollector crossing, inner, seams;
-    for (const Edge& edge : edges) {
-        const double jump = largest_of(differences[edge.first] - differences[edge.second]);
-        const bool crosses = (*clusters)[edge.first] != (*clusters)[edge.second];
-        (crosses ? crossing : inner).add(edge, jump);
-        if (crosses)
-            seams.add(edge, std::abs(contrast.luminances[edge.first] - contrast.luminances[edge.second]));
-    }
-    result.visible.seams = seams.over(1);
-    result.crossing = crossing.over(mean);
-    result.inner = inner.over(mean);
+    std::vector<Edge> across, within;
+    for (const Edge& edge : edges)
+        ((*clusters)[edge.first] != (*clusters)[edge.second] ? across : within).push_back(edge);
+    const auto of_light = [&](const std::vector<Edge>& along) {
+        return relative_to(mean, edge_jumps(along, jumps_along(along, differences, largest_of), areas));
+    };
+    result.crossing = of_light(across);
+    result.inner = of_light(within);
+    result.visible.seams = edge_jumps(
+        across, jumps_along(across, contrast.luminances, [](double v) { return std::abs(v); }), areas);
     return result;
 }
 

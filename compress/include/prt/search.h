@@ -16,12 +16,12 @@ struct Budget {
         {}; ///< lit_rms, expected under the metric, and under `skies`; contrast errors
     std::optional<double> bytes_per_vertex = {}; ///< what a game binds (`bytes_per_receiver`), and bases
     std::optional<double> operations = {};       ///< of all receivers, guides with them: what the shader pays
-    /// `jump_across_clusters` (prt/jumps.h) under the metric, or of `skies_of_jumps` where there are some:
-    /// beside another, since one cluster jumps nowhere.
+    /// Jumps of contrast between clusters (`ClusterJumps::percentile_99`) under the metric, or under
+    /// `skies_of_jumps` where given. Needs another limit beside it, since one cluster has no jumps.
     std::optional<double> max_jump = {};
     /// Under each of these, at every turn about +Y, `max_error` holds, too.
     std::vector<Lighting> skies = {};
-    /// Under each of these, turned about +Y, `max_jump` holds (`worst_jump_across_clusters`).
+    /// Under each of these, turned about +Y, `max_jump` holds.
     std::vector<Lighting> skies_of_jumps = {};
 
     bool any() const { return max_error || max_jump || bytes_per_vertex || operations; }

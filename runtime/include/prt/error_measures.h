@@ -23,14 +23,25 @@ double relative_l2(const TransferView& reference, const TransferView& approximat
 double lit_rms(std::span<const glm::vec3> reference, std::span<const glm::vec3> approximation,
                std::span<const float> areas);
 
-/// Jumps of an error along edges.
+/// Share of the logarithmic mean of the luminance below which eyes see no differences (docs/math.md, eq. 33b).
+inline constexpr double kAdaptationShare = 0.1;
+
+/// Y_a of eq. 33b: kAdaptationShare of the logarithmic mean of `luminances` over what has light, weighted by
+/// `areas`, both of the same length. Light below a millionth of the largest counts as a millionth of it. 0
+/// where nothing is lit.
+double adaptation_luminance(std::span<const double> luminances, std::span<const float> areas);
+
+/// Jumps of an error along edges. An edge counts as much as the area of its two ends.
 struct EdgeJumps {
     std::size_t edges = 0;
     double rms = 0;
-    double percentile_99 = 0;
+    double percentile_99 = 0; ///< 1 % of the area beside the edges has larger jumps
     double max = 0;
-    Edge worst{0, 0}; ///< where the largest is
+    Edge worst{0, 0}; ///< the edge with the largest jump
 };
+/// `jumps`: one per edge, not negative. `areas` [receivers].
+EdgeJumps edge_jumps(std::span<const Edge> edges, std::span<const double> jumps,
+                     std::span<const float> areas);
 
 /// Contrast errors of receivers, [receivers], with Y_a as in `VisibleError`; infinite where there is an error
 /// and no light at all.
@@ -50,7 +61,7 @@ struct VisibleError {
     double adaptation = 0; ///< Y_a; 0: nothing is lit
     double mean = 0, rms = 0, percentile_95 = 0, percentile_99 = 0;
     double area_above_5_percent = 0; ///< share of the area
-    double jumps_99 = 0;             ///< of (Y - Y') / (Y + Y_a) along 99 % of the edges
+    double jumps_99 = 0;             ///< of (Y - Y') / (Y + Y_a) along edges: 99th percentile, by area
     EdgeJumps seams = {};            ///< the same along edges between two clusters
 };
 
