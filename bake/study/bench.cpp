@@ -140,6 +140,7 @@ private:
         run.parts.transfer -= before.transfer;
         run.rays_per_second = static_cast<double>(indices_.size()) * rays / run.seconds;
         run.relative_l2 = relative_l2(reference_, transfer, areas_);
+        run.contrast = transfer_contrast(reference_, transfer, areas_);
         run.surface_l2 = surface_->relative_l2(transfer);
         return run;
     }
@@ -167,6 +168,7 @@ private:
         if (result.baked.transfer.layout.channels() != 1)
             throw Error("light that comes through colored sheets is not measured between vertices");
         run.relative_l2 = relative_l2(reference_, result.baked.transfer, areas_);
+        run.contrast = transfer_contrast(reference_, result.baked.transfer, areas_);
         run.surface_l2 = surface_->relative_l2(result.baked.transfer);
         return run;
     }

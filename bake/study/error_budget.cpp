@@ -4,6 +4,8 @@
 #include "prt/error_budget.h"
 
 #include "prt/bake.h"
+#include "prt/color.h"
+#include "prt/error_measures.h"
 
 #include <glm/geometric.hpp>
 
@@ -16,25 +18,58 @@ namespace {
 
 using Radiance = std::vector<glm::vec3>;
 
+/// Radiance of the picture at a point, by each of two independent references.
+std::array<glm::dvec3, 2> picture_at(const SurfaceRadiance& reference, std::size_t p) {
+    const glm::dvec3 suns(reference.suns()[p]);
+    return {glm::dvec3(reference.truth(0)[p]) + suns, glm::dvec3(reference.truth(1)[p]) + suns};
+}
+
+/// [points] 1 / (Y + Y_a)²; empty where nothing is lit.
+std::vector<double> contrast_weights(const SurfacePoints& points, const SurfaceRadiance& reference) {
+    std::vector<double> weights(points.size());
+    for (std::size_t p = 0; p < weights.size(); ++p) {
+        const auto [first, second] = picture_at(reference, p);
+        weights[p] = luminance(0.5 * (first + second));
+    }
+    const double adaptation = adaptation_luminance(weights, points.receivers.areas);
+    if (!(adaptation > 0))
+        return {};
+    for (double& weight : weights)
+        weight = 1 / std::pow(weight + adaptation, 2);
+    return weights;
+}
+
 /// Sums over points that are drawn anew, by which intervals are found.
 class Resampling {
 public:
-    explicit Resampling(const SurfacePoints& points, const SurfaceRadiance& reference) {
+    Resampling(const SurfacePoints& points, const SurfaceRadiance& reference, BudgetMeasure measure) {
         constexpr std::size_t kTimes = 400; // the 2.5th percentile is then the tenth of them
         std::mt19937_64 random(1);
-        std::vector<double> square(points.size());
-        for (std::size_t p = 0; p < points.size(); ++p)
-            square[p] = static_cast<double>(glm::dot(reference.truth(0)[p] + reference.suns()[p],
-                                                     reference.truth(1)[p] + reference.suns()[p]));
+        std::vector<double> norm(points.size(), 1.0);
+        if (measure == BudgetMeasure::visible) {
+            channels_ = kLuminance;
+            weights_ = contrast_weights(points, reference);
+            norm.assign(points.size(), weights_.empty() ? 0.0 : 1.0);
+        } else {
+            for (std::size_t p = 0; p < points.size(); ++p) {
+                const auto [first, second] = picture_at(reference, p);
+                norm[p] = glm::dot(first, second);
+            }
+        }
         areas_.assign(points.receivers.areas.begin(), points.receivers.areas.end());
         counts_.assign(kTimes, std::vector<float>(points.size(), 0));
         std::uniform_int_distribution<std::size_t> any(0, points.size() - 1);
         for (std::vector<float>& counts : counts_)
             for (std::size_t i = 0; i < counts.size(); ++i)
                 ++counts[any(random)];
-        norm_ = sum(square, nullptr);
+        norm_ = sum(norm, nullptr);
         for (const std::vector<float>& counts : counts_)
-            norms_.push_back(sum(square, &counts));
+            norms_.push_back(sum(norm, &counts));
+    }
+
+    /// What two differences of radiance at point `p` count together.
+    double product(std::size_t p, const glm::vec3& a, const glm::vec3& b) const {
+        return glm::dot(channels_ * glm::dvec3(a), glm::dvec3(b)) * (weights_.empty() ? 1.0 : weights_[p]);
     }
 
     /// Of `values` [points], whose mean by area is wanted.
@@ -64,15 +99,12 @@ private:
         return total;
     }
 
-    std::vector<double> areas_;
+    glm::dvec3 channels_{1};
+    std::vector<double> areas_, weights_; ///< [points]; weights: empty: 1
     std::vector<std::vector<float>> counts_;
     std::vector<double> norms_;
     double norm_ = 0;
 };
-
-double product(const glm::vec3& a, const glm::vec3& b) {
-    return glm::dot(glm::dvec3(a), glm::dvec3(b));
-}
 
 /// `value(p)` of all points.
 template <class Value>
@@ -92,9 +124,9 @@ Radiance difference(Radiance of, std::span<const glm::vec3> from) {
 /// Of what is missing by each of two independent references.
 SquaredError error_of(const SurfacePoints& points, const SurfaceRadiance& reference,
                       const std::array<Radiance, 2>& missing) {
-    return Resampling(points, reference).estimate(of_points(points, [&](std::size_t p) {
-        return product(missing[0][p], missing[1][p]);
-    }));
+    const Resampling resampling(points, reference, BudgetMeasure::relative);
+    return resampling.estimate(of_points(
+        points, [&](std::size_t p) { return resampling.product(p, missing[0][p], missing[1][p]); }));
 }
 
 } // namespace
@@ -116,9 +148,12 @@ double ErrorBudget::sum() const {
 }
 
 ErrorBudget error_budget(const SurfacePoints& points, const SurfaceRadiance& reference, const BandCut& cut,
-                         const InterpolatedRadiance& radiance) {
-    const Resampling resampling(points, reference);
+                         const InterpolatedRadiance& radiance, BudgetMeasure measure) {
+    const Resampling resampling(points, reference, measure);
     const auto estimate = [&](auto&& value) { return resampling.estimate(of_points(points, value)); };
+    const auto product = [&](std::size_t p, const glm::vec3& a, const glm::vec3& b) {
+        return resampling.product(p, a, b);
+    };
     const BandCut endless{cut.order, kEndlessBounces, cut.factors};
     const std::span<const glm::vec3> truth[2] = {reference.truth(0), reference.truth(1)};
     const Radiance bands[2] = {reference.under(endless, 0), reference.under(endless, 1)};
@@ -126,24 +161,25 @@ ErrorBudget error_budget(const SurfacePoints& points, const SurfaceRadiance& ref
     const auto &baked = radiance.baked, &repeated = radiance.repeated, &shipped = radiance.shipped;
     ErrorBudget budget;
     budget.of(ErrorCause::light) = estimate(
-        [&](std::size_t p) { return product(bands[0][p] - truth[0][p], bands[1][p] - truth[1][p]); });
+        [&](std::size_t p) { return product(p, bands[0][p] - truth[0][p], bands[1][p] - truth[1][p]); });
     budget.of(ErrorCause::bounces) = estimate(
-        [&](std::size_t p) { return product(wanted[0][p] - bands[0][p], wanted[1][p] - bands[1][p]); });
+        [&](std::size_t p) { return product(p, wanted[0][p] - bands[0][p], wanted[1][p] - bands[1][p]); });
     budget.of(ErrorCause::vertices) = estimate([&](std::size_t p) {
-        return 0.5 * (product(baked[p] - wanted[0][p], repeated[p] - wanted[1][p]) +
-                      product(baked[p] - wanted[1][p], repeated[p] - wanted[0][p]));
+        return 0.5 * (product(p, baked[p] - wanted[0][p], repeated[p] - wanted[1][p]) +
+                      product(p, baked[p] - wanted[1][p], repeated[p] - wanted[0][p]));
     });
     // Half of the squared difference of two alike; else what `baked` shares with its own noise: of the
     // product all else, which has no noise of `baked`, has no mean.
     budget.of(ErrorCause::rays) = estimate([&](std::size_t p) {
         const glm::vec3 noise = baked[p] - repeated[p];
-        return radiance.alike ? 0.5 * product(noise, noise)
-                              : product(noise, baked[p] - 0.5f * (wanted[0][p] + wanted[1][p]));
+        return radiance.alike ? 0.5 * product(p, noise, noise)
+                              : product(p, noise, baked[p] - 0.5f * (wanted[0][p] + wanted[1][p]));
     });
     budget.of(ErrorCause::bytes) =
-        estimate([&](std::size_t p) { return product(shipped[p] - baked[p], shipped[p] - baked[p]); });
-    const auto total = of_points(
-        points, [&](std::size_t p) { return product(shipped[p] - truth[0][p], shipped[p] - truth[1][p]); });
+        estimate([&](std::size_t p) { return product(p, shipped[p] - baked[p], shipped[p] - baked[p]); });
+    const auto total = of_points(points, [&](std::size_t p) {
+        return product(p, shipped[p] - truth[0][p], shipped[p] - truth[1][p]);
+    });
     budget.total = resampling.estimate(total);
     budget.together = {budget.total.value - budget.sum(), 0, 0};
     return budget;

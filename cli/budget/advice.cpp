@@ -156,7 +156,7 @@ private:
                                   .bounces = bounces(),
                                   .lightmap = s_.baked.lightmap ? &*s_.baked.lightmap : nullptr};
         double squared = 0;
-        for (const ErrorBudget& one : budgets(s_.reference, stages, s_.effort.threads))
+        for (const ErrorBudget& one : budgets(s_.reference, stages, s_.effort.threads).relative)
             squared += one.of(ErrorCause::bytes).value;
         return Trial{words == 2 ? "prt compress --preset u64"
                                 : fmt::format("prt compress --preset custom --bits {}", options.coding.bits),

@@ -5,6 +5,8 @@
 #include "prt/lightmap_lookup.h"
 #include "prt/support/error.h"
 
+#include <utility>
+
 namespace prt::cli {
 namespace {
 
@@ -68,8 +70,8 @@ double BudgetReference::bounces_error(int bounces) const {
     return sum / static_cast<double>(lights_.size());
 }
 
-std::vector<ErrorBudget> budgets(const BudgetReference& reference, const BudgetStages& stages, int threads) {
-    std::vector<ErrorBudget> all;
+Budgets budgets(const BudgetReference& reference, const BudgetStages& stages, int threads) {
+    Budgets all;
     const int order = stages.baked.layout.order;
     for (std::size_t i = 0; i < reference.lights().size(); ++i) {
         const Lighting lighting = reference.lights()[i].lighting(order);
@@ -78,8 +80,10 @@ std::vector<ErrorBudget> budgets(const BudgetReference& reference, const BudgetS
         };
         InterpolatedRadiance radiance{at_points(stages.baked), at_points(stages.repeated), {}, stages.alike};
         radiance.shipped = stages.shipped ? at_points(*stages.shipped) : radiance.baked;
-        all.push_back(error_budget(reference.points(), reference.of(i),
-                                   reference.cut(i, order, stages.bounces), radiance));
+        const BandCut cut = reference.cut(i, order, stages.bounces);
+        for (const auto& [measure, list] : {std::pair(BudgetMeasure::relative, &all.relative),
+                                            std::pair(BudgetMeasure::visible, &all.visible)})
+            list->push_back(error_budget(reference.points(), reference.of(i), cut, radiance, measure));
     }
     return all;
 }

@@ -61,7 +61,10 @@ struct BudgetStages {
     const LightmapOfFile* lightmap = nullptr;
 };
 
-/// [lights]
-std::vector<ErrorBudget> budgets(const BudgetReference& reference, const BudgetStages& stages, int threads);
+/// The same errors by two measures, [lights].
+struct Budgets {
+    std::vector<ErrorBudget> relative, visible;
+};
+Budgets budgets(const BudgetReference& reference, const BudgetStages& stages, int threads);
 
 } // namespace prt::cli

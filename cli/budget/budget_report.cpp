@@ -48,8 +48,12 @@ Bars bars_of(const std::vector<BudgetLight>& lights, const std::vector<ErrorBudg
 
 } // namespace
 
-Table budget_table(const std::vector<BudgetLight>& lights, const std::vector<ErrorBudget>& budgets) {
-    Table table{"budget", "Where the error over the surface comes from", "", {}, {}};
+namespace {
+
+/// A row for each light and one for their mean; `about` is left empty.
+Table table_of(const std::vector<BudgetLight>& lights, const std::vector<ErrorBudget>& budgets,
+               const char* name, const char* title) {
+    Table table{name, title, "", {}, {}};
     table.columns = {{"light", "light"}, {"total", "total", Unit::percent, 2}};
     for (const ErrorCause cause : kCauses)
         table.columns.push_back(
@@ -64,20 +68,10 @@ Table budget_table(const std::vector<BudgetLight>& lights, const std::vector<Err
     if (lights.size() > 1)
         table.rows.push_back(row_of("root mean square", mean_budget(budgets)));
     table.bars = {bars_of(lights, budgets)};
-    table.about = "Relative L2 of exit radiance for albedo 1 at points all over the surface, against path "
-                  "tracing under the "
-                  "whole light. Light: what the bands cannot hold, with their ringing taken out. Bounces: "
-                  "those not baked. "
-                  "Vertices: light is interpolated between them. Rays: noise of the bake. Bytes: "
-                  "compression. Each is what "
-                  "would be left if it were the only one; their squares add up to that of the total, but for "
-                  "what they do to "
-                  "each other. Suns that can be lit apart are left to the renderer, and count in what errors "
-                  "are relative to.";
     return table;
 }
 
-std::string budget_in_words(const ErrorBudget& mean, std::size_t lights) {
+std::string causes_in_words(const ErrorBudget& mean) {
     constexpr double kMuch = 1.25; // beyond what is not known of squares
     std::vector<std::string> causes;
     for (const ErrorCause cause : kCauses)
@@ -85,9 +79,35 @@ std::string budget_in_words(const ErrorBudget& mean, std::size_t lights) {
     const char* together = mean.sum() > kMuch * mean.total.value   ? ", which partly undo each other"
                            : mean.total.value > kMuch * mean.sum() ? ", which add to each other"
                                                                    : "";
-    return fmt::format("{:.2f} % from path tracing{}: {} %{}", 100 * mean.total.root(),
-                       lights > 1 ? fmt::format(" under these {} lights", lights) : "",
-                       fmt::join(causes, ", "), together);
+    return fmt::format("{} %{}", fmt::join(causes, ", "), together);
+}
+
+} // namespace
+
+std::vector<Table> budget_tables(const std::vector<BudgetLight>& lights, const Budgets& budgets) {
+    Table relative =
+        table_of(lights, budgets.relative, "budget", "Where the error over the surface comes from");
+    relative.about =
+        "Relative L2 of exit radiance for albedo 1 at points all over the surface, against path tracing "
+        "under "
+        "the whole light. Light: what the bands cannot hold, with their ringing taken out. Bounces: those "
+        "not "
+        "baked. Vertices: light is interpolated between them. Rays: noise of the bake. Bytes: compression. "
+        "Each is what would be left if it were the only one; their squares add up to that of the total, but "
+        "for what they do to each other. Suns that can be lit apart are left to the renderer, and count in "
+        "what errors are relative to.";
+    Table visible = table_of(lights, budgets.visible, "visible_budget",
+                             "Where the visible error over the surface comes from");
+    visible.about = "Root mean square of the contrast error: each error is relative to the luminance at its "
+                    "point and a tenth of the logarithmic mean of all. Causes as above.";
+    return {std::move(relative), std::move(visible)};
+}
+
+std::string budget_in_words(const ErrorBudget& mean, const ErrorBudget& visible_mean, std::size_t lights) {
+    return fmt::format("{:.2f} % from path tracing{}: {}; contrast error {:.2f} %: {}",
+                       100 * mean.total.root(),
+                       lights > 1 ? fmt::format(" under these {} lights", lights) : "", causes_in_words(mean),
+                       100 * visible_mean.total.root(), causes_in_words(visible_mean));
 }
 
 std::string advice_in_words(const std::optional<Advice>& advice) {

@@ -50,22 +50,22 @@ void measure(const BudgetRequest& request, const SceneFile& baked, const SceneFi
         coded = decode(baked.lightmap ? picked_texels(shipped->compressed->transfer, baked.lightmap->texels)
                                       : shipped->compressed->transfer,
                        threads);
-    const std::vector<ErrorBudget> all =
-        budgets(reference,
-                {.baked = baked.baked->transfer,
-                 .repeated = repeated,
-                 .shipped = coded ? &*coded : nullptr,
-                 .bounces = record.endless ? kEndlessBounces : record.bounces,
-                 .lightmap = baked.lightmap ? &*baked.lightmap : nullptr},
-                threads);
-    const ErrorBudget mean = mean_budget(all);
+    const Budgets all = budgets(reference,
+                                {.baked = baked.baked->transfer,
+                                 .repeated = repeated,
+                                 .shipped = coded ? &*coded : nullptr,
+                                 .bounces = record.endless ? kEndlessBounces : record.bounces,
+                                 .lightmap = baked.lightmap ? &*baked.lightmap : nullptr},
+                                threads);
+    const ErrorBudget mean = mean_budget(all.relative), visible_mean = mean_budget(all.visible);
     const std::optional<Advice> what =
         advice({.reference = reference, .baked = baked, .shipped = shipped, .effort = effort}, mean,
                progress.part(0.8, 1));
-    Table table = budget_table(lights, all);
-    const std::string words = budget_in_words(mean, lights.size());
-    table.about = fmt::format("Over the surface {}; {}. {}", words, advice_in_words(what), table.about);
-    report.tables.insert(report.tables.begin(), std::move(table));
+    std::vector<Table> tables = budget_tables(lights, all);
+    const std::string words = budget_in_words(mean, visible_mean, lights.size());
+    Table& first = tables.front();
+    first.about = fmt::format("Over the surface {}; {}. {}", words, advice_in_words(what), first.about);
+    report.tables.insert(report.tables.begin(), tables.begin(), tables.end());
     add_figures(report, {{"surface_error", words}});
     add_advice(what, report);
 }

@@ -40,8 +40,8 @@ struct Compressed {
     ClusteredTransfer transfer;
     CompressStatistics statistics;
     double asked = 0; ///< --max-error, or --bytes-per-vertex
-    std::vector<ErrorBudget> budgets;
-    double total() const { return mean_budget(budgets).total.value; }
+    Budgets budgets;
+    double total() const { return mean_budget(budgets.relative).total.value; }
 };
 
 /// What is spent.
@@ -190,7 +190,8 @@ private:
                                          .repeated = pilot_,
                                          .shipped = nullptr,
                                          .bounces = plan_.cut.bounces},
-                                        r_.threads)),
+                                        r_.threads)
+                                    .relative),
                     stopwatch.seconds() / (2 * kPilotRays)};
         tried_.push_back(fmt::format("{} vertices of {} rays, {}: vertices {}, rays {}", scene_.receivers(),
                                      kPilotRays, plan_.fit == FitMode::surface ? "fitted" : "as they are",
@@ -309,7 +310,7 @@ private:
         tried_.push_back(fmt::format("prt compress {} {:.4g}: {:.2f} bytes per vertex, bytes {}, in all {}",
                                      max_error ? "--max-error" : "--bytes-per-vertex", one.asked,
                                      one.statistics.bytes_with_bases(transfer().receivers()),
-                                     percent(mean_budget(one.budgets).of(ErrorCause::bytes).value),
+                                     percent(mean_budget(one.budgets.relative).of(ErrorCause::bytes).value),
                                      percent(one.total())));
         return one;
     }
@@ -322,11 +323,11 @@ private:
     /// and what counts is the surface as it stands.
     Compressed within_error() {
         constexpr int kTries = 5;
-        const auto rest = [&](const std::vector<ErrorBudget>& all) {
-            const ErrorBudget mean = mean_budget(all);
+        const auto rest = [&](const Budgets& all) {
+            const ErrorBudget mean = mean_budget(all.relative);
             return mean.total.value - mean.of(ErrorCause::bytes).value;
         };
-        const std::vector<ErrorBudget> uncompressed = budgets(
+        const Budgets uncompressed = budgets(
             *reference_,
             {.baked = transfer(), .repeated = pilot_, .shipped = nullptr, .bounces = plan_.cut.bounces},
             r_.threads);
@@ -335,7 +336,8 @@ private:
         std::optional<Compressed> best;
         for (int i = 0; i < kTries && asked.worth_trying() && (i == 0 || in_time(0.7)); ++i) {
             Compressed one = compressed(asked.next(), {});
-            const double bytes = mean_budget(one.budgets).of(ErrorCause::bytes).value, total = one.total();
+            const double bytes = mean_budget(one.budgets.relative).of(ErrorCause::bytes).value,
+                         total = one.total();
             asked.came_out(allowed(), total, bytes, size(one));
             const bool keeps = total <= allowed(), kept = best && best->total() <= allowed();
             if (!best || (keeps && (!kept || size(one) < size(*best))) ||
@@ -378,7 +380,8 @@ private:
     void write(Compressed& best, Report& report) {
         write_clustered(model_->document, model_->scene, {best.transfer, model_->baked->record});
         const std::uintmax_t bytes = session_.write(r_.output, encode_glb(model_->document));
-        const ErrorBudget mean = mean_budget(best.budgets);
+        const ErrorBudget mean = mean_budget(best.budgets.relative),
+                          visible = mean_budget(best.budgets.visible);
         add_figures(report, {{"output", r_.output.string()},
                              {"order", plan_.cut.order},
                              {"rays_per_receiver", plan_.rays},
@@ -393,16 +396,18 @@ private:
                              {"total_error", mean.total.root()},
                              {"total_error_low", std::sqrt(std::max(mean.total.low, 0.0))},
                              {"total_error_high", std::sqrt(std::max(mean.total.high, 0.0))},
+                             {"total_contrast_error", visible.total.root()},
                              {"bytes_file", bytes},
                              {"seconds", watch_.seconds()},
                              {"tried", tried_},
                              {"by_hand", by_hand(best)},
                              {"notices", notices_}});
-        report.tables.push_back(budget_table(lights_, best.budgets));
-        say(mean, report);
+        for (Table& table : budget_tables(lights_, best.budgets))
+            report.tables.push_back(std::move(table));
+        say(mean, visible, report);
     }
 
-    void say(const ErrorBudget& mean, Report& report) const {
+    void say(const ErrorBudget& mean, const ErrorBudget& visible, Report& report) const {
         auto& lines = report.sentences;
         lines.push_back(
             fmt::format("{{output}}: {{receivers}} vertices, order {{order}}, {{rays_per_receiver}} rays, "
@@ -410,7 +415,7 @@ private:
                         "{{bytes_bound_per_vertex}} bytes per vertex to bind, "
                         "{{bytes_bound_per_vertex_with_bases:.2f}} with the bases; {{seconds:.1f}} s",
                         plan_.fit == FitMode::surface ? "fitted to the surface" : "measured at vertices"));
-        lines.push_back("over the surface " + budget_in_words(mean, lights_.size()) +
+        lines.push_back("over the surface " + budget_in_words(mean, visible, lights_.size()) +
                         "; 95 % interval of the total {total_error_low:.2f%} .. {total_error_high:.2f%}");
         if (!r_.goal.bytes_per_vertex && mean.total.value > allowed())
             lines.emplace_back("that is more than was aimed at, {error_aimed_at:.2f%}");

@@ -33,17 +33,20 @@ Table runs_table(const BenchResult& result) {
                      {"seconds_transfer", "transfer", Unit::seconds},
                      {"rays_per_second", "rays/s"},
                      {"relative_l2", "error at vertices", Unit::percent},
+                     {"contrast", "contrast error at vertices", Unit::percent},
                      {"surface_l2", "over the surface", Unit::percent}};
     for (const BenchSeries& series : result.series)
         for (const BenchRun& r : series.runs)
             table.rows.push_back({series.name(), r.rays, r.seconds, r.seconds_build, r.parts.trace,
                                   r.parts.accumulate, r.parts.transfer, r.rays_per_second, r.relative_l2,
-                                  r.surface_l2});
+                                  r.contrast, r.surface_l2});
     table.about =
         "build: hierarchy, upload, shaders. trace: rays, or drawing depth maps; on the GPU with the "
         "spherical "
         "harmonics, which are summed on chip. accumulate: spherical harmonics on the CPU, depth tests with "
         "method raster. transfer: to and from the GPU. Rays or depth tests per second, all work counted. "
+        "Contrast error: at each vertex relative to its own transfer and a tenth of the logarithmic mean of "
+        "all. "
         "Fitted: vertices have the "
         "values whose interpolation comes nearest to samples of the surface; at the vertices themselves that "
         "is farther off.";

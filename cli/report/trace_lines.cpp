@@ -46,6 +46,7 @@ Json trial_json(const SearchTrial& trial) {
             {"bytes_bound_per_vertex", trial.payload_bytes},
             {"lit_rms", trial.lit_rms},
             {"worst_lit_rms", trial.worst_lit_rms},
+            {"sky_contrast", trial.sky_contrast},
             {"lamp_contrast", trial.lamp_contrast},
             {"jump", trial.jump},
             {"bytes_bound_per_vertex_with_bases", trial.bytes_per_vertex},

@@ -76,18 +76,21 @@ VectorSquares squares_of(const float* reference, const TransferLayout& layout, c
 
 } // namespace
 
-double relative_l2(const TransferView& reference, const TransferView& approximation,
-                   std::span<const float> areas) {
+namespace {
+
+/// Calls `see(receiver, squares)` for all receivers in their order. Throws `Error` as `relative_l2` does.
+template <class See>
+void for_squares(const TransferView& reference, const TransferView& approximation,
+                 std::span<const float> areas, See&& see) {
     const TransferLayout &layout = reference.layout(), &other = approximation.layout();
     if (layout.order != other.order || reference.receivers() != approximation.receivers())
         throw Error("the transfers have different orders or numbers of receivers");
     if (!same_parts(layout, other)) {
         if (!same_parts(as_whole(layout), as_whole(other)))
             throw Error("the transfers have different lamps");
-        return relative_l2(as_whole(reference), as_whole(approximation), areas);
+        return for_squares(as_whole(reference), as_whole(approximation), areas, see);
     }
     check_finite(areas, "areas of receivers");
-    double error = 0, norm = 0;
     constexpr std::size_t kBlock = 256;
     std::vector<float> of_reference, of_other;
     for (std::size_t begin = 0; begin < reference.receivers(); begin += kBlock) {
@@ -98,14 +101,39 @@ double relative_l2(const TransferView& reference, const TransferView& approximat
         approximation.read(begin, of_other);
         check_finite(of_reference, "transfer vectors");
         check_finite(of_other, "transfer vectors");
-        for (std::size_t p = 0; p < count; ++p) {
-            const VectorSquares squares = squares_of(&of_reference[p * reference.dimension()], layout,
-                                                     &of_other[p * approximation.dimension()], other);
-            error += static_cast<double>(areas[begin + p]) * squares.error;
-            norm += static_cast<double>(areas[begin + p]) * squares.norm;
-        }
+        for (std::size_t p = 0; p < count; ++p)
+            see(begin + p, squares_of(&of_reference[p * reference.dimension()], layout,
+                                      &of_other[p * approximation.dimension()], other));
     }
+}
+
+} // namespace
+
+double relative_l2(const TransferView& reference, const TransferView& approximation,
+                   std::span<const float> areas) {
+    double error = 0, norm = 0;
+    for_squares(reference, approximation, areas, [&](std::size_t p, const VectorSquares& squares) {
+        error += static_cast<double>(areas[p]) * squares.error;
+        norm += static_cast<double>(areas[p]) * squares.norm;
+    });
     return std::sqrt(ratio(error, norm));
+}
+
+double transfer_contrast(const TransferView& reference, const TransferView& approximation,
+                         std::span<const float> areas) {
+    std::vector<double> errors(reference.receivers()), lengths(reference.receivers());
+    for_squares(reference, approximation, areas, [&](std::size_t p, const VectorSquares& squares) {
+        errors[p] = std::sqrt(squares.error);
+        lengths[p] = std::sqrt(squares.norm);
+    });
+    const double adaptation = adaptation_luminance(lengths, areas);
+    double sum = 0, area = 0;
+    for (std::size_t p = 0; p < errors.size(); ++p) {
+        const double contrast = ratio(errors[p], lengths[p] + adaptation);
+        sum += areas[p] > 0 ? static_cast<double>(areas[p]) * contrast * contrast : 0;
+        area += static_cast<double>(areas[p]);
+    }
+    return std::sqrt(ratio(sum, area));
 }
 
 namespace {
@@ -162,9 +190,8 @@ double percentile_by_area(std::span<const double> values, std::span<const float>
 template <class Value, class Size>
 std::vector<double> jumps_along(std::span<const Edge> edges, const std::vector<Value>& values, Size size) {
     std::vector<double> jumps(edges.size());
-    std::ranges::transform(edges, jumps.begin(), [&](const Edge& edge) {
-        return size(values[edge.first] - values[edge.second]);
-    });
+    std::ranges::transform(edges, jumps.begin(),
+                           [&](const Edge& edge) { return size(values[edge.first] - values[edge.second]); });
     return jumps;
 }
 
@@ -197,8 +224,8 @@ VisibleError visible_error(const ContrastErrors& errors, std::span<const float> 
     result.area_above_5_percent /= area;
     result.percentile_95 = percentile_by_area(contrast, areas, area, 0.95);
     result.percentile_99 = percentile_by_area(contrast, areas, area, 0.99);
-    result.jumps_99 =
-        edge_jumps(edges, jumps_along(edges, sign, [](double v) { return std::abs(v); }), areas).percentile_99;
+    result.jumps_99 = edge_jumps(edges, jumps_along(edges, sign, [](double v) { return std::abs(v); }), areas)
+                          .percentile_99;
     return result;
 }
 

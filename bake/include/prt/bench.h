@@ -30,6 +30,7 @@ struct BenchRun {
     TraceSeconds parts;
     double rays_per_second = 0;
     double relative_l2 = 0; ///< against the reference, over its receivers
+    double contrast = 0;    ///< `transfer_contrast` against the same
     double surface_l2 = 0;  ///< over the surface, interpolated between vertices
 };
 

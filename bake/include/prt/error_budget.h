@@ -24,7 +24,14 @@ inline constexpr std::size_t kErrorCauses = 5;
 /// The words of reports: "light", "bounces", "vertices", "rays", "bytes".
 const char* to_string(ErrorCause cause);
 
-/// Squared error over the squared radiance of the surface, with its 95 % interval over which points were
+/// What squared errors are relative to.
+enum class BudgetMeasure {
+    relative, ///< the mean squared radiance of the surface, three channels alike
+    /// At each point (Y + Y_a)², channels weighted as luminance is: contrast errors (docs/math.md, eq. 33b).
+    visible,
+};
+
+/// Squared error by a `BudgetMeasure`, with its 95 % interval over which points were
 /// looked at and which paths were traced. An unbiased estimate of what is near zero may be less.
 struct SquaredError {
     double value = 0, low = 0, high = 0;
@@ -57,7 +64,8 @@ struct InterpolatedRadiance {
 /// bounces (bounces), by radiance at the points (vertices), by an independent bake (rays), and by the
 /// uncompressed bake (bytes); docs/math.md, section 16. `cut`: of the bake.
 ErrorBudget error_budget(const SurfacePoints& points, const SurfaceRadiance& reference, const BandCut& cut,
-                         const InterpolatedRadiance& radiance);
+                         const InterpolatedRadiance& radiance,
+                         BudgetMeasure measure = BudgetMeasure::relative);
 
 /// What another cut would leave: of the bands of its order, with all bounces; and of its bounces.
 SquaredError light_error(const SurfacePoints& points, const SurfaceRadiance& reference, const BandCut& cut);

@@ -19,11 +19,18 @@ namespace prt {
 double relative_l2(const TransferView& reference, const TransferView& approximation,
                    std::span<const float> areas);
 
+/// sqrt( sum_p a_p c_p² / sum_p a_p ), c_p = |T_p - T'_p| / (|T_p| + T_a) with T_a the adaptation to |T_p|:
+/// the contrast error to expect under light whose coefficients are independent and have one variance.
+/// Channels and errors as for `relative_l2`.
+double transfer_contrast(const TransferView& reference, const TransferView& approximation,
+                         std::span<const float> areas);
+
 /// Relative L2 of exit radiance, albedo 1, three channels, both [receivers].
 double lit_rms(std::span<const glm::vec3> reference, std::span<const glm::vec3> approximation,
                std::span<const float> areas);
 
-/// Share of the logarithmic mean of the luminance below which eyes see no differences (docs/math.md, eq. 33b).
+/// Share of the logarithmic mean of the luminance below which eyes see no differences (docs/math.md, eq.
+/// 33b).
 inline constexpr double kAdaptationShare = 0.1;
 
 /// Y_a of eq. 33b: kAdaptationShare of the logarithmic mean of `luminances` over what has light, weighted by

@@ -204,6 +204,41 @@ TEST(ErrorBudget, FindsEachCauseOfAPaintedFloor) {
     }
 }
 
+/// Where all is lit alike, eyes adapt to a tenth of that: contrast errors are those of luminance over 1.1.
+TEST(ErrorBudget, OfContrastIsOverTheLightAndWeightedAsLuminance) {
+    const Lit lit(SceneBuilder().floor(glm::vec3(0), 2, 40).build(), uniform());
+    const auto error = [&](const glm::vec3& by) {
+        const std::vector<glm::vec3> off(lit.points.size(), glm::vec3(1) + by);
+        return error_budget(lit.points, lit.reference, cut_of(1), {off, off, off}, BudgetMeasure::visible)
+            .total.root();
+    };
+    EXPECT_NEAR(error(glm::vec3(0.2f)), 0.2 / 1.1, 1e-4);
+    EXPECT_NEAR(error({0, 0.2f, 0}), std::sqrt(0.7152) * 0.2 / 1.1, 1e-4);
+}
+
+/// A black bowl is darker the deeper it is: the same error is seen better there.
+TEST(ErrorBudget, OfContrastCountsDimLight) {
+    const Lit lit(painted(SceneBuilder().bowl(glm::vec3(0), 1, 24, 6).build(), glm::vec3(0)), uniform(),
+                  2048);
+    double expected = 0, area = 0, logarithms = 0;
+    std::vector<double> light(lit.points.size());
+    for (std::size_t p = 0; p < light.size(); ++p) {
+        const auto a = static_cast<double>(lit.points.receivers.areas[p]);
+        light[p] = 0.5 * static_cast<double>(lit.reference.truth(0)[p].x + lit.reference.truth(1)[p].x);
+        logarithms += a * std::log(light[p]);
+        area += a;
+    }
+    std::vector<glm::vec3> off;
+    for (std::size_t p = 0; p < light.size(); ++p) {
+        const double seen = light[p] + 0.1 * std::exp(logarithms / area);
+        expected += static_cast<double>(lit.points.receivers.areas[p]) / area * std::pow(0.2 / seen, 2);
+        off.emplace_back(static_cast<float>(light[p] + 0.2));
+    }
+    const ErrorBudget budget =
+        error_budget(lit.points, lit.reference, cut_of(1), {off, off, off}, BudgetMeasure::visible);
+    EXPECT_NEAR(budget.total.root(), std::sqrt(expected), 0.02 * std::sqrt(expected));
+}
+
 TEST(ErrorBudget, IsNothingWhereNothingIsWrong) {
     const Lit lit(open_floor(), uniform());
     const std::vector<glm::vec3> one = all_points(lit.points, 1);

@@ -25,6 +25,14 @@ TEST(RelativeL2, ComparesGreyWithColour) {
     EXPECT_NEAR(relative_l2(grey, coloured, std::vector<float>{1}), std::sqrt(1.0 / 12), 1e-7);
 }
 
+TEST(TransferContrast, IsOverTheTransferOfEachReceiver) {
+    const Transfer a{layout_of_one(1, 1), {1, 4, 0.25f}}, b{layout_of_one(1, 1), {1.1f, 3, 0.25f}};
+    const std::vector<float> areas = {2, 1, 1}; // the logarithmic mean is 1
+    EXPECT_NEAR(transfer_contrast(a, b, areas),
+                std::sqrt(0.5 * std::pow(0.1 / 1.1, 2) + 0.25 * std::pow(1 / 4.1, 2)), 1e-6);
+    EXPECT_EQ(transfer_contrast(a, a, areas), 0);
+}
+
 TEST(RelativeL2, DifferentShapesAreRefused) {
     const Transfer one = zero_transfer(1, 1, 1);
     EXPECT_THROW(relative_l2(one, zero_transfer(1, 1, 2), std::vector<float>{1}), Error);
