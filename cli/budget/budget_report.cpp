@@ -60,9 +60,9 @@ Table table_of(const std::vector<BudgetLight>& lights, const std::vector<ErrorBu
             {std::string(to_string(cause)) + "_error", to_string(cause), Unit::percent, 2});
     table.columns.push_back({"sum_over_total", "sum of squares over total", Unit::plain, 2});
     table.columns.push_back({"total_interval", "95 % interval of the total"});
-    for (const char* name : {"total", "light", "bounces", "vertices", "rays", "bytes"})
+    for (const char* measured : {"total", "light", "bounces", "vertices", "rays", "bytes"})
         for (const char* end : {"_low", "_high"})
-            table.columns.push_back({std::string(name) + end});
+            table.columns.push_back({std::string(measured) + end});
     for (std::size_t i = 0; i < lights.size(); ++i)
         table.rows.push_back(row_of(lights[i].name, budgets[i]));
     if (lights.size() > 1)

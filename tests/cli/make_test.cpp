@@ -57,6 +57,9 @@ TEST_F(Make, KeepsTheErrorAndSaysHowToDoTheSameByHand) {
     EXPECT_NEAR(budget["sum_over_total"], 1, 0.15);
     EXPECT_GT(budget["rays_error"], 0);
     EXPECT_GT(budget["bytes_error"], 0);
+    const auto visible = read_json(folder / "e.json")["visible_budget"][0];
+    EXPECT_GT(visible["total"], 0);
+    EXPECT_NEAR(visible["total"], report["total_contrast_error"], 0.02);
     EXPECT_NE(bytes_of(folder / "e.html").find("\"bars\""), std::string::npos);
 }
 
