@@ -36,9 +36,8 @@ std::vector<Edge> edges_across(std::span<const Edge> edges, std::span<const std:
 
 /// The luminance of each of `skies` at each rotation, a row each.
 Eigen::MatrixXd rows_of_skies(std::span<const Lighting> skies, const TransferLayout& layout) {
-    Eigen::MatrixXd rows =
-        Eigen::MatrixXd::Zero(kRotationsOfJumps * static_cast<Eigen::Index>(skies.size()),
-                              static_cast<Eigen::Index>(layout.dimension()));
+    Eigen::MatrixXd rows = Eigen::MatrixXd::Zero(kRotationsOfJumps * static_cast<Eigen::Index>(skies.size()),
+                                                 static_cast<Eigen::Index>(layout.dimension()));
     Eigen::Index row = 0;
     for (const Lighting& sky : skies)
         for (int r = 0; r < kRotationsOfJumps; ++r, ++row) {
@@ -57,7 +56,7 @@ Eigen::MatrixXd rows_of_skies(std::span<const Lighting> skies, const TransferLay
     return rows;
 }
 
-constexpr std::size_t kGrain = 256; ///< receivers or edges of one piece of work
+constexpr std::size_t kJumpsGrain = 256; ///< receivers or edges of one piece of work
 
 } // namespace
 
@@ -74,7 +73,7 @@ struct ClusterJumps::Lights {
     void adapt_to(const TransferView& reference, std::span<const float> areas, int threads) {
         for (Eigen::Index g = 0; g < groups(); ++g) {
             std::vector<double> luminances(reference.receivers());
-            parallel_for(luminances.size(), kGrain, threads, [&](std::size_t begin, std::size_t end) {
+            parallel_for(luminances.size(), kJumpsGrain, threads, [&](std::size_t begin, std::size_t end) {
                 const Eigen::RowVectorXf seen =
                     (rows_of(g) * columns_of(reference, begin, end)).colwise().norm();
                 std::ranges::copy(seen, &luminances[begin]);
@@ -121,7 +120,7 @@ double ClusterJumps::percentile_99(const TransferView& approximation,
     const std::vector<Edge> across = edges_across(surface_.edges, clusters);
     const auto groups = static_cast<std::size_t>(lights_->groups());
     std::vector<std::vector<double>> jumps(groups, std::vector<double>(across.size()));
-    parallel_for(across.size(), kGrain, threads_, [&](std::size_t begin, std::size_t end) {
+    parallel_for(across.size(), kJumpsGrain, threads_, [&](std::size_t begin, std::size_t end) {
         for (std::size_t e = begin; e < end; ++e) {
             const std::size_t p = across[e].first, q = across[e].second;
             const Eigen::VectorXf of_p = columns_of(reference, p, p + 1),
@@ -130,9 +129,9 @@ double ClusterJumps::percentile_99(const TransferView& approximation,
                                   near_q = columns_of(approximation, q, q + 1);
             for (std::size_t g = 0; g < groups; ++g)
                 if (const auto group = static_cast<Eigen::Index>(g); lights_->adaptations[g] > 0)
-                    jumps[g][e] = static_cast<double>((lights_->contrast(group, of_p, near_p) -
-                                                       lights_->contrast(group, of_q, near_q))
-                                                          .norm());
+                    jumps[g][e] = static_cast<double>(
+                        (lights_->contrast(group, of_p, near_p) - lights_->contrast(group, of_q, near_q))
+                            .norm());
         }
     });
     double worst = 0;
