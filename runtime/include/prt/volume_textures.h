@@ -4,8 +4,8 @@
 // one. Experimental.
 //
 // light    RGBA16F or RGBA32F, [planes · depth][height][width]: bricks next to each other, five texels along
-//         each side, one per probe. Planes are stacked along z and hold four numbers each: coefficients of
-//         incident light (r, g, b, r, ..), followed by the visibility of a sun.
+//          each side, one per probe. Planes are stacked along z and hold four numbers each: coefficients of
+//          incident light (r, g, b, r, ..), followed by the visibility of a sun.
 // sights   RG32UI, [depth][height][width]: visibility distances of each probe.
 // index    R32UI, [size.z][size.y][size.x]: the brick at each position.
 
