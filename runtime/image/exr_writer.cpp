@@ -69,7 +69,7 @@ std::vector<std::byte> encode_exr(const Image& image, std::optional<EnvironmentL
             file.setFrameBuffer(frame_of(image));
             file.writePixels(image.height);
         }
-        // Out of memory, the library omits lines without an error.
+        // When memory runs out, the library omits lines without an error.
         MemoryStream written(stream.file);
         if (!Imf::InputFile(written).isComplete())
             throw std::bad_alloc();
