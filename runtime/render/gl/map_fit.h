@@ -17,8 +17,9 @@ struct SeenScene {
     Bounds box;        ///< bounds of the scene
 };
 
+/// Depth range of the view.
 struct Slice {
-    double from, to;                 ///< Depth range of the view.
+    double from, to;                 ///< distances along the view, metres
     std::vector<glm::dvec3> corners; ///< corners of the scene box inside the slice, relative to the eye;
                                      ///< empty: nothing visible
 };
