@@ -221,7 +221,7 @@ private:
         }
     }
 
-    /// Adds the result of prtkit within a budget, or the reason why there is none.
+    /// Adds the result of prtkit within a budget, or the reason why it is missing.
     void within(const Budget& budget, const std::string& words, const Progress& progress,
                 std::vector<SweepPoint>& points) {
         SearchOptions o;

@@ -28,7 +28,7 @@ struct Taken {
 };
 
 /// Returns the spot with the largest light that the given order cannot represent, and whose disc does not
-/// touch `taken`; empty if there is none.
+/// touch `taken`; empty if absent.
 std::optional<Spot> strongest_spot(const SkyMap& map, double widest, std::span<const Taken> taken);
 
 /// Extent of a spot with its halo, and the background color.

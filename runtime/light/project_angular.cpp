@@ -105,8 +105,8 @@ public:
     const glm::vec3* row(int y) const { return &image_.at(0, y); }
     Cell cell(int i) const { return even_cell(size_, i); }
 
-    /// Returns the first texel of row `y` that is entirely inside the circle; the last one mirrors it. If
-    /// there is none, returns the center of the row or more.
+    /// Returns the first texel of row `y` that is entirely inside the circle; the last one mirrors it. If no
+    /// texel is inside, returns the center of the row or more.
     int first_inside(int y) const {
         const Cell v = cell(y);
         return std::min((size_ + 1) / 2, static_cast<int>(std::ceil(edge(std::max(-v.begin, v.end)))));

@@ -68,9 +68,9 @@ Sweep sweep(const Transfer& transfer, const ReceiverSurface& surface, std::span<
             const CompressOptions& options, std::span<const SweepCandidate> others = {},
             const Progress& progress = {});
 
-/// Returns the best point of `method` with at most `bytes` per receiver; null if there is none.
+/// Returns the best point of `method` with at most `bytes` per receiver; null if absent.
 const SweepPoint* best_by_bytes(const Sweep& sweep, const std::string& method, double bytes);
-/// Returns the best point of `method` with at most `components`; null if there is none.
+/// Returns the best point of `method` with at most `components`; null if absent.
 const SweepPoint* best_by_components(const Sweep& sweep, const std::string& method, double components);
 
 inline constexpr const char* kOurs = "prtkit";

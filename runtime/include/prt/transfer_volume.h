@@ -120,7 +120,7 @@ public:
     /// Returns the probes for `position` in metres, clamped to the volume. `normal` is the normal of the lit
     /// surface (zero: none): the lookup is offset along it.
     VolumeCorners find(const glm::vec3& position, const glm::vec3& normal = glm::vec3(0)) const;
-    /// Index of the brick at each cell of the grid, [size.z][size.y][size.x]; kNoBrick if there is none.
+    /// Index of the brick at each cell of the grid, [size.z][size.y][size.x]; kNoBrick if absent.
     static constexpr std::uint32_t kNoBrick = ~0u;
     std::span<const std::uint32_t> index() const { return index_; }
 

@@ -17,7 +17,7 @@ namespace prt {
 /// weights are packed.
 void write_lightmap(GltfDocument& document, const Scene& scene, const CompressedLightmap& lightmap);
 
-/// Returns the compressed lightmap in the file; empty if there is none. Throws `Error` if it is damaged.
+/// Returns the compressed lightmap in the file; empty if absent. Throws `Error` if it is damaged.
 std::optional<CompressedLightmap> read_compressed_lightmap(const GltfDocument& document, const Scene& scene);
 
 /// Expands the `compressed` receivers of `baked` to all texels, as a game loads them. A texel that is no

@@ -72,7 +72,7 @@ void write_transfer(GltfDocument& document, const Scene& scene, const BakedTrans
 /// Writes PRTKIT_clustered_pca and removes PRTKIT_transfer.
 void write_clustered(GltfDocument& document, const Scene& scene, const CompressedTransfer& compressed);
 
-/// Return the transfer in the file; empty if there is none. Throw `Error` if it is damaged, or if its
+/// Return the transfer in the file; empty if absent. Throw `Error` if it is damaged, or if its
 /// instances share transfer and it was not read with `Instancing::apart` (prt/instances_gltf.h).
 std::optional<BakedTransfer> read_transfer(const GltfDocument& document, const Scene& scene);
 std::optional<CompressedTransfer> read_clustered(const GltfDocument& document, const Scene& scene);

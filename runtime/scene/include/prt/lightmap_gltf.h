@@ -18,7 +18,7 @@ inline constexpr int kMostLightmapTexels = 16384;
 /// transfer.
 void write_lightmap(GltfDocument& document, const Scene& scene, const BakedLightmap& lightmap);
 
-/// Returns the raw transfer of texels in the file; empty if there is none. Throws `Error` if it is damaged.
+/// Returns the raw transfer of texels in the file; empty if absent. Throws `Error` if it is damaged.
 std::optional<BakedLightmap> read_lightmap(const GltfDocument& document, const Scene& scene);
 
 /// A compressed lightmap whose words are still images.
@@ -28,7 +28,7 @@ struct EncodedLightmap {
 };
 
 /// Write and read a compressed lightmap with encoded images. prt/lightmap_file.h encodes and decodes the
-/// images. Reading returns no value if there is none, and throws `Error` if it is damaged.
+/// images. Reading returns no value if the file has no such lightmap, and throws `Error` if it is damaged.
 void write_encoded_lightmap(GltfDocument& document, const Scene& scene, const EncodedLightmap& lightmap);
 std::optional<EncodedLightmap> read_encoded_lightmap(const GltfDocument& document, const Scene& scene);
 

@@ -27,7 +27,7 @@ struct StoredLobes {
 /// because it would apply to a single pose.
 void write_lobes(GltfDocument& document, const Scene& scene, const StoredLobes& lobes);
 
-/// Returns the lobes in the file; empty if there are none. Throws `Error` if they are damaged.
+/// Returns the lobes in the file; empty if absent. Throws `Error` if they are damaged.
 std::optional<StoredLobes> read_lobes(const GltfDocument& document, const Scene& scene);
 
 } // namespace prt

@@ -19,7 +19,7 @@ struct NodeOccluder {
 /// Writes occlusion volumes and replaces existing ones.
 void write_occluders(GltfDocument& document, std::span<const NodeOccluder> occluders);
 
-/// Returns the occlusion volumes in the order of nodes; empty if there are none. Throws `Error` if they are
+/// Returns the occlusion volumes in the order of nodes; empty if absent. Throws `Error` if they are
 /// damaged.
 std::vector<NodeOccluder> read_occluders(const GltfDocument& document);
 

@@ -15,7 +15,7 @@ namespace prt {
 void write_volume(GltfDocument& document, const Scene& scene, const BakedVolume& volume);
 void write_volume(GltfDocument& document, const Scene& scene, const CompressedVolume& volume);
 
-/// Return the volume in the file; empty if there is none of that kind. Throw `Error` if it is damaged.
+/// Return the volume in the file; empty if absent of that kind. Throw `Error` if it is damaged.
 std::optional<BakedVolume> read_volume(const GltfDocument& document, const Scene& scene);
 std::optional<CompressedVolume> read_compressed_volume(const GltfDocument& document, const Scene& scene);
 
