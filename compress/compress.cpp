@@ -1,5 +1,6 @@
 // The compressor: clustered principal components of transfer vectors (Sloan, Hall, Hart and Snyder 2003) in a
-// space where distance is error of exit radiance, weights quantised inside the loop, seams smoothed.
+// space where distance is error of exit radiance, with weight quantisation inside the loop and smoothed
+// seams.
 
 #include "prt/compress.h"
 
@@ -15,7 +16,7 @@
 namespace prt {
 namespace {
 
-/// What every step of a compression sees.
+/// Inputs of every step of a compression.
 struct Task {
     const TransferView& transfer;
     const CompressOptions& options;
@@ -25,7 +26,7 @@ struct Task {
     const Course& course;
 };
 
-/// Points in a frame, and the clusters found there.
+/// Points in a frame, and the clusters found for them.
 struct FoundClusters {
     Frame frame;
     GuideCoordinates guides;
@@ -33,14 +34,14 @@ struct FoundClusters {
     Clustering clustering;
 };
 
-/// What rounding points to 16 bits may add in squared error: nothing where they are so few that they take no
-/// memory to speak of.
+/// Returns the squared error that rounding points to 16 bits may add; 0 for few receivers, whose points need
+/// little memory.
 double rounding_allowed(const Task& task, double most) {
     return task.transfer.receivers() < tuning::kManyReceivers ? 0 : most;
 }
 
-/// Axes that carry less than a hundredth of the error that will be left are left out. That is known only
-/// afterwards: a frame that turns out too coarse is made anew.
+/// Finds clusters. Axes that carry less than a hundredth of the final error are dropped. That error is known
+/// only afterwards: a frame that proves too coarse is built again.
 FoundClusters find_clusters(const Task& task, const Progress& progress) {
     const CompressOptions& options = task.options;
     ClusteringOptions how = clustering_options(options, task.transfer.dimension());
@@ -58,7 +59,7 @@ FoundClusters find_clusters(const Task& task, const Progress& progress) {
         const double to = 1 - 0.03 * (1 - from);
         FoundClusters found;
         found.frame = fit_frame(transfer, task.significance, metric, most_dropped, options.threads);
-        if (found.frame.dimension > 0) // else there is nothing to tell
+        if (found.frame.dimension > 0) // otherwise there is nothing to predict
             found.guides = task.guides;
         found.points = PointBlocks(transfer, found.frame, found.guides, options.threads,
                                    rounding_allowed(task, tuning::kRoundingOverDropped * most_dropped));
@@ -78,13 +79,13 @@ FoundClusters find_clusters(const Task& task, const Progress& progress) {
 /// Points, clusters and codes on their way to the file.
 struct Coding {
     Frame frame;
-    CodedBases coded_frame; ///< of the frame, where bases are coded
+    CodedBases coded_frame; ///< code of the frame, if bases are coded
     GuideCoordinates guides;
     PointBlocks points;
     CodedClusters coded;
 };
 
-/// Codes in the clusters that were found, in the same frame.
+/// Computes the first codes in the clusters that were found, in the same frame.
 Coding first_codes(const Task& task, const AlternationOptions& how, FoundClusters&& found) {
     Coding coding{std::move(found.frame), {}, std::move(found.guides), std::move(found.points), {}};
     coding.coded.clusters = quantised_clusters(coding.points, task.significance, found.clustering,
@@ -98,21 +99,21 @@ Coding first_codes(const Task& task, const AlternationOptions& how, FoundCluster
     return coding;
 }
 
-/// Goes over to the frame as the file holds it, with fewer axes, and rounded.
+/// Converts to the frame of the file: fewer axes, and rounded.
 void round_frame(const Task& task, Coding& coding) {
     const double error = total_error(task.significance, coding.coded.codes.errors) *
                          (task.transfer.layout().outputs > 1 ? tuning::kSharesOfOutputs : 1);
     truncate(coding.frame, axes_needed(coding.frame, tuning::kAxesShare * error));
     coding.coded_frame = code_frame(coding.frame, task.light.metric(), tuning::kAxisRoundingShare * error);
     coding.coded.clusters = truncated(coding.coded.clusters, coding.frame.dimension);
-    coding.points = {}; // the points of the one frame make room for those of the other
+    coding.points = {}; // frees the old points before the new ones are allocated
     coding.points = PointBlocks(task.transfer, coding.frame, coding.guides, task.options.threads,
                                 rounding_allowed(task, tuning::kPointsRoundingShare * error));
     encode_in_place(coding.points, coding.coded.clusters, coding.coded.codes, task.options.threads);
 }
 
-/// Goes over from logarithms of lamps to light: the axes of a file, clusters of the same receivers fitted to
-/// their codes, and errors that count as seen. A cluster's neighbours are those that it had.
+/// Converts from logarithms of lamps to light: the axes of the file, clusters of the same receivers fitted to
+/// their codes, and errors weighted as seen. The neighbours of a cluster are those in the old frame.
 void leave_logarithms(const Task& task, Coding& coding, ClusterLists& candidates) {
     const CompressOptions& options = task.options;
     const SeenLamps& lamps = *task.light.lamps();
@@ -122,8 +123,7 @@ void leave_logarithms(const Task& task, Coding& coding, ClusterLists& candidates
     const bool coded = bases_are_coded(options);
     coding.frame = lamps.frame(coded ? tuning::kAxesShare * error : 0);
     if (coded)
-        coding.coded_frame =
-            code_frame(coding.frame, lamps.metric(), tuning::kAxisRoundingShare * error);
+        coding.coded_frame = code_frame(coding.frame, lamps.metric(), tuning::kAxisRoundingShare * error);
     coding.coded.clusters = without_rows(coding.coded.clusters, coding.frame.dimension);
     coding.points = {};
     coding.points = PointBlocks(task.transfer, coding.frame, coding.guides, options.threads);
@@ -133,8 +133,8 @@ void leave_logarithms(const Task& task, Coding& coding, ClusterLists& candidates
     encode_in_place(coding.points, coding.coded.clusters, coding.coded.codes, options.threads);
 }
 
-/// Clusters that have receivers, by the middle of the first and the last of these: those of one mesh follow
-/// each other, and constants of its instances are few (prt/instance_former.h).
+/// Returns the clusters with receivers, sorted by the mean of their first and last receiver. Clusters of one
+/// mesh are then consecutive, so that its instances need few constants (prt/instance_former.h).
 std::vector<std::uint32_t> clusters_in_order(std::span<const std::uint32_t> of_receivers, std::size_t count) {
     std::vector<std::size_t> first(count), last(count);
     std::vector<std::uint32_t> order;
@@ -173,8 +173,8 @@ void put_in_order(CodedClusters& coded) {
         k = new_index[k];
 }
 
-/// Where bits are divided alike in all clusters, those that need fewer rows get empty ones: then no cluster
-/// is an exception, and the shader has no loop.
+/// Adds empty rows to clusters with fewer rows if all clusters share fixed bit widths: no cluster is then an
+/// exception, and the shader has no loop.
 void fill_up(std::span<const int> fixed_bits, QuantisedClusters& clusters, Codes& codes) {
     if (fixed_bits.empty())
         return;
@@ -195,7 +195,7 @@ void fill_up(std::span<const int> fixed_bits, QuantisedClusters& clusters, Codes
     codes.weights = std::move(filled);
 }
 
-/// Everything from points to what a file holds.
+/// Performs all steps from points to the contents of a file.
 ClusteredTransfer code(const Task& task, const ReceiverSurface& surface, FoundClusters&& found,
                        const Progress& progress) {
     const CompressOptions& options = task.options;
@@ -256,9 +256,9 @@ CompressResult compress_from(const Course& course, const TransferView& transfer,
     const std::span<const float> areas = surface.areas;
     const Stopwatch stopwatch;
     std::optional<SeenLight> own;
-    const SeenLight& light = course.light ? *course.light
-                                          : own.emplace(transfer, areas, metric_of(options, transfer, areas),
-                                                        options.threads);
+    const SeenLight& light =
+        course.light ? *course.light
+                     : own.emplace(transfer, areas, metric_of(options, transfer, areas), options.threads);
     const Task task{transfer, options, light, light.weights(), guide_coordinates(surface, options.guides),
                     course};
     CompressResult result;

@@ -1,19 +1,21 @@
 #pragma once
 
+// Compression within a search.
+
 #include "prt/compress.h"
 
 namespace prt {
 
 class SeenLight;
 
-/// How a compression of a search goes.
+/// Settings of one compression within a search.
 struct Course {
-    /// [receivers] clusters of an earlier result, which are split and merged to the number wanted: half of
-    /// the time. Empty: from vector quantisation.
+    /// [receivers] clusters of an earlier result, which are split and merged to the desired number: saves
+    /// half of the time. Empty: start from vector quantisation.
     std::span<const std::uint16_t> start = {};
-    /// Few rounds and no seams: a third of the time, for an error that is known to a few hundredths.
+    /// Few rounds and no seams: takes a third of the time; the error is known to a few hundredths.
     bool draft = false;
-    /// Of this transfer, these areas and this metric; made anew where null.
+    /// Light of the same transfer, areas and metric; computed if null.
     const SeenLight* light = nullptr;
 };
 

@@ -1,4 +1,4 @@
-// What options mean: presets, defaults by format, and what is refused.
+// Compression options: presets, defaults by format, and validation.
 
 #include "compress_options.h"
 
@@ -46,7 +46,7 @@ void check_options(const CompressOptions& o) {
         out_of_range("the share of the bases must lie in 0..1", *o.basis_share);
 }
 
-/// Nothing where a renderer has none.
+/// Checks a receiver attribute; empty if the renderer does not have it.
 void check_attribute(std::span<const glm::vec3> values, std::size_t receivers, const char* name) {
     if (!values.empty() && values.size() != receivers)
         throw Error("there are " + std::string(name) + " for " + std::to_string(values.size()) +

@@ -1,25 +1,27 @@
 #pragma once
 
+// Validation and defaults of compression options.
+
 #include "clusters/clustering.h"
 #include "prt/compress.h"
 
 namespace prt {
 
-/// Throws `Error` for what cannot be compressed, or not so.
+/// Throws `Error` for input or options that do not allow compression.
 void check_input(const TransferView& transfer, const ReceiverSurface& surface,
                  const CompressOptions& options);
 
-/// As given, or of outdoor light, `balanced`.
+/// Returns the given metric, or that of outdoor light, `balanced`.
 LightMetric metric_of(const CompressOptions& options, const TransferView& transfer,
                       std::span<const float> areas);
 
-/// As given, or as tuned; none beside floats.
+/// Returns the given basis share or its tuned default; 0 for float weights.
 double basis_share(const CompressOptions& options);
 
-/// Whether the file holds its bases in code, rounded.
+/// Returns whether the file stores its bases in rounded code.
 bool bases_are_coded(const CompressOptions& options);
 
-/// What the clustering is told of transfer of this dimension.
+/// Returns the options of the clustering for transfer of this dimension.
 ClusteringOptions clustering_options(const CompressOptions& options, std::size_t dimension);
 
 } // namespace prt

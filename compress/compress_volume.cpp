@@ -1,3 +1,4 @@
+// Compresses volumes with probes as receivers.
 #include "prt/compress_volume.h"
 
 #include "prt/support/error.h"

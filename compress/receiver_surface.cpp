@@ -1,3 +1,4 @@
+// Collects receiver data from a scene.
 #include "prt/receiver_surface.h"
 
 namespace prt {

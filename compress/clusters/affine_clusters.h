@@ -1,13 +1,15 @@
 #pragma once
 
+// Clusters as affine subspaces.
+
 #include <cstddef>
 #include <vector>
 
 namespace prt {
 
-/// An affine subspace per cluster: its points are near mean + sum_i (x_i - center_i) guide_i + sum_j w_j
-/// row_j with x the guides of the point (docs/math.md, eq. 20). Without rows this is plain vector
-/// quantisation.
+/// An affine subspace per cluster: its points are close to mean + sum_i (x_i - center_i) guide_i + sum_j w_j
+/// row_j with x the predictor coordinates of the point (docs/math.md, eq. 20). Without rows this is plain
+/// vector quantisation.
 struct AffineClusters {
     std::size_t dimension = 0, max_components = 0;
     std::size_t guides = 0;
@@ -15,7 +17,7 @@ struct AffineClusters {
     std::vector<float> slopes;   ///< [clusters][guides][dimension]
     std::vector<float> centers;  ///< [clusters][guides]
     std::vector<float> rows;     ///< [clusters][max_components][dimension]
-    std::vector<int> components; ///< [clusters] rows in use
+    std::vector<int> components; ///< [clusters] number of used rows
 
     AffineClusters() = default;
     AffineClusters(std::size_t clusters, std::size_t dimensions, std::size_t most_components,
@@ -41,8 +43,8 @@ struct AffineClusters {
     }
 };
 
-/// Calls `visit(row, factor)` for the rows of cluster `k` in the order of a file: its mean and guides' rows
-/// with 1, its directions with 2, the multiple of the step that they are rounded to.
+/// Calls `visit(row, factor)` for the rows of cluster `k` in file order: its mean and predictor rows with
+/// factor 1, its directions with 2. The factor is the multiple of the step that they are rounded to.
 template <class Clusters, class Visit>
 void for_rows(Clusters& clusters, std::size_t k, Visit&& visit) {
     visit(clusters.mean(k), 1);
@@ -52,8 +54,8 @@ void for_rows(Clusters& clusters, std::size_t k, Visit&& visit) {
         visit(clusters.row(k, j), 2);
 }
 
-/// What is left of `point` [dimension + guides] when the mean and the guides of cluster `k` have told what
-/// they know; in place, the first `dimension` numbers.
+/// Subtracts the mean and predictor term of cluster `k` from `point` [dimension + guides], in place, from the
+/// first `dimension` numbers.
 inline void subtract_known(const AffineClusters& clusters, std::size_t k, float* point) {
     const float* guides = point + clusters.dimension;
     for (std::size_t i = 0; i < clusters.dimension; ++i)

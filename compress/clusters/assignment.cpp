@@ -1,6 +1,5 @@
-// Assigns points to the clusters that lose least: the step of Lloyd's iteration, with the distance to an
-// affine subspace in the place of that to a mean (Sloan et al. 2003), for blocks of points in vector
-// registers.
+// Assigns points to the clusters with minimum loss: the step of Lloyd's iteration, with the distance to an
+// affine subspace instead of a mean (Sloan et al. 2003), for blocks of points in SIMD registers.
 
 #include "clusters/assignment.h"
 
@@ -9,8 +8,8 @@
 namespace prt {
 namespace {
 
-/// Squared length of `d`, what mean and guides leave, outside of the directions: |d|² - |B d|² (docs/math.md,
-/// eq. 23). In float it loses digits below 1e-6 |d|²; it only decides between clusters.
+/// Returns the squared length of the residual `d` outside of the directions: |d|² - |B d|² (docs/math.md, eq.
+/// 23). In float it loses precision below 1e-6 |d|², which is sufficient to choose between clusters.
 template <class Value>
 [[gnu::always_inline]] inline Value squared_outside(const Value* d, std::size_t dimension,
                                                     const float* directions, std::size_t components) {

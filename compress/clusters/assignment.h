@@ -1,5 +1,7 @@
 #pragma once
 
+// Assignment of points to clusters.
+
 #include "clusters/affine_clusters.h"
 #include "clusters/member_blocks.h"
 
@@ -8,7 +10,7 @@
 
 namespace prt {
 
-/// Clusters with orthonormal rows, as points choose between them.
+/// Clusters with orthonormal rows and penalties, for the assignment of points.
 struct PenalisedClusters : AffineClusters {
     std::vector<float> penalties; ///< [clusters] added to the squared distance of a point
 
@@ -19,16 +21,16 @@ struct PenalisedClusters : AffineClusters {
 
 struct Assignment {
     std::vector<std::uint32_t> clusters; ///< [points]
-    std::vector<float> errors;           ///< [points] squared distance to the cluster, and its penalty
+    std::vector<float> errors;           ///< [points] squared distance to the cluster plus its penalty
 };
 
-/// The points of a block from `first` on; there is no block of points without numbers.
+/// Returns the points of a block starting at `first`; null for points of dimension 0.
 [[gnu::always_inline]] inline const float* points_from(const float* block, int first) {
     return block ? block + first : nullptr;
 }
 
-/// What is left of a block's points when the mean and the guides of a cluster have told what they know:
-/// `subtract_known` of `Width` points from the first of `block` on.
+/// Subtracts mean and predictor term of a cluster from `Width` points of `block`: `subtract_known` for
+/// several points.
 template <int Width>
 [[gnu::always_inline]] inline void
 known_subtracted(const float* block, std::size_t dimension, const float* mean, const float* center,
@@ -43,22 +45,22 @@ known_subtracted(const float* block, std::size_t dimension, const float* mean, c
     }
 }
 
-using ClusterLists = std::vector<std::vector<std::uint32_t>>; ///< [clusters][..] numbers of clusters
+using ClusterLists = std::vector<std::vector<std::uint32_t>>; ///< [clusters][..] indices of clusters
 
-/// Gives each point the cluster whose subspace is nearest, penalties added; of equals the first.
+/// Assigns each point to the cluster with the nearest subspace, including penalties; the first of equals.
 Assignment assign(const PointBlocks& points, const PenalisedClusters& clusters, int threads);
 
-/// The same among the `candidates` of the cluster that a point has now: [points] of clusters.
+/// Assigns each point to the nearest of the `candidates` of its current cluster: [points] clusters.
 std::vector<std::uint32_t> reassign(const PointBlocks& points, const PenalisedClusters& clusters,
                                     const ClusterLists& candidates, std::span<const std::uint32_t> now,
                                     int threads);
 
-/// Lowers `errors` [points] to the squared distance to `center` [dimension] where that is less.
+/// Lowers `errors` [points] to the squared distance to `center` [dimension] if that is smaller.
 void lower_to_distance(const PointBlocks& points, const float* center, std::span<float> errors, int threads);
 
-/// Leaves in `clusters` and `errors` [Width] the candidate with the least `distance(k)` of each of as many
-/// points; of equals the first. What is a distance differs: rows that are orthonormal are projected on, rows
-/// of codes, which are not, are subtracted one after the other with rounded weights.
+/// Writes the candidate with the minimum `distance(k)` of each of `Width` points to `clusters` and `errors`
+/// [Width]; the first of equals. The definition of distance varies: orthonormal rows are projected on; rows
+/// of codes, which are not orthonormal, are subtracted one after another with rounded weights.
 template <int Width, class Distance>
 [[gnu::always_inline]] inline void keep_nearest(std::span<const std::uint32_t> candidates,
                                                 std::uint32_t* clusters, float* errors, Distance&& distance) {
@@ -74,8 +76,8 @@ template <int Width, class Distance>
     }
 }
 
-/// For points that have clusters `now`: `nearest_of(members, block, candidates, clusters, errors)` chooses
-/// among those of their own one, kLanes points at a time.
+/// Reassigns points with current clusters `now`: `nearest_of(members, block, candidates, clusters, errors)`
+/// chooses among the candidates of their cluster, kLanes points at a time.
 template <class NearestOf>
 std::vector<std::uint32_t> reassign_members(const PointBlocks& points, const ClusterLists& candidates,
                                             std::span<const std::uint32_t> now, int threads,

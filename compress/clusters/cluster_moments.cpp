@@ -1,5 +1,5 @@
-// Local PCA from moments that are kept up to date (Sloan et al. 2003, section 4.2): eigenvectors of each
-// cluster's covariance, by way of a low-rank factor where its points are few.
+// Local PCA from incrementally updated moments (Sloan et al. 2003, section 4.2): eigenvectors of each
+// cluster's covariance, via a low-rank factor for clusters of few points.
 
 #include "clusters/cluster_moments.h"
 
@@ -15,7 +15,7 @@
 namespace prt {
 namespace {
 
-/// Points that enter or leave each cluster, ascending, one list after the other.
+/// Points that enter or leave each cluster, ascending, concatenated by cluster.
 struct Changes {
     std::vector<std::size_t> first; ///< [clusters + 1]
     std::vector<std::uint32_t> points;
@@ -88,8 +88,8 @@ void ClusterMoments::update(const PointBlocks& points, std::span<const float> si
 
 namespace {
 
-/// Rounding stays behind where points came and went: a cluster of less significance is empty. All receivers
-/// together have 1, known to 2^-53 in each of the additions.
+/// Maximum significance of an empty cluster. Rounding errors remain when points come and go. All receivers
+/// together have 1, with a rounding error of 2^-53 per addition.
 constexpr double kLeastSignificance = 1e-14;
 
 struct Covariance {
@@ -97,7 +97,7 @@ struct Covariance {
     Eigen::MatrixXd matrix; ///< lower triangle
 };
 
-/// Of coordinates and guides together.
+/// Returns the covariance of coordinates and predictors together.
 Covariance joint_covariance(const ClusterMoments::View& moments) {
     const auto d = static_cast<Eigen::Index>(moments.width());
     Covariance result{Eigen::Map<const Eigen::VectorXd>(&moments.values[1], d) / moments.significance(),
@@ -109,14 +109,14 @@ Covariance joint_covariance(const ClusterMoments::View& moments) {
     return result;
 }
 
-/// What guides tell of the coordinates, and what they leave of them.
+/// Regression of the coordinates on the predictors, and the residual.
 struct Regression {
     Eigen::MatrixXd slopes;   ///< [guides][dimension]
     Eigen::MatrixXd residual; ///< covariance, lower triangle
 };
 
-/// Least squares, by V (V² + ridge²)^-1 for V^-1: a cluster whose guides hardly differ learns nothing from
-/// them, and one whose guides do loses nothing.
+/// Computes least squares with V (V² + ridge²)^-1 in place of V^-1: clusters whose predictors hardly vary
+/// learn nothing from them, and others lose nothing.
 Regression regression_of(const Covariance& joint, const ClusterMoments::View& moments) {
     const auto d = static_cast<Eigen::Index>(moments.dimension),
                g = static_cast<Eigen::Index>(moments.guides);
@@ -132,15 +132,15 @@ Regression regression_of(const Covariance& joint, const ClusterMoments::View& mo
     return result;
 }
 
-/// What float rounding of the points alone can make along one direction: (2^-24)² of their squared size, with
-/// a margin of 4.
+/// Returns the variance that float rounding of the points alone can cause along one direction: (2^-24)² of
+/// their squared size, with a margin of 4.
 double rounding_floor(const Covariance& joint, std::size_t dimension) {
     const auto d = static_cast<Eigen::Index>(dimension);
     return 4 * 0x1p-48 * (joint.mean.head(d).squaredNorm() + joint.matrix.diagonal().head(d).sum());
 }
 
-/// L with covariance = L L^T, where its rank is at most half of the dimension: pivoted Cholesky until nothing
-/// is left but rounding. Clusters of few points have few columns, and their axes cost a hundredth of a full
+/// Returns L with covariance = L L^T if its rank is at most half of the dimension: pivoted Cholesky until
+/// only rounding remains. Clusters of few points have few columns, and their axes cost a hundredth of a full
 /// decomposition.
 std::optional<Eigen::MatrixXd> low_rank_factor(const Eigen::MatrixXd& lower, double nothing) {
     const Eigen::Index d = lower.rows();
@@ -163,9 +163,9 @@ std::optional<Eigen::MatrixXd> low_rank_factor(const Eigen::MatrixXd& lower, dou
     }
 }
 
-/// Principal axes: variances, descending, and where they are wanted directions, as many as have variance.
+/// Principal axes: variances, descending, and on request the directions with variance.
 struct Spectrum {
-    std::vector<double> variances; ///< [dimension]; what is only rounding is 0
+    std::vector<double> variances; ///< [dimension]; 0 if it is only rounding
     Eigen::MatrixXd directions;    ///< columns
 };
 

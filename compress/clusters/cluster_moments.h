@@ -1,25 +1,28 @@
 #pragma once
 
+// Moments of clusters and local PCA.
+
 #include "clusters/component_plan.h"
 #include "clusters/points.h"
 
 namespace prt {
 
-/// Moments of every cluster's points by significance, in double: what a local PCA needs. Points that change
-/// their cluster are subtracted here and added there, so that a round costs what has moved.
+/// Moments of every cluster's points, weighted by significance, in double: the input of local PCA. Points
+/// that change their cluster are subtracted and added, so that the cost of a round depends on the number of
+/// changes.
 class ClusterMoments {
 public:
     ClusterMoments(std::size_t clusters, std::size_t dimension, std::size_t guides = 0);
 
-    /// Sums over all points from nothing.
+    /// Computes the sums over all points from scratch.
     void build(const PointBlocks& points, std::span<const float> significance,
                std::span<const std::uint32_t> clusters, int threads);
-    /// Takes `before` to `after`.
+    /// Updates the sums for the change of clusters from `before` to `after`.
     void update(const PointBlocks& points, std::span<const float> significance,
                 std::span<const std::uint32_t> before, std::span<const std::uint32_t> after, int threads);
 
-    /// A cluster's moments: significance, sums [width], lower triangle of products by rows; coordinates, then
-    /// guides.
+    /// A cluster's moments: significance, sums [width], lower triangle of products by rows; first
+    /// coordinates, then predictors.
     struct View {
         std::size_t dimension, guides;
         std::span<const double> values;
@@ -40,23 +43,23 @@ private:
 /// Mean, principal axes and plan of one set of points.
 struct ClusterFit {
     std::vector<float> mean;       ///< [dimension]
-    std::vector<float> center;     ///< [guides], their mean
+    std::vector<float> center;     ///< [guides], mean of the predictors
     std::vector<float> slopes;     ///< [guides][dimension]
     std::vector<float> directions; ///< [components][dimension], orthonormal
-    std::vector<double> variances; ///< [dimension] along all principal axes, descending, of what guides leave
+    std::vector<double> variances; ///< [dimension] along all principal axes, descending, after prediction
     std::vector<double> guide_variances; ///< [guides]
     ComponentPlan plan;
     double significance = 0;
 
-    /// Of all points of the cluster, prices included.
+    /// Cost of all points of the cluster, including prices.
     double cost(const Spending& spending) const { return cost_of(plan, significance, spending); }
 };
 
-/// Regression on the guides, and local PCA of what they leave, from moments. Directions without variance
-/// beyond the rounding of the points are left out.
+/// Computes regression on the predictors, and local PCA of the residual, from moments. Directions whose
+/// variance is only rounding of the points are dropped.
 ClusterFit fit_cluster(const ClusterMoments::View& moments, const Spending& spending);
 
-/// The cost that such a fit would have, without its directions: five times as fast.
+/// Computes the cost of `fit_cluster` without its directions: five times as fast.
 double cluster_cost(const ClusterMoments::View& moments, const Spending& spending);
 
 } // namespace prt

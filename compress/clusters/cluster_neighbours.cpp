@@ -9,7 +9,8 @@
 namespace prt {
 namespace {
 
-/// Squared distance of cluster k's mean to the points of `other`: to its mean, less what its rows reach.
+/// Returns the squared distance from cluster k's mean to the points of `other`: the distance to its mean,
+/// reduced by the extent of its rows.
 float squared_gap(const AffineClusters& clusters, std::span<const RowReach> reaches, std::size_t k,
                   std::size_t other) {
     const std::size_t dimension = clusters.dimension;

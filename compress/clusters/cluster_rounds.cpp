@@ -1,6 +1,6 @@
 // A round of clustered PCA (Sloan, Hall, Hart and Snyder 2003, "Clustered Principal Components for
-// Precomputed Radiance Transfer"): Lloyd's iteration with affine subspaces, here with penalties for what
-// quantisation will lose, as entropy-constrained vector quantisation has (Chou, Lookabaugh and Gray 1989).
+// Precomputed Radiance Transfer"): Lloyd's iteration with affine subspaces and penalties for the expected
+// quantisation loss, as in entropy-constrained vector quantisation (Chou, Lookabaugh and Gray 1989).
 
 #include "clusters/cluster_rounds.h"
 
@@ -12,7 +12,7 @@
 namespace prt {
 namespace {
 
-/// Along each direction weights reach up to some deviations.
+/// Returns the extent of weights along each direction: a few standard deviations.
 std::vector<RowReach> reaches_of(const std::vector<ClusterFit>& fits, std::size_t max_components) {
     std::vector<RowReach> reaches(fits.size() * max_components);
     for (std::size_t k = 0; k < fits.size(); ++k)
@@ -38,8 +38,8 @@ PenalisedClusters penalised_clusters(const std::vector<ClusterFit>& fits, std::s
         if (!fit.directions.empty())
             std::copy(fit.directions.begin(), fit.directions.end(), result.row(k, 0));
         result.components[k] = static_cast<int>(fit.plan.bits.size());
-        // What a point loses here beyond its distance. The plan's error holds the variance along the axes
-        // that it leaves out, which the distance counts exactly.
+        // Penalty of a point in addition to its distance. The plan's error includes the variance along
+        // dropped axes, which the distance counts exactly.
         result.penalties[k] = fit.significance > 0 ? static_cast<float>(fit.plan.penalty)
                                                    : std::numeric_limits<float>::infinity();
     }

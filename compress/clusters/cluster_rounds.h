@@ -1,17 +1,19 @@
 #pragma once
 
+// Rounds of clustered PCA.
+
 #include "clusters/assignment.h"
 #include "clusters/cluster_moments.h"
 #include "prt/compress_trace.h"
 
 namespace prt {
 
-/// Everything that a round changes.
+/// State that a round changes.
 struct ClusterState {
     std::vector<std::uint32_t> clusters; ///< [points]
     ClusterMoments moments;
     std::vector<ClusterFit> fits;
-    double cost = 0; ///< of the fits, prices included
+    double cost = 0; ///< cost of the fits, including prices
 };
 
 /// Rounds of clustered PCA. Keeps references.
@@ -21,13 +23,14 @@ struct ClusterRounds {
     const CompressTrace& trace;
     int threads;
 
-    /// Every point in the cluster that is nearest; nothing is fitted yet.
+    /// Assigns every point to the nearest cluster; nothing is fitted yet.
     ClusterState start(const PenalisedClusters& centers) const;
-    /// Points in clusters that are known, numbered below `count`; nothing is fitted yet.
+    /// Starts from known clusters, numbered below `count`; nothing is fitted yet.
     ClusterState start(std::vector<std::uint32_t> clusters, std::size_t count) const;
-    /// Local PCA of every cluster, with as many components as pay. Empty clusters stay empty.
+    /// Computes local PCA of every cluster, with the most economical number of components. Empty clusters
+    /// stay empty.
     void refit(ClusterState& state, const Spending& spending) const;
-    /// Gives every point the best cluster.
+    /// Assigns every point to the best cluster.
     void reassign(ClusterState& state) const;
     void round(ClusterState& state, const Spending& spending) const {
         refit(state, spending);
@@ -39,7 +42,7 @@ struct ClusterRounds {
     }
 };
 
-/// The fits as points choose between them.
+/// Converts fits to clusters for the assignment of points.
 PenalisedClusters penalised_clusters(const std::vector<ClusterFit>& fits, std::size_t dimension);
 
 } // namespace prt

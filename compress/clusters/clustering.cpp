@@ -1,4 +1,4 @@
-// The course of clustered PCA (Sloan, Hall, Hart and Snyder 2003): start, growth, rounds, moves, prices.
+// Controls clustered PCA (Sloan, Hall, Hart and Snyder 2003): start, growth, rounds, moves, prices.
 
 #include "clusters/clustering.h"
 
@@ -12,7 +12,7 @@
 namespace prt {
 namespace {
 
-/// What the state's components leave, without quantisation and prices.
+/// Returns the error with the state's components, without quantisation and prices.
 double squared_error(const ClusterState& state) {
     double error = 0;
     for (std::size_t k = 0; k < state.fits.size(); ++k)
@@ -27,7 +27,7 @@ bool any_has(const ClusterState& state, int components) {
     });
 }
 
-/// Components come one at a time, some rounds each.
+/// Adds components one at a time, with some rounds each.
 void grow_components(const ClusterRounds& rounds, Spending spending, const Progress& progress,
                      ClusterState& state) {
     const int full = spending.most_components;
@@ -37,17 +37,17 @@ void grow_components(const ClusterRounds& rounds, Spending spending, const Progr
             rounds.round(state, spending);
         }
         if (!any_has(state, spending.most_components))
-            break; // nor would any have more
+            break; // no cluster would use more components
     }
 }
 
-/// Rounds until nothing more is gained.
+/// Performs rounds until convergence.
 void converge(const ClusterRounds& rounds, const ClusteringSchedule& schedule, const Spending& spending,
               const Progress& progress, ClusterState& state, std::vector<double>* history) {
     ClusterState best = state;
     best.cost = std::numeric_limits<double>::infinity();
     for (int r = 0; r < schedule.most_rounds; ++r) {
-        progress.update(1 - std::pow(0.9, r)); // how many there will be is not known
+        progress.update(1 - std::pow(0.9, r)); // the number of rounds is unknown
         rounds.refit(state, spending);
         rounds.tell(ClusteringRound{spending.most_components, state.cost});
         const bool better = state.cost < best.cost;
@@ -63,7 +63,7 @@ void converge(const ClusterRounds& rounds, const ClusteringSchedule& schedule, c
     state = std::move(best);
 }
 
-/// Rounds, moves as long as they pay, and rounds again.
+/// Performs rounds, then moves while they pay off, then rounds again.
 void improve(const ClusterRounds& rounds, const ClusteringSchedule& schedule, const Spending& spending,
              const Progress& progress, ClusterState& state, std::vector<double>& history) {
     converge(rounds, schedule, spending, progress.part(0, tuning::kFirstRoundsAt), state, &history);
@@ -94,8 +94,8 @@ Clustering cluster_points(const PointBlocks& points, std::span<const float> sign
             : rounds.start(options.start, clusters_in(options.start));
     rounds.tell(ClustersSeeded{state.fits.size(), points.dimension});
     Spending spending = options.spending;
-    // Where the mean is limited clusters differ only at the end: earlier those with many components would
-    // swallow the others' points.
+    // With a limit on the mean, clusters differ only at the end: earlier, clusters with many components would
+    // absorb the points of others.
     const bool limited = options.mean_components > 0;
     if (limited)
         spending.most_components =
@@ -115,9 +115,9 @@ Clustering cluster_points(const PointBlocks& points, std::span<const float> sign
         spend_components(rounds, options.mean_components, progress.part(tuning::kImprovedAt, 1), spending,
                          state);
     }
-    // Points that came and went have left rounding in the moments, outliers most of all.
+    // Points that came and went have left rounding errors in the moments, outliers the largest.
     state.moments.build(points, significance, state.clusters, options.threads);
-    if (limited) { // what was promised holds for the clusters as they are now
+    if (limited) { // the limit must hold for the final clusters
         spending.component_price = 0;
         rounds.refit(state, spending);
         spending.component_price = component_price(state, spending, options.mean_components);

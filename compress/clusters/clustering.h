@@ -1,5 +1,7 @@
 #pragma once
 
+// Clustered PCA of points.
+
 #include "clusters/cluster_rounds.h"
 #include "prt/support/progress.h"
 #include "tuning.h"
@@ -11,41 +13,42 @@ namespace prt {
 /// Clusters before their weights are quantised.
 struct Clustering {
     std::vector<std::uint32_t> clusters; ///< [points]
-    std::vector<ClusterFit> fits;        ///< [clusters], none empty
-    double cost = 0;                     ///< squared error that is expected after quantisation, with prices
-    std::vector<double> history;         ///< squared error after each round, quantisation and prices left out
+    std::vector<ClusterFit> fits;        ///< [clusters], without empty clusters
+    double cost = 0;                     ///< expected squared error after quantisation, including prices
+    std::vector<double> history;         ///< squared error after each round, without quantisation and prices
 };
 
-/// How long it goes on. The defaults are the compressor's; the baseline of study/ goes as published.
+/// Duration of the clustering. The defaults are those of the compressor; the baseline of study/ uses the
+/// published schedule.
 struct ClusteringSchedule {
-    bool grow = true; ///< components come one at a time, some rounds each
+    bool grow = true; ///< components are added one at a time, with some rounds each
     int most_rounds = tuning::kMostRounds;
-    double tolerance = tuning::kRoundTolerance; ///< rounds end when the cost falls by a smaller share
+    double tolerance = tuning::kRoundTolerance; ///< rounds end when the cost decreases by a smaller fraction
     int most_move_sweeps = tuning::kMostMoveSweeps;
 };
 
-/// For an error that is to be known to a few hundredths.
+/// Returns the schedule for an error that is known to a few hundredths.
 inline ClusteringSchedule draft_schedule() {
     return {.tolerance = tuning::kDraftTolerance, .most_move_sweeps = tuning::kDraftMoveSweeps};
 }
 
 struct ClusteringOptions {
     std::size_t clusters = 64;
-    /// [points] where to start from, numbered without gaps; empty: vector quantisation.
+    /// [points] start clusters, numbered without gaps; empty: vector quantisation.
     std::vector<std::uint32_t> start = {};
     Spending spending;
-    double mean_components = 0; ///< finds the component price that keeps to it; 0: as `spending` says
-    bool rows_cost = false;     ///< finds the row price of a file whose bases count
+    double mean_components = 0; ///< finds the component price for this mean; 0: uses `spending`
+    bool rows_cost = false;     ///< finds the row price for a file whose bases count
     ClusteringSchedule schedule;
     CompressTrace trace;
     int threads = 0;
 };
 
-/// Clustered PCA (Sloan et al. 2003) from vector quantisation. Components come one at a time, which finds
-/// better optima than starting with all of them; every cluster takes as many as pay under `spending`, and
-/// points choose between clusters knowing what each will lose by quantisation. Then the clusters that gain
-/// most by being split are, in the place of pairs that lose least by being merged, as long as the sum falls.
-/// `significance` [points] sums to 1.
+/// Computes clustered PCA (Sloan et al. 2003), starting from vector quantisation. Components are added one at
+/// a time, which finds better optima than starting with all. Every cluster uses the most economical number
+/// under `spending`, and points choose clusters with their expected quantisation loss. Finally, clusters with
+/// the largest gain are split and pairs with the smallest loss are merged in exchange, while the total cost
+/// decreases. `significance` [points] sums to 1.
 Clustering cluster_points(const PointBlocks& points, std::span<const float> significance,
                           const ClusteringOptions& options, std::mt19937_64& random,
                           const Progress& progress);

@@ -1,5 +1,5 @@
-// Divides the bits of a receiver among the components of a cluster: greedily, by what each bit takes away of
-// a Gaussian (Gersho and Gray 1992, chapter 8; Max 1960).
+// Distributes the bits of a receiver over the components of a cluster: greedily, by the error reduction of
+// each bit for a Gaussian (Gersho and Gray 1992, chapter 8; Max 1960).
 
 #include "clusters/component_plan.h"
 
@@ -9,8 +9,8 @@
 namespace prt {
 namespace {
 
-/// What is left of a Gaussian variance after the best uniform quantiser of b bits (Max 1960, table II, to 5
-/// bits; beyond, each bit takes another 3.6 to 4 times).
+/// Returns the remaining fraction of a Gaussian variance after the optimal uniform quantiser of b bits (Max
+/// 1960, table II, up to 5 bits; beyond, each bit reduces it by another factor of 3.6 to 4).
 double left_after(int bits) {
     static constexpr std::array<double, kMostBits + 1> kLeft = {
         1,       0.3634,  0.1188,  0.03744, 0.01154, 0.003495, 0.001041, 3.04e-4, 8.77e-5,
@@ -25,12 +25,13 @@ double tail(std::span<const double> variances, std::size_t components) {
     return sum;
 }
 
-/// Reduction of a variance of `bits` bits by the next bit.
+/// Returns the reduction of a variance quantised with `bits` bits by one more bit.
 double gain_of_bit(double variance, int bits) {
     return bits < kMostBits ? variance * (left_after(bits) - left_after(bits + 1)) : 0;
 }
 
-/// Gives `bits` to the first `components` axes, one at a time. Axes that get none end the plan.
+/// Distributes `bits` over the first `components` axes, one at a time. The plan ends at the last axis with
+/// bits.
 std::vector<std::uint8_t> divide_bits(std::span<const double> variances, std::size_t components, int bits) {
     std::vector<std::uint8_t> plan(components, 0);
     std::vector<double> gains;
@@ -48,7 +49,7 @@ std::vector<std::uint8_t> divide_bits(std::span<const double> variances, std::si
     return plan;
 }
 
-/// Bits of `components` axes, or of fewer where there are no more.
+/// Returns the bits of up to `components` axes.
 std::vector<std::uint8_t> bits_of(std::span<const double> variances, std::size_t components,
                                   const Spending& spending) {
     if (spending.fixed_bits.empty())
@@ -60,7 +61,7 @@ std::vector<std::uint8_t> bits_of(std::span<const double> variances, std::size_t
     return bits;
 }
 
-/// Error that rounding weights to these bits adds.
+/// Returns the error that rounding weights to these bits adds.
 double rounding_of(std::span<const double> variances, std::span<const std::uint8_t> bits,
                    const Spending& spending) {
     double sum = 0;

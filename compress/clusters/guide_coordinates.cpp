@@ -1,4 +1,4 @@
-// What guides a cluster: normals as they are, positions in units of the scene's extent.
+// Computes predictor coordinates: normals and positions, scaled by their standard deviation.
 
 #include "clusters/guide_coordinates.h"
 
@@ -11,7 +11,7 @@
 namespace prt {
 namespace {
 
-/// The root mean square distance of all from their mean.
+/// Returns the root mean square distance of all values from their mean.
 double extent(std::span<const glm::vec3> values) {
     glm::dvec3 sum(0);
     for (const glm::vec3& v : values)

@@ -1,5 +1,7 @@
 #pragma once
 
+// Predictor coordinates of receivers.
+
 #include "prt/compress.h"
 
 #include <cstddef>
@@ -8,11 +10,10 @@
 
 namespace prt {
 
-/// Coordinates of the guides at all receivers, and what they are multiplied with to be weights. Keeps
-/// references to the surface.
+/// Predictor coordinates of all receivers, and their scales as weights. Keeps references to the surface.
 struct GuideCoordinates {
     std::vector<Guide> guides;
-    std::vector<std::span<const glm::vec3>> attributes; ///< [guides][receivers], seen from their origins
+    std::vector<std::span<const glm::vec3>> attributes; ///< [guides][receivers], relative to their origins
 
     std::size_t count() const { return 3 * guides.size(); }
     float value(std::size_t receiver, std::size_t g) const {
@@ -24,8 +25,8 @@ struct GuideCoordinates {
     }
 };
 
-/// Those of `choice` that `surface` has and that differ between its receivers, scaled so that their
-/// deviation over all receivers is about 1.
+/// Returns the predictors of `choice` that `surface` has and that vary between its receivers, scaled so that
+/// their standard deviation over all receivers is about 1.
 GuideCoordinates guide_coordinates(const ReceiverSurface& surface, GuideChoice choice);
 
 } // namespace prt

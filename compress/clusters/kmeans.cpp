@@ -1,5 +1,5 @@
-// Vector quantisation, where clustered PCA starts: k-means++ seeding (Arthur and Vassilvitskii 2007), then
-// Lloyd's iteration (Lloyd 1982) until the error hardly falls.
+// Vector quantisation, the start of clustered PCA: k-means++ seeding (Arthur and Vassilvitskii 2007), then
+// Lloyd's iteration (Lloyd 1982) until the error hardly decreases.
 
 #include "clusters/kmeans.h"
 
@@ -12,7 +12,7 @@ double uniform(std::mt19937_64& random) {
     return static_cast<double>(random() >> 11) * 0x1p-53;
 }
 
-/// An index with probability proportional to significance[i] · errors[i]; the count when all are zero.
+/// Returns an index with probability proportional to significance[i] · errors[i]; the count if all are zero.
 std::size_t draw(std::span<const float> significance, std::span<const float> errors,
                  std::mt19937_64& random) {
     const double total = total_error(significance, errors);
@@ -32,11 +32,11 @@ std::size_t draw(std::span<const float> significance, std::span<const float> err
     return last;
 }
 
-/// Centers by k-means++; each is drawn by its error to those before it.
+/// Returns centers by k-means++; each is drawn by its error relative to the previous ones.
 PenalisedClusters seed_centers(const PointBlocks& points, std::span<const float> significance,
                                std::size_t most, std::mt19937_64& random, int threads,
                                const Progress& progress) {
-    std::vector<float> errors(points.count, 1.0f); // the first center: by significance alone
+    std::vector<float> errors(points.count, 1.0f); // the first center is drawn by significance alone
     std::vector<std::size_t> centers;
     std::vector<float> center(points.width());
     while (centers.size() < most) {

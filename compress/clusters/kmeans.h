@@ -1,5 +1,7 @@
 #pragma once
 
+// Vector quantisation.
+
 #include "clusters/assignment.h"
 #include "prt/support/progress.h"
 
@@ -7,8 +9,8 @@
 
 namespace prt {
 
-/// Vector quantisation: k-means++ seeding, then Lloyd's iteration. `significance` [points] sums to 1. Returns
-/// clusters without rows; fewer than `clusters` where there are fewer distinct points.
+/// Computes vector quantisation: k-means++ seeding, then Lloyd's iteration. `significance` [points] sums to
+/// 1. Returns clusters without rows; fewer than `clusters` if there are fewer distinct points.
 PenalisedClusters vector_quantise(const PointBlocks& points, std::span<const float> significance,
                                   std::size_t clusters, std::mt19937_64& random, int threads,
                                   const Progress& progress);

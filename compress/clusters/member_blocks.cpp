@@ -1,4 +1,4 @@
-// Sorts points by cluster, and cuts them into blocks.
+// Sorts points by cluster and splits them into blocks.
 
 #include "clusters/member_blocks.h"
 

@@ -1,18 +1,20 @@
 #pragma once
 
+// Points grouped by cluster for SIMD processing.
+
 #include "clusters/points.h"
 #include "prt/support/parallel.h"
 
 namespace prt {
 
-/// Points of one cluster that are worked on together, at most kLanes: what is looked up for the cluster
-/// serves them all.
+/// Points of one cluster that are processed together, at most kLanes: cluster data is loaded once for all of
+/// them.
 struct MemberBlock {
     std::uint32_t cluster = 0;
     std::span<const std::uint32_t> points;
 };
 
-/// All points, by the clusters that they have.
+/// All points, grouped by cluster.
 class MemberBlocks {
 public:
     explicit MemberBlocks(std::span<const std::uint32_t> clusters);
@@ -27,12 +29,12 @@ private:
     struct Place {
         std::uint32_t cluster, first, count;
     };
-    std::vector<std::uint32_t> points_; ///< by cluster, ascending
+    std::vector<std::uint32_t> points_; ///< sorted by cluster, then ascending
     std::vector<Place> blocks_;
 };
 
-/// Calls `visit(member_block, block)` for all points by the clusters that they have; `block` is
-/// [width][kLanes], as in PointBlocks, and filled up with copies of its first point.
+/// Calls `visit(member_block, block)` for all points, grouped by cluster; `block` is [width][kLanes], as in
+/// PointBlocks, padded with copies of its first point.
 template <class Visit>
 void for_member_blocks(const PointBlocks& points, std::span<const std::uint32_t> clusters, int threads,
                        Visit&& visit) {

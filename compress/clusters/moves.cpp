@@ -1,4 +1,4 @@
-// Split-and-merge moves between clusters, against the local optima in which Lloyd's iteration ends.
+// Split-and-merge moves between clusters, to escape the local optima of Lloyd's iteration.
 
 #include "clusters/moves.h"
 
@@ -13,7 +13,7 @@ namespace {
 
 struct PossibleSplit {
     double gain = 0;
-    std::vector<std::uint32_t> leaving; ///< points that go to the new cluster
+    std::vector<std::uint32_t> leaving; ///< points that move to the new cluster
 };
 
 struct PossibleMerge {
@@ -27,16 +27,17 @@ public:
         : rounds_(rounds), points_(rounds.points), spending_(spending), state_(state),
           clusters_(penalised_clusters(state.fits, rounds.points.dimension)) {}
 
-    /// [clusters]; the gain is 0 where a cluster is not worth a look: its cost is below `least`.
+    /// Returns the best split of each cluster, [clusters]; the gain is 0 if the cluster's cost is below
+    /// `least`.
     std::vector<PossibleSplit> splits(double least) const;
-    /// Of every cluster and the nearest others, the least loss first.
+    /// Returns merges of every cluster with its nearest neighbours, smallest loss first.
     std::vector<PossibleMerge> merges() const;
-    /// Moves points in `next` as long as pairs of a split and a merge pay; whether any did.
+    /// Moves points in `next` while pairs of a split and a merge pay off. Returns whether any did.
     bool apply(const std::vector<PossibleSplit>& splits, const std::vector<PossibleMerge>& merges,
                std::vector<std::uint32_t>& next) const;
-    /// Splits clusters, those first that gain most, until there are `wanted`; returns how many there are.
+    /// Splits clusters, largest gain first, until there are `wanted`. Returns the resulting number.
     std::size_t split_most(std::size_t wanted, std::vector<std::uint32_t>& next) const;
-    /// Merges pairs, those first that lose least, until `wanted` are left; returns how many there are.
+    /// Merges pairs, smallest loss first, until `wanted` are left. Returns the resulting number.
     std::size_t merge_least(std::size_t wanted, std::vector<std::uint32_t>& next) const;
 
 private:
@@ -51,7 +52,7 @@ private:
     const PointBlocks& points_;
     const Spending& spending_;
     const ClusterState& state_;
-    PenalisedClusters clusters_; ///< of the state
+    PenalisedClusters clusters_; ///< clusters of `state_`
 };
 
 PossibleSplit Moves::split(std::size_t k, std::span<const std::uint32_t> members) const {
@@ -192,7 +193,7 @@ std::size_t Moves::merge_least(std::size_t wanted, std::vector<std::uint32_t>& n
     }
     std::vector<std::uint32_t> number(into.size());
     std::uint32_t count = 0;
-    for (std::size_t k = 0; k < into.size(); ++k) // a pair is called by its lower number
+    for (std::size_t k = 0; k < into.size(); ++k) // a pair gets its lower number
         number[k] = into[k] == k ? count++ : number[into[k]];
     for (std::uint32_t& k : next)
         k = number[k];
@@ -205,7 +206,7 @@ bool split_and_merge(const ClusterRounds& rounds, const Spending& spending, doub
                      const Progress& progress, ClusterState& state) {
     const Moves moves(rounds, spending, state);
     ClusterState next = state;
-    // Only clusters whose cost is above the mean are worth a look.
+    // Only clusters whose cost is above the mean are considered.
     const double mean = state.cost / static_cast<double>(state.fits.size());
     if (!moves.apply(moves.splits(mean), moves.merges(), next.clusters))
         return false;

@@ -1,5 +1,4 @@
-// Takes transfer vectors into the space of a frame (docs/math.md, section 4) and lays them out for vector
-// units.
+// Projects transfer vectors into the space of a frame (docs/math.md, section 4) in a SIMD layout.
 
 #include "clusters/points.h"
 
@@ -65,8 +64,8 @@ void PointBlocks::project(const TransferView& transfer, const Frame& frame,
 PointBlocks::PointBlocks(const TransferView& transfer, const Frame& frame,
                          const GuideCoordinates& coordinates, int threads, double most_rounding)
     : count(transfer.receivers()), dimension(frame.dimension), guides(coordinates.count()) {
-    assert(dimension <= kMostDimensions); // arrays of the kernels have so many
-    if (width() == 0)                     // all receivers alike
+    assert(dimension <= kMostDimensions); // size of the kernels' arrays
+    if (width() == 0)                     // all receivers are equal
         return;
     const std::size_t numbers = blocks() * width() * kLanes;
     if (most_rounding > 0) {
@@ -100,7 +99,7 @@ void PointBlocks::round_blocks(std::size_t first, std::span<const float> numbers
     }
 }
 
-/// Errors are spread evenly over a step: its square over 12.
+/// Errors are uniform over a step: the variance is its square over 12.
 double PointBlocks::rounding() const {
     double sum = 0;
     for (std::size_t at = 0; at < steps.size(); ++at)

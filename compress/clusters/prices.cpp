@@ -1,5 +1,5 @@
-// Finds the prices, the Lagrange multipliers of rate and distortion, at which bases and components keep to
-// what was asked for (docs/math.md, section 4, "Different sizes").
+// Finds the prices (Lagrange multipliers of rate and distortion) for which bases and components meet their
+// limits (docs/math.md, section 4, "Different sizes").
 
 #include "clusters/prices.h"
 
@@ -9,8 +9,8 @@
 
 namespace prt {
 
-/// A bit more for the weights of each of V receivers takes away kGainPerBit/m of the error (m components
-/// share it), so that a bit is worth kGainPerBit/m/V of it; a row takes kBitsPerRow.
+/// One more bit for the weights of each of V receivers removes kGainPerBit/m of the error (m components share
+/// it), so that one bit is worth kGainPerBit/m/V of it; a row takes kBitsPerRow.
 double row_price(const ClusterState& state) {
     double rows = 0;
     for (const ClusterFit& fit : state.fits)
@@ -24,7 +24,8 @@ double component_price(const ClusterState& state, Spending spending, double most
     std::vector<double> members(state.fits.size(), 0);
     for (const std::uint32_t k : state.clusters)
         members[k] += 1;
-    std::vector<std::vector<double>> errors; // the price changes what is chosen among them, and not them
+    std::vector<std::vector<double>> errors; // the price affects the choice among these errors, not the
+                                             // errors
     for (const ClusterFit& fit : state.fits)
         errors.push_back(errors_by_components(fit.variances, spending));
     const auto mean = [&](double price) {
@@ -38,7 +39,7 @@ double component_price(const ClusterState& state, Spending spending, double most
     double low = 0, high = 1;
     if (mean(low) <= most)
         return low;
-    // Forty steps between powers find the magnitude, twenty more the number to 2^-20 of it.
+    // Forty geometric steps find the magnitude, twenty more the value to 2^-20 of it.
     for (int i = 0; i < 60; ++i) {
         const double middle = i < 40 ? std::sqrt(std::max(low, 1e-20) * high) : 0.5 * (low + high);
         (mean(middle) > most ? low : high) = middle;
@@ -53,7 +54,7 @@ void spend_components(const ClusterRounds& rounds, double most, const Progress& 
     for (int r = 0; r < tuning::kPriceRounds; ++r) {
         progress.update(static_cast<double>(r) / tuning::kPriceRounds);
         spending.component_price = 0;
-        rounds.refit(state, spending); // for the spectra
+        rounds.refit(state, spending); // updates the spectra
         spending.component_price = component_price(state, spending, most);
         rounds.refit(state, spending);
         double paid = 0;

@@ -1,5 +1,5 @@
-// Codes for clusters and clusters for codes in turn, as the generalised Lloyd algorithm does (Gersho and Gray
-// 1992), with weights and bases on the grids of the file (docs/math.md, eq. 25 to 27).
+// Alternates between codes for clusters and clusters for codes, like the generalised Lloyd algorithm (Gersho
+// and Gray 1992), with weights and bases on the grids of the file (docs/math.md, eq. 25 to 27).
 
 #include "coding/alternation.h"
 
@@ -14,7 +14,7 @@
 namespace prt {
 namespace {
 
-/// Axes of each group of points, one group behind the other.
+/// Returns the number of axes of each group; groups are consecutive.
 std::vector<int> axes_of_groups(const PointBlocks& points) {
     if (points.scales.all_alike())
         return {static_cast<int>(points.dimension)};
@@ -24,7 +24,7 @@ std::vector<int> axes_of_groups(const PointBlocks& points) {
     return axes;
 }
 
-/// Largest values of cluster `k` along each axis, of rows the half.
+/// Returns the maximum magnitude in cluster `k` along each axis; rows count half.
 std::vector<double> largest_values(const AffineClusters& clusters, std::size_t k) {
     std::vector<double> largest(clusters.dimension, 0);
     for_rows(clusters, k, [&](const float* row, int factor) {
@@ -34,7 +34,7 @@ std::vector<double> largest_values(const AffineClusters& clusters, std::size_t k
     return largest;
 }
 
-/// Cost of a squared error along the axes of each group, summed over the points of each cluster:
+/// Returns the cost of a squared error along the axes of each group, summed over the points of each cluster:
 /// [clusters][groups].
 std::vector<double> costs_of_groups(const PointBlocks& points, std::span<const float> significance,
                                     const Codes& codes, std::size_t clusters) {
@@ -48,9 +48,10 @@ std::vector<double> costs_of_groups(const PointBlocks& points, std::span<const f
     return costs;
 }
 
-/// The steps of the bases at which rounding adds `share` of the squared error: a point's code is the sum of
-/// its mean and of m rows times weights, which are rounded to twice the step. Where errors cost more in sum,
-/// steps are finer: by the square root, which for as much error takes least bits.
+/// Returns the steps of the bases at which rounding adds `share` of the squared error. A point's code is the
+/// sum of its mean and of m rows times weights; rows are rounded to twice the step. Steps are finer where the
+/// total cost of errors is higher: inversely proportional to its square root, which minimises the bits for a
+/// given error.
 RowSteps basis_steps(const PointBlocks& points, std::span<const float> significance,
                      const CodedClusters& coded, double share) {
     const AffineClusters& clusters = coded.clusters;
@@ -58,12 +59,12 @@ RowSteps basis_steps(const PointBlocks& points, std::span<const float> significa
     steps.axes = axes_of_groups(points);
     const std::size_t groups = steps.groups();
     const std::vector<double> costs = costs_of_groups(points, significance, coded.codes, clusters.clusters());
-    double noise = 0; // of steps of 1 over the root of the costs
+    double noise = 0; // noise of steps of 1 over the root of the costs
     for (const int m : clusters.components)
         noise += (static_cast<double>(1 + clusters.guides) + 4 * tuning::kMeanSquareWeight * m) *
                  static_cast<double>(clusters.dimension) / 12;
     const double error = total_error(significance, coded.codes.errors);
-    const double step = noise > 0 ? std::sqrt(share * error / noise) : 0; // where errors cost 1
+    const double step = noise > 0 ? std::sqrt(share * error / noise) : 0; // for errors of cost 1
     std::vector<double> dearest(groups, 0);
     for (std::size_t at = 0; at < costs.size(); ++at)
         dearest[at % groups] = std::max(dearest[at % groups], costs[at]);
@@ -82,7 +83,8 @@ RowSteps basis_steps(const PointBlocks& points, std::span<const float> significa
     steps.least = std::numeric_limits<double>::infinity();
     for (std::size_t at = 0; at < wanted.size(); ++at)
         steps.least = std::min(steps.least, std::max(wanted[at], smallest[at]));
-    steps.least = static_cast<double>(static_cast<float>(steps.least)); // as the file has it
+    steps.least = static_cast<double>(static_cast<float>(steps.least)); // rounded to float, like the value in
+                                                                        // the file
     for (std::size_t at = 0; at < wanted.size(); ++at)
         steps.exponents.push_back(static_cast<int>(
             std::max({0.0, std::ceil(std::log2(smallest[at] / steps.least) - 1e-9),
@@ -90,7 +92,7 @@ RowSteps basis_steps(const PointBlocks& points, std::span<const float> significa
     return steps;
 }
 
-/// One round: returns the error.
+/// Performs one round. Returns the error.
 double improve(const PointBlocks& points, std::span<const float> significance,
                const AlternationOptions& options, CodedClusters& coded) {
     const Codes before = coded.codes;
@@ -99,8 +101,8 @@ double improve(const PointBlocks& points, std::span<const float> significance,
     return total_error(significance, coded.codes.errors);
 }
 
-/// Sorts points along the group in which their scales differ most: one subspace serves light of many
-/// magnitudes worst.
+/// Sorts points along the group in which their scales differ most: a single subspace represents light of very
+/// different magnitudes badly.
 void sort_by_scale(const PointScales& scales, std::vector<std::uint32_t>& members) {
     std::size_t widest = 0;
     float most = 0;
@@ -116,7 +118,8 @@ void sort_by_scale(const PointScales& scales, std::vector<std::uint32_t>& member
     std::ranges::stable_sort(members, {}, [&](std::uint32_t p) { return scales.of(p)[widest]; });
 }
 
-/// Cluster `to` has taken points of `from`: those near it may move there.
+/// Makes cluster `to`, which has taken points of `from`, a candidate for points of the neighbourhood of
+/// `from`.
 void become_neighbours(std::uint32_t from, std::uint32_t to, ClusterLists& candidates) {
     candidates[to] = candidates[from];
     if (std::ranges::find(candidates[to], to) == candidates[to].end())
@@ -126,7 +129,8 @@ void become_neighbours(std::uint32_t from, std::uint32_t to, ClusterLists& candi
             candidates[near].push_back(to);
 }
 
-/// Merges clusters whose points others serve nearly as well, and splits those that err most into them.
+/// Merges clusters whose points others serve nearly as well, and moves half of the points of clusters with
+/// large errors into them.
 class Splitter {
 public:
     Splitter(const PointBlocks& points, std::span<const float> significance,
@@ -148,7 +152,7 @@ public:
     }
 
     void run() {
-        constexpr std::size_t kSplit = 4; // of fewer points nothing is gained
+        constexpr std::size_t kSplit = 4; // splits of fewer points gain nothing
         std::vector<std::uint32_t> cheapest(members_.size());
         std::iota(cheapest.begin(), cheapest.end(), 0U);
         std::ranges::stable_sort(cheapest, {}, [&](std::uint32_t k) { return losses_[k]; });
@@ -189,16 +193,16 @@ private:
         members.erase(half, members.end());
         for (const std::uint32_t p : members_[to])
             coded_.codes.clusters[p] = to;
-        errors_[to] = errors_[from] *= 0.25; // as the square of what a half spans
+        errors_[to] = errors_[from] *= 0.25; // proportional to the squared extent of a half
     }
 
     const PointBlocks& points_;
     std::span<const float> significance_;
     const AlternationOptions& options_;
     CodedClusters& coded_;
-    Codes elsewhere_; ///< the best of each point in another cluster
+    Codes elsewhere_; ///< the best code of each point in another cluster
     ClusterLists members_;
-    std::vector<double> errors_, losses_; ///< [clusters]; what is lost where all points go elsewhere
+    std::vector<double> errors_, losses_; ///< [clusters]; loss if all points move to other clusters
 };
 
 } // namespace
@@ -208,7 +212,7 @@ void settle(const PointBlocks& points, std::span<const float> significance, cons
     const bool splits = options.candidates && !options.stay && coded.clusters.clusters() > 1;
     double before = total_error(significance, coded.codes.errors);
     for (int round = 0; round < rounds; ++round) {
-        const bool even = round % 2 == 0; // a split shows its worth in the round after it
+        const bool even = round % 2 == 0; // the effect of a split is visible one round later
         if (splits && even)
             Splitter(points, significance, options, coded).run();
         refit(points, significance, coded.codes, coded.clusters, options.threads);

@@ -1,4 +1,4 @@
-// Weights in bits, one point behind the other.
+// Stores weights as consecutive bit fields, point by point.
 
 #include "coding/code_weights.h"
 
@@ -34,7 +34,7 @@ CodeWeights::CodeWeights(std::size_t points, const QuantisedClusters& clusters) 
     bytes_.resize(points * stride_);
 }
 
-/// Bits wait in 64 until they are wanted: at most 7 are left over, and 32 are wanted at once.
+/// Buffers bits in 64: at most 7 remain, and at most 32 are needed at once.
 void CodeWeights::read(const QuantisedClusters& clusters, std::size_t k, std::size_t point,
                        float* weights) const {
     const std::byte* from = bytes_.data() + point * stride_;

@@ -1,5 +1,7 @@
 #pragma once
 
+// Bit-packed storage of weights.
+
 #include "coding/quantised_clusters.h"
 
 #include <cstddef>
@@ -7,23 +9,23 @@
 
 namespace prt {
 
-/// The weights of all points, each in as many bits as the grid of its cluster has: as small as in the file,
-/// of which the compressor holds several versions side by side. Floats where a grid is any.
+/// The weights of all points, each with the bit width of its cluster's grid: as compact as in the file,
+/// because the compressor holds several versions at once. Floats for unrestricted grids.
 class CodeWeights {
 public:
     CodeWeights() = default;
-    /// All of the least value.
+    /// Sets all weights to the minimum value.
     CodeWeights(std::size_t points, const QuantisedClusters& clusters);
 
-    /// The weights of a point that is in cluster `k`: as many of `weights` as it has components.
+    /// Reads the weights of a point in cluster `k`: one per component of the cluster.
     void read(const QuantisedClusters& clusters, std::size_t k, std::size_t point, float* weights) const;
-    /// Threads may write different points at once.
+    /// Writes the weights of a point. Threads may write different points at once.
     void write(const QuantisedClusters& clusters, std::size_t k, std::size_t point, const float* weights);
-    /// A code of `other`, whose clusters have the same grids.
+    /// Copies a code of `other`, whose clusters must have the same grids.
     void copy(const CodeWeights& other, std::size_t point);
 
 private:
-    std::size_t stride_ = 0; ///< bytes of a point
+    std::size_t stride_ = 0; ///< bytes per point
     std::vector<std::byte> bytes_;
 };
 

@@ -1,5 +1,5 @@
-// Conjugate gradients (Hestenes and Stiefel 1952), preconditioned by the diagonal. Eigen has them, too: these
-// keep floats in memory and sum in double in a fixed order, so that a file does not depend on its version.
+// Conjugate gradients (Hestenes and Stiefel 1952) with diagonal preconditioning. Unlike Eigen's version, it
+// stores floats and sums in double in a fixed order, so that a file does not depend on the version of Eigen.
 
 #include "coding/conjugate_gradients.h"
 

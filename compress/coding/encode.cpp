@@ -1,5 +1,5 @@
-// Writes clusters and codes as a file has them: rows as integers over rounded axes, weights in bits; or both
-// as floats (docs/format.md, PRTKIT_clustered_pca).
+// Writes clusters and codes in file format: rows as integers over rounded axes, weights in bits; or both as
+// floats (docs/format.md, PRTKIT_clustered_pca).
 
 #include "coding/encode.h"
 
@@ -15,7 +15,7 @@ namespace {
 
 constexpr std::int32_t kLargestValue = (1 << (kMostRowBits - 1)) - 1;
 
-/// Rows of all clusters over the axes of the frame, in units of their steps.
+/// Returns the rows of all clusters over the axes of the frame, in units of their steps.
 std::vector<std::int32_t> integer_rows(const QuantisedClusters& clusters, const RowSteps& steps,
                                        std::size_t axes) {
     std::vector<std::int32_t> values;
@@ -30,7 +30,7 @@ std::vector<std::int32_t> integer_rows(const QuantisedClusters& clusters, const 
     return values;
 }
 
-/// The exponents as a file has them, of the first `axes` axes: none where all are 0.
+/// Returns the exponents of the first `axes` axes in file format: empty if all are 0.
 StepExponents code_exponents(const RowSteps& steps, std::size_t axes) {
     if (std::ranges::all_of(steps.exponents, [](int e) { return e == 0; }))
         return {};
@@ -44,7 +44,7 @@ StepExponents code_exponents(const RowSteps& steps, std::size_t axes) {
     return result;
 }
 
-/// Axes up to the last that any row uses.
+/// Returns the number of axes up to the last that any row uses.
 std::size_t axes_in_use(const QuantisedClusters& clusters, const RowSteps& steps) {
     const std::vector<std::int32_t> values = integer_rows(clusters, steps, clusters.dimension);
     std::size_t used = 0;
@@ -54,8 +54,8 @@ std::size_t axes_in_use(const QuantisedClusters& clusters, const RowSteps& steps
     return used;
 }
 
-/// What rounding may be coarser by in each column: 1 for distant light, and for lamps such that an error of a
-/// unit costs as much as it does there on average.
+/// Returns the unit of rounding in each column: 1 for distant light; for lamps the value at which an error of
+/// one unit costs the mean of distant light.
 Eigen::ArrayXd units_of(const TransferLayout& layout, const Eigen::MatrixXd& moments) {
     const Eigen::ArrayXd costs = moments.diagonal();
     const auto of_output = costs.size() / static_cast<Eigen::Index>(layout.outputs);
@@ -68,7 +68,7 @@ Eigen::ArrayXd units_of(const TransferLayout& layout, const Eigen::MatrixXd& mom
     return units;
 }
 
-/// Axis i times the deviation of the points along it, in each column's units of `unit`.
+/// Returns axis i times the standard deviation of the points along it, in each column's unit.
 Eigen::ArrayXd deviations_along(const Frame& frame, std::size_t i, const Eigen::ArrayXd& units) {
     const auto full = static_cast<Eigen::Index>(frame.full());
     const Eigen::Map<const Eigen::ArrayXd> axis(&frame.synthesis[i * frame.full()], full);
@@ -83,7 +83,8 @@ std::vector<std::int32_t> integer_axes(const Frame& frame, const Eigen::ArrayXd&
     return values;
 }
 
-/// Axes up to the last that has not become zero. Beside one of 1e10 times their deviation others do.
+/// Returns the number of axes up to the last nonzero one. Axes with 1e-10 times the deviation of the largest
+/// become zero.
 std::size_t axes_left(std::span<const std::int32_t> values, std::size_t full) {
     const auto last = std::find_if(values.rbegin(), values.rend(), [](std::int32_t v) { return v != 0; });
     return (static_cast<std::size_t>(values.rend() - last) + full - 1) / full;
@@ -172,7 +173,7 @@ CodedBases code_frame(Frame& frame, const LightMetric& metric, double most_error
     const Eigen::MatrixXd moments =
         frame.scale * frame.scale * Eigen::Map<const Eigen::MatrixXd>(metric.moments.data(), full, full);
 
-    // Rounding every value of every axis to its column's units of `unit` adds axes · cost of a unit · unit²
+    // Rounding every value of every axis to `unit` times its column's unit adds axes · cost of a unit · unit²
     // / 12.
     const Eigen::ArrayXd units = units_of(frame.layout, moments);
     const double cost = (moments.diagonal().array() * units.square()).sum();
@@ -202,9 +203,9 @@ CodedBases code_frame(Frame& frame, const LightMetric& metric, double most_error
                                                     units[static_cast<Eigen::Index>(a)];
     }
     const auto kept = static_cast<Eigen::Index>(frame.dimension);
-    if (kept == 0) // all receivers alike
+    if (kept == 0) // all receivers are equal
         return coded;
-    // Coordinates over the rounded axes are those that come nearest in the metric.
+    // Coordinates over the rounded axes are the nearest ones in the metric.
     const Eigen::Map<const Eigen::MatrixXd> axes(frame.synthesis.data(), full, kept);
     Eigen::Map<Eigen::MatrixXd>(frame.analysis.data(), full, kept) =
         (axes.transpose() * moments * axes).ldlt().solve(axes.transpose() * moments).transpose();

@@ -1,12 +1,13 @@
-// Brings clusters into the form of a file: rows as long as a weight of 1 reaches, on a grid of values. A
-// uniform quantiser's range is chosen as for a Gaussian (Max 1960), but by trial on the points themselves.
+// Converts clusters to their form in a file: row length is the extent of a weight of 1, on a grid of values.
+// The range of the uniform quantiser is chosen as for a Gaussian (Max 1960), but by trial on the points
+// themselves.
 
 #include "coding/quantised_clusters.h"
 
 namespace prt {
 namespace {
 
-/// The length of a row along a principal axis at which rounding the coordinates `along` loses least.
+/// Returns the length of a row along a principal axis for which rounding the coordinates `along` loses least.
 double best_length(std::span<const double> along, std::span<const double> significance, float steps) {
     double largest = 0;
     for (const double a : along)

@@ -1,53 +1,55 @@
 #pragma once
 
+// Clusters with quantised weights.
+
 #include "clusters/clustering.h"
 #include "coding/weight_grid.h"
 #include "prt/clustered_transfer.h"
 
 namespace prt {
 
-/// Clusters as a file holds them: weights lie in [-1, 1] on grids, or are any. Rows need not be orthogonal.
+/// Clusters as in a file: weights are in [-1, 1] on grids, or unrestricted. Rows need not be orthogonal.
 struct QuantisedClusters : AffineClusters {
     std::vector<WeightGrid> grids; ///< [clusters][max_components]
 
     const WeightGrid& grid(std::size_t k, std::size_t j) const { return grids[k * max_components + j]; }
 };
 
-/// Points by their cluster, ascending.
+/// Returns the points of each cluster, ascending.
 ClusterLists members_of(std::span<const std::uint32_t> clusters, std::size_t count);
 
-/// Rows from the principal axes of `clustering`. Packed: each as long as loses least when the weights of its
-/// points are rounded to the bits of its cluster's plan. Floats: of length 1.
+/// Returns rows from the principal axes of `clustering`. Packed: with the length of minimum loss when the
+/// weights of the points are rounded to the bits of the cluster's plan. Floats: of length 1.
 QuantisedClusters quantised_clusters(const PointBlocks& points, std::span<const float> significance,
                                      const Clustering& clustering, WeightFormat format, int threads);
 
-/// Guides in units of their deviation within a cluster, on average, as weights are, so that their rows need
-/// the digits of means; centers become whole numbers. Returns what the guides are to be multiplied with.
+/// Scales predictors to units of their mean deviation within a cluster, like weights, so that their rows need
+/// the same precision as means; centers become integers. Returns the factors for the predictors.
 std::vector<float> scale_guides(const Clustering& clustering, QuantisedClusters& clusters);
 
-/// Steps of rounded rows: in each cluster and group of axes `least` times a power of two.
+/// Steps of rounded rows: in each cluster and group of axes, `least` times a power of two.
 struct RowSteps {
     double least = 0;           ///< 0: rows are not rounded
-    std::vector<int> axes;      ///< [groups] axes of each, one group behind the other
+    std::vector<int> axes;      ///< [groups] number of axes per group; groups are consecutive
     std::vector<int> exponents; ///< [clusters][groups]
 
     std::size_t groups() const { return axes.size(); }
-    /// Steps in cluster `k`, [axes].
+    /// Returns the steps in cluster `k`, [axes].
     std::vector<double> of(std::size_t k) const;
 };
 
-/// Rounds means and slopes to multiples of their steps and rows to multiples of twice as much.
+/// Rounds means and slopes to multiples of their steps, and rows to multiples of twice the step.
 void round_rows(AffineClusters& clusters, const RowSteps& steps);
 
-/// Copies cluster `from` of `source` over cluster `to` of `clusters`, which has as many components and guides
-/// at most; both may be the same.
+/// Copies cluster `from` of `source` over cluster `to` of `clusters`, which has the same or a larger maximum
+/// number of components and predictors; both may be the same object.
 void copy_cluster(const QuantisedClusters& source, std::size_t from, QuantisedClusters& clusters,
                   std::size_t to);
 
-/// Clusters of as many components, grids and centers, all rows zero.
+/// Returns clusters with the same components, grids and centers, and all rows zero.
 QuantisedClusters without_rows(const QuantisedClusters& clusters, std::size_t dimension);
 
-/// The same clusters over the first `dimension` axes.
+/// Returns the clusters restricted to the first `dimension` axes.
 QuantisedClusters truncated(const QuantisedClusters& clusters, std::size_t dimension);
 
 } // namespace prt

@@ -1,5 +1,5 @@
-// Clusters for given codes: the centroid step of vector quantisation (Gersho and Gray 1992), for subspaces by
-// the normal equations of docs/math.md, eq. 26.
+// Fits clusters to given codes: the centroid step of vector quantisation (Gersho and Gray 1992), for
+// subspaces by the normal equations of docs/math.md, eq. 26.
 
 #include "coding/refit.h"
 
@@ -10,8 +10,8 @@
 namespace prt {
 namespace {
 
-/// sum_p a_p z_p z_p^T, a_p with the scales of each group, and sum_p a_p z_p (y_p - what its code stands
-/// for)^T, z = (1, guides - center, w_1, ..., w_m).
+/// Computes sum_p a_p z_p z_p^T, a_p with the scales of each group, and sum_p a_p z_p (y_p - decoded
+/// value)^T, z = (1, guides - center, w_1, ..., w_m).
 struct NormalEquations {
     std::vector<Eigen::MatrixXd> left; ///< [groups]
     Eigen::MatrixXd right;
@@ -71,8 +71,8 @@ void refit(const PointBlocks& points, std::span<const float> significance, const
                 continue;
             Eigen::MatrixXd change(right.rows(), right.cols());
             for (std::size_t g = 0; g < left.size(); ++g) {
-                // A ridge keeps what the points hardly determine as it is: one slope of 30 would make the
-                // rounding of all rows coarse.
+                // The ridge keeps values that the points hardly determine: a single slope of 30 would make
+                // the rounding of all rows coarse.
                 left[g].diagonal().array() += tuning::kRefitRidge * left[g](0, 0);
                 const auto solver = left[g].selfadjointView<Eigen::Lower>().ldlt();
                 for (Eigen::Index i = 0; i < change.cols(); ++i)

@@ -1,3 +1,4 @@
+// Tracks light jumps at UV seams.
 #include "coding/seam_jumps.h"
 
 #include <algorithm>
@@ -20,7 +21,7 @@ SeamJumps::SeamJumps(std::span<const SeamJump> jumps, const JumpPrices& prices)
     first_.push_back(parts_.size());
 }
 
-/// Both sides of a jump may read one receiver, and a side may read it twice.
+/// Merges duplicate parts: both sides of a jump may read one receiver, and a side may read it twice.
 void SeamJumps::unite_parts() {
     std::size_t kept = 0;
     for (std::size_t i = 0; i < parts_.size(); ++i)

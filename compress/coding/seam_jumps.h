@@ -1,6 +1,6 @@
 #pragma once
 
-// Jumps of light across the cuts of lightmaps, while codes change.
+// Jumps of light across UV seams of lightmaps, while codes change.
 
 #include "prt/lightmap.h"
 
@@ -13,20 +13,21 @@
 namespace prt {
 
 struct JumpPrices {
-    double square = 0; ///< of a jump, squared
-    double border = 0; ///< of a receiver in another cluster, for each other that a jump reads with it
+    double square = 0; ///< price of a squared jump
+    double border = 0; ///< price of a receiver in another cluster, for each receiver that a jump reads
+                       ///< together with it
 };
 
-/// Jumps of the error: sums of the errors of receivers, each times a weight. What was baked has none, so
-/// these are those that a game shows. A jump costs its price times its square.
+/// Jumps of the error: weighted sums of the errors of receivers. Baked light has no jumps, so these are the
+/// visible ones. A jump costs its price times its square.
 class SeamJumps {
 public:
     /// Keeps a reference.
     SeamJumps(std::span<const SeamJump> jumps, const JumpPrices& prices);
 
-    /// Those that jumps read, in ascending order.
+    /// Receivers that jumps read, in ascending order.
     std::span<const std::uint32_t> receivers() const { return receivers_; }
-    /// Calls `see` with the receivers that jumps read together with p, as often as they do.
+    /// Calls `see` with the receivers that jumps read together with p, once per occurrence.
     template <class See>
     void see_partners(std::size_t p, See&& see) const {
         for (const Part& part : parts_of(p))
@@ -36,7 +37,7 @@ public:
                     see(q);
     }
 
-    /// What p costs beside those that it does not share its cluster with: `apart(q)`.
+    /// Returns the border cost of p: for each receiver that does not share its cluster, `apart(q)`.
     template <class Apart>
     double borders(std::size_t p, Apart&& apart) const {
         double cost = 0;
@@ -44,20 +45,20 @@ public:
         return cost;
     }
 
-    /// Whether jumps have been added up: they count from then on.
+    /// Returns whether jumps have been summed; they count from then on.
     bool measured() const { return sums_.cols() > 0; }
-    /// Adds up all jumps anew. `error_of(p)`: code minus point.
+    /// Recomputes all jumps. `error_of(p)`: code minus point.
     template <class ErrorOf>
     void measure(Eigen::Index dimension, ErrorOf&& error_of) {
         sums_.setZero(dimension, static_cast<Eigen::Index>(jumps_.size()));
         for (const std::uint32_t p : receivers_)
             move(p, error_of(p));
     }
-    /// The error of receiver p changes by so much.
+    /// Applies a change of the error of receiver p.
     void move(std::size_t p, const Eigen::VectorXf& by);
 
-    /// With the rest as it is, jumps cost curvature |e|² - 2 slope · e and what does not depend on the error
-    /// e of p, which is `now`. Adds `slope` to what is there, and returns the curvature.
+    /// With all other errors fixed, jumps cost curvature |e|² - 2 slope · e plus a constant, with e the error
+    /// of p, currently `now`. Adds to `slope`, and returns the curvature.
     double pull(std::size_t p, const Eigen::VectorXf& now, Eigen::VectorXf& slope) const;
 
 private:
@@ -70,9 +71,9 @@ private:
 
     std::span<const SeamJump> jumps_;
     JumpPrices prices_;
-    std::vector<Part> parts_; ///< in the order of their receivers
+    std::vector<Part> parts_; ///< sorted by receiver
     std::vector<std::uint32_t> receivers_;
-    std::vector<std::size_t> first_; ///< [receivers_ + 1] in parts_
+    std::vector<std::size_t> first_; ///< [receivers_ + 1] index into parts_
     Eigen::MatrixXf sums_;           ///< [dimension][jumps]
 };
 

@@ -18,8 +18,8 @@
 namespace prt {
 namespace {
 
-/// What receivers have of significance per edge. That of an edge is the sum over its ends, so that all edges
-/// together have as much as all receivers.
+/// Returns the significance of receivers per edge. The significance of an edge is the sum over its ends, so
+/// that all edges together have that of all receivers.
 std::vector<double> significance_per_edge(const Adjacency& neighbours, std::span<const float> significance) {
     std::vector<double> shares(significance.size());
     for (std::size_t p = 0; p < shares.size(); ++p)
@@ -35,8 +35,8 @@ double mean_of(std::span<const float> values) {
            static_cast<double>(std::max<std::size_t>(values.size(), 1));
 }
 
-/// All receivers; of more than are solved for together neighbours soon after each other: breadth first from
-/// the first of each piece of the mesh.
+/// Returns the order of all receivers. If there are more than `solved_together`, neighbours are close to each
+/// other: breadth-first from the first receiver of each connected component.
 std::vector<std::uint32_t> order_of_stretches(const Adjacency& neighbours, std::size_t solved_together) {
     std::vector<std::uint32_t> order;
     if (neighbours.receivers() <= solved_together) {
@@ -64,9 +64,9 @@ struct Stretch {
     std::span<const std::uint32_t> receivers;
     std::size_t unknowns = 0;
 };
-constexpr std::uint32_t kElsewhere = ~0u; ///< has no unknowns in the stretch
+constexpr std::uint32_t kElsewhere = ~0u; ///< the receiver has no unknowns in the stretch
 
-/// Products of a cluster's rows with each other, along the axes of each group of points.
+/// Returns the products of each cluster's rows with each other, along the axes of each group of points.
 std::vector<Eigen::MatrixXf> products_of_rows(const QuantisedClusters& clusters, const PointScales& scales) {
     std::vector<Eigen::MatrixXf> result;
     for (std::size_t k = 0; k < clusters.clusters(); ++k)
@@ -82,8 +82,8 @@ std::vector<Eigen::MatrixXf> products_of_rows(const QuantisedClusters& clusters,
     return result;
 }
 
-/// Nothing is kept per receiver but its weights: vectors in the space of the frame are formed where they are
-/// needed, for a receiver and its neighbours, since all of them together would take as much memory as the
+/// Smooths seams. Only weights are stored per receiver: vectors in the space of the frame are computed when
+/// needed, for a receiver and its neighbours, because all of them together would take the memory of the
 /// points.
 class SeamSmoother {
 public:
@@ -104,8 +104,8 @@ public:
     void measure_errors();
 
 private:
-    /// Where receiver p is pulled by its neighbours: what eq. 28 costs at p is total |e - pull|², and what
-    /// does not depend on the error e of p, and borders.
+    /// Effect of the neighbours on receiver p: eq. 28 at p is total |e - vector|² plus a constant and border
+    /// costs, with e the error of p.
     struct Pull {
         double total = 0;
         PointVector vector;
@@ -120,21 +120,22 @@ private:
         return {clusters_.row(k, j), dimension_};
     }
     std::size_t components(std::size_t p) const { return clusters_.components_of(codes_.clusters[p]); }
-    /// scale · sum_j w_j row_j in the cluster of receiver p.
+    /// Adds scale · sum_j w_j row_j in the cluster of receiver p.
     void add_combination(std::size_t p, const float* w, PointVector& to, float scale = 1) const {
         for (std::size_t j = 0; j < components(p); ++j)
             to += scale * w[j] * row(codes_.clusters[p], j);
     }
-    /// The significance of an edge.
+    /// Returns the significance of an edge.
     double edge(std::size_t p, std::size_t q) const { return edge_shares_[p] + edge_shares_[q]; }
     float edge_price(std::size_t p, std::size_t q) const {
         return static_cast<float>(options_.seam_price * edge(p, q));
     }
-    /// Errors count by the scales of their receiver: all vectors but rows are multiplied by them.
+    /// Applies the scales of a receiver, which weigh its errors, to a vector; all vectors except rows are
+    /// scaled.
     void multiply_scales(std::size_t p, PointVector& vector) const {
         points_.scales.multiply(p, vector.data());
     }
-    /// What cluster k's mean and guides leave of receiver p.
+    /// Returns the residual of receiver p after cluster k's mean and predictors.
     PointVector left_of(std::size_t p, std::uint32_t k) const {
         PointVector point(static_cast<Eigen::Index>(points_.width()));
         points_.copy_point(p, point.data());
@@ -143,7 +144,7 @@ private:
         multiply_scales(p, point);
         return point;
     }
-    /// Code minus point.
+    /// Computes code minus point.
     void error_of(std::size_t p, PointVector& error) const {
         std::array<float, kMostDimensions> weights;
         codes_.read(clusters_, p, weights.data());
@@ -160,11 +161,12 @@ private:
         return products_[k * groups() + group];
     }
 
-    /// Weights of a stretch as real numbers, and then rounded.
+    /// Solves for the weights of a stretch as real numbers, then rounds them.
     void solve(std::span<const std::uint32_t> receivers);
-    /// How eq. 28 falls, by halves, with the weights of each receiver: [unknowns], first_ of each.
+    /// Returns half the negative gradient of eq. 28 with respect to the weights of each receiver: [unknowns],
+    /// indexed by first_.
     std::vector<float> descent(const Stretch& stretch) const;
-    /// Its quadratic form applied to a change of all weights of the stretch.
+    /// Applies the quadratic form of eq. 28 to a change of all weights of the stretch.
     std::vector<float> curvature(const Stretch& stretch, std::span<const float> change) const;
     std::vector<float> inverse_diagonal(const Stretch& stretch) const;
     Eigen::Map<const Eigen::VectorXf> weights_of(std::size_t p, std::span<const float> unknowns) const {
@@ -172,13 +174,14 @@ private:
     }
 
     void pull_at(std::size_t p, Pull& pull) const;
-    /// Of an error `e` at p with a code in cluster k, in eq. 28.
+    /// Returns the cost in eq. 28 of an error `e` at p with a code in cluster k.
     double cost_at(std::size_t p, const Pull& pull, std::uint32_t k, const PointVector& e) const;
-    /// The code of receiver p in cluster k whose rows come nearest to `left`; returns its error vector.
+    /// Computes the code of receiver p in cluster k whose decoded value is nearest to `left`; returns its
+    /// error vector.
     PointVector code_in(std::size_t p, std::uint32_t k, PointVector left, std::span<float> code) const;
-    /// A code that is cheaper than p's while the neighbours stay, with at most `spare` more components.
+    /// Finds a code that is cheaper than p's with fixed neighbours, with at most `spare` more components.
     bool find_better(std::size_t p, const Pull& pull, std::ptrdiff_t spare, BetterCode& better) const;
-    /// How many components more receivers may have in all.
+    /// Returns the number of components that receivers may use in addition.
     std::ptrdiff_t spare_components() const;
     std::size_t sweep(std::span<const std::uint32_t> receivers, std::ptrdiff_t& spare);
 
@@ -190,9 +193,9 @@ private:
     Adjacency neighbours_;
     std::vector<double> edge_shares_; ///< [points]
     Eigen::Index dimension_;
-    SeamJumps jumps_; ///< count once they are measured, after all else
-    // While weights are solved for:
-    std::vector<std::uint32_t> first_;      ///< [points] a receiver's first unknown of as many as components
+    SeamJumps jumps_; ///< count once they are measured, at the end
+    // Used while weights are solved for:
+    std::vector<std::uint32_t> first_;      ///< [points] a receiver's first unknown; it has one per component
     std::vector<Eigen::MatrixXf> products_; ///< [clusters][groups] of their rows with each other
 };
 
@@ -215,8 +218,8 @@ std::vector<float> SeamSmoother::descent(const Stretch& stretch) const {
     return result;
 }
 
-/// Most neighbours are of the same cluster: their rows meet in products that are known, and only weights are
-/// summed. Vectors are formed across borders alone.
+/// Multiplies by the quadratic form. Most neighbours are in the same cluster: products of their rows are
+/// precomputed, and only weights are summed. Vectors are formed only across borders.
 std::vector<float> SeamSmoother::curvature(const Stretch& stretch, std::span<const float> change) const {
     std::vector<float> result(stretch.unknowns, 0.0f);
     parallel_for(stretch.receivers.size(), 1024, options_.threads, [&](std::size_t begin, std::size_t end) {
@@ -302,8 +305,8 @@ void SeamSmoother::solve(std::span<const std::uint32_t> receivers) {
     }
 }
 
-/// So many receivers at a time that vectors of all unknowns, of which the solver has six, take next to no
-/// memory. What few edges cross from one stretch to the next is seen by the sweeps that follow.
+/// Solves stretch by stretch, so that the six vectors of all unknowns in the solver take little memory. The
+/// few edges between stretches are handled by the following sweeps.
 void SeamSmoother::solve_weights() {
     products_ = products_of_rows(clusters_, points_.scales);
     first_.assign(points_.count, kElsewhere);
@@ -329,7 +332,7 @@ PointVector SeamSmoother::code_in(std::size_t p, std::uint32_t k, PointVector le
 
 std::ptrdiff_t SeamSmoother::spare_components() const {
     if (!(options_.mean_components > 0))
-        return std::numeric_limits<std::ptrdiff_t>::max() / 2; // more than can be used up
+        return std::numeric_limits<std::ptrdiff_t>::max() / 2; // more than can be used
     auto spare = static_cast<std::ptrdiff_t>(options_.mean_components * static_cast<double>(points_.count));
     for (std::size_t p = 0; p < points_.count; ++p)
         spare -= static_cast<std::ptrdiff_t>(components(p));
@@ -388,7 +391,8 @@ bool SeamSmoother::find_better(std::size_t p, const Pull& pull, std::ptrdiff_t s
     return found;
 }
 
-/// One after the other, so that each sees what its neighbours have become. Returns how many have changed.
+/// Improves receivers one after another, so that each sees the changes of its neighbours. Returns the number
+/// of changes.
 std::size_t SeamSmoother::sweep(std::span<const std::uint32_t> receivers, std::ptrdiff_t& spare) {
     std::size_t changed = 0;
     Pull pull;
@@ -423,7 +427,8 @@ void SeamSmoother::reassign() {
             break;
 }
 
-/// The light of a game is interpolated between the texels of a seam: all that are read there count together.
+/// Closes jumps. A game interpolates light between the texels of a seam, so that all texels read at a point
+/// count together.
 void SeamSmoother::close_jumps() {
     if (jumps_.receivers().empty())
         return;

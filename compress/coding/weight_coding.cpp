@@ -1,5 +1,5 @@
-// Codes points: a cluster, and weights on its grids, rounded one after the other to what the former left
-// over. That is matching pursuit over the rows in their order (Mallat and Zhang 1993).
+// Codes points: a cluster, and weights on its grids, rounded one after another for the residual of the
+// previous ones. This is matching pursuit over the rows in order (Mallat and Zhang 1993).
 
 #include "coding/weight_coding.h"
 
@@ -8,7 +8,7 @@
 namespace prt {
 namespace {
 
-/// A cluster as the kernel reads it.
+/// Data of a cluster for the kernel.
 struct KernelCluster {
     const float* mean;
     const float* center;
@@ -19,18 +19,18 @@ struct KernelCluster {
     std::size_t components, guides;
 };
 
-/// Adding and taking away 1.5 · 2^23 rounds to the nearest integer what is far smaller.
+/// Rounds to the nearest integer by adding and subtracting 1.5 · 2^23, for much smaller values.
 template <class Value>
 [[gnu::always_inline]] inline Value rounded(const Value& v) {
     constexpr float kMagic = 12582912.0f;
     return (v + kMagic) - kMagic;
 }
 
-/// Points as the kernel reads them, [width][kLanes].
+/// Points for the kernel, [width][kLanes].
 struct KernelPoints {
     const float* block;
     std::size_t dimension;
-    const float* scales; ///< [groups][kLanes], or null: all count alike
+    const float* scales; ///< [groups][kLanes], or null: equal weights
     const std::uint8_t* group_of;
 
     KernelPoints from(int lane) const {
@@ -38,9 +38,9 @@ struct KernelPoints {
     }
 };
 
-/// Squared distance of `Width` points to what their codes in this cluster stand for; the weights go to
-/// `weights` [components][kLanes] unless it is null. `Scaled`: points have scales, so that the length of a
-/// row is another for each.
+/// Returns the squared distance of `Width` points to their decoded values in this cluster; writes the weights
+/// to `weights` [components][kLanes] unless it is null. `Scaled`: points have scales, so that the length of a
+/// row varies per point.
 template <int Width, bool Scaled, class Value = typename Floats<Width>::Value>
 [[gnu::always_inline]] inline Value code_points(const KernelPoints& points, const KernelCluster& k,
                                                 float* weights) {
@@ -133,13 +133,13 @@ void weights_of_block(const KernelPoints& points, const KernelCluster& cluster, 
     }
 }
 
-/// Room for the scales of points that are worked on together.
+/// Buffer for the scales of points that are processed together.
 class GatheredScales {
 public:
     explicit GatheredScales(const PointBlocks& points)
         : points_(points), scales_(points.scales.groups * kLanes) {}
 
-    /// The members of `block`.
+    /// Returns the members of `block`.
     KernelPoints of(const MemberBlock& members, const float* block) {
         if (points_.scales.all_alike())
             return {block, points_.dimension, nullptr, nullptr};
@@ -152,7 +152,7 @@ private:
     std::vector<float> scales_;
 };
 
-/// [clusters][max_components]
+/// Returns the extents of rows, [clusters][max_components].
 std::vector<RowReach> reaches_of_codes(const AffineClusters& clusters) {
     std::vector<RowReach> result(clusters.clusters() * clusters.max_components);
     for (std::size_t k = 0; k < clusters.clusters(); ++k)
@@ -161,14 +161,14 @@ std::vector<RowReach> reaches_of_codes(const AffineClusters& clusters) {
             for (std::size_t i = 0; i < clusters.dimension; ++i)
                 squared +=
                     static_cast<double>(clusters.row(k, j)[i]) * static_cast<double>(clusters.row(k, j)[i]);
-            // A row that rounding has emptied codes nothing.
+            // A row that rounding has made zero codes nothing.
             result[k * clusters.max_components + j].inverse_norm =
                 squared > 1e-30 ? static_cast<float>(1 / squared) : 0.0f;
         }
     return result;
 }
 
-/// All clusters as the kernel reads them, and what they point to.
+/// All clusters for the kernel, and the data that they reference.
 struct Kernel {
     std::vector<RowReach> reaches;
     std::vector<KernelCluster> clusters;
@@ -183,7 +183,7 @@ struct Kernel {
     }
 };
 
-/// Weights and errors of all points in the clusters that they have.
+/// Computes weights and errors of all points in their clusters.
 void code_in_clusters(const PointBlocks& points, const QuantisedClusters& clusters, const Kernel& kernel,
                       Codes& codes, int threads) {
     codes.errors.resize(points.count);

@@ -1,35 +1,36 @@
 #pragma once
 
+// Coding of points by clusters and quantised weights.
+
 #include "coding/code_weights.h"
 
 namespace prt {
 
-/// What every point is coded as.
+/// Codes of all points.
 struct Codes {
     std::vector<std::uint32_t> clusters; ///< [points]
     CodeWeights weights;
-    std::vector<float> errors; ///< [points] squared distance of the point to what its code stands for
+    std::vector<float> errors; ///< [points] squared distance from the point to its decoded value
 
-    /// Of `point`, to `to` [components of its cluster].
+    /// Reads the weights of `point` to `to` [components of its cluster].
     void read(const QuantisedClusters& of, std::size_t point, float* to) const {
         weights.read(of, clusters[point], point, to);
     }
 };
 
-/// Codes every point in its cluster. Weights are rounded one after the other, each to what the former left
-/// over.
+/// Codes every point in its cluster. Weights are rounded one after another, each for the residual of the
+/// previous ones.
 void encode_in_place(const PointBlocks& points, const QuantisedClusters& clusters, Codes& codes, int threads);
 
-/// Codes every point in the cluster where it loses least, of the `candidates` of its present one.
+/// Codes every point in the cluster of minimum loss among the `candidates` of its current one.
 void encode_points(const PointBlocks& points, const QuantisedClusters& clusters,
                    const ClusterLists& candidates, Codes& codes, int threads);
 
-/// Clusters whose codes come nearest to each other's means.
+/// Returns the clusters whose codes come nearest to each other's means.
 ClusterLists neighbours_of_codes(const QuantisedClusters& clusters, std::size_t most, int threads);
 
-/// Gives points their code of `before` back where it loses less: weights are rounded one after the other,
-/// which is not always the best where rows are not orthogonal, and what refit has found for a code must not
-/// be lost.
+/// Restores a point's code of `before` if its loss is smaller. Sequential rounding of weights is not always
+/// optimal for non-orthogonal rows, and the improvement by refit must not be lost.
 void keep_better(const PointBlocks& points, const QuantisedClusters& clusters, const Codes& before,
                  Codes& codes, int threads);
 

@@ -1,6 +1,6 @@
 #pragma once
 
-// Which numbers of a transfer vector serve a color.
+// Mapping from light columns to the coefficients of one color.
 
 #include "prt/transfer_layout.h"
 
@@ -10,8 +10,8 @@
 
 namespace prt {
 
-/// Of each column of light in turn, the number of a transfer vector that color `c` of it is multiplied with:
-/// [layout.columns()]. One channel serves all colors.
+/// Returns for each column of light the index of the transfer coefficient that its color `c` is multiplied
+/// with: [layout.columns()]. A single channel is used for all colors.
 inline std::vector<std::size_t> numbers_of_color(const TransferLayout& layout, int c) {
     std::vector<std::size_t> numbers;
     std::size_t begin = 0;

@@ -1,4 +1,5 @@
-// Errors under any lighting from second moments of transfer, and the worst of all turns about +Y.
+// Computes errors under any lighting from second moments of transfer, and the worst error over all rotations
+// about +Y.
 
 #include "prt/error_moments.h"
 
@@ -24,8 +25,8 @@ namespace {
 using Matrix = Eigen::MatrixXd;
 using std::numbers::pi;
 
-/// Receivers are summed in so many stretches side by side, whatever the number of threads, and each in
-/// blocks.
+/// Number of receiver ranges that are summed in parallel, independent of the number of threads, and block
+/// size within a range.
 constexpr std::size_t kStretches = 8, kBlock = 512;
 
 double ratio(double error, double reference) {
@@ -39,7 +40,8 @@ std::vector<double> whole(const Matrix& lower) {
     return {all.data(), all.data() + all.size()};
 }
 
-/// sum_p a_p v_p v_p^T of the vectors that `block(begin, end)` gives as columns, single or as differences.
+/// Returns sum_p a_p v_p v_p^T of the vectors that `block(begin, end)` returns as columns, vectors or their
+/// differences.
 template <class Block>
 std::vector<double> sums_of_squares(std::size_t dimension, std::span<const float> areas, int threads,
                                     Block&& block) {
@@ -85,8 +87,8 @@ Squares squares_under(const ErrorMoments& moments, const LightingView& lighting)
     return sums;
 }
 
-/// Mean of a^T R b over all rotations of two lights in space, without band 0. Rotations mix the coefficients
-/// of a band evenly (Schur's lemma): sum_l (a_l . b_l) tr(R_l) / (2l + 1).
+/// Returns the mean of a^T R b over all 3D rotations of two lights, without band 0. Rotations mix the
+/// coefficients of a band evenly (Schur's lemma): sum_l (a_l . b_l) tr(R_l) / (2l + 1).
 double rotated_mean(const Eigen::VectorXd& a, const Eigen::VectorXd& b, const Matrix& squares) {
     double sum = 0;
     for (Eigen::Index l = 1; l * l < a.size(); ++l) {
@@ -97,8 +99,8 @@ double rotated_mean(const Eigen::VectorXd& a, const Eigen::VectorXd& b, const Ma
     return sum;
 }
 
-/// Square of exit radiance, summed over receivers and colors, mean over all rotations of distant light in
-/// space; lamps stay.
+/// Returns the square of exit radiance, summed over receivers and colors, averaged over all 3D rotations of
+/// distant light; lamps are constant.
 double mean_square_over_rotations(const ErrorMoments& moments, const Lighting& lighting) {
     const TransferLayout& layout = moments.layout;
     const auto n = static_cast<Eigen::Index>(layout.dimension());
@@ -131,10 +133,10 @@ double mean_square_over_rotations(const ErrorMoments& moments, const Lighting& l
     return sum;
 }
 
-/// Light that is so little of `references` is their rounding: they are of vectors of floats.
+/// Light below this fraction of `references` is rounding error, because the vectors are floats.
 constexpr double kRoundingOfFloats = 1e-6 * 1e-6;
 
-/// The least square of exit radiance that errors are compared with.
+/// Returns the minimum square of exit radiance to which errors are relative.
 double least_square(const ErrorMoments& moments, const Lighting& lighting) {
     const auto n = static_cast<Eigen::Index>(moments.layout.dimension());
     double energy = 0;
@@ -152,7 +154,7 @@ Lighting turned(const Lighting& lighting, int order, double angle) {
     return result;
 }
 
-/// A trigonometric polynomial from its values at equally spaced angles, an odd number of them.
+/// A trigonometric polynomial, defined by its values at an odd number of equally spaced angles.
 class TrigonometricPolynomial {
 public:
     explicit TrigonometricPolynomial(const Eigen::VectorXd& values)
@@ -182,12 +184,13 @@ private:
     Eigen::VectorXd cosines_, sines_;
 };
 
-/// The place of the maximum of `f` in [low, high], by golden sections: it has one there, or ends at another.
+/// Returns the position of the maximum of `f` in [low, high] by golden section search; of a local one if
+/// there are several.
 double place_of_maximum(auto&& f, double low, double high) {
     constexpr double kGolden = 0.6180339887498949;
     double a = high - kGolden * (high - low), b = low + kGolden * (high - low);
     double at_a = f(a), at_b = f(b);
-    constexpr int kSteps = 40; // to 1e-8 of the interval: at a maximum that is rounding
+    constexpr int kSteps = 40; // to 1e-8 of the interval, which is rounding at a maximum
     for (int step = 0; step < kSteps; ++step) {
         if (at_a > at_b) {
             high = b;

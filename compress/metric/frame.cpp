@@ -1,5 +1,5 @@
-// Principal axes of transfer in the metric of light (docs/math.md, section 4): clusters then work in few
-// axes.
+// Computes principal axes of transfer in the metric of light (docs/math.md, section 4), so that clustering
+// needs few dimensions.
 
 #include "metric/frame.h"
 
@@ -23,12 +23,12 @@ struct Moments {
     Matrix outer;
 };
 
-/// First and second moments, by significance, of all vectors about `shift`, block by block in double and
-/// summed in a fixed order.
+/// Returns first and second moments of all vectors about `shift`, weighted by significance, block by block in
+/// double, summed in a fixed order.
 Moments moments_about(const Vector& shift, const TransferView& transfer, std::span<const float> significance,
                       int threads) {
     const auto n = static_cast<Eigen::Index>(transfer.dimension());
-    // At most 64 partial sums, whatever the number of receivers.
+    // At most 64 partial sums for any number of receivers.
     const std::size_t grain = std::max<std::size_t>(1024, (transfer.receivers() + 63) / 64);
     std::vector<Moments> parts((transfer.receivers() + grain - 1) / grain);
     parallel_for(transfer.receivers(), grain, threads, [&](std::size_t begin, std::size_t end) {
@@ -58,7 +58,8 @@ Moments moments_about(const Vector& shift, const TransferView& transfer, std::sp
     return total;
 }
 
-/// The mean of all vectors, by significance of sum 1, each block in double and summed in order.
+/// Returns the mean of all vectors, weighted by significance of sum 1; each block is in double, and blocks
+/// are summed in order.
 Vector mean_of(const TransferView& transfer, std::span<const float> significance) {
     Vector sum = Vector::Zero(static_cast<Eigen::Index>(transfer.dimension()));
     constexpr std::size_t kRead = 256;
@@ -71,7 +72,8 @@ Vector mean_of(const TransferView& transfer, std::span<const float> significance
     return sum;
 }
 
-/// The significance, scaled to the sum 1 again, without outliers, whose vector is far longer than the median.
+/// Returns the significance without outliers, whose vectors are far longer than the median, rescaled to sum
+/// 1.
 std::vector<float> without_outliers(const TransferView& transfer, std::span<const float> significance) {
     std::vector<float> lengths(significance.size());
     constexpr std::size_t kRead = 256;
@@ -98,7 +100,7 @@ std::vector<float> without_outliers(const TransferView& transfer, std::span<cons
     return usual;
 }
 
-/// The symmetric square root of the metric and its inverse.
+/// Computes the symmetric square root of the metric and its inverse.
 void square_roots(const LightMetric& metric, Matrix& root, Matrix& inverse) {
     const auto n = static_cast<Eigen::Index>(metric.layout.dimension());
     const Eigen::SelfAdjointEigenSolver<Matrix> solver(Eigen::Map<const Matrix>(metric.moments.data(), n, n));
@@ -106,8 +108,8 @@ void square_roots(const LightMetric& metric, Matrix& root, Matrix& inverse) {
     inverse = solver.operatorInverseSqrt();
 }
 
-/// Leaves out axes from the end as long as they add at most `most_dropped`, are `rounding` only, or are more
-/// than points can have.
+/// Drops axes from the end while they add at most `most_dropped`, are only `rounding`, or exceed the maximum
+/// dimension of points.
 void drop_axes(Frame& frame, double most_dropped, double rounding) {
     while (frame.dimension > 0) {
         const double variance = frame.variances[frame.dimension - 1];
@@ -119,8 +121,8 @@ void drop_axes(Frame& frame, double most_dropped, double rounding) {
     }
 }
 
-/// The last `count` eigenvectors, the largest first, each with its largest entry positive: their sign is
-/// arbitrary.
+/// Returns the last `count` eigenvectors, largest first. The largest entry of each is made positive, because
+/// the sign is arbitrary.
 Matrix largest_axes(const Matrix& eigenvectors, std::size_t count) {
     Matrix axes = eigenvectors.rightCols(static_cast<Eigen::Index>(count)).rowwise().reverse();
     for (Eigen::Index i = 0; i < axes.cols(); ++i) {
@@ -148,13 +150,14 @@ Frame fit_frame(const TransferView& transfer, std::span<const float> significanc
 
     Frame frame{transfer.layout(), transfer.dimension(), {}, {}, {}, {}, 0, scale};
     frame.origin.assign(origin.begin(), origin.end());
-    for (Eigen::Index i = covariance.cols(); i-- > 0;) // eigenvalues ascend
+    for (Eigen::Index i = covariance.cols(); i-- > 0;) // eigenvalues are in ascending order
         frame.variances.push_back(std::max(0.0, solver.eigenvalues()[i]) * scale * scale);
-    // Beside an outlier's the variances of all others are too inexact to tell which axes matter.
+    // Next to an outlier's variance, those of all others are too inexact to decide which axes matter.
     bool outliers = false;
     for (std::size_t p = 0; p < usual.size(); ++p)
         outliers = outliers || (usual[p] == 0 && significance[p] > 0);
-    // Float rounding of usual vectors alone makes (2^-24)² of their energy along every axis; 4 is a margin.
+    // Float rounding of ordinary vectors alone causes (2^-24)² of their energy along every axis; 4 is a
+    // margin.
     if (outliers)
         drop_axes(frame, -1, -1);
     else

@@ -1,4 +1,4 @@
-// Jumps of contrast between clusters (docs/math.md, eq. 33c).
+// Measures contrast jumps between clusters (docs/math.md, eq. 33c).
 
 #include "prt/jumps.h"
 
@@ -17,7 +17,7 @@
 namespace prt {
 namespace {
 
-/// A square root of the metric: |factor x|² = x^T C x.
+/// Returns a square root of the metric: |factor x|² = x^T C x.
 Eigen::MatrixXd factor_of(const LightMetric& metric) {
     const auto n = static_cast<Eigen::Index>(metric.layout.dimension());
     const Eigen::Map<const Eigen::MatrixXd> moments(metric.moments.data(), n, n);
@@ -25,7 +25,7 @@ Eigen::MatrixXd factor_of(const LightMetric& metric) {
     return solver.eigenvalues().cwiseMax(0).cwiseSqrt().asDiagonal() * solver.eigenvectors().transpose();
 }
 
-/// Edges whose ends are in different clusters.
+/// Returns the edges whose ends are in different clusters.
 std::vector<Edge> edges_across(std::span<const Edge> edges, std::span<const std::uint16_t> clusters) {
     std::vector<Edge> across;
     for (const Edge& edge : edges)
@@ -34,7 +34,7 @@ std::vector<Edge> edges_across(std::span<const Edge> edges, std::span<const std:
     return across;
 }
 
-/// The luminance of each of `skies` at each rotation, a row each.
+/// Returns the luminance rows of each of `skies` at each rotation, one row each.
 Eigen::MatrixXd rows_of_skies(std::span<const Lighting> skies, const TransferLayout& layout) {
     Eigen::MatrixXd rows = Eigen::MatrixXd::Zero(kRotationsOfJumps * static_cast<Eigen::Index>(skies.size()),
                                                  static_cast<Eigen::Index>(layout.dimension()));
@@ -56,11 +56,11 @@ Eigen::MatrixXd rows_of_skies(std::span<const Lighting> skies, const TransferLay
     return rows;
 }
 
-constexpr std::size_t kJumpsGrain = 256; ///< receivers or edges of one piece of work
+constexpr std::size_t kJumpsGrain = 256; ///< receivers or edges per task
 
 } // namespace
 
-/// Lights in groups of the same number of rows. A vector's luminance under a group is the length of the
+/// Lights in groups with an equal number of rows. The luminance of a vector under a group is the norm of the
 /// group's rows times the vector.
 struct ClusterJumps::Lights {
     Eigen::MatrixXf rows;
@@ -81,7 +81,7 @@ struct ClusterJumps::Lights {
             adaptations.push_back(adaptation_luminance(luminances, areas));
         }
     }
-    /// Contrast errors of a receiver with vector `reference`, [rows of group].
+    /// Returns the contrast errors of a receiver with vector `reference`, [rows of group].
     Eigen::VectorXf contrast(Eigen::Index group, const Eigen::VectorXf& reference,
                              const Eigen::VectorXf& approximation) const {
         const float seen = (rows_of(group) * reference).norm() +

@@ -1,4 +1,4 @@
-// Second moments of families of lightings (docs/math.md, section 4).
+// Computes second moments of families of lightings (docs/math.md, section 4).
 
 #include "metric/light_family.h"
 
@@ -33,7 +33,8 @@ FamilyModel outdoor_model(int order) {
     return model;
 }
 
-/// An equinox at 45 degrees north, hour by hour: the sun's height is cos(latitude) cos(hour angle).
+/// Returns an equinox at 45 degrees north, hour by hour: the sine of the sun's elevation is cos(latitude)
+/// cos(hour angle).
 FamilyModel day_model(int order) {
     FamilyModel model;
     for (int hour = 0; hour < 6; ++hour)
@@ -42,7 +43,7 @@ FamilyModel day_model(int order) {
     return model;
 }
 
-/// From low windows to lamps overhead.
+/// Returns rooms with light from low windows to lamps overhead.
 FamilyModel indoor_model(int order) {
     FamilyModel model;
     for (const double degrees : {15.0, 40.0, 65.0, 88.0})
@@ -50,13 +51,14 @@ FamilyModel indoor_model(int order) {
     return model;
 }
 
-/// Moments of direct and other coefficients side by side, [2 order²][2 order²], of one color.
+/// Joint moments of the direct and other coefficients, [2 order²][2 order²], of one color.
 class PairMoments {
 public:
     explicit PairMoments(int order)
         : order_(order), size_(coefficient_count(order)), sums_(Matrix::Zero(2 * size_, 2 * size_)) {}
 
-    /// 2N - 1 turns are the mean over all: two coefficients have frequencies about +Y below N each.
+    /// Adds the mean over all rotations: 2N - 1 rotations are exact, because two coefficients have
+    /// frequencies about +Y below N each.
     void add_turns(const Light& direct, const Light& other, double scale) {
         const int turns = 2 * order_ - 1;
         Matrix pairs(2 * size_, turns);
@@ -67,7 +69,7 @@ public:
         sums_ += scale / turns * pairs * pairs.transpose();
     }
 
-    /// Of texture, which all parts see.
+    /// Adds texture, which lights all parts.
     void add_texture(const std::vector<double>& powers, double scale) {
         for (int l = 0; l < order_; ++l)
             for (Eigen::Index i = l * l; i < (l + 1) * (l + 1); ++i)
@@ -91,7 +93,7 @@ private:
     Matrix sums_;
 };
 
-/// Draws of one way to use a member: what lights direct transfer, and what open receivers show.
+/// Adds draws of one use of a member: `direct` lights direct transfer, and `all` lights the other parts.
 void add_draws(const Light& direct, const Light& all, double weight, const std::vector<double>& texture,
                PairMoments& moments) {
     const double scale = weight / open_square(direct, texture);
@@ -99,7 +101,7 @@ void add_draws(const Light& direct, const Light& all, double weight, const std::
     moments.add_texture(texture, scale);
 }
 
-/// `apart`: half of the draws have their suns apart from direct light.
+/// Adds a member. If `apart`, half of the draws exclude suns from direct light.
 void add_member(const FamilyMember& member, const std::vector<double>& texture, bool apart,
                 PairMoments& moments) {
     const Light& sky = member.lighting.sky;
@@ -115,7 +117,7 @@ void add_member(const FamilyMember& member, const std::vector<double>& texture, 
     add_draws(all, all, apart ? member.weight / 2 : member.weight, powers, moments);
 }
 
-/// The same moments for each color of distant light.
+/// Adds the moments for each color of distant light.
 void spread(const PairMoments& moments, LightMetric& metric) {
     const TransferLayout& layout = metric.layout;
     const std::size_t size = static_cast<std::size_t>(coefficient_count(layout.order)),
@@ -124,7 +126,9 @@ void spread(const PairMoments& moments, LightMetric& metric) {
         const bool direct = layout.parts[column / size].kind == PartKind::direct;
         return static_cast<Eigen::Index>((direct ? 0 : size) + column % size);
     };
-    const double share = layout.channels() == 3 ? 1 : 1.0 / 3; // where no part has color, the mean of three
+
+    // If no part has color, the metric is the mean over the three colors.
+    const double share = layout.channels() == 3 ? 1 : 1.0 / 3;
     const std::size_t columns = layout.distant_parts().size() * size;
     for (int c = 0; c < 3; ++c) {
         const std::vector<std::size_t> numbers = numbers_of_color(layout, c);

@@ -1,5 +1,5 @@
-// What an error of transfer costs, by second moments of lighting (docs/math.md, eq. 22); natural lighting
-// after Dror, Willsky and Adelson (2004, "Statistical characterization of real-world illumination").
+// Cost of a transfer error from second moments of lighting (docs/math.md, eq. 22); natural lighting after
+// Dror, Willsky and Adelson (2004, "Statistical characterization of real-world illumination").
 
 #include "prt/light_metric.h"
 
@@ -34,7 +34,7 @@ Eigen::Map<const Matrix> matrix_of(const LightMetric& metric) {
     return {metric.moments.data(), dimension_of(metric.layout), dimension_of(metric.layout)};
 }
 
-/// Numbers of a vector that are of distant light; lamps follow.
+/// Returns the number of coefficients of distant light in a vector; lamps follow.
 Eigen::Index of_sky_in(const TransferLayout& layout) {
     return static_cast<Eigen::Index>(layout.distant_numbers());
 }
@@ -44,12 +44,12 @@ LightMetric zero_metric(const TransferLayout& layout) {
     return {layout, std::vector<double>(layout.dimension() * layout.dimension(), 0.0)};
 }
 
-/// What one color of three counts: where no part has color, the metric is the mean over them.
+/// Returns the weight of one of three colors: if no part has color, the metric is the mean over them.
 double color_share(const TransferLayout& layout) {
     return layout.channels() == 3 ? 1 : 1.0 / 3;
 }
 
-/// Where each part has what serves color `c`: [parts].
+/// Returns the start of each part's coefficients for color `c`: [parts].
 std::vector<Eigen::Index> blocks_of_color(const TransferLayout& layout, int c) {
     const std::vector<std::size_t> numbers = numbers_of_color(layout, c);
     std::vector<Eigen::Index> begins;
@@ -61,8 +61,8 @@ std::vector<Eigen::Index> blocks_of_color(const TransferLayout& layout, int c) {
     return begins;
 }
 
-/// A metric of bands that do not depend on each other: two parts of distant light have `power(l, kind, other
-/// kind)` in band l. Lamps shine at strength 1, each by itself.
+/// Returns a metric of independent bands: two parts of distant light have `power(l, kind, other kind)` in
+/// band l. Lamps have strength 1, independent of each other.
 template <class Power>
 LightMetric banded_metric(const TransferLayout& layout, Power&& power) {
     LightMetric metric = zero_metric(layout);
@@ -82,13 +82,13 @@ LightMetric banded_metric(const TransferLayout& layout, Power&& power) {
     return metric;
 }
 
-/// Turning by 2N - 1 equal angles integrates the products of two coefficients exactly: their frequencies
-/// about the axis are below N each.
+/// Returns the number of equally spaced rotations that integrates products of two coefficients exactly: their
+/// frequencies about the axis are below N each.
 int exact_rotations(int order) {
     return 2 * order - 1;
 }
 
-/// Adds what `lighting` costs, times `scale`; of distant light alone.
+/// Adds the cost of `lighting`, times `scale`, for distant light only.
 void add_outer_product(const Lighting& lighting, double scale, LightMetric& metric) {
     const TransferLayout& layout = metric.layout;
     const std::vector<glm::vec3> columns = light_columns(layout, lighting);
@@ -122,7 +122,8 @@ Lighting changed(const Lighting& lighting, auto&& change) {
     return result;
 }
 
-/// What the transfer costs without approximation: of all distant light together, then of each lamp.
+/// Returns the cost of the full transfer without approximation: of all distant light together, then of each
+/// lamp.
 std::vector<double> costs_of_parts(LightMetric& metric, const TransferView& transfer,
                                    std::span<const float> areas, int threads) {
     const TransferLayout& layout = metric.layout;
@@ -176,7 +177,8 @@ LightMetric natural_metric(const TransferLayout& layout) {
         return banded_metric(layout, [&](int l, PartKind, PartKind) {
             return falling(tuning::kWholePower, tuning::kWholeFall, l);
         });
-    // Other parts than the first see sky and suns; the first sees the sky, and the suns of half the users.
+    // The direct term is lit by suns in half of the assumed cases (no shadow maps); all other terms always
+    // are.
     return banded_metric(layout, [&](int l, PartKind a, PartKind b) {
         const bool direct = a == PartKind::direct || b == PartKind::direct;
         return falling(tuning::kSkyPower, tuning::kSkyFall, l) + tuning::kSunPower * (direct ? 0.5 : 1);

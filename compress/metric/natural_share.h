@@ -1,11 +1,13 @@
 #pragma once
 
+// Regularisation of light metrics.
+
 #include "prt/light_metric.h"
 
 namespace prt {
 
-/// Adds a hundredth of `natural_metric` to a metric that has distant light alone, so that no error is free,
-/// and lamps beside it as `natural_metric` has them.
+/// Adds a hundredth of `natural_metric` to a metric of distant light, so that no error is free, and adds the
+/// lamps of `natural_metric`.
 void add_natural_share(LightMetric& metric);
 
 } // namespace prt

@@ -1,4 +1,4 @@
-// Contrast of lamps: weights for errors and a space in which they are distances (docs/math.md, section 4).
+// Contrast of lamps: weights of errors, and a space in which they are distances (docs/math.md, section 4).
 
 #include "metric/seen_lamps.h"
 
@@ -19,7 +19,7 @@ double luminance_share(std::size_t channel, std::size_t channels) {
     return channels == 3 ? kLuminance[static_cast<glm::length_t>(channel)] : 1;
 }
 
-/// The part of `transfer` that the sky lights: the first numbers of each vector.
+/// Returns the part of `transfer` that the sky lights: the first coefficients of each vector.
 TransferView sky_of(const TransferView& transfer) {
     TransferLayout layout = transfer.layout();
     layout.parts.assign(transfer.layout().distant_parts().begin(), transfer.layout().distant_parts().end());
@@ -33,7 +33,7 @@ TransferView sky_of(const TransferView& transfer) {
             }};
 }
 
-/// Calls `visit(receiver, vector)` for all receivers, in their order.
+/// Calls `visit(receiver, vector)` for all receivers in order.
 template <class Visit>
 void for_vectors(const TransferView& transfer, Visit&& visit) {
     constexpr std::size_t kRead = 256;
@@ -137,7 +137,7 @@ void SeenLamps::add_axes_of(const Lamp& lamp, Frame& frame) const {
         outer += static_cast<double>(significance_[p]) * seen * seen.transpose();
     });
     const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(outer);
-    for (Eigen::Index i = n; i-- > 0;) { // eigenvalues ascend
+    for (Eigen::Index i = n; i-- > 0;) { // eigenvalues are in ascending order
         const double variance = std::max(solver.eigenvalues()[i], 0.0);
         if (i < n - 1 && variance <= tuning::kLeastColor * solver.eigenvalues()[n - 1]) {
             frame.dropped += variance;

@@ -1,5 +1,7 @@
 #pragma once
 
+// Contrast errors of lamps.
+
 #include "clusters/points.h"
 #include "metric/frame.h"
 #include "prt/light_metric.h"
@@ -11,51 +13,52 @@
 
 namespace prt {
 
-/// Lamps as a viewer sees them, one alone: an error of light counts against the light that is there and a
-/// tenth of what eyes adapt to (docs/math.md, section 4). Beside a lamp light is a thousand times as bright
-/// as on the far wall, and an error of a tenth is as visible on both. Clusters are looked for in a space of
-/// logarithms, where distance is contrast; codes are chosen by the light itself, with a scale for each
-/// receiver and lamp.
+/// Lamps as a viewer sees them, each alone: an error is relative to the local light plus a tenth of the
+/// adaptation luminance (docs/math.md, section 4). Near a lamp, light is a thousand times brighter than on
+/// the far wall, but an error of a tenth is equally visible on both. Clusters are searched in a logarithmic
+/// space, where distance is contrast. Codes are chosen for the light itself, with a scale for each receiver
+/// and lamp.
 class SeenLamps {
 public:
-    /// `metric`: its sky counts as before, and as much as all lamps together. `significance` [receivers] sums
-    /// to 1. Keeps a reference to `transfer`.
+    /// `metric`: the cost of its sky is kept, and equals the cost of all lamps together. `significance`
+    /// [receivers] sums to 1. Keeps a reference to `transfer`.
     SeenLamps(const TransferView& transfer, std::span<const float> significance, const LightMetric& metric,
               int threads);
 
-    /// The transfer with T (log(1 + Y/a)/Y + a constant of the lamp) in the place of T for lamps, Y the
-    /// luminance of T.
+    /// Returns the transfer in which T of each lamp is replaced by T (log(1 + Y/a)/Y + a constant of the
+    /// lamp), with Y the luminance of T.
     TransferView logarithmic() const;
-    /// What errors cost there; and those of light where Y + a is 1.
+    /// Cost of errors in the logarithmic space; also of errors of light at receivers with Y + a = 1.
     const LightMetric& metric() const { return metric_; }
-    /// Axes of each lamp and then of the sky, which do not mix. As few as add at most `most_dropped` in
-    /// squared error by being left out.
+    /// Returns a frame whose axes belong either to one lamp or to the sky: first the lamps, then the sky. It
+    /// has the minimum number of axes for an added squared error of at most `most_dropped`.
     Frame frame(double most_dropped) const;
-    /// The root of 1 / (Y + a)² and a share of 1 over the mean Y² along axes of lamps; of `sky_costs`
-    /// [receivers] along the others.
+    /// Returns the scales of errors: along axes of lamps the root of 1 / (Y + a)² plus a fraction of 1 over
+    /// the mean Y²; along the other axes the root of `sky_costs` [receivers].
     PointScales scales(const Frame& frame, std::span<const float> sky_costs) const;
-    /// The root of the mean squared contrast error of `approximation`, over receivers and lamps that shine.
+    /// Returns the root mean squared contrast error of `approximation`, over receivers and lamps that are on.
     double contrast(const TransferView& approximation) const;
 
 private:
     struct Lamp {
-        std::size_t first, channels; ///< numbers in a vector
-        double adaptation = 0;       ///< a: a tenth of the logarithmic mean over what it lights; 0: it is off
+        std::size_t first, channels; ///< indices of coefficients in a vector
+        double adaptation = 0;       ///< a: a tenth of the logarithmic mean over the lit receivers; 0: the
+                                     ///< lamp is off
         double square = 0;           ///< mean of Y²
     };
-    /// Adaptation and squares of all.
+    /// Computes adaptation and mean squares of all lamps.
     void measure_lamps();
-    int shining() const; ///< lamps that are on
+    int shining() const; ///< number of lamps that are on
     double luminance(const Lamp& lamp, const float* vector) const;
-    /// What a squared error of the luminance counts where it is `y`.
+    /// Returns the cost of a squared error of the luminance at luminance `y`.
     double cost(const Lamp& lamp, double y) const;
-    /// A lamp's axes behind those of `frame`.
+    /// Appends a lamp's axes to `frame`.
     void add_axes_of(const Lamp& lamp, Frame& frame) const;
 
     const TransferView& transfer_;
     std::span<const float> significance_;
     std::vector<Lamp> lamps_;
-    std::optional<Frame> sky_; ///< of the columns of the sky, where there is one
+    std::optional<Frame> sky_; ///< frame of the sky's coefficients, if there is a sky
     LightMetric metric_;
 };
 

@@ -1,4 +1,4 @@
-// Costs of errors under skies and lamps (docs/math.md, section 4).
+// Computes costs of errors under skies and lamps (docs/math.md, section 4).
 
 #include "metric/seen_light.h"
 
@@ -7,7 +7,7 @@
 namespace prt {
 namespace {
 
-/// Significance times costs, of sum 1.
+/// Returns significance times costs, of sum 1.
 std::vector<float> weighted(std::span<const float> significance, std::span<const float> costs) {
     double sum = 0;
     for (std::size_t p = 0; p < costs.size(); ++p)

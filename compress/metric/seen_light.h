@@ -1,5 +1,7 @@
 #pragma once
 
+// Cost and visibility of errors at each receiver.
+
 #include "metric/seen_lamps.h"
 #include "metric/sky_contrast.h"
 
@@ -9,8 +11,8 @@
 
 namespace prt {
 
-/// What errors cost at each receiver, and what a viewer sees of them. Depends on the transfer, the areas and
-/// the metric alone: a search makes it once for all of its trials. Keeps a reference to `transfer`.
+/// Cost of errors at each receiver, and their visibility. Depends only on the transfer, the areas and the
+/// metric: a search computes it once for all trials. Keeps a reference to `transfer`.
 class SeenLight {
 public:
     /// `areas` [receivers].
@@ -19,17 +21,17 @@ public:
     SeenLight(const SeenLight&) = delete;
     SeenLight& operator=(const SeenLight&) = delete;
 
-    /// [receivers] shares of the area, of sum 1.
+    /// [receivers] fractions of the area, of sum 1.
     const std::vector<float>& significance() const { return significance_; }
-    /// [receivers] what a squared error counts in clusters and codes, of sum 1: significance, and without
-    /// lamps times the costs of `SkyContrast`, which then are no part of points.
+    /// [receivers] weight of a squared error in clusters and codes, of sum 1: significance; without lamps
+    /// also multiplied by the costs of `SkyContrast`, which are then not part of the points.
     const std::vector<float>& weights() const { return lamps_ ? significance_ : weights_; }
-    /// [receivers] `SkyContrast::costs`; all 1 where there is none.
+    /// [receivers] `SkyContrast::costs`; all 1 without skies.
     const std::vector<float>& sky_costs() const { return sky_costs_; }
     const LightMetric& metric() const { return metric_; }
-    /// Where there are skies, and one output.
+    /// Set if there are skies and a single output.
     const std::optional<SkyContrast>& sky() const { return sky_; }
-    /// Where there are lamps, and one output.
+    /// Set if there are lamps and a single output.
     const std::optional<SeenLamps>& lamps() const { return lamps_; }
 
 private:

@@ -1,4 +1,4 @@
-// Turns areas of receivers into their significance, the a_p of docs/math.md, eq. 21.
+// Converts areas of receivers to significance, the a_p of docs/math.md, eq. 21.
 
 #include "metric/significance.h"
 

@@ -1,4 +1,4 @@
-// Weights errors under skies by the light that is there (docs/math.md, eq. 28c).
+// Weights errors under skies by the local light (docs/math.md, eq. 28c).
 
 #include "metric/sky_contrast.h"
 
@@ -15,7 +15,7 @@
 namespace prt {
 namespace {
 
-/// Calls `visit(receiver, vector)` with the columns of the sky of `a`, or of a minus `b` where given.
+/// Calls `visit(receiver, vectors)` with the sky coefficients of `a`, or of a minus `b` if given.
 template <class Visit>
 void for_sky_columns(const TransferView& a, const TransferView* b, int threads, Visit visit) {
     constexpr std::size_t kGrain = 1024;
@@ -28,7 +28,7 @@ void for_sky_columns(const TransferView& a, const TransferView* b, int threads, 
     });
 }
 
-/// Expected squared light of each column.
+/// Returns the expected squared light of each receiver.
 std::vector<double> expected_squares(const TransferView& a, const TransferView* b, const LightMetric& metric,
                                      int threads) {
     const auto full = static_cast<Eigen::Index>(metric.layout.dimension());

@@ -1,5 +1,7 @@
 #pragma once
 
+// Contrast errors under skies.
+
 #include "prt/light_metric.h"
 #include "prt/transfer_view.h"
 
@@ -8,21 +10,20 @@
 
 namespace prt {
 
-/// Contrast of errors under skies: an error of exit radiance over the radiance that the receiver has on
-/// average and a tenth of its logarithmic mean, as `VisibleError` has it for one sky (docs/math.md, section
-/// 4).
+/// Contrast of errors under skies: an error of exit radiance relative to the mean radiance of the receiver
+/// plus a tenth of the logarithmic mean, as in `VisibleError` for one sky (docs/math.md, section 4).
 class SkyContrast {
 public:
-    /// `metric`: mean lighting, of which lamps are left out. `significance` [receivers] sums to 1. Keeps
-    /// references to `transfer`, `significance` and `metric`.
+    /// `metric`: mean lighting; its lamps are ignored. `significance` [receivers] sums to 1. Keeps references
+    /// to `transfer`, `significance` and `metric`.
     SkyContrast(const TransferView& transfer, std::span<const float> significance, const LightMetric& metric,
                 int threads);
 
-    /// Cost of a squared error of the sky's light at each receiver, [receivers], relative to the mean of the
-    /// squared light: 1 - s + s mean(Y²) / (Y + a)², with s = tuning::kSkyContrastShare. All 1 where nothing
-    /// is lit.
+    /// Returns the cost of a squared error of the sky's light at each receiver, [receivers], relative to the
+    /// mean of the squared light: 1 - s + s mean(Y²) / (Y + a)², with s = tuning::kSkyContrastShare. All 1 if
+    /// nothing is lit.
     std::vector<float> costs() const;
-    /// Root of the mean squared contrast error of `approximation`.
+    /// Returns the root mean squared contrast error of `approximation`.
     double contrast(const TransferView& approximation) const;
 
 private:
@@ -32,7 +33,7 @@ private:
     int threads_;
     std::vector<double> luminance_; ///< [receivers] Y: root of the expected squared light
     double adaptation_ = 0;         ///< a
-    double mean_square_ = 0;        ///< of Y
+    double mean_square_ = 0;        ///< mean of Y²
 };
 
 } // namespace prt

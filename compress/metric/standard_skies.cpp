@@ -1,4 +1,5 @@
-// Daylight by the sky of Preetham, Shirley and Smits (1999), overcast by the CIE's, both over grey ground.
+// Built-in skies: daylight by Preetham, Shirley and Smits (1999), the CIE overcast sky, both over grey
+// ground, and rooms.
 
 #include "prt/standard_skies.h"
 
@@ -21,14 +22,14 @@ using std::numbers::pi;
 
 const glm::vec3 kUp(0, 1, 0);
 
-/// Its luminance, in all three channels.
+/// Returns the luminance of a light in all three channels.
 Light grey(Light light) {
     for (glm::vec3& c : light.coefficients)
         c = glm::vec3(0.2126f * c.x + 0.7152f * c.y + 0.0722f * c.z);
     return light;
 }
 
-/// Irradiance of level ground, by all bands that there are.
+/// Returns the irradiance of horizontal ground, from all available bands.
 double irradiance_from_above(const Light& light) {
     std::array<double, kMaxOrder * kMaxOrder> lobe{};
     clamped_cosine_lobe(light.order, glm::dvec3(kUp), std::span<double>(lobe));
@@ -38,7 +39,7 @@ double irradiance_from_above(const Light& light) {
     return pi * sum;
 }
 
-/// Radiance integrated over all directions.
+/// Returns radiance integrated over all directions.
 double all_light(const Light& light) {
     return static_cast<double>(light.coefficients[0].x) * std::sqrt(4 * pi);
 }
@@ -49,9 +50,9 @@ Light scaled(Light light, double factor) {
     return light;
 }
 
-/// Over ground that reflects what `sky` and a sun in direction `towards` cast on it. `sun_over_sky`: the
-/// sun's irradiance over all light of sky and ground; with f for it, a for the albedo and s for the sine of
-/// the sun's elevation, E = f (sky + 2 a (E_sky + E s)).
+/// Adds ground that reflects the light of `sky` and of a sun in direction `towards`. `sun_over_sky`: the
+/// sun's irradiance relative to all light of sky and ground. With f this ratio, a the albedo and s the sine
+/// of the sun's elevation, E = f (sky + 2 a (E_sky + E s)).
 Lighting over_ground(const Light& sky, const glm::vec3& towards, double sun_over_sky, int order) {
     const double albedo = tuning::kGroundAlbedo, sine = static_cast<double>(towards.y);
     const double of_sky = irradiance_from_above(sky);
@@ -71,10 +72,10 @@ Lighting over_ground(const Light& sky, const glm::vec3& towards, double sun_over
 Lighting daylight(int order, const Daylight& day) {
     const double sine = std::sin(day.sun_elevation);
     const glm::dvec3 towards(std::cos(day.sun_elevation), sine, 0);
-    // Bouguer's law over the length of the way through the air, 1 / sine.
+    // Bouguer's law for the path length through the air, 1 / sine.
     const double sun_over_sky =
         tuning::kSunOverSky / day.turbidity * std::exp(-tuning::kAirExtinction / sine);
-    // All bands, so that the ground's light does not depend on `order`.
+    // Uses all bands, so that the ground's light does not depend on `order`.
     return over_ground(grey(sky_light(kMaxOrder, PreethamSky(day.turbidity, towards))), glm::vec3(towards),
                        sun_over_sky, order);
 }
@@ -84,7 +85,7 @@ Lighting overcast_day(int order) {
 }
 
 Lighting room_light(int order, double lamp_elevation) {
-    // Of a + b y, the mean is a, and band 1 along +Y is b / sqrt(3) of band 0.
+    // For a + b y the mean is a, and band 1 along +Y is b / sqrt(3) of band 0.
     const auto b = static_cast<float>(std::sqrt(3.0) * tuning::kRoomFromAbove);
     const glm::vec3 towards(glm::dvec3(std::cos(lamp_elevation), std::sin(lamp_elevation), 0));
     const double half_angle = glm::radians(8.0), solid_angle = 2 * pi * (1 - std::cos(half_angle));
@@ -95,7 +96,8 @@ Lighting room_light(int order, double lamp_elevation) {
 
 std::vector<NamedLighting> standard_skies(int order) {
     const auto degrees = [](double d) { return glm::radians(d); };
-    // A window of 2 m by 2 m some 3 m away, and a lamp of 40 cm 2 m above: half of all light, and a quarter.
+    // A window of 2 m by 2 m at about 3 m distance, and a lamp of 40 cm 2 m above: half of all light, and a
+    // quarter.
     Light room = sum(constant_light(order, glm::vec3(1)),
                      cone_light(order, glm::vec3(1, 0, 0), degrees(20), glm::vec3(66)));
     room = sum(room, cone_light(order, kUp, degrees(6), glm::vec3(365)));

@@ -1,12 +1,14 @@
 #pragma once
 
+// Transfer vectors as matrices.
+
 #include "prt/transfer_view.h"
 
 #include <Eigen/Core>
 
 namespace prt {
 
-/// Vectors of receivers [begin, end), side by side.
+/// Returns the vectors of receivers [begin, end) as columns.
 inline Eigen::MatrixXf columns_of(const TransferView& transfer, std::size_t begin, std::size_t end) {
     Eigen::MatrixXf columns(static_cast<Eigen::Index>(transfer.dimension()),
                             static_cast<Eigen::Index>(end - begin));

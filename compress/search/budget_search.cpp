@@ -13,12 +13,12 @@ namespace {
 
 constexpr double kNothingFound = std::numeric_limits<double>::infinity();
 
-/// Where a straight line through both has `value`.
+/// Returns the number of clusters at which a straight line through both points has `value`.
 double interpolated(const KnownClusters& a, const KnownClusters& b, double value) {
     return a.clusters + (b.clusters - a.clusters) * (value - a.value) / (b.value - a.value);
 }
 
-/// Times as many clusters that change an error by `factor`.
+/// Returns the factor of the number of clusters that changes an error by `factor`.
 double clusters_for(double factor, double exponent) {
     return std::pow(factor, -1 / exponent);
 }
@@ -39,9 +39,9 @@ BudgetSearch::BudgetSearch(const SearchTask& task, const Effort& effort)
         trials_.expect_bytes_per_cluster(*effort.bytes_per_cluster);
 }
 
-/// Where components are what is short they are few anyway, and more of them must not give way to clusters
-/// that the bytes have room for: 0.40 instead of 1.04 times the error of classic CPCA with one component,
-/// measured on a head.
+/// Runs the search. A limit on operations already keeps components few. The first line then does not count
+/// bases (`first_line`), so that components are not dropped in favour of clusters that fit anyway: 0.40
+/// instead of 1.04 times the error of classic CPCA with one component, measured on a head.
 SearchResult BudgetSearch::run() {
     walk(first_line());
     if (task_.few_receivers())
@@ -102,7 +102,7 @@ double BudgetSearch::most_bytes(const Line& line) const {
                                              task_.payload_bytes(std::max(line.payload, most_payload())));
 }
 
-/// Where to begin. Few components leave little to spend on weights.
+/// Returns the start payload. Few components need few weight bits.
 int BudgetSearch::first_payload() const {
     double bytes = tuning::kFirstBytes;
     if (budget_.max_error)
@@ -112,11 +112,11 @@ int BudgetSearch::first_payload() const {
                 *budget_.bytes_per_vertex;
     double payload = bytes / task_.payload_bytes(1);
     if (!trials_.saves_bytes() && !budget_.bytes_per_vertex)
-        payload = 0.5 * most_payload(); // each word costs a try, and the last ones give next to nothing
+        payload = 0.5 * most_payload(); // each word costs a trial, and the last words save almost nothing
     return std::clamp(static_cast<int>(std::lround(payload)), least_payload(), most_payload());
 }
 
-/// From the start both ways, until it got worse twice in a row.
+/// Walks from the start in both directions until the cost increases twice in a row.
 double BudgetSearch::walk(const Line& start) {
     double least = best_on(start);
     for (const int direction : {1, -1}) {
@@ -127,7 +127,7 @@ double BudgetSearch::walk(const Line& start) {
              payload += direction) {
             if (trials_.saves_bytes() && trials_.kept() &&
                 task_.payload_bytes(payload) >= trials_.best()->trial.bytes_per_vertex)
-                break; // weights alone take more
+                break; // the weights alone take more
             Line line = start;
             line.payload = payload;
             const double found = best_on(line);
@@ -139,9 +139,9 @@ double BudgetSearch::walk(const Line& start) {
     return least;
 }
 
-/// Rows pay for their bytes or not: where bases outweigh what they serve, or operations are short, that is
-/// not known before. Guides pay where their rows are cheap beside the weights of all receivers; operations
-/// may be better spent on components.
+/// Tries the other value of `bases_count`: if bases outweigh weights, or operations are limited, the better
+/// choice is not known in advance. Also tries other predictors: they pay off if their rows are cheap compared
+/// with the weights of all receivers, but operations may be better spent on components.
 void BudgetSearch::vary() {
     const SearchTrial& best = trials_.best()->trial;
     const bool other_way = budget_.operations ||
@@ -164,7 +164,7 @@ void BudgetSearch::vary() {
     }
 }
 
-/// All ways, from each the payloads: for few receivers that takes no time to speak of.
+/// Tries all combinations, and the payloads from each: for few receivers this takes little time.
 void BudgetSearch::vary_thoroughly() {
     const Line from = trials_.best()->line;
     for (const GuideChoice guides :
@@ -186,7 +186,8 @@ void BudgetSearch::vary_thoroughly() {
     }
 }
 
-/// All rounds and seams for the line that the best draft is on; where it has promised too much, for others.
+/// Completes the line of the best draft with all rounds and seams; if the result exceeds the budget, tries
+/// other lines.
 void BudgetSearch::finish() {
     if (!trials_.best()->trial.draft)
         return;
@@ -197,8 +198,9 @@ void BudgetSearch::finish() {
         walk(line);
 }
 
-/// Where even one cluster with all its directions takes too many bytes: from none of them on, as long as the
-/// budget is kept or comes nearer. A mean alone, of one cluster, is the least that there is.
+/// Searches with fewer components if even one cluster with all its directions takes too many bytes. Starts
+/// from zero components and continues while the budget is met or the excess decreases. The mean of a single
+/// cluster is the minimum.
 void BudgetSearch::search_fewer_components() {
     const GuideChoice guides =
         task_.options.choose_guides ? GuideChoice::none : task_.options.compress.guides;
@@ -232,14 +234,14 @@ int BudgetSearch::clamped(double clusters) const {
     return static_cast<int>(std::clamp(std::round(clusters), 1.0, static_cast<double>(most_clusters_)));
 }
 
-/// At the error or the bytes that are aimed at, by rules of thumb.
+/// Extrapolates the trial to the target error or size by typical exponents.
 bool BudgetSearch::hopeless(const SearchTrial& t, const Line& line) const {
     if (task_.few_receivers() || line.finished || !trials_.kept() ||
         (trials_.keeps(t) && trials_.cost(t) <= trials_.cost(trials_.best()->trial)))
         return false;
     const SearchTrial& best = trials_.best()->trial;
     const double payload = task_.payload_bytes(line.payload);
-    // More clusters may do more than the rule has it, and fewer of them lose less.
+    // More clusters may gain more than the typical exponent predicts, and fewer may lose less.
     const auto exponent = [&](bool more) { return more ? steepest_ : tuning::kErrorExponentDown; };
     if (trials_.saves_bytes()) {
         const double excess = trials_.excess_of_error(t),
@@ -251,7 +253,7 @@ bool BudgetSearch::hopeless(const SearchTrial& t, const Line& line) const {
     return t.lit_rms * std::pow(clusters, -exponent(clusters > 1)) > tuning::kHopeless * best.lit_rms;
 }
 
-/// Of bases, before the first try: by the rows of the best try.
+/// Estimates the size of bases per cluster before the first trial, from the rows of the best trial.
 double BudgetSearch::bytes_per_cluster(const Line& line) const {
     if (!trials_.best())
         return trials_.bytes_per_cluster();
@@ -265,7 +267,7 @@ double BudgetSearch::bytes_per_cluster(const Line& line) const {
                     tuning::kLeastBytesPerCluster);
 }
 
-/// Where components are few because nothing else fits, one cluster is what may.
+/// Returns one cluster if components were reduced because nothing else fits.
 double BudgetSearch::first_clusters_of_bytes(const Line& line, double aim) const {
     if (line.most_components < kMostPackedComponents)
         return 1;
@@ -274,8 +276,8 @@ double BudgetSearch::first_clusters_of_bytes(const Line& line, double aim) const
     return (aim - task_.payload_bytes(line.payload)) * task_.receivers() / bytes_per_cluster(line);
 }
 
-/// Halves the clusters as long as that lowers the cost. Where transfer has few dimensions, more clusters take
-/// bits from weights and give nothing: fewer leave bytes unused, and have the smaller error.
+/// Halves the clusters while this lowers the cost. For transfer of few dimensions, more clusters take bits
+/// from weights without benefit: fewer clusters leave bytes unused and have a smaller error.
 void BudgetSearch::reduce_clusters(const Line& line, int clusters, double& least) {
     int worse = 0;
     while (clusters > 1 && worse < tuning::kPatience) {
@@ -286,8 +288,8 @@ void BudgetSearch::reduce_clusters(const Line& line, int clusters, double& least
     }
 }
 
-/// As many clusters as the bytes have room for, between a number that fits and one that does not; fewer where
-/// the error grew with them.
+/// Searches the maximum number of clusters that fit the bytes, between a number that fits and one that does
+/// not; reduces it if the error grew with it.
 void BudgetSearch::fill_bytes(const Line& line, double& least) {
     const double most = most_bytes(line), aim = 0.5 * (1 + effort_.least_filled) * most;
     KnownClusters fits{0, task_.payload_bytes(line.payload)},
@@ -319,7 +321,7 @@ void BudgetSearch::fill_bytes(const Line& line, double& least) {
         reduce_clusters(line, best, least);
 }
 
-/// A word more halves the error, as a rule.
+/// Estimates the first number of clusters for an error. Another word typically halves the error.
 int BudgetSearch::first_clusters(const Line& line) const {
     if (!trials_.best())
         return clamped(tuning::kFirstClusters);
@@ -329,8 +331,8 @@ int BudgetSearch::first_clusters(const Line& line) const {
                    clusters_for(std::pow(2, words) / trials_.excess_of_error(best), tuning::kErrorExponent));
 }
 
-/// Whether the same error takes fewer bytes with a word more, where many more clusters are what it takes
-/// here.
+/// Returns whether another word reaches the error in fewer bytes, if the current payload would need many more
+/// clusters.
 bool BudgetSearch::wants_payload(const SearchTrial& t, const Line& line, double exponent) const {
     if (!task_.packed() || line.payload == most_payload() || task_.few_receivers())
         return false;
@@ -341,8 +343,7 @@ bool BudgetSearch::wants_payload(const SearchTrial& t, const Line& line, double 
     return here > tuning::kClearlyMore * there;
 }
 
-/// How the logarithm of an error falls with that of the clusters: on small meshes far more steeply than as a
-/// rule.
+/// Returns the slope of log error over log clusters: on small meshes it is far steeper than usual.
 double BudgetSearch::observed_exponent(const KnownClusters& a, const KnownClusters& b) {
     const double ratio = std::log(b.clusters / a.clusters),
                  exponent = std::clamp(-std::log(b.value / a.value) / ratio, tuning::kLeastErrorExponent,
@@ -352,8 +353,9 @@ double BudgetSearch::observed_exponent(const KnownClusters& a, const KnownCluste
     return exponent;
 }
 
-/// As few clusters as reach the error, between a number that misses and one that does: the logarithm of the
-/// error falls straight with that of the clusters, as the last two tries say, or as a rule.
+/// Searches the minimum number of clusters that reaches the error, between a number that misses and one that
+/// reaches it. Log error is assumed linear in log clusters, with a slope from the last two trials or a
+/// typical value.
 void BudgetSearch::reach_error(const Line& line, double& least) {
     const double near_enough =
         line.finished || !task_.has_drafts() ? tuning::kNearEnough : tuning::kNearEnoughOfDrafts;
@@ -372,7 +374,7 @@ void BudgetSearch::reach_error(const Line& line, double& least) {
         if (misses.value > 0 && reaches.value > 0 &&
             reaches.clusters < misses.clusters * tuning::kNearClusters)
             break;
-        // More clusters only cost more where the bytes already pass what is allowed.
+        // If the bytes already exceed the budget, more clusters only increase the cost.
         if (!enough && trial.bytes_per_vertex > budget_.bytes_per_vertex.value_or(kNothingFound))
             break;
         if (before.clusters > 0)
@@ -381,7 +383,7 @@ void BudgetSearch::reach_error(const Line& line, double& least) {
         if (!enough && !trials_.kept() && !line.finished && wants_payload(trial, line, exponent))
             break;
         const double factor = clusters_for(std::clamp(aim / excess, std::exp(-2.0), std::exp(2.0)), exponent);
-        if (!(reaches.value > 0) && factor > tuning::kHopelessFactor) // a larger payload is the way
+        if (!(reaches.value > 0) && factor > tuning::kHopelessFactor) // a larger payload is needed
             break;
         next = clusters * std::clamp(factor, 1 / tuning::kHopelessFactor, tuning::kMostFactor);
         if (misses.value > 0 && reaches.value > 0 && !(next > misses.clusters && next < reaches.clusters))

@@ -1,27 +1,30 @@
 #pragma once
 
+// Search of compression settings within a budget.
+
 #include "search/trials.h"
 #include "tuning.h"
 
 namespace prt {
 
-/// How hard a search tries (tuning.h).
+/// Effort of a search (tuning.h).
 struct Effort {
     double least_filled = tuning::kLeastFilled;
     double both_ways = tuning::kBothWays;
-    std::optional<double> bytes_per_cluster = {}; ///< of the bases, where they are known before the first try
+    std::optional<double> bytes_per_cluster = {}; ///< size of the bases, if known before the first trial
 };
 
-/// Of a preset that does not fit.
+/// Returns the effort for a preset that does not fit.
 Effort effort_of_preset(const CompressStatistics& too_large);
 
-/// A number of clusters and what it led to.
+/// A number of clusters and the value measured for it.
 struct KnownClusters {
     double clusters = 0, value = 0;
 };
 
-/// Looks for the best that keeps a budget: on lines of so many clusters, along payloads, and then the other
-/// ways from the best of them. A line is left as soon as its tries so far say that it will not win.
+/// Searches the best result within a budget: varies the clusters on lines of otherwise fixed settings, then
+/// the payload, then all other settings from the best one. A line is abandoned as soon as its trials predict
+/// that it cannot win.
 class BudgetSearch {
 public:
     explicit BudgetSearch(const SearchTask& task, const Effort& effort = {});
@@ -33,20 +36,20 @@ private:
     int least_payload() const;
     int most_payload() const;
     int most_clusters() const;
-    /// Bytes per receiver that a line may fill: the budget's, or, where bytes are not asked about, as much as
-    /// a preset may.
+    /// Returns the bytes per receiver that a line may fill: the budget's, or, without a limit on bytes, the
+    /// maximum size of a preset.
     double most_bytes(const Line& line) const;
     bool affordable(GuideChoice guides) const;
 
-    /// Lines of all payloads about `line`'s. Returns the least cost.
+    /// Searches lines of all payloads around `line`'s. Returns the minimum cost.
     double walk(const Line& line);
-    /// The other ways to spend, from the best found.
+    /// Varies the other settings, starting from the best result.
     void vary();
     void vary_thoroughly();
     void finish();
     void search_fewer_components();
 
-    /// The best number of clusters on a line: by bytes or by error. Returns its cost.
+    /// Searches the best number of clusters on a line, by bytes or by error. Returns its cost.
     double best_on(const Line& line);
     double bytes_per_cluster(const Line& line) const;
     double first_clusters_of_bytes(const Line& line, double aim) const;
@@ -56,7 +59,7 @@ private:
     int first_clusters(const Line& line) const;
     double observed_exponent(const KnownClusters& a, const KnownClusters& b);
     bool wants_payload(const SearchTrial& trial, const Line& line, double exponent) const;
-    /// Whether what a try says of its line is worse than what there is.
+    /// Returns whether a trial predicts that its line is worse than the best result.
     bool hopeless(const SearchTrial& trial, const Line& line) const;
     int clamped(double clusters) const;
 
@@ -65,7 +68,7 @@ private:
     Effort effort_;
     Trials trials_;
     int most_clusters_;
-    double steepest_ = tuning::kErrorExponent; ///< of all that were observed
+    double steepest_ = tuning::kErrorExponent; ///< maximum over all observations
     std::map<Line, double> least_cost_;
 };
 

@@ -1,3 +1,4 @@
+// Measures the quantities that a budget limits.
 #include "search/judge.h"
 
 #include "prt/error_moments.h"

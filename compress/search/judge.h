@@ -1,5 +1,7 @@
 #pragma once
 
+// Evaluation of results against a budget.
+
 #include "prt/jumps.h"
 #include "prt/search.h"
 
@@ -7,14 +9,14 @@
 
 namespace prt {
 
-/// What a result is to be judged by.
+/// Quantities by which a result is evaluated.
 struct Verdict {
-    double worst_lit_rms =
-        0;           ///< the greatest of the expected error and, at their worst turns, of promised skies
-    double jump = 0; ///< `Budget::max_jump`; 0 where none is asked about
+    double worst_lit_rms = 0; ///< maximum of the expected error and the errors under the budget's skies, at
+                              ///< their worst rotations
+    double jump = 0; ///< jump limited by `Budget::max_jump`; 0 if there is no limit
 };
 
-/// Judges results of one transfer by what a budget promises. Keeps references.
+/// Evaluates results of one transfer against a budget. Keeps references.
 class Judge {
 public:
     Judge(const TransferView& transfer, const ReceiverSurface& surface, const LightMetric& metric,
@@ -27,8 +29,8 @@ private:
     const ReceiverSurface& surface_;
     const Budget& budget_;
     int threads_;
-    std::vector<double> squares_; ///< `ErrorMoments::references`, where skies are promised
-    std::optional<ClusterJumps> jumps_; ///< where jumps are promised
+    std::vector<double> squares_;       ///< `ErrorMoments::references`, if the budget has skies
+    std::optional<ClusterJumps> jumps_; ///< set if the budget limits jumps
 };
 
 } // namespace prt

@@ -1,4 +1,4 @@
-// What lines of a search take of a receiver and of the vertex shader.
+// Bytes per receiver and shader operations of a payload configuration.
 
 #include "search/line.h"
 

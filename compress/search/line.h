@@ -1,5 +1,7 @@
 #pragma once
 
+// Settings that are fixed while the number of clusters varies.
+
 #include "prt/compress.h"
 
 #include <compare>
@@ -7,24 +9,24 @@
 
 namespace prt {
 
-/// A number of clusters is searched for along a line: all else stays as it says.
+/// Settings along which a search varies the number of clusters.
 struct Line {
-    int payload = 1; ///< 32-bit words of a receiver, or groups of four floats
+    int payload = 1; ///< 32-bit words per receiver, or groups of four floats
     bool bases_count = true;
-    int most_components = std::numeric_limits<int>::max(); ///< fewer where bytes are so few
+    int most_components = std::numeric_limits<int>::max(); ///< lowered if the budget is very small
     GuideChoice guides = GuideChoice::normal;
-    double basis_share = -1; ///< CompressOptions::basis_share; below 0: as tuned
-    bool finished = false;   ///< with all rounds and seams: drafts tell only where to look
+    double basis_share = -1; ///< CompressOptions::basis_share; negative: the tuned value
+    bool finished = false;   ///< with all rounds and seams; drafts only guide the search
     friend auto operator<=>(const Line&, const Line&) = default;
 };
 
-/// Bytes of a receiver that a payload takes; beside floats four of them hold the cluster.
+/// Returns the bytes per receiver of a payload; with floats, four of them hold the cluster.
 double payload_bytes(WeightFormat format, int payload);
 
-/// Words of a preset, or the groups of four that its components take.
+/// Returns the words of a preset, or the groups of four that its components need.
 int payload_of(const WeightCoding& preset, std::size_t dimension);
 
-/// Rows that guides add to a mean, where the surface has them.
+/// Returns the number of rows that predictors add to a mean, if the surface has the attributes.
 int guide_rows_of(GuideChoice guides, const ReceiverSurface& surface);
 
 } // namespace prt

@@ -1,3 +1,4 @@
+// Entry points of the search: budgets and presets.
 #include "prt/search.h"
 
 #include "compress_options.h"
@@ -34,7 +35,7 @@ void check_budget(const SearchOptions& o, const ReceiverSurface& surface) {
         throw Error("the guides alone take " + std::to_string(rows) + " shader operations");
 }
 
-/// Metrics take time to make: every try has the same one.
+/// Builds the task with its metric. The metric is expensive and shared by all trials.
 SearchTask task_of(const TransferView& transfer, const ReceiverSurface& surface, const SearchOptions& options,
                    const Progress& progress) {
     check_input(transfer, surface, options.compress);
@@ -43,7 +44,8 @@ SearchTask task_of(const TransferView& transfer, const ReceiverSurface& surface,
     return task;
 }
 
-/// A limit on operations that does not bind makes nothing worse: what is best without it is looked for first.
+/// Searches within the budget. A limit on operations that is not binding must not affect the result: the
+/// search without it runs first.
 SearchResult within(const SearchTask& task) {
     const Budget& budget = task.options.budget;
     if (!budget.operations || !(budget.max_error || budget.bytes_per_vertex))
@@ -94,7 +96,7 @@ SearchResult compress_preset(const TransferView& transfer, const ReceiverSurface
                              const CompressOptions& options, const Progress& progress) {
     const Stopwatch stopwatch;
     SearchResult found;
-    // The search that may follow is one of small meshes: it takes no time to speak of.
+    // The search that may follow only applies to small meshes and takes little time.
     CompressOptions whole = options;
     whole.bases_count = options.coding.fixed_bits.empty();
     found.result = compress(transfer, surface, whole, progress.part(0, 0.99));

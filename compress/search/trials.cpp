@@ -1,3 +1,4 @@
+// Runs and compares the trials of a search.
 #include "search/trials.h"
 
 #include "compress_from.h"
@@ -9,7 +10,7 @@
 namespace prt {
 namespace {
 
-constexpr double kNotKept = 1e6; ///< least cost of what does not keep the budget, above any error or size
+constexpr double kNotKept = 1e6; ///< minimum cost of a result outside the budget, above any error or size
 
 } // namespace
 
@@ -57,21 +58,21 @@ CompressOptions Trials::options_on(const Line& line, int clusters) const {
         o.bases_count = line.bases_count;
         coding.fixed_bits.clear();
         coding.bits =
-            std::min(32 * line.payload - coding.cluster_bits, kMostPackedBits); // words are bound whole
+            std::min(32 * line.payload - coding.cluster_bits, kMostPackedBits); // words are bound as a whole
         most = kMostPackedComponents;
     }
     if (task_.options.choose_components)
         coding.components = std::min({most, task_.dimension(), line.most_components});
     if (const std::optional<double> components = task_.components_beside(line.guides)) {
         o.mean_components = std::max(*components, 0.0);
-        if (!(*components > 0)) // no limit, to `compress`
+        if (!(*components > 0)) // `compress` treats 0 as no limit
             coding.components = 0;
     }
     return o;
 }
 
-/// From the last try or the best one, whichever is nearer in number. Few clusters are soon found; and few of
-/// many, or many of few, are not the best.
+/// Returns the clusters of the last or the best trial, the one closer in number. Few clusters are found
+/// quickly from scratch; clusters of a very different number are a bad start.
 std::span<const std::uint16_t> Trials::start_for(int clusters) const {
     if (clusters <= tuning::kAlwaysFresh || !task_.has_drafts())
         return {};
@@ -96,12 +97,12 @@ const SearchTrial& Trials::attempt(int clusters, const Line& line) {
     const auto key = std::pair(clusters, line);
     if (const auto known = tried_.find(key); known != tried_.end())
         return known->second;
-    // How many tries there will be is not known; each takes a tenth of what is left of the bar.
+    // The number of trials is unknown; each takes a tenth of the remaining progress.
     const double done = 1 - std::pow(0.9, static_cast<double>(tried_.size()));
     const bool draft = !line.finished && task_.has_drafts();
     CompressResult result =
-        compress_from({start_for(clusters), draft, &light_}, task_.transfer, task_.surface, options_on(line, clusters),
-                      task_.progress.part(done, done + 0.1 * (1 - done)));
+        compress_from({start_for(clusters), draft, &light_}, task_.transfer, task_.surface,
+                      options_on(line, clusters), task_.progress.part(done, done + 0.1 * (1 - done)));
     const CompressStatistics& s = result.statistics;
     const Verdict verdict = judge_(result);
     const double finished = draft ? tuning::kFinishedOverDraft : 1;

@@ -1,5 +1,7 @@
 #pragma once
 
+// Trials of a search.
+
 #include "metric/seen_light.h"
 #include "prt/search.h"
 #include "search/judge.h"
@@ -10,29 +12,30 @@
 
 namespace prt {
 
-/// What is compressed, and what for. Keeps references.
+/// Input and options of a search. Keeps references.
 struct SearchTask {
     const TransferView& transfer;
     const ReceiverSurface& surface;
-    SearchOptions options; ///< with a metric
+    SearchOptions options; ///< including a metric
     const Progress& progress;
 
     double receivers() const { return static_cast<double>(transfer.receivers()); }
-    /// So few are searched all ways.
+    /// Returns whether the mesh is small enough to search all combinations.
     bool few_receivers() const { return receivers() <= tuning::kFewReceivers; }
-    /// Else all tries are finished: that takes no time to speak of.
+    /// Returns whether trials start as drafts; for very small meshes all trials are complete, which takes
+    /// little time.
     bool has_drafts() const { return receivers() > tuning::kAlwaysFinished; }
     int dimension() const { return static_cast<int>(transfer.dimension()); }
     bool packed() const { return options.compress.coding.format == WeightFormat::packed; }
     double payload_bytes(int payload) const {
         return prt::payload_bytes(options.compress.coding.format, payload);
     }
-    /// Components that operations have room for beside guides; nothing where they are not asked about.
+    /// Returns the components that operations allow in addition to predictors; no value without a limit.
     std::optional<double> components_beside(GuideChoice guides) const;
 };
 
-/// Tries of a search, each made once, from the clusters of one before it where these are not too different.
-/// Keeps the best; a finished one is better than any draft.
+/// Trials of a search, each run once, starting from the clusters of a similar earlier trial. Keeps the best;
+/// a complete trial is better than any draft.
 class Trials {
 public:
     struct Try {
@@ -45,21 +48,21 @@ public:
     const SearchTrial& attempt(int clusters, const Line& line);
 
     bool keeps(const SearchTrial& trial) const { return !(excess(trial) > 1); }
-    /// The greatest of all figures over what the budget allows: above 1 it is not kept.
+    /// Returns the maximum ratio of a quantity to its limit; above 1 the budget is exceeded.
     double excess(const SearchTrial& trial) const;
-    /// The same of errors and jumps alone.
+    /// Returns the maximum ratio to the limit for errors and jumps only.
     double excess_of_error(const SearchTrial& trial) const;
-    /// What is made small once the budget is kept; while it is not, how far off it is.
+    /// Returns the quantity to minimise if the budget is met; otherwise a cost that measures the excess.
     double cost(const SearchTrial& trial) const;
-    /// Whether bytes are made small, at an error that is allowed, rather than the error.
+    /// Returns whether the search minimises bytes at an allowed error, rather than the error.
     bool saves_bytes() const { return budget_.max_error.has_value(); }
 
     const std::optional<Try>& best() const { return best_; }
     bool kept() const { return best_ && keeps(best_->trial); }
-    /// Bytes of the bases of a cluster in the last try.
+    /// Returns the bytes of the bases per cluster in the last trial.
     double bytes_per_cluster() const { return bytes_per_cluster_; }
     void expect_bytes_per_cluster(double bytes) { bytes_per_cluster_ = bytes; }
-    /// The best, and all tries. Ends the search.
+    /// Returns the best result, and all trials. Ends the search.
     SearchResult take_result();
 
 private:
@@ -74,7 +77,7 @@ private:
     Judge judge_;
     double bytes_per_cluster_;
     std::map<std::pair<int, Line>, SearchTrial> tried_;
-    std::optional<Try> last_; ///< unless it is the best
+    std::optional<Try> last_; ///< empty if it is the best
     std::vector<std::uint16_t> last_clusters_;
     std::optional<Try> best_;
     SearchResult result_;

@@ -1,5 +1,5 @@
-// The methods that this compressor is measured against: SH of fewer bands, and clustered PCA as published
-// (Sloan, Hall, Hart and Snyder 2003) and as D3DX stored it.
+// Reference methods: SH of fewer bands, and clustered PCA as published (Sloan, Hall, Hart and Snyder 2003)
+// and as stored by D3DX.
 
 #include "prt/baselines.h"
 
@@ -23,7 +23,7 @@ float as_float16(double value) {
     return glm::unpackHalf1x16(glm::packHalf1x16(static_cast<float>(value)));
 }
 
-/// Rows of a cluster in the space of transfer: the mean and the directions that are in use.
+/// Returns the rows of a cluster in the space of transfer: the mean and the used directions.
 std::vector<std::vector<float>> float16_rows(const Frame& frame, const ClusterFit& fit) {
     std::vector<std::vector<float>> rows;
     for (std::size_t r = 0; r <= fit.plan.bits.size(); ++r) {
@@ -47,7 +47,7 @@ float dot(std::span<const float> a, std::span<const float> b) {
     return static_cast<float>(sum);
 }
 
-/// As published: all components at once, rounds to the end or none, no moves.
+/// Returns the published schedule: all components at once, rounds until convergence or none, no moves.
 ClusteringSchedule classic_schedule(bool iterate) {
     return {.grow = false,
             .most_rounds = iterate ? tuning::kMostRounds : 1,
@@ -55,11 +55,11 @@ ClusteringSchedule classic_schedule(bool iterate) {
             .most_move_sweeps = 0};
 }
 
-/// Clusters in the space of transfer, as float16, and weights before they are rounded.
+/// Clusters in the space of transfer as float16, and weights before rounding.
 struct ClassicCode {
     std::vector<std::uint32_t> clusters;               ///< [receivers]
     std::vector<std::vector<std::vector<float>>> rows; ///< [clusters]: mean and directions
-    std::vector<std::vector<float>> largest;           ///< [clusters][directions] weight
+    std::vector<std::vector<float>> largest;           ///< [clusters][directions] largest weight
     std::size_t row_count = 0, most = 0;
     std::vector<float> weights; ///< [receivers][most]
 };
@@ -99,7 +99,7 @@ BaselineResult truncated_sh(const Transfer& transfer, int bands) {
     BaselineResult result;
     result.decoded = zero_transfer(transfer.layout, transfer.receivers());
     std::vector<bool> keeps;
-    std::size_t columns = 0; // that are kept
+    std::size_t columns = 0; // number of kept columns
     for (const TransferPart& part : transfer.layout.parts) {
         const std::size_t count = transfer.layout.columns_of(part),
                           kept = std::min(count, static_cast<std::size_t>(coefficient_count(bands)));
@@ -118,7 +118,7 @@ BaselineResult truncated_sh(const Transfer& transfer, int bands) {
     const auto bytes = static_cast<std::size_t>(std::count(keeps.begin(), keeps.end(), true));
     result.payload_bytes = bound_bytes(bytes);
     result.table_bytes = static_cast<double>(bytes * sizeof(float));
-    // A color times a number, or each channel by itself: the cost of one multiply-add of a color.
+    // A color times a number, or each channel separately: both cost one multiply-add of a color.
     result.mean_components = static_cast<double>(columns);
     return result;
 }

@@ -1,4 +1,4 @@
-// Pictures of numbers: clusters, components, errors and seams as colors of receivers.
+// Visualises clusters, components, errors and seams as colors of receivers.
 
 #include "prt/receiver_colors.h"
 
@@ -16,7 +16,7 @@ glm::vec3 heat_color(double share) {
 }
 
 glm::vec3 label_color(std::size_t label) {
-    // Hues a golden ratio apart.
+    // Hues in steps of the golden ratio.
     const auto number = static_cast<double>(label);
     const double hue = 6 * std::fmod(0.61803398875 * number, 1.0);
     const double value = 0.45 + 0.5 * std::fmod(0.754877666 * number, 1.0);

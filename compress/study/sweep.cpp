@@ -1,4 +1,4 @@
-// Rate against distortion of this compressor and of what it is measured against, at equal bytes and at equal
+// Measures rate and distortion of this compressor and of reference methods, at equal bytes and at equal
 // components per receiver.
 
 #include "prt/sweep.h"
@@ -16,7 +16,7 @@
 namespace prt {
 namespace {
 
-/// "7", "3.25"
+/// Formats a number with three digits: "7", "3.25".
 std::string short_number(double value) {
     std::ostringstream text;
     text << std::setprecision(3) << value;
@@ -52,7 +52,7 @@ private:
             const auto lit = exit_radiance(decoded, lights_[l], options_.threads);
             const double rms = lit_rms(references_[l], lit, surface_.areas);
             squares += rms * rms;
-            // Alike for methods with clusters and without: all edges are inside of one.
+            // Measures methods with and without clusters equally: all edges are inside one cluster.
             const double jump = lit_error(references_[l], lit, surface_.areas, surface_.edges, one_cluster_)
                                     .inner.percentile_99;
             squared_jumps += jump * jump;
@@ -140,20 +140,22 @@ private:
         }
     }
 
-    /// The most components that K clusters can have in `bytes`, with rows as float16; -1: not even none.
+    /// Returns the maximum number of components of `clusters` clusters in `bytes`, with rows as float16; -1:
+    /// not even zero components fit.
     int classic_components(int clusters, double bytes) const {
         const auto row = static_cast<double>(clusters) * static_cast<double>(2 * transfer_.dimension()) /
                          static_cast<double>(transfer_.receivers());
         const double scale = 4.0 * clusters / static_cast<double>(transfer_.receivers());
         const std::size_t index = clusters > 256 ? 2 : 1;
-        std::size_t count = 0; // that fit, and none is one of them
+        std::size_t count = 0; // numbers of components that fit, including zero
         while (count <= transfer_.dimension() &&
                bound_bytes(index + count) + row + static_cast<double>(count) * (row + scale) <= bytes)
             ++count;
         return static_cast<int>(count) - 1;
     }
 
-    /// With a cluster for each of a few receivers, a method has no error and compresses nothing.
+    /// Returns the maximum number of clusters. With a cluster for every few receivers, a method has no error
+    /// and compresses nothing.
     int most_clusters() const {
         const std::size_t most = transfer_.receivers() / kLeastReceiversPerCluster;
         return static_cast<int>(std::clamp<std::size_t>(most, 1, 1024));
@@ -162,7 +164,7 @@ private:
     void clustered() {
         double done = 0.07;
         for (int clusters = std::min(4, most_clusters()); clusters <= most_clusters(); clusters *= 2) {
-            std::set<int> components; // fewer than fit are never better
+            std::set<int> components; // fewer components than fit are never better
             for (const double bytes : kSweepBytes)
                 components.insert(classic_components(clusters, bytes));
             for (const int m : components) {
@@ -198,7 +200,7 @@ private:
                    sweep_.by_bytes);
             done += 0.07;
         }
-        // The operations of the classic way, in no more bytes than it takes.
+        // The operations of classic CPCA, with at most its bytes.
         for (const SweepPoint& reference : std::vector<SweepPoint>(sweep_.by_components)) {
             if (reference.method != kClassic)
                 continue;
@@ -219,7 +221,7 @@ private:
         }
     }
 
-    /// Ours within a budget, or why not.
+    /// Adds the result of prtkit within a budget, or the reason why it is missing.
     void within(const Budget& budget, const std::string& words, const Progress& progress,
                 std::vector<SweepPoint>& points) {
         SearchOptions o;
@@ -241,7 +243,7 @@ private:
     const CompressOptions& options_;
     const Progress& progress_;
     std::vector<std::vector<glm::vec3>> references_;
-    std::vector<std::uint16_t> one_cluster_; ///< [receivers], of all
+    std::vector<std::uint16_t> one_cluster_; ///< [receivers], all 0
     Sweep sweep_;
 };
 

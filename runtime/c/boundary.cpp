@@ -1,3 +1,4 @@
+// Argument checks and conversions of the C interface.
 #include "boundary.h"
 
 #include "prt/sh.h"
@@ -24,11 +25,11 @@ std::size_t count_of(int order) {
     return static_cast<std::size_t>(coefficient_count(order));
 }
 
-/// Without a way out of the loop it runs in vectors.
+/// The loop has no early exit, so that it can be vectorised.
 bool within(float most, const float* values, std::size_t count) {
     bool inside = true;
     for (std::size_t i = 0; i < count; ++i)
-        inside &= std::abs(values[i]) <= most; // nor is NaN
+        inside &= std::abs(values[i]) <= most; // false for NaN
     return inside;
 }
 

@@ -1,7 +1,6 @@
 #pragma once
 
-// Between C and C++: statuses and messages for exceptions, and what is asked of pointers and numbers that
-// come in.
+// Boundary between C and C++: converts exceptions to statuses and messages, and checks pointers and numbers.
 
 #include "prt/prt.h"
 #include "prt/shader_source.h"
@@ -17,7 +16,7 @@
 
 namespace prt::c {
 
-/// What a file or a function says no to, told apart by where it was asked.
+/// Error in a file. A separate type distinguishes it from a bad argument.
 struct BadFile : Error {
     using Error::Error;
 };
@@ -28,7 +27,7 @@ struct TooSmall : Error {
 
 void say(prt_message* message, const char* text) noexcept;
 
-/// Runs `body` and turns what it throws into a status and a message.
+/// Runs `body` and converts its exceptions to a status and a message.
 template <class Body>
 prt_status guarded(prt_message* message, Body&& body) noexcept {
     try {
@@ -47,13 +46,13 @@ prt_status guarded(prt_message* message, Body&& body) noexcept {
     } catch (const Error& error) {
         say(message, error.what());
         return PRT_BAD_ARGUMENT;
-    } catch (const std::exception& error) { // of a library, or a mistake in this one
+    } catch (const std::exception& error) { // from a library, or a bug in prtkit
         say(message, error.what());
         return PRT_INTERNAL;
     }
 }
 
-/// Runs `body`, which reads a file: what it refuses is the file's fault.
+/// Runs `body`, which reads a file, and converts its `Error` to `BadFile`.
 template <class Body>
 void as_file(Body&& body) {
     try {
@@ -70,37 +69,37 @@ void check_pointers(const Pointers*... pointers) {
         throw Error("a pointer is null");
 }
 
-/// Coefficients of an order, which it checks.
+/// Returns the number of coefficients of an order. Throws `Error` if the order is invalid.
 std::size_t count_of(int order);
 
-/// Whether all values lie in -most..most.
+/// Returns whether all values are in -most..most.
 bool within(float most, const float* values, std::size_t count);
 bool finite(const float* values, std::size_t count);
 
-/// Of light and constants that something is lit by.
+/// Maximum magnitude of light coefficients and of constants.
 inline constexpr float kBrightest = 1e20f, kLargestConstant = 1e30f;
 
 inline glm::vec3* colors(float* light) {
-    return reinterpret_cast<glm::vec3*>(light); // three floats and nothing else
+    return reinterpret_cast<glm::vec3*>(light); // vec3 is exactly three floats
 }
 
 inline std::span<const glm::vec3> light_colors(const float* from, std::size_t count) {
     return {reinterpret_cast<const glm::vec3*>(from), count};
 }
 
-/// Coefficients of a sky and its suns, [order²], and strengths of lamps; the last two may be null.
+/// Coefficients of a sky and its suns, [order²], and strengths of lamps; `suns` and `lamps` may be null.
 struct LightArguments {
     int order;
     const float *sky, *suns, *lamps;
 };
 
-/// Throws `Error` for an order that is none and for light that is not finite or too bright.
+/// Throws `Error` for an invalid order and for light that is not finite or exceeds kBrightest.
 LightingView lighting_of(const LightArguments& light, std::size_t lamps);
 
 /// Writes `text` with its final 0 to `source`, and its size to `*size`. Throws `TooSmall`.
 void write_text(const std::string& text, char* source, std::size_t* size);
 
-/// Those of C are the same numbers.
+/// Converts a prt_language, whose values equal those of ShaderLanguage. Throws `Error` for others.
 ShaderLanguage language_of(int language);
 
 } // namespace prt::c

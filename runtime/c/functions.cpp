@@ -1,4 +1,4 @@
-// The C interface: functions on the sphere.
+// The C interface: spherical harmonics functions.
 
 #include "boundary.h"
 #include "prt/sh.h"
@@ -21,7 +21,7 @@ using prt::Error;
 
 constexpr std::size_t kMostCoefficients = prt::kMaxOrder * prt::kMaxOrder;
 
-/// The coefficients of a function on the sphere, as it comes in or goes out.
+/// Checks the coefficients of an input or output function.
 void check_function(const float* function, std::size_t count) {
     if (!finite(function, count))
         throw Error("the coefficients of a function must be finite, and its products no larger than floats");

@@ -22,13 +22,14 @@ const prt_shared_instances& instances_of(const prt_model& model) {
     return *model.instances;
 }
 
-/// Instances of each mesh behind each other.
+/// Sorts instances by mesh.
 void sort_by_mesh(std::vector<prt::FileInstance>& instances) {
     std::ranges::stable_sort(
         instances, {}, [](const prt::FileInstance& instance) { return instance.stored_arrays.front(); });
 }
 
-/// Which instances draw each primitive of `stored`; none: it is drawn once.
+/// Returns the range of instances that draw each primitive of `stored`; an empty range means it is drawn
+/// once.
 std::vector<prt_shared_instances::Range> ranges_of(const prt::InstancedModel& model) {
     std::vector<prt_shared_instances::Range> of_arrays(model.stored.vertex_arrays.size()), result;
     for (std::size_t i = 0; i < model.instances.size(); ++i)

@@ -1,4 +1,4 @@
-// The C interface: light, of closed forms, of images, turned.
+// The C interface: analytic lights, environment images, rotation and deringing.
 
 #include "boundary.h"
 #include "prt/environment.h"
@@ -19,7 +19,7 @@ using namespace prt::c;
 using prt::Error;
 using prt::Light;
 
-/// Of an image that an array can hold.
+/// Returns the number of pixels. Throws `Error` if an array cannot hold the image.
 std::size_t pixel_count(int width, int height) {
     constexpr std::size_t kMost = std::numeric_limits<std::ptrdiff_t>::max() / sizeof(glm::vec3);
     const auto columns = static_cast<std::size_t>(width), rows = static_cast<std::size_t>(height);

@@ -1,6 +1,6 @@
 #pragma once
 
-// A model of the C interface.
+// The model handle of the C interface.
 
 #include "boundary.h"
 #include "prt/constant_former.h"
@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-/// Instances that share transfer, mesh by mesh.
+/// Instances that share transfer, sorted by mesh.
 struct prt_shared_instances {
     prt::InstanceFormer former;
     std::vector<glm::vec4> worlds, tables; ///< [instances][3], [instances][2]
@@ -31,10 +31,10 @@ struct prt_model {
 
 namespace prt::c {
 
-/// Those of C are the same numbers.
+/// Converts a prt_constants, whose values equal those of ConstantSource. Throws `Error` for others.
 ConstantSource source_of(int constants);
 
-/// A model whose instances share transfer. Throws `Error` as `read_instanced`.
+/// Creates a model whose instances share transfer. Throws `Error` as `read_instanced`.
 prt_model* make_instanced(const GltfDocument& document, const std::string& name);
 
 } // namespace prt::c

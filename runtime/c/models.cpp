@@ -1,4 +1,4 @@
-// The C interface: models that prt compress has written.
+// The C interface: models written by prt compress.
 
 #include "model.h"
 

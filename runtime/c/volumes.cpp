@@ -1,4 +1,4 @@
-// The C interface: volumes of files that prt compress has written.
+// The C interface: volumes in files written by prt compress.
 
 #include "boundary.h"
 #include "prt/gltf.h"
@@ -49,7 +49,7 @@ std::span<const glm::vec4> checked_constants(const prt_volume& volume, const flo
     return {reinterpret_cast<const glm::vec4*>(constants), volume.former.rows()};
 }
 
-/// Coefficients of a place.
+/// Interpolates the coefficients at `place`.
 void mix(const prt_volume& volume, const float* incident, const prt_volume_place& place,
          std::span<glm::vec3> light) {
     if (!finite(place.position, 3) || !finite(place.normal, 3))

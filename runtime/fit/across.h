@@ -1,5 +1,7 @@
 #pragma once
 
+// Axes orthogonal to a direction.
+
 #include <glm/geometric.hpp>
 #include <glm/vec3.hpp>
 
@@ -7,7 +9,7 @@
 
 namespace prt {
 
-/// Two unit vectors across unit `axis`, and across each other.
+/// Two unit vectors that are orthogonal to unit `axis` and to each other.
 struct Across {
     glm::dvec3 x, y;
 

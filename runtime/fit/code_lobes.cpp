@@ -1,5 +1,5 @@
-// Words for lobes: axes, profiles and factors of each vertex are chosen one lobe after the other against what
-// its other lobes leave, then profiles anew for the words.
+// Codes lobes as words: axis, profile and factor of each lobe of a vertex are chosen in turn against the
+// residual of the other lobes; then the profiles are refitted to the words.
 
 #include "lobe_profiles.h"
 #include "prt/sh.h"
@@ -12,17 +12,18 @@ namespace prt {
 namespace {
 
 constexpr std::size_t kCoefficients = kMostLobeOrder * kMostLobeOrder;
-constexpr int kSweeps = 3;            ///< over the lobes of a vertex, in each round
-constexpr int kAxisCodes = 255;       ///< of a byte: 255 is 254 again
-constexpr double kSteps = 255;        ///< of a factor
-constexpr double kFurnace = 1 + 1e-6; ///< sum of the first gains at most: floats of profiles round
+constexpr int kSweeps = 3;            ///< passes over the lobes of a vertex in each round
+constexpr int kAxisCodes = 255;       ///< per byte: 255 would be another code for 254
+constexpr double kSteps = 255;        ///< steps of a factor
+constexpr double kFurnace = 1 + 1e-6; ///< maximum sum of the gains of band 0, with tolerance for float
+                                      ///< rounding of profiles
 
 using Basis = std::array<float, kCoefficients>;
-/// What is left of a vertex's target.
+/// Residual of a vertex's target.
 using Left = std::array<double, kCoefficients>;
 constexpr std::array<std::size_t, kCoefficients> kBandOf = {0, 1, 1, 1, 2, 2, 2, 2, 2, 3, 3, 3, 3, 3, 3, 3};
 
-/// The basis along every axis that two bytes can say.
+/// SH basis for every axis that two bytes can represent.
 class AxisTable {
 public:
     AxisTable() : basis_(kAxisCodes * kAxisCodes) {
@@ -40,7 +41,7 @@ private:
     std::vector<Basis> basis_;
 };
 
-/// What a lobe may be in the word of a vertex, and how much squared error it takes away.
+/// Candidate word of a lobe, and the squared error that it removes.
 struct Choice {
     LobeWord word{};
     double gain = -1;
@@ -52,7 +53,7 @@ public:
         : targets_(targets), costs_(profile_costs(targets.order, options)), band_costs_(options.band_costs),
           model_(model) {}
 
-    /// The words of a vertex whose lobes are about at `near`, all dark before.
+    /// Computes the words of a vertex from the fitted lobes `near`; all lobes have factor 0 before.
     void encode(std::size_t vertex, std::span<const Lobe> near) {
         const std::span<LobeWord> words = words_of(vertex);
         for (std::size_t k = 0; k < words.size(); ++k) {
@@ -62,7 +63,7 @@ public:
         improve(vertex);
     }
 
-    /// Chooses each lobe anew against the others.
+    /// Optimises each lobe against the others.
     void improve(std::size_t vertex) {
         const std::span<LobeWord> words = words_of(vertex);
         make_room(words);
@@ -71,7 +72,8 @@ public:
                 word = best(word, rest_of(vertex, word));
     }
 
-    /// Least squares of each profile in turn over all vertices that have it; the first stays.
+    /// Refits each profile in turn by least squares over all vertices that use it; the first profile is
+    /// fixed.
     void refit_profiles();
     void measure_profiles() {
         squares_.clear();
@@ -84,15 +86,15 @@ public:
     }
 
 private:
-    /// Vertices that have a lobe of each profile.
+    /// Returns for each profile the vertices with a lobe that uses it.
     std::vector<std::vector<std::uint32_t>> users_of_profiles();
-    /// One profile, against `left` [vertices] by all lobes, which follows.
+    /// Refits one profile against the residuals `left` [vertices] of all lobes, and updates them.
     void refit(std::size_t p, std::span<const std::uint32_t> users, std::span<Left> left);
 
-    /// What is left of a vertex's target without one of its lobes.
+    /// Residual of a vertex's target without one of its lobes.
     struct Rest {
         Left left{};
-        double first_gains = 0; ///< of the other lobes
+        double first_gains = 0; ///< sum of the band-0 gains of the other lobes
     };
 
     std::span<LobeWord> words_of(std::size_t vertex) {
@@ -122,7 +124,7 @@ private:
         return rest;
     }
 
-    /// Takes lobes back until light from everywhere alike gives 1 at most.
+    /// Reduces the factors until the response to uniform light is at most 1.
     void make_room(std::span<LobeWord> words) const {
         double sum = 0;
         for (const LobeWord& word : words)
@@ -137,7 +139,8 @@ private:
         }
     }
 
-    /// A profile about an axis along which `found` is left of each band, times its cost.
+    /// Tries profile `p` about `axis`. `found` is the residual along the axis per band, times the cost of the
+    /// band.
     void ask(const LobeWord& axis, std::size_t p, std::span<const double> found, const Rest& rest,
              Choice& best) const {
         const LobeProfile& profile = model_.profiles[p];
@@ -146,7 +149,7 @@ private:
             along += found[l] * static_cast<double>(profile[l]);
         const double square = squares_[p];
         if (!(along > 0) || along * along <= best.gain * square)
-            return; // it cannot be better, whatever its factor
+            return; // cannot be better with any factor
         double low = 0, high = kSteps;
         const double first = static_cast<double>(profile[0]), room = kFurnace - rest.first_gains;
         if (first > 0)
@@ -162,7 +165,7 @@ private:
         }
     }
 
-    /// Of axes beside the one that is there.
+    /// Returns the best word with an axis code equal or adjacent to the current one.
     LobeWord best(const LobeWord& now, const Rest& rest) const {
         Choice choice;
         for (int y = now[1] - 1; y <= now[1] + 1; ++y)
@@ -182,7 +185,8 @@ private:
                 for (std::size_t p = 0; p < model_.profiles.size(); ++p)
                     ask(axis, p, found, rest, choice);
             }
-        // Nothing is better than a dark lobe, unless the others are too bright without it.
+        // A lobe of factor 0 is the best if nothing improves on it, unless the others are too bright without
+        // this lobe.
         return choice.gain > 0 || rest.first_gains > kFurnace ? kept(choice, now)
                                                               : LobeWord{now[0], now[1], 0, 0};
     }
@@ -193,7 +197,7 @@ private:
     const LobeTargets& targets_;
     const AxisTable axes_;
     std::array<double, kMostLobeOrder> costs_, band_costs_;
-    std::vector<double> squares_; ///< of each profile, by costs
+    std::vector<double> squares_; ///< squared norm of each profile, weighted by the band costs
     LobeModel& model_;
 };
 
@@ -209,7 +213,7 @@ std::vector<std::vector<std::uint32_t>> Coder::users_of_profiles() {
 
 void Coder::refit(std::size_t p, std::span<const std::uint32_t> users, std::span<Left> left) {
     const std::size_t c = targets_.coefficients();
-    std::vector<Left> unit(users.size()); // of each vertex, its lobes of profile 1
+    std::vector<Left> unit(users.size()); // per vertex, the sum of its lobes with this profile for gain 1
     std::array<double, kMostLobeOrder> along{}, square{}, change{};
     for (std::size_t u = 0; u < users.size(); ++u) {
         const std::size_t v = users[u];
@@ -239,7 +243,7 @@ void Coder::refit(std::size_t p, std::span<const std::uint32_t> users, std::span
 void Coder::refit_profiles() {
     std::vector<Left> left(model_.vertices());
     for (std::size_t v = 0; v < left.size(); ++v)
-        left[v] = rest_of(v, {}).left; // without none
+        left[v] = rest_of(v, {}).left; // subtracts all lobes
     const std::vector<std::vector<std::uint32_t>> users = users_of_profiles();
     for (std::size_t p = 1; p < users.size(); ++p)
         refit(p, users[p], left);

@@ -1,5 +1,5 @@
-// Fits a disc to texels by least squares (Ceres): seven numbers, of which two are its middle and one its
-// size.
+// Fits a disc to texels by least squares (Ceres): seven parameters, including its center (two) and its
+// radius.
 #include "disc_fit.h"
 
 #include "across.h"
@@ -16,19 +16,19 @@
 namespace prt {
 namespace {
 
-/// A texel in the plane about the spot, in units of its radius, and its brightness in units of the peak's
-/// height over the sky: whatever the image holds, numbers are about 1.
+/// A texel in the plane about the spot, in units of the spot's radius. Brightness is in units of the peak's
+/// height above the sky. All values are therefore of magnitude 1 for any image.
 struct PlaneTexel {
     double x, y;
     double brightness;
     double weight;
 };
 
-/// In the order of the parameters; `slope_x` and `slope_y` are the sky's.
+/// In the order of the parameters; `slope_x` and `slope_y` belong to the sky.
 enum Parameter { middle_x, middle_y, radius, height, sky, slope_x, slope_y, kParameters };
 
-/// How much of a texel the disc covers whose edge is `inside` texels away: a smooth ramp one texel and a half
-/// wide, which a square turned any way is nearest to.
+/// Returns the fraction of a texel that the disc covers if the texel is `inside` texels inside the edge: a
+/// smooth ramp of one and a half texels, which approximates a square of any orientation.
 template <class T>
 T coverage(const T& inside) {
     const T share = inside / 1.5 + 0.5;
@@ -41,14 +41,14 @@ T coverage(const T& inside) {
 
 struct DiscResidual {
     const std::vector<PlaneTexel>& texels;
-    double step; ///< from texel to texel, in units of the spot's radius
+    double step; ///< distance of texels, in units of the spot's radius
 
     template <class T>
     bool operator()(const T* p, T* residuals) const {
         for (std::size_t i = 0; i < texels.size(); ++i) {
             const PlaneTexel& texel = texels[i];
             const T x = texel.x - p[middle_x], y = texel.y - p[middle_y];
-            const T distance = ceres::sqrt(x * x + y * y + 1e-12); // differentiable in the middle
+            const T distance = ceres::sqrt(x * x + y * y + 1e-12); // differentiable at the center
             const T model = p[sky] + p[slope_x] * texel.x + p[slope_y] * texel.y +
                             p[height] * coverage(T((p[radius] - distance) / step));
             residuals[i] = texel.weight * (model - texel.brightness);
@@ -60,7 +60,7 @@ struct DiscResidual {
 std::vector<PlaneTexel> in_plane(const std::vector<NearTexel>& near, const Spot& spot, const Across& across) {
     std::vector<PlaneTexel> texels;
     for (const NearTexel& texel : near) {
-        // Distances from the middle are angles.
+        // Distances from the center are angles.
         const glm::dvec2 at(glm::dot(texel.direction, across.x), glm::dot(texel.direction, across.y));
         const double sine = glm::length(at), scale = (sine > 0 ? texel.angle / sine : 1) / spot.radius;
         texels.push_back({at.x * scale, at.y * scale,
@@ -70,8 +70,8 @@ std::vector<PlaneTexel> in_plane(const std::vector<NearTexel>& near, const Spot&
     return texels;
 }
 
-/// A disc as bright as the peak that has all of the light about `spot`: of one texel, the disc that is as
-/// large.
+/// Returns a disc with the brightness of the peak and the total light of `spot`: for a spot of one texel, a
+/// disc of the same solid angle.
 Disc narrow_disc(const SkyMap& map, const Spot& spot) {
     glm::dvec3 sum(0);
     double area = 0;
@@ -102,7 +102,7 @@ Disc fitted_disc(const SkyMap& map, const Spot& spot) {
             new DiscResidual{texels, step / spot.radius}, static_cast<int>(texels.size()))
             .release(),
         nullptr, p);
-    // What starts from half of the peak is nearer than this, or it is no disc.
+    // Start values at half of the peak are closer than these bounds for every real disc.
     for (const Parameter middle : {middle_x, middle_y}) {
         problem.SetParameterLowerBound(p, middle, -0.5);
         problem.SetParameterUpperBound(p, middle, 0.5);

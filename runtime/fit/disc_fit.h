@@ -1,6 +1,6 @@
 #pragma once
 
-// The edge of a sun's disc, to a fraction of a texel.
+// Fits the outline of a sun's disc with subpixel precision.
 
 #include "spot.h"
 
@@ -11,8 +11,8 @@ struct Disc {
     double half_angle = 0; ///< radians
 };
 
-/// Fits a disc over a sky that goes up or down across it to the texels about `spot`. Where the spot is too
-/// narrow for texels to show its edge: the disc that is as bright as its peak and has its light.
+/// Fits a disc on a linear sky gradient to the texels about `spot`. If the spot is too narrow for texels to
+/// resolve its edge, returns the disc with the brightness of its peak and the same total light.
 Disc fitted_disc(const SkyMap& map, const Spot& spot);
 
 } // namespace prt

@@ -1,5 +1,5 @@
-// Takes suns out of an image one by one, the strongest first, and after each looks at the others again
-// without it (Hogbom 1974, "CLEAN"; docs/math.md, "Suns in an image").
+// Removes suns from an image one by one, strongest first, and after each refits the previous ones without it
+// (Hogbom 1974, "CLEAN"; docs/math.md, "Suns in an image").
 #include "prt/suns.h"
 
 #include "disc_fit.h"
@@ -19,15 +19,15 @@
 namespace prt {
 namespace {
 
-/// What another sun must lower the error by, as a share of the light, to be worth its shadow map.
+/// Minimum error reduction by another sun, as a fraction of the light, that justifies its shadow map.
 constexpr double kWorthwhile = 0.01;
 
-/// A sun and what it took out of the image.
+/// A sun and the light that was removed from the image for it.
 struct TakenSun {
-    Spot spot; ///< as it was found
+    Spot spot; ///< initial state
     Disc disc;
-    double reach = 0;   ///< radians about the middle, within which its light was taken
-    glm::dvec3 flux{0}; ///< radiance over solid angle
+    double reach = 0;   ///< radians about the center within which light was removed
+    glm::dvec3 flux{0}; ///< radiance times solid angle
     struct Part {
         std::size_t texel;
         glm::vec3 color;
@@ -35,7 +35,7 @@ struct TakenSun {
     std::vector<Part> parts;
 };
 
-/// Lowers the texels about `spot` to the sky around it.
+/// Lowers the texels about `spot` to the surrounding sky.
 TakenSun take(SkyMap& map, const Spot& spot, double widest) {
     TakenSun sun{spot, fitted_disc(map, spot), 0, glm::dvec3(0), {}};
     Spot whole = spot;
@@ -61,13 +61,13 @@ void put_back(SkyMap& map, const TakenSun& sun) {
 }
 
 SunDisc as_disc(const TakenSun& sun, const glm::dvec3& all) {
-    // The irradiance of a cone whose radiance integrates to the flux.
+    // Irradiance of a cone of uniform radiance whose integral is the flux.
     const glm::dvec3 irradiance = 0.5 * (1 + std::cos(sun.disc.half_angle)) * sun.flux;
     return {glm::vec3(sun.disc.towards), glm::vec3(irradiance), sun.disc.half_angle,
             luminance(all) > 0 ? luminance(sun.flux) / luminance(all) : 0};
 }
 
-/// A search that can be asked for one sun after the other.
+/// Incremental search for suns.
 class Search {
 public:
     Search(const Environment& environment, const SunOptions& options)
@@ -78,9 +78,9 @@ public:
         without_ = error();
     }
 
-    /// Takes one more. Whether there was one.
+    /// Finds one more sun. Returns whether there was one.
     bool add() {
-        std::vector<Taken> taken; // what is left there is a halo
+        std::vector<Taken> taken; // light that remains within these is a halo
         for (const TakenSun& sun : suns_)
             taken.push_back({sun.disc.towards, sun.reach});
         const std::optional<Spot> spot = strongest_spot(map_, widest_, taken);
@@ -94,7 +94,7 @@ public:
         return true;
     }
 
-    /// Takes as many as pay: of all numbers of suns the one with the least error and price together.
+    /// Finds the number of suns with the minimum sum of error and cost.
     void add_paying() {
         double least = without_;
         std::vector<TakenSun> best;

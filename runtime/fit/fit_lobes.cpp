@@ -1,5 +1,5 @@
-// Zonal lobes of one vertex by nonlinear least squares (Ceres): axes on the sphere, and a gain for each band
-// of each lobe. Sloan, Luna and Snyder 2005 minimise the same, for bands alike.
+// Fits zonal lobes to one vertex by nonlinear least squares (Ceres): axes on the sphere, and a gain for each
+// band of each lobe. Sloan, Luna and Snyder 2005 minimise the same function with equal band weights.
 
 #include "prt/lobe_fit.h"
 
@@ -18,12 +18,11 @@
 namespace prt {
 namespace {
 
-/// What a gain costs for itself, of what its band weighs: lobes that the others leave nothing to do get none,
-/// instead of gains that cancel. A ten-thousandth of a cosine lobe's squares loses 1e-7 of its size.
+/// Regularisation of gains relative to the band weight. Superfluous lobes get zero gain, instead of gains
+/// that cancel. At a ten-thousandth of a cosine lobe's amplitude it costs 1e-7 of the lobe.
 constexpr double kLeastCost = 1e-8;
 
-/// Residuals are those of the coefficients, then of the gains themselves. Parameters: an axis, then the
-/// gains, of one lobe after the other.
+/// Residuals: first the coefficients, then the gains. Parameters: an axis and the gains of each lobe in turn.
 class LobeCost : public ceres::CostFunction {
 public:
     LobeCost(int order, std::span<const double> target, const LobeFitOptions& options)
@@ -85,8 +84,8 @@ private:
     std::array<double, kMostLobeOrder> weights_{};
 };
 
-/// A lobe is the same about the opposite axis with its odd bands negated. Of the two it is the one whose
-/// light comes from where its axis points, so that profiles are of one kind.
+/// A lobe equals the lobe about the opposite axis with negated odd bands. Selects the axis that points
+/// towards the incoming light, so that profiles are comparable.
 void face_forward(FreeLobe& lobe) {
     if (lobe.profile[1] >= 0)
         return;
@@ -115,7 +114,7 @@ void fit_vertex(int order, std::span<const double> target, const LobeFitOptions&
     solver.max_num_iterations = 40;
     solver.function_tolerance = 1e-8;
     ceres::Solver::Summary summary;
-    ceres::Solve(solver, &problem, &summary); // where it fails, what it began with stands
+    ceres::Solve(solver, &problem, &summary); // on failure the start values remain
     for (std::size_t k = 0; k < lobes.size(); ++k) {
         face_forward(lobes[k]);
         to[k] = {glm::vec3(lobes[k].axis), {}};
@@ -141,7 +140,7 @@ std::vector<Lobe> fit_lobes(const LobeTargets& targets, const LobeFitOptions& op
     check_targets(targets, options);
     const std::size_t vertices = targets.areas.size();
     std::vector<Lobe> lobes(vertices * options.lobes);
-    constexpr std::size_t kBlock = 2048; // between two looks at the progress
+    constexpr std::size_t kBlock = 2048; // vertices between two progress updates
     for (std::size_t first = 0; first < vertices; first += kBlock) {
         progress.update(static_cast<double>(first) / static_cast<double>(vertices));
         parallel_for(std::min(kBlock, vertices - first), 32, options.threads,

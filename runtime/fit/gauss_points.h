@@ -1,5 +1,7 @@
 #pragma once
 
+// Gauss-Legendre quadrature with three points.
+
 #include <array>
 
 namespace prt {
@@ -8,7 +10,7 @@ struct GaussPoint {
     double at, weight;
 };
 
-/// The three points of Gauss and Legendre on [begin, end]: exact to degree 5.
+/// Returns the three Gauss-Legendre points on [begin, end]: exact to degree 5.
 inline std::array<GaussPoint, 3> gauss_points(double begin, double end) {
     constexpr double kOutside = 0.774596669241483377; // sqrt(3 / 5)
     const double half = 0.5 * (end - begin), middle = 0.5 * (begin + end);

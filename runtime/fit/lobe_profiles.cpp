@@ -1,4 +1,4 @@
-// k-means of the shapes of lobes, whatever their sizes: gain-shape vector quantisation (Gersho and Gray,
+// Clusters lobe profiles by k-means on normalised shapes: gain-shape vector quantisation (Gersho and Gray,
 // "Vector quantization and signal compression", 1992, section 12.10).
 
 #include "lobe_profiles.h"
@@ -15,11 +15,11 @@ namespace {
 
 using Shape = std::array<double, kMostLobeOrder>;
 
-constexpr int kMeansRounds = 12; ///< after which assignments hardly move
+constexpr int kMeansRounds = 12; ///< assignments hardly change after this number
 
-/// A lobe in units in which squared distance is what an error costs.
+/// A lobe in units in which the squared distance is the cost of an error.
 struct Sized {
-    Shape shape{}; ///< of length 1
+    Shape shape{}; ///< unit length
     double size = 0, weight = 0;
 };
 
@@ -47,7 +47,7 @@ std::vector<Sized> sized(std::span<const Lobe> lobes, std::span<const float> are
     return all;
 }
 
-/// The nearest, by the angle between shapes; of lobes that none faces, the first.
+/// Returns the shape with the smallest angle to `to`; the first if no shape has a positive dot product.
 std::size_t nearest(std::span<const Shape> shapes, const Shape& to) {
     std::size_t best = 0;
     double most = 0;
@@ -59,7 +59,7 @@ std::size_t nearest(std::span<const Shape> shapes, const Shape& to) {
     return best;
 }
 
-/// k-means++ (Arthur and Vassilvitskii 2007), beside a first that is given.
+/// Chooses start shapes by k-means++ (Arthur and Vassilvitskii 2007), in addition to the given first shape.
 std::vector<Shape> first_shapes(std::span<const Sized> lobes, const Shape& first, std::size_t most) {
     std::mt19937_64 random(1);
     std::vector<Shape> shapes = {first};
@@ -72,8 +72,8 @@ std::vector<Shape> first_shapes(std::span<const Sized> lobes, const Shape& first
             sum += losses[i];
         }
         if (!(sum > 1e-12))
-            break; // every shape is there
-        // Not std::uniform_real_distribution, which libraries draw each in its own way.
+            break; // all shapes are represented
+        // std::uniform_real_distribution is avoided: its results depend on the standard library.
         double drawn = sum * static_cast<double>(random() >> 11) * 0x1p-53;
         std::size_t i = 0;
         while (i + 1 < lobes.size() && (drawn -= losses[i]) > 0)
@@ -83,7 +83,7 @@ std::vector<Shape> first_shapes(std::span<const Sized> lobes, const Shape& first
     return shapes;
 }
 
-/// Means of what is nearest to each but the first; those that nothing is near to stay.
+/// Moves each shape except the first to the mean of its lobes; shapes without lobes do not move.
 void move_shapes(std::span<const Sized> lobes, std::span<Shape> shapes) {
     std::vector<Shape> sums(shapes.size());
     for (const Sized& lobe : lobes) {

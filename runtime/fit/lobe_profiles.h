@@ -1,6 +1,6 @@
 #pragma once
 
-// The few profiles that all lobes of a model share.
+// Clustering of lobes into a few profiles that all lobes of a model share.
 
 #include "prt/lobe_fit.h"
 
@@ -9,15 +9,16 @@
 
 namespace prt {
 
-/// What a profile and its factor err by costs so much per band: cost_l (2l + 1) / 4π.
+/// Returns the cost per band of a squared error of a profile times its factor: cost_l (2l + 1) / 4π.
 std::array<double, kMostLobeOrder> profile_costs(int order, const LobeFitOptions& options);
 
-/// At most options.profiles, the first of them the cosine lobe of an open vertex, so that it is there
-/// exactly. `areas`: [lobes]. Each profile is as large as the largest lobe of it: factors are 0..1.
+/// Returns at most options.profiles profiles. The first is the cosine lobe of an unoccluded vertex, which is
+/// thus represented exactly. `areas` is [lobes]. Each profile has the size of its largest lobe, so that
+/// factors are in 0..1.
 std::vector<LobeProfile> shared_profiles(int order, std::span<const Lobe> lobes, std::span<const float> areas,
                                          const LobeFitOptions& options);
 
-/// The clamped cosine.
+/// Returns the clamped-cosine profile.
 LobeProfile cosine_profile(int order);
 
 } // namespace prt

@@ -1,5 +1,5 @@
-// A matching pursuit over directions all over the sphere (Mallat and Zhang 1993): the best profile about an
-// axis is what is left of each band along it.
+// Start values by matching pursuit over directions on the sphere (Mallat and Zhang 1993): the best profile
+// about an axis is the projection of the residual of each band onto the axis.
 
 #include "lobe_start.h"
 
@@ -15,7 +15,7 @@
 namespace prt {
 namespace {
 
-constexpr int kPursuitDirections = 96; ///< 20 degrees from each other; the fit goes on from there
+constexpr int kPursuitDirections = 96; ///< spaced about 20 degrees; the nonlinear fit refines them
 
 using Residual = std::array<double, kMostLobeOrder * kMostLobeOrder>;
 
@@ -30,7 +30,7 @@ Direction direction_of(const glm::dvec3& towards) {
     return direction;
 }
 
-/// A spherical Fibonacci lattice.
+/// Returns a spherical Fibonacci lattice.
 const std::vector<Direction>& directions() {
     static const std::vector<Direction> all = [] {
         std::vector<Direction> lattice;
@@ -44,7 +44,7 @@ const std::vector<Direction>& directions() {
     return all;
 }
 
-/// Sum over m of left_lm Y_lm(axis), which is 1 / `band_square` times the best profile.
+/// Returns the sum over m of left_lm Y_lm(axis), which is `band_square` times the best profile.
 double along(int l, const Residual& left, const Direction& direction) {
     double sum = 0;
     for (int i = l * l; i < (l + 1) * (l + 1); ++i)
@@ -52,12 +52,12 @@ double along(int l, const Residual& left, const Direction& direction) {
     return sum;
 }
 
-/// Sum over m of Y_lm².
+/// Returns the sum over m of Y_lm².
 double band_square(int l) {
     return (2 * l + 1) / (4 * std::numbers::pi);
 }
 
-/// By how much the best lobe about an axis lowers the squared error.
+/// Returns the reduction of the squared error by the best lobe about an axis.
 double gain_of(int order, const Residual& left, const Direction& direction, const LobeFitOptions& options) {
     double gain = 0;
     for (int l = 0; l < order; ++l) {
@@ -76,7 +76,7 @@ Direction best_direction(int order, const Residual& left, const LobeFitOptions& 
             best = direction;
         }
     };
-    // The mean direction of what is left comes first: of an open vertex that is its normal.
+    // Try the mean direction of the residual first: for an unoccluded vertex it is the normal.
     const glm::dvec3 mean(-left[3], -left[1], left[2]);
     if (const double length = glm::length(mean); length > 1e-9)
         ask(direction_of(mean / length));

@@ -1,6 +1,6 @@
 #pragma once
 
-// Where the fit of a vertex's lobes begins.
+// Start values for the fit of a vertex's lobes.
 
 #include "prt/lobe_fit.h"
 
@@ -8,13 +8,14 @@
 
 namespace prt {
 
-/// A lobe in double.
+/// A lobe in double precision.
 struct FreeLobe {
     glm::dvec3 axis{0, 0, 1};
     std::array<double, kMostLobeOrder> profile{};
 };
 
-/// One lobe after the other, each where it takes most of what those before left: `lobes` are written.
+/// Writes start values to `lobes`, one lobe after another. Each removes the largest part of the residual of
+/// the previous ones.
 void start_lobes(int order, std::span<const double> target, const LobeFitOptions& options,
                  std::span<FreeLobe> lobes);
 

@@ -1,6 +1,6 @@
 #pragma once
 
-// Derivatives of the first four bands of the basis (docs/math.md, eq. 3, as polynomials).
+// Derivatives of the first four bands of the SH basis (docs/math.md, eq. 3, as polynomials).
 
 #include <glm/vec3.hpp>
 
@@ -8,7 +8,8 @@
 
 namespace prt {
 
-/// Of coefficient l(l+1)+m, by x, y and z: right along the sphere, which is all that a unit vector can move.
+/// Returns the gradient of basis function l(l+1)+m with respect to x, y and z. It is correct only along the
+/// sphere, which is sufficient because the vector stays unit.
 inline std::array<glm::dvec3, 16> sh_gradients(const glm::dvec3& d) {
     constexpr double k1 = 0.48860251190291992, k2 = 1.0925484305920792, k20 = 0.31539156525252005,
                      k22 = 0.54627421529603959, k33 = 0.59004358992664352, k32 = 2.8906114426405538,

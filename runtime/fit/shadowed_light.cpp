@@ -1,4 +1,4 @@
-// Lights receivers that see a part of what is above them, by the cells of an image and by coefficients.
+// Computes the light of partially shadowed receivers from the cells of an image, and from coefficients.
 #include "shadowed_light.h"
 
 #include "across.h"
@@ -18,14 +18,14 @@ using std::numbers::pi;
 
 constexpr int kReceivers = 1024;
 
-/// Direction `i` of a spherical Fibonacci lattice of `count`.
+/// Returns direction `i` of a spherical Fibonacci lattice of `count`.
 glm::dvec3 lattice_direction(int i, int count) {
     const double z = 1 - (2.0 * i + 1) / count, turn = 2 * pi * i * (std::numbers::phi - 1);
     const double across = std::sqrt(1 - z * z);
     return {across * std::cos(turn), z, across * std::sin(turn)};
 }
 
-/// The directions of a sun's disc, as many as leave half-shadows of 3 %.
+/// Returns sample directions of a sun's disc; their number resolves half-shadows to 3 %.
 std::vector<glm::dvec3> disc_directions(const SunDisc& sun) {
     constexpr int kDirections = 32;
     const glm::dvec3 axis(sun.towards);
@@ -51,21 +51,22 @@ double ShadowedLight::Receiver::factor(const glm::dvec3& w) const {
 }
 
 std::vector<ShadowedLight::Receiver> ShadowedLight::receivers() {
-    // 617 has no divisor in common with the number of receivers: normals and sides go through the same
-    // lattice in orders that have nothing to do with each other.
+    // 617 and the number of receivers are coprime: normals and sides traverse the same lattice in unrelated
+    // orders.
     std::vector<Receiver> all;
     for (int i = 0; i < kReceivers; ++i) {
         const Receiver receiver{lattice_direction(i, kReceivers),
                                 lattice_direction(i * 617 % kReceivers, kReceivers)};
-        // What sees all of the hemisphere, or next to nothing, has no shadow of its own.
+        // A receiver that sees the full hemisphere, or almost nothing, has no shadow boundary.
         if (std::abs(glm::dot(receiver.normal, receiver.side)) < 0.9)
             all.push_back(receiver);
     }
     return all;
 }
 
-/// The product of the cosine and the half-space is a slice of the sphere, whose edges meet where its two
-/// planes cross: about that axis the integral is one over the angle to it and the turn around it.
+/// Projects cosine times half-space. The domain is a slice of the sphere, whose edges meet on the
+/// intersection axis of its two planes: the integral is parametrised by the angle to this axis and the
+/// rotation about it.
 std::vector<double> ShadowedLight::transfer(const Receiver& receiver) const {
     const glm::dvec3 axis = glm::normalize(glm::cross(receiver.normal, receiver.side)),
                      across = glm::cross(axis, receiver.normal);
@@ -73,7 +74,7 @@ std::vector<double> ShadowedLight::transfer(const Receiver& receiver) const {
         std::acos(std::clamp(glm::dot(receiver.normal, receiver.side), -1.0, 1.0)) - 0.5 * pi;
     std::array<double, kMaxOrder * kMaxOrder> basis{};
     std::vector<double> sum(static_cast<std::size_t>(coefficient_count(order_)), 0.0);
-    constexpr int kPieces = 6; // of three points each: 1e-5 at order 10
+    constexpr int kPieces = 6; // intervals of three points; error 1e-5 at order 10
     for (int i = 0; i < kPieces; ++i)
         for (const GaussPoint& theta : gauss_points(pi * i / kPieces, pi * (i + 1) / kPieces))
             for (int j = 0; j < kPieces; ++j) {

@@ -1,6 +1,6 @@
 #pragma once
 
-// What suns apart are worth: the light of receivers in shadow, as it is and as coefficients give it.
+// Benefit of separate suns: compares the exact light of shadowed receivers with the light from coefficients.
 
 #include "prt/suns.h"
 #include "sky_map.h"
@@ -9,20 +9,21 @@
 
 namespace prt {
 
-/// Receivers whose normals and shadows lie all around (docs/math.md, "Suns in an image"), under one image.
+/// Receivers with evenly distributed normals and shadow planes (docs/math.md, "Suns in an image"), under one
+/// image.
 class ShadowedLight {
 public:
     ShadowedLight(const SkyMap& whole, int order);
 
-    /// Root mean square of what the receivers lack under `remainder`, of this order, and `suns`, over the
-    /// light that they have under the image. 0 where that is black.
+    /// Returns the root mean square difference between the light under `remainder` (of order `order`) plus
+    /// `suns` and the light under the image, relative to the latter. Returns 0 if that is black.
     double error(const Light& remainder, const std::vector<SunDisc>& suns) const;
 
 private:
-    /// Sees what lies in front of it and on one side of a plane through it.
+    /// Receiver that sees the hemisphere about `normal`, restricted to one side of a plane.
     struct Receiver {
         glm::dvec3 normal, side;
-        /// Of light from `w`.
+        /// Returns the contribution factor of light from `w`.
         double factor(const glm::dvec3& w) const;
     };
 
@@ -31,9 +32,9 @@ private:
 
     int order_;
     std::vector<Receiver> receivers_;
-    std::vector<glm::dvec3> light_;             ///< exit radiance of each under the image
+    std::vector<glm::dvec3> light_;             ///< exit radiance of each receiver under the image
     std::vector<std::vector<double>> transfer_; ///< [receivers][order²]
-    double square_ = 0;                         ///< of light_, summed
+    double square_ = 0;                         ///< sum of squares of light_
 };
 
 } // namespace prt

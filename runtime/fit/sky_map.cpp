@@ -1,4 +1,4 @@
-// Sorts texels into the cells of a cube, so that what lies near a direction is found in any layout.
+// Sorts texels into the cells of a cube, so that texels near a direction are found in any layout.
 #include "sky_map.h"
 
 #include "prt/support/error.h"
@@ -13,10 +13,11 @@
 namespace prt {
 namespace {
 
-/// Cells along the edge of a cube's face: they span at most 1.8 degrees.
+/// Number of cells along an edge of a cube face: they span at most 1.8 degrees.
 constexpr int kCells = 64;
 constexpr std::size_t kCellCount = std::size_t{6} * kCells * kCells;
-/// No direction of a cell is farther from its middle: half the diagonal where cells are largest.
+/// Upper bound of the distance of a direction from the center of its cell: half the diagonal of the largest
+/// cells.
 constexpr double kCellRadius = 1.4143 / kCells;
 
 std::size_t cell_of(const glm::dvec3& direction) {
@@ -99,7 +100,7 @@ std::vector<NearTexel> SkyMap::near(const glm::dvec3& direction, double angle) c
         if (glm::dot(middles()[cell], direction) < cosine)
             continue;
         for (const Placed& placed : texels_of(cell)) {
-            // By the chord, which tells small angles apart.
+            // Use the chord, which resolves small angles.
             const glm::dvec3 w(placed.direction);
             const double chord = glm::distance(w, direction);
             if (chord <= longest)

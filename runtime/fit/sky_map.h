@@ -1,6 +1,6 @@
 #pragma once
 
-// An environment map whose texels can be looked up around a direction.
+// An environment map with lookup of texels near a direction.
 
 #include "texels.h"
 
@@ -10,7 +10,7 @@
 
 namespace prt {
 
-/// The mean of the channels, by which suns are looked for: a blue lamp counts as much as a green one.
+/// Returns the mean of the channels, used to find suns: blue and green lamps count equally.
 inline double brightness(const glm::dvec3& color) {
     return (color.r + color.g + color.b) / 3;
 }
@@ -19,36 +19,36 @@ inline double brightness(const glm::dvec3& color) {
 struct NearTexel {
     std::size_t texel;
     glm::dvec3 direction;
-    double angle;       ///< to that direction
-    double solid_angle; ///< above zero
+    double angle;       ///< angle to the query direction
+    double solid_angle; ///< positive
     glm::dvec3 color;
 };
 
-/// Texels of a square of the sphere, as far as they are known without looking at each.
+/// Summary of the texels in a cell of the sphere.
 struct SkyCell {
-    glm::dvec3 flux{0};      ///< radiance over solid angle
-    glm::dvec3 direction{0}; ///< unit, the mean by brightness; the middle where it is black
+    glm::dvec3 flux{0};      ///< radiance times solid angle
+    glm::dvec3 direction{0}; ///< unit, mean weighted by brightness; the cell center if black
     std::size_t brightest = 0;
-    double most = -1; ///< brightness of the brightest; below zero where there is no texel
+    double most = -1; ///< brightness of the brightest texel; negative if the cell has no texel
 };
 
-/// An image and its texels, sorted into the cells of a cube around the viewer.
+/// An image with its texels sorted into the cells of a cube around the viewer.
 class SkyMap {
 public:
-    /// Throws `Error` where a pixel is negative or not finite.
+    /// Throws `Error` if a pixel is negative or not finite.
     SkyMap(Environment environment, int threads);
 
     const Texels& texels() const { return texels_; }
     const Environment& environment() const { return environment_; }
     glm::vec3& pixel(std::size_t texel) { return environment_.image.pixels[texel]; }
 
-    /// Texels whose middles lie within `angle` of `direction`.
+    /// Returns the texels whose centers are within `angle` of `direction`.
     std::vector<NearTexel> near(const glm::dvec3& direction, double angle) const;
-    /// All cells, of the pixels as they are.
+    /// Returns the summaries of all cells for the current pixels.
     std::vector<SkyCell> cells() const;
 
 private:
-    /// Where a texel lies, in floats: to 1e-7 radians.
+    /// Position of a texel in floats, precise to 1e-7 radians.
     struct Placed {
         glm::vec3 direction;
         float solid_angle;
@@ -59,8 +59,8 @@ private:
     Texels texels_;
     Environment environment_;
     int threads_;
-    std::vector<std::uint32_t> first_; ///< [cells + 1] into sorted_
-    std::vector<Placed> sorted_;       ///< by cell
+    std::vector<std::uint32_t> first_; ///< [cells + 1] index into sorted_
+    std::vector<Placed> sorted_;       ///< sorted by cell
 };
 
 } // namespace prt

@@ -1,6 +1,6 @@
-// Finds bright spots: the brightest texels of the cells, each grown to what is brighter than half of it. How
-// far the light of a spot reaches is found as in aperture photometry (Stetson 1987, "DAOPHOT"): by medians of
-// rings, which a second sun in the ring does not touch.
+// Finds bright spots: the brightest texels of the cells, each grown to the region above half of its
+// brightness. The extent of a spot's light is found as in aperture photometry (Stetson 1987, "DAOPHOT") by
+// medians over rings, which are robust against a second sun in the ring.
 #include "spot.h"
 
 #include <glm/geometric.hpp>
@@ -14,18 +14,18 @@ namespace {
 
 using std::numbers::pi;
 
-/// Candidates by their brightest texel, and as many by their light: a lamp may be dim and large.
+/// Number of candidates by brightest texel, and the same number by total light: a lamp may be dim and large.
 constexpr std::size_t kCandidates = 16;
 
-/// Most that the spread of a sun may be of its radius. A disc has 0.71, ellipses and windows twice as high as
-/// wide 0.8, strips three times as long as wide 0.92.
+/// Maximum spread of a sun relative to its radius. A disc has 0.71, ellipses and windows with aspect ratio
+/// 2:1 0.8, strips of 3:1 0.92.
 constexpr double kRound = 0.87;
 
 struct Weighted {
     double value, weight;
 };
 
-/// Half of the weight lies below it. `list` is not empty.
+/// Returns the value below which half of the weight is. `list` is not empty.
 double weighted_median(std::vector<Weighted>& list) {
     std::sort(list.begin(), list.end(),
               [](const Weighted& a, const Weighted& b) { return a.value < b.value; });
@@ -38,8 +38,8 @@ double weighted_median(std::vector<Weighted>& list) {
     return list.back().value;
 }
 
-/// The median by solid angle of `value(color)` over texels from `begin` to `end` radians; nothing where no
-/// texel lies there.
+/// Returns the median of `value(color)`, weighted by solid angle, over texels from `begin` to `end` radians;
+/// empty if there are no texels.
 template <class Value>
 std::optional<double> ring_median(const std::vector<NearTexel>& texels, double begin, double end,
                                   const Value& value) {
@@ -52,7 +52,7 @@ std::optional<double> ring_median(const std::vector<NearTexel>& texels, double b
     return weighted_median(ring);
 }
 
-/// Moves `spot` to the middle of what is brighter than `level` within `window`.
+/// Moves `spot` to the centroid of the texels brighter than `level` within `window`.
 void measure_above(const std::vector<NearTexel>& texels, double level, double window, Spot& spot) {
     glm::dvec3 sum(0);
     double area = 0, weights = 0;
@@ -74,7 +74,7 @@ void measure_above(const std::vector<NearTexel>& texels, double level, double wi
     spot.spread = std::sqrt(std::max(0.0, 2 * (1 - length / weights)));
 }
 
-/// Moves `spot` to the brightest texel within `window`. Whether that was another one.
+/// Moves `spot` to the brightest texel within `window`. Returns whether the texel changed.
 bool climb(const std::vector<NearTexel>& texels, double window, Spot& spot) {
     const double before = spot.peak;
     for (const NearTexel& near : texels)
@@ -85,7 +85,8 @@ bool climb(const std::vector<NearTexel>& texels, double window, Spot& spot) {
     return spot.peak > before;
 }
 
-/// The brightest texels of cells that lie apart, by two orders: by their brightest texel and by their light.
+/// Returns the brightest texels of well separated cells, in two orders: by brightest texel and by total
+/// light.
 std::vector<std::size_t> candidates(const SkyMap& map) {
     const std::vector<SkyCell> cells = map.cells();
     std::vector<std::size_t> sorted;
@@ -129,7 +130,7 @@ std::optional<Spot> spot_at(const SkyMap& map, std::size_t texel, double widest)
         if (climb(texels, window, spot))
             continue;
         measure_above(texels, 0.5 * (spot.peak + spot.sky), window, spot);
-        // All of it is in view where the view is twice as wide.
+        // The window contains the whole spot if it is twice as wide.
         const double wanted = 2 * spot.radius + step;
         if (window >= 0.9 * wanted)
             return spot.radius <= widest && spot.spread <= kRound * std::max(spot.radius, step)
@@ -149,7 +150,7 @@ std::optional<Spot> strongest_spot(const SkyMap& map, double widest, std::span<c
                 return glm::distance(part.towards, spot->towards) < part.radius + spot->radius;
             }))
             continue;
-        // The wider a spot, the more of it the order holds.
+        // Wider spots are better represented by the SH order.
         const double weight = spot ? spot->excess * (1 - spot->radius / widest) : 0;
         if (weight > most) {
             most = weight;
@@ -160,7 +161,7 @@ std::optional<Spot> strongest_spot(const SkyMap& map, double widest, std::span<c
 }
 
 Aperture aperture_of(const SkyMap& map, const Spot& spot, double widest) {
-    constexpr double kHalo = 0.05; // of the light within, that a ring must add to be taken in
+    constexpr double kHalo = 0.05; // minimum light of a ring that is included, relative to the light inside
     const double step = map.texels().spacing();
     Aperture aperture{spot.radius + 1.5 * step, glm::dvec3(spot.sky)};
     for (;;) {

@@ -1,6 +1,6 @@
 #pragma once
 
-// A bright spot of an image: where it is, how wide, and the sky around it.
+// A bright spot of an image: its position, size and surrounding sky.
 
 #include "sky_map.h"
 
@@ -9,35 +9,35 @@
 namespace prt {
 
 struct Spot {
-    glm::dvec3 towards{0}; ///< unit, its middle
-    double radius = 0;     ///< radians, of the disc that is as large as what is brighter than half its peak
+    glm::dvec3 towards{0}; ///< unit, its center
+    double radius = 0;     ///< radians, of a disc with the solid angle of the region above half of the peak
     double peak = 0;       ///< brightness
-    double sky = 0;        ///< brightness of what is around it
-    double excess = 0;     ///< brightness over the sky, integrated over what is brighter than half its peak
-    double spread = 0;     ///< radians, of that excess: the root of its mean squared distance from the middle
+    double sky = 0;        ///< brightness of the surroundings
+    double excess = 0;     ///< brightness above the sky, integrated over the region above half of the peak
+    double spread = 0;     ///< radians, root mean square distance of the excess from the center
 };
 
-/// The spot on whose slope `texel` lies; nothing where it is wider than `widest`, long or in pieces, or
-/// does not stand out.
+/// Returns the spot that contains `texel`; empty if it is wider than `widest`, elongated or fragmented, or
+/// not brighter than its surroundings.
 std::optional<Spot> spot_at(const SkyMap& map, std::size_t texel, double widest);
 
-/// A part of the sky where light is not looked for.
+/// Region of the sky that is excluded from the search.
 struct Taken {
     glm::dvec3 towards;
     double radius; ///< radians
 };
 
-/// The spot that weighs most for what a given order cannot hold, whose disc touches nothing of `taken`;
-/// nothing where there is none.
+/// Returns the spot with the largest light that the given order cannot represent, and whose disc does not
+/// touch `taken`; empty if absent.
 std::optional<Spot> strongest_spot(const SkyMap& map, double widest, std::span<const Taken> taken);
 
-/// What a spot and its halo stand on.
+/// Extent of a spot with its halo, and the background color.
 struct Aperture {
-    double radius = 0; ///< radians about its middle, within which its light lies
-    glm::dvec3 sky{0}; ///< the color around
+    double radius = 0; ///< radians about the center that contain its light
+    glm::dvec3 sky{0}; ///< the surrounding color
 };
 
-/// Grows from the disc of `spot` for as long as what lies farther out has light that is its own.
+/// Grows the aperture from the disc of `spot` while the next ring contains significant light of the spot.
 Aperture aperture_of(const SkyMap& map, const Spot& spot, double widest);
 
 } // namespace prt

@@ -1,4 +1,4 @@
-// Middles and solid angles of texels, layout by layout (docs/math.md, section 3).
+// Centers and solid angles of texels for each layout (docs/math.md, section 3).
 #include "texels.h"
 
 #include "gauss_points.h"
@@ -13,7 +13,7 @@ using std::numbers::pi;
 
 namespace {
 
-/// The solid angle of the part of a cube's face between its middle and (u, v).
+/// Returns the solid angle of the part of a cube face between its center and (u, v).
 double solid_angle_to(double u, double v) {
     return std::atan2(u * v, std::sqrt(1 + u * u + v * v));
 }
@@ -36,7 +36,7 @@ void Texels::set_lat_long() {
     for (std::size_t y = 0; y < height_; ++y) {
         const double theta = pi * (static_cast<double>(y) + 0.5) / height;
         polar_.push_back({std::cos(theta), std::sin(theta)});
-        // cos(a) - cos(b) as a product, which does not cancel in small texels.
+        // cos(a) - cos(b) as a product, which avoids cancellation in small texels.
         row_solid_angle_.push_back(2 * pi / width * 2 * std::sin(theta) * std::sin(0.5 * pi / height));
     }
     for (std::size_t x = 0; x < width_; ++x) {
@@ -52,7 +52,7 @@ void Texels::set_square(EnvironmentLayout layout) {
         const auto at = static_cast<double>(i);
         if (layout != EnvironmentLayout::cube || width_ == 1)
             cells_.push_back({2 * at / size - 1, 2 * (at + 1) / size - 1});
-        else // the middles of border texels lie on the border
+        else // the centers of border texels are on the border
             cells_.push_back({std::max(-1.0, (2 * at - 1) / (size - 1) - 1),
                               std::min(1.0, (2 * at + 1) / (size - 1) - 1)});
     }
@@ -84,7 +84,8 @@ double Texels::solid_angle(std::size_t texel) const {
     if (layout_ != EnvironmentLayout::angular)
         return solid_angle_to(u.end, v.end) - solid_angle_to(u.begin, v.end) -
                solid_angle_to(u.end, v.begin) + solid_angle_to(u.begin, v.begin);
-    // sin(angle) dangle over r dr in terms of the area, over the stretch of each line within the circle.
+    // Integrates sin(angle) dangle over r dr in area coordinates, over the part of each line inside the
+    // circle.
     double sum = 0;
     for (const GaussPoint& line : gauss_points(v.begin, v.end)) {
         const double reach = std::sqrt(std::max(0.0, 1 - line.at * line.at));

@@ -1,3 +1,4 @@
+// Detects and unfolds cube maps stored as crosses or rows.
 #include "cube_cross.h"
 
 #include <array>
@@ -9,7 +10,7 @@ namespace {
 /// Cell of a face in a grid of squares.
 struct Cell {
     int x, y;
-    bool turned = false; ///< by half a turn
+    bool turned = false; ///< rotated by 180 degrees
 };
 
 /// Positions of the faces +X -X +Y -Y +Z -Z in a grid of `width` by `height` cells.
@@ -27,7 +28,7 @@ const glm::vec3& pixel(const Image& image, int x, int y) {
                         static_cast<std::size_t>(x)];
 }
 
-/// Whether all pixels outside the faces are the same.
+/// Returns whether all pixels outside the faces are equal.
 bool is_blank_outside(const Image& image, const Unfolding& unfolding, int size) {
     const glm::vec3* outside = nullptr;
     for (int y = 0; y < image.height; ++y)

@@ -1,6 +1,6 @@
 #pragma once
 
-// Cube maps unfolded to a cross, or in a row.
+// Cube maps unfolded to a cross or a row.
 
 #include "prt/environment.h"
 
@@ -8,10 +8,10 @@
 
 namespace prt {
 
-/// The faces of a cross of 4:3 (row in the middle: -X +Z +X -Z; +Y above and -Y below +Z), a cross of 3:4 (-Z
-/// turned by half a turn below -Y), or a row of +X -X +Y -Y +Z -Z, in a column as
-/// `EnvironmentLayout::cube_faces`. Nothing for images of other shapes, and for those of a cross's shape with
-/// more than one color outside it: pictures.
+/// Returns the faces in a column as in `EnvironmentLayout::cube_faces`. Supported are a 4:3 cross (middle
+/// row: -X +Z +X -Z; +Y above and -Y below +Z), a 3:4 cross (-Z rotated by 180 degrees below -Y), and a row
+/// of +X -X +Y -Y +Z -Z. Returns no value for other shapes, and for cross-shaped images with more than one
+/// color outside the faces, which are ordinary pictures.
 std::optional<Image> faces_of_cross(const Image& image);
 
 } // namespace prt

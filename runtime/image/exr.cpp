@@ -1,4 +1,4 @@
-// Reads OpenEXR files: checked first, to linear Rec. 709 whatever their primaries.
+// Reads OpenEXR files: checks them first, then converts to linear Rec. 709 from any primaries.
 #include "exr.h"
 
 #include "exr_header.h"
@@ -34,7 +34,7 @@
 namespace prt {
 namespace {
 
-/// The second word of the file.
+/// Returns the second word of the file.
 int version_of(std::span<const std::byte> file) {
     std::uint32_t version = 0;
     if (file.size() >= 2 * sizeof(version))
@@ -42,20 +42,20 @@ int version_of(std::span<const std::byte> file) {
     return static_cast<int>(version);
 }
 
-/// Rows to decode at once: about four million pixels, so that a header's claim costs no memory until it is
-/// true.
+/// Returns the number of rows to decode at once: about four million pixels, so that a false size in the
+/// header allocates no memory.
 int rows_per_strip(int width) {
     return std::clamp((1 << 22) / width, 1, 256);
 }
 
-/// R, G and B, or Y alone for all of them.
+/// Inserts R, G and B, or Y alone for all of them.
 void insert_rgb(Imf::FrameBuffer& buffer, const Imf::ChannelList& channels, const ExrLayer& layer,
                 glm::vec3* base, const Imath::Box2i& strip) {
     const bool grey = !layer.grey.empty();
     for (int c = 0; c < (grey ? 1 : 3); ++c) {
         const std::string& name = grey ? layer.grey : layer.channels[static_cast<std::size_t>(c)];
         if (name.empty())
-            continue; // stays zero
+            continue; // remains zero
         if (const Imf::Channel* channel = channels.findChannel(name);
             channel && (channel->xSampling != 1 || channel->ySampling != 1))
             throw Error("its channel " + printable(name, 60) + " is subsampled");
@@ -73,7 +73,8 @@ Image read_in_strips(const Imath::Box2i& window, ReadStrip&& read_strip) {
     const int height = window.max.y - window.min.y + 1;
     const auto width = static_cast<std::size_t>(image.width);
     const int rows = rows_per_strip(image.width);
-    image.pixels.reserve(width * static_cast<std::size_t>(height)); // its pages are taken as they are written
+    image.pixels.reserve(width * static_cast<std::size_t>(height)); // pages are committed when they are
+                                                                    // written
     for (int y = 0; y < height; y += rows) {
         const int count = std::min(rows, height - y);
         image.pixels.resize(static_cast<std::size_t>(y + count) * width);
@@ -85,7 +86,7 @@ Image read_in_strips(const Imath::Box2i& window, ReadStrip&& read_strip) {
     return image;
 }
 
-/// From an `Imf::InputFile` or an `Imf::InputPart`.
+/// Reads from an `Imf::InputFile` or an `Imf::InputPart`.
 template <class File>
 Image read_rgb(File& file, const ExrLayer& layer) {
     const Imf::ChannelList& channels = file.header().channels();
@@ -128,8 +129,8 @@ void convert_primaries(Image& image, const Imf::Chromaticities& from) {
     }
 }
 
-/// Puts pixels that are a crop of a 2:1 picture, or reach over its border, where they are in it; the rest is
-/// black.
+/// Places pixels that are a crop of a 2:1 picture, or extend beyond it, at their position in the picture; the
+/// rest is black.
 void place_in_display(ExrFile& file, const Imf::Header& header, std::size_t file_bytes) {
     const Imath::Box2i &data = header.dataWindow(), &display = header.displayWindow();
     const std::int64_t width = std::int64_t{display.max.x} - display.min.x + 1,
@@ -154,7 +155,7 @@ void place_in_display(ExrFile& file, const Imf::Header& header, std::size_t file
     image = std::move(placed);
 }
 
-/// Applies what the header reports about the pixels of `result`.
+/// Applies the header's attributes to the pixels of `result`.
 void apply_header(ExrFile& result, const Imf::Header& header, std::size_t file_bytes) {
     if (header.hasType() && Imf::isDeepData(header.type()))
         result.notices.emplace_back("is a deep EXR: the samples of each pixel are composited by depth");

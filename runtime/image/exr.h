@@ -1,5 +1,7 @@
 #pragma once
 
+// Reading of OpenEXR files.
+
 #include "prt/environment.h"
 
 #include <cstddef>
@@ -12,14 +14,14 @@ namespace prt {
 
 struct ExrFile {
     Image image;
-    std::optional<EnvironmentLayout> layout; ///< what the attribute `envmap` says
-    std::vector<std::string> notices;        ///< what a user should know about how it was read
+    std::optional<EnvironmentLayout> layout; ///< value of the attribute `envmap`
+    std::vector<std::string> notices;        ///< messages for the user about how the file was read
 };
 
-/// Whether a file starts like an OpenEXR file.
+/// Returns whether a file starts like an OpenEXR file.
 bool is_exr(std::span<const std::byte> file);
 
-/// Reads the layer of this name; empty: the plain channels, or the only layer. Throws `Error`.
+/// Reads the layer with this name; empty: the channels without a prefix, or the only layer. Throws `Error`.
 ExrFile read_exr(std::span<const std::byte> file, const std::string& layer = {});
 
 } // namespace prt

@@ -1,3 +1,4 @@
+// Validates the headers of OpenEXR files before they are read.
 #include "exr_header.h"
 
 #include "image_limits.h"
@@ -17,10 +18,10 @@
 namespace prt {
 namespace {
 
-/// What the callbacks of the core library see.
+/// State for the callbacks of the core library.
 struct Source {
     std::span<const std::byte> file;
-    std::string trouble; ///< its last message
+    std::string trouble; ///< last message of the library
 };
 
 std::int64_t read_source(exr_const_context_t, void* user, void* to, std::uint64_t size, std::uint64_t offset,
@@ -43,7 +44,7 @@ void keep_message(exr_const_context_t context, exr_result_t, const char* message
         static_cast<Source*>(user)->trouble = message;
 }
 
-/// The headers of a file, open.
+/// The open headers of a file.
 class Headers {
 public:
     explicit Headers(std::span<const std::byte> file) : source_{file, {}} {
@@ -60,7 +61,8 @@ public:
     Headers& operator=(const Headers&) = delete;
 
     exr_context_t context() const { return context_; }
-    /// The library tells of damaged attributes and goes on with others of its own, which are not the file's.
+    /// Throws `Error` for a failure. The library reports damaged attributes but continues with default
+    /// values, so that messages count as failures.
     void check(exr_result_t result) const {
         if (result != EXR_ERR_SUCCESS || !source_.trouble.empty())
             refuse(result);
@@ -68,7 +70,7 @@ public:
 
 private:
     [[noreturn]] void refuse(exr_result_t result) const {
-        constexpr std::size_t kMostReport = 200; // bytes: it may quote whatever the file holds
+        constexpr std::size_t kMostReport = 200; // bytes: the message may quote arbitrary data of the file
         throw Error("is a damaged or unsupported EXR: " +
                     printable(one_line(source_.trouble.empty() ? exr_get_default_error_message(result)
                                                                : source_.trouble),
@@ -78,8 +80,8 @@ private:
     exr_context_t context_ = nullptr;
 };
 
-/// Bytes of the types of attributes that have always as many: `Imf::InputFile` reads those, whatever the
-/// header says.
+/// Sizes in bytes of attribute types with a fixed size: `Imf::InputFile` reads that number regardless of the
+/// header.
 constexpr std::pair<std::string_view, std::size_t> kSizes[] = {{"box2f", 16},
                                                                {"box2i", 16},
                                                                {"chromaticities", 32},
@@ -105,8 +107,8 @@ constexpr std::pair<std::string_view, std::size_t> kSizes[] = {{"box2f", 16},
                                                                {"v3f", 12},
                                                                {"v3i", 12}};
 
-/// Whether a list of channels ends where its attribute does: `Imf::InputFile` reads to the end of the list.
-/// After each name stand 16 bytes; an empty one ends the list.
+/// Returns whether a channel list ends exactly where its attribute does: `Imf::InputFile` reads to the end of
+/// the list. Each name is followed by 16 bytes; an empty name ends the list.
 bool ends_with_its_channels(std::string_view list) {
     while (!list.empty() && list.front() != 0) {
         constexpr std::size_t kChannel = 16;
@@ -118,7 +120,7 @@ bool ends_with_its_channels(std::string_view list) {
     return list.size() == 1;
 }
 
-/// Width, height and a pixel of four bytes for each.
+/// Returns whether the value has width, height and four bytes per pixel.
 bool is_preview(std::string_view value) {
     std::uint32_t size[2] = {};
     if (value.size() < sizeof(size))
@@ -127,7 +129,7 @@ bool is_preview(std::string_view value) {
     return (value.size() - sizeof(size)) / 4 == std::uint64_t{size[0]} * size[1] && value.size() % 4 == 0;
 }
 
-/// Whether `Imf::InputFile` will take `value` whole, and nothing behind it.
+/// Returns whether `Imf::InputFile` will read exactly the bytes of `value`.
 bool has_size_of_its_type(std::string_view type, std::string_view value) {
     if (type == "chlist")
         return ends_with_its_channels(value);
@@ -137,17 +139,17 @@ bool has_size_of_its_type(std::string_view type, std::string_view value) {
     return known == std::end(kSizes) || known->second == value.size();
 }
 
-/// Takes a text with a zero behind it off `rest`.
+/// Removes a zero-terminated text from the front of `rest`.
 std::string_view take_text(std::string_view& rest) {
     const std::string_view text = rest.substr(0, rest.find('\0'));
     rest.remove_prefix(std::min(text.size() + 1, rest.size()));
     return text;
 }
 
-/// Takes the header of a part off `rest`.
+/// Removes the header of a part from the front of `rest`.
 void skip_header(std::string_view& rest) {
     while (!rest.empty() && rest.front() != 0) {
-        take_text(rest); // its name
+        take_text(rest); // attribute name
         const std::string_view type = take_text(rest);
         std::uint32_t size = 0;
         if (rest.size() < sizeof(size))
@@ -165,9 +167,10 @@ void skip_header(std::string_view& rest) {
     rest.remove_prefix(std::min(rest.size(), std::size_t{1}));
 }
 
-/// Throws unless the values of all attributes lie within the file. The core library and `Imf::InputFile` do
-/// not agree on where damaged headers end, so that what the one has checked the other may not have read.
-/// A header is names, types, sizes and values, ended by an empty name ("OpenEXR File Layout", openexr.com).
+/// Throws unless the values of all attributes are inside the file. The core library and `Imf::InputFile`
+/// disagree about the end of damaged headers, so that a check by one does not cover the other. A header
+/// consists of names, types, sizes and values, and ends with an empty name ("OpenEXR File Layout",
+/// openexr.com).
 void check_attributes(std::span<const std::byte> file) {
     constexpr std::size_t kVersion = 4, kFirstHeader = 8;
     constexpr std::uint32_t kMultiPart = 0x1000;
@@ -182,7 +185,7 @@ void check_attributes(std::span<const std::byte> file) {
     while ((version & kMultiPart) != 0 && !rest.empty() && rest.front() != 0);
 }
 
-/// The table of a part holds 8 bytes for each of its chunks.
+/// Checks the chunk tables, which have 8 bytes per chunk.
 void check_chunk_tables(const Headers& headers, std::size_t file_bytes) {
     int parts = 0;
     headers.check(exr_get_count(headers.context(), &parts));
@@ -197,13 +200,14 @@ void check_chunk_tables(const Headers& headers, std::size_t file_bytes) {
                     std::to_string(file_bytes) + " bytes can hold");
 }
 
-/// Throws unless the pixels of a part may be read from a file of that many bytes.
+/// Throws unless a file of `file_bytes` may allocate memory for the pixels of a part.
 void check_window(const Headers& headers, int part, std::size_t file_bytes) {
     exr_attr_box2i_t window{};
     headers.check(exr_get_data_window(headers.context(), part, &window));
     std::uint64_t chunk = 0;
     headers.check(exr_get_chunk_unpacked_size(headers.context(), part, &chunk));
-    // A chunk is held packed, unpacked and between the two; chroma is rebuilt from some 32 rows of halves.
+    // A chunk is held packed, unpacked and in an intermediate form; chroma is reconstructed from about 32
+    // rows of halves.
     constexpr std::uint64_t kChromaRows = 40, kHalves = 8;
     const std::int64_t width = std::int64_t{window.max.x} - window.min.x + 1;
     check_image_size(width, std::int64_t{window.max.y} - window.min.y + 1, sizeof(glm::vec3), file_bytes,

@@ -13,7 +13,7 @@
 namespace prt {
 namespace {
 
-/// "R", "G", "B" or "Y" for a channel of that color, in any case; 0: something else.
+/// Returns "R", "G", "B" or "Y" for a channel of that color, in upper or lower case; 0 for others.
 char color_of(std::string_view name) {
     const char last = name.empty() ? '\0' : name.back();
     const auto upper = static_cast<char>(std::toupper(static_cast<unsigned char>(last)));
@@ -22,7 +22,7 @@ char color_of(std::string_view name) {
                                                                                                     : '\0';
 }
 
-/// The layer of a part with this prefix, made if it is not there.
+/// Returns the layer of a part with this prefix; creates it if it does not exist.
 ExrLayer& layer_of(std::vector<ExrLayer>& layers, std::size_t first, int part, const std::string& prefix,
                    const std::string& part_name) {
     const std::string name = prefix.empty() ? part_name : prefix;
@@ -33,7 +33,7 @@ ExrLayer& layer_of(std::vector<ExrLayer>& layers, std::size_t first, int part, c
     return layers.back();
 }
 
-/// Keeps the upper-case name where both are there.
+/// Prefers the upper-case name if both exist.
 void set_name(std::string& to, const std::string& name) {
     if (to.empty() || std::isupper(static_cast<unsigned char>(name.back())))
         to = name;

@@ -14,17 +14,18 @@ namespace prt {
 /// Color channels of one layer in one part.
 struct ExrLayer {
     int part = 0;
-    std::string name;                      ///< the prefix of the channels, or the name of the part
-    std::array<std::string, 3> channels{}; ///< full names of R, G and B, empty where one is missing
-    std::string grey = {};                 ///< full name of Y, where there is no R, G or B
+    std::string name;                      ///< prefix of the channels, or name of the part
+    std::array<std::string, 3> channels{}; ///< full names of R, G and B; empty if missing
+    std::string grey = {};                 ///< full name of Y, if there is no R, G or B
     bool plain = false;                    ///< the channels have no prefix
 };
 
-/// All layers with R, G or B, or with Y, in the order of the file. Lower case counts as upper case.
+/// Returns all layers with R, G or B, or with Y, in the order of the file, ignoring case.
 std::vector<ExrLayer> color_layers(std::span<const Imf::Header> parts);
 
-/// The layer called `wanted`; without a name the first part's plain channels, else the only layer. Adds a
-/// notice where another could have been meant. Throws `Error` that lists the layers.
+/// Returns the layer called `wanted`. If `wanted` is empty, returns the channels of the first part without a
+/// prefix, else the only layer. Adds a notice if the choice is ambiguous. Throws `Error` with a list of the
+/// layers.
 ExrLayer choose_layer(const std::vector<ExrLayer>& layers, const std::string& wanted,
                       std::vector<std::string>& notices);
 

@@ -1,5 +1,7 @@
 #pragma once
 
+// Input stream for OpenEXR.
+
 #include <OpenEXR/Iex.h>
 #include <OpenEXR/ImfIO.h>
 
@@ -10,7 +12,7 @@
 
 namespace prt {
 
-/// A file in memory as OpenEXR reads one.
+/// Provides a file in memory to OpenEXR.
 class MemoryStream : public Imf::IStream {
 public:
     explicit MemoryStream(std::span<const std::byte> file) : Imf::IStream("EXR"), file_(file) {}

@@ -1,4 +1,5 @@
-// Writes OpenEXR files, in memory first: the library's own streams do not say when the last bytes were lost.
+// Writes OpenEXR files, in memory first, because the library's own streams do not report when the last bytes
+// are lost.
 #include "exr_stream.h"
 #include "prt/image_file.h"
 #include "prt/support/error.h"
@@ -19,7 +20,7 @@
 namespace prt {
 namespace {
 
-/// Grows as OpenEXR writes, which goes back to fill in the table of lines.
+/// Output buffer that grows on write. OpenEXR seeks back to fill in the table of lines.
 class GrowingStream : public Imf::OStream {
 public:
     GrowingStream() : Imf::OStream("EXR") {}
@@ -50,7 +51,7 @@ Imf::Header header_of(const Image& image, std::optional<EnvironmentLayout> layou
 }
 
 Imf::FrameBuffer frame_of(const Image& image) {
-    auto* pixels = reinterpret_cast<char*>(const_cast<glm::vec3*>(image.pixels.data())); // only read
+    auto* pixels = reinterpret_cast<char*>(const_cast<glm::vec3*>(image.pixels.data())); // read-only use
     Imf::FrameBuffer frame;
     for (const auto& [name, offset] : {std::pair("R", 0u), {"G", 1u}, {"B", 2u}})
         frame.insert(name, Imf::Slice(Imf::FLOAT, pixels + offset * sizeof(float), sizeof(glm::vec3),
@@ -68,7 +69,7 @@ std::vector<std::byte> encode_exr(const Image& image, std::optional<EnvironmentL
             file.setFrameBuffer(frame_of(image));
             file.writePixels(image.height);
         }
-        // Where memory ends the library leaves lines out, and says nothing.
+        // When memory runs out, the library omits lines without an error.
         MemoryStream written(stream.file);
         if (!Imf::InputFile(written).isComplete())
             throw std::bad_alloc();

@@ -1,4 +1,4 @@
-// Images from files by their kind.
+// Reads images according to their file format.
 #include "prt/image_file.h"
 
 #include "cube_cross.h"
@@ -34,7 +34,7 @@ EnvironmentLayout layout_of(const Image& image, std::optional<EnvironmentLayout>
         "square faces in a column; otherwise its layout has to be said)");
 }
 
-/// 8-bit sRGB as linear radiance up to 1.
+/// Converts 8-bit sRGB to linear radiance up to 1.
 Image read_low_dynamic_range(std::span<const std::byte> file) {
     const ImageSize size = image_size(file);
     check_image_size(size.width, size.height, sizeof(glm::u8vec4) + sizeof(glm::vec3), file.size());
@@ -49,7 +49,7 @@ Image read_low_dynamic_range(std::span<const std::byte> file) {
     return result;
 }
 
-/// An image, and what it says about itself.
+/// An image with its properties from the file.
 struct AnyImage {
     Image image;
     std::optional<EnvironmentLayout> layout;
@@ -94,7 +94,8 @@ std::string with_face(std::string pattern, const char* face) {
     return pattern.replace(pattern.find(kFaceMark), kFaceMark.size(), face);
 }
 
-/// The names of the faces +X -X +Y -Y +Z -Z whose first file is there; else the first names, for the message.
+/// Returns the face names +X -X +Y -Y +Z -Z of the first scheme whose first file exists; else the first
+/// scheme, for the error message.
 const FaceNames& face_names(const std::string& pattern) {
     static constexpr FaceNames kNames[] = {{"px", "nx", "py", "ny", "pz", "nz"},
                                            {"PX", "NX", "PY", "NY", "PZ", "NZ"},
@@ -107,7 +108,7 @@ const FaceNames& face_names(const std::string& pattern) {
     return kNames[0];
 }
 
-/// The six faces of a cube map, of one size, in a column.
+/// Reads the six faces of a cube map, of equal size, into a column.
 Image read_faces(const std::string& pattern, const std::string& layer, EnvironmentFile& result) {
     Image column;
     for (const char* face : face_names(pattern)) {
@@ -127,7 +128,7 @@ Image read_faces(const std::string& pattern, const std::string& layer, Environme
     return column;
 }
 
-/// Makes a column of a cube map that is a cross or a row.
+/// Converts a cross or a row to a column of cube faces.
 std::optional<EnvironmentLayout> unfold_cross(EnvironmentFile& file) {
     std::optional<Image> faces = faces_of_cross(file.environment.image);
     if (!faces)

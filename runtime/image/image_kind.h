@@ -1,6 +1,6 @@
 #pragma once
 
-// What files of images begin with.
+// Detection of image formats by their first bytes.
 
 #include <algorithm>
 #include <cstddef>
@@ -28,8 +28,8 @@ inline bool is_webp(std::span<const std::byte> file) {
     return begins_with(file, "RIFF") && file.size() >= 12 && begins_with(file.subspan(8), "WEBP");
 }
 
-/// Still or a sequence: the first box of the file lists "avif" or "avis" among its brands (ISO/IEC 14496-12,
-/// section 4.3), of which the first may be another one.
+/// Returns whether the file is an AVIF image or sequence: the first box lists "avif" or "avis" among its
+/// brands (ISO/IEC 14496-12, section 4.3), not necessarily as the first.
 inline bool is_avif(std::span<const std::byte> file) {
     constexpr std::size_t kBrands = 8, kBrand = 4;
     if (file.size() < kBrands || !begins_with(file.subspan(4), "ftyp"))
@@ -43,7 +43,7 @@ inline bool is_avif(std::span<const std::byte> file) {
     return false;
 }
 
-/// Radiance HDR.
+/// Returns whether the file is a Radiance HDR.
 inline bool is_hdr(std::span<const std::byte> file) {
     return begins_with(file, "#?");
 }

@@ -1,3 +1,4 @@
+// Checks image sizes against memory limits.
 #include "image_limits.h"
 
 #include "prt/support/error.h"

@@ -1,3 +1,4 @@
+// Validates PNG files before stb decodes them.
 #include "png_check.h"
 
 #include "image_kind.h"
@@ -26,10 +27,10 @@ std::uint32_t big_endian(std::span<const std::byte> bytes) {
 struct Chunk {
     std::string_view type; ///< four bytes
     std::size_t length = 0;
-    std::span<const std::byte> data; ///< shorter where the file ends
+    std::span<const std::byte> data; ///< truncated at the end of the file
 };
 
-/// Takes the next chunk from `rest` (PNG, third edition, section 5.3); none at the end.
+/// Removes the next chunk from `rest` (PNG, third edition, section 5.3); empty at the end.
 std::optional<Chunk> next_chunk(std::span<const std::byte>& rest) {
     if (rest.size() < kLengthAndType)
         return std::nullopt;
@@ -42,11 +43,11 @@ std::optional<Chunk> next_chunk(std::span<const std::byte>& rest) {
     return chunk;
 }
 
-/// Counts what bytes inflate to, without keeping it.
+/// Counts the inflated size of data without storing it.
 class Inflation {
 public:
     Inflation() {
-        constexpr int kNoHeader = -15; // the largest window, and no checksum: stb looks at neither
+        constexpr int kNoHeader = -15; // maximum window and no checksum: stb checks neither
         if (inflateInit2(&stream_, kNoHeader) != Z_OK)
             throw std::bad_alloc();
     }
@@ -54,7 +55,7 @@ public:
     Inflation(const Inflation&) = delete;
 
     void add(std::span<const std::byte> deflated, std::uint64_t most) {
-        // zlib does not write to what it reads; its type says so only where it is asked to.
+        // zlib does not write to its input, but its type is const only on request.
         stream_.next_in = reinterpret_cast<Bytef*>(const_cast<std::byte*>(deflated.data()));
         stream_.avail_in = static_cast<uInt>(deflated.size());
         while (!ended_ && (stream_.avail_in > 0 || stream_.avail_out == 0)) {
@@ -67,7 +68,7 @@ public:
                 throw Error(
                     "is a damaged PNG: its pixels cannot be inflated, or are more than its header says");
             if (result == Z_BUF_ERROR)
-                break; // wants more
+                break; // needs more input
         }
     }
 
@@ -78,18 +79,18 @@ private:
     bool ended_ = false;
 };
 
-constexpr std::size_t kColor = 3; // bytes of a color of the palette
+constexpr std::size_t kColor = 3; // bytes per palette color
 constexpr std::size_t kPalette = 256 * kColor;
 
 } // namespace
 
 int png_bit_depth(std::span<const std::byte> file) {
-    constexpr std::size_t kDepth = kPngMagic.size() + kLengthAndType + 8; // behind width and height
+    constexpr std::size_t kDepth = kPngMagic.size() + kLengthAndType + 8; // after width and height
     return file.size() > kDepth ? std::to_integer<int>(file[kDepth]) : 0;
 }
 
 bool is_png_of_bytes(std::span<const std::byte> file) {
-    constexpr std::size_t kColorType = kPngMagic.size() + kLengthAndType + 9; // behind the depth
+    constexpr std::size_t kColorType = kPngMagic.size() + kLengthAndType + 9; // after the bit depth
     constexpr std::byte kRgba{6};
     return is_png(file) && png_bit_depth(file) == 8 && file.size() > kColorType && file[kColorType] == kRgba;
 }
@@ -104,13 +105,14 @@ void check_png_chunks(std::span<const std::byte> file) {
 }
 
 void check_png(std::span<const std::byte> file, ImageSize size) {
-    // Four channels at most; each row has a byte for its filter, interlaced ones have twice as many rows.
+    // At most four channels; each row has a filter byte; interlaced images have up to twice the number of
+    // rows.
     const std::uint64_t pixel = png_bit_depth(file) == 16 ? 8 : 4,
                         width = static_cast<std::uint64_t>(size.width),
                         height = static_cast<std::uint64_t>(size.height);
     const std::uint64_t most = pixel * width * height + 4 * height + 16;
     Inflation inflation;
-    std::size_t header = 2; // of zlib, to leave out
+    std::size_t header = 2; // zlib header, skipped
     auto rest = file.subspan(kPngMagic.size());
     while (const auto chunk = next_chunk(rest)) {
         if (chunk->length > chunk->data.size())
@@ -129,7 +131,7 @@ std::vector<std::byte> with_whole_palette(std::span<const std::byte> file) {
         if (chunk->type != "PLTE" || chunk->data.size() >= kPalette || chunk->data.size() % kColor != 0)
             continue;
         std::vector<std::byte> whole(file.data(), chunk->data.data());
-        whole[whole.size() - 6] = std::byte{kPalette >> 8}; // of the length, whose other bytes are 0
+        whole[whole.size() - 6] = std::byte{kPalette >> 8}; // bytes of the length; its other bytes are 0
         whole[whole.size() - 5] = std::byte{kPalette & 0xff};
         whole.insert(whole.end(), chunk->data.begin(), chunk->data.end());
         whole.resize(whole.size() + kPalette - chunk->data.size());

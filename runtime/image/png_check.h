@@ -1,5 +1,7 @@
 #pragma once
 
+// Validation of PNG files.
+
 #include "prt/image_size.h"
 
 #include <cstddef>
@@ -8,20 +10,20 @@
 
 namespace prt {
 
-/// Bits of a sample, as the header of a PNG says.
+/// Returns the bit depth from the header of a PNG.
 int png_bit_depth(std::span<const std::byte> file);
 
-/// Throws `Error` for a critical chunk that PNG does not have: stb puts its name into a text that all threads
+/// Throws `Error` for an unknown critical chunk: stb writes its name into a static text that all threads
 /// share.
 void check_png_chunks(std::span<const std::byte> file);
 
-/// Throws `Error` where stb would take memory for bytes that a PNG of `size` does not have: chunks that reach
-/// beyond its end, and pixels that inflate to more than the header says, of which one byte can make a
-/// thousand.
+/// Throws `Error` if stb would allocate memory for data that a PNG of `size` does not have: chunks beyond the
+/// end of the file, and pixels that inflate to more than the header allows (one byte can inflate to a
+/// thousand).
 void check_png(std::span<const std::byte> file, ImageSize size);
 
-/// The file with a palette of 256 colors, black where it had none: stb looks pixels up in memory that it
-/// never wrote where they lie beyond the palette. Empty where nothing is missing.
+/// Returns the file with its palette extended to 256 colors with black: for pixels beyond the palette stb
+/// reads uninitialised memory. Returns an empty vector if the palette is complete.
 std::vector<std::byte> with_whole_palette(std::span<const std::byte> file);
 
 } // namespace prt

@@ -1,4 +1,5 @@
-// PNG files by stb, packed by zlib: the packer of stb ends the program where memory does.
+// Writes PNG files by stb, compressed by zlib: the compressor of stb terminates the program if memory runs
+// out.
 #include "prt/image_file.h"
 
 #include "prt/support/error.h"
@@ -12,10 +13,10 @@
 
 namespace {
 
-/// What stb asks of a packer: `size` bytes packed into memory that free() takes, null where there is none.
+/// Compressor for stb: returns `size` bytes compressed into memory for free(), or null if there is no memory.
 unsigned char* packed_by_zlib(unsigned char* data, int size, int* packed_size,
                               int /*effort, in stb's measure*/) {
-    constexpr int kLevel = 6; // what zlib takes itself: stb asks for 8, which is slower than its own packer
+    constexpr int kLevel = 6; // zlib's default; stb requests 8, which is slower than its own compressor
     uLongf most = compressBound(static_cast<uLong>(size));
     auto* packed = static_cast<unsigned char*>(std::malloc(most));
     if (!packed)
@@ -30,7 +31,7 @@ unsigned char* packed_by_zlib(unsigned char* data, int size, int* packed_size,
 
 } // namespace
 
-// stb's own, of this file alone, so that they do not meet those of a library.
+// Static copy of stb in this file, so that it does not conflict with that of another library.
 #define STBIW_ZLIB_COMPRESS packed_by_zlib
 #define STB_IMAGE_WRITE_STATIC
 #define STB_IMAGE_WRITE_IMPLEMENTATION

@@ -1,5 +1,6 @@
-// G. Ward Larson, R. Shakespeare, "Rendering with Radiance", 1998; "Radiance File Formats", section on
-// pictures: lines of text up to an empty one, then the resolution string, for example "-Y 512 +X 1024".
+// Parses Radiance headers: G. Ward Larson, R. Shakespeare, "Rendering with Radiance", 1998; "Radiance File
+// Formats", section on pictures. Lines of text up to an empty one, then the resolution string, for example
+// "-Y 512 +X 1024".
 #include "radiance_header.h"
 
 #include "prt/support/error.h"
@@ -14,7 +15,7 @@
 namespace prt {
 namespace {
 
-/// Takes a line off `rest`; nothing where the file ends within it.
+/// Removes a line from `rest`; empty if the file ends within it.
 std::optional<std::string_view> take_line(std::string_view& rest) {
     const std::size_t end = rest.find('\n');
     if (end == std::string_view::npos)
@@ -40,7 +41,7 @@ std::optional<Number> number_of(std::string_view word) {
     return error == std::errc() && end == word.data() + word.size() ? std::optional(number) : std::nullopt;
 }
 
-/// A positive multiplier of pixels.
+/// Parses a positive multiplier of pixels.
 double multiplier(std::string_view& rest, std::string_view line) {
     std::string_view word = take_word(rest);
     if (word.starts_with('+'))
@@ -51,7 +52,7 @@ double multiplier(std::string_view& rest, std::string_view line) {
     return *value;
 }
 
-/// Takes what matters here from one line of the header.
+/// Applies one line of the header.
 void read_variable(std::string_view line, RadianceHeader& header) {
     const std::size_t equals = line.find('=');
     if (equals == std::string_view::npos)

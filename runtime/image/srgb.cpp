@@ -1,4 +1,4 @@
-// The curve of IEC 61966-2-1.
+// Implements the transfer function of IEC 61966-2-1.
 #include "prt/srgb.h"
 
 #include <cmath>

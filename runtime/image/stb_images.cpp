@@ -1,5 +1,5 @@
-// PNG, JPEG and Radiance HDR by stb. It is compiled here, for what it hands on of memory that it never wrote,
-// as where a JPEG has no scan, is then zeros.
+// Reads PNG, JPEG and Radiance HDR by stb. stb is compiled here with zeroed allocations: where it returns
+// memory that it never wrote, for example for a JPEG without a scan, the memory is zero.
 #include "stb_images.h"
 
 #include "image_kind.h"
@@ -41,9 +41,9 @@ void* zeroed_realloc(void* old, std::size_t old_size, std::size_t size) {
 #define STBI_ONLY_PNG
 #define STBI_ONLY_JPEG
 #define STBI_ONLY_HDR
-#define STB_IMAGE_STATIC // so that it does not meet that of a game
+#define STB_IMAGE_STATIC // avoids conflicts with the copy of a game
 #define STB_IMAGE_IMPLEMENTATION
-#if defined(__clang__) // its integers wrap around in damaged JPEGs
+#if defined(__clang__) // integers wrap around in damaged JPEGs
 #pragma clang attribute push(__attribute__((no_sanitize("undefined"))), apply_to = function)
 #endif
 #include <stb/stb_image.h>
@@ -68,9 +68,9 @@ int stb_size(std::span<const std::byte> file) {
     return static_cast<int>(file.size());
 }
 
-/// Hands a file in memory to stb piece by piece, to see whether it asks for more than there is: it would take
-/// zeros for what is missing and say nothing, and wait for ever for the end of runs of length zero. What is
-/// missing is therefore made up of bytes that end runs.
+/// Passes a file in memory to stb piece by piece, and detects reads beyond the end. stb would silently use
+/// zeros for missing data, and loop forever over runs of length zero. Missing data is therefore replaced by
+/// bytes that end runs.
 struct ByteStream {
     std::span<const std::byte> rest;
     bool past_end = false;
@@ -95,19 +95,19 @@ struct ByteStream {
     static int eof(void* user) { return static_cast<ByteStream*>(user)->rest.empty(); }
 };
 
-/// What stb and `decode_by_stb` hold at once. Of a JPEG: samples, coefficients of three channels, and pixels;
-/// of a PNG: inflated bytes and pixels, then both kinds of pixels.
+/// Returns the peak memory of stb and `decode_by_stb` per pixel. JPEG: samples, coefficients of three
+/// channels, and pixels. PNG: inflated bytes and pixels, then both kinds of pixels.
 std::size_t bytes_per_pixel(std::span<const std::byte> file) {
     if (is_jpeg(file))
         return 13;
     return png_bit_depth(file) == 16 ? 16 : 8;
 }
 
-/// Throws `Error` where a JPEG ends before its first scan, which stb does not mind.
+/// Throws `Error` if a JPEG ends before its first scan, which stb accepts.
 void check_jpeg(std::span<const std::byte> file) {
     constexpr std::byte kMark{0xff}, kStartOfScan{0xda};
     const auto number = [&](std::size_t at) { return std::to_integer<std::size_t>(file[at]); };
-    for (std::size_t at = 2; at + 4 <= file.size();) { // behind the start of the image
+    for (std::size_t at = 2; at + 4 <= file.size();) { // after the start-of-image marker
         if (file[at] != kMark || file[at + 1] == kMark)
             ++at; // padding
         else if (file[at + 1] == kStartOfScan)
@@ -123,8 +123,9 @@ void check_jpeg(std::span<const std::byte> file) {
 RadianceImage decode_hdr(std::span<const std::byte> file) {
     const RadianceHeader header = read_radiance_header(file);
     const ImageSize size = header.size;
-    check_image_size(size.width, size.height, 2 * sizeof(glm::vec3), file.size()); // stb's and ours
-    // stb reads lines from left to right and down alone: it gets them as if they were such.
+    check_image_size(size.width, size.height, 2 * sizeof(glm::vec3), file.size()); // memory of stb and of the
+                                                                                   // result
+    // stb reads lines only from left to right and downwards: the header is rewritten to that orientation.
     std::string plain = "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y " + std::to_string(header.lines()) +
                         " +X " + std::to_string(header.line_length()) + "\n";
     const std::span<const std::byte> pixel_bytes = file.subspan(header.bytes);
@@ -141,7 +142,7 @@ RadianceImage decode_hdr(std::span<const std::byte> file) {
                     printable(stbi_failure_reason()));
     RadianceImage result{{size.width, size.height, {}}, header.factor};
     result.image.pixels.resize(header.lines() * header.line_length());
-    // The inverse of the matrix of Rec. 709 to XYZ (ITU-R BT.709, white D65), by columns.
+    // The inverse of the matrix from Rec. 709 to XYZ (ITU-R BT.709, white D65), by columns.
     const glm::dmat3 to_rgb(3.2404542, -0.9692660, 0.0556434, -1.5371385, 1.8760108, -0.2040259, -0.4985314,
                             0.0415560, 1.0572252);
     const glm::dvec3 scale = 1.0 / header.factor;
@@ -155,7 +156,7 @@ RadianceImage decode_hdr(std::span<const std::byte> file) {
 }
 
 ImageSize size_by_stb(std::span<const std::byte> file) {
-    if (!is_png(file) && !is_jpeg(file) && !is_hdr(file)) // stb reads more kinds, with less care
+    if (!is_png(file) && !is_jpeg(file) && !is_hdr(file)) // stb reads more formats, with less validation
         throw Error("is no image that is read here: PNG, JPEG, WebP and AVIF are");
     if (is_hdr(file))
         return read_radiance_header(file).size;

@@ -20,10 +20,10 @@ struct RadianceImage {
 /// Reads RGBE or XYZE in any orientation as linear Rec. 709. Throws `Error`.
 RadianceImage decode_hdr(std::span<const std::byte> file);
 
-/// Of a PNG, JPEG or Radiance HDR. Throws `Error`.
+/// Returns the size of a PNG, JPEG or Radiance HDR. Throws `Error`.
 ImageSize size_by_stb(std::span<const std::byte> file);
 
-/// The pixels of a PNG or JPEG. Throws `Error`.
+/// Decodes a PNG or JPEG. Throws `Error`.
 Image8 decode_by_stb(std::span<const std::byte> file);
 
 } // namespace prt

@@ -1,3 +1,4 @@
+// Reads WebP and AVIF images.
 #include "web_images.h"
 
 #include "image_limits.h"
@@ -25,7 +26,7 @@ Image8 empty_image(const ImageSize& size) {
     return image;
 }
 
-/// Planes of 16 bits with alpha, in the decoder and handed out, and pixels.
+/// 16-bit planes with alpha, in the decoder and in its output, plus the pixels.
 constexpr std::uint64_t kAvifBytesPerPixel = 2 * 4 * sizeof(std::uint16_t) + sizeof(glm::u8vec4);
 
 struct AvifDestroy {
@@ -39,14 +40,14 @@ void check_avif(avifResult result) {
                     printable(avifResultToString(result)));
 }
 
-/// Has read what `file`, which must outlive it, says of itself.
+/// Parses the header of `file`, which must outlive the decoder.
 AvifDecoder parsed_avif(std::span<const std::byte> file) {
     AvifDecoder decoder(avifDecoderCreate());
     if (!decoder)
         throw Error("there is not enough memory for an AVIF");
     decoder->maxThreads = 1;
     decoder->ignoreExif = decoder->ignoreXMP = AVIF_TRUE;
-    decoder->strictFlags = AVIF_STRICT_DISABLED; // what browsers show
+    decoder->strictFlags = AVIF_STRICT_DISABLED; // accepts the files that browsers show
     // dav1d also checks the size of the frame, which can be larger than the size in the file's header.
     decoder->imageSizeLimit = static_cast<std::uint32_t>(std::min<std::uint64_t>(
         1u << 28, (kFreeImageMemory + kImageMemoryPerByte * file.size()) / kAvifBytesPerPixel));
@@ -68,7 +69,7 @@ ImageSize webp_size(std::span<const std::byte> file) {
         throw Error("is a damaged or unsupported WebP");
     if (features.has_animation)
         throw Error("is an animated WebP, which is not read: take one of its frames");
-    // Of lossless ones the decoder holds all pixels, twice where they are transformed.
+    // For lossless images the decoder holds all pixels, twice if they are transformed.
     check_image_size(features.width, features.height, 3 * sizeof(glm::u8vec4), file.size());
     return {features.width, features.height};
 }

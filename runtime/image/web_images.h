@@ -14,7 +14,8 @@ namespace prt {
 ImageSize webp_size(std::span<const std::byte> file);
 Image8 decode_webp(std::span<const std::byte> file);
 
-/// The same. Of sequences the first image; 10 and 12 bits are rounded to 8.
+/// Read an AVIF, of a sequence the first image; 10 and 12 bits are rounded to 8. Throw `Error` for damaged
+/// files, and for sizes beyond the limits of image_limits.h.
 ImageSize avif_size(std::span<const std::byte> file);
 Image8 decode_avif(std::span<const std::byte> file);
 

@@ -1,5 +1,5 @@
-// The least filter under which lighting is nowhere negative: a quadratic program in the factors of the bands,
-// with one constraint per direction and channel (docs/math.md, eq. 16 to 19).
+// Finds the weakest filter for which lighting is nowhere negative: a quadratic program in the factors of the
+// bands, with one constraint per direction and channel (docs/math.md, eq. 16 to 19).
 
 #include "prt/dering.h"
 
@@ -18,10 +18,10 @@
 namespace prt {
 namespace {
 
-/// How closely minima are looked for, as a share of the mean. What is so small is taken out by less contrast,
-/// which is cheaper.
+/// Tolerance of minima as a fraction of the mean. Smaller negative values are removed by reducing the
+/// contrast, which is cheaper.
 constexpr double kSlack = 0.01;
-/// The first grid proves little, but holds the directions that matter.
+/// The first grid proves little, but contains the relevant directions.
 constexpr double kCoarseShare = 0.05;
 
 /// The radiance of one channel in one direction is row[0] + sum of factors[l] row[l].
@@ -34,9 +34,9 @@ double value_of(const Row& row, const BandFactors& factors, int order) {
     return value;
 }
 
-/// Minimises sum_l weights[l] (1 - factors[l])² with every row's value non-negative, by the active-set method
-/// of Lawson and Hanson (Solving Least Squares Problems, 1974, ch. 23) on the dual: factors are
-/// 1 + sum_k multiplier_k row_k / weights over the active rows k, multiplier_k > 0, whose value is 0.
+/// Minimises sum_l weights[l] (1 - factors[l])² subject to non-negative values of all rows, by the active-set
+/// method of Lawson and Hanson (Solving Least Squares Problems, 1974, ch. 23) on the dual problem. Factors
+/// are 1 + sum_k multiplier_k row_k / weights over the active rows k, whose value is 0 and multiplier_k > 0.
 class LeastChange {
 public:
     LeastChange(int order, const Row& weights) : order_(order), weights_(weights) {
@@ -49,7 +49,7 @@ public:
         }
     }
 
-    /// Rows that no factors in 0..1 make negative are left out.
+    /// Adds a constraint. Rows that are non-negative for all factors in 0..1 are ignored.
     void add(const Row& row) {
         double least = row[0];
         for (std::size_t l = 1; l < static_cast<std::size_t>(order_); ++l)
@@ -62,7 +62,7 @@ public:
         BandFactors factors = ones();
         multipliers_.clear();
         active_.clear();
-        constexpr int kMostSteps = 500; // some 20 are usual
+        constexpr int kMostSteps = 500; // about 20 are typical
         for (int step = 0; step < kMostSteps; ++step) {
             const std::size_t worst = lowest_row(factors);
             if (value_of(rows_[worst], factors, order_) >= -0.1 * kSlack ||
@@ -99,8 +99,8 @@ private:
         return lowest;
     }
 
-    /// Goes to the multipliers under which the values of the active rows are 0; a row whose multiplier turns
-    /// negative on the way is no longer active.
+    /// Moves to the multipliers for which all active rows are 0. A row whose multiplier becomes negative on
+    /// the way is deactivated.
     void settle() {
         while (!active_.empty()) {
             const std::vector<double> goal = multipliers_for_zero();
@@ -124,8 +124,8 @@ private:
         }
     }
 
-    /// Solves sum_j (row_k · row_j / weights) m_j = -value_k(1) by Cholesky's method. More rows than bands
-    /// depend on each other: a trace on the diagonal lets the one with the least to say leave.
+    /// Solves sum_j (row_k · row_j / weights) m_j = -value_k(1) by Cholesky decomposition. More rows than
+    /// bands are linearly dependent: a small diagonal term lets the least important row leave.
     std::vector<double> multipliers_for_zero() const {
         const std::size_t n = active_.size();
         std::vector<double> matrix(n * n), x(n);
@@ -167,8 +167,8 @@ private:
     std::vector<double> multipliers_;
 };
 
-/// What a change of each band does to the exit radiance of receivers: its power times 1/l², the power of
-/// transfer (docs/math.md, eq. 17).
+/// Returns the weight of each band: the effect of its change on the exit radiance of receivers. This is its
+/// power times 1/l², the power of transfer (docs/math.md, eq. 17).
 Row weights_of(const Light& light) {
     Row weights{};
     double total = 0;
@@ -179,12 +179,12 @@ Row weights_of(const Light& light) {
         }
         total += weights[static_cast<std::size_t>(l)];
     }
-    for (double& weight : weights) // a band that is empty may have any factor
+    for (double& weight : weights) // the factor of an empty band is arbitrary
         weight = std::max(weight, 1e-12 * total);
     return weights;
 }
 
-/// One row for every point and channel with a positive mean, in shares of the mean.
+/// Adds one row for every point and channel with a positive mean, relative to the mean.
 void add_rows(const Light& light, std::span<const LowPoint> points, LeastChange& problem) {
     std::array<float, kMaxOrder * kMaxOrder> basis{};
     const glm::dvec3 means(usable_mean(light, 0), usable_mean(light, 1), usable_mean(light, 2));
@@ -205,7 +205,7 @@ void add_rows(const Light& light, std::span<const LowPoint> points, LeastChange&
     }
 }
 
-/// Values of the basis are below 10, so that floats hold them times such coefficients.
+/// Throws `Error` for coefficients above 1e37. Basis values are below 10, so that their products fit a float.
 void check_brightness(const Light& light) {
     constexpr float kBrightest = 1e37f;
     check_finite(light.coefficients);
@@ -223,7 +223,7 @@ BandFactors dering_factors(const Light& light) {
     LeastChange problem(light.order, weights_of(light));
     int rows = rows_for(light.order, kCoarseShare);
     double lower = 0;
-    constexpr int kMostRounds = 10; // three are usual
+    constexpr int kMostRounds = 10; // three are typical
     for (int round = 0; round < kMostRounds; ++round) {
         const GridRadiance grid = radiance_on_grid(with_band_factors(light, factors), rows);
         lower = grid.least - share_between(light.order, rows) * grid.range();
@@ -239,7 +239,7 @@ BandFactors dering_factors(const Light& light) {
             break;
         rows = enough;
     }
-    // What is left is taken out by less contrast: 1 + s (v - 1) is 0 where v is least.
+    // Remove the remaining negative values by less contrast: 1 + s (v - 1) is 0 at the minimum of v.
     for (std::size_t l = 1; l < factors.size(); ++l)
         factors[l] /= 1 - std::min(lower, 0.0);
     return factors;

@@ -1,5 +1,5 @@
-// Seen from the origin a disc fills an elliptic cone. About the axis of that cone its coefficients are
-// integrals over a quarter of an ellipse, of something smooth (docs/math.md, eq. 13).
+// Projects disc lights. Seen from the origin a disc fills an elliptic cone. About the axis of that cone its
+// coefficients are integrals of a smooth function over a quarter of an ellipse (docs/math.md, eq. 13).
 
 #include "light/finite_light.h"
 #include "prt/light.h"
@@ -23,17 +23,18 @@ namespace {
 using std::numbers::pi;
 using Coefficients = std::array<double, kMaxOrder * kMaxOrder>;
 
-/// { z > 0, (x / wide)² + (y / narrow)² <= z² } in a frame whose axes are the columns of `frame`.
+/// The cone { z > 0, (x / wide)² + (y / narrow)² <= z² } in a frame with the columns of `frame` as axes.
 struct EllipticCone {
     glm::dmat3 frame;
     double wide, narrow; ///< tangents of its half angles, wide >= narrow
 };
 
-/// Of the disc's center from the foot of the origin on its plane: the direction in the plane, and how far.
-/// Where the center is next to the foot the difference of the two is rounding, of any direction, and it
-/// leaves the plane. So what leaves it is taken out, and what only rounding can be is no offset.
+/// Returns direction and length of the offset from the foot of the origin on the disc's plane to the disc's
+/// center. If the two points nearly coincide, the difference is rounding error in an arbitrary direction, and
+/// not in the plane. The component out of the plane is therefore removed, and an offset within the rounding
+/// error counts as 0.
 std::pair<glm::dvec3, double> sideways(const glm::dvec3& center, const glm::dvec3& normal, double height) {
-    constexpr double kRounding = 1e-12; // of the height, and 1000 times that of doubles
+    constexpr double kRounding = 1e-12; // relative to the height; 1000 times the rounding of doubles
     const auto in_plane = [&](const glm::dvec3& v) { return v - glm::dot(v, normal) * normal; };
     const glm::dvec3 lateral = in_plane(center + height * normal);
     const double offset = glm::length(lateral);
@@ -43,17 +44,20 @@ std::pair<glm::dvec3, double> sideways(const glm::dvec3& center, const glm::dvec
     return {glm::normalize(glm::cross(other, normal)), 0};
 }
 
-/// `normal` points from the disc to the side of the origin, which is `height` > 0 above it.
+/// Returns the cone of a disc. `normal` points from the disc to the side of the origin, which is `height` > 0
+/// above the plane.
 EllipticCone cone_through(const glm::dvec3& center, const glm::dvec3& normal, double height, double radius) {
     const auto [side, offset] = sideways(center, normal, height);
-    // In the plane of symmetry the rim's nearest and farthest points are seen at angles a1 and a2 from the
-    // direction straight down, tan a = (offset -+ radius) / height. Of their difference and sum, without
-    // cancellation:
+    // In the plane of symmetry the nearest and farthest points of the rim are at angles a1 and a2 from the
+    // downward direction, tan a = (offset -+ radius) / height. The following are half of their difference and
+    // sum, without cancellation:
     const double beyond = (offset - radius) * (offset + radius);
     const double half_angle = 0.5 * std::atan2(2 * radius * height, beyond + height * height);
-    const double elevation = 0.5 * std::atan2(2 * offset * height, beyond - height * height); // of the axis
+    const double elevation = 0.5 * std::atan2(2 * offset * height, beyond - height * height); // elevation of
+                                                                                              // the axis
     const double sine = std::sin(elevation), cosine = std::cos(elevation);
-    // Where the axis meets the disc's plane, half of the chord across, from the two pieces of the diameter.
+    // Half of the chord across, at the point where the axis intersects the disc's plane, from the two
+    // segments of the diameter.
     const double meets = height * cosine / sine;
     const double chord = std::sqrt(std::max(0.0, (meets - (offset - radius)) * (offset + radius - meets)));
     const double in_plane = std::tan(half_angle), across = chord * sine / height;
@@ -64,9 +68,9 @@ EllipticCone cone_through(const glm::dvec3& center, const glm::dvec3& normal, do
     return {glm::dmat3(out, -in, axis), across, in_plane};
 }
 
-/// Adds the integral over the angles from 0 to where the rim is at parameter `t`, times `weight`, of the
-/// functions that do not change sign from quarter to quarter: those of even m >= 0. The rim is
-/// (wide cos t, narrow sin t, 1), and the azimuth's share of dt is wide narrow / distance².
+/// Adds the integral over the angles from 0 to the rim at parameter `t`, times `weight`, of the functions
+/// that have the same sign in all quadrants: even m >= 0. The rim is (wide cos t, narrow sin t, 1), and the
+/// azimuth changes by wide narrow / distance² per dt.
 void add_ray(const EllipticCone& cone, double t, double weight, const GaussLegendre& nodes,
              Coefficients& sum) {
     const double x = cone.wide * std::cos(t), y = cone.narrow * std::sin(t), distance = std::hypot(x, y);
@@ -87,17 +91,17 @@ void add_ray(const EllipticCone& cone, double t, double weight, const GaussLegen
     }
 }
 
-/// About the axis of the cone. Where it is wide in one direction the integrand changes within
-/// max(narrow, 1) / wide of t = pi/2, so that intervals halve towards it as often as that takes.
+/// Integrates the cone about its axis. For an elongated cone the integrand changes within max(narrow, 1) /
+/// wide of t = pi/2; intervals are halved towards it until they resolve that width.
 Coefficients covered(const EllipticCone& cone) {
-    constexpr int kMostHalvings = 50; // beyond, less than rounding is left
+    constexpr int kMostHalvings = 50; // smaller intervals contribute less than rounding
     static const GaussLegendre nodes(16);
     const double width = std::max(cone.narrow, 1.0) / cone.wide;
     const int halvings =
         width < 1 ? static_cast<int>(std::min<double>(std::ceil(-std::log2(width)), kMostHalvings)) : 0;
     Coefficients sum{};
     for (int interval = 0; interval <= halvings + 1; ++interval) {
-        // Distances from pi/2.
+        // distances from pi/2
         const double far = 0.5 * pi * std::exp2(-interval), near = interval == halvings + 1 ? 0 : 0.5 * far;
         for (std::size_t k = 0; k < nodes.nodes.size(); ++k) {
             const double from_end = near + 0.5 * (far - near) * (1 + nodes.nodes[k]);
@@ -123,10 +127,10 @@ Light disc_light(int order, const glm::vec3& center, const glm::vec3& normal, do
         throw Error("the centre of a disc light must be finite");
     Light light{order,
                 std::vector<glm::vec3>(static_cast<std::size_t>(coefficient_count(order)), glm::vec3(0))};
-    if (!(height > 0)) // the origin is behind it
+    if (!(height > 0)) // the origin is behind the disc
         return light;
     const EllipticCone cone = cone_through(c, n, height, radius);
-    if (!(cone.narrow > 0)) // edge on, to rounding
+    if (!(cone.narrow > 0)) // edge-on, to rounding
         return light;
     const Coefficients about_axis = covered(cone);
     Coefficients sum{};

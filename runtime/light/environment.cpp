@@ -1,4 +1,4 @@
-// Environment maps: checks, repair of pixels, and the directions that pixels look in.
+// Environment maps: checks, repair of pixels, and view directions of pixels.
 #include "prt/environment.h"
 
 #include "prt/support/error.h"
@@ -46,17 +46,17 @@ constexpr std::array<CubeFace, 6> kApiFaces = {{
     {{0, 0, -1}, {-1, 0, 0}, {0, -1, 0}},
 }};
 
-/// Four bilinear taps and their weights.
+/// Interpolates four texels bilinearly.
 glm::vec3 bilinear(const Image& image, int x0, int x1, int y0, int y1, float u, float v) {
     return (image.at(x0, y0) * (1 - u) + image.at(x1, y0) * u) * (1 - v) +
            (image.at(x0, y1) * (1 - u) + image.at(x1, y1) * u) * v;
 }
 
-/// Bilinear within the square of `size` texels whose first row is `top`, at the position (x, y) in units of
-/// texels whose centers are integers; beyond the border the border goes on.
+/// Samples bilinearly within the square of `size` texels whose first row is `top`, at the position (x, y) in
+/// texels with centers at integers; clamps at the border.
 glm::vec3 sample_square(const Image& image, int top, int size, double x, double y) {
     const int last = size - 1;
-    x = x > 0 ? std::min(x, double(last)) : 0; // what is not a number, too
+    x = x > 0 ? std::min(x, double(last)) : 0; // also for NaN
     y = y > 0 ? std::min(y, double(last)) : 0;
     const int x0 = static_cast<int>(x), y0 = static_cast<int>(y);
     return bilinear(image, x0, std::min(x0 + 1, last), top + y0, top + std::min(y0 + 1, last),
@@ -157,7 +157,7 @@ glm::dvec3 angular_direction(double u, double v) {
 glm::vec3 sample_lat_long(const Image& image, const glm::vec3& direction) {
     glm::dvec2 position = lat_long_position(image.width, image.height, glm::dvec3(direction)) - 0.5;
     for (int axis = 0; axis < 2; ++axis)
-        if (!(position[axis] > -1)) // no number: of a direction that is none
+        if (!(position[axis] > -1)) // NaN, for an invalid direction
             position[axis] = -1;
     const double x = std::floor(position.x), y = std::floor(position.y);
     const auto wrap = [&](int i) { return (i % image.width + image.width) % image.width; };
@@ -177,7 +177,7 @@ glm::vec3 sample(const Environment& environment, const glm::vec3& direction) {
     case EnvironmentLayout::lat_long:
         break;
     }
-    if (environment.center == LatLongCenter::x) // what is at +X in the world is where +Z is without a turn
+    if (environment.center == LatLongCenter::x) // rotates +X of the world to +Z
         return sample_lat_long(environment.image, {-direction.z, direction.y, direction.x});
     return sample_lat_long(environment.image, direction);
 }
@@ -211,8 +211,9 @@ Image resampled_lat_long(const Environment& environment) {
     const bool lat_long = environment.layout == EnvironmentLayout::lat_long;
     if (lat_long && environment.center == LatLongCenter::z)
         return image;
-    // A face of a cube spans a quarter turn, an angular map a whole one, the result's height half of one.
-    // Where a lat-long image has a quarter of its width in whole pixels, these fall on pixels.
+    // A face of a cube spans a quarter turn, an angular map a full turn, the height of the result half a
+    // turn. If the width of a lat-long image is a multiple of four, the rotation by a quarter is exact in
+    // pixels.
     const int height = lat_long                                           ? image.height
                        : environment.layout == EnvironmentLayout::angular ? std::max(1, image.width / 2)
                                                                           : 2 * image.width;

@@ -1,5 +1,7 @@
 #pragma once
 
+// Checks that lights are finite.
+
 #include "prt/light.h"
 #include "prt/support/error.h"
 
@@ -9,20 +11,20 @@
 
 namespace prt {
 
-/// Whether red, green and blue are numbers, and none is infinite.
+/// Returns whether red, green and blue are finite numbers.
 inline bool is_finite(const glm::vec3& color) {
     return std::isfinite(color.x) && std::isfinite(color.y) && std::isfinite(color.z);
 }
 
-/// Throws `Error` where a coefficient is not finite: the color that it was made of was not, or is so large
-/// that floats do not hold what came of it.
+/// Throws `Error` if a coefficient is not finite: the input color was not finite, or the result overflows a
+/// float.
 inline void check_finite(std::span<const glm::vec3> coefficients) {
     if (!std::ranges::all_of(coefficients, is_finite))
         throw Error(
             "the coefficients of the light are not finite: its color is not, or too large for floats");
 }
 
-/// `light` as a function hands it on, checked.
+/// Returns `light` after the check.
 inline Light finite_light(Light light) {
     check_finite(light.coefficients);
     return light;

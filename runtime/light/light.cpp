@@ -1,4 +1,4 @@
-// Lights of simple shapes in closed form: zonal coefficients, turned to where the light is.
+// Computes lights of simple shapes in closed form: zonal coefficients, rotated to the light's direction.
 #include "prt/light.h"
 
 #include "light/finite_light.h"
@@ -25,8 +25,8 @@ using std::numbers::pi;
 
 namespace {
 
-/// SH coefficients of an RGB function that is symmetric about `axis`: c_lm = zonal(l) Y_lm(axis), where
-/// zonal(l) = 2 pi ∫ f(t) P_l(t) dt (Funk-Hecke; docs/math.md, eq. 11).
+/// Returns the SH coefficients of an RGB function that is symmetric about `axis`: c_lm = zonal(l) Y_lm(axis),
+/// where zonal(l) = 2 pi ∫ f(t) P_l(t) dt (Funk-Hecke; docs/math.md, eq. 11).
 Light zonal_light(int order, const glm::vec3& axis, const glm::vec3& scale,
                   const std::function<double(int)>& zonal) {
     check_order(order);
@@ -71,7 +71,7 @@ Light directional_light(int order, const glm::vec3& towards, const glm::vec3& ir
 }
 
 Light cone_light(int order, const glm::vec3& axis, double half_angle, const glm::vec3& radiance) {
-    if (!(half_angle >= 0 && half_angle <= pi * (1 + 1e-7))) // pi in float is more than pi
+    if (!(half_angle >= 0 && half_angle <= pi * (1 + 1e-7))) // pi as a float is larger than pi
         throw Error("the half angle of a cone of light lies in 0..pi radians, not " +
                     std::to_string(half_angle));
     std::array<double, kMaxOrder + 1> legendre{}, slope{}; // P_l and P_l' at cos half_angle
@@ -107,8 +107,8 @@ Light sphere_light(int order, const glm::vec3& center, double radius, const glm:
 }
 
 Light overcast_sky(int order, const glm::vec3& zenith) {
-    // (1 + 2 t) / 3 on the upper hemisphere: a third of the half-sphere cone and two thirds of the clamped
-    // cosine.
+    // (1 + 2 t) / 3 on the upper hemisphere is a third of the hemispherical cone plus two thirds of the
+    // clamped cosine.
     return sum(cone_light(order, {0, 1, 0}, pi / 2, zenith / 3.0f),
                zonal_light(order, {0, 1, 0}, zenith * (2.0f / 3.0f),
                            [](int l) { return pi * clamped_cosine_factor(l); }));

@@ -1,9 +1,9 @@
-// Projection of environment maps into SH (docs/math.md, section 3).
+// Projects environment maps into SH (docs/math.md, section 3).
 //
-// A lat-long image is a product of rows and columns about its own poles, so its integral separates: per row a
-// short Fourier sum of the pixels, then the associated Legendre functions integrated over the row. That costs
-// 2N-1 instead of N² multiply-adds per pixel and channel. The image's pole is +Y and the basis's is +Z, hence
-// one exact rotation at the end.
+// A lat-long image is a product of rows and columns about its own poles, so that its integral separates: a
+// short Fourier sum of the pixels per row, then the associated Legendre functions integrated over the row.
+// This costs 2N-1 instead of N² multiply-adds per pixel and channel. The pole of the image is +Y and that of
+// the basis is +Z; one exact rotation at the end converts between them.
 
 #include "light/projection.h"
 #include "prt/check_light.h"
@@ -27,15 +27,15 @@ using std::numbers::pi;
 
 namespace {
 
-/// Per row of a lat-long image, Fourier sums over its pixels, exact for pixels of constant color:
-/// sum over pixels of L(pixel) ∫ cos(m phi) dphi, and the same with sin.
+/// Fourier sums over the pixels of a row of a lat-long image, exact for pixels of constant color: sum over
+/// pixels of L(pixel) ∫ cos(m phi) dphi, and the sine counterpart.
 struct RowFourier {
     std::array<glm::dvec3, kMaxOrder> cosine{}, sine{};
 };
 
-/// The azimuth in the image's polar frame (x', y', z') = (z, x, y) equals the longitude. Holds for each m and
-/// column cos(m phi) and sin(m phi) at the column's center. Where the width is a multiple of four, columns at
-/// phi, -phi, pi - phi and phi - pi share them up to signs: a quarter of the columns will do.
+/// Tables of cos(m phi) and sin(m phi) at the column centers. The azimuth in the image's polar frame (x', y',
+/// z') = (z, x, y) equals the longitude. If the width is a multiple of four, columns at phi, -phi, pi - phi
+/// and phi - pi share values up to signs: a quarter of the columns suffices.
 struct ColumnTables {
     bool folded;
     std::size_t columns;
@@ -52,12 +52,12 @@ struct ColumnTables {
     }
 };
 
-/// What is multiplied with the cosines and sines of even and of odd m: [part][channel][columns].
+/// Folded pixels that are multiplied with the cosines and sines of even and odd m: [part][channel][columns].
 enum Part { even_cosine, odd_cosine, even_sine, odd_sine, kParts };
 using Wide [[gnu::vector_size(sizeof(double) * 8)]] = double;
 using WideInMemory [[gnu::vector_size(sizeof(double) * 8), gnu::aligned(8), gnu::may_alias]] = double;
 
-/// Sum of `values` times `factors` for three channels `stride` apart.
+/// Returns the sum of `values` times `factors` for three channels at distance `stride`.
 [[gnu::always_inline]] inline glm::dvec3 weighted_sum(const double* values, std::size_t stride,
                                                       const double* factors, std::size_t count) {
     Wide wide[3] = {};
@@ -77,7 +77,7 @@ using WideInMemory [[gnu::vector_size(sizeof(double) * 8), gnu::aligned(8), gnu:
     return sum;
 }
 
-/// `parts` [kParts][3][columns] of a row of pixels.
+/// Computes `parts` [kParts][3][columns] of a row of pixels.
 [[gnu::always_inline]] inline void fold_row(const glm::vec3* row, const ColumnTables& tables, double* parts) {
     const std::size_t n = tables.columns;
     for (std::size_t x = 0; x < n; ++x)
@@ -100,7 +100,7 @@ using WideInMemory [[gnu::vector_size(sizeof(double) * 8), gnu::aligned(8), gnu:
         }
 }
 
-/// `parts` is room for a folded row.
+/// Computes the Fourier sums of a row. `parts` is a buffer for a folded row.
 PRT_TARGET_CLONES
 void row_fourier(const glm::vec3* row, int width, int order, const ColumnTables& tables, double* parts,
                  RowFourier& result) {
@@ -117,8 +117,8 @@ void row_fourier(const glm::vec3* row, int width, int order, const ColumnTables&
     }
 }
 
-/// ∫ over the row of Q_l^m(cos theta) sin^m(theta) sin(theta) dtheta, at [sh_index(l, m)], m >= 0: the basis
-/// at azimuth 0 holds the Legendre part.
+/// Returns ∫ over the row of Q_l^m(cos theta) sin^m(theta) sin(theta) dtheta, at [sh_index(l, m)], m >= 0;
+/// the basis at azimuth 0 contains the Legendre part.
 std::array<double, kMaxOrder * kMaxOrder> row_legendre(int order, double theta0, double theta1,
                                                        const GaussLegendre& quadrature) {
     std::array<double, kMaxOrder * kMaxOrder> sum{}, basis{};
@@ -132,7 +132,7 @@ std::array<double, kMaxOrder * kMaxOrder> row_legendre(int order, double theta0,
     return sum;
 }
 
-/// The coefficients of one row: its Legendre part times its Fourier sums.
+/// Returns the coefficients of one row: its Legendre integrals times its Fourier sums.
 ProjectedColors in_bands(int order, const std::array<double, kMaxOrder * kMaxOrder>& legendre,
                          const RowFourier& fourier) {
     ProjectedColors row{};
@@ -147,10 +147,9 @@ ProjectedColors in_bands(int order, const std::array<double, kMaxOrder * kMaxOrd
     return row;
 }
 
-/// From the image's polar frame to ours.
+/// Rotates from the image's polar frame to the world.
 ProjectedColors in_world(const ProjectedColors& polar, int order, LatLongCenter center) {
-    // Columns are the images of x', where the center looks, y' to its
-    // left and z' up.
+    // The columns are the images of x' (the direction of the center), y' (to its left) and z' (up).
     const glm::dmat3 frame = center == LatLongCenter::z
                                  ? glm::dmat3(glm::dvec3(0, 0, 1), glm::dvec3(1, 0, 0), glm::dvec3(0, 1, 0))
                                  : glm::dmat3(glm::dvec3(1, 0, 0), glm::dvec3(0, 0, -1), glm::dvec3(0, 1, 0));
@@ -170,7 +169,7 @@ ProjectedColors in_world(const ProjectedColors& polar, int order, LatLongCenter 
 ProjectedColors project_lat_long(const Environment& environment, int order, int threads) {
     const Image& image = environment.image;
     const ColumnTables tables(order, image.width);
-    const GaussLegendre quadrature(pi / image.height > 0.2 ? 24 : 3); // as in points_for
+    const GaussLegendre quadrature(pi / image.height > 0.2 ? 24 : 3); // same thresholds as points_for
     const auto height = static_cast<std::size_t>(image.height);
     std::vector<ProjectedColors> rows(height);
     parallel_for(height, 8, threads, [&](std::size_t begin, std::size_t end) {

@@ -1,4 +1,4 @@
-// Projection of angular maps (docs/math.md, section 3).
+// Projects angular maps (docs/math.md, section 3).
 
 #include "light/square_sums.h"
 #include "prt/sh.h"
@@ -12,8 +12,8 @@ namespace {
 
 using std::numbers::pi;
 
-/// sin(pi r) / r and cos(pi r) as power series in r² < 2. At (s, t) of an angular map the direction is
-/// (s sin(pi r) / r, t sin(pi r) / r, cos(pi r)), and the solid angle sin(pi r) pi dr dalpha, over r dr
+/// Evaluates sin(pi r) / r and cos(pi r) as power series in r² < 2. At (s, t) of an angular map the direction
+/// is (s sin(pi r) / r, t sin(pi r) / r, cos(pi r)), and the solid angle is sin(pi r) pi dr dalpha per r dr
 /// dalpha of the image.
 [[gnu::always_inline]] inline void disc_factors(const Lanes& r2, Lanes& sine, Lanes& cosine) {
     constexpr int kTerms = 13;
@@ -34,7 +34,7 @@ using std::numbers::pi;
     }
 }
 
-/// Directions of the points (s, t) of an angular map, and their solid angle per area of the image.
+/// Computes directions of the points (s, t) of an angular map, and their solid angle per image area.
 PRT_TWO_CLONES
 void put_disc_nodes(const float* s, const float* t, std::size_t stride, glm::vec3* directions,
                     float* weights) {
@@ -48,13 +48,13 @@ void put_disc_nodes(const float* s, const float* t, std::size_t stride, glm::vec
     }
 }
 
-/// The mean of a function over a cell of width 1, from its values at the middles of the cells around: 1 +
-/// d²/24 of central differences, and - 17 d⁴/5760 to order 6. What holds for the functions may as well be
-/// done to the pixels, since only their products are summed; the functions are then wanted at the middles
-/// alone.
+/// Computes the mean of a function over a cell of width 1 from its values at the centers of the surrounding
+/// cells: 1 + d²/24 of central differences, and - 17 d⁴/5760 to order 6. The operator is applied to the
+/// pixels instead of the functions, which is equivalent because only their products are summed. The functions
+/// are then needed at the centers only.
 struct MeanOfCell {
     int reach;
-    double factor[3]; ///< of cells that far away
+    double factor[3]; ///< for cells at distance 0, 1, 2
 };
 constexpr MeanOfCell kMeansOfCell[] = {
     {0, {1}},
@@ -62,7 +62,8 @@ constexpr MeanOfCell kMeansOfCell[] = {
     {2, {1 - 2.0 / 24 - 6 * 17.0 / 5760, 1.0 / 24 + 4 * 17.0 / 5760, -17.0 / 5760}}};
 constexpr int kLongestReach = 2;
 
-/// For texels that span `angle` radians at most: what is left is of order angle^4 or angle^6.
+/// Returns the operator for texels that span at most `angle` radians. The error is of order angle^4 or
+/// angle^6.
 const MeanOfCell& mean_of_cell(double angle) {
     return kMeansOfCell[points_for(angle) > 2 ? 0 : angle < 0.015 ? 1 : 2];
 }
@@ -76,7 +77,7 @@ void add_scaled(const float* from, float factor, std::size_t count, float* to) {
         to[i] += factor * from[i];
 }
 
-/// Of `count` floats of pixels that lie next to one another.
+/// Applies the operator to `count` floats of adjacent pixels.
 PRT_TWO_CLONES
 void mean_along(const float* from, const MeanOfCell& mean, std::size_t count, float* to) {
     const auto center = static_cast<float>(mean.factor[0]), near = static_cast<float>(mean.factor[1]),
@@ -104,21 +105,21 @@ public:
     const glm::vec3* row(int y) const { return &image_.at(0, y); }
     Cell cell(int i) const { return even_cell(size_, i); }
 
-    /// The first texel of row `y` that lies within the circle; the last mirrors it. The middle of the row and
-    /// more if there is none.
+    /// Returns the first texel of row `y` that is entirely inside the circle; the last one mirrors it. If no
+    /// texel is inside, returns the center of the row or more.
     int first_inside(int y) const {
         const Cell v = cell(y);
         return std::min((size_ + 1) / 2, static_cast<int>(std::ceil(edge(std::max(-v.begin, v.end)))));
     }
 
-    /// The first texel of row `y` of which a part lies within the circle.
+    /// Returns the first texel of row `y` that is partly inside the circle.
     int first_touched(int y) const {
         const Cell v = cell(y);
         return static_cast<int>(edge(std::max({0.0, v.begin, -v.end})));
     }
 
-    /// Pixels of row `y`, those that the rim cuts taken for black, with `mean` done to them. [size] between
-    /// kLongestReach on each side.
+    /// Computes the pixels of row `y` with `mean` applied; pixels on the rim count as black. [size], with
+    /// kLongestReach extra entries on each side.
     void pixels(int y, const MeanOfCell& mean, std::vector<glm::vec3>& result) const {
         std::vector<glm::vec3> column(result.size(), glm::vec3(0));
         for (int step = -mean.reach; step <= mean.reach; ++step)
@@ -131,7 +132,7 @@ public:
     }
 
 private:
-    /// Where the circle is at height `t`, in texels.
+    /// Returns the x coordinate of the circle at height `t`, in texels.
     double edge(double t) const { return 0.5 * (1 - (t < 1 ? std::sqrt(1 - t * t) : 0)) * size_; }
 
     void add_row(int y, double factor, std::vector<glm::vec3>& to) const {
@@ -146,7 +147,7 @@ private:
     int size_;
 };
 
-/// Nodes in the texels of one row that the rim cuts, of each of their rows the stretch within the circle.
+/// Quadrature nodes in the texels of one row that intersect the rim, restricted to the inside of the circle.
 struct RimNodes {
     std::vector<float> s, t;
     std::vector<glm::vec3> colors; ///< times the area
@@ -177,7 +178,7 @@ RimNodes rim_nodes(const AngularMap& map, int y, const GaussLegendre& rim) {
     return nodes;
 }
 
-/// Adds the texels of row `y` that the rim cuts.
+/// Adds the texels of row `y` that intersect the rim.
 void add_rim(const AngularMap& map, int y, const GaussLegendre& rim, int order, const BySigns& functions,
              LaneSums& sums) {
     RimNodes nodes = rim_nodes(map, y, rim);
@@ -193,7 +194,7 @@ void add_rim(const AngularMap& map, int y, const GaussLegendre& rim, int order, 
     multiply_all(functions, row.stride, row.basis.data(), parts.data(), sums);
 }
 
-/// Puts directions and weights of the nodes `inner` of every texel of row `y` into `row`.
+/// Writes directions and weights of the nodes `inner` of every texel of row `y` to `row`.
 void put_nodes(const AngularMap& map, int y, const GaussLegendre& inner, RowOfTexels& row) {
     const std::size_t n = inner.nodes.size();
     const int size = map.size();
@@ -202,7 +203,8 @@ void put_nodes(const AngularMap& map, int y, const GaussLegendre& inner, RowOfTe
         for (std::size_t i = 0; i < n; ++i) {
             const std::size_t first = (j * n + i) * row.stride;
             const double left = map.cell(0).at(inner.nodes[i]), step = 2.0 / size;
-            for (std::size_t x = 0; x < row.stride; ++x) // beyond the image, where the series blow up, 1
+            for (std::size_t x = 0; x < row.stride; ++x) // clamp to 1 outside the image, where the series
+                                                         // diverge
                 s[x] = static_cast<float>(std::min(1.0, left + step * static_cast<double>(x)));
             std::ranges::fill(t, static_cast<float>(map.cell(y).at(inner.nodes[j])));
             put_disc_nodes(s.data(), t.data(), row.stride, &row.directions[first], &row.weights[first]);

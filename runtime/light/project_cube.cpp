@@ -1,4 +1,4 @@
-// Projection of the faces of a cube.
+// Projects the faces of a cube.
 
 #include "light/square_sums.h"
 #include "sh/gauss_legendre.h"
@@ -10,7 +10,7 @@
 namespace prt {
 namespace {
 
-/// The part of a texel's cell that lies on the face, where border texels are centerd on the border.
+/// Returns the part of a texel's cell on the face; border texels are centered on the border.
 Cell centerd_cell(int size, int i) {
     if (size == 1)
         return {-1, 1};
@@ -18,7 +18,7 @@ Cell centerd_cell(int size, int i) {
     return {std::max(-1.0, center - half), std::min(1.0, center + half)};
 }
 
-/// At (s, t) of a cube's face, which is at distance sqrt(1 + s² + t²).
+/// Returns the node at (s, t) of a cube face, at distance sqrt(1 + s² + t²).
 Node on_face(double s, double t, double area) {
     const double inverse = 1 / std::sqrt(1 + s * s + t * t);
     return {{s * inverse, t * inverse, inverse}, area * inverse * inverse * inverse};

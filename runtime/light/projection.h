@@ -1,6 +1,6 @@
 #pragma once
 
-// Coefficients of an environment in double, layout by layout. Shapes have been checked.
+// Projection of environments in double, per layout. Arguments must be valid.
 
 #include "prt/environment.h"
 #include "prt/sh_basis.h"
@@ -13,8 +13,9 @@ namespace prt {
 
 using ProjectedColors = std::array<glm::dvec3, kMaxOrder * kMaxOrder>;
 
-/// How many quadrature points a texel that spans `angle` radians needs along each axis: over half a sphere 24
-/// points integrate order 10 to rounding, over small texels 3 leave an error of order angle^7, 2 of angle^5.
+/// Returns the number of quadrature points that a texel of `angle` radians needs along each axis. 24 points
+/// integrate order 10 over half a sphere to rounding; over small texels 3 points have an error of order
+/// angle^7, and 2 of order angle^5.
 int points_for(double angle);
 
 ProjectedColors project_cube(const Environment& environment, int order, int threads);

@@ -1,4 +1,4 @@
-// Values of a light on a grid of directions, and how far below its smallest value it can go.
+// Evaluates a light on a grid of directions, and bounds its minimum between them.
 #include "light/radiance_grid.h"
 
 #include "prt/sh.h"
@@ -16,7 +16,7 @@ namespace {
 
 using std::numbers::pi;
 
-/// What sums in float may err by, as a share of the range.
+/// Maximum rounding error of float sums, relative to the range.
 constexpr double kRounding = 1e-5;
 
 /// One ring of directions as Fourier sums in the azimuth: cosine[m], sine[m].
@@ -24,7 +24,7 @@ struct Ring {
     std::array<glm::vec3, kMaxOrder> cosine{}, sine{};
 };
 
-/// `lowest` [columns] becomes the least channel in each direction; returns the largest of all.
+/// Writes the smallest channel in each direction to `lowest` [columns]; returns the maximum of all channels.
 PRT_TWO_CLONES
 float ring_values(const Ring& ring, int order, const float* cosines, const float* sines, std::size_t columns,
                   float* lowest) {
@@ -47,8 +47,8 @@ float ring_values(const Ring& ring, int order, const float* cosines, const float
     return largest;
 }
 
-/// Coefficients as shares of the means. A channel without a positive mean is 1 everywhere, which lies between
-/// the least and the largest of any other.
+/// Returns coefficients relative to the means. A channel without a positive mean becomes 1 everywhere, which
+/// is between the minimum and the maximum of any other channel.
 std::vector<glm::vec3> in_shares(const Light& light) {
     std::vector<glm::vec3> result = light.coefficients;
     for (int c = 0; c < 3; ++c) {
@@ -126,7 +126,7 @@ GridRadiance radiance_on_grid(const Light& light, int rows) {
 }
 
 double share_between(int order, int rows) {
-    // No direction is farther from the grid than half the diagonal of a square of pi / rows.
+    // Every direction is within half the diagonal of a square of pi / rows from a grid point.
     const double turn = (order - 1) * pi / rows, drop = turn * turn / 8;
     return drop / (1 - 2 * drop) + kRounding;
 }

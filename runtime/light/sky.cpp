@@ -1,4 +1,4 @@
-// The clear sky of Preetham, Shirley and Smits (SIGGRAPH 1999), and its projection.
+// Evaluates the clear sky of Preetham, Shirley and Smits (SIGGRAPH 1999), and projects it.
 #include "prt/sky.h"
 
 #include "prt/sh.h"
@@ -68,7 +68,8 @@ glm::dvec3 PreethamSky::radiance(const glm::dvec3& direction) const {
 
 Light sky_light(int order, const PreethamSky& sky) {
     check_order(order);
-    // The glow about the sun has a cusp, hence so many: no coefficient of ten bands errs by 2.5e-5 of band 0.
+    // The glow about the sun has a cusp and needs this many nodes: no coefficient of ten bands has an error
+    // above 2.5e-5 of band 0.
     constexpr int kRings = 64, kAzimuths = 128;
     const GaussLegendre rings(kRings);
     const auto count = static_cast<std::size_t>(coefficient_count(order));

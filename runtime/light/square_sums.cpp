@@ -1,4 +1,4 @@
-// Sums over square images that share the basis between pixels mirrored in both axes.
+// Computes sums over square images; pixels that are mirrored in both axes share the basis values.
 #include "light/square_sums.h"
 
 #include "prt/sh.h"
@@ -20,7 +20,7 @@ using HalfLanes [[gnu::vector_size(sizeof(float) * kSumLanes)]] = float;
     return lanes;
 }
 
-/// Sums over the points of texels that have few.
+/// Sums over the points of texels with few points.
 PRT_TWO_CLONES
 void sum_few_points(std::size_t functions, std::size_t points, std::size_t stride, const float* basis,
                     const float* weights, float* texels) {
@@ -34,7 +34,7 @@ void sum_few_points(std::size_t functions, std::size_t points, std::size_t strid
         }
 }
 
-/// The same over the hundreds that large texels have, which takes doubles.
+/// Sums in double over the points of large texels, which have hundreds.
 void sum_many_points(std::size_t functions, std::size_t points, std::size_t stride, const float* basis,
                      const float* weights, float* texels) {
     for (std::size_t i = 0; i < functions; ++i)
@@ -58,7 +58,7 @@ void RowOfTexels::integrate(int order) {
 
 void fold(const glm::vec3* above, const glm::vec3* below, int size, int row, std::size_t stride,
           float* parts) {
-    const float twice_y = 2 * row + 1 == size ? 0.5f : 1.0f; // the middle row is its own mirror
+    const float twice_y = 2 * row + 1 == size ? 0.5f : 1.0f; // the middle row mirrors itself
     for (int x = 0; 2 * x < size; ++x) {
         const float share = twice_y * (2 * x + 1 == size ? 0.5f : 1.0f);
         const int mirrored = size - 1 - x;

@@ -2,9 +2,10 @@
 
 // Sums over square images: the faces of a cube, and angular maps (docs/math.md, section 3).
 //
-// In the frame of a square (x right, y down, z where its center looks) the basis functions are even or odd in
-// x and in y. So the basis is integrated over the texels of a quarter, once for all faces, and four mirrored
-// pixels are added up with their signs before they are multiplied with it. A rotation per face ends it.
+// In the frame of a square (x right, y down, z the direction of its center) the basis functions are even or
+// odd in x and in y. The basis is therefore integrated over the texels of a quarter only, once for all faces.
+// Four mirrored pixels are combined with their signs before the multiplication. A final rotation per face
+// maps to the world.
 
 #include "light/projection.h"
 #include "prt/support/parallel.h"
@@ -17,7 +18,7 @@
 
 namespace prt {
 
-/// A stretch along one axis, in coordinates [-1, 1] of a square.
+/// An interval along one axis, in coordinates [-1, 1] of a square.
 struct Cell {
     double begin, end;
 
@@ -29,7 +30,7 @@ inline Cell even_cell(int size, int i) {
     return {2.0 * i / size - 1, 2.0 * (i + 1) / size - 1};
 }
 
-/// A direction in the frame of the square, and its share of the solid angle.
+/// A direction in the frame of the square, and its solid angle.
 struct Node {
     glm::dvec3 direction;
     double weight;
@@ -54,26 +55,26 @@ struct RowOfTexels {
         directions[point * stride + texel] = glm::vec3(node.direction);
         weights[point * stride + texel] = static_cast<float>(node.weight);
     }
-    /// From directions and weights to `texels`.
+    /// Computes `texels` from directions and weights.
     void integrate(int order);
 };
 
-/// Sums of four mirrored pixels of rows `row` and size - 1 - row: even or odd in x, even or odd in y.
-/// [2 y + x][channel][stride]
+/// Computes sums of four mirrored pixels of rows `row` and size - 1 - row: even or odd in x, even or odd in
+/// y. [2 y + x][channel][stride]
 void fold(const glm::vec3* above, const glm::vec3* below, int size, int row, std::size_t stride,
           float* parts);
 
-/// Sums of the products of functions and pixels that have not been added up yet, lane by lane.
+/// Partial sums of the products of functions and pixels, one per lane.
 inline constexpr std::size_t kSumLanes = 8;
 struct LaneSums {
     float at[kMaxOrder * kMaxOrder][3][kSumLanes] = {};
 };
 
-/// Indices of the functions, those of the same signs in x and in y next to one another. cos(m phi) is even in
-/// y and, where m is even, in x; sin(m phi) is odd in y and, where m is odd, even in x.
+/// Indices of the functions, grouped by their symmetry in x and y. cos(m phi) is even in y and, for even m,
+/// in x; sin(m phi) is odd in y and, for odd m, even in x.
 struct BySigns {
     std::array<std::size_t, kMaxOrder * kMaxOrder> index;
-    std::array<std::size_t, 5> first{}; ///< of part 2 odd_y + odd_x
+    std::array<std::size_t, 5> first{}; ///< first index of part 2 odd_y + odd_x
 
     explicit BySigns(int order) {
         std::size_t count = 0;
@@ -89,7 +90,7 @@ struct BySigns {
     }
 };
 
-/// Adds the products of every function with the part that has its signs.
+/// Adds the products of every function with the part of the same symmetry.
 void multiply_parts(const BySigns& functions, std::size_t stride, const float* texels, const float* parts,
                     LaneSums& sums);
 
@@ -99,15 +100,15 @@ void multiply_all(const BySigns& functions, std::size_t stride, const float* tex
 
 void add_lanes(std::size_t functions, const LaneSums& sums, ProjectedColors& result);
 
-/// Adds `square`, whose axes are `right`, `down` and `outward`, to `result`.
+/// Adds `square`, with axes `right`, `down` and `outward`, to `result`.
 void add_square(const ProjectedColors& square, const glm::dvec3& right, const glm::dvec3& down,
                 const glm::dvec3& outward, int order, ProjectedColors& result);
 
-/// Rows whose sums are added up in float, and blocks of them that share their memory.
+/// Number of rows that are summed in float, and number of row blocks that share memory.
 inline constexpr std::size_t kRowsOfBlock = 8, kBlocksOfTask = 2;
 
-/// Projects the squares of `size` pixels that lie in a column, each in its own frame. `put_row(row, texels)`
-/// fills in directions and weights; `fold_row(square, row, stride, parts)` folds pixels.
+/// Projects the squares of `size` pixels in a column, each in its own frame. `put_row(row, texels)` writes
+/// directions and weights; `fold_row(square, row, stride, parts)` folds pixels.
 template <class PutRow, class FoldRow>
 std::vector<ProjectedColors> project_squares(int size, int squares, std::size_t points, int order,
                                              int threads, PutRow&& put_row, FoldRow&& fold_row) {

@@ -1,4 +1,4 @@
-// Suns as coefficients, in closed form.
+// Computes suns as SH coefficients in closed form.
 #include "prt/sun_disc.h"
 
 #include "prt/sh.h"
@@ -12,8 +12,8 @@
 namespace prt {
 namespace {
 
-/// Factors of a disc of irradiance 1 over Y_lm of its axis: eq. 14, which is eq. 12 without the differences
-/// that cancel for narrow cones.
+/// Returns the factors of a disc of irradiance 1 relative to Y_lm of its axis: eq. 14, which is eq. 12
+/// without the differences that cancel for narrow cones.
 std::array<double, kMaxOrder> disc_factors(double half_angle) {
     const double t = std::cos(half_angle);
     std::array<double, kMaxOrder> factors{};

@@ -1,4 +1,4 @@
-// Cameras: placing them, and where their pixels look.
+// Cameras: automatic placement, view directions and projection.
 #include "prt/camera.h"
 
 #include "prt/support/error.h"
@@ -36,8 +36,8 @@ Camera automatic_camera(const Scene& scene, float aspect, float vertical_field_o
     const glm::vec3 right = glm::normalize(glm::cross(camera.up, from)), up = glm::cross(from, right);
     const float tangent = std::tan(0.5f * camera.vertical_field_of_view);
     for (int round = 0; round < 4;
-         ++round) { // moving to the middle changes the distance, and that the middle
-        // Far enough that every triangle lies inside the view, and a little more.
+         ++round) { // moving the target changes the distance, which changes the best target
+        // The distance at which every triangle is inside the view, with a margin.
         float distance = 0;
         for_each_corner(scene, [&](const glm::vec3& p) {
             const glm::vec3 v = p - camera.target;
@@ -45,7 +45,7 @@ Camera automatic_camera(const Scene& scene, float aspect, float vertical_field_o
                                               std::max(std::abs(glm::dot(v, up)) / tangent,
                                                        std::abs(glm::dot(v, right)) / (tangent * aspect)));
         });
-        distance = distance > 0 ? 1.08f * distance : 1; // else all is in one point
+        distance = distance > 0 ? 1.08f * distance : 1; // otherwise all vertices are at one point
         camera.position = camera.target + from * distance;
         if (round == 3)
             break;

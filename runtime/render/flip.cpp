@@ -1,4 +1,5 @@
-// FLIP and HDR-FLIP: filters pictures by what the eye resolves, then compares colors, edges and points.
+// Computes FLIP and HDR-FLIP: filters pictures by the resolution of the eye, then compares colors, edges and
+// points.
 
 #include "prt/flip.h"
 
@@ -25,10 +26,11 @@ constexpr float kColorExponent = 0.7f;         ///< q_c
 constexpr float kKnee = 0.4f, kAtKnee = 0.95f; ///< p_c, p_t
 constexpr float kFeatureExponent = 0.5f;       ///< q_f
 constexpr float kFeatureWidth = 0.082f;        ///< w, degrees
-constexpr double kShown = 0.85;                ///< t: level at which exposures show a luminance
-constexpr double kDarkestMedian = 0x1p-20;     ///< over the brightest pixel; the papers set no limit
+constexpr double kShown = 0.85;                ///< t: level to which exposures map a luminance
+constexpr double kDarkestMedian = 0x1p-20;     ///< relative to the brightest pixel; the papers define no
+                                               ///< limit
 
-/// Linear Rec. 709 to CIE XYZ (IEC 61966-2-1); columns are red, green, blue.
+/// Matrix from linear Rec. 709 to CIE XYZ (IEC 61966-2-1); the columns are red, green, blue.
 const glm::mat3 kToXyz(0.41238656f, 0.21263682f, 0.01933062f, 0.35759149f, 0.71518298f, 0.11919716f,
                        0.18045049f, 0.0721802f, 0.95037259f);
 
@@ -36,7 +38,7 @@ glm::vec3 white() {
     return kToXyz * glm::vec3(1);
 }
 
-/// A linear opponent space: L*, and red-green and blue-yellow, without the cube roots of CIELab.
+/// Converts to a linear opponent space: L*, red-green and blue-yellow, without the cube roots of CIELab.
 glm::vec3 to_opponent(const glm::vec3& rgb) {
     const glm::vec3 v = kToXyz * rgb / white();
     return {116 * v.y - 16, 500 * (v.x - v.y), 200 * (v.y - v.z)};
@@ -48,7 +50,7 @@ glm::vec3 from_opponent(const glm::vec3& c) {
     return to_rgb * (glm::vec3(y + c.y / 500, y, y - c.z / 200) * white());
 }
 
-/// CIELab, whose chroma counts less where it is dark (Hunt effect).
+/// Converts to CIELab with chroma reduced in dark regions (Hunt effect).
 glm::vec3 hunt_adjusted_lab(const glm::vec3& rgb) {
     const auto root = [](float t) {
         constexpr float kDelta = 6.0f / 29;
@@ -59,13 +61,13 @@ glm::vec3 hunt_adjusted_lab(const glm::vec3& rgb) {
     return {lightness, 0.01f * lightness * 500 * (x - y), 0.01f * lightness * 200 * (y - z)};
 }
 
-/// Abasi et al. (2020): city-block distance of lightness and chroma.
+/// Returns the HyAB distance (Abasi et al., 2020): city-block distance of lightness and chroma.
 float hyab(const glm::vec3& a, const glm::vec3& b) {
     const glm::vec3 d = a - b;
     return std::abs(d.x) + std::sqrt(d.y * d.y + d.z * d.z);
 }
 
-/// Maps the distance to 0..1, the greatest one of the gamut (green to blue) to 1.
+/// Maps the distance to 0..1; the maximum of the gamut (green to blue) maps to 1.
 float redistributed(float distance) {
     static const float most =
         std::pow(hyab(hunt_adjusted_lab({0, 1, 0}), hunt_adjusted_lab({0, 0, 1})), kColorExponent);
@@ -77,7 +79,7 @@ float redistributed(float distance) {
 /// A filter along one axis, [2 radius + 1].
 using Kernel = std::vector<float>;
 
-/// Values of exp(-x² / (2 sd²)), without a norm.
+/// Returns values of exp(-x² / (2 sd²)), not normalised.
 Kernel gaussian(float standard_deviation, int radius) {
     Kernel kernel;
     for (int x = -radius; x <= radius; ++x)
@@ -99,7 +101,7 @@ float sum_of(const Kernel& kernel) {
     return sum;
 }
 
-/// A filter of some of the channels: outer products of kernels along x and y, added up.
+/// A separable filter: the outer product of kernels along x and y.
 struct Separable {
     Kernel along_x, along_y;
 };
@@ -124,7 +126,7 @@ struct Plane {
     }
 };
 
-/// Beyond its borders a picture goes on with the pixel at the border.
+/// Filters a plane; pixels beyond the border repeat the border pixel.
 Plane filtered(const Plane& plane, const Separable& filter, int threads) {
     Plane across{plane.width, plane.height, std::vector<float>(plane.values.size())}, result = across;
     const auto pass = [&](const Plane& from, Plane& to, const Kernel& kernel, int dx, int dy) {
@@ -151,7 +153,7 @@ struct Sensitivity {
 constexpr std::array<Sensitivity, 3> kSensitivities = {
     {{1, 0.0047f, 0, 1e-5f}, {1, 0.0053f, 0, 1e-5f}, {34.1f, 0.04f, 13.5f, 0.025f}}};
 
-/// One channel through the contrast sensitivity of the eye, of sum 1.
+/// Filters one channel with the contrast sensitivity of the eye, normalised to sum 1.
 Plane as_seen(const Plane& plane, const Sensitivity& s, const FlipOptions& options) {
     const auto deviation = [&](float b) {
         return options.pixels_per_degree * std::sqrt(b / (2 * kPi * kPi));
@@ -179,7 +181,8 @@ struct FeatureKernels {
     Kernel smooth, first, second; ///< a Gaussian and its derivatives
 };
 
-/// Derivatives whose positive values add up to 1 and negative ones to -1, smoothed across to sum 1.
+/// Returns the kernels. The positive values of each derivative sum to 1 and the negative ones to -1; the
+/// smoothing kernel sums to 1.
 FeatureKernels feature_kernels(float pixels_per_degree) {
     const float deviation = std::max(0.5f * kFeatureWidth * pixels_per_degree, 1e-3f);
     const int radius = std::max(1, static_cast<int>(std::ceil(3 * deviation)));
@@ -201,7 +204,7 @@ FeatureKernels feature_kernels(float pixels_per_degree) {
     return kernels;
 }
 
-/// Strength of edges or points of a lightness in 0..1, [height][width].
+/// Returns the strength of edges or points of a lightness in 0..1, [height][width].
 std::vector<float> features(const Plane& lightness, const FeatureKernels& kernels, const Kernel& derivative,
                             int threads) {
     const Plane x = filtered(lightness, {derivative, kernels.smooth}, threads),
@@ -212,7 +215,7 @@ std::vector<float> features(const Plane& lightness, const FeatureKernels& kernel
     return strength;
 }
 
-/// The parts of one picture that are compared.
+/// Features of one picture for the comparison.
 struct SeenPicture {
     std::vector<glm::vec3> lab; ///< after the contrast sensitivity
     std::vector<float> edges, points;
@@ -249,13 +252,13 @@ void check_sizes(const Image& reference, const Image& test) {
         throw Error("a picture without pixels cannot be compared");
 }
 
-/// The tone curve that HDR-FLIP looks through: the fit of Narkowicz (2016) after a factor of 0.6.
+/// Returns the tone curve of HDR-FLIP: the fit of Narkowicz (2016) after a factor of 0.6.
 float tone_curve(float x) {
     const float v = 0.6f * x;
     return std::clamp(v * (2.51f * v + 0.03f) / (v * (2.43f * v + 0.59f) + 0.14f), 0.0f, 1.0f);
 }
 
-/// Input at which that curve is `kShown`.
+/// Returns the input at which the tone curve is `kShown`.
 double input_of_shown() {
     const double a = 2.51 - kShown * 2.43, b = 0.03 - kShown * 0.59, c = -kShown * 0.14;
     return (-b + std::sqrt(b * b - 4 * a * c)) / (2 * a) / 0.6;
@@ -264,7 +267,7 @@ double input_of_shown() {
 Image exposed(const Image& image, double stops) {
     Image result = image;
     for (glm::vec3& pixel : result.pixels)
-        for (int c = 0; c < 3; ++c) // far beyond white the curve is flat
+        for (int c = 0; c < 3; ++c) // far above white the curve is constant
             pixel[c] = tone_curve(static_cast<float>(
                 std::min(1e6, static_cast<double>(std::max(0.0f, pixel[c])) * std::exp2(stops))));
     return result;

@@ -1,4 +1,4 @@
-// Words of texels as PNG images.
+// Stores words of texels as PNG images.
 
 #include "prt/lightmap_file.h"
 
@@ -21,7 +21,7 @@ std::vector<std::byte> word_png(const LightmapSize& size, std::span<const std::u
     return encode_png(size.width, size.height, pixels);
 }
 
-/// Throws unless the pixels of an image are words of a map: what is asked before they are unpacked.
+/// Throws `Error` unless the image has the format and size of the words of a map; called before decoding.
 void check_word_image(std::span<const std::byte> png, const LightmapSize& size) {
     if (!is_png_of_bytes(png))
         throw Error("is no PNG of 8 bits in each of red, green, blue and alpha");
@@ -32,7 +32,7 @@ void check_word_image(std::span<const std::byte> png, const LightmapSize& size) 
                     std::to_string(size.height) + " texels");
 }
 
-/// Reads word `word` of all texels of a map, whose first is `first`.
+/// Reads word `word` of all texels of a map, whose first texel is `first`.
 void read_word(std::span<const std::byte> png, const LightmapSize& size, std::size_t first, int word,
                ClusteredReceivers& receivers) {
     check_word_image(png, size);
@@ -95,7 +95,7 @@ std::optional<CompressedLightmap> read_compressed_lightmap(const GltfDocument& d
 
 namespace {
 
-/// Receiver `from` of one as receiver `to` of another.
+/// Copies receiver `from` of `source` to receiver `to` of `target`.
 void copy_receiver(const ClusteredReceivers& source, std::size_t from, ClusteredReceivers& target,
                    std::size_t to) {
     target.clusters[to] = source.clusters[from];
@@ -114,8 +114,8 @@ ClusteredReceivers room_for(std::size_t count, const ClusteredReceivers& like) {
     return receivers;
 }
 
-/// Calls `visit` with every texel and the receiver, by its place in `texels`, that it is or that lies near
-/// it. A map without receivers is left out.
+/// Calls `visit` with every texel and the index in `texels` of its receiver, or of a near receiver. Maps
+/// without receivers are skipped.
 template <class Visit>
 void for_each_texel(const LightmapLayout& layout, std::span<const std::uint32_t> texels, Visit&& visit) {
     const std::vector<std::size_t> first = layout.first_texels();

@@ -1,3 +1,4 @@
+// Samples lightmaps at surface points.
 #include "prt/lightmap_lookup.h"
 
 #include <algorithm>
@@ -12,7 +13,7 @@ glm::vec3 mean(const BilinearTexels& filter, std::span<const glm::vec3> values) 
     return sum;
 }
 
-/// At texture coordinates of a map, whose first texel is `first`.
+/// Returns the bilinear sample at texture coordinates of a map, whose first texel is `first`.
 BilinearTexels filter_at(const LightmapSize& map, std::size_t first, const glm::vec2& uv) {
     BilinearTexels filter =
         bilinear_texels(map, static_cast<double>(uv.x) * map.width, static_cast<double>(uv.y) * map.height);

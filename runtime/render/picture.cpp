@@ -1,4 +1,4 @@
-// What any renderer checks of a picture.
+// Background and emission of pictures, for all renderers.
 #include "prt/picture.h"
 
 #include <algorithm>

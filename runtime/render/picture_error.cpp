@@ -1,4 +1,4 @@
-// Compares pictures with path tracing.
+// Compares pictures with path-traced references.
 
 #include "prt/picture_error.h"
 
@@ -49,7 +49,8 @@ namespace {
 struct Block {
     std::size_t pixels = 0;
     double first = 0, second = 0, picture = 0,
-           product = 0; ///< of the halves, of the picture, of (p - a)(p - b)
+           product = 0; ///< sums of a, of b, of p, and of (p - a)(p - b), with a and b the halves and p the
+                        ///< picture
 
     double reference() const { return 0.5 * (first + second) / static_cast<double>(pixels); }
 };
@@ -80,7 +81,7 @@ std::vector<Block> blocks_of(const Image& picture, const std::array<Image, 2>& h
     return blocks;
 }
 
-/// Adaptation to the blocks, each by its pixels.
+/// Returns the adaptation luminance of the blocks, weighted by their number of pixels.
 double adaptation_to(const std::vector<Block>& blocks) {
     std::vector<double> luminances;
     std::vector<float> pixels;

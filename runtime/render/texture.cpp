@@ -1,4 +1,4 @@
-// Mip chains by box filter, trilinear filtering, and the images that a scene needs.
+// Computes mip chains by a box filter, filters trilinearly, and loads the images that a scene needs.
 #include "prt/texture.h"
 
 #include "prt/image_size.h"
@@ -88,7 +88,7 @@ glm::vec4 bilinear(const Texture& texture, std::size_t level, const TextureUse& 
                     glm::mix(value(x0, y1), value(x1, y1), x - fx), y - fy);
 }
 
-/// Formats that glTF extensions bring and that decode_image does not know, by their first bytes.
+/// Throws `Error` for formats of glTF extensions that decode_image does not support, by their first bytes.
 void check_format(std::span<const std::byte> file) {
     const std::string_view text(reinterpret_cast<const char*>(file.data()), file.size());
     const char* format = text.starts_with("\xABKTX 20") ? "KTX 2"
@@ -136,7 +136,8 @@ std::map<int, TextureEncoding> needed_images(const Scene& scene, TextureNeeds ne
             add(m.base_color_texture, TextureEncoding::srgb);
         add(m.emission.texture, TextureEncoding::srgb);
         if (leaf) {
-            add(m.transmission.factor_texture, TextureEncoding::srgb); // a number, but in alpha
+            add(m.transmission.factor_texture, TextureEncoding::srgb); // linear data, but in the alpha
+                                                                       // channel
             add(m.transmission.color_texture, TextureEncoding::srgb);
         }
         if (m.glass.factor > 0 && needs != TextureNeeds::pictures)
@@ -149,8 +150,8 @@ std::map<int, TextureEncoding> needed_images(const Scene& scene, TextureNeeds ne
 
 namespace {
 
-/// Throws `Error` where what `images` claim is more than the scene's images can be given together: as much as
-/// one image may take, in a file as large as all of theirs.
+/// Throws `Error` if the sizes in the headers of `images` exceed the memory limit for all images of the scene
+/// together: the limit of one image in a file with the size of all files.
 void check_memory(const Scene& scene, const std::map<int, TextureEncoding>& images) {
     constexpr std::uint64_t kFree = std::uint64_t{192} << 20, kPerByte = 64, kBytesPerTexel = 6;
     std::uint64_t bytes = 0, texels = 0;
@@ -161,7 +162,7 @@ void check_memory(const Scene& scene, const std::map<int, TextureEncoding>& imag
                 const ImageSize size = image_size(file);
                 bytes += file.size();
                 texels += static_cast<std::uint64_t>(size.width) * static_cast<std::uint64_t>(size.height);
-            } catch (const Error&) { // told, or ignored, when it is decoded
+            } catch (const Error&) { // reported, or ignored, when the image is decoded
             }
     if (texels * kBytesPerTexel > kFree + kPerByte * bytes)
         throw Error("its images claim " + std::to_string(texels) + " pixels in files of " +

@@ -1,4 +1,4 @@
-// Tone mapping: the rational fit of Narkowicz (2016) to the ACES curve, and averages over samples.
+// Tone mapping by the rational fit of Narkowicz (2016) to the ACES curve, and averaging of samples.
 #include "prt/tone_map.h"
 
 #include "prt/color.h"
@@ -30,7 +30,7 @@ Image empty_smaller(const Image& image, int samples) {
 } // namespace
 
 float automatic_exposure(const Light& light) {
-    // Mean radiance over the sphere is L_0 Y_00.
+    // The mean radiance over the sphere is L_0 Y_00.
     const float mean = luminance(light.coefficients[0] * static_cast<float>(kY00));
     return mean > 0 ? 0.25f / mean : 1.0f;
 }

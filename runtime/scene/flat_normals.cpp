@@ -1,4 +1,4 @@
-// Normals of triangles for vertices that have none.
+// Computes normals of triangles for vertices without normals.
 #include "flat_normals.h"
 
 #include "triangle_normal.h"
@@ -54,7 +54,7 @@ void split_for_flat_normals(VertexArray& vertices, std::vector<glm::uvec3>& tria
 
 std::size_t replace_zero_normals(Scene& scene) {
     const auto is_zero = [](const glm::vec3& normal) { return normal == glm::vec3(0); };
-    std::vector<std::vector<glm::dvec3>> sums(scene.vertex_arrays.size()); // empty where none is zero
+    std::vector<std::vector<glm::dvec3>> sums(scene.vertex_arrays.size()); // empty if no normal is zero
     for (std::size_t array = 0; array < sums.size(); ++array) {
         const std::vector<glm::vec3>& normals = scene.vertex_arrays[array].normals;
         if (std::any_of(normals.begin(), normals.end(), is_zero))

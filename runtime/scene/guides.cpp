@@ -1,4 +1,4 @@
-// Normals and positions of vertices as the coordinates of guides.
+// Computes predictor coordinates from normals and positions of vertices.
 #include "prt/guides.h"
 
 namespace prt {

@@ -1,3 +1,4 @@
+// Transmission properties of materials.
 #include "prt/light_passing.h"
 
 #include "prt/color.h"
@@ -9,7 +10,7 @@ namespace prt {
 
 float glass_transmittance(const Material& material) {
     const float tint = luminance(glm::vec3(material.base_color));
-    return material.glass.factor * std::min(tint, 1.0f); // the weights may round to more than 1
+    return material.glass.factor * std::min(tint, 1.0f); // the luminance weights may round to a sum above 1
 }
 
 bool has_medium(const Material& material) {

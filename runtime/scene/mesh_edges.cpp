@@ -1,4 +1,4 @@
-// The edges of a scene's triangles.
+// Collects the edges of a scene's triangles.
 #include "prt/mesh_edges.h"
 
 namespace prt {

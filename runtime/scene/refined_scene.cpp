@@ -1,4 +1,4 @@
-// A finer scene in memory.
+// Applies a refinement to a scene in memory.
 #include "prt/refinement.h"
 
 #include "triangle_normal.h"
@@ -52,7 +52,7 @@ Scene refined(const Scene& scene, const Refinement& refinement) {
             append_means(set, midpoints);
         append_means(vertices.colors, midpoints);
         if (!midpoints.empty())
-            vertices.source.clear(); // the file has no vertex for them
+            vertices.source.clear(); // the file has no vertices for midpoints
         vertices.first_receiver = first;
         first += vertices.size();
     }

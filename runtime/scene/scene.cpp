@@ -1,4 +1,4 @@
-// Facts of a scene: areas, bounds and the hash of its receivers.
+// Properties of a scene: areas, bounds and the hash of its receivers.
 #include "prt/scene.h"
 
 #include "triangle_normal.h"
@@ -46,7 +46,7 @@ std::vector<float> receiver_areas(const Scene& scene) {
 }
 
 std::string receivers_id(const Scene& scene) {
-    std::uint64_t sum = 0; // so that the order of the vertices does not matter
+    std::uint64_t sum = 0; // a sum, so that the order of the vertices does not matter
     for (const VertexArray& vertices : scene.vertex_arrays)
         for (std::size_t i = 0; i < vertices.size(); ++i) {
             std::uint64_t hash = 0xcbf29ce484222325; // FNV-1a, 64 bits, a word at a time
@@ -57,7 +57,8 @@ std::string receivers_id(const Scene& scene) {
                 add(vertices.positions[i][axis]);
                 add(vertices.normals[i][axis]);
             }
-            // Low bits of a product depend on low bits alone; without this, sums of close hashes are alike.
+            // Low bits of a product depend on low bits only; without this step, sums of similar hashes would
+            // be similar.
             hash = (hash ^ hash >> 32) * 0xd6e8feb86659fd93;
             sum += hash ^ hash >> 32;
         }

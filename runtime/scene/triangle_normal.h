@@ -1,5 +1,7 @@
 #pragma once
 
+// Normals of triangles.
+
 #include <glm/geometric.hpp>
 #include <glm/vec3.hpp>
 
@@ -7,7 +9,7 @@
 
 namespace prt {
 
-/// Twice the area times the unit normal, in double so that tiny triangles keep a direction.
+/// Returns twice the area times the unit normal, in double so that tiny triangles keep their direction.
 inline glm::dvec3 area_normal(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c) {
     return glm::cross(b - a, c - a);
 }

@@ -1,4 +1,4 @@
-// Refuses matrices that are no rotations.
+// Rejects matrices that are not rotations, and orthonormalises the others.
 #include "sh/checked_rotation.h"
 
 #include "prt/sh_rotation.h"
@@ -23,7 +23,7 @@ namespace {
     return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }
 
-/// What the elements of R^T R - 1 are.
+/// Elements of R^T R - 1.
 struct Deviation {
     double xx, yy, zz, xy, yz, xz;
 
@@ -33,29 +33,31 @@ struct Deviation {
 
     bool within(double allowed) const {
         return std::ranges::all_of(std::array{xx, yy, zz, xy, yz, xz},
-                                   [&](double off) { return std::abs(off) <= allowed; }); // nor is NaN
+                                   [&](double off) { return std::abs(off) <= allowed; }); // false for NaN
     }
 };
 
-/// A step of Newton's iteration for the polar decomposition, R (3 - R^T R) / 2, which squares what is off.
+/// Returns a step of Newton's iteration for the polar decomposition, R (3 - R^T R) / 2, which squares the
+/// error.
 glm::dmat3 nearer_rotation(const glm::dmat3& r, const Deviation& d) {
     const glm::dvec3 &x = r[0], &y = r[1], &z = r[2];
     return {x - 0.5 * (d.xx * x + d.xy * y + d.xz * z), y - 0.5 * (d.xy * x + d.yy * y + d.yz * z),
             z - 0.5 * (d.xz * x + d.yz * y + d.zz * z)};
 }
 
-/// Squares of what is off that a matrix of doubles has by rounding, and that one of floats has.
+/// Maximum squared error of a rotation matrix by rounding, in doubles and in floats.
 constexpr double kDoubleRounding = 1e-28, kFloatRounding = 1e-13;
 
-/// Makes `result`, a copy of `r`, a rotation where `r` is off by no more than the rounding of floats; else
-/// returns false. Of a rotation the first two columns are orthonormal and the third is their product.
+/// Makes `result`, a copy of `r`, orthonormal if the error of `r` does not exceed the rounding of floats;
+/// otherwise returns false. The third column of a rotation is the cross product of the first two, which are
+/// orthonormal.
 PRT_TWO_CLONES
 bool made_rotation(const glm::dmat3& r, glm::dmat3& result) {
     const glm::dvec3 &x = r[0], &y = r[1];
     const double xx = product(x, x) - 1, yy = product(y, y) - 1, xy = product(x, y);
     const glm::dvec3 off = r[2] - cross(x, y);
     const double squares = (xx * xx + yy * yy) + (xy * xy + product(off, off));
-    if (!(squares < kFloatRounding)) // nor is NaN
+    if (!(squares < kFloatRounding)) // true for NaN
         return false;
     if (squares >= kDoubleRounding) {
         result[0] = x - 0.5 * (xx * x + xy * y);

@@ -1,4 +1,4 @@
-// Nodes and weights of Gauss and Legendre, by Newton's method on the recurrence of the polynomials.
+// Computes Gauss-Legendre nodes and weights by Newton's method on the recurrence of the Legendre polynomials.
 #include "sh/gauss_legendre.h"
 
 #include <cmath>
@@ -8,7 +8,7 @@ namespace prt {
 
 GaussLegendre::GaussLegendre(int n) {
     for (int i = 0; i < n; ++i) {
-        // Newton's method on P_n from an estimate that lies next to the root.
+        // Newton's method on P_n from an estimate close to the root.
         double t = std::cos(std::numbers::pi * (i + 0.75) / (n + 0.5));
         double derivative = 0;
         for (int iteration = 0; iteration < 100; ++iteration) {

@@ -1,5 +1,7 @@
 #pragma once
 
+// Gauss-Legendre quadrature.
+
 #include <vector>
 
 namespace prt {

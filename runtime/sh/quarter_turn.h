@@ -1,9 +1,9 @@
 #pragma once
 
-// The real spherical harmonics turned by 90 degrees about x, at compile time. By the recursion of J. Ivanic
+// Rotation of real spherical harmonics by 90 degrees about x, at compile time, by the recursion of J. Ivanic
 // and K. Ruedenberg, "Rotation Matrices for Real Spherical Harmonics. Direct Determination by Recursion", J.
 // Phys. Chem. 1996, 100, 6342, table 2 with the additions and corrections of 1998. Their basis has no
-// Condon-Shortley phase; ours differs by (-1)^m in rows and columns.
+// Condon-Shortley phase; the basis of prtkit differs by (-1)^m in rows and columns.
 
 #include "prt/sh_basis.h"
 
@@ -12,12 +12,12 @@
 
 namespace prt {
 
-/// Elements of bands l < kMaxOrder, band after band, each (2l+1)² with rows m = -l..l of the result.
+/// Elements of bands l < kMaxOrder, band by band, each (2l+1)² with rows m = -l..l of the result.
 class QuarterTurn {
 public:
     constexpr QuarterTurn() {
         values_[0] = 1;
-        // Band 1 is the rotation itself, in the order (y, z, x): y goes to z, z to -y.
+        // Band 1 is the rotation itself, in the order (y, z, x): y becomes z, z becomes -y.
         values_[offset(1) + 1] = -1;
         values_[offset(1) + 3] = 1;
         values_[offset(1) + 8] = 1;
@@ -32,12 +32,12 @@ public:
                     if (double& v =
                             values_[offset(l) + static_cast<std::size_t>((m + l) * (2 * l + 1) + n + l)];
                         v < 1e-14 && v > -1e-14)
-                        v = 0; // three quarters are: x stays, y and z change places
+                        v = 0; // three quarters are zero: x is unchanged, y and z are exchanged
                     else if ((m + n) % 2 != 0)
                         v = -v;
     }
 
-    /// Element of band l, row and column 0..2l.
+    /// Returns an element of band l, row and column 0..2l.
     constexpr double at(std::size_t l, std::size_t row, std::size_t column) const {
         return values_[offset(static_cast<int>(l)) + row * (2 * l + 1) + column];
     }

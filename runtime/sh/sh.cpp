@@ -1,4 +1,4 @@
-// The SH basis in one or many directions, the lobe of the clamped cosine, and windows.
+// Evaluates the SH basis in one or many directions, the clamped-cosine lobe, and windows.
 #include "prt/sh.h"
 
 #include "prt/support/error.h"
@@ -22,7 +22,7 @@ void check_order(int order) {
 
 namespace {
 
-/// Orders above this share the code of the highest.
+/// Orders above this use the code of the maximum order.
 constexpr int kMostUsualOrder = 6;
 
 PRT_TWO_CLONES
@@ -46,7 +46,8 @@ void evaluate_sh(int order, const glm::vec3& direction, std::span<float> basis) 
     std::copy_n(all.begin(), count, basis.begin());
 }
 
-/// Where precision counts and speed does not, one piece of code for the highest order serves all.
+/// Precision matters more than speed here: one instance of the code, for the maximum order, serves all
+/// orders.
 void evaluate_sh(int order, const glm::dvec3& direction, std::span<double> basis) {
     const auto count = static_cast<std::size_t>(coefficient_count(order));
     assert(basis.size() >= count);
@@ -57,10 +58,10 @@ void evaluate_sh(int order, const glm::dvec3& direction, std::span<double> basis
 
 namespace {
 
-/// Up to kLaneCount directions; the values of each coefficient go `stride` apart.
+/// Evaluates up to kLaneCount directions; `stride` is the distance in floats between successive coefficients.
 ///
-/// The recurrence stands here beside `sh_basis`, with the order known at run time only: `sh_basis` for ten
-/// orders and three widths of vectors is 213 kB of code instead of 10 (GCC 12, -O2).
+/// The recurrence duplicates `sh_basis` with a run-time order: `sh_basis` for ten orders and three vector
+/// widths is 213 kB of code instead of 10 (GCC 12, -O2).
 [[gnu::always_inline]] inline void evaluate_lanes(int order, const glm::vec3* directions, std::size_t count,
                                                   float* basis, std::size_t stride) {
     constexpr auto& k = detail::kLegendre;
@@ -78,7 +79,7 @@ namespace {
             for (std::size_t lane = 0; lane < count; ++lane)
                 to[lane] = value[lane];
     };
-    Lanes cosine = x, sine = y; // as in sh_basis
+    Lanes cosine = x, sine = y; // sin^m cos(m phi), sin^m sin(m phi)
     for (int m = 0; m < order; ++m) {
         const auto mi = static_cast<std::size_t>(m);
         if (m > 1) {
@@ -154,7 +155,7 @@ double lanczos_window(int l, double width) {
     const double t = pi * l / width;
     if (!(l < width))
         return 0;
-    return t > 0 ? std::sin(t) / t : 1; // endlessly wide
+    return t > 0 ? std::sin(t) / t : 1; // infinite width
 }
 
 } // namespace prt

@@ -1,4 +1,4 @@
-// Lighting between prtkit, three.js, glTF and D3DX (docs/conventions.md).
+// Converts lighting between prtkit, three.js, glTF and D3DX (docs/conventions.md).
 #include "prt/sh_conventions.h"
 
 #include "light/finite_light.h"
@@ -24,7 +24,7 @@ void flip(int order, std::span<Value> coefficients) {
 
 constexpr int kBands = 3;
 
-/// Factor of band l from radiance to irradiance.
+/// Returns the factor of band l from radiance to irradiance.
 float irradiance_factor(int l) {
     return static_cast<float>(std::numbers::pi * clamped_cosine_factor(l));
 }

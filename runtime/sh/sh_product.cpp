@@ -1,5 +1,5 @@
-// Products of functions on the sphere at the nodes of a product quadrature: Gauss-Legendre in the cosine of
-// the polar angle, equal steps of the azimuth. The nodes of one azimuth are the lanes of one vector.
+// Multiplies functions on the sphere at the nodes of a product quadrature: Gauss-Legendre in the cosine of
+// the polar angle, uniform in the azimuth. The nodes of one azimuth are the lanes of one vector.
 
 #include "prt/sh.h"
 #include "prt/sh_vector.h"
@@ -19,14 +19,14 @@ namespace {
 
 using std::numbers::pi;
 
-/// Rings of an order: as many nodes in the cosine of the polar angle as integrate a · b · Y_lm.
+/// Number of rings (nodes in the cosine of the polar angle) that integrate a · b · Y_lm exactly.
 constexpr int ring_count(int order) {
     return 3 * (order - 1) / 2 + 1;
 }
 constexpr int azimuth_count(int order) {
     return 3 * (order - 1) + 1;
 }
-/// Azimuths from 0 to pi; the others mirror them.
+/// Number of azimuths from 0 to pi; the others mirror them.
 constexpr int half_count(int order) {
     return azimuth_count(order) / 2 + 1;
 }
@@ -46,13 +46,13 @@ struct RingsOf<double, 16> {
     using type [[gnu::vector_size(128)]] = double;
 };
 
-/// For one order. Rings beyond those there are have weight 0.
+/// Tables of one order. Unused rings have weight 0.
 template <class Real, int Lanes>
 struct ProductTables {
     using Rings = typename RingsOf<Real, Lanes>::type;
 
     Real legendre[kMaxOrder * kMaxOrder][Lanes] = {}; ///< at [sh_index(l, m)], m >= 0
-    Real weights[Lanes] = {};                         ///< with the step of the azimuth
+    Real weights[Lanes] = {};                         ///< including the step of the azimuth
     std::vector<Real> cosine, sine;                   ///< [half][order]
 
     explicit ProductTables(int order) {
@@ -74,7 +74,7 @@ struct ProductTables {
     }
 };
 
-/// The rings of one azimuth.
+/// Loads the rings of one azimuth.
 template <class Real, int Lanes>
 [[gnu::always_inline]] inline typename RingsOf<Real, Lanes>::type rings_at(const Real (&values)[Lanes]) {
     typename RingsOf<Real, Lanes>::type rings;
@@ -82,7 +82,7 @@ template <class Real, int Lanes>
     return rings;
 }
 
-/// Made when they are first wanted, for all orders of a width.
+/// Returns the tables of an order; those of all orders of a width are created at the first call.
 template <class Real, int Lanes>
 const ProductTables<Real, Lanes>& tables_of(int order) {
     static const std::vector<ProductTables<Real, Lanes>> all = [] {
@@ -94,7 +94,7 @@ const ProductTables<Real, Lanes>& tables_of(int order) {
     return all[static_cast<std::size_t>(order - 1)];
 }
 
-/// A function at all nodes: at azimuth j and at -j.
+/// Values of a function at all nodes: at azimuth j and at -j.
 template <class Real, int Lanes>
 struct Nodes {
     typename ProductTables<Real, Lanes>::Rings plus[half_count(kMaxOrder)], minus[half_count(kMaxOrder)];
@@ -132,7 +132,7 @@ template <class Real, int Lanes>
     Rings cosine[kMaxOrder] = {}, sine[kMaxOrder] = {};
     const Real *cosines = t.cosine.data(), *sines = t.sine.data();
     for (int j = 0; j < half_count(order); ++j, cosines += order, sines += order) {
-        const bool alone = j == 0 || 2 * j == azimuth_count(order); // 0, and pi where there is one
+        const bool alone = j == 0 || 2 * j == azimuth_count(order); // azimuth 0, and pi if it is a node
         const Rings even = alone ? at.plus[j] : at.plus[j] + at.minus[j];
         const Rings odd = alone ? Rings{} : at.plus[j] - at.minus[j];
         for (int m = 0; m < order; ++m) {
@@ -168,8 +168,8 @@ template <class Real, int Lanes>
     from_nodes(order, t, first, out);
 }
 
-/// Row k of the product of two functions of Order bands, from the pairs a_i b_j + a_j b_i. Zeros take no
-/// time.
+/// Computes row k of the product of two functions of Order bands, from the pairs a_i b_j + a_j b_i. Zero
+/// factors cost no time.
 template <int Order, std::size_t K, class Real>
 [[gnu::always_inline]] inline Real triple_row(const Real* pairs) {
     constexpr std::size_t kCount = Order * Order;
@@ -189,7 +189,7 @@ template <int Order, std::size_t K, class Real>
     return sum;
 }
 
-/// By the table of triple products, which in few bands is short.
+/// Multiplies by the table of triple products, which is short for few bands.
 template <int Order, class Real>
 [[gnu::always_inline]] inline void short_product(const Real* a, const Real* b, Real* out) {
     constexpr std::size_t kCount = Order * Order;

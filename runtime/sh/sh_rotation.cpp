@@ -1,4 +1,5 @@
-// Rotation of SH: bands 1 and 2 directly, others by turns about z and quarter turns (docs/math.md, eq. 4).
+// Rotates SH: bands 1 and 2 directly, higher bands by rotations about z and quarter turns (docs/math.md, eq.
+// 4).
 #include "prt/sh_rotation.h"
 
 #include "prt/sh.h"
@@ -22,10 +23,10 @@ namespace {
 using Turn = ShRotation::Turn;
 using Turns = ShRotation::Turns;
 
-/// Three channels and one that is idle.
+/// Three channels and one unused lane.
 using Channels [[gnu::vector_size(sizeof(double) * 4)]] = double;
 
-/// Band l about z; `c` points at its coefficient of m = 0.
+/// Rotates band l about z; `c` points to the coefficient of m = 0.
 template <class Value>
 [[gnu::always_inline]] inline void turn_about_z(int l, const Turn& turn, Value* c) {
 #pragma GCC unroll 5
@@ -38,7 +39,8 @@ template <class Value>
     }
 }
 
-/// Row `Row` of a band's quarter turn about x, or of its inverse, times `c`. Zeros take no time.
+/// Multiplies row `Row` of a band's quarter turn about x, or of its inverse, with `c`. Zero factors cost no
+/// time.
 template <bool Inverse, std::size_t L, std::size_t Row, class Value, std::size_t... Column>
 [[gnu::always_inline]] inline Value turned_row(const Value* c, std::index_sequence<Column...>) {
     Value sum{};
@@ -71,10 +73,10 @@ template <std::size_t L, class Value>
     turn_about_z(l, turns.last, c + L);
 }
 
-/// The quarter turns of the bands that games hardly use, element by element: their code would be as long as
-/// that of the whole rest.
+/// Bands from this one on use lists of elements. Games rarely use them, and unrolled code would double the
+/// code size.
 constexpr int kFirstListedBand = 6;
-/// Those below come from the elements of the matrix.
+/// Lower bands are computed from the elements of the matrix.
 constexpr int kFirstTurnedBand = 3;
 
 struct Element {
@@ -91,7 +93,7 @@ consteval std::size_t listed_elements() {
     return count;
 }
 
-/// The elements that are not zero of bands kFirstListedBand to kMaxOrder - 1, and where each band starts.
+/// The nonzero elements of bands kFirstListedBand to kMaxOrder - 1, and the start of each band.
 struct ElementList {
     std::array<Element, listed_elements()> elements{};
     std::array<std::size_t, kMaxOrder + 1> first{};
@@ -134,8 +136,8 @@ template <class Value>
     turn_about_z(l, turns.last, c + l);
 }
 
-/// Bands 1 and 2 from the elements of the matrix: a vector, and a quadratic form without a trace, in the
-/// frame that has been turned. `r` is column-major.
+/// Rotates bands 1 and 2 by the elements of the matrix, as a vector and as a traceless quadratic form. `r` is
+/// column-major.
 template <class Value>
 [[gnu::always_inline]] inline void rotate_vector(const glm::dmat3& r, Value* c) {
     const Value x = -c[3], y = -c[1], z = c[2];
@@ -149,7 +151,7 @@ template <class Value>
     constexpr double kThird = 0.57735026918962576451; // sqrt(1/3)
     const Value xy = c[4], yz = -c[5], xz = -c[7], part = kThird * c[6], xx = c[8] - part, yy = -c[8] - part,
                 zz = 2 * part;
-    // Columns of Q R^T, of which R Q R^T needs no more than five elements.
+    // Columns of Q R^T; R Q R^T then requires only five elements.
     Value q[3][3];
 #pragma GCC unroll 3
     for (int i = 0; i < 3; ++i) {
@@ -165,10 +167,10 @@ template <class Value>
     c[7] = -element(0, 2);
     const Value last = element(2, 2), first = element(0, 0);
     c[6] = (1.5 * kThird) * last;
-    c[8] = first + 0.5 * last; // (xx - yy) / 2, the trace being 0
+    c[8] = first + 0.5 * last; // (xx - yy) / 2, because the trace is 0
 }
 
-/// Band by band, so that every band's code is there once for all orders.
+/// Rotates band by band, so that the code of each band exists once for all orders.
 template <class Value>
 [[gnu::always_inline]] inline void rotate_high_bands(int order, const Turns& turns, Value* c) {
     for (int l = kFirstTurnedBand; l < std::min(order, kFirstListedBand); ++l)
@@ -190,7 +192,7 @@ void rotate(int order, const glm::dmat3& matrix, const Turns& turns, Channels* c
     rotate_high_bands(order, turns, c);
 }
 
-/// `in` and `out` hold all that the order has, and no less than 36 where it is above 3.
+/// Rotates one channel. `in` and `out` hold all coefficients of the order, and at least 36 if it is above 3.
 template <class Real>
 [[gnu::always_inline]] inline void rotate_one_channel(int order, const glm::dmat3& matrix, const Turns& turns,
                                                       const Real* in, Real* out) {
@@ -232,7 +234,7 @@ void rotate_low_bands(int order, const glm::dmat3& matrix, const Turns& turns, c
     rotate_one_channel(order, matrix, turns, in, out);
 }
 
-/// Where bands are missing, their lanes turn zeros.
+/// Rotates in a zero-padded buffer; lanes of missing bands rotate zeros.
 template <std::size_t Count, class Real>
 void rotate_padded(int order, const glm::dmat3& matrix, const Turns& turns, const Real* in, Real* out) {
     Real padded[kLaneOrder * kLaneOrder] = {};
@@ -271,7 +273,7 @@ void rotate_one(int order, const glm::dmat3& matrix, const Turns& turns, std::sp
     cosine[1] = c;
     sine[1] = s;
     const auto add = [&](int m)
-        __attribute__((always_inline)) { // from the halves, which hardly wait for each other
+        __attribute__((always_inline)) { // computed from halves, which shortens the dependency chain
         const int a = m / 2, b = m - a;
         cosine[m] = cosine[a] * cosine[b] - sine[a] * sine[b];
         sine[m] = cosine[a] * sine[b] + sine[a] * cosine[b];
@@ -283,18 +285,19 @@ void rotate_one(int order, const glm::dmat3& matrix, const Turns& turns, std::sp
         add(m);
 }
 
-/// Of a rotation that holds to rounding.
+/// Decomposes a rotation that is orthonormal to rounding.
 PRT_TWO_CLONES
 void set_turns(int order, const glm::dmat3& r, Turns& turns) {
-    // GLM is column-major: r[column][row]. The last turn takes +y's tilt plane to where z went; the first is
-    // then read from the second row of what is left, which is well conditioned even where z hardly moved.
+    // GLM is column-major: r[column][row]. The last rotation maps the tilt plane to the azimuth of the
+    // rotated z axis. The first is read from the second row of the remainder, which is well conditioned even
+    // for a small tilt.
     const double tilt = std::sqrt(r[2][0] * r[2][0] + r[2][1] * r[2][1]);
     const double inverse = tilt > 0 ? 1 / tilt : 0, cosine = tilt > 0 ? r[2][0] * inverse : 1,
                  sine = r[2][1] * inverse;
     set_turn(order, cosine * r[1][1] - sine * r[1][0], cosine * r[0][1] - sine * r[0][0], turns.first);
     set_turn(order, r[2][2], tilt, turns.tilt);
     set_turn(order, cosine, sine, turns.last);
-    turns.tilted = tilt > 0 || r[2][2] < 0; // else last is the identity
+    turns.tilted = tilt > 0 || r[2][2] < 0; // otherwise `last` is the identity
 }
 
 glm::dmat3 matrix_of(const glm::dquat& q) {

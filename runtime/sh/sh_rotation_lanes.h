@@ -1,6 +1,6 @@
 #pragma once
 
-// Rotation of bands 2 to 5 of one function.
+// Rotation of bands 2 to 5 of one function in SIMD lanes.
 
 #include "prt/sh_rotation.h"
 #include "sh/quarter_turn.h"
@@ -11,14 +11,14 @@
 
 namespace prt {
 
-/// Bands 2 to 5 side by side, one to a lane. Counted from the top, k = l - |m|, the quarter turns of all
-/// bands have their zeros in the same places.
+/// Bands 2 to 5, one per lane. Indexed by k = l - |m|, the quarter turns of all bands have their zeros at the
+/// same indices.
 using Bands [[gnu::vector_size(sizeof(double) * 4)]] = double;
 inline constexpr std::size_t kLanes = 4, kFirstLane = 2, kDegrees = kFirstLane + kLanes;
 inline constexpr int kLaneOrder = static_cast<int>(kDegrees);
 
-/// At [0][k] what belongs to m = l - k, at [1][k] what belongs to -m. Where k > l nothing does, and what
-/// stands there meets factors of 0.
+/// Coefficients of m = l - k at [0][k], and of -m at [1][k]. Entries with k > l are unused and multiplied by
+/// 0.
 struct Sides {
     Bands at[2][kDegrees];
 };
@@ -27,7 +27,7 @@ constexpr std::size_t place_in_band(std::size_t l, bool minus, std::size_t k) {
     return minus ? k : 2 * l - k;
 }
 
-/// Of the quarter turn of band l.
+/// Returns an element of the quarter turn of band l.
 template <bool Inverse>
 constexpr double lane_factor(std::size_t l, bool to_minus, std::size_t to, bool from_minus,
                              std::size_t from) {
@@ -69,7 +69,7 @@ template <bool Inverse, std::size_t... K>
     }
 }
 
-/// Bands 2 to 5 of `in` to `out`, both [36].
+/// Rotates bands 2 to 5 of `in` to `out`, both [36].
 template <class Real>
 [[gnu::always_inline]] inline void rotate_lanes(const ShRotation::Turns& turns, const Real* in, Real* out) {
     using Four [[gnu::vector_size(sizeof(Real) * kLanes)]] = Real;

@@ -1,4 +1,4 @@
-// Values of SH vectors in directions.
+// Evaluates SH vectors in directions.
 #include "prt/sh_vector.h"
 
 #include "prt/sh.h"

@@ -1,7 +1,7 @@
 #pragma once
 
-// ∫ Y_i Y_j Y_k over the sphere for the first three bands, at compile time: the functions are polynomials in
-// x, y, z, and monomials integrate in closed form.
+// Triple products ∫ Y_i Y_j Y_k over the sphere for the first three bands, at compile time: the functions are
+// polynomials in x, y, z, and monomials integrate in closed form.
 
 #include "prt/sh_basis.h"
 
@@ -51,14 +51,14 @@ private:
                  {2, {{{c / 2, 2, 0, 0}, {-c / 2, 0, 2, 0}}}}}};
     }
 
-    /// n!! of odd n, 1 for -1.
+    /// Returns n!! of odd n, 1 for -1.
     static constexpr double odd_factorial(int n) {
         double product = 1;
         for (; n > 1; n -= 2)
             product *= n;
         return product;
     }
-    /// ∫ x^a y^b z^c dw.
+    /// Returns ∫ x^a y^b z^c dw.
     static constexpr double moment(int a, int b, int c) {
         if (a % 2 != 0 || b % 2 != 0 || c % 2 != 0)
             return 0;

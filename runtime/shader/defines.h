@@ -1,6 +1,6 @@
 #pragma once
 
-// Lines of defines, and numbers as GLSL has them.
+// Formatting of define lines and GLSL literals.
 
 #include <glm/vec3.hpp>
 
@@ -21,10 +21,10 @@ inline std::string define(const char* name, std::size_t value) {
     return define(name, std::to_string(value));
 }
 
-/// `value` as GLSL, with all digits that a float has.
+/// Returns `value` as a GLSL literal with all significant digits of a float.
 inline std::string glsl_number(double value) {
     std::ostringstream text;
-    text.imbue(std::locale::classic()); // programs may have set one that writes commas
+    text.imbue(std::locale::classic()); // programs may have set a locale with decimal commas
     text << std::scientific << std::setprecision(std::numeric_limits<float>::max_digits10 - 1)
          << static_cast<float>(value);
     return text.str();

@@ -1,11 +1,13 @@
 #pragma once
 
+// Access to the embedded shader files.
+
 #include <map>
 #include <string>
 
 namespace prt {
 
-/// The files of shaders/ that were embedded, by name.
+/// Returns the embedded files of shaders/ by name.
 const std::map<std::string, std::string>& embedded_files();
 
 } // namespace prt

@@ -1,3 +1,4 @@
+// Builds the shaders of instances that share transfer.
 #include "prt/instance_shader.h"
 
 #include "prt/support/error.h"

@@ -1,3 +1,4 @@
+// Builds the shaders of lobes.
 #include "prt/lobe_shader.h"
 
 #include "defines.h"

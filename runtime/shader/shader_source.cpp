@@ -1,4 +1,4 @@
-// Puts shaders together: version, defines, and files with their includes in place.
+// Assembles shaders: version line, defines, and files with expanded includes.
 
 #include "prt/shader_source.h"
 
@@ -58,7 +58,7 @@ std::string guide_defines(const ClusteredBases& bases, const glm::dvec3& seen_fr
     return text;
 }
 
-/// How the weights of a receiver lie in vertex attributes.
+/// Returns defines for the layout of weights in vertex attributes.
 std::string weight_defines(const ClusteredTransfer& transfer) {
     const ClusteredReceivers& receivers = transfer.receivers;
     if (receivers.format == WeightFormat::packed) {
@@ -76,7 +76,7 @@ std::string weight_defines(const ClusteredTransfer& transfer) {
     return define("PRT_WEIGHT_VECTORS", static_cast<std::size_t>(receivers.components / 4));
 }
 
-/// What spares the shader a loop over the weights and the table of clusters.
+/// Returns defines that replace the loop over weights and the cluster table in the shader.
 std::string same_weight_defines(const ClusteredTransfer& transfer) {
     const ClusteredBases& bases = transfer.bases;
     if (!clusters_are_alike(bases))
@@ -113,11 +113,12 @@ std::string shader_source(std::string_view name, std::string_view defines, Shade
 
 int most_vertex_components(const ClusteredBases& bases) {
     return 4 * (bases.guides.empty() ? kMostWeightVectors : kMostWeightVectors - 1); // normals take the last
+                                                                                     // location
 }
 
 std::string relight_defines(const ClusteredTransfer& transfer, ConstantSource constants,
                             ShaderLanguage language, const glm::dvec3& seen_from) {
-    // One by one: the first refuses what the second could not read.
+    // In this order: the first call rejects transfer that the second cannot process.
     std::string text = weight_defines(transfer);
     text += same_weight_defines(transfer);
     text += guide_defines(transfer.bases, seen_from);

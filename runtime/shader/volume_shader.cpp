@@ -1,3 +1,4 @@
+// Builds the shaders of volumes.
 #include "prt/volume_shader.h"
 
 #include "defines.h"

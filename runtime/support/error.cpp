@@ -1,4 +1,4 @@
-// Messages of other libraries as one line.
+// Formats messages of other libraries as one line.
 #include "prt/support/error.h"
 
 #include <algorithm>

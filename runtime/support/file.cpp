@@ -1,4 +1,4 @@
-// Reading files whole.
+// Reads complete files.
 #include "prt/support/file.h"
 
 #include "prt/support/error.h"

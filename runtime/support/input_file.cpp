@@ -1,4 +1,4 @@
-// Reading what may be no file: nothing here waits for ever or reads without end.
+// Reads regular files and pipes with limits on time and size.
 #include "support/input_file.h"
 
 #include "prt/support/error.h"
@@ -23,7 +23,8 @@ constexpr std::chrono::milliseconds kPatience(3000), kPause(10);
 } // namespace
 
 InputFile::InputFile(const std::filesystem::path& path)
-    : descriptor_(::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK)) { // else a pipe waits for a writer
+    : descriptor_(::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK)) { // O_NONBLOCK: otherwise opening
+                                                                             // a pipe waits for a writer
     if (descriptor_ < 0)
         throw Error(std::strerror(errno));
     struct stat status = {};
@@ -41,7 +42,7 @@ InputFile::~InputFile() {
     ::close(descriptor_);
 }
 
-/// 0 at the end. A pipe that nobody has opened for writing reads as one that ended, and gets a little time.
+/// Returns 0 at the end. A pipe without a writer reads as if it had ended; it gets a short grace period.
 std::size_t InputFile::read_some(std::byte* to, std::size_t size) {
     for (auto waited = kPause;; waited += kPause) {
         const ssize_t count = ::read(descriptor_, to, size);

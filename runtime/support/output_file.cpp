@@ -1,5 +1,5 @@
-// Files are written without a name, or under a hidden one, and named when they are whole, so that none is
-// ever half there, whatever ends the process.
+// Writes files without a name, or under a hidden one, and names them when they are complete. No partial file
+// remains, however the process ends.
 #include "prt/support/error.h"
 #include "prt/support/file.h"
 
@@ -24,21 +24,21 @@ namespace {
 
 using Path = std::filesystem::path;
 
-constexpr mode_t kMode = 0666; // less what the user's mask takes
+constexpr mode_t kMode = 0666; // reduced by the user's umask
 
 std::string descriptor_path(int descriptor) {
     return "/proc/self/fd/" + std::to_string(descriptor);
 }
 
-/// Whether `path` stands for an open descriptor, as /dev/fd/1 does, not for a name.
+/// Returns whether `path` refers to an open descriptor, such as /dev/fd/1, rather than a name.
 bool is_descriptor(const Path& path) {
     std::error_code error;
     const Path folder = std::filesystem::canonical(path.parent_path(), error);
     return !error && folder.filename() == "fd" && folder.string().starts_with("/proc/");
 }
 
-/// What hidden names beside `target` begin with: short, and the same in every run (Fowler, Noll and Vo's
-/// hash).
+/// Returns the prefix of hidden names in the folder of `target`: short, and identical in every run
+/// (Fowler-Noll-Vo hash).
 std::string hidden_prefix(const Path& target) {
     std::uint64_t hash = 0xcbf29ce484222325;
     for (const char c : target.filename().string())
@@ -54,7 +54,7 @@ Path hidden_name(const Path& target) {
            (hidden_prefix(target) + std::to_string(::getpid()) + "-" + std::to_string(++count));
 }
 
-/// Whoever writes a file holds its lock, which ends with the process however that ends.
+/// Locks a file for its writer. The lock ends with the process in any case.
 bool lock(int descriptor) {
     return ::flock(descriptor, LOCK_EX | LOCK_NB) == 0;
 }
@@ -63,11 +63,11 @@ struct CloseFolder {
     void operator()(DIR* folder) const { ::closedir(folder); }
 };
 
-/// Removes hidden files beside `target` that nobody writes any more.
+/// Removes hidden files for `target` that no process is writing.
 void remove_leftovers(const Path& target) {
     const std::string prefix = hidden_prefix(target);
     const Path folder = target.parent_path().empty() ? Path(".") : target.parent_path();
-    // The iterator of the standard library ends the program where it gets no memory.
+    // The iterator of the standard library terminates the program if it cannot allocate memory.
     const std::unique_ptr<DIR, CloseFolder> entries(::opendir(folder.c_str()));
     if (!entries)
         return;
@@ -84,7 +84,7 @@ void remove_leftovers(const Path& target) {
     }
 }
 
-/// A file without a name in the folder of `target`; negative where there is no such thing.
+/// Opens a file without a name in the folder of `target`; returns a negative value if this is not supported.
 int open_unnamed(const Path& target) {
 #ifdef O_TMPFILE
     const Path folder = target.parent_path();
@@ -98,7 +98,8 @@ int open_unnamed(const Path& target) {
     return -1;
 }
 
-/// A file under a name of its own beside `target`, locked; negative when there can be none.
+/// Creates and locks a file with a unique hidden name in the folder of `target`; returns a negative value on
+/// failure.
 int open_hidden(const Path& target, Path& name) {
     constexpr int kMostTries = 100;
     for (int i = 0; i < kMostTries; ++i) {
@@ -107,7 +108,7 @@ int open_hidden(const Path& target, Path& name) {
         if (descriptor < 0 && errno != EEXIST)
             return -1;
         struct stat status = {};
-        // Another process may have taken it for a leftover before it was locked.
+        // Another process may have removed it as a leftover before it was locked.
         if (descriptor >= 0 && lock(descriptor) && ::fstat(descriptor, &status) == 0 && status.st_nlink > 0)
             return descriptor;
         if (descriptor >= 0)
@@ -124,7 +125,7 @@ bool rename_with(const Path& from, const Path& to, unsigned flags) {
 #endif
 }
 
-/// 0, or the error.
+/// Writes all bytes. Returns 0 or the error.
 int write_all(int descriptor, std::span<const std::byte> bytes) {
     while (!bytes.empty()) {
         const ssize_t written = ::write(descriptor, bytes.data(), bytes.size());
@@ -139,7 +140,7 @@ int write_all(int descriptor, std::span<const std::byte> bytes) {
 } // namespace
 
 Path followed(Path path) {
-    constexpr int kMostLinks = 40; // as Linux
+    constexpr int kMostLinks = 40; // the limit of Linux
     std::error_code error;
     for (int i = 0; i < kMostLinks && !is_descriptor(path) && std::filesystem::is_symlink(path, error); ++i) {
         const Path to = std::filesystem::read_symlink(path, error);
@@ -156,7 +157,7 @@ OutputFile::OutputFile(Path path) : path_(std::move(path)), target_(followed(pat
     if (std::filesystem::is_directory(status))
         throw Error(path_.string() + ": is a folder and cannot be written as a file");
     if (status.type() == std::filesystem::file_type::none)
-        fail(error.value()); // a name that is too long, say
+        fail(error.value()); // for example, a name that is too long
     stream_ = is_descriptor(target_) ||
               (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status));
     open();
@@ -218,9 +219,9 @@ void OutputFile::finish() {
         fail(errno);
 }
 
-/// Copies what was written to a stream.
+/// Copies the written data to a stream.
 void OutputFile::pour() {
-    // What a shell redirected to a file is written behind what was printed.
+    // O_APPEND: if a shell redirected the stream to a file, the data follows earlier output.
     const int stream = ::open(target_.c_str(), O_WRONLY | O_APPEND | O_CLOEXEC);
     if (stream < 0)
         fail(errno);
@@ -241,7 +242,7 @@ void OutputFile::pour() {
         fail(error);
 }
 
-/// Gives a file without a name a hidden one.
+/// Links a file without a name to a hidden name.
 void OutputFile::link_beside() {
     Path name = hidden_name(target_);
     if (::linkat(AT_FDCWD, unnamed_.c_str(), AT_FDCWD, name.c_str(), AT_SYMLINK_FOLLOW) != 0)
@@ -260,14 +261,14 @@ void OutputFile::publish() {
             stage_ = Stage::created;
             return;
         }
-        link_beside(); // there is an old file, which only a name can replace
+        link_beside(); // an old file exists; it can be replaced only by a named file
     }
     if (rename_with(beside_, target_, RENAME_NOREPLACE)) {
         stage_ = Stage::created;
     } else if (rename_with(beside_, target_, RENAME_EXCHANGE)) {
         stage_ = Stage::replaced;
     } else if (::rename(beside_.c_str(), target_.c_str()) == 0) {
-        stage_ = Stage::replaced; // for good: this system cannot exchange
+        stage_ = Stage::replaced; // permanently: this system cannot exchange files
         beside_.clear();
     } else {
         fail(errno);

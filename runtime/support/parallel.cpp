@@ -1,5 +1,5 @@
-// Splits a range over threads that live as long as the call. oneTBB would spare starting them, but a game
-// that links the runtime would link it, too, and have a second pool of threads beside its own.
+// Splits a range over threads that live for one call. oneTBB would avoid the cost of starting them, but a
+// game that links the runtime would also link oneTBB, and have a second thread pool.
 #include "prt/support/parallel.h"
 
 #include <algorithm>
@@ -48,7 +48,7 @@ void parallel_for(std::size_t count, std::size_t grain, int threads,
         try {
             for (std::size_t i = 1; i < workers; ++i)
                 helpers.emplace_back(work);
-        } catch (const std::system_error&) { // no thread to be had: those that are there do it all
+        } catch (const std::system_error&) { // no more threads available: the existing ones do all the work
         }
         work();
     }

@@ -1,4 +1,4 @@
-// Escapes what a terminal would act on.
+// Escapes characters that affect a terminal.
 #include "prt/support/printable.h"
 
 #include <algorithm>
@@ -8,7 +8,7 @@
 namespace prt {
 namespace {
 
-/// A character of UTF-8 and how many bytes it has; 0 bytes where there is none.
+/// A UTF-8 character and its length; 0 bytes if the text is not valid UTF-8.
 struct Character {
     std::uint32_t code = 0;
     std::size_t bytes = 0;
@@ -27,12 +27,12 @@ Character first_character(std::string_view text) {
             return {};
         code = code << 6 | (byte(i) & 0x3fu);
     }
-    constexpr std::uint32_t kLeast[] = {0, 0, 0x80, 0x800, 0x10000}; // of so many bytes
+    constexpr std::uint32_t kLeast[] = {0, 0, 0x80, 0x800, 0x10000}; // minimum code point per number of bytes
     const bool surrogate = code >= 0xd800 && code < 0xe000;
     return code < kLeast[ones] || code > 0x10ffff || surrogate ? Character{} : Character{code, ones};
 }
 
-/// Neither a control character nor one that changes how others are shown.
+/// Returns false for control characters and for characters that change the display of others.
 bool is_shown(std::uint32_t code) {
     const auto within = [&](std::uint32_t first, std::uint32_t last) {
         return code >= first && code <= last;

@@ -14,7 +14,7 @@ std::vector<Edge> unique_edges(std::vector<Edge> edges) {
             std::swap(e.first, e.second);
     std::sort(edges.begin(), edges.end());
     edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
-    edges.shrink_to_fit(); // of a mesh, each was there twice
+    edges.shrink_to_fit(); // each edge of a mesh usually occurs twice in the input
     return edges;
 }
 
@@ -27,7 +27,7 @@ Adjacency::Adjacency(std::span<const Edge> edges, std::size_t receivers)
     }
     for (std::size_t p = 0; p < receivers; ++p)
         first_[p + 1] += first_[p];
-    // Edges ascend, so that a receiver meets its smaller neighbours first, then its larger ones, each in
+    // Edges are sorted, so that a receiver gets its smaller neighbours first, then its larger ones, each in
     // order.
     std::vector<std::size_t> next(first_.begin(), first_.end() - 1);
     for (const Edge& e : edges) {

@@ -1,4 +1,4 @@
-// The words that files and reports have for how a bake was made.
+// Names of bake settings in files and reports.
 #include "prt/baked_transfer.h"
 
 namespace prt {

@@ -1,4 +1,4 @@
-// Bases of clusters: layout, sizes, and rows from their code.
+// Bases of clusters: layout, sizes, and decoding of their rows.
 #include "prt/clustered_bases.h"
 
 #include "prt/support/error.h"
@@ -36,7 +36,7 @@ std::size_t coded_bytes(const CodedBases& coded) {
 
 namespace {
 
-/// The step of each axis in each cluster times its scale, [clusters][axes].
+/// Returns the step of each axis in each cluster times its scale, [clusters][axes].
 std::vector<float> steps_of(const CodedBases& coded, std::size_t clusters) {
     const std::size_t axes = coded.scales.size(), groups = coded.exponents.axes.size();
     std::vector<std::size_t> group_of;
@@ -119,7 +119,7 @@ bool clusters_are_alike(const ClusteredBases& bases) {
 }
 
 std::size_t basis_bytes(const ClusteredBases& bases) {
-    // A byte for each m_k, four bits for the width of each packed weight.
+    // One byte for each m_k, four bits for the width of each packed weight.
     const std::size_t layout = bases.clusters() + (bases.bits.size() + 1) / 2;
     const std::size_t guides = bases.guides.empty()
                                    ? 0

@@ -1,4 +1,4 @@
-// Sizes of compressed transfer, and what it shows under a light.
+// Sizes of compressed transfer, and its exit radiance under a light.
 #include "prt/clustered_transfer.h"
 
 #include "prt/constant_former.h"

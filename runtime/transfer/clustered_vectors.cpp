@@ -1,4 +1,4 @@
-// Transfer vectors out of means, guides and weighted directions: docs/math.md, eq. 20.
+// Decodes transfer vectors from means, predictors and weighted basis directions: docs/math.md, eq. 20.
 
 #include "transfer/clustered_vectors.h"
 

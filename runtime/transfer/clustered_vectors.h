@@ -1,5 +1,7 @@
 #pragma once
 
+// Decoding of compressed transfer to transfer vectors.
+
 #include "prt/clustered_transfer.h"
 
 #include <cstddef>
@@ -16,7 +18,7 @@ public:
           dimension_(transfer.bases.dimension()),
           most_components_(static_cast<std::size_t>(transfer.bases.max_components())) {}
 
-    /// Vectors of receivers from `first` on, as many as `to` [..][dimension] has room for.
+    /// Writes the vectors of receivers from `first` on to `to` [..][dimension], whose size sets their number.
     void read(std::size_t first, std::span<float> to) const;
 
 private:

@@ -1,4 +1,4 @@
-// Integers in rows of few bits (docs/format.md).
+// Codes rows of small integers (docs/format.md).
 #include "prt/coded_rows.h"
 
 #include "prt/support/error.h"
@@ -14,18 +14,19 @@ namespace prt {
 namespace {
 
 constexpr int kLevelBits = 4;
-/// Rows that drops are chosen for, spread over all: a thousand tell what a hundred thousand do.
+/// Maximum number of rows used to choose the drops, spread over all rows: a sample of a thousand is as good
+/// as a hundred thousand.
 constexpr std::size_t kRowsLookedAt = 1024;
 constexpr std::size_t kColumnsLookedAt = 512;
 
-/// Bits of `value` in two's complement; 0 needs none.
+/// Returns the bits of `value` in two's complement; 0 needs no bits.
 int width_of(std::int32_t value) {
     if (value == 0)
         return 0;
     return 1 + static_cast<int>(std::bit_width(static_cast<std::uint32_t>(value < 0 ? ~value : value)));
 }
 
-/// Least level at which all values of a row have room.
+/// Returns the minimum level at which all values of a row fit.
 int level_of(std::span<const std::uint8_t> widths, std::span<const std::uint8_t> drops) {
     int level = 0;
     for (std::size_t i = 0; i < widths.size(); ++i)
@@ -48,7 +49,7 @@ public:
             widths_.push_back(static_cast<std::uint8_t>(width_of(value)));
     }
     std::size_t rows() const { return columns_ == 0 ? 0 : widths_.size() / columns_; }
-    /// At most `most` rows, evenly spread.
+    /// Returns at most `most` rows, evenly spread.
     Widths sample(std::size_t most) const {
         const std::size_t step =
             std::max(std::size_t{1}, (rows() + most - 1) / std::max(most, std::size_t{1}));
@@ -60,7 +61,7 @@ public:
     std::span<const std::uint8_t> row(std::size_t r) const {
         return std::span(widths_).subspan(r * columns_, columns_);
     }
-    /// Bits of all rows; infinite where a level would pass 15.
+    /// Returns the number of bits of all rows; maximum value of size_t if a level exceeds 15.
     std::size_t total(std::span<const std::uint8_t> drops) const {
         std::array<std::size_t, kMostRowBits + 1> rows_of_level{};
         for (std::size_t r = 0; r < rows(); ++r) {
@@ -81,7 +82,7 @@ private:
     std::vector<std::uint8_t> widths_;
 };
 
-/// All columns from `first` on, each by as many bits narrower.
+/// Returns `drops` with `by` added to all columns from `first` on.
 std::vector<std::uint8_t> shifted(std::span<const std::uint8_t> drops, std::size_t first, int by) {
     std::vector<std::uint8_t> result(drops.begin(), drops.end());
     for (std::size_t i = first; i < result.size(); ++i)
@@ -89,7 +90,7 @@ std::vector<std::uint8_t> shifted(std::span<const std::uint8_t> drops, std::size
     return result;
 }
 
-/// What columns are narrower than the widest on average.
+/// Returns for each column how many bits it is narrower than the widest column, on average.
 std::vector<std::uint8_t> mean_drops(const Widths& widths, std::size_t columns) {
     std::vector<double> means(columns, 0);
     for (std::size_t r = 0; r < widths.rows(); ++r)
@@ -102,8 +103,9 @@ std::vector<std::uint8_t> mean_drops(const Widths& widths, std::size_t columns) 
     return drops;
 }
 
-/// Drops that make the code of these rows short: from the mean ones, or from none where those leave a row too
-/// wide, column by column a bit more or less, and all columns from some one on together, until nothing helps.
+/// Searches drops that make the code of these rows short. Starts from the mean drops, or from zero if those
+/// make a row too wide. Then changes single columns, and all columns from some index on, by one bit while
+/// this shortens the code.
 std::vector<std::uint8_t> best_drops_of(const Widths& widths, std::size_t columns) {
     std::vector<std::uint8_t> drops = mean_drops(widths, columns);
     std::size_t least = widths.total(drops);
@@ -119,7 +121,7 @@ std::vector<std::uint8_t> best_drops_of(const Widths& widths, std::size_t column
         drops = std::move(tried);
         return true;
     };
-    // Rows as long as those of probes would take seconds: of them not every column is asked.
+    // Rows as long as those of probes would take seconds; only some of their columns are tried.
     const std::size_t step = 1 + columns / kColumnsLookedAt;
     for (bool moved = true; moved;) {
         moved = false;
@@ -139,14 +141,15 @@ std::vector<std::uint8_t> best_drops(const Widths& widths, std::size_t columns) 
     return widths.total(drops) == ~std::size_t{0} ? best_drops_of(widths, columns) : drops;
 }
 
-/// What is learnt of the values that have room for `width` bits.
+/// Adaptive models for values that have room for `width` bits.
 struct ValueModels {
     BitModel zero;
-    std::array<BitModel, kMostRowBits> longer; ///< whether the magnitude has more bits than so many and one
-    std::array<BitModel, kMostRowBits> second; ///< the bit below the highest, by the bits below that
+    std::array<BitModel, kMostRowBits> longer; ///< index i: whether the magnitude has more than i + 1 bits
+    std::array<BitModel, kMostRowBits> second; ///< the bit below the highest, indexed by the number of bits
+                                               ///< below the highest
 };
 
-using Models = std::array<ValueModels, kMostRowBits + 1>; ///< by the width
+using Models = std::array<ValueModels, kMostRowBits + 1>; ///< indexed by width
 
 void write_value(std::int32_t value, int width, ValueModels& models, RangeEncoder& encoder) {
     encoder.write(value == 0, models.zero);
@@ -202,7 +205,8 @@ std::vector<std::int32_t> decode_rows(const RowCode& code, std::size_t rows) {
     std::vector<std::int32_t> values;
     if (code.drops.empty()) // rows of no values take no bits
         return values;
-    if (rows / 2 > code.bits.size()) // each has four bits at least: none are made of nothing
+    if (rows / 2 > code.bits.size()) // each row has at least four bits; rejects row counts that the data
+                                     // cannot contain
         throw Error("the coded rows end too early");
     values.reserve(rows * code.drops.size());
     RangeDecoder decoder(code.bits);

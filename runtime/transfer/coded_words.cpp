@@ -1,4 +1,4 @@
-// Packed clusters and weights, predicted from neighbours and entropy-coded (docs/format.md).
+// Codes packed clusters and weights: prediction from neighbours, then entropy coding (docs/format.md).
 #include "prt/coded_words.h"
 
 #include "prt/clustered_transfer.h"
@@ -16,22 +16,23 @@
 namespace prt {
 namespace {
 
-/// Receivers that are coded by themselves, so that threads share the work.
+/// Number of receivers in an independently coded block, so that threads can share the work.
 constexpr std::uint32_t kWordBlock = 16384;
-constexpr int kMaxSymbolBits = 6; ///< of a weight's difference; bits below are plain
+constexpr int kMaxSymbolBits = 6; ///< maximum for the difference of a weight; lower bits are stored plain
 constexpr std::uint32_t kColumns = 16;
 constexpr std::uint32_t kClusterContexts = 9;
-constexpr std::uint32_t kNewCluster = 3; ///< symbol of a cluster that no neighbour has
+constexpr std::uint32_t kNewCluster = 3; ///< symbol of a cluster that no neighbour uses
 
-/// First context of weights whose differences have symbols of `bits` bits, 1..kMaxSymbolBits + 1. There are
-/// bits + 3 of them: no neighbour in the cluster, one, and several by the width of their range.
+/// Returns the first context of weights whose differences have symbols of `bits` bits, 1..kMaxSymbolBits + 1.
+/// Each has bits + 3 contexts: no neighbour in the cluster, one neighbour, and several neighbours by the bit
+/// width of their range.
 constexpr std::uint32_t first_context(int bits) {
     return kClusterContexts + static_cast<std::uint32_t>((bits - 1) * (bits + 6) / 2);
 }
 
 constexpr std::uint32_t kContexts = first_context(kMaxSymbolBits + 1);
 
-/// Rows of frequencies of a context.
+/// Number of rows of frequencies of a context.
 constexpr std::uint32_t row_count(std::uint32_t context) {
     return context >= first_context(6) ? 4 : context >= first_context(5) ? 2 : 1;
 }
@@ -45,9 +46,10 @@ constexpr std::size_t count_rows() {
 
 constexpr std::size_t kRows = count_rows();
 
-/// How a weight is coded.
+/// Coding of one weight.
 struct WeightField {
-    std::uint8_t width = 0, plain = 0; ///< bits, and those of the difference that are plain
+    std::uint8_t width = 0, plain = 0; ///< total bits, and the low bits of the difference that are stored
+                                       ///< plain
     std::uint16_t first_context = 0;
 };
 
@@ -77,16 +79,17 @@ struct Fields {
     explicit Fields(std::size_t receivers) : clusters(receivers), weights(receivers) {}
 };
 
-/// Prior knowledge of a cluster before it is decoded.
+/// Prediction of a receiver's cluster from earlier receivers.
 struct ClusterPrediction {
     std::array<std::uint32_t, 3> receivers{}; ///< that predict
-    std::uint32_t count = 0;                  ///< of them
-    std::array<std::uint16_t, 3> clusters{};  ///< distinct ones of theirs
+    std::uint32_t count = 0;                  ///< number of `receivers`
+    std::array<std::uint16_t, 3> clusters{};  ///< distinct clusters of `receivers`
     std::uint32_t distinct = 0;
     std::uint32_t context = 0;
 };
 
-/// By the receivers before `v`, which is not the first of its block. Without neighbours: by the one before.
+/// Predicts from receivers before `v`, which is not the first of its block. Without neighbours it uses
+/// receiver v - 1.
 ClusterPrediction predict_cluster(const Fields& fields, const EarlierNeighbors& neighbors, std::uint32_t v) {
     ClusterPrediction p;
     for (; p.count < 3 && neighbors[p.count] < v; ++p.count)
@@ -117,7 +120,7 @@ ClusterPrediction predict_cluster(const Fields& fields, const EarlierNeighbors& 
     return p;
 }
 
-/// Weights of those receivers that are in the cluster.
+/// Weights of those predicting receivers that are in the same cluster.
 struct WeightPrediction {
     std::array<const std::uint16_t*, 3> weights{};
     std::uint32_t count = 0;
@@ -135,7 +138,7 @@ struct ExpectedWeight {
     std::uint32_t value, context;
 };
 
-/// Transfer of `kCount` receivers.
+/// Predicts weight `j` from `kCount` receivers.
 template <int kCount>
 [[gnu::always_inline]] inline ExpectedWeight expect_weight(const WeightPrediction& p, std::size_t j,
                                                            const WeightField& field) {
@@ -180,7 +183,7 @@ template <class Coder>
     }
 }
 
-/// 0, -1, 1, -2, ... as 0, 1, 2, 3, ...
+/// Maps the difference to an unsigned number: 0, -1, 1, -2, ... to 0, 1, 2, 3, ...
 std::uint32_t folded(std::uint32_t value, std::uint32_t expected, int width) {
     const std::uint32_t difference = (value - expected) << (32 - width); // wraps around within the width
     return (difference << 1 ^ (0u - (difference >> 31))) >> (32 - width);
@@ -193,11 +196,11 @@ std::uint32_t folded(std::uint32_t value, std::uint32_t expected, int width) {
 /// A symbol in its context, or plain bits.
 struct WordSymbol {
     std::uint32_t value;
-    std::uint16_t context; ///< kContexts: plain
-    std::uint8_t bits;     ///< of plain ones
+    std::uint16_t context; ///< kContexts: plain bits
+    std::uint8_t bits;     ///< number of plain bits
 };
 
-/// Turns fields into symbols.
+/// Converts fields to symbols.
 class SymbolWriter {
 public:
     SymbolWriter(const Fields& fields, int cluster_bits) : fields_(fields), cluster_bits_(cluster_bits) {}
@@ -231,7 +234,7 @@ private:
     int cluster_bits_;
 };
 
-/// Writes numbers of a few bits behind each other, the lowest bit first.
+/// Concatenates bit fields into 32-bit words, lowest bit first.
 class WordPacker {
 public:
     explicit WordPacker(std::uint32_t* to) : to_(to) {}
@@ -255,7 +258,7 @@ private:
     int used_ = 0;
 };
 
-/// Fields out of symbols, and words of both.
+/// Decodes symbols to fields, and packs the fields into words.
 class SymbolReader {
 public:
     SymbolReader(Fields& fields, const WordLayout& layout, std::span<const std::byte> bytes,
@@ -305,7 +308,8 @@ private:
     WordPacker packer_{nullptr};
 };
 
-/// Frequencies of sum kFrequencyTotal, none of them 0 that is counted; all 0 where nothing is.
+/// Scales counts to frequencies of sum kFrequencyTotal, at least 1 for each counted symbol; all 0 if nothing
+/// is counted.
 void normalize(std::span<std::int32_t> counts) {
     const std::int64_t sum = std::accumulate(counts.begin(), counts.end(), std::int64_t{0});
     if (sum == 0)
@@ -317,11 +321,12 @@ void normalize(std::span<std::int32_t> counts) {
             count = static_cast<std::int32_t>(std::max<std::int64_t>(1, (count * kTotal + sum / 2) / sum));
             left -= count;
         }
-    for (; left != 0; left += left > 0 ? -1 : 1) // at most half a step for each symbol, and those below one
+    for (; left != 0; left += left > 0 ? -1 : 1) // rounding error: at most half a step per symbol, plus the
+                                                 // symbols raised to 1
         *std::ranges::max_element(counts) += left > 0 ? 1 : -1;
 }
 
-/// Frequencies [kRows][kColumns] of all contexts.
+/// Returns the frequencies [kRows][kColumns] of all contexts.
 std::vector<std::int32_t> count_symbols(std::span<const WordSymbol> symbols) {
     std::array<std::size_t, kContexts + 1> begin{};
     for (std::uint32_t c = 0; c < kContexts; ++c)
@@ -335,7 +340,7 @@ std::vector<std::int32_t> count_symbols(std::span<const WordSymbol> symbols) {
     return counts;
 }
 
-/// Slots [kContexts][kFrequencyTotal] of these frequencies.
+/// Returns the slots [kContexts][kFrequencyTotal] of these frequencies.
 std::vector<RansSlot> slots_of(std::span<const std::int32_t> frequencies) {
     std::vector<RansSlot> slots(std::size_t{kContexts} * kFrequencyTotal);
     for (std::uint32_t c = 0; c < kContexts; ++c) {
@@ -350,7 +355,7 @@ std::vector<RansSlot> slots_of(std::span<const std::int32_t> frequencies) {
             for (std::uint32_t i = 0; i < static_cast<std::uint32_t>(frequency); ++i)
                 slots[slot++] = RansSlot(symbol, static_cast<std::uint32_t>(frequency), i);
         }
-        if (slot + kFrequencyTotal == end) { // not used
+        if (slot + kFrequencyTotal == end) { // context not used
             for (std::uint32_t i = 0; i < kFrequencyTotal; ++i)
                 slots[slot++] = RansSlot(0, kFrequencyTotal, i);
         }
@@ -374,7 +379,7 @@ std::vector<RansStep> steps_of(std::span<const WordSymbol> symbols, std::span<co
     return steps;
 }
 
-/// The bytes of each block.
+/// Returns the bytes of each block.
 std::vector<std::span<const std::byte>> split_blocks(std::span<const std::byte> bytes,
                                                      std::size_t receivers) {
     const std::size_t count = (receivers + kWordBlock - 1) / kWordBlock;
@@ -442,7 +447,7 @@ std::vector<EarlierNeighbors> earlier_neighbors(std::span<const std::uint32_t> t
         }
     };
     for (std::size_t t = 0; t + 2 < triangles.size(); t += 3) {
-        // By their order alone: EXT_meshopt_compression rotates triangles.
+        // Uses only the sorted indices, because EXT_meshopt_compression rotates the vertices of triangles.
         const auto [low, high] = std::minmax({triangles[t], triangles[t + 1], triangles[t + 2]});
         const std::uint32_t middle = triangles[t] ^ triangles[t + 1] ^ triangles[t + 2] ^ low ^ high;
         if (high >= receivers)
@@ -467,7 +472,7 @@ WordCode encode_words(const WordLayout& layout, std::span<const EarlierNeighbors
     const Fields fields = unpacked(layout, words);
     const std::vector<ClusterFields> clusters = cluster_fields(layout.clusters);
     SymbolWriter writer(fields, layout.cluster_bits);
-    std::vector<std::size_t> ends; // of the symbols of each block
+    std::vector<std::size_t> ends; // end of the symbols of each block
     for (std::uint32_t v = 0; v < neighbors.size(); ++v) {
         code_receiver(writer, neighbors[v], v, fields, clusters);
         if ((v + 1) % kWordBlock == 0 || v + 1 == neighbors.size())

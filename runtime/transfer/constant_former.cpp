@@ -1,4 +1,4 @@
-// Constants of all clusters as one product of a matrix, 16 rows wide, with the lighting.
+// Computes the constants of all clusters as the product of a matrix, blocked by 16 rows, with the lighting.
 #include "prt/constant_former.h"
 
 #include "prt/support/vector_lanes.h"
@@ -12,14 +12,14 @@ namespace {
 
 constexpr std::size_t kLanes = kLaneCount;
 
-/// Blocks of kLanes rows.
+/// Range of blocks of kLanes rows.
 struct Blocks {
     std::size_t first, last;
 };
 
 using Narrow = Floats<kNarrow>::Value;
 
-/// Colors of kNarrow rows, in two sums that do not wait for each other.
+/// Colors of kNarrow rows, in two sums without a dependency on each other.
 struct ColorSums {
     Narrow even[3], odd[3];
 };
@@ -42,7 +42,8 @@ template <std::size_t Stored>
             sums.even[c] += product(c, i);
 }
 
-/// `light`: of each part [3][its columns]. `matrix`: of the first of up to kNarrow rows.
+/// Computes up to kNarrow rows. `light`: for each part [3][its columns]. `matrix`: coefficients of the first
+/// row.
 [[gnu::always_inline]] inline void form_some(const TransferLayout& layout, const float* matrix,
                                              const float* light, std::size_t rows, glm::vec4* constants) {
     ColorSums sums = {};
@@ -69,8 +70,8 @@ void form_rows(const TransferLayout& layout, const float* matrix, const float* l
                       constants + row);
 }
 
-/// Rows by which coordinates of guides and stored weights are multiplied. A packed weight is w = 2 q /
-/// largest - 1, so that mean + sum w_j row_j = (mean - sum row_j) + sum q_j (2 / largest_j) row_j.
+/// Returns the rows by which predictor coordinates and stored weights are multiplied. A packed weight is w =
+/// 2 q / largest - 1, so that mean + sum w_j row_j = (mean - sum row_j) + sum q_j (2 / largest_j) row_j.
 std::vector<float> rows_of_stored(const ClusteredTransfer& transfer) {
     const ClusteredBases& bases = transfer.bases;
     const bool packed = transfer.receivers.format == WeightFormat::packed;
@@ -103,7 +104,7 @@ ConstantFormer::ConstantFormer(const ClusteredTransfer& transfer)
     : layout_(transfer.bases.layout.of_one_output()),
       rows_(constant_rows(transfer.bases) * transfer.bases.layout.outputs) {
     check_layout(transfer.bases.layout);
-    const std::vector<float> rows = rows_of_stored(transfer); // of each output in turn
+    const std::vector<float> rows = rows_of_stored(transfer); // all outputs, one after another
     const std::size_t dimension = layout_.dimension();
     matrix_.assign((rows_ + kLanes - 1) / kLanes * kLanes * dimension, 0.0f);
     for (std::size_t row = 0; row < rows_; ++row)

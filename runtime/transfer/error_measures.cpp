@@ -32,14 +32,14 @@ void check_finite(std::span<const float> numbers, const char* what) {
         throw Error(std::string(what) + " are not finite, so that no error can be told");
 }
 
-/// Of the same lights, in as many channels as may be.
+/// Returns whether the parts have the same kinds and names; the number of channels may differ.
 bool same_parts(const TransferLayout& a, const TransferLayout& b) {
     return std::equal(
         a.parts.begin(), a.parts.end(), b.parts.begin(), b.parts.end(),
         [](const TransferPart& p, const TransferPart& q) { return p.kind == q.kind && p.name == q.name; });
 }
 
-/// What every measure of exit radiance is given.
+/// Throws `Error` if an input of a measure of exit radiance is not finite.
 void check_lit(std::span<const glm::vec3> reference, std::span<const glm::vec3> approximation,
                std::span<const float> areas) {
     check_finite(reference);
@@ -47,7 +47,7 @@ void check_lit(std::span<const glm::vec3> reference, std::span<const glm::vec3> 
     check_finite(areas, "areas of receivers");
 }
 
-/// Squares of one receiver, color by color.
+/// Squared error and squared norm of one receiver, summed over the colors.
 struct VectorSquares {
     double error = 0, norm = 0;
 };
@@ -78,7 +78,7 @@ VectorSquares squares_of(const float* reference, const TransferLayout& layout, c
 
 namespace {
 
-/// Calls `see(receiver, squares)` for all receivers in their order. Throws `Error` as `relative_l2` does.
+/// Calls `see(receiver, squares)` for all receivers in order. Throws `Error` as `relative_l2`.
 template <class See>
 void for_squares(const TransferView& reference, const TransferView& approximation,
                  std::span<const float> areas, See&& see) {
@@ -143,7 +143,7 @@ double largest_of(const glm::dvec3& v) {
     return std::max({a.x, a.y, a.z});
 }
 
-/// The value below which a share of the `values` lie.
+/// Returns the percentile of `values`: a fraction `share` of them is smaller.
 double percentile(std::vector<double>& values, double share) {
     if (values.empty())
         return 0;
@@ -173,7 +173,7 @@ double darker_half(std::span<const glm::vec3> reference, std::span<const glm::dv
     return std::sqrt(ratio(error, norm));
 }
 
-/// The value below which a share of the area lies.
+/// Returns the percentile by area: receivers with a fraction `share` of the area have smaller values.
 double percentile_by_area(std::span<const double> values, std::span<const float> areas, double area,
                           double share) {
     std::vector<std::uint32_t> order(values.size());
@@ -186,7 +186,7 @@ double percentile_by_area(std::span<const double> values, std::span<const float>
     return values.empty() ? 0 : values[order.back()];
 }
 
-/// Jumps of `values` along `edges`.
+/// Returns the jumps of `values` along `edges`.
 template <class Value, class Size>
 std::vector<double> jumps_along(std::span<const Edge> edges, const std::vector<Value>& values, Size size) {
     std::vector<double> jumps(edges.size());
@@ -195,7 +195,7 @@ std::vector<double> jumps_along(std::span<const Edge> edges, const std::vector<V
     return jumps;
 }
 
-/// `jumps` over `mean`.
+/// Divides the statistics of `jumps` by `mean`.
 EdgeJumps relative_to(double mean, EdgeJumps jumps) {
     for (double* value : {&jumps.rms, &jumps.percentile_99, &jumps.max})
         *value = ratio(*value, mean);

@@ -1,4 +1,4 @@
-// Exit radiance of every receiver from formed constants, in vectors (docs/math.md, eq. 29).
+// Computes exit radiance of every receiver from the constants, in SIMD registers (docs/math.md, eq. 29).
 #include "prt/clustered_transfer.h"
 #include "prt/support/parallel.h"
 #include "prt/support/vector_lanes.h"
@@ -39,7 +39,7 @@ template <WeightFormat Format>
     return sum;
 }
 
-/// The mean of a cluster, and what the guides of a receiver add to it.
+/// Returns the mean of a cluster plus the predictor term of a receiver.
 [[gnu::always_inline]] inline Color known_color(const glm::vec4* row, const float* guides,
                                                 std::size_t count) {
     Color sum = color_at(row);
@@ -76,7 +76,7 @@ void evaluate_in_lanes(const ClusteredReceivers& receivers, const ClusterLayout*
     }
 }
 
-/// Every output of receivers [begin, end), whose weights are packed.
+/// Evaluates every output of receivers [begin, end), whose weights are packed.
 PRT_TARGET_CLONES
 void evaluate_outputs(const ClusteredReceivers& receivers, const ClusterLayout* layouts, std::size_t outputs,
                       const glm::vec4* constants, std::size_t begin, std::size_t end, glm::vec3* radiance) {

@@ -1,11 +1,13 @@
 #pragma once
 
+// Evaluation of compressed transfer for a range of receivers.
+
 #include "prt/clustered_transfer.h"
 
 namespace prt {
 
-/// Exit radiance of receivers [begin, end) from formed constants; `radiance` is that of receiver `begin`.
-/// Allocates nothing.
+/// Computes exit radiance of receivers [begin, end) from the constants; `radiance` starts at receiver
+/// `begin`. Allocates nothing.
 void evaluate_range(const ClusteredReceivers& receivers, const ClusterLayout* layouts,
                     const glm::vec4* constants, std::size_t begin, std::size_t end, glm::vec3* radiance);
 

@@ -1,4 +1,5 @@
-// Constants of instances: those of each mode, by a turn, times the factors of each instance in it.
+// Computes constants of instances: constants of each mode in each rotation, times the factors of the
+// instances with that rotation.
 
 #include "prt/instance_former.h"
 
@@ -19,15 +20,17 @@ std::vector<glm::dmat3> rotations_of(std::span<const FormedInstance> instances) 
     return rotations;
 }
 
-/// What a shader adds to three times a row to find the three vectors of an instance's red, green and blue.
+/// Returns the offset that a shader adds to three times a row to find the red, green and blue vectors of an
+/// instance.
 std::uint32_t offset_of(std::size_t begin, const ConstantRows& rows) {
-    return static_cast<std::uint32_t>(begin / 3) - rows.first; // wraps around, as the sum does
+    return static_cast<std::uint32_t>(begin / 3) - rows.first; // may wrap around, as the shader's sum does
 }
 
-/// Constants of a mode of lighting each, [modes][rows].
+/// Constants of each mode of lighting, [modes][rows].
 using ModeConstants = std::array<std::vector<glm::vec4>, kInstanceModes>;
 
-/// The row of an instance, as red, green and blue of a place (u, 1).
+/// Writes one row of an instance: red, green and blue as linear functions of (u, 1), u the position in the
+/// box.
 void write_row(const InstanceFactors& factors, const ModeConstants& modes, std::size_t row,
                std::span<glm::vec4, 3> colors) {
     glm::vec3 added(0);

@@ -1,4 +1,4 @@
-// Modes of the lighting of instances (docs/math.md, section 22), and transfer under each of them.
+// Modes of the lighting of instances (docs/math.md, section 22), and transfer under each mode.
 
 #include "prt/instances.h"
 
@@ -21,7 +21,7 @@ std::size_t coefficients_of(int order) {
     return static_cast<std::size_t>(coefficient_count(order));
 }
 
-/// Sums the modes of a receiver, [modes][size].
+/// Computes the weighted sum of the modes of a receiver, [modes][size].
 PRT_TWO_CLONES
 void sum_modes(const std::array<float, kPassingModes>& factors, const float* modes, std::size_t size,
                float* sums) {
@@ -39,16 +39,16 @@ void sum_modes(const std::array<float, kPassingModes>& factors, const float* mod
     }
 }
 
-/// Two unit vectors square to `up` and each other.
+/// Returns two unit vectors orthogonal to `up` and to each other.
 std::array<glm::dvec3, 2> level_axes(const glm::dvec3& up) {
     const glm::dvec3 other = std::abs(up.x) < 0.5 ? glm::dvec3(1, 0, 0) : glm::dvec3(0, 0, 1);
     const glm::dvec3 across = glm::normalize(glm::cross(up, other));
     return {across, glm::cross(across, up)};
 }
 
-/// Calls `take(direction, solid angle)` so that integrals over the half sphere about `up` are exact for
-/// polynomials of 2 order + 1, of which modes take 2 order: what is left after the azimuth is a polynomial of
-/// the height.
+/// Calls `take(direction, solid angle)` for the nodes of a quadrature over the hemisphere about `up`. It is
+/// exact for polynomials of degree 2 order + 1; modes need 2 order. After integration over the azimuth the
+/// integrand is a polynomial in the height.
 template <class Take>
 void over_upper_half(int order, const glm::dvec3& up, const Take& take) {
     const GaussLegendre heights(order + 1);
@@ -64,10 +64,10 @@ void over_upper_half(int order, const glm::dvec3& up, const Take& take) {
     }
 }
 
-/// Of a mode's function over that of the basis, so that its mean square is 1.
+/// Scale from a basis function to the function of a mode, whose mean square is 1.
 const double kModeScale = std::sqrt(4 * std::numbers::pi);
 
-/// What a vector of one channel makes of the functions of the added modes.
+/// Returns the response of a single-channel vector to the functions of the added modes.
 std::array<float, kAddedModes> response(std::span<const float> vector) {
     std::array<float, kAddedModes> answers{};
     for (std::size_t k = 0; k < std::min(kAddedModes, vector.size()); ++k)

@@ -1,4 +1,4 @@
-// Factors of instances: their numbers, their axes and their turns.
+// Factors of instances: conversion to numbers, rotation, and grouping of rotations.
 
 #include "prt/instances.h"
 
@@ -15,7 +15,7 @@
 namespace prt {
 namespace {
 
-/// Angle between two rotations, degrees.
+/// Returns the angle between two rotations in degrees.
 double degrees_between(const glm::dmat3& a, const glm::dmat3& b) {
     const glm::dmat3 turn = glm::transpose(a) * b;
     const double cosine = 0.5 * (turn[0][0] + turn[1][1] + turn[2][2] - 1);
@@ -23,7 +23,7 @@ double degrees_between(const glm::dmat3& a, const glm::dmat3& b) {
 }
 
 bool is_upright(const glm::dmat3& rotation) {
-    constexpr double kRounding = 1e-6; // of quaternions in float
+    constexpr double kRounding = 1e-6; // rounding error of quaternions in float
     return glm::distance(rotation[1], glm::dvec3(0, 1, 0)) < kRounding;
 }
 
@@ -36,7 +36,7 @@ glm::dmat3 yaw_matrix(double yaw) {
             glm::dvec3(std::sin(yaw), 0, std::cos(yaw))};
 }
 
-/// The first modes are coefficients of functions of direction, one for each of `parts`.
+/// Rotates the first modes, which are SH coefficients of functions of direction; each has `parts` components.
 template <class Modes>
 void turn_modes(const ShRotation& turn, int parts, Modes& modes) {
     const auto count = static_cast<std::size_t>(turn.order()) * static_cast<std::size_t>(turn.order());
@@ -131,7 +131,7 @@ InstanceBox box_round(std::span<const glm::vec3> positions) {
     }
     const glm::vec3 half = 0.5f * (high - low);
     const float widest = std::max({half.x, half.y, half.z, 1e-12f});
-    return {0.5f * (low + high), glm::max(half, glm::vec3(1e-3f * widest))}; // of what is flat
+    return {0.5f * (low + high), glm::max(half, glm::vec3(1e-3f * widest))}; // minimum size for flat meshes
 }
 
 std::array<glm::vec3, kInstanceModes> mode_factors(const InstanceFactors& factors, const glm::vec3& place) {

@@ -1,4 +1,4 @@
-// How the texels of lightmaps lie beside each other.
+// Neighbourhood of lightmap texels: edges, nearest receivers and bilinear samples.
 
 #include "prt/lightmap.h"
 
@@ -10,15 +10,15 @@ namespace {
 
 constexpr std::uint32_t kNobody = ~0u;
 
-/// A coordinate near the first of the squares that a map is repeated in: squares are taken off exactly,
-/// however far out it lies. 0 where it is not finite, as between coordinates that floats just hold.
+/// Returns a coordinate modulo the size of a repeating map; fmod is exact for any distance. Returns 0 if it
+/// is not finite, as for coordinates close to the range of float.
 double near_first_square(double x, int side, bool repeats) {
     if (!std::isfinite(x))
         return 0;
     return repeats ? std::fmod(x, side) : x;
 }
 
-/// The texel that a filter reads for the i-th along a side.
+/// Returns the texel that a filter reads for index i along a side, repeated or clamped.
 std::uint32_t along_side(double i, int side, bool repeats) {
     const double size = side;
     return static_cast<std::uint32_t>(repeats ? i - size * std::floor(i / size)

@@ -1,5 +1,5 @@
-// Radiance of texels, tile by tile: two rows at a time stay in the cache until they and the row of the next
-// level are written.
+// Computes radiance of texels tile by tile: two rows at a time stay in the cache until they and the row of
+// the next level are written.
 
 #include "prt/lightmap_former.h"
 
@@ -15,7 +15,7 @@ namespace {
 
 constexpr int kTile = 4 * kLaneCount; ///< texels along a row
 
-/// Colors side by side from texels one behind the other.
+/// Transposes texels to separate color lanes.
 [[gnu::always_inline]] inline RadianceLanes lanes_of(const glm::vec3* texels) {
     RadianceLanes lanes;
     for (std::size_t i = 0; i < kLaneCount; ++i)
@@ -32,7 +32,7 @@ void write_row(LightmapFormat format, const glm::vec3* texels, int count, std::b
                      to + static_cast<std::size_t>(x) * size);
 }
 
-/// Means over two by two texels. With one row less, or one column, the last counts twice.
+/// Averages two by two texels. If only one row or column is left, it is used twice.
 void halve(const glm::vec3* upper, const glm::vec3* lower, int count, glm::vec3* means) {
     for (int x = 0; x < std::max(1, count / 2); ++x) {
         const int left = 2 * x, right = std::min(2 * x + 1, count - 1);

@@ -1,4 +1,4 @@
-// Zonal lobes: their bytes, their turns, and what they make of light.
+// Zonal lobes: coding of axes, rotation, and evaluation under light.
 
 #include "prt/lobes.h"
 
@@ -17,14 +17,14 @@
 namespace prt {
 namespace {
 
-constexpr float kMiddle = 127; ///< byte of 0 of an axis
+constexpr float kMiddle = 127; ///< byte value of an axis coordinate of 0
 constexpr std::size_t kMostCoefficients = kMostLobeOrder * kMostLobeOrder;
 
 glm::vec2 with_signs_of(const glm::vec2& size, const glm::vec2& of) {
     return {of.x < 0 ? -size.x : size.x, of.y < 0 ? -size.y : size.y};
 }
 
-/// The lower half of an octahedron is folded over the corners of the square.
+/// Folds the lower half of an octahedron over the corners of the square.
 glm::vec2 folded(const glm::vec2& p) {
     return with_signs_of(1.0f - glm::abs(glm::vec2(p.y, p.x)), p);
 }

@@ -1,5 +1,6 @@
-// Occlusion by objects that move: light that two moments of what they block take away. The cosine of a cap is
-// the form factor of a sphere cut by the horizon (Snyder, Area light sources for real-time graphics, 1996).
+// Occlusion by moving objects from two moments of the blocked directions. The cosine-weighted size of a cap
+// is the form factor of a sphere cut by the horizon (Snyder, Area light sources for real-time graphics,
+// 1996).
 
 #include "prt/occlusion_volume.h"
 
@@ -17,11 +18,11 @@
 namespace prt {
 namespace {
 
-/// Share of the cosine-weighted hemisphere of a cap of at most half of the sphere, whose middle has `cosine`
-/// to the normal.
+/// Returns the fraction of the cosine-weighted hemisphere that a cap covers. The cap is at most half of the
+/// sphere; `cosine` is that of the angle between its center and the normal.
 float cap_cosine(float share, float cosine) {
-    const float squared = 4 * share * (1 - share); // of the sine of the cap's radius
-    if (cosine * cosine >= squared)                // all above the horizon, or all below
+    const float squared = 4 * share * (1 - share); // squared sine of the cap's radius
+    if (cosine * cosine >= squared)                // the cap is entirely above or below the horizon
         return std::max(cosine, 0.0f) * squared;
     const float cotangent = (1 - 2 * share) / std::sqrt(squared), sine = std::sqrt(1 - cosine * cosine);
     const float cut = std::sqrt(squared - cosine * cosine);
@@ -36,7 +37,7 @@ glm::vec4 decoded(const OccluderTexel& texel) {
     return glm::max(n / 127.0f, glm::vec4(-1));
 }
 
-/// Trilinear, at a place of -1..1 along each side of the box.
+/// Returns the trilinear sample at a position of -1..1 along each side of the box.
 glm::vec4 filtered(const OcclusionVolume& volume, const glm::vec3& at) {
     const glm::vec3 along = (0.5f * at + 0.5f) * static_cast<float>(kOccluderSide - 1);
     const glm::ivec3 low = glm::clamp(glm::ivec3(along), glm::ivec3(0), glm::ivec3(kOccluderSide - 2));
@@ -106,7 +107,7 @@ PlacedOccluder placed(const OcclusionVolume& volume, const glm::mat4& to_world, 
     PlacedOccluder where{};
     where.half = glm::vec4(0.5f * scale * (volume.high - volume.low), scale * volume.reach);
     where.slot = glm::vec4(static_cast<float>(slot), 0, 0, 0);
-    // An object without volume blocks nothing: the rows stay 0, and so does the reach.
+    // An object without volume blocks nothing: the rows and the reach stay 0.
     if (scale > 0) {
         const glm::mat3 inverse = scale * glm::inverse(linear);
         const glm::vec3 center(to_world * glm::vec4(middle, 1));
@@ -125,8 +126,8 @@ BlockedCap blocked_at(const OcclusionVolume& volume, const PlacedOccluder& where
     const float distance = glm::length(q);
     if (!(distance < where.half.w))
         return {};
-    // Beyond the box, the place on its faces towards the middle: from there on the solid angle falls with the
-    // square of the distance.
+    // Outside the box, use the projection onto its faces towards the center; from there on the solid angle
+    // decreases with the square of the distance.
     const glm::vec3 sides = q / glm::vec3(where.half);
     const float outside = std::max({std::abs(sides.x), std::abs(sides.y), std::abs(sides.z), 1.0f});
     const glm::vec4 texel = filtered(volume, sides / outside);

@@ -1,4 +1,4 @@
-// Weights of receivers: from their stored form, and packed into words.
+// Reads, packs and unpacks the weights of receivers.
 #include "transfer/packed_weights.h"
 
 #include "prt/clustered_transfer.h"

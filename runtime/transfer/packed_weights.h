@@ -1,6 +1,6 @@
 #pragma once
 
-// Reading the weights of a receiver out of its bytes.
+// Extracts the weights of a receiver from its bytes.
 
 #include "prt/clustered_bases.h"
 
@@ -21,7 +21,7 @@ template <class Stored>
     return 1 + static_cast<int>(layout.widths[component / 8] >> (4 * (component % 8)) & 15u);
 }
 
-/// `width` bits of `words` from bit `position` on, width <= 16.
+/// Returns `width` bits of `words` starting at bit `position`, width <= 16.
 [[gnu::always_inline]] inline std::uint32_t bits_at(const std::byte* words, std::size_t position, int width) {
     const std::size_t word = position / 32, shift = position % 32;
     std::uint64_t bits = load<std::uint32_t>(words + word * 4);

@@ -1,3 +1,4 @@
+// Carry propagation and final bytes of the range coder.
 #include "transfer/range_coder.h"
 
 namespace prt {

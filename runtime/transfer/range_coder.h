@@ -1,7 +1,7 @@
 #pragma once
 
-// Binary arithmetic coding with adaptive models (Martin 1979; Witten, Neal and Cleary 1987), as
-// docs/format.md says it.
+// Binary arithmetic coding with adaptive models (Martin 1979; Witten, Neal and Cleary 1987), as specified in
+// docs/format.md.
 
 #include <cstddef>
 #include <cstdint>
@@ -10,7 +10,7 @@
 
 namespace prt {
 
-/// How often a bit was 1, in 65536ths, learnt fast at first.
+/// Adaptive estimate of the probability that a bit is 1, in 65536ths. It adapts quickly at first.
 class BitModel {
 public:
     std::uint32_t one() const { return one_; }
@@ -35,7 +35,7 @@ public:
         model.learn(bit);
         take(bit, bound);
     }
-    /// The lowest `width` bits of `value`, the highest first, each as likely as not.
+    /// Writes the lowest `width` bits of `value`, highest first, with probability 1/2 each.
     void write_plain(std::uint32_t value, int width) {
         while (width-- > 0)
             take(value >> width & 1, range_ >> 1);
@@ -52,7 +52,7 @@ private:
             range_ <<= 8;
         }
     }
-    /// Writes the highest byte of `low_`. A carry may still run through 255s before it.
+    /// Writes the highest byte of `low_`. A carry can still propagate through preceding bytes of 255.
     void shift_out();
 
     std::uint64_t low_ = 0; ///< 33 bits
@@ -60,7 +60,7 @@ private:
     std::vector<std::byte> bytes_;
 };
 
-/// Reads zeros where the bytes end.
+/// Range decoder; reads zeros after the end of the bytes.
 class RangeDecoder {
 public:
     explicit RangeDecoder(std::span<const std::byte> bytes) : bytes_(bytes) {
@@ -78,7 +78,7 @@ public:
             value = value << 1 | (take(range_ >> 1) ? 1u : 0u);
         return value;
     }
-    /// Whether more was read than an encoder writes.
+    /// Returns whether more bytes were read than an encoder writes.
     bool beyond_end() const { return position_ > bytes_.size(); }
 
 private:

@@ -1,3 +1,4 @@
+// Encodes rANS symbols, from the last to the first.
 #include "transfer/rans.h"
 
 #include <algorithm>
@@ -5,7 +6,7 @@
 namespace prt {
 
 std::vector<std::byte> encode_rans(std::span<const RansStep> steps) {
-    std::vector<std::uint16_t> units; // the last first
+    std::vector<std::uint16_t> units; // in reverse order
     std::array<std::uint32_t, kRansStates> states;
     states.fill(kLeastRansState);
     for (std::size_t i = steps.size(); i-- > 0;) {

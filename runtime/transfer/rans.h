@@ -1,7 +1,7 @@
 #pragma once
 
-// Range asymmetric numeral systems (rANS; Duda 2013) with four states that take turns (Giesen 2014), as
-// docs/format.md says it.
+// Range asymmetric numeral systems (rANS; Duda 2013) with four interleaved states (Giesen 2014), as specified
+// in docs/format.md.
 
 #include <algorithm>
 #include <array>
@@ -15,20 +15,20 @@
 namespace prt {
 
 inline constexpr int kFrequencyBits = 10;
-inline constexpr std::uint32_t kFrequencyTotal = 1u << kFrequencyBits; ///< of the symbols of a model
+inline constexpr std::uint32_t kFrequencyTotal = 1u << kFrequencyBits; ///< sum over the symbols of a model
 inline constexpr std::uint32_t kLeastRansState = 1u << 16;
 inline constexpr std::size_t kRansStates = 4;
 
-/// A coded step: `frequency` of 2^bits slots from `first` on.
+/// A coded step: `frequency` of 2^bits slots, starting at `first`.
 struct RansStep {
     std::uint32_t frequency, first;
     int bits;
 };
 
-/// Bytes from which RansDecoder takes these steps in their order.
+/// Returns the bytes from which RansDecoder reads these steps in order.
 std::vector<std::byte> encode_rans(std::span<const RansStep> steps);
 
-/// Symbol of a slot of a model.
+/// One slot of a model with its symbol.
 class RansSlot {
 public:
     RansSlot() = default;
@@ -36,13 +36,17 @@ public:
         : bits_(symbol | frequency << 8 | offset << 20) {}
     std::uint32_t symbol() const { return bits_ & 0xff; }
     std::uint32_t frequency() const { return bits_ >> 8 & 0xfff; }
-    std::uint32_t offset() const { return bits_ >> 20; } ///< of the slot from the first of its symbol
+    std::uint32_t offset() const {
+        return bits_ >> 20;
+    } ///< distance of the slot from the first slot of its
+      ///< symbol
 
 private:
     std::uint32_t bits_ = 0;
 };
 
-/// Takes up to kMaxSteps steps between two looks at is_beyond_end. Reads zeros where the bytes end.
+/// rANS decoder. It may read up to kMaxSteps steps between two calls of is_beyond_end. Reads zeros after the
+/// end of the bytes.
 class RansDecoder {
 public:
     static constexpr std::size_t kMaxSteps = 64;
@@ -54,27 +58,27 @@ public:
             states_[i] = unit(4 * i) | unit(4 * i + 2) << 16;
     }
     bool is_beyond_end() const { return position_ > end_; }
-    /// A symbol of the model whose slots are `slots` [kFrequencyTotal].
+    /// Reads a symbol of the model whose slots are `slots` [kFrequencyTotal].
     [[gnu::always_inline]] std::uint32_t read(const RansSlot* slots) {
         const std::uint32_t state = states_[turn_];
         const RansSlot slot = slots[state & (kFrequencyTotal - 1)];
         take_turns(slot.frequency() * (state >> kFrequencyBits) + slot.offset());
         return slot.symbol();
     }
-    /// `width` bits, 0..16, each as likely as not.
+    /// Reads `width` bits, 0..16, with uniform probability.
     [[gnu::always_inline]] std::uint32_t read_plain(int width) {
         const std::uint32_t state = states_[turn_];
         take_turns(state >> width);
         return state & ((1u << width) - 1);
     }
-    /// Whether an encoder wrote these bytes, and all of them were read.
+    /// Returns whether all bytes were read and the states are those of a valid end.
     bool ends_well() const {
         return position_ == end_ &&
                std::ranges::all_of(states_, [](std::uint32_t state) { return state == kLeastRansState; });
     }
 
 private:
-    /// Without a branch on the state, which nothing could predict.
+    /// Refills the state without a branch, because the branch would be unpredictable.
     [[gnu::always_inline]] void take_turns(std::uint32_t state) {
         const std::uint32_t is_small = state < kLeastRansState ? 1 : 0;
         states_[turn_] = state << (16 * is_small) | (unit(position_) & (0u - is_small));
@@ -82,12 +86,12 @@ private:
         turn_ = (turn_ + 1) % kRansStates;
     }
     [[gnu::always_inline]] std::uint32_t unit(std::size_t position) const {
-        std::uint16_t value = 0; // little-endian, as glTF is
+        std::uint16_t value = 0; // little-endian, like glTF
         std::memcpy(&value, bytes_.data() + position, sizeof value);
         return value;
     }
 
-    std::vector<std::byte> bytes_; ///< and zeros, so that no step has to look for the end
+    std::vector<std::byte> bytes_; ///< the bytes, then zeros, so that steps need no bounds check
     std::size_t end_;
     std::array<std::uint32_t, kRansStates> states_{};
     std::size_t turn_ = 0;

@@ -1,6 +1,6 @@
 #pragma once
 
-// Radiance in the formats of textures, sixteen texels at a time.
+// Conversion of radiance to texture formats, sixteen texels at a time.
 
 #include "prt/lightmap_former.h"
 #include "prt/support/vector_lanes.h"
@@ -12,7 +12,7 @@
 
 namespace prt {
 
-/// Radiance of texels one behind the other, color by color.
+/// Radiance of consecutive texels, one vector per color.
 struct RadianceLanes {
     Lanes colors[3];
 };
@@ -33,26 +33,28 @@ namespace texel_formats {
     return values;
 }
 
-/// In [0, most]; 0 where it is no number.
+/// Clamps to [0, most]; NaN becomes 0.
 [[gnu::always_inline]] inline Lanes within(const Lanes& v, float most) {
     const Lanes positive = v > 0 ? v : Lanes{};
     return positive < most ? positive : Lanes{} + most;
 }
 
-/// A float of five bits of exponent and `mantissa` bits, without a sign, rounded to the nearest: its bits.
+/// Returns the bits of a float with five exponent bits, `mantissa` mantissa bits and no sign, rounded to
+/// nearest.
 [[gnu::always_inline]] inline WordLanes small_float(const Lanes& v, float most, int mantissa) {
-    constexpr float kBias = 0x1p-112f; // from an exponent that is 127 too large to one that is 15
+    constexpr float kBias = 0x1p-112f; // changes the exponent bias from 127 to 15
     const WordLanes bits = bits_of(within(v, most) * kBias);
     return (bits + (1 << (22 - mantissa))) >> (23 - mantissa);
 }
 
-/// A half float with its sign, rounded to the nearest, at most 65 504 in magnitude; 0 where it is no number.
+/// Returns a half float with sign, rounded to nearest, at most 65 504 in magnitude; NaN becomes 0.
 [[gnu::always_inline]] inline WordLanes signed_half(const Lanes& v) {
     const WordLanes bits = bits_of(v);
     return small_float(floats_of(bits & 0x7FFFFFFF), 65504, 10) | (bits >> 16 & 0x8000);
 }
 
-/// EXT_texture_shared_exponent: the largest color, rounded to nine bits, says the exponent of all.
+/// Packs EXT_texture_shared_exponent: the largest color, rounded to nine bits, determines the shared
+/// exponent.
 [[gnu::always_inline]] inline WordLanes shared_exponent(const RadianceLanes& radiance) {
     constexpr float kMost = 65408;
     Lanes colors[3], largest = {};
@@ -69,7 +71,7 @@ namespace texel_formats {
     return word;
 }
 
-/// What bits of such a float stand for.
+/// Returns the value of a float with five exponent bits and `mantissa` mantissa bits.
 inline float small_float(std::uint32_t bits, int mantissa) {
     return std::bit_cast<float>(bits << (23 - mantissa)) * 0x1p112f;
 }
@@ -91,7 +93,7 @@ inline glm::vec3 read_texel(LightmapFormat format, const std::byte* texel) {
     return scale * glm::vec3(word & 511u, word >> 9 & 511u, word >> 18 & 511u);
 }
 
-/// Writes the first `count` of the lanes to `to`, which is as wide.
+/// Writes the first `count` texels of the lanes to `to`.
 [[gnu::always_inline]] inline void write_texels(LightmapFormat format, const RadianceLanes& radiance,
                                                 std::size_t count, std::byte* to) {
     using namespace texel_formats;

@@ -55,7 +55,8 @@ TransferLayout as_whole(const TransferLayout& layout) {
 
 namespace {
 
-/// `from` of `layout` to `to` of `whole`, which is `as_whole(layout)`; `to` is zero.
+/// Adds the parts of `from`, which has `layout`, to `to`, which is zero and has the layout `whole` =
+/// as_whole(layout).
 void add_parts(std::span<const float> from, const TransferLayout& layout, const TransferLayout& whole,
                std::span<float> to) {
     const auto count = static_cast<std::size_t>(coefficient_count(layout.order));

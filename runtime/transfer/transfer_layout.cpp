@@ -1,4 +1,4 @@
-// Layouts of transfer vectors, and the light that each part is lit by.
+// Layouts of transfer vectors, and the light of each part.
 #include "prt/transfer_layout.h"
 
 #include "prt/sh.h"

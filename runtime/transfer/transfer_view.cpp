@@ -1,4 +1,4 @@
-// Reads transfer vectors block by block, out of floats, float16 and clusters.
+// Reads transfer vectors block by block from floats, float16 or clusters.
 
 #include "prt/transfer_view.h"
 
@@ -12,8 +12,8 @@
 namespace prt {
 namespace {
 
-/// Of a finite float16. Moved to the place that they have in a float, its bits are 2^-112 times its value,
-/// also where it is subnormal.
+/// Converts a finite float16. Its bits, shifted to the float's position, represent 2^-112 times its value;
+/// this also holds for subnormal numbers.
 float float_of_half(std::uint16_t half) {
     const float magnitude = std::bit_cast<float>(static_cast<std::uint32_t>(half & 0x7FFF) << 13) * 0x1p112f;
     return std::bit_cast<float>(std::bit_cast<std::uint32_t>(magnitude) |

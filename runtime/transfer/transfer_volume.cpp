@@ -1,4 +1,4 @@
-// The probes of a volume, and which of them light a place.
+// The probes of a volume, their visibility, and lookup of the probes that light a position.
 
 #include "prt/transfer_volume.h"
 
@@ -26,7 +26,7 @@ std::size_t entry_of(const VolumeGrid& grid, const glm::ivec3& place) {
            static_cast<std::size_t>(place.x);
 }
 
-/// Calls `visit` with the number of every finest brick that `brick` covers inside the box.
+/// Calls `visit` with the index of every finest brick that `brick` covers inside the box.
 template <class Visit>
 void for_each_entry(const VolumeGrid& grid, const VolumeBrick& brick, Visit&& visit) {
     const glm::ivec3 end = glm::min(brick.place + (1 << brick.level), grid.size);
@@ -50,7 +50,7 @@ std::vector<std::uint32_t> index_of(const VolumeGrid& grid) {
     return index;
 }
 
-/// Corner `i` of a brick, in finest cells.
+/// Returns corner `i` of a brick, in finest cells.
 glm::ivec3 corner_of(const VolumeBrick& brick, std::size_t i) {
     const auto n = static_cast<int>(i);
     return kBrickCells * brick.place + (1 << brick.level) * glm::ivec3(n % kBrickSide,
@@ -64,7 +64,7 @@ struct LessCorner {
     }
 };
 
-/// The coarsest brick among those that `corner` lies in or on, and whether it has a probe there.
+/// The coarsest brick that contains a corner, also on its boundary.
 struct Coarsest {
     std::uint32_t brick = VolumeLookup::kNoBrick;
     int level = -1;
@@ -74,7 +74,7 @@ Coarsest coarsest_around(const VolumeGrid& grid, std::span<const std::uint32_t> 
                          const glm::ivec3& corner) {
     Coarsest found;
     for (int i = 0; i < 8; ++i) {
-        const glm::ivec3 inside = corner - glm::ivec3(i & 1, i >> 1 & 1, i >> 2); // a cell beside it
+        const glm::ivec3 inside = corner - glm::ivec3(i & 1, i >> 1 & 1, i >> 2); // an adjacent cell
         if (glm::any(glm::lessThan(inside, glm::ivec3(0))))
             continue;
         const glm::ivec3 place = inside / kBrickCells;
@@ -132,7 +132,7 @@ VolumeProbes probes_of(const VolumeGrid& grid) {
             }
         }
     }
-    // Of a brick that reaches out of the box some have none beside them.
+    // Corners of a brick that extends beyond the box may have no adjacent brick in the box.
     for (std::uint32_t p = 0; p < probes.size(); ++p)
         if (around[p].brick != VolumeLookup::kNoBrick &&
             !has_corner(grid.bricks[around[p].brick], probes.corners[p]))
@@ -232,7 +232,7 @@ glm::vec3 irradiance_of(std::span<const glm::vec3> incident, const glm::vec3& no
     const int order = static_cast<int>(std::lround(std::sqrt(static_cast<double>(incident.size()))));
     std::array<float, kMostIncidentOrder * kMostIncidentOrder> basis{};
     evaluate_sh(order, normal, std::span(basis).first(incident.size()));
-    // The clamped cosine over pi: 1, 2/3, 1/4, 0.
+    // The clamped cosine over pi per band: 1, 2/3, 1/4, 0.
     constexpr std::array<float, kMostIncidentOrder> kCosine = {1, 2.0f / 3, 0.25f, 0};
     glm::vec3 sum(0);
     for (int l = 0; l < order; ++l)

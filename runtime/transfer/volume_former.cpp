@@ -1,5 +1,5 @@
-// Incident light of probes, one at a time: its coefficients are summed in registers, rounded once, and
-// written to every brick that has the probe.
+// Computes incident light of probes, one at a time: coefficients are summed in registers, rounded once, and
+// written to every brick that contains the probe.
 
 #include "prt/volume_former.h"
 
@@ -25,7 +25,7 @@ using HalfLanes [[gnu::vector_size(2 * kLaneCount)]] = std::int16_t;
     return *reinterpret_cast<const ColorInMemory*>(row);
 }
 
-/// What a probe has in all planes, and a little more: whole lanes.
+/// Maximum number of values of a probe in all planes, rounded up to whole lanes.
 constexpr std::size_t kMostNumbers = 64;
 static_assert(kMostNumbers >= 3 * kMostIncidentOrder * kMostIncidentOrder + 4 &&
               kMostNumbers % kLaneCount == 0);
@@ -39,11 +39,11 @@ struct Probes {
 
 struct Planes {
     std::byte* first;
-    std::size_t bytes; ///< of one
+    std::size_t bytes; ///< size of one plane
     std::size_t count;
 };
 
-/// Coefficients of a probe, color by color, and behind them how much of the sun is seen.
+/// Computes the coefficients of a probe, color by color, followed by the visibility of the sun.
 template <std::size_t Outputs>
 [[gnu::always_inline]] inline void light_probe(const Probes& probes, const glm::vec4* constants,
                                                std::size_t p, float* numbers) {
@@ -63,12 +63,12 @@ template <std::size_t Outputs>
             sums[o] += weight * color_at(row + o);
     }
     const float sun = sums[0][3];
-    for (std::size_t o = 0; o < Outputs; ++o) // the fourth number is written over by the next color
+    for (std::size_t o = 0; o < Outputs; ++o) // the next color overwrites the fourth number
         *reinterpret_cast<ColorInMemory*>(numbers + 3 * o) = sums[o];
     numbers[3 * Outputs] = sun > 0 ? std::min(sun, 1.0f) : 0.0f;
 }
 
-/// Bits of 64 half floats.
+/// Rounds `count` floats to half floats.
 [[gnu::always_inline]] inline void round_to_halves(const float* numbers, std::size_t count,
                                                    std::int16_t* halves) {
     for (std::size_t i = 0; i < count; i += kLaneCount) {
@@ -117,8 +117,8 @@ void form_in_lanes(const Probes& probes, const glm::vec4* constants, int order, 
     }
 }
 
-/// Of every row of the first output, what `direct` transfer gives under coefficients of radiance without
-/// color; nothing without a `direct` part.
+/// Returns for every row of the first output the response of `direct` transfer to grey radiance coefficients,
+/// averaged over the channels; empty without a `direct` part.
 std::vector<float> direct_rows(const ConstantFormer& former, std::size_t outputs) {
     const TransferLayout& layout = former.layout();
     if (!layout.has(PartKind::direct))

@@ -1,3 +1,4 @@
+// Builds the texture layouts of volumes for shaders.
 #include "prt/volume_textures.h"
 
 #include "prt/volume_weights.h"
@@ -7,10 +8,11 @@
 namespace prt {
 namespace {
 
-/// Whether a probe at corner `step` of a cell of width 1 sees all of it, with room for rounding.
+/// Returns whether a probe at corner `step` of a cell of width 1 sees the whole cell, with tolerance for
+/// rounding.
 bool sees_cell(const std::array<float, 6>& distances, const glm::ivec3& step) {
     constexpr float kRoom = 1e-3f;
-    float passed = 0; // at the corner that is opposite
+    float passed = 0; // at the opposite corner
     for (int a = 0; a < 3; ++a) {
         const float distance = distances[static_cast<std::size_t>(2 * a + (step[a] == 0 ? 1 : 0))];
         passed = std::max(passed, distance > 0 ? 1 / distance : kBlindNearness);
@@ -18,7 +20,7 @@ bool sees_cell(const std::array<float, 6>& distances, const glm::ivec3& step) {
     return passed <= kSightFull - kRoom;
 }
 
-/// Distances of the probes of a brick, in its own cells.
+/// Distances of the probes of a brick, in cells of the brick.
 struct BrickSights {
     std::array<std::array<float, 6>, kBrickProbes> distances;
 
@@ -59,7 +61,7 @@ VolumeAtlas atlas_of(const VolumeGrid& grid, int order) {
     constexpr int kMostAlong = kGuaranteedTexels / kBrickSide;
     const auto count = static_cast<int>(grid.bricks.size());
     const auto divided = [](int n, int by) { return (n + by - 1) / by; };
-    // As few layers as there can be, then rows that leave the fewest texels unused.
+    // Use the minimum number of layers, then the row count that leaves the fewest texels unused.
     const int z = std::max(1, divided(count, kMostAlong * kMostAlong)),
               y = std::max(1, divided(count, kMostAlong * z));
     return {{std::max(1, divided(count, y * z)), y, z}, order};
@@ -67,7 +69,7 @@ VolumeAtlas atlas_of(const VolumeGrid& grid, int order) {
 
 std::vector<std::uint32_t> sight_texels(const VolumeGrid& grid, const VolumeProbes& probes,
                                         std::span<const ProbeSight> sights) {
-    const VolumeAtlas atlas = atlas_of(grid, 2); // of any order
+    const VolumeAtlas atlas = atlas_of(grid, 2); // the size does not depend on the order
     std::vector<std::uint32_t> texels(2 * atlas.texels_of_plane());
     for (std::size_t b = 0; b < grid.bricks.size(); ++b) {
         const auto& of_brick = probes.of_brick[b];

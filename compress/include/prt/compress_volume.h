@@ -1,21 +1,21 @@
 #pragma once
 
 // Compression of volumes: a probe is one receiver, whose transfer has a vector for each coefficient of the
-// light that comes in. Experimental.
+// incident light. Experimental.
 
 #include "prt/compress.h"
 #include "prt/transfer_volume.h"
 
 namespace prt {
 
-/// Raw transfer of a volume as that of probes.
+/// Returns the raw transfer of a volume with one receiver per probe.
 TransferView as_probes(const BakedVolume& volume);
 
-/// The metric of the relative error of incident light, all directions alike, from that of exit radiance under
-/// the same lightings.
+/// Returns the metric of the relative error of incident light, averaged over all directions, from the metric
+/// of exit radiance under the same lightings.
 LightMetric incident_metric(const LightMetric& of_one, std::size_t outputs);
 
-/// Sixteen bytes: 8 bits of cluster, 120 of weights.
+/// Returns a coding with sixteen bytes: 8 bits of cluster, 120 bits of weights.
 WeightCoding preset_volume();
 
 struct CompressedVolumeResult {
@@ -23,8 +23,8 @@ struct CompressedVolumeResult {
     CompressStatistics statistics;
 };
 
-/// Compresses a volume. Options are those of `compress`; guides are none, weights packed, and a metric is one
-/// of exit radiance. Throws as it does.
+/// Compresses a volume with the options of `compress`. Predictors are disabled, weights must be packed, and a
+/// metric is one of exit radiance. Throws as `compress`.
 CompressedVolumeResult compress_volume(const BakedVolume& volume, CompressOptions options,
                                        const Progress& progress = {});
 

@@ -1,7 +1,7 @@
 #pragma once
 
-// What is known of receivers beside their transfer: how much an error counts, who is beside whom, and what a
-// renderer has of each.
+// Receiver data in addition to transfer: the weight of errors, neighbours, and the attributes that a renderer
+// has.
 
 #include "prt/lightmap.h"
 #include "prt/mesh_edges.h"
@@ -14,13 +14,14 @@
 
 namespace prt {
 
-/// Keeps references.
+/// View of the data of receivers. Keeps references.
 struct ReceiverSurface {
-    std::span<const float> areas;     ///< [receivers]: how much an error counts; where 0 it does not
-    std::span<const Edge> edges = {}; ///< needed where seams have a price
-    /// [receivers], or nothing where the renderer has none: unit, or zero; metres, seen from Scene::origin.
+    std::span<const float> areas;     ///< [receivers] weight of an error; 0: ignored
+    std::span<const Edge> edges = {}; ///< required if seams have a price
+    /// [receivers], or empty if the renderer does not have them: unit or zero; metres, relative to
+    /// Scene::origin.
     std::span<const glm::vec3> normals = {}, positions = {};
-    std::span<const SeamJump> jumps = {}; ///< of lightmaps, to be closed
+    std::span<const SeamJump> jumps = {}; ///< jumps at UV seams of lightmaps that are minimised
 };
 
 /// The surface of a scene whose receivers are its vertices.

@@ -1,6 +1,6 @@
 #pragma once
 
-// Receivers that a mesh joins: edges, and the neighbours of each receiver. Experimental.
+// Mesh edges between receivers, and the neighbours of each receiver. Experimental.
 
 #include <cstddef>
 #include <cstdint>
@@ -9,31 +9,33 @@
 
 namespace prt {
 
-/// Two receivers that a triangle joins, first < second.
+/// Two receivers that share a triangle; first < second.
 struct Edge {
     std::uint32_t first, second;
     friend bool operator==(const Edge&, const Edge&) = default;
     friend auto operator<=>(const Edge&, const Edge&) = default;
 };
 
-/// Returns `edges` in ascending order, each once, with its ends in order; those with one end only go.
+/// Returns `edges` sorted in ascending order, without duplicates, each with first < second. Edges with two
+/// equal ends are removed.
 std::vector<Edge> unique_edges(std::vector<Edge> edges);
 
-/// The neighbours of each receiver, one list after the other.
+/// The neighbours of each receiver in compressed sparse rows.
 class Adjacency {
 public:
-    /// `edges` as `unique_edges` returns them, between receivers 0 .. `receivers` - 1.
+    /// Builds the lists from `edges`, as returned by `unique_edges`, between receivers 0 .. `receivers` - 1.
     Adjacency(std::span<const Edge> edges, std::size_t receivers);
 
     std::size_t receivers() const { return first_.size() - 1; }
-    /// The neighbours of `receiver` in ascending order.
+    /// Returns the neighbours of `receiver` in ascending order.
     std::span<const std::uint32_t> of(std::size_t receiver) const {
         return std::span(neighbours_).subspan(first_[receiver], degree(receiver));
     }
     std::size_t degree(std::size_t receiver) const { return first_[receiver + 1] - first_[receiver]; }
-    /// Index of the first neighbour of `receiver` among those of all, for values beside them.
+    /// Index of the first neighbour of `receiver` in the concatenated lists, for arrays with one value per
+    /// neighbour.
     std::size_t first(std::size_t receiver) const { return first_[receiver]; }
-    /// Twice the number of edges.
+    /// Length of all lists together: twice the number of edges.
     std::size_t size() const { return neighbours_.size(); }
 
 private:

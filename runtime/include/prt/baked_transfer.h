@@ -1,6 +1,6 @@
 #pragma once
 
-// What a bake makes and a compression keeps: transfer and the record of how it was made. Stable.
+// Baked and compressed transfer, with the record of the bake settings. Stable.
 
 #include "prt/clustered_transfer.h"
 #include "prt/transfer.h"
@@ -10,36 +10,38 @@
 
 namespace prt {
 
-/// What a bake runs on.
+/// Hardware that runs a bake.
 enum class Backend {
-    automatic, ///< a hardware GPU where there is one, else the CPU; not in records
+    automatic, ///< hardware GPU if available, else the CPU; never stored in records
     cpu,
     gpu, ///< Vulkan 1.2
 };
 
 enum class BakeMethod {
-    trace,  ///< rays
+    trace,  ///< ray tracing
     raster, ///< depth maps from many directions (Hill 2004): direct light, GPU only
 };
 
-/// The words of files and reports: "auto", "cpu", "gpu"; "trace", "raster".
+/// Returns the identifier used in files and reports: "auto", "cpu", "gpu"; "trace", "raster".
 const char* to_string(Backend backend);
 const char* to_string(BakeMethod method);
 
-/// How a bake was made; written to the file and shown by `prt info`.
+/// Settings and results of a bake; written to the file and shown by `prt info`.
 struct BakeRecord {
-    int bounces = 0;      ///< done
-    bool endless = false; ///< all bounces are; then `bounces` says how often the solver applied the operator
-    int rays = 0;         ///< per receiver, the mean where it differs; directions where method is raster
+    int bounces = 0;      ///< number of bounces computed
+    bool endless = false; ///< true: all bounces are included, and `bounces` is the number of solver
+                          ///< iterations
+    int rays = 0;         ///< per receiver, the mean if it varies; number of directions for
+                          ///< BakeMethod::raster
     std::uint64_t seed = 0;
     BakeMethod method = BakeMethod::trace;
     Backend backend = Backend::cpu;
-    std::string receivers;     ///< receivers_id of the scene
-    double sampling_error = 0; ///< estimated relative L2 of the direct light
-    bool fitted = false;       ///< values of vertices come nearest to the light between them, interpolated
+    std::string receivers;     ///< `receivers_id` of the scene
+    double sampling_error = 0; ///< estimated relative L2 error of the direct light
+    bool fitted = false;       ///< vertex values are a least-squares fit to samples over the surface
 };
 
-/// How the numbers of raw transfer are stored in a file.
+/// Number format of raw transfer in a file.
 enum class TransferStorage { float32, float16 };
 
 const char* to_string(TransferStorage storage);

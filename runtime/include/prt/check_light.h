@@ -1,12 +1,12 @@
 #pragma once
 
-// Whether lighting can be computed with. Experimental.
+// Validation of lighting coefficients. Experimental.
 
 #include "prt/light.h"
 
 namespace prt {
 
-/// The brightest coefficient that is taken in: sums of squares of such lights are still floats.
+/// Maximum magnitude of a coefficient. Sums of squares of such lights still fit a float.
 inline constexpr float kMostLight = 1e18f;
 
 /// Throws `Error` unless every coefficient is a number from -kMostLight to kMostLight.

@@ -1,7 +1,7 @@
 #pragma once
 
-// The clusters of compressed transfer: means, directions, how their weights are stored, and the code of a
-// file. Stable.
+// The clusters of compressed transfer: means, basis directions, weight storage, and their coded form in
+// files. Stable.
 
 #include "prt/coded_rows.h"
 #include "prt/transfer_layout.h"
@@ -14,69 +14,72 @@
 
 namespace prt {
 
-/// What is known of a receiver wherever its transfer is rebuilt: its unit normal, or its position in metres,
-/// both in the frame of the bake.
+/// Receiver attribute that the vertex shader already has: the unit normal, or the position in metres. Both
+/// are in the frame of the bake.
 enum class GuideKind { normal, position };
 
 const char* to_string(GuideKind kind);
 
-/// Coordinates that serve as weights and are stored nowhere: every cluster is a linear function of them
-/// before its directions add what they do not tell (docs/math.md, eq. 20).
+/// Predictor: receiver coordinates that act as weights but are not stored. Each cluster is first predicted as
+/// a linear function of these coordinates; its basis directions then add the residual (docs/math.md, eq. 20).
 struct Guide {
     GuideKind kind = GuideKind::normal;
-    glm::vec3 origin{0}; ///< 0 for normals; positions are seen from here, which is seen from Scene::origin
-    glm::vec3 scale{1};  ///< a row counts so often for each unit of its coordinate
+    glm::vec3 origin{0}; ///< 0 for normals; for positions, an offset relative to Scene::origin
+    glm::vec3 scale{1};  ///< factor for each coordinate
 
     bool operator==(const Guide&) const = default;
 };
 
-/// Powers of two that the step of bases has in each cluster and group of axes: light of a lamp is a thousand
-/// times as bright in one cluster as in another.
+/// Exponents of two that scale the step of the bases per cluster and group of axes. They are needed because
+/// lamp transfer can be a thousand times brighter in one cluster than in another.
 struct StepExponents {
-    std::vector<int> axes; ///< [groups] axes of each group; all together those of the bases
+    std::vector<int> axes; ///< [groups] number of axes per group; the sum is the number of axes of the bases
     RowCode code;          ///< rows [clusters], columns [groups]
 
     bool empty() const { return axes.empty(); }
 };
 
-/// Rows as sums over a few axes: row = [origin, for means] + sum_i step · scales[i] · value_i · axis_i, with
-/// twice the step for directions. Values and axes are integers of few bits (docs/format.md).
+/// Rows as sums over a few axes: row = [origin, for means] + sum_i step · scales[i] · value_i · axis_i. Basis
+/// directions use twice the step. Values and axes are integers of few bits (docs/format.md).
 struct CodedBases {
     std::vector<float> origin; ///< [dimension]
     std::vector<float> scales; ///< [axes]
     float step = 0;
     RowCode axes;   ///< rows [axes], columns [dimension]
     RowCode values; ///< rows as in ClusteredBases, columns [axes]
-    /// [dimension]: what the axes' numbers are multiplied with in each column; empty: 1. A lamp that is a
-    /// thousand times as bright as a sky would leave it no digits otherwise.
+    /// [dimension]: factor of each column of the axes; empty: 1. Without these factors a lamp that is a
+    /// thousand times brighter than the sky would leave no significant digits for the sky.
     std::vector<float> units = {};
-    StepExponents exponents = {}; ///< empty: all 0
+    StepExponents exponents = {}; ///< empty: all exponents are 0
 };
 
-/// Bytes of drops and bits.
+/// Size of `drops` and `bits` in bytes.
 std::size_t coded_bytes(const RowCode& code);
 
-/// Bytes of origin, units, scales, axes, exponents and values.
+/// Size of origin, units, scales, axes, exponents and values in bytes.
 std::size_t coded_bytes(const CodedBases& coded);
 
-/// The rows that `coded` stands for, [rows][dimension]; cluster k has one mean, `guide_rows` of guides and
-/// `components[k]` directions. Throws `Error` where a code is damaged.
+/// Decodes the rows of `coded`, [rows][dimension]. Cluster k has one mean, `guide_rows` predictor rows and
+/// `components[k]` basis directions. Throws `Error` if a code is damaged.
 std::vector<float> decode_bases(const CodedBases& coded, const std::vector<int>& components,
                                 std::size_t guide_rows = 0);
 
-/// Means, rows of guides and directions of all clusters: with x the coordinates of a receiver's guides,
-/// T = mean + sum_i (scale_i x_i - center_i) guide_i + sum_j w_j direction_j.
+/// Means, predictor rows and basis directions of all clusters. With x the predictor coordinates of a
+/// receiver, T = mean + sum_i (scale_i x_i - center_i) guide_i + sum_j w_j direction_j.
 struct ClusteredBases {
     TransferLayout layout;
-    std::vector<Guide> guides;   ///< none, or each kind once at most, normals first; the same in all clusters
-    std::vector<int> components; ///< [clusters] number of directions m_k
-    /// Per cluster its mean, three rows for each guide, then its m_k directions; each [dimension].
+    std::vector<Guide> guides;   ///< empty, or each kind at most once, normals first; the same in all
+                                 ///< clusters
+    std::vector<int> components; ///< [clusters] number of basis directions m_k
+    /// Per cluster: the mean, three rows per predictor, then m_k basis directions; each row has [dimension]
+    /// numbers.
     std::vector<float> rows;
-    /// [clusters][guide_rows()]: where a cluster is, so that its mean is that of its receivers.
+    /// [clusters][guide_rows()]: predictor offset of each cluster, so that the mean row is the mean of its
+    /// receivers.
     std::vector<std::int32_t> centers;
-    /// Per cluster the bits of its m_k weights, 1..16; empty unless weights are packed.
+    /// Per cluster the bit widths of its m_k weights, 1..16; empty unless weights are packed.
     std::vector<std::uint8_t> bits;
-    /// What `rows` was decoded from; without axes where the file holds `rows` themselves.
+    /// Source from which `rows` was decoded; has no axes if the file stores `rows` directly.
     CodedBases coded;
 
     std::size_t clusters() const { return components.size(); }
@@ -84,34 +87,34 @@ struct ClusteredBases {
     bool is_coded() const { return !coded.origin.empty(); }
     int max_components() const;
     std::size_t guide_rows() const { return 3 * guides.size(); }
-    /// Rows of a cluster that are no directions.
+    /// Number of rows per cluster before its basis directions.
     std::size_t fixed_rows() const { return 1 + guide_rows(); }
-    /// The factor of row i of the guides.
+    /// Factor of the i-th predictor coordinate.
     float guide_scale(std::size_t i) const { return guides[i / 3].scale[static_cast<int>(i % 3)]; }
-    /// Index of the first row of cluster `cluster` in `rows`; its bits start at first_row(k) - k
-    /// fixed_rows(). [clusters + 1]
+    /// Index of the first row of each cluster in `rows`, [clusters + 1]. The bits of cluster k start at
+    /// first_row(k) - k fixed_rows().
     std::vector<std::size_t> first_rows() const;
 };
 
-/// Where the vertex shader finds a cluster: `uvec4` of its table. Components 8 and up have their widths in
-/// `w`.
+/// Location of a cluster's constants and the layout of its weights: a `uvec4` of the vertex shader's table.
+/// Components 8 and up have their widths in `w`.
 struct ClusterLayout {
-    std::uint32_t first_row = 0;  ///< of its constants
+    std::uint32_t first_row = 0;  ///< index of the first constant of the cluster
     std::uint32_t components = 0; ///< m_k
     std::uint32_t widths[2] =
-        {}; ///< of packed weights: bits - 1 of component j in four bits from 4 (j mod 8) on
+        {}; ///< packed weights: bits - 1 of component j in four bits starting at bit 4 (j mod 8)
 };
 
-/// Whether all clusters have as many components, and packed weights the same bits: a vertex shader wants no
-/// table then, and no loop.
+/// Returns whether all clusters have the same number of components and, if packed, the same weight widths.
+/// The vertex shader then needs no table and no loop.
 bool clusters_are_alike(const ClusteredBases& bases);
 
 inline constexpr int kMostPackedComponents = 16;
 
-/// The table [clusters].
+/// Returns the constants and weight layout of each cluster, [clusters].
 std::vector<ClusterLayout> cluster_layouts(const ClusteredBases& bases);
 
-/// Bytes that a game needs of the bases: rows or their code, and the layout of the weights.
+/// Number of bytes that a game needs for the bases: rows or their code, and the weight layout.
 std::size_t basis_bytes(const ClusteredBases& bases);
 
 } // namespace prt

@@ -1,13 +1,14 @@
 #pragma once
 
-// Compressed transfer (clustered PCA; Sloan, Hall, Hart and Snyder 2003): in memory, per frame, per receiver.
+// Compressed transfer (clustered PCA; Sloan, Hall, Hart and Snyder 2003): data in memory, per frame and per
+// receiver.
 //
 // Each frame, or each time the lighting changes:
 //     former.form(light, constants);                       // M_k·L and B_kj·L: prt/constant_former.h
-// then per receiver, in a vertex shader (shaders/prt_exit_radiance.glsl) or here:
+// Then per receiver, in a vertex shader (shaders/prt_exit_radiance.glsl) or on the CPU:
 //     R = C[first_k] + sum_i x_i C[first_k + 1 + i] + sum_j w_j C[first_k + 1 + g + j]
-// docs/math.md, eq. 29, with C the constants and x the g coordinates of the guides, seen from their origin.
-// Stable.
+// This is docs/math.md, eq. 29, with C the constants and x the g predictor coordinates relative to their
+// origin. Stable.
 
 #include "prt/clustered_bases.h"
 #include "prt/light.h"
@@ -24,25 +25,25 @@
 
 namespace prt {
 
-/// How weights are stored. Packed: cluster and weights share 32-bit words; a weight of b bits holds q = 0 ..
-/// 2^b - 1 and means (2 q - (2^b - 1)) / (2^b - 1). Floats show the error without that rounding.
+/// Storage format of weights. Packed: cluster and weights share 32-bit words; a weight of b bits holds q = 0
+/// .. 2^b - 1 and means (2 q - (2^b - 1)) / (2^b - 1). Floats show the error without that rounding.
 enum class WeightFormat { float32, packed };
 
-/// Per receiver: its cluster and its weights, ready to be uploaded.
+/// Cluster and weights of each receiver, ready for upload.
 struct ClusteredReceivers {
     WeightFormat format = WeightFormat::float32;
-    int components = 0;   ///< floats: weights stored per receiver, max m_k rounded up to a multiple of 4
-    int cluster_bits = 0; ///< packed: the lowest bits of the first word, which hold the cluster
+    int components = 0;   ///< float32: weights stored per receiver, max m_k rounded up to a multiple of 4
+    int cluster_bits = 0; ///< packed: number of lowest bits of the first word that hold the cluster
     int words = 0;        ///< packed: 32-bit words per receiver
-    std::vector<std::uint16_t>
-        clusters;                   ///< [receivers]; packed: the same as in the words, for use on the CPU
+    std::vector<std::uint16_t> clusters; ///< [receivers]; packed: copy of the clusters in the words, for use
+                                         ///< on the CPU
     std::vector<std::byte> weights; ///< [receivers][components] floats, unused ones 0; or [receivers][words]
-    /// [receivers][guide rows]: coordinates of the guides, seen from their origins; a vertex shader has them
+    /// [receivers][guide rows]: predictor coordinates relative to their origins. A vertex shader gets them
     /// from the mesh.
     std::vector<float> guides;
 
     std::size_t size() const { return clusters.size(); }
-    /// Bytes of `weights` that one receiver has.
+    /// Size of one receiver's entry in `weights` in bytes.
     std::size_t stride() const;
 };
 
@@ -51,42 +52,44 @@ struct ClusteredTransfer {
     ClusteredReceivers receivers;
 };
 
-/// Writes the weights of a receiver, each in [-1, 1] unless the format is float, to `weights` [m_k].
+/// Writes the weights of a receiver to `weights` [m_k], each in [-1, 1] unless the format is float32.
 void decode_weights(const ClusteredTransfer& transfer, std::span<const ClusterLayout> layouts,
                     std::size_t receiver, std::span<float> weights);
 
-/// Packs a cluster and the integers q of its weights, in the bits that `layout` gives them, into `words`.
+/// Packs a cluster and the integers q of its weights into `words`, with the bit widths of `layout`.
 void pack_words(std::uint32_t cluster, int cluster_bits, const ClusterLayout& layout,
                 std::span<const std::uint32_t> values, std::span<std::uint32_t> words);
 
-/// Sets the clusters of `count` packed receivers from `first` on out of their words. Throws `Error` where
-/// there is none such: "vertex 3 is in cluster 9 of 8", `what` being "vertex".
+/// Reads the clusters of `count` packed receivers, starting at `first`, from their words. Throws `Error` if a
+/// cluster does not exist: "vertex 3 is in cluster 9 of 8", with `what` = "vertex".
 void unpack_clusters(std::size_t clusters, std::size_t first, std::size_t count, const char* what,
                      ClusteredReceivers& receivers);
 
-/// Bytes that a game binds per receiver. Packed: whole 32-bit words. Floats: the cluster, padded to four
-/// bytes as glTF asks of vertex attributes, and the weights as vectors of four.
+/// Number of bytes that a game binds per receiver. Packed: whole 32-bit words. Floats: the cluster, padded to
+/// four bytes as glTF requires for vertex attributes, and the weights as vectors of four.
 std::size_t bytes_per_receiver(const ClusteredTransfer& transfer);
 
-/// Bits of them that are in use in the cluster that uses most: the rest is zeros, which
-/// EXT_meshopt_compression takes away on disk and nothing takes away in a vertex buffer.
+/// Maximum number of used bits per receiver over all clusters. The remaining bits are zero:
+/// EXT_meshopt_compression removes them on disk, but they remain in a vertex buffer.
 std::size_t bits_per_receiver(const ClusteredTransfer& transfer);
 
-/// Rows of constants: for each cluster a mean, three of each guide, and m_k directions.
+/// Number of rows of constants: for each cluster one mean, three rows per predictor, and m_k basis
+/// directions.
 std::size_t constant_rows(const ClusteredBases& bases);
 
-/// Exit radiance for albedo 1 of every receiver, `radiance` [receivers], from formed constants: what the
-/// vertex shader computes. Of transfer of several outputs, which has packed weights: [receivers][outputs].
+/// Computes the exit radiance for albedo 1 of every receiver from the constants, `radiance` [receivers], as
+/// the vertex shader does. Transfer with several outputs requires packed weights; `radiance` is then
+/// [receivers][outputs].
 void evaluate(const ClusteredTransfer& transfer, std::span<const glm::vec4> constants,
               std::span<glm::vec3> radiance, int threads = 0);
 
-/// Both steps at once.
+/// Computes the constants and evaluates them, [receivers].
 std::vector<glm::vec3> exit_radiance(const ClusteredTransfer& transfer, const Lighting& lighting,
                                      int threads = 0);
-/// All light in one sky.
+/// Computes exit radiance with all light in one sky, [receivers].
 std::vector<glm::vec3> exit_radiance(const ClusteredTransfer& transfer, const Light& light, int threads = 0);
 
-/// The transfer vectors that the compressed form stands for.
+/// Decompresses to transfer vectors.
 Transfer decode(const ClusteredTransfer& transfer, int threads = 0);
 
 } // namespace prt

@@ -1,7 +1,7 @@
 #pragma once
 
-// Rows of numbers in few bits: how a file keeps the means and directions of its clusters (docs/format.md).
-// Experimental.
+// Entropy-coded rows of small integers, which store the means and basis directions of clusters in a file
+// (docs/format.md). Experimental.
 
 #include <cstddef>
 #include <cstdint>
@@ -10,20 +10,20 @@
 
 namespace prt {
 
-/// Integers in rows of a few widths, arithmetically coded. Row r stores its level t; value i then fits max(0,
-/// t - drop[i]) bits of two's complement, which is what the models of its bits go by; no bits: 0. Columns
-/// that are small everywhere so cost little in every row.
+/// Integers in rows, arithmetically coded. Row r stores its level t. Value i of that row then fits max(0, t -
+/// drop[i]) bits of two's complement, which selects the models of its bits; a value of no bits is 0. Columns
+/// that are small in all rows therefore cost few bits in every row.
 struct RowCode {
     std::vector<std::uint8_t> drops; ///< [columns]
-    std::vector<std::byte> bits;     ///< all rows one after the other
+    std::vector<std::byte> bits;     ///< all rows, concatenated
 };
 
 inline constexpr int kMostRowBits = 15; ///< widest value: -16384..16383
 
-/// The shortest code of `values` [rows][columns], each in -16384..16383.
+/// Returns the shortest code found for `values` [rows][columns], each in -16384..16383.
 RowCode encode_rows(std::span<const std::int32_t> values, std::size_t columns);
 
-/// The values of `rows` rows. Throws `Error` where the bits end too early.
+/// Decodes `rows` rows. Throws `Error` if the bits end too early.
 std::vector<std::int32_t> decode_rows(const RowCode& code, std::size_t rows);
 
 } // namespace prt

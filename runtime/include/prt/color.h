@@ -1,16 +1,16 @@
 #pragma once
 
-// Colors as numbers. Experimental.
+// Luminance and greyness of colors. Experimental.
 
 #include <glm/geometric.hpp>
 #include <glm/vec3.hpp>
 
 namespace prt {
 
-/// The weights of Rec. 709.
+/// Luminance weights of Rec. 709.
 inline constexpr glm::dvec3 kLuminance(0.2126, 0.7152, 0.0722);
 
-/// Luminance of a linear color.
+/// Returns the luminance of a linear color.
 template <class Real>
 Real luminance(const glm::vec<3, Real>& rgb) {
     return glm::dot(rgb, glm::vec<3, Real>(kLuminance));

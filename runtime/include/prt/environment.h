@@ -25,71 +25,75 @@ struct Image {
 };
 
 enum class EnvironmentLayout {
-    lat_long, ///< any size; top row +Y; center column and what is left of it: `LatLongCenter`
-    cube,     ///< OpenEXR's: faces +X -X +Y -Y +Z -Z in a column, border texels centerd on the cube's edges
-    /// OpenGL's, Vulkan's and Direct3D's: the same order in a column, each face turned and mirrored as they
-    /// do, texels cells of equal size.
+    lat_long, ///< any size; top row +Y; `LatLongCenter` defines the center column
+    cube,     ///< OpenEXR: faces +X -X +Y -Y +Z -Z in a column, border texels centered on the cube's edges
+    /// OpenGL, Vulkan and Direct3D: the same face order in a column, each face rotated and mirrored as these
+    /// APIs do; texels are cells of equal size.
     cube_faces,
-    /// Square, all directions in a circle: the center looks at -Z, +X is right, +Y up, the angle to -Z grows
-    /// with the distance from the center up to pi on the rim (Debevec's light probes). Corners count for
-    /// nothing.
+    /// Square image with all directions in a circle: the center looks at -Z, +X is right, +Y up. The angle to
+    /// -Z grows linearly with the distance from the center up to pi on the rim (Debevec's light probes). The
+    /// corners are ignored.
     angular,
 };
 
-/// What the center column of a lat-long image looks at.
+/// Direction of the center column of a lat-long image.
 enum class LatLongCenter {
-    z, ///< +Z, and +X is a quarter of the width left of it: OpenEXR
-    x, ///< +X, and -Z is a quarter of the width left of it: three.js, glTF viewers and Blender show them so
+    z, ///< +Z, and +X is a quarter of the width to the left: OpenEXR
+    x, ///< +X, and -Z is a quarter of the width to the left: three.js, glTF viewers, Blender
 };
 
 struct Environment {
     Image image;
     EnvironmentLayout layout = EnvironmentLayout::lat_long;
-    LatLongCenter center = LatLongCenter::z; ///< other layouts do not care
+    LatLongCenter center = LatLongCenter::z; ///< ignored by other layouts
 };
 
-/// Throws `Error` unless the image has pixels, as many as its size says, and the shape of its layout.
+/// Throws `Error` unless the image has pixels, their number equals width x height, and the size fits its
+/// layout.
 void check_environment(const Environment& environment);
 
-/// What to do with pixels that cannot be radiance.
+/// Treatment of pixels that cannot be radiance.
 enum class BadPixels {
-    error, ///< throw `Error` that counts them and names the first
+    error, ///< throw `Error` with their number and the position of the first
     zero,  ///< make them black
     clamp, ///< NaN and negative become 0, +infinity the largest finite value of the image
 };
 
-/// Number of pixels with a NaN, infinite or negative component; they are treated as `policy` says.
-/// Throws `Error` under `BadPixels::error` when there are any.
+/// Repairs pixels with a NaN, infinite or negative component as `policy` specifies. Returns their number.
+/// Throws `Error` under `BadPixels::error` if there are any.
 std::size_t repair_pixels(Image& image, BadPixels policy);
 
-/// Unit direction at the pixel position (x, y), where pixel i covers [i, i + 1]; the center looks at +Z.
+/// Returns the unit direction at pixel position (x, y), where pixel i covers [i, i + 1]; the center looks at
+/// +Z.
 glm::dvec3 lat_long_direction(int width, int height, double x, double y);
 
-/// Pixel position, as in `lat_long_direction`, of a unit direction; x in [0, width], y in [0, height].
+/// Returns the pixel position of a unit direction, as in `lat_long_direction`; x in [0, width], y in [0,
+/// height].
 glm::dvec2 lat_long_position(int width, int height, const glm::dvec3& direction);
 
-/// Unit direction at (u, v) in [-1, 1]² of face 0..5 of a cube map, u to the right and v down in the image.
-/// Texel i of n along an axis is centerd at 2 i / (n - 1) - 1.
+/// Returns the unit direction at (u, v) in [-1, 1]² of face 0..5 of a cube map, u to the right and v down in
+/// the image. Texel i of n along an axis is centered at 2 i / (n - 1) - 1.
 glm::dvec3 cube_direction(int face, double u, double v);
 
-/// The same for the layout `cube_faces`, where texel i of n along an axis is centerd at (2 i + 1) / n - 1.
+/// Returns the unit direction at (u, v) of face 0..5 for the layout `cube_faces`. Texel i of n along an axis
+/// is centered at (2 i + 1) / n - 1.
 glm::dvec3 cube_face_direction(int face, double u, double v);
 
-/// Unit direction at (u, v) of an angular map, u right and v down in [-1, 1], u² + v² <= 1.
+/// Returns the unit direction at (u, v) of an angular map, u right and v down in [-1, 1], u² + v² <= 1.
 glm::dvec3 angular_direction(double u, double v);
 
-/// Bilinearly filtered radiance in unit direction `direction`, of an environment that `check_environment`
-/// lets pass; some pixels' in a direction that is not finite.
+/// Returns bilinearly filtered radiance in unit direction `direction`. The environment must pass
+/// `check_environment`. A direction that is not finite yields the radiance of an arbitrary pixel.
 glm::vec3 sample(const Environment& environment, const glm::vec3& direction);
 glm::vec3 sample_lat_long(const Image& image, const glm::vec3& direction);
 
-/// The environment as a lat-long image whose center looks at +Z: such a one as it is, others by `sample` at
-/// about their resolution. Throws as `check_environment`.
+/// Returns the environment as a lat-long image whose center looks at +Z. An environment in that layout is
+/// copied; others are resampled by `sample` at about their resolution. Throws as `check_environment`.
 Image resampled_lat_long(const Environment& environment);
 
-/// Projects the environment, piecewise constant over its texels, into SH: the basis is integrated over each
-/// texel, not only taken at its center, so that an image of one pixel is exactly a constant light. Sums are
-/// in double, row by row in a fixed order: the result does not depend on `threads` (0: all). Throws as
+/// Projects the environment, piecewise constant over its texels, into SH. The basis is integrated over each
+/// texel instead of evaluated at its center, so that an image of one pixel is exactly a constant light. Sums
+/// are in double, row by row in a fixed order: the result does not depend on `threads` (0: all). Throws as
 /// `check_environment` and `check_light`.
 Light project(const Environment& environment, int order, int threads = 0);
 

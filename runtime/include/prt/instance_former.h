@@ -1,15 +1,15 @@
 #pragma once
 
-// The work of a game for instances that share transfer, when the lighting changes: constants of their own for
-// all instances, which the shader of their mesh reads instead of those of the model
+// The work of a game for instances with shared transfer when the lighting changes: computes separate
+// constants for each instance. The shader of the mesh reads these instead of the constants of the model
 // (shaders/prt_instances.glsl).
 //
 //     InstanceFormer former(transfer, instances); // once; `former.table()` into instance attributes
 //     std::vector<glm::vec4> constants(former.size());
 //     former.form(lighting, constants); // when the lighting changes
 //
-// Constants of an instance are linear in the place within the box of its mesh, so that a row takes three
-// vectors instead of one, and a vertex as many weights as any. Experimental.
+// Constants of an instance are linear in the position within the box of its mesh. A row therefore takes three
+// vectors instead of one. The number of weights per vertex does not change. Experimental.
 
 #include "prt/constant_former.h"
 #include "prt/instances.h"
@@ -21,13 +21,13 @@
 
 namespace prt {
 
-/// Rows of the constants of compressed transfer, of the clusters that a mesh has.
+/// Range of rows in the constants of compressed transfer that covers the clusters of a mesh.
 struct ConstantRows {
     std::uint32_t first = 0, count = 0;
 };
-/// From the lowest to the highest that receivers [first, first + count) read.
+/// Returns the range of rows that receivers [first, first + count) read.
 ConstantRows rows_of(const ClusteredTransfer& transfer, std::size_t first, std::size_t count);
-/// From the lowest to the highest of both.
+/// Returns the smallest range that contains `a` and `b`.
 ConstantRows joined(const ConstantRows& a, const ConstantRows& b);
 
 /// An instance, and the rows that its mesh reads.
@@ -36,23 +36,23 @@ struct FormedInstance {
     ConstantRows rows;
 };
 
-/// Immutable, thread-safe.
+/// Computes constants for instances. Immutable, thread-safe.
 class InstanceFormer {
 public:
-    /// `yaws`: turns about +Y in which the lighting is formed, to the nearest of which upright instances are
-    /// rounded; 0: every one in its own. Throws `Error` for transfer of lamps or of several outputs, and for
-    /// constants that take more than 4 GB.
+    /// `yaws`: number of rotations about +Y for which the lighting is rotated; upright instances are rounded
+    /// to the nearest one. 0: each distinct rotation is used exactly. Throws `Error` for transfer of lamps or
+    /// of several outputs, and for constants of more than 4 GB.
     InstanceFormer(const ClusteredTransfer& transfer, std::span<const FormedInstance> instances,
                    int yaws = 64);
 
-    /// Vectors of the constants of all instances, three for each row.
+    /// Number of vectors in the constants of all instances: three per row.
     std::size_t size() const { return size_; }
-    /// Most degrees by which an instance's lighting is turned off.
+    /// Maximum error of the rotation of an instance's lighting, in degrees.
     double most_degrees() const { return turns_.most_degrees; }
-    /// Attributes of each instance, [instances][2]: the middle of its box, one over the half widths; in w
-    /// where its constants begin, 16 bits in each.
+    /// Returns the attributes of each instance, [instances][2]: the center of its box, and the inverse half
+    /// widths. The two w hold the offset of its constants, 16 bits each.
     std::vector<glm::vec4> table() const;
-    /// Writes the constants of all instances, [size()]. Throws `Error` for lamps, and where the lighting has
+    /// Writes the constants of all instances, [size()]. Throws `Error` for lamps, and if the lighting has
     /// fewer bands than the transfer.
     void form(const Lighting& lighting, std::span<glm::vec4> constants, int threads = 0) const;
 
@@ -61,8 +61,8 @@ private:
     InstanceModes modes_;
     InstanceTurns turns_;
     std::vector<FormedInstance> instances_;
-    std::vector<std::size_t> begins_;            ///< [instances] of their constants
-    std::vector<std::vector<std::uint32_t>> of_; ///< [turns] instances
+    std::vector<std::size_t> begins_;            ///< [instances] index of their first constant
+    std::vector<std::vector<std::uint32_t>> of_; ///< [turns] instances with each rotation
     std::size_t size_ = 0;
 };
 

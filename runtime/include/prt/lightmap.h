@@ -1,6 +1,6 @@
 #pragma once
 
-// Transfer of texels: lightmaps that are relit. Experimental.
+// Transfer of texels, for lightmaps that can be relit. Experimental.
 
 #include "prt/adjacency.h"
 #include "prt/baked_transfer.h"
@@ -13,16 +13,16 @@
 
 namespace prt {
 
-/// A map of texels over some surfaces, row by row from v = 0 on.
+/// Size of a lightmap; texels are stored row by row from v = 0.
 struct LightmapSize {
     int width = 0, height = 0;
-    bool repeats = false; ///< some triangles lie in other squares than 0..1, where the map goes on
+    bool repeats = false; ///< some triangles use UVs outside 0..1, where the map repeats
 
     std::size_t texels() const { return static_cast<std::size_t>(width) * static_cast<std::size_t>(height); }
     friend bool operator==(const LightmapSize&, const LightmapSize&) = default;
 };
 
-/// Where a primitive has its texels.
+/// Lightmap and UV set of a primitive.
 struct LightmapPlace {
     std::size_t map = 0;
     int texcoord = 1; ///< TEXCOORD_n
@@ -30,52 +30,56 @@ struct LightmapPlace {
     friend bool operator==(const LightmapPlace&, const LightmapPlace&) = default;
 };
 
-/// Texels are numbered map behind map.
+/// Layout of all lightmaps; texels are numbered map by map.
 struct LightmapLayout {
     std::vector<LightmapSize> maps;
     std::vector<LightmapPlace> places; ///< [primitives of the scene]
 
     std::size_t texels() const;
-    /// Number of the first texel of each map, and of all texels: [maps + 1].
+    /// Returns the number of the first texel of each map, and the total number of texels: [maps + 1].
     std::vector<std::size_t> first_texels() const;
     friend bool operator==(const LightmapLayout&, const LightmapLayout&) = default;
 };
 
-/// As a bake makes it. Receivers are the texels that charts touch, and those beside them that filters read.
+/// Lightmaps as produced by a bake. Receivers are the texels that charts touch, and the adjacent texels that
+/// filters read.
 struct BakedLightmap {
     LightmapLayout layout;
-    std::vector<std::uint32_t> texels; ///< [receivers] ascending
-    /// [receivers] m², what bilinear filters read of it where the charts are: all together the surface.
+    std::vector<std::uint32_t> texels; ///< [receivers] in ascending order
+    /// [receivers] m²: surface area weighted by the bilinear filters that read the texel; the sum is the
+    /// surface area.
     std::vector<float> areas;
-    /// Receivers that show one place of the surface on both sides of a cut, in ascending order, each once.
+    /// Pairs of receivers that show the same surface point on both sides of a UV seam, in ascending order,
+    /// without duplicates.
     std::vector<Edge> seams;
     BakedTransfer baked;
 };
 
-/// As a game loads it: receivers are all texels.
+/// Lightmaps as loaded by a game. Receivers are all texels.
 struct CompressedLightmap {
     LightmapLayout layout;
     CompressedTransfer compressed;
 };
 
-/// A place where a surface is cut: what bilinear filters read on the two sides of it, less each other, so
-/// that the sum of weights and values is how far light jumps there.
+/// Point on a UV seam. The weighted sum of receiver values is the bilinear sample on one side minus the
+/// sample on the other: the jump of light at this point.
 struct SeamJump {
     std::array<std::uint32_t, 8> receivers;
     std::array<float, 8> weights;
 };
 
-/// Receivers whose light has to go together: texels side by side, and the two sides of seams.
+/// Returns the pairs of receivers whose light must match: adjacent texels, and the two sides of seams.
 std::vector<Edge> lightmap_edges(const LightmapLayout& layout, std::span<const std::uint32_t> texels,
                                  std::span<const Edge> seams);
 
-/// For every texel of a map the place in `texels`, which are those of the map, counted from its first, of one
-/// that lies near it: its own where it is among them. [size.texels()]; 0 where there are none.
+/// Returns for every texel of a map the index of a near entry in `texels`, which are numbered from the first
+/// texel of the map; [size.texels()]. A texel in `texels` returns its own index. Returns 0 everywhere if
+/// `texels` is empty.
 std::vector<std::uint32_t> nearest_receivers(const LightmapSize& size, std::span<const std::uint32_t> texels);
 
-/// What a bilinear filter reads, in texels from the corner of a map.
+/// The four texels of a bilinear sample, with weights.
 struct BilinearTexels {
-    std::uint32_t texels[4]; ///< of the map
+    std::uint32_t texels[4]; ///< number within the map
     double weights[4];
 };
 BilinearTexels bilinear_texels(const LightmapSize& size, double x, double y);

@@ -1,7 +1,7 @@
 #pragma once
 
-// The real spherical-harmonic basis as a template that any number type can run: float, double, or a SIMD
-// vector of floats. Most callers want `evaluate_sh` of prt/sh.h. Stable.
+// The real spherical-harmonic basis as a template for any number type: float, double, or a SIMD vector of
+// floats. Most callers need `evaluate_sh` of prt/sh.h instead. Stable.
 
 #include <array>
 #include <cstddef>
@@ -10,14 +10,14 @@
 
 namespace prt {
 
-/// Highest order N; bands are l = 0..N-1.
+/// Maximum order N; bands are l = 0..N-1.
 inline constexpr int kMaxOrder = 10;
 
 constexpr int coefficient_count(int order) {
     return order * order;
 }
 
-/// Index of the coefficient of band l and degree m, -l <= m <= l.
+/// Returns the index of the coefficient of band l and degree m, -l <= m <= l.
 constexpr int sh_index(int l, int m) {
     return l * (l + 1) + m;
 }
@@ -31,14 +31,14 @@ constexpr double square_root(double value) {
     return root;
 }
 
-/// Factors of the recurrence over l of the normalised associated Legendre functions, divided by sin^m:
-/// Q_m^m = sectoral[m] and Q_l^m = a[l][m] z Q_{l-1}^m - b[l][m] Q_{l-2}^m (docs/math.md, eq. 3). The factor
-/// sqrt(2) of m != 0 and the Condon-Shortley phase (-1)^m are inside.
+/// Factors of the recurrence over l of the normalised associated Legendre functions, divided by sin^m: Q_m^m
+/// = sectoral[m] and Q_l^m = a[l][m] z Q_{l-1}^m - b[l][m] Q_{l-2}^m (docs/math.md, eq. 3). The factor
+/// sqrt(2) of m != 0 and the Condon-Shortley phase (-1)^m are included.
 struct LegendreRecurrence {
     std::array<double, kMaxOrder> sectoral{};
     std::array<std::array<double, kMaxOrder>, kMaxOrder> a{}, b{};
-    /// The same for l = m+1, m+2, m+3 as polynomials: linear z, quadratic[0] z² - quadratic[1],
-    /// z (cubic[0] z² - cubic[1]).
+    /// Polynomials in z for l = m+1, m+2, m+3: linear z, quadratic[0] z² - quadratic[1], z (cubic[0] z² -
+    /// cubic[1]).
     std::array<double, kMaxOrder> linear{};
     std::array<std::array<double, 2>, kMaxOrder> quadratic{}, cubic{};
 
@@ -85,7 +85,7 @@ struct ScalarOf<Real> {
 
 } // namespace detail
 
-/// The basis function of band 0, the same in all directions.
+/// Value of the basis function of band 0, which is constant.
 inline constexpr double kY00 = detail::kLegendre.sectoral[0];
 
 /// Writes the Order² values of the basis in unit direction (x, y, z) to `basis`. Real, orthonormal,
@@ -108,7 +108,7 @@ template <int Order, class Real>
 #pragma GCC unroll 10
         for (int l = m; l < Order; ++l) {
             const auto li = static_cast<std::size_t>(l);
-            switch (l - m) { // the first of them as polynomials in z
+            switch (l - m) { // the first three after the sectoral one are polynomials in z
             case 0:
                 next = Real{} + static_cast<Scalar>(k.sectoral[mi]);
                 break;

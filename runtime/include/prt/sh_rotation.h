@@ -14,54 +14,55 @@
 
 namespace prt {
 
-/// What an element of R^T R, or the squared length of a quaternion, may be off: what thousands of products of
-/// float matrices leave.
+/// Maximum error of an element of R^T R, or of the squared length of a quaternion. It allows for the rounding
+/// of thousands of products of float matrices.
 inline constexpr double kRotationTolerance = 2e-3;
 
-/// Rotates SH vectors: for a function f with coefficients c, the result holds f'(w) = f(R^-1 w). Bands 1 and
-/// 2 are a vector and a quadratic form, which R turns as it is. For the others R is taken apart into R_z R_y
-/// R_z, and R_y into quarter turns about x and another R_z (docs/math.md, eq. 4): turns about z are products
-/// with cosines and sines, the quarter turns are constant and three quarters of them zero. All arithmetic is
-/// in double, so that ten thousand steps lose nothing to speak of. Small, allocates nothing, thread-safe;
-/// serves every order up to the one it was made for.
+/// Rotates SH vectors: for a function f with coefficients c, the result has f'(w) = f(R^-1 w). Bands 1 and 2
+/// are a vector and a quadratic form, which R rotates directly. For higher bands R is decomposed into R_z R_y
+/// R_z, and R_y into quarter turns about x and another R_z (docs/math.md, eq. 4). Rotations about z are
+/// products with cosines and sines; the quarter turns are constant and three quarters of their elements are
+/// zero. All arithmetic is in double, so that ten thousand steps lose no visible precision. Small, allocates
+/// nothing, thread-safe; serves every order up to that of the constructor.
 class ShRotation {
 public:
     /// Throws `Error` for an order outside 1..kMaxOrder and for matrices that are not rotations within
-    /// `kRotationTolerance`: scaled, sheared, mirrored ones, and NaN. What is left of such an error is taken
-    /// out.
+    /// `kRotationTolerance`: scaled, sheared, mirrored, or with NaN. Smaller errors are removed by
+    /// orthonormalisation.
     ShRotation(int order, const glm::dmat3& rotation);
     /// Throws `Error` unless the squared length of `rotation` is 1 within `kRotationTolerance`.
     ShRotation(int order, const glm::dquat& rotation);
-    /// Turns by `angle` radians, counter-clockwise seen from the tip of the axis.
+    /// Returns a rotation by `angle` radians, counter-clockwise seen from the tip of the axis.
     static ShRotation about_x(int order, double angle);
     static ShRotation about_y(int order, double angle);
-    static ShRotation about_z(int order, double angle); ///< the cheapest
+    static ShRotation about_z(int order, double angle); ///< the fastest
 
     int order() const { return order_; }
-    /// `in` and `out` are [order²] and may be the same.
+    /// Rotates [order²] coefficients; `in` and `out` may be the same.
     void apply(std::span<const float> in, std::span<float> out) const;
     void apply(std::span<const double> in, std::span<double> out) const;
-    /// RGB coefficients [order²] in place: three functions at little more than the price of one.
+    /// Rotates RGB coefficients [order²] in place: three functions for little more than the cost of one.
     void apply(std::span<glm::vec3> coefficients) const;
-    /// The same from `in` to `out`, which may be the same.
+    /// Rotates RGB coefficients [order²]; `in` and `out` may be the same.
     void apply(std::span<const glm::vec3> in, std::span<glm::vec3> out) const;
 
-    /// cos(m a) and sin(m a) of a turn about z.
+    /// cos(m a) and sin(m a) of a rotation by a about z.
     struct Turn {
-        static constexpr std::size_t kZero = 3; ///< where m = 0 stands; bands side by side reach before it
+        static constexpr std::size_t kZero = 3; ///< index of m = 0; vector code that handles several bands
+                                                ///< reads the entries before it
         std::array<double, kZero + kMaxOrder> cosine, sine;
-        Turn() {} // left as it is where the order has no need of it
+        Turn() {} // leaves entries that the order does not use uninitialised
     };
-    /// z first, then tilt about y, then z again.
+    /// Decomposition of a rotation: about z first, then about y (tilt), then about z again.
     struct Turns {
         Turn first, tilt, last;
-        bool tilted = false; ///< else `first` is all there is
+        bool tilted = false; ///< false: the rotation is `first` alone
     };
 
 private:
     int order_;
-    glm::dmat3 matrix_; ///< bands 1 and 2 come from its elements
-    Turns turns_;       ///< the others
+    glm::dmat3 matrix_; ///< rotates bands 1 and 2
+    Turns turns_;       ///< rotates the higher bands
 };
 
 } // namespace prt

@@ -1,6 +1,6 @@
 #pragma once
 
-// A sun that is lit apart from the sky. Stable.
+// A sun that is stored separately from the sky. Stable.
 
 #include "prt/light.h"
 
@@ -10,18 +10,19 @@
 
 namespace prt {
 
-/// A disc of uniform radiance far away, directional where it has no extent.
+/// A distant disc of uniform radiance, or a directional light if `half_angle` is 0.
 struct SunDisc {
-    glm::vec3 towards = {0, 1, 0}; ///< unit direction to its middle
+    glm::vec3 towards = {0, 1, 0}; ///< unit direction to its center
     glm::vec3 irradiance{0};       ///< on a receiver that faces it
     double half_angle = 0;         ///< radians
-    double energy_share = 0;       ///< of the luminance that all directions of its image together give
+    double energy_share = 0;       ///< luminance of the sun as a fraction of the total over all directions of
+                                   ///< its image
 };
 
-/// A sun as SH coefficients (docs/math.md, eq. 14): what lights transfer after a bounce. Throws `Error` for a
-/// half angle outside 0..pi/2 and for what is not finite.
+/// Returns a sun as SH coefficients (docs/math.md, eq. 14), for transfer after at least one bounce. Throws
+/// `Error` for a half angle outside 0..pi/2 and for values that are not finite.
 Light as_light(const SunDisc& sun, int order);
-/// Suns together.
+/// Returns the sum of the suns.
 Light as_light(std::span<const SunDisc> suns, int order);
 
 } // namespace prt

@@ -1,6 +1,6 @@
 #pragma once
 
-// Raw transfer vectors, as the baker makes them. Stable.
+// Raw transfer vectors, as produced by the baker. Stable.
 
 #include "prt/support/glm_layout.h"
 #include "prt/transfer_layout.h"
@@ -13,12 +13,12 @@
 
 namespace prt {
 
-/// Largest magnitude of a number of transfer that files hold: light that is scattered often adds up to a few,
-/// and far beyond squares and sums of what is lit pass what a float holds.
+/// Maximum magnitude of a transfer coefficient in files. Light after many bounces adds up to a small number;
+/// for much larger values the squares and sums of lit values would overflow a float.
 inline constexpr float kLargestTransfer = 1e6f;
 
-/// The transfer vectors of a list of receivers: exit radiance of a Lambertian receiver of albedo rho is
-/// R_c = rho_c · sum_i T[c][i] L_c[i] (docs/math.md, eq. 7).
+/// The transfer vectors of a list of receivers: exit radiance of a Lambertian receiver of albedo rho is R_c =
+/// rho_c · sum_i T[c][i] L_c[i] (docs/math.md, eq. 7).
 struct Transfer {
     TransferLayout layout;
     std::vector<float> vectors; ///< [receivers][layout.dimension()]
@@ -38,30 +38,31 @@ inline Transfer zero_transfer(TransferLayout layout, std::size_t receivers) {
     transfer.vectors.resize(receivers * transfer.dimension());
     return transfer;
 }
-/// Of a single part.
+/// Returns zero transfer with a single part.
 inline Transfer zero_transfer(int order, int channels, std::size_t receivers) {
     return zero_transfer(layout_of_one(order, channels), receivers);
 }
 
-/// The sum over all parts of one transfer vector [layout.dimension()], lit by `columns` of `light_columns`;
-/// the one channel of a grey part serves all colors.
+/// Returns the sum over all parts of one transfer vector [layout.dimension()], lit by `columns`, the result
+/// of `light_columns`. The single channel of a grey part is used for all colors.
 glm::vec3 exit_radiance(std::span<const float> transfer, const TransferLayout& layout,
                         std::span<const glm::vec3> columns);
 
-/// Exit radiance of every receiver for albedo 1, [receivers]. Throws `Error` if the lighting has fewer bands.
+/// Computes the exit radiance of every receiver for albedo 1, [receivers]. Throws `Error` if the lighting has
+/// too few bands.
 std::vector<glm::vec3> exit_radiance(const Transfer& transfer, const Lighting& lighting, int threads = 0);
-/// All light in one sky.
+/// Computes exit radiance with all light in one sky, [receivers].
 std::vector<glm::vec3> exit_radiance(const Transfer& transfer, const Light& light, int threads = 0);
 
-/// With all distant light in one part, of as many channels as it needs: a sky and its suns then light it
-/// alike. Lamps stay what they are.
+/// Merges all parts of distant light into one, with three channels if any part has color. Sky and suns then
+/// light the same part. Lamps are unchanged.
 TransferLayout as_whole(const TransferLayout& layout);
 Transfer as_whole(const Transfer& transfer, int threads = 0);
-/// The same of one vector [layout.dimension()].
+/// Merges the parts of one vector [layout.dimension()].
 std::vector<float> as_whole(std::span<const float> transfer, const TransferLayout& layout);
 
-/// Area-weighted mean of the sum of T_0 / Y_00 over the parts but lamps, each the mean over its channels: the
-/// share of a uniform sky's light that arrives.
+/// Returns the area-weighted mean of T_0 / Y_00, summed over all parts except lamps and averaged over the
+/// channels: the fraction of a uniform sky's light that arrives.
 double mean_visibility(const Transfer& transfer, std::span<const float> areas);
 
 } // namespace prt

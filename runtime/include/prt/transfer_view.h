@@ -1,7 +1,7 @@
 #pragma once
 
-// Transfer vectors wherever they are: as floats, as a file holds them, or compressed. Who reads them by
-// blocks needs no copy of all as floats. Experimental.
+// Uniform access to transfer vectors stored as floats, as in a file, or compressed. Code that reads block by
+// block needs no float copy of all vectors. Experimental.
 
 #include "prt/clustered_transfer.h"
 #include "prt/transfer.h"
@@ -14,24 +14,24 @@
 
 namespace prt {
 
-/// Transfer as a file holds it: half of the memory where that is float16, from which floats come exactly.
+/// Transfer as stored in a file. float16 needs half the memory and converts to float exactly.
 struct StoredTransfer {
     TransferLayout layout;
-    std::vector<float> floats;         ///< [receivers][layout.dimension()], or nothing
-    std::vector<std::uint16_t> halves; ///< the same as float16, or nothing
+    std::vector<float> floats;         ///< [receivers][layout.dimension()], or empty
+    std::vector<std::uint16_t> halves; ///< [receivers][layout.dimension()] as float16, or empty
 
     std::size_t receivers() const;
 };
 
-/// Reads the vectors of one of these; keeps a reference to what it was made of. Threads may share it.
+/// Reads transfer vectors from any of these sources. Keeps a reference to its source. Thread-safe.
 class TransferView {
 public:
-    /// Writes the vectors of receivers from `first` on, as many as `to` [..][dimension] has room for.
+    /// Writes the vectors of receivers from `first` on to `to` [..][dimension], whose size sets their number.
     using Read = std::function<void(std::size_t first, std::span<float> to)>;
 
     TransferView(const Transfer& transfer);
     TransferView(const StoredTransfer& transfer);
-    /// The vectors that the compressed form stands for: `decode`, block by block.
+    /// Decodes the compressed vectors block by block, as `decode` does.
     TransferView(const ClusteredTransfer& transfer);
     TransferView(TransferLayout layout, std::size_t receivers, Read read);
 
@@ -46,9 +46,9 @@ private:
     Read read_;
 };
 
-/// `as_whole` of prt/transfer.h, vector by vector.
+/// Applies `as_whole` of prt/transfer.h to each vector.
 TransferView as_whole(TransferView transfer);
-/// Receiver order[p] at place p; `order` [receivers] is kept.
+/// Reorders receivers: receiver order[p] becomes receiver p. Keeps `order` [receivers].
 TransferView in_order(TransferView transfer, std::vector<std::uint32_t> order);
 
 } // namespace prt

@@ -1,6 +1,6 @@
 #pragma once
 
-// The per-lighting work of a game with a volume: incident light of all probes, as a texture takes it.
+// The per-lighting work of a game with a volume: computes incident light of all probes as a texture.
 //
 //     VolumeFormer former(volume);                                  // once per model
 //     std::vector<glm::vec4> constants(former.rows());
@@ -23,32 +23,33 @@ namespace prt {
 
 enum class VolumeFormat {
     rgba16, ///< half floats, -65 504 to 65 504
-    rgba32, ///< floats, which not every GPU filters
+    rgba32, ///< floats, which some GPUs cannot filter
 };
 
-/// Thread-safe. Allocates when it is made alone; `form` starts threads where it may have more than one.
+/// Computes volume textures. Thread-safe. Allocates only in the constructor; `form` starts threads unless
+/// `threads` is 1.
 class VolumeFormer {
 public:
-    /// Keeps a reference to `volume`, whose weights are packed.
+    /// Keeps a reference to `volume`, whose weights must be packed.
     explicit VolumeFormer(const CompressedVolume& volume, VolumeFormat format = VolumeFormat::rgba16);
 
     const TransferLayout& layout() const { return constants_.layout(); }
     const VolumeAtlas& atlas() const { return atlas_; }
-    /// Constants in all: those of ConstantFormer.
+    /// Number of constants, as for ConstantFormer.
     std::size_t rows() const { return constants_.rows(); }
     std::size_t probes() const { return first_texels_.size() - 1; }
-    /// Of the texture of light.
+    /// Size of the light texture in bytes.
     std::size_t bytes() const;
 
-    /// Writes what ConstantFormer does to `constants` [rows], and how much of a sun in unit direction `sun`
-    /// is seen into `w` of output 0: 0 where there is no sun, or no `direct` part, without which suns are in
-    /// the transfer. Throws `Error` as ConstantFormer does.
+    /// Writes the constants of ConstantFormer to `constants` [rows]. Writes the visibility of a sun in unit
+    /// direction `sun` to `w` of output 0: 0 without a sun, or without a `direct` part, since the transfer
+    /// then includes suns. Throws `Error` as ConstantFormer.
     void form_constants(const LightingView& lighting, const std::optional<glm::vec3>& sun,
                         std::span<glm::vec4> constants) const;
 
-    /// Writes texels of all probes to `texels` [bytes()]; those of no brick are left as they are.
+    /// Writes the texels of all probes to `texels` [bytes()]; texels outside bricks are not changed.
     void form(std::span<const glm::vec4> constants, std::span<std::byte> texels, int threads = 0) const;
-    /// The same of probes [first, last), to spread the work over threads or frames.
+    /// Writes the texels of probes [first, last), to spread the work over threads or frames.
     void form_probes(std::span<const glm::vec4> constants, std::size_t first, std::size_t last,
                      std::span<std::byte> texels) const;
 
@@ -59,8 +60,8 @@ private:
     ConstantFormer constants_;
     std::vector<ClusterLayout> clusters_;
     std::vector<float> direct_;               ///< [rows / outputs][order²] of output 0
-    std::vector<std::uint32_t> first_texels_; ///< [probes + 1]
-    std::vector<std::uint32_t> texels_;       ///< of each probe in turn
+    std::vector<std::uint32_t> first_texels_; ///< [probes + 1] first entry of each probe in `texels_`
+    std::vector<std::uint32_t> texels_;       ///< texels of each probe, probe after probe
 };
 
 } // namespace prt

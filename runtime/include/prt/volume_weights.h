@@ -1,7 +1,7 @@
 #pragma once
 
-// How probes around a place count: trilinear, and less where a surface stands between. The shaders have the
-// same (shaders/prt_volume.glsl).
+// Weights of the probes around a position: trilinear, reduced if a surface is in between. Shaders use the
+// same weights (shaders/prt_volume.glsl).
 
 #include "prt/transfer_volume.h"
 
@@ -13,18 +13,20 @@
 
 namespace prt {
 
-/// A lit surface is looked up so many cells off it.
+/// Offset of the lookup along the normal of a lit surface, in cells.
 inline constexpr float kNormalBias = 0.25f;
-/// A probe counts less from where surfaces are seen to be to a little behind them.
+/// The weight of a probe falls from 1 to its minimum between these multiples of the visibility distance.
 inline constexpr float kSightFull = 0.8f, kSightNone = 1.03f;
-/// What a hidden probe counts, and less the further behind: where all are hidden, the least hidden light.
+/// Minimum weight of a hidden probe at the visibility distance, decreasing with distance, so that weights
+/// never sum to zero. If all probes are hidden, the least hidden ones dominate.
 inline constexpr float kHiddenWeight = 1e-4f;
-/// Of a probe inside of something, per metre.
+/// Inverse visibility distance, per metre, of a probe inside geometry.
 inline constexpr float kBlindNearness = 1e18f;
 
-/// `nearness` of a probe along -x, +x, -y, .., seen from which the place is at `from`.
+/// Returns the visibility weight of a probe for a point at offset `from`. `nearness` is 1 / visibility
+/// distance along -x, +x, -y, ..
 inline float sight_weight(const std::array<float, 6>& nearness, const glm::vec3& from) {
-    float passed = 0; // 1: a surface is there
+    float passed = 0; // 1: at the distance of the surface
     for (int a = 0; a < 3; ++a)
         passed = std::max(passed, std::abs(from[a]) *
                                       nearness[static_cast<std::size_t>(2 * a + (from[a] > 0 ? 1 : 0))]);
@@ -35,7 +37,7 @@ inline float sight_weight(const std::array<float, 6>& nearness, const glm::vec3&
     return std::max(open, kHiddenWeight / (fourth * fourth));
 }
 
-/// The corners of the cell of `brick` that `position` lies in, with trilinear weights.
+/// Returns the corners of the cell of `brick` that contains `position`, with trilinear weights.
 VolumeCorners corners_in(const VolumeGrid& grid, const VolumeProbes& probes, std::size_t brick,
                          const glm::vec3& position);
 

@@ -1,4 +1,4 @@
-// Contexts by EGL, which needs no display: devices by enumeration, then Mesa's surfaceless platform.
+// Creates contexts by EGL, which needs no display: enumerated devices, then Mesa's surfaceless platform.
 
 #include "gl_platform.h"
 
@@ -36,11 +36,11 @@ std::vector<EGLDeviceEXT> enumerate_devices() {
     return devices;
 }
 
-/// A display that is initialised as often as it is opened: contexts of one device share it, and the first
-/// that ends it would end the others.
+/// A reference-counted display: contexts of one device share it, and terminating it would terminate all of
+/// them.
 class OpenDisplay {
 public:
-    /// Null inside where it cannot be opened.
+    /// The display is null if it cannot be opened.
     OpenDisplay(EGLenum platform, void* native)
         : display_(eglGetPlatformDisplayEXT(platform, native, nullptr)) {
         const std::lock_guard lock(mutex());

@@ -1,4 +1,4 @@
-// Finds an OpenGL 4.5 context: by EGL, else by a hidden window of GLFW.
+// Finds an OpenGL 4.5 context: by EGL, else by a hidden GLFW window.
 
 #include "prt/gl_context.h"
 

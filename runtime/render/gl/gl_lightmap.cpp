@@ -1,4 +1,4 @@
-// Lightmaps lit by a compute shader, or drawn by a fragment shader as older interfaces do.
+// Lights lightmaps by a compute shader.
 
 #include "prt/gl_lightmap.h"
 

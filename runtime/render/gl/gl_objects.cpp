@@ -1,4 +1,4 @@
-// OpenGL objects, made by direct state access (OpenGL 4.5), and programs compiled from the embedded shaders.
+// Creates OpenGL objects by direct state access (OpenGL 4.5), and programs from the embedded shaders.
 
 #include "prt/gl_objects.h"
 
@@ -32,7 +32,7 @@ GLuint compile(GLenum stage, const std::string& file, const std::string& defines
 void attach(const GlObject& program, GLenum stage, const std::string& file, const std::string& defines) {
     const GLuint shader = compile(stage, file, defines);
     glAttachShader(program.name(), shader);
-    glDeleteShader(shader); // lives on while attached
+    glDeleteShader(shader); // deleted when it is detached
 }
 
 void link(const GlObject& program, const std::string& files) {
@@ -76,7 +76,7 @@ GlObject make_buffer(std::span<const std::byte> bytes) {
     glCreateBuffers(1, &name);
     GlObject buffer(GlKind::buffer, name);
     constexpr std::byte kNothing[4] = {};
-    if (bytes.empty()) // OpenGL has no empty buffers
+    if (bytes.empty()) // OpenGL does not support empty buffers
         bytes = kNothing;
     glNamedBufferStorage(name, static_cast<GLsizeiptr>(bytes.size()), bytes.data(), GL_DYNAMIC_STORAGE_BIT);
     check_gl("a buffer");

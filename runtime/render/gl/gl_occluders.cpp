@@ -1,4 +1,4 @@
-// What moving objects block, for shaders.
+// Uploads occluders for shaders.
 
 #include "prt/gl_occluders.h"
 
@@ -19,7 +19,7 @@ static_assert(kOccluderSide == PRT_OCCLUDER_SIDE && kMostOccluders == PRT_MOST_O
               kOccluderFade == static_cast<float>(PRT_OCCLUDER_FADE) &&
               kOccluderBorder == static_cast<float>(PRT_OCCLUDER_BORDER));
 
-/// PrtOccluders of shaders/prt_occluders.glsl, std140.
+/// The block PrtOccluders of shaders/prt_occluders.glsl, std140.
 struct Block {
     std::array<PlacedOccluder, kMostOccluders> objects;
     std::array<std::int32_t, 4> count;

@@ -1,6 +1,6 @@
 #pragma once
 
-// Ways to get an OpenGL context without anything on a screen. Private: GlContext chooses.
+// Platforms that create an OpenGL context without a visible window. Private: used by GlContext.
 
 #include "prt/gl_context.h"
 
@@ -9,22 +9,22 @@
 
 namespace prt {
 
-/// A context.
+/// An OpenGL context of a platform.
 class GlPlatform {
 public:
     virtual ~GlPlatform() = default;
-    /// On this thread; whether it could be made so.
+    /// Makes the context current on this thread. Returns whether this succeeded.
     virtual bool make_current() = 0;
 };
 
-/// Whether an OpenGL renderer of that name is software.
+/// Returns whether the OpenGL renderer of that name is a software rasteriser.
 bool is_software_renderer(const std::string& renderer);
 
-/// Through EGL: a hardware device by enumeration, else Mesa's surfaceless platform, else a software device.
-/// Null where there is none; what was tried is appended to `tried`.
+/// Creates a context by EGL: a hardware device by enumeration, else Mesa's surfaceless platform, else a
+/// software device. Returns null on failure; the attempts are appended to `tried`.
 std::unique_ptr<GlPlatform> make_egl_platform(GlDevice device, std::string& tried);
 
-/// Through a hidden window of GLFW, for systems without EGL.
+/// Creates a context by a hidden GLFW window, for systems without EGL. Returns null on failure.
 std::unique_ptr<GlPlatform> make_glfw_platform(GlDevice device, std::string& tried);
 
 } // namespace prt

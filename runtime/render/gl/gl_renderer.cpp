@@ -1,4 +1,4 @@
-// Pictures by OpenGL: background, opaque primitives, then blended ones from far to near.
+// Renders pictures by OpenGL: background, opaque primitives, then blended ones from far to near.
 
 #include "prt/gl_renderer.h"
 
@@ -19,7 +19,7 @@
 namespace prt {
 namespace {
 
-/// Color and depth, both float, as large as the samples of the picture.
+/// Color and depth buffers, both float, with one pixel per sample of the picture.
 struct Target {
     GlObject color, depth, framebuffer;
     int width, height;

@@ -1,4 +1,4 @@
-// Geometry, textures and materials of a scene on the GPU.
+// Uploads and draws geometry, textures and materials of a scene.
 
 #include "prt/gl_scene.h"
 
@@ -62,7 +62,8 @@ glm::vec3 center_of(const Primitive& primitive, const VertexArray& vertices) {
     return sum / static_cast<float>(std::max<std::size_t>(1, primitive.triangles.size()));
 }
 
-/// Binds `texture` as `use` says, and its transform. A sampler without a texture is not sampled.
+/// Binds `texture` with the wrap modes of `use`, and sets its transform. A sampler without a texture is not
+/// sampled.
 void bind(GLuint unit, const GlObject* texture, const TextureUse& use, int transform) {
     glUniformMatrix3x2fv(transform, 1, GL_FALSE, glm::value_ptr(use.transform));
     if (!texture)
@@ -153,7 +154,7 @@ void GlScene::prepare(const GlObject& program, const GlVertexArrays& arrays, std
     glUniform4fv(uniform(program, "base_color"), 1, glm::value_ptr(material.base_color));
     glUniform1i(uniform(program, "alpha_mode"), static_cast<int>(material.alpha_mode));
     set_uniform(program, "alpha_cutoff", material.alpha_cutoff);
-    glVertexAttrib4f(PRT_LOCATION_COLOR, 1, 1, 1, 1); // where there is no array
+    glVertexAttrib4f(PRT_LOCATION_COLOR, 1, 1, 1, 1); // used without an array
     glVertexAttrib2f(PRT_LOCATION_TEXCOORD, 0, 0);
     bind(PRT_UNIT_BASE_COLOR, texture, use, uniform(program, "texture_transform"));
     if (texture)
@@ -174,7 +175,7 @@ void GlScene::prepare(const GlObject& program, const GlVertexArrays& arrays, std
         prepare_emission(program, primitive);
 }
 
-/// What shaders/lightmap.glsl asks for of a surface.
+/// Sets the inputs of shaders/lightmap.glsl for a surface.
 void GlScene::prepare_lightmap(std::uint32_t array, std::size_t primitive) const {
     const LightmapPlace& place = lightmaps_.layout->places[primitive];
     const Vertices& vertices = vertices_[scene_.primitives[primitive].vertices];
@@ -183,7 +184,7 @@ void GlScene::prepare_lightmap(std::uint32_t array, std::size_t primitive) const
     glBindTextureUnit(PRT_UNIT_LIGHTMAP, lightmaps_.maps[place.map].name());
 }
 
-/// What shaders/emission.glsl asks for of a surface.
+/// Sets the inputs of shaders/emission.glsl for a surface.
 void GlScene::prepare_emission(const GlObject& program, const Primitive& primitive) const {
     const Emission& emission = scene_.materials[primitive.material].emission;
     const Vertices& vertices = vertices_[primitive.vertices];
@@ -201,7 +202,7 @@ void GlScene::prepare_emission(const GlObject& program, const Primitive& primiti
                      vertices.texcoords[static_cast<std::size_t>(emission.texture.texcoord)]);
 }
 
-/// What shaders/sun_light.glsl asks for of a surface.
+/// Sets the inputs of shaders/sun_light.glsl for a surface.
 void GlScene::prepare_for_suns(const GlObject& program, const Primitive& primitive) const {
     const Material& material = scene_.materials[primitive.material];
     const DiffuseTransmission& transmission = material.transmission;

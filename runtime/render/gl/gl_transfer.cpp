@@ -1,4 +1,4 @@
-// Compressed transfer as vertex attributes and storage buffers.
+// Uploads compressed transfer as vertex attributes and storage buffers.
 
 #include "prt/gl_transfer.h"
 
@@ -12,8 +12,8 @@
 namespace prt {
 namespace {
 
-// The header of ClusterLayout is installed and includes no shader's; the table may also be a texture, which
-// has no structs. So both sides have it, and here they meet.
+// The header of ClusterLayout is installed and includes no shader header; the table may also be a texture,
+// which has no structs. The layout is therefore defined on both sides, and compared here.
 static_assert(sizeof(ClusterLayout) == sizeof(glm::uvec4) &&
               offsetof(ClusterLayout, first_row) == PRT_CLUSTER_FIRST_ROW * sizeof(std::uint32_t) &&
               offsetof(ClusterLayout, components) == PRT_CLUSTER_COMPONENTS * sizeof(std::uint32_t) &&

@@ -1,4 +1,4 @@
-// Volumes lit by a compute shader.
+// Lights volumes by a compute shader.
 
 #include "prt/gl_volume.h"
 

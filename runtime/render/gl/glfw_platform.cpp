@@ -1,4 +1,4 @@
-// Contexts by a hidden window of GLFW, for systems without EGL.
+// Creates contexts by a hidden GLFW window, for systems without EGL.
 
 #include "gl_platform.h"
 
@@ -33,7 +33,7 @@ std::unique_ptr<GlPlatform> make_glfw_platform(GlDevice device, std::string& tri
         tried += std::string(tried.empty() ? "" : ", ") + "a hidden window: " + why;
         return nullptr;
     };
-    // Left initialised: a program may have windows of its own.
+    // GLFW remains initialised, because the program may have other windows.
     if (!glfwInit())
         return failed("no display");
     glfwWindowHint(GLFW_VISIBLE, GLFW_FALSE);

@@ -1,5 +1,5 @@
-// Boxes along the light round slices of the view (M. Wimmer, D. Scherzer, W. Purgathofer, "Light Space
-// Perspective Shadow Maps", 2004, section 4, for the bodies that they hold; F. Zhang et al., "Parallel-split
+// Fits boxes along the light direction to slices of the view (M. Wimmer, D. Scherzer, W. Purgathofer, "Light
+// Space Perspective Shadow Maps", 2004, section 4, for the enclosed bodies; F. Zhang et al., "Parallel-split
 // Shadow Maps", 2006, for the slices).
 
 #include "map_fit.h"
@@ -19,13 +19,14 @@
 namespace prt {
 namespace {
 
-/// Of a convex body: dot(normal, x) <= offset.
+/// Half space of a convex body: dot(normal, x) <= offset.
 struct HalfSpace {
     glm::dvec3 normal;
     double offset;
 };
 
-/// The corners of the body inside all of them: where three planes meet and no other cuts off.
+/// Returns the corners of the intersection of all half spaces: intersections of three planes inside all
+/// others.
 std::vector<glm::dvec3> corners_of(const std::vector<HalfSpace>& body, double tolerance) {
     std::vector<glm::dvec3> corners;
     for (std::size_t i = 0; i < body.size(); ++i)
@@ -54,7 +55,8 @@ std::vector<glm::dvec3> box_corners(const SeenScene& seen) {
     return corners;
 }
 
-/// The box and the sides of the view, from the eye. Half a pixel is left round the picture.
+/// Returns the intersection of the box and the view frustum, relative to the eye, with a margin of half a
+/// pixel around the picture.
 std::vector<HalfSpace> seen_body(const SeenScene& seen, const CameraFrame& frame) {
     std::vector<HalfSpace> body;
     for (int axis = 0; axis < 3; ++axis) {
@@ -73,7 +75,7 @@ std::vector<HalfSpace> seen_body(const SeenScene& seen, const CameraFrame& frame
     return body;
 }
 
-/// Least and greatest of the places of `points` along an axis.
+/// Minimum and maximum of `points` along an axis.
 struct Range {
     double low = std::numeric_limits<double>::infinity(), high = -low;
 
@@ -91,7 +93,8 @@ struct MapAxes {
     glm::dvec3 across, up, along;
 };
 
-/// Of those turns about the light, the one under which the slice's rectangle is the smallest.
+/// Returns the axes for which the bounding rectangle of the slice is smallest, among rotations about the
+/// light direction.
 MapAxes axes_of(const SunDisc& sun, const Slice& slice) {
     constexpr int kTurns = 24;
     const glm::dvec3 along = -glm::normalize(glm::dvec3(sun.towards));
@@ -114,7 +117,7 @@ MapAxes axes_of(const SunDisc& sun, const Slice& slice) {
     return best;
 }
 
-/// What a map has to hold. Lengths of nothing at all become a little of the scene's.
+/// Bounds of a map. Zero lengths are replaced by a small fraction of the scene size.
 struct MapBox {
     MapAxes axes;
     Range across, up, along;
@@ -123,7 +126,7 @@ struct MapBox {
         : axes(axes_of(sun, slice)), across(slice.corners, axes.across), up(slice.corners, axes.up),
           along(slice.corners, axes.along) {
         const std::vector<glm::dvec3> scene = box_corners(seen);
-        along.low = Range(scene, axes.along).low; // whatever stands in the light
+        along.low = Range(scene, axes.along).low; // includes all casters towards the light
         const double least = 1e-5 * glm::length(glm::dvec3(seen.box.high) - glm::dvec3(seen.box.low)) +
                              std::numeric_limits<float>::min();
         const double spread = tangent_of(sun) * along.length();
@@ -134,7 +137,7 @@ struct MapBox {
     }
 
 private:
-    /// By what the sun's disc reaches to the side, where there is something.
+    /// Widens the range by the reach of the sun's disc to the side, limited to the scene.
     static void widen(Range& range, double spread, const Range& scene, double least) {
         range.low = std::max(range.low - spread, scene.low) - least;
         range.high = std::min(range.high + spread, scene.high) + least;

@@ -1,6 +1,6 @@
 #pragma once
 
-// Where shadow maps lie: fitted to what a camera sees and what stands between that and the sun.
+// Placement of shadow maps: fitted to the visible part of the scene and the casters between it and the sun.
 
 #include "prt/picture.h"
 #include "sun_structs.h"
@@ -9,32 +9,34 @@
 
 namespace prt {
 
-/// What a picture shows of a scene, cut by distance so that a map for each piece can be as fine as the
-/// pixels there.
+/// The visible scene. It is split by distance, so that the resolution of each map can match the pixels of its
+/// slice.
 struct SeenScene {
     Camera camera;
     int width, height; ///< pixels
-    Bounds box;        ///< of the scene
+    Bounds box;        ///< bounds of the scene
 };
 
+/// Depth range of the view.
 struct Slice {
     double from, to;                 ///< distances along the view, metres
-    std::vector<glm::dvec3> corners; ///< of what of the scene's box lies in it, from the eye; none: nothing
+    std::vector<glm::dvec3> corners; ///< corners of the scene box inside the slice, relative to the eye;
+                                     ///< empty: nothing visible
 };
 
-/// At most PRT_MOST_SLICES, near ones first: each ends at four times the distance at which the one before
-/// it does.
+/// Returns at most PRT_MOST_SLICES slices, near ones first. Each ends at four times the end distance of the
+/// previous one.
 std::vector<Slice> slices_of(const SeenScene& seen);
 
-/// Texels along a side with which a map of `sun` would have two to each pixel and side at the near end of
-/// `slice`.
+/// Returns the number of texels along a side for which a map of `sun` has two texels per pixel side at the
+/// near end of `slice`.
 double texels_wanted(const SunDisc& sun, const Slice& slice, const SeenScene& seen);
 
-/// The map of size x size texels for `sun` and `slice`, which has corners. It holds all that blocks light on
-/// its way there.
+/// Returns the map of size x size texels for `sun` and `slice`, which must have corners. It contains all
+/// casters towards the sun.
 suns::SunMap fitted_map(const SunDisc& sun, const Slice& slice, const SeenScene& seen, int size);
 
-/// Tangent of the half angle, or of 1.2 radians where the sun is wider: no map holds half a sky.
+/// Returns the tangent of the half angle, limited to 1.2 radians, because a map cannot represent half a sky.
 double tangent_of(const SunDisc& sun);
 
 } // namespace prt

@@ -1,4 +1,4 @@
-// Draws what blocks suns into arrays of depth maps.
+// Draws shadow casters into arrays of depth maps.
 
 #include "prt/sun_shadows.h"
 
@@ -16,7 +16,7 @@
 namespace prt {
 namespace {
 
-/// Texels of all maps together: 256 MB of depths.
+/// Maximum number of texels of all maps: 256 MB of depths.
 constexpr std::size_t kMostTexels = std::size_t{1} << 26;
 constexpr int kSmallestMap = 256;
 
@@ -40,7 +40,7 @@ suns::SunLight light_of(const SunDisc& sun) {
             glm::vec4(sun.irradiance / std::numbers::pi_v<float>, 0)};
 }
 
-/// A power of two that gives two texels to each pixel, where so many are allowed.
+/// Returns a power of two that provides two texels per pixel, if the limits allow it.
 int size_of_maps(std::span<const SunDisc> discs, const std::vector<Slice>& slices, const SeenScene& seen,
                  int largest) {
     double wanted = kSmallestMap;
@@ -74,9 +74,9 @@ SunShadows::SunShadows(const GlScene& scene, int largest_map)
 void SunShadows::resize(int size, int count) {
     if (size == size_ && count == maps_.count)
         return;
-    maps_ = {}; // there may not be room for two
+    maps_ = {}; // free first: there may not be memory for both
     maps_.depth = make_array(GL_DEPTH_COMPONENT32F, size, count);
-    // Without layers nothing reads these, but a sampler wants its texture.
+    // Without layers nothing reads these textures, but a sampler needs a texture.
     maps_.layers = make_array(GL_RG32F, layered_ ? size : 1, layered_ ? count : 1);
     maps_.passes = make_array(GL_R16F, layered_ ? size : 1, layered_ ? count : 1);
     maps_.framebuffer = make_framebuffer();
@@ -152,7 +152,7 @@ void SunShadows::set_map(const GlObject& program, int map, int size) {
     set_uniform(program, "map_size", static_cast<float>(size));
 }
 
-/// Those casters that `program` is for.
+/// Draws the casters that belong to `program`.
 void SunShadows::draw_blocking(const GlObject& program, int map) const {
     const Blocking drawn = &program == &blocking_ ? Blocking::all : Blocking::part;
     glUseProgram(program.name());
@@ -164,7 +164,8 @@ void SunShadows::draw_blocking(const GlObject& program, int map) const {
             scene_.draw_caster(program, casters_, p);
 }
 
-/// The first and the last layer by the least of depths and of negative depths; what passes, by products.
+/// Draws the partly blocking casters. Blending computes the first and the last layer as minima of depths and
+/// negative depths, and the transmittance as a product.
 void SunShadows::draw_partly_blocking(int map) const {
     constexpr float kNowhere[4] = {1e30f, 1e30f, 0, 0}, kAll[4] = {1, 1, 1, 1};
     const GLuint framebuffer = maps_.framebuffer.name();
@@ -174,7 +175,7 @@ void SunShadows::draw_partly_blocking(int map) const {
     glNamedFramebufferDrawBuffers(framebuffer, 2, kTargets);
     glClearNamedFramebufferfv(framebuffer, GL_COLOR, 0, kNowhere);
     glClearNamedFramebufferfv(framebuffer, GL_COLOR, 1, kAll);
-    glDepthMask(GL_FALSE); // behind what stops all light nothing needs to be known
+    glDepthMask(GL_FALSE); // nothing is needed behind opaque casters
     glEnable(GL_BLEND);
     glBlendEquationi(0, GL_MIN);
     glBlendFunci(1, GL_ZERO, GL_SRC_COLOR);

@@ -1,7 +1,7 @@
 #pragma once
 
-// The structs of shaders/shared_suns.h in C++, with the types of GLSL, and the check that they lie in memory
-// as std430 lays them out.
+// The structs of shaders/shared_suns.h in C++ with the types of GLSL; checks that their memory layout is
+// std430.
 
 #include <glm/vec2.hpp>
 #include <glm/vec4.hpp>

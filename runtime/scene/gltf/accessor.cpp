@@ -1,4 +1,4 @@
-// Reads accessors, sparse ones and normalised integers included, with every index checked.
+// Reads accessors, including sparse ones and normalised integers, with checks of every index.
 #include "gltf/accessor.h"
 
 #include <algorithm>
@@ -19,7 +19,7 @@ Value load(const std::byte* from) {
     return value;
 }
 
-/// Elements that lie `stride` apart in a buffer view.
+/// Elements at a distance of `stride` bytes in a buffer view.
 struct StridedElements {
     std::span<const unsigned char> view;
     std::size_t offset, stride, size, count;
@@ -30,7 +30,7 @@ struct StridedElements {
     }
 };
 
-/// Throws where they pass the end of the view.
+/// Throws if the elements exceed the view.
 void check_fits(const StridedElements& e, const std::string& name) {
     if (e.stride < e.size)
         throw Error(name + " has elements of " + std::to_string(e.size) + " bytes that lie " +
@@ -44,7 +44,7 @@ void check_fits(const StridedElements& e, const std::string& name) {
                     std::to_string(e.view.size()) + " bytes");
 }
 
-/// Also of component types that are never read, which extensions may bring.
+/// Returns the size of an element, also for component types of extensions that are never read.
 std::size_t element_bytes(const tinygltf::Accessor& accessor) {
     const int bytes = tinygltf::GetComponentSizeInBytes(static_cast<std::uint32_t>(accessor.componentType));
     if (bytes < 1)
@@ -59,7 +59,7 @@ StridedElements elements_of(const tinygltf::Model& model, const tinygltf::Access
     return {bytes, accessor.byteOffset, stride > 0 ? stride : size, size, accessor.count};
 }
 
-/// Indices or values that replace elements of an accessor.
+/// Returns the indices or values that replace elements of an accessor.
 template <class Part>
 StridedElements replacements(const tinygltf::Model& model, const tinygltf::Accessor& accessor,
                              const Part& part, std::size_t size) {
@@ -67,7 +67,7 @@ StridedElements replacements(const tinygltf::Model& model, const tinygltf::Acces
             static_cast<std::size_t>(accessor.sparse.count)};
 }
 
-/// Of an accessor that check_accessor has passed.
+/// Applies sparse substitutions of an accessor that check_accessor has accepted.
 void apply_sparse(const tinygltf::Model& model, const tinygltf::Accessor& accessor,
                   std::vector<std::byte>& elements, const std::string& name) {
     const auto& sparse = accessor.sparse;

@@ -1,5 +1,7 @@
 #pragma once
 
+// Reading of glTF accessors.
+
 #include "prt/support/error.h"
 
 #include <tiny_gltf.h>
@@ -12,25 +14,25 @@
 
 namespace prt {
 
-/// Throws `Error` when it is not there.
+/// Returns an accessor. Throws `Error` if it does not exist.
 const tinygltf::Accessor& get_accessor(const tinygltf::Model& model, int accessor);
 
-/// Throws `Error` naming the accessor when it, or what replaces its elements, reaches outside its buffer view
-/// or buffer. Returns the bytes of an element.
+/// Throws `Error` with the accessor's index if it, or its sparse data, exceeds its buffer view or buffer.
+/// Returns the size of an element in bytes.
 std::size_t check_accessor(const tinygltf::Model& model, int accessor);
 
-/// Elements of an accessor, tightly packed, sparse substitutions made. Throws `Error` naming the accessor
-/// when it reaches outside its buffer view or buffer.
+/// Returns the elements of an accessor, tightly packed, with sparse substitutions. Throws `Error` with the
+/// accessor's index if it exceeds its buffer view or buffer.
 std::vector<std::byte> read_elements(const tinygltf::Model& model, int accessor);
 
-/// Elements converted to float, normalised integers to [0, 1] or [-1, 1]; [count][components].
-/// Throws `Error` unless the accessor has `components` components.
+/// Returns elements converted to float, normalised integers to [0, 1] or [-1, 1]; [count][components]. Throws
+/// `Error` unless the accessor has `components` components.
 std::vector<float> read_floats(const tinygltf::Model& model, int accessor, int components);
 
-/// Elements of a scalar or vector of unsigned integers.
+/// Returns the elements of a scalar or vector of unsigned integers.
 std::vector<std::uint32_t> read_unsigned(const tinygltf::Model& model, int accessor, int components);
 
-/// The bytes of a buffer view. Throws `Error` when it is not there or reaches outside its buffer.
+/// Returns the bytes of a buffer view. Throws `Error` if it does not exist or exceeds its buffer.
 std::span<const unsigned char> buffer_view_bytes(const tinygltf::Model& model, int view);
 
 /// Calls `body` with a value of the C++ type of a component type. Throws `Error` for an unknown one.
@@ -57,7 +59,7 @@ void with_component_type(int component_type, Body&& body) {
 std::size_t component_bytes(int component_type);
 int component_count(int type);
 
-/// "SCALAR", "VEC2" ... as tinygltf numbers them. Throws `Error` for another name.
+/// Converts "SCALAR", "VEC2" ... to tinygltf's constants. Throws `Error` for other names.
 int tinygltf_type(const std::string& name);
 
 } // namespace prt

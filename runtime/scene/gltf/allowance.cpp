@@ -1,4 +1,4 @@
-// The bound of what a file may make its reader allocate.
+// Memory limit for reading a file.
 #include "gltf/allowance.h"
 
 #include "prt/support/error.h"
@@ -10,7 +10,7 @@ void check_allowed(double bytes, std::size_t file_bytes, const std::string& what
     const double most = kAlways + kPerByte * static_cast<double>(file_bytes);
     if (bytes <= most)
         return;
-    const auto megabytes = [](double value) { // no more digits than mean something
+    const auto megabytes = [](double value) { // avoids meaningless digits
         return value < 1e18 ? std::to_string(static_cast<unsigned long long>(value / kMegabyte)) + " MB"
                             : std::string("a million million MB");
     };

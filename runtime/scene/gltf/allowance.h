@@ -1,15 +1,15 @@
 #pragma once
 
-// What a file may make its reader allocate.
+// Memory limit for reading a file.
 
 #include <cstddef>
 #include <string>
 
 namespace prt {
 
-/// Throws `Error` when `what` takes more than 256 MB and 64 bytes for each byte of a file of `file_bytes`:
-/// what a file describes without holding it, such as zeros and instances, is bounded by nothing else. `bytes`
-/// is a product of numbers from the file, which a double holds without wrapping around.
+/// Throws `Error` if `what` needs more than 256 MB plus 64 bytes per byte of a file of `file_bytes`. Data
+/// that a file describes without containing it, such as zeros and instances, has no other limit. `bytes` is a
+/// product of numbers from the file, in double so that it cannot overflow.
 void check_allowed(double bytes, std::size_t file_bytes, const std::string& what);
 
 } // namespace prt

@@ -1,4 +1,4 @@
-// A scene whose nodes move.
+// A scene with animated nodes.
 #include "gltf/extraction.h"
 #include "gltf/node_transforms.h"
 #include "gltf/read_animations.h"
@@ -23,7 +23,7 @@ std::vector<Value> picked(const std::vector<Value>& values, std::span<const std:
     return result;
 }
 
-/// Vertices of the file become those of the scene, where flat normals split some.
+/// Converts vertices of the file to those of the scene, if flat normals split some.
 void split_as(const VertexArray& vertices, MovingVertices& moving) {
     if (vertices.source.empty())
         return;
@@ -36,7 +36,7 @@ void split_as(const VertexArray& vertices, MovingVertices& moving) {
     moving.weights = picked(moving.weights, vertices.source, moving.influences);
 }
 
-/// Normals that the file lacks are those of the scene, taken back to before their matrices.
+/// Adds normals that the file lacks: those of the scene, transformed back by the inverse matrices.
 void complete_normals(const VertexArray& vertices, std::span<const glm::dmat4> palette,
                       MovingVertices& moving) {
     moving.normals.resize(vertices.size(), glm::vec3(0));
@@ -75,7 +75,7 @@ AnimatedScene::AnimatedScene(const GltfDocument& document) {
             split_as(scene_.vertex_arrays[array], vertices_[array]);
             complete_normals(scene_.vertex_arrays[array], matrices(array, standing), vertices_[array]);
         }
-    } catch (const std::exception& error) { // ours, and what the standard library throws
+    } catch (const std::exception& error) { // errors of prtkit and of the standard library
         throw Error(contents.path.string() + ": " + in_plain_words(error));
     }
 }

@@ -1,4 +1,4 @@
-// Keys interpolated (glTF 2.0, appendix C).
+// Interpolates keyframes (glTF 2.0, appendix C).
 #include "prt/animation.h"
 
 #include <glm/gtc/quaternion.hpp>
@@ -20,7 +20,7 @@ glm::dvec4 unit_where_rotation(const AnimationChannel& channel, const glm::dvec4
     return channel.part == AnimatedPart::rotation ? components(glm::normalize(quaternion(value))) : value;
 }
 
-/// Between keys `key` and the next, at share `t` of the way.
+/// Returns the spline value between `key` and the next one, at fraction `t`.
 glm::dvec4 spline(const AnimationChannel& channel, std::size_t key, double t) {
     const double seconds = static_cast<double>(channel.times[key + 1]) - channel.times[key];
     const glm::dvec4 from = channel.values[3 * key + 1],

@@ -1,4 +1,4 @@
-// Views within buffers, accessors within views, attributes of one length.
+// Checks that views are inside buffers, accessors inside views, and attributes have equal length.
 #include "gltf/check_data.h"
 
 #include "gltf/accessor.h"
@@ -28,7 +28,7 @@ void check_primitive(const tinygltf::Model& model, const tinygltf::Primitive& pr
     for (const auto& [name, accessor] : primitive.attributes)
         get_accessor(model, accessor);
     const auto position = primitive.attributes.find("POSITION");
-    if (position == primitive.attributes.end()) // nothing that is drawn, or gathered
+    if (position == primitive.attributes.end()) // nothing that is drawn or gathered
         return;
     const std::size_t vertices = get_accessor(model, position->second).count;
     check_lengths(model, primitive.attributes, vertices);
@@ -44,7 +44,7 @@ void check_data(const GltfContents& contents) {
         buffer_view_bytes(model, static_cast<int>(v));
     for (std::size_t a = 0; a < model.accessors.size(); ++a) {
         const std::size_t bytes = check_accessor(model, static_cast<int>(a));
-        if (model.accessors[a].bufferView < 0) // zeros that no data stands for
+        if (model.accessors[a].bufferView < 0) // implicit zeros without data
             check_allowed(static_cast<double>(model.accessors[a].count) * static_cast<double>(bytes),
                           contents.file_bytes, "accessor " + std::to_string(a) + " without data");
     }

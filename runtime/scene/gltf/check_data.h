@@ -1,14 +1,14 @@
 #pragma once
 
-// Whether the parts of a glTF file fit each other.
+// Consistency checks of a glTF file.
 
 #include "gltf/contents.h"
 
 namespace prt {
 
-/// Throws `Error` with the place where a buffer view passes its buffer, an accessor or a part of a sparse one
-/// its view, where something that a primitive names is not there, and where an attribute or morph target has
-/// another length than POSITION, whether anything reads it or not: what is written comes from all of them.
+/// Throws `Error` with the location if a buffer view exceeds its buffer, an accessor or its sparse data
+/// exceeds its view, an object that a primitive references does not exist, or an attribute or morph target
+/// has another length than POSITION. Unused data is checked too, because it is written again.
 void check_data(const GltfContents& contents);
 
 } // namespace prt

@@ -1,4 +1,4 @@
-// The shape of a glTF file's JSON: lists, whole numbers, and how much there is of them.
+// Checks the structure of a glTF file's JSON: lists, integers, and their number.
 #include "gltf/check_shape.h"
 
 #include "gltf/allowance.h"
@@ -17,7 +17,7 @@
 namespace prt {
 namespace {
 
-/// Lists at the top level, and what tinygltf keeps for each element.
+/// Lists at the top level, and the size of tinygltf's elements.
 constexpr std::pair<const char*, std::size_t> kLists[] = {{"accessors", sizeof(tinygltf::Accessor)},
                                                           {"animations", sizeof(tinygltf::Animation)},
                                                           {"bufferViews", sizeof(tinygltf::BufferView)},
@@ -32,7 +32,7 @@ constexpr std::pair<const char*, std::size_t> kLists[] = {{"accessors", sizeof(t
                                                           {"skins", sizeof(tinygltf::Skin)},
                                                           {"textures", sizeof(tinygltf::Texture)}};
 
-/// Members that are indices, counts or lengths wherever they stand.
+/// Members that are indices, counts or lengths in any object.
 constexpr std::array<std::string_view, 21> kWholeNumbers = {
     "buffer",  "bufferView",    "byteLength", "byteOffset", "byteStride",
     "camera",  "count",         "index",      "indices",    "inverseBindMatrices",
@@ -40,8 +40,8 @@ constexpr std::array<std::string_view, 21> kWholeNumbers = {
     "output",  "sampler",       "scene",      "skin",       "source",
     "texCoord"};
 
-/// How the names of extensions begin whose numbers this program reads; what others mean by the same words is
-/// theirs.
+/// Prefixes of the extensions whose numbers this program reads; other extensions may use these names
+/// differently.
 constexpr std::array<std::string_view, 8> kReadExtensions = {
     "PRTKIT_",        kMeshoptExtension, kDracoExtension, "EXT_mesh_gpu_instancing",
     "KHR_materials_", "KHR_texture_",    "EXT_texture_",  "MSFT_texture_"};
@@ -51,14 +51,14 @@ bool is_read(std::string_view extension) {
                        [&](std::string_view begin) { return extension.starts_with(begin); });
 }
 
-/// Whether this member has to be one. The indices of sparse accessors are an object.
+/// Returns whether this member must be an integer. The indices of sparse accessors are an object.
 bool is_whole_number(const std::string& key, const Json& value) {
     return std::find(kWholeNumbers.begin(), kWholeNumbers.end(), key) != kWholeNumbers.end() &&
            (key != "indices" || !value.is_object());
 }
 
 void check_whole(const Json& value, const std::string& name) {
-    // tinygltf keeps indices in an int, and lengths and counts in 64 bits.
+    // tinygltf stores indices in an int, and lengths and counts in 64 bits.
     const bool length = name.starts_with("byte") || name == "count";
     const std::uint64_t most = length ? std::uint64_t{1} << 53 : INT_MAX;
     if (!value.is_number_unsigned() || value.get<std::uint64_t>() > most)
@@ -67,7 +67,7 @@ void check_whole(const Json& value, const std::string& name) {
                     std::to_string(most));
 }
 
-/// Names and the accessors, or other things, that they mean.
+/// Checks a map from names to indices of accessors or other objects.
 void check_attributes(const Json& attributes) {
     if (!attributes.is_object())
         throw Error("is damaged glTF: attributes are no object");
@@ -78,7 +78,7 @@ void check_attributes(const Json& attributes) {
     }
 }
 
-/// How many values stand within `json`, with itself.
+/// Returns the number of values in `json`, including itself.
 std::size_t count_values(const Json& json) {
     std::size_t count = 1;
     if (json.is_structured())
@@ -87,8 +87,8 @@ std::size_t count_values(const Json& json) {
     return count;
 }
 
-/// Looks at the numbers of everything that is read below `json`; returns how many values tinygltf keeps as
-/// they stand there.
+/// Checks the numbers in all data below `json` that is read; returns the number of values that tinygltf
+/// stores without conversion.
 std::size_t check_values(const Json& json) {
     std::size_t kept = 0;
     if (json.is_array()) {
@@ -130,7 +130,7 @@ void check_list(const Json& owner, const char* name) {
             throw Error(std::string("is damaged glTF: ") + name + " holds something that is no object");
 }
 
-/// Bytes that tinygltf takes for the primitives.
+/// Returns the memory that tinygltf needs for the primitives, in bytes.
 double check_primitives(const Json& json) {
     double bytes = 0;
     for (const Json& mesh : list_of(json, "meshes"))
@@ -138,7 +138,7 @@ double check_primitives(const Json& json) {
     for_each_primitive(json, [&](const Json& primitive) {
         if (!primitive.contains("attributes") || !primitive["attributes"].is_object())
             throw Error("is damaged glTF: a primitive has no attributes");
-        for (const char* name : {"indices", "mode"}) // elsewhere an object, or a word
+        for (const char* name : {"indices", "mode"}) // elsewhere an object, or a string
             if (primitive.contains(name))
                 check_whole(primitive[name], name);
         constexpr std::size_t kMapEntry = 80; // name and number

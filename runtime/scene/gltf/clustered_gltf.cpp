@@ -1,4 +1,4 @@
-// Compressed transfer in glTF files: PRTKIT_clustered_pca of docs/format.md.
+// Reads and writes compressed transfer in glTF files: PRTKIT_clustered_pca of docs/format.md.
 
 #include "prt/gltf.h"
 
@@ -24,7 +24,7 @@ int component_type(WeightFormat format) {
                                           : TINYGLTF_COMPONENT_TYPE_FLOAT;
 }
 
-/// Throws unless weights of `format` are of this type. Earlier programs wrote normalised integers, too.
+/// Throws unless weights of `format` have this type. Earlier versions also wrote normalised integers.
 void check_component_type(const std::string& name, int type, WeightFormat format) {
     if (type == TINYGLTF_COMPONENT_TYPE_BYTE || type == TINYGLTF_COMPONENT_TYPE_SHORT)
         throw Error(std::string("weights '") + (type == TINYGLTF_COMPONENT_TYPE_BYTE ? "snorm8" : "snorm16") +
@@ -34,11 +34,11 @@ void check_component_type(const std::string& name, int type, WeightFormat format
                     std::to_string(component_type(format)));
 }
 
-/// _PRT_CLUSTER: one or two bytes per vertex, aligned to four as glTF wants it.
+/// Writes _PRT_CLUSTER: one or two bytes per vertex, aligned to four as glTF requires.
 std::size_t write_clusters(GltfContents& contents, std::span<const std::uint16_t> clusters, bool wide) {
     std::vector<std::byte> bytes(clusters.size() * 4);
     for (std::size_t i = 0; i < clusters.size(); ++i)
-        std::memcpy(&bytes[i * 4], &clusters[i], wide ? 2 : 1); // little-endian, as glTF is
+        std::memcpy(&bytes[i * 4], &clusters[i], wide ? 2 : 1); // little-endian, like glTF
     return contents.add_accessor({{"bufferView", contents.add_buffer_view(bytes, 4, true)},
                                   {"componentType", wide ? TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT
                                                          : TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE},
@@ -46,7 +46,7 @@ std::size_t write_clusters(GltfContents& contents, std::span<const std::uint16_t
                                   {"type", "SCALAR"}});
 }
 
-/// Bytes of one _PRT_WEIGHTS_ attribute: four floats, or a word of packed weights.
+/// Returns the size of one _PRT_WEIGHTS_ attribute in bytes: four floats, or one word of packed weights.
 std::size_t group_bytes(WeightFormat format) {
     return format == WeightFormat::packed ? 4 : 4 * sizeof(float);
 }
@@ -55,7 +55,7 @@ std::size_t group_count(const ClusteredReceivers& receivers) {
     return receivers.stride() / group_bytes(receivers.format);
 }
 
-/// _PRT_WEIGHTS_`group` of receivers [first, first + count).
+/// Writes _PRT_WEIGHTS_`group` of receivers [first, first + count).
 std::size_t write_weights(GltfContents& contents, const ClusteredReceivers& receivers, std::size_t first,
                           std::size_t count, std::size_t group) {
     const std::size_t size = group_bytes(receivers.format), stride = receivers.stride();
@@ -68,7 +68,7 @@ std::size_t write_weights(GltfContents& contents, const ClusteredReceivers& rece
                                   {"type", "VEC4"}});
 }
 
-/// Cluster indices of one vertex array.
+/// Reads the cluster indices of one vertex array.
 void read_clusters(const GltfContents& contents, const Json& attributes, std::size_t clusters,
                    std::span<std::uint16_t> to) {
     const auto values = read_unsigned(contents.model, attributes.at("_PRT_CLUSTER").get<int>(), 1);
@@ -83,7 +83,7 @@ void read_clusters(const GltfContents& contents, const Json& attributes, std::si
     }
 }
 
-/// Weights of one vertex array, into receivers from `first` on.
+/// Reads the weights of one vertex array, into receivers starting at `first`.
 void read_weights(const GltfContents& contents, const Json& attributes, std::size_t first, std::size_t count,
                   ClusteredReceivers& receivers) {
     const std::size_t size = group_bytes(receivers.format), stride = receivers.stride();
@@ -134,14 +134,14 @@ void write_into(GltfContents& contents, const Scene& scene, const CompressedTran
     contents.use_extension(kClusteredExtension);
 }
 
-/// Room for the weights of all receivers.
+/// Allocates the weights of all receivers.
 void make_room(const GltfContents& contents, ClusteredReceivers& receivers) {
     check_allowed(static_cast<double>(receivers.size()) * static_cast<double>(receivers.stride()),
                   contents.file_bytes, "its weights");
     receivers.weights.resize(receivers.size() * receivers.stride());
 }
 
-/// Those of `attributes` that are ours and of the transfer, in the order of their names.
+/// Returns the transfer attributes of prtkit in `attributes`, sorted by name.
 Json own_attributes(const Json& attributes) {
     std::map<std::string, Json> own;
     for (auto it = attributes.begin(); it != attributes.end(); ++it)
@@ -150,7 +150,7 @@ Json own_attributes(const Json& attributes) {
     return own;
 }
 
-/// Clusters and weights of one primitive.
+/// Reads clusters and weights of one primitive.
 void read_receivers(const GltfContents& contents, const Json& attributes, const VertexArray& vertices,
                     ClusteredTransfer& transfer) {
     ClusteredReceivers& receivers = transfer.receivers;

@@ -1,4 +1,4 @@
-// Clusters, bases and packed weights: docs/format.md.
+// Reads and writes clusters, bases and packed weights: docs/format.md.
 
 #include "gltf/clustered_json.h"
 
@@ -14,15 +14,15 @@
 namespace prt {
 namespace {
 
-/// Throws where the rows, those that constants are formed from, and what they are decoded from would take too
-/// much memory: a row of zeros has four bits, and none where there are no axes.
+/// Throws if the rows, the rows for constants, and the code that they are decoded from would need too much
+/// memory: a row of zeros takes four bits, and none without axes.
 void check_rows(const GltfContents& contents, std::size_t rows, std::size_t axes, std::size_t dimension) {
     const auto values = static_cast<double>(rows) * static_cast<double>(axes + 3 * dimension) +
                         static_cast<double>(axes) * static_cast<double>(dimension);
     check_allowed(values * sizeof(float), contents.file_bytes, "its bases");
 }
 
-/// The step of all axes, or those of groups of axes in each cluster.
+/// Reads the step of all axes, or the steps of groups of axes in each cluster.
 void read_steps(const GltfContents& contents, const Json& json, CodedBases& coded) {
     const bool many = json.contains("steps");
     const Json& step = many ? json["steps"].at("least") : json.at("step");

@@ -1,4 +1,4 @@
-// Coded words of vertices in glTF files: PRTKIT_clustered_pca of docs/format.md.
+// Reads and writes coded words of vertices in glTF files: PRTKIT_clustered_pca of docs/format.md.
 #include "gltf/coded_vertices.h"
 
 #include "gltf/accessor.h"
@@ -15,7 +15,7 @@
 namespace prt {
 namespace {
 
-/// Memory of a vertex while its words are decoded, beside the words: fields, neighbours and triangles.
+/// Memory per vertex while its words are decoded, in addition to the words: fields, neighbours and triangles.
 constexpr double kBytesPerVertex = 120;
 
 WordLayout word_layout(const GltfContents& contents, const Json& extension) {
@@ -29,7 +29,7 @@ std::string weights_name(std::size_t word) {
     return "_PRT_WEIGHTS_" + std::to_string(word);
 }
 
-/// Calls `visit` with the JSON of every primitive and the model's.
+/// Calls `visit` with every primitive in the JSON and in the model.
 template <class Contents, class Visit>
 void for_each_pair(Contents& contents, Visit&& visit) {
     for (std::size_t m = 0; m < contents.model.meshes.size(); ++m)
@@ -51,7 +51,7 @@ std::size_t vertex_count(const tinygltf::Model& model, const tinygltf::Primitive
     return get_accessor(model, position->second).count;
 }
 
-/// Triangles of vertices that are numbered through all primitives.
+/// Triangles with vertices numbered over all primitives.
 class WordMesh {
 public:
     explicit WordMesh(std::size_t vertices) : vertices_(vertices) {}
@@ -71,7 +71,7 @@ private:
     std::vector<std::uint32_t> triangles_;
 };
 
-/// First vertex of the coded words of a primitive that has any.
+/// Returns the first vertex of the coded words of a primitive; empty if it has none.
 std::optional<std::size_t> first_vertex(const Json& primitive) {
     const Json* extension = extension_of(primitive, kClusteredExtension);
     if (!extension)
@@ -79,7 +79,7 @@ std::optional<std::size_t> first_vertex(const Json& primitive) {
     return static_cast<std::size_t>(whole_number(extension->at("firstVertex"), "firstVertex", 0, INT_MAX));
 }
 
-/// The coded words of all vertices.
+/// Decodes the words of all vertices.
 std::vector<std::uint32_t> decoded(const GltfContents& contents, const Json& json, const WordLayout& layout) {
     const auto vertices = static_cast<std::size_t>(whole_number(json.at("vertices"), "vertices", 1, INT_MAX));
     check_allowed(static_cast<double>(vertices) * (kBytesPerVertex + 16.0 * layout.words),
@@ -100,7 +100,7 @@ std::vector<std::uint32_t> decoded(const GltfContents& contents, const Json& jso
                         mesh.neighbors());
 }
 
-/// Lets `view` hold `words` [vertices][stride / 4].
+/// Replaces the contents of `view` by `words` [vertices][stride / 4].
 void replace_view(GltfContents& contents, std::size_t view, std::span<const std::uint32_t> words,
                   std::size_t stride) {
     std::vector<unsigned char>& buffer = contents.binary();
@@ -120,7 +120,7 @@ void replace_view(GltfContents& contents, std::size_t view, std::span<const std:
     contents.cut_unused_bytes();
 }
 
-/// An accessor of the JSON and of the model: one word of `count` vertices.
+/// Adds an accessor to the JSON and the model: one word of `count` vertices.
 std::size_t add_words(GltfContents& contents, std::size_t view, std::size_t offset, std::size_t count) {
     tinygltf::Accessor accessor;
     accessor.bufferView = static_cast<int>(view);
@@ -142,9 +142,9 @@ void erase_extension(Json& primitive) {
         primitive.erase("extensions");
 }
 
-/// Gives every primitive the attributes of its coded words, which `view` holds.
+/// Adds the attributes of its coded words, stored in `view`, to every primitive.
 void add_attributes(GltfContents& contents, std::size_t view, std::size_t words) {
-    std::map<std::pair<std::size_t, std::size_t>, std::size_t> accessors; // of the first word
+    std::map<std::pair<std::size_t, std::size_t>, std::size_t> accessors; // accessors of the first word
     for_each_pair(contents, [&](Json& primitive, tinygltf::Primitive& model) {
         const auto first = first_vertex(primitive);
         if (!first)

@@ -1,6 +1,6 @@
 #pragma once
 
-// Packed words of vertices as files keep them: entropy-coded beside the attributes (docs/format.md).
+// Entropy-coded words of vertices in files, stored outside the attributes (docs/format.md).
 
 #include "gltf/contents.h"
 
@@ -8,12 +8,12 @@
 
 namespace prt {
 
-/// Puts attributes _PRT_WEIGHTS_ in the place of coded words, in the JSON and the model of `contents`. Throws
-/// `Error` where they are damaged.
+/// Replaces coded words by attributes _PRT_WEIGHTS_, in the JSON and the model of `contents`. Throws `Error`
+/// if the words are damaged.
 void decode_vertices(GltfContents& contents);
 
-/// `contents` with coded words in the place of attributes _PRT_WEIGHTS_; nothing where it has no packed
-/// words, or such as no code can hold. `read`: the same contents, whose model knows what was changed.
+/// Returns `contents` with coded words instead of attributes _PRT_WEIGHTS_; empty if there are no packed
+/// words, or if the code cannot represent them. `read`: the same contents, with an up-to-date model.
 std::optional<GltfContents> with_coded_vertices(const GltfContents& contents, const GltfContents& read);
 
 } // namespace prt

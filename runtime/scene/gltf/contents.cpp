@@ -1,4 +1,4 @@
-// Edits of a glTF document: what is added, and what is taken out with all that only it used.
+// Edits a glTF document: adds data, and removes data together with everything that only it used.
 #include "gltf/contents.h"
 
 #include "gltf/own_attributes.h"
@@ -27,7 +27,7 @@ void for_each_object(Json& json, const std::function<void(Json&)>& visit) {
                 for_each_object(*it, visit);
 }
 
-/// Removes elements of the array `name`; returns the new index of each that stays.
+/// Removes elements of the array `name`; returns the new index of each remaining one.
 std::vector<std::size_t> remove_elements(Json& json, const char* name, const std::set<std::size_t>& removed) {
     Json kept = Json::array();
     std::vector<std::size_t> new_index;
@@ -48,7 +48,7 @@ void renumber(Json& value, const std::vector<std::size_t>& new_index) {
         value = new_index[value.get<std::size_t>()];
 }
 
-/// Calls `visit` with everything in core glTF that refers to an accessor by index.
+/// Calls `visit` with every member of core glTF that references an accessor by index.
 void for_each_accessor_reference(Json& json, const std::function<void(Json&)>& visit) {
     const auto all_of = [&](Json& attributes) {
         for (Json& accessor : attributes)
@@ -87,11 +87,11 @@ ByteRange range_of(const Json& view) {
     return {begin, begin + view.value("byteLength", std::size_t{0})};
 }
 
-/// Parts of the buffer that stay, in order and apart, and where they go.
+/// Ranges of the buffer that are kept, sorted and disjoint, and their new positions.
 class KeptRanges {
 public:
     void add(ByteRange range) { ranges_.push_back(range); }
-    /// To whole groups of 8 bytes, so that every kept view keeps its alignment.
+    /// Extends ranges to multiples of 8 bytes, so that every kept view keeps its alignment.
     void finish(std::size_t size) {
         for (ByteRange& range : ranges_)
             range = {range.begin / 8 * 8, std::min((range.end + 7) / 8 * 8, size)};
@@ -110,7 +110,7 @@ public:
             to += range.end - range.begin;
         }
     }
-    /// New place of a byte that stays; of others anywhere.
+    /// Returns the new position of a kept byte; the result is arbitrary for others.
     std::size_t place(std::size_t offset) const {
         const auto after =
             std::upper_bound(ranges_.begin(), ranges_.end(), offset,
@@ -137,7 +137,7 @@ private:
     std::vector<std::size_t> places_;
 };
 
-/// Cuts out of the buffer what only removed views, or none, refer to.
+/// Removes bytes from the buffer that no view, or only removed views, reference.
 void cut_bytes(GltfContents& contents, const std::set<std::size_t>& removed) {
     KeptRanges kept;
     Json& views = contents.json["bufferViews"];
@@ -172,11 +172,11 @@ void erase_views(GltfContents& contents, const std::set<std::size_t>& views) {
     });
 }
 
-/// Of transfer of surfaces.
+/// Extensions for transfer of surfaces.
 constexpr const char* kOwnExtensions[] = {kTransferExtension, kClusteredExtension, kLightmapExtension,
                                           kLobeExtension};
 
-/// Calls `visit` with every member that says which image a texture has.
+/// Calls `visit` with every member that names the image of a texture.
 template <class Visit>
 void for_each_source(Json& json, Visit&& visit) {
     if (json.contains("textures"))
@@ -186,7 +186,7 @@ void for_each_source(Json& json, Visit&& visit) {
         });
 }
 
-/// Takes what nodes and the file say of instances that share transfer out.
+/// Removes the data of nodes and of the file for instances that share transfer.
 void take_instances(Json& json, const std::function<void(Json&)>& take_view) {
     const auto take = [](Json& owner) {
         if (!extension_of(owner, kInstancesExtension))
@@ -203,7 +203,7 @@ void take_instances(Json& json, const std::function<void(Json&)>& take_view) {
             take(node);
 }
 
-/// Takes those of `images` out that no texture shows; their views join `views`.
+/// Removes unused elements of `images`; adds their views to `views`.
 void remove_images(GltfContents& contents, std::set<std::size_t> images, std::set<std::size_t>& views) {
     Json& json = contents.json;
     for_each_source(json, [&](const Json& source) { images.erase(source.get<std::size_t>()); });
@@ -243,7 +243,7 @@ Json& extensions_of(Json& object) {
 
 std::size_t GltfContents::add_buffer_view(std::span<const std::byte> bytes, std::size_t stride,
                                           bool vertices) {
-    static constexpr std::byte kNothing[4] = {}; // glTF knows no empty views
+    static constexpr std::byte kNothing[4] = {}; // glTF does not allow empty views
     if (bytes.empty())
         bytes = kNothing;
     std::vector<unsigned char>& buffer = binary();
@@ -253,8 +253,8 @@ std::size_t GltfContents::add_buffer_view(std::span<const std::byte> bytes, std:
         view["byteStride"] = stride;
     if (vertices)
         view["target"] = TINYGLTF_TARGET_ARRAY_BUFFER;
-    // By an eighth at least, so that many views are copied a few times each, and one large one is not
-    // doubled.
+    // Grow by at least an eighth, so that many views are copied only a few times each, and one large view is
+    // not doubled.
     if (const std::size_t needed = buffer.size() + bytes.size() + 8; needed > buffer.capacity())
         buffer.reserve(std::max(needed, buffer.size() + buffer.size() / 8));
     const auto* begin = reinterpret_cast<const unsigned char*>(bytes.data());
@@ -319,7 +319,7 @@ void GltfContents::remove_transfer() {
             views.insert(object["bufferView"].get<std::size_t>());
     };
     std::set<std::size_t> of_lightmaps;
-    const auto take_images = [&](const Json& extension) { // of words of lightmaps
+    const auto take_images = [&](const Json& extension) { // images of lightmap words
         if (extension.contains("maps"))
             for (const Json& map : extension["maps"])
                 if (map.is_object() && map.contains("images"))
@@ -352,7 +352,7 @@ void GltfContents::remove_transfer() {
         primitive["attributes"] = std::move(kept);
     });
     take_extensions(json);
-    if (apart.empty()) // else what is written belongs to it
+    if (apart.empty()) // otherwise the written data belongs to it
         take_instances(json, take_view);
     remove_images(*this, std::move(of_lightmaps), views);
     remove_unused(std::move(accessors), std::move(views));

@@ -41,8 +41,8 @@ namespace {
 
 constexpr const char* kCesiumOffset = "CESIUM_RTC";
 
-/// What may stand in extensionsRequired. Materials and lights change nothing but what is reflected; their
-/// base color is used. Textures of other formats are missed only where they are needed.
+/// Extensions that are allowed in extensionsRequired. Materials and lights affect only reflection; their base
+/// color is used. Unsupported texture formats are an error only if the texture is needed.
 constexpr std::array<std::string_view, 35> kSupportedExtensions = {
     kTransferExtension,
     kClusteredExtension,
@@ -78,10 +78,10 @@ constexpr std::array<std::string_view, 35> kSupportedExtensions = {
     "KHR_materials_variants",
     "KHR_materials_volume",
     "EXT_lights_image_based",
-    kCesiumOffset, // moves the whole scene: light stays
+    kCesiumOffset, // moves the whole scene: light does not change
 };
 
-/// What other formats for scenes are called, by suffix.
+/// Returns the name of another scene format by suffix.
 std::string_view other_format(const std::filesystem::path& path) {
     static constexpr std::pair<std::string_view, std::string_view> kFormats[] = {
         {".obj", "Wavefront OBJ"}, {".ply", "PLY"},       {".fbx", "FBX"}, {".stl", "STL"},
@@ -98,8 +98,9 @@ std::string_view other_format(const std::filesystem::path& path) {
     return {};
 }
 
-/// A tile of 3D Tiles 1.0 begins with a magic word and its lengths in words of 32 bits: byte 12 on, those of
-/// four tables before the glTF ("3D Tiles Specification", sections on Batched and Instanced 3D Models).
+/// Removes the header of a 3D Tiles 1.0 tile. A tile begins with a magic word and 32-bit lengths; the lengths
+/// of four tables before the glTF start at byte 12 ("3D Tiles Specification", sections on Batched and
+/// Instanced 3D Models).
 std::span<const std::byte> without_tile(std::span<const std::byte> file, std::vector<std::string>& notices) {
     const auto begins = [&](std::string_view magic) {
         return file.size() >= 32 && std::memcmp(file.data(), magic.data(), magic.size()) == 0;
@@ -126,7 +127,7 @@ std::span<const std::byte> without_tile(std::span<const std::byte> file, std::ve
     return file.subspan(begin);
 }
 
-/// Refuses what is no glTF before any parser sees it.
+/// Rejects files that are not glTF before any parser reads them.
 void check_is_gltf(std::span<const std::byte> file, const std::filesystem::path& path) {
     if (is_glb(file))
         return;
@@ -152,8 +153,8 @@ void check_required_extensions(const Json& json) {
                         ", which is not supported");
 }
 
-/// Brings JSON that exporters write against the letter of glTF, or by a newer name, to the form that the rest
-/// of the reader takes. Returns whether anything was changed.
+/// Converts JSON that deviates from glTF, or uses newer names, to the form that the reader expects. Returns
+/// whether anything was changed.
 bool accept_deviations(GltfContents& contents) {
     const std::size_t nulls = remove_nulls(contents.json);
     if (nulls > 0)
@@ -165,8 +166,7 @@ bool accept_deviations(GltfContents& contents) {
     return meshopt || spots || nulls > 0;
 }
 
-/// Keeps the file of an image that stands in a URI. Images in buffer views are taken later, with bounds
-/// checked.
+/// Keeps the encoded file of an image with a URI. Images in buffer views are read later, with bounds checks.
 void keep_encoded(std::vector<std::vector<std::byte>>& images, std::size_t i, const tinygltf::Image& image,
                   std::span<const std::byte> bytes) {
     if (images.size() <= i)
@@ -175,7 +175,7 @@ void keep_encoded(std::vector<std::vector<std::byte>>& images, std::size_t i, co
         images[i].assign(bytes.begin(), bytes.end());
 }
 
-/// Images in buffer views, beside those in files that tinygltf has read.
+/// Reads images in buffer views; tinygltf has read those in files.
 void take_images(GltfContents& contents, const GltfOptions& options, const SideFiles& files) {
     double total = 0;
     contents.images.resize(contents.model.images.size());
@@ -184,7 +184,7 @@ void take_images(GltfContents& contents, const GltfOptions& options, const SideF
         const tinygltf::Image& image = contents.model.images[i];
         if (image.bufferView >= 0) {
             const auto bytes = std::as_bytes(buffer_view_bytes(contents.model, image.bufferView));
-            total += static_cast<double>(bytes.size()); // several may name one view
+            total += static_cast<double>(bytes.size()); // several images may use one view
             check_allowed(2 * total, contents.file_bytes, "its images, still encoded,");
             contents.images[i].assign(bytes.begin(), bytes.end());
         }
@@ -210,7 +210,8 @@ void load_model(GltfContents& contents, std::span<const std::byte> file, std::st
         const auto [error, warning, width, height, bytes, size, images] = std::tuple(rest...);
         keep_encoded(*static_cast<std::vector<std::vector<std::byte>>*>(images),
                      static_cast<std::size_t>(index), *image,
-                     std::as_bytes(std::span(bytes, static_cast<std::size_t>(std::max(size, 0))))); // to 2 GB
+                     std::as_bytes(std::span(bytes, static_cast<std::size_t>(std::max(size, 0))))); // up to 2
+                                                                                                    // GB
         return true;
     };
     loader.SetImageLoader(keep, &contents.images);
@@ -233,7 +234,7 @@ void load_model(GltfContents& contents, std::span<const std::byte> file, std::st
     take_images(contents, options, files);
 }
 
-/// Joins all buffers into the first and lets the buffer views point there.
+/// Joins all buffers into the first and redirects the buffer views.
 void join_buffers(GltfContents& contents) {
     std::vector<tinygltf::Buffer>& buffers = contents.model.buffers;
     if (buffers.empty())
@@ -263,7 +264,7 @@ void join_buffers(GltfContents& contents) {
     contents.json.erase("buffers");
 }
 
-/// The media type of an encoded image, by its first bytes.
+/// Returns the media type of an encoded image by its first bytes.
 const char* mime_type(std::span<const std::byte> bytes) {
     const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
     if (text.starts_with("\x89PNG"))
@@ -272,14 +273,14 @@ const char* mime_type(std::span<const std::byte> bytes) {
         return "image/ktx2";
     if (text.starts_with("RIFF") && text.substr(0, 12).ends_with("WEBP"))
         return "image/webp";
-    if (text.substr(0, 8).ends_with("ftyp")) // no other kind of these containers is an image of glTF
+    if (text.substr(0, 8).ends_with("ftyp")) // no other container of this kind is a glTF image
         return "image/avif";
     if (text.starts_with("DDS "))
         return "image/vnd-ms.dds";
     return "image/jpeg";
 }
 
-/// Images from files beside the glTF move inside.
+/// Embeds images from external files.
 void embed_images(GltfContents& contents) {
     for (std::size_t i = 0; i < contents.images.size(); ++i) {
         Json& image = contents.json["images"][i];
@@ -295,7 +296,7 @@ void embed_images(GltfContents& contents) {
     }
 }
 
-/// The whole file, of these views.
+/// Returns the complete file for these views.
 std::vector<std::byte> glb_bytes(const GltfContents& contents, Json json, std::span<const std::byte> binary) {
     put_meshes_back(contents.apart, json);
     if (!binary.empty() && !json.contains("buffers"))
@@ -303,13 +304,13 @@ std::vector<std::byte> glb_bytes(const GltfContents& contents, Json json, std::s
     return make_glb(json.dump(-1, ' ', false, Json::error_handler_t::replace), binary);
 }
 
-/// The whole file, its views compressed.
+/// Returns the complete file with compressed views.
 std::vector<std::byte> compressed_glb(const GltfContents& contents) {
     CompressedGlb glb = compress_views(contents);
     return glb_bytes(contents, std::move(glb.json), glb.binary);
 }
 
-/// The smaller of the files with coded words and with compressed attributes.
+/// Returns the smaller of the files with coded words and with compressed attributes.
 std::vector<std::byte> smallest_glb(const GltfDocument& document) {
     std::vector<std::byte> file = compressed_glb(document.contents());
     if (!extension_of(document.contents().json, kClusteredExtension))
@@ -377,7 +378,7 @@ GltfDocument parse_gltf(std::span<const std::byte> whole_file, const std::filesy
         scale_lights(contents->json, options.lamp_scale);
         expand_instances(*contents);
         embed_images(*contents);
-    } catch (const std::exception& error) { // ours, and those of the standard and the JSON library
+    } catch (const std::exception& error) { // errors of prtkit, the standard library and the JSON library
         throw Error(path.string() + ": " + in_plain_words(error));
     }
     return GltfDocument(std::move(contents));
@@ -389,7 +390,7 @@ std::vector<std::byte> encode_glb(const GltfDocument& document, BufferCompressio
         return compression == BufferCompression::meshopt
                    ? smallest_glb(document)
                    : glb_bytes(contents, contents.json, contents.binary());
-    } catch (const std::exception& error) { // ours, and those of the standard and the JSON library
+    } catch (const std::exception& error) { // errors of prtkit, the standard library and the JSON library
         throw Error(in_plain_words(error));
     }
 }

@@ -1,4 +1,4 @@
-// One compressed mesh by Google's Draco decoder.
+// Decodes a compressed mesh by Google's Draco decoder.
 #include "gltf/draco_mesh.h"
 
 #include "gltf/accessor.h"
@@ -16,14 +16,14 @@
 namespace prt {
 namespace {
 
-/// A number of the header: versions before 2.2 wrote 32 bits.
+/// Decodes a number of the header: versions before 2.2 used 32 bits.
 bool decode_number(draco::DecoderBuffer& buffer, std::uint32_t& number) {
     return buffer.bitstream_version() < DRACO_BITSTREAM_VERSION(2, 2) ? buffer.Decode(&number)
                                                                       : draco::DecodeVarint(&number, &buffer);
 }
 
-/// The triangles that the data says it has; 0 where its beginning cannot be read. After the Draco bitstream
-/// specification, sections 3 to 5.
+/// Returns the number of triangles in the header of the data; 0 if the header cannot be read. See the Draco
+/// bitstream specification, sections 3 to 5.
 std::uint32_t claimed_triangles(std::span<const unsigned char> bytes) {
     draco::DecoderBuffer buffer;
     buffer.Init(reinterpret_cast<const char*>(bytes.data()), bytes.size());
@@ -47,10 +47,10 @@ std::uint32_t claimed_triangles(std::span<const unsigned char> bytes) {
     return decode_number(buffer, triangles) ? triangles : 0;
 }
 
-/// The decoder takes memory for all triangles before it looks for them.
+/// Limits the number of triangles, because the decoder allocates memory for all of them before it reads them.
 void check_claims(std::span<const unsigned char> bytes) {
     constexpr std::size_t kAlwaysFits = std::size_t{1} << 20;
-    // The most that was measured is 194: a flat grid of 131 072, its corners at steps of the quantisation.
+    // The maximum measured value is 194: a flat grid of 131 072, with corners at quantisation steps.
     constexpr std::size_t kMostTrianglesPerByte = 1024;
     const std::size_t triangles = claimed_triangles(bytes);
     if (triangles > std::max(kAlwaysFits, kMostTrianglesPerByte * bytes.size()))
@@ -58,7 +58,7 @@ void check_claims(std::span<const unsigned char> bytes) {
                     std::to_string(bytes.size()) + " bytes");
 }
 
-/// Puts `value` at the end of `to`.
+/// Appends `value` to `to`.
 template <class Value>
 void append(std::vector<std::byte>& to, Value value) {
     const auto* bytes = reinterpret_cast<const std::byte*>(&value);

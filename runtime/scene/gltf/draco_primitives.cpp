@@ -1,4 +1,4 @@
-// KHR_draco_mesh_compression: compressed primitives become plain ones when a file is read.
+// Decompresses primitives with KHR_draco_mesh_compression when a file is read.
 #include "gltf/draco_primitives.h"
 
 #include "gltf/accessor.h"
@@ -14,9 +14,9 @@
 namespace prt {
 namespace {
 
-constexpr int kIndices = -1; ///< in place of an attribute's id
+constexpr int kIndices = -1; ///< used instead of an attribute's id
 
-/// One compressed primitive, as JSON and as tinygltf read it.
+/// One compressed primitive, in the JSON and in tinygltf's model.
 struct Place {
     Json& json;
     tinygltf::Primitive& model;
@@ -30,7 +30,7 @@ void erase_draco_extension(Json& primitive) {
         primitive.erase("extensions");
 }
 
-/// All that is compressed is there without compression, too.
+/// Returns whether all compressed data also exists uncompressed.
 bool has_plain_data(const GltfContents& contents, const Json& primitive) {
     const auto is_plain = [&](const Json& reference) {
         return contents.model.accessors.at(reference.get<std::size_t>()).bufferView >= 0;
@@ -58,7 +58,7 @@ public:
                 name = place.name;
                 decompress(view, *mesh, place);
             }
-        } catch (const std::exception& error) { // ours, bad_alloc, and those of the JSON library
+        } catch (const std::exception& error) { // errors of prtkit and of the JSON library, and bad_alloc
             throw Error(name + ": " + error.what());
         }
     }
@@ -76,7 +76,7 @@ private:
         });
         place.json["indices"] = indices;
         place.model.indices = indices.get<int>();
-        place.json.erase("mode"); // strips come back as triangles
+        place.json.erase("mode"); // strips are decoded as triangles
         place.model.mode = TINYGLTF_MODE_TRIANGLES;
         for (const auto& item : place.attributes.items()) {
             Json& reference = place.json.at("attributes").at(item.key());
@@ -101,8 +101,8 @@ private:
         set_view(contents_.json["bufferViews"].size() - 1, data.bytes, data.stride);
     }
 
-    /// Lets `change` fill the accessor of `reference` from `source`; a new one where there is none, or where
-    /// it holds other data of this kind already.
+    /// Fills the accessor of `reference` from `source` by `change`. Creates a new accessor if it is missing,
+    /// or if it already holds other decoded data.
     template <class Change>
     void set_accessor(Json& reference, std::pair<std::size_t, int> source, const Change& change) {
         Json& accessors = member(contents_.json, "accessors", Json::value_t::array);
@@ -131,9 +131,9 @@ private:
         model.sparse.isSparse = false;
     }
 
-    /// Puts `bytes` into a buffer of their own, and makes `view` one of all of it.
+    /// Puts `bytes` into a new buffer, and makes `view` cover all of it.
     void set_view(std::size_t view, std::vector<std::byte> bytes, std::size_t stride) {
-        bytes.resize(std::max<std::size_t>(bytes.size(), 4)); // glTF knows no empty views
+        bytes.resize(std::max<std::size_t>(bytes.size(), 4)); // glTF does not allow empty views
         total_ += static_cast<double>(bytes.size());
         check_allowed(2 * total_, contents_.file_bytes, "its data, decompressed,"); // also while joined
         Json& json = contents_.json["bufferViews"].at(view);
@@ -154,8 +154,8 @@ private:
         contents_.model.buffers.emplace_back().data.assign(begin, begin + bytes.size());
     }
 
-    /// What is not compressed goes with the vertices as they were before, so at least their number must be
-    /// the same.
+    /// Throws if uncompressed attributes, which refer to the original vertices, have another number of
+    /// elements.
     void check_counts(std::size_t points, const Place& place) const {
         const auto check = [&](const Json& attributes) {
             for (const auto& item : attributes.items()) {
@@ -173,7 +173,7 @@ private:
     GltfContents& contents_;
     std::map<std::size_t, std::pair<std::size_t, int>> filled_; ///< accessor: compressed view, attribute
     int index_type_ = TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT;
-    double total_ = 0; ///< bytes made
+    double total_ = 0; ///< bytes created
 };
 
 } // namespace

@@ -1,6 +1,6 @@
 #pragma once
 
-// Primitives that are compressed with KHR_draco_mesh_compression.
+// Primitives compressed with KHR_draco_mesh_compression.
 
 #include "gltf/contents.h"
 
@@ -8,17 +8,17 @@ namespace prt {
 
 inline constexpr const char* kDracoExtension = "KHR_draco_mesh_compression";
 
-/// Whether any primitive of `json` is compressed.
+/// Returns whether any primitive of `json` is compressed.
 bool has_draco_primitives(const Json& json);
 
-/// `json` as a loader without the extension can read it: without indices that are only there compressed.
+/// Returns `json` for a loader without the extension: without indices that exist only in compressed form.
 Json without_draco_indices(Json json);
 
-/// Gives the compressed primitives of `contents`, whose model was loaded from what without_draco_indices made
-/// of its JSON, plain accessors, in both alike; the decoded data goes into new buffers. Where the file has
-/// uncompressed data beside it and does not require the extension, that is used. Accessors and views keep
-/// their numbers. Throws `Error` that names the primitive where the data is damaged, or does not fit what the
-/// file says of it.
+/// Replaces the compressed primitives of `contents` by plain accessors, in the JSON and the model; the model
+/// must be loaded from the result of without_draco_indices. The decoded data goes into new buffers.
+/// Uncompressed data is used if the file has it and does not require the extension. Accessors and views keep
+/// their indices. Throws `Error` with the name of the primitive if the data is damaged, or inconsistent with
+/// the file.
 void decompress_primitives(GltfContents& contents);
 
 } // namespace prt

@@ -1,5 +1,7 @@
 #pragma once
 
+// Decomposition of node matrices.
+
 #include "prt/instances_gltf.h"
 
 #include <glm/mat4x4.hpp>
@@ -8,8 +10,8 @@
 
 namespace prt {
 
-/// What `world` does, where that is a rotation, an even scale and a move; nothing where it mirrors, shears,
-/// is singular or scales unevenly.
+/// Decomposes `world` into rotation, uniform scale and translation; empty if it mirrors, shears, is singular
+/// or scales non-uniformly.
 std::optional<MeshPlacement> even_placement(int node, const glm::dmat4& world);
 
 } // namespace prt

@@ -49,8 +49,8 @@ int attribute(const tinygltf::Primitive& primitive, const std::string& name) {
     return found == primitive.attributes.end() ? -1 : found->second;
 }
 
-/// Reads the sets of texture coordinates; returns how many are not finite and become 0, as those are that
-/// some programs write for what is not mapped.
+/// Reads the sets of texture coordinates; returns the number of coordinates that are not finite and become 0.
+/// Some programs write such values for unmapped vertices.
 std::size_t read_texcoords(const tinygltf::Model& model, const tinygltf::Primitive& primitive,
                            VertexArray& vertices) {
     std::size_t replaced = 0;
@@ -87,7 +87,7 @@ void check_place(const glm::dvec3& place, std::size_t vertex) {
                         " is not finite, or farther than 1e9 m from the world's origin");
 }
 
-/// Adds the morph targets at the weights that mesh or node give (glTF 2.0, 3.7.2.2).
+/// Adds the morph targets with the weights of the mesh or node (glTF 2.0, 3.7.2.2).
 void apply_morph_targets(const tinygltf::Model& model, const tinygltf::Primitive& primitive,
                          const std::vector<double>& weights, VertexArray& vertices) {
     for (std::size_t t = 0; t < primitive.targets.size() && t < weights.size(); ++t) {
@@ -150,7 +150,7 @@ private:
                                    });
     }
 
-    /// Levels that draw nothing, and levels of nodes that draw nothing.
+    /// Removes levels without triangles, and all levels of nodes without triangles.
     void leave_out_empty(LevelNodes& nodes) const {
         std::erase_if(nodes.levels, [&](NodeLevels& levels) {
             const std::string name = node_name(model_, levels.node);
@@ -172,7 +172,7 @@ private:
         });
     }
 
-    /// Returns how many primitives are not of `coarser` levels.
+    /// Returns the number of primitives outside `coarser` levels.
     std::size_t extract(const LevelNodes& nodes, std::span<const NodeTransform> coarser) {
         std::vector<NodeTransform> all = nodes.finest;
         all.insert(all.end(), coarser.begin(), coarser.end());
@@ -248,7 +248,7 @@ private:
                             false,
                             {},
                             name_of(model_, transform.node)};
-        // Flat normals depend on the triangles, so such a primitive shares its vertices with none.
+        // Flat normals depend on the triangles, so that such a primitive cannot share its vertices.
         const int alone = attribute(file, "NORMAL") < 0 ? index : -1;
         const auto [vertices_of, is_new] =
             shared_.of(transform.node, alone, file, scene_.vertex_arrays.size());
@@ -306,8 +306,8 @@ private:
         scene_.vertex_arrays.push_back(std::move(vertices));
     }
 
-    /// Positions of the file become those in the world, seen from the middle of the box of the triangles of
-    /// the first `finest` primitives. They are rounded to floats only here.
+    /// Converts positions to the world frame, relative to the center of the bounding box of the first
+    /// `finest` primitives. They are rounded to float only here.
     void place_about_middle(std::size_t finest) {
         glm::dvec3 low(std::numeric_limits<double>::infinity()), high = -low;
         for (const Primitive& primitive : std::span(scene_.primitives).first(finest))
@@ -372,7 +372,7 @@ private:
                                         " vertices have no usable normal and get that of their triangles");
     }
 
-    /// What a user should know of.
+    /// Counts for notices to the user.
     struct Seen {
         std::size_t flat_primitives = 0, skipped_primitives = 0, hidden_nodes = 0, bad_texcoords = 0;
         std::size_t coarser_levels = 0;
@@ -405,7 +405,7 @@ LeveledExtraction extract_leveled(const GltfContents& contents) {
 Scene extract_scene(const GltfDocument& document) {
     try {
         return extract(document.contents(), Keep::scene).scene;
-    } catch (const std::exception& error) { // ours, and what the standard library throws
+    } catch (const std::exception& error) { // errors of prtkit and of the standard library
         throw Error(document.contents().path.string() + ": " + in_plain_words(error));
     }
 }

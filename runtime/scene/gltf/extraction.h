@@ -1,6 +1,6 @@
 #pragma once
 
-// A scene taken out of a document, and what its vertices were before they were placed.
+// Extraction of a scene from a document, and of its vertices before transformation.
 
 #include "gltf/contents.h"
 #include "gltf/level_nodes.h"
@@ -11,25 +11,25 @@
 
 namespace prt {
 
-/// What is kept beside the scene: how its vertices move takes as much memory again.
+/// Data to keep: the movement of vertices requires the memory of the scene again.
 enum class Keep { scene, moving };
 
 struct Extraction {
     Scene scene;
-    /// [vertex arrays], of vertices of the file: where flat normals split some, VertexArray::source has them.
-    /// Normals are empty where the file has none.
+    /// [vertex arrays], for vertices of the file; VertexArray::source maps vertices that flat normals split.
+    /// Normals are empty if the file has none.
     std::vector<MovingVertices> moving;
-    std::map<int, Skin> skins; ///< that vertices hang on
+    std::map<int, Skin> skins; ///< skins that vertices use
 };
 
 Extraction extract(const GltfContents& contents, Keep keep);
 
-/// The scene, then the coarser levels of its nodes.
+/// The scene, followed by the coarser levels of its nodes.
 struct LeveledExtraction {
     Scene scene;
     std::size_t finest_primitives = 0;
     std::vector<NodeLevels> levels;
-    std::vector<std::string> notices; ///< of levels
+    std::vector<std::string> notices; ///< about levels
 };
 LeveledExtraction extract_leveled(const GltfContents& contents);
 

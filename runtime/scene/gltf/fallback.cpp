@@ -1,4 +1,4 @@
-// Baked light for viewers that do not know the extensions: docs/format.md, "Fallback".
+// Baked light for viewers without support for the extensions: docs/format.md, "Fallback".
 
 #include "prt/fallback.h"
 
@@ -21,10 +21,10 @@ namespace prt {
 namespace {
 
 constexpr const char* kUnlit = "KHR_materials_unlit";
-/// In the extras of what makes a material unlit for a fallback.
+/// Mark in the extras of an extension that makes a material unlit for the fallback.
 constexpr const char *kMark = "prtkit", *kMarked = "fallback";
 
-/// Number of a primitive's material in the file, -1 where it has none.
+/// Returns the index of a primitive's material in the file; -1 if it has none.
 int material_of(const Json& primitive) {
     const auto found = primitive.find("material");
     return found != primitive.end() && found->is_number_unsigned() ? found->get<int>() : -1;
@@ -44,14 +44,14 @@ bool is_unlit_for_fallback(const Json& material) {
            (*unlit)["extras"].value(kMark, Json()) == kMarked;
 }
 
-/// Whether a material shows more than light that its base color sends back, or less.
+/// Returns whether a material's appearance is not only its reflected base color.
 bool is_left_alone(const Json& material) {
     const Json* glass = extension_of(material, "KHR_materials_transmission");
     return is_unlit(material) || (glass && glass->value("transmissionFactor", 0.0) > 0) ||
            material.value("emissiveFactor", std::vector<double>(3, 0.0)) != std::vector<double>(3, 0.0);
 }
 
-/// Materials that primitives other than `lit` name, and variants of any.
+/// Returns the materials of primitives outside `lit`, and of all variants.
 std::set<int> used_elsewhere(const Json& json, std::span<Json* const> lit) {
     std::set<int> used;
     for_each_primitive(json, [&](const Json& primitive) {
@@ -64,7 +64,8 @@ std::set<int> used_elsewhere(const Json& json, std::span<Json* const> lit) {
     return used;
 }
 
-/// Makes materials unlit, each once: a copy where others use it, and a new one where there was none.
+/// Makes materials unlit, each once: copies a material that others use, and creates one for primitives
+/// without.
 class UnlitMaterials {
 public:
     UnlitMaterials(Json& json, std::set<int> used_elsewhere)
@@ -87,7 +88,7 @@ public:
 private:
     Json& json_;
     std::set<int> used_elsewhere_;
-    std::map<int, int> unlit_; ///< by the material that it was
+    std::map<int, int> unlit_; ///< by original material
 };
 
 std::size_t add_colors(GltfContents& contents, const VertexArray& vertices,
@@ -114,7 +115,7 @@ std::size_t write_into(GltfContents& contents, const Scene& scene, std::span<con
     const std::vector<Json*> primitives = unshare(contents, scene);
     UnlitMaterials materials(contents.json, used_elsewhere(contents.json, primitives));
     std::map<std::size_t, std::size_t> colors; // accessors by vertex array
-    std::map<int, bool> left_alone;            // materials as they were
+    std::map<int, bool> left_alone;            // by original material
     std::size_t count = 0;
     for (std::size_t i = 0; i < primitives.size(); ++i) {
         Json& primitive = *primitives[i];
@@ -141,7 +142,7 @@ std::size_t write_into(GltfContents& contents, const Scene& scene, std::span<con
     return count;
 }
 
-/// The numbers of the materials that are unlit for a fallback alone, which they are no more.
+/// Makes materials lit again that were unlit only for the fallback, and returns their indices.
 std::set<int> lit_again(GltfContents& contents) {
     std::set<int> lit;
     if (!contents.json.contains("materials"))
@@ -162,7 +163,8 @@ std::set<int> lit_again(GltfContents& contents) {
     return lit;
 }
 
-/// Gives a primitive its own colors; those of the fallback go where the transfer has its attributes.
+/// Restores a primitive's original colors; moves the fallback colors to the attribute that is removed with
+/// transfer.
 void exchange_colors(Json& attributes, std::map<std::string, int>& of_model) {
     if (!attributes.contains("COLOR_0"))
         return;
@@ -181,7 +183,7 @@ void exchange_colors(Json& attributes, std::map<std::string, int>& of_model) {
 } // namespace
 
 float fallback_exposure(std::span<const glm::vec3> radiance, std::span<const float> areas) {
-    constexpr double kShown = 0.995; // of the surface: small bright places are clipped
+    constexpr double kShown = 0.995; // fraction of the surface; small bright regions are clipped
     std::vector<std::size_t> order(radiance.size());
     std::iota(order.begin(), order.end(), std::size_t{0});
     const auto brightness = [&](std::size_t p) {
@@ -194,7 +196,7 @@ float fallback_exposure(std::span<const glm::vec3> radiance, std::span<const flo
     for (const std::size_t p : order) {
         below += static_cast<double>(areas[p]);
         if (below >= kShown * all)
-            return brightness(p) > 1e-6f ? 1 / brightness(p) : 1.0f; // darker than any picture shows
+            return brightness(p) > 1e-6f ? 1 / brightness(p) : 1.0f; // darker than any picture can show
     }
     return 1;
 }

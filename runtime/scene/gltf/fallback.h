@@ -1,14 +1,16 @@
 #pragma once
 
+// Fallback colors of a file.
+
 #include "gltf/contents.h"
 
 namespace prt {
 
-/// An attribute of a primitive with a fallback: its own colors in a file, and once a file is loaded those of
-/// the fallback, which go with the transfer.
+/// Attribute of a primitive with a fallback. In a file it holds the original colors; in a loaded document it
+/// holds the fallback colors, which are removed with the transfer.
 inline constexpr const char* kOtherColors = "_PRT_COLOR_0";
 
-/// Puts a file that was loaded back to what it is without its fallback: colors of vertices and materials.
+/// Restores the original colors and materials of a loaded file that has a fallback.
 void set_fallback_aside(GltfContents& contents);
 
 } // namespace prt

@@ -1,4 +1,4 @@
-// Accessors whose elements are those of another in a new order.
+// Creates accessors with the elements of another in a new order.
 #include "gltf/gathered_accessor.h"
 
 #include "gltf/accessor.h"
@@ -9,7 +9,7 @@
 namespace prt {
 namespace {
 
-/// Smallest and largest value of each component, as the glTF specification wants them for positions.
+/// Sets the minimum and maximum of each component, which glTF requires for positions.
 void set_bounds(Json& accessor, std::span<const double> values, std::size_t components) {
     std::vector<double> low(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(components)),
         high = low;
@@ -21,7 +21,7 @@ void set_bounds(Json& accessor, std::span<const double> values, std::size_t comp
     accessor["max"] = high;
 }
 
-/// Components as numbers, integers without normalisation.
+/// Returns components as numbers, integers without normalisation.
 std::vector<double> stored_values(int component_type, std::span<const std::byte> elements) {
     std::vector<double> values;
     with_component_type(component_type, [&](auto type) {

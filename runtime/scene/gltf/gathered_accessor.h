@@ -1,5 +1,7 @@
 #pragma once
 
+// Accessors with reordered elements.
+
 #include "gltf/contents.h"
 
 #include <glm/vec3.hpp>
@@ -12,11 +14,11 @@
 
 namespace prt {
 
-/// Adds an accessor that is like `accessor`, but for its elements: those, tightly packed, laid out for vertex
-/// attributes. Returns its index.
+/// Adds an accessor with the properties of `accessor` and the given tightly packed elements, laid out for
+/// vertex attributes. Returns its index.
 std::size_t add_vertex_accessor(GltfContents& contents, Json accessor, std::span<const std::byte> elements);
 
-/// Elements source[i] of an accessor, tightly packed.
+/// Returns the elements source[i] of an accessor, tightly packed.
 std::vector<std::byte> gathered_elements(const tinygltf::Model& model, int accessor,
                                          const std::vector<std::uint32_t>& source);
 
@@ -28,8 +30,8 @@ std::size_t add_gathered_accessor(GltfContents& contents, const Json& reference,
 /// Adds an accessor for the indices of a primitive. Returns its index.
 std::size_t add_index_accessor(GltfContents& contents, std::span<const std::uint32_t> indices);
 
-/// Gives `primitive` these triangles, corners of a mirrored one the other way round; `replaced` gets the
-/// accessor that it had.
+/// Sets the triangles of `primitive`; reverses the winding order if `mirrored`. Adds its previous accessor to
+/// `replaced`.
 void replace_triangles(GltfContents& contents, Json& primitive, std::span<const glm::uvec3> triangles,
                        bool mirrored, std::set<std::size_t>& replaced);
 

@@ -1,4 +1,4 @@
-// The container of .glb files: a header and two chunks (glTF 2.0, section 4).
+// Reads and writes the container of .glb files: a header and two chunks (glTF 2.0, section 4).
 #include "gltf/glb.h"
 
 #include "prt/support/error.h"

@@ -1,5 +1,7 @@
 #pragma once
 
+// The container format of .glb files.
+
 #include <cstddef>
 #include <span>
 #include <string>
@@ -7,16 +9,16 @@
 
 namespace prt {
 
-/// Whether the file starts like a binary glTF.
+/// Returns whether the file starts like a binary glTF.
 bool is_glb(std::span<const std::byte> file);
 
-/// The text of the JSON chunk. Throws `Error` when the file ends before it should.
+/// Returns the text of the JSON chunk. Throws `Error` if the file is truncated.
 std::string_view glb_json(std::span<const std::byte> file);
 
-/// The binary chunk after it; empty where there is none. Throws `Error` when it is truncated.
+/// Returns the binary chunk after it; empty if absent. Throws `Error` if it is truncated.
 std::span<const std::byte> glb_binary(std::span<const std::byte> file);
 
-/// A version 2 container round both chunks (glTF 2.0 specification, 4.4). Throws `Error` above 4 GB.
+/// Returns a version 2 container with both chunks (glTF 2.0 specification, 4.4). Throws `Error` above 4 GB.
 std::vector<std::byte> make_glb(std::string json, std::span<const std::byte> binary);
 
 } // namespace prt

@@ -1,4 +1,4 @@
-// Guides and centers of compressed transfer in glTF files.
+// Reads and writes predictors and offsets of compressed transfer in glTF files.
 #include "gltf/guides_json.h"
 
 #include "gltf/allowance.h"
@@ -17,7 +17,7 @@ GuideKind read_guide_kind(const Json& json) {
     throw Error("a guide is of a kind that this program does not know");
 }
 
-/// Three finite numbers of at most `largest`.
+/// Reads three finite numbers with magnitudes of at most `largest`.
 glm::dvec3 read_three(const Json& json, const std::string& name, double largest) {
     glm::dvec3 numbers(0);
     bool good = json.is_array() && json.size() == 3;
@@ -25,7 +25,7 @@ glm::dvec3 read_three(const Json& json, const std::string& name, double largest)
         good = json[i].is_number();
         if (good)
             numbers[static_cast<int>(i)] = json[i].get<double>();
-        good = good && std::abs(numbers[static_cast<int>(i)]) <= largest; // nor is NaN
+        good = good && std::abs(numbers[static_cast<int>(i)]) <= largest; // false for NaN
     }
     if (!good)
         throw Error(name + " of a guide is not three numbers of at most " +

@@ -1,3 +1,4 @@
+// Finds images without effect on light transfer.
 #include "gltf/image_uses.h"
 
 #include <algorithm>
@@ -7,12 +8,12 @@
 namespace prt {
 namespace {
 
-/// Textures of a material that this program does not read, by the beginning of their names.
+/// Prefixes of material textures that this program does not read.
 constexpr std::array<std::string_view, 7> kUnread = {"normalTexture",  "occlusionTexture", "clearcoat",
                                                      "sheen",          "iridescence",      "anisotropy",
                                                      "specularTexture"};
 
-/// Adds the images of a texture: its own and those of extensions.
+/// Adds the images of a texture, including those of its extensions.
 void add_images(const Json& texture, std::set<std::size_t>& images) {
     const auto add = [&](const Json& owner) {
         if (owner.is_object() && owner.contains("source") && owner["source"].is_number_unsigned())
@@ -24,7 +25,7 @@ void add_images(const Json& texture, std::set<std::size_t>& images) {
             add(extension);
 }
 
-/// Adds the textures that the members of a material's `json` show to `read` or to `unread`.
+/// Adds the textures of a material's `json` to `read` or `unread`.
 void sort_textures(const Json& json, std::set<std::size_t>& read, std::set<std::size_t>& unread) {
     if (!json.is_object())
         return;

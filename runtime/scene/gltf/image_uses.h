@@ -1,6 +1,6 @@
 #pragma once
 
-// Which textures show an image.
+// Use of images by textures.
 
 #include "gltf/contents.h"
 
@@ -9,7 +9,7 @@
 
 namespace prt {
 
-/// Images that only textures show which transfer of light does not need, such as normal maps.
+/// Returns images that are used only by textures without effect on light transfer, such as normal maps.
 std::set<std::size_t> images_without_light(const Json& json);
 
 } // namespace prt

@@ -1,4 +1,4 @@
-// Reads a file twice: with an instance to a node, and with meshes as their transfer is stored.
+// Reads a file in two forms: with one node per instance, and with meshes as their transfer is stored.
 #include "prt/encode_glb.h"
 #include "prt/instances_gltf.h"
 #include "prt/support/error.h"

@@ -1,4 +1,4 @@
-// EXT_mesh_gpu_instancing: instances become nodes.
+// Converts instances of EXT_mesh_gpu_instancing to nodes.
 #include "gltf/instances.h"
 
 #include "gltf/accessor.h"
@@ -16,21 +16,22 @@
 namespace prt {
 namespace {
 
-/// Accessors without data claim any number.
+/// Maximum number of instances. Accessors without data can claim any number.
 constexpr std::size_t kMostInstances = 1'000'000;
-/// Bytes of a node, in JSON and in the model, and of each of its weights.
+/// Bytes of a node, in the JSON and in the model, and of each of its weights.
 constexpr double kNode = 1400, kWeight = 40;
 
-/// Part of the transform of every instance: [instance][component]; empty: not given.
+/// Component of the transform of every instance: [instance][component]; empty: missing.
 struct Attribute {
     const char* name; ///< in the extension
-    const char* key;  ///< of a node
+    const char* key;  ///< in a node
     std::size_t components;
     std::vector<double> tinygltf::Node::*member;
     std::vector<float> values = {};
 };
 
-/// Throws `Error` for types that the extension does not have, and for transforms that are none.
+/// Reads an attribute. Throws `Error` for types that the extension does not allow, and for invalid
+/// transforms.
 std::vector<float> read_attribute(const tinygltf::Model& model, int index, const Attribute& attribute) {
     const tinygltf::Accessor& accessor = get_accessor(model, index);
     const bool turns = attribute.components == 4;
@@ -76,8 +77,8 @@ std::vector<Attribute> read_attributes(const GltfContents& contents, const Json&
     return attributes;
 }
 
-/// Takes the mesh from node `n` and gives it to one new child for each instance; returns how many. `bytes` is
-/// what instances have taken before.
+/// Moves the mesh of node `n` to one new child per instance; returns their number. `bytes` is the memory of
+/// previous instances.
 std::size_t expand(GltfContents& contents, std::size_t n, double& bytes) {
     Json& nodes = contents.json["nodes"];
     std::size_t count = 0;
@@ -87,7 +88,7 @@ std::size_t expand(GltfContents& contents, std::size_t n, double& bytes) {
              (kNode + kWeight * static_cast<double>(contents.model.nodes[n].weights.size()));
     check_allowed(bytes, contents.file_bytes, "its instances");
     ExpandedNode expanded{n, nodes.size(), count, std::move(nodes[n]["extensions"][kInstancingExtension])};
-    Json shared = Json::object(); // of the first instance
+    Json shared = Json::object(); // extension of the first instance
     if (const Json* found = extension_of(nodes[n], kInstancesExtension))
         shared = *found;
     const auto first =
@@ -148,7 +149,7 @@ void expand_instances(GltfContents& contents) {
         try {
             instances += expand(contents, n, bytes);
             found = true;
-        } catch (const std::exception& error) { // ours, and those of the JSON library
+        } catch (const std::exception& error) { // errors of prtkit and of the JSON library
             throw Error("node " + std::to_string(n) + ": " + in_plain_words(error));
         }
         if (instances > kMostInstances)

@@ -1,14 +1,14 @@
 #pragma once
 
-// Nodes that draw their mesh many times: EXT_mesh_gpu_instancing.
+// Nodes that draw their mesh several times: EXT_mesh_gpu_instancing.
 
 #include "gltf/contents.h"
 
 namespace prt {
 
-/// Gives every instance a node of its own below the one that has them, in the JSON and the model of
-/// `contents` alike, with a notice: each is lit differently, and transfer belongs to a node's mesh. Throws
-/// `Error` that names the node where its attributes do not fit.
+/// Converts every instance to a separate child node, in the JSON and the model of `contents`, and adds a
+/// notice. This is needed because each instance is lit differently, and transfer belongs to a node's mesh.
+/// Throws `Error` with the node if its attributes are invalid.
 void expand_instances(GltfContents& contents);
 
 } // namespace prt

@@ -1,4 +1,4 @@
-// Factors of instances in glTF files: PRTKIT_instances of docs/format.md.
+// Reads and writes factors of instances in glTF files: PRTKIT_instances of docs/format.md.
 #include "prt/instances_gltf.h"
 
 #include "gltf/accessor.h"
@@ -37,7 +37,7 @@ InstanceBox read_box(const Json& json) {
 }
 
 CodedFactors read_factors(const GltfContents& contents, const Json& json, std::size_t count) {
-    constexpr float kMostScale = 500; // times 127 all factors that `coded` takes
+    constexpr float kMostScale = 500; // times 127, covers all factors that `coded` accepts
     CodedFactors coded;
     const Json& scales = json.at("scales");
     if (scales.size() != kInstanceNumbers)
@@ -68,7 +68,7 @@ StoredInstances read_stored(const GltfContents& contents) {
     return stored;
 }
 
-/// The instance of the extension of a node, without what it is drawn with.
+/// Returns the instance of a node's extension, without its vertex arrays.
 FileInstance read_instance(const StoredInstances& stored, int node, const Json& extension,
                            const glm::dmat4& world) {
     const auto number =
@@ -92,8 +92,8 @@ int mesh_of_node(const GltfContents& contents, int node) {
     return contents.json["nodes"][static_cast<std::size_t>(node)]["mesh"].get<int>();
 }
 
-/// Which vertex array of `stored` each of `scene` has its transfer from: [vertex arrays of scene]. What is no
-/// instance comes in the same order in both.
+/// Returns the vertex array of `stored` with the transfer of each array of `scene`: [vertex arrays of scene].
+/// Arrays that are not instances have the same order in both.
 std::vector<std::size_t> stored_arrays(const GltfContents& contents, const Scene& scene, const Scene& stored,
                                        const std::map<int, FileInstance>& instances) {
     std::set<int> shared;
@@ -140,7 +140,7 @@ std::map<int, FileInstance> instances_of(const GltfContents& contents, const Sce
     return instances;
 }
 
-/// The modes of a mesh whose instances see the world's up alike.
+/// Modes of a mesh for instances with the same up direction in their frame.
 struct MeshModes {
     std::size_t array;
     glm::dvec3 up;
@@ -157,7 +157,7 @@ public:
         const MeshModes& modes = modes_of(array, glm::transpose(placed.rotation) * glm::dvec3(0, 1, 0));
         expand_instance(modes.shared, placed, modes.positions, to);
     }
-    /// Makes what `write` needs for it, so that threads may share the rest.
+    /// Prepares the modes that `write` needs, so that threads can share them.
     void prepare(const PlacedInstance& placed, std::size_t array) {
         modes_of(array, glm::transpose(placed.rotation) * glm::dvec3(0, 1, 0));
     }
@@ -243,7 +243,8 @@ Transfer expanded(const GltfDocument& document, const Scene& scene, const Scene&
     const std::vector<FileInstance> instances = read_instances(document, scene, stored);
     return named(document, [&](const GltfContents& contents) {
         const std::size_t dimension = transfer.dimension();
-        // Sixteen times what else may be described without being held: vectors are made of few.
+        // Sixteen times the usual limit for generated data, because a file with few stored vectors can expand
+        // to many.
         check_allowed(static_cast<double>(scene.receivers() * dimension * sizeof(float)) / 16,
                       contents.file_bytes, "the transfer of its instances");
         std::map<int, FileInstance> by_node;

@@ -10,7 +10,7 @@
 namespace prt {
 namespace {
 
-/// Line and column of a byte of the file, both from 1.
+/// Returns line and column of a byte of the file, both counted from 1.
 std::string place_of(std::string_view text, std::size_t byte) {
     const std::string_view before = text.substr(0, std::min(byte, text.size()));
     const auto line = 1 + std::count(before.begin(), before.end(), '\n');
@@ -19,7 +19,7 @@ std::string place_of(std::string_view text, std::size_t byte) {
            std::to_string(before.size() - (start == std::string_view::npos ? 0 : start + 1));
 }
 
-/// Throws where objects and arrays are within one another too often.
+/// Throws if objects and arrays are nested too deeply.
 void check_depth(std::string_view text) {
     constexpr int kMostLevels = 256;
     int level = 0;
@@ -68,7 +68,7 @@ std::size_t remove_nulls(Json& json) {
                 removed += value.is_null() ? 1 : remove_nulls(value);
         const auto absent = [&](const auto& item) { return item.second.is_null() && is_open(item.first); };
         if (std::any_of(object->begin(), object->end(), absent)) {
-            Json::object_t kept; // its keys are constant: they cannot be moved down
+            Json::object_t kept; // keys are constant and cannot be moved
             for (auto& item : *object)
                 if (!absent(item))
                     kept.push_back({item.first, std::move(item.second)});
@@ -82,7 +82,7 @@ std::size_t remove_nulls(Json& json) {
 }
 
 double json_bytes(const Json& json) {
-    constexpr double kAllocation = 64; // of a string's, an array's or an object's own
+    constexpr double kAllocation = 64; // overhead of a string, an array or an object
     double bytes = sizeof(Json);
     if (json.is_string())
         return bytes + kAllocation + static_cast<double>(json.get_ref<const std::string&>().size());

@@ -1,6 +1,6 @@
 #pragma once
 
-// The JSON of a glTF file.
+// Parsing of a glTF file's JSON.
 
 #include "gltf/contents.h"
 
@@ -8,15 +8,15 @@
 
 namespace prt {
 
-/// The glTF that `text` holds. Throws `Error` where it is none, and with the line and column where it is
-/// damaged or nests deeper than the readers of JSON, which call themselves, have stack for.
+/// Parses glTF JSON. Throws `Error` if `text` is not glTF; with line and column if it is damaged, or nested
+/// too deeply for recursive JSON readers.
 Json parse_json(std::string_view text);
 
-/// Removes members that are null, which some exporters write for "not given", from all objects but extras
-/// and the extensions of prtkit. Returns their number.
+/// Removes null members, which some exporters write for missing values, from all objects except extras and
+/// the extensions of prtkit. Returns their number.
 std::size_t remove_nulls(Json& json);
 
-/// Bytes that `json` takes in memory, about.
+/// Returns the approximate memory size of `json` in bytes.
 double json_bytes(const Json& json);
 
 } // namespace prt

@@ -1,4 +1,4 @@
-// Names of levels of detail, as modellers and game engines give them.
+// Parses level-of-detail names as used by modelling tools and game engines.
 #include "gltf/level_names.h"
 
 #include <algorithm>
@@ -18,7 +18,7 @@ bool parts_words(char c) {
     return c == '_' || c == '-' || c == '.' || c == ' ';
 }
 
-/// How many digits `text` ends in.
+/// Returns the number of digits at the end of `text`.
 std::size_t digits_at_end(std::string_view text) {
     std::size_t count = 0;
     while (count < text.size() && is_digit(text[text.size() - 1 - count]))

@@ -1,4 +1,4 @@
-// Finds levels by MSFT_lod and by names, and places them.
+// Finds levels by MSFT_lod and by names, and computes their transforms.
 #include "gltf/level_nodes.h"
 
 #include "gltf/level_names.h"
@@ -13,7 +13,7 @@ namespace {
 
 constexpr const char* kLodExtension = "MSFT_lod";
 
-/// A node and those that stand in for it, from the finest on.
+/// A node and its coarser levels, finest first.
 struct FoundLevels {
     int node;
     bool by_name;
@@ -85,7 +85,7 @@ private:
         level_of_[at(level)] = node;
     }
 
-    /// Siblings, and those of them that a name makes levels of one thing: [level][copies].
+    /// Siblings, grouped by names that make them levels of one object: [level][copies].
     using Named = std::map<std::pair<int, std::string>, std::map<int, std::vector<int>>>;
 
     void find_named() {
@@ -121,7 +121,7 @@ private:
         }
     }
 
-    /// Whether MSFT_lod says something of one of them already.
+    /// Returns whether MSFT_lod already covers one of the nodes.
     bool says_more(const std::map<int, std::vector<int>>& levels) const {
         return std::ranges::any_of(levels, [&](const auto& level) {
             return std::ranges::any_of(level.second, [&](int node) {
@@ -136,12 +136,12 @@ private:
     const NodeTree& tree_;
     std::vector<int> parent_;
     std::vector<bool> in_scene_;
-    std::vector<int> level_of_; ///< -1: of none
+    std::vector<int> level_of_; ///< -1: not a level
     std::vector<FoundLevels> found_;
     std::vector<std::string> notices_;
 };
 
-/// Walks what is below nodes, in the scene and out of it.
+/// Traverses the descendants of nodes, inside and outside the scene.
 class LevelPlacer {
 public:
     LevelPlacer(const GltfContents& contents, const NodeTree& tree, std::span<const FoundLevels> found)
@@ -188,8 +188,8 @@ public:
 private:
     static std::size_t at(int node) { return static_cast<std::size_t>(node); }
 
-    /// `root`, which is seen, and what is below it but coarser levels; where they stand is known of those in
-    /// the scene.
+    /// Returns `root`, which is visible, and its descendants except coarser levels. Transforms of nodes in
+    /// the scene are known already.
     std::vector<NodeTransform> below(int root, bool in_scene) {
         std::vector<NodeTransform> nodes = {{root, {}, true}};
         for (std::size_t i = 0; i < nodes.size(); ++i) {
@@ -224,7 +224,7 @@ private:
 
     const tinygltf::Model& model_;
     const NodeTree& tree_;
-    std::vector<bool> coarser_, seen_; ///< [nodes]; seen: have a place
+    std::vector<bool> coarser_, seen_; ///< [nodes]; seen: has a transform
     std::vector<int> parent_;          ///< [nodes]
     LevelNodes result_;
 };

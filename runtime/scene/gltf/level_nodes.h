@@ -1,6 +1,6 @@
 #pragma once
 
-// Which nodes of a file are coarser levels of detail of others, and where they stand.
+// Detection of nodes that are coarser levels of detail, and their transforms.
 
 #include "gltf/contents.h"
 #include "gltf/node_transforms.h"
@@ -15,28 +15,29 @@ struct NodeLevels {
     struct Level {
         int number; ///< from 1 on
         int node;
-        std::vector<NodeTransform> nodes; ///< itself and all below it but levels of others
+        std::vector<NodeTransform> nodes; ///< the node and its descendants, except levels of other nodes
     };
     int node = 0;
     bool by_name = false;
-    std::vector<int> finest; ///< itself and all below it but coarser levels
+    std::vector<int> finest; ///< the node and its descendants, except coarser levels
     std::vector<Level> coarser;
 };
 
-/// The nodes of a scene, levels apart.
+/// The nodes of a scene, with levels separated.
 struct LevelNodes {
-    std::vector<NodeTransform> finest; ///< as `world_transforms`, without coarser levels and what is below
+    std::vector<NodeTransform> finest; ///< result of `world_transforms` without coarser levels and their
+                                       ///< descendants
     std::vector<NodeLevels> levels;
-    std::vector<glm::dmat4> world; ///< [nodes of the file]; the identity for those that stand nowhere
-    std::size_t left_out = 0;      ///< coarser levels that the scene would draw
+    std::vector<glm::dmat4> world; ///< [nodes of the file]; the identity for nodes without a position
+    std::size_t left_out = 0;      ///< coarser levels that are part of the scene
     std::vector<std::string> notices;
 };
 
-/// Throws `Error` where the hierarchy is no tree, and for MSFT_lod that names nodes which are not there,
-/// levels of levels, nodes above the level, and a node twice.
+/// Finds levels. Throws `Error` if the hierarchy is not a tree, and if MSFT_lod references missing nodes,
+/// levels of levels, ancestors of the level, or a node twice.
 LevelNodes level_nodes(const GltfContents& contents);
 
-/// "node 3 'Rock'"
+/// Returns "node 3 'Rock'".
 std::string node_name(const tinygltf::Model& model, int node);
 
 } // namespace prt

@@ -13,7 +13,7 @@
 namespace prt {
 namespace {
 
-/// Those of primitives [first, last) that nodes draw.
+/// Returns those of primitives [first, last) that `nodes` draw.
 std::vector<std::size_t> primitives_of(const Scene& scene, const std::set<int>& nodes, std::size_t first,
                                        std::size_t last) {
     std::vector<std::size_t> chosen;

@@ -1,4 +1,4 @@
-// Transfer of texels in glTF files: PRTKIT_lightmap of docs/format.md.
+// Reads and writes transfer of texels in glTF files: PRTKIT_lightmap of docs/format.md.
 
 #include "prt/lightmap_gltf.h"
 
@@ -23,7 +23,7 @@ Json maps_json(const LightmapLayout& layout) {
     return maps;
 }
 
-/// The extension at the top level, and where primitives have their texels.
+/// Writes the extension at the top level, and the maps of primitives.
 Json& write_layout(GltfContents& contents, const Scene& scene, const LightmapLayout& layout,
                    const TransferLayout& transfer) {
     const std::vector<Json*> primitives = unshare(contents, scene);
@@ -77,7 +77,7 @@ LightmapLayout read_layout_of_maps(const GltfContents& contents, const Scene& sc
     return layout;
 }
 
-/// The bytes of {"bufferView": ...} as whole numbers of 32 bits.
+/// Returns the bytes of {"bufferView": ...} as 32-bit integers.
 std::vector<std::uint32_t> read_numbers(const GltfContents& contents, const Json& json,
                                         const std::string& what) {
     const auto bytes = buffer_view_bytes(contents.model, json.at("bufferView").get<int>());
@@ -179,7 +179,7 @@ void write_encoded(GltfContents& contents, const Scene& scene, const EncodedLigh
     extension["bake"] = record_json(lightmap.compressed.record);
 }
 
-/// The images of the words of all maps. One may stand for several words.
+/// Reads the word images of all maps. One image may hold several words.
 std::vector<std::vector<std::byte>> read_images(const GltfContents& contents, const Json& maps,
                                                 std::size_t words) {
     std::vector<std::vector<std::byte>> all;
@@ -220,7 +220,8 @@ EncodedLightmap read_encoded(const GltfContents& contents, const Scene& scene, c
     return encoded;
 }
 
-/// The extension at the top level of a file, where it has it; it has no other of prtkit's then.
+/// Returns the top-level extension of a file, if it has one; the file must then have no other transfer
+/// extension.
 const Json* find_lightmap(const GltfContents& contents) {
     const Json* extension = find_extension(contents, kLightmapExtension, kLightmapVersion);
     for (const char* other : {kTransferExtension, kClusteredExtension})

@@ -1,4 +1,5 @@
-// Reads KHR_lights_punctual from the JSON: tinygltf does not tell a range of 0 from none.
+// Reads KHR_lights_punctual from the JSON, because tinygltf does not distinguish a range of 0 from a missing
+// one.
 #include "gltf/lights.h"
 
 #include "gltf/transfer_json.h"
@@ -16,7 +17,7 @@ namespace {
 
 constexpr const char* kPunctual = "KHR_lights_punctual";
 
-/// The number `key`, `otherwise` where it is not there; within the bounds.
+/// Returns the number `key`, or `otherwise` if it is missing; throws if it is out of bounds.
 double number(const Json& light, const char* key, double otherwise, double least, double most) {
     if (!light.contains(key))
         return otherwise;
@@ -50,12 +51,13 @@ glm::vec3 color_of(const Json& light) {
     return color;
 }
 
-/// Lights that exporters write against the letter of the extension, counted.
+/// Numbers of lights that deviate from the extension.
 struct LightDeviations {
     int endless_ranges = 0, hard_cones = 0;
 };
 
-/// Babylon's exporter for 3ds Max writes the largest float for "no attenuation", and three.js reads 0 so.
+/// Reads the range. Babylon's exporter for 3ds Max writes the largest float for "no attenuation"; three.js
+/// interprets 0 the same way.
 float read_range(const Json& light, LightDeviations& deviations) {
     constexpr float kNoLimit = std::numeric_limits<float>::infinity();
     if (!light.contains("range"))
@@ -68,7 +70,7 @@ float read_range(const Json& light, LightDeviations& deviations) {
     return kNoLimit;
 }
 
-/// Blender writes equal angles for a blend of 0.
+/// Reads the cone angles. Blender writes equal angles for a blend of 0.
 void read_cone(const Json& light, PunctualLight& to, LightDeviations& deviations) {
     const Json spot = light.value("spot", Json::object());
     const double limit = std::numbers::pi / 2 + 1e-6;
@@ -90,7 +92,7 @@ PunctualLight read_light(const Json& light, LightDeviations& deviations) {
     return result;
 }
 
-/// The light of a node, nothing where it has none.
+/// Returns the light of a node; null if it has none.
 const Json* light_of(const GltfContents& contents, const Json& node, std::size_t& index) {
     const Json* use = extension_of(node, kPunctual);
     if (!use)

@@ -1,4 +1,4 @@
-// Zonal lobes in glTF files: PRTKIT_lobes of docs/format.md.
+// Reads and writes zonal lobes in glTF files: PRTKIT_lobes of docs/format.md.
 
 #include "prt/lobe_gltf.h"
 
@@ -21,7 +21,7 @@ std::string attribute_name(std::size_t lobe) {
     return "_PRT_LOBE_" + std::to_string(lobe);
 }
 
-/// One lobe of the vertices of an array.
+/// Writes one lobe of the vertices of an array.
 std::size_t write_lobe_words(GltfContents& contents, const LobeModel& model, const VertexArray& vertices,
                              std::size_t lobe) {
     std::vector<LobeWord> words(vertices.size());

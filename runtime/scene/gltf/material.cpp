@@ -1,4 +1,4 @@
-// Materials with the extensions that matter to light that passes through.
+// Reads materials with the extensions that affect transmitted light.
 #include "gltf/material.h"
 
 #include "gltf/lights.h"
@@ -20,7 +20,7 @@ Wrap wrap_mode(int mode) {
     return mode == TINYGLTF_TEXTURE_WRAP_MIRRORED_REPEAT ? Wrap::mirror : Wrap::repeat;
 }
 
-/// A number of a transform: what is far beyond any picture stays a number that can be computed with.
+/// Returns a number of a transform, clamped to a range in which computations stay finite.
 float bounded(const tinygltf::Value& number) {
     constexpr double kMost = 1e6;
     return static_cast<float>(std::clamp(number.GetNumberAsDouble(), -kMost, kMost));
@@ -32,7 +32,7 @@ glm::vec2 vec2_member(const tinygltf::Value& object, const char* name, const glm
     return {bounded(object.Get(name).Get(0)), bounded(object.Get(name).Get(1))};
 }
 
-/// KHR_texture_transform: uv' = translation · rotation · scale · uv.
+/// Returns the matrix of KHR_texture_transform: uv' = translation · rotation · scale · uv.
 glm::mat3x2 texture_transform(const tinygltf::Value& extension) {
     const glm::vec2 offset = vec2_member(extension, "offset", glm::vec2(0));
     const glm::vec2 scale = vec2_member(extension, "scale", glm::vec2(1));
@@ -41,8 +41,8 @@ glm::mat3x2 texture_transform(const tinygltf::Value& extension) {
     return {c * scale.x, -s * scale.x, s * scale.y, c * scale.y, offset.x, offset.y};
 }
 
-/// The image of a texture: the plain one, else one of a format that an extension brings, which may be beyond
-/// this program, but is asked for only where it is needed. -1: none.
+/// Returns the image of a texture: the core image, else one of an extension's format. That format may be
+/// unsupported, but the image is loaded only if needed. -1: none.
 int image_of(const tinygltf::Texture& texture) {
     if (texture.source >= 0)
         return texture.source;
@@ -60,7 +60,7 @@ float number_member(const tinygltf::Value& object, const char* name, float other
                : otherwise;
 }
 
-/// White where it is not there.
+/// Returns a color; white if it is missing.
 template <class Vector>
 Vector color_member(const tinygltf::Value& object, const char* name) {
     Vector color(1);
@@ -112,19 +112,19 @@ public:
     }
 
 private:
-    /// Of images that are the same file or buffer view the first is used: it is decoded once.
+    /// Replaces images that are the same file or buffer view by the first one, so that it is decoded once.
     void share_image(TextureUse& use, bool numbers) {
         if (use.image < 0 || static_cast<std::size_t>(use.image) >= model_.images.size())
             return;
         const tinygltf::Image& image = model_.images[static_cast<std::size_t>(use.image)];
-        if (image.bufferView >= 0 || !image.uri.empty()) // else its bytes stand in the JSON
+        if (image.bufferView >= 0 || !image.uri.empty()) // otherwise its bytes are in the JSON
             use.image =
                 first_images_.try_emplace({image.bufferView, image.uri, numbers}, use.image).first->second;
     }
 
     void read_reflection(const tinygltf::Material& file, Material& material) {
         const auto glossy = file.extensions.find("KHR_materials_pbrSpecularGlossiness");
-        if (glossy != file.extensions.end()) { // goes before what stands beside it
+        if (glossy != file.extensions.end()) { // takes precedence over the core material
             material.base_color = color_member<glm::vec4>(glossy->second, "diffuseFactor");
             material.base_color_texture = texture_member(glossy->second, "diffuseTexture");
             range_.clamp(material.base_color, "diffuseFactor of materials");
@@ -156,14 +156,14 @@ private:
         Glass glass{number_member(extension, "transmissionFactor", 0),
                     texture_member(extension, "transmissionTexture")};
         range_.clamp(glass.factor, "transmissionFactor of materials");
-        if (material.metal.texture.image < 0) // else its dielectric parts are what is glass
+        if (material.metal.texture.image < 0) // otherwise its dielectric parts are glass
             glass.factor *= 1 - material.metal.factor;
         return glass;
     }
 
     Emission read_emission(const tinygltf::Material& file) {
         Emission emission;
-        if (file.extensions.contains("KHR_materials_unlit")) // shows its base color, and lights nothing
+        if (file.extensions.contains("KHR_materials_unlit")) // shows its base color, and emits no light
             return emission;
         for (std::size_t c = 0; c < 3 && c < file.emissiveFactor.size(); ++c)
             emission.radiance[static_cast<int>(c)] = static_cast<float>(file.emissiveFactor[c]);
@@ -188,7 +188,7 @@ private:
             throw Error("texture " + std::to_string(index) + " is not there");
         const tinygltf::Texture& texture = model_.textures[static_cast<std::size_t>(index)];
         use.image = image_of(texture);
-        if (use.image < 0) { // a stand-in that can be missed where it is needed
+        if (use.image < 0) { // a placeholder that is reported as missing if it is needed
             use.image = static_cast<int>(scene_.images.size());
             scene_.images.push_back({"the image of texture " + std::to_string(index), {}});
         } else if (static_cast<std::size_t>(use.image) >= model_.images.size()) {
@@ -215,7 +215,7 @@ private:
                            transform == info.extensions.end() ? nullptr : &transform->second);
     }
 
-    /// A texture reference inside an extension.
+    /// Reads a texture reference inside an extension.
     TextureUse texture_member(const tinygltf::Value& object, const char* name) {
         if (!object.Has(name))
             return {};
@@ -230,7 +230,7 @@ private:
     const tinygltf::Model& model_;
     Scene& scene_;
     UnitRange& range_;
-    std::map<std::tuple<int, std::string, bool>, int> first_images_; ///< by place and kind
+    std::map<std::tuple<int, std::string, bool>, int> first_images_; ///< by source and kind
 };
 
 std::string counted(std::size_t count, const char* one, const char* many) {
@@ -243,7 +243,7 @@ void read_materials(const tinygltf::Model& model, Scene& scene, UnitRange& range
     MaterialReader reader(model, scene, range);
     for (const tinygltf::Material& file : model.materials)
         scene.materials.push_back(reader.read(file));
-    scene.materials.emplace_back(); // a rough metal by the letter, and bounces take that as diffuse
+    scene.materials.emplace_back(); // a rough metal according to glTF; bounces treat it as diffuse
 }
 
 std::vector<std::string> unread_material_notices(const tinygltf::Model& model, const Scene& scene) {

@@ -1,5 +1,7 @@
 #pragma once
 
+// Reading of glTF materials.
+
 #include "gltf/unit_range.h"
 #include "prt/scene.h"
 
@@ -10,11 +12,11 @@
 
 namespace prt {
 
-/// Adds the materials of the file to `scene`, then the default material of primitives that name none. The
-/// images of the file stand in `scene` already; textures that have none get one without bytes.
+/// Adds the materials of the file to `scene`, then the default material. The images of the file must be in
+/// `scene` already; textures without an image get an empty one.
 void read_materials(const tinygltf::Model& model, Scene& scene, UnitRange& range);
 
-/// What the materials that `scene` uses have and nothing here reads, a line each.
+/// Returns the ignored properties of the materials that `scene` uses, one line each.
 std::vector<std::string> unread_material_notices(const tinygltf::Model& model, const Scene& scene);
 
 } // namespace prt

@@ -1,8 +1,11 @@
 #pragma once
 
+// Traversal of material references.
+
 namespace prt {
 
-/// Calls `visit` with all that may name a material of a primitive: itself, and the mappings of its variants.
+/// Calls `visit` with all objects that may name a material of a primitive: the primitive, and the mappings of
+/// its variants.
 template <class AnyJson, class Visit>
 void for_each_choice(AnyJson& primitive, Visit&& visit) {
     visit(primitive);

@@ -1,4 +1,4 @@
-// Lets stand-ins draw meshes whose instances share transfer, and the nodes of the file again.
+// Moves meshes whose instances share transfer to stand-in nodes, and back.
 #include "gltf/meshes_apart.h"
 
 #include "prt/support/error.h"
@@ -10,7 +10,7 @@
 namespace prt {
 namespace {
 
-/// The roots of the scene that is extracted: of its list in the JSON, and in the model.
+/// Adds a root to the extracted scene, in the JSON and in the model.
 void add_root(GltfContents& contents, std::size_t node) {
     if (contents.model.scenes.empty())
         return; // all nodes without parents are roots
@@ -35,7 +35,7 @@ void set_meshes_apart(GltfContents& contents) {
         const auto mesh = nodes[n]["mesh"].get<std::size_t>();
         const auto [found, is_new] = of_mesh.try_emplace(mesh, contents.apart.size());
         if (is_new)
-            contents.apart.push_back({mesh, {}}); // a stand-in has no number yet
+            contents.apart.push_back({mesh, {}}); // holds the mesh until the stand-in has an index
         contents.apart[found->second].drawers.push_back(n);
         nodes[n].erase("mesh");
         contents.model.nodes[n].mesh = -1;
@@ -53,7 +53,7 @@ void put_meshes_back(const std::vector<MeshApart>& apart, Json& json) {
         const Json mesh = json["nodes"][mesh_apart->stand_in]["mesh"];
         for (const std::size_t drawer : mesh_apart->drawers)
             json["nodes"][drawer]["mesh"] = mesh;
-        json["nodes"].erase(mesh_apart->stand_in); // the last one
+        json["nodes"].erase(mesh_apart->stand_in); // the last node
         if (!json.contains("scenes"))
             continue;
         for (Json& scene : json["scenes"])

@@ -1,4 +1,5 @@
-// EXT_meshopt_compression: views are decompressed when a file is read, compressed when it is written.
+// Decompresses views with EXT_meshopt_compression when a file is read, and compresses them when it is
+// written.
 #include "gltf/meshopt_views.h"
 
 #include "gltf/accessor.h"
@@ -36,7 +37,7 @@ void erase_name(Json& json, const char* list) {
         json[list] = kept;
 }
 
-/// How a view was compressed.
+/// Parameters of a compressed view.
 struct MeshoptCode {
     std::size_t count, stride;
     std::string mode, filter;
@@ -56,11 +57,11 @@ std::vector<unsigned char> decompressed(const MeshoptCode& code, std::span<const
         throw Error("has the unknown mode '" + mode + "'");
     if (mode == "TRIANGLES" && count % 3 != 0)
         throw Error("holds " + std::to_string(count) + " indices of triangles");
-    // Every 16 elements of a byte each take at least a bit or two: a count far beyond is no data.
+    // Every 16 elements of a byte each take at least one or two bits: a much larger count is invalid.
     if (count > source.size() * 1024)
         throw Error("claims " + std::to_string(count) + " elements in " + std::to_string(source.size()) +
                     " bytes");
-    // The upper half of the first byte marks the codec, the lower half is its version.
+    // The upper half of the first byte identifies the codec, the lower half its version.
     constexpr unsigned char kAttributes = 0xa0;
     if (attributes && !source.empty() && (source[0] & 0xf0) == kAttributes && source[0] != kAttributes)
         throw Error("uses version " + std::to_string(source[0] & 0x0f) +
@@ -85,7 +86,7 @@ std::vector<unsigned char> decompressed(const MeshoptCode& code, std::span<const
     return result;
 }
 
-/// What a view holds, as far as the extension can compress it.
+/// Contents of a view, as far as the extension can compress them.
 struct ViewUse {
     bool vertices = false, indices = false, triangles = true, other = false;
     std::size_t element = 0; ///< bytes
@@ -131,7 +132,7 @@ std::vector<ViewUse> view_uses(const Json& json) {
     return uses;
 }
 
-/// Compressed bytes and the extension object that describes them; nothing where the view does not qualify.
+/// Compressed bytes and the extension object that describes them.
 struct CompressedView {
     std::vector<unsigned char> bytes;
     Json extension;
@@ -151,7 +152,7 @@ std::optional<CompressedView> compressed(const Json& view, const ViewUse& use,
         if (stride % 4 != 0 || stride > 256)
             return std::nullopt;
         result.bytes.resize(meshopt_encodeVertexBufferBound(count, stride));
-        meshopt_encodeVertexVersion(0); // what the extension asks for
+        meshopt_encodeVertexVersion(0); // required by the extension
         result.bytes.resize(meshopt_encodeVertexBuffer(result.bytes.data(), result.bytes.size(), bytes.data(),
                                                        count, stride));
     } else {
@@ -160,12 +161,12 @@ std::optional<CompressedView> compressed(const Json& view, const ViewUse& use,
         std::vector<unsigned> indices(count);
         unsigned most = 0;
         for (std::size_t i = 0; i < count; ++i) {
-            std::memcpy(&indices[i], &bytes[i * stride], stride); // little-endian, as glTF is
+            std::memcpy(&indices[i], &bytes[i * stride], stride); // little-endian, like glTF
             most = std::max(most, indices[i]);
         }
         const bool triangles = use.triangles && count % 3 == 0;
         mode = triangles ? "TRIANGLES" : "INDICES";
-        meshopt_encodeIndexVersion(1); // what the extension asks for
+        meshopt_encodeIndexVersion(1); // required by the extension
         result.bytes.resize(triangles ? meshopt_encodeIndexBufferBound(count, most + std::size_t{1})
                                       : meshopt_encodeIndexSequenceBound(count, most + std::size_t{1}));
         result.bytes.resize(triangles ? meshopt_encodeIndexBuffer(result.bytes.data(), result.bytes.size(),
@@ -200,7 +201,7 @@ bool use_ext_meshopt(Json& json) {
                     Json renamed = *extension;
                     owner["extensions"].erase(kKhronos);
                     if (!owner["extensions"].contains(
-                            kMeshoptExtension)) // else that one needs no newer codec
+                            kMeshoptExtension)) // otherwise the existing one needs no newer codec
                         owner["extensions"][kMeshoptExtension] = std::move(renamed);
                     found = true;
                 }
@@ -270,7 +271,7 @@ void decompress_views(GltfContents& contents) {
             throw Error("compressed buffer view " + std::to_string(v) + " " + in_plain_words(error));
         }
     }
-    // What was compressed is not needed any more.
+    // The compressed data is no longer needed.
     std::vector<bool> used(contents.model.buffers.size(), false);
     for (const tinygltf::BufferView& view : contents.model.bufferViews)
         if (view.buffer >= 0 && static_cast<std::size_t>(view.buffer) < used.size())

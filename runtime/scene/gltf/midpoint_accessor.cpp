@@ -1,4 +1,4 @@
-// Attributes of vertices in the middle of edges.
+// Computes attributes of edge midpoints.
 #include "gltf/midpoint_accessor.h"
 
 #include "gltf/accessor.h"
@@ -14,7 +14,8 @@
 namespace prt {
 namespace {
 
-/// `value` as it is stored: whole numbers are rounded, halves away from zero on both sides of an edge alike.
+/// Returns `value` in its stored type: integers are rounded, halves away from zero, identically on both sides
+/// of an edge.
 template <class Stored>
 Stored stored(double value) {
     if constexpr (std::is_integral_v<Stored>)
@@ -25,13 +26,13 @@ Stored stored(double value) {
         return static_cast<Stored>(value);
 }
 
-/// What 1 is stored as.
+/// Returns the stored value of 1.
 template <class Stored>
 double one() {
     return std::is_integral_v<Stored> ? static_cast<double>(std::numeric_limits<Stored>::max()) : 1.0;
 }
 
-/// The middle of `a` and `b`, [components] each.
+/// Computes the midpoint of `a` and `b`, [components] each.
 template <class Stored>
 void write_middle(const Stored* a, const Stored* b, std::size_t components, MidpointRule rule, Stored* to) {
     if (rule == MidpointRule::first) {
@@ -84,7 +85,7 @@ MidpointRule midpoint_rule(const tinygltf::Model& model, std::string_view name, 
         return owner == AttributeOf::vertex ? MidpointRule::unit : MidpointRule::mean;
     if (name.starts_with("TEXCOORD_"))
         return whole_numbers ? MidpointRule::float_mean : MidpointRule::mean;
-    // What applications add may count or name things: between 3 and 5 is no 4.
+    // Integers of applications may be counts or identifiers: 4 is not between 3 and 5.
     return whole_numbers ? MidpointRule::first : MidpointRule::mean;
 }
 

@@ -1,5 +1,7 @@
 #pragma once
 
+// Attributes of edge midpoints.
+
 #include "gltf/contents.h"
 #include "prt/refinement.h"
 
@@ -9,21 +11,21 @@
 
 namespace prt {
 
-/// How a value in the middle of an edge comes from those at its ends.
+/// Computation of a midpoint's value from the values at the ends of the edge.
 enum class MidpointRule {
-    mean,       ///< in the type of the accessor
-    float_mean, ///< as float32, where rounding would tear what touches
-    unit,       ///< the mean, made unit; a fourth component (which way a bitangent points) is the first end's
-    first,      ///< that of the first end
+    mean,       ///< mean, in the type of the accessor
+    float_mean, ///< mean as float32, if rounding would create gaps
+    unit,       ///< normalised mean; a fourth component (bitangent sign) is that of the first end
+    first,      ///< value of the first end
 };
 
-/// The rule of an attribute of a primitive. `target`: of a morph target, whose values are differences.
+/// Owner of an attribute: a primitive, or a morph target, whose values are differences.
 enum class AttributeOf { vertex, target };
 MidpointRule midpoint_rule(const tinygltf::Model& model, std::string_view name, int accessor,
                            AttributeOf owner);
 
-/// Adds an accessor with the elements of accessor `reference` and those of `midpoints` behind them. Returns
-/// its index.
+/// Adds an accessor with the elements of accessor `reference`, followed by those of `midpoints`. Returns its
+/// index.
 std::size_t add_midpoint_accessor(GltfContents& contents, int reference, std::span<const Midpoint> midpoints,
                                   MidpointRule rule);
 

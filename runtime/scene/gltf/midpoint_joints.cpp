@@ -1,4 +1,4 @@
-// Joints and weights of vertices in the middle of edges (glTF 2.0, section 3.7.3.3).
+// Computes joints and weights of edge midpoints (glTF 2.0, section 3.7.3.3).
 #include "gltf/midpoint_joints.h"
 
 #include "gltf/accessor.h"
@@ -18,13 +18,13 @@
 namespace prt {
 namespace {
 
-/// A joint and how much of it.
+/// A joint and its weight.
 struct Influence {
     std::uint32_t joint = 0;
     double weight = 0;
 };
 
-/// All sets of a vertex array side by side, in types that hold those of each set.
+/// All sets of a vertex array, in types that can hold each of them.
 struct Skinning {
     std::size_t sets = 0;
     int joint_type = TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE, weight_type = -1; ///< component types
@@ -54,14 +54,15 @@ Skinning read_skinning(const tinygltf::Model& model, const Json& attributes) {
                                                                       static_cast<double>(weights[i])};
         const int joint_type = get_accessor(model, joints_at).componentType,
                   weight_type = get_accessor(model, weights_at).componentType;
-        skin.joint_type = std::max(skin.joint_type, joint_type); // a larger number is the wider type
+        skin.joint_type = std::max(skin.joint_type, joint_type); // a larger constant is the wider type
         skin.weight_type =
             set == 0 || skin.weight_type == weight_type ? weight_type : TINYGLTF_COMPONENT_TYPE_FLOAT;
     }
     return skin;
 }
 
-/// The heaviest `most` joints of both, half of each, with a sum of one; all zero where neither has any.
+/// Returns the `most` joints of both ends with the largest weights; each end contributes half, and the sum is
+/// one. All zero if neither end has any.
 std::vector<Influence> middle(std::span<const Influence> a, std::span<const Influence> b, std::size_t most) {
     std::map<std::uint32_t, double> sums;
     for (const auto& end : {a, b}) {
@@ -86,7 +87,8 @@ std::vector<Influence> middle(std::span<const Influence> a, std::span<const Infl
     return all;
 }
 
-/// Rounds weights to multiples of 1 / `one` that sum to 1: what is cut goes to those that lost most of it.
+/// Rounds weights to multiples of 1 / `one` with sum 1: the remainder goes to the weights with the largest
+/// rounding loss.
 void round_weights(std::span<Influence> influences, double one) {
     double missing = one;
     std::vector<std::pair<double, std::size_t>> lost;
@@ -115,12 +117,12 @@ void append_middles(Skinning& skin, std::span<const Midpoint> midpoints) {
             round_weights(here, std::numeric_limits<std::uint16_t>::max());
         for (Influence& i : here)
             if (i.weight == 0)
-                i.joint = 0; // as glTF wants it
+                i.joint = 0; // required by glTF
         skin.influences.insert(skin.influences.end(), here.begin(), here.end());
     }
 }
 
-/// One number of every influence of a set, in the component type of `accessor`.
+/// Adds one number of every influence of a set, in the component type of `accessor`.
 template <class Number>
 std::size_t add_set(GltfContents& contents, Json accessor, const Skinning& skin, std::size_t set,
                     const Number& number) {
@@ -136,7 +138,7 @@ std::size_t add_set(GltfContents& contents, Json accessor, const Skinning& skin,
     return added;
 }
 
-/// A weight as it is stored.
+/// Returns a weight in its stored type.
 template <class Stored>
 double stored_weight(double weight, Stored) {
     if constexpr (std::is_integral_v<Stored>)

@@ -1,5 +1,7 @@
 #pragma once
 
+// Joints of edge midpoints.
+
 #include "gltf/contents.h"
 #include "prt/refinement.h"
 
@@ -7,8 +9,8 @@
 
 namespace prt {
 
-/// Replaces JOINTS_n and WEIGHTS_n of `attributes`, which are those of a primitive, by accessors with those
-/// of `midpoints` behind them: of the joints of both ends the heaviest, as many as a vertex has, whose
+/// Replaces JOINTS_n and WEIGHTS_n of a primitive's `attributes` by accessors that also contain `midpoints`.
+/// A midpoint gets the joints of both ends with the largest weights, limited to the number per vertex; their
 /// weights sum to one.
 void add_midpoint_joints(GltfContents& contents, Json& attributes, std::span<const Midpoint> midpoints);
 

@@ -1,4 +1,4 @@
-// World transforms of nodes, by the hierarchy of the default scene.
+// Computes world transforms of nodes from the hierarchy of the default scene.
 #include "gltf/node_transforms.h"
 
 #include "prt/support/error.h"

@@ -1,5 +1,7 @@
 #pragma once
 
+// Transforms of nodes.
+
 #include <glm/gtc/quaternion.hpp>
 #include <glm/mat4x4.hpp>
 #include <tiny_gltf.h>
@@ -11,12 +13,12 @@
 
 namespace prt {
 
-/// Where a node is against its parent.
+/// Transform of a node relative to its parent.
 struct LocalPose {
     glm::dvec3 translation{0};
     glm::dquat rotation{1, 0, 0, 0};
     glm::dvec3 scale{1};
-    std::optional<glm::dmat4> matrix; ///< instead
+    std::optional<glm::dmat4> matrix; ///< replaces the other members if set
 
     glm::dmat4 transform() const;
 };
@@ -30,26 +32,27 @@ struct NodeTree {
     std::vector<LocalPose> poses; ///< [nodes of the file]
 };
 
-/// Of the default scene (or the first; of all root nodes where there is no scene). Throws `Error` when the
-/// hierarchy is no tree.
+/// Returns the tree of the default scene (or the first scene; or all root nodes if there is no scene). Throws
+/// `Error` if the hierarchy is not a tree.
 NodeTree node_tree(const tinygltf::Model& model);
 
-/// [nodes of the file]; the identity for those of no scene. `poses` as `tree` has them.
+/// Returns world matrices, [nodes of the file]; the identity for nodes outside the scene. `poses` as in
+/// `tree`.
 std::vector<glm::dmat4> world_matrices(const NodeTree& tree, std::span<const LocalPose> poses);
 
-/// What KHR_node_visibility says of it alone.
+/// Returns the KHR_node_visibility of the node itself.
 bool is_visible(const tinygltf::Node& node);
 
 struct NodeTransform {
     int node = 0;
     glm::dmat4 world{1};
-    bool visible = true; ///< KHR_node_visibility, of the node and all above it
+    bool visible = true; ///< KHR_node_visibility of the node and all its ancestors
 };
 
-/// World transforms of the nodes of `node_tree`, in its order.
+/// Returns world transforms of the nodes of `node_tree`, in its order.
 std::vector<NodeTransform> world_transforms(const tinygltf::Model& model);
 
-/// The printable name of a node; "node N" where it has none.
+/// Returns the printable name of a node; "node N" if it has none.
 std::string name_of(const tinygltf::Model& model, int node);
 
 } // namespace prt

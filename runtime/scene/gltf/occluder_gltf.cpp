@@ -1,4 +1,4 @@
-// Occlusion volumes of nodes in glTF files: PRTKIT_occlusion_volume of docs/format.md.
+// Reads and writes occlusion volumes of nodes in glTF files: PRTKIT_occlusion_volume of docs/format.md.
 
 #include "prt/occluder_gltf.h"
 

@@ -1,10 +1,13 @@
 #pragma once
 
+// Attributes of prtkit.
+
 #include <string_view>
 
 namespace prt {
 
-/// Whether an attribute of a primitive is one of ours (docs/format.md): it comes and goes with transfer.
+/// Returns whether an attribute of a primitive belongs to prtkit (docs/format.md): it is added and removed
+/// with transfer.
 inline bool is_own_attribute(std::string_view name) {
     return name.starts_with("_PRT_");
 }

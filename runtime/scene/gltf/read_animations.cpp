@@ -1,4 +1,4 @@
-// Animations of nodes (glTF 2.0, section 3.11).
+// Reads animations of nodes (glTF 2.0, section 3.11).
 #include "gltf/read_animations.h"
 
 #include "gltf/accessor.h"
@@ -19,7 +19,7 @@ std::optional<AnimatedPart> animated_part(const std::string& path) {
         return AnimatedPart::rotation;
     if (path == "scale")
         return AnimatedPart::scale;
-    return {}; // weights of morph targets, or what an extension points to
+    return {}; // weights of morph targets, or targets of extensions
 }
 
 Interpolation interpolation_of(const std::string& name) {
@@ -65,7 +65,7 @@ std::vector<glm::vec4> read_values(const tinygltf::Model& model, int accessor,
     return values;
 }
 
-/// Nothing for what moves no node.
+/// Reads a channel; empty if it does not move a node.
 std::optional<AnimationChannel> read_channel(const tinygltf::Model& model,
                                              const tinygltf::Animation& animation,
                                              const tinygltf::AnimationChannel& file) {
@@ -91,7 +91,7 @@ double speed_of(const tinygltf::Value& extras) {
     if (!extras.IsObject() || !extras.Has("speed") || !extras.Get("speed").IsNumber())
         return 0;
     const double speed = extras.Get("speed").GetNumberAsDouble();
-    return speed >= 0 && speed <= 1e3 ? speed : 0; // faster than sound is a mistake
+    return speed >= 0 && speed <= 1e3 ? speed : 0; // supersonic speeds are treated as errors
 }
 
 } // namespace

@@ -1,4 +1,4 @@
-// A finer file: vertices and triangles that a refinement adds, with all that the file says of vertices.
+// Writes a refined file: vertices and triangles of a refinement, with all vertex data of the file.
 #include "prt/refinement.h"
 
 #include "gltf/gathered_accessor.h"
@@ -52,7 +52,7 @@ private:
         return refinement_.midpoints[primitive.vertices];
     }
 
-    /// Primitives of one vertex array have the same attributes.
+    /// Writes the refined attributes; primitives of one vertex array share them.
     void write_vertices(const Primitive& primitive, Json& json) {
         std::optional<ArrayJson>& of_array = arrays_[primitive.vertices];
         if (!of_array)
@@ -67,7 +67,7 @@ private:
         for (const auto& [name, accessor] : array.attributes.items())
             replaced_.insert(accessor.get<std::size_t>());
         add_midpoint_joints(contents_, array.attributes, midpoints);
-        Moved moved; // several morph targets may have one accessor
+        Moved moved; // several morph targets may share one accessor
         for (auto it = array.attributes.begin(); it != array.attributes.end(); ++it)
             if (!is_skinning(it.key()))
                 move(it.key(), *it, AttributeOf::vertex, midpoints, moved);

@@ -1,4 +1,4 @@
-// Vertices in the order of their clusters, in memory and in files, and what GPUs make of an order.
+// Sorts vertices by cluster, in memory and in files, and measures the reuse of a vertex order on GPUs.
 #include "prt/reorder.h"
 
 #include "gltf/accessor.h"
@@ -20,7 +20,7 @@
 namespace prt {
 namespace {
 
-/// Bit by bit, in the same order.
+/// Returns whether the receivers are bitwise equal, in the same order.
 bool same_receivers(const Scene& scene, const Scene& other) {
     const auto same = [](const std::vector<glm::vec3>& a, const std::vector<glm::vec3>& b) {
         return a.size() == b.size() &&
@@ -32,13 +32,14 @@ bool same_receivers(const Scene& scene, const Scene& other) {
                               });
 }
 
-/// Vertex array, position and normal, bit by bit.
+/// Vertex array, position and normal, compared bitwise.
 using Key = std::array<std::uint32_t, 7>;
 
-/// Vertex arrays are numbered by what they hold: scenes of the same nodes in another order are the same.
+/// Returns the keys of all receivers. Vertex arrays are numbered by content: scenes with the same nodes in
+/// another order have equal keys.
 std::vector<Key> keys_of(const Scene& scene) {
     std::vector<Key> keys;
-    std::vector<std::pair<std::vector<Key>, std::size_t>> held; // what each vertex array holds, sorted
+    std::vector<std::pair<std::vector<Key>, std::size_t>> held; // contents of each vertex array, sorted
     for (std::size_t a = 0; a < scene.vertex_arrays.size(); ++a) {
         const VertexArray& vertices = scene.vertex_arrays[a];
         const auto begin = static_cast<std::ptrdiff_t>(keys.size());
@@ -60,7 +61,7 @@ std::vector<Key> keys_of(const Scene& scene) {
     return keys;
 }
 
-/// Equal ones stay in their order.
+/// Returns the sorted order of the keys; stable.
 std::vector<std::uint32_t> sorted(const std::vector<Key>& keys) {
     std::vector<std::uint32_t> order(keys.size());
     std::iota(order.begin(), order.end(), 0u);

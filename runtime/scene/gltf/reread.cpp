@@ -1,3 +1,4 @@
+// Writes and parses a document.
 #include "gltf/reread.h"
 
 #include "gltf/contents.h"
@@ -6,7 +7,7 @@
 namespace prt {
 
 GltfDocument reread(const GltfDocument& document) {
-    // What could be read of images is inside by now.
+    // All readable images are embedded at this point.
     GltfDocument again =
         parse_gltf(encode_glb(document), document.contents().path, {.missing_images = MissingImages::ignore});
     again.contents().notices = document.contents().notices;

@@ -1,10 +1,12 @@
 #pragma once
 
+// Refreshing of a document after edits.
+
 #include "prt/gltf.h"
 
 namespace prt {
 
-/// The same document, read anew: its model knows what was changed.
+/// Returns the document after writing and parsing it, so that its model includes all changes.
 GltfDocument reread(const GltfDocument& document);
 
 } // namespace prt

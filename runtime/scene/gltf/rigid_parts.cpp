@@ -1,4 +1,4 @@
-// Takes a scene apart by which node of the hierarchy carries each triangle.
+// Splits a scene into rigid parts by the node that moves each triangle.
 
 #include "prt/rigid_parts.h"
 
@@ -17,10 +17,10 @@
 namespace prt {
 namespace {
 
-/// Which triangles of each primitive of a scene.
+/// Indices of triangles per primitive of a scene.
 using Triangles = std::map<std::size_t, std::vector<std::size_t>>;
 
-/// The hierarchy, and what carries whom.
+/// The node hierarchy, with the node that moves each node.
 class Carriers {
 public:
     explicit Carriers(const tinygltf::Model& model)
@@ -39,18 +39,18 @@ public:
                     moves_[static_cast<std::size_t>(joint)] = true;
     }
 
-    /// `node` where it moves, else the nearest above it that does, else the root above it.
+    /// Returns `node` if it moves, else its nearest moving ancestor, else its root.
     int of(int node) const {
         int at = node;
         while (!moves_[static_cast<std::size_t>(at)] && parent(at) >= 0)
             at = parent(at);
         return at;
     }
-    /// What carries a carrier; -1: nothing.
+    /// Returns the carrier of a carrier; -1 if absent.
     int above(int carrier) const { return parent(carrier) < 0 ? -1 : of(parent(carrier)); }
     std::size_t depth(int node) const {
         std::size_t steps = 0;
-        for (int at = parent(node); at >= 0 && steps < parents_.size(); at = parent(at)) // or it is a cycle
+        for (int at = parent(node); at >= 0 && steps < parents_.size(); at = parent(at)) // limit for cycles
             ++steps;
         return steps;
     }
@@ -63,7 +63,7 @@ private:
     std::vector<bool> moves_;
 };
 
-/// Joints of the vertices of a skinned primitive, and how much each counts.
+/// Joints of the vertices of a skinned primitive, with their weights.
 struct SkinnedVertices {
     struct Influence {
         std::uint32_t joint;
@@ -88,7 +88,7 @@ SkinnedVertices skinned_vertices(const tinygltf::Model& model, const tinygltf::P
     }
 }
 
-/// The joint that moves most of a triangle; -1: none.
+/// Returns the joint with the largest influence on a triangle; -1 if absent.
 int joint_of(const SkinnedVertices& vertices, const VertexArray& array, const glm::uvec3& triangle) {
     std::map<std::uint32_t, float> sums;
     for (int corner = 0; corner < 3; ++corner) {
@@ -101,7 +101,7 @@ int joint_of(const SkinnedVertices& vertices, const VertexArray& array, const gl
     return most == sums.end() ? -1 : static_cast<int>(most->first);
 }
 
-/// Triangles by the node that carries them.
+/// Returns the triangles, grouped by the node that moves them.
 std::map<int, Triangles> carried(const tinygltf::Model& model, const Scene& scene, const Carriers& carriers) {
     std::map<int, Triangles> parts;
     for (std::size_t p = 0; p < scene.primitives.size(); ++p) {
@@ -138,7 +138,7 @@ double diagonal_of(const Scene& scene, const Triangles& triangles) {
     return static_cast<double>(glm::length(high - low));
 }
 
-/// Gives what is too small to what carries it, from the ends of the hierarchy on.
+/// Merges small parts into their parent part, starting at the leaves of the hierarchy.
 void join_small(const Scene& scene, const Carriers& carriers, double least, std::map<int, Triangles>& parts) {
     std::set<std::pair<std::size_t, int>> open; // depth, node
     for (const auto& [node, triangles] : parts)
@@ -158,7 +158,8 @@ void join_small(const Scene& scene, const Carriers& carriers, double least, std:
     }
 }
 
-/// What blocks light is all that counts: cut-outs keep their textures, the rest loses them.
+/// Returns materials reduced to their effect on occlusion: cut-outs keep their textures, all others lose
+/// them.
 std::vector<Material> materials_that_block(const Scene& scene, const std::set<std::size_t>& used) {
     std::vector<Material> materials(scene.materials.size());
     for (const std::size_t m : used) {

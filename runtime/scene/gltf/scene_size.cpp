@@ -1,4 +1,4 @@
-// Vertices, indices and morph targets of all nodes, counted.
+// Estimates the memory of vertices, indices and morph targets of all nodes.
 #include "gltf/scene_size.h"
 
 #include "gltf/accessor.h"
@@ -17,16 +17,16 @@ namespace {
 
 using Attributes = std::map<std::string, int>;
 
-// Bytes while a scene is read: of a vertex its places in float and double and its normal, of an index itself
-// and its share of a triangle, of a primitive itself and its names.
+// Bytes while a scene is read: per vertex its positions in float and double and its normal; per index the
+// index and its share of a triangle; per primitive its data and names.
 constexpr double kVertex = 64, kIndex = 8, kPrimitive = 256;
 
 double count_of(const tinygltf::Model& model, int accessor) {
     return static_cast<double>(get_accessor(model, accessor).count);
 }
 
-/// Bytes of an element of an attribute or morph target: as floats of four components, or as they are where
-/// vertices are parted and the new accessor is written.
+/// Returns the size of an element of an attribute or morph target: four floats, or its stored size, which
+/// applies if vertices are split and the new accessor is written.
 double element_bytes(const tinygltf::Model& model, int index) {
     const tinygltf::Accessor& accessor = get_accessor(model, index);
     return std::max(16.0, static_cast<double>(component_bytes(accessor.componentType)) *
@@ -40,7 +40,7 @@ double bytes_of_elements(const tinygltf::Model& model, const Attributes& attribu
     return bytes;
 }
 
-/// Bytes that one instance of `mesh` takes.
+/// Returns the size of one instance of `mesh` in bytes.
 double instance_bytes(const tinygltf::Model& model, const tinygltf::Mesh& mesh) {
     std::set<std::pair<Attributes, std::vector<Attributes>>> seen;
     double bytes = 0;
@@ -54,9 +54,9 @@ double instance_bytes(const tinygltf::Model& model, const tinygltf::Mesh& mesh) 
         bytes += kIndex * std::max(indices, vertices);
         if (primitive.attributes.contains("NORMAL")) {
             if (!seen.emplace(primitive.attributes, primitive.targets).second)
-                continue; // shared with a primitive before
+                continue; // shared with a previous primitive
         } else {
-            vertices = std::max(vertices, indices); // flat normals part them
+            vertices = std::max(vertices, indices); // flat normals split them
         }
         double elements = bytes_of_elements(model, primitive.attributes);
         for (const Attributes& target : primitive.targets)

@@ -1,6 +1,6 @@
 #pragma once
 
-// How much memory the meshes of a scene take, before they are read.
+// Memory estimate of a scene's meshes before they are read.
 
 #include "gltf/node_transforms.h"
 
@@ -11,8 +11,8 @@
 
 namespace prt {
 
-/// Throws `Error` when the meshes of `nodes` take more memory than a file of `file_bytes` may: every node
-/// gets vertices of its own, so that a small file can ask for any number.
+/// Throws `Error` if the meshes of `nodes` need more memory than a file of `file_bytes` may use: every node
+/// gets separate vertices, so that a small file could require any amount.
 void check_scene_size(const tinygltf::Model& model, std::span<const NodeTransform> nodes,
                       std::size_t file_bytes);
 

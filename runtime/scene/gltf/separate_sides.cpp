@@ -1,3 +1,4 @@
+// Splits double-sided triangles into two single-sided ones.
 #include "prt/separate_sides.h"
 
 #include "gltf/accessor.h"
@@ -21,7 +22,7 @@
 namespace prt {
 namespace {
 
-/// The vertices of an array that get a copy, in their order.
+/// The vertices of an array that get a copy, in order.
 class BackVertices {
 public:
     explicit BackVertices(std::size_t vertices) : back_(vertices, kNone) {}
@@ -30,7 +31,7 @@ public:
         for (int corner = 0; corner < 3; ++corner)
             back_[corners[corner]] = 0;
     }
-    /// After the last `add`.
+    /// Assigns indices; call after the last `add`.
     void number() {
         for (std::uint32_t v = 0; v < back_.size(); ++v)
             source_.push_back(v);
@@ -60,7 +61,7 @@ Component negated(Component value) {
         return -value;
 }
 
-/// Components of `elements` with the opposite sign.
+/// Negates the components of `elements`.
 void negate(int component_type, std::span<std::byte> elements) {
     with_component_type(component_type, [&](auto type) {
         if constexpr (std::is_signed_v<decltype(type)>)
@@ -108,8 +109,8 @@ private:
     struct JsonPlace {
         std::size_t mesh, primitive;
     };
-    using Moved =
-        std::map<std::pair<int, bool>, std::size_t>; ///< new accessors by old ones and whether they turn
+    using Moved = std::map<std::pair<int, bool>, std::size_t>; ///< new accessors by old ones and whether they
+                                                               ///< are negated
 
     JsonPlace place(std::size_t p) const {
         const Primitive& primitive = scene_.primitives[p];
@@ -120,7 +121,8 @@ private:
         return contents_.json["meshes"][at.mesh]["primitives"][at.primitive];
     }
 
-    /// In all variants: what is culled in one would show its back there.
+    /// Returns whether the primitive is double-sided in all variants: if a variant culls its back, the new
+    /// triangle would show it there.
     bool always_double_sided(const Json& primitive) const {
         bool all = true;
         for_each_choice(primitive, [&](const Json& choice) {
@@ -137,7 +139,7 @@ private:
         return materials[index];
     }
 
-    /// Primitives of one vertex array have the same attributes.
+    /// Writes the extended attributes; primitives of one vertex array share them.
     void write_vertices(std::size_t p) {
         const BackVertices& backs = backs_[scene_.primitives[p].vertices];
         if (backs.empty())
@@ -187,7 +189,7 @@ private:
         return at;
     }
 
-    /// Makes the materials of these primitives single-sided; those that others have, too, are copied.
+    /// Makes the materials of these primitives single-sided; copies materials that others use too.
     void single_sided(const std::vector<JsonPlace>& primitives) {
         std::map<std::size_t, std::size_t> users;
         for_each_primitive(contents_.json, [&](Json& primitive) {
@@ -208,7 +210,7 @@ private:
             if (users[material] > choices.size()) {
                 now = materials.size();
                 Json copy = materials[material];
-                copy["name"] = lamp_name(scene_, material); // one lamp, and one name to choose it by
+                copy["name"] = lamp_name(scene_, material); // one lamp needs one name
                 materials.push_back(std::move(copy));
                 animate_alike(material, now);
             }
@@ -218,7 +220,7 @@ private:
         }
     }
 
-    /// Copies the channels of KHR_animation_pointer for what is animated of a material.
+    /// Copies the channels of KHR_animation_pointer for the animated properties of a material.
     void animate_alike(std::size_t material, std::size_t copy) {
         if (!contents_.json.contains("animations"))
             return;

@@ -1,4 +1,4 @@
-// Lets instances share their mesh again that were given nodes of their own when the file was read.
+// Converts nodes that were created for instances when the file was read back to instances of a shared mesh.
 #include "prt/instances_gltf.h"
 
 #include "gltf/accessor.h"
@@ -12,12 +12,12 @@
 namespace prt {
 namespace {
 
-/// Number of the instance that a node is, and its mesh among those that share.
+/// Index of the instance of a node, and of its mesh among the shared ones.
 struct Numbered {
     std::size_t number, mesh;
 };
 
-/// An accessor like `reference` with the elements of instances `kept`.
+/// Adds an accessor like `reference` with the elements of instances `kept`.
 std::size_t picked_accessor(GltfContents& contents, const Json& reference,
                             const std::vector<std::size_t>& kept) {
     const auto index = reference.get<int>();
@@ -43,7 +43,7 @@ public:
                 numbered_[static_cast<std::size_t>(placement.node)] = {number++, m};
     }
 
-    /// Returns where each node is then, -1 where it became an instance of another.
+    /// Returns the new index of each node; -1 if it became an instance of another.
     std::vector<int> share(std::size_t meshes) {
         std::vector<bool> removed(nodes().size());
         for (const ExpandedNode& expanded : contents_.expanded)
@@ -62,10 +62,10 @@ public:
     }
 
 private:
-    /// Looked up anew each time: members that are added to the document move it.
+    /// Looked up each time, because adding members moves the array.
     Json& nodes() { return contents_.json["nodes"]; }
 
-    /// Those of its nodes that share are instances again.
+    /// Converts the sharing nodes of `expanded` back to instances.
     void join_instances(const ExpandedNode& expanded, std::vector<bool>& removed) {
         std::vector<std::size_t> kept;
         for (std::size_t i = 0; i < expanded.count; ++i)

@@ -1,4 +1,4 @@
-// Finds the meshes that nodes draw often, turned, moved and scaled evenly.
+// Finds meshes that several nodes draw with rotation, translation and uniform scale.
 #include "prt/instances_gltf.h"
 
 #include "gltf/contents.h"
@@ -27,7 +27,7 @@ bool is_bent(const tinygltf::Model& model, const tinygltf::Node& node) {
 } // namespace
 
 std::optional<MeshPlacement> even_placement(int node, const glm::dmat4& world) {
-    constexpr double kRounding = 1e-5; // of an element, of the scale: matrices of files are float
+    constexpr double kRounding = 1e-5; // per element, relative to the scale: matrices in files are float
     const glm::dmat3 linear(world);
     const double determinant = glm::determinant(linear);
     if (!(determinant > 0))

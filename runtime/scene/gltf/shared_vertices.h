@@ -1,6 +1,6 @@
 #pragma once
 
-// Which primitives of a glTF file have one vertex array.
+// Primitives of a glTF file that share a vertex array.
 
 #include "gltf/own_attributes.h"
 
@@ -15,11 +15,11 @@
 
 namespace prt {
 
-/// Vertex arrays by node, primitive (where it matters), attributes and morph targets. Attributes of ours are
-/// left out: vertices are the same before and after a file gets or loses them.
+/// Identifies vertex arrays by node, primitive (if it matters), attributes and morph targets. Attributes of
+/// prtkit are ignored: vertices are the same before and after a file gets or loses them.
 class SharedVertices {
 public:
-    /// The array of such a primitive, and whether it is a new one, `next`.
+    /// Returns the array of such a primitive, and whether it is new and has index `next`.
     std::pair<std::size_t, bool> of(int node, int alone, const tinygltf::Primitive& file, std::size_t next) {
         Attributes attributes = file.attributes;
         std::erase_if(attributes, [](const auto& a) { return is_own_attribute(a.first); });
@@ -31,7 +31,7 @@ public:
 
 private:
     using Attributes = std::map<std::string, int>;
-    /// Numbered, for names may be long and nodes many.
+    /// Names are replaced by numbers, because they may be long and nodes numerous.
     std::map<std::pair<Attributes, std::vector<Attributes>>, std::size_t> names_;
     std::map<std::tuple<int, int, std::size_t>, std::size_t> arrays_;
 };

@@ -1,4 +1,4 @@
-// Areas of meshes that instances share, as all of these show them.
+// Computes areas of meshes with shared transfer over all their instances.
 #include "prt/instances_gltf.h"
 
 #include "gltf/accessor.h"
@@ -17,10 +17,10 @@
 namespace prt {
 namespace {
 
-/// Of all instances of a mesh, in its own area.
+/// Maximum ratio of the area of all instances of a mesh to the mesh itself.
 constexpr double kLargestArea = 1e18;
 
-/// By how much the instances of a node are larger than itself, one after the other.
+/// Returns the sum of the area factors of a node's instances relative to the node.
 double area_of_instances(const GltfContents& contents, const Json& node) {
     const Json* extension = extension_of(node, kInstancingExtension);
     if (!extension)
@@ -30,7 +30,7 @@ double area_of_instances(const GltfContents& contents, const Json& node) {
         double sum = 0;
         const std::vector<float> scales = read_floats(contents.model, attributes["SCALE"].get<int>(), 3);
         for (std::size_t i = 0; i + 2 < scales.size(); i += 3)
-            sum += static_cast<double>(scales[i]) * static_cast<double>(scales[i]); // it is even
+            sum += static_cast<double>(scales[i]) * static_cast<double>(scales[i]); // the scale is uniform
         return sum;
     }
     for (const auto& item : attributes.items())
@@ -38,7 +38,7 @@ double area_of_instances(const GltfContents& contents, const Json& node) {
     return 0;
 }
 
-/// [stand-ins] what areas of their meshes are multiplied with.
+/// Returns the area factor of each mesh, [stand-ins].
 std::map<int, double> areas_of_meshes(const GltfContents& contents) {
     std::map<int, double> of_node, of_stand_in;
     for (const NodeTransform& transform : world_transforms(contents.model))

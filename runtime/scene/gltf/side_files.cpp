@@ -1,3 +1,4 @@
+// Finds and reads external files of a scene.
 #include "gltf/side_files.h"
 
 #include "prt/support/error.h"
@@ -20,7 +21,7 @@ bool is_below(const fs::path& path, const fs::path& folder) {
     return std::mismatch(folder.begin(), folder.end(), path.begin(), path.end()).first == folder.end();
 }
 
-/// Upper case of ASCII as lower case; where it is a file's name, escapes of URIs as the bytes they stand for.
+/// Converts ASCII to lower case; with `escapes`, decodes URI escapes.
 std::string folded(std::string name, bool escapes) {
     for (std::size_t at = 0; escapes && (at = name.find('%', at)) != std::string::npos; ++at) {
         unsigned byte = 0;
@@ -33,7 +34,7 @@ std::string folded(std::string name, bool escapes) {
     return name;
 }
 
-/// Adds the files below `folder` that `parts` name but for case and escapes to `found`, until it holds two.
+/// Adds the files below `folder` that match `parts` except for case and escapes to `found`, until it has two.
 void find_alike(const fs::path& folder, std::span<const fs::path> parts, std::vector<fs::path>& found) {
     std::error_code error;
     if (parts.empty()) {
@@ -50,14 +51,14 @@ void find_alike(const fs::path& folder, std::span<const fs::path> parts, std::ve
     }
 }
 
-/// A URI as a path of this system: with slashes, without a query or a fragment.
+/// Converts a URI to a path of this system: with slashes, without a query or a fragment.
 std::string plain_name(std::string name) {
     std::replace(name.begin(), name.end(), '\\', '/');
     return name.substr(0, name.find_first_of("?#"));
 }
 
-/// The one file below `folder` that exporters can mean by `name`, as a path within it; empty: none. Throws
-/// `Error` where several can be meant.
+/// Returns the only file below `folder` that an exporter can mean by `name`, as a relative path; empty if no
+/// file matches. Throws `Error` if several match.
 fs::path alike(const fs::path& folder, const std::string& name) {
     for (const std::string& variant : {name, plain_name(name)}) {
         const fs::path path = fs::path(variant).lexically_normal();
@@ -82,7 +83,8 @@ SideFiles::SideFiles(const fs::path& scene, std::size_t scene_bytes, const GltfO
       bytes_there_(scene_bytes) {}
 
 tinygltf::FsCallbacks SideFiles::callbacks() {
-    const auto exists = [](const std::string&, void*) { return true; }; // else another folder is tried
+    const auto exists = [](const std::string&, void*) { return true; }; // otherwise tinygltf tries another
+                                                                        // folder
     const auto expand = [](const std::string& name, void*) { return name; };
     const auto read = [](std::vector<unsigned char>* bytes, std::string* trouble, const std::string& name,
                          void* files) {
@@ -108,7 +110,7 @@ fs::path SideFiles::place_of(const std::string& name) {
     fs::path path = fs::weakly_canonical(folder / name, error);
     if (error)
         throw Error(error.message());
-    constexpr int kMaxSearches = 1000; // of folders, each in proportion to the files there
+    constexpr int kMaxSearches = 1000; // each costs time proportional to the number of files in the folders
     if (!fs::exists(path) && is_below(path, folder) && searches_++ < kMaxSearches)
         if (const fs::path other = alike(folder, name); !other.empty()) {
             path = fs::weakly_canonical(folder / other, error);
@@ -128,7 +130,7 @@ fs::path SideFiles::place_of(const std::string& name) {
 void SideFiles::check_outputs() const {
     for (const fs::path& path : seen_)
         for (const fs::path& output : options_.outputs) {
-            std::error_code error; // that of an output that is not there
+            std::error_code error; // set if the output does not exist
             if (fs::equivalent(path, output, error))
                 throw Error("names " + path.string() +
                             ", which this run would replace: give the output another name");

@@ -1,5 +1,7 @@
 #pragma once
 
+// External files of a scene.
+
 #include "prt/gltf.h"
 
 #include <tiny_gltf.h>
@@ -12,22 +14,22 @@
 
 namespace prt {
 
-/// The files that the URIs of a scene name, as tinygltf asks for them. A scene may come from a stranger: it
-/// reaches regular files in its folder and below, after ".." and links are followed, and no others unless it
-/// is allowed to. A name that no file has stands for the one file that differs by backslashes, case, escapes
-/// or a query.
+/// Reads the files that the URIs of a scene name, for tinygltf. A scene may come from an untrusted source: it
+/// can access only regular files in its folder and subfolders, after resolving ".." and links, unless more is
+/// allowed. A name without a file is matched to the only file that differs in backslashes, case, escapes or a
+/// query.
 class SideFiles {
 public:
-    /// Those of a scene of `scene_bytes` at `scene`.
+    /// `scene`: path of the scene, of `scene_bytes`.
     SideFiles(const std::filesystem::path& scene, std::size_t scene_bytes, const GltfOptions& options);
 
-    /// They refer to this object. Names reach them as URIs say, without a folder.
+    /// Returns callbacks that reference this object. They receive names as in the URIs, without a folder.
     tinygltf::FsCallbacks callbacks();
-    /// What was wrong with the first file that could not be read.
+    /// Returns the error of the first file that could not be read.
     const std::string& first_trouble() const { return first_trouble_; }
-    /// Files that were read in the place of those named, a line each.
+    /// Returns the files that were read instead of the named ones, one line each.
     const std::set<std::string>& notices() const { return notices_; }
-    /// Throws `Error` where one of them is an output.
+    /// Throws `Error` if one of the files is an output.
     void check_outputs() const;
 
 private:
@@ -36,10 +38,11 @@ private:
     std::filesystem::path folder_;
     const GltfOptions& options_;
     std::set<std::filesystem::path> seen_;
-    std::uint64_t bytes_there_, bytes_read_ = 0; ///< of the scene and of all files once; as often as named
+    std::uint64_t bytes_there_, bytes_read_ = 0; ///< total size of the scene and of all files once; bytes
+                                                 ///< read, including repeated names
     std::string first_trouble_;
     std::set<std::string> notices_;
-    int searches_ = 0; ///< for files that are not there
+    int searches_ = 0; ///< number of searches for missing files
 };
 
 } // namespace prt

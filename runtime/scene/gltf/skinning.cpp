@@ -1,4 +1,4 @@
-// Skins (glTF 2.0, section 3.7.3).
+// Reads skins (glTF 2.0, section 3.7.3).
 #include "gltf/skinning.h"
 
 #include "gltf/accessor.h"
@@ -13,7 +13,7 @@
 namespace prt {
 namespace {
 
-/// Writes set `set` of joints and weights between those of the others.
+/// Writes set `set` of joints and weights, interleaved with the other sets.
 void read_set(const tinygltf::Model& model, std::span<const int> accessors, std::size_t set,
               std::size_t joints, MovingVertices& moving) {
     const auto indices = read_unsigned(model, accessors[0], 4);
@@ -36,7 +36,7 @@ void read_set(const tinygltf::Model& model, std::span<const int> accessors, std:
     }
 }
 
-/// Accessors of the sets of joints and weights, two each.
+/// Returns the accessors of the sets of joints and weights, two each.
 std::vector<int> influence_accessors(const tinygltf::Primitive& primitive) {
     std::vector<int> accessors;
     for (int set = 0;; ++set) {

@@ -1,4 +1,4 @@
-// Textures that belong to places of a scene, in glTF files.
+// Writes textures of surfaces into glTF files.
 
 #include "prt/gltf.h"
 
@@ -20,7 +20,7 @@ std::size_t append(Json& json, const char* list, Json element) {
     return elements.size() - 1;
 }
 
-/// Index of a texture of a PNG file.
+/// Adds a texture with a PNG image; returns its index.
 std::size_t add_texture(GltfContents& contents, std::span<const std::byte> png, bool repeats,
                         const char* name) {
     const int wrap = repeats ? TINYGLTF_TEXTURE_WRAP_REPEAT : TINYGLTF_TEXTURE_WRAP_CLAMP_TO_EDGE;
@@ -36,7 +36,7 @@ std::size_t add_texture(GltfContents& contents, std::span<const std::byte> png, 
     return append(json, "textures", {{"sampler", sampler}, {"source", image}});
 }
 
-/// extras.prtkit of material `m`.
+/// Returns extras.prtkit of material `m`.
 Json& own_extras(Json& material, std::size_t m) {
     Json* at = &material;
     for (const char* key : {"extras", "prtkit"}) {
@@ -49,7 +49,7 @@ Json& own_extras(Json& material, std::size_t m) {
     return *at;
 }
 
-/// Gives the primitives of a texture materials that no others have.
+/// Assigns separate materials to the primitives of each texture.
 class OwnMaterials {
 public:
     OwnMaterials(Json& json, const std::vector<Json*>& primitives, std::span<const SurfaceTexture> textures)
@@ -96,7 +96,7 @@ private:
 
     Json& json_;
     const std::vector<Json*>& primitives_;
-    std::map<std::size_t, std::size_t> users_; ///< of materials, as the file has them
+    std::map<std::size_t, std::size_t> users_; ///< number of users of each material of the file
     std::vector<std::set<std::size_t>> own_;   ///< [textures] materials
 };
 

@@ -1,4 +1,4 @@
-// Raw transfer in glTF files: PRTKIT_transfer of docs/format.md.
+// Reads and writes raw transfer in glTF files: PRTKIT_transfer of docs/format.md.
 
 #include "prt/stored_transfer.h"
 
@@ -33,7 +33,7 @@ void write_into(GltfContents& contents, const Scene& scene, const BakedTransfer&
     contents.use_extension(kTransferExtension);
 }
 
-/// Where a file holds the vectors of one vertex array, numbers from `first` on of all.
+/// Position of the vectors of one vertex array in a file: `count` numbers, starting at number `first` of all.
 struct VectorsView {
     const Json* json;
     std::size_t first, count;

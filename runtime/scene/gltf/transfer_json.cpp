@@ -1,4 +1,4 @@
-// What both transfer extensions share: the record of the bake, shapes, and views of floats.
+// Common parts of the transfer extensions: the bake record, layouts, and views of floats.
 #include "gltf/transfer_json.h"
 
 #include "gltf/accessor.h"
@@ -14,10 +14,10 @@
 namespace prt {
 namespace {
 
-/// GL_HALF_FLOAT. glTF's accessors do not know it, but the views of our extensions are no accessors.
+/// GL_HALF_FLOAT. glTF accessors do not support it, but the views of prtkit's extensions are not accessors.
 constexpr int kHalfComponentType = 5131;
 
-/// The one of `values` whose word stands at `key`, the first where there is none.
+/// Returns the one of `values` whose name is stored at `key`; the first if it is missing.
 template <class Enum>
 Enum one_of(const Json& json, const char* key, std::initializer_list<Enum> values) {
     const std::string word = json.value(key, to_string(*values.begin()));
@@ -44,7 +44,7 @@ TransferPart read_part(const Json& part) {
             part.value("members", std::vector<std::string>())};
 }
 
-/// The member `key`, a whole number that is not negative, 0 where it is not there.
+/// Returns the member `key`, a non-negative integer; 0 if it is missing.
 template <class Number>
 Number count_or_zero(const Json& json, const char* key) {
     if (!json.contains(key))
@@ -56,7 +56,7 @@ Number count_or_zero(const Json& json, const char* key) {
     return value.get<Number>();
 }
 
-/// The hash of the receivers: 16 digits; empty where it is not there.
+/// Returns the hash of the receivers: 16 digits; empty if it is missing.
 std::string read_hash(const Json& json) {
     if (!json.contains("receivers"))
         return {};
@@ -66,12 +66,13 @@ std::string read_hash(const Json& json) {
     return hash;
 }
 
-/// The bytes of floats, or of float16, exactly as many as are needed.
+/// Returns the bytes of floats, or of float16, with exactly the required size.
 std::span<const unsigned char> float_bytes(const GltfContents& contents, const Json& object,
                                            std::size_t count, const std::string& what) {
     const std::size_t size = is_half(object) ? sizeof(std::uint16_t) : sizeof(float);
     const auto bytes = buffer_view_bytes(contents.model, object.at("bufferView").get<int>());
-    if (count > 0 && bytes.size() != count * size) // more would be of another layout; no view is empty
+    if (count > 0 && bytes.size() != count * size) // a larger view would have another layout; views cannot be
+                                                   // empty
         throw Error(what + " need " + std::to_string(count * size) + " bytes, but there are " +
                     std::to_string(bytes.size()));
     return bytes;
@@ -174,7 +175,9 @@ int whole_number(const Json& value, const std::string& name, int least, int most
 }
 
 void check_magnitudes(std::span<const float> values, float largest, const std::string& what) {
-    if (!std::all_of(values.begin(), values.end(), [&](float v) { return std::abs(v) <= largest; })) // no NaN
+    if (!std::all_of(values.begin(), values.end(),
+                     [&](float v) { return std::abs(v) <= largest; })) // rejects
+                                                                       // NaN
         throw Error(what + " hold values that are not finite" +
                     (largest < 1e18f ? " or beyond " + std::to_string(static_cast<long long>(largest)) : ""));
 }
@@ -220,7 +223,7 @@ void read_half_view(const GltfContents& contents, const Json& object, std::span<
         return;
     std::memcpy(to.data(), bytes.data(), to.size_bytes());
     for (const std::uint16_t half : to)
-        if ((half & 0x7C00) == 0x7C00) // infinite, or no number
+        if ((half & 0x7C00) == 0x7C00) // infinite or NaN
             check_magnitudes(std::array{glm::unpackHalf1x16(half)}, kLargestTransfer, what);
 }
 

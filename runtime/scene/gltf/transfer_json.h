@@ -1,6 +1,6 @@
 #pragma once
 
-// What the two extensions of prtkit have in common.
+// Common JSON of the transfer extensions of prtkit.
 
 #include "gltf/contents.h"
 #include "prt/coded_rows.h"
@@ -19,72 +19,75 @@ namespace prt {
 Json record_json(const BakeRecord& record);
 BakeRecord read_record(const Json& json);
 
-/// The extension `name` at the top level, nothing when the file does not have it. Throws `Error` when it has
+/// Returns the extension `name` at the top level; null if the file does not have it. Throws `Error` for
 /// another version.
 const Json* find_extension(const GltfContents& contents, const char* name, int expected_version);
 
-/// Throws `Error` where instances share transfer and are nodes: the scene has more vertices than the file.
+/// Throws `Error` if instances share transfer and are represented as nodes: the scene then has more vertices
+/// than the file.
 void check_one_to_one(const GltfContents& contents);
 
-/// [{"kind": "direct", "channels": 1}, ...]
+/// Returns [{"kind": "direct", "channels": 1}, ...].
 Json parts_json(const TransferLayout& layout);
-/// Order and parts of an extension. Throws `Error` when they make no sense.
+/// Reads order and parts of an extension. Throws `Error` if they are invalid.
 TransferLayout read_layout(const Json& extension);
 
-/// JSON of a scene primitive, in a file that holds the scene one to one.
+/// Returns the JSON of a scene primitive, in a file that holds the scene one to one.
 const Json& primitive_json(const GltfContents& contents, const Primitive& primitive);
 std::string primitive_name(const Primitive& primitive);
 
-/// What primitives say of the transfer of their vertices: those that share them must say the same.
+/// Consistency check of primitives that share vertices: their transfer must be described equally.
 class TransferOfVertices {
 public:
-    /// Whether the vertices of `primitive` are new. Throws `Error` where another said something else of them.
+    /// Returns whether the vertices of `primitive` are new. Throws `Error` if another primitive described
+    /// them differently.
     bool is_new(const Primitive& primitive, const Json& said);
 
 private:
     std::map<std::size_t, Json> said_; ///< by vertex array
 };
 
-/// `value`, which stands in the file as `name`, as a whole number of `least`..`most`. Throws `Error` where it
-/// is none.
+/// Returns `value`, stored in the file as `name`, as an integer in `least`..`most`. Throws `Error` otherwise.
 int whole_number(const Json& value, const std::string& name, int least, int most);
 
-/// Largest magnitude of a weight that is a float, as `kLargestTransfer` of transfer.
+/// Maximum magnitude of a float weight, corresponding to `kLargestTransfer` for transfer.
 inline constexpr float kLargestWeight = 1e9f;
 
-/// Throws `Error` unless all are finite and at most `largest`.
+/// Throws `Error` unless all values are finite with magnitudes of at most `largest`.
 void check_magnitudes(std::span<const float> values, float largest, const std::string& what);
 
-/// Whether {"bufferView": ..., "componentType": ...} holds float16.
+/// Returns whether {"bufferView": ..., "componentType": ...} holds float16.
 bool is_half(const Json& object);
 
-/// Reads floats of {"bufferView": ..., "componentType": 5126 or 5131} into `to`; throws unless there are as
-/// many, all values of transfer.
+/// Reads floats of {"bufferView": ..., "componentType": 5126 or 5131} into `to`; throws unless the number
+/// matches and all values are valid transfer.
 void read_float_view(const GltfContents& contents, const Json& object, std::span<float> to,
                      const std::string& what);
-/// The same of one that `is_half`, as it stands.
+/// Reads float16 values without conversion, if `is_half`; throws unless the number matches and all values are
+/// valid transfer.
 void read_half_view(const GltfContents& contents, const Json& object, std::span<std::uint16_t> to,
                     const std::string& what);
-/// Reads `count` floats of {"bufferView": ..., "componentType": 5126}; throws unless there are as many, all
-/// at most `largest`.
+/// Reads `count` floats of {"bufferView": ..., "componentType": 5126}; throws unless the number matches and
+/// all are at most `largest`.
 std::vector<float> read_float_view(const GltfContents& contents, const Json& object, std::size_t count,
                                    float largest, const std::string& what);
 Json write_float_view(GltfContents& contents, std::span<const float> values);
 Json write_half_view(GltfContents& contents, std::span<const float> values);
 
-/// {"bufferView": ..., "drops": [...]}
+/// Returns {"bufferView": ..., "drops": [...]}.
 Json write_row_code(GltfContents& contents, const RowCode& code);
-/// Throws `Error` for drops that no code has.
+/// Reads a row code. Throws `Error` for invalid drops.
 RowCode read_row_code(const GltfContents& contents, const Json& json);
-/// Its drops alone.
+/// Reads the drops only.
 std::vector<std::uint8_t> read_drops(const Json& json);
 
-/// What `work` makes of the contents; errors get the name of the file.
+/// Returns the result of `work` for the contents; adds the file name to errors.
 template <class Document, class Work>
 auto named(Document& document, Work&& work) {
     try {
         return work(document.contents());
-    } catch (const std::exception& error) { // ours, and those of the JSON library on members of a wrong type
+    } catch (const std::exception& error) { // errors of prtkit, and those of the JSON library for members of
+                                            // a wrong type
         throw Error(document.contents().path.string() + ": " + in_plain_words(error));
     }
 }

@@ -1,5 +1,7 @@
 #pragma once
 
+// Transformation of normals.
+
 #include "triangle_normal.h"
 
 #include <glm/mat3x3.hpp>
@@ -8,8 +10,8 @@
 
 namespace prt {
 
-/// Normals transform with the cofactors of the matrix: its inverse transposed, times the determinant, which
-/// also exists where the inverse does not.
+/// Returns the cofactors of the matrix, which transform normals: the transposed inverse times the
+/// determinant. They also exist for singular matrices.
 inline glm::dmat3 cofactors(const glm::dmat3& m) {
     return {glm::cross(m[1], m[2]), glm::cross(m[2], m[0]), glm::cross(m[0], m[1])};
 }
@@ -20,7 +22,7 @@ inline glm::vec3 transformed_normal(const glm::vec3& normal, const glm::dmat4& m
     return unit_or_zero(side * (cofactors(linear) * glm::dvec3(normal)));
 }
 
-/// The normal that `transformed_normal` makes `normal` of.
+/// Returns the normal that `transformed_normal` maps to `normal`.
 inline glm::vec3 normal_before(const glm::vec3& normal, const glm::dmat4& matrix) {
     return unit_or_zero(glm::transpose(glm::dmat3(matrix)) * glm::dvec3(normal));
 }

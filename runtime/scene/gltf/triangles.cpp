@@ -1,4 +1,4 @@
-// Triangles from lists, strips and fans.
+// Reads triangles from lists, strips and fans.
 #include "gltf/triangles.h"
 
 #include "gltf/accessor.h"

@@ -1,5 +1,7 @@
 #pragma once
 
+// Triangles of primitives.
+
 #include <glm/vec3.hpp>
 #include <tiny_gltf.h>
 
@@ -7,11 +9,11 @@
 
 namespace prt {
 
-/// Whether a primitive mode is triangles, a strip or a fan. An absent mode is triangles.
+/// Returns whether a primitive mode is triangles, a strip or a fan. A missing mode is triangles.
 bool is_triangle_mode(int mode);
 
-/// The triangles of a primitive with `vertices` vertices, strips and fans taken apart with their winding
-/// kept. Throws `Error` for an index beyond the vertices.
+/// Returns the triangles of a primitive with `vertices` vertices; strips and fans are split with correct
+/// winding. Throws `Error` for an index beyond the vertices.
 std::vector<glm::uvec3> read_triangles(const tinygltf::Model& model, const tinygltf::Primitive& primitive,
                                        std::size_t vertices);
 

@@ -1,4 +1,4 @@
-// Factors that glTF wants in 0..1.
+// Clamps factors that glTF requires in 0..1.
 #include "gltf/unit_range.h"
 
 namespace prt {
@@ -6,7 +6,7 @@ namespace prt {
 bool UnitRange::clamp_component(float& value) {
     if (value >= 0 && value <= 1)
         return false;
-    value = value > 1 ? 1.0f : 0.0f; // NaN as well
+    value = value > 1 ? 1.0f : 0.0f; // NaN becomes 0
     return true;
 }
 

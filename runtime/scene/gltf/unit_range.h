@@ -1,16 +1,18 @@
 #pragma once
 
+// Clamping of factors.
+
 #include <cstddef>
 #include <map>
 #include <string>
 
 namespace prt {
 
-/// Clamps what glTF wants in 0..1: light that grows at every bounce has no end. Remembers what it changed.
+/// Clamps values that glTF requires in 0..1, because light that grows at every bounce diverges. Records the
+/// changes.
 class UnitRange {
 public:
-    /// Clamps all components; NaN becomes 0. `name`: what it is and what it belongs to, "baseColorFactor of
-    /// materials".
+    /// Clamps all components; NaN becomes 0. `name`: property and owner, "baseColorFactor of materials".
     template <class Vector>
     void clamp(Vector& values, const char* name) {
         bool changed = false;
@@ -20,7 +22,7 @@ public:
     }
     void clamp(float& value, const char* name) { count_if(clamp_component(value), name); }
 
-    /// One line for all that was clamped; empty where nothing was.
+    /// Returns one line about all clamped values; empty if absent.
     std::string notice() const;
 
 private:

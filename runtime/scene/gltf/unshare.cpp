@@ -1,4 +1,5 @@
-// Gives every node a mesh of its own, and primitives without normals flat ones, as a scene has them.
+// Creates a separate mesh for every node, and primitives without normals flat ones, as in the extracted
+// scene.
 #include "gltf/unshare.h"
 
 #include "gltf/accessor.h"
@@ -15,7 +16,7 @@
 namespace prt {
 namespace {
 
-/// Copies of meshes that more than one node uses: index of the mesh of each node afterwards.
+/// Copies meshes that more than one node uses; returns the new mesh index of each node.
 std::map<int, std::size_t> unshare_meshes(GltfContents& contents, const Scene& scene) {
     Json& json = contents.json;
     std::map<int, std::size_t> mesh_of_node;
@@ -41,8 +42,8 @@ std::map<int, std::size_t> unshare_meshes(GltfContents& contents, const Scene& s
     return mesh_of_node;
 }
 
-/// Face normals in the mesh's own frame. Triangles without area get an arbitrary unit normal, since glTF has
-/// no zero normals.
+/// Returns face normals in the mesh's own frame. Triangles without area get an arbitrary unit normal, because
+/// glTF does not allow zero normals.
 std::vector<glm::vec3> flat_normals(const GltfContents& contents, const Json& position, const Scene& scene,
                                     const Primitive& primitive) {
     const VertexArray& vertices = scene.vertex_arrays[primitive.vertices];
@@ -71,7 +72,7 @@ void write_split_vertices(GltfContents& contents, Json& primitive_json, const Sc
 
     Json attributes = Json::object();
     for (auto it = old_attributes.begin(); it != old_attributes.end(); ++it)
-        if (it.key() != "TANGENT") // meaningless without the normals it was made for
+        if (it.key() != "TANGENT") // invalid without the original normals
             attributes[it.key()] = add_gathered_accessor(contents, *it, vertices.source);
     const std::size_t view =
         contents.add_buffer_view(std::as_bytes(std::span(normals)), sizeof(glm::vec3), true);
@@ -85,7 +86,8 @@ void write_split_vertices(GltfContents& contents, Json& primitive_json, const Sc
             const Json old_target = target;
             target = Json::object();
             for (auto it = old_target.begin(); it != old_target.end(); ++it)
-                if (it.key() != "NORMAL" && it.key() != "TANGENT") // deltas of what the file did not have
+                if (it.key() != "NORMAL" && it.key() != "TANGENT") // differences to data that the file does
+                                                                   // not have
                     target[it.key()] = add_gathered_accessor(contents, *it, vertices.source);
         }
 

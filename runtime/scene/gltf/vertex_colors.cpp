@@ -1,4 +1,4 @@
-// Colors and other attributes of vertices in glTF files.
+// Writes colors and other vertex attributes into glTF files.
 
 #include "prt/gltf.h"
 
@@ -12,7 +12,7 @@ namespace {
 
 constexpr const char* kTypes[] = {"SCALAR", "VEC2", "VEC3", "VEC4"};
 
-/// Of the vertices of one array.
+/// Adds an attribute for the vertices of one array.
 std::size_t add_attribute(GltfContents& contents, const VertexArray& vertices,
                           const VertexAttribute& attribute) {
     const auto width = static_cast<std::size_t>(attribute.components);

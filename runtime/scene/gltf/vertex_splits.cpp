@@ -1,4 +1,4 @@
-// Writes primitives anew with vertices that are split for new texture coordinates.
+// Rewrites primitives with vertices split for new texture coordinates.
 
 #include "prt/vertex_splits.h"
 
@@ -38,7 +38,7 @@ public:
     void finish() { contents_.remove_unused(std::move(replaced_)); }
 
 private:
-    /// What is read where coordinates are missing; it takes no bytes.
+    /// Adds an accessor of zeros for missing coordinates; it takes no bytes.
     std::size_t add_zeros(std::size_t count) {
         return contents_.add_accessor(
             {{"componentType", TINYGLTF_COMPONENT_TYPE_FLOAT}, {"count", count}, {"type", "VEC2"}});

@@ -1,4 +1,4 @@
-// Transfer of probes in glTF files: PRTKIT_transfer_volume of docs/format.md.
+// Reads and writes transfer of probes in glTF files: PRTKIT_transfer_volume of docs/format.md.
 
 #include "prt/volume_gltf.h"
 
@@ -15,7 +15,7 @@ namespace {
 
 constexpr int kVolumeVersion = 1;
 
-/// Four uint16 for each brick.
+/// Writes four uint16 per brick.
 Json write_bricks(GltfContents& contents, const VolumeGrid& grid) {
     std::vector<std::uint16_t> numbers;
     for (const VolumeBrick& brick : grid.bricks)
@@ -29,7 +29,7 @@ std::vector<std::byte> bytes_of(const GltfContents& contents, const Json& json) 
     return {bytes.begin(), bytes.end()};
 }
 
-/// World to what positions of `scene` are seen from.
+/// Converts an origin from the world to the frame of positions in `scene`.
 glm::vec3 read_origin(const Scene& scene, const Json& json) {
     if (!json.is_array() || json.size() != 3)
         throw Error("the origin of the volume is no list of three numbers");
@@ -77,7 +77,7 @@ std::vector<ProbeSight> read_sights(const GltfContents& contents, const Json& js
     return sights;
 }
 
-/// The extension with what both kinds have. `transfer` is of one coefficient of incident light.
+/// Writes the common part of the extension. `transfer` is the layout of one coefficient of incident light.
 template <class Volume>
 Json& write_common(GltfContents& contents, const Scene& scene, const Volume& volume,
                    const TransferLayout& transfer) {
@@ -96,7 +96,7 @@ Json& write_common(GltfContents& contents, const Scene& scene, const Volume& vol
     return extensions_of(contents.json)[kVolumeExtension] = std::move(extension);
 }
 
-/// Grid, order and sights. Returns how many probes there are.
+/// Reads grid, order and sights. Returns the number of probes.
 template <class Volume>
 std::size_t read_common(const GltfContents& contents, const Scene& scene, const Json& extension,
                         Volume& volume) {

@@ -1,11 +1,10 @@
 /* The runtime for programs in C, and for languages that call C.
  *
- * No function throws, none keeps state beyond the handles it gives out. Those that can fail return a status
- * and write a line for people to `message`, which may be null. Handles may be used from several threads at
- * once as long as nobody destroys them. Conventions, units and layouts are those of the C++ headers: SH with
- * Condon-Shortley phase, order N for N*N coefficients, right-handed axes with +Y up, linear Rec. 709.
- * Stable: it changes with the minor version only.
- */
+ * No function throws, and no function keeps state outside the handles it returns. Functions that can fail
+ * return a status and write one line of text to `message`, which may be null. Several threads may use a
+ * handle at once, until it is destroyed. Conventions, units and layouts are those of the C++ headers: SH with
+ * Condon-Shortley phase, order N for N*N coefficients, right-handed axes with +Y up, linear Rec. 709. Stable:
+ * the interface changes with the minor version only. */
 #ifndef PRT_PRT_H
 #define PRT_PRT_H
 
@@ -27,27 +26,27 @@ extern "C" {
 typedef enum prt_status {
     PRT_OK = 0,
     PRT_BAD_ARGUMENT = 1, /* a null pointer, an order outside 1..10, a direction of length 0, a mirrored
-                             matrix, what is not finite */
-    PRT_BAD_FILE = 2,     /* missing, damaged, or without what is wanted */
+                             matrix, a value that is not finite */
+    PRT_BAD_FILE = 2,     /* the file is missing, damaged, or lacks the requested data */
     PRT_NO_MEMORY = 3,
-    PRT_TOO_SMALL = 4, /* the buffer; what it needs is written to *size */
-    PRT_INTERNAL = 5   /* none of these: a mistake in the library, which the message may help to find */
+    PRT_TOO_SMALL = 4, /* the buffer is too small; the required size is written to *size */
+    PRT_INTERNAL = 5   /* any other failure: a bug in the library; the message may help to find it */
 } prt_status;
 
 typedef struct prt_message {
     char text[256];
 } prt_message;
 
-/* A light: `order`, and order*order colors (r, g, b) of the caller's. Everything that is written is finite:
- * numbers that are not, or that floats do not hold the result of, are a PRT_BAD_ARGUMENT, after which what
- * the pointers lead to is as it was. Directions are unit. */
+/* A light is `order`, and an array of order*order colors (r, g, b) that the caller owns. All outputs are
+ * finite. Inputs that are not finite, and results that overflow a float, return PRT_BAD_ARGUMENT; output
+ * arrays are then unchanged. Directions are unit vectors. */
 
 /* Writes the order*order basis values in unit direction `direction` to `basis`. */
 PRT_API prt_status prt_sh_evaluate(int order, const float direction[3], float* basis, prt_message* message);
-/* The product of two functions, truncated to `order` bands; `out` may be either. */
+/* Computes the product of two functions, truncated to `order` bands; `out` may be `a` or `b`. */
 PRT_API prt_status prt_sh_multiply(int order, const float* a, const float* b, float* out,
                                    prt_message* message);
-/* Rotates functions of one channel by `rotation`, columns first (OpenGL's order); `out` may be `in`. */
+/* Rotates functions of one channel by `rotation`, in column-major order (as in OpenGL); `out` may be `in`. */
 PRT_API prt_status prt_sh_rotate(int order, const float rotation[9], const float* in, float* out,
                                  prt_message* message);
 
@@ -62,74 +61,77 @@ PRT_API prt_status prt_light_disc(int order, const float center[3], const float 
                                   const float radiance[3], float* light, prt_message* message);
 PRT_API prt_status prt_light_hemisphere(int order, const float up[3], const float top[3],
                                         const float bottom[3], float* light, prt_message* message);
-/* What the center column of a lat-long image looks at: +Z as OpenEXR says, or +X as three.js, glTF viewers
- * and Blender show it. */
+/* Direction of the center column of a lat-long image: +Z as in OpenEXR, or +X as in three.js, glTF viewers
+ * and Blender. */
 typedef enum prt_center { PRT_CENTER_Z = 0, PRT_CENTER_X = 1 } prt_center;
 typedef struct prt_image {
     int width, height;
     const float* pixels; /* (r, g, b), rows from the top */
 } prt_image;
-/* The top row is +Y, `center` a prt_center. Bad pixels are an error. `threads` 0: all. */
+/* Projects a lat-long image. The top row is +Y, `center` is a prt_center. Bad pixels are an error. `threads`
+ * 0: all. */
 PRT_API prt_status prt_light_from_lat_long(int order, const prt_image* image, int center, int threads,
                                            float* light, prt_message* message);
-/* An environment map, .exr or .hdr; `center` counts where it is lat-long. */
+/* Loads an environment map, .exr or .hdr. `center` is used for lat-long images only. */
 PRT_API prt_status prt_light_from_file(int order, const char* path, int center, float* light,
                                        prt_message* message);
-/* Rotates all three channels by `rotation`, columns first, in place. An object that turns wants its lighting
- * turned by the inverse. */
+/* Rotates all three channels by `rotation`, in column-major order, in place. For a rotated object, rotate its
+ * lighting by the inverse. */
 PRT_API prt_status prt_light_rotate(int order, const float rotation[9], float* light, prt_message* message);
-/* The least filter of the bands under which the light is nowhere negative, in place: for lights in pictures.
- * A turned light is deringed before it is turned, once. */
+/* Applies the weakest filter of the bands for which the light is nowhere negative, in place. Intended for
+ * lights from images. Dering a light once, before rotating it. */
 PRT_API prt_status prt_light_dering(int order, float* light, prt_message* message);
 
-/* A model that prt compress has written. */
+/* A model written by prt compress. */
 typedef struct prt_model prt_model;
 
 PRT_API prt_status prt_model_load(const char* path, prt_model** model, prt_message* message);
-/* From a .glb in memory, which may be freed afterwards. */
+/* Loads a .glb from memory, which may be freed afterwards. */
 PRT_API prt_status prt_model_load_memory(const void* bytes, size_t size, prt_model** model,
                                          prt_message* message);
-PRT_API void prt_model_destroy(prt_model* model); /* null is fine */
+PRT_API void prt_model_destroy(prt_model* model); /* null is allowed */
 
-/* 1 and 2 were formats that are no more. */
+/* Values 1 and 2 were formats that have been removed. */
 typedef enum prt_weight_format { PRT_FLOAT32 = 0, PRT_PACKED = 3 } prt_weight_format;
 
 typedef struct prt_model_info {
     int order, channels;
     size_t receivers; /* vertices of all meshes */
     size_t clusters;
-    size_t rows; /* of constants, 4 floats each: per cluster its mean, 3 for each guide, its directions */
+    size_t rows; /* number of constants, 4 floats each: per cluster the mean, 3 rows per predictor, the basis
+                    directions */
     prt_weight_format format;
-    size_t stride;                 /* bytes of weights of a receiver */
+    size_t stride;                 /* size of the weights of a receiver in bytes */
     const void* weights;           /* [receivers][stride], for the attributes prt_weights_* or prt_words_* */
-    const uint16_t* cluster_of;    /* [receivers], for prt_cluster; packed weights hold it */
+    const uint16_t* cluster_of;    /* [receivers], for prt_cluster; packed weights include it */
     const uint32_t* cluster_table; /* [clusters][4], for prt_clusters */
     size_t meshes;
-    int direct_apart; /* 1 where suns can be lit apart from the sky, else 0 */
+    int direct_apart; /* 1 if suns can be lit separately from the sky, else 0 */
 } prt_model_info;
-/* Pointers live as long as the model. */
+/* Returns the properties of a model. Pointers are valid as long as the model exists. */
 PRT_API prt_status prt_model_get_info(const prt_model* model, prt_model_info* out, prt_message* message);
 
-/* What prt_exit_radiance(position, normal) of the vertex shader reads of a mesh. */
+/* Mesh attributes that prt_exit_radiance(position, normal) of the vertex shader reads. */
 typedef struct prt_vertex_inputs {
-    int normals, positions; /* 1 where it does, else 0 */
-    float guide_origin[3];  /* metres: PRT_GUIDE_ORIGIN for positions as prt_mesh has them */
-    double origin[3];       /* metres, in the file's world: where those are seen from */
+    int normals, positions; /* 1 if read, else 0 */
+    float guide_origin[3];  /* metres: PRT_GUIDE_ORIGIN for positions as in prt_mesh */
+    double origin[3];       /* metres, in the file's world: origin of the positions in prt_mesh */
 } prt_vertex_inputs;
 PRT_API prt_status prt_model_get_vertex_inputs(const prt_model* model, prt_vertex_inputs* out,
                                                prt_message* message);
 
-/* How many lamps of the scene have strengths. */
+/* Returns the number of lamps of the scene with separate strengths. */
 PRT_API prt_status prt_model_count_lamps(const prt_model* model, size_t* lamps, prt_message* message);
-/* The name of one, which lives as long as the model. */
+/* Returns the name of a lamp, which is valid as long as the model exists. */
 PRT_API prt_status prt_model_lamp_name(const prt_model* model, size_t lamp, const char** name,
                                        prt_message* message);
 
 typedef struct prt_mesh {
     size_t vertices;
-    size_t first_receiver;  /* of the first vertex */
-    const float* positions; /* [vertices][3], metres, axes of the world, seen from prt_vertex_inputs.origin */
-    const float* normals;   /* [vertices][3], unit; zero where neither file nor triangles give one */
+    size_t first_receiver; /* receiver of the first vertex */
+    const float*
+        positions;        /* [vertices][3], metres, axes of the world, relative to prt_vertex_inputs.origin */
+    const float* normals; /* [vertices][3], unit; zero if neither the file nor the triangles define one */
     const float* texcoords; /* [vertices][2], or null */
     size_t indices;
     const uint32_t* index; /* triangles, counter-clockwise */
@@ -139,18 +141,20 @@ PRT_API prt_status prt_model_get_mesh(const prt_model* model, size_t mesh, prt_m
                                       prt_message* message);
 
 /* Writes the constants of all clusters, [rows][4]. Allocates nothing. Coefficients of the light are at most
- * 1e20, constants at most 1e30; after PRT_BAD_ARGUMENT for these `constants` may be written. */
+ * 1e20, constants at most 1e30; if one is larger, PRT_BAD_ARGUMENT is returned, and `constants` may have been
+ * written. */
 PRT_API prt_status prt_model_form_constants(const prt_model* model, int order, const float* light,
                                             float* constants, prt_message* message);
-/* The same for a sky without its suns, whose direct light the renderer adds with sharp shadows, and for
- * their light, which the model is lit by after a bounce; `suns` may be null: there are none. Only a model
- * whose transfer keeps direct light apart knows the two apart: info.direct_apart. `lamps`: their strengths,
- * [lamps][3], at most 1e20; null: 1, as in the scene and as without this function. */
+/* Writes the constants, [rows][4], for a sky and separate suns. The renderer adds the direct light of the
+ * suns with sharp shadows; the model receives their light only after a bounce. `suns` may be null: no suns.
+ * Only a model whose transfer stores direct light separately supports suns: info.direct_apart. `lamps`:
+ * strengths of the lamps, [lamps][3], at most 1e20; null: 1, as in the scene and as in
+ * prt_model_form_constants. */
 PRT_API prt_status prt_model_form_constants_apart(const prt_model* model, int order, const float* sky,
                                                   const float* suns, const float* lamps, float* constants,
                                                   prt_message* message);
-/* What the vertex shader computes from constants of at most 1e30: exit radiance for albedo 1, [receivers][3].
- */
+/* Computes exit radiance for albedo 1, [receivers][3], as the vertex shader does. Constants are at most 1e30.
+ * */
 PRT_API prt_status prt_model_evaluate(const prt_model* model, const float* constants, float* radiance,
                                       prt_message* message);
 
@@ -160,65 +164,66 @@ typedef enum prt_constants {
     PRT_CONSTANTS_IN_BLOCK = 1,
     PRT_CONSTANTS_IN_TEXTURE = 2
 } prt_constants;
-/* The vertex shader of the model: a prt_language, a prt_constants. *size: of `source` in, with the final 0;
- * what it takes out. Its inputs: `position` at location 0, prt_mesh.positions as they are, whatever moves the
- * model (view_projection does that); `normal` at location 15, prt_mesh.normals, where
- * prt_vertex_inputs.normals; from 4 on the weights, prt_words_* where they are packed, else prt_weights_*,
- * and prt_cluster at 3. */
+/* Writes the vertex shader of the model for a prt_language and a prt_constants. *size: on input the size of
+ * `source` including the final 0, on output the required size. Inputs of the shader: `position` at location
+ * 0, prt_mesh.positions unchanged (view_projection holds the transform of the model); `normal` at location
+ * 15, prt_mesh.normals, if prt_vertex_inputs.normals is set; weights from location 4: prt_words_* if packed,
+ * else prt_weights_* with prt_cluster at location 3. */
 PRT_API prt_status prt_model_shader(const prt_model* model, int language, int constants, char* source,
                                     size_t* size, prt_message* message);
 
-/* Instances that share the transfer of their mesh, in a file that prt bake --instances has written and prt
- * compress compressed. Its meshes are there once, with positions and normals in their own frames.
- * Experimental: what is called prt_instances_* may change with any version. */
+/* Instances that share the transfer of their mesh, in a file written by prt bake --instances and prt
+ * compress. The file stores each mesh once, with positions and normals in its own frame. Experimental:
+ * prt_instances_* may change with any version. */
 typedef struct prt_instances_info {
-    size_t count;     /* 0: the model has none, and all else is 0 */
-    size_t constants; /* vectors of 4 floats that a lighting takes */
-    const float*
-        worlds; /* [count][3][4], rows of the matrix of positions as prt_mesh has them into the world */
+    size_t count;        /* 0: the model has no instances, and all other members are 0 */
+    size_t constants;    /* number of constants for a lighting, 4 floats each */
+    const float* worlds; /* [count][3][4], rows of the matrix from positions as in prt_mesh to the world */
     const float* tables; /* [count][2][4], instance_0 and instance_1 of the vertex shader */
-    double most_degrees; /* by which the lighting of an instance is turned off */
+    double most_degrees; /* maximum error of the rotation of an instance's lighting, in degrees */
 } prt_instances_info;
-/* Pointers live as long as the model. */
+/* Returns the instances of a model. Pointers are valid as long as the model exists. */
 PRT_API prt_status prt_instances_get_info(const prt_model* model, prt_instances_info* out,
                                           prt_message* message);
-/* Which instances draw a prt_mesh; *count 0: it is drawn once, as the meshes of other models are. */
+/* Returns the range of instances that draw a prt_mesh; *count 0: it is drawn once, like the meshes of other
+ * models. */
 PRT_API prt_status prt_instances_of_mesh(const prt_model* model, size_t mesh, size_t* first, size_t* count,
                                          prt_message* message);
-/* Writes the constants of all instances, [constants][4], which take the place of the model's own where these
- * are drawn. Lighting as prt_model_form_constants_apart takes it, without lamps. `threads` 0: all. */
+/* Writes the constants of all instances, [constants][4], which replace the constants of the model when
+ * instances are drawn. Lighting as in prt_model_form_constants_apart, without lamps. `threads` 0: all. */
 PRT_API prt_status prt_instances_form_constants(const prt_model* model, int order, const float* sky,
                                                 const float* suns, int threads, float* constants,
                                                 prt_message* message);
-/* The vertex shader of instances. Beside what that of the model takes: worlds at locations 10 to 12, tables
- * at 13 and 14. Constants are in a buffer or a texture. *size as for prt_model_shader. */
+/* Writes the vertex shader of instances. Inputs in addition to those of prt_model_shader: worlds at locations
+ * 10 to 12, tables at 13 and 14. Constants are in a buffer or a texture. *size as in prt_model_shader. */
 PRT_API prt_status prt_instances_shader(const prt_model* model, int language, int constants, char* source,
                                         size_t* size, prt_message* message);
 
-/* The volume of probes of a file that prt compress has written, for what moves through the scene.
- * Experimental: what is called prt_volume_* may change with any version. */
+/* The volume of probes of a file written by prt compress, which lights objects that move through the scene.
+ * Experimental: prt_volume_* may change with any version. */
 typedef struct prt_volume prt_volume;
 
 PRT_API prt_status prt_volume_load(const char* path, prt_volume** volume, prt_message* message);
 PRT_API prt_status prt_volume_load_memory(const void* bytes, size_t size, prt_volume** volume,
                                           prt_message* message);
-PRT_API void prt_volume_destroy(prt_volume* volume); /* null is fine */
+PRT_API void prt_volume_destroy(prt_volume* volume); /* null is allowed */
 
 typedef struct prt_volume_info {
-    int order;          /* of lighting */
-    int incident_order; /* n = 2..4: n*n coefficients of the light that comes in at a probe */
+    int order;          /* order of the lighting */
+    int incident_order; /* n = 2..4: a probe has n*n coefficients of incident light */
     size_t probes;
-    size_t rows;      /* of constants, 4 floats each */
-    size_t lamps;     /* that have strengths */
-    int direct_apart; /* 1 where suns can be lit apart from the sky, else 0 */
-    float corner[3];  /* metres: the least one, seen from `origin` as all positions are */
-    float spacing;    /* metres, of the finest probes */
-    double origin[3]; /* metres, in the file's world; as prt_vertex_inputs has it */
+    size_t rows;      /* number of constants, 4 floats each */
+    size_t lamps;     /* number of lamps with strengths */
+    int direct_apart; /* 1 if suns can be lit separately from the sky, else 0 */
+    float corner[3];  /* metres: minimum corner, relative to `origin` like all positions */
+    float spacing;    /* metres, distance of the finest probes */
+    double origin[3]; /* metres, in the file's world; see prt_vertex_inputs.origin */
 } prt_volume_info;
 PRT_API prt_status prt_volume_get_info(const prt_volume* volume, prt_volume_info* out, prt_message* message);
 
-/* The 3D textures of prt_volume.glsl: width, height, depth. Light is RGBA16F, filtered linearly; the others
- * do not change with the lighting and are not filtered. Pointers live as long as the volume. */
+/* The 3D textures of prt_volume.glsl: width, height, depth. Light is RGBA16F with linear filtering. The other
+ * textures do not depend on the lighting and are not filtered. Pointers are valid as long as the volume
+ * exists. */
 typedef struct prt_volume_textures {
     int light[3], sights[3], index[3];
     size_t light_bytes;
@@ -228,43 +233,44 @@ typedef struct prt_volume_textures {
 PRT_API prt_status prt_volume_get_textures(const prt_volume* volume, prt_volume_textures* out,
                                            prt_message* message);
 
-/* What a volume is lit with: coefficients as prt_model_form_constants_apart takes them. */
+/* Lighting of a volume: coefficients as in prt_model_form_constants_apart. */
 typedef struct prt_lighting {
     int order;
     const float* sky;
-    const float* suns;  /* may be null: none is apart */
+    const float* suns;  /* may be null: no separate suns */
     const float* lamps; /* may be null */
-    const float* sun;   /* direction to the sun whose visibility is wanted; may be null */
+    const float* sun;   /* direction to the sun whose visibility is computed; may be null */
 } prt_lighting;
-/* Writes constants, [rows][4]. Allocates nothing. Limits as for a model. */
+/* Writes the constants, [rows][4]. Allocates nothing. Limits as in prt_model_form_constants. */
 PRT_API prt_status prt_volume_form_constants(const prt_volume* volume, const prt_lighting* lighting,
                                              float* constants, prt_message* message);
-/* Writes what probes `first` to `last` - 1 have in the texture of light, to `texels` [light_bytes]; from
- * several threads at once for different probes. Allocates nothing. */
+/* Writes the texels of probes `first` to `last` - 1 of the light texture to `texels` [light_bytes]. Threads
+ * may process different probes at once. Allocates nothing. */
 PRT_API prt_status prt_volume_form_light(const prt_volume* volume, const float* constants, size_t first,
                                          size_t last, void* texels, prt_message* message);
-/* Writes the light that comes in at probes, [probes][n*n][3], for use without textures. */
+/* Writes the incident light of the probes, [probes][n*n][3], for use without textures. */
 PRT_API prt_status prt_volume_evaluate(const prt_volume* volume, const float* constants, float* incident,
                                        prt_message* message);
 
-/* A place that is lit: `normal`, unit, of its surface, or zero. */
+/* A lit position. `normal` is the unit normal of its surface, or zero. */
 typedef struct prt_volume_place {
     float position[3], normal[3];
 } prt_volume_place;
-/* Mixes the light of probes around a place, [n*n][3]; those behind surfaces are left out. Allocates nothing.
- */
+/* Interpolates the light of the probes around a position, [n*n][3]; probes behind surfaces are excluded.
+ * Allocates nothing. */
 PRT_API prt_status prt_volume_incident(const prt_volume* volume, const float* incident,
                                        const prt_volume_place* place, float* light, prt_message* message);
-/* Irradiance over pi of what faces the normal of `place`: times the albedo it is exit radiance. */
+/* Returns irradiance over pi of a surface with the normal of `place`; times the albedo this is exit radiance.
+ * */
 PRT_API prt_status prt_volume_irradiance(const prt_volume* volume, const float* incident,
                                          const prt_volume_place* place, float irradiance[3],
                                          prt_message* message);
 
-/* The functions that look a volume up, to be put behind the version line of a shader of any language;
- * positions are seen from `origin`. *size as for prt_model_shader. */
+/* Writes the functions that look up a volume. Insert them after the version line of a shader in any language;
+ * positions are relative to `origin`. *size as in prt_model_shader. */
 PRT_API prt_status prt_volume_functions(const prt_volume* volume, char* source, size_t* size,
                                         prt_message* message);
-/* The compute shader that forms the texture of light: PRT_GLSL450 or PRT_VULKAN. */
+/* Writes the compute shader that computes the light texture: PRT_GLSL450 or PRT_VULKAN. */
 PRT_API prt_status prt_volume_shader(const prt_volume* volume, int language, char* source, size_t* size,
                                      prt_message* message);
 

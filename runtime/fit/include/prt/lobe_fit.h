@@ -1,6 +1,6 @@
 #pragma once
 
-// Fits zonal lobes to transfer vectors, and puts them into bytes (docs/math.md, section 21). Experimental.
+// Fits zonal lobes to transfer vectors, and codes them in bytes (docs/math.md, section 21). Experimental.
 
 #include "prt/lobes.h"
 #include "prt/support/progress.h"
@@ -12,12 +12,12 @@
 
 namespace prt {
 
-/// What lobes are fitted to: grey transfer of vertices in the frames of their normals, as
-/// `mean_of_poses` of prt/pose_bake.h gives it.
+/// Target of the fit: grey transfer of vertices in the frames of their normals, as returned by
+/// `mean_of_poses` of prt/pose_bake.h.
 struct LobeTargets {
     int order = 4;                   ///< 2..kMostLobeOrder
     std::span<const double> vectors; ///< [vertices][order²]
-    std::span<const float> areas;    ///< [vertices], m²: what a vertex counts for profiles that many share
+    std::span<const float> areas;    ///< [vertices] m²: weight of a vertex in shared profiles
 
     std::size_t coefficients() const { return static_cast<std::size_t>(order * order); }
     std::span<const double> vector(std::size_t vertex) const {
@@ -26,31 +26,31 @@ struct LobeTargets {
 };
 
 struct LobeFitOptions {
-    std::size_t lobes = 2; ///< of a vertex, 1..kMostLobes
-    /// What the square of an error of a band costs: the mean square of lighting there. Lobes turn, so that
-    /// only lighting which is as likely any way up makes sense.
+    std::size_t lobes = 2; ///< per vertex, 1..kMostLobes
+    /// Weight of a squared error in each band: the mean square of the lighting there. Lobes rotate with the
+    /// surface, so that only lighting without a preferred orientation is meaningful.
     std::array<double, kMostLobeOrder> band_costs = {1, 1, 1, 1};
-    std::size_t profiles = kMostProfiles; ///< at most
-    int rounds = 4;                       ///< of words, then profiles
+    std::size_t profiles = kMostProfiles; ///< maximum number of shared profiles
+    int rounds = 4;                       ///< alternations between words and profiles
     int threads = 0;                      ///< 0: all
 };
 
-/// Axes are free and every lobe has a profile of its own: the least squares of docs/math.md, section 21, by
-/// Ceres for each vertex. [vertices][lobes]. Throws `Error` for options outside their range, shapes that do
-/// not go together and targets that are not finite.
+/// Fits lobes with free axes and an individual profile per lobe, by nonlinear least squares per vertex with
+/// Ceres (docs/math.md, section 21). Returns [vertices][lobes]. Throws `Error` for options out of range, for
+/// inconsistent sizes and for targets that are not finite.
 std::vector<Lobe> fit_lobes(const LobeTargets& targets, const LobeFitOptions& options = {},
                             const Progress& progress = {});
 
-/// The same in words of four bytes and profiles that vertices share: words are chosen again by turns with
-/// profiles, so that what rounding one lobe costs the others of its vertex make up. Under light from
-/// everywhere alike no vertex sends out more than arrives. Throws `Error` as `fit_lobes` does.
+/// Codes lobes as words of four bytes with shared profiles. Words and profiles are optimised alternately, so
+/// that the other lobes of a vertex compensate the rounding of one. Under uniform light no vertex reflects
+/// more than it receives. Throws `Error` as `fit_lobes`.
 LobeModel code_lobes(const LobeTargets& targets, std::span<const Lobe> fitted,
                      const LobeFitOptions& options = {}, const Progress& progress = {});
 
-/// sqrt( sum_p a_p |T_p - T'_p|² / sum_p a_p |T_p|² ) in the metric of the fit.
+/// Returns sqrt( sum_p a_p |T_p - T'_p|² / sum_p a_p |T_p|² ) in the metric of the fit.
 double lobe_error(const LobeTargets& targets, std::span<const Lobe> lobes, const LobeFitOptions& options);
 
-/// Lobes of a model, [vertices][lobes].
+/// Returns the lobes of a model, [vertices][lobes].
 std::vector<Lobe> decoded(const LobeModel& model);
 
 } // namespace prt

@@ -17,10 +17,11 @@
 namespace prt {
 
 struct EnvironmentOptions {
-    /// How to read an image that does not say (EXR attribute `envmap`). Unset: by its shape, 2:1 or 1:6.
+    /// Layout of an image whose file does not specify it (EXR attribute `envmap`). Without a value it follows
+    /// from the aspect ratio, 2:1 or 1:6.
     std::optional<EnvironmentLayout> layout;
     BadPixels bad_pixels = BadPixels::error;
-    LatLongCenter center = LatLongCenter::z; ///< files do not say it
+    LatLongCenter center = LatLongCenter::z; ///< not stored in files
     /// Layer or part of an OpenEXR file. Empty: the channels without a prefix, or the only layer.
     std::string layer = {};
 };
@@ -28,42 +29,42 @@ struct EnvironmentOptions {
 struct EnvironmentFile {
     Environment environment;
     std::size_t repaired_pixels = 0;
-    /// Eight bits per channel, read as sRGB: nothing is brighter than 1, and suns and lamps are clipped.
+    /// True for eight bits per channel, read as sRGB: nothing exceeds 1, and suns and lamps are clipped.
     bool low_dynamic_range = false;
-    std::vector<std::string> notices; ///< what a user should know about how it was read, a line each
+    std::vector<std::string> notices; ///< messages for the user about how the file was read, one line each
 };
 
 /// Reads an environment map from OpenEXR (any channel type and compression, scanline or tiled, RGB, luminance
 /// or luminance-chroma; other primaries are converted; a crop of a 2:1 display window is placed in it),
 /// Radiance HDR (RGBE or XYZE, any orientation, EXPOSURE and COLORCORR divided out), or PNG and JPEG, which
-/// are read as sRGB. A path that holds "{face}" stands for six files, with px, nx, py, ny, pz and nz (or posx
-/// .., +x .., right, left, top, bottom, front, back) in its place, laid out as
-/// `EnvironmentLayout::cube_faces`. Throws `Error` that names the file for anything that is damaged or no
-/// environment map. Of what a header claims 192 MB are believed, and 64 bytes for each byte of the file.
+/// are read as sRGB. A path that contains "{face}" stands for six files, with px, nx, py, ny, pz and nz (or
+/// posx .., +x .., right, left, top, bottom, front, back) in its place, laid out as
+/// `EnvironmentLayout::cube_faces`. Throws `Error` with the file name for a file that is damaged or not an
+/// environment map. Sizes in headers are limited to 192 MB plus 64 bytes per byte of the file.
 EnvironmentFile load_environment(const std::filesystem::path& path, const EnvironmentOptions& options = {});
 
-/// 8-bit RGBA pixels as stored, without any conversion of color.
+/// 8-bit RGBA pixels as stored, without color conversion.
 struct Image8 {
     int width = 0, height = 0;
     std::vector<glm::u8vec4> pixels; ///< [height][width]
 };
 
-/// Decodes a PNG or JPEG file in memory. Throws `Error` when it is damaged, something else or too large.
+/// Decodes a PNG or JPEG file in memory. Throws `Error` if it is damaged, has another format or is too large.
 Image8 decode_image(std::span<const std::byte> file);
 
-/// An 8-bit RGB PNG in memory. `pixels` is [height][width].
+/// Returns an 8-bit RGB PNG in memory. `pixels` is [height][width].
 std::vector<std::byte> encode_png(int width, int height, std::span<const glm::u8vec3> pixels);
-/// The same in RGBA, as `Image8` has it.
+/// Returns an 8-bit RGBA PNG in memory. `pixels` is [height][width].
 std::vector<std::byte> encode_png(int width, int height, std::span<const glm::u8vec4> pixels);
 
 /// Writes an 8-bit RGB PNG. `pixels` is [height][width].
 void write_png(const std::filesystem::path& path, int width, int height, std::span<const glm::u8vec3> pixels);
 
-/// An OpenEXR file in memory: 32-bit float RGB, ZIP-compressed, marked as an environment map when `layout` is
-/// one of OpenEXR's two.
+/// Returns an OpenEXR file in memory: 32-bit float RGB, ZIP-compressed, marked as an environment map if
+/// `layout` is one of OpenEXR's two layouts.
 std::vector<std::byte> encode_exr(const Image& image, std::optional<EnvironmentLayout> layout = std::nullopt);
 
-/// Writes such a file.
+/// Writes the file of `encode_exr`.
 void write_exr(const std::filesystem::path& path, const Image& image,
                std::optional<EnvironmentLayout> layout = std::nullopt);
 

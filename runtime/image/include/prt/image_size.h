@@ -1,6 +1,6 @@
 #pragma once
 
-// How large an image says it is. Experimental.
+// Size of an image from its header. Experimental.
 
 #include <cstddef>
 #include <span>
@@ -11,12 +11,12 @@ struct ImageSize {
     int width = 0, height = 0;
 };
 
-/// What a PNG, JPEG, WebP, AVIF or Radiance HDR file in memory says of its size. Throws `Error` when it is
-/// something else.
+/// Returns the size in the header of a PNG, JPEG, WebP, AVIF or Radiance HDR file in memory. Throws `Error`
+/// for other formats.
 ImageSize image_size(std::span<const std::byte> file);
 
-/// Whether a file in memory begins as a PNG does that has 8 bits in each of red, green, blue and alpha: bytes
-/// that `decode_image` gives as they are.
+/// Returns whether a file in memory starts as a PNG with 8 bits each of red, green, blue and alpha;
+/// `decode_image` returns its bytes unchanged.
 bool is_png_of_bytes(std::span<const std::byte> file);
 
 } // namespace prt

@@ -1,10 +1,10 @@
 #pragma once
 
-// The curve of sRGB. Experimental.
+// The sRGB curve. Experimental.
 
 namespace prt {
 
-/// The sRGB transfer function (IEC 61966-2-1) and its inverse.
+/// Computes the sRGB transfer function (IEC 61966-2-1) and its inverse.
 float srgb_encode(float linear);
 float srgb_decode(float encoded);
 

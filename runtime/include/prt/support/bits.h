@@ -1,6 +1,6 @@
 #pragma once
 
-// Numbers of a few bits in a row of bytes, lowest bit first. Experimental.
+// Bit fields of up to 32 bits in a byte array, lowest bit first. Experimental.
 
 #include <cstddef>
 #include <cstdint>

@@ -1,6 +1,6 @@
 #pragma once
 
-// Files that are written whole or not at all. Experimental.
+// Files that are written completely or not at all. Experimental.
 
 #include <cstddef>
 #include <cstdint>
@@ -11,44 +11,46 @@
 
 namespace prt {
 
-/// A whole file to 4 GB, or a pipe to 1 GB. Throws `Error` that names it for all else, and if it is empty.
+/// Reads a whole file of up to 4 GB, or a pipe of up to 1 GB. Throws `Error` with the path if the file is
+/// larger, empty or not readable.
 std::vector<std::byte> read_file(const std::filesystem::path& path);
 
-/// The path that writing to `path` ends at: symbolic links are followed, also one whose end is not there yet.
-/// One to an open descriptor, as /dev/stdout is, stays: behind it there is no name to write to.
+/// Returns the path that writing to `path` reaches: symbolic links are followed, also to a target that does
+/// not exist yet. A link to an open descriptor, such as /dev/stdout, is kept, because there is no path behind
+/// it.
 std::filesystem::path followed(std::filesystem::path path);
 
-/// A file that appears under its name only when it is complete. Until then it has no name where the system
-/// can do so, and a hidden one beside its place elsewhere, which the next who writes there removes if the
-/// process was killed. A link is followed, not replaced. What is no regular file (a pipe, /dev/null,
-/// /dev/stdout) gets the bytes when it is published.
+/// A file that appears under its name only when it is complete. Until then it has no name if the system
+/// supports that; otherwise it is a hidden file in the same folder, which the next writer removes if the
+/// process was killed. A link is followed, not replaced. A target that is not a regular file (a pipe,
+/// /dev/null, /dev/stdout) gets the bytes on `publish`.
 class OutputFile {
 public:
-    /// Throws `Error` when nothing can be written there: no such folder, no permission, a folder.
+    /// Throws `Error` if the path cannot be written: missing folder, no permission, or the path is a folder.
     explicit OutputFile(std::filesystem::path path);
-    /// Without `keep` it leaves nothing, and the old file as it was.
+    /// Without `keep`, removes the new file and leaves the old one unchanged.
     ~OutputFile();
     OutputFile(const OutputFile&) = delete;
     OutputFile& operator=(const OutputFile&) = delete;
 
-    /// As it was named.
+    /// The path as passed to the constructor.
     const std::filesystem::path& path() const { return path_; }
-    /// Whether what is written cannot be taken back: a pipe, a device, an open descriptor.
+    /// Returns whether written data cannot be withdrawn: a pipe, a device, an open descriptor.
     bool is_stream() const { return stream_; }
-    /// Appends. Throws `Error` when the disk is full.
+    /// Appends. Throws `Error` if the disk is full.
     void write(std::span<const std::byte> bytes);
     void write(std::string_view text) { write(std::as_bytes(std::span(text))); }
-    /// Bytes written so far.
+    /// Number of bytes written.
     std::uintmax_t size() const;
 
-    /// Flushes to disk. Throws `Error` when that fails.
+    /// Flushes to disk. Throws `Error` on failure.
     void finish();
-    /// Gives the file its name; what had it is still there, and comes back unless `keep` follows.
+    /// Renames the file into place. The old file is kept, and restored unless `keep()` follows.
     void publish();
     void keep() noexcept;
-    /// All three.
+    /// Calls finish, publish and keep.
     void commit();
-    /// Removes what of an unpublished file has a name; for a process that is about to end.
+    /// Removes the hidden name of an unpublished file; for a process that is about to end.
     void remove_name() const noexcept;
 
 private:
@@ -57,8 +59,8 @@ private:
     void open();
     void link_beside();
     void pour();
-    std::filesystem::path path_, target_; ///< as named; where links lead
-    std::filesystem::path unnamed_;       ///< how to open it where it has no name
+    std::filesystem::path path_, target_; ///< path as passed in; path after following links
+    std::filesystem::path unnamed_;       ///< path to open the file while it has no name
     std::filesystem::path beside_;        ///< its hidden name, or that of the old file; may be empty
     int descriptor_ = -1;
     bool stream_ = false;

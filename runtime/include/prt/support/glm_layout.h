@@ -1,7 +1,7 @@
 #pragma once
 
-// What the library takes GLM's types to be, asked of the program that includes its headers: with other
-// settings of GLM the two would link and read each other's memory wrongly. Stable.
+// Checks the layout of GLM's types in each program that includes the headers. With other GLM settings the
+// program would link but read memory with the wrong layout. Stable.
 
 #include <glm/ext/quaternion_double.hpp>
 #include <glm/mat3x3.hpp>

@@ -1,6 +1,6 @@
 #pragma once
 
-// Pointers that Git LFS leaves in place of files it has not fetched.
+// Detection of Git LFS pointers: small files that stand in for files that were not fetched.
 
 #include <cstddef>
 #include <cstring>
@@ -9,7 +9,7 @@
 
 namespace prt {
 
-/// Whether a file is such a pointer ("Git LFS Specification", the pointer's first line).
+/// Returns whether a file is a Git LFS pointer ("Git LFS Specification", the pointer's first line).
 inline bool is_lfs_pointer(std::span<const std::byte> file) {
     constexpr std::string_view kFirstLine = "version https://git-lfs.github.com/spec/";
     return file.size() >= kFirstLine.size() &&

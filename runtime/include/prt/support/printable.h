@@ -8,9 +8,9 @@
 
 namespace prt {
 
-/// Text from a file or a user as a terminal and a log can take it: UTF-8 stays; control characters, those
-/// that are not seen or turn the direction of writing, and bytes that are no UTF-8 become escapes (\x1b,
-/// \u202e), and a text of more than `most_bytes` is cut.
+/// Returns text from a file or a user in a form that is safe for a terminal and a log. UTF-8 is kept. Control
+/// characters, invisible characters, characters that change the writing direction, and bytes that are not
+/// UTF-8 become escapes (\x1b, \u202e). Text of more than `most_bytes` is truncated.
 std::string printable(std::string_view text, std::size_t most_bytes = 1000);
 
 } // namespace prt

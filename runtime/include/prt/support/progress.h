@@ -1,6 +1,6 @@
 #pragma once
 
-// How far long work is, and how it is stopped. Experimental.
+// Progress and cancellation of long work. Experimental.
 
 #include "prt/support/error.h"
 
@@ -9,14 +9,14 @@
 
 namespace prt {
 
-/// How long work tells its caller how far it is, and how the caller stops it. Both are optional.
+/// Callback for progress, and a token to cancel the work. Both are optional.
 struct Progress {
-    /// Called with the finished share in [0, 1], from the thread that started the work.
+    /// Called with the finished fraction in [0, 1], from the thread that started the work.
     std::function<void(double)> report;
-    /// When a stop is requested, the work throws `Cancelled` within a fraction of a second.
+    /// After a stop request, the work throws `Cancelled` within a fraction of a second.
     std::stop_token stop;
 
-    /// Throws `Cancelled` when a stop is requested.
+    /// Throws `Cancelled` after a stop request.
     void check() const {
         if (stop.stop_requested())
             throw Cancelled();
@@ -26,7 +26,7 @@ struct Progress {
         if (report)
             report(fraction);
     }
-    /// The progress of a part of the work that takes the share `from` .. `to` of the whole.
+    /// Returns the progress of a step of the work that covers the fractions `from` .. `to` of the total.
     Progress part(double from, double to) const {
         Progress part{{}, stop};
         if (report)

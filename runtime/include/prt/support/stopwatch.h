@@ -6,7 +6,7 @@
 
 namespace prt {
 
-/// Seconds since it was made, by a clock that only goes forward.
+/// Measures the seconds since its construction with a monotonic clock.
 class Stopwatch {
 public:
     double seconds() const { return std::chrono::duration<double>(Clock::now() - start_).count(); }

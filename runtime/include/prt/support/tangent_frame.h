@@ -1,6 +1,6 @@
 #pragma once
 
-// Frames about normals. Experimental.
+// Orthonormal frames about normals. Experimental.
 
 #include <glm/vec3.hpp>
 
@@ -12,8 +12,8 @@ struct TangentFrame {
     glm::vec3 tangent, bitangent, normal;
 };
 
-/// A right-handed orthonormal frame about unit `normal` (Duff et al. 2017, "Building an Orthonormal Basis,
-/// Revisited").
+/// Returns a right-handed orthonormal frame about unit `normal` (Duff et al. 2017, "Building an Orthonormal
+/// Basis, Revisited").
 inline TangentFrame tangent_frame(const glm::vec3& normal) {
     const float sign = std::copysign(1.0f, normal.z);
     const float a = -1.0f / (sign + normal.z), b = normal.x * normal.y * a;

@@ -1,6 +1,6 @@
 #pragma once
 
-// Compressed lightmaps in glTF files, and what a game binds of them. Experimental.
+// Compressed lightmaps in glTF files, and the data that a game binds. Experimental.
 
 #include "prt/lightmap_gltf.h"
 
@@ -13,25 +13,25 @@
 
 namespace prt {
 
-/// Writes PRTKIT_lightmap into `document`, from which `scene` was extracted; weights have to be packed.
-/// Throws `Error`.
+/// Writes PRTKIT_lightmap into `document`, from which `scene` was extracted. Throws `Error` unless the
+/// weights are packed.
 void write_lightmap(GltfDocument& document, const Scene& scene, const CompressedLightmap& lightmap);
 
-/// The compressed lightmap in the file; nothing when it holds none. Throws `Error` when it is damaged.
+/// Returns the compressed lightmap in the file; empty if absent. Throws `Error` if it is damaged.
 std::optional<CompressedLightmap> read_compressed_lightmap(const GltfDocument& document, const Scene& scene);
 
-/// `compressed` receivers of `baked` as a game loads them: all texels, those that are no receivers as one
-/// near them.
+/// Expands the `compressed` receivers of `baked` to all texels, as a game loads them. A texel that is no
+/// receiver gets the values of a near receiver.
 CompressedLightmap spread_over_maps(const BakedLightmap& baked, ClusteredTransfer compressed);
 
-/// `values` [texels] of some texels as those of all, others as one near them.
+/// Expands `values` of the texels `texels` to all texels. Other texels get the value of a near one.
 std::vector<glm::vec3> spread_over_maps(const LightmapLayout& layout, std::span<const std::uint32_t> texels,
                                         std::span<const glm::vec3> values);
 
-/// The receivers `texels` of all texels of a lightmap, in their order.
+/// Selects the receivers `texels` from all texels of a lightmap, in their order.
 ClusteredTransfer picked_texels(const ClusteredTransfer& all, std::span<const std::uint32_t> texels);
 
-/// Word `word` of every texel of map `map`, row by row: the texels of an R32UI texture.
+/// Returns word `word` of every texel of map `map`, row by row: the texels of an R32UI texture.
 std::vector<std::uint32_t> words_of_map(const CompressedLightmap& lightmap, std::size_t map, int word);
 
 } // namespace prt

@@ -1,6 +1,6 @@
 #pragma once
 
-// Lightmaps looked up at places of surfaces, as a renderer filters them. Experimental.
+// Lookup of lightmaps at surface points, with the filtering of a renderer. Experimental.
 
 #include "prt/lightmap.h"
 #include "prt/scene.h"
@@ -14,16 +14,16 @@
 
 namespace prt {
 
-/// Where the triangles of a scene lie in its maps. Thread-safe.
+/// Maps triangles of a scene to their texels. Thread-safe.
 class LightmapLookup {
 public:
-    /// Keeps references to both.
+    /// Keeps references to `scene` and `layout`.
     LightmapLookup(const Scene& scene, const LightmapLayout& layout);
 
-    /// What a bilinear filter reads at a place of `triangle`, in the order of the scene's primitives and
-    /// their triangles; `barycentrics` of corners 1 and 2. Texels are numbered as those of the layout.
+    /// Returns the bilinear sample at a point of `triangle`, numbered over the scene's primitives and their
+    /// triangles; `barycentrics` belong to corners 1 and 2. Texels are numbered as in the layout.
     BilinearTexels filter(std::uint32_t triangle, const glm::vec2& barycentrics) const;
-    /// The mean that it gives of `values` [texels of the layout].
+    /// Returns the filtered value of `values` [texels of the layout].
     glm::vec3 look_up(std::uint32_t triangle, const glm::vec2& barycentrics,
                       std::span<const glm::vec3> values) const;
 
@@ -34,7 +34,7 @@ private:
     std::vector<std::uint32_t> first_triangles_; ///< [primitives + 1]
 };
 
-/// `values` [texels of the layout] at the vertices of `scene`, [receivers].
+/// Samples `values` [texels of the layout] at the vertices of `scene`, [receivers].
 std::vector<glm::vec3> at_vertices(const Scene& scene, const LightmapLayout& layout,
                                    std::span<const glm::vec3> values);
 

@@ -1,7 +1,7 @@
 #pragma once
 
-// What a renderer draws, whichever renderer it is. `render_gl` (prt/gl_renderer.h) and `render_rays`
-// (prt/ray_renderer.h) make the same picture of it. Experimental.
+// Description of a picture, independent of the renderer. `render_gl` (prt/gl_renderer.h) and `render_rays`
+// (prt/ray_renderer.h) render the same picture from it. Experimental.
 
 #include "prt/camera.h"
 #include "prt/clustered_transfer.h"
@@ -17,17 +17,17 @@
 
 namespace prt {
 
-/// What is behind the scene.
+/// Environment behind the scene.
 struct Background {
     const Image* image = nullptr; ///< lat-long; null: black
     float rotation = 0;           ///< about +Y, as in `rotated_about_y`; radians
 };
 
-/// Lightmaps that light surfaces in the place of their vertices.
+/// Lightmaps that light surfaces instead of their vertices.
 struct PictureLightmaps {
-    const LightmapLayout* layout = nullptr; ///< null: there are none
+    const LightmapLayout* layout = nullptr; ///< null: no lightmaps
     std::span<const glm::vec3> radiance;    ///< [texels of the layout] exit radiance for albedo 1, or a color
-    /// Where set, OpenGL forms it on the GPU, lit by `lighting`.
+    /// If set, OpenGL computes the radiance from it on the GPU, lit by `lighting`.
     const CompressedLightmap* on_gpu = nullptr;
     const Lighting* lighting = nullptr;
 };
@@ -36,24 +36,25 @@ struct PictureLightmaps {
 struct LitInShader {
     const ClusteredTransfer* transfer = nullptr;
     const Lighting* lighting = nullptr;
-    PictureLightmaps lightmaps = {}; ///< whichever renderer
+    PictureLightmaps lightmaps = {}; ///< used by all renderers
 };
 
 struct Picture {
     const Scene* scene = nullptr;
     std::span<const Texture> textures; ///< load_textures(*scene)
 
-    /// Per receiver: exit radiance for albedo 1, or a color to show.
+    /// [receivers] exit radiance for albedo 1, or a color to show.
     std::span<const glm::vec3> radiance;
-    /// Where set, OpenGL forms the exit radiance in the vertex shader from it instead of `radiance`.
+    /// If set, OpenGL computes the exit radiance from it in the vertex shader instead of using `radiance`.
     LitInShader in_shader;
-    /// Their light is not in the radiance above but is added at each pixel, sharply shadowed.
+    /// Suns that are not included in the radiance above; the renderer adds them at each pixel with sharp
+    /// shadows.
     std::span<const SunDisc> suns = {};
 
-    /// What the emission of each material is multiplied with, [materials]; empty: nothing shines.
+    /// [materials] factor on the emission; empty: no emission.
     std::span<const glm::vec3> emission = {};
 
-    bool textured = true; ///< multiply by base color; off for views that show a number
+    bool textured = true; ///< multiply by base color; off for views that visualise a number
     Background background;
 
     Camera camera;
@@ -61,12 +62,12 @@ struct Picture {
     int samples = 2; ///< per pixel along each axis
 };
 
-/// The strength of each material's emission, [materials]: that of the lamp that it is a member of, of `lamps`
-/// [layout.lamps()] or 1 where those are empty; 1 where the transfer knows nothing of it.
+/// Returns the strength of each material's emission, [materials]: the strength of its lamp in `lamps`
+/// [layout.lamps()], or 1 if `lamps` is empty or no lamp of the transfer contains the material.
 std::vector<glm::vec3> emission_strengths(const Scene& scene, const TransferLayout& layout,
                                           std::span<const glm::vec3> lamps);
 
-/// `background` sampled for the view direction `direction`.
+/// Returns the background in view direction `direction`.
 glm::vec3 background_radiance(const Picture& picture, const glm::vec3& direction);
 
 } // namespace prt

@@ -1,7 +1,6 @@
 #pragma once
 
-// Textures of materials: a mip chain that OpenGL can take as it is, and the same filtering on the CPU.
-// Experimental.
+// Textures of materials: a mip chain for OpenGL, and the same filtering on the CPU. Experimental.
 
 #include "prt/image_file.h"
 #include "prt/scene.h"
@@ -15,11 +14,11 @@
 
 namespace prt {
 
-/// How red, green and blue are stored: colors by the sRGB curve, numbers as they are. Alpha is a number.
+/// Encoding of red, green and blue: the sRGB curve for colors, linear for data. Alpha is always linear.
 enum class TextureEncoding { srgb, linear };
 
-/// Each level is the average of 2 x 2 texels of the one before, decoded. Level 0 is the image; the last is
-/// one texel.
+/// Mip chain. Each level is the average of 2 x 2 decoded texels of the previous one. Level 0 is the image;
+/// the last level is one texel.
 struct Texture {
     std::vector<Image8> levels;
     TextureEncoding encoding = TextureEncoding::srgb;
@@ -27,32 +26,32 @@ struct Texture {
 
 Texture make_texture(Image8 image, TextureEncoding encoding = TextureEncoding::srgb);
 
-/// Trilinear filtering at texture coordinates `uv` (glTF: origin at the top left) and level of detail `lod`,
-/// which is clamped to the levels there are. Returns linear color and alpha.
+/// Samples with trilinear filtering at texture coordinates `uv` (glTF: origin at the top left) and level of
+/// detail `lod`, which is clamped to the available levels. Returns linear color and alpha.
 glm::vec4 sample(const Texture& texture, const TextureUse& use, const glm::vec2& uv, float lod);
 
-/// What to do about textures that are missing or damaged.
+/// Treatment of missing or damaged textures.
 enum class BadTextures {
-    error,  ///< throw an `Error` that names the image
-    ignore, ///< leave them empty: the material's factors alone count
+    error,  ///< throw an `Error` with the name of the image
+    ignore, ///< leave them empty: only the material's factors are used
 };
 
-/// What textures are wanted for, beside emission.
+/// Purpose of the textures; emission is always included.
 enum class TextureNeeds {
     pictures,   ///< base color
-    visibility, ///< what rays pass through: cut-outs, blended surfaces, glass, leaves
-    all,        ///< and what light bounces off
+    visibility, ///< base color
+    all,        ///< textures for visibility, and for reflected light
 };
 
-/// The images that the surfaces of `scene` use for that, with how they are encoded. One that holds both
-/// colors and numbers counts as colors.
+/// Returns the images that the surfaces of `scene` need for a purpose, with their encoding. An image that
+/// holds both colors and data counts as colors.
 std::map<int, TextureEncoding> needed_images(const Scene& scene, TextureNeeds needs);
 
-/// Whether `use` has an image that is not among the loaded `textures`. Where none are given, none is asked
-/// for.
+/// Returns whether `use` has an image that is not among the loaded `textures`. Returns false if `textures` is
+/// empty.
 bool is_missing(const TextureUse& use, std::span<const Texture> textures);
 
-/// Those images as textures, by image index; others stay empty.
+/// Loads the images of `needed_images` as textures, by image index; other entries stay empty.
 std::vector<Texture> load_textures(const Scene& scene, BadTextures bad = BadTextures::error,
                                    TextureNeeds needs = TextureNeeds::all);
 

@@ -1,6 +1,6 @@
 #pragma once
 
-// From radiance to pixels that can be shown. Experimental.
+// Conversion of radiance to displayable pixels. Experimental.
 
 #include "prt/environment.h"
 #include "prt/light.h"
@@ -15,19 +15,19 @@
 namespace prt {
 
 enum class ToneMap {
-    filmic, ///< shoulder and toe by the rational fit of Narkowicz (2016) to the ACES curve, then sRGB
+    filmic, ///< shoulder and toe from the rational fit of Narkowicz (2016) to the ACES curve, then sRGB
     srgb,   ///< clipped at 1, then sRGB
 };
 
-/// Factor on radiance that brings the mean radiance of the lighting to 0.25.
+/// Returns the factor on radiance that scales the mean radiance of the lighting to 0.25.
 float automatic_exposure(const Light& light);
 
 /// Averages blocks of `samples` x `samples` pixels.
 Image downsampled(const Image& image, int samples);
 
-/// 8-bit pixels of a linear image with `samples`² samples per pixel: exposure and tone curve per sample, then
-/// the average, so that edges against bright backgrounds stay smooth. Returns [height / samples][width /
-/// samples].
+/// Returns 8-bit pixels of a linear image with `samples`² samples per pixel, [height / samples][width /
+/// samples]. Exposure and tone curve are applied per sample before averaging, so that edges against bright
+/// backgrounds stay smooth.
 std::vector<glm::u8vec3> tone_mapped(const Image& image, int samples, float exposure, ToneMap tone_map);
 
 } // namespace prt

@@ -9,7 +9,7 @@
 
 namespace prt {
 
-/// What `save_glb` writes. Throws `Error` when it would pass 4 GB.
+/// Returns the bytes that `save_glb` writes. Throws `Error` if they exceed 4 GB.
 std::vector<std::byte> encode_glb(const GltfDocument& document,
                                   BufferCompression compression = BufferCompression::none);
 

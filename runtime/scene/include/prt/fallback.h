@@ -1,6 +1,6 @@
 #pragma once
 
-// Baked light for viewers that do not know the extensions of prtkit: docs/format.md, "Fallback".
+// Baked light for viewers without support for the prtkit extensions: docs/format.md, "Fallback".
 // Experimental.
 
 #include "prt/gltf.h"
@@ -12,14 +12,14 @@
 
 namespace prt {
 
-/// By what radiance is multiplied so that it fits 0..1 on all of the surface but 0.5 %: `radiance` and
-/// `areas` [receivers]. 1 where all is black.
+/// Returns the factor on radiance that maps all of the surface except 0.5 % of its area to 0..1. `radiance`
+/// and `areas` are [receivers]. Returns 1 if the radiance is black.
 float fallback_exposure(std::span<const glm::vec3> radiance, std::span<const float> areas);
 
-/// Writes `radiance` [receivers], exit radiance for albedo 1, times `exposure` and the vertices' own colors
-/// as COLOR_0, clamped to 0..1, and makes materials unlit. `document` holds clustered transfer, `scene` was
-/// extracted from it. Primitives whose material shines, is glass or is unlit stay as they are. Returns how
-/// many primitives show the light. Whoever loads the file by `load_gltf` sees none of it. Throws `Error`.
+/// Writes COLOR_0: `radiance` [receivers], exit radiance for albedo 1, times `exposure` and the vertex
+/// colors, clamped to 0..1. Makes materials unlit. `document` must contain clustered transfer, and `scene`
+/// must be extracted from it. Primitives with emissive, glass or unlit materials are not changed. Returns the
+/// number of primitives that show the light. `load_gltf` ignores the fallback. Throws `Error`.
 std::size_t write_fallback(GltfDocument& document, const Scene& scene, std::span<const glm::vec3> radiance,
                            float exposure);
 

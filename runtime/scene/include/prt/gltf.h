@@ -1,6 +1,6 @@
 #pragma once
 
-// glTF 2.0 files: reading scenes, and reading and writing transfer in them (docs/format.md). Stable.
+// glTF 2.0 files: reads scenes, and reads and writes transfer (docs/format.md). Stable.
 
 #include "prt/baked_transfer.h"
 #include "prt/scene.h"
@@ -16,8 +16,8 @@ namespace prt {
 
 struct GltfContents;
 
-/// A glTF file in memory: its JSON as it stands, all its buffers joined into one. What prtkit does not know
-/// survives unchanged from `load_gltf` to `save_glb`.
+/// A glTF file in memory: its JSON, and all its buffers joined into one. Data that prtkit does not support is
+/// preserved from `load_gltf` to `save_glb`.
 class GltfDocument {
 public:
     explicit GltfDocument(std::unique_ptr<GltfContents> contents);
@@ -31,94 +31,94 @@ private:
     std::unique_ptr<GltfContents> contents_;
 };
 
-/// What to do about images whose files are not there, or not to be read.
+/// Treatment of image files that are missing or must not be read.
 enum class MissingImages { error, ignore };
 
-/// How meshes are read whose instances share their transfer (PRTKIT_instances).
+/// Representation of meshes whose instances share their transfer (PRTKIT_instances).
 enum class Instancing {
     nodes, ///< each instance is a node
-    apart, ///< each mesh is there once, in its own frame: as its transfer is stored
+    apart, ///< each mesh occurs once, in its own frame, as its transfer is stored
 };
 
 struct GltfOptions {
     MissingImages missing_images = MissingImages::error;
-    /// Whether URIs may name files outside the folder of the scene, by "..", by links or from the root.
-    /// Others are regular files in that folder and below.
+    /// Whether URIs may name files outside the folder of the scene, by "..", by links or by absolute paths.
+    /// Otherwise only regular files in that folder and its subfolders are allowed.
     bool allow_outside = false;
-    /// Files that will be written: a scene whose buffers or images are among them is refused.
+    /// Files that will be written. A scene whose buffers or images are among them is rejected.
     std::vector<std::filesystem::path> outputs = {};
     Instancing instancing = Instancing::nodes;
-    /// Factor on the intensity of the lights of KHR_lights_punctual, in the document, too: 1 / 683 makes
-    /// watts of what exporters write in candela and lux.
+    /// Factor on the intensity of the lights of KHR_lights_punctual, also in the document: 1 / 683 converts
+    /// candela and lux, which exporters write, to watts.
     double lamp_scale = 1;
 };
 
-/// Reads .gltf or .glb with its buffers and images. Throws `Error` that names the file and the place in it.
+/// Reads .gltf or .glb with its buffers and images. Throws `Error` with the file and the location in it.
 GltfDocument load_gltf(const std::filesystem::path& path, const GltfOptions& options = {});
 
-/// The same from a file in memory. `path` is where it is from: for messages, and for the files beside it.
+/// Reads a file in memory. `path` is its origin: used in messages, and to find the files that it references.
 GltfDocument parse_gltf(std::span<const std::byte> file, const std::filesystem::path& path,
                         const GltfOptions& options = {});
 
-/// Flattens the default scene. Every node instance gets vertices of its own; skins and morph targets are
-/// taken in the pose of the file. Throws `Error` for accessors out of bounds, indices beyond the vertices,
-/// positions that are not finite, and a scene without triangles.
+/// Flattens the default scene. Every instance of a node gets separate vertices; skins and morph targets are
+/// evaluated in the pose of the file. Throws `Error` for accessors out of bounds, indices beyond the
+/// vertices, positions that are not finite, and a scene without triangles.
 Scene extract_scene(const GltfDocument& document);
 
-/// Writes PRTKIT_transfer into `document`, from which `scene` was extracted: meshes that several nodes share
-/// get a copy per node, and primitives without normals get flat ones. Replaces any transfer that is there.
+/// Writes PRTKIT_transfer into `document`, from which `scene` was extracted. Meshes that several nodes share
+/// are copied per node, and primitives without normals get flat ones. Replaces existing transfer.
 void write_transfer(GltfDocument& document, const Scene& scene, const BakedTransfer& baked);
 
-/// Writes PRTKIT_clustered_pca and takes PRTKIT_transfer out.
+/// Writes PRTKIT_clustered_pca and removes PRTKIT_transfer.
 void write_clustered(GltfDocument& document, const Scene& scene, const CompressedTransfer& compressed);
 
-/// The transfer in the file; nothing when it holds none. Throws `Error` when it is damaged, and where its
-/// instances share transfer, unless it was read with `Instancing::apart` (prt/instances_gltf.h).
+/// Return the transfer in the file; empty if absent. Throw `Error` if it is damaged, or if its
+/// instances share transfer and it was not read with `Instancing::apart` (prt/instances_gltf.h).
 std::optional<BakedTransfer> read_transfer(const GltfDocument& document, const Scene& scene);
 std::optional<CompressedTransfer> read_clustered(const GltfDocument& document, const Scene& scene);
 
-/// Writes `colors` [receivers] as COLOR_0, float32, in the place of vertex colors that are there: what any
-/// viewer shows.
+/// Writes `colors` [receivers] as COLOR_0, float32, which any viewer shows. Replaces existing vertex colors.
 void write_vertex_colors(GltfDocument& document, const Scene& scene, std::span<const glm::vec3> colors);
 
-/// float32, for all vertices.
+/// Custom attribute of all vertices, float32.
 struct VertexAttribute {
     std::string name;
     int components = 1;        ///< 1 to 4
     std::vector<float> values; ///< [receivers][components]
 };
 
-/// COLOR_0 of the scene times `factors` [receivers]; with alpha where some vertices have colors.
+/// Returns COLOR_0 of the scene times `factors` [receivers]; with alpha if any vertices have colors.
 VertexAttribute shaded_vertex_colors(const Scene& scene, std::span<const float> factors);
 
-/// Writes them in the place of those of the same name. Like all that writes data of vertices, once for a
-/// scene that was extracted.
+/// Writes attributes and replaces attributes of the same name. Call functions that write vertex data only
+/// once per extracted scene.
 void write_vertex_attributes(GltfDocument& document, const Scene& scene,
                              std::span<const VertexAttribute> attributes);
 
-/// A texture that some primitives have to themselves, of PNG files.
+/// A texture, as PNG files, for a set of primitives.
 struct SurfaceTexture {
     std::vector<std::size_t> primitives; ///< indices into Scene::primitives
     int texcoord = 1;
-    bool repeats = false;                ///< else filters end at its border
-    std::vector<std::byte> occlusion;    ///< in red
-    std::vector<std::byte> bent_normals; ///< n / 2 + 1/2 of the scene's frame; empty: none
+    bool repeats = false;                ///< false: filters clamp at its border
+    std::vector<std::byte> occlusion;    ///< in the red channel
+    std::vector<std::byte> bent_normals; ///< n / 2 + 1/2 in the scene's frame; may be empty
 };
 
-/// Writes occlusionTexture of materials, instead of those that are there, and bent normals as
-/// extras.prtkit.bentNormalTexture beside it. A material that primitives of several textures have, or others,
-/// gets a copy for each, and so do those of KHR_materials_variants. Returns how many had an occlusionTexture.
+/// Writes occlusionTexture of materials, replacing existing ones, and bent normals as
+/// extras.prtkit.bentNormalTexture in the same material. A material that is used by primitives with different
+/// textures is copied for each texture, also in KHR_materials_variants. Returns the number of materials that
+/// had an occlusionTexture.
 std::size_t write_surface_textures(GltfDocument& document, const Scene& scene,
                                    std::span<const SurfaceTexture> textures);
 
-/// Takes all transfer out of the document, and its memory with it.
+/// Removes all transfer from the document, and frees its memory.
 void discard_transfer(GltfDocument& document);
 
-/// What is done with vertex and index data on disk. meshopt: EXT_meshopt_compression, without loss; a reader
-/// has to know it. Packed weights are in a code of our own where that is smaller.
+/// Compression of vertex and index data on disk. meshopt: EXT_meshopt_compression, lossless; readers must
+/// support it. Packed weights use a prtkit code if that is smaller.
 enum class BufferCompression { none, meshopt };
 
-/// Writes a .glb with everything inside. Throws `Error` when it cannot, or when it would pass 4 GB.
+/// Writes a .glb that contains all data. Throws `Error` on failure, or if it exceeds 4 GB.
 void save_glb(const GltfDocument& document, const std::filesystem::path& path,
               BufferCompression compression = BufferCompression::none);
 

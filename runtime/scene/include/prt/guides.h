@@ -1,6 +1,6 @@
 #pragma once
 
-// Coordinates of guides (prt/clustered_bases.h) at the receivers of a scene. Stable.
+// Predictor coordinates (`Guide` of prt/clustered_bases.h) at the receivers of a scene. Stable.
 
 #include "prt/clustered_bases.h"
 #include "prt/scene.h"
@@ -10,9 +10,9 @@
 
 namespace prt {
 
-/// For each receiver of `scene` its coordinates in `guides`, one guide after the other: its normal, or its
-/// position seen from the guide's origin. [receivers][3 guides.size()], what ClusteredReceivers::guides
-/// holds.
+/// Returns the coordinates of each receiver of `scene` in `guides`, predictor by predictor: its normal, or
+/// its position relative to the guide's origin. [receivers][3 guides.size()], as in
+/// ClusteredReceivers::guides.
 std::vector<float> guide_coordinates(const Scene& scene, std::span<const Guide> guides);
 
 } // namespace prt

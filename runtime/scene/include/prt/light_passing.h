@@ -1,18 +1,18 @@
 #pragma once
 
-// What light does at a material besides being reflected. Experimental.
+// Transmission of light by materials. Experimental.
 
 #include "prt/scene.h"
 
 namespace prt {
 
-/// Share of the light that glass without a texture lets through: its factor, dimmed by its base color as
-/// luminance (Rec. 709), since what passes keeps its color.
+/// Returns the fraction of light that untextured glass transmits: its factor, multiplied by the luminance of
+/// its base color (Rec. 709), since transmitted light keeps its color.
 float glass_transmittance(const Material& material);
 
-/// There is something under the surface that scatters light: KHR_materials_volume with a thickness and an
-/// attenuation, where diffuse light is let in (KHR_materials_diffuse_transmission). Without, what lets
-/// diffuse light through is a thin sheet.
+/// Returns whether a scattering medium is below the surface: KHR_materials_volume with a thickness and an
+/// attenuation, and diffuse light can enter (KHR_materials_diffuse_transmission). Otherwise diffuse
+/// transmission is that of a thin sheet.
 bool has_medium(const Material& material);
 
 } // namespace prt

@@ -1,6 +1,6 @@
 #pragma once
 
-// Lightmaps that are relit in glTF files: PRTKIT_lightmap of docs/format.md. Experimental.
+// Lightmaps for relighting in glTF files: PRTKIT_lightmap of docs/format.md. Experimental.
 
 #include "prt/gltf.h"
 #include "prt/lightmap.h"
@@ -11,14 +11,14 @@
 
 namespace prt {
 
-/// Maps have at most so many texels along a side.
+/// Maximum number of texels along a side of a map.
 inline constexpr int kMostLightmapTexels = 16384;
 
-/// Writes raw transfer of texels into `document`, from which `scene` was extracted, in the place of any
-/// transfer that is there.
+/// Writes raw transfer of texels into `document`, from which `scene` was extracted. Replaces existing
+/// transfer.
 void write_lightmap(GltfDocument& document, const Scene& scene, const BakedLightmap& lightmap);
 
-/// The raw transfer of texels in the file; nothing when it holds none. Throws `Error` when it is damaged.
+/// Returns the raw transfer of texels in the file; empty if absent. Throws `Error` if it is damaged.
 std::optional<BakedLightmap> read_lightmap(const GltfDocument& document, const Scene& scene);
 
 /// A compressed lightmap whose words are still images.
@@ -27,7 +27,8 @@ struct EncodedLightmap {
     std::vector<std::vector<std::byte>> images; ///< [maps][words] PNG
 };
 
-/// The same of a compressed one. prt/lightmap_file.h makes and reads the images.
+/// Write and read a compressed lightmap with encoded images. prt/lightmap_file.h encodes and decodes the
+/// images. Reading returns no value if the file has no such lightmap, and throws `Error` if it is damaged.
 void write_encoded_lightmap(GltfDocument& document, const Scene& scene, const EncodedLightmap& lightmap);
 std::optional<EncodedLightmap> read_encoded_lightmap(const GltfDocument& document, const Scene& scene);
 

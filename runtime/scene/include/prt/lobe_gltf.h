@@ -10,10 +10,10 @@
 
 namespace prt {
 
-/// How lobes were made; written to the file and shown by `prt info`.
+/// Settings of the lobe fit; written to the file and shown by `prt info`.
 struct LobeRecord {
-    int poses = 0; ///< that they were fitted to
-    int rays = 0;  ///< of a vertex in a pose
+    int poses = 0; ///< number of poses in the fit
+    int rays = 0;  ///< per vertex and pose
     int bounces = 0;
     std::uint64_t seed = 0;
 };
@@ -23,11 +23,11 @@ struct StoredLobes {
     LobeRecord record;
 };
 
-/// Writes them into `document`, from which `scene` was extracted, and takes all other transfer of surfaces
-/// out: it would be that of one pose.
+/// Writes lobes into `document`, from which `scene` was extracted. Removes all other transfer of surfaces,
+/// because it would apply to a single pose.
 void write_lobes(GltfDocument& document, const Scene& scene, const StoredLobes& lobes);
 
-/// Nothing where the file holds none. Throws `Error` when they are damaged.
+/// Returns the lobes in the file; empty if absent. Throws `Error` if they are damaged.
 std::optional<StoredLobes> read_lobes(const GltfDocument& document, const Scene& scene);
 
 } // namespace prt

@@ -9,7 +9,7 @@
 
 namespace prt {
 
-/// The edges of all triangles between receivers, each once, in ascending order.
+/// Returns the edges of all triangles between receivers, without duplicates, in ascending order.
 std::vector<Edge> mesh_edges(const Scene& scene);
 
 } // namespace prt

@@ -1,7 +1,7 @@
 #pragma once
 
 // Occlusion volumes in glTF files: PRTKIT_occlusion_volume of docs/format.md, an extension of the nodes that
-// carry what blocks. Experimental.
+// block light. Experimental.
 
 #include "prt/gltf.h"
 #include "prt/occlusion_volume.h"
@@ -12,14 +12,15 @@
 namespace prt {
 
 struct NodeOccluder {
-    int node = 0;           ///< of the file
+    int node = 0;           ///< index in the file
     OcclusionVolume volume; ///< in the frame of the node
 };
 
-/// Writes them in the place of any that are there.
+/// Writes occlusion volumes and replaces existing ones.
 void write_occluders(GltfDocument& document, std::span<const NodeOccluder> occluders);
 
-/// In the order of nodes; none where the file holds none. Throws `Error` when they are damaged.
+/// Returns the occlusion volumes in the order of nodes; empty if absent. Throws `Error` if they are
+/// damaged.
 std::vector<NodeOccluder> read_occluders(const GltfDocument& document);
 
 } // namespace prt

@@ -1,7 +1,7 @@
 #pragma once
 
-// A glTF scene, flattened: world-space vertices and triangles of the default scene, ready to bake and to
-// draw. Stable.
+// A flattened glTF scene: world-space vertices and triangles of the default scene, ready for baking and
+// rendering. Stable.
 
 #include "prt/support/glm_layout.h"
 
@@ -18,58 +18,58 @@
 
 namespace prt {
 
-/// The farthest that a vertex may lie from the world's origin along each axis, metres. Up to there floats
-/// hold what is made of positions: the most is the square of a triangle's doubled area, (2 sqrt(3) 1e9)^4
-/// = 1.4e38. Doubles place vertices to a tenth of a micrometre there. `extract_scene` refuses what lies
-/// beyond.
+/// Maximum distance of a vertex from the world's origin along each axis, metres. Within it, floats can
+/// represent all quantities derived from positions. The largest is the square of a triangle's doubled area,
+/// (2 sqrt(3) 1e9)^4 = 1.4e38. Doubles resolve a tenth of a micrometre at that distance. `extract_scene`
+/// rejects vertices beyond it.
 inline constexpr double kFarthestVertex = 1e9;
 
 enum class AlphaMode { opaque, mask, blend };
 enum class Wrap { repeat, mirror, clamp };
 
-/// A texture as a material uses it.
+/// Texture reference of a material.
 struct TextureUse {
-    int image = -1; ///< index into Scene::images, -1: none
+    int image = -1; ///< index into Scene::images; -1: none
     int texcoord = 0;
     glm::mat3x2 transform{1, 0, 0, 1, 0, 0}; ///< KHR_texture_transform
     Wrap wrap_u = Wrap::repeat, wrap_v = Wrap::repeat;
 };
 
-/// Light that a surface lets through diffusely: KHR_materials_diffuse_transmission.
+/// Diffuse transmission of a surface: KHR_materials_diffuse_transmission.
 struct DiffuseTransmission {
-    float factor = 0;          ///< share of the diffuse light that passes, 0..1
-    TextureUse factor_texture; ///< in alpha
+    float factor = 0;          ///< fraction of the diffuse light that is transmitted, 0..1
+    TextureUse factor_texture; ///< in the alpha channel
     glm::vec3 color{1};        ///< linear Rec. 709
     TextureUse color_texture;
 };
 
-/// Light that a surface lets through straight, like window glass: KHR_materials_transmission.
+/// Specular transmission of a surface, like window glass: KHR_materials_transmission.
 struct Glass {
-    float factor = 0;   ///< share of the light that is not reflected by metal, 0..1
-    TextureUse texture; ///< times red
+    float factor = 0;   ///< fraction of the non-metallic light that is transmitted, 0..1
+    TextureUse texture; ///< factor in the red channel
 };
 
-/// What is under a surface: KHR_materials_volume.
+/// Medium below a surface: KHR_materials_volume.
 struct Volume {
-    float thickness = 0;                                                 ///< 0: a thin sheet, nothing inside
+    float thickness = 0;                                                 ///< 0: a thin sheet without a medium
     float attenuation_distance = std::numeric_limits<float>::infinity(); ///< metres
-    glm::vec3 attenuation_color{1};                                      ///< what is left after that distance
+    glm::vec3 attenuation_color{1};                                      ///< transmittance over that distance
 };
 
-/// How metallic a surface is, and how rough.
+/// Metallic and roughness factors.
 struct Metal {
     float factor = 0, roughness = 1;
-    TextureUse texture; ///< times blue, times green
+    TextureUse texture; ///< factors: metallic in blue, roughness in green
 };
 
-/// Light that a surface gives off at its front, and at its back where it is double-sided: emissiveFactor
-/// times KHR_materials_emissive_strength.
+/// Light that a surface emits at its front, and at its back if it is double-sided: emissiveFactor times
+/// KHR_materials_emissive_strength.
 struct Emission {
     glm::vec3 radiance{0}; ///< linear Rec. 709
     TextureUse texture;    ///< sRGB, a factor
 };
 
-/// All factors lie in 0..1, as glTF wants them.
+/// Material of a surface. All factors are in 0..1, as glTF requires.
 struct Material {
     std::string name;
     glm::vec4 base_color{1}; ///< linear Rec. 709 and alpha
@@ -78,7 +78,8 @@ struct Material {
     AlphaMode alpha_mode = AlphaMode::opaque;
     float alpha_cutoff = 0.5f;
     bool double_sided = false;
-    /// Its surfaces stop rays. Not part of glTF: for skies and outlines that are shells round a scene.
+    /// Whether its surfaces block rays. Not part of glTF; false is for sky domes and outline shells around a
+    /// scene.
     bool casts_shadow = true;
     DiffuseTransmission transmission;
     Glass glass;
@@ -88,11 +89,13 @@ struct Material {
 
 /// Vertices of one or several primitives of one node. Each vertex is a receiver.
 struct VertexArray {
-    std::vector<glm::vec3> positions;              ///< metres, seen from Scene::origin
-    std::vector<glm::vec3> normals;                ///< unit; zero where neither file nor triangles give one
-    std::vector<std::vector<glm::vec2>> texcoords; ///< [set][vertex]; a set that the file lacks is empty
+    std::vector<glm::vec3> positions;              ///< metres, relative to Scene::origin
+    std::vector<glm::vec3> normals;                ///< unit; zero if neither the file nor the triangles
+                                                   ///< define one
+    std::vector<std::vector<glm::vec2>> texcoords; ///< [set][vertex]; empty for a set that the file lacks
     std::vector<glm::vec4> colors;                 ///< COLOR_0, linear, 0..1; empty: white
-    /// Index of the file's vertex that each vertex came from, where flat normals split some; empty: the same.
+    /// Index of the file's vertex from which each vertex was created, if flat normals split some; empty:
+    /// identical.
     std::vector<std::uint32_t> source;
     std::size_t first_receiver = 0;
 
@@ -103,22 +106,26 @@ struct Primitive {
     int node = 0, mesh = 0, primitive = 0; ///< indices in the file
     std::size_t vertices = 0;              ///< index into Scene::vertex_arrays
     std::size_t material = 0;              ///< index into Scene::materials
-    bool mirrored = false;                 ///< the node's transform mirrors, so triangles were turned round
-    std::vector<glm::uvec3> triangles;     ///< counter-clockwise from the front, into the vertex array
-    std::string node_name = {};            ///< for messages; "node N" where the file has none
+    bool mirrored = false;                 ///< the node's transform mirrors; the winding order of the
+                                           ///< triangles has been reversed
+    std::vector<glm::uvec3> triangles;     ///< counter-clockwise from the front, indices into the vertex
+                                           ///< array
+    std::string node_name = {};            ///< for messages; "node N" if the file has none
 };
 
 enum class PunctualKind { point, spot, directional };
 
 /// A light of KHR_lights_punctual in the world.
 struct PunctualLight {
-    std::string name; ///< of its node, else its own; "light N" where neither has one
+    std::string name; ///< name of its node, else of the light; "light N" if neither has one
     PunctualKind kind = PunctualKind::point;
-    glm::vec3 intensity{1};        ///< linear Rec. 709; irradiance at one metre, or at all where directional
-    glm::vec3 position{0};         ///< metres, seen from Scene::origin
-    glm::vec3 direction{0, 0, -1}; ///< unit, the way that it shines
-    float range = std::numeric_limits<float>::infinity(); ///< metres, where it ends
-    float inner_cone = 0, outer_cone = 0.785398f;         ///< radians from the middle: full, and ended
+    glm::vec3 intensity{1};        ///< linear Rec. 709; irradiance at one metre, or everywhere for
+                                   ///< directional lights
+    glm::vec3 position{0};         ///< metres, relative to Scene::origin
+    glm::vec3 direction{0, 0, -1}; ///< unit, direction of emission
+    float range = std::numeric_limits<float>::infinity(); ///< metres, end of its influence
+    float inner_cone = 0, outer_cone = 0.785398f;         ///< radians from the axis: end of full intensity,
+                                                          ///< and zero intensity
 };
 
 struct EncodedImage {
@@ -127,38 +134,38 @@ struct EncodedImage {
 };
 
 struct Scene {
-    /// The middle of the scene's box in the file's world, metres. Positions are seen from here, so that a
-    /// scene far from the world's origin loses no digits.
+    /// The center of the scene's bounding box in the file's world, metres. Positions are relative to it, so
+    /// that a scene far from the world's origin keeps its precision.
     glm::dvec3 origin{0};
     std::vector<VertexArray> vertex_arrays;
     std::vector<Primitive> primitives;
-    std::vector<Material> materials; ///< the file's, then glTF's default material
+    std::vector<Material> materials; ///< materials of the file, then glTF's default material
     std::vector<EncodedImage> images;
     std::vector<PunctualLight> lights;
-    std::vector<std::string> notices; ///< what a user should know about how the file was read, a line each
+    std::vector<std::string> notices; ///< messages for the user about how the file was read, one line each
 
-    /// Where a position lies in the file's world.
+    /// Returns a position in the file's world.
     glm::dvec3 world(const glm::vec3& position) const { return origin + glm::dvec3(position); }
     std::size_t receivers() const;
     std::size_t triangles() const;
 };
 
-/// The lamp that a material which shines belongs to: its name, or "material N" where it has none.
+/// Returns the lamp name of an emissive material: its name, or "material N" if it has none.
 std::string lamp_name(const Scene& scene, std::size_t material);
 
-/// A third of the area of the triangles at each receiver, in m². [receivers]
+/// Returns a third of the area of the triangles at each receiver, in m². [receivers]
 std::vector<float> receiver_areas(const Scene& scene);
 
-/// Hexadecimal hash of the positions (from the scene's origin) and normals of all receivers, in any order:
-/// transfers belong together when it is equal.
+/// Returns a hexadecimal hash of the positions (relative to the scene's origin) and normals of all receivers,
+/// independent of their order. Transfers with equal hashes belong to the same receivers.
 std::string receivers_id(const Scene& scene);
 
-/// Corners of the box round all triangles, seen from the scene's origin.
+/// Corners of an axis-aligned bounding box, relative to the scene's origin.
 struct Bounds {
     glm::vec3 low, high;
 };
 Bounds bounds(const Scene& scene);
-/// Of one of its primitives; infinite the wrong way round where that has no triangle.
+/// Returns the bounding box of one primitive; inverted and infinite if it has no triangle.
 Bounds bounds(const Scene& scene, const Primitive& primitive);
 
 } // namespace prt

@@ -1,6 +1,7 @@
 #pragma once
 
-// Double-sided surfaces as two single-sided ones, so that each side has vertices of its own. Experimental.
+// Splits double-sided surfaces into two single-sided ones, so that each side has separate vertices.
+// Experimental.
 
 #include "prt/gltf.h"
 #include "prt/scene.h"
@@ -9,11 +10,11 @@
 
 namespace prt {
 
-/// The file with a second, opposite triangle at each of `triangles` [triangles of the scene]: its vertices
-/// are copies with normals and tangents turned round, and both have copies of their material that are
-/// single-sided, in variants, too. A primitive that is single-sided in some variant stays as it is. `scene`
-/// is extracted from `document`, whose meshes get a copy for each node, whose primitives without normals get
-/// flat ones, and whose transfer is taken out. Throws `Error`.
+/// Returns the file with a second, opposite triangle for each of `triangles` [triangles of the scene]. Its
+/// vertices are copies with negated normals and tangents. Both triangles get single-sided copies of their
+/// material, also in variants. A primitive that is single-sided in any variant is not changed. `scene` must
+/// be extracted from `document`. Meshes are copied for each node, primitives without normals get flat ones,
+/// and transfer is removed. Throws `Error`.
 GltfDocument with_separate_sides(GltfDocument document, const Scene& scene,
                                  const std::vector<bool>& triangles);
 

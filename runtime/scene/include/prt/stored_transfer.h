@@ -1,6 +1,6 @@
 #pragma once
 
-// Raw transfer of glTF files as it is stored, for who works on it block by block. Experimental.
+// Raw transfer of glTF files in its stored format, for block-by-block processing. Experimental.
 
 #include "prt/gltf.h"
 #include "prt/transfer_view.h"
@@ -9,13 +9,13 @@
 
 namespace prt {
 
-/// A bake, its transfer as the file has it.
+/// A bake with transfer in its stored format.
 struct StoredBake {
     StoredTransfer transfer; ///< receivers in the order of the scene's vertex arrays
     BakeRecord record;
 };
 
-/// `read_transfer`, where float16 stays as it is.
+/// Reads transfer like `read_transfer`, without converting float16.
 std::optional<StoredBake> read_stored_transfer(const GltfDocument& document, const Scene& scene);
 
 } // namespace prt

@@ -1,6 +1,6 @@
 #pragma once
 
-// New texture coordinates for primitives, whose vertices are split where charts end. Experimental.
+// New texture coordinates for primitives; vertices are split at chart boundaries. Experimental.
 
 #include "prt/gltf.h"
 
@@ -13,19 +13,19 @@
 
 namespace prt {
 
-/// Of one primitive.
+/// New vertices of one primitive.
 struct VertexSplit {
-    std::vector<std::uint32_t> source; ///< [new vertices] vertex of the scene's vertex array
+    std::vector<std::uint32_t> source; ///< [new vertices] index into the scene's vertex array
     std::vector<glm::vec2> uv;         ///< [new vertices]
-    std::vector<glm::uvec3> triangles; ///< into the new vertices, as the scene's turn
+    std::vector<glm::uvec3> triangles; ///< indices of new vertices, with the winding order of the scene
 };
 
-/// The number of the first set of coordinates that no primitive has.
+/// Returns the index of the first set of coordinates that no primitive uses.
 int free_texcoord(const Scene& scene);
 
-/// The file with these coordinates as TEXCOORD_`set`, from which `scene` was extracted: every node has a mesh
-/// of its own, and all else that the file says of vertices goes with them. Lower sets that a primitive lacks
-/// are zero, since glTF counts sets without gaps.
+/// Returns the file with these coordinates as TEXCOORD_`set`; `scene` must be extracted from it. Every node
+/// gets a separate mesh, and all other vertex data is split accordingly. Missing lower sets are filled with
+/// zero, since glTF requires sets without gaps.
 GltfDocument with_texcoords(GltfDocument document, const Scene& scene, std::span<const VertexSplit> splits,
                             int set);
 

@@ -1,7 +1,7 @@
 #pragma once
 
-// Volumes of transfer in glTF files: PRTKIT_transfer_volume of docs/format.md. They stand beside whatever
-// transfer the surfaces of a file have. Experimental.
+// Volumes of transfer in glTF files: PRTKIT_transfer_volume of docs/format.md. They are independent of the
+// transfer of surfaces in a file. Experimental.
 
 #include "prt/gltf.h"
 #include "prt/transfer_volume.h"
@@ -10,16 +10,16 @@
 
 namespace prt {
 
-/// Writes a raw or compressed volume into `document`, from which `scene` was extracted, in the place of any
-/// that is there. Weights have to be packed.
+/// Writes a raw or compressed volume into `document`, from which `scene` was extracted. Replaces an existing
+/// volume. Weights of a compressed volume must be packed.
 void write_volume(GltfDocument& document, const Scene& scene, const BakedVolume& volume);
 void write_volume(GltfDocument& document, const Scene& scene, const CompressedVolume& volume);
 
-/// The volume in the file; nothing when it holds none of that kind. Throws `Error` when it is damaged.
+/// Return the volume in the file; empty if absent of that kind. Throw `Error` if it is damaged.
 std::optional<BakedVolume> read_volume(const GltfDocument& document, const Scene& scene);
 std::optional<CompressedVolume> read_compressed_volume(const GltfDocument& document, const Scene& scene);
 
-/// Takes the volume out of `document`, if there is one.
+/// Removes the volume from `document`, if there is one.
 void discard_volume(GltfDocument& document);
 
 } // namespace prt

@@ -1,6 +1,6 @@
 #pragma once
 
-// The shaders of lobes as text. Experimental.
+// The shaders of lobes as source text. Experimental.
 
 #include "prt/lobes.h"
 #include "prt/shader_source.h"
@@ -12,16 +12,17 @@
 
 namespace prt {
 
-/// The lines that shaders/prt_lobes.glsl wants for a model. `light_order`: bands of the light that it will be
-/// given, 2..4; 0: those of the model, or of the volume whose functions stand before. Throws `Error` for
-/// another.
+/// Returns the define lines for shaders/prt_lobes.glsl for a model. `light_order`: number of bands of the
+/// incident light, 2..4; 0: the order of the model, or of the volume whose functions come before. Throws
+/// `Error` for other values.
 std::string lobe_defines(const LobeModel& model, int light_order = 0);
 
-/// The functions for shaders of every language, to be put behind their version line (of ES: and `precision
-/// highp float`). `behind`: what stands before them, as `volume_functions`, by whose light they are lit then.
+/// Returns the functions for shaders of every language. Insert them after the version line (in ES also after
+/// `precision highp float`). `behind`: source that precedes them, such as `volume_functions`, whose light
+/// they then use.
 std::string lobe_functions(const LobeModel& model, const std::string& behind = {});
 
-/// The uniform block PrtLobeProfiles, PRT_MOST_PROFILES of four gains.
+/// Returns the content of the uniform block PrtLobeProfiles: PRT_MOST_PROFILES entries of four gains.
 std::vector<glm::vec4> lobe_profile_block(const LobeModel& model);
 
 } // namespace prt

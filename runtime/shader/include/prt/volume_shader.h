@@ -1,6 +1,6 @@
 #pragma once
 
-// The shaders of volumes as text. Experimental.
+// The shaders of volumes as source text. Experimental.
 
 #include "prt/shader_source.h"
 #include "prt/volume_former.h"
@@ -9,20 +9,20 @@
 
 namespace prt {
 
-/// The lines that shaders/prt_volume.glsl wants for a volume, all as numbers. The shader is given positions
-/// as the Scene has them where `seen_from` is 0, and in the file's world where it is Scene::origin. Of
-/// rgba16 the sampler of light has to filter linearly; it clamps either way.
+/// Returns the define lines for shaders/prt_volume.glsl for a volume, with all sizes as constants.
+/// `seen_from` 0: the shader gets positions as in the Scene; `seen_from` = Scene::origin: positions in the
+/// file's world. With rgba16 the light sampler must filter linearly; in both formats it must clamp.
 std::string volume_defines(const CompressedVolume& volume, VolumeFormat format = VolumeFormat::rgba16,
                            const glm::dvec3& seen_from = glm::dvec3(0));
 
-/// The lookup for shaders of every language, to be put behind their version line (of ES: and `precision highp
-/// float`).
+/// Returns the lookup functions for shaders of every language. Insert them after the version line (in ES also
+/// after `precision highp float`).
 std::string volume_functions(const CompressedVolume& volume, VolumeFormat format = VolumeFormat::rgba16,
                              const glm::dvec3& seen_from = glm::dvec3(0));
 
-/// A complete compute shader that forms the texture of light (shaders/prt_volume.comp), for GLSL 4.5 and
+/// Returns a complete compute shader for the light texture (shaders/prt_volume.comp), for GLSL 4.5 and
 /// Vulkan, with constants in storage buffers. Throws `Error` for other languages, and for weights of more
-/// words than shaders take.
+/// words than shaders support.
 std::string volume_shader(const CompressedVolume& volume, ShaderLanguage language,
                           VolumeFormat format = VolumeFormat::rgba16);
 

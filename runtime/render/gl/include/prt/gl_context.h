@@ -1,29 +1,32 @@
 #pragma once
 
+// OpenGL contexts without a window.
+
 #include <memory>
 #include <string>
 
 namespace prt {
 
 enum class GlDevice {
-    hardware, ///< a GPU only; Mesa's software rasterisers do not count
-    any,      ///< a GPU where there is one, else software
+    hardware, ///< a GPU only; excludes Mesa's software rasterisers
+    any,      ///< a GPU if available, else software
 };
 
 /// An OpenGL 4.5 core context without window or display, through EGL: a hardware device by enumeration
-/// (EGL_EXT_platform_device), else Mesa's surfaceless platform, else a software device; where EGL has none, a
-/// hidden window of GLFW. Current on the thread that made it, until another is or it is destroyed.
+/// (EGL_EXT_platform_device), else Mesa's surfaceless platform, else a software device. Without EGL it uses a
+/// hidden GLFW window. The context is current on the thread that created it, until another context becomes
+/// current or it is destroyed.
 class GlContext {
 public:
-    /// Null when there is no such device; `why` then says what was tried.
+    /// Returns null if there is no such device; `why` then lists the attempts.
     static std::unique_ptr<GlContext> create(GlDevice device, std::string* why = nullptr);
     ~GlContext();
     GlContext(const GlContext&) = delete;
     GlContext& operator=(const GlContext&) = delete;
 
-    const std::string& renderer() const { return renderer_; } ///< as the driver names it
-    /// On this thread, where something else may have been: a driver's own work, or another context. What
-    /// draws with a context does it. Throws `Error` where the context is lost.
+    const std::string& renderer() const { return renderer_; } ///< name from the driver
+    /// Makes the context current on this thread, after a driver or another context may have changed it. Code
+    /// that draws with a context calls this first. Throws `Error` if the context is lost.
     void make_current() const;
 
 private:

@@ -1,5 +1,7 @@
 #pragma once
 
+// Compressed lightmaps on the GPU.
+
 #include "prt/constant_former.h"
 #include "prt/gl_objects.h"
 #include "prt/lightmap.h"
@@ -12,7 +14,7 @@
 
 namespace prt {
 
-/// Lit lightmaps as surfaces look them up: what `GlScene::light_by` takes.
+/// Lit lightmaps as textures for surfaces, for `GlScene::light_by`.
 struct GlLightmapTextures {
     const LightmapLayout* layout = nullptr;
     std::span<const GlObject> maps; ///< [layout->maps] with all levels, filtered
@@ -21,14 +23,14 @@ struct GlLightmapTextures {
 /// A compressed lightmap on the GPU, lit by `shaders/prt_lightmap.comp`.
 class GlLightmap {
 public:
-    /// Uploads words and clusters. Keeps a reference to the layout of `lightmap`. Throws `Error` when memory
-    /// runs out, and where a texel has more words than shaders take.
+    /// Uploads words and clusters. Keeps a reference to the layout of `lightmap`. Throws `Error` if memory
+    /// runs out, or if a texel has more words than shaders support.
     explicit GlLightmap(const CompressedLightmap& lightmap);
 
-    /// Forms the constants for `lighting`, then radiance of all texels and their smaller levels.
+    /// Computes the constants for `lighting`, then the radiance of all texels and the smaller mip levels.
     void set_light(const Lighting& lighting);
     GlLightmapTextures textures() const { return {&layout_, maps_}; }
-    /// Bytes that it takes on the GPU.
+    /// Size on the GPU in bytes.
     std::size_t bytes() const { return bytes_; }
 
 private:
@@ -41,10 +43,10 @@ private:
     std::size_t bytes_ = 0;
 };
 
-/// Textures of `radiance` [layout.texels()], with all levels.
+/// Creates textures of `radiance` [layout.texels()], with all levels.
 std::vector<GlObject> make_lightmap_textures(const LightmapLayout& layout,
                                              std::span<const glm::vec3> radiance);
-/// The same without radiance, RGBA16F: for shaders that write it.
+/// Creates textures without content, RGBA16F, for shaders that write them.
 std::vector<GlObject> make_lightmap_textures(const LightmapLayout& layout);
 
 } // namespace prt

@@ -14,7 +14,7 @@ namespace prt {
 
 enum class GlKind { buffer, texture, framebuffer, vertex_array, program };
 
-/// A name of OpenGL and the duty to delete it.
+/// Owns an OpenGL name and deletes it.
 class GlObject {
 public:
     GlObject() = default;
@@ -34,16 +34,16 @@ private:
     std::uint32_t name_ = 0;
 };
 
-/// An immutable buffer with `bytes`. Throws `Error` when the device has no room for it.
+/// Creates an immutable buffer with `bytes`. Throws `Error` if GPU memory runs out.
 GlObject make_buffer(std::span<const std::byte> bytes);
 template <class T>
 GlObject make_buffer(std::span<const T> values) {
     return make_buffer(std::as_bytes(values));
 }
 
-/// An immutable buffer that shaders fill, of at least one word.
+/// Creates an immutable buffer that shaders write, of at least one word.
 GlObject make_buffer_of(std::size_t bytes);
-/// Reads what shaders wrote to the start of `buffer`. Throws as `check_gl(what)`.
+/// Reads data that shaders wrote, from the start of `buffer`. Throws as `check_gl(what)`.
 void read_buffer(const GlObject& buffer, std::span<std::byte> to, const char* what);
 template <class T>
 void read_buffer(const GlObject& buffer, std::span<T> to, const char* what) {
@@ -54,26 +54,27 @@ void bind_storage(std::uint32_t binding, const GlObject& buffer);
 GlObject make_vertex_array();
 GlObject make_framebuffer();
 
-/// A program of two files of shaders/, with lines of `defines` before them. `fragment` empty: it draws
-/// nothing. `captured`: an output of the vertex shader that transform feedback records. Throws `Error` with
-/// the compiler's words when the driver refuses it.
+/// Builds a program from two files of shaders/, with the lines of `defines` before them. Empty `fragment`:
+/// the program draws nothing. `captured`: an output of the vertex shader for transform feedback. Throws
+/// `Error` with the compiler's message if compilation or linking fails.
 GlObject make_program(const std::string& vertex, const std::string& fragment, const std::string& defines = "",
                       const char* captured = nullptr);
 
-/// A compute program of a file of shaders/.
+/// Builds a compute program from a file of shaders/.
 GlObject make_compute_program(const std::string& compute, const std::string& defines = "");
 
-/// Where `program` has the uniform `name`; -1 where it has none, which OpenGL ignores when it is set.
+/// Returns the location of the uniform `name`; -1 if the program does not have it, which OpenGL ignores when
+/// it is set.
 int uniform(const GlObject& program, const char* name);
 void set_uniform(const GlObject& program, const char* name, std::uint32_t value);
 void set_uniform(const GlObject& program, const char* name, float value);
 
-/// Work that is cut smaller may still fit.
+/// Thrown if GPU memory runs out; smaller batches of work may still fit.
 struct GpuOutOfMemory : Error {
     using Error::Error;
 };
 
-/// Throws `Error` naming `what` when OpenGL has noted an error, such as memory running out.
+/// Throws `Error` with `what` if OpenGL has recorded an error, for example out of memory.
 void check_gl(const char* what);
 
 } // namespace prt

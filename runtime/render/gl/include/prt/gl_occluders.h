@@ -1,5 +1,7 @@
 #pragma once
 
+// Occlusion volumes on the GPU.
+
 #include "prt/gl_objects.h"
 #include "prt/occlusion_volume.h"
 
@@ -10,10 +12,11 @@ namespace prt {
 /// Occlusion volumes on the GPU, for shaders that include `shaders/prt_occluders.glsl`.
 class GlOccluders {
 public:
-    /// Slot i of the texture is volume i. Throws `Error` where the device has no texture as deep.
+    /// Slot i of the texture is volume i. Throws `Error` if the device does not support a texture of this
+    /// depth.
     explicit GlOccluders(std::span<const OcclusionVolume> volumes);
 
-    /// Binds the texture, and a block with these objects, kMostOccluders at most, for what is drawn next.
+    /// Binds the texture, and a block with these objects, at most kMostOccluders, for subsequent draws.
     void use(std::span<const PlacedOccluder> objects);
 
 private:

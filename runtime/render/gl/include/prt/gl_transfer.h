@@ -1,5 +1,7 @@
 #pragma once
 
+// Compressed transfer on the GPU.
+
 #include "prt/constant_former.h"
 #include "prt/gl_objects.h"
 #include "prt/support/glm_layout.h"
@@ -13,21 +15,21 @@
 
 namespace prt {
 
-/// Compressed transfer on the GPU: the program's view of `shaders/prt_exit_radiance.glsl`.
+/// Compressed transfer on the GPU, for `shaders/prt_exit_radiance.glsl`.
 class GlTransfer {
 public:
-    /// Uploads clusters and weights. Throws `Error` where they do not fit the attributes of a vertex.
+    /// Uploads clusters and weights. Throws `Error` if they do not fit the vertex attributes.
     explicit GlTransfer(const ClusteredTransfer& transfer);
 
-    /// Defines for shaders that include prt_exit_radiance.glsl; they give it positions as the Scene has them.
+    /// Defines for shaders that include prt_exit_radiance.glsl; those pass positions as in the Scene.
     const std::string& defines() const { return defines_; }
-    /// Forms the constants for `lighting` and uploads them.
+    /// Computes the constants for `lighting` and uploads them.
     void set_light(const Lighting& lighting);
-    /// Points the attributes of `vertex_array` at the receivers from `first` on.
+    /// Binds the attributes of `vertex_array` to the receivers from `first` on.
     void attach(std::uint32_t vertex_array, std::size_t first) const;
     /// Binds the constants and the table of clusters.
     void use() const;
-    /// Bytes that it takes on the GPU.
+    /// Size on the GPU in bytes.
     std::size_t bytes() const { return bytes_; }
 
 private:

@@ -1,5 +1,7 @@
 #pragma once
 
+// Compressed volumes on the GPU.
+
 #include "prt/gl_objects.h"
 #include "prt/volume_former.h"
 
@@ -16,21 +18,21 @@ namespace prt {
 /// A volume on the GPU, lit by `shaders/prt_volume.comp`, for shaders that include `shaders/prt_volume.glsl`.
 class GlVolume {
 public:
-    /// Uploads words, clusters, sights and index. Keeps a reference to `volume`. Throws `Error` when memory
-    /// runs out, where the device has no 3D textures as large, and where a probe has more words than shaders
-    /// take.
+    /// Uploads words, clusters, sights and index. Keeps a reference to `volume`. Throws `Error` if memory
+    /// runs out, if the device does not support 3D textures of this size, or if a probe has more words than
+    /// shaders support.
     explicit GlVolume(const CompressedVolume& volume, VolumeFormat format = VolumeFormat::rgba16);
 
-    /// Forms the constants for `lighting` and the visibility of a sun, then light of all probes.
+    /// Computes the constants for `lighting` and the visibility of a sun, then the light of all probes.
     void set_light(const Lighting& lighting, const std::optional<glm::vec3>& sun = {});
-    /// Takes what VolumeFormer formed instead: [bytes of the former].
+    /// Uploads the result of VolumeFormer instead: [bytes of the former].
     void upload(std::span<const std::byte> texels);
-    /// The three textures, to the units of shared_layout.h.
+    /// Binds the three textures to the units of shared_layout.h.
     void bind() const;
     const VolumeFormer& former() const { return former_; }
-    /// All planes, read back: [texels of the texture].
+    /// Reads back all planes: [texels of the texture].
     std::vector<glm::vec4> read() const;
-    /// Bytes that it takes on the GPU.
+    /// Size on the GPU in bytes.
     std::size_t bytes() const { return bytes_; }
 
 private:

@@ -12,43 +12,43 @@
 
 namespace prt {
 
-/// As many as one picture has shadow maps for.
+/// Maximum number of suns with shadow maps in one picture.
 inline constexpr int kMostShadowedSuns = 4;
 
-/// The suns of a picture and what blocks them. Every triangle of a material that casts shadows blocks from
-/// both sides, as it covers: cut out by its texture, blended or glass in part. Behind several layers that
-/// let a part through, light is what they pass together; between two of them it is taken as if they were
-/// spread evenly over the way. Shadows are as soft as the suns are wide.
+/// Shadows of the suns of a picture. Every triangle of a material that casts shadows blocks light from both
+/// sides, according to its coverage: texture cut-outs, blending and glass block partially. Behind several
+/// partially transparent layers, the light is the product of their transmittances; between two layers,
+/// absorption is assumed uniform along the ray. The softness of shadows follows the angular size of the suns.
 class SunShadows {
 public:
-    /// `largest_map`: texels along a side. Keeps a reference to `scene`, whose textures were loaded for all
-    /// needs or for visibility.
+    /// `largest_map`: maximum number of texels along a side. Keeps a reference to `scene`, whose textures
+    /// must be loaded for all needs or for visibility.
     explicit SunShadows(const GlScene& scene, int largest_map = 4096);
 
     struct View {
         Camera camera;
-        int width, height; ///< of the picture, pixels
+        int width, height; ///< size of the picture, pixels
 
         friend bool operator==(const View&, const View&) = default;
     };
-    /// What casts shadows beside the scene and moves.
+    /// Moving shadow casters in addition to the scene.
     struct Moving {
-        /// Draws both sides of all of it with a program of sun_caster.vert (and PRT_SKINNED), for map `map`
-        /// of `size` texels: `set_map` sets what the program is told of it. Nothing: none moves.
+        /// Draws both sides of all moving geometry with a program of sun_caster.vert (and PRT_SKINNED), for
+        /// map `map` of `size` texels; `set_map` sets the uniforms of the map. Empty: nothing moves.
         std::function<void(int map, int size)> draw;
-        Bounds box{};              ///< around all of it
-        std::uint64_t version = 0; ///< another one where it has moved
+        Bounds box{};              ///< bounding box of all moving geometry
+        std::uint64_t version = 0; ///< changes when the geometry has moved
     };
-    /// Tells `program`, which is in use, of the map that is drawn.
+    /// Sets the uniforms of the current map in `program`, which must be in use.
     static void set_map(const GlObject& program, int map, int size);
 
-    /// Draws the maps for what `view` sees, where suns, view or what moves are others than before. Changes
+    /// Draws the maps for the view frustum of `view` if suns, view or moving geometry have changed. Changes
     /// the bound framebuffer, the viewport and the program. Throws `Error` for more than kMostShadowedSuns
-    /// and when memory runs out.
+    /// suns and if memory runs out.
     void draw(std::span<const SunDisc> suns, const View& view, const Moving& moving);
     void draw(std::span<const SunDisc> suns, const View& view) { draw(suns, view, Moving()); }
 
-    /// Binds all that the shaders read.
+    /// Binds all resources that the shaders read.
     void use() const;
 
 private:
