@@ -1,22 +1,22 @@
-// Exit radiance of a vertex from compressed transfer (docs/math.md, eq. 29), for a receiver of albedo 1. For GLSL
-// 4.5 and 3.3, GLSL ES 3.0 and Vulkan; HLSL is made from the last (docs/integration.md).
+// Computes exit radiance of a vertex from compressed transfer (docs/math.md, eq. 29), for a receiver of albedo
+// 1. For GLSL 4.5 and 3.3, GLSL ES 3.0 and Vulkan; HLSL is generated from the Vulkan version
+// (docs/integration.md).
 //
 // Define before including (prt::relight_defines writes the lines for a model)
 //     PRT_PACKED_WORDS n     packed weights: n 32-bit words per vertex, 1..8, and PRT_CLUSTER_BITS b, or
-//     PRT_WEIGHT_VECTORS n   floats: the number of VEC4 weight attributes, 0..12 (0: clusters only),
-// where all clusters are divided alike, which makes a loop and the table of clusters needless:
-//     PRT_CLUSTER_ROWS n     the rows of a cluster, and
-//     PRT_SAME_WEIGHTS       PRT_ADD(j, weight) for every weight j, which is PRT_BITS(position, width) where packed,
-// where they are not attributes of a vertex, but variables that the shader sets (prt_lightmap.frag):
-//     PRT_WORDS_OF_TEXEL     packed words only,
-// what clusters know of a vertex beside its weights, its guides:
-//     PRT_GUIDE_NORMAL       its normal,
-//     PRT_GUIDE_POSITION     its position seen from PRT_GUIDE_ORIGIN, a vec3: numbers, or the name of a uniform,
-// and where the constants are:
+//     PRT_WEIGHT_VECTORS n   floats: the number of VEC4 weight attributes, 0..12 (0: clusters only).
+// If all clusters have the same layout, which avoids a loop and the table of clusters:
+//     PRT_CLUSTER_ROWS n     number of rows per cluster, and
+//     PRT_SAME_WEIGHTS       PRT_ADD(j, weight) for every weight j; a packed weight is PRT_BITS(position, width).
+// If the words are not vertex attributes but variables that the shader sets (prt_lightmap.frag):
+//     PRT_WORDS_OF_TEXEL     packed words only.
+// Data of the vertex that clusters use in addition to its weights, the predictors:
+//     PRT_GUIDE_NORMAL       the normal,
+//     PRT_GUIDE_POSITION     the position relative to PRT_GUIDE_ORIGIN, a vec3: numbers, or the name of a uniform.
+// Storage of the constants, which contain the data of prt::ConstantFormer and prt::cluster_layouts:
 //     PRT_CONSTANTS_BUFFER   storage buffers (the default; OpenGL 4.3, Vulkan, Direct3D 11),
 //     PRT_CONSTANTS_BLOCK    uniform blocks, with PRT_MOST_ROWS and PRT_MOST_CLUSTERS, or
-//     PRT_CONSTANTS_TEXTURE  textures of PRT_TEXTURE_WIDTH texels a row, RGBA32F and RGBA32UI.
-// They hold what prt::ConstantFormer and prt::cluster_layouts write.
+//     PRT_CONSTANTS_TEXTURE  textures with PRT_TEXTURE_WIDTH texels per row, RGBA32F and RGBA32UI.
 
 #include "shared_layout.h"
 

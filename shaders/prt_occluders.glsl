@@ -1,17 +1,21 @@
-// What objects that move take from the light of receivers near them (docs/math.md, section 20), for GLSL 4.5 and 3.3,
-// GLSL ES 3.0 and Vulkan:
+// Computes the light that moving objects block at receivers near them (docs/math.md, section 20). For GLSL 4.5
+// and 3.3, GLSL ES 3.0 and Vulkan:
 //
-//     float prt_occluders_openness(vec3 position, vec3 normal)     how much is left of light from everywhere alike
-//     float prt_occluders_sun(vec3 position, vec3 towards, float half_angle)    of a sun, softly: 0 is all shadow
-// and, where prt_volume.glsl was included before,
-//     vec3 prt_occluders_light(vec3 position, vec3 normal, vec3 light[PRT_VOLUME_COEFFICIENTS])   of that light
+//     float prt_occluders_openness(vec3 position, vec3 normal)
+//         Remaining share of light from a uniform environment.
+//     float prt_occluders_sun(vec3 position, vec3 towards, float half_angle)
+//         Remaining share of the light of a sun, with a soft shadow; 0: full shadow.
+// If prt_volume.glsl was included before, also:
+//     vec3 prt_occluders_light(vec3 position, vec3 normal, vec3 light[PRT_VOLUME_COEFFICIENTS])
+//         Remaining share of the incident light `light`.
 //
-// `position` in metres in the world that occluders are placed in; `normal`, `towards` unit.
+// `position` is in metres in the world of the occluders; `normal` and `towards` are unit.
 //
-// Objects are the lists of prt::placed and prt::occluders_near: a uniform block here, or, where the includer defines
-//     PRT_OCCLUDER_ROWS     an array of vec4, five for each, and
-//     PRT_OCCLUDER_COUNT    an int,
-// what these name. PRT_MOST_OCCLUDERS: room of the block.
+// Objects are the lists of prt::placed and prt::occluders_near: a uniform block of this file, or, if they are
+// defined,
+//     PRT_OCCLUDER_ROWS     an array of vec4, five per object, and
+//     PRT_OCCLUDER_COUNT    an int.
+// PRT_MOST_OCCLUDERS: capacity of the block.
 
 #include "shared_layout.h"
 

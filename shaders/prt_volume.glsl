@@ -1,23 +1,30 @@
-// Light of a volume at a place (docs/format.md, PRTKIT_transfer_volume), for GLSL 4.5 and 3.3, GLSL ES 3.0 and Vulkan:
+// Looks up the light of a volume at a position (docs/format.md, PRTKIT_transfer_volume). For GLSL 4.5 and 3.3,
+// GLSL ES 3.0 and Vulkan:
 //
-//     vec3 prt_volume_irradiance(vec3 position, vec3 normal)       over pi: times albedo it is what a surface sends out
-//     float prt_volume_sun_visibility(vec3 position, vec3 normal)  of the sun that the textures were formed for
-//     void prt_volume_incident(vec3 position, vec3 normal, out vec3 light[PRT_VOLUME_COEFFICIENTS]), and of that
+//     vec3 prt_volume_irradiance(vec3 position, vec3 normal)
+//         Irradiance over pi: multiplied by the albedo it is the exit radiance of a surface.
+//     float prt_volume_sun_visibility(vec3 position, vec3 normal)
+//         Visibility of the sun that the textures were computed for.
+//     void prt_volume_incident(vec3 position, vec3 normal, out vec3 light[PRT_VOLUME_COEFFICIENTS])
+//         Incident light, for the following functions.
 //     vec3 prt_incident_irradiance(light, normal)
-//     vec3 prt_incident_radiance(light, towards)                   what a glossy surface mirrors, blurred
-//     vec3 prt_incident_direction(light)                           to where most of it comes from
+//         Irradiance over pi.
+//     vec3 prt_incident_radiance(light, towards)
+//         Blurred radiance from a direction, for glossy reflections.
+//     vec3 prt_incident_direction(light)
+//         Main direction of the light.
 //
-// `position` in metres; `normal`, unit, is that of the surface that is lit, or zero.
+// `position` is in metres; `normal` is the unit normal of the lit surface, or zero.
 //
 // Define before including (prt::volume_defines writes the lines for a volume)
-//     PRT_VOLUME_ORDER n         of incident light, 2..4,
-//     PRT_VOLUME_LINEAR          where the sampler of light filters: cells that all probes see are read by it,
+//     PRT_VOLUME_ORDER n         order of incident light, 2..4,
+//     PRT_VOLUME_LINEAR          if the sampler of light filters: it then reads cells that all probes see,
 // and, as numbers or as names of uniforms,
-//     PRT_VOLUME_ORIGIN          vec3: least corner, where positions are seen from,
+//     PRT_VOLUME_ORIGIN          vec3: minimum corner, which positions are relative to,
 //     PRT_VOLUME_SPACING         float,
 //     PRT_VOLUME_SIZE            ivec3: in bricks of level 0,
-//     PRT_VOLUME_FIRST           ivec4: place and level of brick 0,
-//     PRT_VOLUME_BRICKS          ivec3: of the atlas (prt::VolumeAtlas).
+//     PRT_VOLUME_FIRST           ivec4: position and level of brick 0,
+//     PRT_VOLUME_BRICKS          ivec3: size of the atlas in bricks (prt::VolumeAtlas).
 
 #include "shared_layout.h"
 
