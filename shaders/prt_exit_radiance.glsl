@@ -20,7 +20,7 @@
 
 #include "shared_layout.h"
 
-// The program binds blocks and samplers by name where the language cannot say it here.
+// The program binds blocks and samplers by name if the language has no binding layout.
 #if defined(VULKAN) || (!defined(GL_ES) && __VERSION__ >= 420)
 #define PRT_BINDING(number) , binding = number
 #define PRT_SAMPLER(number) layout(binding = number) uniform highp
@@ -49,10 +49,11 @@ vec4 prt_constant_at(uint at) {
 #endif
 }
 
-// Row `row` of the constants of all clusters: a color, or of an instance one that is linear in the place.
+// Row `row` of the constants of all clusters: a color, or for an instance a color that is linear in the
+// position.
 #ifdef PRT_INSTANCES
 #define PRT_COLOR mat3x4
-uint prt_first_row; // of the instance, and where the vertex lies in the box of its mesh: prt_instances.glsl
+uint prt_first_row; // first row of the instance, and position of the vertex in the mesh's box: prt_instances.glsl
 vec4 prt_place;
 
 mat3x4 prt_constant(uint row) {
@@ -89,7 +90,7 @@ layout(std430 PRT_BINDING(PRT_BINDING_CLUSTERS)) readonly buffer PrtClusters {
 };
 #endif
 
-// By PRT_CLUSTER_*: first row, components, widths of weights 0 to 7, 8 to 15.
+// Entry by PRT_CLUSTER_*: first row, components, widths of weights 0 to 7, 8 to 15.
 uvec4 prt_layout_of(uint cluster) {
 #ifdef PRT_CONSTANTS_TEXTURE
     return texelFetch(prt_clusters, ivec2(cluster % uint(PRT_TEXTURE_WIDTH), cluster / uint(PRT_TEXTURE_WIDTH)), 0);
@@ -99,7 +100,7 @@ uvec4 prt_layout_of(uint cluster) {
 }
 #endif
 
-// Rows of a cluster, counted from its first: of the guide of positions, and of its first direction.
+// Rows relative to the first row of a cluster: of the position predictor, and of the first direction.
 #ifdef PRT_GUIDE_NORMAL
 #define PRT_POSITION_ROW 4u
 #else
@@ -111,7 +112,7 @@ uvec4 prt_layout_of(uint cluster) {
 #define PRT_DIRECTION_ROW PRT_POSITION_ROW
 #endif
 
-// The mean of the cluster whose rows begin at `first`, and what the guides add to it.
+// Mean of the cluster with first row `first`, plus the contribution of the predictors.
 PRT_COLOR prt_guided(uint first, vec3 position, vec3 normal) {
     PRT_COLOR radiance = prt_constant(first);
 #ifdef PRT_GUIDE_NORMAL
@@ -127,7 +128,7 @@ PRT_COLOR prt_guided(uint first, vec3 position, vec3 normal) {
     return radiance;
 }
 
-// What a vertex has: its cluster, and its weights.
+// Data of a vertex: its cluster and its weights.
 
 #ifdef PRT_PACKED_WORDS
 #ifdef PRT_WORDS_OF_TEXEL
@@ -149,7 +150,7 @@ uint prt_word(uint index) {
 #endif
 }
 
-// `width` bits from bit `position` on, width <= 16. A weight may lie across two words.
+// Returns `width` bits from bit `position` on, width <= 16. A weight may span two words.
 uint prt_bits(uint position, uint width) {
     uint word = position >> 5, shift = position & 31u;
     uint bits = prt_word(word) >> shift;
@@ -207,11 +208,12 @@ uint prt_cluster_of_vertex() {
 }
 #endif
 
-// vec3 prt_exit_radiance(vec3 position, vec3 normal): both as they were when the model was baked, in its frame; the
-// normal is unit, or zero where the mesh has none. What is no guide counts nothing.
+// vec3 prt_exit_radiance(vec3 position, vec3 normal): both in the model's frame, as at the time of the bake;
+// the normal is unit, or zero if the mesh has none. Arguments that the model does not use as predictors are
+// ignored.
 
 #if defined(PRT_CLUSTER_ROWS)
-// On one line: GLSL 3.3 knows no others.
+// One line, because GLSL 3.30 has no line continuation.
 #define PRT_BITS(at, width) float(prt_bits(at, width))
 #define PRT_ADD(j, weight) radiance += weight * prt_constant(first + PRT_DIRECTION_ROW + j);
 
@@ -236,7 +238,7 @@ vec3 prt_exit_radiance(vec3 position, vec3 normal) {
     return prt_color(radiance);
 }
 #else
-// On one line: GLSL 3.3 knows no others.
+// One line, because GLSL 3.30 has no line continuation.
 // clang-format off
 #define PRT_ADD_FOUR(w) for (uint i = 0u; i < 4u && j < components; ++i, ++j) radiance += w[i] * prt_constant(first + PRT_DIRECTION_ROW + j);
 // clang-format on

@@ -45,7 +45,7 @@ layout(std140) uniform PrtLobeProfiles {
 
 struct PrtLobe {
     vec3 axis;  // unit
-    vec4 gains; // of bands 0 to 3
+    vec4 gains; // gains of bands 0 to 3
 };
 
 PrtLobe prt_lobe(vec4 bytes) {
@@ -56,7 +56,7 @@ PrtLobe prt_lobe(vec4 bytes) {
     return PrtLobe(normalize(vec3(p, z)), bytes.w / 255.0 * PRT_LOBE_PROFILE(int(bytes.z + 0.5)));
 }
 
-// Cofactors, as for normals: an open vertex is lit by its normal in every pose.
+// Cofactors, as for normals: an unoccluded vertex is lit by its normal in every pose.
 mat3 prt_lobe_turn(mat3 m) {
     mat3 turn = mat3(cross(m[1], m[2]), cross(m[2], m[0]), cross(m[0], m[1]));
     return dot(m[0], turn[0]) < 0.0 ? -turn : turn;
@@ -68,7 +68,7 @@ PrtLobe prt_turned_lobe(PrtLobe lobe, mat3 turn) {
     return PrtLobe(size > 0.0 ? axis / size : lobe.axis, lobe.gains);
 }
 
-// By the least turn that takes unit `from` to unit `to`.
+// Rotates by the smallest rotation that maps unit `from` to unit `to`.
 PrtLobe prt_mapped_lobe(PrtLobe lobe, vec3 from, vec3 to) {
     vec3 both = from + to;
     float size = 1.0 + dot(from, to);
@@ -76,7 +76,7 @@ PrtLobe prt_mapped_lobe(PrtLobe lobe, vec3 from, vec3 to) {
     return PrtLobe(size < 1e-6 ? -lobe.axis : axis, lobe.gains);
 }
 
-// Sum over l of gain_l sum over m of Y_lm(axis) L_lm (docs/math.md, eq. 1 to 3).
+// Computes the sum over l of gain_l times the sum over m of Y_lm(axis) L_lm (docs/math.md, eq. 1 to 3).
 vec3 prt_lobe_sum(PrtLobe lobe, vec3 light[PRT_LOBE_COEFFICIENTS]) {
     vec3 n = lobe.axis;
     vec4 gains = lobe.gains;

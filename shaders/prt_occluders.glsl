@@ -19,7 +19,7 @@
 
 #include "shared_layout.h"
 
-// The program binds by name where the language cannot say it here.
+// The program binds by name if the language has no binding layout.
 #if defined(VULKAN) || (!defined(GL_ES) && __VERSION__ >= 420)
 layout(binding = PRT_UNIT_OCCLUDERS) uniform highp sampler3D prt_occluder_texture;
 #else
@@ -39,11 +39,11 @@ layout(std140) uniform PrtOccluders {
 #define PRT_OCCLUDER_COUNT prt_occluder_count.x
 #endif
 
-// A cap of the sphere around a place that is blocked evenly.
+// A cap of the sphere around a position, with uniform occlusion.
 struct PrtBlockedCap {
-    vec3 towards;  // unit, its middle
-    float share;   // of all directions
-    float density; // of what is blocked in it
+    vec3 towards;  // unit, center of the cap
+    float share;   // share of all directions
+    float density; // blocked share of the cap
 };
 
 PrtBlockedCap prt_blocked_cap(int i, vec3 position) {
@@ -55,8 +55,8 @@ PrtBlockedCap prt_blocked_cap(int i, vec3 position) {
     PrtBlockedCap cap = PrtBlockedCap(vec3(0.0, 1.0, 0.0), 0.0, 0.0);
     if (far < half_reach.w) {
         const float kSide = float(PRT_OCCLUDER_SIDE);
-        // Beyond the box, the place on its faces towards the middle: from there on the solid angle falls with the
-        // square of the distance.
+        // Outside the box use the point on its surface in the direction of the center: from there on the
+        // solid angle falls with the square of the distance.
         vec3 sides = q / half_reach.xyz, sizes = abs(sides);
         float outside = max(max(sizes.x, sizes.y), max(sizes.z, 1.0));
         vec3 texels = vec3(kSide, kSide, float(textureSize(prt_occluder_texture, 0).z));
@@ -77,16 +77,17 @@ PrtBlockedCap prt_blocked_cap(int i, vec3 position) {
     return cap;
 }
 
-// Drivers' own may be off by 1e-4.
+// Angle of a cosine. Built-in functions of drivers may have errors of 1e-4.
 float prt_angle_of(float cosine) {
     return atan(sqrt(max(1.0 - cosine * cosine, 0.0)), cosine);
 }
 
-// Of the cosine-weighted hemisphere: a cap of at most half of the sphere, whose middle has `cosine` to the normal.
+// Share of the cosine-weighted hemisphere that a cap covers. The cap is at most half of the sphere; `cosine`:
+// between the cap's center and the normal.
 float prt_cap_cosine(float share, float cosine) {
     float squared = 4.0 * share * (1.0 - share), rest = squared - cosine * cosine;
     float sum = max(cosine, 0.0) * squared;
-    if (rest > 0.0) { // the horizon cuts it
+    if (rest > 0.0) { // the horizon intersects the cap
         float cut = sqrt(rest), far = 1.0 - 2.0 * share;
         float y = clamp(-cosine * far / sqrt((1.0 - cosine * cosine) * squared), -1.0, 1.0);
         sum = clamp((squared * cosine * prt_angle_of(y) - cut * far + atan(cut, far)) * 0.318309886, 0.0, 1.0);
@@ -94,7 +95,7 @@ float prt_cap_cosine(float share, float cosine) {
     return sum;
 }
 
-// How much a cap takes of light from everywhere alike.
+// Share of light from a uniform environment that a cap blocks.
 float prt_blocked_cosine(PrtBlockedCap cap, vec3 normal) {
     float cosine = clamp(dot(cap.towards, normal), -1.0, 1.0);
     return cap.density *
@@ -124,7 +125,8 @@ float prt_occluders_sun(vec3 position, vec3 towards, float half_angle) {
 }
 
 #ifdef PRT_VOLUME_ORDER
-// The light that comes from where an object is, over all that arrives: a bright sky behind it is missed more.
+// Weights the blocked share by the light from the direction of the object relative to all arriving light: an
+// object in front of a bright sky blocks more.
 vec3 prt_occluders_light(vec3 position, vec3 normal, vec3 light[PRT_VOLUME_COEFFICIENTS]) {
     vec3 all = max(prt_incident_irradiance(light, normal), vec3(1e-12)), left = vec3(1.0);
     for (int i = 0; i < PRT_OCCLUDER_COUNT; ++i) {
