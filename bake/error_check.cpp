@@ -19,9 +19,9 @@
 namespace prt {
 namespace {
 
-/// Number of points: one per kReceiversPerPoint receivers, clamped to these limits. Each half traces as many
-/// rays as a receiver has. With a quarter of these rays the estimate varied by 20 % between seeds, with all
-/// of them by 6 %.
+/// Number of points: one per kReceiversPerPoint receivers, clamped to these limits. Each half traces the
+/// number of rays of a receiver. With a quarter of these rays the estimate varied by 20 % between seeds, with
+/// all of them by 6 %.
 constexpr std::size_t kReceiversPerPoint = 64, kMinPoints = 288, kMaxPoints = 2048;
 /// Limits the cost in small scenes with many rays: a half of the check traces at most this share of the rays
 /// of the bake, unless that is less than kMinCapped rays per point.

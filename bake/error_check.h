@@ -28,7 +28,7 @@ public:
     const GatherOperator* gather() const { return gather_ ? &*gather_ : nullptr; }
     std::size_t rays() const { return rays_; }
 
-    /// Relative L2 error of direct light from as many rays as a receiver has.
+    /// Relative L2 error of direct light with the number of rays of a receiver.
     double sampling_error() const;
 
     /// Light at the rows of `gather` after a bounce, [rows][channels][columns]; empty: no such light.

@@ -41,7 +41,7 @@ public:
     /// Moves points to the parts that their triangles were split into.
     void move(std::span<const Part> parts);
 
-    /// Requests more points in triangles with few points. Returns whether there are such triangles.
+    /// Requests more points in triangles with few points. Returns whether it found any.
     bool look_closer();
 
     std::size_t size() const { return points_.size(); }

@@ -99,8 +99,8 @@ private:
 
     double allowed(const SurfaceError& error) const { return how_.target * how_.target * error.norm; }
 
-    /// Returns triangles that can be split, largest errors first: as many as are needed to remove the excess
-    /// error, or the share of a round.
+    /// Returns triangles that can be split, largest errors first: enough to remove the excess error, or the
+    /// share of a round.
     std::vector<std::uint32_t> worst_triangles(const SurfaceError& error, const WeldedEdges& edges) const {
         const std::vector<double>& e = error.of_triangles;
         std::vector<std::uint32_t> worst;
@@ -120,7 +120,7 @@ private:
         return worst;
     }
 
-    /// Marks as many triangles as the limit allows. Sets `limited` if it did not allow all.
+    /// Marks triangles up to the limit. Sets `limited` if the limit did not allow all.
     EdgeMarks mark(const std::vector<std::uint32_t>& worst, const WeldedEdges& edges, bool& limited) const {
         const auto mark_first = [&](std::size_t count) {
             EdgeMarks marks(edges);

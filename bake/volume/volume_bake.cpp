@@ -92,7 +92,7 @@ void check_room(const VolumeOptions& volume, double probes, std::size_t numbers,
                                 needed * 1e-9, there * 1e-9));
 }
 
-/// Maximum number of bricks: each has at least as many probes of its own as it has cells.
+/// Maximum number of bricks: the number of probes that a brick adds is at least its number of cells.
 std::size_t most_bricks(const VolumeOptions& volume, std::size_t numbers, double there) {
     constexpr double kCells = kBrickCells * kBrickCells * kBrickCells;
     return there > 0 ? static_cast<std::size_t>(there / (kCells * bytes_of_probe(volume, numbers))) + 1

@@ -50,8 +50,8 @@ public:
     const vk::raii::Device& handle() const { return device_; }
     const vk::raii::Queue& queue() const { return queue_; }
     std::uint32_t queue_family() const { return family_; }
-    /// Returns a memory type among `kinds` (one bit each) that has all of `wanted`. Throws `Error` if there
-    /// is none.
+    /// Returns a memory type among `kinds` (one bit each) that has all of `wanted`. Throws `Error` if no
+    /// type matches.
     std::uint32_t memory_kind(std::uint32_t kinds, vk::MemoryPropertyFlags wanted) const;
     /// Messages of the validation layer, one line each.
     const std::vector<std::string>& complaints() const { return *complaints_; }

@@ -1,6 +1,6 @@
 #pragma once
 
-// Rows of a gather operator on a device, in blocks: as many blocks as fit into memory stay there, the others
+// Rows of a gather operator on a device, in blocks. The blocks that fit into memory stay there; the others
 // are uploaded when they are needed.
 
 #include "transport/gather.h"

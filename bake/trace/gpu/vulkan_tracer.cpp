@@ -83,8 +83,8 @@ void VulkanTracer::prepare(const TraceJob& job, Pieces& pieces, const TracePiece
     wanted.set_samples(device_, queue_, job.samples());
 }
 
-/// Returns the next piece: as many chunks as the device traces in the target time, either all chunks of
-/// several receivers or some chunks of one receiver.
+/// Returns the next piece, sized for the target time of the device: either all chunks of several receivers,
+/// or some chunks of one receiver.
 gpu::TracePush VulkanTracer::next(const TraceJob& job, std::size_t receiver, std::size_t chunk) const {
     const TracePiece::Room& room =
         job.room; // pieces of the previous job may have more rows, but no memory for their hits
