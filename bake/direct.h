@@ -29,12 +29,12 @@ struct DirectLight {
     Transfer transfer;                    ///< transfer of receivers and back sides, one channel
     std::optional<GatherOperator> gather; ///< operator of the same rays; set if there are bounces and any ray
                                           ///< hits a scattering surface
-    std::optional<LampRows> lamps;  ///< rows for the last bounce of lamps
-    std::optional<HalfOfRays> half; ///< set if noise is filtered
-    std::size_t rays = 0;           ///< all traced rays
-    int mean_rays = 0;              ///< mean number of rays per receiver
-    double mean_visibility = 0;     ///< area-weighted mean of T_0 / Y_00
-    double sampling_error = 0;      ///< estimated relative L2 error; 0: not estimated here
+    std::optional<LampRows> lamps;        ///< rows for the last bounce of lamps
+    std::optional<HalfOfRays> half;       ///< set if noise is filtered
+    std::size_t rays = 0;                 ///< all traced rays
+    int mean_rays = 0;                    ///< mean number of rays per receiver
+    double mean_visibility = 0;           ///< area-weighted mean of T_0 / Y_00
+    double sampling_error = 0;            ///< estimated relative L2 error; 0: not estimated here
     std::vector<std::string> notices;
 };
 
