@@ -43,7 +43,7 @@ struct DirectLight {
 /// The target and the estimate of the sampling error include it.
 DirectLight trace_direct(const BakePlan& plan, Tracer& tracer, const LampConnections* lamps,
                          std::span<const float> left, const Progress& progress);
-/// Factor on the relative noise of a bake, if all receivers have the same noise: the result of `left`.
+/// Factor that `left` applies to the relative noise of a bake in which all receivers have the same noise.
 double noise_left(const BakePlan& plan, std::span<const float> left);
 
 } // namespace prt
