@@ -1,5 +1,5 @@
-// Plans rays where they lower the error most (docs/math.md, section 9): two scrambles of a few rays predict
-// it, a sample of the receivers tells what came out.
+// Distributes rays to the receivers where they are most effective (docs/math.md, section 9). Two scrambles
+// with few rays predict the error; a sample of the receivers measures the error that was reached.
 
 #include "adaptive.h"
 
@@ -15,12 +15,13 @@
 namespace prt {
 namespace {
 
-constexpr std::uint32_t kFirstRays = 32;       ///< of each of the two scrambles that start
-constexpr std::size_t kCheckedReceivers = 128; ///< sampled again to see what came out
-/// Receivers that look dark and are asked with many rays.
+constexpr std::uint32_t kFirstRays = 32;       ///< rays of each of the two initial scrambles
+constexpr std::size_t kCheckedReceivers = 128; ///< number of receivers that are sampled again to measure the
+                                               ///< error
+/// Number of receivers that look dark and are traced again with many rays, and their rays.
 constexpr std::size_t kCheckedDark = 512, kDarkRays = 4096;
-/// The squared error of a scrambled net falls as n^-1.5 where visibility has edges: measured n^-1.52 on the
-/// knot between 1 024 and 2 048 rays.
+/// Exponent of the squared error over the number of rays. A scrambled net has n^-1.5 where visibility has
+/// edges: measured n^-1.52 on the knot between 1 024 and 2 048 rays.
 constexpr double kExponent = 1.5;
 
 class AdaptiveSampler {
@@ -35,7 +36,7 @@ public:
     AdaptiveResult run(const MeshNeighbours& neighbours, double target) {
         estimate_errors(neighbours);
         AdaptiveResult result;
-        double correction = 1; // of the squared errors that the first rays predict, by what came out
+        double correction = 1; // measured squared error over the squared error that the first rays predict
         for (double share = 0;; share = 0.5 * (1 + share)) {
             const bool enough = plan(target * target * squares_.norm / correction);
             progress_.update(share);
@@ -49,13 +50,13 @@ public:
         result.transfer = std::move(light_.all);
         result.half = std::move(light_.first_half);
         result.rays = rays_;
-        result.rays_checked += kFirstRays * indices_.size() + rays_on_dark_; // of the second scramble
+        result.rays_checked += kFirstRays * indices_.size() + rays_on_dark_; // rays of the second scramble
         progress_.update(1);
         return result;
     }
 
 private:
-    /// Stops in the middle of a round, too.
+    /// Traces receivers; can also stop in the middle of a round.
     void trace(std::span<const std::uint32_t> indices, const TraceOptions& options, Transfer& transfer) {
         trace_receivers(tracer_, receivers_, indices, options, transfer, {{}, progress_.stop});
     }
@@ -64,14 +65,15 @@ private:
 
     double area(std::uint32_t p) const { return static_cast<double>(receivers_.areas[p]); }
 
-    /// Contribution of a receiver to the squared error with `rays`, by what the first rays predict.
+    /// Contribution of a receiver to the squared error with `rays`, predicted from the first rays.
     double predicted(std::uint32_t p, std::uint32_t rays) const {
         return area(p) * static_cast<double>(left_[p]) * error_[p] *
                std::pow(static_cast<double>(rays) / kFirstRays, -kExponent);
     }
 
-    /// Two independent scrambles of a few rays each tell how much a receiver errs: the mean over it and its
-    /// neighbours, as of itself alone some would agree by chance and be left with too few rays.
+    /// Estimates the error of each receiver from two independent scrambles with few rays. The estimate is a
+    /// mean over the receiver and its neighbours: single receivers may agree by chance and would get too few
+    /// rays.
     void estimate_errors(const MeshNeighbours& neighbours) {
         TraceOptions options = options_;
         options.rays = static_cast<int>(kFirstRays);
@@ -85,7 +87,8 @@ private:
             rays_[p] = planned_[p] = kFirstRays;
             own[p] = 0.5 * squared_distance(light_.all.vector(p), second.vector(p));
             squares_.norm +=
-                area(p) * product(light_.all.vector(p), second.vector(p)); // without the noise of either
+                area(p) * product(light_.all.vector(p), second.vector(p)); // the product contains the noise
+                                                                           // of neither
         }
         add_missed_light(second, own);
         for (const std::uint32_t p : indices_) {
@@ -100,9 +103,9 @@ private:
         }
     }
 
-    /// Receivers that no light reached in either scramble agree on darkness, and in a room with a small
-    /// window all of them are wrong. Some of them, with many rays, tell what the others may have missed:
-    /// `errors` [receivers] of the dark ones.
+    /// Adds the light that dark receivers may have missed to `errors` [receivers]. Receivers that no light
+    /// reached in either scramble agree on darkness, and in a room with a small window all of them are wrong.
+    /// Some of them are traced with many rays; their mean is the estimate for the others.
     void add_missed_light(const Transfer& second, std::vector<double>& errors) {
         std::vector<std::uint32_t> dark;
         for (const std::uint32_t p : indices_)
@@ -123,7 +126,7 @@ private:
             missed += area(p) * squared_norm(light.vector(p));
             areas += area(p);
         }
-        double dark_norm = 0; // where next to nothing is lit, the first rays do not tell the norm
+        double dark_norm = 0; // if almost nothing is lit, the first rays do not determine the norm
         for (const std::uint32_t p : dark) {
             errors[p] = missed > 0 ? missed / areas : 0;
             dark_norm += area(p) * errors[p];
@@ -131,9 +134,10 @@ private:
         squares_.norm = std::max(squares_.norm, dark_norm);
     }
 
-    /// Doubles planned rays, those first that lower the error most per ray, until the predicted squared error
-    /// is at most `wanted`. Only powers of two: between them nets are uneven and err more. False where all
-    /// have as many rays as can be.
+    /// Doubles planned rays until the predicted squared error is at most `wanted`, first for the receivers
+    /// where this lowers the error by the largest amount per ray. Uses only powers of two: nets of other
+    /// sizes are uneven and have larger errors. Returns false if all receivers have the maximum number of
+    /// rays.
     bool plan(double wanted) {
         struct Candidate {
             double gain_per_ray;
@@ -165,7 +169,7 @@ private:
         return squares_.predicted <= wanted;
     }
 
-    /// Traces the rest of the sequences up to what is planned.
+    /// Traces the sequences up to the planned number of rays.
     void extend() {
         Transfer added = empty_transfer();
         for (std::uint32_t rays = kFirstRays; rays < static_cast<std::uint32_t>(kMostRays); rays *= 2) {
@@ -186,8 +190,8 @@ private:
         }
     }
 
-    /// Samples some receivers again with a scramble of their own, chosen by what they are predicted to
-    /// contribute to the error. Returns the mean of squared error over prediction.
+    /// Samples some receivers again with an independent scramble, chosen by their predicted contribution to
+    /// the error. Returns the mean of the squared error over its prediction.
     double check(std::size_t& rays_checked) {
         std::map<std::uint32_t, std::vector<std::uint32_t>> by_rays;
         const double step = squares_.predicted / kCheckedReceivers;
@@ -219,19 +223,20 @@ private:
 
     Tracer& tracer_;
     const Receivers& receivers_;
-    std::span<const float> left_; ///< [receivers] of squared errors
+    std::span<const float> left_; ///< [receivers] factor on squared errors
     TraceOptions options_;
     const Progress& progress_;
     std::vector<std::uint32_t> indices_;
     std::vector<std::uint32_t> rays_, planned_; ///< [receivers]
-    std::vector<double> error_;                 ///< squared, predicted for kFirstRays, [receivers]
+    std::vector<double> error_;                 ///< [receivers] squared error, predicted for kFirstRays
     struct Squares {
         double norm = 0, predicted = 0;
+        /// Sums weighted by area.
     };
-    Squares squares_; ///< weighted by area
+    Squares squares_;
     std::size_t rays_on_dark_ = 0;
     struct Light {
-        Transfer all, first_half; ///< of the rays
+        Transfer all, first_half; ///< light from all rays, and from the first half of them
     } light_;
 };
 

@@ -1,6 +1,6 @@
 #pragma once
 
-// Rays where they are needed.
+// Traces direct transfer with a number of rays that adapts to each receiver.
 
 #include "prt/support/progress.h"
 #include "prt/tracer.h"
@@ -9,19 +9,19 @@
 namespace prt {
 
 struct AdaptiveResult {
-    Transfer transfer;               ///< of the receivers on surfaces
-    Transfer half;                   ///< by the first half of the rays of each
-    std::vector<std::uint32_t> rays; ///< [receivers]
-    std::size_t rays_checked = 0;    ///< traced beside them, to estimate errors
-    double error = 0;                ///< estimated relative L2 of the transfer
-    bool reached = false;            ///< the target
+    Transfer transfer;               ///< transfer of the receivers on surfaces
+    Transfer half;                   ///< transfer from the first half of each receiver's rays
+    std::vector<std::uint32_t> rays; ///< [receivers] number of rays
+    std::size_t rays_checked = 0;    ///< additional rays that estimated errors
+    double error = 0;                ///< estimated relative L2 error of the transfer
+    bool reached = false;            ///< the target was reached
 };
 
-/// Direct transfer with a relative L2 error of `target`. Two independent scrambles of a few rays estimate the
-/// error of every receiver; from that the number of rays of each is planned, so that together they cost
-/// least; a sample of the receivers, traced again, tells what came out, and if it is not enough the plan is
-/// extended (docs/math.md, section 9). `left` [receivers]: factor that later means over receivers apply to
-/// the squared error of each; the target includes it.
+/// Computes direct transfer with a relative L2 error of `target`. Two independent scrambles with few rays
+/// estimate the error of every receiver, and the number of rays per receiver is planned to minimise the total
+/// cost. A sample of the receivers, traced again, measures the error that was reached; if it is too large,
+/// the plan is extended (docs/math.md, section 9). `left` [receivers]: factor that later means over receivers
+/// apply to the squared error of each; the target includes it.
 AdaptiveResult adaptive_transfer(Tracer& tracer, const Receivers& receivers, const MeshNeighbours& neighbours,
                                  std::span<const float> left, const TraceOptions& options, double target,
                                  const Progress& progress);

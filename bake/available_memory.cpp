@@ -1,4 +1,4 @@
-// Reads how much memory the machine has, and how much control groups leave of it.
+// Reads the memory of the machine and the limits of its control groups.
 
 #include "available_memory.h"
 
@@ -16,14 +16,15 @@ namespace {
 
 constexpr double kNoLimit = std::numeric_limits<double>::infinity();
 
-/// The number in `file`; no limit where there is none ("max").
+/// Returns the number in `file`; no limit if there is no number ("max").
 double limit_in(const std::filesystem::path& file) {
     std::ifstream stream(file);
     double bytes = 0;
     return stream >> bytes ? bytes : kNoLimit;
 }
 
-/// Least limit in files of that name from `folder` up to `top`. A container sees its own group as the top.
+/// Returns the smallest limit in files called `name` from `folder` up to `top`. A container sees its own
+/// group at the top.
 double least_limit(std::filesystem::path folder, const std::filesystem::path& top, const char* name) {
     double least = limit_in(top / name);
     for (; folder != top && folder.has_relative_path(); folder = folder.parent_path())
@@ -36,7 +37,7 @@ double least_limit(std::filesystem::path folder, const std::filesystem::path& to
 double control_group_limit(const std::filesystem::path& membership, const std::filesystem::path& mounted) {
     std::ifstream stream(membership);
     double least = kNoLimit;
-    for (std::string line; std::getline(stream, line);) { // hierarchy:controllers:/path
+    for (std::string line; std::getline(stream, line);) { // format: hierarchy:controllers:/path
         const std::size_t first = line.find(':'), second = line.find(':', first + 1);
         if (first == std::string::npos || second == std::string::npos)
             continue;

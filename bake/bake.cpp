@@ -1,4 +1,4 @@
-// Bakes: plans, traces direct light, finds what is sealed in, propagates light and records what came out.
+// Runs a bake: plans, traces direct light, finds sealed receivers, propagates light and records the result.
 
 #include "prt/bake.h"
 
@@ -20,7 +20,7 @@
 namespace prt {
 namespace {
 
-/// Traces points of the surface where the plan measures errors. They also estimate the sampling error of
+/// Traces points of the surface if the plan measures errors. The points also estimate the sampling error of
 /// direct light at receivers.
 std::optional<ErrorCheck> check_errors(const BakePlan& plan, Tracer& tracer, Measured& measured,
                                        const std::stop_token& stop) {
@@ -34,7 +34,7 @@ std::optional<ErrorCheck> check_errors(const BakePlan& plan, Tracer& tracer, Mea
     return check;
 }
 
-/// Receivers whose light is not what their own rays gathered: inside geometry, and of media.
+/// Marks receivers whose light is not gathered by their own rays: receivers inside geometry and on media.
 std::vector<bool> not_told_by_rays(const BakePlan& plan, const SealedIn& sealed) {
     std::vector<bool> out(plan.receivers().size());
     for (const std::uint32_t p : sealed.receivers)
@@ -45,14 +45,14 @@ std::vector<bool> not_told_by_rays(const BakePlan& plan, const SealedIn& sealed)
     return out;
 }
 
-/// Exit light of the sky, and of lamps in the same transfer.
+/// Exit transfer after all bounces, with lamps in the same vectors.
 struct ExitLight {
     Propagated all;
     ErrorCheck::Bounced at_points;
     BakeNoise noise;
 };
 
-/// `points`: where errors are measured; may be null.
+/// Propagates measured light. `points`: gathers at the points where errors are measured; may be null.
 ExitLight exit_light(const BakePlan& plan, Measured& measured, const TransportOperators& operators,
                      const GatherOperator* points, const Progress& progress) {
     const std::vector<bool> left_out = not_told_by_rays(plan, measured.sealed);

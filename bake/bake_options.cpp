@@ -1,4 +1,4 @@
-// Refuses options that make no bake, and makes what they ask for.
+// Validates BakeOptions.
 
 #include "bake_options.h"
 

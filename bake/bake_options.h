@@ -1,10 +1,12 @@
 #pragma once
 
+// Validation of BakeOptions.
+
 #include "prt/bake.h"
 
 namespace prt {
 
-/// Throws `Error` for options outside their range, and for those that do not go together.
+/// Throws `Error` for options outside their range, and for options that cannot be combined.
 void check_options(const BakeOptions& options);
 
 } // namespace prt

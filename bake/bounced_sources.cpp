@@ -1,4 +1,4 @@
-// Bounces light between the vertices of a scene, all but once.
+// Computes all bounces between the vertices of a scene except the last one.
 
 #include "bounced_sources.h"
 

@@ -1,6 +1,6 @@
 #pragma once
 
-// Light that leaves the surfaces of a scene and has one bounce to go: what texels and probes gather.
+// Light that leaves the surfaces of a scene before its last bounce. Texels and probes gather it.
 
 #include "lamps/lamp_rows.h"
 #include "plan.h"
@@ -10,15 +10,16 @@
 
 namespace prt {
 
-/// Exit transfer of all receivers of a plan, on both sides of surfaces, before the last bounce; of no
-/// receivers where there is no such light.
+/// Exit transfer of all receivers of a plan, on both sides of surfaces, before the last bounce. A transfer
+/// without receivers means that there is no such light.
 struct BouncedSources {
     Transfer sky, lamps;
-    std::optional<LampConnections> connections; ///< for the last bounce of lamps, where there is one
-    int bounces = 0;                            ///< done, with the last
-    std::size_t rays = 0;                       ///< traced
+    std::optional<LampConnections> connections; ///< connections for the last bounce of lamps, if there is one
+    int bounces = 0;                            ///< number of computed bounces, including the last one
+    std::size_t rays = 0;                       ///< all traced rays
 };
 
+/// Measures light at the receivers of `plan` and propagates it up to the last bounce.
 BouncedSources bounced_sources(const BakePlan& plan, Tracer& tracer, const Progress& progress);
 
 } // namespace prt

@@ -1,4 +1,4 @@
-// Traces direct light: with as many rays everywhere, or with as many as each receiver needs.
+// Traces direct light with the same number of rays everywhere, or with an adaptive number per receiver.
 
 #include "direct.h"
 
@@ -15,7 +15,7 @@
 namespace prt {
 namespace {
 
-/// Finds the rays that each receiver needs, and their direct light: [receivers].
+/// Traces direct light with an adaptive number of rays. Returns that number, [receivers].
 std::vector<std::uint32_t> trace_adaptively(const BakePlan& plan, Tracer& tracer, const TraceOptions& options,
                                             std::span<const float> left, DirectLight& direct,
                                             const Progress& progress) {

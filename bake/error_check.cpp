@@ -1,4 +1,4 @@
-// Compares interpolated transfer with light that is traced anew at points between vertices.
+// Compares interpolated transfer with light that is traced again at points between vertices.
 
 #include "error_check.h"
 
@@ -19,8 +19,9 @@
 namespace prt {
 namespace {
 
-/// Points: one per kReceiversPerPoint receivers, clamped to these limits. Each half traces as many rays as a
-/// receiver has. With a quarter of them the estimate varied by 20 % between seeds, with all of them by 6 %.
+/// Number of points: one per kReceiversPerPoint receivers, clamped to these limits. Each half traces the
+/// number of rays of a receiver. With a quarter of these rays the estimate varied by 20 % between seeds, with
+/// all of them by 6 %.
 constexpr std::size_t kReceiversPerPoint = 64, kMinPoints = 288, kMaxPoints = 2048;
 /// Limits the cost in small scenes with many rays: a half of the check traces at most this share of the rays
 /// of the bake, unless that is less than kMinCapped rays per point.
@@ -31,7 +32,7 @@ constexpr int kShareOfLook = 64;
 /// Multiples of kSecondScramble, added to the seed; no other part of a bake uses them.
 constexpr std::uint64_t kFirstHalf = 7, kSecondHalf = 8, kLookScramble = 9;
 
-/// Repeats values of one channel for all `channels`; copies those that have as many already.
+/// Repeats values of one channel for all `channels`; copies values that already have all channels.
 std::vector<float> in_channels(std::span<const float> values, std::size_t channels, std::size_t columns) {
     std::vector<float> wide;
     for (std::size_t c = 0; c < channels; ++c) {
@@ -54,7 +55,7 @@ std::vector<float> difference(std::span<const float> a, std::span<const float> b
     return result;
 }
 
-/// (baked - first) · (baked - second): the squared error without the noise of the halves.
+/// Returns (baked - first) · (baked - second): the squared error without the noise of the halves.
 double squared_error(std::span<const float> baked, std::span<const float> first,
                      std::span<const float> second) {
     return product(difference(baked, first), difference(baked, second));
@@ -65,7 +66,8 @@ double squared_error(std::span<const float> baked, std::span<const float> first,
 ErrorCheck::ErrorCheck(const BakePlan& plan, Tracer& tracer, const Measured& measured,
                        const std::stop_token& stop)
     : plan_(plan) {
-    std::optional<EmbreeTracer> other; // depth maps are checked by rays, which do not share their error
+    std::optional<EmbreeTracer> other; // depth maps are checked by rays, which do not have the error of depth
+                                       // maps
     Tracer& rays = tracer.notes_hits() ? tracer : static_cast<Tracer&>(other.emplace(plan.scene));
     choose_points(rays, measured, stop);
     add_backs();
@@ -98,7 +100,7 @@ SurfaceSamples ErrorCheck::look(Tracer& tracer, const Transfer& sky, const Surfa
         sum += squares[s];
     }
     const double mean = sum / static_cast<double>(many.size());
-    for (double& square : squares) // half of the points ignore what was seen
+    for (double& square : squares) // half of the points ignore the traced light
         square += mean + std::numeric_limits<double>::min();
     return pick_samples(many, squares, count);
 }
@@ -145,7 +147,8 @@ void ErrorCheck::choose_points(Tracer& tracer, const Measured& measured, const s
     }
 }
 
-/// Adds backs in nodes whose backs light reaches: nobody sees the others. Sheets that pass light need both.
+/// Adds back sides in nodes whose backs light reaches; nobody sees the others. Thin sheets that transmit
+/// light need both sides.
 void ErrorCheck::add_backs() {
     std::vector<Point*> two_sided;
     std::vector<std::uint32_t> triangles;
@@ -261,7 +264,7 @@ double ErrorCheck::sampling_error() const {
     for (const Point& point : points_) {
         const std::span<const float> first = sky_[0].vector(point.front),
                                      second = sky_[1].vector(point.front);
-        noise += point.area * squared_distance(first, second) / 2; // both have it
+        noise += point.area * squared_distance(first, second) / 2; // both halves have this noise
         norm += point.area * product(first, second);
     }
     // The squared noise of nets of n rays falls as n^-1.5.
@@ -336,7 +339,8 @@ void ErrorCheck::add_lamps(const Point& point, const Value& x, const Halves& hal
     sums.nodes[node_of(point)].lamps.add(point.area, all.error, all.norm);
 }
 
-/// Only where light arrives without a bounce: insides of solids get none, but for what is interpolated.
+/// Adds the error on a back side, only if light arrives there without a bounce: insides of solids get only
+/// interpolated light.
 void ErrorCheck::add_back(const Point& point, const Value& x, const Bounced& bounced, Sums& sums) const {
     Sums::Node& node = sums.nodes[node_of(point)];
     const Halves sky = halves(point, true, sky_, bounced.sky, plan_.channels);

@@ -1,6 +1,6 @@
 #pragma once
 
-// The error of a bake, measured at points over the surface.
+// Measures the error of a bake at points over the surface.
 
 #include "error_sums.h"
 #include "measured_light.h"
@@ -16,35 +16,36 @@
 
 namespace prt {
 
-/// Points between vertices whose light is traced anew, twice and independently: the product of both
-/// differences from what is interpolated there has no noise of these rays in its mean (docs/math.md, section
-/// 9). Points inside geometry, where no light comes, and those over media are left out.
+/// Points between vertices whose light is traced again in two independent halves: the product of their
+/// differences from the interpolated light has no noise of these rays in its mean (docs/math.md, section 9).
+/// Points inside geometry, where no light arrives, and points on media are excluded.
 class ErrorCheck {
 public:
     /// Chooses points where measured light varies, and traces them. Keeps a reference to `plan`.
     ErrorCheck(const BakePlan& plan, Tracer& tracer, const Measured& measured, const std::stop_token& stop);
 
-    /// Gathers exit light at the points; null where nothing bounces.
+    /// Operator that gathers exit light at the points; null if no light bounces.
     const GatherOperator* gather() const { return gather_ ? &*gather_ : nullptr; }
     std::size_t rays() const { return rays_; }
 
-    /// Relative L2 of direct light by as many rays as a receiver has.
+    /// Relative L2 error of direct light with the number of rays of a receiver.
     double sampling_error() const;
 
-    /// Light at the rows of `gather` after a bounce, [rows][channels][columns]; empty: none.
+    /// Light at the rows of `gather` after a bounce, [rows][channels][columns]; empty: no such light.
     struct Bounced {
         std::vector<float> sky, lamps;
     };
+    /// Compares the baked transfer with the light at the points.
     BakeErrors compare(const Transfer& baked, const Bounced& bounced) const;
 
 private:
     struct Point {
         SamplePlace place;
-        double area;                       ///< m², that it stands for
-        std::uint32_t front;               ///< row
-        std::optional<std::uint32_t> back; ///< row of the other side, where that scatters too
+        double area;                       ///< m² that the point represents
+        std::uint32_t front;               ///< row of the front side
+        std::optional<std::uint32_t> back; ///< row of the back side, if the back scatters light
     };
-    /// Light without a bounce and all light, [channels][columns], of one side.
+    /// Light of one side without a bounce, and all light, [channels][columns].
     struct Light {
         std::vector<float> unbounced, all;
     };
@@ -66,7 +67,8 @@ private:
     };
 
     void choose_points(Tracer& tracer, const Measured& measured, const std::stop_token& stop);
-    /// About `count` of `many`, more often where a few rays differ from what is interpolated of `sky`.
+    /// Selects about `count` of `many`, with a higher probability where a few rays differ from the
+    /// interpolated `sky`.
     SurfaceSamples look(Tracer& tracer, const Transfer& sky, const SurfaceSamples& many, std::size_t count,
                         const std::stop_token& stop);
     void add_backs();
@@ -85,8 +87,8 @@ private:
 
     const BakePlan& plan_;
     std::vector<Point> points_;
-    Receivers rows_;                       ///< fronts, then backs
-    std::array<Transfer, 2> sky_, lamps_;  ///< of rows, without a bounce, by each half
+    Receivers rows_;                       ///< front sides, then back sides
+    std::array<Transfer, 2> sky_, lamps_;  ///< light at the rows without a bounce, from each half
     std::optional<GatherOperator> gather_; ///< rows of the first half, then of the second
     double half_share_ = 1;                ///< rays of a half, relative to those of a receiver
     std::size_t rays_ = 0;

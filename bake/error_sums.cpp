@@ -1,4 +1,4 @@
-// Ratio of two sums over random points, and its standard error by the points' deviations from the ratio.
+// Computes the ratio of two sums over random points, and its standard error from the points' deviations.
 
 #include "error_sums.h"
 
@@ -30,7 +30,8 @@ BakeErrors::Error ErrorSums::relative(const ErrorSums& scene) const {
         const double off = errors_[i] - ratio * norms_[i];
         squares += off * off;
     }
-    // The relative error of a root is half that of its square, except where the square is nearly 0.
+    // The relative error of a square root is half the relative error of the square, except where the square
+    // is nearly 0.
     const double spread = std::sqrt(squares) / norm;
     result.relative_l2 = std::sqrt(ratio);
     result.standard_error = std::min(spread / std::max(2 * result.relative_l2, 1e-12), std::sqrt(spread));

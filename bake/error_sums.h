@@ -1,5 +1,7 @@
 #pragma once
 
+// Sums of squared errors over random points.
+
 #include "prt/bake.h"
 
 #include <cstddef>
@@ -7,17 +9,17 @@
 
 namespace prt {
 
-/// Errors from squared errors and squared norms at points.
+/// Computes relative errors from squared errors and squared norms at points.
 class ErrorSums {
 public:
-    /// `area`: that the point stands for, m².
+    /// Adds a point. `area`: the area that it represents, m².
     void add(double area, double error, double norm) {
         errors_.push_back(area * error);
         norms_.push_back(area * norm);
         area_ += area;
     }
     std::size_t points() const { return errors_.size(); }
-    /// Relative to their own light and to that of `scene` per area.
+    /// Error relative to the light at these points, and to the light of `scene` per area.
     BakeErrors::Error relative(const ErrorSums& scene) const;
     BakeErrors::Error relative() const { return relative(*this); }
 

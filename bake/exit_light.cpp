@@ -1,4 +1,4 @@
-// Adds bounces to measured light, and takes the back sides of surfaces off.
+// Adds bounces to measured light, and removes the back sides of surfaces.
 
 #include "exit_light.h"
 
@@ -18,16 +18,16 @@
 namespace prt {
 namespace {
 
-/// Exit transfer of the scene's receivers from that of both sides of its surfaces.
+/// Converts exit transfer of both sides of surfaces to that of the scene's receivers, in place.
 void leave_back_sides(const BakePlan& plan, Transfer& exit) {
     if (plan.scene.surfaces().traits().transmission)
         add_transmission(exit, plan.scene.surfaces(), *plan.transport);
     exit.vectors.resize(plan.transport->fronts * exit.dimension());
 }
 
-constexpr float kReflectsAll = 0.999f; ///< base colors above are as good as 1
+constexpr float kReflectsAll = 0.999f; ///< base colors above this count as 1
 
-/// Names of the nodes whose surfaces reflect all light of some color, some of them.
+/// Returns names of nodes, at most kNamed, whose surfaces reflect all light of some color.
 std::string nodes_that_reflect_all(const Surfaces& surfaces) {
     constexpr std::size_t kNamed = 4;
     std::vector<std::string> names;
@@ -45,8 +45,9 @@ std::string nodes_that_reflect_all(const Surfaces& surfaces) {
     return fmt::format("{}", fmt::join(names, ", "));
 }
 
-/// Light of a lamp in a closed room whose walls reflect all of it grows without end. Operators of bounces are
-/// not negative, so that a solution with negative light is no sum over bounces.
+/// Throws `EndlessLampLight` if endless bounces did not converge. The light of a lamp grows without limit in
+/// a closed room whose walls reflect all of it. Operators of bounces are not negative, so that a solution
+/// with negative light is not a sum over bounces.
 void check_converged(const BakePlan& plan, const Propagated& lit, int bounces) {
     if (bounces != kEndlessBounces)
         return;
@@ -62,12 +63,12 @@ void check_converged(const BakePlan& plan, const Propagated& lit, int bounces) {
                         nodes_that_reflect_all(plan.scene.surfaces())));
 }
 
-/// Whether bounces treat each color of lamps alone, one after the other.
+/// Whether bounces process the color channels of lamps separately, one after the other.
 bool colors_apart(const BakePlan& plan, const Transfer& light) {
     return plan.channels == 1 && light.layout.channels() == 3;
 }
 
-/// One result of those of three colors, each of one channel.
+/// Joins the results of three channels into one result with three channels.
 Propagated in_color(const Propagated& red, const Propagated& green, const Propagated& blue) {
     Propagated all{.transfer = in_color(red.transfer, green.transfer, blue.transfer)};
     const std::size_t columns = red.transfer.dimension();
@@ -87,7 +88,7 @@ Propagated in_color(const Propagated& red, const Propagated& green, const Propag
     return all;
 }
 
-/// One channel of light at samples.
+/// Extracts one channel of light at samples.
 SampledLight one_channel(const SampledLight& light, std::size_t channels, std::size_t channel) {
     const auto slice = [&](const std::vector<float>& all, std::size_t stride) {
         std::vector<float> part;
@@ -104,7 +105,8 @@ SampledLight one_channel(const SampledLight& light, std::size_t channels, std::s
             .values = slice(light.values, light.tests)};
 }
 
-/// Sharp light of lamps. It has one channel, or as many channels as the bounces.
+/// Propagates lamps at samples of the surface. The light has one channel, or the same number of channels as
+/// the bounces.
 SharpTransfer sharp_lamps(const BakePlan& plan, Transfer smooth, const SampledLight& sampled,
                           const GatherOperator* last, const TransportOperators& operators,
                           const Progress& progress) {
@@ -137,7 +139,7 @@ SharpTransfer sharp_lamps_in_color(const BakePlan& plan, const Transfer& smooth,
     return {in_color(red.direct, green.direct, blue.direct), in_color(red.exit, green.exit, blue.exit)};
 }
 
-/// Operators that gather the last bounce at other rows, too.
+/// Adds `rows` to the operators, so that they gather the last bounce there, too.
 TransportOperators with_rows(TransportOperators operators,
                              std::initializer_list<const GatherOperator*> rows) {
     for (const GatherOperator* one : rows)
@@ -146,7 +148,7 @@ TransportOperators with_rows(TransportOperators operators,
     return operators;
 }
 
-/// Root of the sum of squares over the surface of the light that is written of a lamp.
+/// Root of the sum of squares over the surface of a lamp's light that is written.
 double norm_of_lamp(const BakePlan& plan, const Transfer& light, const Transfer& unbounced,
                     std::size_t lamp) {
     const auto channels = static_cast<std::size_t>(light.layout.channels());
@@ -162,7 +164,7 @@ double norm_of_lamp(const BakePlan& plan, const Transfer& light, const Transfer&
     return std::sqrt(sum);
 }
 
-/// Light of lamps at receivers after all bounces.
+/// Computes light of lamps at receivers after all bounces.
 Propagated lamps_at_receivers(const BakePlan& plan, Transfer light, const std::optional<LampRows>& rows,
                               const TransportOperators& operators, const Beside& beside,
                               const Progress& progress) {
@@ -187,7 +189,7 @@ Propagated lamps_at_receivers(const BakePlan& plan, Transfer light, const std::o
     return lit;
 }
 
-/// Exit light after all bounces, and incident light without a bounce where it will be subtracted.
+/// Computes exit light after all bounces, and incident light without a bounce if it will be subtracted.
 SharpTransfer lit_by_lamps(const BakePlan& plan, Measured& measured, const TransportOperators& operators,
                            const Beside& beside, const Progress& progress) {
     Transfer& light = measured.lamps.light.transfer;
@@ -209,17 +211,17 @@ SharpTransfer lit_by_lamps(const BakePlan& plan, Measured& measured, const Trans
     return lit;
 }
 
-/// Noise over half of the difference between two halves of a net: 0.74 where squares of the noise of n rays
-/// fall as n^-1.5, as the halves then fit together.
+/// Noise of a whole net over half of the difference between its two halves: 0.74 if the squared noise of n
+/// rays falls as n^-1.5, because both halves then complement each other.
 constexpr float kNoiseOfHalves = 0.75f;
 
-/// Filters light of a sky at receivers, of which `direct` is without a bounce. `gathered` is what half of the
-/// rays gather, as `all`; empty: no bounces.
+/// Filters the sky's light `all` at receivers; `direct` is its part without a bounce. `gathered` has the
+/// layout of `all` and contains light that half of the rays gather; empty: no bounces.
 void filter_sky(const NoiseFilter& filter, const HalfOfRays& half, std::span<const float> gathered,
                 Transfer& direct, Transfer& all, BakeNoise& left) {
     const std::size_t stride = all.dimension(), columns = direct.dimension();
     TellingColumns telling = columns_of_sky(columns);
-    if (stride > columns) // green of three channels
+    if (stride > columns) // the green channel
         for (std::size_t& c : telling.columns)
             c += columns;
     const auto of_direct = [&](std::uint32_t p, std::size_t c) {
@@ -239,7 +241,8 @@ void filter_sky(const NoiseFilter& filter, const HalfOfRays& half, std::span<con
                 .sky = filter.norm(solver, telling, of_all) / norm,
                 .direct = filter.norm(solver, telling, of_direct) / norm,
                 .indirect = filter.norm(solver, telling, of_rest) / norm};
-    // Channel by channel: columns are solved in groups, and what is the same in both stays so.
+    // Channel by channel: columns are solved in groups, and columns that are equal in two channels remain
+    // equal.
     for (std::size_t first = 0; first < stride; first += columns)
         filter.apply(
             solver, columns, [&](std::uint32_t p, std::size_t c) { return all.vector(p)[first + c]; },

@@ -1,6 +1,6 @@
 #pragma once
 
-// Light that leaves the receivers of a plan, after all bounces.
+// Light that leaves the receivers of a plan after all bounces.
 
 #include "lamps/lamp_bounces.h"
 #include "measured_light.h"
@@ -9,28 +9,29 @@
 
 namespace prt {
 
-/// Optional work of a bake beside bounces between receivers; null: not done. `noise` is needed where
+/// Optional work of a bake in addition to bounces between receivers; null: not done. `noise` is needed if
 /// `measured` has halves of rays or rows of lamps.
 struct Beside {
     const GatherOperator* points = nullptr;      ///< gathers at points where errors are measured
-    const NoiseFilter* filter = nullptr;         ///< of light at receivers
-    const std::vector<bool>* left_out = nullptr; ///< [receivers] those whose rays do not tell their light
-    BakeNoise* noise = nullptr;                  ///< takes what is left
+    const NoiseFilter* filter = nullptr;         ///< filters light at receivers
+    const std::vector<bool>* left_out = nullptr; ///< [receivers] receivers whose own rays do not determine
+                                                 ///< their light
+    BakeNoise* noise = nullptr;                  ///< receives the noise that is left
 };
 
-/// Exit transfer of the scene's receivers in its parts: direct, and all bounces and subsurface scattering.
-/// Takes the light out of `measured`. Propagated::beside: light at `points`.
+/// Computes exit transfer of the scene's receivers in its parts: direct light, and all bounces with
+/// subsurface scattering. Moves the light out of `measured`. Propagated::beside holds the light at `points`.
 Propagated propagate_all(const BakePlan& plan, Measured& measured, const TransportOperators& operators,
                          const Beside& beside, const Progress& progress);
 
-/// Smooth exit light of lamps of all receivers of the plan, on both sides of surfaces, after `bounces`
-/// bounces. Throws `Error` where endless bounces do not converge.
+/// Computes exit light of lamps without sharp features for all receivers of the plan, on both sides of
+/// surfaces, after `bounces` bounces. Throws `Error` if endless bounces do not converge.
 Propagated propagate_lamps_on_both_sides(const BakePlan& plan, Transfer light,
                                          const TransportOperators& operators, int bounces,
                                          const Progress& progress);
 
-/// Exit light of lamps after all bounces, of the scene's receivers, as above. Throws `Error` where endless
-/// bounces do not converge.
+/// Computes exit light of lamps after all bounces for the scene's receivers. Moves the light out of
+/// `measured`. Throws `Error` if endless bounces do not converge.
 Propagated propagate_lamps(const BakePlan& plan, Measured& measured, const TransportOperators& operators,
                            const Beside& beside, const Progress& progress);
 

@@ -1,4 +1,5 @@
-// Measures light before it bounces: at receivers or over the surface between them, and what is sealed in.
+// Measures light before it bounces, at receivers or over the surface between them, and finds sealed
+// receivers.
 
 #include "measured_light.h"
 
@@ -11,10 +12,10 @@
 namespace prt {
 namespace {
 
-/// Receivers that are sealed in take the light of their neighbours, where they shall.
+/// Finds sealed receivers. They take the light of their neighbours if the options request it.
 SealedIn find_sealed_in(const BakePlan& plan, Tracer& tracer, const Transfer& direct,
                         const std::stop_token& stop) {
-    // Depth maps do not resolve the last hundredth.
+    // Depth maps do not resolve the last hundredth of visibility.
     const double darkest = tracer.method() == BakeMethod::trace ? 0 : 0.01 * kY00;
     std::vector<std::uint32_t> dark;
     for (const std::uint32_t p : receivers_on_surfaces(plan.receivers()))
@@ -34,7 +35,7 @@ SealedIn find_sealed_in(const BakePlan& plan, Tracer& tracer, const Transfer& di
     return found;
 }
 
-/// Asks points between vertices whether to fit, where that is not said.
+/// Decides whether to fit; traces test points between vertices if the options leave the choice open.
 FitChoice fit_choice(const BakePlan& plan, Tracer& tracer, BakeStatistics& statistics,
                      const Progress& progress) {
     const BakeOptions& options = plan.options;

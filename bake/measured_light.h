@@ -1,6 +1,6 @@
 #pragma once
 
-// Light as a bake measures it, before it bounces.
+// Light that a bake measures before it bounces.
 
 #include "direct.h"
 #include "record.h"
@@ -11,19 +11,20 @@
 
 namespace prt {
 
-/// Direct light, and how it becomes that of receivers.
+/// Direct light, and the data that convert it to light at receivers.
 struct Measured {
     DirectLight direct;
     MeasuredLamps lamps;
     SealedIn sealed;
-    std::optional<SurfaceFit> fit; ///< none: measured at receivers
-    SampledLight sky;              ///< direct light at its samples
+    std::optional<SurfaceFit> fit; ///< empty: light is measured at receivers
+    SampledLight sky;              ///< direct light at the fit's samples
     std::optional<SharedPlaces> shared =
-        {}; ///< of receivers, to take means over at the end; none: a fit does
+        {}; ///< groups of receivers to average at the end; empty: a fit replaces them
 };
 
-/// Measures where `plan.options.fit` says. Rays that were spent on finding out where count in `statistics`.
-/// `last`: whether the last bounce of lamps is to be gathered at the same places (DirectLight::lamps).
+/// Measures light at the positions that `plan.options.fit` selects. Rays for this choice are counted in
+/// `statistics`. `last`: whether to gather the last bounce of lamps at the same positions
+/// (DirectLight::lamps).
 Measured measure(const BakePlan& plan, Tracer& tracer, LastOfLamps last, BakeStatistics& statistics,
                  const Progress& progress);
 

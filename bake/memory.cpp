@@ -1,5 +1,5 @@
-// Estimates the bytes of a bake before they are asked for: a bake that does not fit would be killed at its
-// end.
+// Estimates the bytes of a bake before they are allocated: the system would end a bake that does not fit
+// after most of its work.
 
 #include "memory.h"
 
@@ -29,13 +29,13 @@ double estimate_memory(const BakeOptions& options, std::size_t receivers, std::s
                        std::size_t numbers) {
     const auto count = static_cast<double>(receivers);
     const double vector = 4.0 * static_cast<double>(numbers);
-    // The transfer itself, once more in the file being written and once more joined to it.
+    // The transfer itself, a copy in the file being written, and a copy joined to the file.
     double bytes = 3 * count * vector;
     if (options.target_error)
         bytes += 3 * count * vector;
-    // Embree's tree of high quality, our tables of triangles, the scene, its neighbours.
+    // Embree's hierarchy of high quality, our tables of triangles, the scene, its neighbours.
     bytes += 400.0 * static_cast<double>(triangles) + 150 * count;
-    // The solver takes all light together, in three channels at most.
+    // The solver processes all light together, in at most three channels.
     const double solved = std::min(3.0, static_cast<double>(numbers) / coefficient_count(options.order));
     if (options.bounces == kEndlessBounces)
         bytes +=

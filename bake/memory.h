@@ -1,15 +1,15 @@
 #pragma once
 
-// Whether a bake fits into memory.
+// Checks whether a bake fits into memory.
 
 #include "plan.h"
 
 namespace prt {
 
-/// Throws `Error` where what `plan` needs and `more` bytes, as of the operator of its bounces, do not fit.
+/// Throws `Error` if the memory of `plan` and `more` bytes, for example of its gather operator, do not fit.
 void check_memory(const BakePlan& plan, double more = 0);
 
-/// Whether they fit, when the machine tells how much there is.
+/// Whether the memory of `plan` and `more` bytes fit; false if the available memory is unknown.
 bool fits_memory(const BakePlan& plan, double more);
 
 } // namespace prt

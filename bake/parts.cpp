@@ -1,5 +1,5 @@
-// Keeps direct light apart from what bounced: suns can then be lit sharply, and each part has only the
-// channels that it needs.
+// Separates direct light from bounced light: suns can then be lit with sharp shadows, and each part has only
+// the channels that it needs.
 
 #include "parts.h"
 
@@ -27,7 +27,7 @@ bool is_zero(const Transfer& transfer) {
     return std::all_of(transfer.vectors.begin(), transfer.vectors.end(), [](float v) { return v == 0; });
 }
 
-/// `all` without `direct`.
+/// Returns `all` minus `direct`.
 Transfer rest_of(const Transfer& direct, const Transfer& all) {
     Transfer rest = all;
     rest.layout.parts.front().kind = PartKind::indirect;
@@ -35,12 +35,12 @@ Transfer rest_of(const Transfer& direct, const Transfer& all) {
     for (std::size_t p = 0; p < rest.receivers(); ++p) {
         const std::span<float> to = rest.vector(p);
         for (std::size_t i = 0; i < to.size(); ++i)
-            to[i] -= direct.vector(p)[i % stored]; // its one channel serves all
+            to[i] -= direct.vector(p)[i % stored]; // the only channel of `direct` serves all channels
     }
     return rest;
 }
 
-/// Whether coefficients [first, first + count) are the same in all channels.
+/// Whether coefficients [first, first + count) are equal in all channels.
 bool are_grey(const Transfer& transfer, std::size_t first, std::size_t count) {
     if (transfer.layout.channels() == 1)
         return true;
@@ -88,7 +88,7 @@ Transfer joined(const Transfer& direct, const Transfer& rest) {
 Transfer with_lamps(const Transfer& sky, const Transfer& light, const std::vector<Lamp>& lamps) {
     const std::size_t stride = channel_size(light);
     TransferLayout layout = sky.layout;
-    if (is_zero(sky)) // no sky comes in
+    if (is_zero(sky)) // no light of the sky arrives
         layout.parts.clear();
     const std::size_t of_sky = layout.dimension();
     for (std::size_t k = 0; k < lamps.size(); ++k)

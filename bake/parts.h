@@ -1,36 +1,37 @@
 #pragma once
 
-// Exit transfer taken apart: what arrives without a bounce, and the rest (docs/math.md, section 7).
+// Splits exit transfer into light that arrives without a bounce and the rest (docs/math.md, section 7).
 
 #include "plan.h"
 #include "scene/refill.h"
 
 namespace prt {
 
-/// Exit transfer without bounces and media, of all receivers of `plan`: `incident` light, one channel, with
-/// `refill`. Dark where all light goes through a medium.
+/// Computes exit transfer without bounces and media for all receivers of `plan`: `incident` light with one
+/// channel, after `refill`. Receivers on media are dark, because all their light passes the medium.
 Transfer exit_without_bounces(const BakePlan& plan, Transfer incident, const Refill& refill);
 
-/// `all` exit transfer with the part `direct` apart from the rest; a part that is nothing is left out
-/// beside another. Both of the same receivers; `direct` may have one channel where `all` has three.
+/// Splits `all` exit transfer into the part `direct` and the rest. A part that is zero is omitted if the
+/// other is not. Both have the same receivers; `direct` may have one channel if `all` has three.
 Transfer in_parts(const Transfer& direct, const Transfer& all);
 
-/// The part `direct` and the part `rest`, but for one that is nothing beside another.
+/// Joins the part `direct` and the part `rest`. A part that is zero is omitted if the other is not.
 Transfer joined(const Transfer& direct, const Transfer& rest);
 
-/// `sky` transfer with a part for each of `lamps` behind, whose light is coefficient k of `light`; of as many
-/// channels as it needs. Throws `Error` where floats of a file do not hold it.
+/// Appends a part for each of `lamps` to `sky` transfer. The light of lamp k is coefficient k of `light`; its
+/// part has one channel if the light is white, otherwise three. Throws `Error` if a value exceeds the range
+/// of the file format.
 Transfer with_lamps(const Transfer& sky, const Transfer& light, const std::vector<Lamp>& lamps);
 
-/// `transfer` of one part in one channel where all three are the same.
+/// Converts `transfer` of one part to one channel if its three channels are equal.
 Transfer narrowed(Transfer transfer);
 
-/// `colored` transfer of one part: one of its channels.
+/// Extracts one channel of `colored` transfer of one part.
 Transfer one_channel(const Transfer& colored, int channel);
 
-/// Three channels of one part.
+/// Joins three channels of one part.
 Transfer in_color(const Transfer& red, const Transfer& green, const Transfer& blue);
-/// `white` in three equal channels.
+/// Copies `white` to three equal channels.
 inline Transfer in_color(const Transfer& white) {
     return in_color(white, white, white);
 }

@@ -1,4 +1,4 @@
-// Decides what a bake of a scene takes.
+// Plans a bake: media, textures, bounces, channels and lamps of a scene.
 
 #include "plan.h"
 

@@ -1,6 +1,6 @@
 #pragma once
 
-// What a bake will do, known before the first ray.
+// Properties of a bake that are known before the first ray.
 
 #include "lamps/choose_lamps.h"
 #include "prt/bake.h"
@@ -16,43 +16,44 @@
 
 namespace prt {
 
-/// What is inside of each material, in the scene's unit: [materials].
+/// Medium inside each material, in the scene's unit: [materials].
 using Media = std::vector<std::optional<Medium>>;
 
-/// The media of the scene's materials, and those that `options` choose instead.
+/// Returns the media of the scene's materials; `options` may replace them.
 Media choose_media(const Scene& scene, const BakeOptions& options);
 
-/// `scene` with the textures that a bake needs.
+/// Loads the textures that a bake of `scene` needs.
 TraceScene trace_scene(const Scene& scene, const Media& media, const BakeOptions& options);
 
-/// Only what the scene needs: bounces, back sides and color.
+/// Plan of a bake: bounces, back sides and color only as far as the scene needs them.
 struct BakePlan {
     const TraceScene& scene;
     const BakeOptions& options;
-    bool measures_errors = false;                        ///< of this bake, and so that of sampling
-    int bounces = 0;                                     ///< or kEndlessBounces
-    int channels = 1;                                    ///< of all light together
-    std::unique_ptr<const TransportReceivers> transport; ///< stays where it is: operators keep references
+    bool measures_errors = false;                        ///< measure the errors of this bake, and estimate
+                                                         ///< its sampling error from the same points
+    int bounces = 0;                                     ///< number of bounces, or kEndlessBounces
+    int channels = 1;                                    ///< channels of all light together
+    std::unique_ptr<const TransportReceivers> transport; ///< must not move, because operators keep references
     std::vector<DiffusionOperator> diffusion;            ///< one for each medium of each node
     std::vector<Lamp> lamps;
     std::vector<std::string> notices;
 
-    /// Those of the scene, then back sides.
+    /// Receivers of the scene, then back sides.
     const Receivers& receivers() const { return transport->receivers; }
-    /// Direct light is colored by sheets alone that it comes through.
+    /// Channels of direct light, which is colored only by thin sheets that it passes.
     int direct_channels() const;
-    /// Of the light of lamps.
+    /// Channels of the light of lamps.
     int lamp_channels() const;
-    /// Of a transfer vector, at most.
+    /// Maximum length of a transfer vector.
     std::size_t numbers() const;
-    /// Of the scene's receivers.
+    /// Areas of the scene's receivers.
     std::span<const float> areas() const { return std::span(receivers().areas).first(transport->fronts); }
 };
 
-/// What materials have that a bake leaves out, a line each.
+/// Returns properties of materials that a bake ignores, one line each.
 std::vector<std::string> scene_notices(const TraceScene& scene, const BakeOptions& options);
 
-/// Keeps references to `scene` and `options`.
+/// Plans a bake. Keeps references to `scene` and `options`.
 BakePlan plan_bake(const TraceScene& scene, const Media& media, const BakeOptions& options);
 
 } // namespace prt

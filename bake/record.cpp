@@ -1,4 +1,4 @@
-// Writes down how a bake was made, and stores it in as few bits as its noise asks for.
+// Records the options of a bake, and selects the smallest storage format that its noise permits.
 
 #include "record.h"
 
@@ -11,14 +11,14 @@
 namespace prt {
 namespace {
 
-/// Receivers of the scene that rays were traced from.
+/// Number of receivers of the scene that rays were traced from.
 std::size_t traced_fronts(const BakePlan& plan) {
     const std::vector<std::uint32_t> indices = receivers_on_surfaces(plan.receivers());
     return static_cast<std::size_t>(std::lower_bound(indices.begin(), indices.end(), plan.transport->fronts) -
                                     indices.begin());
 }
 
-/// All notices in the order in which they came up.
+/// Returns all notices in the order in which they occurred.
 std::vector<std::string> notices_of(const BakePlan& plan, const DirectLight& direct, const SealedIn& sealed,
                                     const Propagated& exit) {
     std::vector<std::string> notices = plan.notices;

@@ -15,16 +15,16 @@
 namespace prt {
 namespace {
 
-/// One receiver of so many is sampled again to estimate the error of a bake, within these bounds.
+/// One of kReceiversPerCheck receivers is sampled again to estimate the error of a bake, within these limits.
 constexpr std::size_t kReceiversPerCheck = 32, kLeastChecked = 256, kMostChecked = 1024;
 
 double area_of(const Receivers& receivers, std::uint32_t p) {
     return static_cast<double>(receivers.areas[p]);
 }
 
-/// Receivers to sample again, and what each stands for. Few receivers carry most of the error: they are
-/// chosen by what they are likely to contribute. Half-open ones err most; a floor stands for what visibility
-/// does not tell.
+/// Returns the receivers to sample again, and the weight of each. Few receivers carry most of the error, so
+/// they are chosen by their likely contribution. Half-open receivers have the largest errors; a constant term
+/// covers errors that visibility does not predict.
 std::map<std::uint32_t, double> choose_receivers(const Receivers& receivers, const Transfer& transfer,
                                                  std::span<const std::uint32_t> all) {
     const auto likely = [&](std::uint32_t p) {
@@ -59,7 +59,7 @@ SamplingError sampling_error(Tracer& tracer, const Receivers& receivers, const T
     double error = 0;
     for (const auto& [p, weight] : weights) // both have the error
         error += weight * area_of(receivers, p) * squared_distance(transfer.vector(p), again.vector(p)) / 2;
-    // The norm of what was sampled has the error in it, which counts where hardly a ray finds the light.
+    // The sampled norm contains the error, which matters where hardly any ray finds the light.
     return {std::sqrt(error / std::max(norm - error, 0.1 * norm)),
             some.size() * static_cast<std::size_t>(options.rays)};
 }

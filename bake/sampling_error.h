@@ -1,6 +1,6 @@
 #pragma once
 
-// How much a bake errs by sampling.
+// Estimates the sampling error of a bake.
 
 #include "prt/tracer.h"
 
@@ -9,11 +9,11 @@
 namespace prt {
 
 struct SamplingError {
-    double error = 0;     ///< estimated relative L2
-    std::size_t rays = 0; ///< traced to find out
+    double error = 0;     ///< estimated relative L2 error
+    std::size_t rays = 0; ///< rays of the estimate
 };
 
-/// The error of `transfer`, which was sampled with `options`: some of its receivers are sampled again,
+/// Estimates the error of `transfer`, which was sampled with `options`: samples some of its receivers again,
 /// independently.
 SamplingError sampling_error(Tracer& tracer, const Receivers& receivers, const TraceOptions& options,
                              const Transfer& transfer, const std::stop_token& stop);

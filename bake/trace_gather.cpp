@@ -1,4 +1,4 @@
-// Traces the gather operator (docs/math.md, section 7), receivers of as many rays together.
+// Traces the gather operator (docs/math.md, section 7), grouping receivers by their number of rays.
 
 #include "trace_gather.h"
 
@@ -17,7 +17,7 @@ GatherOperator empty_gather(const BakePlan& plan, std::size_t rows) {
 
 struct GatherEstimate {
     double bytes = 0;
-    std::size_t rays = 0; ///< traced to find out
+    std::size_t rays = 0; ///< rays of the estimate
 };
 
 /// Estimates the bytes of the rows of all `indices` from some rays of some of them.
@@ -56,7 +56,7 @@ std::size_t check_gather_memory(const BakePlan& plan, Tracer& tracer, const Rece
     std::size_t traced = 0;
     for (const auto& [rays, members] : by_rays)
         most += static_cast<double>(members.size()) * rays * GatherOperator::kMostBytesPerRay;
-    // Through blended surfaces a ray meets any number.
+    // A ray can hit any number of blended surfaces.
     if (!plan.scene.surfaces().traits().alpha && fits_memory(plan, most * copies))
         return 0;
     for (const auto& [rays, members] : by_rays) {

@@ -1,11 +1,12 @@
-// A lat-long image in the view direction. Filtered by hand: the hardware's bilinear weights have few bits.
+// Draws a lat-long image in the view direction. Filters in the shader, because bilinear weights of the
+// hardware have few bits.
 
 #include "shared_layout.h"
 
 in vec2 position;
 
 layout(binding = PRT_UNIT_BACKGROUND) uniform sampler2D background;
-uniform vec3 forward, right, up; // right and up scaled to the edge of the picture
+uniform vec3 forward, right, up; // right and up are scaled to the edge of the picture
 uniform float rotation;          // about +Y, radians
 
 out vec4 result;

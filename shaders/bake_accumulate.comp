@@ -1,16 +1,16 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 
-// Sums over the rays of a receiver that bake_trace.comp traced (docs/math.md, eq. 9): of each chunk the spherical
-// harmonics of its blocked or of its open rays, whichever are fewer. One workgroup a receiver; a thread sums in
-// registers what its own rays give.
+// Sums over the rays of a receiver that bake_trace.comp traced (docs/math.md, eq. 9): each chunk sums the
+// spherical harmonics of its blocked rays or of its open rays, whichever are fewer. One workgroup per
+// receiver; each thread sums its own rays in registers.
 
 #include "bake_kernel.glsl"
 #include "bake_samples.glsl"
 #include "bake_sums.glsl"
 
 layout(constant_id = PRT_CONSTANT_ORDER) const int kOrder = 6;
-layout(constant_id = PRT_CONSTANT_SUBGROUPS) const uint kSubgroups = 8; // of a workgroup, at most
+layout(constant_id = PRT_CONSTANT_SUBGROUPS) const uint kSubgroups = 8; // maximum subgroups of a workgroup
 
 layout(local_size_x = PRT_BEAM) in;
 
@@ -18,12 +18,12 @@ layout(std430, binding = PRT_BINDING_RECEIVERS) readonly buffer Receivers {
     Receiver receivers[];
 };
 layout(std430, binding = PRT_BINDING_SUMS) buffer Sums {
-    // Per receiver: sum of open minus blocked, [order²], and the rays that use the control variate; where kSummed the
-    // first coefficients of the vector, [kFirst].
+    // Per receiver: sum of open minus blocked rays, [order²], and the number of rays that use the control
+    // variate; if kSummed the first coefficients of the vector, [kFirst].
     float sums[];
 };
 layout(std430, binding = PRT_BINDING_SIGNED_SUMS) buffer SignedSums {
-    int signed_sums[]; // as the others
+    int signed_sums[]; // [sums][order²] the sums with signs
 };
 layout(std430, binding = PRT_BINDING_BLOCKED) readonly buffer Blocked {
     uint blocked[];
@@ -32,8 +32,7 @@ layout(std430, binding = PRT_BINDING_SHARES) readonly buffer Shares {
     float shares[];
 };
 layout(std430, binding = PRT_BINDING_SH_FACTORS) readonly buffer ShFactors {
-    vec4 sh_factors[PRT_MOST_COEFFICIENTS]; // at PRT_SH_FACTOR(l, m): a_lm, b_lm, where l = m the sectoral factor,
-                                            // lobe's
+    vec4 sh_factors[PRT_MOST_COEFFICIENTS]; // at PRT_SH_FACTOR(l, m): a_lm, b_lm, sectoral factor (l = m), lobe factor
 };
 layout(push_constant) uniform Push {
     TracePush push;
@@ -44,14 +43,15 @@ const uint kFirst = uint(kCoefficients < PRT_FIRST_COEFFICIENTS ? kCoefficients 
 shared float partial[kSubgroups * uint(kCoefficients)];
 shared float partial_blocked[kSubgroups];
 
-// In registers: every place of it is told when the shader is compiled.
+// In registers: every index into it is known at compile time.
 float total[PRT_MOST_COEFFICIENTS];
 
 #define PRT_BANDS_FROM(m, STEP)                                                                                        \
     STEP(m, 0) STEP(m, 1) STEP(m, 2) STEP(m, 3) STEP(m, 4) STEP(m, 5) STEP(m, 6) STEP(m, 7) STEP(m, 8) STEP(m, 9)
 #define PRT_EVERY_DEGREE(WORK) WORK(0) WORK(1) WORK(2) WORK(3) WORK(4) WORK(5) WORK(6) WORK(7) WORK(8) WORK(9)
 
-// Band l of degree m by the recurrence from the bands before (docs/math.md, eq. 3), for a lobe of it times its factor.
+// Computes band l of degree m by recurrence from the previous bands (docs/math.md, eq. 3); for a lobe times
+// its factor.
 #define PRT_ADD_BAND(m, l)                                                                                             \
     if (l >= m && l < kOrder) {                                                                                        \
         vec4 factors = sh_factors[PRT_SH_FACTOR(l, m)];                                                                \
@@ -72,7 +72,7 @@ float total[PRT_MOST_COEFFICIENTS];
         cosine = turned;                                                                                               \
     }
 
-// Adds weight times the basis to `total`, or times the clamped cosine lobe.
+// Adds weight times the basis to `total`, or weight times the clamped cosine lobe.
 void add_basis(vec3 d, float weight, const bool lobe) {
     float cosine = weight, sine = 0.0;
     PRT_EVERY_DEGREE(PRT_ADD_DEGREE)
@@ -83,7 +83,7 @@ void add_basis(vec3 d, float weight, const bool lobe) {
         total[l * (l + 1) + m] = total[max(l * (l + 1) - m, 0)] = 0.0;
 #define PRT_CLEAR_DEGREE(m) PRT_BANDS_FROM(m, PRT_CLEAR_BAND)
 
-// What the subgroup has of a coefficient goes to `partial`.
+// Writes the subgroup's sum of a coefficient to `partial`.
 #define PRT_SUM(k)                                                                                                     \
     {                                                                                                                  \
         float sum = subgroupAdd(total[k]);                                                                             \
@@ -98,7 +98,7 @@ void add_basis(vec3 d, float weight, const bool lobe) {
     }
 #define PRT_SUM_DEGREE(m) PRT_BANDS_FROM(m, PRT_SUM_BAND)
 
-// The sum over the workgroup.
+// Returns the sum over the workgroup.
 float sum_of_group(float mine) {
     float sum = subgroupAdd(mine);
     if (gl_NumSubgroups > 1u) {
@@ -113,7 +113,7 @@ float sum_of_group(float mine) {
     return sum;
 }
 
-// Of this part of the receiver's rays.
+// Adds a coefficient of this part of the receiver's rays.
 void add_to_sums(uint receiver, uint k, float coefficient) {
     SumRow row = sum_rows[receiver];
     for (uint i = 0u; i < 3u; ++i)

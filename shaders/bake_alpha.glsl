@@ -10,7 +10,7 @@ layout(std430, binding = PRT_BINDING_ALPHA_MATERIALS) readonly buffer AlphaMater
     AlphaMaterial alpha_materials[];
 };
 layout(std430, binding = PRT_BINDING_ALPHA_TEXELS) readonly buffer AlphaTexels {
-    uint alpha_texels[]; // four to a word
+    uint alpha_texels[]; // four per word
 };
 
 float alpha_texel(uint first, int x, int y, int width) {
@@ -27,7 +27,7 @@ float bilinear_alpha(AlphaMaterial m, int level, vec2 uv) {
         height = max(1, height / 2);
     }
     vec2 at = uv * vec2(width, height) - 0.5, low = floor(at), f = at - low;
-    if (!(max(abs(at.x), abs(at.y)) < 1e9)) // coordinates that are no numbers: an opaque black
+    if (!(max(abs(at.x), abs(at.y)) < 1e9)) // invalid coordinates: an opaque black
         return m.mode == PRT_ALPHA_GLASS ? 0.0 : 1.0;
     uint wrap_u = PRT_WRAP_U(m.wrap), wrap_v = PRT_WRAP_V(m.wrap);
     int x0 = wrapped(int(low.x), width, wrap_u), x1 = wrapped(int(low.x) + 1, width, wrap_u);
@@ -54,7 +54,7 @@ float layer_coverage_of(AlphaTriangle t, vec2 uv, float footprint) {
     return m.mode == PRT_ALPHA_GLASS ? 1.0 - alpha : alpha;
 }
 
-// `index` counts from 1; 0 is opaque.
+// Share of light that a triangle stops. `index` counts from 1; 0: opaque.
 float coverage(uint index, vec2 uv, float footprint) {
     if (index == 0u)
         return 1.0;

@@ -1,8 +1,8 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 
-// How many rays of a chunk are blocked, for all of which those stand that were followed (bake_trace.comp). Where only
-// rays are blocked that were not followed, one of them is. A thread a row.
+// Counts the blocked rays of a chunk, which the hits of followed rays represent (bake_trace.comp). If none of
+// the blocked rays was followed, follows one of them. One thread per row.
 
 #include "bake_kernel.glsl"
 #include "bake_chunk.glsl"

@@ -1,23 +1,23 @@
-// Rays through our own hierarchy (bake/trace/gpu/wide_bvh.h) as its authors traverse it: what waits on the stack are
-// groups of children that a ray hits of one node, a bit each. Loops have one exit and no `continue`: Mesa's software
-// rasteriser computes wrong results for those where threads diverge.
+// Traces rays through our own hierarchy (bake/trace/gpu/wide_bvh.h) like its authors: the stack contains
+// groups of children of one node that the ray hits, one bit per child. Loops have one exit and no `continue`:
+// Mesa's software rasteriser computes wrong results for them where threads diverge.
 
-layout(constant_id = PRT_CONSTANT_STACK) const int kStack = 64; // groups: as many as the hierarchy has levels
+layout(constant_id = PRT_CONSTANT_STACK) const int kStack = 64; // number of groups: the levels of the hierarchy
 
 layout(std430, binding = PRT_BINDING_NODES) readonly buffer Nodes {
     WideNode nodes[];
 };
 
 struct BvhHit {
-    uint slot; // in the order of `corners`
+    uint slot; // index in the order of `corners`
     float t;
     vec2 uv;
-    float facing; // above 0: met from behind
+    float facing; // above 0: hit from behind
     float covered;
 };
 
-// By Plücker coordinates about the origin: neighbours agree on the side of a shared edge, so that no ray passes
-// between them.
+// Tests a triangle with Plücker coordinates about the origin: adjacent triangles agree on the side of a
+// shared edge, so that no ray passes between them.
 bool hit_triangle(TracedRay ray, uint slot, float t_min, float t_max, out BvhHit hit) {
     precise vec3 a = corners[3u * slot].xyz - ray.origin;
     precise vec3 b = corners[3u * slot + 1u].xyz - ray.origin;
@@ -27,7 +27,7 @@ bool hit_triangle(TracedRay ray, uint slot, float t_min, float t_max, out BvhHit
     precise float v = dot(cross(eb, a + b), ray.direction);
     precise float w = dot(cross(ec, b + c), ray.direction);
     bool inside = min(u, min(v, w)) >= 0.0 || max(u, max(v, w)) <= 0.0;
-    vec3 normal = cross(ea, eb); // the same as cross(b - a, c - a): towards the front
+    vec3 normal = cross(ea, eb); // equal to cross(b - a, c - a): towards the front
     float sum = u + v + w;
     hit.slot = slot;
     hit.facing = dot(normal, ray.direction);
@@ -36,13 +36,14 @@ bool hit_triangle(TracedRay ray, uint slot, float t_min, float t_max, out BvhHit
     return inside && hit.facing != 0.0 && sum != 0.0 && hit.t >= t_min && hit.t < t_max;
 }
 
-// What a ray hits of the children of a node: a bit for every triangle from first_triangle on in x, and in y one in
-// the upper eight bits for every inner child, the first to visit the highest; below, which slots have inner ones.
+// Returns the children of a node that a ray hits. x: one bit per triangle from first_triangle on. y: the
+// upper eight bits have one bit per inner child that is hit, the highest one for the child to visit first;
+// the lower bits mark slots with inner children.
 uvec2 hit_children(WideNode node, TracedRay ray, vec3 inverse, uint last_slot, float t_min, float t_max) {
     vec3 step = uintBitsToFloat(
         uvec3(step_bits(node.exponents, 0u), step_bits(node.exponents, 1u), step_bits(node.exponents, 2u)));
     vec3 base = (node.origin - ray.origin) * inverse, scale = step * inverse;
-    // What rounding can do to the planes below.
+    // Bounds the rounding of the planes below.
     vec3 slack = 3e-7 * (abs(base) + 256.0 * abs(scale));
     vec3 nearer = base - slack, farther = base + slack;
     bvec3 negative = lessThan(inverse, vec3(0.0));
@@ -69,8 +70,8 @@ uvec2 hit_children(WideNode node, TracedRay ray, vec3 inverse, uint last_slot, f
     return hits;
 }
 
-// With `any` what is left of the ray's light in [t_min, t_max) goes to `left`, and the answer is whether that is less
-// than `least`; else whether there is a nearest triangle that stops some.
+// If `any`: multiplies `left` by the share of light that passes [t_min, t_max), and returns whether it is
+// less than `least`. Otherwise returns whether there is a nearest triangle that stops some light.
 bool trace_ray(TracedRay ray, float t_min, float t_max, bool any, float least, inout float left, out BvhHit nearest) {
     vec3 inverse = 1.0 / mix(ray.direction, vec3(1e-20), lessThan(abs(ray.direction), vec3(1e-20)));
     uint last_slot = (inverse.x < 0.0 ? 0u : 1u) | (inverse.y < 0.0 ? 0u : 2u) | (inverse.z < 0.0 ? 0u : 4u);
@@ -117,7 +118,7 @@ bool trace_ray(TracedRay ray, float t_min, float t_max, bool any, float least, i
     return found;
 }
 
-// The nearest triangle in [t_min, t_max) that stops some light.
+// Finds the nearest triangle in [t_min, t_max) that stops some light.
 bool nearest(TracedRay ray, float t_min, float t_max, out RayHit hit) {
     BvhHit met;
     float left = 1.0;
@@ -133,7 +134,7 @@ bool nearest(TracedRay ray, float t_min, float t_max, out RayHit hit) {
     return found;
 }
 
-// Share of light that passes as far as t_max; less than `least` is nothing.
+// Share of light that passes up to t_max; less than `least` counts as zero.
 float transmittance(TracedRay ray, float t_max, float least) {
     BvhHit hit;
     float left = 1.0;

@@ -1,4 +1,4 @@
-// A chunk of a receiver's rays, and what is noted of what they meet.
+// A chunk of a receiver's rays, and records of its hits.
 
 #include "bake_samples.glsl"
 #include "bake_traversal.glsl"
@@ -9,8 +9,8 @@ layout(std430, binding = PRT_BINDING_RECEIVERS) readonly buffer Receivers {
 layout(push_constant) uniform Push {
     TracePush push;
 };
-// What rays met: of a row [slots], one for every ray that is followed and one more; where kAlpha, in any order. A row
-// is a chunk of a receiver.
+// Hits: for each row [slots], one slot for every followed ray and one more; if kAlpha in any order. A row is
+// a chunk of a receiver.
 layout(std430, binding = PRT_BINDING_HITS) writeonly buffer Hits {
     HitRecord hits[];
 };

@@ -1,5 +1,5 @@
-// Radiance of surfaces that shine, as on the CPU (bake/scene/surfaces.cpp, runtime/render/texture.cpp) at the finest
-// level of its texture: rays to lamps average by themselves.
+// Radiance of emissive surfaces, as on the CPU (bake/scene/surfaces.cpp, runtime/render/texture.cpp), at the
+// finest level of the texture: rays to lamps average by themselves.
 
 #include "bake_wrap.glsl"
 
@@ -16,7 +16,7 @@ vec3 emission_texel(EmissionImage image, int x, int y) {
     return image.linear != 0u ? value : decoded;
 }
 
-// The texture's bilinear value; black where coordinates are no numbers.
+// Bilinear value of the texture; black for invalid coordinates.
 vec3 emission_color(EmissionImage image, vec2 uv) {
     vec2 at = uv * vec2(image.width, image.height) - 0.5, low = floor(at), f = at - low;
     if (!(max(abs(at.x), abs(at.y)) < 1e9))

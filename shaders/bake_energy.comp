@@ -1,8 +1,8 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 
-// The largest square norm of a receiver's vector of one channel, as bits: numbers that are not negative stand in the
-// order of their bits.
+// Maximum squared norm of a receiver's vector in one channel, as bits: non-negative floats have the order of
+// their bits.
 
 #include "shared_bake.h"
 #include "shared_structs.h"

@@ -1,5 +1,5 @@
-// A right-handed orthonormal frame about a unit normal, as prt::tangent_frame (Duff et al. 2017, "Building an
-// Orthonormal Basis, Revisited").
+// A right-handed orthonormal frame about a unit normal, equal to prt::tangent_frame (Duff et al. 2017,
+// "Building an Orthonormal Basis, Revisited").
 #ifndef PRT_BAKE_FRAME_GLSL
 #define PRT_BAKE_FRAME_GLSL
 

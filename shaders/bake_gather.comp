@@ -1,8 +1,8 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 
-// Light that receivers gather from others: rows of a sparse matrix times exit transfer (docs/math.md, section 7).
-// Threads side by side take coefficients side by side of the same row.
+// Gathers light of other receivers: multiplies rows of a sparse matrix with exit transfer (docs/math.md,
+// section 7). Adjacent threads process adjacent coefficients of the same row.
 
 #include "shared_bake.h"
 #include "shared_structs.h"
@@ -12,29 +12,29 @@ layout(local_size_x = PRT_GATHER_THREADS) in;
 layout(constant_id = PRT_CONSTANT_ORDER) const uint kOrder = 6u;
 layout(constant_id = PRT_CONSTANT_CHANNELS) const uint kChannels = 1u;
 layout(constant_id = PRT_CONSTANT_ROW_THREADS) const uint kRowThreads = 64u; // a power of two
-// An entry has one weight for all channels, and the source a reflectance.
+// An entry has one weight for all channels; the reflectance depends on the source.
 layout(constant_id = PRT_CONSTANT_SHARED) const bool kShared = true;
 
 layout(std430, binding = PRT_BINDING_ROW_ENDS) readonly buffer RowEnds {
-    uint row_ends[]; // [rows + 1] first entry of a row, and of the next
+    uint row_ends[]; // [rows + 1] first entry of each row, then the end of the last row
 };
 layout(std430, binding = PRT_BINDING_SOURCES) readonly buffer Sources {
     uint sources[]; // [entries]
 };
 layout(std430, binding = PRT_BINDING_WEIGHTS) readonly buffer Weights {
-    float weights[]; // [entries][kChannels, or 1 where kShared]
+    float weights[]; // [entries][kChannels, or 1 if kShared]
 };
 layout(std430, binding = PRT_BINDING_REFLECTANCE) readonly buffer Reflectance {
-    float reflectance[]; // [receivers][kChannels], where kShared
+    float reflectance[]; // [receivers][kChannels], if kShared
 };
 layout(std430, binding = PRT_BINDING_EXIT) readonly buffer Exit {
     float exit_transfer[]; // [receivers][kChannels][kOrder²]
 };
 layout(std430, binding = PRT_BINDING_GATHERED) writeonly buffer Gathered {
-    float gathered[]; // of rows, the same; not where kSummed
+    float gathered[]; // [rows][kChannels][kOrder²], not if kSummed
 };
 layout(std430, binding = PRT_BINDING_TOTAL) buffer Total {
-    float total[]; // the same, to which what is gathered is added, where push.add
+    float total[]; // [rows][kChannels][kOrder²] receives the sum of the gathered values, if push.add
 };
 layout(push_constant) uniform Push {
     GatherPush push;

@@ -1,5 +1,4 @@
-// What every kernel of the baker begins with: what it shares with C++, and constants that are told when it is compiled
-// by the device.
+// Common beginning of all kernels of the baker: definitions shared with C++, and specialisation constants.
 
 #extension GL_KHR_shader_subgroup_arithmetic : require
 #ifdef PRT_RAY_QUERY
@@ -10,4 +9,5 @@
 #include "shared_structs.h"
 
 layout(constant_id = PRT_CONSTANT_ALPHA) const bool kAlpha = false;       // some surfaces do not stop all light
-layout(constant_id = PRT_CONSTANT_TEXTURED) const bool kTextured = false; // textures ask what area a ray stands for
+layout(constant_id = PRT_CONSTANT_TEXTURED) const bool kTextured = false; // textures need the area that a ray
+                                                                          // represents

@@ -1,9 +1,9 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 
-// Irradiance of receivers by the light of one lamp that arrives without a bounce (docs/math.md, section 13), by the
-// samples of the CPU (bake/lamps/lamp_rays.cpp). One thread a receiver: those of a group look at the same lights and
-// triangles at the same time, and their rays go side by side.
+// Irradiance of receivers from one lamp without a bounce (docs/math.md, section 13), with the samples of the
+// CPU (bake/lamps/lamp_rays.cpp). One thread per receiver: the threads of a group process the same lights and
+// triangles at the same time, so that their rays are coherent.
 
 #include "bake_kernel.glsl"
 #include "shared_samples.h"
@@ -18,7 +18,7 @@ layout(std430, binding = PRT_BINDING_RECEIVERS) readonly buffer Receivers {
     LampReceiver receivers[];
 };
 layout(std430, binding = PRT_BINDING_SUMS) buffer Sums {
-    vec4 sums[]; // per receiver: irradiance, and rays
+    vec4 sums[]; // per receiver: irradiance, and number of rays
 };
 layout(std430, binding = PRT_BINDING_PUNCTUAL_LIGHTS) readonly buffer Lights {
     PunctualLight lights[];
@@ -33,24 +33,24 @@ layout(push_constant) uniform Push {
 
 const float kPi = 3.14159265;
 
-// Share of light that passes along unit `direction` as far as `to`.
+// Share of light that passes along unit `direction` up to `to`.
 float passing(vec3 origin, vec3 direction, float to) {
     const float kNothing = 1.17549435e-38;
     return transmittance(TracedRay(origin, direction, 0.0), to, kNothing);
 }
 
-// A light as it is seen from a receiver, and what it gives there unless something is in its way.
+// Position of a light relative to a receiver, and its unoccluded light there.
 struct SeenLight {
     vec3 towards;   // unit
-    float distance; // metres, kFar where directional
-    float share;    // of its intensity
+    float distance; // metres, kFar for directional lights
+    float share;    // share of its intensity
     float half_angle;
-    float weight; // luminance of the irradiance, about
+    float weight; // approximate luminance of the irradiance
 };
 
 SeenLight see_light(PunctualLight light, LampReceiver receiver) {
     SeenLight seen;
-    float reach; // how far a light that is partly below the horizon still comes up
+    float reach; // sine of the angle by which a light below the horizon is partly visible
     if (light.directional != 0u) {
         seen.towards = -light.direction;
         seen.distance = kFar;
@@ -74,15 +74,16 @@ SeenLight see_light(PunctualLight light, LampReceiver receiver) {
     return seen;
 }
 
-// Direction `i` of `count` about the middle of a disc, evenly over its solid angle, and in w how much less than 1 its
-// cosine to the middle is: prt::DiscDirections. `turn` is a share of the circle, of 2^32.
+// Returns direction `i` of `count` about the axis of a disc, distributed evenly over its solid angle, and in
+// w 1 minus its cosine to the axis; equal to prt::DiscDirections. `turn` rotates the directions, as a share
+// of the circle times 2^32.
 vec4 disc_direction(mat3 frame, float depth, uint i, uint count, uint turn) {
     float below = depth * (float(i) + 0.5) / float(count);
     float sine = sqrt(below * (2.0 - below)), angle = 2.0 * kPi * unit_number(turn + i * 1640531527u);
     return vec4(normalize(frame * vec3(sine * cos(angle), sine * sin(angle), 1.0 - below)), below);
 }
 
-// The sum of cosines of rays [begin, end) of `count` to a light, each by as much of it as passes.
+// Sum of the cosines of rays [begin, end) of `count` to a light, each multiplied by its transmittance.
 float arriving(SeenLight light, LampReceiver receiver, uvec3 begin_end_count, uint seed) {
     mat3 frame = tangent_frame(light.towards);
     float half_sine = sin(0.5 * light.half_angle), depth = 2.0 * half_sine * half_sine, sum = 0.0;
@@ -99,13 +100,14 @@ float arriving(SeenLight light, LampReceiver receiver, uvec3 begin_end_count, ui
     return sum / (float(begin_end_count.z) * (1.0 - 0.5 * depth)); // mean cosine of the disc
 }
 
-// By lights of KHR_lights_punctual: a ray to each, or where they have extent as many as they have of all light here.
+// Irradiance from punctual lights: one ray per light, or for lights with an extent a number of rays in
+// proportion to their share of the light here.
 vec4 light_of_lights(LampReceiver receiver, uint seed) {
     float all = 0.0;
     for (uint i = push.first_light; i < push.end_light; ++i)
         all += see_light(lights[i], receiver).weight;
     vec4 sum = vec4(0.0);
-    uint before = 0u; // rays to the lights before
+    uint before = 0u; // rays to the previous lights
     for (uint i = push.first_light; i < push.end_light; ++i) {
         SeenLight light = see_light(lights[i], receiver);
         uint rays = 0u;
@@ -128,13 +130,13 @@ SeenTriangle see_shining(ShiningTriangle t, LampReceiver receiver) {
                         t.two_sided != 0u);
 }
 
-// Of a sample of a triangle, as if the triangle were all there is.
+// Irradiance from a sample of a triangle, as if there were no other triangles.
 vec3 irradiance_along(LampReceiver receiver, ShiningTriangle t, SeenTriangle seen, vec2 u) {
     TrianglePoint point = point_of(seen, u);
     float cosine = dot(receiver.normal.xyz, normalize(point.place));
     vec3 result = vec3(0.0);
     if (cosine > 0.0) {
-        // The ray ends on the side that is seen, not on the triangle itself.
+        // The ray ends on the visible side, not on the triangle itself.
         vec3 outward = normalize(seen.volume > 0.0 ? -seen.normal : seen.normal);
         vec3 way = point.place + (t.offset + PRT_LENGTH_OFFSET * length(point.place)) * outward;
         float distance = length(way);
@@ -147,8 +149,8 @@ vec3 irradiance_along(LampReceiver receiver, ShiningTriangle t, SeenTriangle see
     return result;
 }
 
-// By rays that are spread over the triangles in their order, each in proportion to its mean luminance and the solid
-// angle that it fills.
+// Irradiance from emissive triangles. Rays are distributed over the triangles in order, in proportion to mean
+// luminance times solid angle.
 vec4 light_of_triangles(LampReceiver receiver, uint seed) {
     float all = 0.0;
     uint last = push.end_triangle;
@@ -166,7 +168,7 @@ vec4 light_of_triangles(LampReceiver receiver, uint seed) {
         bool running = weight > 0.0 && ray < end;
         while (running) {
             float target = all * ((float(ray) + unit_number(seed)) / float(push.most_rays));
-            running = target < until || i == last; // whatever rounding made of the sum
+            running = target < until || i == last; // independent of the rounding of the sum
             if (running) {
                 vec2 u = vec2(clamp((target - before) / weight, 0.0, 1.0), golden(ray, seed * 2654435761u));
                 float stands_for = all / (shining[i].luminance * float(push.most_rays));
@@ -189,6 +191,6 @@ void main() {
     uint seed = pcg_hash(floatBitsToUint(receiver.origin.w) ^ push.scramble);
     vec4 sum = light_of_lights(receiver, seed) + light_of_triangles(receiver, seed);
     if (cut_short)
-        sum.w = uintBitsToFloat(0x7fc00000u); // no number: nothing of it is right
+        sum.w = uintBitsToFloat(0x7fc00000u); // NaN: the result is invalid
     sums[p] = push.first_ray == 0u ? sum : sums[p] + sum;
 }

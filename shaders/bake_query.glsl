@@ -1,24 +1,24 @@
-// Rays by the device's own traversal, whose candidates are triangles that may not stop all light.
+// Traces rays with ray queries of the device; candidates are triangles that may not stop all light.
 
 layout(binding = PRT_BINDING_NODES) uniform accelerationStructureEXT structure;
-layout(constant_id = PRT_CONSTANT_OPAQUE) const uint kOpaque = 0u; // triangles, which come before the others
+layout(constant_id = PRT_CONSTANT_OPAQUE) const uint kOpaque = 0u; // number of opaque triangles, which come first
 
 layout(std430, binding = PRT_BINDING_INSTANCES) readonly buffer Instances {
-    uvec2 instances[]; // first slot, and what its triangles' numbers are more than those in `corners`
+    uvec2 instances[]; // first slot, and the offset of its triangle indices from those in `corners`
 };
 
 #define PRT_INSTANCE(query, committed) instances[rayQueryGetIntersectionInstanceIdEXT(query, committed)]
-// Of instances that have both, opaque triangles come before the others.
+// In instances that have both, opaque triangles come before the others.
 #define PRT_SLOT(query, committed)                                                                                     \
     (PRT_INSTANCE(query, committed).x + uint(rayQueryGetIntersectionPrimitiveIndexEXT(query, committed)) +             \
      (kAlpha && rayQueryGetIntersectionGeometryIndexEXT(query, committed) > 0 ? kOpaque : 0u))
-// Share of light that the triangle in question stops.
+// Share of light that the triangle stops.
 #define PRT_COVERED(query, committed)                                                                                  \
     covered_at(ray, PRT_SLOT(query, committed), rayQueryGetIntersectionTEXT(query, committed),                         \
                rayQueryGetIntersectionBarycentricsEXT(query, committed),                                               \
                rayQueryGetIntersectionObjectRayDirectionEXT(query, committed))
 
-// The nearest triangle in [t_min, t_max) that stops some light.
+// Finds the nearest triangle in [t_min, t_max) that stops some light.
 bool nearest(TracedRay ray, float t_min, float t_max, out RayHit hit) {
     rayQueryEXT query;
     rayQueryInitializeEXT(query, structure, kAlpha ? gl_RayFlagsNoneEXT : gl_RayFlagsOpaqueEXT, 0xff, ray.origin, t_min,
@@ -40,7 +40,7 @@ bool nearest(TracedRay ray, float t_min, float t_max, out RayHit hit) {
     return found;
 }
 
-// Share of light that passes as far as t_max; less than `least` is nothing.
+// Share of light that passes up to t_max; less than `least` counts as zero.
 float transmittance(TracedRay ray, float t_max, float least) {
     float left = 1.0;
     rayQueryEXT query;

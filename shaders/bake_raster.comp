@@ -1,6 +1,6 @@
 // Receivers look up whether light from each direction of a batch of depth maps reaches them, and sum the
-// spherical harmonics of the directions. With PRT_PEEL: what one layer of blended surfaces lets through, for the
-// first direction.
+// spherical harmonics of the directions. With PRT_PEEL: computes the light that one layer of blended surfaces
+// transmits, for the first direction.
 
 #include "shared_bake.h"
 #include "shared_structs.h"
@@ -16,10 +16,10 @@ layout(std430, binding = PRT_BINDING_DIRECTIONS) readonly buffer Directions {
     Direction directions[];
 };
 layout(std430, binding = PRT_BINDING_SUMS) buffer Sums {
-    float sums[]; // per receiver: all directions [order²], blocked ones [order²], weights of both
+    float sums[]; // per receiver: all directions [order²], blocked directions [order²], weights of both
 };
 layout(std430, binding = PRT_BINDING_PASSES) buffer Passes {
-    float passes[]; // per receiver: what blended layers let through
+    float passes[]; // per receiver: light that blended layers transmit
 };
 layout(binding = PRT_UNIT_OPAQUE_DEPTH) uniform sampler2DArray opaque_depth;
 layout(binding = PRT_UNIT_LAST_DEPTH) uniform sampler2D layer_depth;
@@ -30,21 +30,21 @@ layout(std430, binding = PRT_BINDING_TOUCHING_RANGES) readonly buffer TouchingRa
     uvec2 touching_ranges[]; // per receiver: first triangle, one past the last
 };
 layout(std430, binding = PRT_BINDING_TOUCHING) readonly buffer Touching {
-    vec4 touching[]; // three corners per triangle, seen from the start of the receiver's rays
+    vec4 touching[]; // three corners per triangle, relative to the origin of the receiver's rays
 };
 #endif
 
 uniform uint receiver_count, direction_count;
-uniform float texel_depth; // width of a texel in the unit of depth
+uniform float texel_depth; // width of a texel in units of depth
 
-// Depth that a receiver may lie behind a surface without being shadowed: over one and a half texels the surface
-// itself recedes by that times the tangent of the angle of incidence.
+// Maximum depth of a receiver behind a surface without a shadow: over one and a half texels the depth of the
+// surface itself changes by this distance times the tangent of the angle of incidence.
 float bias_of(float cosine) {
     float tangent = min(sqrt(max(0.0, 1.0 - cosine * cosine)) / cosine, 20.0);
     return texel_depth * (0.5 + 1.5 * tangent);
 }
 
-// Of the four texels round the place, bilinearly: the share that something in front of `depth` leaves open.
+// Share of light that surfaces in front of `depth` transmit, bilinear over four texels.
 float open_share(vec3 place, float cosine, int layer) {
     vec2 size = vec2(textureSize(opaque_depth, 0).xy), at = place.xy * size - 0.5, low = floor(at), f = at - low;
     float limit = place.z - bias_of(cosine);
@@ -62,7 +62,7 @@ float open_share(vec3 place, float cosine, int layer) {
 }
 
 #ifndef PRT_PEEL
-// Whether a ray from the origin meets the triangle, by the sides that it passes the edges on.
+// Whether a ray from the origin hits the triangle, by its side relative to the edges.
 bool meets(uint triangle, vec3 direction) {
     vec3 a = touching[3u * triangle].xyz, b = touching[3u * triangle + 1u].xyz, c = touching[3u * triangle + 2u].xyz;
     float u = dot(cross(c, b), direction), v = dot(cross(a, c), direction), w = dot(cross(b, a), direction);

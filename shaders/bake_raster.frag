@@ -1,5 +1,5 @@
-// Depth of what stops light altogether; with PRT_PEEL that of the next layer of blended surfaces beyond the last
-// one, and its coverage.
+// Depth of surfaces that stop all light; with PRT_PEEL the depth of the next layer of blended surfaces behind
+// the previous layer, and its coverage.
 
 #include "shared_bake.h"
 #include "shared_structs.h"
@@ -15,7 +15,7 @@ layout(binding = PRT_UNIT_OPAQUE_DEPTH) uniform sampler2DArray opaque_depth;
 layout(binding = PRT_UNIT_LAST_DEPTH) uniform sampler2D last_depth;
 out float layer_coverage;
 #endif
-uniform float texel_area; // of the map, m²
+uniform float texel_area; // area of a texel of the map, m²
 
 void main() {
 #ifdef PRT_ALPHA

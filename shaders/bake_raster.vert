@@ -1,9 +1,9 @@
-// Triangles of the scene as seen from far away.
+// Triangles of the scene in orthographic projection.
 
 #include "shared_bake.h"
 
 layout(std430, binding = PRT_BINDING_CORNERS) readonly buffer Corners {
-    vec4 corners[]; // three per triangle; w of the second: place in the alpha table
+    vec4 corners[]; // three per triangle; w of the second: index in the alpha table
 };
 
 uniform mat4 map_from_world;

@@ -1,6 +1,6 @@
-// Directions of a receiver's rays, the same as on the CPU (bake/trace/chunk_kernels.cpp): Owen-scrambled Sobol points
-// by the hash of Laine and Karras (2011) in the form of Vegdahl (2021), through the concentric map of Shirley
-// and Chiu (1997).
+// Directions of a receiver's rays, equal to those on the CPU (bake/trace/chunk_kernels.cpp): Owen-scrambled
+// Sobol points by the hash of Laine and Karras (2011) in the form of Vegdahl (2021), and the concentric map
+// of Shirley and Chiu (1997).
 
 #include "shared_samples.h"
 #include "bake_frame.glsl"

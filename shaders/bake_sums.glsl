@@ -1,7 +1,7 @@
-// Sums over receivers or samples of their vectors, to which any thread adds at any time: in fixed point, so that they
-// do not depend on the order.
+// Sums of vectors over receivers or samples, to which any thread can add at any time: in fixed point, so that
+// they do not depend on the order.
 
-layout(constant_id = PRT_CONSTANT_SUMMED) const bool kSummed = false; // vectors are added to sums, and not kept
+layout(constant_id = PRT_CONSTANT_SUMMED) const bool kSummed = false; // vectors are added to sums and not stored
 
 layout(std430, binding = PRT_BINDING_SUM_ROWS) readonly buffer SumRows {
     SumRow sum_rows[];

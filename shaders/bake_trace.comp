@@ -1,8 +1,8 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 
-// Rays of receivers (docs/math.md, eq. 9): what is blocked of each, and with kHits what they meet. A thread traces
-// every 32nd ray of a chunk, so that threads side by side trace a narrow beam.
+// Traces rays of receivers (docs/math.md, eq. 9): the blocked share of each ray, and with kHits its hits. A
+// thread traces every 32nd ray of a chunk, so that adjacent threads trace a narrow beam.
 
 #include "bake_kernel.glsl"
 #include "bake_chunk.glsl"
@@ -14,17 +14,17 @@ layout(std430, binding = PRT_BINDING_BLOCKED) buffer Blocked {
     uint blocked[]; // [rows][PRT_BEAM]: bit k of thread i is ray 32 k + i
 };
 layout(std430, binding = PRT_BINDING_SHARES) writeonly buffer Shares {
-    float shares[]; // [rows][PRT_CHUNK]: how much is blocked of each ray, where kAlpha
+    float shares[]; // [rows][PRT_CHUNK] blocked share of each ray, if kAlpha
 };
 layout(std430, binding = PRT_BINDING_HIT_COUNT) buffer HitCount {
-    uint hit_count;       // where kAlpha: more than there is room for were not noted, and their threads stopped
-    uint loops_cut_short; // not 0: nothing here is right
+    uint hit_count;       // if kAlpha: hits beyond the capacity were not recorded, and their threads stopped
+    uint loops_cut_short; // not 0: all results are invalid
 };
 layout(std430, binding = PRT_BINDING_PROGRESS) buffer Threads {
-    ThreadProgress threads[]; // [rows][PRT_BEAM], where kAlpha
+    ThreadProgress threads[]; // [rows][PRT_BEAM], if kAlpha
 };
 
-// Which rays are blocked.
+// Returns a mask of the blocked rays.
 uint trace_visibility(Chunk c, uint lane) {
     uint mask = 0u, i = lane;
     for (; i < c.count; i += uint(PRT_BEAM)) {
@@ -38,7 +38,7 @@ uint trace_visibility(Chunk c, uint lane) {
     return mask;
 }
 
-// The same where everything is opaque and some rays are followed to what they meet.
+// Returns a mask of the blocked rays of an opaque scene, and records hits of the followed rays.
 uint trace_some_hits(Chunk c, uint lane) {
     uint mask = 0u, slots = c.row * (push.whole_followed + 1u), i = lane;
     for (; i < c.count; i += uint(PRT_BEAM)) {
@@ -57,8 +57,8 @@ uint trace_some_hits(Chunk c, uint lane) {
     return mask;
 }
 
-// Follows rays through all that lets a share of them pass. A thread that finds no room for a hit stops there, and
-// goes on when it is called again.
+// Follows rays through surfaces that transmit a share of them. A thread stops if there is no space for a hit,
+// and continues in the next dispatch.
 uint trace_through(Chunk c, uint lane) {
     uint place = c.row * uint(PRT_BEAM) + lane;
     ThreadProgress at = threads[place];

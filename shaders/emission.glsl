@@ -1,11 +1,11 @@
-// Radiance that a surface gives off by itself.
+// Radiance that a surface emits.
 
 #include "surface.glsl"
 
 in vec2 emission_texcoord;
 
 layout(binding = PRT_UNIT_EMISSION) uniform sampler2D emission_texture;
-uniform vec3 emission; // times the strength of its lamp
+uniform vec3 emission; // multiplied by the strength of its lamp
 uniform bool has_emission_texture;
 uniform mat3x2 emission_transform;
 

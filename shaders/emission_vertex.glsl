@@ -1,5 +1,5 @@
-// What a fragment shader with emission.glsl takes of a vertex: from a buffer, as weights of transfer may fill all
-// attributes.
+// Vertex data for a fragment shader with emission.glsl: read from a buffer, because weights of transfer may
+// use all attributes.
 
 #include "shared_layout.h"
 

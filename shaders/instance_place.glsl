@@ -1,5 +1,5 @@
-// Where a vertex and its normal are in the scene: as the mesh has them, or where PRT_INSTANCED by the matrix of the
-// instance, which turns, moves and scales evenly.
+// Position and normal of a vertex in the scene: those of the mesh, or if PRT_INSTANCED transformed by the
+// matrix of the instance, which rotates, translates and scales uniformly.
 
 #include "shared_layout.h"
 

@@ -1,9 +1,10 @@
-// Exit radiance of a vertex of an instance, as viewer_lit_instances.vert left it when the light last changed.
+// Exit radiance of a vertex of an instance, computed by viewer_lit_instances.vert when the light last
+// changed.
 
 #include "shared_viewer.h"
 
 layout(std430, binding = PRT_BINDING_INSTANCE_RADIANCE) readonly buffer InstanceRadiance {
-    uvec2 instance_radiance[]; // [instances][vertices], of the mesh that is drawn: four halves, the last unused
+    uvec2 instance_radiance[]; // [instances][vertices] of the drawn mesh: four halves, the last one unused
 };
 layout(location = PRT_LOCATION_INSTANCE_0) in uint instance;
 uniform uint instance_vertices;

@@ -1,5 +1,5 @@
-// Exit radiance of an open receiver of albedo 1 under the first three bands of a lighting: what games do without
-// precomputed transfer (Ramamoorthi and Hanrahan 2001).
+// Exit radiance of an unoccluded receiver of albedo 1 under the first three bands of a lighting: the method
+// of games without precomputed transfer (Ramamoorthi and Hanrahan 2001).
 
 uniform vec3 irradiance_sh[9]; // A_l / pi times the lighting's coefficients
 

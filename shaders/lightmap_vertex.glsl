@@ -1,4 +1,4 @@
-// What a fragment shader with lightmap.glsl takes of a vertex.
+// Vertex data for a fragment shader with lightmap.glsl.
 
 #include "shared_layout.h"
 

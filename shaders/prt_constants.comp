@@ -1,11 +1,12 @@
-// The constants of all clusters for a lighting, instead of prt::ConstantFormer::form: one row per thread. Define
-// PRT_ROWS and what prt_parts.glsl asks for of the parts. Dispatch (PRT_ROWS + 63) / 64 groups.
+// Computes the constants of all clusters for a lighting, instead of prt::ConstantFormer::form: one row per
+// thread. Define PRT_ROWS and the definitions of parts that prt_parts.glsl needs. Dispatch (PRT_ROWS + 63) /
+// 64 groups.
 
 #include "shared_layout.h"
 
 layout(local_size_x = 64) in;
 
-// What prt::ConstantFormer::matrix gives: [rows / 16][numbers of a transfer vector][16].
+// Result of prt::ConstantFormer::matrix: [rows / 16][numbers of a transfer vector][16].
 layout(std430, binding = PRT_BINDING_MATRIX) readonly buffer PrtMatrix {
     float prt_matrix[];
 };

@@ -1,7 +1,7 @@
-// A value in a few bits of a G-buffer, as ambient occlusion in five: ordered dithering (Bayer 1973) keeps it right on
-// average. For every GLSL from 330 and ESSL 300 on.
+// Stores a value in a few bits of a G-buffer, for example ambient occlusion in five bits: ordered dithering
+// (Bayer 1973) preserves its mean. For GLSL 330, ESSL 300 and later.
 
-// Thresholds in (0, 1), each once in 8 x 8 pixels.
+// Returns a threshold in (0, 1); each occurs once in 8 x 8 pixels.
 float prt_bayer_threshold(uvec2 pixel) {
     uint value = 0u;
     for (uint bit = 0u; bit < 3u; ++bit) {
@@ -11,7 +11,7 @@ float prt_bayer_threshold(uvec2 pixel) {
     return (float(value) + 0.5) / 64.0;
 }
 
-// The level, 0 to `levels` (31.0 of five bits), of a value in 0..1; divided by `levels` it is the value again.
+// Returns the level, 0 to `levels` (31.0 for five bits), of a value in 0..1; divide it by `levels` to decode.
 // `threshold`: prt_bayer_threshold(uvec2(gl_FragCoord.xy)), or 0.5 to round.
 float prt_dithered_level(float value, float levels, float threshold) {
     return clamp(floor(value * levels + threshold), 0.0, levels);

@@ -1,26 +1,26 @@
-// Exit radiance of a vertex from compressed transfer (docs/math.md, eq. 29), for a receiver of albedo 1. For GLSL
-// 4.5 and 3.3, GLSL ES 3.0 and Vulkan; HLSL is made from the last (docs/integration.md).
+// Computes exit radiance of a vertex from compressed transfer (docs/math.md, eq. 29), for a receiver of albedo
+// 1. For GLSL 4.5 and 3.3, GLSL ES 3.0 and Vulkan; HLSL is generated from the Vulkan version
+// (docs/integration.md).
 //
 // Define before including (prt::relight_defines writes the lines for a model)
 //     PRT_PACKED_WORDS n     packed weights: n 32-bit words per vertex, 1..8, and PRT_CLUSTER_BITS b, or
-//     PRT_WEIGHT_VECTORS n   floats: the number of VEC4 weight attributes, 0..12 (0: clusters only),
-// where all clusters are divided alike, which makes a loop and the table of clusters needless:
-//     PRT_CLUSTER_ROWS n     the rows of a cluster, and
-//     PRT_SAME_WEIGHTS       PRT_ADD(j, weight) for every weight j, which is PRT_BITS(position, width) where packed,
-// where they are not attributes of a vertex, but variables that the shader sets (prt_lightmap.frag):
-//     PRT_WORDS_OF_TEXEL     packed words only,
-// what clusters know of a vertex beside its weights, its guides:
-//     PRT_GUIDE_NORMAL       its normal,
-//     PRT_GUIDE_POSITION     its position seen from PRT_GUIDE_ORIGIN, a vec3: numbers, or the name of a uniform,
-// and where the constants are:
+//     PRT_WEIGHT_VECTORS n   floats: the number of VEC4 weight attributes, 0..12 (0: clusters only).
+// If all clusters have the same layout, which avoids a loop and the table of clusters:
+//     PRT_CLUSTER_ROWS n     number of rows per cluster, and
+//     PRT_SAME_WEIGHTS       PRT_ADD(j, weight) for every weight j; a packed weight is PRT_BITS(position, width).
+// If the words are not vertex attributes but variables that the shader sets (prt_lightmap.frag):
+//     PRT_WORDS_OF_TEXEL     packed words only.
+// Data of the vertex that clusters use in addition to its weights, the predictors:
+//     PRT_GUIDE_NORMAL       the normal,
+//     PRT_GUIDE_POSITION     the position relative to PRT_GUIDE_ORIGIN, a vec3: numbers, or the name of a uniform.
+// Storage of the constants, which contain the data of prt::ConstantFormer and prt::cluster_layouts:
 //     PRT_CONSTANTS_BUFFER   storage buffers (the default; OpenGL 4.3, Vulkan, Direct3D 11),
 //     PRT_CONSTANTS_BLOCK    uniform blocks, with PRT_MOST_ROWS and PRT_MOST_CLUSTERS, or
-//     PRT_CONSTANTS_TEXTURE  textures of PRT_TEXTURE_WIDTH texels a row, RGBA32F and RGBA32UI.
-// They hold what prt::ConstantFormer and prt::cluster_layouts write.
+//     PRT_CONSTANTS_TEXTURE  textures with PRT_TEXTURE_WIDTH texels per row, RGBA32F and RGBA32UI.
 
 #include "shared_layout.h"
 
-// The program binds blocks and samplers by name where the language cannot say it here.
+// The program binds blocks and samplers by name if the language has no binding layout.
 #if defined(VULKAN) || (!defined(GL_ES) && __VERSION__ >= 420)
 #define PRT_BINDING(number) , binding = number
 #define PRT_SAMPLER(number) layout(binding = number) uniform highp
@@ -49,10 +49,11 @@ vec4 prt_constant_at(uint at) {
 #endif
 }
 
-// Row `row` of the constants of all clusters: a color, or of an instance one that is linear in the place.
+// Row `row` of the constants of all clusters: a color, or for an instance a color that is linear in the
+// position.
 #ifdef PRT_INSTANCES
 #define PRT_COLOR mat3x4
-uint prt_first_row; // of the instance, and where the vertex lies in the box of its mesh: prt_instances.glsl
+uint prt_first_row; // first row of the instance, and position of the vertex in the mesh's box: prt_instances.glsl
 vec4 prt_place;
 
 mat3x4 prt_constant(uint row) {
@@ -89,7 +90,7 @@ layout(std430 PRT_BINDING(PRT_BINDING_CLUSTERS)) readonly buffer PrtClusters {
 };
 #endif
 
-// By PRT_CLUSTER_*: first row, components, widths of weights 0 to 7, 8 to 15.
+// Entry by PRT_CLUSTER_*: first row, components, widths of weights 0 to 7, 8 to 15.
 uvec4 prt_layout_of(uint cluster) {
 #ifdef PRT_CONSTANTS_TEXTURE
     return texelFetch(prt_clusters, ivec2(cluster % uint(PRT_TEXTURE_WIDTH), cluster / uint(PRT_TEXTURE_WIDTH)), 0);
@@ -99,7 +100,7 @@ uvec4 prt_layout_of(uint cluster) {
 }
 #endif
 
-// Rows of a cluster, counted from its first: of the guide of positions, and of its first direction.
+// Rows relative to the first row of a cluster: of the position predictor, and of the first direction.
 #ifdef PRT_GUIDE_NORMAL
 #define PRT_POSITION_ROW 4u
 #else
@@ -111,7 +112,7 @@ uvec4 prt_layout_of(uint cluster) {
 #define PRT_DIRECTION_ROW PRT_POSITION_ROW
 #endif
 
-// The mean of the cluster whose rows begin at `first`, and what the guides add to it.
+// Mean of the cluster with first row `first`, plus the contribution of the predictors.
 PRT_COLOR prt_guided(uint first, vec3 position, vec3 normal) {
     PRT_COLOR radiance = prt_constant(first);
 #ifdef PRT_GUIDE_NORMAL
@@ -127,7 +128,7 @@ PRT_COLOR prt_guided(uint first, vec3 position, vec3 normal) {
     return radiance;
 }
 
-// What a vertex has: its cluster, and its weights.
+// Data of a vertex: its cluster and its weights.
 
 #ifdef PRT_PACKED_WORDS
 #ifdef PRT_WORDS_OF_TEXEL
@@ -149,7 +150,7 @@ uint prt_word(uint index) {
 #endif
 }
 
-// `width` bits from bit `position` on, width <= 16. A weight may lie across two words.
+// Returns `width` bits from bit `position` on, width <= 16. A weight may span two words.
 uint prt_bits(uint position, uint width) {
     uint word = position >> 5, shift = position & 31u;
     uint bits = prt_word(word) >> shift;
@@ -207,11 +208,12 @@ uint prt_cluster_of_vertex() {
 }
 #endif
 
-// vec3 prt_exit_radiance(vec3 position, vec3 normal): both as they were when the model was baked, in its frame; the
-// normal is unit, or zero where the mesh has none. What is no guide counts nothing.
+// vec3 prt_exit_radiance(vec3 position, vec3 normal): both in the model's frame, as at the time of the bake;
+// the normal is unit, or zero if the mesh has none. Arguments that the model does not use as predictors are
+// ignored.
 
 #if defined(PRT_CLUSTER_ROWS)
-// On one line: GLSL 3.3 knows no others.
+// One line, because GLSL 3.30 has no line continuation.
 #define PRT_BITS(at, width) float(prt_bits(at, width))
 #define PRT_ADD(j, weight) radiance += weight * prt_constant(first + PRT_DIRECTION_ROW + j);
 
@@ -236,7 +238,7 @@ vec3 prt_exit_radiance(vec3 position, vec3 normal) {
     return prt_color(radiance);
 }
 #else
-// On one line: GLSL 3.3 knows no others.
+// One line, because GLSL 3.30 has no line continuation.
 // clang-format off
 #define PRT_ADD_FOUR(w) for (uint i = 0u; i < 4u && j < components; ++i, ++j) radiance += w[i] * prt_constant(first + PRT_DIRECTION_ROW + j);
 // clang-format on

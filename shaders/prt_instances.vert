@@ -1,5 +1,5 @@
-// The whole vertex shader of instances that share transfer: a start for one of your own. Where an instance stands, and
-// what prt::InstanceFormer::table says of it, are attributes that step from instance to instance.
+// The complete vertex shader of instances that share transfer, as a starting point for your shader. The
+// matrix of an instance and its rows of prt::InstanceFormer::table are instance attributes.
 
 #include "prt_instances.glsl"
 
@@ -11,7 +11,7 @@ const vec3 normal = vec3(0.0);
 #endif
 layout(location = PRT_LOCATION_INSTANCE_0) in vec4 instance_0;
 layout(location = PRT_LOCATION_INSTANCE_1) in vec4 instance_1;
-layout(location = PRT_LOCATION_INSTANCE_X) in vec4 world_x; // rows of the matrix into the world
+layout(location = PRT_LOCATION_INSTANCE_X) in vec4 world_x; // rows of the matrix to the world
 layout(location = PRT_LOCATION_INSTANCE_Y) in vec4 world_y;
 layout(location = PRT_LOCATION_INSTANCE_Z) in vec4 world_z;
 

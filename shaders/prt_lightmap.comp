@@ -1,9 +1,9 @@
-// Exit radiance of the texels of a lightmap (docs/format.md, PRTKIT_lightmap): one texel per thread, once for every
-// light; surfaces then look it up as any texture, filtered. Dispatch (width + 7) / 8 by (height + 7) / 8 groups, then
-// make smaller levels.
+// Computes exit radiance of the texels of a lightmap (docs/format.md, PRTKIT_lightmap): one texel per thread,
+// once for every light. Surfaces then look it up like any texture, with filtering. Dispatch (width + 7) / 8
+// by (height + 7) / 8 groups, then generate mipmaps.
 //
-// Define before including what prt_exit_radiance.glsl asks for of packed weights and of constants, and
-//     PRT_LIGHTMAP_FORMAT    of the image: rgba16f (where nothing is said), r11f_g11f_b10f or rgba32f.
+// Define before including: the definitions of prt_exit_radiance.glsl for packed weights and constants, and
+//     PRT_LIGHTMAP_FORMAT    format of the image: rgba16f (default), r11f_g11f_b10f or rgba32f.
 
 #ifndef PRT_LIGHTMAP_FORMAT
 #define PRT_LIGHTMAP_FORMAT rgba16f
@@ -14,7 +14,7 @@
 
 layout(local_size_x = 8, local_size_y = 8) in;
 
-// R32UI textures, one for each word of a texel.
+// R32UI textures, one per word of a texel.
 layout(binding = PRT_UNIT_WORD_IMAGES) uniform highp usampler2D prt_word_images[PRT_PACKED_WORDS];
 #ifdef VULKAN
 layout(binding = PRT_UNIT_WORD_IMAGES + 1, PRT_LIGHTMAP_FORMAT) writeonly uniform image2D prt_lightmap;
@@ -22,7 +22,7 @@ layout(binding = PRT_UNIT_WORD_IMAGES + 1, PRT_LIGHTMAP_FORMAT) writeonly unifor
 layout(binding = PRT_IMAGE_LIGHTMAP, PRT_LIGHTMAP_FORMAT) writeonly uniform image2D prt_lightmap;
 #endif
 
-const float kLargestHalf = 65504.0; // filters and smaller levels would spread what a half float cannot hold
+const float kLargestHalf = 65504.0; // filters and mipmaps would spread values beyond the range of half floats
 
 void main() {
     ivec2 texel = ivec2(gl_GlobalInvocationID.xy), size = imageSize(prt_lightmap);
@@ -36,6 +36,6 @@ void main() {
         else
             prt_words_1[i - 4] = word;
     }
-    vec3 radiance = prt_exit_radiance(vec3(0.0), vec3(0.0)); // texels have no guides
+    vec3 radiance = prt_exit_radiance(vec3(0.0), vec3(0.0)); // texels have no predictors
     imageStore(prt_lightmap, texel, vec4(clamp(radiance, vec3(-kLargestHalf), vec3(kLargestHalf)), 1.0));
 }

@@ -1,10 +1,10 @@
-// Exit radiance of the texels of a lightmap (docs/format.md, PRTKIT_lightmap): drawn over a target of the map's size,
-// once for every light; surfaces then look it up as any texture, filtered. For GLSL 3.3, GLSL ES 3.0 and later.
+// Computes exit radiance of the texels of a lightmap (docs/format.md, PRTKIT_lightmap): drawn to a target of
+// the map's size, once for every light. Surfaces then look it up like any texture, with filtering. For GLSL
+// 3.3, GLSL ES 3.0 and later.
 //
-// Define before including what prt_exit_radiance.glsl asks for of packed weights and of constants, and
-//     PRT_NORMALIZED_WORDS   where the images of words are RGBA8 textures, as browsers make them; else they are
-//     RGBA8UI.
-// They are looked up by texels: without a filter, mipmaps, conversion of colors or multiplication by alpha.
+// Define before including: the definitions of prt_exit_radiance.glsl for packed weights and constants, and
+//     PRT_NORMALIZED_WORDS   if the images of words are RGBA8 textures, as created by browsers; default: RGBA8UI.
+// The images are read by texel: without filters, mipmaps, color conversion or multiplication by alpha.
 
 #define PRT_WORDS_OF_TEXEL
 #include "prt_exit_radiance.glsl"
@@ -19,7 +19,7 @@ PRT_SAMPLER(PRT_UNIT_WORD_IMAGES) usampler2D prt_word_images[PRT_PACKED_WORDS];
 
 layout(location = 0) out vec4 prt_texel;
 
-// Filters and mipmaps would spread what a half float cannot hold.
+// Filters and mipmaps would spread values beyond the range of half floats.
 const float kLargestHalf = 65504.0;
 
 uint prt_word_of(uvec4 bytes) {
@@ -27,7 +27,7 @@ uint prt_word_of(uvec4 bytes) {
 }
 
 void main() {
-    // GLSL ES takes samplers of an array by constants alone.
+    // GLSL ES requires constant indices into arrays of samplers.
     prt_words_0 = prt_words_1 = uvec4(0u);
     prt_words_0.x = prt_word_of(PRT_BYTES(0));
 #if PRT_PACKED_WORDS > 1
@@ -51,6 +51,6 @@ void main() {
 #if PRT_PACKED_WORDS > 7
     prt_words_1.w = prt_word_of(PRT_BYTES(7));
 #endif
-    vec3 radiance = prt_exit_radiance(vec3(0.0), vec3(0.0)); // texels have no guides
+    vec3 radiance = prt_exit_radiance(vec3(0.0), vec3(0.0)); // texels have no predictors
     prt_texel = vec4(clamp(radiance, -kLargestHalf, kLargestHalf), 1.0);
 }

@@ -1,21 +1,25 @@
-// What objects that move take from the light of receivers near them (docs/math.md, section 20), for GLSL 4.5 and 3.3,
-// GLSL ES 3.0 and Vulkan:
+// Computes the light that moving objects block at receivers near them (docs/math.md, section 20). For GLSL 4.5
+// and 3.3, GLSL ES 3.0 and Vulkan:
 //
-//     float prt_occluders_openness(vec3 position, vec3 normal)     how much is left of light from everywhere alike
-//     float prt_occluders_sun(vec3 position, vec3 towards, float half_angle)    of a sun, softly: 0 is all shadow
-// and, where prt_volume.glsl was included before,
-//     vec3 prt_occluders_light(vec3 position, vec3 normal, vec3 light[PRT_VOLUME_COEFFICIENTS])   of that light
+//     float prt_occluders_openness(vec3 position, vec3 normal)
+//         Remaining share of light from a uniform environment.
+//     float prt_occluders_sun(vec3 position, vec3 towards, float half_angle)
+//         Remaining share of the light of a sun, with a soft shadow; 0: full shadow.
+// If prt_volume.glsl was included before, also:
+//     vec3 prt_occluders_light(vec3 position, vec3 normal, vec3 light[PRT_VOLUME_COEFFICIENTS])
+//         Remaining share of the incident light `light`.
 //
-// `position` in metres in the world that occluders are placed in; `normal`, `towards` unit.
+// `position` is in metres in the world of the occluders; `normal` and `towards` are unit.
 //
-// Objects are the lists of prt::placed and prt::occluders_near: a uniform block here, or, where the includer defines
-//     PRT_OCCLUDER_ROWS     an array of vec4, five for each, and
-//     PRT_OCCLUDER_COUNT    an int,
-// what these name. PRT_MOST_OCCLUDERS: room of the block.
+// Objects are the lists of prt::placed and prt::occluders_near: a uniform block of this file, or, if they are
+// defined,
+//     PRT_OCCLUDER_ROWS     an array of vec4, five per object, and
+//     PRT_OCCLUDER_COUNT    an int.
+// PRT_MOST_OCCLUDERS: capacity of the block.
 
 #include "shared_layout.h"
 
-// The program binds by name where the language cannot say it here.
+// The program binds by name if the language has no binding layout.
 #if defined(VULKAN) || (!defined(GL_ES) && __VERSION__ >= 420)
 layout(binding = PRT_UNIT_OCCLUDERS) uniform highp sampler3D prt_occluder_texture;
 #else
@@ -35,11 +39,11 @@ layout(std140) uniform PrtOccluders {
 #define PRT_OCCLUDER_COUNT prt_occluder_count.x
 #endif
 
-// A cap of the sphere around a place that is blocked evenly.
+// A cap of the sphere around a position, with uniform occlusion.
 struct PrtBlockedCap {
-    vec3 towards;  // unit, its middle
-    float share;   // of all directions
-    float density; // of what is blocked in it
+    vec3 towards;  // unit, center of the cap
+    float share;   // share of all directions
+    float density; // blocked share of the cap
 };
 
 PrtBlockedCap prt_blocked_cap(int i, vec3 position) {
@@ -51,8 +55,8 @@ PrtBlockedCap prt_blocked_cap(int i, vec3 position) {
     PrtBlockedCap cap = PrtBlockedCap(vec3(0.0, 1.0, 0.0), 0.0, 0.0);
     if (far < half_reach.w) {
         const float kSide = float(PRT_OCCLUDER_SIDE);
-        // Beyond the box, the place on its faces towards the middle: from there on the solid angle falls with the
-        // square of the distance.
+        // Outside the box use the point on its surface in the direction of the center: from there on the
+        // solid angle falls with the square of the distance.
         vec3 sides = q / half_reach.xyz, sizes = abs(sides);
         float outside = max(max(sizes.x, sizes.y), max(sizes.z, 1.0));
         vec3 texels = vec3(kSide, kSide, float(textureSize(prt_occluder_texture, 0).z));
@@ -73,16 +77,17 @@ PrtBlockedCap prt_blocked_cap(int i, vec3 position) {
     return cap;
 }
 
-// Drivers' own may be off by 1e-4.
+// Angle of a cosine. Built-in functions of drivers may have errors of 1e-4.
 float prt_angle_of(float cosine) {
     return atan(sqrt(max(1.0 - cosine * cosine, 0.0)), cosine);
 }
 
-// Of the cosine-weighted hemisphere: a cap of at most half of the sphere, whose middle has `cosine` to the normal.
+// Share of the cosine-weighted hemisphere that a cap covers. The cap is at most half of the sphere; `cosine`:
+// between the cap's center and the normal.
 float prt_cap_cosine(float share, float cosine) {
     float squared = 4.0 * share * (1.0 - share), rest = squared - cosine * cosine;
     float sum = max(cosine, 0.0) * squared;
-    if (rest > 0.0) { // the horizon cuts it
+    if (rest > 0.0) { // the horizon intersects the cap
         float cut = sqrt(rest), far = 1.0 - 2.0 * share;
         float y = clamp(-cosine * far / sqrt((1.0 - cosine * cosine) * squared), -1.0, 1.0);
         sum = clamp((squared * cosine * prt_angle_of(y) - cut * far + atan(cut, far)) * 0.318309886, 0.0, 1.0);
@@ -90,7 +95,7 @@ float prt_cap_cosine(float share, float cosine) {
     return sum;
 }
 
-// How much a cap takes of light from everywhere alike.
+// Share of light from a uniform environment that a cap blocks.
 float prt_blocked_cosine(PrtBlockedCap cap, vec3 normal) {
     float cosine = clamp(dot(cap.towards, normal), -1.0, 1.0);
     return cap.density *
@@ -120,7 +125,8 @@ float prt_occluders_sun(vec3 position, vec3 towards, float half_angle) {
 }
 
 #ifdef PRT_VOLUME_ORDER
-// The light that comes from where an object is, over all that arrives: a bright sky behind it is missed more.
+// Weights the blocked share by the light from the direction of the object relative to all arriving light: an
+// object in front of a bright sky blocks more.
 vec3 prt_occluders_light(vec3 position, vec3 normal, vec3 light[PRT_VOLUME_COEFFICIENTS]) {
     vec3 all = max(prt_incident_irradiance(light, normal), vec3(1e-12)), left = vec3(1.0);
     for (int i = 0; i < PRT_OCCLUDER_COUNT; ++i) {

@@ -1,7 +1,8 @@
-// The light of a transfer vector. Define what prt::part_defines gives: PRT_NUMBERS of a vector, PRT_COEFFICIENTS
-// (order²); channels, 1 or 3, of the parts of distant light that are there, PRT_FIRST_CHANNELS and PRT_SECOND_CHANNELS;
-// and PRT_LAMPS with a bit for each that has color, the first 32 in PRT_COLORED_LAMPS. Define PRT_TRANSFER(at, i),
-// number i of the vector at `at`, and PRT_LIGHT(i), color i of prt::light_columns.
+// Computes the light of a transfer vector. Define the lines of prt::part_defines: PRT_NUMBERS of a vector,
+// PRT_COEFFICIENTS (order²); PRT_FIRST_CHANNELS and PRT_SECOND_CHANNELS, the channels, 1 or 3, of the parts
+// of distant light that exist; and PRT_LAMPS with a bit for each colored lamp, the first 32 in
+// PRT_COLORED_LAMPS. Define PRT_TRANSFER(at, i), number i of the vector at `at`, and PRT_LIGHT(i), color i of
+// prt::light_columns.
 
 #ifndef PRT_FIRST_CHANNELS
 #define PRT_FIRST_CHANNELS 0
@@ -13,7 +14,8 @@
 #define PRT_LAMPS 0
 #endif
 
-// What the colors from `color` on give of a grey part, whose numbers begin at `number`, and of a colored one.
+// Light of a grey part, or of a colored part, whose numbers begin at `number` and whose colors begin at
+// `color`.
 vec3 prt_grey_part(uint at, uint number, uint color) {
     vec3 sum = vec3(0.0);
     for (uint i = 0u; i < uint(PRT_COEFFICIENTS); ++i)
@@ -30,12 +32,12 @@ vec3 prt_colored_part(uint at, uint number, uint color) {
 }
 
 #if PRT_LAMPS > 0
-// Lamps have one color each, and one number or three.
+// Light of lamps, each with one color and one or three numbers.
 vec3 prt_lamps(uint at, uint number, uint color) {
     const uint kColored[2] = uint[2](PRT_COLORED_LAMPS);
     vec3 sum = vec3(0.0);
     for (uint k = 0u; k < uint(PRT_LAMPS); ++k) {
-        uint more = ((kColored[k / 32u] >> (k % 32u)) & 1u) * 2u; // numbers but the first
+        uint more = ((kColored[k / 32u] >> (k % 32u)) & 1u) * 2u; // numbers in addition to the first
         sum += vec3(PRT_TRANSFER(at, number), PRT_TRANSFER(at, number + more / 2u), PRT_TRANSFER(at, number + more)) *
                PRT_LIGHT(color + k);
         number += 1u + more;

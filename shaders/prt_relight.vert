@@ -1,4 +1,4 @@
-// The whole vertex shader of a relit model: a start for one of your own.
+// The complete vertex shader of a relit model, as a starting point for your shader.
 
 #include "prt_exit_radiance.glsl"
 
@@ -20,6 +20,6 @@ out vec3 radiance;
 #endif
 
 void main() {
-    radiance = prt_exit_radiance(position, normal); // times the albedo of the surface, in the fragment shader
+    radiance = prt_exit_radiance(position, normal); // multiply by the albedo in the fragment shader
     gl_Position = view_projection * vec4(position, 1.0);
 }

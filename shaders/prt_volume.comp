@@ -1,10 +1,11 @@
-// Light of the probes of a volume, as prt_volume.glsl looks it up: what prt::VolumeFormer::form does, one texel per
-// thread, once for every light. Dispatch as many groups as the atlas has bricks along each side.
+// Computes the light of the probes of a volume for prt_volume.glsl, instead of prt::VolumeFormer::form: one
+// texel per thread, once for every light. The number of groups is the size of the atlas in bricks along each
+// side.
 //
-// Define before including what prt_exit_radiance.glsl asks for of packed weights and of constants, and
-//     PRT_VOLUME_ORDER n      of incident light, 2..4
-//     PRT_VOLUME_FORMAT       of the image: rgba16f (where nothing is said) or rgba32f.
-// Constants are those of prt::VolumeFormer::form_constants.
+// Define before including: the definitions of prt_exit_radiance.glsl for packed weights and constants, and
+//     PRT_VOLUME_ORDER n      order of incident light, 2..4
+//     PRT_VOLUME_FORMAT       format of the image: rgba16f (default) or rgba32f.
+// The constants are those of prt::VolumeFormer::form_constants.
 
 #ifndef PRT_VOLUME_FORMAT
 #define PRT_VOLUME_FORMAT rgba16f
@@ -71,7 +72,7 @@ void prt_add_cluster() {
 }
 #endif
 
-// Number `n` of a texel in all planes.
+// Number `n` of a texel, counted over all planes.
 float prt_number(int n) {
     if (n < 3 * PRT_VOLUME_OUTPUTS)
         return prt_sums[n / 3][n % 3];

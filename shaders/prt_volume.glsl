@@ -1,36 +1,43 @@
-// Light of a volume at a place (docs/format.md, PRTKIT_transfer_volume), for GLSL 4.5 and 3.3, GLSL ES 3.0 and Vulkan:
+// Looks up the light of a volume at a position (docs/format.md, PRTKIT_transfer_volume). For GLSL 4.5 and 3.3,
+// GLSL ES 3.0 and Vulkan:
 //
-//     vec3 prt_volume_irradiance(vec3 position, vec3 normal)       over pi: times albedo it is what a surface sends out
-//     float prt_volume_sun_visibility(vec3 position, vec3 normal)  of the sun that the textures were formed for
-//     void prt_volume_incident(vec3 position, vec3 normal, out vec3 light[PRT_VOLUME_COEFFICIENTS]), and of that
+//     vec3 prt_volume_irradiance(vec3 position, vec3 normal)
+//         Irradiance over pi: multiplied by the albedo it is the exit radiance of a surface.
+//     float prt_volume_sun_visibility(vec3 position, vec3 normal)
+//         Visibility of the sun that the textures were computed for.
+//     void prt_volume_incident(vec3 position, vec3 normal, out vec3 light[PRT_VOLUME_COEFFICIENTS])
+//         Incident light, for the following functions.
 //     vec3 prt_incident_irradiance(light, normal)
-//     vec3 prt_incident_radiance(light, towards)                   what a glossy surface mirrors, blurred
-//     vec3 prt_incident_direction(light)                           to where most of it comes from
+//         Irradiance over pi.
+//     vec3 prt_incident_radiance(light, towards)
+//         Blurred radiance from a direction, for glossy reflections.
+//     vec3 prt_incident_direction(light)
+//         Main direction of the light.
 //
-// `position` in metres; `normal`, unit, is that of the surface that is lit, or zero.
+// `position` is in metres; `normal` is the unit normal of the lit surface, or zero.
 //
 // Define before including (prt::volume_defines writes the lines for a volume)
-//     PRT_VOLUME_ORDER n         of incident light, 2..4,
-//     PRT_VOLUME_LINEAR          where the sampler of light filters: cells that all probes see are read by it,
+//     PRT_VOLUME_ORDER n         order of incident light, 2..4,
+//     PRT_VOLUME_LINEAR          if the sampler of light filters: it then reads cells that all probes see,
 // and, as numbers or as names of uniforms,
-//     PRT_VOLUME_ORIGIN          vec3: least corner, where positions are seen from,
+//     PRT_VOLUME_ORIGIN          vec3: minimum corner, which positions are relative to,
 //     PRT_VOLUME_SPACING         float,
 //     PRT_VOLUME_SIZE            ivec3: in bricks of level 0,
-//     PRT_VOLUME_FIRST           ivec4: place and level of brick 0,
-//     PRT_VOLUME_BRICKS          ivec3: of the atlas (prt::VolumeAtlas).
+//     PRT_VOLUME_FIRST           ivec4: position and level of brick 0,
+//     PRT_VOLUME_BRICKS          ivec3: size of the atlas in bricks (prt::VolumeAtlas).
 
 #include "shared_layout.h"
 
 #define PRT_VOLUME_COEFFICIENTS (PRT_VOLUME_ORDER * PRT_VOLUME_ORDER)
 
-// The program binds samplers by name where the language cannot say it here.
+// The program binds samplers by name if the language has no binding layout.
 #if defined(VULKAN) || (!defined(GL_ES) && __VERSION__ >= 420)
 #define PRT_VOLUME_SAMPLER(number) layout(binding = number) uniform highp
 #else
 #define PRT_VOLUME_SAMPLER(number) uniform highp
 #endif
 
-// As prt/volume_textures.h says.
+// Textures as defined in prt/volume_textures.h.
 PRT_VOLUME_SAMPLER(PRT_UNIT_VOLUME_LIGHT) sampler3D prt_volume_light;
 PRT_VOLUME_SAMPLER(PRT_UNIT_VOLUME_SIGHTS) usampler3D prt_volume_sights;
 PRT_VOLUME_SAMPLER(PRT_UNIT_VOLUME_INDEX) usampler3D prt_volume_index;
@@ -40,15 +47,15 @@ struct PrtVolumeBrick {
     int level, slot;
 };
 
-// A place between eight probes.
+// A position between eight probes.
 struct PrtVolumePlace {
-    ivec3 texel; // of the least of them
-    vec3 share;  // of the cell, along each axis
-    bool seen;   // by all: weights are trilinear
+    ivec3 texel; // texel of the minimum corner
+    vec3 share;  // position in the cell, along each axis
+    bool seen;   // visible from all probes: weights are trilinear
     vec4 weights[2];
 };
 
-// The brick that holds a place inside of the volume; `brick` where there is none.
+// Returns the brick that contains a position inside the volume; `brick` if there is none.
 PrtVolumeBrick prt_volume_brick(vec3 position, PrtVolumeBrick brick) {
     vec3 bricks = (position - PRT_VOLUME_ORIGIN) / (4.0 * PRT_VOLUME_SPACING);
     ivec3 place = clamp(ivec3(floor(bricks)), ivec3(0), PRT_VOLUME_SIZE - 1);
@@ -61,20 +68,20 @@ PrtVolumeBrick prt_volume_brick(vec3 position, PrtVolumeBrick brick) {
     return brick;
 }
 
-// How a probe counts that has these sights, for a place at `from` seen from there, in cells.
+// Weight of a probe with these visibility distances, for a position `from` relative to the probe, in cells.
 float prt_volume_sight(uvec2 sights, vec3 from) {
     vec3 below = vec3(sights.x & 255u, sights.x >> 16 & 255u, sights.y & 255u),
          above = vec3(sights.x >> 8 & 255u, sights.x >> 24, sights.y >> 8 & 255u);
     vec3 root = mix(below, above, greaterThan(from, vec3(0.0))) / 255.0;
     vec3 distances = PRT_VOLUME_SIGHT_CELLS * float(1u << (sights.y >> 16 & 3u)) * root * root;
     vec3 along = abs(from) / max(distances, vec3(1e-18));
-    float passed = max(along.x, max(along.y, along.z)); // 1: a surface is there
+    float passed = max(along.x, max(along.y, along.z)); // 1: at the surface
     float behind = clamp((passed - PRT_VOLUME_SIGHT_FULL) / (PRT_VOLUME_SIGHT_NONE - PRT_VOLUME_SIGHT_FULL), 0.0, 1.0);
     float beyond = clamp(passed, 1.0, 16.0), squared = beyond * beyond, fourth = squared * squared;
     return max(1.0 - behind * behind * (3.0 - 2.0 * behind), PRT_VOLUME_HIDDEN_WEIGHT / (fourth * fourth));
 }
 
-// `at`: in cells of a brick from its least corner, not necessarily inside of it.
+// `at`: position in cells of a brick from its minimum corner, not necessarily inside the brick.
 PrtVolumePlace prt_volume_weighted(PrtVolumeBrick brick, vec3 at) {
     vec3 inside = clamp(at, vec3(0.0), vec3(4.0));
     ivec3 low = min(ivec3(inside), ivec3(3)), bricks = PRT_VOLUME_BRICKS;
@@ -114,7 +121,7 @@ PrtVolumePlace prt_volume_find(vec3 position, vec3 normal) {
     return prt_volume_weighted(brick, (seen - (least + PRT_VOLUME_SPACING * vec3(4 * brick.place))) / cell);
 }
 
-// Four numbers of a place.
+// Four numbers at a position.
 vec4 prt_volume_plane(PrtVolumePlace place, int plane) {
     ivec3 texel = place.texel + ivec3(0, 0, 5 * PRT_VOLUME_BRICKS.z * plane);
 #ifdef PRT_VOLUME_LINEAR
@@ -146,7 +153,8 @@ float prt_volume_sun_visibility(vec3 position, vec3 normal) {
     return prt_volume_plane(prt_volume_find(position, normal), kNumber >> 2)[kNumber & 3];
 }
 
-// Radiance in unit direction `n` of light whose band l counts `bands[l]` (docs/math.md, eq. 1 to 3).
+// Radiance in unit direction `n` of light whose band l is multiplied by `bands[l]` (docs/math.md, eq. 1 to
+// 3).
 vec3 prt_incident_sum(vec3 light[PRT_VOLUME_COEFFICIENTS], vec3 n, vec4 bands) {
     vec3 sum = bands[0] * 0.282094792 * light[0];
     sum += bands[1] * 0.488602512 * (-n.y * light[1] + n.z * light[2] - n.x * light[3]);
@@ -166,7 +174,7 @@ vec3 prt_incident_sum(vec3 light[PRT_VOLUME_COEFFICIENTS], vec3 n, vec4 bands) {
     return max(sum, vec3(0.0));
 }
 
-// Irradiance over pi: the cosine has 1, 2/3, 1/4 and 0 in its bands.
+// Irradiance over pi: the bands of the cosine are 1, 2/3, 1/4 and 0.
 vec3 prt_incident_irradiance(vec3 light[PRT_VOLUME_COEFFICIENTS], vec3 normal) {
     return prt_incident_sum(light, normal, vec4(1.0, 2.0 / 3.0, 0.25, 0.0));
 }
@@ -175,7 +183,7 @@ vec3 prt_incident_radiance(vec3 light[PRT_VOLUME_COEFFICIENTS], vec3 towards) {
     return prt_incident_sum(light, towards, vec4(1.0));
 }
 
-// Unit, to where most light comes from; zero where all directions are alike.
+// Unit direction towards the maximum of the light; zero if the light is uniform.
 vec3 prt_incident_direction(vec3 light[PRT_VOLUME_COEFFICIENTS]) {
     const vec3 kLuminance = vec3(0.2126, 0.7152, 0.0722);
     vec3 direction = vec3(-dot(light[3], kLuminance), -dot(light[1], kLuminance), dot(light[2], kLuminance));

@@ -1,4 +1,4 @@
-// Exit radiance times base color, linear. Define PRT_SUNS to add the light of suns, shadowed by maps.
+// Exit radiance times base color, linear. Define PRT_SUNS to add the light of suns with shadow maps.
 
 #include "surface.glsl"
 #include "emission.glsl"

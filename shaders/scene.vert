@@ -1,5 +1,5 @@
-// Vertices of the scene. Define PRT_COMPRESSED to form the exit radiance here, from compressed transfer, PRT_LIGHTMAP
-// where the fragment shader looks it up, PRT_SUNS for a fragment shader that adds suns.
+// Vertices of the scene. Define PRT_COMPRESSED to compute exit radiance here from compressed transfer,
+// PRT_LIGHTMAP if the fragment shader looks it up, PRT_SUNS for a fragment shader that adds suns.
 
 #include "shared_layout.h"
 

@@ -1,5 +1,5 @@
-// Geometry and samples of lamps (docs/math.md, section 13), which the baker's GLSL computes in float and its C++ in
-// double: `real` is either. C++ includes it through bake/lamps/lamp_geometry.h.
+// Geometry and samples of lamps (docs/math.md, section 13). GLSL computes them in float and C++ in double:
+// `real` is either type. C++ includes this file through bake/lamps/lamp_geometry.h.
 #ifndef PRT_SHARED_LAMPS_H
 #define PRT_SHARED_LAMPS_H
 
@@ -10,36 +10,38 @@
 #define real float
 #endif
 
-// A number in [0, 1) of 24 bits, which float and double both hold.
+// Returns a number in [0, 1) with 24 bits, which float and double represent exactly.
 PRT_LAMP_FUNCTION real unit_number(uint bits) {
     return real(bits >> 8) * (1.0 / 16777216.0);
 }
 
-// Even steps of a sequence in [0, 1) that stays even wherever it ends: by the golden ratio, of 2^32.
+// Returns element i of a sequence in [0, 1) that is uniform for any length: steps of the golden ratio, times
+// 2^32.
 PRT_LAMP_FUNCTION real golden(uint i, uint begin) {
     return unit_number(begin + i * 2654435769u);
 }
 
-// Rays of `most` that go to a light which gives that share of all: rounded up, but not by what rounding of the share
-// itself adds, so that a light alone has `most` however a device divides.
+// Number of `most` rays for a light with this share of the total: rounded up, but without the rounding error
+// of the share itself, so that a single light has `most` rays independent of the device's division.
 PRT_LAMP_FUNCTION uint rays_of_share(uint most, real share) {
     return max(1u, uint(ceil(real(most) * (share * (1.0 - 1e-6)))));
 }
 
-// Share of its intensity that a spot sends along a direction of this cosine to its middle, as KHR_lights_punctual
-// recommends.
+// Share of its intensity that a spot emits in a direction with this cosine to its axis, as recommended by
+// KHR_lights_punctual.
 PRT_LAMP_FUNCTION real share_in_cone(real cosine, real inner_cosine, real outer_cosine) {
     real share = clamp((cosine - outer_cosine) / max(0.001, inner_cosine - outer_cosine), 0.0, 1.0);
     return share * share;
 }
 
-// What is left of an inverse square at this distance over the range, as KHR_lights_punctual recommends.
+// Attenuation in addition to the inverse square at this distance over the range, as recommended by
+// KHR_lights_punctual.
 PRT_LAMP_FUNCTION real share_in_range(real ratio) {
     return clamp(1.0 - ratio * ratio * ratio * ratio, 0.0, 1.0);
 }
 
-// Distance to a sphere whose middle is so far away, along a direction of which `depth` is 1 less the cosine to the
-// middle; 0 within it.
+// Distance to a sphere with its center at distance `middle`, along a direction for which `depth` is 1 minus
+// the cosine to the center; 0 inside the sphere.
 PRT_LAMP_FUNCTION real distance_to_sphere(real middle, real depth, real radius) {
     if (middle <= radius)
         return 0.0;
@@ -47,24 +49,26 @@ PRT_LAMP_FUNCTION real distance_to_sphere(real middle, real depth, real radius) 
     return middle * (1.0 - depth) - sqrt(max(0.0, radius * radius - across));
 }
 
-// A triangle as it is seen from the origin.
+// A triangle relative to the origin.
 struct SeenTriangle {
     vec3 a, b, c; // corners
-    vec3 ab, ac;  // sides, rounded less than the differences of far corners are
+    vec3 ab, ac;  // sides, with less rounding than differences of distant corners
     vec3 normal;  // cross product of the sides
-    real volume;  // six times that between the origin and the triangle; negative where the front is seen
+    real volume;  // six times the volume between the origin and the triangle; negative if the front is visible
     real angle;   // solid angle
 };
 
-// A. van Oosterom, J. Strackee, "The Solid Angle of a Plane Triangle", 1983. `volume` is that of SeenTriangle.
+// Solid angle by A. van Oosterom, J. Strackee, "The Solid Angle of a Plane Triangle", 1983. `volume` as in
+// SeenTriangle.
 PRT_LAMP_FUNCTION real solid_angle(vec3 a, vec3 b, vec3 c, real volume) {
     real la = length(a), lb = length(b), lc = length(c);
     real below = 1.0 + dot(a, b) / (la * lb) + dot(a, c) / (la * lc) + dot(b, c) / (lb * lc);
     return volume != 0.0 ? 2.0 * atan(abs(volume) / (la * lb * lc), below) : 0.0;
 }
 
-// The angle is 0 where all of it is below the horizon of `up`, and where its back is seen, unless `both_sides` shine.
-// The plane's distance is taken from the nearest corner, whose rounding is the least.
+// Creates a SeenTriangle. The angle is 0 if the triangle is below the horizon of `up`, or if its back is
+// visible, unless `both_sides` are emissive. The distance of the plane is computed from the nearest corner,
+// which has the smallest rounding.
 PRT_LAMP_FUNCTION SeenTriangle see_triangle(vec3 a, vec3 b, vec3 c, vec3 ab, vec3 ac, vec3 up, bool both_sides) {
     SeenTriangle t;
     t.a = a;
@@ -77,16 +81,17 @@ PRT_LAMP_FUNCTION SeenTriangle see_triangle(vec3 a, vec3 b, vec3 c, vec3 ab, vec
     vec3 nearer = aa < bb ? a : b;
     t.volume = dot(min(aa, bb) < cc ? nearer : c, t.normal);
     t.angle = 0.0;
-    // Most triangles of a closed shape show their back, which is quick to tell.
+    // Most triangles of a closed shape show their back, which is quick to test.
     bool above = max(dot(a, up), max(dot(b, up), dot(c, up))) > 0.0;
     if (above && (both_sides || t.volume < 0.0))
         t.angle = solid_angle(a, b, c, t.volume);
     return t;
 }
 
-// The unit direction at `u` in [0, 1]² of an even map onto the spherical triangle: that of J. Arvo, "Stratified
-// Sampling of Spherical Triangles", SIGGRAPH 1995, with the point between a and c found as C. Peters does ("BRDF
-// Importance Sampling for Polygons", SIGGRAPH 2021), where little cancels however small the triangle is.
+// Returns the unit direction for `u` in [0, 1]² of a uniform map to the spherical triangle: the map of J.
+// Arvo, "Stratified Sampling of Spherical Triangles", SIGGRAPH 1995, with the point between a and c computed
+// as by C. Peters ("BRDF Importance Sampling for Polygons", SIGGRAPH 2021), which avoids cancellation for
+// small triangles.
 PRT_LAMP_FUNCTION vec3 direction_in(SeenTriangle t, vec2 u) {
     real la = length(t.a), lb = length(t.b), lc = length(t.c);
     vec3 a = t.a / la, b = t.b / lb, c = t.c / lc, ab = a + b;
@@ -95,18 +100,19 @@ PRT_LAMP_FUNCTION vec3 direction_in(SeenTriangle t, vec2 u) {
     vec3 middle = (volume * cos(part) - dot(ab, c) * sin(part)) * a + (0.5 * dot(ab, ab) * sin(part)) * c;
     vec3 cut = 2.0 * dot(a, normalize(middle)) * normalize(middle) - a; // between a and c
     vec3 across = cut - dot(cut, b) * b;
-    real depth = u.y * 0.5 * dot(b - cut, b - cut); // 1 less the cosine to b
+    real depth = u.y * 0.5 * dot(b - cut, b - cut); // 1 minus the cosine to b
     return normalize((1.0 - depth) * b + sqrt(depth * max(0.0, 2.0 - depth)) * normalize(across));
 }
 
-// A point of a triangle that shines, as sampled.
+// A sampled point of an emissive triangle.
 struct TrianglePoint {
     vec3 place;
     vec2 uv;    // barycentric coordinates of b and c
-    real angle; // solid angle that it stands for
+    real angle; // solid angle that the point represents
 };
 
-// Even over the solid angle, or where that is so small that there is no difference, over the area.
+// Samples uniformly over the solid angle, or over the area if the solid angle is so small that both are
+// equal.
 PRT_LAMP_FUNCTION TrianglePoint point_of(SeenTriangle t, vec2 u) {
     TrianglePoint p;
     if (t.angle < 1e-3) {

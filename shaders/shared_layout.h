@@ -1,4 +1,4 @@
-// Numbers that GLSL and C++ of the runtime share, and with them every game. Included by both: plain preprocessor only.
+// Numbers that the runtime and every game share between GLSL and C++. Uses only the preprocessor.
 #ifndef PRT_SHARED_LAYOUT_H
 #define PRT_SHARED_LAYOUT_H
 
@@ -6,9 +6,9 @@
 #define PRT_LOCATION_POSITION 0
 #define PRT_LOCATION_TEXCOORD 1
 #define PRT_LOCATION_COLOR 2
-#define PRT_LOCATION_RADIANCE 3 // shares its place with the cluster: a vertex has one or the other
+#define PRT_LOCATION_RADIANCE 3 // same location as the cluster: a vertex has one of the two
 #define PRT_LOCATION_CLUSTER 3
-#define PRT_LOCATION_WEIGHTS 4 // and the following ones, four weights each; GLSL 3.3 wants plain numbers
+#define PRT_LOCATION_WEIGHTS 4 // and following locations, four weights each; GLSL 3.3 needs literals
 #define PRT_LOCATION_WEIGHTS_1 5
 #define PRT_LOCATION_WEIGHTS_2 6
 #define PRT_LOCATION_WEIGHTS_3 7
@@ -20,14 +20,14 @@
 #define PRT_LOCATION_WEIGHTS_9 13
 #define PRT_LOCATION_WEIGHTS_10 14
 #define PRT_LOCATION_WEIGHTS_11 15
-#define PRT_LOCATION_INSTANCE_X 10 // of an instance, whose mesh has 24 weights at most: its matrix
+#define PRT_LOCATION_INSTANCE_X 10 // matrix of an instance, whose mesh has at most 24 weights
 #define PRT_LOCATION_INSTANCE_Y 11
 #define PRT_LOCATION_INSTANCE_Z 12
 #define PRT_LOCATION_INSTANCE_0 13 // its rows of prt::InstanceFormer::table
 #define PRT_LOCATION_INSTANCE_1 14
-#define PRT_LOCATION_AO 4       // where there are no weights
-#define PRT_LOCATION_LIGHTMAP 4 // the same
-#define PRT_LOCATION_NORMAL 15  // shares its place with the last weights, which no model with guides has
+#define PRT_LOCATION_AO 4       // if there are no weights
+#define PRT_LOCATION_LIGHTMAP 4 // if there are no weights
+#define PRT_LOCATION_NORMAL 15  // same location as the last weights, which models with predictors do not have
 
 // Storage buffers.
 #define PRT_BINDING_CONSTANTS 0
@@ -39,7 +39,7 @@
 #define PRT_BINDING_OCCLUDERS 6 // a uniform block
 #define PRT_BINDING_LOBES 7     // a uniform block
 #define PRT_BINDING_EMISSION_TEXCOORDS 10
-#define PRT_BINDING_PALETTE 11 // what moves: skinning.glsl
+#define PRT_BINDING_PALETTE 11 // moving vertices: skinning.glsl
 #define PRT_BINDING_INFLUENCES 12
 
 // Surfaces: prt::AlphaMode.
@@ -47,14 +47,14 @@
 #define PRT_ALPHA_MASK 1
 #define PRT_ALPHA_BLEND 2
 
-// A cluster's entry in its table, a uvec4 (prt::ClusterLayout): the first row of its constants, its components, the
-// widths of their weights in two words.
+// Entry of a cluster in its table, a uvec4 (prt::ClusterLayout): the first row of its constants, its number
+// of components, and the widths of their weights in two words.
 #define PRT_CLUSTER_FIRST_ROW 0
 #define PRT_CLUSTER_COMPONENTS 1
 #define PRT_CLUSTER_WIDTHS 2
 
 // Texture units.
-#define PRT_UNIT_WORD_IMAGES 2 // and the following ones, one for each word of a texel; beside constants and clusters
+#define PRT_UNIT_WORD_IMAGES 2 // and following units, one per word of a texel
 #define PRT_UNIT_BASE_COLOR 0
 #define PRT_UNIT_BACKGROUND 1
 #define PRT_UNIT_EMISSION 7
@@ -68,18 +68,18 @@
 #define PRT_IMAGE_LIGHTMAP 0
 #define PRT_IMAGE_VOLUME 1
 
-// Weights of the probes of a volume: prt/volume_weights.h says what they are.
+// Weights of the probes of a volume, defined in prt/volume_weights.h.
 #define PRT_VOLUME_NORMAL_BIAS 0.25
 #define PRT_VOLUME_SIGHT_CELLS 4.0
 #define PRT_VOLUME_SIGHT_FULL 0.8
 #define PRT_VOLUME_SIGHT_NONE 1.03
 #define PRT_VOLUME_HIDDEN_WEIGHT 0.0001
 
-// Volumes of what moving objects block: prt/occlusion_volume.h says what these are.
+// Occlusion volumes of moving objects, defined in prt/occlusion_volume.h.
 #define PRT_OCCLUDER_SIDE 8
 #define PRT_OCCLUDER_FADE 0.6
 #define PRT_OCCLUDER_BORDER 0.4
-// Profiles of lobes: prt/lobes.h.
+// Maximum number of lobe profiles: prt/lobes.h.
 #define PRT_MOST_PROFILES 256
 
 #ifndef PRT_MOST_OCCLUDERS

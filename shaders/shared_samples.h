@@ -1,4 +1,4 @@
-// Hashes behind the samples that the baker's GLSL and C++ take alike.
+// Hashes for samples that are equal in the baker's GLSL and C++.
 #ifndef PRT_SHARED_SAMPLES_H
 #define PRT_SHARED_SAMPLES_H
 

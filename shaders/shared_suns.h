@@ -1,19 +1,19 @@
-// Suns and their shadow maps as GLSL and C++ share them, laid out as in std430. C++ includes it through
-// runtime/render/gl/sun_structs.h, which has the types of GLSL.
+// Suns and their shadow maps, shared between GLSL and C++, with std430 layout. C++ includes this file through
+// runtime/render/gl/sun_structs.h, which defines the GLSL types.
 #ifndef PRT_SHARED_SUNS_H
 #define PRT_SHARED_SUNS_H
 
 #define PRT_MOST_SUNS 4
-#define PRT_MOST_SLICES 4 // of what the camera sees, by distance; each has a map for each sun
-#define PRT_MAP_BORDER 2  // texels of a map beyond what it is fitted to
+#define PRT_MOST_SLICES 4 // slices of the view by distance; each has a map per sun
+#define PRT_MAP_BORDER 2  // texels of a map beyond the fitted region
 
-// Storage buffers. Vertices lit by suns read these, since weights may take all attributes.
+// Storage buffers. Vertices lit by suns read them, because weights may use all attributes.
 #define PRT_BINDING_NORMALS 6
 #define PRT_BINDING_FACTOR_TEXCOORDS 7
 #define PRT_BINDING_TINT_TEXCOORDS 8
 #define PRT_BINDING_SUNS 9
 
-// Texture units, beside those of shared_layout.h and shared_viewer.h (0 to 7).
+// Texture units in addition to those of shared_layout.h and shared_viewer.h (0 to 7).
 #define PRT_UNIT_SUN_DEPTH 13
 #define PRT_UNIT_SUN_LAYERS 8
 #define PRT_UNIT_SUN_PASSES 9
@@ -21,29 +21,29 @@
 #define PRT_UNIT_TRANSMISSION_TINT 11
 #define PRT_UNIT_GLASS 12
 
-#define PRT_LOCATION_GLASS_TEXCOORD 3 // of casters
+#define PRT_LOCATION_GLASS_TEXCOORD 3 // attribute of casters
 
 struct SunLight {
     vec4 towards; // unit; w: tangent of the half angle
-    vec4 open;    // exit radiance of a white surface that faces it, nothing in the way
+    vec4 open;    // exit radiance of an unoccluded white surface that faces the sun
 };
 
-// Places in a map are texels, and metres behind its near plane.
+// A shadow map. Positions in a map are in texels, and in metres behind its near plane.
 struct SunMap {
-    vec4 across, up, along; // each gives one from a place seen from the eye, with 1 as its fourth
+    vec4 across, up, along; // each maps a position relative to the eye, with 1 as fourth component
     vec2 texels_per_metre;
-    float depth; // metres from the near plane to the far one
-    float texel; // its longer side, metres
+    float depth; // metres from the near plane to the far plane
+    float texel; // the longer side of a texel, metres
 };
 
 struct SunsSeen {
     SunLight suns[PRT_MOST_SUNS];
     SunMap maps[PRT_MOST_SUNS * PRT_MOST_SLICES]; // [count][slices]
-    vec4 slice_ends;                              // distances along the view, near ones first
+    vec4 slice_ends;                              // distances along the view, in ascending order
     vec4 eye;
-    vec4 forward; // of the view, unit
+    vec4 forward; // unit view direction
     int count, slices;
-    int layered; // something lets a part of the light through
+    int layered; // some surface transmits a part of the light
     int unused;
 };
 

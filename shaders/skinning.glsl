@@ -1,4 +1,4 @@
-// Vertices that go by weights of matrices (prt/animation.h).
+// Vertices that move with weighted matrices (prt/animation.h).
 
 #include "shared_layout.h"
 
@@ -6,10 +6,10 @@ layout(std430, binding = PRT_BINDING_PALETTE) readonly buffer Palette {
     mat4 palette[];
 };
 layout(std430, binding = PRT_BINDING_INFLUENCES) readonly buffer Influences {
-    uvec2 influences[]; // [vertices][influences_each]: which matrix, and the bits of its weight
+    uvec2 influences[]; // [vertices][influences_each] index of the matrix, and the bits of its weight
 };
 
-uniform int influences_each; // 0: all vertices go by the one matrix
+uniform int influences_each; // 0: all vertices use one matrix
 
 mat4 vertex_matrix() {
     if (influences_each == 0)
@@ -25,7 +25,7 @@ mat4 vertex_matrix() {
     return sum / total;
 }
 
-// Normals go by the cofactors of the matrix.
+// Transforms a normal by the cofactors of the matrix.
 vec3 moved_normal(mat4 matrix, vec3 normal) {
     mat3 m = mat3(matrix);
     vec3 n = mat3(cross(m[1], m[2]), cross(m[2], m[0]), cross(m[0], m[1])) * normal;

@@ -1,5 +1,6 @@
-// What stops all of a sun's light goes into the depth of a map. With PRT_PARTLY, of what lets a part through: depths of
-// the first and the last layer (blended by the least), and what all layers together pass (multiplied).
+// Writes surfaces that stop all light of a sun to the depth of a map. With PRT_PARTLY, for surfaces that
+// transmit a part: depths of the first and the last layer (blended by minimum), and the transmittance of all
+// layers (multiplied).
 
 #include "surface.glsl"
 #include "shared_suns.h"
@@ -9,8 +10,8 @@ in float depth;
 
 layout(binding = PRT_UNIT_GLASS) uniform sampler2D glass_texture;
 uniform bool has_glass_texture;
-uniform bool glass_as_color; // the texture is a color elsewhere
-uniform float glass;         // what passes where the texture is 1
+uniform bool glass_as_color; // the texture is used as a color elsewhere
+uniform float glass;         // transmittance where the texture is 1
 uniform mat3x2 glass_transform;
 
 #ifdef PRT_PARTLY
@@ -22,7 +23,7 @@ float srgb_encoded(float x) {
     return x <= 0.0031308 ? 12.92 * x : 1.055 * pow(x, 1.0 / 2.4) - 0.055;
 }
 
-// As Surfaces::coverage finds it for rays. Cut-outs are decided at the finest level.
+// Coverage as in Surfaces::coverage. Cut-outs use the finest level.
 float coverage() {
     float alpha = base_color.a * surface_color.a;
     if (has_texture) {

@@ -1,4 +1,4 @@
-// What blocks a sun, as the sun sees it.
+// Surfaces that block a sun, in the projection of its map.
 
 #include "shared_layout.h"
 #include "sun_view.glsl"

@@ -1,5 +1,5 @@
-// The light of suns that a surface sends to the camera: Lambertian, on the side that shows, and diffusely through thin
-// sheets (docs/math.md, eq. 38).
+// Light of suns that a surface scatters to the camera: Lambertian on the visible side, and diffuse through
+// thin sheets (docs/math.md, eq. 38).
 
 #include "surface.glsl"
 #include "sun_shadows.glsl"
@@ -12,10 +12,10 @@ layout(binding = PRT_UNIT_TRANSMISSION_TINT) uniform sampler2D tint_texture;
 uniform bool has_transmission_factor, has_transmission_tint;
 uniform mat3x2 factor_transform, tint_transform;
 uniform bool sunlit;               // all light of a medium is indirect
-uniform float transmission_factor; // 0 where it is no thin sheet
+uniform float transmission_factor; // 0 if the surface is not a thin sheet
 uniform vec3 transmission_tint;
 
-// How much of the light on the other side passes, and in what color.
+// Share of light from the other side that is transmitted, and its color.
 vec3 transmitted_share(out float through) {
     through = transmission_factor;
     if (has_transmission_factor)
@@ -27,7 +27,7 @@ vec3 transmitted_share(out float through) {
     return through * tint;
 }
 
-// `base`: what surface_base_color gave.
+// `base`: result of surface_base_color.
 vec3 sun_radiance(vec3 base) {
     vec3 face = normalize(cross(dFdx(seen), dFdy(seen)));
     face = dot(face, seen) > 0.0 ? -face : face; // towards the camera
@@ -41,7 +41,7 @@ vec3 sun_radiance(vec3 base) {
         vec3 towards = suns_seen.suns[i].towards.xyz;
         float cosine = dot(normal, towards);
         vec3 share = cosine > 0.0 ? reflected : transmitted;
-        // On a side that the triangle turns away from the sun it shadows itself.
+        // The triangle shadows itself on a side that faces away from the sun.
         if (cosine * dot(face, towards) > 0.0 && share != vec3(0.0))
             sum += suns_seen.suns[i].open.rgb * abs(cosine) * share * sun_visibility(i, seen, face);
     }

@@ -1,5 +1,5 @@
-// What a fragment shader with sun_light.glsl takes of a vertex. The place of every attribute may be taken by weights of
-// transfer, so it comes from buffers.
+// Vertex data for a fragment shader with sun_light.glsl: read from buffers, because weights of transfer may
+// use all attributes.
 
 #include "sun_view.glsl"
 #include "vertex_normals.glsl"
@@ -13,7 +13,7 @@ layout(std430, binding = PRT_BINDING_TINT_TEXCOORDS) readonly buffer TintTexcoor
 
 uniform bool has_transmission_factor, has_transmission_tint; // textures
 
-out vec3 seen; // from the eye
+out vec3 seen; // position relative to the eye
 out vec3 sun_normal;
 out vec2 factor_texcoord, tint_texcoord;
 

@@ -1,4 +1,4 @@
-// The base color of the surface that a fragment shader draws: material, texture, vertex color, cut-outs. Linear.
+// Base color of the surface that a fragment shader draws: material, texture, vertex color, cut-outs. Linear.
 
 #include "shared_layout.h"
 
@@ -13,7 +13,7 @@ uniform mat3x2 texture_transform;
 uniform int alpha_mode; // PRT_ALPHA_*
 uniform float alpha_cutoff;
 
-// The level of detail is computed here, not by the texture unit, whose formula differs between drivers.
+// Computes the level of detail in the shader, because the formula of texture units differs between drivers.
 vec4 filtered_texture(sampler2D image, vec2 uv) {
     vec2 size = vec2(textureSize(image, 0));
     vec2 dx = dFdx(uv) * size, dy = dFdy(uv) * size;
@@ -21,7 +21,7 @@ vec4 filtered_texture(sampler2D image, vec2 uv) {
     return textureLod(image, uv, 0.5 * log2(footprint));
 }
 
-// Material, texture and vertex color together.
+// Product of material, texture and vertex color.
 vec4 material_color() {
     vec4 color = base_color * surface_color;
     if (has_texture)
@@ -29,7 +29,7 @@ vec4 material_color() {
     return color;
 }
 
-// Color and coverage; discards what is cut out.
+// Color and coverage; discards cut-out fragments.
 vec4 surface_base_color() {
     vec4 base = vec4(1.0);
     if (textured) {

@@ -1,4 +1,4 @@
-// Normals of vertices from a buffer: weights of transfer may take the place of every attribute.
+// Reads normals of vertices from a buffer, because weights of transfer may use all attributes.
 
 #include "shared_suns.h"
 

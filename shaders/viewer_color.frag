@@ -1,4 +1,4 @@
-// As it is.
+// Interpolated vertex color, multiplied by a tint.
 
 in vec4 surface_color;
 uniform vec4 tint;

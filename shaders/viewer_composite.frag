@@ -1,19 +1,19 @@
-// Two pictures on the screen: side by side at a split, or their difference as heat.
+// Draws two pictures on the screen: split into left and right, or their difference as a heat map.
 
 #include "shared_viewer.h"
 
 layout(binding = PRT_UNIT_LEFT) uniform sampler2D left_picture;
 layout(binding = PRT_UNIT_RIGHT) uniform sampler2D right_picture;
-uniform ivec2 size;        // of the screen, pixels
+uniform ivec2 size;        // size of the screen, pixels
 uniform float split;       // pixels from the left
-uniform bvec2 tone_mapped; // left, right: exposure and tone curve, else shown as it is
+uniform bvec2 tone_mapped; // left, right: apply exposure and tone curve; otherwise show unchanged
 uniform float exposure;
 uniform bool difference;
-uniform float white; // radiance that is white as heat
+uniform float white; // radiance that is white in the heat map
 
 out vec4 result;
 
-// Shoulder and toe by the rational fit of Narkowicz (2016) to the ACES curve, as prt::tone_mapped.
+// Tone curve: the rational fit of Narkowicz (2016) to the ACES curve, equal to prt::tone_mapped.
 vec3 display(vec3 color, bool mapped) {
     if (mapped) {
         vec3 x = min(color * exposure, vec3(1e4));
@@ -26,7 +26,7 @@ vec3 encode(vec3 c) {
     return mix(12.92 * c, 1.055 * pow(max(c, vec3(1e-6)), vec3(1.0 / 2.4)) - 0.055, step(vec3(0.0031308), c));
 }
 
-// A picture may have several samples per pixel: each is mapped, then their mean is taken.
+// A picture may have several samples per pixel: maps each sample, then averages them.
 vec3 shown(sampler2D picture, bool mapped) {
     ivec2 samples = max(textureSize(picture, 0) / size, ivec2(1));
     ivec2 first = ivec2(gl_FragCoord.xy) * textureSize(picture, 0) / size; // a coarse picture has larger pixels

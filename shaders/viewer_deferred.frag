@@ -1,4 +1,4 @@
-// Light for the G-buffer.
+// Lights the G-buffer.
 
 #include "viewer_gbuffer.glsl"
 #include "irradiance.glsl"

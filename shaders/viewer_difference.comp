@@ -1,5 +1,5 @@
-// Sums over the surfaces that two pictures show: squared difference, squared second picture, pixels, and the mean of
-// the second's channels; one row of sums per group, to be added up by the reader.
+// Sums over the surfaces visible in two pictures: squared difference, squared second picture, number of
+// pixels, and mean of the second picture's channels. Writes one row of sums per group; the reader adds them.
 
 #include "shared_viewer.h"
 

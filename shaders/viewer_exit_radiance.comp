@@ -1,4 +1,4 @@
-// Exit radiance of every receiver from its raw transfer vector. Define what prt_parts.glsl asks for of the parts.
+// Exit radiance of every receiver from its raw transfer vector. Define the parts as prt_parts.glsl requires.
 
 #include "shared_layout.h"
 #include "shared_viewer.h"
@@ -15,8 +15,8 @@ layout(std430, binding = PRT_BINDING_RAW_RADIANCE) writeonly buffer Radiance {
     float radiance[]; // [receivers][3]
 };
 
-uniform uint receivers; // in this piece
-uniform uint first;     // of the piece, in `radiance`
+uniform uint receivers; // number in this piece
+uniform uint first;     // first receiver of the piece in `radiance`
 
 #define PRT_TRANSFER(at, i) transfer[(at) + (i)]
 #define PRT_LIGHT(i) light[i].rgb

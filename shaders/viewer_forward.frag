@@ -1,4 +1,4 @@
-// A surface lit at once. Alpha is 1 where there is a surface.
+// Lights a surface in one pass. Alpha is 1 on surfaces.
 
 #include "viewer_lighting.glsl"
 #include "irradiance.glsl"

@@ -1,6 +1,6 @@
-// A surface into the G-buffer: base color, and in alpha five bits of ambient occlusion and one that says whether the
-// exit radiance is already in the third target, which holds that of suns apart and the surface's own otherwise; the
-// normal, octahedral (Meyer et al. 2010).
+// Writes a surface to the G-buffer: base color, with alpha of five bits of ambient occlusion and one bit that
+// is set if the third target contains the exit radiance; otherwise the third target contains the light of
+// separate suns and the emission of the surface. The normal is octahedral (Meyer et al. 2010).
 
 #include "viewer_lighting.glsl"
 #include "prt_dithered.glsl"

@@ -1,4 +1,4 @@
-// Reading what viewer_gbuffer.frag wrote.
+// Reads the G-buffer of viewer_gbuffer.frag.
 
 #include "shared_viewer.h"
 

@@ -1,5 +1,5 @@
-// What viewer_surface.vert hands to a fragment shader: the surface's normal and occlusion where it has them, what it
-// gives off, and suns.
+// Inputs of fragment shaders from viewer_surface.vert: normal and occlusion of the surface if it has them,
+// its emission, and suns.
 
 #include "surface.glsl"
 #include "emission.glsl"
@@ -28,7 +28,7 @@ vec3 given_radiance() {
 #else
 in vec3 normal;
 in float ao;
-uniform bool occluded; // by the vertices' ambient occlusion
+uniform bool occluded; // by the ambient occlusion of vertices
 
 vec3 facing_normal() {
     return normalize(gl_FrontFacing ? normal : -normal);
@@ -39,8 +39,8 @@ float occlusion() {
 }
 #endif
 
-// What is the same however the sky is shown: suns apart from it, on a surface of that base color, and what that gives
-// off by itself.
+// Light that does not depend on how the sky is represented: separate suns on a surface of this base color,
+// and its emission.
 vec3 light_beside_the_sky(vec3 base) {
 #ifdef PRT_SUNS
     return sun_radiance(base) + emitted_radiance();

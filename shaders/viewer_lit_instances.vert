@@ -1,11 +1,12 @@
-// Exit radiance of the vertices of instances, as halves in a buffer that instance_radiance.glsl reads in every frame
-// until the light changes. Defines are those of prt_instances.glsl.
+// Computes exit radiance of the vertices of instances, and stores it as halves in a buffer that
+// instance_radiance.glsl reads in every frame until the light changes. Defines are those of
+// prt_instances.glsl.
 
 #include "prt_instances.glsl"
 #include "shared_viewer.h"
 
 layout(std430, binding = PRT_BINDING_INSTANCE_RADIANCE) writeonly buffer InstanceRadiance {
-    uvec2 instance_radiance[]; // [instances][vertices], of the mesh that is drawn: four halves, the last unused
+    uvec2 instance_radiance[]; // [instances][vertices] of the drawn mesh: four halves, the last one unused
 };
 uniform uint instance_vertices;
 layout(location = PRT_LOCATION_POSITION) in vec3 position;

@@ -1,5 +1,5 @@
-// Radiance of a vertex that moves, by its lobes: in the light of the volume (PRT_VOLUME) where it stands, or of a sky
-// that nothing blocks.
+// Radiance of a moving vertex from its lobes: under the light of the volume (PRT_VOLUME) at its position, or
+// of an unoccluded sky.
 
 #include "shared_viewer.h"
 #ifdef PRT_VOLUME
@@ -11,7 +11,7 @@ layout(std430, binding = PRT_BINDING_LOBE_WORDS) readonly buffer LobeWords {
     uint lobe_words[]; // [vertices of the figure][PRT_LOBES]
 };
 
-uniform int first_vertex; // of the vertex array
+uniform int first_vertex; // first vertex of the vertex array
 #ifndef PRT_VOLUME
 uniform vec3 sky_sh[PRT_LOBE_COEFFICIENTS];
 #endif

@@ -1,5 +1,5 @@
-// What moves, lit by a volume (PRT_VOLUME), without one as if nothing were in the way; PRT_LOBED: by what its vertices
-// make of that. What is blended is drawn whole.
+// Moving objects, lit by a volume (PRT_VOLUME), or without one by unoccluded light; PRT_LOBED: by the lobes
+// of the vertices under that light. Blended surfaces are drawn opaque.
 
 #include "surface.glsl"
 #include "emission.glsl"
@@ -25,7 +25,7 @@ in vec3 lobed_radiance;
 vec3 mirrored_radiance(vec3 n, vec3 towards) {
     vec3 light[PRT_VOLUME_COEFFICIENTS];
     prt_volume_incident(place, n, light);
-    const vec4 kHann = vec4(1.0, 0.75, 0.25, 0.0); // without it what is bright leaves black rings about it
+    const vec4 kHann = vec4(1.0, 0.75, 0.25, 0.0); // without it bright areas are surrounded by black rings
     return prt_incident_sum(light, towards, kHann);
 }
 vec3 matt_radiance(vec3 n) {
@@ -48,14 +48,16 @@ vec3 diffuse_radiance(vec3 n) {
 #endif
 }
 
-// A sun is mirrored as a lobe of the same energy (Phong), which is as wide on a screen as a highlight shall be.
+// Mirrors a sun as a lobe with the same energy (Phong), with the width of a highlight on a screen.
 vec3 mirrored_suns(vec3 n, vec3 towards) {
     vec3 sum = vec3(0.0);
 #ifdef PRT_SUNS
     const float kExponent = 400.0;
     for (int i = 0; i < suns_seen.count; ++i) {
         vec3 sun = suns_seen.suns[i].towards.xyz;
-        float lobe = 0.5 * (kExponent + 1.0) * pow(max(dot(towards, sun), 0.0), kExponent); // times irradiance over pi
+        float lobe = 0.5 * (kExponent + 1.0) * pow(max(dot(towards, sun), 0.0), kExponent); // multiplied by
+                                                                                            // irradiance over
+                                                                                            // pi
         if (dot(n, sun) > 0.0 && lobe > 1e-4)
             sum += suns_seen.suns[i].open.rgb * lobe * sun_visibility(i, seen, n);
     }

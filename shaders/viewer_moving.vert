@@ -1,4 +1,4 @@
-// What moves through the viewer's scene. PRT_SUNS: for suns apart. PRT_LOBED: its vertices have lobes.
+// Moving objects in the viewer's scene. PRT_SUNS: for separate suns. PRT_LOBED: vertices have lobes.
 
 #include "shared_layout.h"
 
@@ -33,7 +33,7 @@ void main() {
 #endif
 #ifdef PRT_SUNS
     take_for_suns(place);
-    sun_normal = normal; // not as it is before it moves
+    sun_normal = normal; // the normal after the motion
 #endif
     take_for_emission();
     surface_texcoord = texcoord;

@@ -1,5 +1,5 @@
-// What the viewer's moving objects leave of the light of a surface near them: by the volume that lights them
-// (PRT_VOLUME), or of light from everywhere alike.
+// Light of a surface that the viewer's moving objects leave unblocked: relative to the light of the volume
+// (PRT_VOLUME), or to a uniform environment.
 
 #ifdef PRT_VOLUME
 #include "prt_volume.glsl"
@@ -7,7 +7,7 @@
 #include "prt_occluders.glsl"
 
 in vec3 occluded_place, occluded_normal;
-uniform vec3 occluders_low, occluders_high; // nothing is blocked beyond
+uniform vec3 occluders_low, occluders_high; // nothing is blocked outside
 
 vec3 left_by_occluders() {
     vec3 inside = clamp(occluded_place, occluders_low, occluders_high), left = vec3(1.0);

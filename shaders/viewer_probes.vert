@@ -1,9 +1,9 @@
-// The probes of a volume as spheres, an instance each, made of no vertex data.
+// Draws the probes of a volume as spheres, one instance each, without vertex data.
 
 #include "shared_viewer.h"
 
 layout(std430, binding = PRT_BINDING_PROBE_PLACES) readonly buffer ProbePlaces {
-    vec4 probe_places[]; // w: radius, negative where the probe sees nothing
+    vec4 probe_places[]; // w: radius, negative if the probe is blind
 };
 
 uniform mat4 view_projection;

@@ -1,5 +1,6 @@
-// A map that surfaces look up, of the exit radiance of a baked lightmap's receivers: texels that are none take that of
-// one near them. One texel per thread; dispatch (width + 7) / 8 by (height + 7) / 8 groups, then make smaller levels.
+// Computes a map for surfaces from the exit radiance of a baked lightmap's receivers: texels without a
+// receiver take the value of a near one. One texel per thread; dispatch (width + 7) / 8 by (height + 7) / 8
+// groups, then generate mipmaps.
 
 #include "shared_layout.h"
 #include "shared_viewer.h"

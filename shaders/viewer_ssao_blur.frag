@@ -1,4 +1,4 @@
-// The mean of the 4 x 4 occlusions round a pixel that lie on the same surface.
+// Averages the 4 x 4 occlusion values around a pixel that belong to the same surface.
 
 #include "viewer_gbuffer.glsl"
 

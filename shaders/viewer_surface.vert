@@ -1,7 +1,7 @@
-// Vertices of the viewer's models. Exit radiance comes from PRT_COMPRESSED transfer, or is PRT_VERTEX_RADIANCE, an
-// attribute or of instances a buffer, or comes from a PRT_LIGHTMAP; with none of these, the fragment shader finds it
-// from the normal and an ambient occlusion. PRT_SUNS: for suns apart. PRT_OCCLUDED: near what moves. PRT_INSTANCED: of
-// instances. What a surface gives off comes on top of all.
+// Vertices of the viewer's models. Exit radiance comes from PRT_COMPRESSED transfer, is PRT_VERTEX_RADIANCE
+// (an attribute, or for instances a buffer), or comes from a PRT_LIGHTMAP. With none of these, the fragment
+// shader computes it from the normal and an ambient occlusion. PRT_SUNS: for separate suns. PRT_OCCLUDED:
+// near moving objects. PRT_INSTANCED: for instances. Emission is added in all cases.
 
 #include "shared_layout.h"
 #include "instance_place.glsl"

@@ -1,4 +1,4 @@
-// Surfaces and their places in a lightmap, for viewer_texel_grid.frag.
+// Surfaces and their positions in a lightmap, for viewer_texel_grid.frag.
 
 #include "shared_layout.h"
 

@@ -1,4 +1,4 @@
-// Bakes poses, and takes their mean in the frames of the vertices.
+// Bakes poses, and averages them in the frames of the vertices.
 
 #include "prt/pose_bake.h"
 
@@ -13,11 +13,11 @@
 namespace prt {
 namespace {
 
-/// Of a vertex that a pose seals in, its light, which is that of its neighbours, beside that of poses that
-/// show it: next to nothing, but there where no pose does.
+/// Weight of a pose at a vertex that it seals in, where the light is that of neighbours. It is negligible
+/// compared to poses that show the vertex, but used if no pose does.
 constexpr double kSealedWeight = 1e-6;
 
-constexpr std::size_t kGrain = 512; ///< vertices of a task
+constexpr std::size_t kGrain = 512; ///< vertices per task
 
 BakeOptions bake_options_of(const PoseBakeOptions& options) {
     BakeOptions bake;
@@ -32,7 +32,8 @@ BakeOptions bake_options_of(const PoseBakeOptions& options) {
     return bake;
 }
 
-/// Values of animations are finite, but what they make of vertices need not be.
+/// Throws `Error` for vertices that are too far away: animations have finite values, but the resulting
+/// positions can be arbitrary.
 void check_places(const Scene& scene, const ModelPose& pose) {
     for (const VertexArray& vertices : scene.vertex_arrays)
         for (const glm::vec3& p : vertices.positions)
@@ -79,7 +80,7 @@ void grey_vector(const Transfer& transfer, std::size_t receiver, std::span<doubl
 
 PoseTransfer bake_pose(const AnimatedScene& model, const ModelPose& pose, const PoseBakeOptions& options,
                        const Progress& progress) {
-    // Seen from where the model stands, floats are fine enough.
+    // Relative to the model's origin, floats are precise enough.
     const Scene scene = model.posed(pose.nodes, glm::translate(glm::dmat4(1), -model.scene().origin));
     check_places(scene, pose);
     const BakeResult result = bake(scene, bake_options_of(options), progress);

@@ -1,4 +1,4 @@
-// At which times a model is looked at.
+// Selects the times of poses.
 
 #include "prt/pose_bake.h"
 #include "prt/support/error.h"
@@ -25,7 +25,7 @@ ModelPose pose_at(const AnimatedScene& model, const Animation& animation, double
     return {animation.name, seconds, model.pose(animation, seconds)};
 }
 
-/// Poses at (i + offset) / count of the time of all animations.
+/// Appends poses at (i + offset) / count of the total time of all animations.
 void add_poses(const AnimatedScene& model, std::span<const Animation* const> animations, int count,
                double offset, std::vector<ModelPose>& poses) {
     double all = 0;
@@ -36,7 +36,7 @@ void add_poses(const AnimatedScene& model, std::span<const Animation* const> ani
         std::size_t which = 0;
         while (which + 1 < animations.size() && seconds >= animations[which]->duration)
             seconds -= animations[which++]->duration;
-        if (all == 0) // poses that stand still
+        if (all == 0) // all animations have zero duration
             which = static_cast<std::size_t>(i) % animations.size();
         poses.push_back(pose_at(model, *animations[which], seconds));
     }

@@ -1,5 +1,5 @@
-// Rotations next to the matrices of vertices (Higham, "Computing the polar decomposition", 1986, Newton's
-// iteration).
+// Computes the rotations nearest to the matrices of vertices (Higham, "Computing the polar decomposition",
+// 1986, Newton's iteration).
 
 #include "prt/pose_bake.h"
 #include "prt/sh_rotation.h"
@@ -16,8 +16,8 @@ double stretch_of(const glm::dmat3& m) {
     return std::sqrt((glm::dot(m[0], m[0]) + glm::dot(m[1], m[1]) + glm::dot(m[2], m[2])) / 3);
 }
 
-/// The rotation next to `matrix`, whose determinant is positive. What is nearly flat has none of its own and
-/// gets the identity.
+/// Returns the rotation nearest to `matrix`, whose determinant is positive. A nearly singular matrix has no
+/// unique rotation and gets the identity.
 glm::dmat3 polar_rotation(const glm::dmat3& matrix) {
     const double size = stretch_of(matrix);
     if (!(size > 0) || !std::isfinite(size))
@@ -35,7 +35,7 @@ glm::dmat3 polar_rotation(const glm::dmat3& matrix) {
     return rotation;
 }
 
-/// What w -> -w makes of a function: odd bands change their sign.
+/// Applies w -> -w to a function: odd bands change their sign.
 void mirror(int order, std::span<double> vector) {
     for (int l = 1; l < order; l += 2)
         for (int m = -l; m <= l; ++m)

@@ -1,5 +1,6 @@
-// Bakes a scene of instances: meshes alone, then what is drawn once and samples of the instances in the whole
-// scene; light bounces between all of them, instances giving what their factors make of their mesh's.
+// Bakes a scene of instances: separate meshes first, then everything that is drawn once and samples of the
+// instances in the whole scene. Light bounces between all of them; the light of an instance is its mesh's
+// light under its factors.
 
 #include "prt/instance_bake.h"
 
@@ -29,13 +30,14 @@ void check_instance_options(const BakeOptions& options, const InstanceBakeOption
         throw Error("an instance has 8 samples at least, of as many rays as a receiver at most");
 }
 
-/// `options` for meshes and the scene alike.
+/// Returns `options` for the meshes and the scene, without a fit.
 BakeOptions at_vertices(BakeOptions options) {
     options.fit = FitMode::vertex;
     return options;
 }
 
-/// Which vertex array of the flat scene each of the stored one is, where it is of no instance.
+/// Returns for each vertex array of the stored scene its vertex array in the flat scene, if it belongs to no
+/// instance.
 std::vector<std::size_t> flat_arrays(const InstanceScene& scene) {
     std::map<std::pair<int, int>, std::size_t> of; // (node of `stored`, primitive)
     for (const Primitive& primitive : scene.scene.primitives)
@@ -95,7 +97,7 @@ private:
         }
     }
 
-    /// Transfer of the stored scene.
+    /// Joins the transfer of the stored scene.
     Transfer assembled(const InstanceLight& light) const {
         const int direct_channels = plan_.direct_channels();
         const Transfer own = light.own_fronts(direct_channels);

@@ -1,6 +1,6 @@
-// Fits the modes of an instance to samples. Unknowns: of each passing mode its row (x, y, z, 1), then of each
-// added mode a number per channel. Products of the samples' light with modes are taken before those with
-// places.
+// Fits the modes of an instance to samples. Unknowns: for each passing mode a row of four (x, y, z, 1), then
+// for each added mode a number per channel. Products of the samples' light with modes are computed before
+// those with positions.
 
 #include "instances/instance_fit.h"
 
@@ -17,23 +17,25 @@ namespace prt {
 namespace {
 
 constexpr Eigen::Index kPassingUnknowns = 4 * kPassingModes;
-/// What keeps factors of what samples do not tell at those of the open, against the mean of the normal
-/// matrix.
+/// Regularisation that keeps undetermined factors at those of an unoccluded instance, relative to the mean of
+/// the normal matrix.
 constexpr double kRidge = 1e-4;
-/// Receivers that would give more than the bound are held to it by rows of this weight, against the same, so
-/// many at a time and so often; what is left then makes all factors smaller.
+/// Receivers that would exceed the bound are held to it by rows of this weight, relative to the same mean; at
+/// most kMostHeld receivers per step, and at most kMostBoundSteps steps. The remaining excess then scales
+/// down all factors.
 constexpr double kHeld = 4;
 constexpr std::size_t kMostHeld = 16;
 constexpr int kMostBoundSteps = 4;
 
-/// Skies have less light the finer it is: band l weighs 1 / sqrt(l + 1).
+/// Weight of a coefficient: skies have less energy in higher bands, so that band l has weight 1 / sqrt(l +
+/// 1).
 float band_weight(std::size_t coefficient) {
     const auto band = static_cast<float>(std::floor(std::sqrt(static_cast<double>(coefficient))));
     return 1 / std::sqrt(band + 1);
 }
 
-/// Skies under which errors are always measured, in a frame where `up` is: overcast, and broad light from
-/// four sides.
+/// Skies under which errors are always measured, in a frame with up direction `up`: overcast, and broad light
+/// from four sides.
 std::vector<Lighting> soft_skies(int order, const glm::dvec3& up) {
     const glm::dvec3 other = std::abs(up.x) < 0.5 ? glm::dvec3(1, 0, 0) : glm::dvec3(0, 0, 1);
     const glm::dvec3 across = glm::normalize(glm::cross(up, other)), along = glm::cross(across, up);
@@ -108,7 +110,7 @@ InstanceFit::InstanceFit(const SharedTransfer& shared, const InstanceSamples& sa
     }
 }
 
-/// What each unknown gives a sample, [dimension][unknowns].
+/// Contribution of each unknown to a sample, [dimension][unknowns].
 Eigen::MatrixXf InstanceFit::columns_of(const SharedTransfer& shared, std::size_t sample) const {
     const std::size_t receiver = samples_.receivers[sample];
     const glm::vec4 place(samples_.places[sample], 1);
@@ -226,7 +228,7 @@ double InstanceFit::error(const SharedTransfer& shared, const Targets& targets, 
         noisy_area += static_cast<double>(samples_.areas[s]);
     }
     noisy *= noisy_area > 0 ? area / noisy_area : 0;
-    // The soft skies together: of the largest of many noisy estimates noise makes too much.
+    // Takes the soft skies together: the maximum of many noisy estimates would be biased by noise.
     double most = 0;
     for (Eigen::Index first = 0, count = skies_.cols(); first < skies.cols(); first += count, count = 3) {
         const double light = all.segment(first, count).sum(),

@@ -1,6 +1,6 @@
 #pragma once
 
-// Factors of an instance by least squares against what its samples get.
+// Fits the factors of an instance to its samples by least squares.
 
 #include "instances/uniform_bound.h"
 #include "prt/instances.h"
@@ -14,39 +14,41 @@
 
 namespace prt {
 
-/// Samples of a mesh: receivers of it, where they lie in its box, and the area that each stands for, 1 in the
-/// mean.
+/// Samples of a mesh: receivers, their positions in the mesh's box, and the areas that they represent, with
+/// mean 1.
 struct InstanceSamples {
     std::vector<std::uint32_t> receivers;
     std::vector<glm::vec3> places;
     std::vector<float> areas;
 };
 
-/// Of every so many samples, by their number among those of all instances, one tells the noise of its rays.
+/// Every `kSamplesToOfNoise`-th sample is traced twice to estimate the noise.
 inline constexpr std::size_t kSamplesToOfNoise = 8;
 
-/// The least-squares problem of the instances of a mesh that see the world's up alike (docs/math.md, section
-/// 22). Immutable, thread-safe.
+/// The least-squares problem for instances of a mesh for which the world's up direction is the same in the
+/// mesh's frame (docs/math.md, section 22). Immutable and thread-safe.
 class InstanceFit {
 public:
-    /// Copies what it needs. `up` as `shared` was made with.
+    /// Copies the required data. `up` is the one that `shared` was created with.
     InstanceFit(const SharedTransfer& shared, const InstanceSamples& samples, const glm::dvec3& up);
 
-    /// What the samples of an instance get, in the mesh's frame.
+    /// Light of an instance's samples, in the mesh's frame.
     struct Targets {
         std::span<const float> light;      ///< [samples][dimension]
-        const std::vector<bool>& left_out; ///< [samples] of which nothing is asked
+        const std::vector<bool>& left_out; ///< [samples] samples that are ignored
     };
-    /// Factors in axes of the mesh, which keep to `bound`, where there is one.
+    /// Fits factors in axes of the mesh. If there is a `bound`, the factors satisfy it.
     InstanceFactors fit(const Targets& targets, const UniformBound* bound = nullptr) const;
 
-    /// What as many other rays of every so many samples give otherwise, over the root of 2, so that its
-    /// square is that of the noise on average: [some of the samples][dimension].
+    /// Differences of repeated traces divided by √2: their mean square is the noise variance. [some of the
+    /// samples][dimension]
     struct Noise {
         std::span<const float> differences;
-        std::size_t first; ///< the sample of the first; those of the others follow, kSamplesToOfNoise apart
+        std::size_t first; ///< sample of the first difference; the others follow in steps of
+                           ///< kSamplesToOfNoise
     };
-    /// As InstanceBake::errors, for factors and `lights` in axes of the mesh. `shared` as in the constructor.
+    /// Error as in InstanceBake::errors, for factors and `lights` in axes of the mesh. `shared` is the one of
+    /// the constructor.
     double error(const SharedTransfer& shared, const Targets& targets, const Noise& noise,
                  const InstanceFactors& factors, std::span<const Lighting> lights = {}) const;
 
@@ -57,18 +59,18 @@ private:
     InstanceFactors factors_of_unknowns(const Eigen::VectorXd& unknowns) const;
 
     TransferLayout layout_;
-    bool added_ = false; ///< there is a part for it
-    int channels_ = 1;   ///< of that part
+    bool added_ = false; ///< there is a part for added modes
+    int channels_ = 1;   ///< channels of that part
     InstanceSamples samples_;
-    Eigen::VectorXf weights_; ///< [dimension] of the metric, squared
-    // Columns of a passing mode are the mode times a place's numbers, those of an added one the level times a
-    // response's.
-    Eigen::MatrixXf modes_; ///< [dimension][samples · passing modes]: weighted, by area too
-    Eigen::MatrixXf level_; ///< [dimension][channels]: weighted
+    Eigen::VectorXf weights_; ///< [dimension] squared weights of the metric
+    // A column of a passing mode is the mode times a coordinate of the position; a column of an added mode is
+    // the light on level ground times a response.
+    Eigen::MatrixXf modes_; ///< [dimension][samples · passing modes] weighted, also by area
+    Eigen::MatrixXf level_; ///< [dimension][channels] weighted
     std::vector<std::array<glm::vec3, kAddedModes>> responses_; ///< [samples]
     std::vector<Eigen::MatrixXf> normals_;                      ///< [samples]
-    Eigen::MatrixXd normal_;                                    ///< their sum
-    Eigen::VectorXd open_;                                      ///< the unknowns of open_factors()
+    Eigen::MatrixXd normal_;                                    ///< sum of `normals_`
+    Eigen::VectorXd open_;                                      ///< unknowns of open_factors()
     Eigen::MatrixXf skies_;                                     ///< [dimension][soft skies · colors]
 };
 

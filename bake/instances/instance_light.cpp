@@ -1,5 +1,5 @@
-// Light between instances: what is gathered at samples becomes factors, and factors the light of all
-// vertices.
+// Propagates light between instances: light gathered at samples determines factors, and factors determine the
+// light at all vertices.
 
 #include "instances/instance_light.h"
 
@@ -20,17 +20,21 @@ namespace prt {
 namespace {
 
 constexpr std::size_t kGatheredAtOnce = 1 << 14;
-constexpr std::size_t kExpandedAtOnce = 8; ///< instances, for each look at a vertex of their mesh
-constexpr int kMostEndless = 200;          ///< bounces, where they are endless
-constexpr double kLeastChange = 1e-4;      ///< of the light of what is drawn once, where they end
-constexpr int kSampleHitStride = 8;        ///< as kHitStride; samples are many for each factor
+constexpr std::size_t kExpandedAtOnce = 8; ///< instances that are processed together for each vertex of their
+                                           ///< mesh
+constexpr int kMostEndless = 200;          ///< maximum number of endless bounces
+constexpr double kLeastChange = 1e-4;      ///< relative change of light on surfaces drawn once, below which
+                                           ///< endless bounces stop
+constexpr int kSampleHitStride = 8;        ///< as kHitStride; there are many samples per factor
 constexpr int kLeastSampleRays = 16;
-/// Of a sample's rays, which are few: of those that are sealed in 98 of 100 end at backs.
+/// Minimum share of a sample's rays that end at backs for it to be a candidate. The rays are few; at sealed
+/// samples 98 of 100 end at backs.
 constexpr double kLeastBacksOfSealed = 0.5;
-constexpr float kLeastExcess = 1e-6f; ///< of light above what comes in that is more than rounding
-constexpr int kProbesOfSamples = 128; ///< where one is sealed in, the others of its instance say its factors
+constexpr float kLeastExcess = 1e-6f; ///< relative excess over incident light that is more than rounding
+constexpr int kProbesOfSamples = 128; ///< rays per sample; if a sample is sealed in, the other samples of its
+                                      ///< instance determine the factors
 
-/// A vector of one or several channels, turned.
+/// Rotates a vector of one or several channels.
 void turn_all(const ShRotation& turn, std::size_t count, std::span<const float> from, std::span<float> to) {
     for (std::size_t first = 0; first < from.size(); first += count)
         turn.apply(from.subspan(first, count), to.subspan(first, count));
@@ -110,8 +114,8 @@ void InstanceLight::trace_own(const Progress& progress) {
     result_.rays += receivers_.own.size() * static_cast<std::size_t>(options.rays);
 }
 
-/// Some samples twice, which tells the noise. Rays in halves would not: theirs is more than half as much
-/// noise again, since as few rays are spread less evenly.
+/// Traces all samples, and some of them twice to estimate the noise. Two halves of the same rays are no
+/// substitute: a half is less evenly distributed, and its noise is more than 50 % larger.
 void InstanceLight::trace_samples(const Progress& progress) {
     std::vector<std::uint32_t> noisy;
     for (std::size_t s = 0; s < receivers_.sampled.size(); s += kSamplesToOfNoise)
@@ -125,7 +129,7 @@ void InstanceLight::trace_samples(const Progress& progress) {
 
 void InstanceLight::trace_samples(std::span<const std::uint32_t> receivers, int rays, bool again,
                                   const Progress& progress) {
-    // Whoever stands alone is seen by every ray; light that comes from surfaces needs fewer.
+    // Instances without neighbours need every ray; light from surfaces needs fewer.
     const TraceOptions options{.order = plan_.options.order,
                                .rays = rays,
                                .seed = plan_.options.seed + (again ? 2 : 1),
@@ -154,7 +158,7 @@ void InstanceLight::trace_samples(std::span<const std::uint32_t> receivers, int 
     result_.rays += receivers.size() * static_cast<std::size_t>(rays);
 }
 
-/// Takes light of a sample, turned into the frame of its mesh, from its vector's number `first` on.
+/// Takes light of a sample, rotated into the frame of its mesh, from coefficient `first` of its vector on.
 void InstanceLight::take_light(std::size_t sample, bool again, std::span<const float> light,
                                std::size_t first) {
     std::array<float, 3 * kMaxOrder * kMaxOrder> space;
@@ -212,7 +216,7 @@ void InstanceLight::bounce(const Progress& progress) {
         fit(0, false);
         return;
     }
-    for (std::size_t o = 0; o < receivers_.own.size(); ++o) // with no light but direct light
+    for (std::size_t o = 0; o < receivers_.own.size(); ++o) // the only light is direct light
         for (std::size_t i = 0; i < sizes_.stride; ++i)
             exit_of(receivers_.own[o])[i] = own_.direct[o * sizes_.count + i % sizes_.count];
     bounce_.refill.apply(std::span(bounce_.exit), sizes_.stride);
@@ -234,7 +238,7 @@ void InstanceLight::bounce(const Progress& progress) {
     }
 }
 
-/// One bounce of all light: to samples, and `own_.next`.
+/// Computes one bounce of all light: to the samples, and to `own_.next`.
 void InstanceLight::gather_light() {
     bounce_.gather->reflect(plan_.options.order, bounce_.exit, plan_.options.threads);
     const std::size_t own = receivers_.own.size(), samples = receivers_.sampled.size();
@@ -250,7 +254,7 @@ void InstanceLight::gather_light() {
                 });
 }
 
-/// Calls `take(row - first, its light)` from several threads.
+/// Calls `take(row - first, light)` for each row from several threads.
 template <class Take>
 void InstanceLight::gather_rows(std::size_t first, std::size_t rows, const Take& take) {
     std::vector<float> block(std::min(kGatheredAtOnce, rows) * sizes_.stride);
@@ -266,7 +270,7 @@ void InstanceLight::gather_rows(std::size_t first, std::size_t rows, const Take&
     }
 }
 
-/// Takes what was gathered for what is drawn once; returns how much of its light changed.
+/// Takes the light gathered on surfaces that are drawn once; returns its relative change.
 double InstanceLight::take_own() {
     for (std::size_t o = 0; o < receivers_.own.size(); ++o)
         std::copy_n(&own_.next[o * sizes_.stride], sizes_.stride, exit_of(receivers_.own[o]).begin());
@@ -284,8 +288,8 @@ double InstanceLight::take_own() {
     return std::sqrt(changed / all);
 }
 
-/// Fits all instances to what their samples get, their meshes after so many steps of bounces. `gives`: their
-/// light is wanted for another bounce; otherwise their errors are.
+/// Fits all instances to the light of their samples; their meshes have `step` steps of bounces. `gives`:
+/// compute the light of the instances for another bounce; otherwise compute their errors.
 void InstanceLight::fit(std::size_t step, bool gives) {
     std::vector<UniformBound> bounds; // [groups]
     bounds.reserve(groups_.size());
@@ -317,15 +321,16 @@ void InstanceLight::fit(std::size_t step, bool gives) {
         for (const std::size_t i : group.instances)
             if (samples_.met[i])
                 found.push_back(in_axes_of_mesh(result_.factors[i], receivers_.instances[i].rotation));
-        bound.keep_near(found); // groups are many where every instance leans its own way
+        bound.keep_near(found); // there are many groups if every instance has a different orientation
     }
     if (!gives)
         bound_as_stored(bounds);
 }
 
-/// Makes factors smaller until they make no light as files hold them, in bytes.
+/// Scales factors down until they add no energy after quantisation to bytes.
 void InstanceLight::bound_as_stored(const std::vector<UniformBound>& bounds) {
-    constexpr int kMostRounds = 16; // scales of bytes are those of all instances, and may change with one
+    constexpr int kMostRounds = 16; // all instances share the scales of bytes, which change if one of them
+                                    // changes
     for (int round = 0; round < kMostRounds; ++round) {
         const std::vector<InstanceFactors> stored = decoded(coded(result_.factors));
         std::atomic<bool> changed = false;
@@ -349,7 +354,7 @@ void InstanceLight::bound_as_stored(const std::vector<UniformBound>& bounds) {
     }
 }
 
-/// [samples of the instance]
+/// [samples of the instance] samples that are ignored
 std::vector<bool> InstanceLight::left_out_of(std::size_t instance) const {
     const auto first =
         samples_.left_out.begin() + static_cast<std::ptrdiff_t>(receivers_.instances[instance].first_sample);
@@ -392,7 +397,7 @@ double InstanceLight::error_of(const InstanceFit& fit, const SharedTransfer& sha
                      in_axes_of_mesh(result_.factors[instance], placed.rotation), lights);
 }
 
-/// Writes the light that some instances of a mesh give to all their receivers.
+/// Writes the exit light of some instances of a mesh for all their receivers.
 void InstanceLight::expand(const SharedTransfer& shared, std::span<const glm::vec3> places,
                            std::span<const std::size_t> instances) {
     std::vector<InstanceFactors> factors;
@@ -433,7 +438,7 @@ Transfer InstanceLight::own_fronts(int direct_channels) const {
     }
     if (!transmits)
         return own;
-    const Transfer fronts = of_fronts(plan_, own, direct_channels); // by both sides of thin sheets
+    const Transfer fronts = of_fronts(plan_, own, direct_channels); // from both sides of thin sheets
     Transfer result = zero_transfer(fronts.layout, receivers_.own.size());
     for (std::size_t o = 0; o < receivers_.own.size(); ++o)
         if (receivers_.own[o] < plan_.transport->fronts)

@@ -1,6 +1,6 @@
 #pragma once
 
-// Light of a scene whose instances are known by samples.
+// Light of a scene in which instances are represented by samples.
 
 #include "instances/instance_fit.h"
 #include "instances/instance_receivers.h"
@@ -14,31 +14,32 @@
 
 namespace prt {
 
-/// Traces, bounces and fits.
+/// Traces light, bounces it, and fits the factors of instances.
 class InstanceLight {
 public:
-    /// Keeps references to what it is made of.
+    /// Keeps references to all arguments except `receivers` and `options`.
     InstanceLight(const BakePlan& plan, Tracer& tracer, const std::vector<SharedMeshBake>& meshes,
                   InstanceReceivers receivers, const InstanceBakeOptions& options);
 
-    /// Direct light of what is drawn once, and of the samples.
+    /// Traces direct light of surfaces that are drawn once, and of the samples.
     void trace(const Progress& progress);
-    /// Fits the instances, and bounces light as often as the plan says, with a new fit each time.
+    /// Fits the instances, and bounces light as often as the plan requires, with a new fit after each bounce.
     void bounce(const Progress& progress);
 
     const InstanceReceivers& receivers() const { return receivers_; }
-    /// Exit transfer of receivers().own, of which fronts are as files have them.
+    /// Exit transfer of receivers().own, with fronts as they are stored in files.
     Transfer own_fronts(int direct_channels) const;
-    const std::vector<InstanceFactors>& factors() const { return result_.factors; } ///< in axes of the world
+    const std::vector<InstanceFactors>& factors() const { return result_.factors; } ///< factors in world axes
     const std::vector<double>& errors() const { return result_.errors; }
     std::size_t rays() const { return result_.rays; }
     int bounces() const { return result_.bounces; }
+    /// Number of instances whose rays hit nothing except the instance itself.
     std::size_t alone() const;
 
 private:
     struct Group {
         std::size_t mesh;
-        glm::dvec3 up; ///< of the world, in the mesh's frame
+        glm::dvec3 up; ///< up direction of the world in the mesh's frame
         std::vector<std::size_t> instances;
     };
     void make_groups();
@@ -65,24 +66,26 @@ private:
     }
 
     struct Sizes {
-        std::size_t count, stride, dimension; ///< coefficients; of light that bounces; of a target
+        std::size_t count, stride, dimension; ///< number of coefficients; length of bounced light; length of
+                                              ///< a target
     };
-    /// Of what is drawn once: [own][count], [own][stride], and the same while others still read it.
+    /// Light on surfaces that are drawn once: [own][count], [own][stride], and the next bounce,
+    /// [own][stride].
     struct Own {
         std::vector<float> direct, indirect, next;
     };
     struct Samples {
-        std::vector<float> light;          ///< [samples][dimension], in the mesh's frame
-        std::vector<float> differences;    ///< of every so many samples, as InstanceFit::Noise
-        std::vector<bool> left_out;        ///< [samples] sealed in
-        std::vector<char> may_be_sealed;   ///< [samples] by what their own rays met
-        std::vector<char> met;             ///< [instances] a ray met something else
-        std::vector<ShRotation> into_mesh; ///< [instances]
+        std::vector<float> light;          ///< [samples][dimension] light in the mesh's frame
+        std::vector<float> differences;    ///< differences of repeated traces, see InstanceFit::Noise
+        std::vector<bool> left_out;        ///< [samples] true if the sample is sealed in
+        std::vector<char> may_be_sealed;   ///< [samples] true if its own rays indicate that it is sealed in
+        std::vector<char> met;             ///< [instances] true if a ray hit something else
+        std::vector<ShRotation> into_mesh; ///< [instances] rotation into the mesh's frame
     };
     struct Bounce {
         Refill refill;
-        std::optional<GatherOperator> gather; ///< rows: own, samples, the noisy again
-        std::vector<float> exit;              ///< [receivers][stride] where light bounces
+        std::optional<GatherOperator> gather; ///< rows: own receivers, samples, repeated samples
+        std::vector<float> exit;              ///< [receivers][stride] if light bounces
     };
     struct Result {
         std::vector<InstanceFactors> factors;

@@ -1,4 +1,4 @@
-// Chooses the samples of a mesh: one for equal shares of its area, in the order of its vertices.
+// Chooses the samples of a mesh: each represents an equal share of its area, in the order of the vertices.
 
 #include "instances/instance_receivers.h"
 
@@ -12,7 +12,7 @@ namespace {
 
 InstanceSamples choose_samples(const SharedMeshBake& mesh, int most) {
     const Receivers& receivers = mesh.receivers();
-    std::vector<std::uint32_t> lit; // those that are sealed in tell nothing
+    std::vector<std::uint32_t> lit; // sealed receivers provide no information
     double area = 0;
     for (const std::uint32_t r : receivers_on_surfaces(receivers))
         if (mesh.after.front().vector(r)[0] > 0) {
@@ -44,7 +44,7 @@ InstanceSamples choose_samples(const SharedMeshBake& mesh, int most) {
     return samples;
 }
 
-/// Receivers of each node's vertices, array by array in the order of its primitives.
+/// Receivers of each node's vertices, array by array in the order of the node's primitives.
 std::map<int, std::vector<std::uint32_t>> receivers_of_nodes(const Scene& scene) {
     std::map<int, std::vector<std::uint32_t>> result;
     std::vector<bool> seen(scene.vertex_arrays.size());
@@ -59,7 +59,7 @@ std::map<int, std::vector<std::uint32_t>> receivers_of_nodes(const Scene& scene)
     return result;
 }
 
-/// Receivers of an instance, back sides behind as its mesh has them.
+/// Receivers of an instance: fronts, then back sides in the order of its mesh.
 std::vector<std::uint32_t> both_sides(const BakePlan& plan, const SharedMeshBake& mesh,
                                       const std::vector<std::uint32_t>& fronts) {
     const TransportReceivers& own = *mesh.plan->transport;

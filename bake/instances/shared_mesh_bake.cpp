@@ -1,4 +1,4 @@
-// Bakes a mesh alone, on both sides of its surfaces.
+// Bakes a separate mesh on both sides of its surfaces.
 
 #include "instances/shared_mesh_bake.h"
 
@@ -35,7 +35,8 @@ Scene scene_of(const Scene& stored, int node) {
     return scene;
 }
 
-/// `direct` of one channel beside what `all`, of as many channels as light that bounces, has more.
+/// Joins `direct` of one channel and the difference of `all` from it, which has the channels of bounced
+/// light.
 Transfer beside(const Transfer& direct, const Transfer& all) {
     const int order = direct.layout.order, channels = all.layout.channels();
     Transfer both =

@@ -1,3 +1,5 @@
+// Evaluates exit radiance of instances under uniform light, and finds factors that exceed the bound.
+
 #include "instances/uniform_bound.h"
 
 #include <algorithm>
@@ -9,7 +11,7 @@ namespace prt {
 
 UniformBound::UniformBound(const SharedTransfer& shared, std::span<const glm::vec3> places)
     : modes_(shared.receivers()), places_(places.begin(), places.end()) {
-    const auto uniform = static_cast<float>(std::sqrt(4 * std::numbers::pi)); // its one coefficient
+    const auto uniform = static_cast<float>(std::sqrt(4 * std::numbers::pi)); // its only coefficient
     const float on_level = uniform * shared.level()[0];
     const std::size_t count = shared.level().size();
     for (std::size_t r = 0; r < modes_.size(); ++r) {
@@ -69,7 +71,7 @@ std::vector<InstanceFactors> UniformBound::exceeding(const InstanceFactors& fact
 }
 
 void UniformBound::keep_near(std::span<const InstanceFactors> factors) {
-    constexpr float kNear = 0.9f; // bytes have added two hundredths at most
+    constexpr float kNear = 0.9f; // quantisation to bytes adds at most two hundredths
     std::size_t kept = 0;
     for (std::size_t r = 0; r < modes_.size(); ++r) {
         const bool near = std::ranges::any_of(factors, [&](const InstanceFactors& f) {

@@ -1,6 +1,6 @@
 #pragma once
 
-// Keeps instances from giving more light than comes in.
+// Prevents instances from emitting more light than they receive.
 
 #include "prt/instances.h"
 
@@ -10,24 +10,24 @@
 
 namespace prt {
 
-/// Exit radiance of a mesh's receivers under radiance 1 from everywhere, mode by mode. Least squares may take
-/// the sum of the modes above 1, where no surface is (docs/math.md, section 22). Threads may share what is
-/// const.
+/// Exit radiance of a mesh's receivers under uniform radiance 1, mode by mode. A least-squares fit may make
+/// the sum of the modes larger than 1, which no surface reflects (docs/math.md, section 22). Const members
+/// are thread-safe.
 class UniformBound {
 public:
-    /// `places` [receivers] in the box of the mesh.
+    /// `places` [receivers]: positions in the box of the mesh.
     UniformBound(const SharedTransfer& shared, std::span<const glm::vec3> places);
 
-    /// The most that a receiver may give: 1, or what one gives in the open.
+    /// Maximum exit radiance of a receiver: 1, or the maximum in the open.
     float bound() const { return bound_; }
-    /// The largest share of the factors, 1 at most, with which no receiver gives more.
+    /// Largest factor, at most 1, by which to multiply `factors` so that no receiver exceeds the bound.
     float share(const InstanceFactors& factors) const;
 
-    /// Of receivers that give more the worst, so many at most: what each gives, number by number, of factors
-    /// of 1, in the channel where it is most, the first where all are alike.
+    /// Returns up to `most` violated constraints, worst first: for each receiver its radiance per unit
+    /// factor, in the brightest channel, or in the first one if all are equal.
     std::vector<InstanceFactors> exceeding(const InstanceFactors& factors, std::size_t most) const;
 
-    /// Forgets receivers that with none of `factors` come near the bound: rounding takes none there.
+    /// Removes receivers that are not near the bound with any of `factors`: rounding does not change that.
     void keep_near(std::span<const InstanceFactors> factors);
 
 private:
@@ -38,7 +38,7 @@ private:
     float bound_ = 1;
 };
 
-/// All of them times `share`.
+/// Returns all factors multiplied by `share`.
 InstanceFactors scaled(InstanceFactors factors, float share);
 
 } // namespace prt

@@ -1,4 +1,4 @@
-// Builds a tree over what lamps light, and goes down it by how much of that each child may send.
+// Builds a tree of patches that lamps light, and descends it by an upper bound of the light from each child.
 
 #include "lamps/bright_patches.h"
 
@@ -16,7 +16,7 @@ namespace {
 
 using std::numbers::pi;
 
-/// Triangles of a leaf, which are picked by their power alone: 4 are no better, and slower.
+/// Maximum number of triangles of a leaf, which are picked by their power only: 4 are not better, and slower.
 constexpr std::uint32_t kLeafTriangles = 32;
 constexpr int kBins = 12;
 constexpr double kInPlane = 1e-6; ///< height over distance
@@ -27,7 +27,7 @@ struct Angle {
     double cosine, sine;
 
     static Angle of_cosine(double cosine) { return {cosine, std::sqrt(std::max(0.0, 1 - cosine * cosine))}; }
-    /// The angle less another, 0 at least.
+    /// The angle minus another angle, at least 0.
     Angle less(const Angle& other) const {
         if (cosine >= other.cosine)
             return {1, 0};
@@ -35,7 +35,8 @@ struct Angle {
     }
 };
 
-/// Luminance that each side reflects per lamp: [lamps] summed, each over `scale`.
+/// Sum over lamps of the luminance that a side reflects, each lamp multiplied by its factor in `scale`
+/// [lamps].
 double radiosity(const Transfer& light, std::uint32_t receiver, const glm::vec3& reflectance,
                  std::span<const double> scale) {
     if (receiver == kNoReceiver)
@@ -54,7 +55,8 @@ double radiosity(const Transfer& light, std::uint32_t receiver, const glm::vec3&
     return sum;
 }
 
-/// Light of each lamp, over all receivers by area: the reciprocals, 0 of a lamp that lights none.
+/// Reciprocals of the light of each lamp, integrated over all receivers by area; 0 for a lamp that lights no
+/// receiver.
 std::vector<double> scales_of_lamps(const BakePlan& plan, const Transfer& light) {
     std::vector<double> scales;
     for (std::size_t k = 0; k < plan.lamps.size(); ++k) {
@@ -136,7 +138,7 @@ BrightPatches::Bounds BrightPatches::joined(const Bounds& a, const Bounds& b) {
             a.power + b.power};
 }
 
-/// Power times area times the measure of the directions that light leaves in.
+/// Power times area times the measure of the directions in which light leaves.
 double BrightPatches::cost(const Bounds& bounds) {
     const glm::dvec3 d = bounds.high - bounds.low;
     const double area = d.x * d.y + d.y * d.z + d.z * d.x, cosine = bounds.normals.cosine,
@@ -171,8 +173,8 @@ std::uint32_t BrightPatches::build(std::uint32_t begin, std::uint32_t end, std::
     return index;
 }
 
-/// Bins the middles of patches along each axis and splits where both sides cost least; longer axes of the box
-/// cost less.
+/// Bins the centroids of patches along each axis, and splits at the minimum total cost of both sides; splits
+/// along longer axes of the box cost less.
 struct BrightPatches::Split {
     double cost = std::numeric_limits<double>::infinity();
     int axis = 0, bin = 0;
@@ -224,13 +226,13 @@ std::uint32_t BrightPatches::split(std::uint32_t begin, std::uint32_t end, const
         if (at != from && at != to)
             return static_cast<std::uint32_t>(at - patches_.begin());
     }
-    return begin + (end - begin) / 2; // in one place
+    return begin + (end - begin) / 2; // all at one position
 }
 
 double BrightPatches::importance(const Node& node, const Receiver& receiver) {
     const glm::dvec3 to = node.center - receiver.place;
     const double squared = glm::dot(to, to), radius = node.radius, distance = std::sqrt(squared);
-    // Height of the box over the receiver's plane. Patches in that plane do not light the receiver.
+    // Height of the box above the receiver's plane. Patches in that plane do not light the receiver.
     const double height = glm::dot(receiver.normal, to) + glm::dot(glm::abs(receiver.normal), node.half);
     if (!(height > kInPlane * (radius + distance)))
         return 0;

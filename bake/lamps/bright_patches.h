@@ -1,6 +1,6 @@
 #pragma once
 
-// Picks the patches of surfaces that light of lamps falls on, as receivers are lit by them.
+// Picks patches of surfaces that are lit by lamps, in proportion to the light that they send to a receiver.
 
 #include "plan.h"
 
@@ -15,12 +15,12 @@
 namespace prt {
 
 /// A light tree (A. Conty Estevez and C. Kulla, "Importance Sampling of Many Lights with Adaptive Tree
-/// Splitting", HPG 2018) over sides of triangles that reflect light of lamps: splits by the surface area
-/// orientation heuristic, and picks by radiosity times a bound of the form factor without shadows.
+/// Splitting", HPG 2018) over sides of triangles that reflect light of lamps. It is split by the surface area
+/// orientation heuristic, and picks by radiosity times an upper bound of the form factor without shadows.
 class BrightPatches {
 public:
-    /// `light`: of lamps without a bounce, as LampLight::transfer, of the receivers of `plan`. Lamps count
-    /// alike, however bright they are. Keeps a reference to `plan`.
+    /// `light`: light of lamps without a bounce, as in LampLight::transfer, for the receivers of `plan`. All
+    /// lamps have the same weight, independent of their brightness. Keeps a reference to `plan`.
     BrightPatches(const BakePlan& plan, const Transfer& light);
 
     bool empty() const { return patches_.empty(); }
@@ -30,12 +30,12 @@ public:
     };
     struct Point {
         std::uint32_t triangle;
-        bool back; ///< of the triangle
+        bool back; ///< back of the triangle
         glm::dvec3 place;
-        double density; ///< probability, per m²
+        double density; ///< probability density, per m²
     };
-    /// Picks a triangle by `choice` in [0, 1), and its point with barycentric coordinates `uv` of corners 1
-    /// and 2, which are to be even over a triangle. Nothing where no patch lights the receiver.
+    /// Picks a triangle by `choice` in [0, 1), and a point on it with barycentric coordinates `uv` of corners
+    /// 1 and 2, which must be uniform over a triangle. Returns nothing if no patch lights the receiver.
     std::optional<Point> pick(const Receiver& receiver, double choice, const glm::dvec2& uv) const;
     /// Density with which `pick` returns points of a side of a triangle, per m².
     double density(const Receiver& receiver, std::uint32_t triangle, bool back) const;
@@ -47,11 +47,11 @@ private:
     struct Patch {
         std::uint32_t triangle;
         bool back;
-        double power; ///< radiosity times area, over that of all
+        double power; ///< radiosity times area, relative to all patches
         double area;
-        std::uint32_t leaf = 0; ///< node
+        std::uint32_t leaf = 0; ///< index of the leaf's node
     };
-    /// Directions within an angle of an axis.
+    /// Cone of directions about an axis.
     struct Cone {
         glm::dvec3 axis{0};
         double cosine = 1;
@@ -62,12 +62,12 @@ private:
         double power = 0;
     };
     struct Node {
-        glm::dvec3 center{0}, half{0}; ///< of the box
-        double radius = 0;             ///< of the sphere round it
+        glm::dvec3 center{0}, half{0}; ///< center and half size of the box
+        double radius = 0;             ///< radius of the bounding sphere
         Cone normals;
         double power = 0;
-        std::uint32_t begin = 0, end = 0;    ///< patches
-        std::uint32_t parent = 0, right = 0; ///< the left child follows; right = 0: a leaf
+        std::uint32_t begin = 0, end = 0;    ///< range of patches
+        std::uint32_t parent = 0, right = 0; ///< the left child is the next node; right = 0: a leaf
     };
     struct Split;
 
@@ -79,13 +79,13 @@ private:
     std::uint32_t build(std::uint32_t begin, std::uint32_t end, std::uint32_t parent);
     std::uint32_t split(std::uint32_t begin, std::uint32_t end, const Bounds& all);
     static double importance(const Node& node, const Receiver& receiver);
-    /// Probability of the left child.
+    /// Probability of picking the left child.
     double share_of_left(std::uint32_t node, const Receiver& receiver) const;
 
     const BakePlan& plan_;
     std::vector<Patch> patches_; ///< in the order of the tree
     std::vector<Node> nodes_;
-    std::vector<std::uint32_t> patch_of_; ///< [triangles][sides], kNoReceiver: none
+    std::vector<std::uint32_t> patch_of_; ///< [triangles][sides] index of the patch; kNoReceiver: none
 };
 
 } // namespace prt

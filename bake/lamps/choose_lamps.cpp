@@ -1,4 +1,4 @@
-// Gathers lights and shining surfaces by name.
+// Groups lights and emissive surfaces by name.
 
 #include "lamps/choose_lamps.h"
 
@@ -73,7 +73,7 @@ void add_lamps_of_scene(const Surfaces& surfaces, Lamps& lamps) {
 } // namespace
 
 bool matches(const std::string& text, const std::string& pattern) {
-    // Where the last * may take one letter more.
+    // On a mismatch the last * takes one more letter.
     std::size_t t = 0, p = 0, star = std::string::npos, taken = 0;
     while (t < text.size()) {
         if (p < pattern.size() && pattern[p] == '*') {

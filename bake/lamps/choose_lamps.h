@@ -1,6 +1,6 @@
 #pragma once
 
-// Which lights of a scene are dimmed together.
+// Groups the lights of a scene into lamps that are dimmed together.
 
 #include "prt/bake.h"
 #include "prt/surfaces.h"
@@ -11,23 +11,23 @@
 
 namespace prt {
 
-/// Lights and shining surfaces of one name, or of one group.
+/// Lights and emissive surfaces of one name or of one group.
 struct Lamp {
     std::string name;
-    std::vector<std::string> members = {};     ///< of a group: the names in it
+    std::vector<std::string> members = {};     ///< names in a group
     std::vector<std::uint32_t> lights = {};    ///< indices into Scene::lights
-    std::vector<std::uint32_t> triangles = {}; ///< that shine
+    std::vector<std::uint32_t> triangles = {}; ///< emissive triangles
 };
 
-/// All lamps of the scene, in the order of their first member: those of `options.groups` under the names of
-/// the groups, each other one under its own; none in `LampMode::none`. Throws `Error` for a pattern that no
-/// lamp has and for more than kMostLamps.
+/// Returns all lamps of the scene, in the order of their first members. Members of `options.groups` have the
+/// name of their group, other lamps their own name. The result is empty in `LampMode::none`. Throws `Error`
+/// for a pattern that matches no lamp, and for more than kMostLamps.
 std::vector<Lamp> choose_lamps(const Surfaces& surfaces, const LampOptions& options);
 
-/// Whether all that `lamps` give off is white.
+/// Whether all light of `lamps` is white.
 bool are_white(const Surfaces& surfaces, const std::vector<Lamp>& lamps);
 
-/// `pattern` with * for any letters, ? for any one.
+/// Whether `text` matches `pattern`, where * stands for any letters and ? for one.
 bool matches(const std::string& text, const std::string& pattern);
 
 } // namespace prt

@@ -1,3 +1,5 @@
+// Replaces the last bounce of lamps and filters it.
+
 #include "lamps/lamp_bounces.h"
 
 namespace prt {

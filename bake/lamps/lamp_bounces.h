@@ -1,6 +1,6 @@
 #pragma once
 
-// The last bounce of lamps at receivers, with less noise than those before it.
+// Computes the last bounce of lamps at receivers with less noise than the bounces before it.
 
 #include "lamps/lamp_rows.h"
 #include "surface/noise_filter.h"
@@ -10,15 +10,15 @@
 
 namespace prt {
 
-/// What LampRows gathered, [receivers][channels][columns]; `half` may be empty.
+/// Light gathered by LampRows, [receivers][channels][columns]; `half` may be empty.
 struct LastOfLampsGathered {
     std::span<const float> all, half;
 };
 
-/// Replaces what `light` has more than `unbounced`, [receivers][channels][columns] both, by what was
-/// gathered, and filters that where there is a filter and a half. `left_out` [receivers]: those whose light
-/// is not what their own rays gathered. Returns the noise that is left of each of `lamps`, root of the sum of
-/// squares over the surface; nothing where it is not known.
+/// Replaces the difference between `light` and `unbounced`, both [receivers][channels][columns], by the
+/// gathered light. Filters the gathered light if `filter` and `half` are given. `left_out` [receivers]:
+/// receivers whose light is not gathered by their own rays. Returns the remaining noise of each of `lamps`,
+/// as the root of the sum of squares over the surface; empty if it is unknown.
 std::vector<double> take_last_of_lamps(const LastOfLampsGathered& gathered, const std::vector<bool>& left_out,
                                        const NoiseFilter* filter, std::size_t lamps,
                                        const Transfer& unbounced, Transfer& light);

@@ -1,6 +1,6 @@
 #pragma once
 
-// shaders/shared_lamps.h in C++, in double precision.
+// C++ version of shaders/shared_lamps.h in double precision.
 
 #include <glm/common.hpp>
 #include <glm/exponential.hpp>

@@ -1,4 +1,4 @@
-// Casts rays at lamps from every receiver, on the CPU.
+// Casts rays to lamps from every receiver, on the CPU.
 
 #include "lamps/lamp_light.h"
 
@@ -14,7 +14,7 @@
 namespace prt {
 namespace {
 
-/// Lamps are the coefficients of a light of so many bands.
+/// Smallest order with enough coefficients: lamps are stored as coefficients of a light.
 int order_for(std::size_t lamps) {
     int order = 1;
     while (static_cast<std::size_t>(coefficient_count(order)) < lamps)

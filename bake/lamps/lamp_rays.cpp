@@ -1,4 +1,4 @@
-// Samples lamps by their solid angles, so that no light is too near.
+// Samples lamps by solid angle, so that no light is too near.
 
 #include "lamps/lamp_rays.h"
 
@@ -14,19 +14,19 @@
 namespace prt {
 namespace {
 
-/// Where a light is seen from a receiver, and what it gives there unless something is in its way.
+/// Position of a light relative to a receiver, and its unoccluded light there.
 struct SeenLight {
     const PunctualLight* light;
     glm::dvec3 towards{0}; ///< unit
-    double distance = 0;   ///< metres; infinite where directional
+    double distance = 0;   ///< metres; infinite for directional lights
     glm::dvec3 normal_irradiance{0};
-    double weight = 0; ///< luminance of the irradiance, about
+    double weight = 0; ///< approximate luminance of the irradiance
 };
 
 SeenLight seen(const PunctualLight& light, const LampReceiver& receiver, double radius) {
     SeenLight seen{&light};
     seen.normal_irradiance = glm::dvec3(light.intensity);
-    double reach = 0; // how far a light that is partly below the horizon still comes up
+    double reach = 0; // sine of the angle by which a light below the horizon is partly visible
     if (light.kind == PunctualKind::directional) {
         seen.towards = -glm::dvec3(light.direction);
         seen.distance = std::numeric_limits<double>::infinity();
@@ -44,15 +44,15 @@ SeenLight seen(const PunctualLight& light, const LampReceiver& receiver, double 
     return seen;
 }
 
-/// Half angle of the cone that a light fills, radians: 0 of a directional one, which is infinitely far;
-/// within a sphere light comes from everywhere.
+/// Half angle of the cone that a light fills, radians: 0 for a directional light, which is infinitely far;
+/// inside the sphere of a light pi/2, because light arrives from everywhere.
 double half_angle_of(const SeenLight& light, double radius) {
     if (radius <= 0)
         return 0;
     return radius < light.distance ? std::asin(radius / light.distance) : std::numbers::pi / 2;
 }
 
-/// Share of the light that arrives, with its cosine; 1 for what faces it and is open.
+/// Share of the light that arrives, including the cosine; 1 for a receiver that faces it without occlusion.
 double arriving(const TraceScene& scene, const SeenLight& light, const LampReceiver& receiver, double radius,
                 int rays) {
     const DiscDirections directions(glm::vec3(light.towards), half_angle_of(light, radius), rays);
@@ -117,13 +117,13 @@ ShiningTriangles::ShiningTriangles(const TraceScene& scene, const Lamp& lamp) : 
         const glm::dvec3 a(vertices.positions[corners.x]), b(vertices.positions[corners.y]),
             c(vertices.positions[corners.z]);
         const double area = 0.5 * glm::length(glm::cross(b - a, c - a));
-        // A texel as large as the triangle, at its middle, is the mean or near to it: it only steers. Where
-        // one of four times that is black, all is.
+        // A texel of the size of the triangle at its centroid is about its mean; it only steers the sampling.
+        // The triangle is dark if a texel of four times this size is black, too.
         const SurfacePoint middle{t, glm::vec2(1.0f / 3), static_cast<float>(area)};
         const glm::vec3 mean = surfaces.emission(middle);
         if (mean == glm::vec3(0) && surfaces.emission({t, middle.uv, 4 * middle.footprint}) == glm::vec3(0))
             continue;
-        // What is dark at its middle may shine elsewhere.
+        // A triangle that is dark at its centroid may emit light elsewhere.
         const double least = 0.05 * luminance(glm::dvec3(surfaces.material(t).emission.radiance));
         if (area > 0)
             triangles_.push_back({t, a, b, c, std::max(luminance(glm::dvec3(mean)), least),
@@ -138,7 +138,7 @@ ShiningTriangles::Sample ShiningTriangles::sample(const LampReceiver& receiver, 
     const glm::dvec3 towards = glm::normalize(point.place);
     if (!(glm::dot(glm::dvec3(receiver.normal), towards) > 0))
         return {};
-    // The ray ends on the side that is seen, not on the triangle itself.
+    // The ray ends on the visible side, not on the triangle itself.
     const glm::dvec3 outward = glm::normalize(seen.volume > 0 ? -seen.normal : seen.normal);
     const auto off = static_cast<double>(
         scene_.rays().triangle_offset(t.triangle, static_cast<float>(glm::length(point.place))));
@@ -163,8 +163,8 @@ LampIrradiance ShiningTriangles::irradiance(const LampReceiver& receiver, int ra
 
 std::size_t ShiningTriangles::take_light(const LampReceiver& receiver, int rays,
                                          const TakeLight& take) const {
-    // From where rays start: in the plane of a wall that shines its solid angle is none, and a hair before it
-    // half of all there is.
+    // From the origin of rays: in the plane of an emissive wall the wall's solid angle is zero, and slightly
+    // in front of it half of the sphere.
     const glm::dvec3 from(receiver.origin), normal(receiver.normal);
     const auto see = [&](const Shining& t) {
         return lamp_geometry::see_triangle(t.a - from, t.b - from, t.c - from, t.b - t.a, t.c - t.a, normal,
@@ -172,7 +172,7 @@ std::size_t ShiningTriangles::take_light(const LampReceiver& receiver, int rays,
     };
     struct Weighted {
         const Shining* shining;
-        double until; ///< the sum of all weights so far
+        double until; ///< sum of all weights up to and including this one
     };
     thread_local std::vector<Weighted> weighted;
     weighted.clear();

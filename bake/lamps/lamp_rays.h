@@ -15,11 +15,11 @@
 
 namespace prt {
 
-/// A receiver that light falls on.
+/// A receiver of light.
 struct LampReceiver {
     glm::vec3 position, normal;
-    glm::vec3 origin;       ///< where its rays start
-    std::uint32_t seed = 0; ///< makes its samples differ from those of others
+    glm::vec3 origin;       ///< origin of its rays
+    std::uint32_t seed = 0; ///< makes its samples differ from those of other receivers
 };
 
 struct LampIrradiance {
@@ -27,21 +27,22 @@ struct LampIrradiance {
     std::size_t rays = 0;
 };
 
-/// Irradiance by the lights of KHR_lights_punctual of `lamp`: a ray to each, or where they have extent as
-/// many over their discs as they have of all light here, `most` in all or one each. Unshadowed it is that of
-/// the extension, whatever their radius, but where the light is as near as that.
+/// Computes the irradiance from the punctual lights of `lamp`: one ray to each light, or for lights with an
+/// extent a number of rays over their discs in proportion to their share of the light here, with at most
+/// `most` rays in total or one ray per light. The unshadowed value is that of KHR_lights_punctual for any
+/// radius, unless the receiver is within the radius of the light.
 LampIrradiance irradiance_of_lights(const TraceScene& scene, const Lamp& lamp, const LampReceiver& receiver,
                                     double radius, int most);
 
-/// Takes light that comes in from unit `towards`, as irradiance of what faces it.
+/// Takes light from unit direction `towards`, as irradiance of a receiver that faces it.
 using TakeLight = std::function<void(const glm::dvec3& towards, const glm::dvec3& irradiance)>;
 
-/// The same lights one by one, each from its middle: of a place, whatever the receiver's normal is. Returns
-/// how many rays it took.
+/// Passes the lights of `lamp` to `take` one by one, each from the direction of its center, for a position
+/// without a normal. Returns the number of traced rays.
 std::size_t take_lights(const TraceScene& scene, const Lamp& lamp, const LampReceiver& receiver,
                         double radius, int most, const TakeLight& take);
 
-/// The triangles of a lamp that shine, with how bright each is on average.
+/// The emissive triangles of a lamp with their mean brightness.
 class ShiningTriangles {
 public:
     struct Shining {
@@ -55,14 +56,15 @@ public:
 
     std::span<const Shining> all() const { return triangles_; }
 
-    /// Irradiance by `rays` rays that are spread over what is seen of them by its solid angle.
+    /// Computes irradiance with `rays` rays that are distributed over the visible solid angle of the
+    /// triangles.
     LampIrradiance irradiance(const LampReceiver& receiver, int rays) const;
 
-    /// The same sample by sample.
+    /// Passes the samples of `irradiance` to `take` one by one. Returns the number of traced rays.
     std::size_t take_light(const LampReceiver& receiver, int rays, const TakeLight& take) const;
 
 private:
-    /// Of a sample of a triangle that is seen so, as if the triangle were all there is, on what faces it.
+    /// A sample of a visible triangle as if there were no others: irradiance of a receiver that faces it.
     struct Sample {
         glm::dvec3 towards{0}, irradiance{0};
     };

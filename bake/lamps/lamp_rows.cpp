@@ -1,4 +1,4 @@
-// Joins hemisphere rays with connections to bright patches.
+// Combines hemisphere rays with connections to bright patches.
 
 #include "lamps/lamp_rows.h"
 
@@ -17,11 +17,11 @@
 namespace prt {
 namespace {
 
-/// A receiver has one connection for this number of rays.
+/// A receiver has one connection per kRaysPerConnection rays.
 constexpr int kRaysPerConnection = 8;
 /// Multiple of kSecondScramble, added to the seed; no other part of a bake uses it.
 constexpr std::uint64_t kConnections = 20;
-/// Form factor of a square metre with normal `there` at the end of `way`.
+/// Form factor of a square metre with normal `there` at the end of `way`, for a receiver with normal `here`.
 double form_factor(const glm::dvec3& way, const glm::dvec3& here, const glm::dvec3& there) {
     const double squared = glm::dot(way, way);
     if (!(squared > 0))
@@ -32,10 +32,10 @@ double form_factor(const glm::dvec3& way, const glm::dvec3& here, const glm::dve
 
 } // namespace
 
-/// A receiver, and how many samples of each strategy it has.
+/// A receiver, and its number of samples of each technique.
 struct LampConnections::Sampled {
     BrightPatches::Receiver receiver;
-    double rays; ///< that are followed
+    double rays; ///< number of followed rays
     int connections;
 
     /// Expected samples per square metre.
@@ -81,7 +81,7 @@ std::vector<Hit> LampConnections::connect(const Sampled& sampled, const Start& s
     return hits;
 }
 
-/// Weight of a hemisphere ray's hit beside connections.
+/// Weight of a hemisphere ray's hit in combination with connections.
 float LampConnections::share_of_rays(const Sampled& sampled, const Start& start, const Hit& hit) const {
     const double of_connections = patches_.density(sampled.receiver, hit.triangle, hit.back);
     if (!(of_connections > 0))

@@ -1,6 +1,6 @@
 #pragma once
 
-// Gathers the light of lamps, which comes from few and small places, with connections to them.
+// Gathers the light of lamps, which comes from few and small areas, with connections to these areas.
 
 #include "lamps/bright_patches.h"
 #include "prt/tracer.h"
@@ -13,18 +13,18 @@
 
 namespace prt {
 
-/// Rays of a receiver to patches that lamps light.
+/// Connections of a receiver to patches that lamps light.
 class LampConnections {
 public:
-    /// `light`: as for BrightPatches. Keeps a reference to `plan`.
+    /// `light`: see BrightPatches. Keeps a reference to `plan`.
     LampConnections(const BakePlan& plan, const Transfer& light) : plan_(plan), patches_(plan, light) {}
 
-    /// Appends hits of connections to `hits`, the hits of the receiver's hemisphere rays, which `options`
-    /// traced. Both get weights by the balance heuristic (E. Veach and L. Guibas, SIGGRAPH 1995).
-    /// Thread-safe.
+    /// Appends hits of connections to `hits`, the hits of the receiver's hemisphere rays that were traced
+    /// with `options`. Both kinds get weights by the balance heuristic (E. Veach and L. Guibas, SIGGRAPH
+    /// 1995). Thread-safe.
     struct Joined {
         std::vector<Hit> all;
-        std::vector<Hit> half; ///< every other one, weighted to stand for all
+        std::vector<Hit> half; ///< every second hit, weighted to represent all of them
     };
     Joined join(const Receivers& receivers, std::uint32_t p, std::span<const Hit> hits,
                 const TraceOptions& options) const;
@@ -32,7 +32,7 @@ public:
 private:
     struct Sampled;
     struct Start {
-        glm::vec3 origin; ///< of rays
+        glm::vec3 origin; ///< origin of the rays
         std::uint32_t seed;
     };
     glm::dvec3 normal(std::uint32_t triangle, bool back) const;
@@ -43,23 +43,23 @@ private:
     BrightPatches patches_;
 };
 
-/// Whether the last bounce of lamps is gathered by rows of its own.
+/// Whether the last bounce of lamps uses separate rows with connections.
 enum class LastOfLamps { as_others, connected };
 
-/// Connections for the last bounce of lamps, where `last` asks for them and there is such light.
+/// Creates connections for the last bounce of lamps, if `last` requests them and there is such light.
 std::optional<LampConnections> connections_to(const BakePlan& plan, LastOfLamps last, const Transfer& light);
 
 /// Rows that gather the light of lamps at receivers.
 struct LampRows {
     GatherOperator all;
-    std::optional<GatherOperator> half; ///< of half of its rays, which tells their noise
+    std::optional<GatherOperator> half; ///< rows from half of the hits, for estimating the noise
 
-    /// `halves`: with `half`.
+    /// `halves`: create `half`.
     LampRows(const BakePlan& plan, std::size_t rows, bool halves);
-    /// Thread-safe.
+    /// Sets a row. Thread-safe.
     void set(std::size_t row, const LampConnections::Joined& joined, int rays);
 
-    /// Its memory over that of a gather operator of the hemisphere rays alone, at most.
+    /// Maximum memory relative to a gather operator of only the hemisphere rays.
     static constexpr double kCopies = 1.5 * 1.25;
 };
 

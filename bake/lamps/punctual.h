@@ -1,6 +1,6 @@
 #pragma once
 
-// What lights of KHR_lights_punctual give without anything in their way.
+// Light of KHR_lights_punctual without occlusion.
 
 #include "prt/scene.h"
 
@@ -8,22 +8,22 @@
 
 namespace prt {
 
-/// Nothing is nearer to a point light than that, in metres: its inverse square has no end.
+/// Minimum distance to a point light in metres, because the inverse square is unbounded.
 inline constexpr double kNearestToLight = 0.01;
 
-/// Cosines of the angles from the middle of a spot where it is full, and where it ends; of other lights
-/// below -1, where no direction is.
+/// Cosines of the angles from the axis of a spot at which its light starts to decrease and at which it ends;
+/// below -1 for other lights, so that every direction is inside.
 struct ConeCosines {
     double inner, outer;
 };
 ConeCosines cone_cosines(const PunctualLight& light);
 
-/// Share of the light's intensity that goes along unit `along`, away from it: 1 but for a spot, whose cone
-/// ends softly as the extension recommends.
+/// Share of the light's intensity along unit `along`, away from the light: 1 except for a spot, whose cone
+/// ends softly as recommended by the extension.
 double cone_share(const PunctualLight& light, const glm::dvec3& along);
 
-/// What is left of an inverse square at `distance` metres where the light has a range: 1 - (d / range)^4,
-/// nothing beyond, as the extension recommends.
+/// Attenuation in addition to the inverse square at `distance` metres if the light has a range: 1 - (d /
+/// range)^4, zero beyond, as recommended by the extension.
 double range_share(const PunctualLight& light, double distance);
 
 } // namespace prt

@@ -10,7 +10,7 @@
 namespace prt {
 namespace {
 
-/// A level so far away, against the diagonal of level 0, is told of.
+/// Distance of a level, relative to the diagonal of level 0, above which a notice is added.
 constexpr double kFarLevel = 0.05;
 
 class LevelFit {
@@ -52,7 +52,7 @@ private:
 
     std::span<float> vector(std::uint32_t receiver) { return bake_.transfer.vector(receiver); }
 
-    /// Vertices take the light of the place that is nearest to them: what the fit then mends.
+    /// Initialises vertices with the light of the nearest point of level 0; the fit then corrects it.
     void begin_at_nearest(const PartSurface& surface, const FinestSurface& finest,
                           const FitEquations& equations) {
         const std::vector<NearestPlace> places =
@@ -71,8 +71,8 @@ private:
         }
     }
 
-    /// Adds the least-squares solution for what samples miss. They are dense and know light to the noise of
-    /// level 0: what bending costs is what it costs in a first fit.
+    /// Adds the least-squares solution for the difference at the samples. The samples are dense, and their
+    /// light has the noise of level 0: the smoothness weights are those of an initial fit.
     void add_fit(const PartSurface& surface, const LevelSamples& samples, const FitEquations& equations) {
         if (equations.unknowns == 0)
             return;
@@ -89,7 +89,7 @@ private:
         progress_.check();
     }
 
-    /// Of level 0 what the level does not show.
+    /// Difference between level 0 and the coarser level at a sample.
     std::vector<double> missing_at(const LevelSample& sample) {
         std::vector<double> sum(stride_);
         for (std::size_t i = 0; i < 3; ++i) {

@@ -1,4 +1,4 @@
-// Spreads samples over a coarser level and finds what each shows of level 0.
+// Spreads samples over a coarser level and finds the point of level 0 that each of them shows.
 
 #include "levels/level_surface.h"
 #include "prt/support/error.h"
@@ -13,10 +13,11 @@
 namespace prt {
 namespace {
 
-/// Samples for each receiver of the level, and for each of level 0, whose detail the level is to show.
+/// Number of samples for each receiver of the level, and for each receiver of level 0, whose detail the level
+/// has to show.
 constexpr std::size_t kSamplesOfReceiver = 16, kSamplesOfFinest = 4, kMostLevelSamples = std::size_t{1} << 22;
-/// Share of the diagonal of level 0 that a level may stand off, as a root mean square. Two crossed quads for
-/// a tree stand off by a tenth; a level that was put beside its node by one or more.
+/// Maximum root mean square distance of a level relative to the diagonal of level 0. Two crossed quads for a
+/// tree have a tenth; a level that was moved next to its node has one or more.
 constexpr double kTooFar = 0.25;
 
 Scene with_shadows(Scene scene) {
@@ -31,7 +32,7 @@ ScenePart part_that_is_met(const Scene& scene, std::span<const std::size_t> prim
     return part;
 }
 
-/// What `shares` of the corners have, added to `to`.
+/// Adds the interpolated values of the corners to `to`.
 void add_shares(std::span<const float> values, const std::array<std::uint32_t, 3>& corners,
                 const std::array<float, 3>& shares, std::span<double> to) {
     for (std::size_t i = 0; i < 3; ++i)
@@ -83,7 +84,7 @@ LevelSamples match_samples(const SurfaceSamples& samples, const PartSurface& lev
                            samples.places[s].shares(),
                            {},
                            samples.receivers.areas[s]};
-        sample.from = sample.at; // which shows nothing by shares of nothing
+        sample.from = sample.at; // shows nothing: its shares are zero
         if (const NearestPlace& place = places[s]; place.triangle != kNoTriangle) {
             sample.from = finest.corners(place.triangle);
             for (std::size_t i = 0; i < 3; ++i)

@@ -1,6 +1,6 @@
 #pragma once
 
-// The surface of a coarser level, its samples, and the level 0 that it stands for.
+// The surface of a coarser level, its samples, and the level 0 that it replaces.
 
 #include "levels/nearest_places.h"
 #include "levels/scene_part.h"
@@ -9,30 +9,30 @@
 
 namespace prt {
 
-/// Some primitives as a surface. Stays where it is.
+/// Some primitives as a surface. It cannot be moved, because other objects keep references to it.
 struct PartSurface {
     PartSurface(const Scene& scene, std::span<const std::size_t> primitives, int threads);
     PartSurface(const PartSurface&) = delete;
     PartSurface& operator=(const PartSurface&) = delete;
 
-    ScenePart part; ///< whose materials all cast shadows
+    ScenePart part; ///< all its materials cast shadows
     TraceScene traced;
     TransportReceivers receivers;
 
     const Receivers& points() const { return receivers.receivers; }
 };
 
-/// Where level 0 shows what a place of a coarser level shows.
+/// Finds the point of level 0 whose light a point of a coarser level shows.
 class FinestSurface {
 public:
     FinestSurface(const LeveledScene& scene, const LeveledNode& node, int threads)
         : surface_(scene.scene, node.finest, threads), places_(surface_.traced, surface_.points()),
           threads_(threads) {}
 
-    /// [points], in parallel.
+    /// Returns the nearest point for each position, [positions], in parallel.
     std::vector<NearestPlace> find(std::span<const glm::vec3> positions, std::span<const glm::vec3> normals,
                                    const Progress& progress) const;
-    /// Receivers of the scene with all levels.
+    /// Corners of a triangle as receivers of the scene with all levels.
     std::array<std::uint32_t, 3> corners(std::uint32_t triangle) const;
     double diagonal() const { return places_.diagonal(); }
 
@@ -42,16 +42,16 @@ private:
     int threads_;
 };
 
-/// `samples` of `level`, each with its place.
+/// Finds the point of level 0 for each of `samples` on `level`.
 LevelSamples match_samples(const SurfaceSamples& samples, const PartSurface& level,
                            const FinestSurface& finest, const Progress& progress);
-/// Throws `Error` as `sample_level`.
+/// Throws `Error` if the level is too far from its node.
 void check_distance(const LevelSamples& samples, const LeveledNode& node, const CoarserLevel& level);
 
-/// How many samples a level gets.
+/// Spreads samples over `level`; their number depends on its receivers and on those of level 0.
 SurfaceSamples samples_of(const PartSurface& level, std::size_t finest_receivers, std::uint64_t seed);
 
-/// All but its error.
+/// Creates the result of a level without its error.
 LevelOutcome outcome_of(const Scene& scene, const LeveledNode& node, const CoarserLevel& level,
                         const LevelSamples& samples);
 

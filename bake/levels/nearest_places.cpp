@@ -1,4 +1,4 @@
-// Asks a hierarchy of triangles for the nearest, and judges by normals.
+// Searches a hierarchy of triangles for the nearest points, and selects among them by normals.
 
 #include "levels/nearest_places.h"
 
@@ -17,7 +17,7 @@ namespace {
 
 constexpr double kInfinite = std::numeric_limits<double>::infinity();
 
-/// Of the boxes of the nodes: instances of one thing may stand all over a scene.
+/// Largest diagonal of the bounding boxes of the nodes: instances of one mesh may be spread all over a scene.
 double largest_diagonal(const Scene& scene) {
     std::map<int, Bounds> boxes;
     for (const Primitive& primitive : scene.primitives)
@@ -33,7 +33,8 @@ double largest_diagonal(const Scene& scene) {
     return largest;
 }
 
-/// Visits triangles from the whole scene on; `visit` returns the distance within which others still matter.
+/// Visits triangles, starting with the whole scene; `visit` returns the distance within which other triangles
+/// matter.
 template <class Visit>
 void visit_nearest(RTCScene scene, const glm::vec3& position, Visit&& visit) {
     RTCPointQuery query{position.x, position.y, position.z, 0, std::numeric_limits<float>::infinity()};
@@ -133,7 +134,7 @@ std::array<glm::dvec3, 3> NearestPlaces::at_corners(const std::vector<glm::vec3>
 NearestPlace NearestPlaces::find(const glm::vec3& position, const glm::vec3& normal) const {
     NearestRule rule(diagonal_);
     rule.begin(position, normal);
-    // Boxes are floats, and so is the radius: what is as near to some units of rounding is seen, too.
+    // Boxes are floats, and so is the radius: also visit triangles that are equally near up to rounding.
     constexpr double kRounding = 1 + 1e-6;
     visit_nearest(scene_.rays().handle(), position, [&](unsigned triangle) {
         if (lit_[triangle])

@@ -1,6 +1,6 @@
 #pragma once
 
-// The nearest place on a surface that looks the same way.
+// Finds the nearest point of a surface with a similar normal.
 
 #include "prt/receivers.h"
 #include "prt/trace_scene.h"
@@ -14,30 +14,31 @@ namespace prt {
 
 /// A point of a triangle.
 struct NearestPlace {
-    std::uint32_t triangle = 0;        ///< in the order of the scene's primitives; kNoTriangle: there is none
-    std::array<double, 3> shares = {}; ///< of its corners
+    std::uint32_t triangle = 0;        ///< index in the order of the scene's primitives; kNoTriangle: there
+                                       ///< is no point
+    std::array<double, 3> shares = {}; ///< barycentric coordinates
     double distance = 0;               ///< metres
 };
 inline constexpr std::uint32_t kNoTriangle = ~0u;
 
-/// Point of triangle `corners` that is nearest to `position` (C. Ericson, Real-Time Collision Detection,
-/// section 5.1.5): shares of its corners.
+/// Returns the barycentric coordinates of the point of triangle `corners` that is nearest to `position` (C.
+/// Ericson, Real-Time Collision Detection, section 5.1.5).
 std::array<double, 3> nearest_on_triangle(const std::array<glm::dvec3, 3>& corners,
                                           const glm::dvec3& position);
 
-/// What is nearest: places whose normal, interpolated, leans at most 60 degrees from the one that is asked
-/// for come first where they are no more than a twentieth of the diagonal behind the nearest of all. Among
-/// places as near the one whose normal fits best counts, and then the first triangle (docs/math.md, section
-/// 23).
+/// Selects the nearest point. Points whose interpolated normal deviates at most 60 degrees from the requested
+/// normal have priority if they are at most a twentieth of the diagonal farther than the nearest point of
+/// all. Among points with equal distances the one with the best normal is selected, and then the first
+/// triangle (docs/math.md, section 23).
 class NearestRule {
 public:
-    /// `diagonal` of the box of the surface's largest node, metres.
+    /// `diagonal`: diagonal of the bounding box of the surface's largest node, metres.
     explicit NearestRule(double diagonal) : reach_(kReach * diagonal), tie_(kTie * diagonal) {}
 
     void begin(const glm::vec3& position, const glm::vec3& normal);
     void add(std::uint32_t triangle, const std::array<glm::dvec3, 3>& corners,
              const std::array<glm::dvec3, 3>& normals);
-    /// How far the places that may still count are.
+    /// Maximum distance of points that can still be selected.
     double radius() const;
     NearestPlace result() const;
 
@@ -46,7 +47,7 @@ private:
     static constexpr double kLeastCosine = 0.5;
 
     struct Candidate {
-        double score; ///< squared distance, and what the normal adds
+        double score; ///< squared distance, plus a term for the normal
         NearestPlace place;
 
         bool worse_than(double other_score, std::uint32_t triangle) const {
@@ -58,11 +59,11 @@ private:
     Candidate any_{}, agreeing_{};
 };
 
-/// Thread-safe.
+/// Finds nearest points on the surfaces of a scene. Thread-safe.
 class NearestPlaces {
 public:
-    /// Keeps references. All materials of the scene cast shadows; triangles of corners without a normal or an
-    /// area, which have no light, count for nothing.
+    /// Keeps references. All materials of the scene must cast shadows. Triangles are ignored if a corner has
+    /// no normal or no area, and therefore no light.
     NearestPlaces(const TraceScene& scene, const Receivers& receivers);
 
     NearestPlace find(const glm::vec3& position, const glm::vec3& normal) const;

@@ -1,4 +1,4 @@
-// Bakes scenes in which coarser levels stand in the place of level 0.
+// Bakes scenes in which coarser levels replace level 0.
 
 #include "levels/level_surface.h"
 #include "prt/support/error.h"
@@ -10,7 +10,7 @@
 namespace prt {
 namespace {
 
-/// The scene as it is seen where all nodes that have level `number` show it.
+/// Returns the scene in which all nodes that have level `number` show it.
 ScenePart with_level(const LeveledScene& scene, std::size_t number) {
     std::set<std::size_t> shown;
     for (std::size_t p = 0; p < scene.finest_primitives; ++p)
@@ -34,7 +34,7 @@ bool same_layout(const TransferLayout& a, const TransferLayout& b) {
            });
 }
 
-/// Transfer of what level `number` has.
+/// Copies the transfer of level `number`.
 void copy_level(const ScenePart& part, const Transfer& from, std::size_t finest_receivers, Transfer& to) {
     for (std::size_t p = 0; p < part.receivers.size(); ++p)
         if (part.receivers[p] >= finest_receivers)

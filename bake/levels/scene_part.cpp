@@ -1,3 +1,5 @@
+// Copies some primitives of a scene.
+
 #include "levels/scene_part.h"
 
 #include <map>

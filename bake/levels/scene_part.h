@@ -1,5 +1,7 @@
 #pragma once
 
+// A subset of a scene's primitives.
+
 #include "prt/scene.h"
 
 #include <cstdint>
@@ -8,10 +10,10 @@
 
 namespace prt {
 
-/// Some primitives of a scene as a scene of their own, with its materials and lights, without its images.
+/// Some primitives of a scene as a separate scene, with its materials and lights, without its images.
 struct ScenePart {
     Scene scene;
-    std::vector<std::uint32_t> receivers; ///< [receivers of the part] in the scene that it is of
+    std::vector<std::uint32_t> receivers; ///< [receivers of the part] receivers of the original scene
 };
 ScenePart scene_part(const Scene& scene, std::span<const std::size_t> primitives);
 

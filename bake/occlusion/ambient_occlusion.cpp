@@ -1,4 +1,4 @@
-// Reads transfer of order 2: band 0 is how much arrives, band 1 where from.
+// Reads transfer of order 2: band 0 is the amount of arriving light, band 1 its direction.
 
 #include "prt/ambient_occlusion.h"
 

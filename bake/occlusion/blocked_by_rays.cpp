@@ -1,4 +1,4 @@
-// Bands of what is open from a place, and of the cosine.
+// Integrates unoccluded directions times the cosine, band by band.
 
 #include "occlusion/blocked_by_rays.h"
 
@@ -28,7 +28,7 @@ BakeOptions bake_options(const OccluderOptions& options) {
 std::vector<std::optional<float>> blocked_by_rays(const Scene& scene, std::span<const glm::vec3> places,
                                                   std::span<const glm::vec3> normals,
                                                   const BakeOptions& options, const Progress& progress) {
-    // The cosine over pi by bands (Ramamoorthi and Hanrahan 2001); the next that is not 0 is 1/64.
+    // Bands of the cosine over pi (Ramamoorthi and Hanrahan 2001); the next one that is not 0 is 1/64.
     constexpr std::array<double, 5> kCosine = {1, 2.0 / 3, 0.25, 0, -1.0 / 24};
     constexpr int kOrder = static_cast<int>(kCosine.size());
     BakeOptions finer = options;
@@ -40,7 +40,7 @@ std::vector<std::optional<float>> blocked_by_rays(const Scene& scene, std::span<
         if (light.backs[p] > kMostOccluderBacks)
             continue;
         evaluate_sh(kOrder, normals[p], basis);
-        // The first row, that of Y00, holds Y00 times the bands of what is open.
+        // The first row, that of Y00, holds Y00 times the bands of the unoccluded directions.
         const std::span<const float> open = light.transfer.vector(4 * p);
         double left = 0;
         for (std::size_t i = 0; i < basis.size(); ++i)

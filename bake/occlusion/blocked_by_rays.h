@@ -1,6 +1,6 @@
 #pragma once
 
-// How much an object blocks of the light of receivers in the open near it, by rays.
+// Share of the light of receivers near an object that the object blocks, by rays.
 
 #include "prt/occluder_bake.h"
 
@@ -12,13 +12,14 @@
 
 namespace prt {
 
-/// A place is inside of the object where more of its rays end at backs.
+/// A position is inside the object if more of its rays end at backs.
 inline constexpr float kMostOccluderBacks = 0.25f;
 
-/// The bake of order 2 that sees how much is blocked, and where.
+/// Options of the bake of order 2 that measures the blocked share and its direction.
 BakeOptions bake_options(const OccluderOptions& options);
 
-/// Of the light of receivers, by the cosine law, from everywhere alike; nothing for those inside of `scene`.
+/// Returns the blocked share of the light of receivers from a uniform environment, with the cosine law;
+/// nothing for receivers inside `scene`.
 std::vector<std::optional<float>> blocked_by_rays(const Scene& scene, std::span<const glm::vec3> places,
                                                   std::span<const glm::vec3> normals,
                                                   const BakeOptions& options, const Progress& progress);

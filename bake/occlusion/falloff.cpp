@@ -1,3 +1,5 @@
+// Distance fall-off of occlusion.
+
 #include "prt/falloff.h"
 
 #include "prt/support/error.h"

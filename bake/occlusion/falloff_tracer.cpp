@@ -1,4 +1,4 @@
-// Adds to visibility what passes surfaces that are far enough.
+// Adds light that passes distant surfaces to visibility.
 
 #include "occlusion/falloff_tracer.h"
 

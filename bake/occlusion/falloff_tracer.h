@@ -1,5 +1,7 @@
 #pragma once
 
+// Tracer with a distance fall-off of occlusion.
+
 #include "prt/falloff.h"
 #include "prt/trace_scene.h"
 #include "prt/tracer.h"
@@ -8,12 +10,12 @@
 
 namespace prt {
 
-/// Traces by another tracer, and lets light pass what its rays meet by the distance. Of a receiver whose rays
-/// all end, nearly all of them at backs of single-sided surfaces, the vector stays zero: it is inside
-/// geometry.
+/// Traces with another tracer, and lets light pass the hit surfaces depending on their distance. A receiver
+/// whose rays all hit surfaces, almost all of them backs of single-sided surfaces, keeps a zero vector: it is
+/// inside geometry.
 class FalloffTracer final : public Tracer {
 public:
-    /// `tracer` notes hits. Keeps a reference to `scene`.
+    /// `tracer` must report hits. Keeps a reference to `scene`.
     FalloffTracer(std::unique_ptr<Tracer> tracer, const TraceScene& scene, Falloff falloff);
     Backend backend() const override { return tracer_->backend(); }
     std::string device() const override { return tracer_->device(); }
@@ -26,14 +28,14 @@ public:
     LampLight lamp_light(const LampTask& task, const Progress& progress) override;
 
 private:
-    /// Writes what passes the surfaces that `hits` are on, seen from `position`, of so many rays.
+    /// Writes the light that passes the surfaces of `hits`, seen from `position`.
     void passing(const glm::vec3& position, std::span<const Hit> hits, const TraceOptions& options,
                  std::span<double> vector) const;
 
     std::unique_ptr<Tracer> tracer_;
     const TraceScene& scene_;
     Falloff falloff_;
-    std::vector<glm::vec3> positions_; ///< of vertices
+    std::vector<glm::vec3> positions_; ///< positions of vertices
 };
 
 } // namespace prt

@@ -1,4 +1,4 @@
-// An object alone is looked at from points all over its box; a volume is fitted to what is blocked there.
+// Samples an object alone from points in its box, and fits a volume to the occlusion there.
 
 #include "prt/occluder_bake.h"
 
@@ -23,7 +23,7 @@
 namespace prt {
 namespace {
 
-/// Points for each cell of the box: with 343 cells, eight for each texel.
+/// Number of points of the fit: with 343 cells, eight for each texel. Number of points of the test.
 constexpr std::size_t kFitPoints = 4096, kJudgePoints = 1024;
 
 /// The object's frame without its scale.
@@ -38,7 +38,8 @@ public:
     double scale() const { return scale_; }
     glm::vec3 to_scene(const glm::vec3& p) const { return glm::vec3(to_scene_ * glm::dvec4(p, 1)); }
     glm::vec3 from_scene(const glm::vec3& p) const { return glm::vec3(inverse_ * glm::dvec4(p, 1)); }
-    /// As shaders turn leans back (`blocked_at`): by the transposed of what takes the scene to the box.
+    /// Converts a lean like shaders in reverse (`blocked_at`): by the inverse of the transposed scene-to-box
+    /// matrix.
     glm::vec3 lean_from_scene(const glm::vec3& lean) const {
         const glm::dmat3 rows = glm::transpose(scale_ * glm::dmat3(inverse_));
         return glm::vec3(glm::inverse(rows) * glm::dvec3(lean));
@@ -49,7 +50,7 @@ private:
     double scale_;
 };
 
-/// The object's own box in its frame, grown on every side.
+/// Sets the bounding box of the object in its frame, extended on every side.
 void place_box(const Scene& part, const Frame& frame, double margin, OcclusionVolume& volume) {
     glm::vec3 low(std::numeric_limits<float>::infinity()), high = -low;
     for (const VertexArray& vertices : part.vertex_arrays)
@@ -67,7 +68,7 @@ void place_box(const Scene& part, const Frame& frame, double margin, OcclusionVo
 }
 
 struct Points {
-    std::vector<glm::vec3> at, in_scene; ///< 0..1 in the box
+    std::vector<glm::vec3> at, in_scene; ///< coordinates in the box, 0..1, and positions in the scene
 };
 
 Points points_in(const OcclusionVolume& volume, const Frame& frame, std::size_t count, std::uint64_t seed) {
@@ -82,15 +83,16 @@ Points points_in(const OcclusionVolume& volume, const Frame& frame, std::size_t 
     return points;
 }
 
-/// Blocked directions and their mean, seen from points outside of the object. The rest is left out.
+/// Blocked directions and their mean, seen from points outside the object. Points inside are omitted.
 struct Seen {
-    std::vector<BlockedPoint> points; ///< leans in the scene
+    std::vector<BlockedPoint> points; ///< leans in the frame of the scene
     std::vector<glm::vec3> in_scene;
 };
 
 Seen look(const Scene& part, const Points& points, const BakeOptions& options, const Progress& progress) {
     const PlacedLight light = bake_places(part, points.in_scene, 2, options, progress);
-    // The first row is of Y00: its columns are Y00 times the open directions' integrals of the basis.
+    // The first row is that of Y00: its columns are Y00 times the integrals of the basis over unoccluded
+    // directions.
     const auto linear = static_cast<float>(kY00 * 4 * std::numbers::pi * 0.48860251190291992);
     Seen seen;
     for (std::size_t p = 0; p < points.at.size(); ++p) {
@@ -100,7 +102,8 @@ Seen look(const Scene& part, const Points& points, const BakeOptions& options, c
         BlockedPoint& point = seen.points.emplace_back();
         point.at = points.at[p];
         point.blocked = std::clamp(1 - open[0], 0.0f, 1.0f);
-        // Over the whole sphere directions have mean 0, so that open and blocked ones are opposite.
+        // Directions have mean 0 over the whole sphere, so that the means of unoccluded and blocked
+        // directions are opposite.
         const glm::vec3 mean = -glm::vec3(-open[3], -open[1], open[2]) / linear;
         const float most = point.blocked * (1 - point.blocked);
         point.lean = most > 1e-6f ? mean / most : glm::vec3(0);
@@ -110,17 +113,17 @@ Seen look(const Scene& part, const Points& points, const BakeOptions& options, c
     return seen;
 }
 
-/// Where a sphere of as much blocked light as the object has would take `least` of it.
+/// Distance at which a sphere that blocks the same amount of light as the object would block `least` of it.
 float reach_of(const OcclusionVolume& volume, const Seen& seen, const Frame& frame, double least) {
     const glm::vec3 center = frame.to_scene(0.5f * (volume.low + volume.high));
-    float most = 0; // of blocked · distance², outside of a ball about the box's half
+    float most = 0; // maximum of blocked · distance², outside of a ball about half the size of the box
     const float radius = 0.5f * glm::distance(frame.to_scene(volume.high), frame.to_scene(volume.low));
     for (std::size_t i = 0; i < seen.points.size(); ++i) {
         const float distance = glm::distance(seen.in_scene[i], center);
         if (distance > 0.6f * radius)
             most = std::max(most, seen.points[i].blocked * distance * distance);
     }
-    // A cap of share b takes 4 b of a receiver that faces it.
+    // A cap with share b blocks 4 b of the light of a receiver that faces it.
     const float reach = std::sqrt(4 * most / static_cast<float>(least));
     return std::max(reach, radius) / static_cast<float>(frame.scale());
 }
@@ -135,7 +138,7 @@ glm::vec3 any_direction(std::mt19937_64& random) {
     }
 }
 
-/// What volumes block of receivers' light, against rays.
+/// Compares light blocked by the volume with rays, at receivers in the box.
 void judge(const Scene& part, const Points& points, const BakeOptions& options, const PlacedOccluder& where,
            const Progress& progress, OccluderBake& baked) {
     std::mt19937_64 random(options.seed);

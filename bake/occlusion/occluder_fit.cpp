@@ -1,4 +1,4 @@
-// Two least squares of 512 unknowns each: of how much is blocked, and of where.
+// Solves two least-squares problems with 512 unknowns each: for the blocked share, and for its direction.
 
 #include "occlusion/occluder_fit.h"
 
@@ -16,7 +16,7 @@ namespace {
 
 constexpr int kTexels = static_cast<int>(kOccluderTexels);
 
-/// The corners of the cell that a place is in, with trilinear weights.
+/// Corners of the cell that contains a position, with trilinear weights.
 struct CellCorners {
     std::array<int, 8> texels;
     std::array<double, 8> weights;
@@ -55,7 +55,7 @@ public:
         }
     }
 
-    /// Second differences along each axis.
+    /// Adds second differences along each axis.
     void smooth(double weight) {
         for (int t = 0; t < kTexels; ++t) {
             const glm::ivec3 at(t % kOccluderSide, t / kOccluderSide % kOccluderSide,
@@ -72,7 +72,7 @@ public:
                         a_(row[i], row[j]) += weight * kSecond[i] * kSecond[j];
             }
         }
-        // What is linear along all axes is left free by the differences alone.
+        // Values that are linear along all axes are not constrained by second differences alone.
         a_.diagonal().array() += 1e-6 * weight;
     }
 
@@ -86,8 +86,7 @@ private:
 } // namespace
 
 void fit_texels(std::span<const BlockedPoint> points, OcclusionVolume& volume) {
-    // A fiftieth of what one point says of a texel that it is at: it decides where there are none, and no
-    // more.
+    // A fiftieth of the weight of one point at a texel: smoothness decides only where there are no points.
     constexpr double kSmooth = 0.02;
     Equations much, where;
     double all = 0;

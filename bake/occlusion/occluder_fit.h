@@ -1,6 +1,6 @@
 #pragma once
 
-// The texels of an occlusion volume whose interpolation comes nearest to what points see.
+// Fits the texels of an occlusion volume so that their interpolation matches the occlusion at points.
 
 #include "prt/occlusion_volume.h"
 
@@ -10,15 +10,16 @@
 
 namespace prt {
 
-/// What is blocked from a point.
+/// Occlusion at a point.
 struct BlockedPoint {
-    glm::vec3 at{0};   ///< in the box, 0..1 along each side
-    float blocked = 0; ///< of all directions
-    glm::vec3 lean{0}; ///< as of `cap_of`, in the object's frame
+    glm::vec3 at{0};   ///< coordinates in the box, 0..1 along each side
+    float blocked = 0; ///< blocked share of all directions
+    glm::vec3 lean{0}; ///< as in `cap_of`, in the object's frame
 };
 
-/// Least squares of sqrt(blocked), which is near to 1 / distance, and of the lean where it counts; where no
-/// point is, inside of the object, texels are as smooth as they can be (docs/math.md, section 20).
+/// Least squares of sqrt(blocked), which is approximately proportional to 1 / distance, and of the lean,
+/// weighted by the blocked share. Texels without points, inside the object, are as smooth as possible
+/// (docs/math.md, section 20).
 void fit_texels(std::span<const BlockedPoint> points, OcclusionVolume& volume);
 
 } // namespace prt

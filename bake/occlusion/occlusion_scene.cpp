@@ -1,3 +1,5 @@
+// Prepares a scene and a tracer for ambient occlusion.
+
 #include "occlusion/occlusion_scene.h"
 
 #include "bake_options.h"

@@ -1,5 +1,7 @@
 #pragma once
 
+// A scene for ambient occlusion.
+
 #include "prt/ambient_occlusion.h"
 #include "prt/trace_scene.h"
 
@@ -9,13 +11,13 @@
 
 namespace prt {
 
-/// The bake that gives occlusion.
+/// Options of the bake that computes ambient occlusion.
 BakeOptions bake_options(const OcclusionOptions& options);
 
-/// A scene and what traces it, with the fall-off that is asked for.
+/// A scene and its tracer, with the requested fall-off.
 class OcclusionScene {
 public:
-    /// Keeps a reference to `scene`. Throws as `bake` does.
+    /// Keeps a reference to `scene`. Throws the same errors as `bake`.
     OcclusionScene(const Scene& scene, const OcclusionOptions& options);
     const TraceScene& scene() const { return scene_; }
     Tracer& tracer() const { return *tracer_; }

@@ -1,4 +1,4 @@
-// Samples an environment by its power, texel by texel.
+// Samples the texels of an environment in proportion to their power.
 
 #include "prt/distant_light.h"
 
@@ -45,7 +45,7 @@ DistantLight::Sample DistantLight::sample(const glm::vec2& u) const {
     const auto index = static_cast<std::size_t>(after - cumulative_.begin()) - 1;
     const double power = cumulative_[index + 1] - cumulative_[index];
     const int width = environment_.width, row = static_cast<int>(index) / width;
-    // Uniform over the texel: what is left of u.x along the row, and the cosine to +Y for u.y.
+    // Uniform over the texel: the remainder of u.x selects the position in the row, u.y the cosine to +Y.
     const double along = power > 0 ? (wanted - cumulative_[index]) / power : 0.5;
     const double step = std::numbers::pi / environment_.height;
     const double top = std::cos(row * step), bottom = std::cos((row + 1) * step);

@@ -1,4 +1,4 @@
-// Weighs the receivers that a picture shows by how much of it they fill.
+// Weights the receivers visible in a picture by the area that they cover.
 
 #include "prt/light_meter.h"
 
@@ -15,8 +15,8 @@
 namespace prt {
 namespace {
 
-constexpr int kMostAcross = 48; ///< along each axis
-/// Above the middle grey of photographs (0.18), at which plaster looks grey.
+constexpr int kMostAcross = 48; ///< maximum number of rays along each axis
+/// Brighter than the middle grey of photographs (0.18), at which plaster looks grey.
 constexpr float kMeanShown = 0.22f;
 
 } // namespace
@@ -70,7 +70,7 @@ float LightMeter::luminance(std::span<const glm::vec3> radiance) const {
 }
 
 float sun_luminance(const Picture& picture, const TraceScene& scene) {
-    constexpr int kPoints = 8; // on a disc: over all that is seen penumbrae even out
+    constexpr int kPoints = 8; // points per disc: the mean over the picture smooths penumbrae
     const PrimaryRays rays(picture, scene.rays(), std::min(picture.width, kMostAcross),
                            std::min(picture.height, kMostAcross));
     const SunLight suns(picture, scene, kPoints);

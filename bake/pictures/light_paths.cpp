@@ -1,4 +1,4 @@
-// Follows paths of light.
+// Traces light paths.
 
 #include "pictures/light_paths.h"
 
@@ -18,7 +18,7 @@ namespace {
 
 constexpr float kFarAway = std::numeric_limits<float>::infinity();
 constexpr float kPi = std::numbers::pi_v<float>;
-/// Paths are ended at random from this vertex on, where their number is not bounded.
+/// First vertex at which Russian roulette may end a path, if the number of bounces is not limited.
 constexpr int kFirstRoulette = 4;
 
 float unit(std::uint32_t reversed) {
@@ -63,7 +63,7 @@ void LightPaths::add_background(LightPath& path) const {
     path.radiance += path.throughput * from.radiance(path.ray.direction) * weight;
 }
 
-/// One of the two sides, by how much it scatters; none where neither does.
+/// Chooses one of the two sides in proportion to its scattering; nothing if neither scatters.
 std::optional<LitSide> LightPaths::choose_side(const SurfaceHit& hit, LightPath& path,
                                                PathSamples& samples) const {
     const Scattering scattering = path.from_camera()
@@ -106,7 +106,7 @@ void LightPaths::add_lamp_light(const LitSide& side, LightPath& path, PathSample
         add(light.lamps->sample_surface(side.origin(), samples.next()));
 }
 
-/// Of a surface that shines, as far as samples of it do not count it.
+/// Adds the emission of a surface, weighted against samples of that surface.
 void LightPaths::add_emission(const SurfaceHit& hit, LightPath& path) const {
     if (path.from_camera() && !rules.lamps)
         return;
@@ -121,10 +121,10 @@ void LightPaths::add_emission(const SurfaceHit& hit, LightPath& path) const {
     path.radiance += path.throughput * radiance * weight;
 }
 
-/// Goes on in a direction by the cosine.
+/// Continues in a cosine-distributed direction.
 bool LightPaths::bounce(const LitSide& side, LightPath& path, PathSamples& samples) const {
     const glm::vec3 direction = cosine_direction(side.normal, samples.next());
-    if (!side.faces(direction)) // below the facet, though above the interpolated normal
+    if (!side.faces(direction)) // below the triangle, though above the interpolated normal
         return false;
     path.density = glm::dot(side.normal, direction) / kPi;
     path.ray = {side.origin(), direction};
@@ -156,7 +156,7 @@ bool LightPaths::follow(LightPath& path, PathSamples& samples) const {
             add_background(path);
             return true;
         }
-        // The camera looks through back sides, as pictures do; light does not pass them.
+        // The camera sees through back sides, as in pictures; light does not pass them.
         if ((path.from_camera() && !hit->scatters) ||
             samples.next().x >= scene.surfaces().coverage(hit->point))
             path.ray.from = std::nextafter(hit->distance, kFarAway);

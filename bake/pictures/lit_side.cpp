@@ -1,3 +1,5 @@
+// Computes the side of a triangle that a ray hit.
+
 #include "pictures/lit_side.h"
 
 #include "scene/interpolated.h"

@@ -1,4 +1,4 @@
-// Sends paths through the pixels of a picture.
+// Traces paths through the pixels of a picture.
 
 #include "prt/path_tracer.h"
 

@@ -1,4 +1,4 @@
-// Primary rays with the footprints of their pixels, as OpenGL filters textures by them.
+// Primary rays with the footprints of their pixels, for texture filtering as in OpenGL.
 
 #include "pictures/primary_rays.h"
 
@@ -19,8 +19,8 @@ struct Corners {
     glm::vec3 a, b, c;
 };
 
-/// Barycentric coordinates (of b and c) where the line through `origin` along `direction` meets the plane of
-/// the triangle.
+/// Barycentric coordinates (of b and c) of the intersection of the line through `origin` along `direction`
+/// with the plane of the triangle.
 glm::vec2 plane_barycentrics(const Corners& t, const glm::vec3& origin, const glm::vec3& direction) {
     const glm::dvec3 ab(t.b - t.a), ac(t.c - t.a), d(direction), s(origin - t.a);
     const glm::dvec3 p = glm::cross(d, ac), q = glm::cross(s, ab);
@@ -29,12 +29,13 @@ glm::vec2 plane_barycentrics(const Corners& t, const glm::vec3& origin, const gl
             static_cast<float>(glm::dot(d, q) / determinant)};
 }
 
-/// Directions of the rays beside one.
+/// Directions of the neighbouring rays.
 struct NextRays {
     glm::vec3 across, down;
 };
 
-/// Filtered by the footprint of one sample: the next rays meet the triangle's plane, as dFdx and dFdy do.
+/// Filters a texture by the footprint of one sample: the neighbouring rays intersect the triangle's plane, as
+/// in dFdx and dFdy.
 std::optional<glm::vec4> filtered_texel(const Picture& picture, const VertexArray& vertices,
                                         const TextureUse& use, const Corners& corners, const glm::uvec3& t,
                                         const glm::vec2& uv, const NextRays& next) {
@@ -67,7 +68,7 @@ glm::vec3 PrimaryRays::direction(double x, double y) const {
 }
 
 float PrimaryRays::solid_angle(int x, int y) const {
-    const glm::vec3 along = direction(x, y); // to a plane that is 1 away
+    const glm::vec3 along = direction(x, y); // to a plane at distance 1
     const float area = glm::length(glm::cross(direction(x + 1, y) - along, direction(x, y + 1) - along));
     const float distance = glm::length(along);
     return area / (distance * distance * distance);

@@ -1,22 +1,23 @@
 #pragma once
 
-// What a camera sees along the ray through a pixel, front to back.
+// Visible surfaces along the ray through a pixel, front to back.
 
 #include "prt/picture.h"
 #include "prt/ray_scene.h"
 
 namespace prt {
 
-/// A surface that a primary ray meets from the side that it shows.
+/// A surface that a primary ray hits on a visible side.
 struct SeenSurface {
     std::uint32_t triangle;
-    glm::uvec3 receivers;   ///< at the corners of the triangle
-    glm::vec2 barycentrics; ///< of corners 1 and 2
-    glm::vec4 base;         ///< base color, linear, and how much of the ray ends here; 1 unless `textured`
-    glm::vec3 emission{0};  ///< radiance that it gives off
+    glm::uvec3 receivers;   ///< receivers at the corners of the triangle
+    glm::vec2 barycentrics; ///< coordinates of corners 1 and 2
+    glm::vec4 base;         ///< linear base color, and the share of the ray that ends here; 1 unless
+                            ///< `textured`
+    glm::vec3 emission{0};  ///< emitted radiance
 };
 
-/// Rays through the middles of columns() x rows() rectangles of the picture. Thread-safe.
+/// Rays through the centers of columns() x rows() rectangles of the picture. Thread-safe.
 class PrimaryRays {
 public:
     /// Keeps references to both. `rays` was built from `*picture.scene`.
@@ -24,13 +25,13 @@ public:
 
     int columns() const { return columns_; }
     int rows() const { return rows_; }
-    /// Not unit.
+    /// Direction of the ray, not unit.
     glm::vec3 direction(double x, double y) const;
-    /// Of a rectangle.
+    /// Solid angle of a rectangle.
     float solid_angle(int x, int y) const;
 
-    /// Calls `visit(SeenSurface, transmittance)` for what is met until something opaque is; returns what is
-    /// left for the background.
+    /// Calls `visit(SeenSurface, transmittance)` for each surface up to the first opaque one; returns the
+    /// transmittance that is left for the background.
     template <class Visit>
     float walk(int x, int y, Visit&& visit) const {
         const glm::vec3 along = direction(x, y);
@@ -44,10 +45,10 @@ public:
     }
 
 private:
-    /// The nearest surface beyond `from`, which becomes its distance. Culled and cut-out ones do not count,
-    /// so that what lies at the same place shows.
+    /// Finds the nearest surface beyond `from`, and sets `from` to its distance. Culled and cut-out surfaces
+    /// are skipped, so that other surfaces at the same position are visible.
     bool next(const glm::vec3& along, int x, int y, float& from, SeenSurface& surface) const;
-    /// Base alpha 0 where the surface is culled or cut out.
+    /// Returns the surface; its base alpha is 0 if it is culled or cut out.
     SeenSurface surface_at(unsigned id, const glm::vec3& along, int x, int y) const;
 
     const Picture& picture_;

@@ -1,4 +1,4 @@
-// Draws pictures with primary rays, and rays at the suns from what they meet.
+// Draws pictures with primary rays, and with rays from visible surfaces to the suns.
 
 #include "prt/ray_renderer.h"
 
@@ -27,7 +27,7 @@ public:
     RayRenderer(const Picture& picture, const TraceScene& scene, int sun_rays)
         : picture_(picture),
           rays_(picture, scene.rays(), picture.width * picture.samples, picture.height * picture.samples),
-          // As many for each sample of a pixel.
+          // The same number for each sample of a pixel.
           suns_(picture, scene, (sun_rays + samples() - 1) / samples() * samples()) {
         if (picture.in_shader.lightmaps.layout)
             lightmaps_.emplace(*picture.scene, *picture.in_shader.lightmaps.layout);
@@ -59,12 +59,12 @@ private:
 
     int samples() const { return picture_.samples * picture_.samples; }
 
-    /// The samples of a pixel share out the discs, which it turns by interleaved gradient noise: pixels side
-    /// by side differ evenly (J. Jimenez, "Next Generation Post Processing in Call of Duty: Advanced
-    /// Warfare", SIGGRAPH 2014 courses).
+    /// The samples of a pixel share the points of the discs. The discs are rotated per pixel by interleaved
+    /// gradient noise: adjacent pixels differ evenly (J. Jimenez, "Next Generation Post Processing in Call of
+    /// Duty: Advanced Warfare", SIGGRAPH 2014 courses).
     DiscSample disc_sample(int x, int y) const {
         const int across = picture_.samples;
-        const int column = x / across, row = y / across; // of pixels
+        const int column = x / across, row = y / across; // column and row of the pixel
         const double gradient = 0.06711056 * column + 0.00583715 * row;
         const double noise = 52.9829189 * (gradient - std::floor(gradient));
         return {y % across * across + x % across, samples(), 2 * std::numbers::pi * noise};

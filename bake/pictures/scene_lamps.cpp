@@ -1,5 +1,5 @@
-// Samples lights one by one and surfaces that shine by area, where the baker goes by solid angle: the two
-// share what the scene says, cones and ranges, and nothing else.
+// Samples lights one by one, and emissive surfaces by area, whereas the baker samples solid angles. The two
+// implementations share only the scene's definitions, cones and ranges.
 
 #include "prt/scene_lamps.h"
 
@@ -21,7 +21,7 @@
 namespace prt {
 namespace {
 
-/// What a lamp of that name shines with; none where it does not.
+/// Returns the strength of the lamp with this name; nothing if it is dark.
 std::optional<glm::vec3> strength_of_name(const std::string& name, std::span<const TransferPart> lamps,
                                           std::span<const glm::vec3> strengths) {
     for (std::size_t k = 0; k < lamps.size(); ++k)
@@ -39,8 +39,8 @@ std::array<glm::dvec3, 3> corners_of(const Surfaces& surfaces, std::uint32_t tri
             glm::dvec3(vertices.positions[at.z])};
 }
 
-/// Mean luminance of what the triangle gives off, about: it steers where samples go. What is dark at its
-/// middle may shine elsewhere.
+/// Approximate mean luminance of the triangle's emission, for the distribution of samples. A triangle that is
+/// dark at its centroid may emit light elsewhere.
 double brightness_of(const Surfaces& surfaces, std::uint32_t triangle, double area) {
     const SurfacePoint middle{triangle, glm::vec2(1.0f / 3), static_cast<float>(area)};
     return std::max(luminance(glm::dvec3(surfaces.emission(middle))),
@@ -119,7 +119,7 @@ SceneLamps::Sample SceneLamps::of_light(const Light& light, const glm::vec3& pla
 }
 
 SceneLamps::Sample SceneLamps::sample_light(const glm::vec3& place, float u) const {
-    // A part is by number, so that a light that is hidden takes no more than its share.
+    // A part of the probability is uniform, so that a hidden light does not take more than its share.
     double all = 0;
     const auto weight = [&](const Light& light) {
         return luminance(glm::dvec3(of_light(light, place).irradiance));
@@ -160,7 +160,8 @@ SceneLamps::Sample SceneLamps::sample_surface(const glm::vec3& place, const glm:
     sample.towards = glm::vec3(to / distance);
     const auto off =
         static_cast<double>(scene_.rays().triangle_offset(found->triangle, static_cast<float>(distance)));
-    sample.way = glm::vec3(to + std::copysign(off, cosine) * face); // the side that is seen, not the triangle
+    sample.way = glm::vec3(to + std::copysign(off, cosine) * face); // the visible side, not the triangle
+                                                                    // itself
     sample.density =
         density(found->triangle, static_cast<float>(distance), static_cast<float>(std::abs(cosine)));
     const SurfacePoint point{found->triangle, glm::vec2(uv), 0};

@@ -1,4 +1,4 @@
-// Casts rays at suns from what a camera sees, as the path tracer does.
+// Casts rays to suns from surfaces that a camera sees, as the path tracer does.
 
 #include "pictures/sun_light.h"
 
@@ -36,7 +36,7 @@ glm::vec3 SunLight::irradiance(const LitSide& side, const DiscSample& sample) co
 }
 
 Scattering SunLight::scattering(const SeenSurface& surface, float footprint) const {
-    if (!scene_.surfaces().transmits(surface.triangle)) // the base color as the picture filters it
+    if (!scene_.surfaces().transmits(surface.triangle)) // base color as the picture filters it
         return {glm::vec3(surface.base), glm::vec3(0)};
     return seen_scattering(scene_.surfaces(), {surface.triangle, surface.barycentrics, footprint},
                            picture_.textured);

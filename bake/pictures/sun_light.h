@@ -1,6 +1,6 @@
 #pragma once
 
-// What a picture adds at a pixel for suns: their light, shadowed by rays.
+// Light of suns at a pixel, shadowed by rays.
 
 #include "pictures/lit_side.h"
 #include "pictures/primary_rays.h"
@@ -11,27 +11,27 @@
 
 namespace prt {
 
-/// Which points of the suns' discs a sample of a pixel takes: every `stride`-th from `first` on, of discs
-/// that are turned by `turn` radians.
+/// Selects the points of the suns' discs for a sample of a pixel: every `stride`-th from `first` on, with the
+/// discs rotated by `turn` radians.
 struct DiscSample {
     int first = 0, stride = 1;
     double turn = 0;
 };
 
-/// A ray of a camera and what it stands for.
+/// A camera ray with its solid angle.
 struct ViewRay {
     glm::vec3 along;
-    float solid_angle; ///< of its share of the picture
+    float solid_angle; ///< solid angle of its part of the picture
 };
 
-/// Thread-safe.
+/// Computes the light of suns at visible surfaces. Thread-safe.
 class SunLight {
 public:
-    /// Keeps references to both. `points` on the disc of each sun.
+    /// Keeps references to both. `points`: number of points on the disc of each sun.
     SunLight(const Picture& picture, const TraceScene& scene, int points);
 
     bool none() const { return suns_.empty(); }
-    /// What `surface` sends back along `ray`, base color included.
+    /// Radiance of sun light that `surface` reflects and transmits along `ray`, including the base color.
     glm::vec3 radiance(const SeenSurface& surface, const ViewRay& ray, const DiscSample& sample) const;
 
 private:
@@ -39,7 +39,7 @@ private:
         DiscDirections directions;
         glm::vec3 irradiance;
     };
-    /// On a side of a surface.
+    /// Irradiance of a side of a surface.
     glm::vec3 irradiance(const LitSide& side, const DiscSample& sample) const;
     Scattering scattering(const SeenSurface& surface, float footprint) const;
 

@@ -1,4 +1,4 @@
-// Casts rays at suns from every receiver.
+// Casts rays to suns from every receiver.
 
 #include "prt/sun_radiance.h"
 
@@ -19,7 +19,7 @@ std::vector<glm::vec3> sun_radiance(const TraceScene& scene, std::span<const Sun
     const bool through = scene.surfaces().traits().transmission;
     const TransportReceivers all = through ? with_back_sides(std::move(fronts), scene.surfaces())
                                            : without_back_sides(std::move(fronts));
-    // Radiance is what transfer is for a light of one coefficient.
+    // Radiance corresponds to transfer for a light with one coefficient.
     Transfer lit = zero_transfer(layout_of_one(1, 3, PartKind::direct), all.receivers.size());
     std::vector<DiscDirections> directions;
     for (const SunDisc& sun : suns)

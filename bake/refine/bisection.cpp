@@ -1,4 +1,4 @@
-// Longest-edge refinement: marks spread to longest edges, then each triangle is cut by those of its own.
+// Longest-edge refinement: marks spread to longest edges, then each triangle is split at its marked edges.
 
 #include "refine/bisection.h"
 
@@ -7,10 +7,10 @@
 namespace prt {
 namespace {
 
-/// A corner of a triangle or the middle of an edge.
+/// A corner of a triangle or the midpoint of an edge.
 struct Point {
-    std::uint32_t vertex; ///< of its array
-    glm::dvec2 at;        ///< in the whole
+    std::uint32_t vertex; ///< index in its vertex array
+    glm::dvec2 at;        ///< barycentric coordinates in the whole triangle
 };
 
 class Splitter {
@@ -38,8 +38,8 @@ public:
     }
 
 private:
-    /// First from the middle of the longest edge to the corner across, then either half from there to the
-    /// middle of its other old edge.
+    /// Splits a triangle from the midpoint of its longest edge to the opposite corner, then each half from
+    /// there to the midpoint of its other original edge.
     void split(const glm::uvec3& t) {
         constexpr glm::dvec2 kCorners[3] = {{0, 0}, {1, 0}, {0, 1}};
         const std::size_t l = edges_.longest[whole_], m = (l + 1) % 3, n = (l + 2) % 3;
@@ -81,7 +81,7 @@ private:
     const Scene& scene_;
     const WeldedEdges& edges_;
     const EdgeMarks& marks_;
-    std::vector<std::uint32_t> middles_; ///< [sides] vertex of its array
+    std::vector<std::uint32_t> middles_; ///< [sides] index of the midpoint in its vertex array
     std::vector<glm::uvec3>* triangles_ = nullptr;
     std::uint32_t whole_ = 0;
     Bisection result_;
@@ -109,7 +109,7 @@ EdgeMarks::EdgeMarks(const WeldedEdges& edges)
 }
 
 void EdgeMarks::mark(std::uint32_t edge) {
-    std::vector<std::uint32_t> waiting = {edge}; // longer and longer: it ends
+    std::vector<std::uint32_t> waiting = {edge}; // each next edge is longer, so that the loop ends
     while (!waiting.empty()) {
         const std::uint32_t e = waiting.back();
         waiting.pop_back();

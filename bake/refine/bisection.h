@@ -1,8 +1,8 @@
 #pragma once
 
-// Triangles split at their longest edges, without hanging vertices (M.-C. Rivara, "Algorithms for refining
+// Splits triangles at their longest edges, without hanging vertices (M.-C. Rivara, "Algorithms for refining
 // triangular grids suitable for adaptive and multigrid techniques", International Journal for Numerical
-// Methods in Engineering 20, 1984): angles stay above a bound however often they are split.
+// Methods in Engineering 20, 1984). Angles stay above a bound for any number of splits.
 
 #include "prt/refinement.h"
 #include "refine/welded_edges.h"
@@ -14,45 +14,45 @@
 
 namespace prt {
 
-/// Corners are rounded to 2^-24 of the scene's half extent, or less: over edges of 2^-13 of it triangles lean
-/// by 2^-11 at most, and rays still leave them 30 roundings off.
+/// Minimum edge length relative to half the scene's extent. Corners are rounded to at most 2^-24 of the half
+/// extent: with edges of 2^-13 of it triangles tilt by at most 2^-11, and rays still start 30 roundings off.
 inline constexpr double kLeastEdge = 1.0 / 8192;
 
-/// Edges to split, of a scene's `WeldedEdges`. With an edge that is marked, the longest edge of each of its
-/// triangles is.
+/// Marks edges of a scene's `WeldedEdges` for splitting. If an edge is marked, the longest edge of each of
+/// its triangles is marked, too.
 class EdgeMarks {
 public:
     /// Keeps a reference to `edges`.
     explicit EdgeMarks(const WeldedEdges& edges);
-    /// Marks an edge, and what must be split with it.
+    /// Marks an edge, and all edges that must be split with it.
     void mark(std::uint32_t edge);
     bool marked(std::uint32_t edge) const { return edge != kNoEdge && marked_[edge]; }
-    /// How many vertices splitting adds.
+    /// Number of vertices that the split adds.
     std::size_t vertices() const { return vertices_; }
 
 private:
     const WeldedEdges& edges_;
     std::vector<bool> marked_;
-    std::vector<std::uint32_t> first_, triangles_; ///< of each edge its triangles, one list after the other
-    std::vector<std::uint32_t> sides_;             ///< [edges] how many vertices its middle has
+    std::vector<std::uint32_t> first_, triangles_; ///< triangles of each edge, one list after another
+    std::vector<std::uint32_t> sides_;             ///< [edges] number of vertices at the midpoint
     std::size_t vertices_ = 0;
 };
 
-/// A triangle of the finer scene, in the one that it is a part of.
+/// A triangle of the finer scene as a part of the original triangle.
 struct Part {
-    std::uint32_t whole;               ///< triangle of the scene before
+    std::uint32_t whole;               ///< triangle of the original scene
     std::array<glm::dvec2, 3> corners; ///< barycentric coordinates of corners 1 and 2 of `whole`
 };
 
 struct Bisection {
-    Refinement refinement;   ///< of the scene before
+    Refinement refinement;   ///< refinement of the original scene
     std::vector<Part> parts; ///< [triangles of the finer scene]
 };
 
-/// Splits triangles in two to four at their marked edges.
+/// Splits triangles at their marked edges into two to four.
 Bisection bisect(const Scene& scene, const WeldedEdges& edges, const EdgeMarks& marks);
 
-/// What `refinement` and then `next`, of the scene that it makes, are together.
+/// Appends `next`, which refines the result of `refinement`, to `refinement`.
 void append(Refinement& refinement, Refinement next);
 
 } // namespace prt

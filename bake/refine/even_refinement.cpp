@@ -1,3 +1,5 @@
+// Bisects triangles until all edges are short.
+
 #include "refine/even_refinement.h"
 
 #include "refine/bisection.h"

@@ -1,13 +1,13 @@
 #pragma once
 
-// Meshes whose edges are short everywhere, whatever light does.
+// Meshes whose edges are short everywhere, independent of light.
 
 #include "prt/scene.h"
 
 namespace prt {
 
-/// `scene` with triangles split at their longest edges until none is longer than `longest`, metres, or would
-/// be too short beside the scene to be split. Vertices that were there come first in their arrays.
+/// Splits triangles of `scene` at their longest edges until no edge is longer than `longest`, metres, or the
+/// edges are too short to split relative to the scene. Original vertices come first in their arrays.
 Scene with_short_edges(const Scene& scene, double longest);
 
 } // namespace prt

@@ -1,4 +1,4 @@
-// Spreads points over triangles, traces them, and takes them along when triangles are split.
+// Spreads points over triangles, traces them, and moves them to the new triangles after a split.
 
 #include "refine/light_points.h"
 
@@ -19,19 +19,19 @@
 namespace prt {
 namespace {
 
-/// Of each fold, so that a fit to either knows what is in every triangle: in those that nothing has asked to
-/// split, which are most of a fine mesh, and in parts and at a closer look. And of the whole surface, so that
-/// what large triangles hide is found.
+/// Minimum number of points: of each fold, so that a fit to either fold has data in every triangle, for
+/// triangles that nothing has marked for splitting (the majority in a fine mesh), and for parts of split
+/// triangles and for a closer look; and of the whole surface, to find errors inside large triangles.
 constexpr std::size_t kOfFold = 1, kOfFoldInParts = 2, kOfSurface = 4096;
-/// What is asked how noisy rays are, and by how many of them.
+/// Number of points that measure the noise of rays, and their rays.
 constexpr std::size_t kFirstPoints = 256;
 constexpr int kFirstRays = 256, kFewestRaysOfPoint = 64, kMostRaysOfPoint = 16384;
-/// Noise of a point by one scramble, over the error that matters. Triangles that noise makes look good are
-/// not asked again: the plain room (benchmarks.md) baked by 4 096 rays had 2.03 % where 1.82 % were
-/// estimated, but with 3 2.49 % for 1.95 %.
+/// Noise of a point from one scramble, relative to the significant error. Triangles that noise makes look
+/// good are not traced again: the plain room (benchmarks.md) baked with 4 096 rays had 2.03 % where 1.82 %
+/// were estimated, but with a value of 3 it had 2.49 % instead of 1.95 %.
 constexpr double kNoiseOfPoint = 1.5;
 
-/// How deep `at` lies in the triangle of these corners, and where: negative outside.
+/// Depth of `at` inside a triangle, negative outside, and its barycentric coordinates.
 struct Found {
     double depth;
     glm::dvec2 uv;
@@ -44,7 +44,7 @@ Found find(const std::array<glm::dvec2, 3>& corners, const glm::dvec2& at) {
     return {std::min({uv.x, uv.y, 1 - uv.x - uv.y}), uv};
 }
 
-/// On the triangle, where rounding has put it beside.
+/// Moves a point that rounding has put outside of the triangle to its border.
 glm::vec2 clamped(glm::dvec2 uv) {
     uv = glm::max(uv, glm::dvec2(0));
     return glm::vec2(uv / std::max(1.0, uv.x + uv.y));
@@ -75,7 +75,8 @@ std::size_t LightPoints::missing(std::uint32_t triangle, double area, const Coun
                       wanted = std::max(2 * least, static_cast<std::size_t>(area * per_area_));
     return area == 0 ? 0
                      : std::max(wanted - std::min(wanted, has),
-                                least - std::min({least, counts[0], counts[1]})); // even where one has many
+                                least - std::min({least, counts[0], counts[1]})); // even if one triangle has
+                                                                                  // many
 }
 
 void LightPoints::add(const LitMesh& mesh, std::uint32_t triangle, Counts counts, SurfaceSamples& added) {
@@ -167,7 +168,7 @@ std::vector<float> LightPoints::trace(const Receivers& receivers, int rays, cons
 }
 
 void LightPoints::move(std::span<const Part> parts) {
-    std::vector<std::uint32_t> first; // part of each whole
+    std::vector<std::uint32_t> first; // first part of each original triangle
     std::vector<std::size_t> least;
     for (std::uint32_t i = 0; i < parts.size(); ++i) {
         if (parts[i].whole == first.size())

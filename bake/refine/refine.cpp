@@ -1,4 +1,4 @@
-// Splits the triangles that hold most of the error, and looks again, until little enough is left.
+// Splits the triangles that have most of the error, and measures the error again, until it is small enough.
 
 #include "prt/refine.h"
 
@@ -17,14 +17,14 @@
 namespace prt {
 namespace {
 
-/// Where no limit is given.
+/// Default limit of the number of vertices.
 constexpr std::size_t kTimesVertices = 4, kLeastLimit = 20000;
-/// Of the squared error, the largest shares up to so much are split in one round. The plain room
-/// (benchmarks.md) to 2 %: 0.3 took 15 rounds to 6 951 vertices, 0.7 8 to 7 487, with 1.94 % left either
-/// time.
+/// Share of the squared error whose triangles are split in one round, largest errors first. The plain room
+/// (benchmarks.md) to 2 %: 0.3 took 15 rounds to 6 951 vertices, 0.7 took 8 rounds to 7 487 vertices, with
+/// 1.94 % left in both cases.
 constexpr double kShareOfRound = 0.5;
-/// What one bisection takes off the squared error of a triangle: half where a step of light crosses it, 3/4
-/// where it bends alike along and across.
+/// Share of a triangle's squared error that one bisection removes: half if a step of light crosses it, 3/4 if
+/// the curvature is the same along and across the cut.
 constexpr double kTakenOff = 0.7;
 void check_options(const BakeOptions& options, const RefineOptions& how) {
     check_order(options.order);
@@ -38,7 +38,7 @@ void check_options(const BakeOptions& options, const RefineOptions& how) {
         throw Error("refinement is for light that is fitted to the surface: leave out fit vertex");
 }
 
-/// A scene on its way to be finer.
+/// Refines a scene in rounds.
 class Refiner {
 public:
     Refiner(const Scene& scene, const TraceScene& traced, Tracer& tracer, const BakeOptions& options,
@@ -61,7 +61,7 @@ public:
             if (s.rounds == 0)
                 s.before = s.after;
             s.end = limited ? RefineEnd::vertices : RefineEnd::target;
-            // Once triangles were chosen by what points told, those tell too well of the others.
+            // The points that selected the triangles are biased afterwards; trace fresh ones before stopping.
             if (limited || (s.after.error <= how_.target && (s.rounds == 0 || !points_.look_closer())))
                 break;
             if (s.after.error <= how_.target)
@@ -91,7 +91,7 @@ private:
         const double now = error.relative_l2();
         if (first_ == 0)
             first_ = now;
-        if (first_ > how_.target && now > how_.target) // the way is even in logarithms
+        if (first_ > how_.target && now > how_.target) // progress is linear in the logarithm of the error
             shown_ = std::max(shown_, std::log(first_ / now) / std::log(first_ / how_.target));
         progress.update(shown_);
         return error;
@@ -99,8 +99,8 @@ private:
 
     double allowed(const SurfaceError& error) const { return how_.target * how_.target * error.norm; }
 
-    /// Triangles that can be split, by their errors: so many that splitting them takes off what is too much,
-    /// or the share of a round.
+    /// Returns triangles that can be split, largest errors first: enough to remove the excess error, or the
+    /// share of a round.
     std::vector<std::uint32_t> worst_triangles(const SurfaceError& error, const WeldedEdges& edges) const {
         const std::vector<double>& e = error.of_triangles;
         std::vector<std::uint32_t> worst;
@@ -120,7 +120,7 @@ private:
         return worst;
     }
 
-    /// Marks as many of them as the limit allows, and says whether it did not allow all.
+    /// Marks triangles up to the limit. Sets `limited` if the limit did not allow all.
     EdgeMarks mark(const std::vector<std::uint32_t>& worst, const WeldedEdges& edges, bool& limited) const {
         const auto mark_first = [&](std::size_t count) {
             EdgeMarks marks(edges);
@@ -135,7 +135,7 @@ private:
         limited = finer_.receivers() + marks.vertices() > most_;
         if (!limited)
             return std::move(marks);
-        return mark_first(std::max<std::size_t>(marked, 1) - 1).first; // the last was too much
+        return mark_first(std::max<std::size_t>(marked, 1) - 1).first; // the last one exceeded the limit
     }
 
     void split(Bisection bisection) {

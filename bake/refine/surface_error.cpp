@@ -14,10 +14,10 @@
 namespace prt {
 namespace {
 
-/// Points of one fold as samples of a fit: `of` says which.
+/// Points of one fold as samples of a fit; `of` has their indices.
 struct Fold {
     std::vector<std::size_t> of;
-    SurfaceSamples samples; ///< places and areas alone
+    SurfaceSamples samples; ///< positions and areas only
 };
 
 class CrossFit {
@@ -53,7 +53,7 @@ public:
     }
 
 private:
-    /// Of the light of both scrambles, [unknowns][2][order²].
+    /// Fits light from both scrambles, [unknowns][2][order²].
     std::vector<float> fit(const FitEquations& equations, const Fold& fold) const {
         std::vector<float> x(equations.unknowns * stride_);
         for (std::size_t s = 0; s < fold.of.size(); ++s)
@@ -75,7 +75,7 @@ private:
                 for (std::size_t i = 0; i < 3; ++i)
                     rest[c] += row.shares[i] * x[row.unknowns[i] * stride_ + c];
             }
-            // Each of two folds judges once.
+            // Each of two folds tests once.
             const double weight = 0.5 * static_cast<double>(row.area);
             result_.of_triangles[judges.samples.places[s].triangle] += weight * of_both(rest);
             result_.norm += weight * of_both(light);

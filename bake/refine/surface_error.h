@@ -1,6 +1,6 @@
 #pragma once
 
-// How far light that is fitted to vertices is from light at points between them.
+// Measures the difference between light that is fitted to vertices and light at points between them.
 
 #include "refine/light_points.h"
 
@@ -8,16 +8,16 @@
 
 namespace prt {
 
-/// Squared errors of direct light, of the interpolation alone: the noise of rays is in neither.
+/// Squared errors of direct light by interpolation only: both sums are free of ray noise.
 struct SurfaceError {
-    std::vector<double> of_triangles; ///< Σ area |x - T|², below zero where it is less than noise hides
+    std::vector<double> of_triangles; ///< Σ area |x - T|²; negative if the error is smaller than the noise
     double norm = 0;                  ///< Σ area |T|²
 
-    /// Over the whole surface, in relative L2.
+    /// Relative L2 error over the whole surface.
     double relative_l2() const;
 };
 
-/// Fits vertices to each fold of `points`, and judges by the other.
+/// Fits vertices to each fold of `points`, and tests the fit against the other fold.
 SurfaceError surface_error(const LitMesh& mesh, const LightPoints& points, int threads);
 
 } // namespace prt

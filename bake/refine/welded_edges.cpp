@@ -1,4 +1,4 @@
-// Numbers the edges of a scene by the places that they lie between.
+// Numbers the edges of a scene by the positions of their ends.
 
 #include "refine/welded_edges.h"
 
@@ -10,12 +10,12 @@
 namespace prt {
 namespace {
 
-/// The number of each receiver's place, in the order of places.
+/// Returns an index for each receiver, equal for equal positions, in the order of positions.
 std::vector<std::uint32_t> places_of(const Scene& scene) {
     struct Welded {
         glm::vec3 at;
         std::uint32_t receiver;
-        auto key() const { return std::tuple(at.x, at.y, at.z); } // 0 and -0 are one
+        auto key() const { return std::tuple(at.x, at.y, at.z); } // 0 and -0 are equal
     };
     std::vector<Welded> all;
     all.reserve(scene.receivers());
@@ -34,10 +34,10 @@ std::vector<std::uint32_t> places_of(const Scene& scene) {
     return places;
 }
 
-/// A corner of a triangle and the next.
+/// An edge of a triangle from one corner to the next.
 struct Corner {
     WeldedEdges::Sides sides;
-    std::uint32_t low, high; ///< places
+    std::uint32_t low, high; ///< indices of positions
     double length;
     std::size_t at; ///< 3 · triangle + corner
 
@@ -96,7 +96,7 @@ WeldedEdges welded_edges(const Scene& scene) {
             static_cast<std::uint32_t>(edges.sides.size() - 1);
     }
     for (const std::array<std::uint32_t, 3>& of : edges.of_triangle) {
-        const auto longer = [&](std::uint8_t a, std::uint8_t b) { // of one order over the whole scene
+        const auto longer = [&](std::uint8_t a, std::uint8_t b) { // one order over the whole scene
             if (of[a] == kNoEdge || of[b] == kNoEdge)
                 return of[a] != kNoEdge;
             const double x = edges.lengths[of[a]], y = edges.lengths[of[b]];

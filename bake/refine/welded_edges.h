@@ -1,6 +1,6 @@
 #pragma once
 
-// The edges of a scene, whatever vertices they are made of.
+// Edges of a scene by position, independent of vertices.
 
 #include "prt/scene.h"
 
@@ -12,18 +12,20 @@ namespace prt {
 
 inline constexpr std::uint32_t kNoEdge = ~0u;
 
-/// Triangles in one list, in the order of the scene's primitives, and their edges: all that lie between the
-/// same two places are one, so that what touches is split alike across seams of materials and texture
-/// coordinates, and across nodes.
+/// Triangles in one list, in the order of the scene's primitives, and their edges. All edges between the same
+/// two positions are one edge, so that adjacent triangles are split in the same way across seams of materials
+/// and texture coordinates, and across nodes.
 struct WeldedEdges {
-    /// An edge between two vertices of an array: where seams meet, several are one edge.
+    /// An edge between two vertices of an array; at seams several of them are one welded edge.
     struct Sides {
         std::uint32_t array, first, second; ///< first < second
         std::uint32_t edge;
     };
-    std::vector<std::array<std::uint32_t, 3>> of_triangle; ///< from corner i to the next; kNoEdge: no length
-    std::vector<std::array<std::uint32_t, 3>> sides_of_triangle; ///< the same, as indices of `sides`
-    std::vector<std::uint8_t> longest; ///< [triangles] which of the three edges; equal ones by a fixed order
+    std::vector<std::array<std::uint32_t, 3>> of_triangle; ///< edge from corner i to the next; kNoEdge: no
+                                                           ///< length
+    std::vector<std::array<std::uint32_t, 3>> sides_of_triangle; ///< the same edges as indices of `sides`
+    std::vector<std::uint8_t> longest; ///< [triangles] index 0..2 of the longest edge; edges of equal length
+                                       ///< have a fixed order
     std::vector<double> lengths;       ///< [edges] metres
     std::vector<Sides> sides;          ///< by array, first and second
 };

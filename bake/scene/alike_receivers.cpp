@@ -1,4 +1,4 @@
-// Finds vertices that were split for texture coordinates or materials.
+// Finds vertices that were duplicated for texture coordinates or materials.
 
 #include "scene/alike_receivers.h"
 
@@ -14,9 +14,10 @@
 namespace prt {
 namespace {
 
-/// Normals of one plane differ by rounding, in files and where they are computed.
+/// Tolerance for equal normals: normals of one plane differ by rounding, in files and after computation.
 constexpr float kSameNormal = 1e-4f;
-/// Relative to the largest coordinate; positions at the pole of a sphere differ by 1e-16.
+/// Tolerance for equal positions, relative to the largest coordinate; positions at the pole of a sphere
+/// differ by 1e-16.
 constexpr float kSamePosition = 1e-7f;
 
 struct Place {
@@ -24,7 +25,7 @@ struct Place {
     std::uint32_t receiver;
 };
 
-/// Node of each receiver at a corner, [receivers]; -1: of none.
+/// Node of each receiver at a corner, [receivers]; -1: the receiver is at no corner.
 std::vector<int> nodes_of(const Surfaces& surfaces, std::size_t receivers,
                           std::span<const std::uint32_t> back) {
     std::vector<int> nodes(receivers, -1);
@@ -60,7 +61,7 @@ std::vector<std::uint32_t> alike_receivers(const Surfaces& surfaces, const Recei
     std::ranges::sort(places, [](const Place& a, const Place& b) {
         return a.key != b.key ? a.key < b.key : a.receiver < b.receiver;
     });
-    std::vector<std::uint32_t> here; // the first of each normal at one position
+    std::vector<std::uint32_t> here; // first receiver of each normal at one position
     for (std::size_t i = 0; i < places.size(); ++i) {
         const std::uint32_t p = places[i].receiver;
         if (i == 0 || places[i].key != places[i - 1].key)

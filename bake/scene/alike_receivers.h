@@ -1,6 +1,6 @@
 #pragma once
 
-// Vertices that a mesh has several times at one place.
+// Finds vertices that a mesh contains several times at one position.
 
 #include "prt/receivers.h"
 #include "prt/surfaces.h"
@@ -11,9 +11,9 @@
 
 namespace prt {
 
-/// For each receiver the first one of its node with the same position and side of the surface, and the same
-/// normal to rounding: [receivers]. The first `fronts` are corners of `surfaces`; `back` [fronts], or empty,
-/// as in TransportReceivers. Others are alone.
+/// Returns for each receiver the first receiver of its node with the same position, the same side of the
+/// surface and, up to rounding, the same normal: [receivers]. The first `fronts` are corners of `surfaces`;
+/// `back` [fronts], or empty, as in TransportReceivers. A receiver without such a duplicate is its own first.
 std::vector<std::uint32_t> alike_receivers(const Surfaces& surfaces, const Receivers& receivers,
                                            std::size_t fronts, std::span<const std::uint32_t> back = {});
 

@@ -1,5 +1,7 @@
 #pragma once
 
+// Barycentric interpolation.
+
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 
@@ -7,7 +9,7 @@
 
 namespace prt {
 
-/// The value of a triangle's corners `t` at barycentric coordinates `uv` of corners 1 and 2.
+/// Interpolates the values of the triangle's corners `t` at barycentric coordinates `uv` of corners 1 and 2.
 template <class T>
 T interpolated(const std::vector<T>& values, const glm::uvec3& t, const glm::vec2& uv) {
     return values[t.x] * (1 - uv.x - uv.y) + values[t.y] * uv.x + values[t.z] * uv.y;

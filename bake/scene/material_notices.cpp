@@ -1,4 +1,4 @@
-// Tells users where their materials and our model of light part.
+// Reports materials that our model of light does not fully support.
 
 #include "scene/material_notices.h"
 

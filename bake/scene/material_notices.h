@@ -1,5 +1,7 @@
 #pragma once
 
+// Notices about materials.
+
 #include "prt/scene.h"
 
 #include <string>
@@ -7,7 +9,7 @@
 
 namespace prt {
 
-/// What a user should know about how light meets the materials of `scene`, a line each.
+/// Returns notices about materials of `scene` that are simplified by the model of light, one line each.
 std::vector<std::string> material_notices(const Scene& scene, bool with_bounces);
 
 } // namespace prt

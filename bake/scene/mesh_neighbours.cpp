@@ -1,4 +1,4 @@
-// Finds which receivers hang together, across seams of the mesh.
+// Finds receivers that are connected, across duplicated vertices of the mesh.
 
 #include "scene/mesh_neighbours.h"
 

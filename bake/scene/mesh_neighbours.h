@@ -1,6 +1,6 @@
 #pragma once
 
-// Receivers that share an edge of a mesh.
+// Neighbours of receivers along the edges of a mesh.
 
 #include "prt/adjacency.h"
 #include "prt/receivers.h"
@@ -12,20 +12,20 @@
 
 namespace prt {
 
-/// Which receivers are joined by an edge of a triangle. Receivers of one node, position and normal count as
-/// one, so that a mesh hangs together where vertices are split for other reasons; the first of them stands
-/// for all.
+/// Finds receivers that are joined by an edge of a triangle. Receivers of one node, position and normal count
+/// as one receiver, so that a mesh is connected where vertices are duplicated for other reasons; the first of
+/// them represents all.
 class MeshNeighbours {
 public:
-    /// The first `fronts` of `receivers` are corners of `surfaces`; the others have no neighbours. Where
-    /// `asked` [receivers] is not empty, neighbours of those are found, and of whoever shares their places.
+    /// The first `fronts` of `receivers` are corners of `surfaces`; the others have no neighbours. If `asked`
+    /// [receivers] is not empty, finds only the neighbours of the marked receivers and of their duplicates.
     MeshNeighbours(const Surfaces& surfaces, const Receivers& receivers, std::size_t fronts,
                    const std::vector<bool>& asked = {});
     std::span<const std::uint32_t> of(std::size_t receiver) const { return adjacency_.of(place_[receiver]); }
 
 private:
-    std::vector<std::uint32_t> place_; ///< [receivers]
-    Adjacency adjacency_;              ///< of those that stand for a place
+    std::vector<std::uint32_t> place_; ///< [receivers] first receiver at the same position
+    Adjacency adjacency_;              ///< edges between first receivers
 };
 
 } // namespace prt

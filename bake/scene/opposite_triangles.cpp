@@ -1,3 +1,5 @@
+// Finds pairs of opposite triangles by a hash of their corner positions.
+
 #include "scene/opposite_triangles.h"
 
 #include <algorithm>
@@ -8,7 +10,7 @@ namespace prt {
 namespace {
 
 struct SingleSidedFace {
-    std::uint64_t hash; ///< of the vertex array and the positions of the corners in any order
+    std::uint64_t hash; ///< hash of the vertex array and of the corner positions in any order
     std::uint32_t triangle;
     std::uint32_t primitive;
     glm::uvec3 corners; ///< into the vertex array
@@ -42,7 +44,7 @@ std::vector<SingleSidedFace> single_sided_faces(const Scene& scene) {
             for (std::uint32_t t = 0; t < primitive.triangles.size(); ++t) {
                 const glm::uvec3& c = primitive.triangles[t];
                 if (at[c.x] == at[c.y] || at[c.y] == at[c.z] || at[c.z] == at[c.x])
-                    continue; // without area
+                    continue; // no area
                 faces.push_back({position_hash(at[c.x]) + position_hash(at[c.y]) + position_hash(at[c.z]) +
                                      mixed(primitive.vertices),
                                  first + t, p, c});
@@ -55,7 +57,7 @@ std::vector<SingleSidedFace> single_sided_faces(const Scene& scene) {
     return faces;
 }
 
-/// The corner of `a` at each corner of `b`; nothing unless they are opposite.
+/// Returns the corner of `a` at each corner of `b`; nothing if the triangles are not opposite.
 std::optional<std::array<std::uint8_t, 3>> opposite_corners(const std::vector<glm::vec3>& at,
                                                             const glm::uvec3& a, const glm::uvec3& b) {
     for (int start = 0; start < 3; ++start) {
@@ -86,7 +88,7 @@ OppositeTriangles::OppositeTriangles(const Scene& scene) {
         const auto set = [&](std::span<const SingleSidedFace> from, std::span<const SingleSidedFace> to) {
             for (std::size_t i = 0; i < from.size() && !to.empty(); ++i) {
                 const SingleSidedFace& other =
-                    to[std::min(i, to.size() - 1)]; // the last for all that is over
+                    to[std::min(i, to.size() - 1)]; // the last triangle serves all that are left
                 if (const auto of_from = opposite_corners(at, from[i].corners, other.corners))
                     of_[from[i].triangle] = {other.triangle, *of_from};
             }

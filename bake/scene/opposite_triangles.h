@@ -1,6 +1,6 @@
 #pragma once
 
-// Surfaces that a mesh holds twice, once for each side.
+// Surfaces that a mesh contains twice, once for each side.
 
 #include "prt/scene.h"
 #include "prt/tracer.h"
@@ -13,26 +13,27 @@
 
 namespace prt {
 
-/// Triangles of one vertex array that have the same corners in opposite order, of single-sided materials. A
-/// ray meets both at once; the front of one is what shows there.
+/// Pairs of triangles of one vertex array that have the same corners in opposite order and single-sided
+/// materials. A ray hits both at once; the visible surface is the one whose front faces the ray.
 class OppositeTriangles {
 public:
     explicit OppositeTriangles(const Scene& scene);
 
     bool empty() const { return of_.empty(); }
-    /// Replaces a hit on the back of `triangle` at barycentric coordinates `uv` by the same point of the
-    /// triangle that shows its front there. Returns whether there is one.
+    /// Replaces a hit on the back of `triangle` at barycentric coordinates `uv` by the same point on the
+    /// opposite triangle, whose front is visible there. Returns whether there is such a triangle.
     bool turn_to_front(unsigned& triangle, glm::vec2& uv) const;
-    /// `hit`, or where it is on the back of such a triangle, the same on the front of the other.
+    /// Returns `hit`; a hit on the back of such a triangle is moved to the front of the opposite one.
     Hit shown(Hit hit) const;
 
 private:
     static constexpr std::uint32_t kNone = ~0u;
     struct Opposite {
         std::uint32_t triangle = kNone;
-        std::array<std::uint8_t, 3> corners{}; ///< of the triangle that was met, at those of this one
+        std::array<std::uint8_t, 3> corners{}; ///< for each corner of this triangle the corner of the hit
+                                               ///< triangle
     };
-    std::vector<Opposite> of_; ///< [triangles], or none
+    std::vector<Opposite> of_; ///< [triangles]; empty if there are no pairs
 };
 
 } // namespace prt

@@ -1,4 +1,4 @@
-// Finds what lies at the position of a vertex.
+// Finds the receivers at the position of a vertex.
 
 #include "scene/places_without_area.h"
 

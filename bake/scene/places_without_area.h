@@ -1,6 +1,6 @@
 #pragma once
 
-// Vertices of triangles without area, which take the light of a vertex at the same position.
+// Vertices of triangles without area; they take the light of a vertex at the same position.
 
 #include "prt/receivers.h"
 #include "prt/transfer.h"
@@ -9,8 +9,8 @@
 
 namespace prt {
 
-/// Copies to each of the first `fronts` receivers that has a normal and no area the transfer of the receiver
-/// with an area at its position whose normal is nearest. Others stay dark.
+/// Copies transfer to each of the first `fronts` receivers that has a normal but no area. The source is the
+/// receiver with an area at the same position whose normal is nearest. Receivers without a source stay dark.
 void fill_without_area(const Receivers& receivers, std::size_t fronts, Transfer& transfer);
 
 } // namespace prt

@@ -1,4 +1,4 @@
-// Embree's tree of the triangles of a scene (Wald et al. 2014), and how far rays keep off its surfaces.
+// Embree's hierarchy of the triangles of a scene (Wald et al. 2014), and offsets of rays from its surfaces.
 
 #include "prt/ray_scene.h"
 
@@ -21,7 +21,7 @@
 namespace prt {
 namespace {
 
-/// How far rays keep off surfaces, relative to coordinates: 12 roundings of a float; see PRT_LENGTH_OFFSET.
+/// Offset of rays from surfaces, relative to coordinates: 12 roundings of a float; see PRT_LENGTH_OFFSET.
 constexpr float kCoordinateOffset = 12 * std::numeric_limits<float>::epsilon() / 2;
 
 float largest_coordinate(const glm::vec3& v) {
@@ -48,7 +48,7 @@ std::optional<SidedHit> nearest_hit(RTCScene scene, RTCIntersectContext& context
     return SidedHit{{hit.hit.primID, {hit.hit.u, hit.hit.v}, hit.ray.tfar}, back};
 }
 
-/// Embree hands back the address of its first member.
+/// Context of a query with a filter. Embree returns the address of its first member.
 struct FilteringContext {
     RTCIntersectContext context;
     const std::function<bool(unsigned)>& accepts;
@@ -106,8 +106,8 @@ RayScene::RayScene(const Scene& scene, int threads)
     if (!device_)
         throw Error("Embree cannot be started");
     scene_.reset(rtcNewScene(device_.get()));
-    // Robust: the triangle test does not depend on the tree round it, so results do not depend on the build.
-    // Filters belong to queries: the bake's have none.
+    // Robust: the triangle test does not depend on the hierarchy, so results do not depend on the build.
+    // Filters belong to queries; the queries of a bake have none.
     rtcSetSceneFlags(scene_.get(), RTC_SCENE_FLAG_ROBUST | RTC_SCENE_FLAG_CONTEXT_FILTER_FUNCTION);
     rtcSetSceneBuildQuality(scene_.get(), RTC_BUILD_QUALITY_HIGH);
 
@@ -127,7 +127,7 @@ RayScene::RayScene(const Scene& scene, int threads)
         const VertexArray& array = scene.vertex_arrays[primitive.vertices];
         for (std::size_t t = 0; t < primitive.triangles.size(); ++t) {
             const glm::uvec3& triangle = primitive.triangles[t];
-            // No ray meets a triangle without area; the numbers of the others stay what they are.
+            // Degenerate triangles cannot be hit; the indices of the other triangles do not change.
             *indices++ =
                 (scene.materials[primitive.material].casts_shadow ? triangle : glm::uvec3(triangle.x)) +
                 static_cast<unsigned>(array.first_receiver);
@@ -151,7 +151,7 @@ void RayScene::visit_near(const glm::vec3& position, float distance, Visit&& vis
         scene_.get(), &query, &context,
         [](RTCPointQueryFunctionArguments* arguments) {
             (*static_cast<std::remove_reference_t<Visit>*>(arguments->userPtr))(arguments->primID);
-            return false; // the radius stays
+            return false; // the radius does not change
         },
         &visit);
 }
@@ -169,7 +169,7 @@ float RayScene::surface_offset(const glm::vec3& position) const {
     float length = 0;
     visit_near(position, near, [&](unsigned id) {
         if (!triangle_reaches(id, position, near))
-            return; // its leaf does
+            return; // only another triangle in its leaf is near
         for (int corner = 0; corner < 3; ++corner)
             length = std::max(length, largest_coordinate(positions_[corners_[id][corner]] - position));
     });
@@ -208,7 +208,7 @@ glm::vec3 RayScene::way_off_surfaces(const glm::vec3& position, const glm::vec3&
     visit_near(position, 2 * unit, [&](unsigned id) {
         const glm::uvec3& t = corners_[id];
         if (!triangle_reaches(id, position, 2 * unit))
-            return; // its leaf does
+            return; // only another triangle in its leaf is near
         const glm::dvec3 a(positions_[t.x]), b(positions_[t.y]), c(positions_[t.z]);
         const glm::dvec3 area = glm::cross(b - a, c - a);
         const double squared = glm::dot(area, area),
@@ -228,7 +228,8 @@ glm::vec3 RayScene::way_off_surfaces(const glm::vec3& position, const glm::vec3&
     });
     if (largest.x < -1)
         return glm::vec3(0);
-    // The sides of a closed sheet cancel: then one of them, whatever the order that they were found in.
+    // The sides of a closed sheet cancel each other: then use one of them, independent of the order of the
+    // visit.
     return glm::vec3(glm::length(way) < kOnIt ? kAway * largest : way);
 }
 

@@ -1,5 +1,5 @@
-// Finds starts of rays in front of all faces of a vertex, by the nearest point of the hull of their normals
-// (B. F. Mitchell, V. F. Dem'yanov and V. N. Malozemov, SIAM J. Control 12, 1974).
+// Finds ray origins in front of all faces of a vertex, from the nearest point of the convex hull of their
+// normals (B. F. Mitchell, V. F. Dem'yanov and V. N. Malozemov, SIAM J. Control 12, 1974).
 
 #include "scene/ray_starts.h"
 
@@ -14,20 +14,21 @@
 namespace prt {
 namespace {
 
-/// Least height of a start above a face, and how far it goes along the surface, in surface offsets. Four
-/// reach into a wedge of 20 degrees between a face and one that meets it at the vertex, also at its corners.
+/// Minimum height of an origin above a face, and its distance along the surface, in surface offsets. A
+/// distance of four reaches into a wedge of 20 degrees between a face and one that meets it at the vertex,
+/// also at its corners.
 constexpr double kLeastHeight = 0.5, kAlong = 4;
-/// Longest way off the position: what a spike whose faces are 3 degrees off its axis needs.
+/// Maximum distance from the position: a spike whose faces are 3 degrees off its axis needs it.
 constexpr double kLongest = 16;
 
 /// A triangle at one of its vertices.
 struct Face {
-    glm::dvec3 normal;    ///< unit, towards the side that the receiver looks at
-    double area;          ///< doubled
-    glm::dvec3 to_middle; ///< unit, from the vertex to the triangle's middle
+    glm::dvec3 normal;    ///< unit, towards the side that the receiver faces
+    double area;          ///< twice the area
+    glm::dvec3 to_middle; ///< unit, from the vertex to the centroid of the triangle
 };
 
-/// Whether the triangle is so low that its normal is rounding.
+/// Whether the triangle is so thin that its normal is dominated by rounding.
 bool is_flat(double doubled_area, const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c) {
     const double longest = std::max({glm::distance(a, b), glm::distance(b, c), glm::distance(c, a)});
     const glm::dvec3 extent = glm::max(glm::abs(a), glm::max(glm::abs(b), glm::abs(c)));
@@ -35,7 +36,7 @@ bool is_flat(double doubled_area, const glm::dvec3& a, const glm::dvec3& b, cons
     return !(doubled_area > longest * rounding);
 }
 
-/// Which triangles each vertex of an array is a corner of.
+/// Lists the triangles at each vertex of an array.
 class VertexTriangles {
 public:
     VertexTriangles(const VertexArray& vertices, std::span<const Primitive* const> primitives)
@@ -53,7 +54,7 @@ public:
                     triangles_[next[t[corner]]++] = &t;
     }
 
-    /// Replaces `faces` by those of `vertex` that are not flat.
+    /// Replaces `faces` by the faces of `vertex` that are not flat.
     void read(std::size_t vertex, std::vector<Face>& faces) const {
         faces.clear();
         const glm::dvec3 here(vertices_.positions[vertex]);
@@ -80,12 +81,13 @@ double least_height(std::span<const Face> faces, const glm::dvec3& way) {
     return least;
 }
 
-/// The unit direction that rises most above the lowest of `faces`; zero where none rises above all. It points
-/// to the place of the normals' convex hull that is nearest to the origin: shares of the normals go from the
-/// highest that has one to the lowest (Mitchell, Dem'yanov and Malozemov 1974).
+/// Returns the unit direction that is highest above the lowest of `faces`; zero if no direction is above all
+/// of them. It points to the point of the normals' convex hull that is nearest to the origin. Each step moves
+/// weight from the highest normal that has weight to the lowest normal (Mitchell, Dem'yanov and Malozemov
+/// 1974).
 glm::dvec3 most_open_direction(std::span<const Face> faces, std::vector<double>& shares) {
     constexpr int kSteps = 100;
-    constexpr double kGap = 1e-3; // of the best height
+    constexpr double kGap = 1e-3; // relative to the best height
     shares.assign(faces.size(), 1 / static_cast<double>(faces.size()));
     glm::dvec3 nearest(0);
     for (const Face& face : faces)
@@ -119,8 +121,8 @@ glm::dvec3 most_open_direction(std::span<const Face> faces, std::vector<double>&
     return nearest / length;
 }
 
-/// Along the surface towards the middles of `faces`; zero where they lie all round. On a straight edge of an
-/// even mesh the mean is 0.6 to 0.9 long, inside it is near zero.
+/// Direction along the surface towards the centroids of `faces`; zero if they surround the vertex. On a
+/// straight edge of a regular mesh the mean has length 0.6 to 0.9, inside it is near zero.
 glm::dvec3 inward_direction(std::span<const Face> faces, const glm::dvec3& up) {
     constexpr double kLeastMean = 0.25;
     glm::dvec3 sum(0);
@@ -131,7 +133,7 @@ glm::dvec3 inward_direction(std::span<const Face> faces, const glm::dvec3& up) {
     return length > kLeastMean * static_cast<double>(faces.size()) ? along / length : glm::dvec3(0);
 }
 
-/// Turns `faces` to the side that `normal` looks at.
+/// Flips the normals of `faces` to the side of `normal`.
 void orient(std::span<Face> faces, const glm::dvec3& normal) {
     glm::dvec3 sum(0);
     for (const Face& face : faces)
@@ -145,8 +147,9 @@ glm::dvec3 ray_start(std::span<Face> all, const glm::dvec3& normal, std::vector<
     orient(all, normal);
     std::span<Face> faces = all;
     glm::dvec3 up = faces.empty() ? glm::dvec3(0) : most_open_direction(faces, shares);
-    if (up ==
-        glm::dvec3(0)) { // faces all round, as of two sheets that share a vertex: those that it looks at
+    if (up == glm::dvec3(0)) {
+        // Faces on all sides, for example of two sheets that share a vertex: use the faces on the side of the
+        // normal.
         const auto end = std::partition(all.begin(), all.end(),
                                         [&](const Face& face) { return glm::dot(face.normal, normal) > 0; });
         faces = all.first(static_cast<std::size_t>(end - all.begin()));

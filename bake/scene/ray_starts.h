@@ -1,6 +1,6 @@
 #pragma once
 
-// Where the rays of a vertex start (docs/math.md, section 3).
+// Origins of the rays of a vertex (docs/math.md, section 3).
 
 #include "prt/scene.h"
 
@@ -12,11 +12,11 @@ namespace prt {
 
 enum class Side { front, back };
 
-/// For every vertex where its rays start on that side of the surface, seen from its position, in units of
-/// RayScene::surface_offset: [receivers]. A start lies at least half a unit above the plane of every face of
-/// the vertex where any place does, and four units along the surface towards the part that the vertex stands
-/// for: a vertex on the edge of a floor lies in the plane of the wall that rises there, and without this no
-/// rounding tells on which side of it.
+/// Returns for every vertex the origin of its rays on that side of the surface, relative to its position, in
+/// units of RayScene::surface_offset: [receivers]. An origin is at least half a unit above the plane of every
+/// face of the vertex, if there is such a point, and up to four units along the surface towards the area that
+/// the vertex represents. Reason: a vertex on the edge of a floor is in the plane of a wall that rises there,
+/// and without this offset rounding would decide on which side of the wall it is.
 std::vector<glm::vec3> ray_starts(const Scene& scene, Side side);
 
 } // namespace prt

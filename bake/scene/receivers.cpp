@@ -1,4 +1,4 @@
-// Vertices as receivers, and what they get where nothing shadows them.
+// Converts vertices to receivers, and computes their transfer without shadows.
 
 #include "prt/receivers.h"
 

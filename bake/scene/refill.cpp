@@ -1,4 +1,4 @@
-// Plans which values fill receivers that are sealed in, ring by ring from the outside.
+// Plans how values fill sealed receivers, ring by ring from the outside.
 
 #include "scene/refill.h"
 
@@ -28,7 +28,7 @@ Refill::Refill(const MeshNeighbours& neighbours, const std::vector<bool>& sealed
         if (steps_.size() == before)
             return;
         for (std::size_t s = before; s < steps_.size(); ++s)
-            known[steps_[s].receiver] = true; // only now: a ring is filled from the one before
+            known[steps_[s].receiver] = true; // only now: a ring is filled from the previous one
         waiting = std::move(still);
     }
 }

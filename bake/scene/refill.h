@@ -1,6 +1,6 @@
 #pragma once
 
-// The repair of receivers that are sealed in.
+// Repairs receivers that are sealed in.
 
 #include "scene/mesh_neighbours.h"
 
@@ -15,10 +15,11 @@ namespace prt {
 class Refill {
 public:
     Refill() = default;
-    /// `sealed` [receivers]. A part of a mesh that is marked as a whole stays as it is.
+    /// Marks receivers by `sealed` [receivers]. A part of a mesh in which all receivers are marked does not
+    /// change.
     Refill(const MeshNeighbours& neighbours, const std::vector<bool>& sealed);
 
-    /// `values` [receivers][stride].
+    /// Fills `values` [receivers][stride].
     template <class Value>
     void apply(std::span<Value> values, std::size_t stride) const {
         for (const Step& step : steps_) {
@@ -36,7 +37,7 @@ private:
         std::uint32_t receiver;
         std::vector<std::uint32_t> sources;
     };
-    std::vector<Step> steps_; ///< in this order: later ones may use earlier ones
+    std::vector<Step> steps_; ///< in this order: a step may use values of earlier steps
 };
 
 } // namespace prt

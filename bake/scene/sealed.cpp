@@ -1,4 +1,4 @@
-// Finds receivers inside geometry by what their rays end on.
+// Finds receivers inside geometry by the surfaces that their rays hit.
 
 #include "scene/sealed.h"
 
@@ -12,13 +12,14 @@
 namespace prt {
 namespace {
 
-constexpr double kLeastBacks = 0.98; ///< of all rays; among loose sheets nine of ten may be
+constexpr double kLeastBacks = 0.98; ///< minimum share of all rays; among loose sheets it can reach nine
+                                     ///< tenths
 constexpr float kNotSealed = -1;
-constexpr int kFirstRays = 16; ///< per receiver, in the first round
+constexpr int kFirstRays = 16; ///< rays per receiver in the first round
 
-/// Decides for groups of neighbours after the first round. A group has as many receivers as it takes for its
-/// rays to add up to `probes`. If 98 % of these rays hit backs, all of its receivers are sealed in and move
-/// from `candidates` to `sealed`. `backs`: rays of each receiver that hit backs.
+/// Decides for groups of neighbours after the first round. The rays of the receivers in a group add up to
+/// `probes`. If 98 % of these rays hit backs, all receivers of the group are sealed in and move from
+/// `candidates` to `sealed`. `backs`: rays of each receiver that hit backs.
 void accept_groups(const std::vector<float>& backs, int probes, std::vector<std::uint32_t>& candidates,
                    std::vector<bool>& sealed) {
     const auto size = static_cast<std::size_t>((probes + kFirstRays - 1) / kFirstRays);
@@ -49,11 +50,11 @@ double backs_of(const Surfaces& surfaces, std::span<const Hit> hits) {
 }
 
 bool looks_sealed(const Surfaces& surfaces, std::span<const Hit> hits, int rays, bool maybe) {
-    constexpr double kRounding = 1e-3; // of the weights, in rays
+    constexpr double kRounding = 1e-3; // rounding of the weights, in rays
     double ended = 0;
     for (const Hit& hit : hits)
         ended += static_cast<double>(hit.weight);
-    // Of few rays more may meet a front by chance.
+    // With few rays more fronts may be hit by chance.
     const double by_chance = maybe ? 3 * std::sqrt((1 - kLeastBacks) * rays) : 0;
     return ended > rays - kRounding && backs_of(surfaces, hits) >= kLeastBacks * rays - by_chance;
 }
@@ -64,8 +65,8 @@ Sealed find_sealed(Tracer& tracer, const TraceScene& scene, const Receivers& rec
     Sealed result{std::vector<bool>(receivers.size()), 0};
     std::optional<EmbreeTracer> on_cpu;
     Tracer& prober = tracer.notes_hits() ? tracer : on_cpu.emplace(scene);
-    std::vector<float> backs(receivers.size(), kNotSealed); // of those that may be sealed
-    // Few rays for all of them, more for those that may be.
+    std::vector<float> backs(receivers.size(), kNotSealed); // for receivers that may be sealed
+    // Traces few rays for all receivers, and more for receivers that may be sealed.
     for (const int some : {kFirstRays, 64, 256, probes}) {
         const bool last = some >= probes;
         const int rays = last ? probes : some;
@@ -80,7 +81,7 @@ Sealed find_sealed(Tracer& tracer, const TraceScene& scene, const Receivers& rec
         std::erase_if(dark, [&](std::uint32_t p) { return backs[p] == kNotSealed; });
         if (last)
             break;
-        // Later rounds decide alone: pooling there missed small holes.
+        // Later rounds decide for each receiver alone: groups there missed small holes.
         if (rays == kFirstRays)
             accept_groups(backs, probes, dark, result.receivers);
     }

@@ -1,3 +1,5 @@
+// Groups front receivers at one position that see each other.
+
 #include "scene/shared_places.h"
 
 #include "prt/support/parallel.h"
@@ -9,7 +11,7 @@
 namespace prt {
 namespace {
 
-/// [fronts]
+/// [fronts] true for receivers of surfaces that do not transmit light and have no medium inside
 std::vector<bool> on_plain_surfaces(const Surfaces& surfaces, std::size_t fronts) {
     std::vector<bool> plain(fronts, true);
     for (std::uint32_t t = 0; t < surfaces.triangles(); ++t)
@@ -19,14 +21,14 @@ std::vector<bool> on_plain_surfaces(const Surfaces& surfaces, std::size_t fronts
     return plain;
 }
 
-/// Whether a ray goes from where the rays of one start to where those of the other do. Starts lie a little
-/// towards the triangles of their receivers, so that a wall which stands on an edge of a floor is between.
+/// Whether a ray connects the ray origins of both receivers. Origins are offset towards the triangles of
+/// their receivers, so that a wall on the edge of a floor is between them.
 bool see_each_other(const RayScene& rays, const Receivers& receivers, std::uint32_t a, std::uint32_t b) {
     const glm::vec3 from = rays.ray_origin(receivers, a), to = rays.ray_origin(receivers, b);
     return from == to || !rays.occluded({from, to - from, 0, 1});
 }
 
-/// Splits receivers at one place into groups that see each other.
+/// Splits receivers at one position into groups that see each other.
 void split(const RayScene& rays, const Receivers& receivers, std::span<const std::uint32_t> place,
            std::vector<std::vector<std::uint32_t>>& groups) {
     std::vector<std::vector<std::uint32_t>> here;

@@ -1,3 +1,5 @@
+// Finds objects that are too small for the offset of their rays.
+
 #include "scene/small_objects.h"
 
 #include "prt/ray_scene.h"
@@ -10,7 +12,7 @@
 namespace prt {
 namespace {
 
-constexpr float kResolvedOffsets = 128; ///< the least size of an object, in offsets of its rays
+constexpr float kResolvedOffsets = 128; ///< minimum size of an object, in offsets of its rays
 
 float largest(const glm::vec3& v) {
     return std::max({v.x, v.y, v.z});
@@ -26,7 +28,7 @@ std::optional<std::string> small_object_notice(const Scene& scene) {
         const Bounds box = bounds(scene, primitive);
         const float size = largest(box.high - box.low);
         if (!(size > 0))
-            continue; // no triangle, or all at one place
+            continue; // no triangle, or all at one position
         const glm::vec3 farthest = glm::max(glm::abs(box.low), glm::abs(box.high));
         const float offset = RayScene::coordinate_offset(farthest);
         if (!(size < kResolvedOffsets * offset))

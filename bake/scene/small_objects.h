@@ -1,5 +1,7 @@
 #pragma once
 
+// Notice about objects that are too small for single precision.
+
 #include "prt/scene.h"
 
 #include <optional>
@@ -7,9 +9,9 @@
 
 namespace prt {
 
-/// A line about the primitives of `scene` that are so small, and so far from its middle, that rays start
-/// visibly off their surfaces: where the longest side is 128 times RayScene::coordinate_offset, transfer errs
-/// by some 3 %. Nothing where there are none.
+/// Returns a notice about primitives of `scene` that are so small and so far from the origin that the offset
+/// of rays from their surfaces is visible: if the longest side is 128 times RayScene::coordinate_offset, the
+/// error of transfer is about 3 %. Returns nothing if there are no such primitives.
 std::optional<std::string> small_object_notice(const Scene& scene);
 
 } // namespace prt

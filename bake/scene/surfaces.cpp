@@ -1,5 +1,5 @@
-// Tells from materials and textures what a point of a surface stops, reflects and transmits (docs/math.md,
-// section 6).
+// Computes coverage, reflectance and transmittance of points on surfaces from materials and textures
+// (docs/math.md, section 6).
 
 #include "prt/surfaces.h"
 
@@ -17,13 +17,13 @@
 namespace prt {
 namespace {
 
-/// Twice the area of the triangle of three points of a plane.
+/// Twice the area of a triangle in the plane.
 float doubled_area(const glm::vec2& a, const glm::vec2& b, const glm::vec2& c) {
     return std::abs((b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x));
 }
 
-/// What stays of the diffuse reflectance of a point that passes `glass` of the rays, tint left out: the light
-/// that rays bring is what they did not pass with.
+/// Share of the diffuse reflectance that remains at a point that transmits `glass` of the rays, without tint:
+/// the light that arrives belongs to the rays that were not transmitted.
 float left_of_glass(const Material& material, float texel) {
     const float blocked = 1 - glass_transmittance(material) * texel;
     return blocked > 0 ? (1 - material.glass.factor * texel) / blocked : 0.0f;
@@ -76,7 +76,7 @@ Surfaces::Kind Surfaces::kind_of(const Primitive& primitive, bool solid) const {
     Kind kind;
     kind.solid = solid;
     const bool textured = has_texture(vertices, material.base_color_texture);
-    // What never falls below full coverage is as good as opaque.
+    // A surface whose coverage is never below 1 counts as opaque.
     kind.opaque = material.glass.factor <= 0 &&
                   (material.alpha_mode == AlphaMode::opaque ||
                    (!textured && vertices.colors.empty() &&
@@ -107,7 +107,7 @@ glm::vec4 Surfaces::texel(const SurfacePoint& point, const TextureUse& use, bool
     const Texture& texture = textures_[static_cast<std::size_t>(use.image)];
     float lod = 0;
     if (!finest) {
-        // Isotropic: the footprint has the area of so many texels, the level where it is one is chosen.
+        // Isotropic: choose the level at which the footprint has the area of one texel.
         const glm::vec2 size(texture.levels[0].width, texture.levels[0].height);
         const auto coordinate = [&](unsigned i) { return (use.transform * glm::vec3(set[i], 1)) * size; };
         const float texels = doubled_area(coordinate(t.x), coordinate(t.y), coordinate(t.z));
@@ -120,18 +120,18 @@ glm::vec4 Surfaces::texel(const SurfacePoint& point, const TextureUse& use, bool
     return sample(texture, use, use.transform * glm::vec3(interpolated(set, t, point.uv), 1), lod);
 }
 
-/// A texture that holds numbers; 1 where there is none.
+/// Returns texture values that are not colors; 1 if there is no texture.
 glm::vec3 Surfaces::numbers(const SurfacePoint& point, const TextureUse& use) const {
     glm::vec3 values(texel(point, use, false));
     const bool loaded = use.image >= 0 && static_cast<std::size_t>(use.image) < textures_.size();
     if (loaded && textures_[static_cast<std::size_t>(use.image)].encoding == TextureEncoding::srgb)
-        for (int c = 0; c < 3; ++c) // an image that is color elsewhere
+        for (int c = 0; c < 3; ++c) // this image is used as a color elsewhere
             values[c] = srgb_encode(values[c]);
     return values;
 }
 
-/// How much of the base color is reflected diffusely (docs/math.md, section 6): metals reflect like a
-/// mirror, in a lobe that comes close to diffuse as they get rough; glass passes the rest. Without a point
+/// Share of the base color that is reflected diffusely (docs/math.md, section 6): metals reflect in a mirror
+/// lobe that approaches a diffuse lobe with increasing roughness; glass transmits the rest. Without a point
 /// textures count as 1.
 float Surfaces::diffuse_share(const Material& material, const SurfacePoint* point) const {
     float metallic = material.metal.factor, roughness = material.metal.roughness, glass = 1;

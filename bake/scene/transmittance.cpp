@@ -1,4 +1,4 @@
-// Follows a shadow ray through all surfaces that let some of it pass.
+// Follows a shadow ray through all surfaces that transmit a part of it.
 
 #include "scene/transmittance.h"
 
@@ -7,12 +7,12 @@
 namespace prt {
 namespace {
 
-/// Follows `ray` through surfaces until nothing is left or one is `target`. Returns the share that is left
-/// before it, or where the ray ends.
+/// Result of `follow`: the share of light that is left where the ray ends or before it hits the target.
 struct Followed {
     float left = 1;
     std::optional<RayHit> target;
 };
+/// Follows `ray` through surfaces until nothing is left or it hits `target`.
 Followed follow(const RayScene& rays, const Surfaces& surfaces, Ray ray,
                 std::optional<std::uint32_t> target) {
     Followed followed;

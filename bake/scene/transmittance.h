@@ -1,5 +1,7 @@
 #pragma once
 
+// Transmittance along shadow rays.
+
 #include "prt/ray_scene.h"
 #include "prt/surfaces.h"
 
@@ -7,13 +9,13 @@
 
 namespace prt {
 
-/// Share of light that reaches `origin` from `to` lengths of `direction` away, through what is cut out,
-/// blended or glass.
+/// Share of light that reaches `origin` from the distance of `to` lengths of `direction`, through cut-outs,
+/// blended surfaces and glass.
 float transmittance(const RayScene& rays, const Surfaces& surfaces, const glm::vec3& origin,
                     const glm::vec3& direction, float to = std::numeric_limits<float>::infinity());
 
-/// Share of what a point of triangle `target` sends that arrives at `origin`, from which `way` leads to the
-/// point. Where surfaces coincide the ray meets one of them, as any other ray does.
+/// Share of the light from a point of triangle `target` that arrives at `origin`. `way` is the vector from
+/// `origin` to the point. If surfaces coincide the ray hits one of them, like any other ray.
 float arriving_from(const RayScene& rays, const Surfaces& surfaces, const glm::vec3& origin,
                     const glm::vec3& way, std::uint32_t target);
 

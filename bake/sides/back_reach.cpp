@@ -1,3 +1,5 @@
+// Follows paths from the backs of triangles until they find light.
+
 #include "sides/back_reach.h"
 
 #include "prt/support/parallel.h"
@@ -11,9 +13,9 @@ namespace prt {
 namespace {
 
 constexpr int kReachBounces = 8;
-constexpr float kReflected = 0.5f; ///< of what reaches a surface, whatever its color
+constexpr float kReflected = 0.5f; ///< share of light that a surface reflects, independent of its color
 
-/// All of them at strength 1.
+/// All lamps at strength 1.
 SceneLamps lit(const TraceScene& scene, std::span<const Lamp> lamps) {
     std::vector<TransferPart> parts;
     for (const Lamp& lamp : lamps)

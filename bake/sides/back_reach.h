@@ -1,6 +1,6 @@
 #pragma once
 
-// Which backs of surfaces any light reaches.
+// Determines which backs of surfaces receive light.
 
 #include "lamps/choose_lamps.h"
 #include "pictures/light_paths.h"
@@ -12,23 +12,23 @@
 
 namespace prt {
 
-/// Mean reach of a part of a surface, above what comes through the cracks of solids.
+/// Minimum mean reach of a part of a surface, above the light through cracks of solids.
 inline constexpr double kMinReach = 1e-3;
 
-/// Paths that look for light. A path has reach 1/2 for each surface that it meets before it ends in the sky
-/// above the horizon or where a point of a lamp that is drawn by chance is in sight, 0 where it does not get
-/// there in eight bounces: an order of magnitude.
+/// Paths that search for light. The reach of a path starts at 1 and is halved at each surface that the path
+/// hits, until it ends in the sky above the horizon, or until a random point of a lamp is visible. It is 0 if
+/// the path finds no light in eight bounces. The reach is an order of magnitude only.
 class BackReach {
 public:
-    /// `lamps` are those that are lit. Keeps references to `scene`.
+    /// `lamps`: lamps that are lit. Keeps a reference to `scene`.
     BackReach(const TraceScene& scene, std::span<const Lamp> lamps, std::uint64_t seed);
 
     struct Path {
         float reach = 0;
-        bool at_home = true; ///< met nothing but the backs of its piece
+        bool at_home = true; ///< hit only backs of its piece
     };
-    /// From a place on the back of a triangle. `pieces` [triangles] numbers surfaces that hang together, or
-    /// is empty where nobody asks.
+    /// Follows a path from a point on the back of a triangle. `pieces` [triangles] are numbers of connected
+    /// surfaces; empty if `at_home` is not needed.
     Path path(std::uint32_t triangle, std::uint32_t seed, std::uint32_t index,
               std::span<const std::uint32_t> pieces = {}) const;
     /// Mean reach of two paths from the back of each of `triangles`.

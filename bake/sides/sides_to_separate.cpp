@@ -16,14 +16,14 @@ namespace prt {
 namespace {
 
 constexpr std::size_t kPatchTriangles = 64;
-/// Paths of a patch: at first, in all, and where none of them leaves the inside of its piece. Where the first
-/// ones of all patches of a piece find no light, it is dark: they are at least kPiecePaths together.
+/// Number of paths of a patch: at first, in total, and if none of them leaves the inside of its piece. If the
+/// first paths of all patches of a piece, at least kPiecePaths together, find no light, the piece is dark.
 constexpr std::uint32_t kFirstPaths = 8, kMaxPaths = 512, kHomePaths = 64, kPiecePaths = 256;
 /// In a piece with at least this many patches, kFewPaths dark paths make a patch dark.
 constexpr std::uint32_t kManyPatches = 16, kFewPaths = 128;
-/// A patch is lit where this many paths found light.
+/// A patch is lit if this number of paths found light.
 constexpr std::uint32_t kCertain = 4;
-/// A piece is separated as a whole where so much of its area is lit.
+/// A piece is separated completely if this share of its area is lit.
 constexpr double kMostly = 0.5;
 
 bool can_separate(const Surfaces& surfaces, std::uint32_t t) {
@@ -32,8 +32,8 @@ bool can_separate(const Surfaces& surfaces, std::uint32_t t) {
            !surfaces.transmits(t) && !surfaces.solid(t);
 }
 
-/// Receivers that hang together: by `triangles`, and where corners of one vertex array have the same
-/// position.
+/// Groups connected receivers: receivers connected by `triangles`, and corners of one vertex array at the
+/// same position.
 class ConnectedReceivers {
 public:
     ConnectedReceivers(const Surfaces& surfaces, std::span<const std::uint32_t> triangles)
@@ -56,7 +56,7 @@ public:
                 join(corners[i].receiver, corners[i - 1].receiver);
     }
 
-    /// The receiver that stands for all that hang together with `p`.
+    /// Returns the receiver that represents all receivers connected with `p`.
     std::uint32_t piece_of(std::uint32_t p) {
         while (first_[p] != p)
             p = first_[p] = first_[first_[p]];
@@ -81,22 +81,22 @@ double doubled_area(const Surfaces& surfaces, std::uint32_t t) {
     return static_cast<double>(glm::length(glm::cross(at(c.y) - at(c.x), at(c.z) - at(c.x))));
 }
 
-/// Some triangles of a piece that follow each other in the file.
+/// Some triangles of a piece that are consecutive in the file.
 struct Patch {
     std::vector<std::uint32_t> triangles;
-    std::vector<double> areas; ///< sums up to each triangle
+    std::vector<double> areas; ///< sums up to and including each triangle
 
     std::uint32_t dark_paths = kMaxPaths; ///< the patch is dark after this many dark paths
-    std::uint32_t paths = 0, found = 0;   ///< those that were followed, and those that found light
-    double reach = 0;                     ///< their sum
-    bool at_home = true;                  ///< all of them
+    std::uint32_t paths = 0, found = 0;   ///< number of followed paths, and number of paths that found light
+    double reach = 0;                     ///< sum over the paths
+    bool at_home = true;                  ///< all paths stayed at home
 
     bool is_lit() const { return found > 0 && reach > kMinReach * paths; }
     bool is_surely_lit() const { return found >= kCertain && is_lit(); }
     bool is_surely_dark() const { return found == 0 && paths >= (at_home ? kHomePaths : dark_paths); }
 
-    /// Where the next path starts: by area in one half of the paths, by number in the other, so that a hut
-    /// that hangs together with a plain counts as much as the plain.
+    /// Triangle where the next path starts: half of the paths choose by area, the other half by index, so
+    /// that a hut connected with a plain counts as much as the plain.
     std::uint32_t next() const {
         const double at = static_cast<double>(reverse_bits(paths / 2)) * 0x1p-32; // van der Corput
         if (paths % 2 == 0)
@@ -127,7 +127,8 @@ public:
     }
 
     std::vector<bool> find(const std::stop_token& stop) {
-        std::map<std::uint32_t, std::uint32_t> patches, found; // of pieces
+        std::map<std::uint32_t, std::uint32_t> patches, found; // number of patches and of found paths per
+                                                               // piece
         for (const Patch& patch : patches_)
             ++patches[piece_of(patch)];
         trace(
@@ -152,7 +153,7 @@ private:
     };
 
     void make_patches() {
-        std::map<std::uint32_t, std::size_t> open; // patch of a piece
+        std::map<std::uint32_t, std::size_t> open; // current patch of a piece
         for (const std::uint32_t t : candidates_) {
             const auto [found, is_new] = open.try_emplace(pieces_[t], patches_.size());
             if (!is_new && patches_[found->second].triangles.size() == kPatchTriangles)
@@ -168,7 +169,7 @@ private:
 
     std::uint32_t piece_of(const Patch& patch) const { return pieces_[patch.triangles.front()]; }
 
-    /// Traces paths of each patch until `clear(patch)`, or until it has `paths(patch)` of them.
+    /// Traces paths of each patch until `clear(patch)` is true, or until it has `paths(patch)` paths.
     template <class Paths, class Clear>
     void trace(Paths&& paths, Clear&& clear, const std::stop_token& stop) {
         parallel_for(patches_.size(), 1, scene_.threads(), [&](std::size_t begin, std::size_t end) {

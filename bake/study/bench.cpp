@@ -1,5 +1,5 @@
-// Bakes direct light with more and more rays on every backend, and measures its time and its error against a
-// bake of many more rays from another seed.
+// Bakes direct light with an increasing number of rays on every backend, and measures its time and its error
+// against a bake with many more rays from another seed.
 
 #include "prt/bench.h"
 
@@ -19,9 +19,9 @@
 namespace prt {
 namespace {
 
-/// A reference has so many times the rays of what is measured against it.
+/// Rays of a reference relative to the measured bakes.
 constexpr int kReferenceFactor = 64;
-/// Rays to spend on it: what is left is the number of receivers.
+/// Total rays of the reference; they determine its number of receivers.
 constexpr double kReferenceRays = 3e8;
 constexpr std::uint64_t kReferenceSeed = 0x51ed270b7a5d1f3c;
 
@@ -36,7 +36,8 @@ constexpr Setup kSetups[] = {{Backend::cpu, BakeMethod::trace},
                              {Backend::gpu, BakeMethod::trace, false, Traversal::device},
                              {Backend::gpu, BakeMethod::trace, false, Traversal::compute},
                              {Backend::gpu, BakeMethod::raster}};
-constexpr double kShare = 1.0 / (1 + std::size(kSetups)); ///< of the time, for each series and the references
+constexpr double kShare = 1.0 / (1 + std::size(kSetups)); ///< share of the progress for each series and for
+                                                          ///< the references
 
 class Bench {
 public:
@@ -123,7 +124,7 @@ private:
                                 .gpu = options_.gpu,
                                 .traversal = setup.traversal});
         device = tracer->device();
-        // Shaders are compiled on first use; a bake of a game's scene does not notice.
+        // Shaders are compiled on first use; a bake of a game's scene does not notice it.
         Transfer transfer = empty_transfer();
         trace_receivers(*tracer, receivers_, std::span(indices_).first(1),
                         {.order = options_.order, .rays = 1}, transfer);
@@ -145,7 +146,7 @@ private:
         return run;
     }
 
-    /// A whole bake: reading textures is not counted, as for others.
+    /// Measures a complete bake, without the time for reading textures, as for the others.
     BenchRun measure_fit(int rays, std::string& device, const Progress& progress) const {
         BakeOptions options;
         options.order = options_.order;
@@ -180,7 +181,7 @@ private:
     std::vector<Texture> textures_;
     Receivers receivers_;
     std::vector<std::uint32_t> indices_;
-    std::vector<float> areas_; ///< of the receivers that the reference has, else zero
+    std::vector<float> areas_; ///< areas of the receivers of the reference, zero for other receivers
     Transfer reference_;
     std::optional<SurfaceReference> surface_;
 };

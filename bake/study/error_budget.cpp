@@ -1,5 +1,5 @@
-// Products of differences from two independent references: their noise has no mean. Intervals by resampling
-// points (B. Efron, "Bootstrap Methods: Another Look at the Jackknife", 1979).
+// Multiplies differences from two independent references: the mean of their noise is zero. Intervals are
+// computed by resampling points (B. Efron, "Bootstrap Methods: Another Look at the Jackknife", 1979).
 
 #include "prt/error_budget.h"
 
@@ -18,13 +18,13 @@ namespace {
 
 using Radiance = std::vector<glm::vec3>;
 
-/// Radiance of the picture at a point, by each of two independent references.
+/// Radiance of the picture at a point, from each of two independent references.
 std::array<glm::dvec3, 2> picture_at(const SurfaceRadiance& reference, std::size_t p) {
     const glm::dvec3 suns(reference.suns()[p]);
     return {glm::dvec3(reference.truth(0)[p]) + suns, glm::dvec3(reference.truth(1)[p]) + suns};
 }
 
-/// [points] 1 / (Y + Y_a)²; empty where nothing is lit.
+/// [points] 1 / (Y + Y_a)²; empty if nothing is lit.
 std::vector<double> contrast_weights(const SurfacePoints& points, const SurfaceRadiance& reference) {
     std::vector<double> weights(points.size());
     for (std::size_t p = 0; p < weights.size(); ++p) {
@@ -39,11 +39,11 @@ std::vector<double> contrast_weights(const SurfacePoints& points, const SurfaceR
     return weights;
 }
 
-/// Sums over points that are drawn anew, by which intervals are found.
+/// Sums over resampled points, for confidence intervals.
 class Resampling {
 public:
     Resampling(const SurfacePoints& points, const SurfaceRadiance& reference, BudgetMeasure measure) {
-        constexpr std::size_t kTimes = 400; // the 2.5th percentile is then the tenth of them
+        constexpr std::size_t kTimes = 400; // the 2.5th percentile is then the tenth value
         std::mt19937_64 random(1);
         std::vector<double> norm(points.size(), 1.0);
         if (measure == BudgetMeasure::visible) {
@@ -67,12 +67,12 @@ public:
             norms_.push_back(sum(norm, &counts));
     }
 
-    /// What two differences of radiance at point `p` count together.
+    /// Weighted product of two differences of radiance at point `p`.
     double product(std::size_t p, const glm::vec3& a, const glm::vec3& b) const {
         return glm::dot(channels_ * glm::dvec3(a), glm::dvec3(b)) * (weights_.empty() ? 1.0 : weights_[p]);
     }
 
-    /// Of `values` [points], whose mean by area is wanted.
+    /// Estimates the area-weighted mean of `values` [points].
     SquaredError estimate(std::span<const double> values) const {
         SquaredError error;
         if (!(norm_ > 0))
@@ -100,13 +100,13 @@ private:
     }
 
     glm::dvec3 channels_{1};
-    std::vector<double> areas_, weights_; ///< [points]; weights: empty: 1
+    std::vector<double> areas_, weights_; ///< [points]; empty weights mean 1
     std::vector<std::vector<float>> counts_;
     std::vector<double> norms_;
     double norm_ = 0;
 };
 
-/// `value(p)` of all points.
+/// Evaluates `value(p)` at all points.
 template <class Value>
 std::vector<double> of_points(const SurfacePoints& points, Value&& value) {
     std::vector<double> values(points.size());
@@ -121,7 +121,7 @@ Radiance difference(Radiance of, std::span<const glm::vec3> from) {
     return of;
 }
 
-/// Of what is missing by each of two independent references.
+/// Squared error from the missing radiance according to each of two independent references.
 SquaredError error_of(const SurfacePoints& points, const SurfaceRadiance& reference,
                       const std::array<Radiance, 2>& missing) {
     const Resampling resampling(points, reference, BudgetMeasure::relative);
@@ -168,8 +168,8 @@ ErrorBudget error_budget(const SurfacePoints& points, const SurfaceRadiance& ref
         return 0.5 * (product(p, baked[p] - wanted[0][p], repeated[p] - wanted[1][p]) +
                       product(p, baked[p] - wanted[1][p], repeated[p] - wanted[0][p]));
     });
-    // Half of the squared difference of two alike; else what `baked` shares with its own noise: of the
-    // product all else, which has no noise of `baked`, has no mean.
+    // If both bakes have the same number of rays: half of their squared difference. Otherwise the product of
+    // the difference and `baked`'s own error: the mean of all terms without noise of `baked` is zero.
     budget.of(ErrorCause::rays) = estimate([&](std::size_t p) {
         const glm::vec3 noise = baked[p] - repeated[p];
         return radiance.alike ? 0.5 * product(p, noise, noise)

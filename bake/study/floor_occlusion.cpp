@@ -1,4 +1,4 @@
-// Occluders of one scene together, on the floor that it stands on.
+// Measures all occluders of a scene together on the floor below it.
 
 #include "occlusion/blocked_by_rays.h"
 #include "prt/occluder_bake.h"
@@ -23,7 +23,7 @@ FloorOcclusion floor_occlusion(const Scene& scene, std::span<const OcclusionVolu
     for (std::size_t i = 0; i < kPlaces; ++i) {
         const float x = unit(random), z = unit(random);
         places.push_back(box.low - around + (size + 2.0f * around) * glm::vec3(x, 0, z));
-        places.back().y = box.low.y - 1e-3f * size.y; // of what lies in the plane itself
+        places.back().y = box.low.y - 1e-3f * size.y; // to include geometry in the plane itself
     }
     std::vector<PlacedOccluder> where;
     for (std::size_t i = 0; i < volumes.size(); ++i)

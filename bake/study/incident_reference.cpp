@@ -1,4 +1,4 @@
-// Paths from places in free space, in directions even over the sphere.
+// Traces paths from positions in free space, in directions uniform over the sphere.
 
 #include "prt/incident_reference.h"
 
@@ -24,7 +24,7 @@ namespace prt {
 namespace {
 
 constexpr float kMostBacks = 0.25f;
-/// Density of the first ray, which unlike a camera's does not look through backs of surfaces.
+/// Density of the first ray, which unlike a camera ray does not pass back sides of surfaces.
 constexpr float kEven = 1 / (4 * std::numbers::pi_v<float>);
 
 glm::vec3 direction_of(const glm::vec2& u) {
@@ -33,7 +33,7 @@ glm::vec3 direction_of(const glm::vec2& u) {
     return {radius * std::cos(angle), radius * std::sin(angle), z};
 }
 
-/// Coefficients of what comes in from one direction after the other.
+/// Coefficients of incident light, summed direction by direction.
 struct IncidentSum {
     int order;
     std::span<glm::vec3> coefficients;
@@ -46,7 +46,8 @@ struct IncidentSum {
     }
 };
 
-/// Light that comes to `place` from lamps themselves: of those that rays meet too, their samples' share.
+/// Adds direct light of lamps at `place`. Lamps that rays can also hit are weighted by the share of their
+/// samples.
 void add_lamps(const SceneLamps& lamps, const glm::vec3& place, PathSamples& samples, float weight,
                IncidentSum& sum) {
     const auto add = [&](const SceneLamps::Sample& sample) {
@@ -61,11 +62,11 @@ void add_lamps(const SceneLamps& lamps, const glm::vec3& place, PathSamples& sam
 }
 
 struct Surroundings {
-    float distance = std::numeric_limits<float>::infinity(); ///< of the nearest surface, metres
-    bool shut = true;                                        ///< no light of the sky comes in
+    float distance = std::numeric_limits<float>::infinity(); ///< distance to the nearest surface, metres
+    bool shut = true;                                        ///< no light of the sky arrives
 };
 
-/// Nothing where the place is inside of something.
+/// Returns nothing if `place` is inside geometry.
 std::optional<Surroundings> surroundings_of(const TraceScene& scene, const glm::vec3& place) {
     constexpr int kDirections = 256;
     Surroundings around;
@@ -115,7 +116,8 @@ FreePlaces free_places_in(const TraceScene& scene, const VolumeGrid& grid, std::
 std::array<std::vector<glm::vec3>, 2>
 incident_reference(const TraceScene& scene, const std::vector<glm::vec3>& places, int order,
                    const MeasuredLight& light, const IncidentOptions& options, const Progress& progress) {
-    // A surface that is seen is lit by all light: what the renderer adds is that of the place itself.
+    // A visible surface is lit by all light; only at the position itself the renderer adds a part of the
+    // light.
     const LightPaths paths{scene, {light.all, light.all, options.lamps}, {kEndlessBounces, true, false}};
     const auto coefficients = static_cast<std::size_t>(coefficient_count(order));
     const float weight = 4 * std::numbers::pi_v<float> / static_cast<float>(options.paths);

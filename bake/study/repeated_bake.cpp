@@ -1,4 +1,4 @@
-// Bakes as the record says, and checks that it is the same but for noise.
+// Repeats a bake from its record, and checks that the result differs only by noise.
 
 #include "prt/repeated_bake.h"
 
@@ -13,7 +13,7 @@
 namespace prt {
 namespace {
 
-/// Relative L2 of what two bakes of one layout differ by in their first part.
+/// Relative L2 difference of two bakes with one layout in their first part.
 double difference_of_bakes(const Transfer& a, const Transfer& b, std::span<const float> areas) {
     double squared = 0, norm = 0;
     const std::size_t numbers = b.layout.numbers_of(b.layout.parts.front());
@@ -27,7 +27,7 @@ double difference_of_bakes(const Transfer& a, const Transfer& b, std::span<const
     return norm > 0 ? std::sqrt(squared / norm) : 0;
 }
 
-/// How a bake was made, as far as its record says; lamps are left out.
+/// Options of a bake as far as its record contains them; lamps are omitted.
 BakeOptions options_of_record(const BakeRecord& record, int order, int threads) {
     BakeOptions options;
     options.order = order;
@@ -43,20 +43,20 @@ BakeOptions options_of_record(const BakeRecord& record, int order, int threads) 
     return options;
 }
 
-/// Those of a repetition: of rays of its own.
+/// Options of a repetition, with independent rays.
 BakeOptions options_of_repetition(const BakeRecord& record, int order, int threads) {
     BakeOptions options = options_of_record(record, order, threads);
-    options.repairs.bad_textures = BadTextures::ignore; // the bake has passed them
+    options.repairs.bad_textures = BadTextures::ignore; // the original bake accepted the textures
     options.seed = ~record.seed;
     return options;
 }
 
-/// Throws `Error` unless `repeated` differs from `baked` by noise alone.
+/// Throws `Error` unless `repeated` differs from `baked` only by noise.
 void check_repeats(const Transfer& baked, const Transfer& repeated, std::span<const float> areas,
                    const BakeRecord& record) {
-    // Two bakes of independent rays differ by sqrt(2) times the error of one in direct light, which comes
-    // first; the estimate of that is off by less than another factor of two in practice, of few rays that are
-    // fitted by four. A scene that was baked otherwise differs by tens of per cents.
+    // Two bakes with independent rays differ by sqrt(2) times the error of one of them in direct light, which
+    // is the first part. In practice the estimate of this error deviates by less than another factor of two,
+    // or by four for few rays with a fit. A scene that was baked differently differs by tens of per cent.
     constexpr double kNoise = 6, kRounding = 0.05;
     const std::size_t parts = baked.layout.distant_parts().size();
     if (parts == 0)
@@ -87,7 +87,7 @@ Transfer repeated_lightmap(const Scene& scene, const BakedLightmap& lightmap, in
                            const Progress& progress) {
     const BakedTransfer& baked = lightmap.baked;
     BakeOptions options = options_of_repetition(baked.record, baked.transfer.layout.order, threads);
-    options.fit = FitMode::automatic; // of vertices that light bounces between
+    options.fit = FitMode::automatic; // applies to vertices that light bounces between
     std::vector<Atlas> atlases;
     for (const LightmapSize& map : lightmap.layout.maps)
         atlases.push_back(

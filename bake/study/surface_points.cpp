@@ -1,4 +1,4 @@
-// Picks points between vertices by area.
+// Selects points between vertices by area.
 
 #include "prt/surface_points.h"
 
@@ -24,7 +24,7 @@ void append(const SurfacePoints& from, std::size_t index, SurfacePoints& to) {
     to.corners.push_back(from.corners[index]);
 }
 
-/// Of samples, of which every triangle has one, so many by area.
+/// Selects samples by area from a dense set that has samples on every triangle.
 SurfacePoints points_by_area(const TraceScene& scene, const SurfacePointOptions& options) {
     const TransportReceivers receivers = without_back_sides(vertex_receivers(scene.scene()));
     const SurfaceSamples dense =
@@ -50,7 +50,7 @@ SurfacePoints points_by_area(const TraceScene& scene, const SurfacePointOptions&
 
 SurfacePoints surface_points(const TraceScene& scene, const SurfacePointOptions& options,
                              const Progress& progress) {
-    constexpr int kLook = 64; // rays: what sees a hundredth of the sky is found dark by half of the points
+    constexpr int kLook = 64; // rays: half of the points that see a hundredth of the sky are found dark
     const SurfacePoints all = points_by_area(scene, options);
     EmbreeTracer tracer(scene);
     Transfer light = zero_transfer(1, 1, all.size());
@@ -84,7 +84,7 @@ QuarterCorners quarter_corners(const TraceScene& scene, const SurfacePoints& poi
     const Receivers vertices = vertex_receivers(scene.scene());
     QuarterCorners quarters;
     for (std::size_t p = 0; p < points.size(); ++p) {
-        // That of the corner which has more than half; else the one between the middles.
+        // Quarter at the corner whose share exceeds one half; otherwise the quarter between the midpoints.
         const std::array<float, 3> shares = points.shares(p);
         const auto most =
             static_cast<std::size_t>(std::max_element(shares.begin(), shares.end()) - shares.begin());

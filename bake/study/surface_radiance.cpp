@@ -1,6 +1,6 @@
-// Follows paths from points of the surface. Where one ends in the sky it counts three times: with the
-// radiance there (and with what next-event estimation found on its way), with that of the sky's bands, and
-// with that of the suns' bands.
+// Traces paths from points of the surface. A path that ends in the sky contributes three values: the sky's
+// radiance (with light from next-event estimation along the path), the radiance of the sky's bands, and the
+// radiance of the suns' bands.
 
 #include "prt/surface_radiance.h"
 
@@ -22,7 +22,7 @@
 namespace prt {
 namespace {
 
-/// The radiance of each band in a direction whose basis is known.
+/// Returns the radiance of each band in a direction with a known basis.
 BandRadiance::Bands bands_of(const Light& light, std::span<const float> basis) {
     BandRadiance::Bands bands{};
     for (int l = 0; l < light.order; ++l)
@@ -37,14 +37,14 @@ void add(BandRadiance::Bands& sum, const BandRadiance::Bands& bands, const glm::
         sum[l] += factor * bands[l];
 }
 
-/// A point as a camera meets it that looks at the front.
+/// Returns the hit of a camera that looks at the front of a point.
 SurfaceHit hit_at(const TraceScene& scene, const SurfacePoints& points, std::size_t p) {
     const SurfacePoint point{points.triangles[p], points.uv[p], 0};
     const glm::vec3 anywhere(0);
     return {0, point, met_surface(scene.scene(), scene.rays(), point, anywhere).side, true, false};
 }
 
-/// Of the sequence of a point.
+/// Range of paths in the sequence of a point.
 struct PathRange {
     std::uint32_t seed;
     int begin, end;
@@ -93,7 +93,7 @@ glm::vec3 sun_light(const TraceScene& scene, const SurfaceHit& hit, std::span<co
     return sum;
 }
 
-/// What all bands and bounces give together.
+/// Sum of all bands and bounces.
 glm::vec3 all_of(const BandRadiance& radiance) {
     glm::vec3 sum(0);
     for (const auto* bounces : {&radiance.sky, &radiance.suns})
@@ -102,8 +102,8 @@ glm::vec3 all_of(const BandRadiance& radiance) {
     return sum;
 }
 
-/// Standard error of the mean of a product of both halves over their square, where they differ by noise
-/// alone: that of the light or of its bands, whichever is larger. Sums are of so many paths.
+/// Standard error of the mean product of both halves, relative to their mean square, if they differ only by
+/// noise: the larger one of the light and of its bands. Sums contain `paths` paths.
 double noise_of(const SurfacePoints& points, const std::array<std::vector<PointSum>, 2>& sums,
                 std::span<const glm::vec3> suns, int paths) {
     const double share = 1.0 / paths;

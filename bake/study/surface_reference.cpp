@@ -1,4 +1,4 @@
-// Traces points between vertices, independent of where a bake had its samples.
+// Traces points between vertices, independent of the samples of a bake.
 
 #include "prt/surface_reference.h"
 

@@ -1,4 +1,5 @@
-// Bends where the light bends, and nowhere else.
+// Chooses smoothness weights per edge: low where the light has curvature, for example at shadow edges, high
+// elsewhere.
 
 #include "surface/bend_weights.h"
 
@@ -7,14 +8,14 @@
 namespace prt {
 namespace {
 
-/// Weights are noise over signal times this: measured on nine scenes at 256 to 16 384 rays, where 0.1 to 0.3
+/// Factor of noise over signal in a weight: measured on nine scenes with 256 to 16 384 rays, where 0.1 to 0.3
 /// are best and differ little.
 constexpr double kWeightOfNoise = 0.15;
-/// Signal is at least this share of noise: by chance the two estimates cancel.
+/// Minimum signal relative to noise: the two estimates can cancel by chance.
 constexpr double kLeastSignal = 0.02;
 constexpr double kMinWeight = 0.0005, kMaxWeight = 0.5;
 
-/// Sums of squares of bends.
+/// Sums of squared bends.
 struct Squares {
     double all = 0, noise = 0;
 

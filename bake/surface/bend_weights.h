@@ -1,5 +1,7 @@
 #pragma once
 
+// Smoothness weights of a surface fit.
+
 #include "surface/fit_equations.h"
 
 #include <span>
@@ -7,14 +9,14 @@
 
 namespace prt {
 
-/// What bending costs where nothing is known of the light; and in a first fit, whose error is to be noise
-/// alone.
+/// Smoothness weight if nothing is known about the light, and for an initial fit, whose error should contain
+/// only noise.
 inline constexpr float kPlainBendWeight = 0.02f, kFirstBendWeight = 0.003f;
 
-/// Weights of bends [bends] that tell light from the noise of rays, empirical Bayes: noise over signal, as it
-/// is round each edge. `x` is a first fit, and `noise` [unknowns][stride] what random signs of independent
-/// groups of samples make of what it leaves over (the wild bootstrap of C. F. J. Wu, 1986): as large as the
-/// noise in x.
+/// Returns weights of bends [bends] that distinguish light from the noise of rays, by empirical Bayes: noise
+/// over signal around each edge. `x` is an initial fit. `noise` [unknowns][stride] is the solution for its
+/// residuals with random signs per independent group of samples (the wild bootstrap of C. F. J. Wu, 1986),
+/// which has the magnitude of the noise in x.
 std::vector<float> bend_weights(const FitEquations& equations, std::span<const float> x,
                                 std::span<const float> noise, std::size_t stride);
 

@@ -15,14 +15,14 @@
 namespace prt {
 namespace {
 
-/// One receiver of so many has a point asked beside it, within these bounds.
+/// One test point per kReceiversPerPoint receivers, within these limits.
 constexpr std::size_t kReceiversPerPoint = 100, kLeastPoints = 16, kMostPoints = 256;
-/// All vertices have this share of their rays first, and at most so many.
+/// All vertices first trace this share of their rays, with a maximum.
 constexpr int kShareOfFirstLook = 32, kMostFirst = 64;
-/// Halves of more rays would tell no more.
+/// Maximum rays of a half: more rays would give no additional information.
 constexpr int kMostOfHalf = 4096;
 
-/// Light at receivers by two independent scrambles of half of a receiver's rays each.
+/// Light at receivers from two independent scrambles with half of a receiver's rays each.
 struct Halves {
     Transfer first, second;
 };
@@ -70,7 +70,7 @@ public:
     }
 
 private:
-    /// How much of a uniform sky arrives at vertices, by few rays.
+    /// Share of a uniform sky that arrives at vertices, measured with few rays.
     std::vector<float> first_look() {
         const std::vector<std::uint32_t> indices = receivers_on_surfaces(plan_.receivers());
         const TraceOptions options{.order = 1,
@@ -121,7 +121,7 @@ private:
         return found.receivers;
     }
 
-    /// What interpolation between vertices `c` has more than point `s`, whose light is `here`.
+    /// Difference between the interpolation of vertices `c` and the light `here` at point `s`.
     std::vector<float> missing(const Transfer& vertices, const glm::uvec3& c, std::uint32_t s,
                                std::span<const float> here) const {
         std::vector<float> difference = interpolated(vertices, c, samples_.places[s]);
@@ -144,13 +144,13 @@ FitTrial try_fit(const BakePlan& plan, Tracer& tracer, const Progress& progress)
 }
 
 FitChoice choose_fit(const FitTrial& trial, int rays, bool filtered) {
-    // Measured on nine scenes: the best fit has 0.7 of the error of interpolation, and of few samples more. A
-    // ray's noise falls faster than the number of samples grows (n^-1.5 against n^-1), and between vertices
-    // half of its square is left, or an eighth where it is filtered.
+    // Measured on nine scenes: the best fit has 0.7 of the interpolation error, and a fit of few samples has
+    // more. The noise of rays falls faster than the number of samples grows (n^-1.5 against n^-1), and
+    // between vertices half of its square remains, or an eighth if it is filtered.
     constexpr double kBestFit = 0.5, kOfFewSamples = 0.6, kNoise = 0.75, kVertexNoise = 0.5,
                      kFiltered = 0.125;
-    constexpr double kNothing = 1e-3;                  // nobody sees it
-    constexpr int kMostSamples = 16, kLeastRays = 128; // of a sample: fewer take longer
+    constexpr double kNothing = 1e-3;                  // invisible
+    constexpr int kMostSamples = 16, kLeastRays = 128; // rays per sample: fewer rays take longer
     const double between = trial.between * trial.between, noise = trial.sampling * trial.sampling;
     FitChoice best;
     double least = 0;

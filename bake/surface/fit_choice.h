@@ -1,6 +1,6 @@
 #pragma once
 
-// Whether light is better measured at vertices or over the surface between them.
+// Decides whether to measure light at vertices or over the surface between them.
 
 #include "plan.h"
 #include "prt/tracer.h"
@@ -9,19 +9,21 @@
 
 namespace prt {
 
-/// What some points between vertices tell, by rays of their own. Errors are relative L2 of direct light.
+/// Result of test points between vertices, traced with separate rays. Errors are relative L2 errors of direct
+/// light.
 struct FitTrial {
-    double between = 0;  ///< of interpolating between vertices, were these without noise
-    double sampling = 0; ///< of the rays of one receiver
+    double between = 0;  ///< interpolation error between vertices, noise removed
+    double sampling = 0; ///< noise of one receiver's rays
     std::size_t rays = 0;
 };
 
+/// Traces the test points.
 FitTrial try_fit(const BakePlan& plan, Tracer& tracer, const Progress& progress);
 
-/// How many samples a receiver's rays are best divided among, and whether that is better than one at the
-/// vertex, whose light is `filtered`.
+/// Best number of samples that share a receiver's rays, and whether they are better than light at the vertex,
+/// which is `filtered`.
 struct FitChoice {
-    int samples = 1; ///< for each receiver
+    int samples = 1; ///< samples per receiver
     bool better = false;
 };
 

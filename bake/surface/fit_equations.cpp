@@ -1,4 +1,4 @@
-// Numbers the unknowns of a mesh and writes down what samples are of them.
+// Numbers the unknowns of a mesh and creates the equations of its samples.
 
 #include "surface/fit_equations.h"
 
@@ -7,8 +7,8 @@
 namespace prt {
 namespace {
 
-/// Gives receivers that are alike one unknown, numbered in the order of the mesh. The first of them may be on
-/// no surface, where it has degenerate triangles alone.
+/// Assigns one unknown to equivalent receivers, numbered in the order of the mesh. The first of them may be
+/// on no surface if it has only degenerate triangles.
 void number_unknowns(const Receivers& receivers, std::span<const std::uint32_t> alike,
                      FitEquations& equations) {
     equations.unknown_of.assign(receivers.size(), kNoReceiver);
@@ -33,8 +33,8 @@ std::array<std::uint32_t, 3> unknowns_at(const Surfaces& surfaces, const Transpo
     return unknowns;
 }
 
-/// One for each side of a triangle, where its corners are three unknowns: needles at the pole of a sphere are
-/// of two, and bend without measure.
+/// Returns a triangle for each side whose corners are three different unknowns. Needles at the pole of a
+/// sphere have only two, and their bend is unbounded.
 std::vector<FitTriangle> triangles_over(const Surfaces& surfaces, const TransportReceivers& receivers,
                                         std::span<const std::uint32_t> unknown_of) {
     std::vector<FitTriangle> triangles;

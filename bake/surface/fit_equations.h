@@ -1,7 +1,7 @@
 #pragma once
 
-// Which values vertices must have so that their interpolation comes nearest to samples of the surface (L.
-// Kavan, A. W. Bargteil and P.-P. Sloan, "Least Squares Vertex Baking", EGSR 2011; docs/math.md, section 14).
+// Least-squares fit of vertex values whose interpolation matches samples of the surface (L. Kavan, A. W.
+// Bargteil and P.-P. Sloan, "Least Squares Vertex Baking", EGSR 2011; docs/math.md, section 14).
 
 #include "surface/smoothness.h"
 #include "surface/surface_samples.h"
@@ -14,33 +14,33 @@
 
 namespace prt {
 
-/// What a sample is of the unknowns: Σ shares_i x_i, with the weight `area`.
+/// Equation of a sample: Σ shares_i x_i, with the weight `area`.
 struct FitRow {
-    std::array<std::uint32_t, 3> unknowns; ///< kNoReceiver: none
+    std::array<std::uint32_t, 3> unknowns; ///< kNoReceiver: no unknown
     std::array<float, 3> shares;
     float area; ///< m²
 };
 
-/// The least-squares problem Σ_s a_s (Σ_i φ_i(s) x_i - T_s)². Receivers that are alike are one unknown x_i;
-/// those on no surface are none, and stay dark.
+/// The least-squares problem Σ_s a_s (Σ_i φ_i(s) x_i - T_s)². Equivalent receivers share one unknown x_i;
+/// receivers on no surface have no unknown and stay dark.
 struct FitEquations {
-    std::vector<std::uint32_t> unknown_of; ///< [receivers], kNoReceiver: none
+    std::vector<std::uint32_t> unknown_of; ///< [receivers] unknown; kNoReceiver: none
     std::size_t unknowns = 0;
     std::vector<FitRow> rows; ///< [samples]
-    std::vector<Bend> bends;  ///< of x
+    std::vector<Bend> bends;  ///< bends of x
 };
-/// `alike` [receivers]: the first receiver that each is one unknown with.
+/// Creates the equations. `alike` [receivers]: the first receiver that shares an unknown with each.
 FitEquations fit_equations(const Surfaces& surfaces, const TransportReceivers& receivers,
                            const SurfaceSamples& samples, std::span<const std::uint32_t> alike);
 
-/// What a sample is added to in b, of positive sign.
+/// Unknowns of b that a sample is added to, with positive sign.
 SumRow sum_row(const FitRow& row);
 
-/// How much weight the samples have in all that are added to each of b: [unknowns].
+/// Total weight of the samples at each unknown: [unknowns].
 std::vector<float> unknown_weights(const FitEquations& equations);
 
-/// Adds a_s φ_i(s) T_s times `sign` to b [unknowns][stride], for T of the samples from `first` on,
-/// [some][stride].
+/// Adds a_s φ_i(s) T_s times `sign` to b [unknowns][stride], for values T of the samples from `first` on,
+/// [count][stride].
 template <class Value>
 void add_samples(const FitEquations& equations, std::size_t first, std::span<const Value> samples,
                  std::size_t stride, std::span<Value> b, float sign = 1) {
@@ -57,7 +57,7 @@ void add_samples(const FitEquations& equations, std::size_t first, std::span<con
     }
 }
 
-/// The values of all receivers, [receivers][stride], of x [unknowns][stride].
+/// Copies x [unknowns][stride] to the values of all receivers, [receivers][stride].
 template <class Value>
 void spread_unknowns(const FitEquations& equations, std::span<const Value> x, std::size_t stride,
                      std::span<Value> receivers) {

@@ -1,3 +1,5 @@
+// Estimates the noise of sums over samples with random signs, and chooses smoothness weights by it.
+
 #include "surface/fit_noise.h"
 
 #include "surface/bend_weights.h"
@@ -12,10 +14,10 @@
 namespace prt {
 namespace {
 
-constexpr std::size_t kBlock = 8; ///< columns that the solver takes at once
+constexpr std::size_t kBlock = 8; ///< columns that the solver processes together
 
-/// Subtracts the samples' values at `x` [unknowns][columns] from sums of them with the signs of groups: those
-/// of residuals are left.
+/// Subtracts the fitted values at `x` [unknowns][columns] from sums of samples with the signs of groups. The
+/// result is the sums of residuals.
 void subtract_with_signs(const SurfaceSamples& samples, const FitEquations& equations,
                          std::span<const float> x, NoisySums& sums, std::uint64_t seed) {
     std::vector<float> fitted(sums.columns);

@@ -1,6 +1,6 @@
 #pragma once
 
-// Fits that bend as far as light does and its noise does not (docs/math.md, section 14).
+// Fits that follow the curvature of light but not its noise (docs/math.md, section 14).
 
 #include "surface/fit_solver.h"
 
@@ -10,24 +10,25 @@
 
 namespace prt {
 
-/// Some columns of many, and factors on their values.
+/// Selected columns that represent all columns, with factors on their values.
 struct TellingColumns {
     std::vector<std::size_t> columns;
     std::vector<float> factors;
 
     std::size_t size() const { return columns.size(); }
 };
-/// TellingColumns that stand for all of a sky, one block of the solver: of the first two bands all, since
-/// they hold the light of curved surfaces. Factors: so that sums of squares are those of all.
+/// Returns columns that represent all columns of a sky, one block of the solver: all columns of the first two
+/// bands, because they hold the light of curved surfaces, and some of the others. The factors preserve the
+/// sum of squares of all columns.
 TellingColumns columns_of_sky(std::size_t stride);
-/// Those with the largest mean `squares`, one block of the solver, each over its root mean square: so do
-/// lamps count alike.
+/// Returns the columns with the largest mean `squares`, one block of the solver, each divided by its root
+/// mean square, so that all lamps have the same weight.
 TellingColumns brightest_columns(std::span<const double> squares);
 
-/// +1 or -1 for each group of samples that share the rays of one receiver.
+/// Returns +1 or -1 for a group of samples that share the rays of one receiver.
 float sign_of_group(std::size_t group, std::uint64_t seed);
 
-/// Sums over samples, plainly and with the signs of groups, [unknowns][columns].
+/// Sums over samples, without and with the signs of groups, [unknowns][columns].
 struct NoisySums {
     std::size_t columns = 0;
     std::vector<float> plain, with_signs;
@@ -35,12 +36,14 @@ struct NoisySums {
 
 struct NoiseSolver {
     FitSolver solver;
-    std::vector<float> residuals; ///< with signs, of a first fit, [unknowns][columns]: sums of noise alone
+    std::vector<float> residuals; ///< [unknowns][columns] residuals of an initial fit with signs: sums of
+                                  ///< noise only
 };
-/// Solves with the bend weights that the noise in `sums` asks for.
+/// Creates a solver with smoothness weights for the noise in `sums`.
 NoiseSolver noise_solver(const SurfaceSamples& samples, const FitEquations& equations, NoisySums sums,
                          std::uint64_t seed, int threads);
-/// The same for light of lamps, whose `values` at samples are [samples][columns].
+/// Creates a solver with smoothness weights for light of lamps, from its `values` at samples
+/// [samples][columns].
 FitSolver lamp_solver(const SurfaceSamples& samples, const FitEquations& equations,
                       std::span<const float> values, std::size_t columns, std::uint64_t seed, int threads);
 

@@ -1,6 +1,6 @@
-// Solves the normal equations by conjugate gradients with Jacobi's preconditioner (Hestenes and Stiefel
-// 1952), some columns at a time, so that the matrix is read once for all of them. The diagonal of a mass
-// matrix is so near to it that some tens of steps are enough, which takes less than to factor it.
+// Solves the normal equations by conjugate gradients with the Jacobi preconditioner (Hestenes and Stiefel
+// 1952), several columns at a time, so that the matrix is read once for all of them. The diagonal of a mass
+// matrix is a good approximation, so that a few dozen steps suffice, which is faster than a factorisation.
 
 #include "surface/fit_solver.h"
 
@@ -15,10 +15,10 @@ namespace {
 
 using Matrix = Eigen::SparseMatrix<double, Eigen::RowMajor>;
 
-constexpr std::size_t kColumns = 8; ///< solved together
+constexpr std::size_t kColumns = 8; ///< number of columns solved together
 using Columns [[gnu::vector_size(kColumns * sizeof(double))]] = double;
 
-constexpr int kMaxSteps = 500; ///< for triangles that are needles
+constexpr int kMaxSteps = 500; ///< needed for needle-shaped triangles
 
 Matrix normal_matrix(const FitEquations& equations, std::span<const float> bend_weights) {
     std::vector<Eigen::Triplet<double>> entries;
@@ -29,7 +29,7 @@ Matrix normal_matrix(const FitEquations& equations, std::span<const float> bend_
         else
             entries.emplace_back(static_cast<int>(i), static_cast<int>(j), value);
     };
-    // A triangle of one sample that shares no edge has no other values than that of the sample.
+    // A triangle with one sample and no shared edge takes the value of the sample everywhere.
     constexpr double kSlope = 1e-5;
     for (const FitRow& row : equations.rows)
         for (std::size_t i = 0; i < 3; ++i)
@@ -47,7 +47,7 @@ Matrix normal_matrix(const FitEquations& equations, std::span<const float> bend_
                     static_cast<double>(bend_weights[e]) * static_cast<double>(bend.area) *
                         static_cast<double>(bend.factors[i]) * static_cast<double>(bend.factors[j]));
     }
-    constexpr double kRidge = 1e-9; // of what is there: what nothing tells of stays finite
+    constexpr double kRidge = 1e-9; // relative to the diagonal: undetermined unknowns stay finite
     for (std::size_t i = 0; i < diagonal.size(); ++i)
         entries.emplace_back(static_cast<int>(i), static_cast<int>(i),
                              diagonal[i] > 0 ? diagonal[i] * (1 + kRidge) : 1.0);
@@ -61,7 +61,8 @@ Matrix normal_matrix(const FitEquations& equations, std::span<const float> bend_
 
 struct FitSolver::System {
     Matrix matrix;
-    std::vector<double> inverse_diagonal, inverse_sum; ///< [unknowns], of the row; 0 where it is not positive
+    std::vector<double> inverse_diagonal, inverse_sum; ///< [unknowns] reciprocals of the diagonal and of the
+                                                       ///< row's sum; 0 if the sum is not positive
 
     System(const FitEquations& equations, std::span<const float> bend_weights)
         : matrix(normal_matrix(equations, bend_weights)) {
@@ -100,7 +101,7 @@ void FitSolver::System::solve(std::span<Columns> b_then_x, double tolerance) con
     Columns squared_b{}, squared{};
     for (std::size_t i = 0; i < count; ++i) {
         squared_b += residual[i] * residual[i] * inverse_diagonal[i];
-        x[i] = residual[i] * inverse_sum[i]; // the mean of the samples around it
+        x[i] = residual[i] * inverse_sum[i]; // mean of the samples around the unknown
     }
     for (std::size_t i = 0; i < count; ++i) {
         residual[i] -= row_times(i, x);

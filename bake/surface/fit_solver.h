@@ -1,5 +1,7 @@
 #pragma once
 
+// Solver of the equations of a surface fit.
+
 #include "surface/fit_equations.h"
 
 #include <memory>
@@ -11,17 +13,19 @@ namespace prt {
 /// thread-safe.
 class FitSolver {
 public:
-    /// `bend_weights` [bends]: w_e, what bending costs against squared error over the surface.
+    /// `bend_weights` [bends]: w_e, the cost of bends relative to the squared error over the surface.
     FitSolver(const FitEquations& equations, std::span<const float> bend_weights);
     ~FitSolver();
     FitSolver(FitSolver&&) noexcept;
     FitSolver& operator=(FitSolver&&) noexcept;
 
-    /// Norms of the residual, weighted by the inverse diagonal, over that of b: less changes no error of the
-    /// surface in four digits; what tells noise and bends; and what filters noise.
+    /// Tolerances of the norm of the residual, weighted by the inverse diagonal, relative to that of b.
+    /// kPrecise changes no error over the surface in four digits; kEstimate is for estimating noise and
+    /// bends; kRough is for filtering noise.
     static constexpr double kPrecise = 1e-5, kEstimate = 1e-3, kRough = 3e-3;
 
-    /// Replaces b by x, [unknowns][stride]; zero where no sample tells. Deterministic, whatever the threads.
+    /// Replaces b by x, [unknowns][stride]; zero for unknowns without samples. Deterministic for any number
+    /// of threads.
     void solve(std::span<float> b_then_x, std::size_t stride, int threads, double tolerance = kPrecise) const;
     void solve(std::span<double> b_then_x, std::size_t stride, int threads,
                double tolerance = kPrecise) const;

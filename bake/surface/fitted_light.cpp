@@ -1,4 +1,4 @@
-// Traces samples of the surface layer by layer, and solves for what receivers must have.
+// Traces samples of the surface layer by layer, and solves for the values of receivers.
 
 #include "surface/fitted_light.h"
 
@@ -22,8 +22,8 @@
 namespace prt {
 namespace {
 
-/// Light at samples: summed for the equations, plainly and with a random sign for each group of samples that
-/// share the rays of one receiver; and by its test values.
+/// Light at samples, summed for the equations without and with a random sign for each group of samples that
+/// share the rays of one receiver; and the test values of the samples.
 struct SampleSums {
     std::vector<float> b, signed_b; ///< [unknowns][order²]
     std::vector<float> values;      ///< [samples][tests]
@@ -48,7 +48,7 @@ public:
         } catch (const GpuFailure&) {
             if (tracer_.backend() == Backend::gpu)
                 throw;
-            direct.gather.reset(); // what the GPU had summed is gone
+            direct.gather.reset(); // sums on the GPU are lost
             direct.lamps.reset();
             direct.rays = 0;
             sums = trace_layers(direct, progress);
@@ -90,7 +90,7 @@ private:
             direct.lamps.emplace(plan_, samples_.size(), false);
     }
 
-    /// Each layer takes a part of its own of its receivers' nets.
+    /// Traces a layer, which uses a separate part of its receivers' nets.
     void trace_layer(std::size_t k, DirectLight& direct, SampleSums& sums, VectorSums* on_device,
                      const Progress& progress) {
         const Receivers layer = samples_.layer(k);
@@ -151,10 +151,10 @@ private:
     const LampConnections* lamps_; ///< may be null
     TestValues tests_;
     std::size_t stride_;
-    int rays_; ///< of a sample
+    int rays_; ///< rays per sample
 };
 
-/// Receivers of which all samples are sealed in, and what becomes of them.
+/// Returns receivers whose samples are all sealed in, and their repair.
 SealedIn sealed_receivers(const BakePlan& plan, const FitEquations& equations, const Sealed& sealed) {
     SealedIn result;
     result.rays = sealed.rays;
@@ -185,7 +185,8 @@ void leave_out(const Sealed& sealed, FitEquations& equations) {
             equations.rows[s].unknowns.fill(kNoReceiver);
 }
 
-/// Sums of `from`, in which every receiver is an unknown, for `to`, in which some are one.
+/// Converts sums of `from`, in which every receiver is an unknown, to those of `to`, in which some receivers
+/// share one.
 std::vector<float> joined_sums(const FitEquations& from, const FitEquations& to, std::size_t stride,
                                std::span<const float> sums) {
     std::vector<float> joined(to.unknowns * stride);
@@ -195,7 +196,7 @@ std::vector<float> joined_sums(const FitEquations& from, const FitEquations& to,
     return joined;
 }
 
-/// Some columns of `all` [unknowns][stride], with their factors.
+/// Extracts some columns of `all` [unknowns][stride], multiplied by their factors.
 std::vector<float> columns_of(std::span<const float> all, std::size_t stride, const TellingColumns& some) {
     std::vector<float> result;
     result.reserve(all.size() / stride * some.columns.size());
@@ -205,7 +206,7 @@ std::vector<float> columns_of(std::span<const float> all, std::size_t stride, co
     return result;
 }
 
-/// Transfer of all receivers from values of unknowns.
+/// Converts values of unknowns to transfer of all receivers.
 Transfer of_receivers(const BakePlan& plan, const FitEquations& equations, std::span<const float> x) {
     Transfer transfer = zero_transfer(plan.options.order, 1, plan.receivers().size());
     spread_unknowns(equations, x, transfer.dimension(), std::span(transfer.vectors));
@@ -223,14 +224,14 @@ double weighted_square(const BakePlan& plan, const FitEquations& equations, std:
     return sum;
 }
 
-/// Distant light at the samples, and the solver for it.
+/// Distant light at the samples, and its solver.
 struct FittedSky {
     FitSolver solver;
     SampledLight light;
-    double noise; ///< relative L2 in the sharp values
+    double noise; ///< relative L2 noise in the sharp values
 };
 
-/// Solves for distant light with the bend weights that its noise asks for.
+/// Solves for distant light with smoothness weights for its noise.
 FittedSky fit_sky(const BakePlan& plan, const SurfaceSamples& samples, const FitEquations& equations,
                   SampleSums sums) {
     const int threads = plan.options.threads;
@@ -251,7 +252,7 @@ FittedSky fit_sky(const BakePlan& plan, const SurfaceSamples& samples, const Fit
             norm > 0 ? std::sqrt(error / norm) : 0};
 }
 
-/// Light of lamps at the vertices, smooth, from that at the samples.
+/// Computes smooth light of lamps at the vertices from light at the samples.
 LampLight smooth_lamps(const BakePlan& plan, const FitEquations& equations, const LampLight& at_samples) {
     const std::size_t stride = at_samples.transfer.dimension();
     LampLight light{zero_transfer(at_samples.transfer.layout, plan.receivers().size()), at_samples.rays};
@@ -322,7 +323,7 @@ FittedLight trace_fitted(const BakePlan& plan, Tracer& tracer, LastOfLamps last,
 
     FittedSky sky = fit_sky(plan, samples, equations, std::move(sums));
     std::optional<FitSolver> of_lamps;
-    if (!plan.lamps.empty()) // their light bends elsewhere
+    if (!plan.lamps.empty()) // the edges of their shadows are elsewhere
         of_lamps.emplace(equations, std::vector<float>(equations.bends.size(), kPlainBendWeight));
     MeasuredLamps lit_by_lamps = measured_lamps(plan, equations, lamps);
     std::vector<float> weights = unknown_weights(equations);

@@ -1,6 +1,6 @@
 #pragma once
 
-// Direct light measured by samples over the surface, and fitted to receivers.
+// Measures direct light with samples over the surface and fits it to receivers.
 
 #include "direct.h"
 #include "lamps/lamp_light.h"
@@ -9,20 +9,20 @@
 
 namespace prt {
 
-/// Light of lamps without a bounce, of the receivers of a plan.
+/// Light of lamps without a bounce, for the receivers of a plan.
 struct MeasuredLamps {
-    LampLight light;      ///< smooth where there is a fit
-    SampledLight sampled; ///< the same at the samples of a fit
+    LampLight light;      ///< smooth values if there is a fit
+    SampledLight sampled; ///< light of lamps at the samples of a fit
 };
 struct FittedLight {
-    DirectLight direct; ///< smooth values of receivers; the rows of its gather are those of the samples
-    SampledLight sky;   ///< the same at the samples, of one channel
+    DirectLight direct; ///< smooth values of receivers; the rows of its gather operator are samples
+    SampledLight sky;   ///< direct light at the samples, one channel
     MeasuredLamps lamps;
     SurfaceFit fit;
-    SealedIn sealed; ///< receivers without a sample outside of geometry
+    SealedIn sealed; ///< receivers without a sample outside geometry
 };
 
-/// Divides the rays of receivers among `samples` each. The gather operator keeps references to `plan`.
+/// Divides the rays of each receiver among `samples` samples. The gather operator keeps references to `plan`.
 FittedLight trace_fitted(const BakePlan& plan, Tracer& tracer, LastOfLamps last, int samples,
                          const Progress& progress);
 

@@ -1,3 +1,5 @@
+// Filters light with the equations of a surface fit that has a sample at each receiver.
+
 #include "surface/noise_filter.h"
 
 #include "prt/sh_basis.h"
@@ -12,8 +14,7 @@
 namespace prt {
 namespace {
 
-/// A sample at a corner of each triangle side for the receiver there, once for each receiver that is asked
-/// for.
+/// Creates one sample for each receiver that is not left out, at a corner of a triangle side.
 SurfaceSamples samples_at_receivers(const BakePlan& plan, const std::vector<bool>& left_out,
                                     std::vector<std::uint32_t>& receivers) {
     const Surfaces& surfaces = plan.scene.surfaces();
@@ -37,7 +38,7 @@ SurfaceSamples samples_at_receivers(const BakePlan& plan, const std::vector<bool
     return samples;
 }
 
-/// Light that passes is more than what rays gathered.
+/// Leaves out receivers on thin sheets: transmitted light is not in the light gathered by their rays.
 void leave_out_sheets(const BakePlan& plan, std::vector<bool>& left_out) {
     const Surfaces& surfaces = plan.scene.surfaces();
     for (std::uint32_t t = 0; t < surfaces.triangles(); ++t)
@@ -123,7 +124,7 @@ void NoiseFilter::limit(std::span<const float> means, std::size_t columns, std::
                     high[u * columns + c] = std::max(high[u * columns + c], means[v * columns + c]);
                 }
     for (std::size_t i = 0; i < x.size(); ++i)
-        // Exact zeros stay: the filter adds no light where no ray met any.
+        // Exact zeros are kept: the filter adds no light where no ray found any.
         x[i] = means[i] == 0 ? 0 : std::clamp(x[i], low[i], high[i]);
 }
 
@@ -143,7 +144,7 @@ void NoiseFilter::apply_to(const FitSolver& solver, const TellingColumns& column
 
 void NoiseFilter::apply(const FitSolver& solver, std::size_t columns, const Values& light,
                         const Write& write) const {
-    constexpr std::size_t kBlock = 8; // columns of the solver, which keeps little in memory
+    constexpr std::size_t kBlock = 8; // columns of the solver; blocks limit the memory
     parallel_for((columns + kBlock - 1) / kBlock, 1, threads_, [&](std::size_t begin, std::size_t end) {
         for (std::size_t block = begin; block < end; ++block) {
             TellingColumns some;

@@ -1,4 +1,4 @@
-// Finds vertices at one place that see different light.
+// Finds vertices at one position with different light.
 
 #include "surface/separated_receivers.h"
 
@@ -8,18 +8,18 @@
 namespace prt {
 namespace {
 
-/// A receiver at a place, by the samples of its own triangles.
+/// A receiver at a position, with the range of its own samples.
 struct Member {
     std::uint32_t receiver;
-    float low, high; ///< of a test value
+    float low, high; ///< range of a test value
 };
 
-/// Finds steps of a test value that noise does not explain.
+/// Finds steps of a test value that exceed its noise.
 class Step {
 public:
     explicit Step(int rays) : rays_(static_cast<float>(rays)) {}
 
-    /// Number of `members` below the largest step. `members` are sorted by value. 0: no step.
+    /// Returns the number of `members` below the largest step; 0: no step. `members` are sorted by value.
     std::size_t find(std::span<const Member> members) const {
         std::size_t best = 0;
         float widest = 0, high = members[0].high;
@@ -34,8 +34,8 @@ public:
     }
 
 private:
-    /// Light of one side differs from that of the other by more than it varies on either, by chance and by
-    /// what one sees. Where one side is closed, any light is too much.
+    /// Whether the light of both sides differs by more than its variation on either side, by more than noise,
+    /// and visibly. If one side is dark, any light on the other is a step.
     bool is_step(std::span<const Member> below, std::span<const Member> above) const {
         const auto low = [](std::span<const Member> side) {
             return std::ranges::min(side, {}, &Member::low).low;
@@ -55,7 +55,7 @@ private:
     float rays_;
 };
 
-/// Splits the receivers at one place until no test value has a step between them.
+/// Splits the receivers at one position until no test value has a step between them.
 class Separation {
 public:
     Separation(const ValueRanges& ranges, std::size_t tests, const FitEquations& equations, int rays)
@@ -86,7 +86,7 @@ public:
     }
 
 private:
-    /// Receivers that have samples, sorted by value.
+    /// Receivers with samples, sorted by value.
     std::vector<Member> members_of(std::span<const std::uint32_t> place, std::size_t test) const {
         std::vector<Member> members;
         for (const std::uint32_t p : place) {

@@ -1,4 +1,4 @@
-// Compares the slopes of neighbouring triangles, unfolded along the edge that they share.
+// Compares the slopes of adjacent triangles, unfolded along their shared edge.
 
 #include "surface/smoothness.h"
 
@@ -10,15 +10,15 @@
 namespace prt {
 namespace {
 
-/// A foot so many lengths of an edge away from it is rounding: corners, which are floats, have seven digits.
-/// What is made of it is a float.
+/// Maximum distance of a foot from an edge, in lengths of the edge: corners are floats with seven digits, so
+/// that a larger distance is rounding. The resulting factors must be floats.
 constexpr double kFarthestFoot = 1e18;
 
-/// An edge of a triangle, seen from it.
+/// An edge of a triangle with the slope of the triangle.
 struct Slope {
     std::uint32_t low, high; ///< unknowns at the ends of the edge
-    std::uint32_t opposite;  ///< unknown at the other corner
-    double share;            ///< of `high` in the foot of that corner on the edge
+    std::uint32_t opposite;  ///< unknown at the opposite corner
+    double share;            ///< share of `high` at the foot of that corner on the edge
     double height, area;
 };
 

@@ -1,6 +1,6 @@
 #pragma once
 
-// How much a function bends across the edges of a mesh.
+// Bends of a function across the edges of a mesh.
 
 #include <glm/vec3.hpp>
 
@@ -11,23 +11,23 @@
 
 namespace prt {
 
-/// A triangle over unknowns.
+/// A triangle with its unknowns.
 struct FitTriangle {
     std::array<std::uint32_t, 3> unknowns;
     std::array<glm::dvec3, 3> corners;
 };
 
 /// The bend of a function x across an edge, Σ factors_i x_i over the corners of the two triangles that share
-/// it: h (∂x/∂n + ∂x/∂n'), where ∂/∂n are the slopes in their planes away from the edge, and h the harmonic
-/// mean of their heights over it. It is zero where x is linear over the unfolded triangles (Kavan, Bargteil
-/// and Sloan 2011, times h, so that the size of triangles does not matter).
+/// it: h (∂x/∂n + ∂x/∂n'), where ∂/∂n are the slopes in their planes away from the edge, and h is the
+/// harmonic mean of their heights over it. It is zero if x is linear over the unfolded triangles (Kavan,
+/// Bargteil and Sloan 2011, multiplied by h, so that it does not depend on the size of triangles).
 struct Bend {
     std::array<std::uint32_t, 4> unknowns;
     std::array<float, 4> factors;
-    float area; ///< of the two triangles, m²
+    float area; ///< area of the two triangles, m²
 };
 
-/// Of all edges that two triangles share.
+/// Returns the bends of all edges that two triangles share.
 std::vector<Bend> bends_of(std::span<const FitTriangle> triangles);
 
 } // namespace prt

@@ -1,11 +1,11 @@
-// Fits light to samples, within their range.
+// Fits light to samples within the range of the samples.
 
 #include "surface/surface_fit.h"
 
 namespace prt {
 namespace {
 
-/// `few` [count][columns of few] beside each of the channels of `many`, added to it.
+/// Adds `few` [count][few_stride] to each channel of `many` [count][many_stride].
 void add_to_channels(std::span<const float> few, std::size_t few_stride, std::span<float> many,
                      std::size_t many_stride) {
     for (std::size_t i = 0; i * many_stride < many.size(); ++i)
@@ -25,7 +25,7 @@ SharpFit::Values SharpFit::values_of(const SampledLight& light, const FitSolver&
     return values;
 }
 
-/// Leaves the mix in `values.sharp`.
+/// Mixes smooth and sharp values; the result is in `values.sharp`.
 void SharpFit::mix(const TestValues& tests, std::span<const float> shares, Values& values) const {
     const std::size_t unknowns = fit_.equations.unknowns,
                       stride = unknowns > 0 ? values.sharp.size() / unknowns : 0;

@@ -1,5 +1,7 @@
 #pragma once
 
+// Operators from light at samples of the surface to light at receivers.
+
 #include "surface/fit_solver.h"
 #include "surface/value_limits.h"
 
@@ -7,7 +9,7 @@
 
 namespace prt {
 
-/// Divides sums over samples [unknowns][stride] by `weights` [unknowns]; zero where there are none.
+/// Divides sums over samples [unknowns][stride] by `weights` [unknowns]; zero for a zero weight.
 template <class Value>
 void smooth(std::span<const float> weights, std::span<Value> sums_then_values, std::size_t stride) {
     for (std::size_t u = 0; u < weights.size(); ++u)
@@ -17,34 +19,35 @@ void smooth(std::span<const float> weights, std::span<Value> sums_then_values, s
         }
 }
 
-/// Samples of the surface, and the operators from light at them to light at receivers (section 14 of
-/// docs/math.md). The smooth one takes the mean of the samples around each vertex: it adds no light, so that
-/// bounces use it. The sharp one is nearest to the samples over the surface, and is for values that are
+/// Samples of the surface, and the operators from light at samples to light at receivers (section 14 of
+/// docs/math.md). The smooth operator computes the mean of the samples around each vertex: it adds no light,
+/// so bounces use it. The sharp operator minimises the error at the samples, and is for values that are
 /// written.
 struct SurfaceFit {
     SurfaceSamples samples;
     FitEquations equations;
-    std::vector<float> weights;     ///< [unknowns] of all samples
-    FitSolver sky;                  ///< of distant light
-    std::optional<FitSolver> lamps; ///< of light of lamps without a bounce, where there are lamps
+    std::vector<float> weights;     ///< [unknowns] total weight of the samples
+    FitSolver sky;                  ///< solver for distant light
+    std::optional<FitSolver> lamps; ///< solver for light of lamps without a bounce, if there are lamps
 
-    /// Smooth values [unknowns][stride] from sums over samples.
+    /// Converts sums over samples to smooth values [unknowns][stride].
     template <class Value>
     void smooth(std::span<Value> sums_then_values, std::size_t stride) const {
         prt::smooth(weights, sums_then_values, stride);
     }
 };
 
-/// Light without a bounce and the rest of it, [unknowns][stride] each.
+/// Light without a bounce and bounced light, [unknowns][stride] each.
 struct SharpLight {
     std::vector<float> direct, rest;
 };
 
-/// Sharp values, limited so that direct light, the rest and their sum stay within the values of the samples.
-/// `rest` may be null; its channels are those of `direct`, or any number where `direct` has one.
+/// Computes sharp values, limited so that direct light, bounced light and their sum stay within the values of
+/// the samples. `rest` may be null; it has the channels of `direct`, or any number of channels if `direct`
+/// has one.
 class SharpFit {
 public:
-    /// One solver keeps the sum of both parts what it is.
+    /// If both solvers are the same, the sum of both parts is preserved.
     SharpFit(const SurfaceFit& fit, const FitSolver& of_direct, const FitSolver& of_rest, int threads)
         : fit_(fit), of_direct_(of_direct), of_rest_(of_rest), threads_(threads) {}
     SharpLight solve(const TestValues& of_direct, const SampledLight& direct, const TestValues* of_rest,

@@ -1,4 +1,4 @@
-// Spreads samples over triangles by their area, one at least on each.
+// Spreads samples over triangles by area, with at least one on each triangle.
 
 #include "surface/surface_samples.h"
 
@@ -13,7 +13,7 @@
 namespace prt {
 namespace {
 
-/// Normal of a triangle's front, as long as twice its area.
+/// Normal of a triangle's front, with twice its area as length.
 glm::dvec3 doubled_area(const Receivers& receivers, const glm::uvec3& c) {
     const glm::dvec3 a(receivers.positions[c.x]), b(receivers.positions[c.y]), d(receivers.positions[c.z]);
     return glm::cross(b - a, d - a);
@@ -32,7 +32,7 @@ std::vector<Sample> spread_samples(const Surfaces& surfaces, const TransportRece
     double area = 0;
     for (const TriangleSide& side : sides)
         area += side.area;
-    // What is left of the samples once each side has its one goes by area.
+    // Samples in excess of one per side are distributed by area.
     const auto spare = static_cast<double>(spread.count - std::min(spread.count, sides.size()));
     const double per_area = area > 0 ? spare / area : 0;
     std::vector<Sample> samples;
@@ -56,7 +56,7 @@ std::vector<Sample> spread_samples(const Surfaces& surfaces, const TransportRece
     return samples;
 }
 
-/// The mean of the corners' normals by shares; those of the plane where they cancel.
+/// Returns the interpolated normal, or the normal of the plane if the corners' normals cancel.
 glm::vec3 normal_at(const Receivers& receivers, const glm::uvec3& corners, const SamplePlace& place,
                     const glm::vec3& of_plane) {
     glm::vec3 sum(0);
@@ -95,7 +95,8 @@ std::uint32_t side_hash(const TriangleSide& side, std::uint64_t seed) {
 }
 
 glm::vec2 even_point(std::uint32_t hash, std::size_t i) {
-    // Powers of the inverse of the plastic number: the two-dimensional sequence that is most even.
+    // Powers of the inverse of the plastic number: the two-dimensional sequence with the lowest discrepancy
+    // of its kind.
     constexpr double kPlastic = 1.32471795724474602596;
     const glm::dvec2 step(1 / kPlastic, 1 / (kPlastic * kPlastic));
     const glm::dvec2 offset((hash >> 16) / 65536.0, (hash & 0xffff) / 65536.0);

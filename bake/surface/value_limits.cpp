@@ -1,4 +1,4 @@
-// Mixes sharp values with smooth ones until they lie within those of the samples.
+// Mixes sharp values with smooth ones until they are within the range of the samples.
 
 #include "surface/value_limits.h"
 
@@ -14,15 +14,15 @@
 namespace prt {
 namespace {
 
-/// Share of the largest value by which any value may leave the range: rounding of sums must not undo a fit
-/// where light is even.
+/// Tolerance of the range relative to the largest value: rounding of sums must not affect a fit where light
+/// is uniform.
 constexpr float kSlack = 2e-4f;
-/// Share of the range by which values that are not exact may leave it: a half keeps nearly all of what a fit
-/// gains, measured on four scenes.
+/// Share of the range by which values that are not exact may exceed it: a half preserves almost all of the
+/// fit's gain, measured on four scenes.
 constexpr float kOvershoot = 0.5f;
 constexpr float kUnbounded = std::numeric_limits<float>::infinity();
 
-/// Coefficients of a light that is symmetric about `axis`, of Legendre factors f_l.
+/// Coefficients of a light that is symmetric about `axis`, with Legendre factors f_l.
 std::vector<float> zonal_light(int bands, const glm::dvec3& axis, const std::array<double, 3>& factors) {
     std::vector<double> basis(static_cast<std::size_t>(coefficient_count(bands)));
     evaluate_sh(bands, axis, basis);
@@ -35,8 +35,8 @@ std::vector<float> zonal_light(int bands, const glm::dvec3& axis, const std::arr
     return light;
 }
 
-/// Uniform light of radiance 1; then, along both directions of each axis, (1 + cos)² / 4, or (1 + cos) / 2
-/// where there are two bands.
+/// Test lights: uniform light of radiance 1; then, along both directions of each axis, (1 + cos)² / 4, or (1
+/// + cos) / 2 if there are only two bands.
 std::vector<std::vector<float>> test_lights(int order) {
     const int bands = std::min(order, 3);
     std::vector<std::vector<float>> lights{zonal_light(1, {0, 0, 1}, {1, 0, 0})};

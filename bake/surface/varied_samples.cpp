@@ -1,4 +1,4 @@
-// Spreads samples by the error that interpolation may have at them.
+// Spreads samples by their possible interpolation error.
 
 #include "surface/varied_samples.h"
 
@@ -11,7 +11,7 @@
 namespace prt {
 namespace {
 
-/// Weight of a sample where vertices agree, in mean squares.
+/// Weight of a sample if the vertices agree, in mean squares.
 constexpr double kMinLikely = 0.02;
 
 /// Mean square of each column over the surface.
@@ -31,7 +31,8 @@ std::vector<double> mean_squares(const TransportReceivers& receivers, const Choi
     return means;
 }
 
-/// Squared differences between the corners of a sample's triangle, each over the mean square of its column.
+/// Squared differences between the corners of a sample's triangle, each relative to the mean square of its
+/// column.
 double variation(const glm::uvec3& corners, const ChoiceValues& light, std::span<const double> means) {
     double sum = 0;
     for (std::size_t c = 0; c < light.columns; ++c) {
@@ -48,7 +49,7 @@ double variation(const glm::uvec3& corners, const ChoiceValues& light, std::span
     return sum > 0 ? sum : kMinLikely;
 }
 
-/// Adds to what each side may contribute so that every node has as much again as its share of all nodes.
+/// Increases the weights of the sides so that half of the total weight is shared equally among nodes.
 void share_among_nodes(const Surfaces& surfaces, std::span<const TriangleSide> sides,
                        std::vector<double>& likely) {
     std::map<int, double> of_nodes;

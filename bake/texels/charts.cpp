@@ -1,3 +1,5 @@
+// Maps triangles to the texels of an atlas.
+
 #include "texels/charts.h"
 
 #include "prt/support/error.h"
@@ -13,7 +15,7 @@
 namespace prt {
 namespace {
 
-/// Programs round what they place at a border.
+/// Tolerance at the border of a texture, because programs round coordinates there.
 constexpr double kOutside = 1e-4;
 
 double cross(const glm::dvec2& a, const glm::dvec2& b) {
@@ -32,12 +34,12 @@ glm::dvec2 checked(const glm::dvec2& at, const glm::dvec2& tile, const Primitive
     return glm::dvec2(std::clamp(uv.x, 0.0, 1.0) * atlas.width, std::clamp(uv.y, 0.0, 1.0) * atlas.height);
 }
 
-/// Textures repeat: the square that the middle of the triangle lies in, by its corner.
+/// Textures repeat: returns the corner of the square that contains the centroid of the triangle.
 glm::dvec2 tile_of(const std::vector<glm::vec2>& uv, const glm::uvec3& t) {
     return glm::floor((glm::dvec2(uv[t.x]) + glm::dvec2(uv[t.y]) + glm::dvec2(uv[t.z])) / 3.0);
 }
 
-/// The coordinates that an atlas uses; throws where there are none.
+/// Returns the coordinates that an atlas uses. Throws `Error` if there are none.
 const std::vector<glm::vec2>& coordinates(const Scene& scene, const Primitive& primitive, int uv_set) {
     const auto& sets = scene.vertex_arrays[primitive.vertices].texcoords;
     const auto set = static_cast<std::size_t>(uv_set);

@@ -1,6 +1,6 @@
 #pragma once
 
-// The triangles of an atlas where they lie in it.
+// Triangles of an atlas in texel coordinates.
 
 #include "prt/texels.h"
 
@@ -18,14 +18,15 @@ struct ChartTriangle {
     std::array<glm::dvec2, 3> corners;
 };
 
-/// Throws `Error` where a primitive lacks the coordinates, and where a triangle crosses the border of the
-/// texture. Those that lie in another square than 0..1 as a whole are where the texture repeats.
+/// Returns the triangles of the atlas. Throws `Error` if a primitive lacks the coordinates, or if a triangle
+/// crosses the border of the texture. Triangles that are completely in another square than 0..1 are in a
+/// repetition of the texture.
 std::vector<ChartTriangle> chart_triangles(const Scene& scene, const Atlas& atlas);
-/// Whether some do.
+/// Whether any triangle is in a repetition of the texture.
 bool repeats(const Scene& scene, const Atlas& atlas);
 
-/// Barycentric coordinates of corners 1 and 2 of `point`, and the least distance to an edge, positive inside.
-/// Of triangles without an area the distance is negative.
+/// Barycentric coordinates of corners 1 and 2 of `point`, and the minimum distance to an edge, positive
+/// inside. The distance is negative for triangles without area.
 struct InTriangle {
     glm::dvec2 uv{0};
     double depth = -1;

@@ -1,3 +1,5 @@
+// Fills texels without values from their neighbours.
+
 #include "texels/gutters.h"
 
 #include <algorithm>

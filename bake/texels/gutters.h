@@ -1,5 +1,7 @@
 #pragma once
 
+// Values of texels between charts.
+
 #include "prt/texels.h"
 
 #include <span>
@@ -7,8 +9,8 @@
 
 namespace prt {
 
-/// Gives texels that are not `filled` the mean of their neighbours that are, ring by ring until all are:
-/// `values` [texels][stride]. Filters then meet no texel that nobody measured.
+/// Replaces the values of texels that are not `filled` by the mean of their filled neighbours, ring by ring
+/// until all are filled: `values` [texels][stride]. Filters then read no unmeasured texel.
 void fill_gutters(const Atlas& atlas, std::vector<bool> filled, std::span<float> values, std::size_t stride);
 
 } // namespace prt

@@ -31,15 +31,15 @@
 namespace prt {
 namespace {
 
-/// Vertices that light bounces between lie at most so many texels apart; there are some 64 times fewer of
-/// them than texels then. Measured on three.js's collision-world with 256 x 256 texels, 1 024 rays and all
-/// bounces, relative L2 of the radiance under three skies, suns apart, against 2 texels: with 4, 8, 16 and 32
-/// texels 0.4, 1.1 to 1.3, 1.5 to 1.9 and 1.9 to 2.4 %, from 14 842, 7 452, 5 488 and 4 996 vertices, 41 548
-/// with 2. The demo's room, against one texel: 0.1 to 0.4 % with 2, 0.3 to 0.7 % with 4, 0.4 to 0.8 % with 8
-/// and more, since no edge of it is longer.
+/// Maximum distance in texels of the vertices that light bounces between; there are then about 64 times fewer
+/// vertices than texels. Measured on three.js's collision-world with 256 x 256 texels, 1 024 rays and all
+/// bounces, relative L2 of the radiance under three skies without suns, compared with 2 texels: with 4, 8, 16
+/// and 32 texels 0.4, 1.1 to 1.3, 1.5 to 1.9 and 1.9 to 2.4 %, from 14 842, 7 452, 5 488 and 4 996 vertices,
+/// 41 548 with 2. The demo's room, compared with one texel: 0.1 to 0.4 % with 2, 0.3 to 0.7 % with 4, 0.4 to
+/// 0.8 % with 8 and more, because none of its edges is longer.
 constexpr double kTexelsBetweenSources = 8;
-/// Rows of the gather that are there at a time take about so many bytes at most.
-constexpr double kBytesOfRows = 1e9; ///< of rows of one gather; lamps have more beside them
+/// Approximate maximum number of bytes of the gather rows that exist at a time.
+constexpr double kBytesOfRows = 1e9; ///< for the rows of one gather; lamps need additional memory
 
 /// A side of a texel, metres, in the mean of all.
 double texel_size(const TexelPlaces& places, const std::vector<std::vector<ChartTriangle>>& charts) {
@@ -52,7 +52,8 @@ double texel_size(const TexelPlaces& places, const std::vector<std::vector<Chart
     return texels > 0 ? std::sqrt(surface / texels) : 0;
 }
 
-/// Leaves and media are known at vertices alone: what passes them was scattered on the other side.
+/// Throws `Error` for leaves and media, which are supported at vertices only: their light was scattered on
+/// the other side.
 void check_materials(const Scene& scene, const Media& media) {
     for (const Primitive& primitive : scene.primitives) {
         const Material& material = scene.materials[primitive.material];
@@ -72,8 +73,8 @@ void check_texel_options(const BakeOptions& options) {
         throw Error("an error to reach is one of vertices: give texels a number of rays");
 }
 
-/// Dense values of the largest map, then three times those of all receivers: apart, in parts, and in the
-/// file. Counted, not measured.
+/// Checks the memory of dense values of the largest map and of three times the values of all receivers:
+/// separately, in parts, and in the file. Calculated, not measured.
 void check_room(const std::vector<Atlas>& atlases, std::size_t numbers, double limit) {
     double largest = 0, all = 0;
     for (const Atlas& atlas : atlases) {
@@ -104,7 +105,7 @@ std::uint32_t most_read(const BilinearTexels& filter) {
     return filter.texels[std::max_element(filter.weights, filter.weights + 4) - filter.weights];
 }
 
-/// Lightmaps on their way, map behind map.
+/// Bakes lightmaps, one map after another.
 class LightmapBaker {
 public:
     LightmapBaker(const Scene& scene, const std::vector<Atlas>& atlases, const BakeOptions& options,
@@ -192,7 +193,7 @@ private:
         noise_.texels += measured;
     }
 
-    /// Fills and stitches the light of a map and keeps what filters read.
+    /// Fills the gutters of a map, closes its seams, and keeps the texels that filters read.
     void take(std::size_t a, std::size_t first, const TexelPlaces& places,
               std::span<const TexelSample> samples, TexelLight light, const TexelTransport& transport) {
         const Atlas& atlas = atlases_[a];
@@ -241,7 +242,7 @@ private:
         }
     }
 
-    /// Where sampling errs: the direct light of single places, with the rays of a texel.
+    /// Estimates the sampling error of direct light at single positions, with the rays of a texel.
     void estimate_error(Tracer& tracer, const TexelPlaces& places) {
         constexpr std::size_t kPlaces = 2048;
         Receivers receivers;

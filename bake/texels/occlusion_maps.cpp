@@ -1,4 +1,4 @@
-// Measures the texels of atlases, fills what lies between charts, and closes seams.
+// Measures the texels of atlases, fills the texels between charts, and closes seams.
 
 #include "prt/occlusion_maps.h"
 
@@ -30,7 +30,8 @@ double rms_jump(const Atlas& atlas, std::span<const SeamPoint> seams, std::span<
     return seams.empty() ? 0 : std::sqrt(sum / static_cast<double>(seams.size())) / kY00;
 }
 
-/// A texture that does not fit would be killed at its end. Measured: 70 bytes a texel.
+/// Throws `Error` for a texture that does not fit into memory, before the work starts. Measured: 70 bytes per
+/// texel.
 void check_room(const std::vector<Atlas>& atlases, double limit) {
     constexpr double kBytesOfTexel = 80;
     const double there = available_memory(limit);

@@ -14,10 +14,10 @@
 namespace prt {
 namespace {
 
-/// Charts that are packed side by side touch, and programs round: so much of them may lie in two.
+/// Charts that are packed next to each other touch, and programs round: this share may be in two charts.
 constexpr double kMostOverlap = 1e-3;
 
-/// Of a texture with one texel along a side. Throws where the coordinates have no area.
+/// Area of the charts in a texture with one texel per side. Throws `Error` if the coordinates have no area.
 double area_in_texture(const Scene& scene, const Atlas& atlas) {
     Atlas unit = atlas;
     unit.width = unit.height = 1;
@@ -49,7 +49,7 @@ Atlas sized(const Scene& scene, Atlas atlas, const TexelOptions& options) {
     atlas.repeats = repeats(scene, atlas);
     const double in_texture = area_in_texture(scene, atlas);
     double side = options.size;
-    if (options.size == 0) // so that a metre has so many in the mean
+    if (options.size == 0) // so that a metre has this number of texels in the mean
         side = std::ceil(options.per_metre * std::sqrt(area_on_surfaces(scene, atlas) / in_texture));
     if (!(side <= kMostTexels))
         throw Error(

@@ -1,4 +1,4 @@
-// What the compressor has to know of seams: which receivers filters read on their two sides.
+// Finds the receivers that filters read on both sides of seams, for the compressor.
 
 #include "prt/lightmap_bake.h"
 #include "texels/seams.h"
@@ -36,7 +36,7 @@ std::vector<SeamJump> seam_jumps(const Scene& scene, const LightmapLayout& layou
         for (const SeamPoint& point : seam_points(scene, atlases[a])) {
             SeamJump jump;
             std::size_t i = 0;
-            bool there = true; // a file may lack texels that its seams read: those jump as they like
+            bool there = true; // a file may lack texels that its seams read: these jumps are ignored
             for (const auto& [place, sign] : {std::pair(point.here, 1.0), std::pair(point.there, -1.0)}) {
                 const BilinearTexels filter = bilinear_at(atlases[a], place);
                 for (std::size_t k = 0; k < 4; ++k, ++i) {

@@ -1,4 +1,4 @@
-// Finds seams by the places and normals of edges, and closes them by a sparse least-squares problem.
+// Finds seams by the positions and normals of edges, and closes them with a sparse least-squares problem.
 
 #include "texels/seams.h"
 
@@ -17,9 +17,10 @@
 namespace prt {
 namespace {
 
-/// What a squared jump costs against squared changes of texels that were measured, and of others.
+/// Cost of a squared jump, and of squared changes of unmeasured texels, relative to squared changes of
+/// measured ones.
 constexpr double kJump = 1e4, kFree = 0.01;
-/// A chart of fewer texels is mostly seam: to close it would flatten what it shows.
+/// Charts with fewer texels consist mainly of seams: closing these would flatten the chart.
 constexpr double kTexelsOfChart = 64;
 
 using SeamCorner = std::array<float, 6>; ///< position and normal
@@ -60,7 +61,7 @@ std::map<std::pair<SeamCorner, SeamCorner>, std::vector<SeamSide>> sides_of_edge
     return edges;
 }
 
-/// How many measured texels hang together with each by their sides; 0: not measured.
+/// Number of measured texels connected with each texel by their sides; 0: not measured.
 std::vector<std::uint32_t> chart_sizes(const Atlas& atlas, const std::vector<bool>& measured) {
     std::vector<std::uint32_t> sizes(atlas.texels());
     std::vector<std::uint32_t> chart;
@@ -139,7 +140,7 @@ public:
     }
 
 private:
-    /// By the chart that a filter reads most of.
+    /// Cost by the size of the chart with the largest weight in the filter.
     static double price_of(const BilinearTexels& filter, std::span<const std::uint32_t> sizes) {
         double texels = 0, most = -1;
         for (std::size_t i = 0; i < 4; ++i)

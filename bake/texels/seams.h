@@ -1,6 +1,6 @@
 #pragma once
 
-// Edges of surfaces whose two sides lie in different places of an atlas.
+// Edges of surfaces whose two sides are at different positions of an atlas.
 
 #include "prt/texels.h"
 
@@ -11,21 +11,21 @@
 
 namespace prt {
 
-/// One place of a surface, where its two sides lie in the atlas: in texels.
+/// A point of a surface, and the positions of its two sides in the atlas, in texels.
 struct SeamPoint {
     glm::dvec2 here, there;
 };
 
-/// Points along all seams, two a texel at least. An edge is a seam where its triangles have the same normals
-/// there, so that light is the same on both sides.
+/// Returns points along all seams, at least two per texel. An edge is a seam if the normals of its triangles
+/// are equal there, so that both sides have the same light.
 std::vector<SeamPoint> seam_points(const Scene& scene, const Atlas& atlas);
 
-/// Changes `values` [texels][stride] as little as may be, in the sense of least squares, so that bilinear
-/// filtering gives the same on both sides of seams. Texels that are not `measured` change freely.
+/// Changes `values` [texels][stride] by the minimum, in the least-squares sense, for which bilinear filtering
+/// returns the same values on both sides of seams. Texels that are not `measured` change freely.
 void stitch_seams(const Atlas& atlas, std::span<const SeamPoint> seams, const std::vector<bool>& measured,
                   std::span<float> values, std::size_t stride);
 
-/// What a bilinear filter reads at a place.
+/// Returns the texels that a bilinear filter reads at a position, and their weights.
 inline BilinearTexels bilinear_at(const Atlas& atlas, const glm::dvec2& place) {
     return bilinear_texels(size_of(atlas), place.x, place.y);
 }

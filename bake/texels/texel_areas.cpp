@@ -1,3 +1,5 @@
+// Computes the area of the surface that filters read from each texel.
+
 #include "texels/texel_areas.h"
 
 #include "texels/seams.h"
@@ -39,7 +41,7 @@ TexelAreas texel_areas(const Atlas& atlas, std::span<const ChartTriangle> charts
     for (const TexelSample& sample : samples) {
         mark_round(atlas, sample.texel, marked);
         const ChartTriangle& chart = *chart_of.at(sample.triangle);
-        // A sample stands for its share of a texel, as large as that is on the surface there.
+        // A sample represents its share of a texel, with the area of the texel on the surface there.
         const double covered = std::max(area_in_texels(chart), 1.0 / kSamplesOfTexel),
                      area = places.area(sample.triangle) / (kSamplesOfTexel * covered);
         read += area;

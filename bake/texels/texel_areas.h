@@ -1,6 +1,6 @@
 #pragma once
 
-// What filters read of texels.
+// Areas of the surface that filters read from texels.
 
 #include "texels/texel_places.h"
 
@@ -9,10 +9,11 @@
 
 namespace prt {
 
-/// Texels that charts touch and those round them, by their numbers in the atlas, ascending.
+/// Texels that charts touch and their neighbours, by their indices in the atlas, ascending.
 struct TexelAreas {
     std::vector<std::uint32_t> texels;
-    /// m²: how much of the surface a bilinear filter reads from each, by the samples of texels.
+    /// m²: area of the surface that a bilinear filter reads from each texel, estimated from samples of
+    /// texels.
     std::vector<float> areas;
 };
 

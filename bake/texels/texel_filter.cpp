@@ -14,17 +14,18 @@
 namespace prt {
 namespace {
 
-/// Texels side by side in space, too, lie within so many of their sizes.
+/// Maximum distance of adjacent texels in space, in sizes of the texels.
 constexpr double kFarthest = 4;
-/// Across sharper folds light is another.
+/// Light differs across sharper folds.
 constexpr double kMinCosine = 0.9;
 /// Texels that are filtered at a time, about, and rows on either side that they bend with.
 constexpr std::uint32_t kTexelsOfBand = 1 << 17, kRowsBeside = 16;
 
-/// Noise of a mean over what samples of different sign differ by: their rays are parts of one net.
+/// Noise of a mean relative to the difference of samples with opposite signs, whose rays are parts of one
+/// net.
 constexpr float kNoiseOfSamples = 0.75f;
 
-/// Sets of vertices that are one.
+/// Sets of equivalent vertices.
 class VertexSets {
 public:
     explicit VertexSets(std::size_t vertices) : first_(vertices) {
@@ -41,7 +42,7 @@ private:
     std::vector<std::uint32_t> first_;
 };
 
-/// Joins vertices of one array at one place of the surface and of the atlas.
+/// Joins vertices of one array at one position of the surface and of the atlas.
 void join_alike(const VertexArray& vertices, int uv_set, VertexSets& sets) {
     if (vertices.texcoords.size() <= static_cast<std::size_t>(uv_set))
         return;
@@ -59,7 +60,7 @@ void join_alike(const VertexArray& vertices, int uv_set, VertexSets& sets) {
             sets.join(first + order[i - 1], first + order[i]);
 }
 
-/// The first vertex of the connected triangles that each triangle is of.
+/// First vertex of the connected triangles that each triangle belongs to.
 std::vector<std::uint32_t> connected_triangles(const Scene& scene, int uv_set) {
     std::size_t count = 0;
     for (const VertexArray& vertices : scene.vertex_arrays)
@@ -181,7 +182,7 @@ std::vector<std::uint32_t> texels_of(const FitEquations& equations) {
     return texels;
 }
 
-/// Light before it was filtered: bands read what others write.
+/// Filters a copy of the light, because bands read texels that other bands write.
 class TexelFilter {
 public:
     TexelFilter(const TexelNet& net, int threads, TexelLight& light)
@@ -214,12 +215,12 @@ private:
         const auto all = [&](std::uint32_t t, std::size_t c) {
             return direct(t, c % columns) + (stride > 0 ? sky_[t * stride + c] : 0.0f);
         };
-        // Noise is of the telling columns alone.
+        // Only the selected columns have noise.
         std::vector<std::size_t> place_of(columns);
         for (std::size_t i = 0; i < count; ++i)
             place_of[light_.noise.telling.columns[i]] = i;
         const auto middle_of_all = [&](std::uint32_t t, std::size_t c) { return all(t, middle + c); };
-        // Shadow edges within a texel are no noise: that of a net falls as n^-0.75.
+        // Shadow edges within a texel are not noise: the noise of a net falls as n^-0.75.
         const auto most = static_cast<float>(0.5 * std::pow(light_.noise.rays, -0.75));
         const auto noise = [&](std::uint32_t t, std::size_t c) {
             return std::clamp(kNoiseOfSamples * light_.noise.sky[t * count + place_of[c]], -most, most);

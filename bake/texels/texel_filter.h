@@ -11,8 +11,7 @@
 
 namespace prt {
 
-/// Texels of an atlas that bend together: those that lie side by side in it and on one surface without a
-/// fold.
+/// Groups texels of an atlas that are filtered together: adjacent texels on one surface without a fold.
 class TexelNet {
 public:
     /// `lit` [texels]: those that are filtered.

@@ -40,7 +40,7 @@ struct Layer {
     std::vector<std::uint32_t> indices; ///< of those that are there
 };
 
-/// Whether a texel whose first dark sample was asked is sealed in; samples of a texel are alike.
+/// Whether a texel is sealed in, determined by its first dark sample; its other samples are equal in this.
 enum class Verdict : std::uint8_t { unknown, sealed, dark };
 
 /// Distance between tested texels in a row of dark ones; texels between two equal verdicts take theirs.
@@ -93,8 +93,8 @@ private:
         of(light.noise.lamps, light.noise.lamps.empty() ? 0 : lamps, paired);
     }
 
-    /// The k-th sample of every texel that has so many: a receiver each, so that a texel's samples share a
-    /// net.
+    /// Returns the k-th sample of every texel that has it: one receiver per texel, so that a texel's samples
+    /// share a net.
     Layer layer(std::span<const TexelGroup> groups, std::size_t k) const {
         Layer layer;
         for (const TexelGroup& group : groups) {
@@ -145,7 +145,7 @@ private:
                 task_.transport->gather_sky(more);
             add(more, task_.transport->sky_stride(), light.sky);
         }
-        // Of four samples, opposite ones have the same: what grows evenly over a texel is no noise.
+        // Opposite ones of four samples have the same sign: a linear variation over a texel is not noise.
         const float sign = k == 0 || k == 3 ? 1.0f : -1.0f;
         if (task_.notes_noise)
             add(signed_sky(traced, more, light.noise.telling, sign), light.noise.telling.size(),
@@ -185,7 +185,8 @@ private:
         add(bounced, stride, light.noise.lamps);
     }
 
-    /// Places of a texel, and texels that are traced after each other, see lamps by samples of their own.
+    /// Seed of lamp samples, different for each sample of a texel and for texels that are traced one after
+    /// another.
     std::uint64_t lamp_seed(std::span<const TexelGroup> groups, std::size_t k) const {
         return options_.seed + 7 * kSecondScramble + groups.front().texel * kSamplesOfTexel + k;
     }

@@ -15,7 +15,7 @@ namespace prt {
 
 struct TexelTask {
     Tracer& tracer;
-    const TraceScene& scene; ///< what is traced
+    const TraceScene& scene; ///< scene that is traced
     const TexelPlaces& places;
     TraceOptions options;
     Inside inside = Inside::refill;
@@ -23,11 +23,11 @@ struct TexelTask {
     bool notes_noise = false;
 };
 
-/// What two and two samples of a texel differ by, over their number: as large as the noise of the mean. Zero
-/// of texels that have fewer than four.
+/// Differences between two pairs of samples of a texel, divided by their number, which have the magnitude of
+/// the noise of the mean. Zero for texels with fewer than four samples.
 struct TexelNoise {
-    double rays = 0;          ///< of a texel that are followed
-    TellingColumns telling;   ///< of a sky, of one channel
+    double rays = 0;          ///< followed rays of a texel
+    TellingColumns telling;   ///< columns of a sky with one channel
     std::vector<float> sky;   ///< [texels][telling], direct and bounced, of the channel in the middle
     std::vector<float> lamps; ///< [texels][lamp_stride()], bounces
 };
@@ -38,13 +38,13 @@ struct TexelLight {
     std::vector<float> sky;           ///< [texels][sky_stride()], bounced
     std::vector<float> lamps;         ///< [texels][lamp_stride()], without a bounce
     std::vector<float> bounced_lamps; ///< [texels][lamp_stride()]
-    TexelNoise noise;                 ///< where it is asked for
+    TexelNoise noise;                 ///< set if requested
     std::vector<bool> lit;            ///< [texels]: measured, and not sealed in unless that is kept
     std::size_t measured = 0, rays = 0;
 };
 
-/// The mean over the samples of each texel, which share its rays: each takes a part of one net. Samples that
-/// are sealed in tell nothing.
+/// Computes the mean over the samples of each texel, which share its rays: each traces a part of one net.
+/// Samples that are sealed in are ignored.
 TexelLight trace_texels(const TexelTask& task, const Atlas& atlas, std::span<const TexelSample> samples,
                         const Progress& progress);
 

@@ -1,3 +1,5 @@
+// Computes the positions of samples of texels, on the scene or on a finer model.
+
 #include "texels/texel_places.h"
 
 #include "prt/support/error.h"

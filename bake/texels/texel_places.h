@@ -1,6 +1,6 @@
 #pragma once
 
-// Where samples of texels lie in space.
+// Positions of samples of texels in space.
 
 #include "prt/receivers.h"
 #include "prt/trace_scene.h"
@@ -15,22 +15,22 @@
 
 namespace prt {
 
-/// Surfaces that cast in the place of those that texels are of: a finer model of the same.
+/// Surfaces that cast shadows instead of the surfaces of the texels: a finer model of the same object.
 struct Casters {
     const TraceScene& scene;
-    double reach; ///< metres, that the finer surface is looked for on either side
+    double reach; ///< maximum distance in metres at which the finer surface is searched, on both sides
 };
 
-/// Places of samples as receivers: on the surface, or on that of `casters` where one lies over or under it
-/// within reach and looks the same way.
+/// Positions of samples as receivers: on the surface, or on the surface of `casters` if it is within reach
+/// above or below and faces the same direction.
 class TexelPlaces {
 public:
     /// Keeps references. `casters`: null where the scene casts itself.
     TexelPlaces(const Scene& scene, const Casters* casters);
     /// Appends a receiver of that area.
     void append(const TexelSample& sample, float area, Receivers& receivers) const;
-    /// A line where many samples so far have found no surface of casters, nothing otherwise. Throws `Error`
-    /// where none has: these are other surfaces.
+    /// Returns a notice if many samples so far found no surface of casters, nothing otherwise. Throws `Error`
+    /// if no sample found one: these are other surfaces.
     std::optional<std::string> check_casters() const;
     /// Area of a triangle of the scene, m².
     double area(std::uint32_t triangle) const;

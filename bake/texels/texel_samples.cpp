@@ -18,7 +18,8 @@ constexpr std::array<glm::dvec2, kSamplesOfTexel> kPoints = {
 constexpr std::uint32_t kNobody = ~0u;
 constexpr double kEdge = 1e-4; ///< texels: nearer to an edge, two triangles may both have a point
 
-/// What part of a row of texels a triangle touches: its extent in x. False where it does not.
+/// Computes the extent in x of a triangle within a row of texels. Returns false if the triangle does not
+/// touch the row.
 bool extent_in_row(const ChartTriangle& t, int row, double& low, double& high) {
     low = std::numeric_limits<double>::infinity();
     high = -low;
@@ -56,7 +57,7 @@ void for_texels(const ChartTriangle& t, const Atlas& atlas, Visit&& visit) {
     }
 }
 
-/// Which triangle each point of each texel lies in.
+/// The triangle that contains each point of each texel.
 struct Owners {
     std::vector<std::uint32_t> of; ///< [texels][points], index of a triangle or kNobody
     std::size_t covered = 0, twice = 0;
@@ -83,7 +84,7 @@ Owners find_owners(std::span<const ChartTriangle> triangles, const Atlas& atlas)
     return owners;
 }
 
-/// Of texels that charts touch and no point of which lies in one: the nearest place, by texel.
+/// For texels that charts touch without containing one of their points: the nearest point, by texel.
 std::vector<TexelSample> touched(std::span<const ChartTriangle> triangles, const Atlas& atlas,
                                  const Owners& owners) {
     std::map<std::uint32_t, std::pair<double, TexelSample>> nearest;

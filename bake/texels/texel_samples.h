@@ -1,6 +1,6 @@
 #pragma once
 
-// Where the texels of an atlas lie on surfaces.
+// Samples of the texels of an atlas on surfaces.
 
 #include "texels/charts.h"
 
@@ -18,14 +18,15 @@ struct TexelSample {
     glm::vec2 uv; ///< barycentric coordinates of corners 1 and 2
 };
 
-/// Points within a texel that are asked what they lie on.
+/// Number of points within a texel that are projected to the surface.
 inline constexpr std::size_t kSamplesOfTexel = 4;
 
 struct TexelSamples {
-    /// By texel, at most kSamplesOfTexel of each. A texel that charts touch has at least one: where all of
-    /// its points lie beside the surface, the place of it that is nearest to its middle.
+    /// Samples by texel, at most kSamplesOfTexel per texel. A texel that charts touch has at least one
+    /// sample: if all its points are outside the surface, the point of the surface in the texel that is
+    /// nearest to its center.
     std::vector<TexelSample> samples;
-    /// Of the points that charts cover: those that two of them do, not counting edges.
+    /// Share of the points covered by charts that two charts cover, without edges.
     double overlapping = 0;
 };
 

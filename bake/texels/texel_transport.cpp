@@ -1,5 +1,5 @@
-// Gathers light from vertices of what is traced: texels are many, so that their rows are made and forgotten
-// some at a time, while bounces before the last one take those of vertices alone.
+// Gathers light from vertices of the traced scene. There are many texels, so rows are created and discarded
+// in blocks; bounces before the last one use only the rows of vertices.
 
 #include "texels/texel_transport.h"
 

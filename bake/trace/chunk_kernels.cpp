@@ -1,4 +1,4 @@
-// Directions of a chunk of rays, and the sum of their basis functions, as many at a time as registers hold.
+// Computes the directions of a chunk of rays and the sum of their basis functions with SIMD registers.
 
 #include "trace/chunk_kernels.h"
 
@@ -11,7 +11,8 @@
 namespace prt {
 namespace {
 
-/// To [-1, 1): the upper 24 bits, at the center of their interval so that neither end is hit.
+/// Converts to [-1, 1): uses the upper 24 bits and the center of their interval, so that neither end is
+/// reached.
 [[gnu::always_inline]] inline float to_signed_unit(std::uint32_t v) {
     return (static_cast<float>(static_cast<std::int32_t>(v >> 8)) + 0.5f) * 0x1p-23f - 1.0f;
 }
@@ -70,8 +71,9 @@ void generate_directions(const SobolChunk& chunk, SobolOffset offset, std::uint3
     for (std::size_t i = 0; i < count; ++i) {
         const float u = to_signed_unit(reverse_bits(laine_karras(sobol_x[i] ^ offset.x, seed_x)));
         const float v = to_signed_unit(reverse_bits(laine_karras(sobol_y[i] ^ offset.y, seed_y)));
-        // Concentric map: radius is the larger coordinate, the angle pi/4 times the ratio; sine and cosine by
-        // their Taylor series, whose remainder on [-pi/4, pi/4] is below float rounding (3e-8 relative).
+        // Concentric map: the radius is the larger coordinate, the angle is pi/4 times the ratio. Sine and
+        // cosine by their Taylor series, whose remainder on [-pi/4, pi/4] is below float rounding (3e-8
+        // relative).
         const bool wide = std::fabs(u) > std::fabs(v);
         const float radius = wide ? u : v;
         const float angle = 0.785398163f * (wide ? v : u) / radius;

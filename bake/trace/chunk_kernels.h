@@ -1,6 +1,6 @@
 #pragma once
 
-// The two vectorised loops of the CPU baker. They run on whatever vector width the processor has.
+// The two vectorised loops of the CPU baker, compiled for several vector widths.
 
 #include "prt/support/tangent_frame.h"
 #include "trace/sample_sequence.h"
@@ -15,14 +15,14 @@ struct alignas(64) ChunkDirections {
     std::array<float, kChunk> x, y, z;
 };
 
-/// Directions of `chunk` shifted by `offset`, scrambled by `seed`, distributed as the cosine about the normal
-/// of `frame`. Scrambling: Owen's by the hash of Laine and Karras (2011) in the form of Vegdahl (2021); the
-/// disk by the concentric map of Shirley and Chiu (1997).
+/// Generates directions of `chunk` shifted by `offset` and scrambled by `seed`, cosine-distributed about the
+/// normal of `frame`. Scrambling: Owen's, by the hash of Laine and Karras (2011) in the form of Vegdahl
+/// (2021); the disk by the concentric map of Shirley and Chiu (1997).
 void generate_directions(const SobolChunk& chunk, SobolOffset offset, std::uint32_t seed,
                          const TangentFrame& frame, ChunkDirections& directions);
 
-/// Adds the basis in directions[0..count), each times its weight (null: 1), to `sums` [order²]. `count` is at
-/// most kChunk; entries up to the next multiple of kPacket are read and ignored.
+/// Adds the basis in directions[0..count), multiplied by the weights (null: 1), to `sums` [order²]. `count`
+/// is at most kChunk; entries up to the next multiple of kPacket are read and ignored.
 void add_basis(int order, const ChunkDirections& directions, int count, const float* weights,
                std::span<double> sums);
 

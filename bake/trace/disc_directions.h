@@ -1,5 +1,7 @@
 #pragma once
 
+// Directions over the disc of a distant light.
+
 #include "prt/support/tangent_frame.h"
 
 #include <glm/geometric.hpp>
@@ -9,19 +11,21 @@
 
 namespace prt {
 
-/// Directions to a disc or a sphere, evenly over its solid angle on a spiral (R. Swinbank, R. J. Purser,
-/// "Fibonacci grids", 2006).
+/// Directions to a disc or a sphere, distributed evenly over its solid angle on a spiral (R. Swinbank, R. J.
+/// Purser, "Fibonacci grids", 2006).
 class DiscDirections {
 public:
-    /// About unit `towards`, in the cone of that half angle, radians; one where that is 0, else `rays`.
+    /// Directions in the cone about unit `towards` with half angle `half_angle` in radians; one direction if
+    /// the angle is 0, otherwise `rays`.
     DiscDirections(const glm::vec3& towards, double half_angle, int rays)
         : frame_(tangent_frame(towards)), count_(half_angle > 0 ? rays : 1),
           depth_(1 - std::cos(half_angle)) {}
 
     int count() const { return count_; }
-    /// To the middle, of direction `i`.
+    /// Cosine of the angle between direction `i` and the axis.
     double cosine(int i) const { return 1 - depth_ * (i + 0.5) / count_; }
-    /// Unit; `turn` about the middle, in radians, makes those of two places differ.
+    /// Unit direction `i`, rotated about the axis by `turn` radians; different rotations make the directions
+    /// of two positions differ.
     glm::vec3 direction(int i, double turn) const {
         const double cosine = this->cosine(i), sine = std::sqrt(1 - cosine * cosine);
         const double angle = turn + i * std::numbers::pi * (3 - std::sqrt(5.0));
@@ -29,14 +33,14 @@ public:
                                         glm::dvec3(frame_.tangent) * (sine * std::cos(angle)) +
                                         glm::dvec3(frame_.bitangent) * (sine * std::sin(angle))));
     }
-    /// Mean of the cosine to the middle: irradiance on a receiver that faces it over radiance times solid
-    /// angle.
+    /// Mean cosine to the axis: irradiance of a receiver that faces the light, divided by radiance times
+    /// solid angle.
     double mean_cosine() const { return 1 - 0.5 * depth_; }
 
 private:
     TangentFrame frame_;
     int count_;
-    double depth_; ///< of the cap
+    double depth_; ///< 1 - cosine of the half angle
 };
 
 } // namespace prt

@@ -1,5 +1,7 @@
 #pragma once
 
+// Visibility of the disc of a light.
+
 #include "prt/trace_scene.h"
 #include "scene/transmittance.h"
 #include "trace/disc_directions.h"
@@ -8,8 +10,8 @@
 
 namespace prt {
 
-/// Share of the light of a disc that arrives at a receiver, with its cosine: 1 where it faces it and nothing
-/// is in the way. Rays start at `origin` and go as far as `length_of(i)` says of direction `i`.
+/// Share of a disc's light that arrives at a receiver, including the cosine: 1 if the receiver faces the disc
+/// and nothing blocks it. Rays start at `origin`; `length_of(i)` is the length of the ray in direction `i`.
 template <class Length>
 double share_of_disc(const TraceScene& scene, const glm::vec3& origin, const glm::vec3& normal,
                      const DiscDirections& directions, double turn, Length&& length_of) {

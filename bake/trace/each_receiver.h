@@ -1,5 +1,7 @@
 #pragma once
 
+// Parallel loop over receivers.
+
 #include "prt/support/parallel.h"
 #include "prt/support/progress.h"
 
@@ -9,12 +11,12 @@
 
 namespace prt {
 
-/// Calls `work(p)` with each of `indices`, from several threads (0: all), and looks at `progress` now and
-/// then: throws `Cancelled` when asked to stop.
+/// Calls `work(p)` with each of `indices` from several threads (0: all), and checks `progress` between
+/// batches: throws `Cancelled` when asked to stop.
 template <class Work>
 void for_each_receiver(std::span<const std::uint32_t> indices, int threads, const Progress& progress,
                        Work&& work) {
-    constexpr std::size_t kBatch = 1 << 11; // between two looks
+    constexpr std::size_t kBatch = 1 << 11; // between two checks
     for (std::size_t first = 0; first < indices.size(); first += kBatch) {
         progress.update(static_cast<double>(first) / static_cast<double>(indices.size()));
         const auto batch = indices.subspan(first, std::min(kBatch, indices.size() - first));

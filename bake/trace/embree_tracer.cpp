@@ -1,6 +1,6 @@
-// Direct transfer by rays with the open lobe as control variate (docs/math.md, eq. 9): of the blocked and the
-// open rays of a chunk the fewer are summed. Open receivers get the lobe exactly, fully blocked ones exactly
-// zero.
+// Direct transfer by ray tracing with the unshadowed lobe as control variate (docs/math.md, eq. 9): each
+// chunk sums its blocked rays or its open rays, whichever are fewer. Open receivers get the exact lobe, fully
+// blocked ones exactly zero.
 
 #include "trace/embree_tracer.h"
 
@@ -32,7 +32,7 @@ struct Plan {
     const RayScene& rays;
     const Surfaces& surfaces;
     const TraceOptions& options;
-    SobolChunk whole, last; ///< all chunks but the last, and the last
+    SobolChunk whole, last; ///< all chunks except the last one, and the last chunk
 
     Plan(const TraceScene& scene, const TraceOptions& trace)
         : rays(scene.rays()), surfaces(scene.surfaces()), options(trace), whole(kChunk, trace.hit_stride),
@@ -42,18 +42,18 @@ struct Plan {
     const SobolChunk& chunk(int i) const { return i + 1 < chunks() ? whole : last; }
 };
 
-/// Everything of a receiver that its rays share, and the space of one thread.
+/// Data that all rays of a receiver share, and the buffers of one thread.
 struct Work {
     glm::vec3 origin, normal;
     ChunkDirections directions;
-    alignas(64) float blocked[kChunk]; ///< share of each ray that is blocked, 0..1
+    alignas(64) float blocked[kChunk]; ///< blocked share of each ray, 0..1
     std::vector<Hit> hits;
     double seconds_trace = 0, seconds_accumulate = 0;
 };
 
-/// Packets are narrow beams (see SobolChunk). For closest hits Embree's traversal for coherent rays is then
-/// the faster one (16 against 8 million rays/s and thread on the bunny); for occlusion it is the slower one
-/// (25 against 28), as a beam of 1/64 of the hemisphere still fans out over many small triangles.
+/// Creates a context. Packets are narrow beams (see SobolChunk). For closest hits Embree's traversal for
+/// coherent rays is then faster (16 against 8 million rays/s and thread on the bunny); for occlusion it is
+/// slower (25 against 28), because a beam of 1/64 of the hemisphere still spreads over many small triangles.
 RTCIntersectContext make_context(RTCIntersectContextFlags flags) {
     RTCIntersectContext context;
     rtcInitIntersectContext(&context);
@@ -74,7 +74,7 @@ void set_origin(RTCRay16& rays, const glm::vec3& origin) {
 
 void set_directions(RTCRay16& rays, const ChunkDirections& directions, int begin, int lanes) {
     const auto b = static_cast<std::size_t>(begin);
-    for (int lane = 0; lane < kPacket; ++lane) { // Embree looks at lanes that are not valid, too
+    for (int lane = 0; lane < kPacket; ++lane) { // Embree also reads lanes that are not valid
         const std::size_t i = b + static_cast<std::size_t>(std::min(lane, lanes - 1));
         rays.dir_x[lane] = directions.x[i];
         rays.dir_y[lane] = directions.y[i];
@@ -84,7 +84,7 @@ void set_directions(RTCRay16& rays, const ChunkDirections& directions, int begin
     std::fill_n(rays.tfar, kPacket, kInfinity);
 }
 
-/// Whether anything blocks each of the rays [first, end); every surface is opaque.
+/// Tests whether each of the rays [first, end) is blocked; all surfaces are opaque.
 void trace_occlusion(const Plan& plan, int first, int end, Work& work) {
     RTCIntersectContext context = make_context(RTC_INTERSECT_CONTEXT_FLAG_INCOHERENT);
     RTCRay16 rays;
@@ -107,7 +107,7 @@ Hit hit_of(const Plan& plan, const glm::vec3& normal, const RTCRayHit16& packet,
     const float facing = glm::dot(face, direction), distance = packet.ray.tfar[lane];
     float footprint = 0;
     if (plan.surfaces.traits().textured)
-        // Directions have density cos/pi: each of n rays stands for a solid angle of pi/(n cos).
+        // Directions have density cos/pi: each of n rays represents a solid angle of pi/(n cos).
         footprint = std::numbers::pi_v<float> * distance * distance * glm::length(face) /
                     (static_cast<float>(plan.options.rays) * glm::dot(normal, direction) * std::abs(facing));
     footprint *= static_cast<float>(plan.options.hit_stride);
@@ -117,14 +117,14 @@ Hit hit_of(const Plan& plan, const glm::vec3& normal, const RTCRayHit16& packet,
 
 constexpr float kLeastTransmittance = PRT_LEAST_TRANSMITTANCE;
 
-/// A packet of rays on their way through what lets a share of them pass.
+/// A packet of rays that continue through surfaces that transmit a share of them.
 struct alignas(64) Walk {
     int valid[kPacket];
     RTCRayHit16 packet;
-    float left[kPacket]; ///< share of each ray
+    float left[kPacket]; ///< remaining share of each ray
 };
 
-/// Notes what the valid rays met. Those of which something is left go on; returns how many.
+/// Records the hits of the valid rays. Rays with a remaining share continue; returns their number.
 int note_hits(const Plan& plan, bool alpha, Walk& walk, Work& work) {
     RTCRayHit16& packet = walk.packet;
     int active = 0;
@@ -153,8 +153,8 @@ int note_hits(const Plan& plan, bool alpha, Walk& walk, Work& work) {
     return active;
 }
 
-/// Follows each of the rays [first, end) through cut-outs and blended surfaces until it ends, and notes what
-/// it met.
+/// Follows each of the rays [first, end) through cut-outs and blended surfaces until it ends, and records its
+/// hits.
 void trace_hits(const Plan& plan, int first, int end, Work& work) {
     RTCIntersectContext context = make_context(RTC_INTERSECT_CONTEXT_FLAG_COHERENT);
     Walk walk;
@@ -179,8 +179,8 @@ void trace_hits(const Plan& plan, int first, int end, Work& work) {
     }
 }
 
-/// Follows some of the rays to what they meet and asks of the others only whether they are blocked; every
-/// surface is opaque. The hits stand for all that is blocked.
+/// Follows some of the rays to their hits and tests the others only for occlusion; all surfaces are opaque.
+/// The hits represent all blocked rays.
 void trace_some_hits(const Plan& plan, const SobolChunk& chunk, Work& work) {
     const std::size_t before = work.hits.size();
     trace_hits(plan, 0, chunk.followed, work);
@@ -195,8 +195,8 @@ void trace_some_hits(const Plan& plan, const SobolChunk& chunk, Work& work) {
         work.hits[h].weight = static_cast<float>(blocked) / static_cast<float>(work.hits.size() - before);
 }
 
-/// Moves the directions of the rays with a share to sum to the front; that share goes to `work.blocked`.
-/// Returns how many there are; `whole` is set where all shares are 1.
+/// Moves the directions of rays with a share to sum to the front; the shares go to `work.blocked`. Returns
+/// the number of these rays; sets `whole` if all shares are 1.
 int keep_shares(Work& work, int count, bool of_blocked, bool& whole) {
     std::size_t kept = 0;
     bool fractions = false;
@@ -213,7 +213,7 @@ int keep_shares(Work& work, int count, bool of_blocked, bool& whole) {
     return static_cast<int>(kept);
 }
 
-/// Finds what the rays of `chunk`, in work.directions, meet.
+/// Traces the rays of `chunk` in the directions of work.directions.
 void trace_chunk(const Plan& plan, const SobolChunk& chunk, bool with_hits, Work& work) {
     if (plan.surfaces.traits().alpha)
         trace_hits(plan, 0, chunk.rays, work);
@@ -223,7 +223,7 @@ void trace_chunk(const Plan& plan, const SobolChunk& chunk, bool with_hits, Work
         trace_occlusion(plan, 0, chunk.rays, work);
 }
 
-/// Lobes of the rays of a receiver, [order²].
+/// Summed basis functions of a receiver's rays, [order²].
 struct Sums {
     std::array<double, kMaxOrder * kMaxOrder> open{}, blocked{};
     int control = 0; ///< rays of the chunks that use the control variate
@@ -309,7 +309,7 @@ void EmbreeTracer::trace(const Receivers& receivers, std::span<const std::uint32
         trace += work->seconds_trace;
         accumulate += work->seconds_accumulate;
     });
-    // Threads work side by side: their times, scaled to the wall clock.
+    // Threads run in parallel: scale their times to the wall clock.
     const double busy = trace + accumulate, wall = all.seconds();
     seconds_.trace += busy > 0 ? wall * trace / busy : wall;
     seconds_.accumulate += busy > 0 ? wall * accumulate / busy : 0;

@@ -1,5 +1,7 @@
 #pragma once
 
+// Tracer on the CPU, with Embree.
+
 #include "prt/trace_scene.h"
 #include "prt/tracer.h"
 
@@ -8,7 +10,7 @@ namespace prt {
 /// Traces on the CPU. Results do not depend on the number of threads.
 class EmbreeTracer final : public Tracer {
 public:
-    /// Keeps a reference to `scene`, whose tree of triangles it builds.
+    /// Keeps a reference to `scene`, and builds its hierarchy of triangles.
     explicit EmbreeTracer(const TraceScene& scene);
     Backend backend() const override { return Backend::cpu; }
     std::string device() const override;

@@ -1,4 +1,4 @@
-// Goes on with the CPU where a GPU fails.
+// Continues on the CPU if a GPU fails.
 
 #include "trace/lasting_tracer.h"
 
@@ -14,7 +14,7 @@
 namespace prt {
 namespace {
 
-/// Products by a GPU while that lasts, then by the processor.
+/// Computes products on a GPU; continues on the CPU if the GPU fails.
 class LastingProduct final : public GatherProduct {
 public:
     LastingProduct(std::unique_ptr<GatherProduct> gpu, const GatherOperator& gather, int threads)
@@ -63,7 +63,7 @@ private:
     const GatherOperator& gather_;
     int threads_, order_ = 0;
     std::span<const float> exit_;
-    std::vector<float> reflected_; ///< what `exit_` is for the processor
+    std::vector<float> reflected_; ///< `exit_` times reflectance, for the CPU; empty until it is needed
 };
 
 } // namespace
@@ -121,7 +121,7 @@ private:
         try {
             tracer_.counted(work);
         } catch (const GpuFailure& failure) {
-            gpu_.reset(); // before the device that it is on
+            gpu_.reset(); // before its device is destroyed
             tracer_.go_on_with_cpu(failure);
             throw;
         }

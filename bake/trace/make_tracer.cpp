@@ -1,4 +1,4 @@
-// Chooses between the tracers.
+// Chooses the tracer.
 
 #include "prt/make_tracer.h"
 
@@ -22,7 +22,7 @@ std::unique_ptr<Tracer> make_rasterizer(const TraceScene& scene, const TracerCho
     return std::make_unique<GlRasterizer>(std::move(context), scene, choice.raster_resolution);
 }
 
-/// Throws `Error` where there is no such device, and where the scene does not fit it.
+/// Throws `Error` if there is no such device, and if the scene does not fit into its memory.
 std::unique_ptr<Tracer> make_vulkan_tracer(const TraceScene& scene, const VulkanChoice& choice) {
     return with_vulkan_errors([&] { return std::make_unique<VulkanTracer>(scene, choice); });
 }
@@ -35,10 +35,10 @@ std::unique_ptr<Tracer> make_ray_tracer(const TraceScene& scene, const TracerCho
     try {
         return std::make_unique<LastingTracer>(
             make_vulkan_tracer(scene, {.hardware_only = true, .traversal = choice.traversal}), scene);
-    } catch (const GpuFailure& failure) { // too small for the scene
+    } catch (const GpuFailure& failure) { // not enough memory for the scene
         return std::make_unique<LastingTracer>(std::make_unique<EmbreeTracer>(scene), scene,
                                                std::string("(") + failure.what() + ") ");
-    } catch (const Error&) { // none
+    } catch (const Error&) { // no device
         return std::make_unique<EmbreeTracer>(scene);
     }
 }

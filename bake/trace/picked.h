@@ -1,20 +1,24 @@
 #pragma once
 
+// Importance sampling of a subset.
+
 #include <cstddef>
 #include <cstdint>
 #include <vector>
 
 namespace prt {
 
-/// One of many, how often it was drawn, and how many all of these together stand for.
+/// Element of a subset: its index, how often it was drawn, and the number of elements that all its draws
+/// represent.
 struct Picked {
     std::uint32_t index;
     std::size_t times;
     double stands_for;
 };
 
-/// About `count` of [0, all), those of larger `likely(i)` more often: sums over what is picked, times what it
-/// stands for, are those over all. Systematic sampling: evenly along the sum of `likely`.
+/// Picks about `count` of [0, all) with a probability in proportion to `likely(i)`. Sums over the picked
+/// elements, multiplied by `stands_for`, estimate sums over all. Systematic sampling: even steps along the
+/// sum of `likely`.
 template <class Likely>
 std::vector<Picked> pick(std::size_t all, std::size_t count, Likely&& likely) {
     double sum = 0;

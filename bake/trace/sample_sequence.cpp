@@ -1,4 +1,4 @@
-// Sobol points in the order that makes packets of rays narrow.
+// Generates Sobol points in an order that keeps packets of rays narrow.
 
 #include "trace/sample_sequence.h"
 
@@ -22,7 +22,7 @@ std::uint32_t sobol_y_reversed(std::uint32_t index) {
     return result;
 }
 
-/// The first `bits` bits of the unreversed value.
+/// Returns the first `bits` bits of the unreversed value.
 std::uint32_t leading_bits(std::uint32_t reversed, int bits) {
     std::uint32_t leading = 0;
     for (int b = 0; b < bits; ++b)
@@ -44,7 +44,7 @@ SobolChunk::SobolChunk(int count, int stride) : rays(count), followed((count + s
         };
         return cell(a) < cell(b);
     });
-    std::vector<std::uint32_t> first, rest; // both sorted by cell
+    std::vector<std::uint32_t> first, rest; // both are sorted by cell
     for (std::size_t i = 0; i < order.size(); ++i)
         (i % static_cast<std::size_t>(stride) == 0 ? first : rest).push_back(order[i]);
     order = std::move(first);

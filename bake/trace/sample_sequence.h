@@ -1,6 +1,6 @@
 #pragma once
 
-// The samples of a receiver: cosine-distributed directions from Owen-scrambled Sobol points.
+// Samples of a receiver: cosine-distributed directions from Owen-scrambled Sobol points.
 
 #include "prt/support/vector_lanes.h"
 #include "shared_bake.h"
@@ -10,31 +10,31 @@
 
 namespace prt {
 
-/// Rays are generated and traced in chunks of this many, each an aligned part of the Sobol sequence.
+/// Number of rays of a chunk; each chunk is an aligned range of the Sobol sequence.
 inline constexpr int kChunk = PRT_CHUNK;
-/// Rays that are traced together.
+/// Number of rays that are traced together.
 inline constexpr int kPacket = kLaneCount;
 
-/// The first two dimensions of the Sobol sequence, bits reversed, for one chunk of `rays` points. The points
-/// are ordered by cell of a grid with about kPacket points each: a net has equally many points in each cell,
-/// nested scrambling takes cells to cells, and so packets of consecutive points stay narrow beams for every
-/// scramble.
+/// First two dimensions of the Sobol sequence, bits reversed, for one chunk of `rays` points. The points are
+/// ordered by the cells of a grid with about kPacket points each: a net has equally many points in each cell,
+/// and nested scrambling maps cells to cells, so that packets of consecutive points stay narrow beams for
+/// every scramble.
 struct SobolChunk {
     std::vector<std::uint32_t> x, y; ///< padded to a multiple of kPacket by repeating the last
     int rays = 0;
-    int followed = 0; ///< the first so many are an even sample of all: every `stride`-th
+    int followed = 0; ///< number of leading points that are an even sample of all: every `stride`-th
 
     explicit SobolChunk(int rays, int stride = 1);
 };
 
-/// Sobol points are linear over GF(2): point (first + j) is point j XOR this, where `first` is a multiple of
-/// a power of two above j.
+/// Offset of a range of Sobol points. The points are linear over GF(2): point (first + j) is point j XOR
+/// this, if `first` is a multiple of a power of two above j.
 struct SobolOffset {
     std::uint32_t x, y;
 };
 SobolOffset sobol_offset(std::uint32_t first);
 
-using uint = std::uint32_t; // as GLSL calls it, for the text that both compile
+using uint = std::uint32_t; // name in GLSL, for code that both compile
 #include "shared_samples.h"
 
 [[gnu::always_inline]] inline std::uint32_t reverse_bits(std::uint32_t v) {
@@ -45,7 +45,7 @@ using uint = std::uint32_t; // as GLSL calls it, for the text that both compile
     return ((v & 0x55555555u) << 1) | ((v >> 1) & 0x55555555u);
 }
 
-/// Seed of the samples of a receiver: the hash of its index XOR what all of them have in common.
+/// Seed of a receiver's samples: the hash of its index XOR the scramble that all receivers share.
 constexpr std::uint32_t seed_scramble(std::uint64_t seed) {
     const auto low = static_cast<std::uint32_t>(seed), high = static_cast<std::uint32_t>(seed >> 32);
     return pcg_hash(low ^ pcg_hash(high));

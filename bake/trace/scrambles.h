@@ -1,13 +1,13 @@
 #pragma once
 
-// Transfer vectors of one receiver by two scrambles of its rays.
+// Comparison of transfer vectors from two scrambles of rays.
 
 #include <cstdint>
 #include <span>
 
 namespace prt {
 
-/// Added to a seed, gives samples independent of those of the seed.
+/// Offset of a seed that makes its samples independent of those of the original seed.
 inline constexpr std::uint64_t kSecondScramble = 0x9e3779b97f4a7c15;
 
 inline double squared_distance(std::span<const float> a, std::span<const float> b) {

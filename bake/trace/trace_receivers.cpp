@@ -1,4 +1,4 @@
-// Gives receivers to a tracer in batches, so that progress shows and work stops.
+// Passes receivers to a tracer in batches, for progress reports and cancellation.
 
 #include "prt/trace_receivers.h"
 
@@ -76,7 +76,7 @@ int first_half(int rays) {
 
 namespace {
 
-/// The first half of the rays, then the others, in parts that Tracer::trace takes.
+/// Returns the first half of the rays and then the others, in ranges that Tracer::trace supports.
 std::vector<TraceOptions> parts_of(const TraceOptions& options) {
     std::vector<TraceOptions> parts;
     for (int begin = 0; begin < options.rays;) {

@@ -1,4 +1,4 @@
-// Gathers subsurface light over a tree of the triangles of a body (Jensen and Buhler 2002).
+// Gathers subsurface light with a tree of the triangles of a body (Jensen and Buhler 2002).
 
 #include "transport/diffusion.h"
 
@@ -15,12 +15,12 @@
 namespace prt {
 namespace {
 
-/// Share of the light on a plane that comes from farther away than is looked at.
+/// Share of the light on a plane from beyond the reach, which is ignored.
 constexpr double kNegligible = 1e-4;
 
-/// Parts of triangles that the light of a receiver is added up over, at most: four times what media of a mean
-/// free path of 0.5 mm take on triangles of 0.1 m. Where colors reach far and fall steeply both, more would
-/// be cut off, and then stay as large as they are.
+/// Maximum number of parts of triangles in the sum for a receiver: four times the number for media with a
+/// mean free path of 0.5 mm on triangles of 0.1 m. If colors have both a long reach and a steep fall-off more
+/// parts would be needed; parts then stay larger than the tolerance requires.
 constexpr int kMostParts = 1 << 22;
 
 double reach_of(const Dipole& dipole) {
@@ -68,7 +68,7 @@ DiffusionOperator::DiffusionOperator(const Receivers& receivers, std::vector<glm
 }
 
 void DiffusionOperator::tabulate_kernel() {
-    constexpr int kSteps = 4096; // linear between them: below 1e-5 of K
+    constexpr int kSteps = 4096; // linear interpolation between the steps: error below 1e-5 of K
     const double last = std::log1p(reach_ * reach_ * 4 / (scale_ * scale_));
     kernel_steps_ = kSteps / last;
     for (int i = 0; i <= kSteps + 1; ++i) {
@@ -119,7 +119,7 @@ std::uint32_t DiffusionOperator::build(std::uint32_t begin, std::uint32_t end) {
     return index;
 }
 
-/// The row of one receiver: sources are receivers, then the means of the nodes.
+/// Builds the row of one receiver: sources are receivers, then the means of the nodes.
 class DiffusionOperator::Gatherer {
 public:
     Gatherer(const DiffusionOperator& diffusion, int channels) : diffusion_(diffusion), channels_(channels) {}
@@ -141,8 +141,8 @@ private:
             return;
         const glm::dvec3 size = node.high - node.low;
         const double distance = glm::distance(at_, node.center);
-        // K varies over the distance, but over no less than the depth of the sources below the surface; far
-        // away it falls exponentially, by e over 1/sigma_tr.
+        // K varies on the scale of the distance, but at least on that of the depth of the sources below the
+        // surface; far away it falls exponentially, by e over 1/sigma_tr.
         if (least > 0 && small(glm::dot(size, size), distance))
             return add(static_cast<std::uint32_t>(diffusion_.receivers_.size()) + index,
                        static_cast<float>(node.area) * diffusion_.kernel(distance * distance));
@@ -169,8 +169,8 @@ private:
         return squared_extent <= diffusion_.tolerance_ * scale && squared_extent <= diffusion_.most_extent_;
     }
 
-    /// Adds the integrals over a part of a triangle, whose corners have these barycentric coordinates; parts
-    /// that are large for K are cut in four.
+    /// Adds the integrals over a part of a triangle whose corners have these barycentric coordinates; parts
+    /// that are large relative to the variation of K are split into four.
     void integrate(const std::array<glm::dvec3, 3>& p, const std::array<glm::dvec3, 3>& barycentrics,
                    int depth, CornerWeights& weights) {
         constexpr int kMostDepth = 16;
@@ -189,7 +189,7 @@ private:
                 weights[c] += area * static_cast<double>(k[static_cast<int>(c)]) * middle;
             return;
         }
-        std::array<glm::dvec3, 3> q, b; // middles of the edges across from each corner
+        std::array<glm::dvec3, 3> q, b; // midpoints of the edges opposite to each corner
         for (std::size_t i = 0; i < 3; ++i) {
             q[i] = (p[(i + 1) % 3] + p[(i + 2) % 3]) / 2.0;
             b[i] = (barycentrics[(i + 1) % 3] + barycentrics[(i + 2) % 3]) / 2.0;
@@ -212,7 +212,7 @@ void DiffusionOperator::apply(int channels, int order, std::span<float> values, 
     if (nodes_.empty())
         return;
     const auto stride = static_cast<std::size_t>(channels * coefficient_count(order));
-    // The values as they are, then the means of the nodes, children before parents.
+    // The original values, then the means of the nodes, children before parents.
     std::vector<float> from((receivers_.size() + nodes_.size()) * stride);
     std::copy_n(values.begin(), receivers_.size() * stride, from.begin());
     float* const means = &from[receivers_.size() * stride];

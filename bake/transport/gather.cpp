@@ -1,4 +1,4 @@
-// Gathers the light of surfaces into rows, one for each receiver (docs/math.md, section 7).
+// Gathers the light of surfaces into rows, one row per receiver (docs/math.md, section 7).
 
 #include "transport/gather.h"
 
@@ -12,7 +12,7 @@
 namespace prt {
 namespace {
 
-/// Sums weights by source. Keeps its space between rows; one per thread.
+/// Sums weights by source. Reuses its memory for all rows; one per thread.
 template <class Weight>
 class RowSums {
 public:

@@ -1,6 +1,6 @@
 #pragma once
 
-// The product of a gather with exit transfer, by a device that keeps the gather.
+// Product of a gather operator with exit transfer on a device that stores the operator.
 
 #include "prt/support/progress.h"
 #include "prt/transfer.h"
@@ -13,27 +13,27 @@ namespace prt {
 
 struct SumRows;
 
-/// What the last bounce began with and what it leaves: the largest norm of a receiver's vector of one
-/// channel.
+/// Energy before and after the last bounce: the maximum norm of a receiver's vector in one channel.
 struct BounceEnergy {
     double before_last = 0, last = 0;
 };
 
+/// Applies a gather operator on a device.
 class GatherProduct {
 public:
     virtual ~GatherProduct() = default;
-    /// Takes exit transfer [receivers][channels][order²], from which `apply` gathers.
+    /// Loads exit transfer [receivers][channels][order²], from which `apply` gathers.
     virtual void load(int order, std::span<const float> exit) = 0;
-    /// Writes F exit for the rows from `first` on, as many as `to` [rows][channels][order²] has.
+    /// Writes F exit for the rows from `first` on; `to` is [rows][channels][order²].
     virtual void apply(std::size_t first, std::span<float> to) = 0;
-    /// Adds F exit of all rows to sums of them, [sums][channels][order²]. `to` stays the same as long as this
-    /// is there. False: the device has no room for it.
+    /// Adds F exit of all rows to sums of rows, [sums][channels][order²]. `to` must be the same for all
+    /// calls. Returns false if the device has too little memory.
     virtual bool apply_to_sums(const SumRows& to, std::span<float> sums) = 0;
-    /// Adds `bounces` bounces to `transfer`, where rows are receivers and nothing happens between bounces;
-    /// nothing moves but it, there and back. Nothing: the device has no room for it, and `transfer` is what
-    /// it was.
+    /// Adds `bounces` bounces to `transfer`, if rows are receivers and light does not change between bounces.
+    /// Only the transfer is copied to and from the device. Returns nothing, and leaves `transfer` unchanged,
+    /// if the device has too little memory.
     virtual std::optional<BounceEnergy> bounce(Transfer& transfer, int bounces, const Progress& progress) = 0;
-    virtual std::size_t bytes_moved() const = 0; ///< to and from the device, of transfer and rows, until now
+    virtual std::size_t bytes_moved() const = 0; ///< transferred bytes of transfer and rows so far
 };
 
 } // namespace prt

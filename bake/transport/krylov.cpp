@@ -1,4 +1,4 @@
-// Solves for all bounces by restarted GMRES (Saad and Schultz 1986), many columns side by side.
+// Solves for all bounces with restarted GMRES (Saad and Schultz 1986), for many columns in parallel.
 
 #include "transport/krylov.h"
 
@@ -16,8 +16,8 @@ namespace {
 using Columns = std::vector<double>;
 using Vector = std::vector<float>;
 
-/// Sums and linear combinations of vectors, column by column. Sums run over blocks of rows that do not depend
-/// on the number of threads.
+/// Sums and linear combinations of vectors, column by column. Sums use blocks of rows that do not depend on
+/// the number of threads.
 class ColumnArithmetic {
 public:
     ColumnArithmetic(std::size_t rows, std::size_t columns, int threads)
@@ -41,21 +41,21 @@ public:
         return result;
     }
 
-    /// to += factors · a.
+    /// Computes to += factors · a.
     void add(Vector& to, const Columns& factors, const Vector& a) const {
         for_elements([&](std::size_t, std::size_t i, std::size_t c) {
             to[i] += static_cast<float>(factors[c]) * a[i];
         });
     }
 
-    /// a /= divisors, where those are zero a becomes zero.
+    /// Computes a /= divisors; columns with a zero divisor become zero.
     void divide(Vector& a, const Columns& divisors) const {
         for_elements([&](std::size_t, std::size_t i, std::size_t c) {
             a[i] = divisors[c] > 0 ? static_cast<float>(static_cast<double>(a[i]) / divisors[c]) : 0.0f;
         });
     }
 
-    /// to += a. Returns the largest absolute element of `a` over that of `to`.
+    /// Computes to += a. Returns the maximum absolute element of `a` divided by that of `to`.
     double advance(std::span<float> to, const Vector& a) const {
         std::vector<float> changes(blocks(), 0), largest(blocks(), 0);
         for_elements([&](std::size_t block, std::size_t i, std::size_t) {
@@ -86,15 +86,15 @@ private:
     int threads_;
 };
 
-/// The least-squares problem of one column: the Hessenberg matrix, made triangular by Givens' rotations as it
-/// grows.
+/// The least-squares problem of one column: the Hessenberg matrix, transformed to a triangular matrix by
+/// Givens rotations as it grows.
 class SmallSystem {
 public:
     explicit SmallSystem(double right_side) : right_side_{right_side} {}
 
     double residual() const { return std::abs(right_side_.back()); }
 
-    /// Takes column j of the Hessenberg matrix, of j + 2 elements.
+    /// Adds column j of the Hessenberg matrix, which has j + 2 elements.
     void add(std::vector<double> column) {
         for (std::size_t i = 0; i < rotations_.size(); ++i)
             rotate(rotations_[i], column[i], column[i + 1]);
@@ -134,7 +134,7 @@ private:
     std::vector<double> right_side_;
 };
 
-/// What a round leaves of the error that it found: 0.005 to 0.02 measured in rooms with pinholes.
+/// Share of the detected error that remains after a round: 0.005 to 0.02 measured in rooms with pinholes.
 constexpr double kMissed = 0.05;
 
 class Gmres {
@@ -146,7 +146,7 @@ public:
         const Vector b(b_then_x.begin(), b_then_x.end());
         std::fill(b_then_x.begin(), b_then_x.end(), 0.0f);
         KrylovResult result;
-        // The first round takes what floats allow; the next ones see what it missed of the slow modes.
+        // The first round uses the precision of floats; the next ones see its error in the slow modes.
         for (double reduction = 1e-7; !result.converged && rounds_ < options_.rounds; reduction = 1e-2) {
             Vector residual = b;
             if (rounds_++ > 0) {
@@ -162,7 +162,7 @@ public:
     }
 
 private:
-    /// (I - K) from.
+    /// Returns (I - K) from.
     Vector applied(const Vector& from) {
         if (options_.check)
             options_.check();
@@ -175,8 +175,8 @@ private:
         return to;
     }
 
-    /// The correction that lowers the norm of `residual` by `reduction` in every column, or as far as steps
-    /// go.
+    /// Returns the correction that reduces the norm of `residual` by `reduction` in every column, or as far
+    /// as possible within the maximum number of steps.
     Vector round(Vector residual, double reduction) {
         const std::size_t columns = options_.columns;
         const Columns norms = with_.norms(residual);
@@ -206,8 +206,8 @@ private:
         return change;
     }
 
-    /// One step of Arnoldi's process with the modified orthogonalisation of Gram and Schmidt. Where rounding
-    /// errors are all that is left of a column, its basis is complete: it gets no further direction.
+    /// Computes one step of Arnoldi's process with modified Gram-Schmidt orthogonalisation. If only rounding
+    /// errors are left of a column, its basis is complete and gets no further direction.
     void extend(std::vector<Vector>& basis, std::vector<SmallSystem>& systems) {
         constexpr double kRounding = 4 * std::numeric_limits<float>::epsilon();
         Vector next = applied(basis.back());

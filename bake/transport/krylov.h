@@ -1,9 +1,9 @@
 #pragma once
 
 // All bounces at once: x = sum over k of K^k b as the solution of (I - K) x = b, by GMRES (Y. Saad, M. H.
-// Schultz, SIAM J. Sci. Stat. Comput. 7, 1986). An enclosure that hardly any light leaves has one eigenvalue
-// of K next to 1: a sum over bounces takes as many as light takes to get out, Krylov methods a step or two
-// more than elsewhere.
+// Schultz, SIAM J. Sci. Stat. Comput. 7, 1986). In an almost closed room K has one eigenvalue next to 1: a
+// sum over bounces needs as many bounces as light needs to leave the room, Krylov methods need only one or
+// two steps more than elsewhere.
 
 #include <cstddef>
 #include <functional>
@@ -13,31 +13,31 @@ namespace prt {
 
 /// The operator K on [rows][columns].
 struct ColumnOperator {
-    /// to = K from. `from` may be used up.
+    /// Computes to = K from. `from` may be overwritten.
     std::function<void(std::span<float> from, std::span<float> to)> apply;
-    /// r = b - x + K x, rounded to floats once, at the end: what floats lose of a sum, an eigenvalue next to
-    /// 1 makes large.
+    /// Computes r = b - x + K x, rounded to floats once at the end: an eigenvalue next to 1 amplifies the
+    /// rounding errors of float sums.
     std::function<void(std::span<const float> b, std::span<const float> x, std::span<float> r)> residual;
 };
 
 struct KrylovOptions {
-    std::size_t columns = 1; ///< solved side by side, each on its own
-    /// Error of the solution to reach, over its largest element. A round of steps changes the solution by
-    /// what was wrong, and leaves a small share of that.
+    std::size_t columns = 1; ///< solved in parallel, independent of each other
+    /// Target error of the solution relative to its largest element. A round of steps changes the solution by
+    /// the detected error, and leaves a small share of it.
     double tolerance = 1e-5;
-    int steps = 32; ///< of a round at most; each takes the memory of the solution
-    int rounds = 6; ///< at most
+    int steps = 32; ///< maximum steps per round; each needs the memory of a solution
+    int rounds = 6; ///< maximum number of rounds
     int threads = 0;
     std::function<void()> check; ///< called between steps; may throw
 };
 
 struct KrylovResult {
-    int applications = 0; ///< of K
-    double remaining = 0; ///< estimated largest error of an element, over the largest element
+    int applications = 0; ///< number of applications of K
+    double remaining = 0; ///< estimated maximum error of an element, relative to the largest element
     bool converged = false;
 };
 
-/// Replaces b, [rows][columns], by x. Deterministic, whatever the threads.
+/// Replaces b, [rows][columns], by x. Deterministic for any number of threads.
 KrylovResult solve_fixed_point(const ColumnOperator& k, std::span<float> b_then_x,
                                const KrylovOptions& options);
 

@@ -1,4 +1,4 @@
-// Sums bounces: one after the other, or all at once by a Krylov solver (docs/math.md, section 7).
+// Sums bounces, one after another or all at once with a Krylov solver (docs/math.md, section 7).
 
 #include "transport/light_transport.h"
 
@@ -12,7 +12,7 @@
 namespace prt {
 namespace {
 
-/// Largest norm of a receiver's vector of one channel.
+/// Maximum norm of a receiver's vector in one channel.
 double largest_norm(std::span<const float> vectors, std::size_t coefficients) {
     double largest = 0;
     for (std::size_t begin = 0; begin < vectors.size(); begin += coefficients) {
@@ -32,7 +32,7 @@ void exit_from_incident(const TransportOperators& operators, int order, int chan
         diffusion.apply(channels, order, vectors, threads);
 }
 
-/// Some rows [rows][stride] at a time.
+/// Calls `work` with blocks of rows [rows][stride].
 template <class Value, class Work>
 void in_blocks(std::size_t rows, std::size_t stride, Work&& work) {
     constexpr std::size_t kRowsAtOnce = 1 << 14;
@@ -41,7 +41,7 @@ void in_blocks(std::size_t rows, std::size_t stride, Work&& work) {
         work(first, std::span(some).first(std::min(kRowsAtOnce, rows - first) * stride));
 }
 
-/// Incident transfer of receivers from exit transfer: `gather(first, to)` writes that of rows.
+/// Computes incident transfer of receivers from exit transfer; `gather(first, to)` writes the values of rows.
 template <class Value, class Gather>
 void incident_from_rows(const TransportOperators& operators, std::size_t stride, std::span<Value> incident,
                         Gather&& gather) {
@@ -59,7 +59,8 @@ void incident_from_rows(const TransportOperators& operators, std::size_t stride,
     spread_unknowns(equations, std::span<const Value>(x), stride, incident);
 }
 
-/// The same where the device has the samples, and room to sum them.
+/// Computes incident transfer on the device, if it has the samples and enough memory for the sums. Returns
+/// whether it did.
 bool incident_from_device(const TransportOperators& operators, std::size_t stride,
                           std::span<float> incident) {
     if (!operators.product || !operators.fit)
@@ -98,7 +99,7 @@ void gather_rows(const TransportOperators& operators, int order, std::span<const
         operators.gather->apply(order, exit, rows.first, rows.to, threads);
 }
 
-/// One bounce: exit transfer from exit transfer.
+/// Operator of one bounce, from exit transfer to exit transfer.
 ColumnOperator bounce_operator(const TransportOperators& operators, int order, int channels, int threads) {
     const auto stride = static_cast<std::size_t>(channels * coefficient_count(order));
     const auto apply = [&operators, order, channels, stride, threads](std::span<float> from,
@@ -124,7 +125,7 @@ ColumnOperator bounce_operator(const TransportOperators& operators, int order, i
     return {apply, residual};
 }
 
-/// One more bounce of `exit` transfer to other rows.
+/// Gathers one more bounce of `exit` transfer at other rows.
 std::vector<std::vector<float>> gather_beside(const TransportOperators& operators, const Transfer& exit,
                                               int threads) {
     const int order = exit.layout.order;
@@ -141,7 +142,7 @@ std::vector<std::vector<float>> gather_beside(const TransportOperators& operator
     return gathered;
 }
 
-/// What is left after a bounce, as a geometric series, over the sum of all.
+/// Remaining energy after a bounce, as a geometric series, relative to the sum of all bounces.
 double remaining_after(const BounceEnergy& energy, double total) {
     const double ratio = energy.before_last > 0 ? energy.last / energy.before_last : 0;
     if (energy.last == 0 || total == 0)
@@ -149,7 +150,7 @@ double remaining_after(const BounceEnergy& energy, double total) {
     return ratio < 1 ? energy.last * ratio / (1 - ratio) / total : 1;
 }
 
-/// So many bounces on the device, where nothing happens to light between them.
+/// Computes `bounces` bounces on the device, if light does not change between them.
 std::optional<Propagated> bounce_on_device(Transfer& transfer, const TransportOperators& operators,
                                            int bounces, int threads, const Progress& progress) {
     if (!operators.product || operators.fit || !operators.diffusion.empty() || operators.refill.size() > 0)
@@ -173,7 +174,7 @@ std::optional<Propagated> bounce_on_device(Transfer& transfer, const TransportOp
                       .beside = std::move(beside)};
 }
 
-/// Adds bounce after bounce, until so little remains.
+/// Adds bounces one after another, until at most `least_remaining` remains.
 Propagated bounce_often(Transfer transfer, const TransportOperators& operators, int bounces,
                         double least_remaining, int threads, const Progress& progress) {
     const ColumnOperator bounce =
@@ -205,10 +206,10 @@ Propagated bounce_often(Transfer transfer, const TransportOperators& operators, 
     return result;
 }
 
-/// The sum over all bounces (docs/math.md, eq. 37).
+/// Computes the sum over all bounces (docs/math.md, eq. 37).
 Propagated bounce_endlessly(Transfer transfer, const TransportOperators& operators, int threads,
                             const Progress& progress) {
-    // A few coefficients at a time, since the solver keeps a vector for each of its steps.
+    // A few coefficients at a time, because the solver stores a vector for each of its steps.
     const int order = std::min(transfer.layout.order, 3), width = coefficient_count(order),
               coefficients = coefficient_count(transfer.layout.order), channels = transfer.layout.channels();
     const auto columns = static_cast<std::size_t>(channels * width);
@@ -217,7 +218,7 @@ Propagated bounce_endlessly(Transfer transfer, const TransportOperators& operato
     Propagated result;
     for (int first = 0; first < coefficients; first += width) {
         progress.update(static_cast<double>(first) / coefficients);
-        const auto exchange = [&](auto&& visit) { // the last ones may be fewer
+        const auto exchange = [&](auto&& visit) { // the last group may have fewer coefficients
             for (std::size_t p = 0; p < transfer.receivers(); ++p)
                 for (int c = 0; c < channels; ++c)
                     for (int k = 0; k < width; ++k)
@@ -270,7 +271,7 @@ SampledLight bounce_to_samples(Transfer exit, TransportOperators operators, cons
     return light;
 }
 
-/// Counts the bounce to samples in what is known of `exit`, whose sum began with `direct`.
+/// Includes the bounce to samples in the statistics of `exit`, whose sum began with `direct`.
 void add_last_bounce(const SurfaceFit& fit, const SampledLight& rest, const Transfer& direct,
                      Propagated& exit) {
     const auto coefficients = static_cast<std::size_t>(coefficient_count(direct.layout.order));
@@ -301,8 +302,8 @@ Propagated propagate(Transfer direct, const TransportOperators& operators, int b
             return std::move(*done);
         return bounce_often(std::move(direct), operators, bounces, 0, threads, progress);
     }
-    // Media may return more light than they took (docs/math.md, section 8): a solution of the equation need
-    // then be no sum over bounces, so that the sum itself is taken.
+    // Media may return more light than they receive (docs/math.md, section 8): a solution of the equation is
+    // then not necessarily the sum over bounces, so compute the sum itself.
     return operators.diffusion.empty()
                ? bounce_endlessly(std::move(direct), operators, threads, progress)
                : bounce_often(std::move(direct), operators, kMostBounces, 1e-5, threads, progress);
@@ -353,7 +354,8 @@ SharpTransfer propagate_sharply(Transfer smooth, const LightAtSamples& light,
 
 void mix_sides(const Surfaces& surfaces, const SurfacePoint& point, std::size_t channels,
                std::span<float> front, std::span<const float> back) {
-    // Where the base color is nearly black, no finite transfer can say what passes: it is taken as 1/255.
+    // If the base color is nearly black, no finite transfer can represent transmitted light: it counts as
+    // 1/255.
     constexpr float kMinBase = 1.0f / 255;
     const Scattering s = surfaces.scattering(point);
     const glm::vec3 base = surfaces.base_color(point);

@@ -1,6 +1,6 @@
 #pragma once
 
-// Bounces of light, with what happens to light between them.
+// Propagates light over bounces, with repairs and subsurface scattering between them.
 
 #include "prt/support/progress.h"
 #include "prt/transfer.h"
@@ -15,64 +15,67 @@
 
 namespace prt {
 
-/// The linear operators of a scene. Incident transfer becomes exit transfer by `refill`, then `diffusion`;
-/// exit transfer becomes the incident transfer of the next bounce by `gather`.
+/// The linear operators of a scene. `refill` and then `diffusion` convert incident transfer to exit transfer;
+/// `gather` converts exit transfer to the incident transfer of the next bounce.
 struct TransportOperators {
     const Refill& refill;
     std::span<const DiffusionOperator> diffusion;
     const GatherOperator* gather = nullptr; ///< null: no bounces
-    GatherProduct* product = nullptr;       ///< by a device; null: by the processor
-    const SurfaceFit* fit = nullptr; ///< rows of `gather` are its samples, and receivers take smooth values
-                                     ///< of them; null: rows are receivers
-    std::vector<const GatherOperator*> beside = {}; ///< other rows that gather the last bounce
+    GatherProduct* product = nullptr;       ///< product on a device; null: on the CPU
+    const SurfaceFit* fit = nullptr; ///< fit whose samples are the rows of `gather`; receivers use smooth
+                                     ///< values of them; null: rows are receivers
+    std::vector<const GatherOperator*> beside = {}; ///< additional rows that gather the last bounce
 };
 
 struct Propagated {
-    Transfer transfer; ///< exit transfer, direct light and bounces
-    int bounces = 0;   ///< done; for endless ones how often the solver applied the operators
-    /// Energy of the bounces not done, estimated as a geometric series: largest norm of a receiver's
-    /// transfer, over that of the sum. For endless ones the estimated error of the solution, over its largest
-    /// element.
+    Transfer transfer; ///< exit transfer of direct light and bounces
+    int bounces = 0;   ///< number of computed bounces; for endless bounces the number of operator
+                       ///< applications in the solver
+    /// Energy of the bounces that were not computed, estimated as a geometric series: maximum norm of a
+    /// receiver's transfer relative to that of the sum. For endless bounces the estimated error of the
+    /// solution, relative to its largest element.
     double remaining = 0;
-    double last = 0;       ///< energy of the last bounce; 0 where none was done alone
+    double last = 0;       ///< energy of the last bounce; 0 if no single bounce was computed
     bool converged = true; ///< endless bounces reached the solver's tolerance
     /// Bounced light at the rows of each of `beside`, [rows][channels][order²], as if they were receivers.
     std::vector<std::vector<float>> beside = {};
 };
 
-/// The sum over `direct` light and `bounces` bounces of it (or kEndlessBounces).
+/// Computes the sum over `direct` light and `bounces` bounces of it (or kEndlessBounces).
 Propagated propagate(Transfer direct, const TransportOperators& operators, int bounces, int threads,
                      const Progress& progress);
 
-/// Light that was measured at samples of the surface.
+/// Light measured at samples of the surface.
 struct LightAtSamples {
     const SampledLight& direct;
     const FitSolver& solver;                                     ///< for direct light
-    std::function<FitSolver(const SampledLight& rest)> for_rest; ///< none: the same
-    const TestValues& of_direct;                                 ///< of the channels of `direct`
-    const TestValues& of_rest;                                   ///< of the channels of `gather`
-    /// Rows of the last bounce to the samples; null: as of all bounces.
+    std::function<FitSolver(const SampledLight& rest)> for_rest; ///< null: the same solver
+    const TestValues& of_direct;                                 ///< tests for the channels of `direct`
+    const TestValues& of_rest;                                   ///< tests for the channels of `gather`
+    /// Rows of the last bounce at the samples; null: rows of all bounces.
     const GatherOperator* last = nullptr;
 };
 
 struct SharpTransfer {
     Transfer direct; ///< incident transfer without a bounce
-    Propagated exit; ///< of all light
+    Propagated exit; ///< exit transfer of all light
 };
 
-/// The same for `direct` light by a surface fit: bounces go on between smooth values, of which `smooth` is
-/// the direct light, of as many channels as `operators.gather`; what is written is fitted sharply at the end.
+/// Computes the sum over bounces of `light`, which was measured at the samples of a surface fit. Bounces use
+/// smooth values; `smooth` is the direct light with the number of channels of `operators.gather`. The written
+/// values are fitted sharply at the end.
 SharpTransfer propagate_sharply(Transfer smooth, const LightAtSamples& light,
                                 const TransportOperators& operators, int bounces, int threads,
                                 const Progress& progress);
 
-/// Replaces light [channels][columns] that comes in at the front of a sheet by (1 - f) T_front + f c/rho
+/// Replaces light [channels][columns] that arrives at the front of a thin sheet by (1 - f) T_front + f c/rho
 /// T_back (docs/math.md, eq. 38).
 void mix_sides(const Surfaces& surfaces, const SurfacePoint& point, std::size_t channels,
                std::span<float> front, std::span<const float> back);
 
-/// Light through thin sheets: replaces the transfer of front receivers by (1 - f) T_front + f c/rho T_back,
-/// so that it serves a receiver of base color rho whose surface transmits f c (docs/math.md, eq. 38).
+/// Adds light through thin sheets: replaces the transfer of front receivers by (1 - f) T_front + f c/rho
+/// T_back, so that it is valid for a receiver of base color rho whose surface transmits f c (docs/math.md,
+/// eq. 38).
 void add_transmission(Transfer& transfer, const Surfaces& surfaces, const TransportReceivers& receivers);
 
 } // namespace prt

@@ -1,4 +1,4 @@
-// Multiplies sparse rows with transfer vectors, a register at a time.
+// Multiplies sparse rows with transfer vectors in SIMD registers.
 
 #include "transport/sparse_rows.h"
 
@@ -10,8 +10,8 @@
 namespace prt {
 namespace {
 
-/// sums += weight · values over `Length` values. Whole registers; the last one overlaps the one before, so
-/// that there is no rest.
+/// Computes sums += weight · values over `Length` values. Uses only whole registers; the last one overlaps
+/// the previous one, so that there is no remainder.
 template <int Length>
 struct RegisterSums {
     static constexpr int kRegisters = (Length + kNarrow - 1) / kNarrow;
@@ -38,7 +38,7 @@ requires(Length < kNarrow) struct RegisterSums<Length> {
     [[gnu::always_inline]] void store(float* to) const { std::copy_n(sums, Length, to); }
 };
 
-/// A row times the matrix: `Groups` runs of `Length` values, one weight each.
+/// Multiplies a row with the matrix: `Groups` runs of `Length` values, with one weight each.
 template <int Groups, int Length>
 [[gnu::always_inline]] inline void apply_row(const SparseRow& row, const float* from, float* to) {
     RegisterSums<Length> sums[Groups];

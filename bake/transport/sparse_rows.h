@@ -1,6 +1,6 @@
 #pragma once
 
-// The vectorised product of sparse rows with transfer vectors.
+// Vectorised product of sparse rows with transfer vectors.
 
 #include <cstdint>
 #include <span>
@@ -13,7 +13,7 @@ struct SparseRow {
     const float* weights;         ///< [count][channels, or 1]
 };
 
-/// to[row] = sum over entries of weight · from[source]; `from` and `to` are [..][channels][order²].
+/// Computes to[row] = sum over entries of weight · from[source]; `from` and `to` are [..][channels][order²].
 /// `one_weight`: an entry has one weight for all channels.
 void apply_rows(int order, int channels, bool one_weight, std::span<const SparseRow> rows, const float* from,
                 float* to);

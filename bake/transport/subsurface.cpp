@@ -1,5 +1,5 @@
-// The dipole and measured media of H. W. Jensen, S. R. Marschner, M. Levoy, P. Hanrahan, "A Practical Model
-// for Subsurface Light Transport", SIGGRAPH 2001.
+// The dipole and the measured media of H. W. Jensen, S. R. Marschner, M. Levoy, P. Hanrahan, "A Practical
+// Model for Subsurface Light Transport", SIGGRAPH 2001.
 
 #include "prt/subsurface.h"
 
@@ -34,13 +34,14 @@ const std::array<NamedMedium, 12> kMeasured = {
     named("spectralon", {11.6, 20.4, 14.9}, {0.00, 0.00, 0.00}, 1.3),
     named("whole-milk", {2.55, 3.21, 3.77}, {0.0011, 0.0024, 0.014}, 1.3)};
 
-/// (1 + Fdr)/(1 - Fdr): what the change of the refractive index at the surface does to the diffuse flux.
+/// Returns (1 + Fdr)/(1 - Fdr): the effect of the change of the refractive index at the surface on the
+/// diffuse flux.
 double boundary_term(double ior) {
     const double fdr = -1.440 / (ior * ior) + 0.710 / ior + 0.668 + 0.0636 * ior;
     return (1 + fdr) / (1 - fdr);
 }
 
-/// Diffuse albedo of a half space as a function of the reduced albedo alone (Jensen and Buhler 2002).
+/// Diffuse albedo of a half space as a function of only the reduced albedo (Jensen and Buhler 2002).
 double diffuse_albedo(double reduced, double ior) {
     const double depth = std::sqrt(3 * (1 - reduced));
     return reduced / 2 * (1 + std::exp(-4.0 / 3 * boundary_term(ior) * depth)) * std::exp(-depth);
@@ -79,7 +80,7 @@ double Dipole::inside(double radius) const {
 }
 
 double reduced_albedo(double reflectance, double ior) {
-    double low = 0, high = 1; // diffuse_albedo rises from 0 to 1
+    double low = 0, high = 1; // diffuse_albedo increases from 0 to 1
     for (int i = 0; i < 60; ++i) {
         const double middle = (low + high) / 2;
         (diffuse_albedo(middle, ior) < reflectance ? low : high) = middle;

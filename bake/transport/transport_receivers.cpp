@@ -1,4 +1,4 @@
-// Gives receivers back sides, which surfaces that scatter there light and are lit from.
+// Adds back sides to receivers on surfaces that scatter light there.
 
 #include "transport/transport_receivers.h"
 

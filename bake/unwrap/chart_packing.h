@@ -1,5 +1,7 @@
 #pragma once
 
+// Packs rectangles into a square.
+
 #include <glm/vec2.hpp>
 
 #include <optional>
@@ -8,7 +10,8 @@
 
 namespace prt {
 
-/// Places rectangles beside each other in a square: the corner of each, or nothing where they do not fit.
+/// Packs rectangles next to each other in a square. Returns the corner of each, or nothing if they do not
+/// fit.
 std::optional<std::vector<glm::ivec2>> pack_rectangles(std::span<const glm::ivec2> sizes, int side);
 
 } // namespace prt

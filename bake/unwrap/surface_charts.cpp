@@ -1,4 +1,4 @@
-// Gives every face an axis, smooths borders, and takes apart what would overlap.
+// Assigns an axis to every face, smooths borders of charts, and splits charts that overlap themselves.
 
 #include "unwrap/surface_charts.h"
 
@@ -71,8 +71,8 @@ std::vector<std::vector<std::uint32_t>> neighbours(const Scene& scene, std::span
     return result;
 }
 
-/// The direction of each face: that of its normal, unless most of its neighbours have another that it can
-/// have, too.
+/// Direction of each face: that of its normal, unless most of its neighbours have another one that is also
+/// possible for the face.
 std::vector<int> directions(std::span<const ChartFace> faces,
                             const std::vector<std::vector<std::uint32_t>>& beside) {
     constexpr int kPasses = 32;
@@ -101,7 +101,7 @@ std::vector<int> directions(std::span<const ChartFace> faces,
     return direction;
 }
 
-/// Takes a chart apart where it does not hang together.
+/// Splits a chart into its connected parts.
 template <class SameChart>
 std::vector<std::vector<std::uint32_t>> connected(std::span<const std::uint32_t> faces,
                                                   const std::vector<std::vector<std::uint32_t>>& beside,
@@ -123,7 +123,7 @@ std::vector<std::vector<std::uint32_t>> connected(std::span<const std::uint32_t>
                 }
     }
     for (const std::uint32_t f : faces)
-        part[f] = -2; // of no chart that is taken apart
+        part[f] = -2; // in no chart that is being split
     return parts;
 }
 
@@ -150,7 +150,7 @@ bool overlaps(std::span<const ChartFace> faces, const SurfaceChart& chart) {
     return sample_texels(flat, atlas).overlapping > 0;
 }
 
-/// The halves of a chart that lies over itself: nearer and farther along its axis.
+/// Halves of a chart that overlaps itself: nearer and farther along its axis.
 std::array<std::vector<std::uint32_t>, 2> halves(std::span<const ChartFace> faces,
                                                  const SurfaceChart& chart) {
     const auto depth = [&](std::uint32_t f) {

@@ -17,21 +17,21 @@ namespace prt {
 struct ChartFace {
     std::size_t primitive = 0, triangle = 0; ///< in the scene
     glm::dvec3 corners[3];
-    glm::dvec3 normal{0}; ///< unit, zero where there is no area
+    glm::dvec3 normal{0}; ///< unit; zero for a triangle without area
 };
 
 struct SurfaceChart {
-    int axis = 0; ///< x, y, z, along or against which it is seen: in front or behind
+    int axis = 0; ///< x, y or z: axis of the projection, in either direction
     std::vector<std::uint32_t> faces;
 };
 
-/// Where a place lies, seen along that axis: metres.
+/// Projects a position along the axis, in metres.
 glm::dvec2 projected(const glm::dvec3& position, int axis);
 
 std::vector<ChartFace> chart_faces(const Scene& scene, std::span<const std::size_t> primitives);
 
-/// Every face is in one chart. Within one, faces hang together by edges that are not sharp, look to one side,
-/// and lie beside each other where they are projected.
+/// Cuts faces into charts; every face is in one chart. The faces of a chart are connected by edges that are
+/// not sharp, face the same side, and do not overlap in the projection.
 std::vector<SurfaceChart> cut_into_charts(const Scene& scene, std::span<const ChartFace> faces);
 
 } // namespace prt

@@ -1,4 +1,4 @@
-// Cuts, packs, and splits vertices where charts end.
+// Cuts surfaces into charts, packs them, and splits vertices at the ends of charts.
 
 #include "prt/unwrap.h"
 
@@ -39,7 +39,7 @@ std::vector<FlatBox> flat_boxes(std::span<const ChartFace> faces, std::span<cons
     return boxes;
 }
 
-/// Where charts lie in a texture.
+/// Positions of charts in a texture.
 struct Packed {
     std::vector<glm::ivec2> corners;
     int side = 0;
@@ -65,7 +65,7 @@ double area_of(std::span<const FlatBox> boxes) {
                            [](double sum, const FlatBox& box) { return sum + box.size.x * box.size.y; });
 }
 
-/// As many texels a metre as fit.
+/// Packs charts with the maximum number of texels per metre that fits.
 Packed pack_into(std::span<const FlatBox> boxes, int side) {
     constexpr double kStep = 0.95;
     constexpr int kMostSteps = 200;
@@ -76,7 +76,7 @@ Packed pack_into(std::span<const FlatBox> boxes, int side) {
     throw Error(fmt::format("a texture of {0} x {0} texels is too small for {1} charts", side, boxes.size()));
 }
 
-/// The smallest texture with so many texels a metre.
+/// Packs charts into the smallest texture with this number of texels per metre.
 Packed pack_by_density(std::span<const FlatBox> boxes, double density) {
     constexpr double kStep = 1.06;
     double side = std::max(4.0, std::sqrt(area_of(boxes)) * density);

@@ -1,3 +1,5 @@
+// Evaluates errors between probes under assumed skies and lamps.
+
 #include "volume/light_error.h"
 
 #include <cmath>
@@ -5,7 +7,7 @@
 namespace prt {
 
 LightError::LightError(const IncidentLayout& layout) : layout_(layout) {
-    // A band's power falls with its number in outdoor and indoor skies alike.
+    // The power of a band decreases with its number in outdoor and indoor skies.
     for (int l = 0; l < layout.sky.order; ++l)
         bands_.insert(bands_.end(), static_cast<std::size_t>(2 * l + 1), 1.0 / std::pow(1 + l, 2));
 }

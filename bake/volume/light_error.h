@@ -1,6 +1,6 @@
 #pragma once
 
-// How far light between probes is from what was measured there.
+// Error of the interpolation between probes, relative to measured light.
 
 #include "volume/probe_states.h"
 #include "volume/probe_tracer.h"
@@ -12,19 +12,20 @@
 
 namespace prt {
 
-/// Squared errors under skies whose bands are about as strong as those of real ones, and under lamps.
+/// Computes squared errors under skies with band energies similar to real ones, and under lamps.
 class LightError {
 public:
     explicit LightError(const IncidentLayout& layout);
 
-    /// What is interpolated between probes against the mean of two measurements of half of a probe's rays
-    /// each, [coefficients][numbers], without what noise of either adds: no smaller brick would lower that.
+    /// Compares the interpolation between probes with two measurements from half of a probe's rays each,
+    /// [coefficients][numbers]. The noise of both is removed, because smaller bricks would not reduce it.
     BrickError operator()(const VolumeCorners& corners, const ProbeStates& states,
                           const std::array<std::span<const float>, 2>& measured) const;
 
 private:
-    /// Products of one coefficient of what comes in, over skies that may light the scene, and over lamps.
+    /// Product of one coefficient of incident light over assumed skies.
     double under_skies(std::span<const float> a, std::span<const float> b) const;
+    /// Product of one coefficient of incident light over lamps.
     double under_lamps(std::span<const float> a, std::span<const float> b) const;
 
     IncidentLayout layout_;

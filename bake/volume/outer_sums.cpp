@@ -1,3 +1,5 @@
+// Vectorised sums of outer products.
+
 #include "volume/outer_sums.h"
 
 #include "prt/support/vector_lanes.h"
@@ -5,7 +7,8 @@
 namespace prt {
 namespace {
 
-/// `values` [count][columns], `sums` [rows][columns], columns a multiple of kLaneCount.
+/// Adds a block. `values` is [count][columns], `sums` is [rows][columns]; columns are a multiple of
+/// kLaneCount.
 PRT_TARGET_CLONES
 void add_block(const std::array<float, OuterSums::kMostRows>* weights, const float* values, std::size_t count,
                std::size_t rows, std::size_t columns, float* sums) {

@@ -1,6 +1,6 @@
 #pragma once
 
-// Sums of outer products, many at a time: each number of the sums is read and written once for kAtOnce.
+// Sums of outer products in blocks: each element of the sums is read and written once per kAtOnce products.
 
 #include <array>
 #include <cstddef>
@@ -9,22 +9,23 @@
 
 namespace prt {
 
-/// sums[o][i] = sum over all that were added of weights[o] values[i].
+/// Computes sums[o][i] = sum over all added products of weights[o] values[i].
 class OuterSums {
 public:
     static constexpr std::size_t kAtOnce = 16, kMostRows = 16;
 
-    /// Zero, [rows][columns], kMostRows at most. Keeps its space.
+    /// Sets the sums to zero, [rows][columns], with at most kMostRows rows. Reuses its memory.
     void begin(std::size_t rows, std::size_t columns);
 
     struct Room {
-        std::span<float> weights; ///< [rows], to be written
-        std::span<float> values;  ///< [columns or a few more], the first of which are to be written
+        std::span<float> weights; ///< [rows], to be written by the caller
+        std::span<float> values;  ///< [columns or a few more], of which the caller writes the first [columns]
     };
-    /// Adds what is written there until the next call; more columns stay zero.
+    /// Returns space for the next product; the caller writes it before the next call. Additional columns stay
+    /// zero.
     Room add();
 
-    /// Row `row`, [columns or a few more].
+    /// Row `row` of the sums, [columns or a few more].
     std::span<const float> row(std::size_t row);
 
 private:

@@ -1,5 +1,5 @@
-// Bricks of the coarsest level cover the box of the volume; those that surfaces come near are split, down to
-// the finest.
+// Covers the box of the volume with bricks of the coarsest level, and splits those near surfaces, down to the
+// finest level.
 
 #include "volume/place_bricks.h"
 
@@ -31,7 +31,8 @@ std::vector<PlacedTriangle> triangles_of(const Scene& scene) {
     return triangles;
 }
 
-/// Whether the triangle comes into the box about `middle`, by its own box and its plane: a few more than do.
+/// Whether the triangle intersects the box about `middle`, tested by its bounding box and plane:
+/// conservative.
 bool comes_into(const PlacedTriangle& t, const glm::vec3& middle, float half) {
     const glm::vec3 a = t.a - middle, b = t.b - middle, c = t.c - middle;
     if (glm::any(glm::greaterThan(glm::min(a, glm::min(b, c)), glm::vec3(half))) ||
@@ -43,10 +44,10 @@ bool comes_into(const PlacedTriangle& t, const glm::vec3& middle, float half) {
     return std::abs(glm::dot(normal, glm::dvec3(a))) <= reach * 1.0001;
 }
 
-/// Splits bricks of one grid.
+/// Splits the bricks of one grid.
 class Placement {
 public:
-    /// Stops beyond `most` bricks.
+    /// Stops if there are more than `most` bricks.
     Placement(const Bounds& bounds, float spacing, std::size_t most) : most_(most) {
         const float side = spacing * static_cast<float>(kBrickCells);
         const glm::vec3 extent = bounds.high - bounds.low;
@@ -128,7 +129,7 @@ Bounds volume_bounds(const Scene& scene, const VolumeOptions& options) {
     if (scene.triangles() == 0)
         throw Error("a scene without triangles has no bounds for a volume: give it some");
     Bounds box = bounds(scene);
-    // A flat scene has some air above it.
+    // A flat scene gets some space above it.
     box.high = glm::max(box.high, box.low + 1e-3f * glm::length(box.high - box.low));
     check_bounds(box);
     return box;
@@ -151,7 +152,7 @@ VolumeGrid place_bricks(const Scene& scene, const VolumeOptions& options, std::s
     const double longest = std::max({extent.x, extent.y, extent.z});
     double most = longest, least = longest / (kMostBricksAlong * kBrickCells) * 1.01;
     VolumeGrid grid = Placement(box, static_cast<float>(most), options.probes).place(triangles);
-    // Fewer finest bricks than fill the box with so many probes can only hold fewer.
+    // Lower bound of the spacing: below it even a volume of coarsest bricks alone has more probes.
     least =
         std::max(least, std::cbrt(extent.x * extent.y * extent.z / static_cast<double>(options.probes)) / 16);
     for (int i = 0; i < 14; ++i) {

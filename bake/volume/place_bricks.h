@@ -1,6 +1,6 @@
 #pragma once
 
-// Where the bricks of a volume are: fine ones where surfaces are, coarse ones in the open.
+// Places the bricks of a volume: fine ones at surfaces, coarse ones in free space.
 
 #include "prt/scene.h"
 #include "prt/volume_bake.h"
@@ -9,11 +9,11 @@
 
 namespace prt {
 
-/// Those of the options, or of the scene. Throws `Error` where they are none.
+/// Returns the bounds of the options, or of the scene. Throws `Error` if they are invalid.
 Bounds volume_bounds(const Scene& scene, const VolumeOptions& options);
 
-/// Throws `Error` for bounds or a spacing that make no volume, and one that would not fit.
-/// `most` bricks are made before it is known.
+/// Places the bricks. Throws `Error` for invalid bounds or spacing, and for a spacing that would not fit into
+/// memory; stops after `most` bricks to find out.
 VolumeGrid place_bricks(const Scene& scene, const VolumeOptions& options, std::size_t most);
 
 } // namespace prt

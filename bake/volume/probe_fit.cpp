@@ -1,3 +1,5 @@
+// Fits probes to measured points by preconditioned conjugate gradients, with many columns in parallel.
+
 #include "volume/probe_fit.h"
 
 #include "prt/support/parallel.h"
@@ -15,16 +17,17 @@ namespace {
 
 using Shares = ProbeFit::Shares;
 
-/// What a probe's own measurement counts beside points: one point that stands where it is has 1.
+/// Weight of a probe's own measurement relative to points: a point at the position of a probe has weight 1.
 constexpr float kOwnWeight = 1;
 constexpr int kMostGradientSteps = 40;
-/// Residual at which a column is solved, over what it began with.
+/// Residual at which a column counts as solved, relative to its right-hand side.
 constexpr double kSolved = 1e-3;
-/// As many as sparse rows multiply with at once.
+/// Columns that the product of sparse rows processes at once.
 constexpr int kProductOrder = 4, kProductChannels = 3;
 constexpr std::size_t kColumns = kProductChannels * coefficient_count(kProductOrder);
 
-/// Of each hanging probe those that it is interpolated from, with their shares; of others themselves.
+/// Shares of probes: for a hanging probe the probes that it is interpolated from; for other probes
+/// themselves.
 std::vector<Shares> shares_of(const VolumeGrid& grid, const VolumeProbes& probes) {
     std::vector<Shares> shares(probes.size());
     for (std::uint32_t p = 0; p < probes.size(); ++p)
@@ -42,14 +45,14 @@ std::vector<Shares> shares_of(const VolumeGrid& grid, const VolumeProbes& probes
     return shares;
 }
 
-/// The symmetric matrix of a fit, rows one behind the other.
+/// The symmetric matrix of a fit, rows one after another.
 struct FitMatrix {
     std::vector<SparseRow> rows;
     std::vector<std::uint32_t> sources;
     std::vector<float> weights;
     std::vector<float> inverse_diagonal;
 
-    /// `upper` [rows]: columns from the row's own on. `own` is added to the diagonal.
+    /// `upper` [rows]: the columns of each row from the diagonal on. `own` is added to the diagonal.
     FitMatrix(std::span<const Shares> upper, float own) : inverse_diagonal(upper.size()) {
         std::vector<std::uint32_t> counts(upper.size(), 0);
         for (std::uint32_t p = 0; p < upper.size(); ++p)
@@ -85,7 +88,7 @@ struct FitMatrix {
 
 using ColumnSums = std::array<double, kColumns>;
 
-/// sums[c] = sum over rows of a[row][c] b[row][c], some rows in float at a time.
+/// Computes sums[c] = sum over rows of a[row][c] b[row][c], with float sums over short blocks of rows.
 PRT_TARGET_CLONES
 void dot_columns(const float* a, const float* b, std::size_t rows, ColumnSums& sums) {
     sums.fill(0);
@@ -99,7 +102,7 @@ void dot_columns(const float* a, const float* b, std::size_t rows, ColumnSums& s
     }
 }
 
-/// x += alpha d, r -= alpha ad, column by column.
+/// Computes x += alpha d and r -= alpha ad, column by column.
 PRT_TARGET_CLONES
 void step_columns(const std::array<float, kColumns>& alpha, const float* d, const float* ad, std::size_t rows,
                   float* x, float* r) {
@@ -110,7 +113,7 @@ void step_columns(const std::array<float, kColumns>& alpha, const float* d, cons
         }
 }
 
-/// z = scale[row] r.
+/// Computes z = scale[row] r.
 PRT_TARGET_CLONES
 void scale_rows(const float* scale, const float* r, std::size_t rows, float* z) {
     for (std::size_t i = 0; i < rows; ++i)
@@ -118,7 +121,7 @@ void scale_rows(const float* scale, const float* r, std::size_t rows, float* z) 
             z[i * kColumns + c] = scale[i] * r[i * kColumns + c];
 }
 
-/// d = z + beta d, column by column.
+/// Computes d = z + beta d, column by column.
 PRT_TARGET_CLONES
 void turn_columns(const std::array<float, kColumns>& beta, const float* z, std::size_t rows, float* d) {
     for (std::size_t i = 0; i < rows; ++i)
@@ -133,14 +136,14 @@ std::array<float, kColumns> ratios(const ColumnSums& over, const ColumnSums& und
     return ratio;
 }
 
-/// Some columns side by side, [probes][kColumns].
+/// A group of columns, [probes][kColumns].
 struct FitColumns {
     std::vector<float> start, b, x, r, d, z, ad;
 
     explicit FitColumns(std::size_t probes)
         : start(probes * kColumns), b(start), x(start), r(start), d(start), z(start), ad(start) {}
 
-    /// Takes `width` columns from `first` on of what probes have, and of the sums of points.
+    /// Loads `width` columns from `first` on, from the values of probes and from the sums of points.
     void load(const ProbeVectors& vectors, std::span<const float> sums, std::size_t first,
               std::size_t width) {
         for (std::size_t p = 0; p * kColumns < b.size(); ++p) {
@@ -151,7 +154,7 @@ struct FitColumns {
         }
     }
 
-    /// Residual of what probes have.
+    /// Computes the residual of the initial values.
     void begin(const FitMatrix& a) {
         x = start;
         a.multiply(x, r);
@@ -159,7 +162,7 @@ struct FitColumns {
             r[i] = b[i] + kOwnWeight * start[i] - r[i];
     }
 
-    /// sum |e|² less the squared error at points: with g = b - (sum w wᵀ) x it is x·b + x·g.
+    /// Returns sum |e|² minus the squared error at points: with g = b - (sum w wᵀ) x it is x·b + x·g.
     double explained() const {
         double sum = 0;
         for (std::size_t i = 0; i < x.size(); ++i)
@@ -167,7 +170,7 @@ struct FitColumns {
         return sum;
     }
 
-    /// Goes on from x with residual r by conjugate gradients with the diagonal as preconditioner.
+    /// Continues from x with residual r by conjugate gradients, with the diagonal as preconditioner.
     void solve(const FitMatrix& a) {
         const std::size_t rows = a.rows.size();
         ColumnSums rz, next, dad, rest, solved;
@@ -279,7 +282,7 @@ void ProbeFit::add(std::span<const VolumeCorners> points, std::span<const float>
                 else
                     row.insert(at, {q->first, p->second * q->second});
             }
-    // By columns, so that sums do not depend on the number of threads.
+    // In parallel by columns, so that sums do not depend on the number of threads.
     parallel_for(stride_, kColumns, threads, [&](std::size_t begin, std::size_t end) {
         for (std::size_t r = 0; r < shares.size(); ++r)
             for (const auto& [probe, share] : shares[r])

@@ -1,6 +1,6 @@
 #pragma once
 
-// Probes whose interpolation comes nearest to what was measured between them (docs/math.md, section 19).
+// Fits probes so that their interpolation matches light measured between them (docs/math.md, section 19).
 
 #include "prt/support/progress.h"
 #include "prt/transfer_volume.h"
@@ -21,39 +21,41 @@ struct ProbeVectors {
     std::span<float> of(std::size_t probe) const { return values.subspan(probe * stride, stride); }
 };
 
-/// Gives blind probes the mean of their neighbours, from those that see on.
+/// Replaces the values of blind probes by the mean of their neighbours, ring by ring from the other probes
+/// on.
 void fill_blind(const VolumeProbes& probes, const std::vector<bool>& blind, const ProbeVectors& vectors);
 
-/// Gives hanging probes what is interpolated between those of the coarse bricks they lie on.
+/// Replaces the values of hanging probes by interpolated values of the coarse bricks next to them.
 void settle_hanging(const VolumeGrid& grid, const VolumeProbes& probes, const ProbeVectors& vectors);
 
-/// Moves probes to min sum over points |sum w v - e|² + sum over probes lambda |v - v0|², v0 what they have.
-/// Points are summed up as they come, and not kept.
+/// Finds probes that minimise sum over points |sum w v - e|² + sum over probes lambda |v - v0|², where v0 are
+/// their initial values. Points are added to sums and not stored.
 class ProbeFit {
 public:
-    /// Probes, in order, with what each counts.
+    /// Probes in ascending order, with their weights.
     using Shares = std::vector<std::pair<std::uint32_t, float>>;
 
     ProbeFit(const VolumeGrid& grid, const VolumeProbes& probes, std::size_t stride);
 
-    /// Probes that count at points, and what was measured there, [points][stride].
+    /// Adds points: the weights of probes at the points, and the light measured there, [points][stride].
     void add(std::span<const VolumeCorners> points, std::span<const float> vectors, int threads);
     std::size_t points() const { return points_; }
 
-    /// Relative L2 of interpolation at the points.
+    /// Relative L2 error of interpolation at the points.
     struct Errors {
         double before = 0, after = 0;
     };
-    /// Of hanging probes nothing is moved.
+    /// Fits the probes. Hanging probes are not changed.
     Errors solve(const ProbeVectors& vectors, int threads, const Progress& progress) const;
 
 private:
-    /// Of a point, probes that are no others' mixture.
+    /// Weights at a point, with hanging probes replaced by the probes that they are interpolated from.
     Shares shares_at(const VolumeCorners& point) const;
 
-    std::vector<Shares> shares_; ///< [probes] of hanging ones those they are mixed of; of others themselves
+    std::vector<Shares> shares_; ///< [probes] for a hanging probe the probes that it is interpolated from;
+                                 ///< for other probes themselves
     std::size_t stride_ = 0, points_ = 0;
-    std::vector<Shares> rows_; ///< [probes] of sum w wᵀ: probes from the row's own on, in order
+    std::vector<Shares> rows_; ///< [probes] rows of sum w wᵀ from the diagonal on, in order
     std::vector<float> sums_;  ///< [probes][stride] sum w e
     double norm_ = 0;          ///< sum |e|²
 };

@@ -1,3 +1,5 @@
+// Moves probes off the surfaces that they are too near to.
+
 #include "volume/probe_places.h"
 
 #include "pictures/lit_side.h"
@@ -12,11 +14,12 @@
 namespace prt {
 namespace {
 
-/// How near to a surface a probe may stand, in cells.
+/// Minimum distance of a probe from a surface, in cells.
 constexpr float kClear = 0.1f;
 constexpr int kTries = 3; // a corner has three walls
 
-/// The corners, edges and faces of a cube, and what keeps them from running within planes along the axes.
+/// Directions to the corners, edges and faces of a cube, slightly rotated so that they are not within
+/// axis-aligned planes.
 std::array<glm::vec3, 26> directions_around() {
     std::array<glm::vec3, 26> directions;
     std::size_t n = 0;
@@ -27,14 +30,14 @@ std::array<glm::vec3, 26> directions_around() {
     return directions;
 }
 
-/// What is around a place.
+/// Surroundings of a position.
 struct Around {
-    float nearest = std::numeric_limits<float>::infinity(); ///< surface, metres
-    glm::vec3 off{0};                                       ///< unit, the way off it, to its front
-    bool two_sided = false; ///< it has no front: `off` is the side of the place
-    /// Too near for a probe of cells that wide.
+    float nearest = std::numeric_limits<float>::infinity(); ///< distance to the nearest surface, metres
+    glm::vec3 off{0};                                       ///< unit, away from this surface, to its front
+    bool two_sided = false; ///< the surface has no front: `off` points to the side of the position
+    /// Whether the surface is too near for a probe of cells with this width.
     bool is_near(float cell) const { return nearest < 0.9f * kClear * cell; }
-    int far = 0; ///< directions in which a surface is beyond a cell
+    int far = 0; ///< directions in which a surface is farther than a cell
 };
 
 Around look_around(const TraceScene& scene, const glm::vec3& place, float cell) {
@@ -56,8 +59,8 @@ Around look_around(const TraceScene& scene, const glm::vec3& place, float cell) 
     return around;
 }
 
-/// Whether `place` rather than `other`, on the other side of a wall, is in a room: there surfaces are all
-/// round, neither in the open nor between the two faces of a wall.
+/// Whether `place`, and not `other` on the other side of a wall, is inside a room: there are surfaces on all
+/// sides, and it is neither outdoors nor between the two faces of a wall.
 bool is_inside(const TraceScene& scene, const glm::vec3& place, const glm::vec3& other, float cell) {
     const Around around = look_around(scene, place, cell);
     return !around.is_near(cell) && around.far > look_around(scene, other, cell).far;

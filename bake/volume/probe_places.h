@@ -1,6 +1,6 @@
 #pragma once
 
-// Where probes are measured: a little off the surfaces that their corners lie on, to their fronts.
+// Positions at which probes are measured: slightly off the surfaces at their corners, on the front side.
 
 #include "prt/trace_scene.h"
 #include "volume/probe_tracer.h"
@@ -12,7 +12,7 @@
 
 namespace prt {
 
-/// The corners of `cells`, or places at most 0.3 cells away, metres.
+/// Returns the corners of `cells`, moved by at most 0.3 cells, metres.
 std::vector<glm::vec3> free_places(const TraceScene& scene, std::span<const ProbeCell> cells, int threads);
 
 } // namespace prt

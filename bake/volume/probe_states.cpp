@@ -1,3 +1,5 @@
+// Measures new probes, and reuses the measurements of existing ones.
+
 #include "volume/probe_states.h"
 
 #include "volume/probe_places.h"
@@ -31,7 +33,7 @@ ProbeStates unmeasured(const VolumeProbes& probes, std::size_t stride) {
     return states;
 }
 
-/// Takes over what `before` has; the probes that it has not.
+/// Copies the probes that `before` has. Returns the missing probes.
 std::vector<std::uint32_t> take_over(const ProbeStates& before, ProbeStates& states) {
     std::map<Key, std::size_t> there;
     for (std::size_t p = 0; p < before.size(); ++p)

@@ -1,6 +1,6 @@
 #pragma once
 
-// Probes as they were measured. Those that a finer grid still has are not measured again.
+// Measured probes. Probes that also exist in a finer grid are not measured again.
 
 #include "prt/trace_scene.h"
 #include "prt/transfer_volume.h"
@@ -14,15 +14,15 @@
 
 namespace prt {
 
-/// A place is inside of something where more of its rays end at backs of surfaces that have no light there.
+/// A position is inside geometry if more of its rays end at dark back faces.
 inline constexpr float kMostBacks = 0.25f;
 
 struct ProbeStates {
     std::size_t stride = 0;
-    std::vector<glm::ivec3> corners;             ///< [probes] as VolumeProbes has them
+    std::vector<glm::ivec3> corners;             ///< [probes] see VolumeProbes
     std::vector<std::uint8_t> levels;            ///< [probes]
     std::vector<float> values;                   ///< [probes][stride]
-    std::vector<std::array<float, 6>> distances; ///< [probes] that are seen from the corner, metres
+    std::vector<std::array<float, 6>> distances; ///< [probes] visibility distances from the corner, metres
     std::vector<char> blind, moved;              ///< [probes]
 
     std::size_t size() const { return corners.size(); }
@@ -39,7 +39,8 @@ struct ProbeTask {
     int threads = 0;
 };
 
-/// States of the probes of `grid`: those of `before` at the same corners and levels, others measured.
+/// Returns the states of the probes of `grid`: copies of `before` at the same corners and levels, others
+/// measured.
 ProbeStates measure_probes(const ProbeTask& task, const VolumeGrid& grid, const VolumeProbes& probes,
                            ProbeStates before, const Progress& progress);
 

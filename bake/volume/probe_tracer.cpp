@@ -1,6 +1,6 @@
-// Rays of a probe are those of six receivers, whose normals are the axes: together they are nearly even over
-// the sphere, density (|x| + |y| + |z|) / 6 pi, and every tracer knows how to trace them. Light from
-// directions that are open is the whole less what is blocked, as it is at receivers of surfaces.
+// Traces the rays of a probe as those of six receivers whose normals are the axes: together they are nearly
+// uniform over the sphere, with density (|x| + |y| + |z|) / 6 pi, and every tracer can trace them. Light from
+// unoccluded directions is the integral over the sphere minus the blocked part, as for receivers on surfaces.
 
 #include "volume/probe_tracer.h"
 
@@ -25,10 +25,10 @@
 namespace prt {
 namespace {
 
-/// As many as leave what their rays meet in a cache.
+/// Number of positions at once, so that the data of hit surfaces stay in a cache.
 constexpr std::size_t kPlacesAtOnce = 128;
 constexpr int kSides = 6;
-/// Surfaces further than that from the corner of a cell do not hide what is in it.
+/// Surfaces farther than this from the corner of a cell do not hide objects in the cell.
 constexpr float kReachCells = 1.0f;
 
 glm::vec3 side(int i) {
@@ -37,14 +37,14 @@ glm::vec3 side(int i) {
     return axis;
 }
 
-/// to[i] += weight from[i].
+/// Computes to[i] += weight from[i].
 PRT_TARGET_CLONES
 void add_scaled(float weight, const float* from, std::size_t count, float* to) {
     for (std::size_t i = 0; i < count; ++i)
         to[i] += weight * from[i];
 }
 
-/// to = the sum of three rows, each times its weight.
+/// Computes the weighted sum of three rows.
 PRT_TARGET_CLONES
 void mix_rows(const glm::vec3& weights, const std::array<const float*, 3>& rows, std::size_t count,
               float* to) {
@@ -54,14 +54,14 @@ void mix_rows(const glm::vec3& weights, const std::array<const float*, 3>& rows,
 
 } // namespace
 
-/// What one thread works in.
+/// Buffers of one thread.
 struct ProbeTracer::Space {
     std::vector<float> vectors; ///< [coefficients][numbers]
-    /// By direction, [coefficients][order²]: of what is blocked, and of all rays; and what comes back.
+    /// Sums by direction, [coefficients][order²], of blocked rays and of all rays; and light from surfaces.
     OuterSums blocked, all, reflected;
     ChunkDirections directions;
     SightVotes sight;
-    double shut = 0, backs = 0; ///< rays
+    double shut = 0, backs = 0; ///< number of rays
     std::array<float, kMaxOrder * kMaxOrder> basis{};
     PlaceSeen seen;
 };
@@ -150,7 +150,7 @@ void ProbeTracer::see(const Task& task, std::size_t place, std::span<const std::
     for (const std::vector<Hit>& of_side : hits)
         for (const Hit& hit : of_side)
             add_hit(hit, task, place, space);
-    // All directions: the coefficients themselves, or where most are blocked the sum over the same rays.
+    // All directions: the unit matrix, or if most directions are blocked the sum over the same rays.
     const double rays = kSides * rays_along_;
     const bool mostly_open = 2 * space.shut <= rays;
     add_rays(task, place, mostly_open, space);
@@ -207,7 +207,7 @@ void ProbeTracer::add_hit(const Hit& hit, const Task& task, std::size_t place, S
         add_reflected(hit, weight, space);
 }
 
-/// What rays meet is not asked: where most directions are open it does not matter either.
+/// Adds all rays, independent of their hits. If most directions are open the sum is not needed.
 void ProbeTracer::add_rays(const Task& task, std::size_t place, bool mostly_open, Space& space) const {
     if (mostly_open)
         return;
@@ -226,7 +226,7 @@ void ProbeTracer::add_rays(const Task& task, std::size_t place, bool mostly_open
         }
 }
 
-/// What leaves the front of a surface whose receivers each reflect alike.
+/// Interpolates exit light of the front of a surface, if each receiver has one reflectance.
 void ProbeTracer::mix_reflected(const Hit& hit, std::span<float> to) const {
     const std::size_t sky = layout_.sky.dimension() - layout_.direct(),
                       lamps = lamps_.empty() ? 0 : layout_.lamps.dimension();
@@ -242,7 +242,7 @@ void ProbeTracer::mix_reflected(const Hit& hit, std::span<float> to) const {
     mix(lamps_, lamps, to.data() + sky);
 }
 
-/// What leaves the surface that was met in the direction of `space.basis`.
+/// Adds light from the hit surface in the direction of `space.basis`.
 void ProbeTracer::add_reflected(const Hit& hit, float weight, Space& space) const {
     const Surfaces& surfaces = plan_.scene.surfaces();
     const TransportReceivers& receivers = *plan_.transport;

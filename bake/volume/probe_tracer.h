@@ -1,6 +1,6 @@
 #pragma once
 
-// What comes in at places in free space, by the rays of any tracer.
+// Computes incident light at positions in free space, with the rays of any tracer.
 
 #include "bounced_sources.h"
 #include "lamps/lamp_rays.h"
@@ -21,37 +21,38 @@ namespace prt {
 
 class OuterSums;
 
-/// Numbers of a coefficient of incident light, one layout behind the other, and its bands.
+/// Layout of a coefficient of incident light: the layouts of the sky and of lamps one after another.
 struct IncidentLayout {
-    int order = 3;      ///< of incident light
-    TransferLayout sky; ///< `direct`, and `indirect` where light bounces
-    /// Coefficient k is the light of lamp k; of no parts where there are no lamps.
+    int order = 3;      ///< order of incident light
+    TransferLayout sky; ///< part `direct`, and `indirect` if light bounces
+    /// Coefficient k is the light of lamp k; has no parts if there are no lamps.
     TransferLayout lamps;
 
     std::size_t coefficients() const { return static_cast<std::size_t>(coefficient_count(order)); }
     std::size_t direct() const { return static_cast<std::size_t>(coefficient_count(sky.order)); }
-    /// Of a coefficient.
+    /// Numbers per coefficient.
     std::size_t numbers() const { return sky.dimension() + (lamps.parts.empty() ? 0 : lamps.dimension()); }
 };
 
-/// What a place sees.
+/// Light and visibility at a position.
 struct PlaceSeen {
-    /// [coefficients][numbers]: incident light by the sky, and by lamps.
+    /// [coefficients][numbers] incident light of the sky, and of lamps.
     std::span<const float> vectors;
-    float backs = 0; ///< share of its rays that end at the back of what has no light there
-    /// [-x, +x, -y, ..]: how far the corner of its cell sees, metres, up to kSightCells cells.
+    float backs = 0; ///< share of rays that end at back faces without light
+    /// [-x, +x, -y, ..] visibility distances from the corner of the cell, metres, up to kSightCells cells.
     std::array<float, 6> distances{};
 };
 
-/// Where a probe stands for the grid.
+/// Position and size of a probe in the grid.
 struct ProbeCell {
-    glm::vec3 corner; ///< that it is measured beside, metres
-    float width;      ///< of the cells around it, metres
+    glm::vec3 corner; ///< corner next to which the probe is measured, metres
+    float width;      ///< width of the cells around it, metres
 };
 
+/// Traces incident light at positions.
 class ProbeTracer {
 public:
-    /// Keeps references to `plan` and `tracer`; reflects `sources`.
+    /// Keeps references to `plan` and `tracer`. Multiplies `sources` by the reflectance.
     ProbeTracer(const BakePlan& plan, Tracer& tracer, BouncedSources sources, int order);
 
     const IncidentLayout& layout() const { return layout_; }
@@ -59,12 +60,12 @@ public:
 
     struct Task {
         std::span<const glm::vec3> places;
-        /// [places] cells of probes, for how far they see; empty: that is not asked.
+        /// [places] cells of probes, for visibility distances; empty: they are not needed.
         std::span<const ProbeCell> cells = {};
-        int rays = 1024; ///< from each place, about
+        int rays = 1024; ///< approximate number of rays per position
         std::uint64_t seed = 0;
     };
-    /// Calls `take` for each of the places, from several threads.
+    /// Calls `take` for each position, from several threads.
     void trace(const Task& task, const Progress& progress,
                const std::function<void(std::size_t place, const PlaceSeen& seen)>& take);
 
@@ -73,7 +74,7 @@ private:
     void trace_batch(const Task& task, std::size_t begin, std::size_t end,
                      const std::function<void(std::size_t, const PlaceSeen&)>& take);
     void see(const Task& task, std::size_t place, std::span<const std::vector<Hit>> hits, Space& space) const;
-    /// Evaluates the basis in unit `d`; returns the solid angle that a ray stands for.
+    /// Evaluates the basis in unit direction `d`; returns the solid angle that a ray represents.
     float look(const glm::vec3& d, Space& space) const;
     void add_direction(float weight, const Space& space, OuterSums& sums) const;
     void add_hit(const Hit& hit, const Task& task, std::size_t place, Space& space) const;
@@ -85,10 +86,11 @@ private:
     const BakePlan& plan_;
     Tracer& tracer_;
     IncidentLayout layout_;
-    int rays_along_ = 1; ///< in each of the six directions
+    int rays_along_ = 1; ///< rays along each of the six axes
     SobolChunk whole_, last_;
     std::vector<glm::vec3> reflectance_;
-    std::vector<float> sky_, lamps_; ///< exit light of all receivers, reflected where that is theirs alone
+    std::vector<float> sky_, lamps_; ///< exit light of all receivers, reflected if each receiver has one
+                                     ///< reflectance
     std::vector<ShiningTriangles> shining_;
     std::size_t rays_ = 0;
 };

@@ -1,3 +1,5 @@
+// Chooses bricks to split, and changes the levels of a grid.
+
 #include "volume/refine_bricks.h"
 
 #include <algorithm>
@@ -7,8 +9,8 @@
 namespace prt {
 namespace {
 
-/// What is left of a brick's squared error in its eight parts: about what was measured in a room with
-/// columns, where light is steep at edges.
+/// Share of a brick's squared error that remains after a split into eight: approximately the value measured
+/// in a room with columns, where light is steep at edges.
 constexpr double kLeft = 0.35;
 
 VolumeGrid with_levels_raised(VolumeGrid grid, int levels) {
@@ -38,7 +40,7 @@ VolumeGrid without_unused_levels(VolumeGrid grid) {
     int levels = kMostBrickLevel;
     for (const VolumeBrick& brick : grid.bricks)
         levels = std::min(levels, brick.level);
-    // A box that was not made of coarser bricks keeps its levels.
+    // A box that is not a multiple of coarser bricks keeps its levels.
     while (levels > 0 && grid.size % (1 << levels) != glm::ivec3(0))
         --levels;
     grid.spacing *= static_cast<float>(1 << levels);
@@ -87,7 +89,8 @@ std::vector<bool> bricks_to_split(const VolumeGrid& grid, std::span<const BrickE
         if (grid.bricks[b].level == 0)
             continue;
         splits[b] = true;
-        left -= (1 - std::pow(kLeft, grid.bricks[b].level)) * shares[b]; // as far down as it goes
+        left -= (1 - std::pow(kLeft, grid.bricks[b].level)) * shares[b]; // assumes splits down to the finest
+                                                                         // level
     }
     return splits;
 }

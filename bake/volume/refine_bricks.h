@@ -1,6 +1,6 @@
 #pragma once
 
-// Bricks that are split where light between their probes errs.
+// Splits bricks where light between their probes has errors.
 
 #include "prt/transfer_volume.h"
 
@@ -11,17 +11,17 @@
 
 namespace prt {
 
-/// How many levels below those that surfaces ask for bricks may be split.
+/// Maximum number of levels by which bricks may be split below the levels that depend on surfaces.
 inline constexpr int kMostRefinements = 2;
 
-/// The same bricks, as many levels up as there is room for, at most kMostRefinements.
+/// Returns the same bricks with their levels raised as far as possible, at most by kMostRefinements.
 VolumeGrid with_finer_levels(VolumeGrid grid);
-/// The same bricks, the finest of them on level 0.
+/// Returns the same bricks with the finest of them on level 0.
 VolumeGrid without_unused_levels(VolumeGrid grid);
-/// With those bricks in eight that `splits` [bricks] names.
+/// Splits the bricks marked in `splits` [bricks] into eight.
 VolumeGrid with_split_bricks(const VolumeGrid& grid, const std::vector<bool>& splits);
 
-/// Squared error of light at points of a brick and its square, as integrals over the brick's volume: under
+/// Squared error and squared norm of light at points of a brick, as integrals over the brick's volume: under
 /// skies, and under lamps.
 struct BrickError {
     std::array<double, 2> error{}, norm{};
@@ -34,9 +34,9 @@ struct BrickError {
     }
 };
 
-/// The fewest bricks, those that err most, of which smaller ones would bring the relative L2 over all down to
-/// `target`, the root mean square of that under skies and under lamps where there are both; none where it is
-/// there, or nothing can be split.
+/// Returns the smallest set of bricks with the largest errors whose split reduces the relative L2 error of
+/// the volume to `target`. If there are skies and lamps, the error is the root mean square of both. No bricks
+/// are marked if the target is reached, or if no brick can be split.
 std::vector<bool> bricks_to_split(const VolumeGrid& grid, std::span<const BrickError> errors, double target);
 
 } // namespace prt

@@ -1,3 +1,5 @@
+// Finds visibility distances of probes from the hits of their rays.
+
 #include "volume/sight.h"
 
 #include <glm/common.hpp>
@@ -10,7 +12,7 @@
 namespace prt {
 namespace {
 
-/// Share of an axis's rays, a sixth of all, that must be blocked before the axis is.
+/// Share of an axis's rays, which are a sixth of all, that must be blocked before the axis counts as blocked.
 constexpr double kBlockedShare = 0.2;
 
 std::size_t largest_axis(const glm::vec3& v) {
@@ -28,9 +30,10 @@ void SightVotes::begin(const glm::vec3& off, float reach) {
 
 void SightVotes::add_hit(const glm::vec3& way, const glm::vec3& face, float weight) {
     const glm::vec3 away = glm::dot(face, way) < 0 ? -face : face, hit = way - off_;
-    // The plane is where away·x = away·hit; it lies along the axis that most of that comes from.
+    // The plane is where away·x = away·hit; it is assigned to the axis that contributes the largest term.
     const glm::vec3 part = away * hit;
-    const bool behind = !(part.x + part.y + part.z > 0); // the corner: nothing of that side is seen from it
+    const bool behind = !(part.x + part.y + part.z > 0); // the corner is behind the surface: it sees nothing
+                                                         // on that side
     const std::size_t axis = largest_axis(behind ? glm::abs(away) : part);
     const float distance = behind ? 0 : std::abs(hit[static_cast<int>(axis)]);
     if (distance < reach_)

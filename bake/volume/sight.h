@@ -1,6 +1,7 @@
 #pragma once
 
-// How far a probe sees along the axes: the box around it that no surface cuts (docs/math.md, section 19).
+// Visibility distances of a probe along the axes: a box around it that no surface intersects (docs/math.md,
+// section 19).
 
 #include <glm/vec3.hpp>
 
@@ -9,17 +10,19 @@
 
 namespace prt {
 
-/// Collects what the rays of a probe meet within `reach` and finds -x, +x, -y, .. distances to the nearest
-/// surfaces. Each hit counts for the axis along which the plane of its surface is nearest; a distance is that
-/// that a fifth of the rays of its axis do not exceed, so that a pole or a leaf hides nothing behind it.
+/// Collects hits of a probe's rays within `reach`, and computes the distances -x, +x, -y, .. to the nearest
+/// surfaces. Each hit counts for the axis along which the plane of its surface is nearest. A distance is the
+/// one that a fifth of the axis's rays do not exceed, so that a thin pole or a leaf does not hide everything
+/// behind it.
 class SightVotes {
 public:
-    /// Forgets all hits. Distances are those from a corner, which is so far `off` the start of the rays.
-    /// Metres.
+    /// Removes all hits. Distances are measured from a corner, which has the offset `off` from the origin of
+    /// the rays. All lengths in metres.
     void begin(const glm::vec3& off, float reach);
-    /// `weight` rays met a surface after `way`. `face`: its normal, of any length and either sign.
+    /// Adds `weight` rays that hit a surface after `way`. `face`: normal of the surface, of any length and
+    /// either sign.
     void add_hit(const glm::vec3& way, const glm::vec3& face, float weight);
-    /// `rays`: of the probe in all. `open`: the distance where nothing is in the way.
+    /// Computes the distances. `rays`: all rays of the probe. `open`: distance if nothing blocks.
     std::array<float, 6> distances(double rays, float open);
 
 private:

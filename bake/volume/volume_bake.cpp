@@ -1,5 +1,5 @@
-// Bakes probes: light is bounced between vertices, then probes and points between them see what there is, and
-// probes are moved so that interpolation comes nearest to that.
+// Bakes probes: light bounces between vertices, then light is measured at probes and at points between them,
+// and probes are fitted so that interpolation matches the points.
 
 #include "prt/volume_bake.h"
 
@@ -52,11 +52,11 @@ void check_volume_options(const VolumeOptions& volume, const BakeOptions& option
         throw Error("points of the fit are 0 to 100 for each probe");
 }
 
-/// Points for each cell by which it is seen where light errs.
+/// Number of points per cell for finding where light has errors.
 constexpr double kSurveyed = 0.25;
-/// Points of the fit that are kept in memory.
+/// Number of points of the fit that are kept in memory.
 constexpr std::size_t kPointsAtOnce = 2048;
-/// Of the rays of a probe, what goes to points of its fit. Halves were measured to err more by noise.
+/// Share of a probe's rays that goes to points of the fit. Half of the rays had larger errors by noise.
 constexpr double kFitShare = 0.25;
 
 VolumeOptions with_points(VolumeOptions volume, const BakeOptions& options) {
@@ -77,7 +77,7 @@ int rays_of_point(const VolumeOptions& volume, const BakeOptions& options) {
     return static_cast<int>(std::ceil(kFitShare * options.rays / *volume.fit_points));
 }
 
-/// Bytes that a probe takes: its values, sums of its points, and a copy in parts. Counted, not measured.
+/// Bytes per probe: its values, sums of its points, and a copy in parts. Calculated, not measured.
 double bytes_of_probe(const VolumeOptions& volume, std::size_t numbers) {
     return sizeof(float) * static_cast<double>(numbers) * coefficient_count(volume.order) *
            (2.2 + (is_fitted(volume) ? 1 : 0));
@@ -92,20 +92,21 @@ void check_room(const VolumeOptions& volume, double probes, std::size_t numbers,
                                 needed * 1e-9, there * 1e-9));
 }
 
-/// Bricks that there may be: each has at least as many probes of its own as it has cells.
+/// Maximum number of bricks: the number of probes that a brick adds is at least its number of cells.
 std::size_t most_bricks(const VolumeOptions& volume, std::size_t numbers, double there) {
     constexpr double kCells = kBrickCells * kBrickCells * kBrickCells;
     return there > 0 ? static_cast<std::size_t>(there / (kCells * bytes_of_probe(volume, numbers))) + 1
                      : std::size_t{1} << 24;
 }
 
-/// Points all over the cells of a volume, as many in each brick, but for those out of its bounds.
+/// Points spread over the cells of a volume, with an equal number in each brick; points outside of its bounds
+/// are omitted.
 struct PointsBetween {
     std::vector<glm::vec3> places;
-    std::vector<std::uint32_t> bricks; ///< that they are in, in order
+    std::vector<std::uint32_t> bricks; ///< brick of each point, in ascending order
 };
 
-/// `each` for every cell.
+/// Creates `each` points per cell.
 PointsBetween points_between(const VolumeGrid& grid, const Bounds& bounds, double each, std::uint64_t seed) {
     std::mt19937_64 random(seed);
     std::uniform_real_distribution<float> unit(0, 1);
@@ -128,7 +129,7 @@ PointsBetween points_between(const VolumeGrid& grid, const Bounds& bounds, doubl
     return points;
 }
 
-/// Vectors [places][coefficients][numbers] taken apart into what a file holds.
+/// Splits vectors [places][coefficients][numbers] into the parts of a file.
 Transfer in_parts_of(const IncidentLayout& layout, const BakePlan& plan, std::span<const float> vectors) {
     const std::size_t numbers = layout.numbers(), rows = vectors.size() / numbers;
     const auto part = [&](std::size_t first, TransferLayout of_part) {
@@ -148,7 +149,7 @@ Transfer in_parts_of(const IncidentLayout& layout, const BakePlan& plan, std::sp
     return all;
 }
 
-/// A volume on its way.
+/// Bakes a volume in steps.
 class VolumeBaker {
 public:
     VolumeBaker(const Scene& scene, const VolumeOptions& volume, const BakeOptions& options)
@@ -204,7 +205,7 @@ private:
         return {plan_, *tracer_, std::move(sources), volume_.order};
     }
 
-    /// Places the bricks at last, and measures their probes.
+    /// Places the final bricks and measures their probes.
     ProbeStates measured(ProbeTracer& tracer, double room, const Progress& progress) {
         VolumeGrid& grid = result_.volume.grid;
         const ProbeTask task{traced_, tracer, rays_of_probe(volume_, options_), options_.seed,
@@ -227,7 +228,8 @@ private:
         return states;
     }
 
-    /// The grid with bricks split where light errs most, by points between probes.
+    /// Returns the grid with bricks split where light has the largest errors, measured at points between
+    /// probes.
     VolumeGrid refined(ProbeTracer& tracer, const ProbeStates& states, int round) {
         const VolumeGrid& grid = result_.volume.grid;
         const VolumeLookup lookup(grid, states.sights(grid));
@@ -255,7 +257,7 @@ private:
         return with_split_bricks(grid, bricks_to_split(grid, errors, volume_.error));
     }
 
-    /// What points see, by half of a probe's rays and by as many others.
+    /// Light at points from half of a probe's rays, and from an equal number of other rays.
     struct PointsSeen {
         std::size_t stride;
         std::array<std::vector<float>, 2> vectors;
@@ -317,7 +319,7 @@ private:
             watch_.seconds() - statistics().seconds.sources - statistics().seconds.probes;
     }
 
-    /// Measures points, the first of which is the `first`.
+    /// Measures points; `first` is the index of the first one.
     void add_points(ProbeTracer& tracer, const VolumeLookup& lookup, std::span<const glm::vec3> places,
                     std::size_t first, ProbeFit& probe_fit) {
         const std::size_t stride = tracer.layout().coefficients() * tracer.layout().numbers();

@@ -1,4 +1,4 @@
-// Builds a bottom level for each mesh, and a top level of their copies.
+// Builds a bottom level for each mesh, and a top level with their copies.
 
 #include "vulkan/acceleration_structure.h"
 
@@ -47,9 +47,9 @@ void check_limits(const VulkanDevice& device, std::size_t triangles, std::size_t
                         copies, device.traits().most_instances));
 }
 
-constexpr std::size_t kAlignment = 256; ///< of hierarchies in a buffer, by the specification
+constexpr std::size_t kAlignment = 256; ///< alignment of hierarchies in a buffer, from the specification
 constexpr std::size_t kBlock =
-    64 << 20; ///< bytes of a buffer that many share: devices give out some 4 000 in all
+    64 << 20; ///< bytes of a buffer shared by several levels: devices support only about 4 000 allocations
 
 std::size_t aligned(std::size_t bytes, std::size_t to) {
     return (bytes + to - 1) / to * to;
@@ -57,7 +57,7 @@ std::size_t aligned(std::size_t bytes, std::size_t to) {
 
 } // namespace
 
-/// What a level is built of, and how much memory it takes.
+/// Build input of a level, and its memory requirements.
 struct AccelerationStructure::LevelPlan {
     vk::AccelerationStructureTypeKHR type;
     std::vector<vk::AccelerationStructureGeometryKHR> geometries;
@@ -87,7 +87,7 @@ struct AccelerationStructure::LevelPlan {
     }
 };
 
-/// Builds levels one after the other, in the memory of as few buffers as do.
+/// Builds levels one after another, with the minimum number of buffers.
 void AccelerationStructure::build(const VulkanDevice& device, GpuQueue& queue, std::span<LevelPlan> plans) {
     std::size_t scratch_bytes = 0, end = 0;
     for (LevelPlan& plan : plans) {
@@ -126,7 +126,7 @@ void AccelerationStructure::build(const VulkanDevice& device, GpuQueue& queue, s
                                      {}, {});
         });
     }
-    queue.wait_for_all(); // scratch memory goes
+    queue.wait_for_all(); // scratch memory is released
 }
 
 AccelerationStructure::AccelerationStructure(const VulkanDevice& device, GpuQueue& queue,

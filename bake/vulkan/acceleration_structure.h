@@ -1,6 +1,6 @@
 #pragma once
 
-// A hierarchy of triangles that the device builds and traverses by itself (VK_KHR_acceleration_structure).
+// A hierarchy of triangles that the device builds and traverses itself (VK_KHR_acceleration_structure).
 
 #include "vulkan/gpu_buffer.h"
 #include "vulkan/gpu_queue.h"
@@ -15,8 +15,8 @@ namespace prt {
 
 class AccelerationStructure {
 public:
-    /// Triangles that stand side by side among all, the opaque ones first. Shaders are not asked about those;
-    /// where there are both, they are the first geometry and the others the second.
+    /// A range of the triangles, opaque ones first. Shaders do not test hits of opaque triangles. If there
+    /// are both kinds, the opaque ones are the first geometry and the others the second.
     struct Mesh {
         std::size_t first = 0, opaque = 0, others = 0;
     };
@@ -25,8 +25,8 @@ public:
         glm::mat4x3 transform{1};
     };
 
-    /// A bottom level for each of `meshes` over their `triangles` of `positions`, and a top level with
-    /// `copies`, which rays find by their place here. Throws `Error` where the device has no room.
+    /// Builds a bottom level for each of `meshes` from their `triangles` of `positions`, and a top level with
+    /// `copies`; rays report a copy by its index. Throws `Error` if the device has too little memory.
     AccelerationStructure(const VulkanDevice& device, GpuQueue& queue, std::span<const glm::vec3> positions,
                           std::span<const glm::uvec3> triangles, std::span<const Mesh> meshes,
                           std::span<const Copy> copies);
@@ -39,7 +39,7 @@ private:
     void build(const VulkanDevice& device, GpuQueue& queue, std::span<LevelPlan> plans);
 
     std::vector<GpuBuffer> memory_;
-    std::vector<vk::raii::AccelerationStructureKHR> levels_; ///< [meshes], and the top level
+    std::vector<vk::raii::AccelerationStructureKHR> levels_; ///< [meshes] bottom levels, then the top level
 };
 
 } // namespace prt

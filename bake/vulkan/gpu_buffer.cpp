@@ -1,4 +1,4 @@
-// Allocates buffers: few and large, so that each has memory of its own.
+// Allocates buffers. They are few and large, so each has separate memory.
 
 #include "vulkan/gpu_buffer.h"
 
@@ -9,7 +9,7 @@
 namespace prt {
 namespace {
 
-/// The best memory of that use that the device has: what is read is quick to read where it is cached.
+/// Returns the best memory type of the device for a purpose: reading is fast if the memory is cached.
 std::uint32_t kind_of(const VulkanDevice& device, std::uint32_t kinds, GpuMemory memory) {
     using Flag = vk::MemoryPropertyFlagBits;
     if (memory == GpuMemory::device)
@@ -18,7 +18,7 @@ std::uint32_t kind_of(const VulkanDevice& device, std::uint32_t kinds, GpuMemory
     if (memory == GpuMemory::download) {
         try {
             return device.memory_kind(kinds, shared | Flag::eHostCached);
-        } catch (const Error&) { // not every device has it
+        } catch (const Error&) { // not all devices have it
         }
     }
     return device.memory_kind(kinds, shared);

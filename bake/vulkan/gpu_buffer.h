@@ -1,6 +1,6 @@
 #pragma once
 
-// Memory that shaders and the processor share or hand over.
+// Memory that shaders and the CPU share or exchange.
 
 #include "vulkan/vulkan_device.h"
 
@@ -10,29 +10,29 @@
 namespace prt {
 
 enum class GpuMemory {
-    device,   ///< shaders alone
-    upload,   ///< the processor writes
-    download, ///< the processor reads
+    device,   ///< only shaders access it
+    upload,   ///< the CPU writes
+    download, ///< the CPU reads
 };
 
-/// A buffer with its own memory.
+/// A buffer with separate memory.
 class GpuBuffer {
 public:
     GpuBuffer() = default;
-    /// Of at least 4 bytes. Throws `GpuMemoryError` where that much is not there, or more than a buffer may
-    /// have: `what` it holds.
+    /// Allocates at least 4 bytes. Throws `GpuMemoryError` if too little memory is available, or if a buffer
+    /// cannot have this size. `what`: content, for errors.
     GpuBuffer(const VulkanDevice& device, std::size_t bytes, GpuMemory memory, const char* what,
               vk::BufferUsageFlags usage = {});
 
     std::size_t bytes() const { return bytes_; }
     vk::Buffer handle() const { return *buffer_; }
-    /// Where the processor finds it; not of `device` memory.
+    /// Address for the CPU; null for `device` memory.
     std::byte* data() const { return data_; }
     template <class T>
     std::span<T> as() const {
         return {reinterpret_cast<T*>(data_), bytes_ / sizeof(T)};
     }
-    /// For hierarchies of the device.
+    /// Address for building hierarchies on the device.
     vk::DeviceAddress address(const VulkanDevice& device) const;
 
 private:

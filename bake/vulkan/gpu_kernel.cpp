@@ -1,4 +1,4 @@
-// Makes compute pipelines, and descriptor sets for them.
+// Creates compute pipelines and their descriptor sets.
 
 #include "vulkan/gpu_kernel.h"
 

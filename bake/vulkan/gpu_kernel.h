@@ -1,6 +1,6 @@
 #pragma once
 
-// A compute shader and the buffers that it works on.
+// A compute shader and its buffers.
 
 #include "vulkan/gpu_buffer.h"
 
@@ -11,10 +11,10 @@
 
 namespace prt {
 
-/// Workgroups that every device takes in one direction.
+/// Number of workgroups per dimension that every device supports.
 inline constexpr std::size_t kMostGroups = 65535;
 
-/// What a kernel works on, by binding. The buffers stay where they are.
+/// Resources of a kernel by binding. The buffers must not move.
 struct GpuResources {
     std::map<std::uint32_t, const GpuBuffer*> buffers;
     std::map<std::uint32_t, vk::AccelerationStructureKHR> structures = {};
@@ -25,18 +25,18 @@ public:
     struct Source {
         std::span<const std::uint32_t> spirv;
         std::vector<std::uint32_t> buffers = {};    ///< bindings
-        std::vector<std::uint32_t> structures = {}; ///< bindings of hierarchies of the device
+        std::vector<std::uint32_t> structures = {}; ///< bindings of the device's hierarchies
         std::uint32_t push_bytes = 0;
-        std::map<std::uint32_t, std::uint32_t> constants = {}; ///< by their constant_id
+        std::map<std::uint32_t, std::uint32_t> constants = {}; ///< by constant_id
 
-        /// Appends all of `resources`.
+        /// Appends the bindings of all `resources`.
         void take_bindings(const GpuResources& resources);
     };
     GpuKernel() = default;
     GpuKernel(const VulkanDevice& device, const Source& source);
 
     vk::DescriptorSetLayout set_layout() const { return *set_layout_; }
-    /// Runs so many workgroups. `push`: what the shader has as push constants.
+    /// Dispatches x · y workgroups. `push`: push constants of the shader.
     template <class Push>
     void dispatch(const vk::raii::CommandBuffer& commands, vk::DescriptorSet bindings, const Push& push,
                   std::size_t x, std::size_t y = 1) const {
@@ -52,7 +52,7 @@ private:
     vk::raii::Pipeline pipeline_ = nullptr;
 };
 
-/// The resources that a kernel works on, which it has all of. The kernel outlives it.
+/// Resources bound to a kernel, one for each of its bindings. The kernel must outlive it.
 class GpuBindings {
 public:
     GpuBindings() = default;

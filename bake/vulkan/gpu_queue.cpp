@@ -1,4 +1,4 @@
-// Submits command buffers in turns and waits for their numbers.
+// Submits command buffers in rotation and waits for their tickets.
 
 #include "vulkan/gpu_queue.h"
 
@@ -8,7 +8,7 @@ namespace prt {
 namespace {
 
 constexpr std::uint64_t kLongest =
-    60'000'000'000; ///< nanoseconds; dispatches are made for a tenth of a second
+    60'000'000'000; ///< nanoseconds; dispatches are sized for a tenth of a second
 
 vk::raii::Semaphore timeline(const vk::raii::Device& device) {
     const vk::SemaphoreTypeCreateInfo type(vk::SemaphoreType::eTimeline, 0);
@@ -31,7 +31,7 @@ GpuQueue::~GpuQueue() {
 void GpuQueue::wait_for_all() const noexcept {
     try {
         wait(last_);
-    } catch (const std::exception&) { // a lost device works on nothing
+    } catch (const std::exception&) { // a lost device does not work on anything
     }
 }
 
@@ -48,7 +48,7 @@ GpuQueue::Ticket GpuQueue::submit(const std::function<void(const vk::raii::Comma
         commands.resetQueryPool(*clocks_, first_clock, 2);
         commands.writeTimestamp(vk::PipelineStageFlagBits::eTopOfPipe, *clocks_, first_clock);
     }
-    barrier(commands); // what was submitted before
+    barrier(commands); // wait for previous submissions
     record(commands);
     if (clocked)
         commands.writeTimestamp(vk::PipelineStageFlagBits::eBottomOfPipe, *clocks_, first_clock + 1);

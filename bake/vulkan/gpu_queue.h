@@ -1,6 +1,6 @@
 #pragma once
 
-// Work that a device does in order, counted by a timeline semaphore.
+// Work that a device executes in order, counted by a timeline semaphore.
 
 #include "vulkan/gpu_buffer.h"
 
@@ -11,24 +11,24 @@ namespace prt {
 
 class GpuQueue {
 public:
-    /// Number of a submission, from 1 on; 0: of none.
+    /// Number of a submission, starting at 1; 0: no submission.
     using Ticket = std::uint64_t;
-    /// Submissions that may be under way at once.
+    /// Maximum number of active submissions.
     static constexpr std::size_t kAtOnce = 8;
 
     explicit GpuQueue(const VulkanDevice& device);
-    /// Waits for everything.
+    /// Waits for all submissions.
     ~GpuQueue();
     GpuQueue(const GpuQueue&) = delete;
     GpuQueue& operator=(const GpuQueue&) = delete;
 
-    /// Submits what `record` records, and waits for none but the eighth before it.
+    /// Submits the commands that `record` records. Waits only for the submission kAtOnce before it.
     Ticket submit(const std::function<void(const vk::raii::CommandBuffer&)>& record);
-    /// Throws `GpuLost` after a minute without an end.
+    /// Waits for a submission. Throws `GpuLost` if it does not end within a minute.
     void wait(Ticket ticket) const;
-    /// For everything, without throwing: before what the device works on goes.
+    /// Waits for all submissions without throwing. Call it before releasing resources that the device uses.
     void wait_for_all() const noexcept;
-    /// How long one of the last submissions took, once it has ended; 0 where the device has no clock.
+    /// Duration of one of the last submissions after it has ended; 0 if the device has no clock.
     double seconds(Ticket ticket) const;
 
 private:
@@ -40,14 +40,14 @@ private:
     Ticket last_ = 0;
 };
 
-/// `bytes` in the device's memory; `what` they are. Waits.
+/// Copies `bytes` to the device's memory and waits. `what`: content, for errors.
 GpuBuffer uploaded(const VulkanDevice& device, GpuQueue& queue, std::span<const std::byte> bytes,
                    const char* what);
 void copy(const vk::raii::CommandBuffer& commands, const GpuBuffer& from, const GpuBuffer& to,
           std::size_t bytes);
-/// What shaders and copies wrote is there for those that follow.
+/// Makes writes of shaders and copies visible to following commands.
 void barrier(const vk::raii::CommandBuffer& commands);
-/// What copies wrote is there for the processor.
+/// Makes writes of copies visible to the CPU.
 void barrier_to_host(const vk::raii::CommandBuffer& commands);
 
 } // namespace prt

@@ -1,5 +1,7 @@
 #pragma once
 
+// Uploads through a staging buffer.
+
 #include "vulkan/gpu_queue.h"
 
 #include <algorithm>
@@ -8,10 +10,10 @@
 
 namespace prt {
 
-/// Writes what is appended to a buffer of the device, as much at a time as a staging buffer holds.
+/// Appends values to a buffer on the device, in blocks of the size of a staging buffer.
 class StagedWrites {
 public:
-    static constexpr std::size_t kBytes = 16 << 20; ///< that a staging buffer has
+    static constexpr std::size_t kBytes = 16 << 20; ///< size of a staging buffer
 
     StagedWrites(GpuQueue& queue, const GpuBuffer& staging, const GpuBuffer& to)
         : queue_(queue), staging_(staging), to_(to) {}
@@ -27,7 +29,7 @@ public:
                 flush();
         }
     }
-    /// Waits.
+    /// Copies the staged values and waits.
     void flush() {
         if (held_ == 0)
             return;

@@ -18,7 +18,7 @@ namespace prt {
 namespace {
 
 constexpr std::uint32_t kVersion = VK_API_VERSION_1_2;
-constexpr std::uint32_t kMostBuffers = 13; ///< of a kernel
+constexpr std::uint32_t kMostBuffers = 13; ///< storage buffers of a kernel
 constexpr const char* kValidation = "VK_LAYER_KHRONOS_validation";
 constexpr const char* kQueryExtensions[] = {VK_KHR_ACCELERATION_STRUCTURE_EXTENSION_NAME,
                                             VK_KHR_RAY_QUERY_EXTENSION_NAME,
@@ -43,7 +43,8 @@ bool has_ray_queries(const vk::raii::PhysicalDevice& device) {
 
 std::optional<std::uint32_t> compute_family(const vk::raii::PhysicalDevice& device) {
     const auto families = device.getQueueFamilyProperties();
-    // One that draws is the device's widest; one that computes alone runs beside the desktop.
+    // A queue family with graphics is the device's widest; a family without graphics runs in parallel to the
+    // desktop.
     for (const bool alone : {true, false})
         for (std::uint32_t f = 0; f < families.size(); ++f) {
             const vk::QueueFlags flags = families[f].queueFlags;
@@ -54,7 +55,7 @@ std::optional<std::uint32_t> compute_family(const vk::raii::PhysicalDevice& devi
     return std::nullopt;
 }
 
-/// What a bake needs and the device has not; empty: nothing.
+/// Returns a feature that a bake needs and the device lacks; empty: none.
 std::string missing(const vk::raii::PhysicalDevice& device) {
     if (device.getProperties().apiVersion < kVersion)
         return "Vulkan 1.2";
@@ -116,7 +117,7 @@ std::string listed(std::span<const GpuDevice> devices) {
     return names;
 }
 
-/// The device of a number or of a part of a name. Throws `Error` where none or several have it.
+/// Returns the device with a number or with a part of a name. Throws `Error` if none or several match.
 std::size_t named_device(std::span<const GpuDevice> devices, const std::string& which) {
     if (const std::optional<std::size_t> number = as_number(which); number && *number < devices.size())
         return *number;
@@ -130,7 +131,7 @@ std::size_t named_device(std::span<const GpuDevice> devices, const std::string& 
                             fitting.empty() ? "no" : "more than one", which, listed(devices)));
 }
 
-/// Of those that can, hardware before software, and then that with the most memory.
+/// Returns the best of the suitable devices: hardware before software, and then the largest memory.
 std::size_t best_device(std::span<const GpuDevice> devices, bool hardware_only) {
     std::optional<std::size_t> best;
     std::string why;
@@ -202,7 +203,7 @@ std::vector<GpuDevice> gpu_devices() {
 
 bool may_have_hardware() {
 #ifdef __linux__
-    // DRM's (AMD, Intel, most others), NVIDIA's own, Windows' in WSL, Qualcomm's, Arm's, Imagination's.
+    // Device files of DRM (AMD, Intel, and others), NVIDIA, Windows in WSL, Qualcomm, Arm, Imagination.
     std::error_code missing;
     return std::ranges::any_of(
         std::to_array<const char*>({"/dev/dri", "/dev/nvidiactl", "/dev/nvidia0", "/dev/dxg", "/dev/kgsl-3d0",
@@ -225,7 +226,7 @@ VulkanDevice::VulkanDevice(const VulkanChoice& choice)
                 found.push_back(std::move(device));
             }
         } catch (const vk::InitializationFailedError&) {
-            devices.clear(); // of some loaders where no driver starts
+            devices.clear(); // reported by some loaders if no driver starts
         }
         const std::size_t chosen = choice.device.empty() ? best_device(devices, choice.hardware_only)
                                                          : named_device(devices, choice.device);
@@ -288,7 +289,8 @@ void VulkanDevice::make_device() {
                                                static_cast<std::size_t>(eleven.maxMemoryAllocationSize));
     traits_.least_subgroup = eleven.subgroupSize;
     if (has_extension(physical_,
-                      VK_EXT_SUBGROUP_SIZE_CONTROL_EXTENSION_NAME)) // some compilers choose by kernel
+                      VK_EXT_SUBGROUP_SIZE_CONTROL_EXTENSION_NAME)) // some compilers choose the size per
+                                                                    // kernel
         traits_.least_subgroup = std::min(
             traits_.least_subgroup, physical_
                                         .getProperties2<vk::PhysicalDeviceProperties2,

@@ -1,6 +1,6 @@
 #pragma once
 
-// A Vulkan 1.2 device, chosen, with one queue that computes.
+// Opens a Vulkan 1.2 device with one compute queue.
 
 #include "prt/gpu_devices.h"
 #include "prt/gpu_failure.h"
@@ -15,44 +15,45 @@
 
 namespace prt {
 
-/// Which device, and what of it.
+/// Selects a device and its features.
 struct VulkanChoice {
     std::string device = {}; ///< a number, or part of a name; empty: the best
     bool hardware_only = false;
     Traversal traversal = Traversal::automatic;
-    bool validate = false; ///< every call, by the layer for that: see complaints()
+    bool validate = false; ///< validate every call with the validation layer; see complaints()
 };
 
-/// Whether this machine can have a hardware GPU: on Linux all have a file in /dev. Quick, where asking
-/// drivers takes a quarter of a second and what software ones load.
+/// Whether this machine can have a hardware GPU: on Linux all of them have a file in /dev. This is fast,
+/// whereas querying drivers takes a quarter of a second, and software drivers load large libraries.
 bool may_have_hardware();
 
-/// Stays where it is.
+/// An opened device. It cannot be moved.
 class VulkanDevice {
 public:
-    /// Throws `Error` that says why where there is no such device.
+    /// Throws `Error` with the reason if there is no such device.
     explicit VulkanDevice(const VulkanChoice& choice);
     VulkanDevice(const VulkanDevice&) = delete;
     VulkanDevice& operator=(const VulkanDevice&) = delete;
 
     struct Traits {
         GpuDevice about;
-        bool ray_queries = false;          ///< those that are used
-        std::size_t most_bytes = 0;        ///< of a buffer
-        std::uint32_t least_subgroup = 0;  ///< threads, at least
-        double clock_seconds = 0;          ///< of a step of the device's clock; 0: it has none
-        std::uint32_t clock_bits = 0;      ///< after which it begins anew
-        std::size_t scratch_alignment = 1; ///< where memory to build hierarchies in begins
-        std::uint32_t most_groups = 65535; ///< of a dispatch, in x
-        std::uint64_t most_instances = 0, most_triangles = 0; ///< of a hierarchy of the device
+        bool ray_queries = false;          ///< ray queries are used
+        std::size_t most_bytes = 0;        ///< maximum bytes of a buffer
+        std::uint32_t least_subgroup = 0;  ///< minimum number of threads of a subgroup
+        double clock_seconds = 0;          ///< seconds per tick of the device's clock; 0: it has no clock
+        std::uint32_t clock_bits = 0;      ///< bits after which the clock wraps around
+        std::size_t scratch_alignment = 1; ///< alignment of scratch memory for building hierarchies
+        std::uint32_t most_groups = 65535; ///< maximum workgroups of a dispatch in x
+        std::uint64_t most_instances = 0, most_triangles = 0; ///< limits of a hierarchy of the device
     };
     const Traits& traits() const { return traits_; }
     const vk::raii::Device& handle() const { return device_; }
     const vk::raii::Queue& queue() const { return queue_; }
     std::uint32_t queue_family() const { return family_; }
-    /// A kind of memory among `kinds` (a bit each) that has all of `wanted`. Throws `Error` where none has.
+    /// Returns a memory type among `kinds` (one bit each) that has all of `wanted`. Throws `Error` if no
+    /// type matches.
     std::uint32_t memory_kind(std::uint32_t kinds, vk::MemoryPropertyFlags wanted) const;
-    /// What the validation layer said, a line each.
+    /// Messages of the validation layer, one line each.
     const std::vector<std::string>& complaints() const { return *complaints_; }
 
 private:
@@ -70,8 +71,8 @@ private:
     Traits traits_;
 };
 
-/// Runs `work`, and says what a driver complains of as `Error`: `GpuLost` and `GpuMemoryError` where it is
-/// that.
+/// Runs `work`, and converts Vulkan exceptions to `Error`, or to `GpuLost` and `GpuMemoryError` in these
+/// cases.
 template <class Work>
 auto with_vulkan_errors(const Work& work) {
     try {

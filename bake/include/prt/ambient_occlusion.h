@@ -1,7 +1,6 @@
 #pragma once
 
-// Ambient occlusion, obscurance and bent normals: transfer of order 2, read as what engines have slots for.
-// Experimental.
+// Ambient occlusion, obscurance and bent normals, computed from transfer of order 2. Experimental.
 
 #include "prt/bake.h"
 
@@ -12,24 +11,24 @@
 namespace prt {
 
 struct OcclusionOptions {
-    int rays = 1024;                    ///< per receiver
-    std::optional<double> target_error; ///< as of BakeOptions
-    FitMode fit = FitMode::automatic;   ///< of vertices
-    TracerChoice tracer;                ///< with the fall-off
+    int rays = 1024;                    ///< rays per receiver
+    std::optional<double> target_error; ///< see BakeOptions::target_error
+    FitMode fit = FitMode::automatic;   ///< positions where visibility is measured
+    TracerChoice tracer;                ///< tracer, including its distance fall-off
     Repairs repairs;
     BakeMemory memory;
-    int threads = 0; ///< 0: all
+    int threads = 0; ///< number of threads; 0: all
     std::uint64_t seed = 0;
 };
 
-/// Of receivers.
+/// Ambient visibility and bent normals, one entry per receiver.
 struct Openness {
-    std::vector<float> ambient;          ///< 0..1: how much of a uniform sky arrives, by the cosine law
-    std::vector<glm::vec3> bent_normals; ///< unit, where that light comes from on average
+    std::vector<float> ambient;          ///< cosine-weighted visible share of a uniform sky, 0..1
+    std::vector<glm::vec3> bent_normals; ///< unit, mean direction of the visible light
 };
 
-/// What transfer of order 2 and one channel says. Where no light comes in, `normals` stand for where from, or
-/// +Y where there are none.
+/// Converts transfer of order 2 with one channel. If no light arrives, the bent normal is the entry of
+/// `normals`, or +Y if `normals` is empty.
 Openness openness_of(const Transfer& transfer, std::span<const glm::vec3> normals = {});
 
 struct OcclusionResult {
@@ -37,7 +36,7 @@ struct OcclusionResult {
     BakeStatistics statistics;
 };
 
-/// Of every vertex of a scene. Throws as `bake` does.
+/// Computes ambient occlusion of every vertex of `scene`. Throws the same errors as `bake`.
 OcclusionResult ambient_occlusion(const Scene& scene, const OcclusionOptions& options,
                                   const Progress& progress = {});
 

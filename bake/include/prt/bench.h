@@ -1,6 +1,6 @@
 #pragma once
 
-// Speed against error of the bake, on every backend and by every method.
+// Compares speed and error of the bake on every backend and with every method.
 
 #include "prt/make_tracer.h"
 #include "prt/scene.h"
@@ -14,10 +14,10 @@ namespace prt {
 
 struct BenchOptions {
     int order = 6;
-    int fewest_rays = 64, most_rays = 4096; ///< doubled from one to the other
+    int fewest_rays = 64, most_rays = 4096; ///< rays per receiver, doubled from the minimum to the maximum
     int raster_resolution = 1024;
     std::string gpu = {};     ///< TracerChoice::gpu
-    double most_seconds = 60; ///< a run that would take longer is left out
+    double most_seconds = 60; ///< maximum time of a run; longer runs are skipped
     int threads = 0;
     std::uint64_t seed = 0;
     BadTextures bad_textures = BadTextures::error;
@@ -25,25 +25,26 @@ struct BenchOptions {
 
 /// One run over all receivers.
 struct BenchRun {
-    int rays = 0; ///< per receiver; directions where the method is raster
+    int rays = 0; ///< rays per receiver; for method raster the number of directions
     double seconds = 0, seconds_build = 0;
     TraceSeconds parts;
     double rays_per_second = 0;
-    double relative_l2 = 0; ///< against the reference, over its receivers
-    double contrast = 0;    ///< `transfer_contrast` against the same
-    double surface_l2 = 0;  ///< over the surface, interpolated between vertices
+    double relative_l2 = 0; ///< against the reference, over the reference's receivers
+    double contrast = 0;    ///< `transfer_contrast` against the same reference
+    double surface_l2 = 0;  ///< relative L2 error over the surface, interpolated between vertices
 };
 
 struct BenchSeries {
     Backend backend = Backend::cpu;
     BakeMethod method = BakeMethod::trace;
-    bool fitted = false; ///< to samples of the surface
+    bool fitted = false; ///< fitted to samples of the surface
     Traversal traversal = Traversal::automatic;
     std::string device = {};
     std::vector<BenchRun> runs = {};
-    std::string left_out = {}; ///< what is missing, and why; empty: nothing
+    std::string left_out = {}; ///< reason why the series or some of its runs are missing; empty: it is
+                               ///< complete
 
-    /// "cpu trace", "cpu trace fitted", "gpu trace, ray queries"
+    /// Name in reports, for example "cpu trace", "cpu trace fitted" or "gpu trace, ray queries".
     std::string name() const {
         return std::string(to_string(backend)) + " " + to_string(method) + (fitted ? " fitted" : "") +
                (traversal == Traversal::device ? ", ray queries" : "");
@@ -54,13 +55,13 @@ struct BenchResult {
     std::string scene;
     std::size_t receivers = 0, triangles = 0;
     int order = 0;
-    int reference_rays = 0; ///< 64 times the most rays
+    int reference_rays = 0; ///< rays per receiver of the reference: 64 times the maximum
     std::size_t reference_receivers = 0;
-    std::size_t surface_points = 0; ///< of the surface's reference, each of 16 384 rays
+    std::size_t surface_points = 0; ///< points of the surface reference, with 16 384 rays each
     std::vector<BenchSeries> series;
 };
 
-/// Measures direct light. The error is that of an even sample of the receivers. Throws `Cancelled`.
+/// Measures direct light. Errors are measured at an even sample of the receivers. Throws `Cancelled`.
 BenchResult run_bench(const std::string& name, const Scene& scene, const BenchOptions& options,
                       const Progress& progress);
 

@@ -1,6 +1,6 @@
 #pragma once
 
-// Light from far away as rays meet it: what SH lighting is an approximation of.
+// Distant light that rays evaluate by direction. SH lighting is an approximation of it.
 
 #include "prt/environment.h"
 
@@ -11,27 +11,27 @@
 
 namespace prt {
 
-/// A light without extent.
+/// A distant light without extent.
 struct Sun {
     glm::vec3 towards;    ///< unit, from the receiver to the light
-    glm::vec3 irradiance; ///< on a receiver that faces it
+    glm::vec3 irradiance; ///< irradiance of a receiver that faces the light
 };
 
-/// An environment and suns, to be looked at and to be sampled in proportion to luminance. Immutable,
+/// An environment and suns, for evaluation and for sampling in proportion to luminance. Immutable and
 /// thread-safe.
 class DistantLight {
 public:
-    /// `environment` is a lat-long image, constant over its texels as in `project`; empty: black.
+    /// `environment` is a lat-long image, constant over each texel as in `project`; an empty image is black.
     explicit DistantLight(Image environment, std::vector<Sun> suns = {});
 
     struct Sample {
         glm::vec3 direction, radiance;
         float density; ///< per steradian; 0 where the environment is black
     };
-    /// A direction for a point `u` of the unit square.
+    /// Returns a random direction for a point `u` of the unit square.
     Sample sample(const glm::vec2& u) const;
     glm::vec3 radiance(const glm::vec3& direction) const;
-    /// With which `sample` finds `direction`, per steradian.
+    /// Probability density of `sample` at `direction`, per steradian.
     float density(const glm::vec3& direction) const;
     const std::vector<Sun>& suns() const { return suns_; }
     const Image& environment() const { return environment_; }
@@ -42,7 +42,7 @@ private:
 
     Image environment_;
     std::vector<Sun> suns_;
-    std::vector<double> cumulative_; ///< [height · width + 1] power of the texels before
+    std::vector<double> cumulative_; ///< [height · width + 1] total power of all texels before this one
 };
 
 } // namespace prt

@@ -1,6 +1,6 @@
 #pragma once
 
-// The error of a lit surface taken apart by its causes. Experimental.
+// Splits the error of a lit surface into its causes. Experimental.
 
 #include "prt/surface_radiance.h"
 
@@ -11,72 +11,79 @@
 
 namespace prt {
 
-/// What makes the light of a model differ from that of path tracing.
+/// Reasons why the light of a model differs from path tracing.
 enum class ErrorCause {
-    light,    ///< what the bands of the order cannot hold
-    bounces,  ///< those that were not baked
-    vertices, ///< between them light is interpolated
+    light,    ///< light outside the bands of the order
+    bounces,  ///< bounces that were not baked
+    vertices, ///< interpolation between the vertices
     rays,     ///< noise of the bake
     bytes,    ///< compression
 };
+/// Number of values of `ErrorCause`.
 inline constexpr std::size_t kErrorCauses = 5;
 
-/// The words of reports: "light", "bounces", "vertices", "rays", "bytes".
+/// Returns the name in reports: "light", "bounces", "vertices", "rays" or "bytes".
 const char* to_string(ErrorCause cause);
 
-/// What squared errors are relative to.
+/// Reference value of squared errors.
 enum class BudgetMeasure {
-    relative, ///< the mean squared radiance of the surface, three channels alike
-    /// At each point (Y + Y_a)², channels weighted as luminance is: contrast errors (docs/math.md, eq. 33b).
+    relative, ///< mean squared radiance of the surface; the three channels have equal weights
+    /// (Y + Y_a)² at each point, with channels weighted as in luminance: contrast errors (docs/math.md, eq.
+    /// 33b).
     visible,
 };
 
-/// Squared error by a `BudgetMeasure`, with its 95 % interval over which points were
-/// looked at and which paths were traced. An unbiased estimate of what is near zero may be less.
+/// Squared error in a `BudgetMeasure`, with its 95 % confidence interval over the random choice of points and
+/// paths. The estimate is unbiased, and can be negative if the true value is near zero.
 struct SquaredError {
     double value = 0, low = 0, high = 0;
 
-    /// Relative L2; 0 where the estimate is negative.
+    /// Relative L2 error; 0 if the estimate is negative.
     double root() const;
 };
 
 struct ErrorBudget {
-    std::array<SquaredError, kErrorCauses> causes; ///< [ErrorCause] each as if it were the only one
-    /// What they do to each other, twice the sum of their products: total less the sum of causes.
+    std::array<SquaredError, kErrorCauses> causes; ///< [ErrorCause] error if the cause were the only one
+    /// Interaction of the causes, twice the sum of their products: `total` minus the sum of `causes`.
     SquaredError together;
-    SquaredError total; ///< measured by itself
+    SquaredError total; ///< total error, measured independently of `causes`
 
     SquaredError& of(ErrorCause cause) { return causes[static_cast<std::size_t>(cause)]; }
     const SquaredError& of(ErrorCause cause) const { return causes[static_cast<std::size_t>(cause)]; }
     double sum() const;
 };
 
-/// Exit radiance of one lighting, interpolated to points: without direct light of suns that the renderer
+/// Exit radiance under one lighting, interpolated to points, without direct light of suns that the renderer
 /// adds.
 struct InterpolatedRadiance {
     std::vector<glm::vec3> baked;
-    std::vector<glm::vec3> repeated; ///< by the same bake with another seed
-    std::vector<glm::vec3> shipped;  ///< equal to `baked` where nothing is compressed
-    bool alike = true;               ///< `repeated` is of as many rays as `baked`; else it may be of fewer
+    std::vector<glm::vec3> repeated; ///< radiance from the same bake with another seed
+    std::vector<glm::vec3> shipped;  ///< radiance after compression; equal to `baked` if nothing is
+                                     ///< compressed
+    bool alike = true;               ///< `repeated` has the same number of rays as `baked`; otherwise it may
+                                     ///< have fewer
 };
 
-/// Every stage is replaced by truth in turn: by the path tracer's light for that of the bands (light), by all
-/// bounces (bounces), by radiance at the points (vertices), by an independent bake (rays), and by the
-/// uncompressed bake (bytes); docs/math.md, section 16. `cut`: of the bake.
+/// Computes the error of each stage. The stages are replaced by the truth one after the other: the light of
+/// the bands by the path tracer's light (light), the baked bounces by all bounces (bounces), interpolated
+/// radiance by radiance at the points (vertices), the bake by an independent bake (rays), and the compressed
+/// bake by the uncompressed one (bytes); docs/math.md, section 16. `cut`: order and bounces of the bake.
 ErrorBudget error_budget(const SurfacePoints& points, const SurfaceRadiance& reference, const BandCut& cut,
                          const InterpolatedRadiance& radiance,
                          BudgetMeasure measure = BudgetMeasure::relative);
 
-/// What another cut would leave: of the bands of its order, with all bounces; and of its bounces.
+/// Error that `cut` would leave because of its order, with all bounces.
 SquaredError light_error(const SurfacePoints& points, const SurfaceRadiance& reference, const BandCut& cut);
+/// Error that `cut` would leave because of its number of bounces.
 SquaredError bounces_error(const SurfacePoints& points, const SurfaceRadiance& reference, const BandCut& cut);
 
-/// Squared relative error between vertices, were all triangles split at the middles of their edges and light
-/// exact at their corners, by `corners` of `quarters` [3 points]. `points` are those of `reference`.
+/// Squared relative interpolation error if all triangles were split at the midpoints of their edges and the
+/// light at their corners were exact. `corners` is the radiance at the corners of `quarters` [3 points].
+/// `points` are those of `reference`.
 SquaredError split_error(const SurfacePoints& points, const SurfaceRadiance& reference,
                          const QuarterCorners& quarters, const SurfaceRadiance& corners, const BandCut& cut);
 
-/// The mean over several lights.
+/// Mean over several lights.
 ErrorBudget mean_budget(std::span<const ErrorBudget> budgets);
 
 } // namespace prt

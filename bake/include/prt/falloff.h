@@ -1,29 +1,30 @@
 #pragma once
 
-// How far away surfaces still block. Experimental.
+// Distance beyond which surfaces block less light. Experimental.
 
 #include <limits>
 #include <vector>
 
 namespace prt {
 
-/// What passes a surface that a ray meets, by its distance: obscurance (S. Zhukov, A. Iones and G. Kronin,
-/// "An Ambient Light Illumination Model", 1998) with exponential terms, 1 - exp(log(1/2) x / d) each. What is
-/// far away then darkens less, and the inside of closed rooms is not black.
+/// Share of light that passes a surface hit by a ray, as a function of the distance: obscurance (S. Zhukov,
+/// A. Iones and G. Kronin, "An Ambient Light Illumination Model", 1998) with exponential terms, 1 -
+/// exp(log(1/2) x / d) each. Distant surfaces then darken less, and the inside of closed rooms is not black.
 struct Falloff {
     struct Term {
-        double half_distance; ///< metres at which half passes
-        double share = 1;     ///< of all terms
+        double half_distance; ///< distance in metres at which half of the light passes
+        double share = 1;     ///< weight of this term relative to all terms
     };
-    std::vector<Term> terms;                                   ///< empty: nothing passes
-    double farthest = std::numeric_limits<double>::infinity(); ///< metres; beyond it everything passes
+    std::vector<Term> terms;                                   ///< empty: no light passes
+    double farthest = std::numeric_limits<double>::infinity(); ///< metres; beyond it all light passes
 
-    /// Surfaces block at any distance.
+    /// Returns true if surfaces block at any distance.
     bool blocks_everywhere() const;
+    /// Share of light that passes a surface at `distance` metres, 0..1.
     double passes(double distance) const;
 };
 
-/// Throws `Error` for distances and shares that are none.
+/// Throws `Error` for invalid distances and shares.
 void check_falloff(const Falloff& falloff);
 
 } // namespace prt

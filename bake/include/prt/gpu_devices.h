@@ -5,24 +5,24 @@
 
 namespace prt {
 
-/// How a GPU finds what a ray meets.
+/// Method by which a GPU finds the surfaces that rays hit.
 enum class Traversal {
-    automatic, ///< by its own means where it has some, else by ours
-    device,    ///< by its own: ray queries
-    compute,   ///< through our hierarchy
+    automatic, ///< ray queries if the device supports them, otherwise `compute`
+    device,    ///< ray queries of the device
+    compute,   ///< our own hierarchy in compute shaders
 };
 
-/// A device that bakes could run on.
+/// A device that a bake may run on.
 struct GpuDevice {
-    std::string name;         ///< as its driver calls it
-    std::string driver;       ///< with its version
-    bool hardware = false;    ///< not a program that computes on the processor
-    bool ray_queries = false; ///< traverses triangles by itself
-    double memory = 0;        ///< bytes of its own
-    std::string lacks = {};   ///< what a bake needs and it has not; empty: nothing
+    std::string name;         ///< name reported by the driver
+    std::string driver;       ///< driver and its version
+    bool hardware = false;    ///< false for a device that is emulated on the CPU
+    bool ray_queries = false; ///< supports ray queries
+    double memory = 0;        ///< device memory in bytes
+    std::string lacks = {};   ///< feature that a bake needs and the device lacks; empty: none
 };
 
-/// All of them, in the order of their numbers; nothing where there is no Vulkan.
+/// Returns all devices in the order of their numbers; empty if Vulkan is not available.
 std::vector<GpuDevice> gpu_devices();
 
 } // namespace prt

@@ -4,18 +4,18 @@
 
 namespace prt {
 
-/// A GPU fails on the way, and through no fault of the work: a CPU can go on.
+/// A GPU failed while it worked, for a reason outside of the work itself: a CPU can continue.
 struct GpuFailure : Error {
     using Error::Error;
 };
-/// The device is gone: its driver was reset, or it was taken away.
+/// The device was lost: its driver was reset, or the device was removed.
 struct GpuLost : GpuFailure {
     using GpuFailure::GpuFailure;
 };
 struct GpuMemoryError : GpuFailure {
     using GpuFailure::GpuFailure;
 };
-/// A device cuts long loops short, so that what it computes is wrong.
+/// A device ends long loops early, so that its results are wrong.
 struct GpuLoopsCutShort : GpuFailure {
     GpuLoopsCutShort()
         : GpuFailure("the GPU ends long loops before their time, so that what it computes is wrong (software "

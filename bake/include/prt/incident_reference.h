@@ -1,6 +1,6 @@
 #pragma once
 
-// What comes in at places in free space by path tracing: the reference of volumes. Experimental.
+// Incident light at positions in free space, by path tracing: the reference for volumes. Experimental.
 
 #include "prt/scene_lamps.h"
 #include "prt/surface_radiance.h"
@@ -15,30 +15,31 @@
 
 namespace prt {
 
-/// Places that objects may be at.
+/// Positions in free space where objects can be.
 struct FreePlaces {
     std::vector<glm::vec3> positions;
-    std::vector<float> distances; ///< of the nearest surface, metres
-    std::vector<bool> shut;       ///< from which no ray of 256 reaches the sky
+    std::vector<float> distances; ///< distance to the nearest surface, metres
+    std::vector<bool> shut;       ///< true if none of 256 rays reaches the sky
 };
 
-/// `count` places all over the box of `grid`, in the same box as the scene; those from which more than a
-/// quarter of directions end at backs of surfaces are none. Throws `Error` where there is next to none.
+/// Returns `count` random positions in the box of `grid`, clipped to the bounding box of the scene. Positions
+/// where more than a quarter of all directions end at back faces are rejected. Throws `Error` if there is
+/// almost no free space.
 FreePlaces free_places_in(const TraceScene& scene, const VolumeGrid& grid, std::size_t count,
                           std::uint64_t seed);
 
 struct IncidentOptions {
-    int paths = 512; ///< of a place, in each half
-    /// That shine beside the light; none: all are dark.
+    int paths = 512; ///< paths per position in each half
+    /// Lamps that add to the light; null: all lamps are dark.
     const SceneLamps* lamps = nullptr;
     std::uint64_t seed = 1;
-    int threads = 0; ///< 0: all
+    int threads = 0; ///< number of threads; 0: all
 };
 
-/// Coefficients of the light that comes in, [places][order²], twice and independently, so that a product of
-/// differences from both has no noise in the mean: of the light itself, without direct light of suns that the
-/// renderer adds, and of lamps, directly too. Surfaces are as `PathTracer` takes them. Throws `Cancelled`
-/// when asked to stop.
+/// Computes coefficients of the incident light, [places][order²], in two independent halves, so that a
+/// product of differences from both has no noise in its mean. The result contains the distant light without
+/// direct light of suns that the renderer adds, and the light of lamps, including direct light. Surfaces
+/// scatter as in `PathTracer`. Throws `Cancelled` when asked to stop.
 std::array<std::vector<glm::vec3>, 2>
 incident_reference(const TraceScene& scene, const std::vector<glm::vec3>& places, int order,
                    const MeasuredLight& light, const IncidentOptions& options, const Progress& progress = {});

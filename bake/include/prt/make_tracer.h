@@ -10,20 +10,20 @@
 
 namespace prt {
 
-/// Which tracer to use.
+/// Selects a tracer.
 struct TracerChoice {
     Backend backend = Backend::automatic;
     BakeMethod method = BakeMethod::trace;
     int raster_resolution = 1024; ///< texels along each side of a depth map
-    /// The GPU to trace on: its number among gpu_devices(), or a part of its name; empty: the best.
+    /// GPU to trace on: its number among gpu_devices(), or a part of its name; empty: the best device.
     std::string gpu = {};
     Traversal traversal = Traversal::automatic;
-    Falloff falloff = {}; ///< of what blocks; for rays alone
+    Falloff falloff = {}; ///< distance fall-off of occlusion; ray tracing only
 };
 
-/// The tracer that `choice` asks for: on a hardware GPU where the backend is automatic and there is one that
-/// has room for the scene, and if that is lost on the way the rest on the CPU. Keeps a reference to `scene`.
-/// Throws `Error` where the backend is not there.
+/// Creates the tracer for `choice`. With Backend::automatic it runs on a hardware GPU if there is one with
+/// enough memory for the scene, and continues on the CPU if the GPU is lost; otherwise it runs on the CPU.
+/// Keeps a reference to `scene`. Throws `Error` if the backend is not available.
 std::unique_ptr<Tracer> make_tracer(const TraceScene& scene, const TracerChoice& choice = {});
 
 } // namespace prt

@@ -1,6 +1,6 @@
 #pragma once
 
-// Bakes what an object that moves as one blocks around it (prt/occlusion_volume.h). Experimental.
+// Bakes the occlusion around an object that moves as one (prt/occlusion_volume.h). Experimental.
 
 #include "prt/ambient_occlusion.h"
 #include "prt/occlusion_volume.h"
@@ -14,39 +14,43 @@
 namespace prt {
 
 struct OccluderOptions {
-    int rays = 256; ///< of a point where the object is looked at
-    /// How far the box goes beyond the object on every side, over the mean of its sides.
+    int rays = 256; ///< rays per point from which the object is sampled
+    /// Distance that the box extends beyond the object on every side, relative to the mean of the object's
+    /// sides.
     double margin = 0.6;
-    /// The object is left out from where it takes less than this of the light of a receiver that faces it.
+    /// The object is ignored beyond the distance where it blocks less than this fraction of the light of a
+    /// receiver that faces it.
     double least = 0.01;
     TracerChoice tracer = {};
     Repairs repairs = {};
-    int threads = 0; ///< 0: all
+    int threads = 0; ///< number of threads; 0: all
     std::uint64_t seed = 0;
 };
 
 struct OccluderBake {
     OcclusionVolume volume;
     std::size_t rays = 0;
-    /// Mean difference of the openness of receivers at random places of the box outside of the object, facing
-    /// anywhere, to that by rays; of others than those that the volume is made of.
+    /// Mean difference between the visibility of receivers from the volume and from rays. The receivers are
+    /// at random positions of the box outside the object with random normals; the fit uses other positions.
     double mean_error = 0;
-    /// That of a volume that blocks nothing: how much there is to block.
+    /// Mean blocked fraction of these receivers by rays, which is the error of a volume that blocks nothing.
     double mean_blocked = 0;
 };
 
-/// Of all triangles of `part`. `frame` takes the object's frame to where positions of `part` are seen from;
-/// it turns, moves and scales. Throws `Error` as `bake` does, and where `frame` is singular.
+/// Bakes a volume of all triangles of `part`. `frame` maps the object's frame to the frame of the positions
+/// of `part`; it rotates, translates and scales. Throws the same errors as `bake`, and an `Error` if `frame`
+/// is singular.
 OccluderBake bake_occluder(const Scene& part, const glm::dmat4& frame, const OccluderOptions& options = {},
                            const Progress& progress = {});
 
-/// Receivers that face up in the plane that a scene stands on, below it and as far around as it is high.
+/// Occlusion of receivers that face up in the ground plane of a scene, below it and as far around it as the
+/// scene is high.
 struct FloorOcclusion {
-    double mean_blocked = 0; ///< of their light, by rays
+    double mean_blocked = 0; ///< mean blocked fraction of their light, by rays
     double mean_error = 0, largest_error = 0;
 };
 
-/// What `volumes` in their `frames` block there together, against rays through all of `scene`.
+/// Compares the occlusion of `volumes` in their `frames` together with rays through all of `scene`.
 FloorOcclusion floor_occlusion(const Scene& scene, std::span<const OcclusionVolume> volumes,
                                std::span<const glm::dmat4> frames, const OccluderOptions& options = {},
                                const Progress& progress = {});

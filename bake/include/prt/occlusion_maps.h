@@ -11,13 +11,15 @@
 
 namespace prt {
 
-/// Of one texture, row by row from the top.
+/// Occlusion of one texture, row by row from the top.
 struct OcclusionMap {
     Atlas atlas;
-    Openness openness;                ///< [texels]; between charts that of texels beside them
-    std::size_t measured = 0;         ///< texels that lie on surfaces
-    std::size_t sealed = 0;           ///< of those: inside geometry, as between charts
-    double seam_before = 0, seam = 0; ///< jumps of `ambient` across seams, root mean square, before and after
+    Openness openness;                ///< [texels]; texels between charts take the values of their neighbours
+    std::size_t measured = 0;         ///< texels on surfaces
+    std::size_t sealed = 0;           ///< measured texels inside geometry; they take the values of their
+                                      ///< neighbours
+    double seam_before = 0, seam = 0; ///< jumps of `ambient` across seams before and after the seams were
+                                      ///< closed, root mean square
 };
 
 struct OcclusionMapsStatistics {
@@ -27,18 +29,20 @@ struct OcclusionMapsStatistics {
     std::vector<std::string> notices;
 };
 
-/// A finer model that casts in the place of the scene.
+/// A finer model that casts shadows instead of the scene.
 struct FinerModel {
-    const Scene* scene = nullptr; ///< null: the scene casts itself
-    double reach = 0;             ///< metres, that its surface may lie off that of the scene
+    const Scene* scene = nullptr; ///< null: the scene itself casts shadows
+    double reach = 0;             ///< maximum distance between the finer surface and the scene's surface,
+                                  ///< metres
 };
 
-/// Throws `Error` where a finer model lies off by no length.
+/// Throws `Error` if the distance of a finer model is invalid.
 void check_finer(const FinerModel& finer);
 
-/// Gives `take` the maps of `atlases` (plan_atlases, or those of an unwrapping), one after the other: a texel
-/// has the mean over its part of the surface, with options.rays at most. Where a finer model has a surface
-/// over or under it, it has what arrives there. Throws as `bake` does.
+/// Passes the maps of `atlases` (from plan_atlases or from an unwrapping) to `take`, one after the other. The
+/// value of a texel is the mean over its part of the surface, with at most options.rays rays. If a finer
+/// model has a surface above or below the texel, the value is the light that arrives there. Throws the same
+/// errors as `bake`.
 OcclusionMapsStatistics occlusion_maps(const Scene& scene, const std::vector<Atlas>& atlases,
                                        const OcclusionOptions& options,
                                        const std::function<void(OcclusionMap)>& take,

@@ -1,6 +1,6 @@
 #pragma once
 
-// The reference (docs/math.md, section 11): what the camera sees, by path tracing, without spherical
+// The reference (docs/math.md, section 11): draws the camera's view by path tracing, without spherical
 // harmonics and without interpolation between vertices.
 
 #include "prt/bake.h"
@@ -19,35 +19,38 @@ namespace prt {
 struct PathTraceOptions {
     Camera camera;
     int width = 640, height = 360;
-    int bounces = kEndlessBounces; ///< between surfaces; endless: until roulette ends the path
-    /// Multiply by the base color of what the camera sees; else exit radiance for albedo 1.
+    int bounces = kEndlessBounces; ///< bounces between surfaces; endless: until Russian roulette ends the
+                                   ///< path
+    /// Multiply by the base color of visible surfaces; otherwise show exit radiance for albedo 1.
     bool textured = true;
-    bool background = true; ///< show the environment behind the scene; else black
-    bool shining = true;    ///< show the emission of surfaces; else only light that they reflect
-    /// Rays through random points of each pixel; else through its center.
+    bool background = true; ///< show the environment behind the scene; otherwise black
+    bool shining = true;    ///< show the emission of surfaces; otherwise only the light that they reflect
+    /// Rays through random points of each pixel; otherwise through its center.
     bool antialiased = true;
     std::uint64_t seed = 0;
 
     friend bool operator==(const PathTraceOptions&, const PathTraceOptions&) = default;
 };
 
-/// Refines a picture pass by pass, a path per pixel each: next-event estimation and cosine sampling combined
-/// by the balance heuristic (Veach 1997), Owen-scrambled Sobol points over the passes (Burley 2020).
-/// Surfaces are as the baker takes them: Lambertian, cut out, blended, transmitting; media are not entered.
+/// Refines a picture pass by pass, with one path per pixel in each pass. Combines next-event estimation and
+/// cosine sampling by the balance heuristic (Veach 1997), with Owen-scrambled Sobol points over the passes
+/// (Burley 2020). Surfaces scatter as in the baker: Lambertian, cut out, blended or transmitting; paths do
+/// not enter media.
 class PathTracer {
 public:
-    /// Keeps references to all but the options. `lamps` shine beside the light; none: all are dark.
+    /// Keeps references to all arguments except the options. `lamps` add to `light`; null: all lamps are
+    /// dark.
     PathTracer(const TraceScene& scene, const DistantLight& light, const PathTraceOptions& options,
                const SceneLamps* lamps = nullptr);
 
-    /// Traces one path more for every pixel. Throws `Cancelled` within a row when asked to stop; the rows
-    /// that are done count. `threads` 0: all.
+    /// Traces one more path for every pixel. Throws `Cancelled` within a row when asked to stop; finished
+    /// rows count. `threads` 0: all.
     void add_pass(int threads = 0, std::stop_token stop = {});
     int passes() const { return passes_; }
 
-    /// The mean so far: linear radiance, [height][width].
+    /// Mean of all passes: linear radiance, [height][width].
     Image image() const;
-    /// Whether the ray through the center of each pixel meets a surface that the camera sees. [height][width]
+    /// Whether the ray through the center of each pixel hits a surface that the camera sees. [height][width]
     std::vector<bool> surface_mask() const;
 
 private:
@@ -64,10 +67,10 @@ private:
 /// A path-traced picture in two independent halves, for the measures of prt/picture_error.h.
 struct PathTracedPicture {
     std::array<Image, 2> halves; ///< [height][width]
-    std::vector<bool> surfaces;  ///< as `PathTracer::surface_mask`
+    std::vector<bool> surfaces;  ///< see `PathTracer::surface_mask`
 };
 
-/// Traces `paths` paths for each pixel, rounded up to an even number. `scene`, `light` and `lamps` as for
+/// Traces `paths` paths per pixel, rounded up to an even number. `scene`, `light` and `lamps` are those of
 /// `PathTracer`. Throws `Cancelled`.
 PathTracedPicture path_traced(const TraceScene& scene, const DistantLight& light,
                               const PathTraceOptions& options, int paths, const SceneLamps* lamps = nullptr,

@@ -1,6 +1,6 @@
 #pragma once
 
-// Transfer of a model that moves: baked in poses, and seen from the frames of its vertices, in which lobes
+// Transfer of an animated model: baked in poses and expressed in the frames of its vertices, in which lobes
 // are fitted (docs/math.md, section 21). Experimental.
 
 #include "prt/animation.h"
@@ -18,78 +18,82 @@ namespace prt {
 
 /// The world matrices of all nodes at one time.
 struct ModelPose {
-    std::string animation; ///< its name; empty: the model as its file stands
+    std::string animation; ///< name of the animation; empty: the pose in the file
     double seconds = 0;
     std::vector<glm::dmat4> nodes;
 };
 
-/// As the file stands, then `count` poses, evenly over one animation behind the other, in the middles of
-/// equal spans of time. `only`: the name of the one to take; empty: all. Throws `Error` where there is none,
-/// and for a count below 1.
+/// Returns the pose of the file and `count` poses, evenly spaced over all animations one after another, in
+/// the middle of equal time intervals. `only`: name of the animation to use; empty: all. Throws `Error` if
+/// there is no such animation, and for a count below 1.
 std::vector<ModelPose> poses_of(const AnimatedScene& model, int count, const std::string& only = {});
 
-/// `count` poses from the beginning on, so many of one animation after the other, without that of the file:
-/// of one animation of two seconds 6 poses are every tenth of its 60 frames.
+/// Returns `count` poses without the pose of the file, evenly spaced over all animations one after another,
+/// starting at the beginning. For one animation of two seconds, 6 poses are every tenth of its 60 frames.
+/// Arguments and errors are those of `poses_of`.
 std::vector<ModelPose> frames_of(const AnimatedScene& model, int count, const std::string& only = {});
 
 struct PoseBakeOptions {
     int order = 4;
-    int rays = 256; ///< of a vertex in a pose
+    int rays = 256; ///< rays per vertex and pose
     int bounces = 1;
     TracerChoice tracer = {};
     BadTextures bad_textures = BadTextures::error;
-    int threads = 0; ///< 0: all
+    int threads = 0; ///< number of threads; 0: all
     std::uint64_t seed = 0;
 };
 
-/// The self-transfer of one pose: light from everywhere around the model alone.
+/// Self-transfer of one pose: the model alone, lit from all directions.
 struct PoseTransfer {
-    Transfer transfer;        ///< `whole`, of one channel or three, in the world
-    std::vector<float> areas; ///< m²; 0 of vertices that are sealed in: nobody sees them
+    Transfer transfer;        ///< `whole` transfer with one channel or three, in world space
+    std::vector<float> areas; ///< m²; 0 for vertices that are sealed in, which nobody sees
     std::vector<bool> sealed;
     std::size_t rays = 0;
 };
+/// Bakes the self-transfer of `pose`. Throws `Error` for vertices that are too far away, and the errors of
+/// `bake`.
 PoseTransfer bake_pose(const AnimatedScene& model, const ModelPose& pose, const PoseBakeOptions& options,
                        const Progress& progress = {});
 
-/// Between the world in a pose and the frame of the normals of each vertex: by the rotation that is next to
-/// its matrix (its polar factor). What mirrors, mirrors.
+/// Transforms between world space in a pose and the frame of each vertex's normal. The rotation is the one
+/// nearest to the vertex matrix (its polar factor). A matrix that mirrors is mirrored here, too.
 class VertexFrames {
 public:
     VertexFrames(const AnimatedScene& model, const ModelPose& pose);
     std::size_t vertices() const { return matrices_.size(); }
     const glm::dmat3& matrix(std::size_t vertex) const { return matrices_[vertex]; }
-    /// Grey transfer vectors [order²], `out` may be `in`.
+    /// Transforms a grey transfer vector [order²] of the vertex frame to world space; `out` may be `in`.
     void to_world(int order, std::size_t vertex, std::span<const double> in, std::span<double> out) const;
+    /// Transforms a grey transfer vector [order²] of world space to the vertex frame; `out` may be `in`.
     void from_world(int order, std::size_t vertex, std::span<const double> in, std::span<double> out) const;
 
 private:
     std::vector<glm::dmat3> matrices_;  ///< linear parts of the vertices' matrices
-    std::vector<glm::dmat3> rotations_; ///< of determinant 1
-    std::vector<bool> mirrored_;        ///< behind the rotation, w becomes -w
+    std::vector<glm::dmat3> rotations_; ///< rotations, with determinant 1
+    std::vector<bool> mirrored_;        ///< mirrored vertices: w becomes -w after the rotation
 };
 
-/// Grey transfer of many poses in the frames of the vertices, mean channel by channel.
+/// Grey transfer of many poses in the frames of the vertices: the mean over poses and channels.
 struct MeanTransfer {
     int order = 0;
-    std::vector<double> vectors; ///< [vertices][order²]: the mean over the poses
-    std::vector<double> rest;    ///< the same of the first pose alone
-    /// m², the mean over the poses; of vertices that all poses hide, a hundredth of what they would have.
+    std::vector<double> vectors; ///< [vertices][order²] mean over the poses
+    std::vector<double> rest;    ///< [vertices][order²] vectors of the first pose
+    /// m², mean over the poses; for vertices that all poses hide, a hundredth of their area.
     std::vector<float> areas;
     std::size_t rays = 0;
-    std::size_t hidden = 0; ///< vertices that every pose seals in: they have the light of their neighbours
+    std::size_t hidden = 0; ///< vertices that every pose seals in; they take the light of their neighbours
 
     std::size_t coefficients() const { return static_cast<std::size_t>(order * order); }
     std::size_t vertices() const { return areas.size(); }
 };
 
-/// A pose counts at a vertex unless the vertex is sealed in. Over turning frames the sum of squared
-/// differences of one vector to those of all poses is that to their mean, and a constant: whatever is fitted
-/// to the mean is fitted to all poses at once.
+/// Averages the poses in the vertex frames. A pose counts at a vertex unless the vertex is sealed in. In
+/// rotating frames the sum of squared differences between one vector and those of all poses equals the
+/// squared difference to their mean plus a constant, so that a fit to the mean is a fit to all poses.
 MeanTransfer mean_of_poses(const AnimatedScene& model, std::span<const ModelPose> poses,
                            const PoseBakeOptions& options, const Progress& progress = {});
 
-/// The mean over the channels of a `whole` vector.
+/// Writes the mean over the channels of a `whole` vector to `grey`.
 void grey_vector(const Transfer& transfer, std::size_t receiver, std::span<double> grey);
 
 } // namespace prt

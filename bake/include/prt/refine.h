@@ -1,6 +1,6 @@
 #pragma once
 
-// Finer meshes where light needs them. Experimental.
+// Refines meshes where the light requires it. Experimental.
 
 #include "prt/bake.h"
 #include "prt/refinement.h"
@@ -10,28 +10,30 @@
 namespace prt {
 
 struct RefineOptions {
-    double target = 0.02; ///< relative L2 of direct light over the surface, of interpolation alone
-    /// Of the finer scene; 0: four times those of the scene, and 20 000 at least.
+    double target = 0.02; ///< target relative L2 error of direct light over the surface, by interpolation
+                          ///< only
+    /// Maximum number of vertices of the finer scene; 0: four times the number in the scene, but at least 20
+    /// 000.
     std::size_t most_vertices = 0;
 };
 
-/// Why a refinement ended.
+/// Reason why a refinement ended.
 enum class RefineEnd {
-    target,   ///< it is reached
-    vertices, ///< more would be more than are allowed
-    edges,    ///< what is left of the error is in triangles whose edges are too short to split
+    target,   ///< the target is reached
+    vertices, ///< the maximum number of vertices is reached
+    edges,    ///< the remaining error is in triangles whose edges are too short to split
 };
 
 struct RefineStatistics {
     RefineEnd end = RefineEnd::target;
-    int rounds = 0; ///< of splitting
+    int rounds = 0; ///< rounds of splitting
     struct Size {
         std::size_t vertices = 0, triangles = 0;
-        double error = 0; ///< relative L2 over the surface, of interpolation alone
+        double error = 0; ///< relative L2 error over the surface, by interpolation only
     };
     Size before, after;
     int rays_per_point = 0;
-    std::size_t points = 0, rays = 0; ///< asked and traced in all
+    std::size_t points = 0, rays = 0; ///< all test points, and all traced rays
     double seconds = 0;
 };
 
@@ -40,11 +42,11 @@ struct RefineResult {
     RefineStatistics statistics;
 };
 
-/// Finds where triangles of `scene` must be split so that direct light, fitted to vertices and interpolated
-/// over triangles, comes as near to light at points between them as is asked. Points have rays of their own;
-/// what is traced is kept from round to round, at order 6 some 2.4 kB for each vertex. `options` are those of
-/// the bake that follows. Deterministic as `bake` is. Throws `Error` for options outside their range or that
-/// ask for another measure of light, `Cancelled` when asked to stop.
+/// Finds triangles of `scene` to split, so that direct light that is fitted to vertices and interpolated over
+/// triangles matches the light at test points between the vertices. Points have their own rays. Traced light
+/// is kept from round to round, about 2.4 kB per vertex at order 6. `options` are those of the bake that
+/// follows. Deterministic in the same way as `bake`. Throws `Error` for options that are invalid or that
+/// require another measure of light, and `Cancelled` when asked to stop.
 RefineResult refine(const Scene& scene, const BakeOptions& options, const RefineOptions& how,
                     const Progress& progress = {});
 

@@ -1,6 +1,6 @@
 #pragma once
 
-// A bake done again with another seed: what differs is the noise of rays. Experimental.
+// Repeats a bake with another seed: the difference is the noise of rays. Experimental.
 
 #include "prt/baked_transfer.h"
 #include "prt/lightmap.h"
@@ -9,12 +9,14 @@
 
 namespace prt {
 
-/// The transfer of `scene` by rays of their own, without lamps, as `baked` was made by its `record`. Throws
-/// `Error` where it comes out otherwise than noise explains: what the record does not tell was another.
+/// Bakes `scene` again with the options of `record`, with other rays and without lamps. Throws `Error` if the
+/// result differs from `baked` by more than noise: then an option that the record does not contain was
+/// different.
 Transfer repeated_bake(const Scene& scene, const Transfer& baked, const BakeRecord& record, int threads,
                        const Progress& progress = {});
 
-/// The same of a lightmap without a finer model: of its receivers, in their order.
+/// Bakes a lightmap without a finer model again with other rays. Returns the transfer of its receivers in
+/// their order. Throws `Error` if the result differs by more than noise.
 Transfer repeated_lightmap(const Scene& scene, const BakedLightmap& lightmap, int threads,
                            const Progress& progress = {});
 

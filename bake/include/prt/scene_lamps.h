@@ -1,7 +1,7 @@
 #pragma once
 
-// Lamps of a scene as paths find them, apart from the baker's: lights by a ray to one of them, surfaces that
-// shine by points of theirs and by being met. Experimental.
+// Lamps of a scene for path tracing, implemented independently of the baker's: paths sample a light by one
+// ray, and emissive surfaces by points on them and by hitting them. Experimental.
 
 #include "prt/trace_scene.h"
 #include "prt/transfer_layout.h"
@@ -14,52 +14,58 @@
 
 namespace prt {
 
-/// A part for each lamp of a scene that holds no transfer: lights and shining materials, by name.
+/// Returns a part for each lamp of a scene without transfer: lights and emissive materials, by name.
 std::vector<TransferPart> lamps_of(const Scene& scene);
 
-/// Thread-safe.
+/// Samples the lamps of a scene. Thread-safe.
 class SceneLamps {
 public:
-    /// Those of the scene that are in `lamps`, by the name of theirs, or as members; each as bright as its
-    /// strength, [lamps]. Others are dark. Keeps a reference to `scene`. Throws `Error` where there are not
-    /// as many strengths.
+    /// Uses the lamps of the scene that are in `lamps`, by their name or as members, each multiplied by its
+    /// strength, [lamps]. Other lamps are dark. Keeps a reference to `scene`. Throws `Error` if the number of
+    /// strengths differs from the number of lamps.
     SceneLamps(const TraceScene& scene, std::span<const TransferPart> lamps,
                std::span<const glm::vec3> strengths);
 
     bool has_lights() const { return !lights_.empty(); }
     bool has_surfaces() const { return !shining_.empty(); }
 
-    /// Light of a sample that arrives if nothing is in its way, over what was chosen by chance.
+    /// Light of a sample without occlusion, divided by the probability of the sample.
     struct Sample {
         glm::vec3 towards{0, 1, 0}; ///< unit
-        glm::vec3 way{0};           ///< to where it comes from, or along which it comes from far away
-        float reach = 1;            ///< so many lengths of `way`: endless, or 1
-        glm::vec3 irradiance{0};    ///< of what faces it
-        float density = 0;          ///< of the direction over the sphere; 0: no other way finds that light
+        glm::vec3 way{0};           ///< vector to the point that the light comes from, or direction towards a
+                                    ///< distant light
+        float reach = 1;            ///< length of the shadow ray in lengths of `way`: 1, or infinite for
+                                    ///< distant lights
+        glm::vec3 irradiance{0};    ///< irradiance of a receiver that faces the light
+        float density = 0;          ///< density of the direction over the sphere; 0: no other technique finds
+                                    ///< this light
 
-        /// Share of it by the balance heuristic, where directions of that density find it too.
+        /// Weight by the balance heuristic, if directions of density `other` find this light too.
         float balance(float other) const { return density > 0 ? density / (density + other) : 1.0f; }
     };
-    /// One of the lights of KHR_lights_punctual, by what they give at `place`, points without extent.
+    /// Samples one of the punctual lights, mostly in proportion to their irradiance at `place`. The lights
+    /// have no extent.
     Sample sample_light(const glm::vec3& place, float u) const;
-    /// A point of the surfaces that shine, by their power; black where its back is seen.
+    /// Samples a point on emissive surfaces in proportion to their power; the sample is black if `place` is
+    /// behind a single-sided surface.
     Sample sample_surface(const glm::vec3& place, const glm::vec2& u) const;
-    /// Share of the light of a sample of `place` that comes through to there.
+    /// Share of the light of a sample that reaches `place` along the shadow ray.
     float open(const glm::vec3& place, const Sample& sample) const;
 
-    /// What a point of a triangle gives off to where it is seen from, on its front or its back.
+    /// Radiance that a point of a triangle emits towards the viewer, on its front or back.
     glm::vec3 radiance(const SurfacePoint& point, bool back) const;
-    /// Of `sample_surface`, for a direction at this cosine to the triangle that meets it so far away.
+    /// Density of `sample_surface` for a direction that hits the triangle at `distance` with this cosine to
+    /// its normal.
     float density(std::uint32_t triangle, float distance, float cosine) const;
 
 private:
     struct Light {
-        std::uint32_t index; ///< in Scene::lights
+        std::uint32_t index; ///< index in Scene::lights
         glm::vec3 strength;
     };
     struct Shining {
         std::uint32_t triangle;
-        double until; ///< the sum of powers up to it
+        double until; ///< sum of the powers up to and including this triangle
     };
 
     glm::vec3 strength_of(std::uint32_t triangle) const;
@@ -68,8 +74,8 @@ private:
     const TraceScene& scene_;
     std::vector<Light> lights_;
     std::vector<Shining> shining_;
-    std::vector<glm::vec3> strengths_; ///< [materials]
-    std::vector<double> densities_;    ///< [triangles] of a point over the area; empty: nothing shines
+    std::vector<glm::vec3> strengths_; ///< [materials] strengths
+    std::vector<double> densities_;    ///< [triangles] density of a point by area; empty: nothing emits light
 };
 
 } // namespace prt

@@ -9,12 +9,12 @@
 
 namespace prt {
 
-/// The triangles of double-sided materials whose backs need vertices of their own, since light reaches them.
-/// Light that comes from below the horizon and meets nothing does not count: nobody looks from there. Blended
-/// surfaces, glass, sheets that light passes and bodies with a medium inside are left out. `options` are
-/// those of the bake that follows; `with_separate_sides` (prt/separate_sides.h) makes the file. [triangles of
-/// the scene], or empty where there are none. Deterministic. Throws `Error`, and `Cancelled` when asked to
-/// stop.
+/// Returns the triangles of double-sided materials whose backs need their own vertices, because light reaches
+/// them: [triangles of the scene], or empty if there are none. Light from below the horizon that hits nothing
+/// does not count, because nobody looks from there. Blended surfaces, glass, thin sheets that transmit light
+/// and bodies with a medium inside are excluded. `options` are those of the bake that follows;
+/// `with_separate_sides` (prt/separate_sides.h) creates the file. Deterministic. Throws `Error`, and
+/// `Cancelled` when asked to stop.
 std::vector<bool> sides_to_separate(const Scene& scene, const BakeOptions& options,
                                     const std::stop_token& stop = {});
 

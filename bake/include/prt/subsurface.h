@@ -13,28 +13,28 @@
 
 namespace prt {
 
-/// A homogeneous medium, red, green and blue.
+/// A homogeneous medium, with coefficients for red, green and blue.
 struct Medium {
     glm::dvec3 scattering{0}; ///< reduced scattering coefficient sigma_s', 1/m
     glm::dvec3 absorption{0}; ///< sigma_a, 1/m
     double ior = 1.3;         ///< index of refraction
 };
 
-/// What the coefficients of a medium may be, in 1/m of the scene's unit: scattering from the least to the
-/// most, absorption from 0 to the most. The densest measured one has 2e4.
+/// Valid range of the coefficients of a medium, in 1/m of the scene's unit: scattering from the minimum to
+/// the maximum, absorption from 0 to the maximum. The densest measured medium has 2e4.
 inline constexpr double kLeastScattering = 1e-9, kMostCoefficient = 1e9;
 
-/// The measured media of Jensen et al. 2001, figure 5: "marble", "skin1", "whole-milk" and so on.
+/// A measured medium of Jensen et al. 2001, figure 5: "marble", "skin1", "whole-milk" and others.
 struct NamedMedium {
     std::string_view name;
     Medium medium;
 };
 std::span<const NamedMedium> measured_media();
 
-/// The medium that glTF gives a material: KHR_materials_volume with a thickness and an attenuation, on a
-/// surface that lets diffuse light in (KHR_materials_diffuse_transmission). The attenuation is sigma_t'; the
-/// base color is the reflectance of a thick slab, from which the dipole's albedo follows. Nothing where the
-/// material has no such inside.
+/// Returns the medium that a glTF material describes: KHR_materials_volume with a thickness and an
+/// attenuation, on a surface that transmits diffuse light (KHR_materials_diffuse_transmission). The
+/// attenuation is sigma_t'; the base color is the reflectance of a thick slab, from which the dipole's albedo
+/// follows. Returns nothing if the material has no such medium.
 std::optional<Medium> medium_of(const Material& material);
 
 /// The dipole for one color, on the surface of a half space.
@@ -45,19 +45,21 @@ public:
 
     /// Diffuse reflectance Rd at `distance` metres from where the light enters, 1/m² (eq. 4 of the paper).
     double reflectance(double distance) const;
-    /// Integral of Rd over the disc of that radius; over the plane for infinity, which is the diffuse albedo.
+    /// Integral of Rd over the disc of radius `radius`; infinity: over the plane, which is the diffuse
+    /// albedo.
     double inside(double radius) const;
     double total() const { return total_; }
-    /// sigma_tr, 1/m: far away light falls as exp(-sigma_tr r).
+    /// sigma_tr, 1/m: light far away decreases as exp(-sigma_tr r).
     double falloff() const { return falloff_; }
-    /// Of the real source below the surface, a mean free path, in metres: Rd is smooth over this.
+    /// Depth of the real source below the surface in metres, one mean free path: Rd is smooth on this scale.
     double depth() const { return real_depth_; }
 
 private:
     double albedo_, falloff_, real_depth_, virtual_depth_, total_;
 };
 
-/// Reduced albedo alpha' for which a medium of that index of refraction has the diffuse albedo `reflectance`.
+/// Returns the reduced albedo alpha' for which a medium of this index of refraction has the diffuse albedo
+/// `reflectance`.
 double reduced_albedo(double reflectance, double ior);
 
 } // namespace prt

@@ -1,6 +1,6 @@
 #pragma once
 
-// What suns alone give, with sharp shadows: what a renderer adds to the light of transfer by shadow maps.
+// Light of suns alone with sharp shadows: a renderer adds it to the light of transfer with shadow maps.
 
 #include "prt/sun_disc.h"
 #include "prt/support/progress.h"
@@ -15,14 +15,14 @@
 namespace prt {
 
 struct SunRays {
-    int rays = 256; ///< for each receiver and sun, over its disc; one where it has no extent
+    int rays = 256; ///< rays for each receiver and sun over the sun's disc; one ray for a sun without extent
     std::uint64_t seed = 0;
-    int threads = 0; ///< 0: all
+    int threads = 0; ///< number of threads; 0: all
 };
 
-/// Exit radiance for albedo 1 of every vertex of `scene` under `suns`, shadowed by rays, without bounces:
-/// [receivers]. Through thin sheets it comes as through `direct` transfer, to which it adds; `solid`
-/// surfaces, whose light comes out of a medium, get none. Throws `Cancelled` when asked to stop.
+/// Computes exit radiance for albedo 1 of every vertex of `scene` under `suns`, shadowed by rays, without
+/// bounces: [receivers]. Thin sheets transmit it as in `direct` transfer, to which it is added. `solid`
+/// surfaces, whose light comes out of a medium, get zero. Throws `Cancelled` when asked to stop.
 std::vector<glm::vec3> sun_radiance(const TraceScene& scene, std::span<const SunDisc> suns,
                                     const SunRays& options = {}, const Progress& progress = {});
 

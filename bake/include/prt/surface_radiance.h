@@ -1,7 +1,7 @@
 #pragma once
 
-// Radiance at points of the surface by path tracing, under a light as it is and as so many bands hold it.
-// Experimental.
+// Radiance at points of the surface by path tracing, under the exact light and under its spherical-harmonic
+// bands. Experimental.
 
 #include "prt/dering.h"
 #include "prt/distant_light.h"
@@ -16,55 +16,58 @@
 
 namespace prt {
 
-/// A light as it is, and as coefficients.
+/// A light in exact form and as coefficients.
 struct MeasuredLight {
-    DistantLight all;                ///< lights what is lit after a bounce
-    std::optional<DistantLight> sky; ///< lights surfaces, where `suns` are left to the renderer; else `all`
-    std::vector<SunDisc> suns;       ///< that the renderer adds by sharp shadows
-    Light sky_bands, sun_bands;      ///< of kMaxOrder: without `suns`, and of them
+    DistantLight all;                ///< lights everything that is lit after a bounce
+    std::optional<DistantLight> sky; ///< lights surfaces directly if `suns` are left to the renderer;
+                                     ///< otherwise `all`
+    std::vector<SunDisc> suns;       ///< suns that the renderer adds with sharp shadows
+    Light sky_bands, sun_bands;      ///< of order kMaxOrder: light without `suns`, and light of the suns
 
+    /// Light that paths use at the first surface.
     const DistantLight& seen() const { return sky ? *sky : all; }
 };
 
-/// Bounces that are told apart; light of more is together.
+/// Bounces stored separately; later ones share the last entry.
 inline constexpr int kCountedBounces = 8;
 
-/// What the bands of a sky and of suns give after so many bounces.
+/// Radiance from each band of a sky and of suns, by number of bounces.
 struct BandRadiance {
     using Bands = std::array<glm::vec3, kMaxOrder>;
-    std::array<Bands, kCountedBounces + 1> sky{}, suns{}; ///< [bounces]; suns light what is lit after one
+    std::array<Bands, kCountedBounces + 1> sky{}, suns{}; ///< [bounces]; suns count only after at least one
+                                                          ///< bounce
 };
 
-/// What transfer of an order and of so many bounces could hold.
+/// Order and number of bounces that transfer is limited to.
 struct BandCut {
     int order = 6;
-    int bounces = 0;     ///< or kEndlessBounces; from kCountedBounces on it is the same
-    BandFactors factors; ///< of the sky's bands, by `deringed`
+    int bounces = 0;     ///< number of bounces, or kEndlessBounces; kCountedBounces and more are equivalent
+    BandFactors factors; ///< factors on the sky's bands, from `deringed`
 };
 
 struct SurfaceRadianceOptions {
-    int paths = 256; ///< from each point, in each half, at least
+    int paths = 256; ///< minimum number of paths from each point in each half
     int most_paths = 1 << 14;
-    /// Twice as many again as long as the mean over all points of a squared difference, relative to the
-    /// radiance, has a larger standard error by noise.
+    /// Paths are doubled until the standard error of the mean squared relative difference is below this.
     double noise = 5e-5;
-    double seconds = 0; ///< after which there are no more, whatever their noise; 0: any
+    double seconds = 0; ///< time limit for doubling the number of paths, regardless of noise; 0: none
     std::uint64_t seed = 0x9e3779b97f4a7c15;
-    int threads = 0; ///< 0: all
+    int threads = 0; ///< number of threads; 0: all
 };
 
-/// Exit radiance for albedo 1 at points, twice and independently, so that a product of differences from both
-/// has no noise in the mean. Lights of the bands and the light itself have the same paths: what they differ
-/// by is known far better than either. Surfaces are as `PathTracer` takes them; media are not entered.
+/// Exit radiance for albedo 1 at points, in two independent halves, so that a product of differences from
+/// both has no noise in its mean. The light and its bands use the same paths, so that their difference is far
+/// more precise than either value. Surfaces scatter as in `PathTracer`; paths do not enter media.
 class SurfaceRadiance {
 public:
     /// Throws `Cancelled` when asked to stop.
     SurfaceRadiance(const TraceScene& scene, const SurfacePoints& points, const MeasuredLight& light,
                     const SurfaceRadianceOptions& options, const Progress& progress = {});
 
-    /// All bounces of the light itself, but direct light of suns that the renderer adds. [points]
+    /// Radiance from all bounces of the exact light, without direct light of suns that the renderer adds.
+    /// [points]
     std::span<const glm::vec3> truth(int half) const { return halves_[static_cast<std::size_t>(half)].truth; }
-    /// What the cut leaves of that. [points]
+    /// Radiance that remains within `cut`. [points]
     std::vector<glm::vec3> under(const BandCut& cut, int half) const;
     /// Direct light of the suns that the renderer adds. [points]
     std::span<const glm::vec3> suns() const { return suns_; }

@@ -1,6 +1,6 @@
 #pragma once
 
-// How far a bake is from the light between its vertices. Experimental.
+// Measures the error of a bake against the light between its vertices. Experimental.
 
 #include "prt/support/progress.h"
 #include "prt/surface_points.h"
@@ -13,19 +13,20 @@ namespace prt {
 
 struct SurfaceReferenceOptions {
     int order = 6;
-    std::size_t points = 2048; ///< about so many, by area
-    int rays = 16384;          ///< from each
+    std::size_t points = 2048; ///< approximate number of points, spread by area
+    int rays = 16384;          ///< rays per point
     std::uint64_t seed = 0x2545f4914f6cdd1d;
 };
 
-/// Direct transfer at points spread over all surfaces of a scene, by rays of their own. Points inside of
-/// geometry do not count.
+/// Direct transfer at points spread over all surfaces of a scene, traced with separate rays. Points inside
+/// geometry are excluded.
 class SurfaceReference {
 public:
     SurfaceReference(const TraceScene& scene, const SurfaceReferenceOptions& options,
                      const Progress& progress = {});
 
-    /// Relative L2 of `direct` transfer of the scene's receivers, of one channel, interpolated.
+    /// Relative L2 error of `direct` transfer of the scene's receivers, one channel, interpolated to the
+    /// points.
     double relative_l2(const Transfer& direct) const;
     std::size_t points() const { return points_.size(); }
 

@@ -1,6 +1,7 @@
 #pragma once
 
-// What rays meet: how every triangle of a scene covers, reflects and transmits light.
+// Properties of the surfaces that rays hit: how every triangle of a scene covers, reflects and transmits
+// light.
 
 #include "prt/scene.h"
 #include "prt/texture.h"
@@ -13,11 +14,11 @@
 
 namespace prt {
 
-/// A point on a triangle, seen with a certain blur.
+/// A point on a triangle, with the area over which its textures are filtered.
 struct SurfacePoint {
-    std::uint32_t triangle; ///< in the order of the scene's primitives and their triangles
+    std::uint32_t triangle; ///< index in the order of the scene's primitives and their triangles
     glm::vec2 uv;           ///< barycentric coordinates of corners 1 and 2
-    float footprint;        ///< area to filter textures over, m²
+    float footprint;        ///< area over which textures are filtered, m²
 };
 
 /// Lambertian scattering of a surface: of the irradiance on one side, `reflected` leaves on the same side and
@@ -26,24 +27,24 @@ struct Scattering {
     glm::vec3 reflected, transmitted;
 };
 
-/// What some surface of a scene does.
+/// Properties that at least one surface of a scene has.
 struct SurfaceTraits {
-    bool alpha = false;        ///< lets rays through: cut out, blended, or glass
+    bool alpha = false;        ///< lets rays pass: cut out, blended, or glass
     bool textured = false;     ///< has a texture to filter
-    bool transmission = false; ///< lets diffuse light through
+    bool transmission = false; ///< transmits diffuse light
     bool color = false;        ///< reflects or transmits red, green and blue differently
     bool scattering = false;   ///< reflects or transmits at all
 };
 
 class Surfaces {
 public:
-    /// Keeps references to `scene` and `textures` (load_textures(scene), or empty to leave textures out).
-    /// `solid` [materials]: materials with something inside, which are no thin sheets; empty: none.
+    /// Keeps references to `scene` and `textures` (load_textures(scene), or empty to ignore textures).
+    /// `solid` [materials]: materials with a medium inside, which are not thin sheets; empty: none.
     Surfaces(const Scene& scene, const std::vector<Texture>& textures, const std::vector<bool>& solid = {});
 
     const Scene& scene() const { return scene_; }
     std::size_t triangles() const { return triangles_.size(); }
-    /// Receivers (vertices) at the corners.
+    /// Receivers (vertices) at the corners of the triangle.
     const glm::uvec3& corners(std::uint32_t triangle) const { return triangles_[triangle].corners; }
     std::size_t primitive(std::uint32_t triangle) const { return triangles_[triangle].primitive; }
     const Material& material(std::uint32_t triangle) const {
@@ -51,30 +52,30 @@ public:
     }
 
     const SurfaceTraits& traits() const { return traits_; }
-    /// The texture, if there is one, holds no color.
+    /// Returns true if the texture has no color, or if there is no texture.
     bool is_grey(const TextureUse& use) const;
-    /// Whether the triangle shines: not where the texture of its emission is missing.
+    /// Whether the triangle emits light; false if the texture of its emission is missing.
     bool emits(std::uint32_t triangle) const;
 
-    /// The texture is loaded and `vertices` have coordinates for it.
+    /// Returns true if the texture is loaded and `vertices` have coordinates for it.
     bool has_texture(const VertexArray& vertices, const TextureUse& use) const;
     bool opaque(std::uint32_t triangle) const { return kinds_[triangles_[triangle].primitive].opaque; }
-    /// Both sides of the surface scatter light.
+    /// Returns true if both sides of the surface scatter light.
     bool two_sided(std::uint32_t triangle) const { return kinds_[triangles_[triangle].primitive].two_sided; }
-    /// Diffuse light passes.
+    /// Returns true if diffuse light passes the surface.
     bool transmits(std::uint32_t triangle) const { return kinds_[triangles_[triangle].primitive].thin; }
-    /// Something is inside, which all light passes that the surface sends out.
+    /// Returns true if there is a medium inside that all light leaving the surface has passed.
     bool solid(std::uint32_t triangle) const { return kinds_[triangles_[triangle].primitive].solid; }
-    /// Share of a ray that the surface stops: 1 where it is opaque, 0 where it is cut out, alpha where it is
-    /// blended, and of that what glass does not let through. Cut-outs are decided at the finest level of the
-    /// texture, as rays average by themselves.
+    /// Share of a ray that the surface stops: 1 if it is opaque, 0 if it is cut out, alpha if it is blended,
+    /// multiplied by the share that glass does not transmit. Cut-outs use the finest level of the texture,
+    /// because rays average by themselves.
     float coverage(const SurfacePoint& point) const;
     Scattering scattering(const SurfacePoint& point) const;
-    /// The same for all points of the triangle; nothing where it varies.
+    /// Scattering of all points of the triangle; nothing if it varies.
     std::optional<Scattering> constant_scattering(std::uint32_t triangle) const {
         return kinds_[triangles_[triangle].primitive].constant;
     }
-    /// Radiance that the surface gives off by itself.
+    /// Radiance that the surface emits.
     glm::vec3 emission(const SurfacePoint& point) const;
     glm::vec3 base_color(const SurfacePoint& point) const { return glm::vec3(base_color(point, false)); }
 
@@ -85,7 +86,7 @@ private:
     };
     struct Kind {
         bool opaque = true, two_sided = false, thin = false, solid = false;
-        std::optional<Scattering> constant; ///< where neither textures nor vertex colors vary it
+        std::optional<Scattering> constant; ///< set if neither textures nor vertex colors vary it
     };
     Kind kind_of(const Primitive& primitive, bool solid) const;
     glm::vec4 texel(const SurfacePoint& point, const TextureUse& use, bool finest) const;

@@ -10,38 +10,39 @@
 
 namespace prt {
 
-/// Which surfaces share a texture.
+/// Selects the surfaces that share a texture.
 enum class AtlasMode {
-    automatic, ///< all where their charts do not overlap, otherwise each object has its own
-    one,       ///< all
-    each,      ///< each object, that is each node of the file
+    automatic, ///< all surfaces if their charts do not overlap, otherwise one texture per object
+    one,       ///< one texture for all surfaces
+    each,      ///< one texture per object, that is, per node of the file
 };
 
 struct TexelOptions {
-    int size = 0;         ///< texels along each side; 0: by `per_metre`
-    double per_metre = 0; ///< texels along a metre, in the mean
+    int size = 0;         ///< texels per side; 0: from `per_metre`
+    double per_metre = 0; ///< mean number of texels per metre
     int uv_set = 1;       ///< TEXCOORD_n
     AtlasMode atlases = AtlasMode::automatic;
 };
 
-inline constexpr int kMostTexels = 8192; ///< along a side
+inline constexpr int kMostTexels = 8192; ///< maximum number of texels per side
 
 /// A texture over some primitives.
 struct Atlas {
     std::vector<std::size_t> primitives; ///< indices into Scene::primitives
     int uv_set = 1;
     int width = 0, height = 0;
-    bool repeats = false; ///< some coordinates lie in other squares than 0..1, where the texture goes on
+    bool repeats = false; ///< some coordinates are outside 0..1, where the texture repeats
 
     std::size_t texels() const { return static_cast<std::size_t>(width) * static_cast<std::size_t>(height); }
 };
 
+/// Size of the atlas as stored in a lightmap layout.
 inline LightmapSize size_of(const Atlas& atlas) {
     return {atlas.width, atlas.height, atlas.repeats};
 }
 
-/// Throws `Error` where coordinates are missing or cross a border, where charts of one texture overlap, and
-/// where a texture would be too large.
+/// Plans the textures. Throws `Error` if coordinates are missing or cross a border, if charts of one texture
+/// overlap, and if a texture would be too large.
 std::vector<Atlas> plan_atlases(const Scene& scene, const TexelOptions& options);
 
 } // namespace prt

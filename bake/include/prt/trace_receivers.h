@@ -10,38 +10,41 @@ using ReceiverSink = std::function<void(std::uint32_t receiver, std::span<const 
 /// Takes the direct transfer of a receiver, [order²]. Called from one thread, in the order of the receivers.
 using VectorSink = std::function<void(std::uint32_t receiver, std::span<const float> vector)>;
 
-/// Gives `vectors` the direct transfer of receivers[indices] that `tracer` finds. They go to it in batches,
-/// between which the work can be stopped. `sink` gets their hits, from a tracer that notes them.
+/// Traces receivers[indices] and passes the direct transfer of each to `vectors`. The receivers are traced in
+/// batches; the work can be stopped between two batches. `sink` takes their hits if the tracer reports hits.
 void trace_receivers(Tracer& tracer, const Receivers& receivers, std::span<const std::uint32_t> indices,
                      const TraceOptions& options, const VectorSink& vectors, const Progress& progress = {},
                      const ReceiverSink& sink = {});
 
-/// The sink of a batch, which outlives neither `batch` nor `sink`.
+/// Returns the sink of a batch. It must not outlive `batch` or `sink`.
 HitSink sink_of(std::span<const std::uint32_t> batch, const ReceiverSink& sink);
 
-/// Works on receivers[indices] in the batches that `tracer` likes, each with its part of the progress.
+/// Calls `work` with receivers[indices] in batches of the size that `tracer` prefers, each with its part of
+/// the progress.
 void in_batches(const Tracer& tracer, std::span<const std::uint32_t> indices, const TraceOptions& options,
                 const Progress& progress,
                 const std::function<void(std::span<const std::uint32_t>, const Progress&)>& work);
 
-/// Replaces the transfer of receivers[indices] in `transfer`, of one channel.
+/// Replaces the transfer of receivers[indices] in `transfer`, which has one channel.
 void trace_receivers(Tracer& tracer, const Receivers& receivers, std::span<const std::uint32_t> indices,
                      const TraceOptions& options, Transfer& transfer, const Progress& progress = {},
                      const ReceiverSink& sink = {});
 
-/// Number of the first rays of a sequence of `rays` that trace_in_halves takes as half of them; 0: too few.
+/// Returns the number of the first rays of a sequence of `rays` that trace_in_halves uses as one half; 0: too
+/// few rays.
 int first_half(int rays);
 
 /// Takes the hits of a receiver, and those of the first half of its rays.
 using HalvesSink =
     std::function<void(std::uint32_t receiver, std::span<const Hit> all, std::span<const Hit> half)>;
 
-/// Transfer of all rays, and of the first half of them alone.
+/// Transfer from all rays, and from the first half of them.
 struct TracedHalves {
     Transfer &all, &half;
 };
 
-/// The same from a tracer that takes ranges of rays. There must be a half.
+/// Replaces the transfer of receivers[indices] in both members of `to`. The tracer must support ranges of
+/// rays, and `first_half` must not be 0.
 void trace_in_halves(Tracer& tracer, const Receivers& receivers, std::span<const std::uint32_t> indices,
                      const TraceOptions& options, const TracedHalves& to, const Progress& progress = {},
                      const HalvesSink& sink = {});

@@ -10,16 +10,16 @@
 namespace prt {
 
 struct TraceSceneOptions {
-    /// [materials] those with something inside, which are no thin sheets; empty: none.
+    /// [materials] materials with a medium inside, which are not thin sheets; empty: none.
     std::vector<bool> solid = {};
-    int threads = 0; ///< that build and trace; 0: all
+    int threads = 0; ///< number of threads for building and tracing; 0: all
 };
 
-/// A scene with all that light is traced with: its textures, its surfaces, and a tree of its triangles. Owns
-/// what it makes and stays where it is, since tracers keep references to it. Thread-safe.
+/// A scene with all data for tracing light: its textures, its surfaces, and a hierarchy of its triangles. It
+/// owns the data and cannot be moved, because tracers keep references to it. Thread-safe.
 class TraceScene {
 public:
-    /// Keeps a reference to `scene`. `textures`: load_textures(scene), or empty to leave textures out.
+    /// Keeps a reference to `scene`. `textures`: load_textures(scene), or empty to ignore textures.
     explicit TraceScene(const Scene& scene, std::vector<Texture> textures = {},
                         const TraceSceneOptions& options = {})
         : scene_(scene), textures_(std::move(textures)), surfaces_(scene, textures_, options.solid),
@@ -31,7 +31,7 @@ public:
     const std::vector<Texture>& textures() const { return textures_; }
     const Surfaces& surfaces() const { return surfaces_; }
     int threads() const { return threads_; }
-    /// Built when it is first asked for. Throws `Error` when memory runs out.
+    /// Hierarchy of triangles, built on the first call. Throws `Error` when memory runs out.
     const RayScene& rays() const {
         std::call_once(built_, [this] { rays_.emplace(scene_, threads_); });
         return *rays_;

@@ -18,64 +18,66 @@ class VectorSums;
 struct LampLight;
 struct LampTask;
 
-/// Rays of one call. Rays of a receiver are a sequence that depends on the seed alone: tracing [0, 64) and
-/// then [64, 128) is tracing [0, 128).
+/// Rays of one call. The rays of a receiver are a sequence that depends on the seed only: tracing [0, 64) and
+/// then [64, 128) is the same as tracing [0, 128).
 struct TraceOptions {
     int order = 6;
-    int rays = 1024; ///< per receiver
+    int rays = 1024; ///< rays per receiver
     std::uint64_t seed = 0;
-    /// Of the sequence; a multiple of the least power of two that is at least `rays` or kRayChunk.
+    /// First ray in the sequence; a multiple of the smallest power of two that is at least `rays` or
+    /// kRayChunk.
     std::uint32_t first_ray = 0;
-    /// One ray of so many is followed to what it meets, and stands for the others: light that comes from
-    /// surfaces varies less over directions than visibility does. Scenes with alpha follow every ray anyway.
+    /// One of `hit_stride` rays is traced to its hit, and represents the others: light from surfaces varies
+    /// less over directions than visibility does. Scenes with alpha trace every ray to its hit.
     int hit_stride = 1;
 };
 
-/// A surface that a ray met.
+/// A surface that a ray hit.
 struct Hit {
-    std::uint32_t triangle; ///< in the order of the scene's primitives and their triangles
+    std::uint32_t triangle; ///< index in the order of the scene's primitives and their triangles
     float u, v;             ///< barycentric coordinates of corners 1 and 2
-    float weight;           ///< rays that end here; the sum over all hits is what is blocked of all rays
-    float footprint;        ///< area of the surface that a ray stands for, m²; 0 where no texture asks
-    bool back;              ///< the triangle was met from behind
+    float weight;    ///< number of rays that end here; the sum over all hits is the number of blocked rays
+    float footprint; ///< area of the surface that a ray represents, m²; 0 if no texture needs it
+    bool back;       ///< the triangle was hit from behind
 };
 
-/// Takes the hits of receivers[indices[i]], all of one call at once. Called from several threads.
+/// Takes the hits of receivers[indices[i]], all hits of one call together. Called from several threads.
 using HitSink = std::function<void(std::size_t i, std::span<const Hit> hits)>;
 
-/// Where the time went, in seconds of wall clock. What a tracer cannot tell apart is in `trace`.
+/// Wall-clock time of each stage in seconds. Stages that a tracer cannot separate are in `trace`.
 struct TraceSeconds {
-    double trace = 0;      ///< rays
-    double accumulate = 0; ///< spherical harmonics, and what is done with the hits
-    double transfer = 0;   ///< to and from a device
+    double trace = 0;      ///< tracing rays
+    double accumulate = 0; ///< spherical harmonics, and processing of the hits
+    double transfer = 0;   ///< transfers to and from a device
 };
 
-/// One way to compute visibility: a processor, an API, a method. Every tracer that traces takes the same
-/// samples, so that two of them agree but for rays that graze.
+/// A method to compute visibility, on a processor or an API. All tracers that trace rays use the same
+/// samples, so that their results agree except for grazing rays.
 class Tracer {
 public:
     virtual ~Tracer() = default;
     virtual Backend backend() const = 0; ///< never automatic
     virtual BakeMethod method() const { return BakeMethod::trace; }
-    /// Whether `trace` takes a sink and ranges of rays.
+    /// Whether `trace` supports a sink and ranges of rays.
     virtual bool notes_hits() const { return true; }
-    virtual std::string device() const = 0; ///< for reports: what it runs on
-    /// How many receivers to give to `trace` at once so that a batch takes about a tenth of a second.
+    virtual std::string device() const = 0; ///< device name for reports
+    /// Number of receivers to pass to `trace` at once, so that a batch takes about a tenth of a second.
     virtual std::size_t batch_size(const TraceOptions& options) const = 0;
-    /// Shadowed direct transfer (docs/math.md, eq. 9) of receivers[indices[i]] for each i, to `vectors`
-    /// [indices][order²]; with a `sink`, also what the rays met. `progress` is told by tracers whose calls
-    /// take long.
+    /// Computes shadowed direct transfer (docs/math.md, eq. 9) of receivers[indices[i]] for each i and writes
+    /// it to `vectors` [indices][order²]; `sink` also takes the hits of the rays. Tracers with long calls
+    /// report to `progress`.
     virtual void trace(const Receivers& receivers, std::span<const std::uint32_t> indices,
                        const TraceOptions& options, std::span<float> vectors, const HitSink& sink = {},
                        const Progress& progress = {}) = 0;
-    /// Direct light of lamps (bake/lamps/lamp_light.h), by samples that are the same for every tracer. Throws
-    /// `Cancelled` when asked to stop.
+    /// Computes direct light of lamps (bake/lamps/lamp_light.h), with samples that are the same for every
+    /// tracer. Throws `Cancelled` when asked to stop.
     virtual LampLight lamp_light(const LampTask& task, const Progress& progress) = 0;
-    /// The products of bounces (bake/transport/gather_product.h), on a device that keeps a reference to
-    /// `gather`; null where the processor is as good.
+    /// Creates the products of bounces (bake/transport/gather_product.h) on a device; keeps a reference to
+    /// `gather`. Returns null if the CPU is as fast.
     virtual std::unique_ptr<GatherProduct> gather_product(const GatherOperator& gather);
-    /// Sums of vectors (bake/trace/vector_sums.h) on a device, as many as there are `weights`: what is added
-    /// to each has so much weight in all. Null where the processor is as good, or the device has no room.
+    /// Creates sums of vectors (bake/trace/vector_sums.h) on a device, one for each of `weights`: the total
+    /// weight of the vectors added to a sum. Returns null if the CPU is as fast or the device has too little
+    /// memory.
     virtual std::unique_ptr<VectorSums> vector_sums(int order, std::span<const float> weights);
     TraceSeconds seconds() const { return seconds_; }
 

@@ -1,6 +1,6 @@
 #pragma once
 
-// Places of their own in a texture for all surfaces of a scene. Experimental.
+// Creates texture coordinates without overlaps for all surfaces of a scene. Experimental.
 
 #include "prt/scene.h"
 #include "prt/texels.h"
@@ -13,14 +13,13 @@ namespace prt {
 
 struct Unwrapping {
     std::vector<VertexSplit> primitives; ///< [scene's primitives]
-    std::vector<Atlas> atlases;          ///< whose set of coordinates is the caller's to say
+    std::vector<Atlas> atlases;          ///< the caller sets their set of coordinates
     std::size_t charts = 0;
-    double texels_per_metre = 0; ///< the least of all textures
+    double texels_per_metre = 0; ///< minimum over all textures
 };
 
-/// Cuts surfaces into charts by the axis that they face most, so that no two places of one overlap, and packs
-/// the charts, two texels apart from one another at least. Throws `Error` where a texture is too small for
-/// them.
+/// Cuts surfaces into charts by the axis that they mainly face, so that no chart overlaps itself, and packs
+/// the charts with at least two texels between them. Throws `Error` if a texture is too small for the charts.
 Unwrapping unwrap(const Scene& scene, const TexelOptions& options);
 
 } // namespace prt

@@ -1,4 +1,4 @@
-// The tables of surfaces that do not stop all light.
+// Builds tables of surfaces that do not stop all light.
 
 #include "trace/gpu/alpha_tables.h"
 
@@ -19,16 +19,16 @@ static_assert(PRT_WRAP_REPEAT == static_cast<int>(Wrap::repeat) &&
               PRT_WRAP_MIRROR == static_cast<int>(Wrap::mirror) &&
               PRT_WRAP_CLAMP == static_cast<int>(Wrap::clamp));
 
-/// One of the things that decide how much of a ray a surface stops.
+/// One property that determines the share of a ray that a surface stops.
 struct AlphaLayer {
     std::uint32_t mode;
     float cutoff, factor;
     const TextureUse* use;
-    int channel;       ///< of the texture
-    bool vertex_alpha; ///< times that of the vertices
+    int channel;       ///< channel of the texture
+    bool vertex_alpha; ///< multiply by the alpha of the vertices
 };
 
-/// Glass first, whose mode says that the surface stops rays in part.
+/// Returns the layers of a material. Glass is first; its mode marks a surface that stops rays partially.
 std::vector<AlphaLayer> alpha_layers(const Material& m) {
     std::vector<AlphaLayer> layers;
     if (m.glass.factor > 0)
@@ -39,12 +39,12 @@ std::vector<AlphaLayer> alpha_layers(const Material& m) {
     return layers;
 }
 
-/// Channels of images as bytes, each once however many materials use it.
+/// Channels of images as bytes, stored once for all materials that use them.
 class AlphaTexels {
 public:
     explicit AlphaTexels(const std::vector<Texture>& textures) : textures_(textures) {}
 
-    /// Where all levels begin.
+    /// Returns the index of the first texel of the finest level; the other levels follow.
     std::uint32_t first(int image, int channel) {
         const auto [found, is_new] =
             first_.try_emplace({image, channel}, static_cast<std::uint32_t>(texels.size()));
@@ -59,7 +59,7 @@ public:
 
 private:
     const std::vector<Texture>& textures_;
-    std::map<std::pair<int, int>, std::uint32_t> first_; ///< of image and channel
+    std::map<std::pair<int, int>, std::uint32_t> first_; ///< index by image and channel
 };
 
 AlphaMaterial alpha_material(const AlphaLayer& layer, const Surfaces& surfaces, const VertexArray& vertices,
@@ -115,7 +115,8 @@ AlphaTables make_alpha_tables(const TraceScene& trace_scene, std::span<const std
     AlphaTables tables;
     AlphaTexels texels(trace_scene.textures());
     tables.index.resize(surfaces.triangles());
-    std::vector<std::uint32_t> material_of(scene.primitives.size(), PRT_NO_TEXELS); // of the first layer
+    std::vector<std::uint32_t> material_of(scene.primitives.size(), PRT_NO_TEXELS); // index of the first
+                                                                                    // layer
     for (const std::uint32_t t : triangles) {
         if (surfaces.opaque(t))
             continue;

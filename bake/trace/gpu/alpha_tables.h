@@ -1,6 +1,6 @@
 #pragma once
 
-// The triangles of a scene as the bake shaders read them, and tables of those that do not stop all light.
+// Triangles of a scene in the layout of the bake shaders, and tables of triangles that do not stop all light.
 
 #include "prt/trace_scene.h"
 #include "trace/gpu/gpu_structs.h"
@@ -12,19 +12,21 @@
 namespace prt {
 
 struct AlphaTables {
-    std::vector<std::uint32_t> index;          ///< [triangles], counting from 1; 0: opaque
+    std::vector<std::uint32_t> index;          ///< [triangles] index into `triangles`, counting from 1; 0:
+                                               ///< opaque
     std::vector<gpu::AlphaTriangle> triangles; ///< [triangles that are not opaque][layers]
     std::vector<gpu::AlphaMaterial> materials; ///< [primitives][layers]
     std::vector<std::uint8_t> texels;
 };
 
-/// Of `triangles`; those of the others are 0.
+/// Builds the tables of `triangles`; the index of all other triangles is 0.
 AlphaTables make_alpha_tables(const TraceScene& scene, std::span<const std::uint32_t> triangles);
 
-/// Those that cast shadows: the opaque ones, then the others.
+/// Returns the triangles that cast shadows, opaque ones first.
 std::vector<std::uint32_t> shadowing_triangles(const TraceScene& scene);
 
-/// Corners of `triangles`, [triangles][3]; w: the triangle, its place in the alpha table, as bits.
+/// Returns the corners of `triangles`, [triangles][3]; the w components hold the index of the triangle and
+/// its index in the alpha table, as bits.
 std::vector<glm::vec4> tagged_corners(const TraceScene& scene, std::span<const std::uint32_t> triangles,
                                       const AlphaTables& alpha);
 

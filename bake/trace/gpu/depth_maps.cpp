@@ -19,7 +19,8 @@
 namespace prt {
 namespace {
 
-/// Layers of blended surfaces that are peeled; what lies behind more of them is behind as good as everything.
+/// Maximum number of peeled layers of blended surfaces; surfaces behind more layers are practically
+/// invisible.
 constexpr int kMostLayers = 64;
 
 GlObject make_map(GLenum target) {
@@ -34,7 +35,7 @@ GlObject make_map(GLenum target) {
 
 DepthMaps::DepthMaps(const RasterScene& scene, const Bounds& bounds, int resolution, bool blends)
     : scene_(scene), resolution_(resolution), center_(0.5f * (bounds.low + bounds.high)),
-      // A little larger, so that nothing lies on the border.
+      // The sphere is slightly enlarged, so that nothing is on its border.
       radius_(std::max(0.5f * glm::length(bounds.high - bounds.low) * 1.001f,
                        std::numeric_limits<float>::min())) {
     GLint largest = 0;
@@ -69,7 +70,7 @@ void DepthMaps::make_layers() {
         make_program("bake_raster.vert", "bake_raster.frag", scene_.defines() + "#define PRT_PEEL\n");
 }
 
-/// World to the map of light that comes from `direction`: [-1, 1]³, nearer to the light first.
+/// Transforms world space to the map of light from `direction`: [-1, 1]³, nearer to the light first.
 glm::mat4 DepthMaps::map_matrix(const glm::vec3& direction) const {
     const glm::vec3 up = std::abs(direction.y) < 0.9f ? glm::vec3(0, 1, 0) : glm::vec3(1, 0, 0);
     return glm::ortho(-radius_, radius_, -radius_, radius_, 0.0f, 2 * radius_) *

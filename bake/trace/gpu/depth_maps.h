@@ -1,6 +1,6 @@
 #pragma once
 
-// Depth maps of a scene as seen from far away.
+// Orthographic depth maps of a scene.
 
 #include "prt/gl_objects.h"
 #include "prt/scene.h"
@@ -16,28 +16,29 @@ namespace prt {
 
 class DepthMaps {
 public:
-    /// Maps of `resolution` squared texels; keeps a reference to `scene`. `blends`: some surfaces stop light
-    /// in part, and their layers can be peeled. Throws `Error` where the device has no such maps.
+    /// Creates maps of `resolution` squared texels; keeps a reference to `scene`. `blends`: some surfaces
+    /// stop light partially, and their layers can be peeled. Throws `Error` if the device does not support
+    /// such maps.
     DepthMaps(const RasterScene& scene, const Bounds& bounds, int resolution, bool blends);
 
-    /// Directions that there are maps for; layers belong to one at a time.
+    /// Number of directions with maps at the same time; layers exist for one direction at a time.
     std::size_t at_once() const { return layers_ ? 1 : kMost; }
     int resolution() const { return resolution_; }
     bool blends() const { return layers_.has_value(); }
-    /// The directions as the shaders read them.
+    /// Returns the directions in the layout of the shaders.
     GlObject table(std::span<const glm::vec3> directions, int order) const;
-    /// Draws what stops light altogether.
+    /// Draws surfaces that stop all light.
     void draw(std::span<const glm::vec3> directions) const;
-    /// Draws blended layers from the light inwards, until one is empty, and calls `look_up` after each, when
-    /// shaders find it in their texture units.
+    /// Draws blended layers, starting at the light, until a layer is empty. Calls `look_up` after each layer,
+    /// when it is bound to the texture units of the shaders.
     void peel(const glm::vec3& direction, const std::function<void()>& look_up) const;
-    /// Puts the maps where shaders find them.
+    /// Binds the maps to the texture units of the shaders.
     void bind() const;
 
 private:
     static constexpr std::size_t kMost = 8;
     struct Layers {
-        std::array<GlObject, 2> depth; ///< this layer's and the last one's, in turns
+        std::array<GlObject, 2> depth; ///< depth of this layer and of the previous layer, alternating
         GlObject coverage, target, program;
     };
     void make_layers();
@@ -46,7 +47,7 @@ private:
 
     const RasterScene& scene_;
     int resolution_;
-    glm::vec3 center_; ///< of the sphere round the scene
+    glm::vec3 center_; ///< center of the bounding sphere of the scene
     float radius_;
     GlObject maps_, target_, program_, no_vertices_;
     std::optional<Layers> layers_;

@@ -20,7 +20,7 @@ GatherBlocks::GatherBlocks(const VulkanDevice& device, GpuQueue& queue, const Ga
         try {
             resident_.push_back(make(block));
         } catch (const GpuMemoryError&) {
-            if (!resident_.empty()) { // transfer and the shared place take the room of one
+            if (!resident_.empty()) { // transfer and the shared buffers need the memory of one block
                 resident_.pop_back();
                 blocks_[resident_.size()].resident = false;
             }

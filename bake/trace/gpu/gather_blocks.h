@@ -1,7 +1,7 @@
 #pragma once
 
-// The rows of a gather on a device, in blocks: as many as have room stay there, the others come when they are
-// wanted.
+// Rows of a gather operator on a device, in blocks. The blocks that fit into memory stay there; the others
+// are uploaded when they are needed.
 
 #include "transport/gather.h"
 #include "vulkan/gpu_queue.h"
@@ -19,22 +19,22 @@ public:
         bool resident = false;
         std::size_t end() const { return first + rows; }
     };
-    /// As shaders/bake_gather.comp reads them.
+    /// Buffers in the layout of shaders/bake_gather.comp.
     struct Buffers {
         GpuBuffer row_ends, sources, weights;
     };
 
     struct Room {
-        std::size_t block = 256 << 20;   ///< bytes of a buffer
-        std::size_t resident = SIZE_MAX; ///< bytes of all rows that stay, at most
+        std::size_t block = 256 << 20;   ///< maximum bytes of a buffer
+        std::size_t resident = SIZE_MAX; ///< maximum bytes of all resident rows
     };
-    /// Keeps references. Throws `GpuMemoryError` where the device has room for no block.
+    /// Keeps references. Throws `GpuMemoryError` if the device has no memory for a single block.
     GatherBlocks(const VulkanDevice& device, GpuQueue& queue, const GatherOperator& gather, const Room& room);
 
     std::span<const Block> all() const { return blocks_; }
-    /// Where block `i` lies: those that are not resident share a place.
+    /// Buffers of block `i`: blocks that are not resident share one set of buffers.
     const Buffers& buffers(std::size_t i) const { return blocks_[i].resident ? resident_[i] : shared_; }
-    /// Has block `i` uploaded where it is not there.
+    /// Uploads block `i` if it is not on the device.
     void want(std::size_t i);
     std::size_t bytes_moved() const { return bytes_moved_; }
 
@@ -49,9 +49,9 @@ private:
     GpuQueue& queue_;
     const GatherOperator& gather_;
     std::vector<Block> blocks_;
-    std::vector<Buffers> resident_; ///< [blocks], up to the first that has no room
+    std::vector<Buffers> resident_; ///< resident blocks, from the first block on
     Buffers shared_;
-    std::size_t in_shared_ = 0; ///< block that the shared place holds, counting from 1
+    std::size_t in_shared_ = 0; ///< index of the block in the shared buffers, counting from 1; 0: none
     GpuBuffer staging_;
     std::size_t bytes_moved_ = 0;
 };

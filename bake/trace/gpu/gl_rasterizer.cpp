@@ -1,6 +1,5 @@
-// Direct transfer from depth maps (S. Hill, "Hardware Accelerating Art Production", Gamasutra 2004): for each
-// of many directions the scene is drawn once, and every receiver compares its depth
-// (shaders/bake_raster.comp).
+// Direct transfer from depth maps (S. Hill, "Hardware Accelerating Art Production", Gamasutra 2004): draws
+// the scene once for each of many directions; every receiver compares its depth (shaders/bake_raster.comp).
 
 #include "trace/gpu/gl_rasterizer.h"
 
@@ -23,7 +22,8 @@
 namespace prt {
 namespace {
 
-/// Directions spread evenly over the sphere, turned at random: the spherical Fibonacci lattice.
+/// Returns evenly distributed directions over the sphere with a random rotation: the spherical Fibonacci
+/// lattice.
 std::vector<glm::vec3> even_directions(int count, std::uint64_t seed) {
     std::mt19937_64 random(seed);
     const auto unit = [&] { return static_cast<double>(random() >> 11) * 0x1p-53; };
@@ -49,12 +49,13 @@ bool has_blended(const Scene& scene, const Surfaces& surfaces) {
     return false;
 }
 
-/// Per receiver: all directions [order²], blocked ones [order²], weights of both.
+/// Number of sums per receiver: all directions [order²], blocked directions [order²], weights of both.
 std::size_t sums_of(int order) {
     return static_cast<std::size_t>(2 * coefficient_count(order) + 2);
 }
 
-/// From sums to the transfer of a receiver, with the open lobe as control variate, as rays do.
+/// Converts sums to the transfer of a receiver, with the unshadowed lobe as control variate, as ray tracing
+/// does.
 void write_transfer(const glm::vec3& normal, int order, std::span<const float> sum, std::span<float> vector) {
     const std::size_t coefficients = vector.size();
     const auto weight = static_cast<double>(sum[2 * coefficients]),
@@ -71,7 +72,7 @@ void write_transfer(const glm::vec3& normal, int order, std::span<const float> s
 
 } // namespace
 
-/// Receivers on the device, what touches them, and the sums over directions.
+/// Receivers on the device, the triangles that touch them, and the sums over directions.
 class GlRasterizer::Batch {
 public:
     Batch(const TraceScene& scene, const Receivers& receivers, std::span<const std::uint32_t> indices,
@@ -155,7 +156,7 @@ const GlObject& GlRasterizer::program(int order, bool peel) {
     return program;
 }
 
-/// Draws the maps of some directions and adds what they say to the sums.
+/// Draws the maps of some directions and adds their visibility to the sums.
 void GlRasterizer::look_up(std::span<const glm::vec3> directions, int order, std::size_t receivers) {
     const GlObject& shader = program(order, false);
     const Stopwatch maps;

@@ -1,4 +1,5 @@
-// Bounces on a device: exit transfer lies there in two places, and goes from one to the other.
+// Computes bounces on a device: exit transfer is in two buffers, and each bounce reads one and writes the
+// other.
 
 #include "trace/gpu/gpu_gather.h"
 
@@ -17,9 +18,10 @@
 namespace prt {
 namespace {
 
-constexpr double kGatherSeconds = 0.05;            ///< of a dispatch
-constexpr std::size_t kRowsAtOnce = 1 << 14;       ///< that are asked for where they are no receivers
-constexpr const char* kTransfer = "exit transfer"; ///< what buffers hold
+constexpr double kGatherSeconds = 0.05;            ///< target time of a dispatch
+constexpr std::size_t kRowsAtOnce = 1 << 14;       ///< maximum number of rows per call, if rows are not
+                                                   ///< receivers
+constexpr const char* kTransfer = "exit transfer"; ///< content of buffers, for errors
 
 GpuBuffer upload_reflectance(const VulkanDevice& device, GpuQueue& queue, const GatherOperator& gather) {
     std::vector<float> values;
@@ -33,11 +35,12 @@ GpuBuffer upload_reflectance(const VulkanDevice& device, GpuQueue& queue, const 
 
 struct GpuGather::Kernel {
     GpuKernel kernel;
-    std::uint32_t threads = 1;                        ///< of a row
-    std::vector<std::array<GpuBindings, 2>> bindings; ///< [blocks], from either place to the other
+    std::uint32_t threads = 1;                        ///< threads per row
+    std::vector<std::array<GpuBindings, 2>> bindings; ///< [blocks] bindings from each of the two buffers to
+                                                      ///< the other
 };
 
-/// What depends on the order: kernels, and exit transfer in two places and in sum.
+/// Data that depend on the order: kernels, two buffers of exit transfer, and its sum.
 class GpuGather::Values {
 public:
     Values(const GpuGather& owner, int for_order, bool with_total)
@@ -74,12 +77,12 @@ public:
     const bool has_total;
     std::array<GpuBuffer, 2> transfer;
     GpuBuffer total, sent, received, sums;
-    Kernel rows;                  ///< that are kept
-    std::optional<Kernel> summed; ///< that are added to `sums`
+    Kernel rows;                  ///< kernel whose rows are stored
+    std::optional<Kernel> summed; ///< kernel whose rows are added to `sums`
     struct Energy {
         GpuKernel kernel;
         GpuBuffer largest;
-        std::array<GpuBindings, 2> bindings; ///< of either place
+        std::array<GpuBindings, 2> bindings; ///< bindings for each of the two buffers
     };
     Energy energy;
 
@@ -143,7 +146,7 @@ GpuGather::~GpuGather() {
 GpuGather::Values& GpuGather::values(int order, bool with_total) {
     if (!values_ || values_->order != order || (with_total && !values_->has_total)) {
         queue_.wait_for_all();
-        values_.reset(); // before others take its memory
+        values_.reset(); // before new buffers take its memory
         values_ = std::make_unique<Values>(*this, order, with_total);
     }
     return *values_;
@@ -194,7 +197,7 @@ bool GpuGather::apply_to_sums(const SumRows& to, std::span<float> sums) {
             Values& v = *values_;
             if (!sum_rows_ || sum_rows_->bytes() < to.count * sizeof(gpu::SumRow)) {
                 queue_.wait_for_all();
-                v.summed.reset(); // its bindings hold the rows before
+                v.summed.reset(); // its bindings refer to the previous rows
                 upload_sum_rows(to);
             }
             if (!v.summed)
@@ -235,7 +238,7 @@ void GpuGather::gather(const Kernel& kernel, const Task& task, const Progress& p
         const GatherBlocks::Block& block = blocks_.all()[b];
         const std::size_t block_end = std::min(end, block.end());
         if (std::max(first, block.first) < block_end && !block.resident) {
-            queue_.wait(before); // the shared place is read until then
+            queue_.wait(before); // the shared buffers are read until then
             blocks_.want(b);
         }
         const double work_of_row =

@@ -1,5 +1,7 @@
 #pragma once
 
+// Gather operator on a Vulkan device.
+
 #include "trace/gpu/gather_blocks.h"
 #include "transport/gather_product.h"
 #include "vulkan/gpu_kernel.h"
@@ -9,11 +11,11 @@
 
 namespace prt {
 
-/// The gather in a compute shader (shaders/bake_gather.comp), whose rows stay on the device as far as there
-/// is room.
+/// Applies the gather operator in a compute shader (shaders/bake_gather.comp). Its rows stay on the device as
+/// far as they fit into memory.
 class GpuGather final : public GatherProduct {
 public:
-    /// Keeps references. Throws `GpuMemoryError` where there is no room.
+    /// Keeps references. Throws `GpuMemoryError` if there is too little memory.
     GpuGather(const VulkanDevice& device, GpuQueue& queue, const GatherOperator& gather,
               const GatherBlocks::Room& room = {});
     ~GpuGather() override;
@@ -22,7 +24,7 @@ public:
 
     void load(int order, std::span<const float> exit) override;
     void apply(std::size_t first, std::span<float> to) override;
-    /// In fixed point, so that sums do not depend on the order.
+    /// Adds in fixed point, so that sums do not depend on the order.
     bool apply_to_sums(const SumRows& to, std::span<float> sums) override;
     std::optional<BounceEnergy> bounce(Transfer& transfer, int bounces, const Progress& progress) override;
     std::size_t bytes_moved() const override { return bytes_moved_ + blocks_.bytes_moved(); }
@@ -31,11 +33,11 @@ public:
 private:
     class Values;
     struct Kernel;
-    /// Rows [first, end) from the values at `from` to those at the other place, row `first` to the beginning
-    /// there; or to sums.
+    /// Gathers rows [first, end) from buffer `from` to the other buffer, row `first` to its beginning; or to
+    /// sums.
     struct Task {
         std::size_t first, end, from = 0;
-        bool add = false; ///< to the total, too
+        bool add = false; ///< add to the total, too
     };
 
     Values& values(int order, bool with_total);
@@ -47,12 +49,12 @@ private:
     const GatherOperator& gather_;
     GatherBlocks blocks_;
     GpuBuffer reflectance_;
-    GpuBuffer unused_;                  ///< for bindings that a kernel has and does not read
-    std::optional<GpuBuffer> sum_rows_; ///< what apply_to_sums was given
+    GpuBuffer unused_;                  ///< bound to bindings that a kernel declares but does not read
+    std::optional<GpuBuffer> sum_rows_; ///< rows of the last call of apply_to_sums
     std::unique_ptr<Values> values_;
-    float largest_ = 0;            ///< of exit transfer
-    double work_per_second_ = 1e8; ///< products, until measured those of a software device
-    std::size_t bytes_moved_ = 0;  ///< of transfer
+    float largest_ = 0;            ///< maximum of the exit transfer
+    double work_per_second_ = 1e8; ///< products per second; until measured, the speed of a software device
+    std::size_t bytes_moved_ = 0;  ///< transferred bytes of exit transfer
 };
 
 } // namespace prt

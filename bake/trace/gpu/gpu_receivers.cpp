@@ -1,4 +1,4 @@
-// Receivers on their way to the GPU.
+// Converts receivers to the layout of shaders.
 
 #include "trace/gpu/gpu_receivers.h"
 

@@ -1,5 +1,7 @@
 #pragma once
 
+// Receivers in the layout of shaders.
+
 #include "prt/trace_scene.h"
 #include "trace/gpu/gpu_structs.h"
 
@@ -8,7 +10,7 @@
 
 namespace prt {
 
-/// Receivers of rays as shaders read them: [indices].
+/// Returns receivers[indices] with ray origins and seeds: [indices].
 std::vector<gpu::Receiver> gpu_receivers(const TraceScene& scene, const Receivers& receivers,
                                          std::span<const std::uint32_t> indices, std::uint64_t seed);
 

@@ -1,4 +1,4 @@
-// Makes the hierarchy and the tables of a scene, and uploads them.
+// Builds the hierarchy and the tables of a scene, and uploads them.
 
 #include "trace/gpu/gpu_scene.h"
 
@@ -10,7 +10,8 @@
 namespace prt {
 namespace {
 
-/// Private stacks of up to 32 groups stay in registers on some chips, which then hold fewer threads.
+/// Minimum size of the stack. Private stacks of up to 32 groups stay in registers on some chips, which then
+/// run fewer threads.
 constexpr int kLeastStack = 64;
 
 template <class T>
@@ -37,7 +38,7 @@ void GpuScene::build_structure(const VulkanDevice& device, GpuQueue& queue, cons
     copies_ = all.copies.size() - 1;
     upload_tables(device, queue, scene, all.slots);
     for (const InstancedTriangles::Share& share :
-         all.shares) // of what shines, lamps ask by the scene's order
+         all.shares) // lamps look up emissive triangles by the index in the scene
         for (std::uint32_t t = 0; t < share.count; ++t)
             alpha_.index[share.triangle + t] = alpha_.index[share.first + t];
 }
@@ -50,7 +51,7 @@ void GpuScene::build_nodes(const VulkanDevice& device, GpuQueue& queue, const Tr
     std::vector<glm::uvec3> corners;
     for (const std::uint32_t t : triangles)
         corners.push_back(scene.surfaces().corners(t));
-    // Nothing casts a shadow: a node without children.
+    // If nothing casts a shadow: one node without children.
     const WideBvh bvh = triangles.empty() ? WideBvh{.nodes = {gpu::WideNode{}}}
                                           : build_wide_bvh(positions, corners, scene.threads());
     levels_ = bvh.depth;

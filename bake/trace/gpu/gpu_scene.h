@@ -1,6 +1,6 @@
 #pragma once
 
-// A scene on a Vulkan device, as the kernels that trace read it.
+// A scene on a Vulkan device, in the layout of the tracing kernels.
 
 #include "prt/trace_scene.h"
 #include "trace/gpu/alpha_tables.h"
@@ -14,17 +14,20 @@ namespace prt {
 
 class GpuScene {
 public:
-    /// Builds a hierarchy, by the device where it traverses itself, and uploads. Meshes that stand in the
-    /// scene several times are there once for the device's own. Throws `Error` where the scene does not fit.
+    /// Builds a hierarchy and uploads it. Devices with ray queries build it themselves; it then contains
+    /// instanced meshes once. Throws `Error` if the scene does not fit into memory.
     GpuScene(const VulkanDevice& device, GpuQueue& queue, const TraceScene& scene);
 
     bool has_alpha() const { return has_alpha_; }
     const AlphaTables& alpha() const { return alpha_; }
-    std::size_t bytes() const;                     ///< in the device's memory
-    std::size_t copies() const { return copies_; } ///< of meshes that it has once, the first ones too
-    /// What a kernel that traces has of it, beside what is its own.
+    std::size_t bytes() const; ///< bytes in the device's memory
+    std::size_t copies() const {
+        return copies_;
+    } ///< number of instances of meshes that are stored once,
+      ///< including the first instances
+    /// Resources for a tracing kernel, in addition to the kernel's own.
     GpuResources resources() const;
-    /// Its specialisation constants.
+    /// Specialisation constants of the scene.
     std::map<std::uint32_t, std::uint32_t> constants() const;
 
 private:
@@ -35,7 +38,8 @@ private:
 
     bool has_alpha_, textured_;
     AlphaTables alpha_;
-    std::uint32_t opaque_ = 0; ///< triangles before the others, of those that stand alone
+    std::uint32_t opaque_ = 0; ///< number of opaque triangles in the mesh of triangles without instances;
+                               ///< they come first
     int levels_ = 0;
     std::size_t copies_ = 0;
     struct Tables {

@@ -1,7 +1,7 @@
 #pragma once
 
-// The structs of shaders/shared_structs.h in C++, with the types of GLSL, and the check that they lie in
-// memory as std430 lays them out.
+// C++ versions of the structs of shaders/shared_structs.h, with GLSL type names, and checks that their layout
+// in memory is std430.
 
 #include "shared_bake.h"
 

@@ -1,5 +1,7 @@
 #pragma once
 
+// Rows of sums in the layout of shaders, and their fixed-point values.
+
 #include "trace/gpu/gpu_structs.h"
 #include "trace/vector_sums.h"
 
@@ -7,7 +9,7 @@
 
 namespace prt {
 
-/// As shaders read it. `weights` [sums]: in all.
+/// Converts a row to the layout of shaders. `weights` [sums]: total weight of each sum.
 inline gpu::SumRow gpu_sum_row(const SumRow& row, std::span<const float> weights) {
     static_assert(kNoSum == PRT_NO_SUM);
     gpu::SumRow result{};
@@ -20,7 +22,7 @@ inline gpu::SumRow gpu_sum_row(const SumRow& row, std::span<const float> weights
     return result;
 }
 
-/// What a sum in fixed point is, of vectors of at most `largest`.
+/// Converts a sum from fixed point. `largest`: maximum of the summed values.
 inline float from_fixed_point(std::int32_t fixed, float weight, float largest = 1) {
     return static_cast<float>(static_cast<double>(fixed) / PRT_FIXED_ONE * static_cast<double>(weight) *
                               static_cast<double>(largest));

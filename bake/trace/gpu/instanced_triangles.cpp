@@ -1,4 +1,4 @@
-// Puts triangles that stand alone into one mesh, and what has copies into meshes of their own.
+// Collects triangles without instances into one mesh, and each instanced mesh into its own mesh.
 
 #include "trace/gpu/instanced_triangles.h"
 

@@ -1,7 +1,7 @@
 #pragma once
 
-// The triangles of a scene for the device's own hierarchy: those of each mesh once, and where its copies
-// stand.
+// Triangles of a scene for the hierarchy of the device: each instanced mesh once, and the transforms of its
+// instances.
 
 #include "prt/trace_scene.h"
 #include "vulkan/acceleration_structure.h"
@@ -14,7 +14,7 @@
 namespace prt {
 
 struct InstancedTriangles {
-    /// Triangles [triangle, triangle + count) of the scene are copies of those from `first` on.
+    /// Marks triangles [triangle, triangle + count) of the scene as copies of the triangles from `first` on.
     struct Share {
         std::uint32_t triangle, first, count;
     };
@@ -22,13 +22,13 @@ struct InstancedTriangles {
     explicit InstancedTriangles(const TraceScene& scene);
 
     std::vector<std::uint32_t>
-        slots; ///< [slots] triangle of the scene: those that stand alone, then mesh by mesh
-    std::vector<glm::vec3> positions;                ///< of the vertices that those have
-    std::vector<glm::uvec3> corners;                 ///< [slots] among the positions
-    std::vector<AccelerationStructure::Mesh> meshes; ///< the first has what stands alone
+        slots; ///< [slots] triangle of the scene: first triangles without instances, then mesh by mesh
+    std::vector<glm::vec3> positions;                ///< positions of the vertices of these triangles
+    std::vector<glm::uvec3> corners;                 ///< [slots] indices into `positions`
+    std::vector<AccelerationStructure::Mesh> meshes; ///< the first mesh has the triangles without instances
     std::vector<AccelerationStructure::Copy> copies;
-    std::vector<glm::uvec2> instances; ///< [copies] as shaders/bake_query.glsl reads them
-    std::vector<Share> shares;         ///< [copies but the first of each mesh]
+    std::vector<glm::uvec2> instances; ///< [copies] in the layout of shaders/bake_query.glsl
+    std::vector<Share> shares;         ///< [copies except the first of each mesh]
 
 private:
     void add_positions(const Scene& scene, const std::vector<bool>& wanted);

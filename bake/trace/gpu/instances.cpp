@@ -1,5 +1,5 @@
-// Finds copies by the numbers of the file's mesh, and the motion between them from four vertices; all others
-// tell whether it is that.
+// Finds instances by the mesh index of the file, and their transforms from three vertices; the transform is
+// verified at all vertices.
 
 #include "trace/gpu/instances.h"
 
@@ -19,14 +19,14 @@
 namespace prt {
 namespace {
 
-/// Of the copy's largest coordinate: how far a vertex may be from where the motion takes it. Rounding of the
-/// positions is half a unit of that, and less of the first copy's, which is the nearest to the origin; a ray
-/// starts sixteen units off its surface.
+/// Maximum distance of a vertex from its transformed position, relative to the largest coordinate of the
+/// copy. Rounding of the positions is half a unit of this, and less for the first copy, which is nearest to
+/// the origin; a ray starts sixteen units off its surface.
 constexpr double kTolerance = 4 * static_cast<double>(std::numeric_limits<float>::epsilon());
-/// How much a scale may differ between axes: what rounding does to short sides.
+/// Maximum difference of scales between axes: rounding of short sides causes such differences.
 constexpr double kUneven = 1e-3;
 
-/// Three vertices far apart, which tell a motion of a shape that is flat, too.
+/// Three vertices far from each other; they determine the transform even of a flat shape.
 using Frame = std::array<std::size_t, 3>;
 
 std::optional<Frame> frame_of(std::span<const glm::vec3> positions) {
@@ -45,12 +45,12 @@ std::optional<Frame> frame_of(std::span<const glm::vec3> positions) {
         return glm::length(glm::cross(side, glm::dvec3(p) - first));
     };
     const std::size_t c = farthest(off_side);
-    if (!(off_side(positions[c]) > 1e-3 * glm::dot(side, side))) // a line, or nearly
+    if (!(off_side(positions[c]) > 1e-3 * glm::dot(side, side))) // collinear, or nearly
         return std::nullopt;
     return Frame{a, b, c};
 }
 
-/// Sides of the frame and, as long as they are on the whole, its normal.
+/// Returns two sides of the frame, and its normal scaled to about their length.
 glm::dmat3 axes_of(std::span<const glm::vec3> positions, const Frame& frame) {
     const glm::dvec3 a(positions[frame[0]]), ab = glm::dvec3(positions[frame[1]]) - a,
                                              ac = glm::dvec3(positions[frame[2]]) - a,
@@ -66,7 +66,7 @@ double largest_coordinate_of(std::span<const glm::vec3> positions) {
     return largest;
 }
 
-/// Whether it turns and scales, all axes alike, and does not mirror.
+/// Whether the matrix is a rotation with a uniform scale, without reflection.
 bool is_even(const glm::dmat3& turn) {
     const double volume = glm::determinant(turn);
     if (!(volume > 0))
@@ -85,7 +85,7 @@ std::optional<glm::mat4x3> motion(std::span<const glm::vec3> from, std::span<con
     if (!is_even(turn))
         return std::nullopt;
     const glm::dvec3 shift = glm::dvec3(to[frame[0]]) - turn * glm::dvec3(from[frame[0]]);
-    // As the device has it.
+    // Rounded to the precision on the device.
     const glm::mat4x3 transform{glm::vec3(turn[0]), glm::vec3(turn[1]), glm::vec3(turn[2]), glm::vec3(shift)};
     const glm::dmat4x3 rounded(transform);
     const double most = kTolerance * largest_coordinate_of(to);

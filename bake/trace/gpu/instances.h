@@ -1,6 +1,6 @@
 #pragma once
 
-// Meshes that stand in a scene several times.
+// Meshes that a scene contains several times.
 
 #include "prt/scene.h"
 
@@ -11,14 +11,14 @@
 
 namespace prt {
 
-/// A copy of a primitive, turned, scaled and moved.
+/// A copy of a primitive, rotated, scaled and translated.
 struct Instance {
     std::uint32_t primitive;
-    glm::mat4x3 transform; ///< from the first copy to this one
+    glm::mat4x3 transform; ///< transform from the first copy to this one
 };
 
-/// Primitives of the same geometry, each within what rounding does to positions: [meshes][instances], the
-/// copy that is nearest to the origin first. Those that stand alone are left out.
+/// Finds primitives with the same geometry up to rounding of positions: [meshes][instances], the copy nearest
+/// to the origin first. Primitives without copies are omitted.
 std::vector<std::vector<Instance>> find_instances(const Scene& scene);
 
 } // namespace prt

@@ -1,4 +1,4 @@
-// Packs lights, triangles that shine, and their textures.
+// Packs lights, emissive triangles, and their textures.
 
 #include "trace/gpu/lamp_tables.h"
 
@@ -24,12 +24,12 @@ gpu::PunctualLight packed(const PunctualLight& light) {
             .unused = {}};
 }
 
-/// Textures of radiance, each once however many use it.
+/// Emission textures, stored once for all materials that use them.
 class EmissionImages {
 public:
     explicit EmissionImages(const TraceScene& scene) : scene_(scene) {}
 
-    /// Where the texture stands for `vertices`; PRT_NO_TEXELS where they have none.
+    /// Index of the texture; PRT_NO_TEXELS if `vertices` have no coordinates for it.
     std::uint32_t index(const VertexArray& vertices, const TextureUse& use) {
         if (!scene_.surfaces().has_texture(vertices, use))
             return PRT_NO_TEXELS;
@@ -58,7 +58,7 @@ private:
     }
 
     const TraceScene& scene_;
-    std::map<std::pair<int, std::uint32_t>, std::uint32_t> index_; ///< of image and wraps
+    std::map<std::pair<int, std::uint32_t>, std::uint32_t> index_; ///< index by image and wrap modes
 };
 
 gpu::ShiningTriangle packed(const ShiningTriangles::Shining& t, const TraceScene& scene, std::uint32_t alpha,

@@ -1,6 +1,6 @@
 #pragma once
 
-// The lamps of a scene as shaders/bake_lamps.comp reads them.
+// The lamps of a scene in the layout of shaders/bake_lamps.comp.
 
 #include "lamps/choose_lamps.h"
 #include "prt/trace_scene.h"
@@ -13,7 +13,7 @@
 namespace prt {
 
 struct LampTables {
-    /// What a lamp has of the tables.
+    /// Ranges of one lamp in the tables.
     struct Ranges {
         std::uint32_t first_light, end_light, first_triangle, end_triangle;
         std::uint32_t lights() const { return end_light - first_light; }

@@ -1,4 +1,4 @@
-// Uploads what depth maps are drawn from.
+// Uploads the data that depth maps are drawn from.
 
 #include "trace/gpu/raster_scene.h"
 

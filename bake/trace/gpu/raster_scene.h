@@ -11,11 +11,11 @@ namespace prt {
 
 class RasterScene {
 public:
-    /// Uploads. A context must be current. Throws `Error` when memory runs out.
+    /// Uploads the scene. A context must be current. Throws `Error` when memory runs out.
     explicit RasterScene(const TraceScene& scene);
 
     std::size_t triangles() const { return triangles_; }
-    /// Defines for shaders that draw it.
+    /// Preprocessor definitions for shaders that draw the scene.
     std::string defines() const;
     void bind() const;
 

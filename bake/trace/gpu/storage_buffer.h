@@ -1,5 +1,7 @@
 #pragma once
 
+// Storage buffers of OpenGL.
+
 #include "prt/gl_objects.h"
 
 #include <epoxy/gl.h>
@@ -9,7 +11,8 @@
 
 namespace prt {
 
-/// A buffer of `values` for shaders. Throws `Error` that says `what` they are where they do not fit one.
+/// Creates a shader storage buffer of `values`. Throws `Error` with their name `what` if they exceed the
+/// maximum size.
 template <class T>
 GlObject storage_buffer(const std::vector<T>& values, const char* what) {
     GLint64 largest = 0;

@@ -1,4 +1,4 @@
-// Faces that stand on a receiver: found on the CPU, since depth maps cannot show them.
+// Finds faces that meet a receiver, on the CPU, because depth maps cannot show them.
 
 #include "trace/gpu/touching_triangles.h"
 
@@ -12,7 +12,8 @@
 namespace prt {
 namespace {
 
-constexpr float kNear = 8;      ///< surface offsets: more than any vertex of a touching triangle is rounded
+constexpr float kNear = 8;      ///< surface offsets: more than the rounding of any vertex of a touching
+                                ///< triangle
 constexpr double kFlush = 0.99; ///< cosine between the normals
 using CornersOfTriangle = std::array<glm::dvec3, 3>;
 
@@ -23,7 +24,8 @@ CornersOfTriangle corners_of(const Scene& scene, RayScene::Triangle id) {
     return {glm::dvec3(positions[t.x]), glm::dvec3(positions[t.y]), glm::dvec3(positions[t.z])};
 }
 
-/// Whether the triangle's plane passes near `position` and stands up from a surface of that normal.
+/// Whether the triangle's plane passes near `position` and is not nearly parallel to a surface with this
+/// normal.
 bool touches(const CornersOfTriangle& c, const glm::dvec3& position, const glm::dvec3& normal, double near) {
     const glm::dvec3 area = glm::cross(c[1] - c[0], c[2] - c[0]);
     const double length = glm::length(area);

@@ -1,7 +1,7 @@
 #pragma once
 
-// What touches receivers: blockers at distance zero, which depth maps cannot tell from the receiver's own
-// surface at any resolution.
+// Triangles that touch receivers: blockers at distance zero, which depth maps of any resolution cannot
+// distinguish from the receiver's own surface.
 
 #include "prt/trace_scene.h"
 
@@ -16,11 +16,11 @@ namespace prt {
 
 struct TouchingTriangles {
     std::vector<glm::uvec2> ranges; ///< [indices] first triangle and one past the last
-    std::vector<glm::vec4> corners; ///< [triangles][3] seen from the start of the receiver's rays
+    std::vector<glm::vec4> corners; ///< [triangles][3] relative to the origin of the receiver's rays
 };
 
-/// Opaque triangles that touch receivers[indices[i]] and that can block what it sees; faces nearly flush with
-/// it (within 8 degrees) are left out, as they hide at most half a percent of its light.
+/// Returns opaque triangles that touch receivers[indices[i]] and can block its light. Faces nearly parallel
+/// to it (within 8 degrees) are omitted, because they block at most half a percent of its light.
 TouchingTriangles touching_triangles(const TraceScene& scene, const Receivers& receivers,
                                      std::span<const std::uint32_t> indices);
 

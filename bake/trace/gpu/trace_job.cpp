@@ -1,4 +1,4 @@
-// Puts together what the pieces of a job give.
+// Combines the results of the pieces of a job.
 
 #include "trace/gpu/trace_job.h"
 
@@ -68,7 +68,7 @@ void TraceResults::add(std::size_t i, const gpu::HitRecord& r, float weight) {
         {r.triangle & ~PRT_HIT_BACK, r.u, r.v, weight, r.footprint, (r.triangle & PRT_HIT_BACK) != 0}));
 }
 
-/// Those that were followed of a chunk stand for all that is blocked of it.
+/// Adds hits of followed rays; the hits of a chunk represent all its blocked rays.
 void TraceResults::add_followed(Place at, const TracePiece& piece, std::span<const gpu::HitRecord> records) {
     const std::size_t slots = piece.push().whole_followed + 1;
     for (std::size_t row = 0; row * slots < records.size(); ++row) {
@@ -85,7 +85,7 @@ void TraceResults::add_followed(Place at, const TracePiece& piece, std::span<con
     }
 }
 
-/// The open lobe, and what the rays differ from it by.
+/// Adds the unshadowed lobe to the difference that the rays measured.
 void TraceResults::finish(std::size_t i) {
     if (!control_.empty()) {
         std::array<double, kMaxOrder * kMaxOrder> lobe{};

@@ -1,6 +1,6 @@
 #pragma once
 
-// What a tracer of the device is asked, and what its pieces give, put together.
+// A job for the tracer on a device, and the combined results of its pieces.
 
 #include "prt/trace_scene.h"
 #include "prt/tracer.h"
@@ -21,9 +21,9 @@ struct TraceJob {
     std::span<const std::uint32_t> indices;
     const TraceOptions& options;
     bool hits;
-    std::span<const SumRow> sum_rows;   ///< [indices] where vectors are summed on the device
+    std::span<const SumRow> sum_rows;   ///< [indices] set if vectors are summed on the device
     std::span<const float> sum_weights; ///< [sums]
-    SobolChunk whole, last;             ///< all chunks but the last, and the last
+    SobolChunk whole, last;             ///< all chunks except the last one, and the last chunk
     TracePiece::Room room = {};
 
     TraceJob(const Receivers& all, std::span<const std::uint32_t> some, const TraceOptions& trace,
@@ -31,23 +31,23 @@ struct TraceJob {
 
     int stride() const { return hits ? options.hit_stride : 1; }
     std::size_t chunks() const { return (static_cast<std::size_t>(options.rays) + kChunk - 1) / kChunk; }
-    /// Reversed Sobol points of a whole chunk, then of the last.
+    /// Returns reversed Sobol points of a whole chunk, then of the last chunk.
     std::vector<glm::uvec2> samples() const;
 };
 
-/// Makes transfer of sums over rays, with the open lobe as control variate (docs/math.md, eq. 9), and hits of
-/// what is noted.
+/// Computes transfer from sums over rays, with the unshadowed lobe as control variate (docs/math.md, eq. 9),
+/// and collects hits.
 class TraceResults {
 public:
-    /// `vectors`: [indices][order²], or [indices][first_coefficients] where vectors are summed.
+    /// `vectors`: [indices][order²], or [indices][first_coefficients] if vectors are summed.
     TraceResults(const TraceJob& job, const TraceScene& scene, std::span<float> vectors, const HitSink& sink);
 
-    /// Where in the job a piece begins.
+    /// Start of a piece in the job.
     struct Place {
         std::size_t receiver = 0, chunk = 0;
     };
     void add_hits(Place at, const TracePiece& piece, std::span<const gpu::HitRecord> records);
-    /// The sums of a piece; after its last chunk a receiver's hits are all there.
+    /// Adds the sums of a piece. After the last chunk of a receiver all its hits are known.
     void add_sums(Place at, const TracePiece& piece, int threads);
 
 private:
@@ -58,7 +58,7 @@ private:
     const TraceJob& job_;
     const TraceScene& scene_;
     std::span<float> vectors_;
-    std::size_t coefficients_; ///< of a vector
+    std::size_t coefficients_; ///< coefficients of a vector
     const HitSink& sink_;
     std::vector<double> control_; ///< [indices] rays of the chunks that use the control variate
     std::vector<std::vector<Hit>> hits_;

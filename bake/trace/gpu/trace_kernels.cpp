@@ -1,4 +1,4 @@
-// Makes the kernels out of SPIR-V that is embedded (shaders/bake_*.comp).
+// Creates the kernels from embedded SPIR-V (shaders/bake_*.comp).
 
 #include "trace/gpu/trace_kernels.h"
 

@@ -13,26 +13,26 @@ namespace prt {
 
 class TraceKernels {
 public:
-    /// What comes of rays.
+    /// Kind of the results.
     struct Kind {
         int order = 0;
-        bool hits = false;   ///< are noted
-        bool summed = false; ///< vectors are added to sums, and not kept
+        bool hits = false;   ///< hits are reported
+        bool summed = false; ///< vectors are added to sums and not stored
         auto operator<=>(const Kind&) const = default;
     };
-    /// Throws `Error` where the device does not take them.
+    /// Throws `Error` if the device does not accept the kernels.
     TraceKernels(const VulkanDevice& device, GpuQueue& queue, const GpuScene& scene, const Kind& kind);
 
     const Kind& kind() const { return kind_; }
-    /// Floats that come back for a receiver.
+    /// Number of floats that are read back per receiver.
     std::size_t numbers() const;
     bool has_alpha() const { return has_alpha_; }
     const GpuKernel& trace() const { return trace_; }
     const GpuKernel& count_blocked() const { return count_blocked_; }
     const GpuKernel& accumulate() const { return accumulate_; }
-    /// The tables, by binding.
+    /// Tables by binding.
     GpuResources tables() const;
-    /// Uploads reversed Sobol points: of a whole chunk, then of the last one. Waits.
+    /// Uploads reversed Sobol points of a whole chunk, then of the last chunk. Waits for the upload.
     void set_samples(const VulkanDevice& device, GpuQueue& queue, std::span<const glm::uvec2> points);
 
 private:

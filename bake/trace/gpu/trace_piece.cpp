@@ -1,4 +1,4 @@
-// Records what the device does for a piece: trace, count, sum, and copy back.
+// Records the commands of a piece: trace, count, sum, and copy back.
 
 #include "trace/gpu/trace_piece.h"
 

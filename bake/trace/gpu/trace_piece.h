@@ -1,6 +1,6 @@
 #pragma once
 
-// A piece of the rays of some receivers on its way through the device: what it works on, and what comes back.
+// A piece of the rays of some receivers on the device, with its buffers and its results.
 
 #include "trace/gpu/gpu_scene.h"
 #include "trace/gpu/trace_kernels.h"
@@ -12,44 +12,45 @@ namespace prt {
 
 class TracePiece {
 public:
-    /// Receivers, chunks of their rays (rows), and hits of scenes with alpha, at most.
+    /// Maximum number of receivers, of chunks of their rays (rows), and of hits in scenes with alpha.
     struct Room {
         std::size_t receivers = 0, rows = 0, hits = 0;
     };
-    /// Where vectors are added to: [sums][order²] in fixed point, and those with signs.
+    /// Buffers that vectors are added to: [sums][order²] in fixed point, with and without signs.
     struct Sums {
         const GpuBuffer &plain, &with_signs;
     };
-    /// Takes what rays met, row by row or, of scenes with alpha, in any order.
+    /// Takes hits row by row, or in any order for scenes with alpha.
     using TakeHits = std::function<void(std::span<const gpu::HitRecord>)>;
 
-    /// Keeps a reference to `kernels`, and to what is in `sums`, which is there where they sum. Throws
-    /// `GpuMemoryError` where the device has no such room.
+    /// Keeps references to `kernels` and to the buffers of `sums`, which are required if the kernels sum
+    /// vectors. Throws `GpuMemoryError` if the device has too little memory.
     TracePiece(const VulkanDevice& device, const GpuScene& scene, const TraceKernels& kernels,
                const Room& room, const Sums* sums = nullptr);
 
     const Room& room() const { return room_; }
-    /// Where receivers go before `start`.
+    /// Receivers of the piece; write them before `start`.
     std::span<gpu::Receiver> receivers() const { return buffers_.receivers.host.as<gpu::Receiver>(); }
-    /// The same of what their vectors are added to.
+    /// Rows of sums for the receivers; write them before `start`.
     std::span<gpu::SumRow> sum_rows() const { return buffers_.sum_rows.host.as<gpu::SumRow>(); }
-    /// Traces the rays that `push` says, and has the device copy back what is asked of it.
+    /// Starts tracing the rays described by `push`, and copying the results back.
     void start(GpuQueue& queue, const gpu::TracePush& push);
-    /// Waits. Rays whose hits had no room are traced on, and so none is traced twice.
+    /// Waits for the results. Rays whose hits did not fit into the buffer continue, and no ray is traced
+    /// twice.
     void finish(GpuQueue& queue, const TakeHits& take);
 
     const gpu::TracePush& push() const { return push_; }
-    /// How long the device worked on what has ended; 0 where it does not tell.
+    /// Time that the device needed for finished work; 0 if the device does not report it.
     double seconds() const { return seconds_; }
-    /// [receivers][TraceKernels::numbers], as bake_accumulate.comp says.
+    /// [receivers][TraceKernels::numbers] as defined in bake_accumulate.comp.
     std::span<const float> sums() const { return buffers_.sums.host.as<const float>(); }
-    /// [rows]: how many rays are blocked, where everything is opaque and hits are noted.
+    /// [rows] number of blocked rays, if all surfaces are opaque and hits are reported.
     std::span<const std::uint32_t> blocked_rays() const {
         return buffers_.blocked_rays.host.as<const std::uint32_t>();
     }
 
 private:
-    /// On the device, and where the processor reads or writes it.
+    /// A buffer on the device and its copy for the CPU.
     struct Mirrored {
         GpuBuffer device, host;
     };
@@ -65,14 +66,14 @@ private:
     std::size_t rows() const { return static_cast<std::size_t>(push_.receivers) * push_.chunks; }
     bool notes_hits() const { return kernels_.kind().hits; }
     bool hits_in_any_order() const { return notes_hits() && kernels_.has_alpha(); }
-    /// Once no thread stops any more: what is added to sums of many cannot be taken back.
+    /// Whether to sum after all threads have finished, because values cannot be removed from shared sums.
     bool sums_at_the_end() const { return hits_in_any_order() && kernels_.kind().summed; }
     void trace(const vk::raii::CommandBuffer& commands) const;
     void sum(const vk::raii::CommandBuffer& commands) const;
     void copy_hits(const vk::raii::CommandBuffer& commands) const;
     void wait(GpuQueue& queue, GpuQueue::Ticket ticket);
     void check_loops() const;
-    std::size_t wanted_hits() const; ///< more than there is room for: threads have stopped
+    std::size_t wanted_hits() const; ///< more than the buffer holds: threads have stopped
 
     const TraceKernels& kernels_;
     Room room_;

@@ -18,9 +18,11 @@
 namespace prt {
 namespace {
 
-constexpr double kLampDispatchSeconds = 0.05;         ///< a desktop's driver kills what takes seconds
-constexpr std::uint32_t kLampRaysAtOnce = 256;        ///< of a receiver in a dispatch, for the same reason
-constexpr std::size_t kLampReceiversAtOnce = 1 << 18; ///< in the device's memory: 16 MB
+constexpr double kLampDispatchSeconds = 0.05;         ///< the driver of a desktop ends dispatches that take
+                                                      ///< seconds
+constexpr std::uint32_t kLampRaysAtOnce = 256;        ///< maximum rays per receiver in a dispatch, for the
+                                                      ///< same reason
+constexpr std::size_t kLampReceiversAtOnce = 1 << 18; ///< 16 MB in the device's memory
 
 void write_receivers(const LampTask& task, std::span<const std::uint32_t> indices,
                      std::span<gpu::LampReceiver> receivers) {
@@ -34,7 +36,7 @@ void write_receivers(const LampTask& task, std::span<const std::uint32_t> indice
     });
 }
 
-/// The kernel with all that it reads, and how fast it was.
+/// The kernel with all its buffers, and its measured speed.
 class LampKernel {
 public:
     LampKernel(const VulkanDevice& device, GpuQueue& queue, const GpuScene& scene, const LampTask& task,
@@ -66,7 +68,7 @@ public:
                                               : bake_lamps,
                                  .push_bytes = sizeof(gpu::LampPush),
                                  .constants = scene.constants()};
-        source.constants[PRT_CONSTANT_TEXTURED] = 0; // the finest levels serve
+        source.constants[PRT_CONSTANT_TEXTURED] = 0; // use the finest levels
         source.take_bindings(resources);
         kernel_ = GpuKernel(device, source);
         bindings_ = GpuBindings(device, kernel_, resources);
@@ -84,7 +86,8 @@ public:
         }));
     }
 
-    /// Irradiance of the receivers by one lamp, and rays: valid until the next call.
+    /// Traces irradiance of the receivers by one lamp, and the number of rays. The result is valid until the
+    /// next call.
     std::span<const glm::vec4> trace(std::size_t lamp, const Progress& progress) {
         const LampTables::Ranges& ranges = tables_.ranges[lamp];
         gpu::LampPush push{.first_receiver = 0,
@@ -119,15 +122,16 @@ private:
         GpuBuffer lights, triangles, images, texels, staging, receivers, sums, read_back;
     };
 
-    /// That a receiver can have to a lamp: shares of them are rounded up for each light. One at least, so
-    /// that what is dark is written, too.
+    /// Maximum number of rays from a receiver to a lamp: the rays of each light are rounded up. At least one,
+    /// so that dark receivers are written, too.
     std::uint32_t most_rays(const LampTables::Ranges& ranges) const {
         const auto spread = static_cast<std::uint32_t>(task_.options.rays);
         return std::max(
             {1u, ranges.triangles() > 0 ? spread : 0, ranges.lights() > 0 ? spread + ranges.lights() : 0});
     }
 
-    /// `work`: of a receiver, in rays. Two dispatches are under way at a time.
+    /// Traces a part of the rays of all receivers. `work` per receiver, in rays. Two dispatches are active at
+    /// a time.
     void trace_slice(double work, gpu::LampPush push, const Progress& progress) {
         GpuQueue::Ticket before = 0;
         for (std::size_t begin = 0; begin < count_;) {
@@ -146,7 +150,7 @@ private:
             });
             queue_.wait(before);
             if (before == 0)
-                queue_.wait(ticket); // the first tells the speed
+                queue_.wait(ticket); // the first dispatch measures the speed
             const double clock = queue_.seconds(before == 0 ? ticket : before),
                          took = clock > 0 ? clock : watch.seconds();
             work_per_second_ =
@@ -164,7 +168,7 @@ private:
     GpuKernel kernel_;
     GpuBindings bindings_;
     std::size_t count_ = 0;
-    double work_per_second_ = 1e6; ///< until measured, that of a software device
+    double work_per_second_ = 1e6; ///< until measured, the speed of a software device
 };
 
 } // namespace

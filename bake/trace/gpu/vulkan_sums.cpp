@@ -1,4 +1,4 @@
-// Sums of vectors on the device: what is traced is added there, and sums alone come back.
+// Sums vectors on the device: traced vectors are added there, and only the sums are read back.
 
 #include "prt/sh_basis.h"
 #include "trace/gpu/gpu_sum_row.h"
@@ -35,7 +35,7 @@ public:
 
     void read(std::span<float> sums, std::span<float> signed_sums) override {
         with_vulkan_errors([&] {
-            pieces_ = {}; // what they take is wanted now
+            pieces_ = {}; // their memory is needed now
             const GpuBuffer host(tracer_.device_, plain_.bytes(), GpuMemory::download, "sums of vectors");
             const auto stride = static_cast<std::size_t>(coefficient_count(order_));
             const auto read_one = [&](const GpuBuffer& from, std::span<float> to) {
@@ -61,7 +61,7 @@ private:
 };
 
 std::unique_ptr<VectorSums> VulkanTracer::vector_sums(int order, std::span<const float> weights) {
-    pieces_ = {}; // their place is wanted now
+    pieces_ = {}; // their memory is needed now
     try {
         return with_vulkan_errors([&] { return std::make_unique<Sums>(*this, order, weights); });
     } catch (const GpuMemoryError&) {

@@ -1,5 +1,5 @@
-// Cuts the rays of receivers into pieces for the device, keeps two of them under way, and makes transfer of
-// what comes back, with the open lobe as control variate (docs/math.md, eq. 9).
+// Divides the rays of receivers into pieces for the device, keeps two pieces active, and computes transfer
+// from their results, with the unshadowed lobe as control variate (docs/math.md, eq. 9).
 
 #include "trace/gpu/vulkan_tracer.h"
 
@@ -17,8 +17,8 @@ namespace prt {
 namespace {
 
 constexpr double kPieceSeconds =
-    0.05; ///< of the device: a desktop stays smooth, and its driver kills what takes seconds
-constexpr std::size_t kMostReceivers = 1 << 17; ///< of a call, whose vectors the caller holds
+    0.05; ///< time on the device: a desktop stays responsive, and its driver ends work that takes seconds
+constexpr std::size_t kMostReceivers = 1 << 17; ///< maximum per call; the caller stores their vectors
 
 } // namespace
 
@@ -43,7 +43,7 @@ TraceKernels& VulkanTracer::kernels(const TraceKernels::Kind& kind) {
                : kernels_.emplace(kind, TraceKernels(device_, queue_, scene_on_gpu_, kind)).first->second;
 }
 
-/// What two pieces can have of this job, by the bytes of what they hold of a row and of a receiver.
+/// Computes the size of two pieces for this job, from the bytes per row and per receiver.
 TracePiece::Room VulkanTracer::room_for(const TraceJob& job) const {
     const bool alpha = scene_on_gpu_.has_alpha();
     const std::size_t slots = job.hits && !alpha ? static_cast<std::size_t>(job.whole.followed) + 1 : 0;
@@ -66,7 +66,7 @@ TracePiece::Room VulkanTracer::room_for(const TraceJob& job) const {
     return room;
 }
 
-/// Makes kernels and pieces that the job has room in.
+/// Creates kernels and pieces that are large enough for the job.
 void VulkanTracer::prepare(const TraceJob& job, Pieces& pieces, const TracePiece::Sums* sums) {
     TraceKernels& wanted = kernels({job.options.order, job.hits, sums != nullptr});
     const TracePiece::Room& room = job.room;
@@ -75,7 +75,7 @@ void VulkanTracer::prepare(const TraceJob& job, Pieces& pieces, const TracePiece
         const bool fits = piece && same && piece->room().receivers >= room.receivers &&
                           piece->room().rows >= room.rows && piece->room().hits >= room.hits;
         if (!fits) {
-            piece.reset(); // before another takes its memory
+            piece.reset(); // before a new piece takes its memory
             piece = std::make_unique<TracePiece>(device_, scene_on_gpu_, wanted, room, sums);
         }
     }
@@ -83,11 +83,11 @@ void VulkanTracer::prepare(const TraceJob& job, Pieces& pieces, const TracePiece
     wanted.set_samples(device_, queue_, job.samples());
 }
 
-/// As many chunks from there as the device traces in its time: of several receivers all chunks, or some of
-/// one.
+/// Returns the next piece, sized for the target time of the device: either all chunks of several receivers,
+/// or some chunks of one receiver.
 gpu::TracePush VulkanTracer::next(const TraceJob& job, std::size_t receiver, std::size_t chunk) const {
     const TracePiece::Room& room =
-        job.room; // pieces of the job before may have more rows, but not hits for them
+        job.room; // pieces of the previous job may have more rows, but no memory for their hits
     const auto in_time = static_cast<std::size_t>(rays_per_second_ * kPieceSeconds / kChunk);
     const std::size_t rows = std::clamp<std::size_t>(in_time, 1, room.rows), chunks = job.chunks();
     const bool whole = chunk == 0 && rows >= chunks;
@@ -188,7 +188,7 @@ void VulkanTracer::run(const TraceJob& job, const Pieces& pieces, TraceResults& 
 }
 
 std::unique_ptr<GatherProduct> VulkanTracer::gather_product(const GatherOperator& gather) {
-    pieces_ = {}; // what they take is wanted now
+    pieces_ = {}; // their memory is needed now
     try {
         return with_vulkan_errors([&] { return std::make_unique<GpuGather>(device_, queue_, gather); });
     } catch (const GpuMemoryError&) {

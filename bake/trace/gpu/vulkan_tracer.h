@@ -1,5 +1,7 @@
 #pragma once
 
+// Tracer on a Vulkan device.
+
 #include "prt/trace_scene.h"
 #include "prt/tracer.h"
 #include "trace/gpu/gpu_scene.h"
@@ -13,14 +15,14 @@
 
 namespace prt {
 
-/// Traces on a GPU: by its own ray queries, or in a compute shader through a wide quantised hierarchy. The
-/// same samples as EmbreeTracer. Rays go to the device in pieces of about a twentieth of a second, by the
-/// speed that was measured; the processor prepares one while another is traced. Throws `GpuLost` where the
-/// device goes away.
+/// Traces on a GPU: with ray queries of the device, or in a compute shader through a wide quantised
+/// hierarchy. Uses the same samples as EmbreeTracer. Rays are submitted in pieces of about a twentieth of a
+/// second, according to the measured speed; the CPU prepares one piece while another is traced. Throws
+/// `GpuLost` if the device is lost.
 class VulkanTracer final : public Tracer {
 public:
-    /// Keeps a reference to `scene`. `piece_bytes`: what a buffer of a piece may have. Throws `Error` where
-    /// there is no such device, and where the scene does not fit it.
+    /// Keeps a reference to `scene`. `piece_bytes`: maximum size of a buffer of a piece. Throws `Error` if
+    /// there is no such device, and if the scene does not fit into its memory.
     VulkanTracer(const TraceScene& scene, const VulkanChoice& choice, std::size_t piece_bytes = 64 << 20);
     Backend backend() const override { return Backend::gpu; }
     std::string device() const override;
@@ -29,17 +31,20 @@ public:
                const TraceOptions& options, std::span<float> vectors, const HitSink& sink = {},
                const Progress& progress = {}) override;
     LampLight lamp_light(const LampTask& task, const Progress& progress) override;
-    /// None where the device has no room.
+    /// Returns null if the device has too little memory.
     std::unique_ptr<GatherProduct> gather_product(const GatherOperator& gather) override;
-    /// Sums in fixed point, which do not depend on the order.
+    /// Creates sums in fixed point, which do not depend on the order of the additions.
     std::unique_ptr<VectorSums> vector_sums(int order, std::span<const float> weights) override;
     const VulkanDevice& vulkan() const { return device_; }
-    std::size_t scene_bytes() const { return scene_on_gpu_.bytes(); } ///< in the device's memory
-    std::size_t copies() const { return scene_on_gpu_.copies(); }     ///< of meshes that it has once
+    std::size_t scene_bytes() const { return scene_on_gpu_.bytes(); } ///< bytes in the device's memory
+    std::size_t copies() const {
+        return scene_on_gpu_.copies();
+    } ///< number of instances of meshes that
+      ///< are stored once
 
 private:
     class Sums;
-    /// Two that take turns, and what they were made for.
+    /// Two pieces that are used alternately, and the kernels that they were created for.
     struct Pieces {
         std::array<std::unique_ptr<TracePiece>, 2> two;
         const TraceKernels* kernels = nullptr;
@@ -60,8 +65,8 @@ private:
     std::size_t piece_bytes_;
     std::map<TraceKernels::Kind, TraceKernels> kernels_;
     Pieces pieces_;
-    double rays_per_second_ = 1e6; ///< until measured, that of a software device
-    double hits_per_ray_ = 1;      ///< through blended surfaces, a quarter more than measured
+    double rays_per_second_ = 1e6; ///< until measured, the speed of a software device
+    double hits_per_ray_ = 1;      ///< hits on blended surfaces, a quarter more than measured
 };
 
 } // namespace prt

@@ -1,4 +1,4 @@
-// Embree builds the hierarchy; here its boxes are quantised and its nodes written as the shader reads them
+// Quantises the boxes of a hierarchy that Embree builds, and writes its nodes in the layout of the shader
 // (Ylitie, Karras and Laine 2017).
 
 #include "trace/gpu/wide_bvh.h"
@@ -27,7 +27,7 @@ struct Box {
     glm::vec3 low, high;
 };
 
-/// What Embree builds: a node with up to eight children, or a leaf with up to three triangles.
+/// A node that Embree builds, with up to eight children, or a leaf with up to three triangles.
 struct BuildNode {
     std::array<BuildNode*, kWidth> children{};
     std::array<Box, kWidth> boxes{};
@@ -62,7 +62,7 @@ void* create_leaf(RTCThreadLocalAllocator allocator, const RTCBuildPrimitive* pr
     return n;
 }
 
-/// Slots of the children so that each sits, as far as it can, in the one of its octant.
+/// Assigns children to slots so that each is in the slot of its octant as far as possible.
 std::array<int, kWidth> octant_slots(const BuildNode& node, const glm::vec3& middle) {
     std::array<int, kWidth> slots;
     std::array<bool, kWidth> taken{};
@@ -90,7 +90,8 @@ std::array<int, kWidth> octant_slots(const BuildNode& node, const glm::vec3& mid
     return slots;
 }
 
-/// The least exponent whose grid of 256 steps from `low` reaches `high`, in floats as the shader computes it.
+/// Returns the smallest exponent for which a grid of 256 steps from `low` reaches `high`, in floats as in the
+/// shader.
 std::uint32_t grid_exponent(float low, float high) {
     int exponent = 1;
     if (high > low)
@@ -114,7 +115,7 @@ public:
         fill(0, *root, 1);
         return std::move(bvh_);
     }
-    Box whole; ///< of all triangles
+    Box whole; ///< bounding box of all triangles
 
 private:
     void fill(std::size_t index, const BuildNode& node, int depth) {
@@ -138,7 +139,7 @@ private:
     }
 
     /// Writes the children of `node` to the slots and appends the triangles of leaves. Returns the inner
-    /// ones.
+    /// children.
     std::vector<const BuildNode*> fill_slots(WideNode& wide, const BuildNode& node, const glm::vec3& middle) {
         const std::array<int, kWidth> slots = octant_slots(node, middle);
         std::vector<const BuildNode*> inner;
