@@ -98,7 +98,10 @@ void add_reports(CLI::App* command, ReportFiles& files) {
     command->add_option("--html", files.html, "also write a report page to this file")
         ->type_name("FILE")
         ->check(named);
-    command->add_option("--csv", files.csv, "also write all figures to this file, one a line")
+    command
+        ->add_option("--csv", files.csv,
+                     "also write all tables to this file: one row per method, budget, light or lamp, units "
+                     "in the header")
         ->type_name("FILE")
         ->check(named);
 }
