@@ -77,6 +77,15 @@ void add_reading(CLI::App* command, GltfOptions& reading) {
            "error");
 }
 
+void add_smooth_normals(CLI::App* command, GltfOptions& reading) {
+    command
+        ->add_option("--smooth-normals", reading.smooth_normals_degrees,
+                     "primitives without normals get smooth ones across edges of this angle or less; without "
+                     "it flat ones")
+        ->type_name("DEGREES")
+        ->check(CLI::Range(0.0, 180.0));
+}
+
 BadTextures bad_textures(const GltfOptions& reading) {
     return reading.missing_images == MissingImages::ignore ? BadTextures::ignore : BadTextures::error;
 }

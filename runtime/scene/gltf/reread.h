@@ -5,6 +5,6 @@
 namespace prt {
 
 /// The same document, read anew: its model knows what was changed.
-GltfDocument reread(const GltfDocument& document);
+GltfDocument reread(const GltfDocument& document, Instancing instancing = Instancing::nodes);
 
 } // namespace prt
