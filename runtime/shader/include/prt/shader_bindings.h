@@ -16,10 +16,10 @@ enum class BindingKind { attribute, storage_buffer, uniform_block, sampler, unif
 /// One input of a shader, or its output.
 struct ShaderBinding {
     BindingKind kind;
-    std::string name;    ///< of the attribute, block, sampler or uniform
-    std::string type;    ///< in GLSL
-    int number = -1;     ///< location of attributes and outputs, else the binding; -1: looked up by name
-    std::string content; ///< what the application binds
+    std::string name = {};    ///< of the attribute, block, sampler or uniform
+    std::string type = {};    ///< in GLSL
+    int number = -1;          ///< location of attributes and outputs, else the binding; -1: looked up by name
+    std::string content = {}; ///< what the application binds
 };
 
 /// The bindings of relight_shader with the same arguments, attributes first.
