@@ -103,8 +103,8 @@ float prtVisibility(sampler2D map, mat4 toMap, DirectionalLightShadow sun, vec3 
 
 #else
 
-// Other types of shadow maps: three's own filter, with three's bias. Maps hold the lit sides of baked meshes, too, which three
-// leaves out by default: the filter needs the offset along the normal of SunLights.js at least.
+// Other types of shadow maps: three's own filter, with three's bias. Maps hold the lit sides of baked meshes, too,
+// which three leaves out by default: the filter needs the offset along the normal of SunLights.js at least.
 
 float prtNormalBias(mat4 toMap, DirectionalLightShadow sun) {
   float texel = inversesqrt(dot(transpose(mat3(toMap))[0], transpose(mat3(toMap))[0])) / sun.shadowMapSize.x;
@@ -115,10 +115,10 @@ float prtNormalBias(mat4 toMap, DirectionalLightShadow sun) {
   getShadow(directionalShadowMap[i], directionalLightShadows[i].shadowMapSize,                                         \
             directionalLightShadows[i].shadowIntensity, directionalLightShadows[i].shadowBias,                         \
             directionalLightShadows[i].shadowRadius,                                                                   \
-            directionalShadowMatrix[i] * vec4(prtPlace + prtNormalBias(directionalShadowMatrix[i],                     \
-                                                                       directionalLightShadows[i]) *                   \
-                                                             towardsSun * worldFace,                                   \
-                                              1.0))
+            directionalShadowMatrix[i] *                                                                               \
+                vec4(prtPlace + prtNormalBias(directionalShadowMatrix[i], directionalLightShadows[i]) * towardsSun *   \
+                                    worldFace,                                                                         \
+                     1.0))
 
 #endif
 #endif
