@@ -22,14 +22,20 @@
 namespace prt::cli {
 namespace {
 
+/// --unlit
+struct UnlitArguments {
+    bool chosen = false;
+    Exposure exposure;
+};
+
 struct RelightArguments {
     Path model, environment, output, json;
     SunCount suns = {std::nullopt};
     LampChoice lamps;
     int rays = 256; ///< for each vertex and sun
     LightOptions light_options;
-    bool albedo = false, unlit = false;
-    Exposure exposure; ///< of `unlit`
+    bool albedo = false;
+    UnlitArguments unlit;
     GltfOptions reading;
     int threads = 0;
 };
@@ -115,20 +121,20 @@ float choose_exposure(const Exposure& exposure, std::span<const glm::vec3> radia
 void write_unlit_light(const RelightArguments& a, const Surfaces& surfaces,
                        std::span<const glm::vec3> radiance, SceneFile& model, Report& report) {
     const float exposure =
-        choose_exposure(a.exposure, radiance, base_colors(surfaces), receiver_areas(model.scene));
+        choose_exposure(a.unlit.exposure, radiance, base_colors(surfaces), receiver_areas(model.scene));
     const std::size_t shown = write_unlit(model.document, model.scene, radiance, exposure);
     std::vector<float> brightest;
     for (const glm::vec3& color : radiance)
         brightest.push_back(exposure * std::max({color.r, color.g, color.b}));
     const auto clipped = std::ranges::count_if(brightest, [](float value) { return value > 1; });
     add_figures(report, {{"exposure_stops", std::log2(static_cast<double>(exposure))},
-                         {"exposure_automatic", a.exposure.automatic},
+                         {"exposure_automatic", a.unlit.exposure.automatic},
                          {"unlit_primitives", shown},
                          {"clipped_vertices", clipped}});
     report.sentences.insert(report.sentences.begin() + 1,
                             fmt::format("unlit materials, exposure {{exposure_stops:+.2f}} stops{}: "
                                         "{{clipped_vertices}} vertices are clipped at 1",
-                                        a.exposure.automatic ? " (auto)" : ""));
+                                        a.unlit.exposure.automatic ? " (auto)" : ""));
 }
 
 Report report_of(const RelightArguments& a, std::size_t suns, std::span<const glm::vec3> radiance,
@@ -173,7 +179,7 @@ void run(RelightArguments a, Session& session) {
             radiance[p] *= colors[p];
     }
     Report report = report_of(a, light.split.suns.size(), radiance, receiver_areas(model.scene));
-    if (a.unlit)
+    if (a.unlit.chosen)
         write_unlit_light(a, scene.surfaces(), radiance, model, report);
     else
         write_vertex_colors(model.document, model.scene, radiance);
@@ -208,11 +214,11 @@ void add_relight(CLI::App& app, Session& session) {
     auto* albedo =
         command->add_flag("--albedo", a.albedo, "multiply by the base color; else radiance is for albedo 1");
     auto* unlit = command
-                      ->add_flag("--unlit", a.unlit,
+                      ->add_flag("--unlit", a.unlit.chosen,
                                  "unlit materials and 16-bit colors with an exposure, for Blender and other "
                                  "viewers, which multiply by the base color")
                       ->excludes(albedo);
-    add_exposure(command, a.exposure)->needs(unlit);
+    add_exposure(command, a.unlit.exposure)->needs(unlit);
     add_light_options(command, a.light_options);
     add_reading(command, a.reading);
     add_threads(command, a.threads);
