@@ -90,8 +90,9 @@ TEST_F(Relight, WritesUnlitMaterialsWithAnExposure) {
              relit({at("b.glb"), "--env", at("sun.json"), "--unlit", "--exposure", stops}))
             EXPECT_LT(glm::distance(color, factor * glm::vec3(0.5f, 0.4f, 0)), 3e-3f * factor) << stops;
         const GlbFile lit = read_glb(folder / "lit.glb");
-        EXPECT_EQ(lit.json["materials"][0]["extensions"]["KHR_materials_unlit"], nlohmann::json::object());
-        EXPECT_EQ(lit.json["extensionsUsed"], nlohmann::json::array({"KHR_materials_unlit"}));
+        EXPECT_EQ(lit.json["materials"][0]["extensions"]["KHR_materials_unlit"],
+                  nlohmann::ordered_json::object());
+        EXPECT_EQ(lit.json["extensionsUsed"], nlohmann::ordered_json::array({"KHR_materials_unlit"}));
     };
     expect("0", 1);
     expect("-1", 0.5f);
