@@ -242,6 +242,20 @@ TEST_F(FirstHour, TheCsvOfASweepHasOneRowForEachMethodAndBudget) {
               json["sweep"]["equal_bytes"].size() + json["sweep"]["equal_shader_operations"].size());
 }
 
+TEST_F(FirstHour, AMeshWithoutNormalsReportsHowItsVerticesGrow) {
+    GlbFile file = triangle_file();
+    file.json["meshes"][0]["primitives"][0]["attributes"].erase("NORMAL");
+    file.write(folder / "t.glb");
+    for (const auto& [option, words] : {std::pair("--fit=auto", "gets flat ones: 3 vertices became 3"),
+                                        std::pair("--smooth-normals=30", "gets smooth ones where")}) {
+        const Outcome outcome =
+            prt({"bake", at("t.glb"), "-o", at("n.glb"), "--rays", "16", "--order", "2", option});
+        EXPECT_EQ(outcome.status, 0);
+        EXPECT_NE(outcome.err.find(words), std::string::npos) << outcome.err;
+    }
+    expect_line({"bake", at("t.glb"), "-o", at("m.glb"), "--smooth-normals", "181"}, 2, "--smooth-normals");
+}
+
 TEST_F(FirstHour, UniformBlocksLargerThanGuaranteedAreSaid) {
     const std::string baked = fixture("knot.baked.glb");
     for (const auto& [clusters, large] : {std::pair("20", false), std::pair("1100", true)}) {
