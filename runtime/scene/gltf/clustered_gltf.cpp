@@ -4,6 +4,7 @@
 
 #include "gltf/accessor.h"
 #include "gltf/allowance.h"
+#include "gltf/changed_file.h"
 #include "gltf/clustered_json.h"
 #include "gltf/fallback.h"
 #include "gltf/guides_json.h"
@@ -23,10 +24,6 @@ int component_type(WeightFormat format) {
     return format == WeightFormat::packed ? TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE
                                           : TINYGLTF_COMPONENT_TYPE_FLOAT;
 }
-
-/// Remedy for attributes that another program has rewritten or dropped.
-constexpr const char* kCompressAgain =
-    ": another program has changed the file; run it before prt bake, or run prt compress again";
 
 /// Throws unless weights of `format` are stored as they were written.
 void check_weight_accessor(const std::string& name, const tinygltf::Accessor& accessor, WeightFormat format,

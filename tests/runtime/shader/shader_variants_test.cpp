@@ -232,9 +232,10 @@ TEST_P(ShaderVariants, ComputeItWithoutALoopWhereClustersAreAlike) {
 TEST_P(ShaderVariants, HaveTheBindingsThatTheTableLists) {
     const auto [language, constants] = GetParam();
     for (const Division division : {Division::of_their_own, Division::alike})
-        for (const WeightFormat format : kFormats)
+        for (const WeightFormat format : kFormats) {
+            const ClusteredTransfer plain = compressed(format, division);
             for (const std::vector<GuideKind>& guides : sets_of_guides()) {
-                ClusteredTransfer transfer = compressed(format, division);
+                ClusteredTransfer transfer = plain;
                 std::mt19937 random(2);
                 add_guides(transfer, guides, random);
                 const GLuint program =
@@ -243,6 +244,7 @@ TEST_P(ShaderVariants, HaveTheBindingsThatTheTableLists) {
                           inputs_of_table(relight_bindings(transfer, constants, language)));
                 glDeleteProgram(program);
             }
+        }
 }
 
 TEST(ConstantsShader, FormsWhatCppForms) {
