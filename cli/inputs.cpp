@@ -1,7 +1,7 @@
 #include "inputs.h"
 
-#include "light_file.h"
 #include "outputs.h"
+#include "prt/light_file.h"
 #include "prt/lightmap_file.h"
 #include "prt/reorder.h"
 

@@ -1,9 +1,9 @@
 #include "lamp_strengths.h"
 
 #include "inputs.h"
-#include "json_file.h"
 #include "options.h"
 #include "prt/color.h"
+#include "prt/json_file.h"
 #include "prt/sh.h"
 #include "prt/sh_basis.h"
 #include "prt/support/error.h"
@@ -146,7 +146,7 @@ std::optional<std::string> photometric_notice(const Scene& scene, const Relit& m
 
 std::vector<glm::vec3> lamp_strengths(const LampChoice& lamps, const TransferLayout& layout) {
     if (!lamps.file.empty())
-        return about(lamps.file, [&] { return strengths_of(read_json(lamps.file), layout); });
+        return about(lamps.file, [&] { return strengths_of(json::read_json(lamps.file), layout); });
     return std::vector<glm::vec3>(layout.lamps(), glm::vec3(lamps.on ? 1 : 0));
 }
 

@@ -77,6 +77,15 @@ void add_reading(CLI::App* command, GltfOptions& reading) {
            "error");
 }
 
+void add_smooth_normals(CLI::App* command, GltfOptions& reading) {
+    command
+        ->add_option("--smooth-normals", reading.smooth_normals_degrees,
+                     "primitives without normals get smooth ones across edges of this angle or less; without "
+                     "it flat ones")
+        ->type_name("DEGREES")
+        ->check(CLI::Range(0.0, 180.0));
+}
+
 BadTextures bad_textures(const GltfOptions& reading) {
     return reading.missing_images == MissingImages::ignore ? BadTextures::ignore : BadTextures::error;
 }
@@ -98,7 +107,10 @@ void add_reports(CLI::App* command, ReportFiles& files) {
     command->add_option("--html", files.html, "also write a report page to this file")
         ->type_name("FILE")
         ->check(named);
-    command->add_option("--csv", files.csv, "also write all figures to this file, one a line")
+    command
+        ->add_option("--csv", files.csv,
+                     "also write all tables to this file: one row per method, budget, light or lamp, units "
+                     "in the header")
         ->type_name("FILE")
         ->check(named);
 }

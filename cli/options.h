@@ -51,6 +51,8 @@ std::string named(const std::string& name);
 void add_output(CLI::App* command, Path& output, const std::string& text);
 /// --allow-outside, of every command that reads a scene.
 void add_reading(CLI::App* command, GltfOptions& reading);
+/// --smooth-normals
+void add_smooth_normals(CLI::App* command, GltfOptions& reading);
 void add_threads(CLI::App* command, int& threads);
 void add_json(CLI::App* command, Path& json);
 void add_reports(CLI::App* command, ReportFiles& files);

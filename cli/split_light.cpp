@@ -1,8 +1,8 @@
 #include "split_light.h"
 
-#include "light_file.h"
 #include "options.h"
 #include "outputs.h"
+#include "prt/light_file.h"
 
 #include <fmt/core.h>
 #include <glm/gtc/matrix_transform.hpp>

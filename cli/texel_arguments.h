@@ -3,9 +3,9 @@
 // Options of commands that bake into textures.
 
 #include "inputs.h"
-#include "json_file.h"
 #include "prt/occlusion_maps.h"
 #include "prt/texels.h"
+#include "report/report.h"
 
 #include <CLI/CLI.hpp>
 

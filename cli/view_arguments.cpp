@@ -70,8 +70,8 @@ void add_view(CLI::App* command, View& view) {
         ->check(real_in(1, 170));
 }
 
-void add_exposure(CLI::App* command, Exposure& exposure) {
-    command
+CLI::Option* add_exposure(CLI::App* command, Exposure& exposure) {
+    return command
         ->add_option_function<std::string>(
             "--exposure", [&exposure](const std::string& text) { exposure = parse_exposure(text); },
             "stops; or auto: the mean luminance of what shows of the model becomes 0.22; or stops "

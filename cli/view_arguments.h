@@ -29,7 +29,7 @@ struct View {
 void add_view(CLI::App* command, View& view);
 
 /// --exposure
-void add_exposure(CLI::App* command, Exposure& exposure);
+CLI::Option* add_exposure(CLI::App* command, Exposure& exposure);
 
 /// The camera of `view`; where it is not given, one that sees the whole scene.
 Camera choose_camera(const View& view, const Scene& scene);

@@ -1,7 +1,7 @@
 #include "budget/budget_lights.h"
 
 #include "evaluation_lights.h"
-#include "light_file.h"
+#include "prt/light_file.h"
 #include "prt/support/tangent_frame.h"
 
 #include <glm/common.hpp>

@@ -330,6 +330,7 @@ void add_ao(CLI::App& app, Session& session) {
         ->capture_default_str()
         ->check(seed());
     add_reading(command, a.reading);
+    add_smooth_normals(command, a.reading);
     add_threads(command, a.options.threads);
     add_json(command, a.json);
 }

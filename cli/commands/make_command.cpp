@@ -84,6 +84,7 @@ void add_make(CLI::App& app, Session& session) {
     const auto all = command->get_options();
     options_of_lights->assign(all.begin() + static_cast<std::ptrdiff_t>(before), all.end());
     add_reading(command, r.reading);
+    add_smooth_normals(command, r.reading);
     add_threads(command, r.threads);
     add_reports(command, a.files);
 }

@@ -1,8 +1,8 @@
 #include "commands/commands.h"
 
-#include "light_file.h"
 #include "options.h"
 #include "outputs.h"
+#include "prt/light_file.h"
 #include "prt/support/error.h"
 #include "prt/support/stopwatch.h"
 #include "split_light.h"
@@ -37,6 +37,15 @@ const char* layout_name(EnvironmentLayout layout) {
 
 double degrees_across(const SunDisc& sun) {
     return 2 * glm::degrees(sun.half_angle);
+}
+
+Json light_json(const Light& light) {
+    constexpr const char* kChannels[3] = {"red", "green", "blue"};
+    Json channels = Json::object();
+    for (int c = 0; c < 3; ++c)
+        for (const glm::vec3& coefficient : light.coefficients)
+            channels[kChannels[c]].push_back(coefficient[c]);
+    return {{"prtkit_light", 1}, {"order", light.order}, {"coefficients", channels}};
 }
 
 Json suns_json(const std::vector<SunDisc>& suns) {

@@ -4,16 +4,29 @@
 #include "options.h"
 #include "outputs.h"
 #include "prt/encode_glb.h"
+#include "prt/fallback.h"
+#include "prt/light_meter.h"
 #include "prt/sun_radiance.h"
 #include "prt/support/error.h"
 #include "prt/support/stopwatch.h"
 #include "solid_materials.h"
 #include "split_light.h"
+#include "view_arguments.h"
 
 #include <fmt/core.h>
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+#include <cmath>
 
 namespace prt::cli {
 namespace {
+
+/// --unlit
+struct UnlitArguments {
+    bool chosen = false;
+    Exposure exposure;
+};
 
 struct RelightArguments {
     Path model, environment, output, json;
@@ -22,6 +35,7 @@ struct RelightArguments {
     int rays = 256; ///< for each vertex and sun
     LightOptions light_options;
     bool albedo = false;
+    UnlitArguments unlit;
     GltfOptions reading;
     int threads = 0;
 };
@@ -77,15 +91,55 @@ void check_model(const RelightArguments& a, const SceneFile& model) {
     }
 }
 
-Report report_of(const RelightArguments& a, std::size_t suns, std::span<const glm::vec3> radiance,
-                 std::span<const float> areas) {
+/// Mean over the surface.
+glm::dvec3 mean_of(std::span<const glm::vec3> radiance, std::span<const float> areas) {
     glm::dvec3 sum(0);
     double area = 0;
     for (std::size_t p = 0; p < radiance.size(); ++p) {
         sum += static_cast<double>(areas[p]) * glm::dvec3(radiance[p]);
         area += static_cast<double>(areas[p]);
     }
-    const glm::dvec3 mean = area > 0 ? sum / area : glm::dvec3(0);
+    return area > 0 ? sum / area : glm::dvec3(0);
+}
+
+/// Factor on radiance. Automatic: the mean luminance of radiance times base color becomes that of pictures.
+float choose_exposure(const Exposure& exposure, std::span<const glm::vec3> radiance,
+                      std::span<const glm::vec3> base_colors, std::span<const float> areas) {
+    double factor = std::exp2(exposure.stops);
+    if (exposure.automatic) {
+        std::vector<glm::vec3> shown(radiance.begin(), radiance.end());
+        for (std::size_t p = 0; p < shown.size(); ++p)
+            shown[p] *= base_colors[p];
+        const double luminance = glm::dot(mean_of(shown, areas), glm::dvec3(0.2126, 0.7152, 0.0722));
+        if (luminance > 0)
+            factor *= static_cast<double>(exposure_for(static_cast<float>(luminance)));
+    }
+    return static_cast<float>(std::clamp(factor, 1e-30, 1e30)); // floats hold the product with radiance
+}
+
+/// Writes the radiance as colors of unlit materials, which multiply it by their base color.
+void write_unlit_light(const RelightArguments& a, const Surfaces& surfaces,
+                       std::span<const glm::vec3> radiance, SceneFile& model, Report& report) {
+    const float exposure =
+        choose_exposure(a.unlit.exposure, radiance, base_colors(surfaces), receiver_areas(model.scene));
+    const std::size_t shown = write_unlit(model.document, model.scene, radiance, exposure);
+    std::vector<float> brightest;
+    for (const glm::vec3& color : radiance)
+        brightest.push_back(exposure * std::max({color.r, color.g, color.b}));
+    const auto clipped = std::ranges::count_if(brightest, [](float value) { return value > 1; });
+    add_figures(report, {{"exposure_stops", std::log2(static_cast<double>(exposure))},
+                         {"exposure_automatic", a.unlit.exposure.automatic},
+                         {"unlit_primitives", shown},
+                         {"clipped_vertices", clipped}});
+    report.sentences.insert(report.sentences.begin() + 1,
+                            fmt::format("unlit materials, exposure {{exposure_stops:+.2f}} stops{}: "
+                                        "{{clipped_vertices}} vertices are clipped at 1",
+                                        a.unlit.exposure.automatic ? " (auto)" : ""));
+}
+
+Report report_of(const RelightArguments& a, std::size_t suns, std::span<const glm::vec3> radiance,
+                 std::span<const float> areas) {
+    const glm::dvec3 mean = mean_of(radiance, areas);
     Report report;
     add_figures(report, {{"output", a.output.string()},
                          {"receivers", radiance.size()},
@@ -125,7 +179,10 @@ void run(RelightArguments a, Session& session) {
             radiance[p] *= colors[p];
     }
     Report report = report_of(a, light.split.suns.size(), radiance, receiver_areas(model.scene));
-    write_vertex_colors(model.document, model.scene, radiance);
+    if (a.unlit.chosen)
+        write_unlit_light(a, scene.surfaces(), radiance, model, report);
+    else
+        write_vertex_colors(model.document, model.scene, radiance);
     const std::vector<std::byte> file = about(a.model, [&] { return encode_glb(model.document); });
     add_figures(report, {{"bytes_file", session.write(a.output, file)}, {"seconds", stopwatch.seconds()}});
     publish(report, a.json, session);
@@ -154,7 +211,14 @@ void add_relight(CLI::App& app, Session& session) {
     command->add_option("--sun-rays", a.rays, "rays from a vertex to each sun")
         ->capture_default_str()
         ->check(CLI::Range(1, 1 << 20));
-    command->add_flag("--albedo", a.albedo, "multiply by the base color; else radiance is for albedo 1");
+    auto* albedo =
+        command->add_flag("--albedo", a.albedo, "multiply by the base color; else radiance is for albedo 1");
+    auto* unlit = command
+                      ->add_flag("--unlit", a.unlit.chosen,
+                                 "unlit materials and 16-bit colors with an exposure, for Blender and other "
+                                 "viewers, which multiply by the base color")
+                      ->excludes(albedo);
+    add_exposure(command, a.unlit.exposure)->needs(unlit);
     add_light_options(command, a.light_options);
     add_reading(command, a.reading);
     add_threads(command, a.threads);

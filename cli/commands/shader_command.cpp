@@ -5,6 +5,7 @@
 #include "prt/instance_shader.h"
 #include "prt/lobe_shader.h"
 #include "prt/occlusion_volume.h"
+#include "prt/shader_bindings.h"
 #include "prt/shader_source.h"
 #include "prt/support/error.h"
 #include "prt/support/printable.h"
@@ -163,11 +164,14 @@ void run(ShaderArguments a, Session& session) {
     if (!a.compute && constants == ConstantSource::block)
         warn_of_large_blocks(a.model, transfer);
     session.write(a.output, source);
-    print(fmt::format("{}: {} clusters, {} rows of constants, attributes from prt_exit_radiance.glsl{}\n",
-                      printable(a.output.string()), transfer.bases.clusters(), constant_rows(transfer.bases),
+    print(fmt::format("{}: {} clusters, {} rows of constants{}\n", printable(a.output.string()),
+                      transfer.bases.clusters(), constant_rows(transfer.bases),
                       clusters_are_alike(transfer.bases) && !a.compute
                           ? "; all clusters are divided alike: no loop, no table of clusters"
                           : ""));
+    if (!a.compute)
+        print("to bind (kind, location or binding, name, type, content; - by name):\n" +
+              binding_table(relight_bindings(transfer, constants, a.language), "  "));
 }
 
 } // namespace

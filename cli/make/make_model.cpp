@@ -359,6 +359,8 @@ private:
                                        plan_.fit == FitMode::surface ? "surface" : "vertex");
         if (plan_.refine > 0)
             bake += fmt::format(" --refine {}", plan_.refine);
+        if (r_.reading.smooth_normals_degrees)
+            bake += fmt::format(" --smooth-normals {}", *r_.reading.smooth_normals_degrees);
         if (r_.reading.lamp_scale != 1)
             bake += fmt::format(" --lamp-scale {}", r_.reading.lamp_scale);
         if (bad_textures(r_.reading) == BadTextures::ignore)

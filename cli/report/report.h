@@ -112,7 +112,8 @@ std::string report_text(const Report& report);
 /// All figures by key, tables as lists of objects.
 Json report_json(const Report& report);
 std::string json_text(const Json& json);
-/// A line for each figure: table, row (what its first column says), figure, value.
+/// A line for each row of each table, named in the first column; the last line, "summary", has the figures.
+/// The header names the keys of all tables, with units in brackets. Lists are in JSON alone.
 std::string report_csv(const Report& report);
 /// A page that stands alone: report/page.html with the report as JSON in it. Nothing is loaded.
 std::string report_html(const Report& report);

@@ -17,6 +17,55 @@ std::string csv_cell(const Json& value) {
     return quoted + "\"";
 }
 
+/// The key and, in brackets, the unit: 1 for shares of one.
+std::string csv_name(const Column& column) {
+    const auto names = [&](const char* word) { return column.key.find(word) != std::string::npos; };
+    if (column.unit == Unit::seconds || (names("seconds") && !names("per_second")))
+        return column.key + " [s]";
+    if (names("bytes"))
+        return column.key + " [B]";
+    return column.unit == Unit::percent ? column.key + " [1]" : column.key;
+}
+
+/// Rows of any tables under one header: the first cell of a row is the key of its table.
+class CsvRows {
+public:
+    void add(const std::string& table, const std::vector<Column>& columns, const std::vector<Json>& values) {
+        std::vector<std::string> row(1, csv_cell(table));
+        for (std::size_t c = 0; c < values.size(); ++c) {
+            if (values[c].is_structured())
+                continue; // JSON alone has lists
+            const std::size_t at = column_of(csv_name(columns[c]));
+            row.resize(std::max(row.size(), at + 1));
+            row[at] = csv_cell(values[c]);
+        }
+        rows_.push_back(std::move(row));
+    }
+    std::string text() {
+        rows_.insert(rows_.begin(), header_);
+        std::string csv;
+        for (std::vector<std::string>& row : rows_) {
+            row.resize(header_.size());
+            for (std::size_t c = 0; c < row.size(); ++c)
+                csv += (c == 0 ? "" : ",") + row[c];
+            csv += "\n";
+        }
+        return csv;
+    }
+
+private:
+    std::size_t column_of(const std::string& name) {
+        const std::string cell = csv_cell(name);
+        const auto found = std::find(header_.begin(), header_.end(), cell);
+        const auto at = static_cast<std::size_t>(found - header_.begin());
+        if (found == header_.end())
+            header_.push_back(cell);
+        return at;
+    }
+    std::vector<std::string> header_ = {"table"};
+    std::vector<std::vector<std::string>> rows_;
+};
+
 } // namespace
 
 // Not in nested braces: GCC 12 destroys the column twice where memory ends in the value.
@@ -61,23 +110,23 @@ Json report_json(const Report& report) {
 }
 
 std::string report_csv(const Report& report) {
-    std::string csv = "table,row,figure,value\n";
-    const auto line = [&](const std::string& table, const Json& row, const std::string& key,
-                          const Json& value) {
-        csv += csv_cell(table) + "," + csv_cell(row) + "," + csv_cell(key) + "," + csv_cell(value) + "\n";
-    };
-    for (const auto& [name, value] : report.origin)
-        line("", "", name, value);
-    for (const Figure& figure : report.figures)
-        line("", "", figure.column.key, figure.value);
-    for (const Table& table : report.tables) {
-        if (table.audience == Audience::people)
-            continue;
-        for (const auto& row : table.rows)
-            for (std::size_t c = 1; c < row.size(); ++c)
-                line(table.key, row.front(), table.columns[c].key, row[c]);
+    CsvRows csv;
+    for (const Table& table : report.tables)
+        if (table.audience != Audience::people)
+            for (const std::vector<Json>& row : table.rows)
+                csv.add(table.key, table.columns, row);
+    std::vector<Column> columns;
+    std::vector<Json> values;
+    for (const auto& [name, value] : report.origin) {
+        columns.push_back({name});
+        values.emplace_back(value);
     }
-    return csv;
+    for (const Figure& figure : report.figures) {
+        columns.push_back(figure.column);
+        values.push_back(figure.value);
+    }
+    csv.add("summary", columns, values);
+    return csv.text();
 }
 
 } // namespace prt::cli

@@ -77,10 +77,12 @@ Table best_table(const Sweep& sweep, const std::vector<SweepPoint>& points, cons
 /// Every point, for files.
 Table points_table(const char* key, const std::vector<SweepPoint>& points) {
     Table table{key, "", "", {}, {}};
-    for (const char* column :
-         {"method", "setting", "payload_bytes_per_vertex", "table_bytes_per_vertex", "bytes_per_vertex",
-          "shader_operations", "lit_rms", "jumps_percentile_99", "relative_l2", "seconds"})
+    for (const char* column : {"method", "setting", "payload_bytes_per_vertex", "table_bytes_per_vertex",
+                               "bytes_per_vertex", "shader_operations"})
         table.columns.push_back({column, ""});
+    for (const char* column : {"lit_rms", "jumps_percentile_99", "relative_l2"})
+        table.columns.push_back({column, "", Unit::percent});
+    table.columns.push_back({"seconds", "", Unit::seconds});
     for (const SweepPoint& p : points)
         table.rows.push_back({p.method, p.setting, p.payload_bytes, p.table_bytes, p.bytes(),
                               p.mean_components, p.lit_rms, p.jumps, p.relative_l2, p.seconds});

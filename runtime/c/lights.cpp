@@ -4,12 +4,16 @@
 #include "prt/environment.h"
 #include "prt/image_file.h"
 #include "prt/light.h"
+#include "prt/light_file.h"
 #include "prt/sh.h"
 #include "prt/sh_rotation.h"
+#include "prt/sun_disc.h"
 
+#include <glm/geometric.hpp>
 #include <glm/gtc/type_ptr.hpp>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <string>
 
@@ -57,7 +61,7 @@ Light light_from(int order, const float* from) {
 
 prt::LatLongCenter center_of(int center) {
     if (center != PRT_CENTER_Z && center != PRT_CENTER_X)
-        throw Error("a lat-long image is centerd on +Z or +X");
+        throw Error("a lat-long image is centered on +Z or +X");
     return center == PRT_CENTER_X ? prt::LatLongCenter::x : prt::LatLongCenter::z;
 }
 
@@ -137,6 +141,46 @@ prt_status prt_light_from_file(int order, const char* path, int center, float* l
         prt::EnvironmentOptions options;
         options.center = center_of(center);
         as_file([&] { put(prt::project(prt::load_environment(path, options).environment, order), light); });
+    });
+}
+
+prt_status prt_light_from_light_file(int order, const char* path, float* sky, prt_sun* suns, size_t* count,
+                                     prt_message* message) {
+    return guarded(message, [&] {
+        check_pointers(path, sky, count);
+        prt::check_order(order);
+        const std::size_t room = suns ? *count : 0;
+        prt::LightFile file;
+        as_file([&] { file = prt::read_light_file(path, order); });
+        *count = file.suns.size();
+        if (room < file.suns.size())
+            throw TooSmall("the light file has " + std::to_string(file.suns.size()) + " suns");
+        put(file.sky, sky);
+        for (std::size_t i = 0; i < file.suns.size(); ++i) {
+            const prt::SunDisc& sun = file.suns[i];
+            std::copy_n(glm::value_ptr(sun.towards), 3, suns[i].towards);
+            std::copy_n(glm::value_ptr(sun.irradiance), 3, suns[i].irradiance);
+            suns[i].half_angle = static_cast<float>(sun.half_angle);
+        }
+    });
+}
+
+prt_status prt_light_suns(int order, const prt_sun* suns, size_t count, float* light, prt_message* message) {
+    return guarded(message, [&] {
+        check_pointers(light);
+        Light all = prt::constant_light(order, glm::vec3(0));
+        for (std::size_t i = 0; i < count; ++i) {
+            check_pointers(suns);
+            const glm::dvec3 towards(vec3(suns[i].towards));
+            const double length = glm::length(towards);
+            if (!(length > 0 && std::isfinite(length)))
+                throw Error("a sun needs a direction");
+            all = prt::sum(all, prt::as_light({.towards = glm::vec3(towards / length),
+                                               .irradiance = color(suns[i].irradiance),
+                                               .half_angle = static_cast<double>(suns[i].half_angle)},
+                                              order));
+        }
+        put(all, light);
     });
 }
 

@@ -4,6 +4,7 @@
 
 #include "defines.h"
 #include "embedded_files.h"
+#include "prt/shader_bindings.h"
 #include "prt/support/error.h"
 
 #include <algorithm>
@@ -141,7 +142,11 @@ std::string relight_defines(const ClusteredTransfer& transfer, ConstantSource co
 
 std::string relight_shader(const ClusteredTransfer& transfer, ConstantSource constants,
                            ShaderLanguage language, const glm::dvec3& seen_from) {
-    return shader_source("prt_relight.vert", relight_defines(transfer, constants, language, seen_from),
+    const std::string defines = relight_defines(transfer, constants, language, seen_from);
+    const std::string table = binding_table(relight_bindings(transfer, constants, language), "//   ");
+    return shader_source("prt_relight.vert",
+                         "// To bind (kind, location or binding, name, type, content; - by name):\n" + table +
+                             defines,
                          language);
 }
 

@@ -12,7 +12,7 @@ import sys
 # part: (its folder, parts that it may include, packages that it may include)
 PARTS = {
     "runtime": ("runtime", "", "glm"),
-    "shader": ("runtime/shader", "runtime", "glm"),
+    "shader": ("runtime/shader", "runtime shaders", "glm"),
     "fit": ("runtime/fit", "runtime", "glm ceres"),
     "image": ("runtime/image", "runtime", "glm OpenEXR stb zlib libwebp libavif"),
     "scene": ("runtime/scene", "runtime", "glm tinygltf nlohmann meshoptimizer draco"),

@@ -77,6 +77,36 @@ TEST_F(Relight, MultipliesByTheBaseColorWhereItIsAsked) {
         EXPECT_LT(glm::distance(color, glm::vec3(0.25f, 0.1f, 0)), 3e-3f);
 }
 
+/// On an open floor the sky of radiance 0.5, red, and the sun of 0.4, green, are the colors times 2^stops; a
+/// mean luminance of 0.22 is the automatic exposure, base colors counted.
+TEST_F(Relight, WritesUnlitMaterialsWithAnExposure) {
+    GlbFile file = scene_file(SceneBuilder().floor({0, 0, 0}, 1, 2).build());
+    file.json["materials"] = {{{"pbrMetallicRoughness", {{"baseColorFactor", {0.5, 0.25, 1, 1}}}}}};
+    file.json["meshes"][0]["primitives"][0]["material"] = 0;
+    file.write(folder / "s.glb");
+    ASSERT_EQ(prt({"bake", at("s.glb"), "-o", at("b.glb"), "--rays", "256", "--order", "4"}).status, 0);
+    const auto expect = [&](const char* stops, float factor) {
+        for (const glm::vec3& color :
+             relit({at("b.glb"), "--env", at("sun.json"), "--unlit", "--exposure", stops}))
+            EXPECT_LT(glm::distance(color, factor * glm::vec3(0.5f, 0.4f, 0)), 3e-3f * factor) << stops;
+        const GlbFile lit = read_glb(folder / "lit.glb");
+        EXPECT_EQ(lit.json["materials"][0]["extensions"]["KHR_materials_unlit"],
+                  nlohmann::ordered_json::object());
+        EXPECT_EQ(lit.json["extensionsUsed"], nlohmann::ordered_json::array({"KHR_materials_unlit"}));
+    };
+    expect("0", 1);
+    expect("-1", 0.5f);
+    const float automatic = 0.22f / (0.2126f * 0.25f + 0.7152f * 0.1f);
+    expect("auto", automatic);
+    expect("auto-1", 0.5f * automatic);
+    const Outcome both =
+        prt({"relight", at("b.glb"), "--env", at("sun.json"), "-o", at("n.glb"), "--unlit", "--albedo"});
+    EXPECT_EQ(both.status, 2);
+    EXPECT_EQ(
+        prt({"relight", at("b.glb"), "--env", at("sun.json"), "-o", at("n.glb"), "--exposure", "1"}).status,
+        2);
+}
+
 /// A texel of a sun is found in the image, and shadowed by rays or held by the sky: on an open floor the
 /// same.
 TEST_F(Relight, FindsSunsInImages) {

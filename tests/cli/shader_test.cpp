@@ -73,8 +73,15 @@ TEST_P(Shader, CompilesInEveryLanguage) {
                 continue;
             }
             ASSERT_EQ(outcome.status, 0) << outcome.err;
-            EXPECT_NE(outcome.out.find("no loop"), std::string::npos) << outcome.out;  // there is one cluster
-            EXPECT_EQ(text_of(folder / "s.vert").find("#include"), std::string::npos); // stands alone
+            EXPECT_NE(outcome.out.find("no loop"), std::string::npos) << outcome.out; // there is one cluster
+            const std::string text = text_of(folder / "s.vert");
+            EXPECT_EQ(text.find("#include"), std::string::npos); // stands alone
+            for (const char* name : {"attribute", "position", "view_projection", "radiance"})
+                EXPECT_NE(outcome.out.find(name), std::string::npos) << outcome.out;
+            const std::size_t table = outcome.out.find("  attribute");
+            ASSERT_NE(table, std::string::npos) << outcome.out;
+            EXPECT_NE(text.find(outcome.out.substr(table + 2, outcome.out.find('\n', table) - table - 2)),
+                      std::string::npos); // a comment in the file says the same
             if (language == "vulkan")
                 compiles_for_vulkan("s.vert", "vert");
             else

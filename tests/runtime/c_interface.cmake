@@ -11,6 +11,11 @@ endif()
 target_link_libraries(c_tests PRIVATE prt::c $<$<PLATFORM_ID:Linux>:m>)
 add_test(NAME c_interface COMMAND c_tests ${PRTKIT_FIXTURES}/knot.shipped.glb ${PRTKIT_FIXTURES}/sky.exr)
 set_tests_properties(c_interface PROPERTIES FIXTURES_REQUIRED models)
+if(CMAKE_SYSTEM_NAME STREQUAL "Linux")
+    add_test(NAME c_library_keeps_its_symbols COMMAND ${CMAKE_CURRENT_SOURCE_DIR}/c/check_symbols.sh ${CMAKE_NM}
+        $<TARGET_FILE:prt_c> ${CMAKE_CURRENT_SOURCE_DIR}/c/symbols.txt
+        ${PROJECT_SOURCE_DIR}/runtime/c/include/prt/prt.h)
+endif()
 if(UNIX AND NOT PRTKIT_SANITIZED) # sanitizers keep libraries loaded
     add_executable(unload_tests c/unload_test.c)
     target_include_directories(unload_tests PRIVATE

@@ -2,7 +2,10 @@
 
 import { Vector3 } from "three";
 import { lightColumns } from "./clusteredPca.js";
-import { shownBy, turnForModel } from "./turns.js";
+import { checkSunLights, sunsOf } from "./directionalSuns.js";
+import { lightOfSuns } from "./lightFile.js";
+import { shownBy, turnForModel, turnIntoModel } from "./turns.js";
+import { warnOfUnusedLights } from "./unusedLights.js";
 
 /** Who extends it forms what is drawn: `form(sky, suns)`, of coefficients in the frame of the bake. */
 export class LitTransfer {
@@ -19,6 +22,8 @@ export class LitTransfer {
     this.strengths = new Map(this.lamps.map((name) => [name, { value: new Vector3() }]));
     this.setStrengths({});
     this.sky = null; // of setSky
+    this.suns = null; // as setLight or setSky has them
+    this.areLightsChecked = true; // nothing is lit yet
   }
 
   /**
@@ -28,21 +33,26 @@ export class LitTransfer {
    * scene.
    */
   setLight(light, angle = 0, suns = null, lamps = {}) {
+    if (Array.isArray(suns)) throw new Error("prtkit: setLight takes suns as lightOfSuns returns them; setSky takes an array of lights");
     this.checkOrders(light, suns);
     this.setStrengths(lamps);
     this.sky = null;
+    this.suns = suns;
+    this.areLightsChecked = false;
     this.form(light.coefficients(angle), suns ? suns.coefficients(angle) : null);
   }
 
   /**
    * Lights by `light` as `scene` shows it, in every frame: turned by its environmentRotation, times its
    * environmentIntensity, or those of the background where it has no environment; and as the model is turned itself.
-   * `suns`, `lamps`: as of setLight.
+   * `suns`: as of setLight, or an array of DirectionalLights of `scene`, read in every frame. `lamps`: as of setLight.
    */
   setSky(light, scene, { suns = null, lamps = {} } = {}) {
     this.checkOrders(light, suns);
     this.setStrengths(lamps);
     this.sky = { light, scene, suns, shown: "" };
+    this.suns = suns;
+    this.areLightsChecked = false;
     this.followSky();
   }
 
@@ -51,16 +61,27 @@ export class LitTransfer {
     if (!this.sky) return;
     const { light, scene, suns, shown } = this.sky;
     const { euler, strength } = shownBy(scene);
-    const now = [euler.x, euler.y, euler.z, euler.order, strength, ...this.root.matrixWorld.elements.slice(0, 11)].join();
+    const own = Array.isArray(suns) ? sunsOf(suns, scene) : null;
+    const ownValues = (own ?? []).flatMap(({ towards, irradiance }) => [...towards, ...irradiance]);
+    const now = [euler.x, euler.y, euler.z, euler.order, strength, ...this.root.matrixWorld.elements.slice(0, 11), ...ownValues].join();
     if (now === shown) return;
     this.sky.shown = now;
     const turn = turnForModel(scene, this.root);
     const seen = (source) => source.rotated(turn).times(strength).coefficients();
-    this.form(seen(light), suns ? seen(suns) : null);
+    const ownLight = own && lightOfSuns(own, this.order).rotated(turnIntoModel(this.root)).coefficients();
+    this.form(seen(light), ownLight ?? (suns ? seen(suns) : null));
+  }
+
+  /** Warns on the console of lights in `scene`, the one that is drawn, that do not light this; once after each change of light. */
+  checkLights(scene) {
+    if (this.areLightsChecked || !scene) return;
+    this.areLightsChecked = true;
+    warnOfUnusedLights(scene, this.suns);
   }
 
   checkOrders(light, suns) {
-    for (const { order } of suns ? [light, suns] : [light])
+    if (Array.isArray(suns)) checkSunLights(suns);
+    for (const { order } of suns && !Array.isArray(suns) ? [light, suns] : [light])
       if (order < this.order) throw new RangeError(`the light has order ${order}, the model needs ${this.order}`);
   }
 

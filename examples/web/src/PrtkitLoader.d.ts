@@ -29,8 +29,9 @@ export type LampStrengths = Record<string, number | ArrayLike<number>>;
 
 /** What `setSky` takes beside the light. */
 export interface SkyOptions {
-  /** As of setLight: what the scene's directional lights (SunLights, which `follow` the scene) add. */
-  suns?: ShLight | null;
+  /** DirectionalLights of the scene, read in every frame: they light directly with their own shadows, here what is lit after a
+   * bounce. Or, as of setLight, what the scene's directional lights (SunLights, which `follow` the scene) add. */
+  suns?: ShLight | DirectionalLight[] | null;
   lamps?: LampStrengths;
 }
 
@@ -45,7 +46,8 @@ export class LitTransfer {
   /** Lights all of the file by `light`, all of it or without its suns. `suns`: those that the scene's directional
    * lights add with their shadows; they light here what is lit after a bounce. Without them, and where `directApart` is
    * false, three's lights add nothing. Lamps that `lamps` does not name shine as in the scene.
-   * Throws a RangeError for a light of fewer bands than `order`, for lamps that are not there, and for strengths below zero. */
+   * Throws a RangeError for a light of fewer bands than `order`, for lamps that are not there, and for strengths below zero.
+   * When it is drawn next, console.warn names each light of the scene that does not light it, once. */
   setLight(light: ShLight, angle?: number, suns?: ShLight | null, lamps?: LampStrengths): void;
   /** Lights all of the file by `light` as `scene` shows it, from frame to frame: turned by its environmentRotation and
    * times its environmentIntensity, or by those of the background where it has no environment; and as `gltf.scene` is turned

@@ -31,6 +31,7 @@ import { PrtkitVolume } from "./PrtkitVolume.js";
 import { copiedMaterial, relitMaterial, sunTraits } from "./relitMaterial.js";
 import { TexelPass } from "./texelPass.js";
 import { transferOfTexels } from "./texelTransfer.js";
+import { noteLightsOfFile } from "./unusedLights.js";
 import { transferOfVertices } from "./vertexTransfer.js";
 import { volumeOf } from "./volumeTransfer.js";
 import { checkLobes, checkVolume, expect, INSTANCES, LOBES, OCCLUDERS, PROBES, TEXELS, VERTICES, viewsOf } from "./wholeExtension.js";
@@ -74,12 +75,15 @@ export class PrtkitPlugin {
     const { [VERTICES]: vertices, [TEXELS]: texels, [PROBES]: probes, [LOBES]: lobes } = this.parser.json.extensions ?? {};
     expect(!vertices || !texels, "the file has the transfer of texels, too");
     expect(!lobes || !(vertices || texels), "the file has transfer that does not turn with a skin, too", LOBES);
+    const name = [vertices && VERTICES, texels && TEXELS, probes && PROBES, lobes && LOBES].find(Boolean);
+    expect(!name || gltf.scene, "the file has no scene", name);
     const parts = await occludersOf(this.parser, gltf, (list) => this.viewsOf(list, OCCLUDERS));
     if (parts.length > 0) gltf.userData.prtkitOccluders = new PrtkitOccluders(parts);
     const volume = probes ? await this.volume(probes, gltf.scene) : null;
     if (vertices || texels) gltf.userData.prtkit = Object.assign(await this.surfaces(vertices, texels, gltf), { volume });
     else if (lobes) gltf.userData.prtkit = Object.assign(await this.turning(lobes, gltf), { volume });
     else if (volume) gltf.userData.prtkit = volume;
+    if (gltf.userData.prtkit) gltf.scenes.forEach(noteLightsOfFile);
   }
 
   async surfaces(vertices, texels, gltf) {

@@ -50,7 +50,10 @@ export class PrtkitLobes extends LitSurfaces {
     };
     this.defines = { PRT_LOBES: lobes, PRT_LOBE_ORDER: order };
     this.converted = new Set(); // geometries: nodes may share one
-    this.beforeRender = () => this.followSky();
+    this.beforeRender = (renderer, scene) => {
+      this.followSky();
+      this.checkLights(scene);
+    };
   }
 
   /** What `mesh` is lit by. */

@@ -34,6 +34,7 @@ export class PrtkitModel extends LitSurfaces {
     this.beforeRender = (renderer, scene, camera, geometry, object) => {
       this.instances?.checkSize(renderer);
       this.followSky();
+      this.checkLights(scene);
       this.followOccluders(renderer, object);
       this.maps?.form(renderer, this.constantsTexture.version);
     };

@@ -10,7 +10,11 @@ export const MOST_OCCLUDERS = 32;
 
 /** The parts of a file that take light: [{ object, low, high, reach, texels }]. */
 export async function occludersOf({ json, associations }, gltf, viewsOf) {
-  const nodes = (json.nodes ?? []).map((node) => node?.extensions?.[OCCLUDERS]);
+  const { nodes: all = [] } = json;
+  expect(Array.isArray(all), "nodes are no list", OCCLUDERS);
+  const nodes = all.map((node) => node?.extensions?.[OCCLUDERS]);
+  if (nodes.every((extension) => extension === undefined)) return [];
+  expect(gltf.scene, "the file has no scene", OCCLUDERS);
   const objects = new Map();
   gltf.scene.traverse((object) => {
     const { nodes: node } = associations.get(object) ?? {};

@@ -86,7 +86,10 @@ export class PrtkitVolume extends LitTransfer {
     this.frame = -1;
     this.renderers = new WeakSet(); // whose textures are long enough
     this.tables = null; // of nodes
-    this.beforeRender = (renderer) => this.advance(renderer);
+    this.beforeRender = (renderer, scene) => {
+      this.checkLights(scene);
+      this.advance(renderer);
+    };
     this.place();
   }
 

@@ -20,7 +20,8 @@ export function takeInstancesAside(json) {
   const extension = json.extensions?.[INSTANCES];
   if (extension === undefined) return [];
   checkInstances(extension);
-  const nodes = json.nodes ?? [];
+  const { nodes = [] } = json;
+  holds(Array.isArray(nodes), "nodes are no list");
   const shared = [];
   const sharedMeshes = new Set();
   for (const [node, drawing] of nodes.entries()) {

@@ -36,8 +36,8 @@ class LightNode extends LightingNode {
     this.updateBeforeType = "render";
   }
 
-  updateBefore({ renderer }) {
-    this.model.beforeRender(renderer);
+  updateBefore({ renderer, scene }) {
+    this.model.beforeRender(renderer, scene);
   }
 
   setup() {}

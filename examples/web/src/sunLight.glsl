@@ -70,6 +70,7 @@ float prtVisibility(sampler2D map, mat4 toMap, DirectionalLightShadow sun, vec3 
   vec3 squares = vec3(dot(axes[0], axes[0]), dot(axes[1], axes[1]), dot(axes[2], axes[2]));
   // A texel off the surface: in a corner what is nearer to it than a texel does not see the other wall in the map.
   vec3 place = (toMap * vec4(at + face * inversesqrt(squares.x), 1.0)).xyz;
+  place.z += sun.shadowBias;
   if (any(lessThan(place, vec3(0.0))) || any(greaterThan(place, vec3(1.0))))
     return 1.0;
   place.xy *= sun.shadowMapSize;
@@ -102,13 +103,22 @@ float prtVisibility(sampler2D map, mat4 toMap, DirectionalLightShadow sun, vec3 
 
 #else
 
-// Other types of shadow maps: three's own filter.
+// Other types of shadow maps: three's own filter, with three's bias. Maps hold the lit sides of baked meshes, too,
+// which three leaves out by default: the filter needs the offset along the normal of SunLights.js at least.
+
+float prtNormalBias(mat4 toMap, DirectionalLightShadow sun) {
+  float texel = inversesqrt(dot(transpose(mat3(toMap))[0], transpose(mat3(toMap))[0])) / sun.shadowMapSize.x;
+  return max(sun.shadowNormalBias, 1.41421356 * (sun.shadowRadius + 1.0) * texel);
+}
+
 #define PRT_VISIBILITY(i)                                                                                              \
   getShadow(directionalShadowMap[i], directionalLightShadows[i].shadowMapSize,                                         \
             directionalLightShadows[i].shadowIntensity, directionalLightShadows[i].shadowBias,                         \
             directionalLightShadows[i].shadowRadius,                                                                   \
             directionalShadowMatrix[i] *                                                                               \
-                vec4(prtPlace + directionalLightShadows[i].shadowNormalBias * towardsSun * worldFace, 1.0))
+                vec4(prtPlace + prtNormalBias(directionalShadowMatrix[i], directionalLightShadows[i]) * towardsSun *   \
+                                    worldFace,                                                                         \
+                     1.0))
 
 #endif
 #endif

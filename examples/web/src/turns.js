@@ -36,9 +36,12 @@ export function shownBy(scene) {
     : { euler: scene.backgroundRotation, strength: scene.backgroundIntensity };
 }
 
-/** From the directions of the image to those of `root`, the model as it was baked, where it may be turned since. */
+/** From the directions of the world to those of `root`, the model as it was baked, where it may be turned since. */
+export const turnIntoModel = (root) => transposed(worldTurn(root));
+
+/** The same from the directions of the image. */
 export function turnForModel(scene, root) {
-  return product(transposed(worldTurn(root)), environmentTurn(shownBy(scene).euler));
+  return product(turnIntoModel(root), environmentTurn(shownBy(scene).euler));
 }
 
 /** The vector `v` [3] turned by a matrix. */

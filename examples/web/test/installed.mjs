@@ -50,7 +50,7 @@ async function openPage(server) {
   const page = await browser.newPage({ viewport: { width: 320, height: 180 } });
   page.setDefaultTimeout(120_000);
   page.on("pageerror", (error) => errors.push(error.message));
-  page.on("console", (line) => ["error", "warning"].includes(line.type()) && !/GPU stall|favicon|404/.test(line.text()) && errors.push(line.text()));
+  page.on("console", (line) => ["error", "warning"].includes(line.type()) && !/GPU stall|favicon|404|does not light baked meshes/.test(line.text()) && errors.push(line.text()));
   await page.goto(`http://127.0.0.1:${server.httpServer.address().port}/`);
   await page.waitForFunction(() => globalThis.game);
   return page;

@@ -40,7 +40,7 @@ test("the package loads where it is installed, and is small", () => {
     const [{ filename, files, size }] = JSON.parse(npm("pack", web, "--json", "--ignore-scripts"));
     // Without the page, the tests and the models.
     assert.deepEqual(files.map(({ path }) => path).sort(), [...listed, "README.md", "package.json"].sort());
-    assert.ok(size < 90_000, `${size} bytes`);
+    assert.ok(size < 95_000, `${size} bytes`);
     writeFileSync(join(folder, "package.json"), JSON.stringify({ name: "game", version: "1.0.0", type: "module" }));
     npm("install", "--offline", "--legacy-peer-deps", "--no-audit", "--no-fund", `./${filename}`);
     mkdirSync(join(folder, "node_modules"), { recursive: true });

@@ -40,7 +40,7 @@ process.on("exit", () => rmSync(server.config.cacheDir, { recursive: true, force
 await server.listen();
 const errors = [];
 // The last: three's, of its own clones since release 187.
-const UNHEARD = /GPU stall|WebGPU is not available|iridescenceThicknessRange/;
+const UNHEARD = /GPU stall|WebGPU is not available|iridescenceThicknessRange|does not light baked meshes/;
 /** A floor that light passes, and a ball that is unlit. */
 function leafy(json) {
   json.materials = structuredClone(json.materials);
@@ -348,6 +348,33 @@ await check("lobes have the light of the volume where they are, as plain numbers
   most /= brightest;
   assert.ok(seen > 20 && most < 0.02, `${most} of ${seen}`); // a pixel is not the middle to a hundredth of the square
   return `${most.toExponential(1)} off`;
+});
+
+await check("a DirectionalLight of the user's own, with three's default bias, has no more shadow grain than with three alone", async () => {
+  const [columns, rows] = [320, 240];
+  const ofLight = async (asked) => {
+    const [shadowed, open] = [await ask("picture", { ...asked, shadows: true }), await ask("picture", { ...asked, shadows: false })];
+    return shadowed.map((value, i) => value - open[i]);
+  };
+  const asked = { api: "webgl", model: "vertices.glb", light, suns: "own" };
+  const alone = await ofLight({ ...asked, change: "alone" });
+  const baked = await ofLight(asked);
+  // Pixels that three alone shows in full light, as it does what is next to them.
+  const around = [-2, -1, 0, 1, 2].flatMap((y) => [-2, -1, 0, 1, 2].map((x) => 4 * (y * columns + x)));
+  let [count, ofBaked, ofAlone] = [0, 0, 0];
+  for (let y = 2; y < rows - 2; ++y)
+    for (let x = 2; x < columns - 2; ++x) {
+      const at = 4 * (y * columns + x) + 1;
+      if (!around.every((step) => Math.abs(alone[at + step]) < 8)) continue;
+      const highPass = (image) => image[at] - around.reduce((sum, step) => sum + image[at + step], 0) / around.length;
+      ++count;
+      ofBaked += highPass(baked) ** 2;
+      ofAlone += highPass(alone) ** 2;
+    }
+  const [rms, rmsAlone] = [Math.sqrt(ofBaked / count), Math.sqrt(ofAlone / count)];
+  assert.ok(count > 0.5 * columns * rows, `${count} pixels`);
+  assert.ok(rms < rmsAlone + 0.1, `${rms}, three alone ${rmsAlone}`); // a tenth of a step of 8 bits
+  return `high-pass rms ${rms.toFixed(3)} of 255, three alone ${rmsAlone.toFixed(3)}`;
 });
 
 await check("the plug-in of the other renderer is refused", async () => {

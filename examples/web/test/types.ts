@@ -1,5 +1,5 @@
 // Compiled, never run: the declarations fit three's.
-import { FloatType, Group, LightProbe, Mesh, Scene, ShaderMaterial } from "three";
+import { DirectionalLight, FloatType, Group, LightProbe, Mesh, Scene, ShaderMaterial } from "three";
 import { GLTFLoader } from "three/examples/jsm/loaders/GLTFLoader.js";
 import { HDRLoader } from "three/examples/jsm/loaders/HDRLoader.js";
 import {
@@ -39,6 +39,9 @@ export async function show(scene: Scene): Promise<number> {
   model.setLight(lighting.sky, 1, null, { [model.lamps[0]]: 0.5, Sign: [1, 0.5, 0] });
   model.setSky(await projectInWorker(sky, 6, { center: "z" }), scene, { suns: lightOfSuns(lighting.suns) });
   model.setSky(lightFromProbe(new LightProbe()).rotated([1, 0, 0, 0, 1, 0, 0, 0, 1]), scene);
+  model.setSky(light, scene, { suns: [new DirectionalLight()] });
+  // @ts-expect-error other lights are no suns
+  model.setSky(light, scene, { suns: [new LightProbe()] });
   suns.follow(scene).lights[0].shadow.autoUpdate = false;
   const volume: PrtkitVolume | null = model.volume;
   if (volume) {

@@ -4,6 +4,7 @@
 
 #include "gltf/accessor.h"
 #include "gltf/allowance.h"
+#include "gltf/changed_file.h"
 #include "gltf/clustered_json.h"
 #include "gltf/fallback.h"
 #include "gltf/guides_json.h"
@@ -24,14 +25,38 @@ int component_type(WeightFormat format) {
                                           : TINYGLTF_COMPONENT_TYPE_FLOAT;
 }
 
-/// Throws unless weights of `format` have this type. Earlier versions also wrote normalised integers.
-void check_component_type(const std::string& name, int type, WeightFormat format) {
-    if (type == TINYGLTF_COMPONENT_TYPE_BYTE || type == TINYGLTF_COMPONENT_TYPE_SHORT)
-        throw Error(std::string("weights '") + (type == TINYGLTF_COMPONENT_TYPE_BYTE ? "snorm8" : "snorm16") +
-                    "' are not supported: compress again with prt compress");
-    if (type != component_type(format))
-        throw Error(name + " has component type " + std::to_string(type) + ", not " +
-                    std::to_string(component_type(format)));
+/// Throws unless weights of `format` are stored as they were written.
+void check_weight_accessor(const std::string& name, const tinygltf::Accessor& accessor, WeightFormat format,
+                           std::size_t vertices) {
+    if (accessor.componentType != component_type(format))
+        throw Error(name + " has component type " + std::to_string(accessor.componentType) + ", not " +
+                    std::to_string(component_type(format)) + kCompressAgain);
+    if (accessor.normalized)
+        throw Error(name + " is normalized" + kCompressAgain);
+    if (accessor.type != TINYGLTF_TYPE_VEC4 || accessor.count != vertices)
+        throw Error(name + " is no VEC4 for each vertex" + kCompressAgain);
+}
+
+/// Returns the accessor of an attribute. Throws `Error` if it is missing.
+int accessor_of(const Json& attributes, const std::string& name) {
+    if (!attributes.contains(name))
+        throw Error("lacks " + name + kCompressAgain);
+    return attributes.at(name).get<int>();
+}
+
+/// Throws `Error` if the file has attributes of transfer but no extension of prtkit. Programs that copy only
+/// the extensions that they support write such files.
+void check_extension_is_kept(const GltfContents& contents) {
+    if (const auto extensions = contents.json.find("extensions"); extensions != contents.json.end())
+        for (auto it = extensions->begin(); it != extensions->end(); ++it)
+            if (it.key().starts_with("PRTKIT_"))
+                return;
+    for_each_primitive(contents.json, [](const Json& primitive) {
+        const Json& attributes = primitive.value("attributes", Json::object());
+        for (auto it = attributes.begin(); it != attributes.end(); ++it)
+            if (it.key().starts_with("_PRT_WEIGHTS_") || it.key() == "_PRT_CLUSTER")
+                throw Error("has " + it.key() + ", but no extension " + kClusteredExtension + kCompressAgain);
+    });
 }
 
 /// Writes _PRT_CLUSTER: one or two bytes per vertex, aligned to four as glTF requires.
@@ -71,7 +96,7 @@ std::size_t write_weights(GltfContents& contents, const ClusteredReceivers& rece
 /// Reads the cluster indices of one vertex array.
 void read_clusters(const GltfContents& contents, const Json& attributes, std::size_t clusters,
                    std::span<std::uint16_t> to) {
-    const auto values = read_unsigned(contents.model, attributes.at("_PRT_CLUSTER").get<int>(), 1);
+    const auto values = read_unsigned(contents.model, accessor_of(attributes, "_PRT_CLUSTER"), 1);
     if (values.size() != to.size())
         throw Error("_PRT_CLUSTER has " + std::to_string(values.size()) + " elements for " +
                     std::to_string(to.size()) + " vertices");
@@ -89,11 +114,9 @@ void read_weights(const GltfContents& contents, const Json& attributes, std::siz
     const std::size_t size = group_bytes(receivers.format), stride = receivers.stride();
     for (std::size_t group = 0; group < group_count(receivers); ++group) {
         const std::string name = "_PRT_WEIGHTS_" + std::to_string(group);
-        const int accessor = attributes.at(name).get<int>();
-        const auto& description = contents.model.accessors.at(static_cast<std::size_t>(accessor));
-        check_component_type(name, description.componentType, receivers.format);
-        if (description.type != TINYGLTF_TYPE_VEC4 || description.count != count)
-            throw Error(name + " is no VEC4 for each vertex");
+        const int accessor = accessor_of(attributes, name);
+        check_weight_accessor(name, contents.model.accessors.at(static_cast<std::size_t>(accessor)),
+                              receivers.format, count);
         const std::vector<std::byte> elements = read_elements(contents.model, accessor);
         if (receivers.format == WeightFormat::float32)
             check_magnitudes(read_floats(contents.model, accessor, 4), kLargestWeight, "the weights");
@@ -175,8 +198,10 @@ void write_clustered(GltfDocument& document, const Scene& scene, const Compresse
 std::optional<CompressedTransfer> read_clustered(const GltfDocument& document, const Scene& scene) {
     return named(document, [&](const GltfContents& contents) -> std::optional<CompressedTransfer> {
         const Json* extension = find_extension(contents, kClusteredExtension, kClusteredVersion);
-        if (!extension)
+        if (!extension) {
+            check_extension_is_kept(contents);
             return std::nullopt;
+        }
         check_one_to_one(contents);
         CompressedTransfer compressed;
         ClusteredBases& bases = compressed.transfer.bases;

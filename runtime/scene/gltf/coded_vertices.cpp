@@ -3,6 +3,7 @@
 
 #include "gltf/accessor.h"
 #include "gltf/allowance.h"
+#include "gltf/changed_file.h"
 #include "gltf/clustered_json.h"
 #include "gltf/triangles.h"
 #include "prt/coded_words.h"
@@ -96,8 +97,12 @@ std::vector<std::uint32_t> decoded(const GltfContents& contents, const Json& jso
     if (split > bytes.size())
         throw Error("the frequencies of the coded words end too early");
     const auto middle = bytes.begin() + static_cast<std::ptrdiff_t>(split);
-    return decode_words({{read_drops(frequencies), {bytes.begin(), middle}}, {middle, bytes.end()}}, layout,
-                        mesh.neighbors());
+    const WordCode words{{read_drops(frequencies), {bytes.begin(), middle}}, {middle, bytes.end()}};
+    try {
+        return decode_words(words, layout, mesh.neighbors());
+    } catch (const Error& error) { // they are predicted from neighbours of the mesh as it was compressed
+        throw Error(error.what() + std::string(kCompressAgain));
+    }
 }
 
 /// Replaces the contents of `view` by `words` [vertices][stride / 4].

@@ -18,6 +18,7 @@
 #include "gltf/meshopt_views.h"
 #include "gltf/reread.h"
 #include "gltf/side_files.h"
+#include "gltf/smooth_primitives.h"
 #include "prt/encode_glb.h"
 #include "prt/support/error.h"
 #include "prt/support/file.h"
@@ -333,8 +334,29 @@ GltfDocument load_gltf(const std::filesystem::path& path, const GltfOptions& opt
     return parse_gltf(read_file(path), path, options);
 }
 
+/// As parse_gltf, with smooth normals where there are none.
+GltfDocument parse_smoothed(std::span<const std::byte> file, const std::filesystem::path& path,
+                            const GltfOptions& options) {
+    GltfOptions plain = options;
+    plain.smooth_normals_degrees.reset();
+    plain.instancing = Instancing::nodes;
+    GltfDocument document = parse_gltf(file, path, plain);
+    bool smoothed = false;
+    try {
+        smoothed = smooth_primitives(document.contents(), *options.smooth_normals_degrees);
+    } catch (const std::exception& error) {
+        throw Error(path.string() + ": " + in_plain_words(error));
+    }
+    if (smoothed)
+        return reread(document, options.instancing);
+    plain.instancing = options.instancing;
+    return options.instancing == Instancing::nodes ? std::move(document) : parse_gltf(file, path, plain);
+}
+
 GltfDocument parse_gltf(std::span<const std::byte> whole_file, const std::filesystem::path& path,
                         const GltfOptions& options) {
+    if (options.smooth_normals_degrees)
+        return parse_smoothed(whole_file, path, options);
     auto contents = std::make_unique<GltfContents>();
     contents->path = path;
     try {

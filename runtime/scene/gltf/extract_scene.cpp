@@ -329,7 +329,9 @@ private:
             VertexArray& vertices = scene_.vertex_arrays[primitive.vertices];
             if (!vertices.normals.empty())
                 continue;
+            seen_.vertices_before += vertices.size();
             split_for_flat_normals(vertices, primitive.triangles);
+            seen_.vertices_after += vertices.size();
             ++seen_.flat_primitives;
         }
     }
@@ -349,7 +351,11 @@ private:
             scene_.notices.emplace_back("morph targets are taken at the weights of the file");
         if (seen_.flat_primitives > 0)
             scene_.notices.emplace_back(std::to_string(seen_.flat_primitives) +
-                                        " primitives have no normals and get flat ones");
+                                        (seen_.flat_primitives == 1 ? " primitive has no normals and gets"
+                                                                    : " primitives have no normals and get") +
+                                        " flat ones: " + std::to_string(seen_.vertices_before) +
+                                        " vertices became " + std::to_string(seen_.vertices_after) +
+                                        "; --smooth-normals 30 of prt bake, make and ao gives smooth ones");
         if (seen_.skipped_primitives > 0)
             scene_.notices.emplace_back(std::to_string(seen_.skipped_primitives) +
                                         " primitives of points, lines or nothing are left as they are");
@@ -375,7 +381,7 @@ private:
     /// Counts for notices to the user.
     struct Seen {
         std::size_t flat_primitives = 0, skipped_primitives = 0, hidden_nodes = 0, bad_texcoords = 0;
-        std::size_t coarser_levels = 0;
+        std::size_t coarser_levels = 0, vertices_before = 0, vertices_after = 0; ///< with flat normals
         bool has_morphs = false;
     };
 

@@ -64,12 +64,15 @@ std::set<int> used_elsewhere(const Json& json, std::span<Json* const> lit) {
     return used;
 }
 
+/// Purpose of unlit materials: a fallback, which readers of the transfer ignore, or the only light.
+enum class UnlitUse { fallback, only };
+
 /// Makes materials unlit, each once: copies a material that others use, and creates one for primitives
 /// without.
 class UnlitMaterials {
 public:
-    UnlitMaterials(Json& json, std::set<int> used_elsewhere)
-        : json_(json), used_elsewhere_(std::move(used_elsewhere)) {}
+    UnlitMaterials(Json& json, std::set<int> used_elsewhere, UnlitUse use)
+        : json_(json), used_elsewhere_(std::move(used_elsewhere)), use_(use) {}
 
     int unlit(int material) {
         const auto [known, is_new] = unlit_.try_emplace(material, material);
@@ -81,13 +84,15 @@ public:
             Json copy = material < 0 ? Json::object() : Json(material_at(json_, material));
             materials.push_back(std::move(copy));
         }
-        extensions_of(material_at(json_, known->second))[kUnlit] = {{"extras", {{kMark, kMarked}}}};
+        extensions_of(material_at(json_, known->second))[kUnlit] =
+            use_ == UnlitUse::fallback ? Json{{"extras", {{kMark, kMarked}}}} : Json::object();
         return known->second;
     }
 
 private:
     Json& json_;
     std::set<int> used_elsewhere_;
+    UnlitUse use_;
     std::map<int, int> unlit_; ///< by original material
 };
 
@@ -108,12 +113,11 @@ std::size_t add_colors(GltfContents& contents, const VertexArray& vertices,
                                   {"type", "VEC4"}});
 }
 
-std::size_t write_into(GltfContents& contents, const Scene& scene, std::span<const glm::vec3> radiance,
-                       float exposure) {
-    if (!extension_of(contents.json, kClusteredExtension))
-        throw Error("only compressed transfer of vertices has a fallback");
+/// Gives the primitives of `scene` the light as COLOR_0. Returns how many show it.
+std::size_t show_light(GltfContents& contents, const Scene& scene, std::span<const glm::vec3> radiance,
+                       float exposure, UnlitUse use) {
     const std::vector<Json*> primitives = unshare(contents, scene);
-    UnlitMaterials materials(contents.json, used_elsewhere(contents.json, primitives));
+    UnlitMaterials materials(contents.json, used_elsewhere(contents.json, primitives), use);
     std::map<std::size_t, std::size_t> colors; // accessors by vertex array
     std::map<int, bool> left_alone;            // by original material
     std::size_t count = 0;
@@ -130,15 +134,23 @@ std::size_t write_into(GltfContents& contents, const Scene& scene, std::span<con
         if (own.second)
             own.first->second = add_colors(contents, scene.vertex_arrays[vertices], radiance, exposure);
         Json& attributes = primitive["attributes"];
-        if (attributes.contains("COLOR_0"))
+        if (use == UnlitUse::fallback && attributes.contains("COLOR_0"))
             attributes[kOtherColors] = Json(attributes["COLOR_0"]);
         attributes["COLOR_0"] = own.first->second;
         primitive["material"] = materials.unlit(material);
         ++count;
     }
-    extensions_of(contents.json)[kClusteredExtension]["fallback"] = {{"exposure", exposure}};
     if (count > 0)
         contents.use_extension(kUnlit);
+    return count;
+}
+
+std::size_t write_into(GltfContents& contents, const Scene& scene, std::span<const glm::vec3> radiance,
+                       float exposure) {
+    if (!extension_of(contents.json, kClusteredExtension))
+        throw Error("only compressed transfer of vertices has a fallback");
+    const std::size_t count = show_light(contents, scene, radiance, exposure, UnlitUse::fallback);
+    extensions_of(contents.json)[kClusteredExtension]["fallback"] = {{"exposure", exposure}};
     return count;
 }
 
@@ -205,6 +217,13 @@ std::size_t write_fallback(GltfDocument& document, const Scene& scene, std::span
                            float exposure) {
     return named(document,
                  [&](GltfContents& contents) { return write_into(contents, scene, radiance, exposure); });
+}
+
+std::size_t write_unlit(GltfDocument& document, const Scene& scene, std::span<const glm::vec3> radiance,
+                        float exposure) {
+    return named(document, [&](GltfContents& contents) {
+        return show_light(contents, scene, radiance, exposure, UnlitUse::only);
+    });
 }
 
 void set_fallback_aside(GltfContents& contents) {

@@ -6,10 +6,10 @@
 
 namespace prt {
 
-GltfDocument reread(const GltfDocument& document) {
+GltfDocument reread(const GltfDocument& document, Instancing instancing) {
     // All readable images are embedded at this point.
-    GltfDocument again =
-        parse_gltf(encode_glb(document), document.contents().path, {.missing_images = MissingImages::ignore});
+    GltfDocument again = parse_gltf(encode_glb(document), document.contents().path,
+                                    {.missing_images = MissingImages::ignore, .instancing = instancing});
     again.contents().notices = document.contents().notices;
     return again;
 }

@@ -12,6 +12,7 @@
 
 #include <algorithm>
 #include <map>
+#include <utility>
 
 namespace prt {
 namespace {
@@ -63,42 +64,43 @@ std::vector<glm::vec3> flat_normals(const GltfContents& contents, const Json& po
     return normals;
 }
 
-void write_split_vertices(GltfContents& contents, Json& primitive_json, const Scene& scene,
-                          const Primitive& primitive) {
-    const VertexArray& vertices = scene.vertex_arrays[primitive.vertices];
-    const Json old_attributes = primitive_json["attributes"];
-    const std::vector<glm::vec3> normals =
-        flat_normals(contents, old_attributes["POSITION"], scene, primitive);
+/// Corners as the file has them, those of a mirrored node turned back.
+std::vector<glm::uvec3> in_file_order(const Primitive& primitive) {
+    std::vector<glm::uvec3> triangles = primitive.triangles;
+    if (primitive.mirrored)
+        for (glm::uvec3& t : triangles)
+            std::swap(t.y, t.z);
+    return triangles;
+}
 
-    Json attributes = Json::object();
-    for (auto it = old_attributes.begin(); it != old_attributes.end(); ++it)
-        if (it.key() != "TANGENT") // invalid without the original normals
-            attributes[it.key()] = add_gathered_accessor(contents, *it, vertices.source);
-    const std::size_t view =
-        contents.add_buffer_view(std::as_bytes(std::span(normals)), sizeof(glm::vec3), true);
+} // namespace
+
+void replace_vertices(GltfContents& contents, Json& primitive, const std::vector<std::uint32_t>& source,
+                      std::span<const glm::vec3> normals, std::span<const glm::uvec3> triangles) {
+    const auto gathered = [&](const Json& old, bool with_normals) {
+        Json attributes = Json::object();
+        for (auto it = old.begin(); it != old.end(); ++it)
+            if (it.key() != "TANGENT" &&
+                (with_normals || it.key() != "NORMAL")) // they belong to other normals
+                attributes[it.key()] = add_gathered_accessor(contents, *it, source);
+        return attributes;
+    };
+    Json attributes = gathered(primitive["attributes"], true);
+    const std::size_t view = contents.add_buffer_view(std::as_bytes(normals), sizeof(glm::vec3), true);
     attributes["NORMAL"] = contents.add_accessor({{"bufferView", view},
                                                   {"componentType", TINYGLTF_COMPONENT_TYPE_FLOAT},
                                                   {"count", normals.size()},
                                                   {"type", "VEC3"}});
-    primitive_json["attributes"] = std::move(attributes);
-    if (primitive_json.contains("targets"))
-        for (Json& target : primitive_json["targets"]) {
-            const Json old_target = target;
-            target = Json::object();
-            for (auto it = old_target.begin(); it != old_target.end(); ++it)
-                if (it.key() != "NORMAL" && it.key() != "TANGENT") // differences to data that the file does
-                                                                   // not have
-                    target[it.key()] = add_gathered_accessor(contents, *it, vertices.source);
-        }
-
+    primitive["attributes"] = std::move(attributes);
+    if (primitive.contains("targets"))
+        for (Json& target : primitive["targets"])
+            target = gathered(Json(target), false);
     std::vector<std::uint32_t> indices;
-    for (const glm::uvec3& t : primitive.triangles)
-        indices.insert(indices.end(), {t.x, primitive.mirrored ? t.z : t.y, primitive.mirrored ? t.y : t.z});
-    primitive_json["indices"] = add_index_accessor(contents, indices);
-    primitive_json.erase("mode");
+    for (const glm::uvec3& t : triangles)
+        indices.insert(indices.end(), {t.x, t.y, t.z});
+    primitive["indices"] = add_index_accessor(contents, indices);
+    primitive.erase("mode");
 }
-
-} // namespace
 
 std::vector<Json*> unshare(GltfContents& contents, const Scene& scene) {
     const std::map<int, std::size_t> mesh_of_node = unshare_meshes(contents, scene);
@@ -106,8 +108,10 @@ std::vector<Json*> unshare(GltfContents& contents, const Scene& scene) {
     for (const Primitive& primitive : scene.primitives) {
         Json& json = contents.json["meshes"][mesh_of_node.at(primitive.node)]["primitives"]
                                   [static_cast<std::size_t>(primitive.primitive)];
-        if (!scene.vertex_arrays[primitive.vertices].source.empty())
-            write_split_vertices(contents, json, scene, primitive);
+        if (const auto& source = scene.vertex_arrays[primitive.vertices].source; !source.empty())
+            replace_vertices(contents, json, source,
+                             flat_normals(contents, json["attributes"]["POSITION"], scene, primitive),
+                             in_file_order(primitive));
         result.push_back(&json);
     }
     return result;

@@ -12,4 +12,9 @@ namespace prt {
 /// are rewritten as triangles. Returns the JSON of each scene primitive in `contents`.
 std::vector<Json*> unshare(GltfContents& contents, const Scene& scene);
 
+/// Writes a primitive anew: vertex i is a copy of vertex source[i] with normals[i], in all attributes and
+/// morph targets but tangents and changes of normals.
+void replace_vertices(GltfContents& contents, Json& primitive, const std::vector<std::uint32_t>& source,
+                      std::span<const glm::vec3> normals, std::span<const glm::uvec3> triangles);
+
 } // namespace prt

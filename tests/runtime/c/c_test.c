@@ -110,6 +110,50 @@ static void test_lights(void) {
     EXPECT(strstr(message.text, "no such file.exr") != NULL);
 }
 
+/* A sky of radiance 0.5, red, and two suns: a point at the zenith, and a hemisphere, which is a light of its
+ * own. */
+static void test_light_files(void) {
+    const char* path = "c_test_light.json";
+    FILE* file = fopen(path, "w");
+    if (!file)
+        exit(2);
+    fputs("{\"prtkit_light\": 1, \"order\": 2, \"coefficients\": {\"red\": [1.7724539, 0, 0, 0], "
+          "\"green\": [0, 0, 0, 0], \"blue\": [0, 0, 0, 0]}, \"suns\": ["
+          "{\"towards\": [0, 2, 0], \"irradiance\": [3, 2, 1], \"half_angle_radians\": 0}, "
+          "{\"towards\": [0, 0, 1], \"irradiance\": [3.1415927, 0, 0], \"half_angle_radians\": 1.5707963}]}",
+          file);
+    fclose(file);
+    float sky[12], light[12], other[12], half[12];
+    prt_sun suns[2];
+    prt_message message;
+    size_t count = 0;
+    EXPECT(prt_light_from_light_file(2, path, sky, NULL, &count, &message) == PRT_TOO_SMALL);
+    EXPECT(count == 2);
+    EXPECT(prt_light_from_light_file(2, path, sky, suns, &count, &message) == PRT_OK);
+    EXPECT(count == 2 && fabsf(sky[0] - 1.7724539f) < 1e-6f && sky[1] == 0 && sky[3] == 0);
+    EXPECT(suns[0].towards[1] == 1 && suns[0].irradiance[2] == 1 && suns[0].half_angle == 0);
+    const float up[3] = {0, 1, 0}, z[3] = {0, 0, 1}, colors[3] = {3, 2, 1}, red[3] = {1, 0, 0};
+    EXPECT(prt_light_suns(2, suns, 1, light, NULL) == PRT_OK);
+    EXPECT(prt_light_directional(2, up, colors, other, NULL) == PRT_OK);
+    for (int i = 0; i < 12; ++i)
+        EXPECT(fabsf(light[i] - other[i]) < 1e-5f);
+    EXPECT(prt_light_suns(2, suns, 2, light, NULL) == PRT_OK); /* a hemisphere of radiance 1 gives pi */
+    EXPECT(prt_light_cone(2, z, 1.5707963f, red, half, NULL) == PRT_OK);
+    for (int i = 0; i < 12; ++i)
+        EXPECT(fabsf(light[i] - other[i] - half[i]) < 1e-5f);
+    EXPECT(prt_light_suns(2, NULL, 0, light, NULL) == PRT_OK && light[0] == 0);
+    EXPECT(prt_light_suns(2, NULL, 1, light, &message) == PRT_BAD_ARGUMENT);
+    suns[0].towards[1] = 0;
+    EXPECT(prt_light_suns(2, suns, 1, light, &message) == PRT_BAD_ARGUMENT);
+    EXPECT(strstr(message.text, "direction") != NULL);
+    count = 2;
+    EXPECT(prt_light_from_light_file(3, path, sky, suns, &count, &message) == PRT_BAD_FILE);
+    EXPECT(strstr(message.text, "order 3 is needed") != NULL);
+    EXPECT(prt_light_from_light_file(2, "no such light.json", sky, suns, &count, &message) == PRT_BAD_FILE);
+    EXPECT(prt_light_from_light_file(11, path, sky, suns, &count, &message) == PRT_BAD_ARGUMENT);
+    remove(path);
+}
+
 static void test_light_that_is_not_finite(void) {
     float light[27];
     const float white[3] = {1, 1, 1}, up[3] = {0, 1, 0}, down[3] = {0, -1, 0}, far_up[3] = {0, 4, 0};
@@ -278,6 +322,7 @@ int main(int argc, char** argv) {
         return 2;
     test_sh();
     test_lights();
+    test_light_files();
     test_light_that_is_not_finite();
     test_model(argv[1]);
     test_sky(argv[2]);

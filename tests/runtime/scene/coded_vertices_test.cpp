@@ -186,5 +186,29 @@ TEST(CodedVertices, DamagedAreRefused) {
     expect_refused("damaged glTF", [&](Json& json) { words(json).erase("frequencies"); });
 }
 
+/// Words are predicted from neighbours: vertices in another order have other words, which ends in a damaged
+/// code.
+TEST(CodedVertices, OfAReorderedMeshAreRefusedWithTheRemedy) {
+    const Files files;
+    GlbFile file = test::read_glb(files.coded);
+    std::vector<std::uint16_t> indices;
+    const std::uint32_t count = kSize * kSize;
+    for (std::uint32_t v = 0; v + kSize + 1 < count; ++v)
+        for (const std::uint32_t corner : {v, v + kSize, v + 1})
+            indices.push_back(static_cast<std::uint16_t>(corner * 7919u % count));
+    file.json["meshes"][0]["primitives"][0]["indices"] =
+        file.accessor(indices, test::kUnsignedShort, "SCALAR", 1);
+    file.json["buffers"][0]["byteLength"] = file.binary.size();
+    file.write(files.folder / "reordered.glb");
+    try {
+        load_gltf(files.folder / "reordered.glb");
+        ADD_FAILURE() << "was read";
+    } catch (const Error& error) {
+        EXPECT_NE(std::string(error.what()).find("another program has changed the file; run it before"),
+                  std::string::npos)
+            << error.what();
+    }
+}
+
 } // namespace
 } // namespace prt

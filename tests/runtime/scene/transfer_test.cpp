@@ -386,21 +386,47 @@ std::string refusal(const Damage& read_changed, const std::function<void(GlbFile
     return "was read";
 }
 
-TEST(TransferInGltf, NormalisedIntegersAreRefusedByName) {
-    const Damage read_changed(WeightFormat::float32);
-    for (const auto& [type, name] :
-         {std::pair(test::kByte, "'snorm8'"), std::pair(test::kShort, "'snorm16'")}) {
-        const std::string said = refusal(read_changed, [&, type = type](GlbFile& file) {
-            const auto& attributes = file.json["meshes"][0]["primitives"][0]["attributes"];
-            auto& accessor = file.json["accessors"][attributes["_PRT_WEIGHTS_0"].get<std::size_t>()];
-            accessor["componentType"] = type;
-            accessor["normalized"] = true;
+/// What programs do to a file that holds data they do not know: each is refused with the reason and the
+/// remedy.
+TEST(TransferInGltf, ChangesOfOtherProgramsAreRefusedWithTheRemedy) {
+    const std::string remedy =
+        ": another program has changed the file; run it before prt bake, or run prt compress again";
+    const auto attributes = [](GlbFile& file) -> nlohmann::ordered_json& {
+        return file.json["meshes"][0]["primitives"][0]["attributes"];
+    };
+    const auto weights = [&](GlbFile& file) -> nlohmann::ordered_json& {
+        return file.json["accessors"][attributes(file)["_PRT_WEIGHTS_0"].get<std::size_t>()];
+    };
+    const auto expect = [&](WeightFormat format, const std::string& reason,
+                            const std::function<void(GlbFile&)>& change) {
+        const std::string refused = refusal(Damage(format), change);
+        EXPECT_NE(refused.find(reason + remedy), std::string::npos) << refused;
+    };
+    for (const WeightFormat format : {WeightFormat::packed, WeightFormat::float32}) {
+        const std::string type = format == WeightFormat::packed ? "5121" : "5126";
+        expect(format, "_PRT_WEIGHTS_0 has component type 5120, not " + type, [&](GlbFile& file) {
+            weights(file)["componentType"] = test::kByte;
+            weights(file)["normalized"] = true;
         });
-        EXPECT_NE(said.find(std::string("weights ") + name +
-                            " are not supported: compress again with prt compress"),
-                  std::string::npos)
-            << said;
+        expect(format, "lacks _PRT_WEIGHTS_0",
+               [&](GlbFile& file) { attributes(file).erase("_PRT_WEIGHTS_0"); });
+        expect(format, "_PRT_WEIGHTS_0, but no extension PRTKIT_clustered_pca", [&](GlbFile& file) {
+            file.json.erase("extensions");
+            attributes(file).erase("_PRT_CLUSTER");
+        });
     }
+    expect(WeightFormat::float32, "lacks _PRT_CLUSTER",
+           [&](GlbFile& file) { attributes(file).erase("_PRT_CLUSTER"); });
+    expect(WeightFormat::float32, "_PRT_CLUSTER, but no extension PRTKIT_clustered_pca",
+           [&](GlbFile& file) { file.json.erase("extensions"); });
+    // Integers as floats, and as shares of their type.
+    expect(WeightFormat::packed, "_PRT_WEIGHTS_0 has component type 5126, not 5121", [&](GlbFile& file) {
+        const std::size_t count = weights(file)["count"];
+        attributes(file)["_PRT_WEIGHTS_0"] =
+            file.accessor(std::vector<float>(4 * count, 1), test::kFloat, "VEC4", 4);
+    });
+    expect(WeightFormat::packed, "_PRT_WEIGHTS_0 is normalized",
+           [&](GlbFile& file) { weights(file)["normalized"] = true; });
 }
 
 /// Puts `value` over float `index` of a buffer view.

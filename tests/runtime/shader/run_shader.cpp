@@ -170,10 +170,7 @@ std::vector<glm::vec3> radiance_of_shader(const ClusteredTransfer& transfer, con
                                 language, source);
 }
 
-std::vector<glm::vec3> radiance_of_vertices(const ClusteredTransfer& transfer,
-                                            const std::string& vertex_shader,
-                                            const std::vector<glm::vec4>& constants, ShaderLanguage language,
-                                            ConstantSource source) {
+GLuint linked_program(const std::string& vertex_shader, ShaderLanguage language) {
     const GLuint program = glCreateProgram();
     glAttachShader(program, compiled(GL_VERTEX_SHADER, vertex_shader));
     const std::string header = language == ShaderLanguage::essl300
@@ -192,7 +189,14 @@ std::vector<glm::vec3> radiance_of_vertices(const ClusteredTransfer& transfer,
     glGetProgramInfoLog(program, sizeof log, nullptr, log);
     EXPECT_TRUE(linked) << log;
     glUseProgram(program);
+    return program;
+}
 
+std::vector<glm::vec3> radiance_of_vertices(const ClusteredTransfer& transfer,
+                                            const std::string& vertex_shader,
+                                            const std::vector<glm::vec4>& constants, ShaderLanguage language,
+                                            ConstantSource source) {
+    const GLuint program = linked_program(vertex_shader, language);
     GLuint vertex_array = 0, output = 0;
     glGenVertexArrays(1, &vertex_array);
     glBindVertexArray(vertex_array);

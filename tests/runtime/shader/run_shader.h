@@ -42,6 +42,10 @@ float filter_tolerance();
 /// A shader object. A test in which it does not compile fails.
 GLuint compiled(GLenum stage, const std::string& source);
 
+/// A program in use, of a vertex shader that writes `radiance` and a fragment shader that shows it. A test in
+/// which it does not link fails.
+GLuint linked_program(const std::string& vertex_shader, ShaderLanguage language);
+
 /// Nothing is drawn, but without a window there is no framebuffer unless we make one.
 void bind_small_framebuffer();
 

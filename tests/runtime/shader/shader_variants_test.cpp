@@ -4,6 +4,7 @@
 #include "prt/constant_former.h"
 #include "prt/gl_context.h"
 #include "prt/gl_objects.h"
+#include "prt/shader_bindings.h"
 #include "prt/shader_source.h"
 #include "run_shader.h"
 #include "shared_layout.h"
@@ -15,6 +16,8 @@
 #include <cmath>
 #include <memory>
 #include <random>
+#include <set>
+#include <string>
 #include <utility>
 
 namespace prt::test {
@@ -107,6 +110,105 @@ INSTANTIATE_TEST_SUITE_P(All, ShaderVariants,
                                          Variant{ShaderLanguage::essl300, ConstantSource::block},
                                          Variant{ShaderLanguage::essl300, ConstantSource::texture}));
 
+using Names = std::multiset<std::string>;
+
+std::string line_of(const char* kind, const std::string& name, int number, const std::string& type) {
+    return std::string(kind) + " " + name + " " + std::to_string(number) + " " + type;
+}
+
+/// The GLSL name of a type of OpenGL's.
+std::string glsl_type(GLenum type) {
+    switch (type) {
+    case GL_FLOAT_VEC3:
+        return "vec3";
+    case GL_FLOAT_VEC4:
+        return "vec4";
+    case GL_UNSIGNED_INT:
+        return "uint";
+    case GL_UNSIGNED_INT_VEC4:
+        return "uvec4";
+    case GL_FLOAT_MAT4:
+        return "mat4";
+    case GL_SAMPLER_2D:
+        return "sampler2D";
+    case GL_UNSIGNED_INT_SAMPLER_2D:
+        return "usampler2D";
+    default:
+        return "unknown";
+    }
+}
+
+/// The inputs that the driver reports of a linked program; of desktop OpenGL with their bindings.
+Names inputs_of_driver(GLuint program, ShaderLanguage language) {
+    Names names;
+    char name[100];
+    GLint count = 0, size = 0;
+    GLenum type = 0;
+    const auto each = [&](GLenum what) {
+        glGetProgramiv(program, what, &count);
+        return static_cast<GLuint>(count);
+    };
+    for (GLuint i = 0; i < each(GL_ACTIVE_ATTRIBUTES); ++i) {
+        glGetActiveAttrib(program, i, sizeof name, nullptr, &size, &type, name);
+        names.insert(line_of("attribute", name, glGetAttribLocation(program, name), glsl_type(type)));
+    }
+    const bool numbered = language == ShaderLanguage::glsl450;
+    for (GLuint i = 0; i < each(GL_ACTIVE_UNIFORM_BLOCKS); ++i) {
+        glGetActiveUniformBlockName(program, i, sizeof name, nullptr, name);
+        GLint binding = -1;
+        if (numbered)
+            glGetActiveUniformBlockiv(program, i, GL_UNIFORM_BLOCK_BINDING, &binding);
+        names.insert(line_of("block", name, binding, ""));
+    }
+    for (GLuint i = 0; i < each(GL_ACTIVE_UNIFORMS); ++i) {
+        glGetActiveUniform(program, i, sizeof name, nullptr, &size, &type, name);
+        const GLint location = glGetUniformLocation(program, name);
+        if (location < 0)
+            continue; // in a block
+        GLint unit = -1;
+        if (numbered && type != GL_FLOAT_MAT4)
+            glGetUniformiv(program, location, &unit);
+        names.insert(line_of("uniform", name, unit, glsl_type(type)));
+    }
+    if (numbered) {
+        GLint buffers = 0;
+        glGetProgramInterfaceiv(program, GL_SHADER_STORAGE_BLOCK, GL_ACTIVE_RESOURCES, &buffers);
+        for (GLuint i = 0; i < static_cast<GLuint>(buffers); ++i) {
+            glGetProgramResourceName(program, GL_SHADER_STORAGE_BLOCK, i, sizeof name, nullptr, name);
+            const GLenum property = GL_BUFFER_BINDING;
+            GLint binding = -1;
+            glGetProgramResourceiv(program, GL_SHADER_STORAGE_BLOCK, i, 1, &property, 1, nullptr, &binding);
+            names.insert(line_of("buffer", name, binding, ""));
+        }
+    }
+    return names;
+}
+
+/// The same of the table.
+Names inputs_of_table(const std::vector<ShaderBinding>& bindings) {
+    Names names;
+    for (const ShaderBinding& b : bindings)
+        switch (b.kind) {
+        case BindingKind::attribute:
+            names.insert(line_of("attribute", b.name, b.number, b.type));
+            break;
+        case BindingKind::storage_buffer:
+            names.insert(line_of("buffer", b.name, b.number, ""));
+            break;
+        case BindingKind::uniform_block:
+            names.insert(line_of("block", b.name, b.number, ""));
+            break;
+        case BindingKind::sampler:
+        case BindingKind::uniform:
+        case BindingKind::push_constant:
+            names.insert(line_of("uniform", b.name, b.number, b.type));
+            break;
+        case BindingKind::output:
+            break;
+        }
+    return names;
+}
+
 constexpr WeightFormat kFormats[] = {WeightFormat::packed, WeightFormat::float32};
 
 TEST_P(ShaderVariants, ComputeWhatCppComputes) {
@@ -125,6 +227,24 @@ TEST_P(ShaderVariants, ComputeItWithoutALoopWhereClustersAreAlike) {
         EXPECT_TRUE(clusters_are_alike(transfer.bases));
         agree_with_cpp(transfer, lighting);
     }
+}
+
+TEST_P(ShaderVariants, HaveTheBindingsThatTheTableLists) {
+    const auto [language, constants] = GetParam();
+    for (const Division division : {Division::of_their_own, Division::alike})
+        for (const WeightFormat format : kFormats) {
+            const ClusteredTransfer plain = compressed(format, division);
+            for (const std::vector<GuideKind>& guides : sets_of_guides()) {
+                ClusteredTransfer transfer = plain;
+                std::mt19937 random(2);
+                add_guides(transfer, guides, random);
+                const GLuint program =
+                    linked_program(relight_shader(transfer, constants, language), language);
+                EXPECT_EQ(inputs_of_driver(program, language),
+                          inputs_of_table(relight_bindings(transfer, constants, language)));
+                glDeleteProgram(program);
+            }
+        }
 }
 
 TEST(ConstantsShader, FormsWhatCppForms) {

@@ -199,8 +199,7 @@ async function sceneOf(api, { model, light, environment, suns, shadows, fog, oth
     Object.assign(sun.shadow.camera, { left: -4, right: 4, bottom: -4, top: 4, near: 0.1, far: 12 });
     sun.shadow.camera.updateProjectionMatrix();
     sun.shadow.mapSize.set(512, 512);
-    sun.shadow.bias = -0.002;
-    sun.shadow.normalBias = 0.02;
+    if (suns !== "own") Object.assign(sun.shadow, { bias: -0.002, normalBias: 0.02 });
     scene.add(sun);
   }
   const { prtkit } = gltf.userData;
@@ -213,7 +212,8 @@ async function sceneOf(api, { model, light, environment, suns, shadows, fog, oth
   if (probed) {
     scene.environmentRotation.y = scene.backgroundRotation.y = 0.7;
     prtkit.setSky(lightFromProbe(probe(), prtkit.order), scene);
-  } else prtkit.setLight(sky, 0.3, suns ? sky.times(0.1) : null, besides ? { Lantern: 0 } : {});
+  } else if (suns === "own") prtkit.setSky(sky, scene, { suns: scene.children.filter(({ isDirectionalLight }) => isDirectionalLight) });
+  else prtkit.setLight(sky, 0.3, suns ? sky.times(0.1) : null, besides ? { Lantern: 0 } : {});
   if (change === "clone") gltf.scene.traverse((object) => object.isMesh && (object.material = object.material.clone()));
   if (change === "three's own")
     gltf.scene.traverse((object) => {
@@ -221,6 +221,13 @@ async function sceneOf(api, { model, light, environment, suns, shadows, fog, oth
       const { color, lightMap, lightMapIntensity } = object.material;
       object.onBeforeRender = prtkit.beforeRender;
       object.material = new MeshStandardMaterial({ color, lightMap, lightMapIntensity, metalness: 0 });
+    });
+  if (change === "alone")
+    gltf.scene.traverse((object) => {
+      if (!object.isMesh) return;
+      const { color, roughness, side } = object.material;
+      object.onBeforeRender = () => {};
+      object.material = new MeshStandardMaterial({ color, roughness, side, metalness: 0 });
     });
   if (change === "matte") gltf.scene.traverse((object) => object.isMesh && Object.assign(object.material, { metalness: 0, clearcoat: 0 }).emissive.set(0));
   if (change === "metal") gltf.scene.traverse((object) => object.isMesh && (object.material.metalness = 1));

@@ -75,6 +75,20 @@ PRT_API prt_status prt_light_from_lat_long(int order, const prt_image* image, in
 /* Loads an environment map, .exr or .hdr. `center` is used for lat-long images only. */
 PRT_API prt_status prt_light_from_file(int order, const char* path, int center, float* light,
                                        prt_message* message);
+/* A sun: a disc of uniform radiance far away. */
+typedef struct prt_sun {
+    float towards[3];    /* unit, to its middle */
+    float irradiance[3]; /* on a receiver that faces it */
+    float half_angle;    /* radians; 0: no extent */
+} prt_sun;
+/* Loads a light file of prt project (docs/format.md): the first `order` bands of its sky, and its suns, which
+ * prt project --suns finds in an image. *count: capacity of `suns` on entry, number of suns in the file on
+ * return. `suns` may be null if the capacity is 0. */
+PRT_API prt_status prt_light_from_light_file(int order, const char* path, float* sky, prt_sun* suns,
+                                             size_t* count, prt_message* message);
+/* Returns all suns as one light: `suns` of prt_model_form_constants_apart. */
+PRT_API prt_status prt_light_suns(int order, const prt_sun* suns, size_t count, float* light,
+                                  prt_message* message);
 /* Rotates all three channels by `rotation`, in column-major order, in place. For a rotated object, rotate its
  * lighting by the inverse. */
 PRT_API prt_status prt_light_rotate(int order, const float rotation[9], float* light, prt_message* message);

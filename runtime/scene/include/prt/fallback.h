@@ -23,4 +23,9 @@ float fallback_exposure(std::span<const glm::vec3> radiance, std::span<const flo
 std::size_t write_fallback(GltfDocument& document, const Scene& scene, std::span<const glm::vec3> radiance,
                            float exposure);
 
+/// The same colors and unlit materials for a `document` without transfer: the light is all that it shows. The
+/// vertices' own colors and the materials' lit shading are replaced.
+std::size_t write_unlit(GltfDocument& document, const Scene& scene, std::span<const glm::vec3> radiance,
+                        float exposure);
+
 } // namespace prt

@@ -51,6 +51,9 @@ struct GltfOptions {
     /// Factor on the intensity of the lights of KHR_lights_punctual, also in the document: 1 / 683 converts
     /// candela and lux, which exporters write, to watts.
     double lamp_scale = 1;
+    /// Primitives without normals get smooth ones across edges whose triangles meet at this angle or less, in
+    /// the document, too. Unset: flat normals, as glTF says.
+    std::optional<double> smooth_normals_degrees = {};
 };
 
 /// Reads .gltf or .glb with its buffers and images. Throws `Error` with the file and the location in it.

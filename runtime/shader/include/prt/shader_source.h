@@ -46,8 +46,8 @@ std::string relight_defines(const ClusteredTransfer& transfer,
                             ShaderLanguage language = ShaderLanguage::glsl450,
                             const glm::dvec3& seen_from = glm::dvec3(0));
 
-/// Returns a complete vertex shader for a model (shaders/prt_relight.vert). It reads positions at
-/// PRT_LOCATION_POSITION and, if predictors need them, normals at PRT_LOCATION_NORMAL.
+/// Returns a complete vertex shader for a model (shaders/prt_relight.vert). `relight_bindings`
+/// (prt/shader_bindings.h) lists its inputs, and so does the comment at the head of the shader.
 std::string relight_shader(const ClusteredTransfer& transfer, ConstantSource constants,
                            ShaderLanguage language, const glm::dvec3& seen_from = glm::dvec3(0));
 

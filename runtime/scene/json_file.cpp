@@ -1,14 +1,22 @@
-#include "json_file.h"
+#include "prt/json_file.h"
 
 #include "prt/support/error.h"
 #include "prt/support/file.h"
 
-#include <fmt/core.h>
 #include <glm/geometric.hpp>
 
 #include <cmath>
+#include <sstream>
+#include <string>
 
-namespace prt::cli {
+namespace prt::json {
+namespace {
+
+std::string quoted(const char* key) {
+    return "\"" + std::string(key) + "\"";
+}
+
+} // namespace
 
 Json read_json(const std::filesystem::path& path) {
     const std::vector<std::byte> file = read_file(path);
@@ -16,7 +24,7 @@ Json read_json(const std::filesystem::path& path) {
     try { // the words of the library name its inner parts
         return Json::parse(begin, begin + file.size());
     } catch (const Json::parse_error& error) {
-        throw Error(fmt::format("is no JSON from byte {} on", error.byte));
+        throw Error("is no JSON from byte " + std::to_string(error.byte) + " on");
     } catch (const Json::exception&) {
         throw Error("holds a number beyond those of doubles");
     }
@@ -24,37 +32,41 @@ Json read_json(const std::filesystem::path& path) {
 
 const Json& member(const Json& object, const char* key) {
     if (!object.is_object() || !object.contains(key))
-        throw Error(fmt::format("\"{}\" is missing", key));
+        throw Error(quoted(key) + " is missing");
     return object[key];
 }
 
 double number(const Json& object, const char* key) {
     const Json& value = member(object, key);
     if (!value.is_number())
-        throw Error(fmt::format("\"{}\" is no number", key));
+        throw Error(quoted(key) + " is no number");
     return value.get<double>();
 }
 
 double number_in(const Json& object, const char* key, double low, double high) {
     const double value = number(object, key);
-    if (!(value >= low && value <= high))
-        throw Error(fmt::format("\"{}\" is not in {:.5g}..{:.5g}", key, low, high));
-    return value;
+    if (value >= low && value <= high)
+        return value;
+    std::ostringstream range;
+    range.precision(5);
+    range << quoted(key) << " is not in " << low << ".." << high;
+    throw Error(range.str());
 }
 
 std::vector<float> numbers(const Json& object, const char* key, std::size_t count) {
     const Json& list = member(object, key);
     if (!list.is_array())
-        throw Error(fmt::format("\"{}\" is no list of numbers", key));
+        throw Error(quoted(key) + " is no list of numbers");
     if (list.size() != count)
-        throw Error(fmt::format("\"{}\" has {} numbers and needs {}", key, list.size(), count));
+        throw Error(quoted(key) + " has " + std::to_string(list.size()) + " numbers and needs " +
+                    std::to_string(count));
     std::vector<float> values;
     for (const Json& value : list) {
         if (!value.is_number())
-            throw Error(fmt::format("\"{}\" is no list of numbers", key));
+            throw Error(quoted(key) + " is no list of numbers");
         values.push_back(value.get<float>());
         if (!std::isfinite(values.back()))
-            throw Error(fmt::format("\"{}\" holds what is no finite float", key));
+            throw Error(quoted(key) + " holds what is no finite float");
     }
     return values;
 }
@@ -68,8 +80,8 @@ glm::vec3 direction_of(const Json& object, const char* key) {
     const glm::dvec3 towards(vector_of(object, key));
     const double length = glm::length(towards);
     if (!(length > 0))
-        throw Error(fmt::format("\"{}\" is no direction", key));
+        throw Error(quoted(key) + " is no direction");
     return glm::vec3(towards / length);
 }
 
-} // namespace prt::cli
+} // namespace prt::json

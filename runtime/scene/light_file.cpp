@@ -1,25 +1,29 @@
-#include "light_file.h"
+// Light files of prt project: docs/format.md.
 
-#include "json_file.h"
+#include "prt/light_file.h"
+
 #include "prt/check_light.h"
+#include "prt/json_file.h"
 #include "prt/sh.h"
 #include "prt/support/error.h"
 
-#include <fmt/core.h>
-
 #include <cmath>
 #include <numbers>
+#include <sstream>
+#include <string>
 
-namespace prt::cli {
+namespace prt {
 namespace {
+
+using json::Json;
 
 constexpr const char* kChannels[3] = {"red", "green", "blue"};
 
 SunDisc sun_of(const Json& entry) {
     SunDisc sun;
-    sun.towards = direction_of(entry, "towards");
-    sun.irradiance = vector_of(entry, "irradiance");
-    sun.half_angle = number_in(entry, "half_angle_radians", 0, 0.5 * std::numbers::pi);
+    sun.towards = json::direction_of(entry, "towards");
+    sun.irradiance = json::vector_of(entry, "irradiance");
+    sun.half_angle = json::number_in(entry, "half_angle_radians", 0, 0.5 * std::numbers::pi);
     for (int c = 0; c < 3; ++c)
         if (sun.irradiance[c] < 0)
             throw Error("\"irradiance\" is negative");
@@ -35,24 +39,27 @@ std::vector<SunDisc> suns_of(const Json& list) {
             suns.push_back(sun_of(list[i]));
             check_light(as_light(suns.back(), 1));
         } catch (const Error& error) {
-            throw Error(fmt::format("sun {} of \"suns\": {}", i, error.what()));
+            throw Error("sun " + std::to_string(i) + " of \"suns\": " + error.what());
         }
     return suns;
 }
 
-int order_of(const Json& json) {
-    const double order = number(json, "order");
-    if (!(order >= 1 && order <= kMaxOrder && order == std::floor(order)))
-        throw Error(fmt::format("\"order\" is {}, no whole number in 1..{}", order, kMaxOrder));
-    return static_cast<int>(order);
+int order_of(const Json& file) {
+    const double order = json::number(file, "order");
+    if (order >= 1 && order <= kMaxOrder && order == std::floor(order))
+        return static_cast<int>(order);
+    std::ostringstream text;
+    text << "\"order\" is " << order << ", no whole number in 1.." << kMaxOrder;
+    throw Error(text.str());
 }
 
-Light coefficients_of(const Json& json) {
-    Light light{order_of(json), {}};
+Light coefficients_of(const Json& file) {
+    Light light{order_of(file), {}};
     light.coefficients.resize(static_cast<std::size_t>(coefficient_count(light.order)));
-    const Json& coefficients = member(json, "coefficients");
+    const Json& coefficients = json::member(file, "coefficients");
     for (int c = 0; c < 3; ++c) {
-        const std::vector<float> values = numbers(coefficients, kChannels[c], light.coefficients.size());
+        const std::vector<float> values =
+            json::numbers(coefficients, kChannels[c], light.coefficients.size());
         for (std::size_t i = 0; i < values.size(); ++i)
             light.coefficients[i][c] = values[i];
     }
@@ -60,14 +67,6 @@ Light coefficients_of(const Json& json) {
 }
 
 } // namespace
-
-Json light_json(const Light& light) {
-    Json channels = Json::object();
-    for (int c = 0; c < 3; ++c)
-        for (const glm::vec3& coefficient : light.coefficients)
-            channels[kChannels[c]].push_back(coefficient[c]);
-    return {{"prtkit_light", 1}, {"order", light.order}, {"coefficients", channels}};
-}
 
 Light all_light(const LightFile& file) {
     Light all = file.sky;
@@ -78,15 +77,15 @@ Light all_light(const LightFile& file) {
 
 LightFile read_light_file(const std::filesystem::path& path) {
     try {
-        const Json json = read_json(path);
-        if (!json.is_object() || !json.contains("prtkit_light") || json["prtkit_light"] != 1)
+        const Json file = json::read_json(path);
+        if (!file.is_object() || !file.contains("prtkit_light") || file["prtkit_light"] != 1)
             throw Error("is JSON, but no light of prt project");
-        LightFile light{coefficients_of(json), {}};
-        if (json.contains("lights"))
+        LightFile light{coefficients_of(file), {}};
+        if (file.contains("lights"))
             throw Error(
                 "has its suns as \"lights\", as an older version of prt wrote them; project the image again");
-        if (json.contains("suns"))
-            light.suns = suns_of(json["suns"]);
+        if (file.contains("suns"))
+            light.suns = suns_of(file["suns"]);
         check_light(all_light(light));
         return light;
     } catch (const Error& error) {
@@ -97,10 +96,10 @@ LightFile read_light_file(const std::filesystem::path& path) {
 LightFile read_light_file(const std::filesystem::path& path, int order) {
     LightFile file = read_light_file(path);
     if (file.sky.order < order)
-        throw Error(
-            fmt::format("{}: has order {}, but order {} is needed", path.string(), file.sky.order, order));
+        throw Error(path.string() + ": has order " + std::to_string(file.sky.order) + ", but order " +
+                    std::to_string(order) + " is needed");
     file.sky = truncated(file.sky, order);
     return file;
 }
 
-} // namespace prt::cli
+} // namespace prt

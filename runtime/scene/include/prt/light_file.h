@@ -1,18 +1,16 @@
 #pragma once
 
-// The light files of docs/format.md.
+// Light files of prt project: docs/format.md. Stable.
 
+#include "prt/light.h"
 #include "prt/sun_disc.h"
-#include "report/report.h"
 
 #include <filesystem>
 #include <vector>
 
-namespace prt::cli {
+namespace prt {
 
-Json light_json(const Light& light);
-
-/// What a light file holds.
+/// Contents of a light file.
 struct LightFile {
     Light sky; ///< its coefficients
     std::vector<SunDisc> suns;
@@ -26,4 +24,4 @@ LightFile read_light_file(const std::filesystem::path& path, int order);
 /// Its coefficients with its suns added.
 Light all_light(const LightFile& file);
 
-} // namespace prt::cli
+} // namespace prt

@@ -1,16 +1,17 @@
 #pragma once
 
-// Files of JSON, with errors in our words.
-
-#include "report/report.h"
+// Files of JSON, with errors in our words. Needs nlohmann-json. Experimental.
 
 #include <glm/vec3.hpp>
+#include <nlohmann/json.hpp>
 
 #include <cstddef>
 #include <filesystem>
 #include <vector>
 
-namespace prt::cli {
+namespace prt::json {
+
+using Json = nlohmann::ordered_json;
 
 /// Throws `Error` for what is no JSON; it does not name the file.
 Json read_json(const std::filesystem::path& path);
@@ -26,4 +27,4 @@ glm::vec3 vector_of(const Json& object, const char* key);
 /// Made unit.
 glm::vec3 direction_of(const Json& object, const char* key);
 
-} // namespace prt::cli
+} // namespace prt::json

@@ -1,0 +1,25 @@
+#pragma once
+
+#include <glm/vec3.hpp>
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace prt {
+
+/// Vertices with normals, split where the surface has an edge.
+struct SmoothVertices {
+    std::vector<std::uint32_t> source; ///< [vertices] the vertex that each is a copy of
+    std::vector<glm::vec3> normals;    ///< [vertices] unit
+    std::vector<glm::uvec3> triangles; ///< into `source`
+};
+
+/// Smooths across edges whose triangles meet at `degrees` or less, whatever vertices hold their ends:
+/// vertices at the same position count as one. A normal is the mean of the triangles' normals, weighted by
+/// their angles at the vertex (Thürmer and Wüthrich 1998), which does not depend on how faces are cut into
+/// triangles. Triangles without area take a normal that their vertex has anyway. Time: n log n.
+SmoothVertices smooth_vertices(std::span<const glm::vec3> positions, std::span<const glm::uvec3> triangles,
+                               double degrees);
+
+} // namespace prt

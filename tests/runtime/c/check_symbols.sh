@@ -1,0 +1,11 @@
+#!/bin/bash
+# check_symbols.sh NM LIBRARY LIST HEADER: the library exports what LIST names, with the versions of its symbols, and
+# nothing else; the header declares the same. A name that disappears breaks programs: it stays, or the SOVERSION changes.
+set -euo pipefail
+nm=$1 library=$2 list=$3 header=$4
+exported=$("$nm" -D --defined-only --with-symbol-versions "$library" | awk '$2 != "A" { print $3 }' | sort)
+if ! diff <(sort "$list") <(printf '%s\n' "$exported") >&2; then
+    echo "< is missing in the library; > is not in $list: add it there, and to the next version in exported.map" >&2
+    exit 1
+fi
+diff <(sed 's/@.*//' "$list" | sort) <(tr '\n' ' ' <"$header" | grep -o 'PRT_API prt_status [a-z_]*(\|PRT_API void [a-z_]*(' | grep -o 'prt_[a-z_]*(' | tr -d '(' | sort) >&2
