@@ -17,7 +17,7 @@ namespace prt {
 struct ChartFace {
     std::size_t primitive = 0, triangle = 0; ///< in the scene
     glm::dvec3 corners[3];
-    glm::dvec3 normal{0}; ///< unit, zero where there is no area
+    glm::dvec3 normal{0}; ///< unit, zero where there is no area beyond rounding
 };
 
 struct SurfaceChart {
@@ -31,7 +31,9 @@ glm::dvec2 projected(const glm::dvec3& position, int axis);
 std::vector<ChartFace> chart_faces(const Scene& scene, std::span<const std::size_t> primitives);
 
 /// Every face is in one chart. Within one, faces hang together by edges that are not sharp, look to one side,
-/// and lie beside each other where they are projected.
-std::vector<SurfaceChart> cut_into_charts(const Scene& scene, std::span<const ChartFace> faces);
+/// and lie beside each other where they are projected. Faces without area are in charts of others, behind
+/// these, unless there are no others. Stops where there are more than `max_charts`: some may overlap then.
+std::vector<SurfaceChart> cut_into_charts(const Scene& scene, std::span<const ChartFace> faces,
+                                          std::size_t max_charts);
 
 } // namespace prt
