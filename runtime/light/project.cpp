@@ -20,6 +20,7 @@
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <span>
 
 namespace prt {
 
@@ -172,23 +173,28 @@ ProjectedColors project_lat_long(const Environment& environment, int order, int 
     const ColumnTables tables(order, image.width);
     const GaussLegendre quadrature(pi / image.height > 0.2 ? 24 : 3); // as in points_for
     const auto height = static_cast<std::size_t>(image.height);
-    std::vector<ProjectedColors> rows(height);
-    parallel_for(height, 8, threads, [&](std::size_t begin, std::size_t end) {
-        std::vector<double> parts(kParts * 3 * tables.columns);
-        for (std::size_t y = begin; y < end; ++y) {
-            RowFourier fourier;
-            row_fourier(&image.pixels[y * static_cast<std::size_t>(image.width)], image.width, order, tables,
-                        parts.data(), fourier);
-            const double row = static_cast<double>(y);
-            const auto legendre =
-                row_legendre(order, pi * row / image.height, pi * (row + 1) / image.height, quadrature);
-            rows[y] = in_bands(order, legendre, fourier);
-        }
-    });
+    constexpr std::size_t kMaxRows = 4096; // at a time: a row has 2.4 KB, however few its pixels
+    std::vector<ProjectedColors> rows(std::min(height, kMaxRows));
     ProjectedColors polar{};
-    for (const ProjectedColors& row : rows)
-        for (std::size_t i = 0; i < polar.size(); ++i)
-            polar[i] += row[i];
+    for (std::size_t first = 0; first < height; first += kMaxRows) {
+        const std::size_t count = std::min(kMaxRows, height - first);
+        parallel_for(count, 8, threads, [&](std::size_t begin, std::size_t end) {
+            std::vector<double> parts(kParts * 3 * tables.columns);
+            for (std::size_t r = begin; r < end; ++r) {
+                const std::size_t y = first + r;
+                RowFourier fourier;
+                row_fourier(&image.pixels[y * static_cast<std::size_t>(image.width)], image.width, order,
+                            tables, parts.data(), fourier);
+                const double row = static_cast<double>(y);
+                const auto legendre =
+                    row_legendre(order, pi * row / image.height, pi * (row + 1) / image.height, quadrature);
+                rows[r] = in_bands(order, legendre, fourier);
+            }
+        });
+        for (const ProjectedColors& row : std::span(rows).first(count))
+            for (std::size_t i = 0; i < polar.size(); ++i)
+                polar[i] += row[i];
+    }
     return in_world(polar, order, environment.center);
 }
 
