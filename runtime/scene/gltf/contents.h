@@ -34,9 +34,11 @@ struct GltfContents {
     std::filesystem::path path;
     tinygltf::Model model; ///< as read; edits of `json` do not reach it, but its views follow the bytes
     Json json;
-    std::vector<std::vector<std::byte>> images; ///< encoded, by image index
+    std::vector<std::vector<std::byte>> images; ///< encoded, by image index; empty: cannot be read
+    std::vector<std::string> image_troubles;    ///< why images cannot be read, by image index
     std::vector<std::string> notices;           ///< what was changed when it was read, a line each
     std::size_t file_bytes = 0;                 ///< of the file and of the buffers beside it
+    double scene_limit = 0;                     ///< GltfOptions::scene_limit
     std::vector<ExpandedNode> expanded;
     std::vector<MeshApart> apart;
 

@@ -16,6 +16,13 @@ Json parse_json(std::string_view text);
 /// and the extensions of prtkit. Returns their number.
 std::size_t remove_nulls(Json& json);
 
+/// Whether the reader takes an extension from tinygltf's model, and not from the JSON alone.
+bool is_taken_extension(std::string_view name);
+
+/// A copy of a glTF without extras and without extensions that only the JSON holds for the reader: tinygltf
+/// keeps ten times the memory for each value of theirs.
+Json without_unread(const Json& json);
+
 /// Bytes that `json` takes in memory, about.
 double json_bytes(const Json& json);
 

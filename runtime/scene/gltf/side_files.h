@@ -6,6 +6,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <map>
 #include <set>
 #include <string>
 #include <vector>
@@ -23,8 +24,8 @@ public:
 
     /// They refer to this object. Names reach them as URIs say, without a folder.
     tinygltf::FsCallbacks callbacks();
-    /// What was wrong with the first file that could not be read.
-    const std::string& first_trouble() const { return first_trouble_; }
+    /// Why the file that `uri` names could not be read.
+    std::string trouble_of(const std::string& uri) const;
     /// Files that were read in the place of those named, a line each.
     const std::set<std::string>& notices() const { return notices_; }
     /// Throws `Error` where one of them is an output.
@@ -36,8 +37,8 @@ private:
     std::filesystem::path folder_;
     const GltfOptions& options_;
     std::set<std::filesystem::path> seen_;
-    std::uint64_t bytes_there_, bytes_read_ = 0; ///< of the scene and of all files once; as often as named
-    std::string first_trouble_;
+    std::uint64_t bytes_there_, bytes_read_ = 0;  ///< of the scene and of all files once; as often as named
+    std::map<std::string, std::string> troubles_; ///< by name, without escapes
     std::set<std::string> notices_;
     int searches_ = 0; ///< for files that are not there
 };

@@ -37,11 +37,12 @@ enum class BadTextures {
     ignore, ///< leave them empty: the material's factors alone count
 };
 
-/// What textures are wanted for, beside emission.
+/// What textures are wanted for.
 enum class TextureNeeds {
-    pictures,   ///< base color
-    visibility, ///< what rays pass through: cut-outs, blended surfaces, glass, leaves
-    all,        ///< and what light bounces off
+    shadows,    ///< what rays pass through: cut-outs, blended surfaces, glass, leaves
+    visibility, ///< that, and emission
+    pictures,   ///< base color and emission
+    all,        ///< those of visibility, and what light bounces off
 };
 
 /// The images that the surfaces of `scene` use for that, with how they are encoded. One that holds both

@@ -31,9 +31,6 @@ private:
     std::unique_ptr<GltfContents> contents_;
 };
 
-/// What to do about images whose files are not there, or not to be read.
-enum class MissingImages { error, ignore };
-
 /// How meshes are read whose instances share their transfer (PRTKIT_instances).
 enum class Instancing {
     nodes, ///< each instance is a node
@@ -41,7 +38,6 @@ enum class Instancing {
 };
 
 struct GltfOptions {
-    MissingImages missing_images = MissingImages::error;
     /// Whether URIs may name files outside the folder of the scene, by "..", by links or from the root.
     /// Others are regular files in that folder and below.
     bool allow_outside = false;
@@ -51,9 +47,13 @@ struct GltfOptions {
     /// Factor on the intensity of the lights of KHR_lights_punctual, in the document, too: 1 / 683 makes
     /// watts of what exporters write in candela and lux.
     double lamp_scale = 1;
+    /// Bytes that the scene may take with its instances and morph targets; 0: 256 MB and 64 times the size of
+    /// its files, so that a small file cannot take all memory.
+    double scene_limit = 0;
 };
 
 /// Reads .gltf or .glb with its buffers and images. Throws `Error` that names the file and the place in it.
+/// An image that cannot be read is a notice, and an error only where its pixels are needed (`load_textures`).
 GltfDocument load_gltf(const std::filesystem::path& path, const GltfOptions& options = {});
 
 /// The same from a file in memory. `path` is where it is from: for messages, and for the files beside it.
