@@ -74,8 +74,8 @@ double area_of(std::span<const FlatBox> boxes) {
 
 /// The number of the smallest charts that a texture has texels for.
 std::size_t max_charts(int side) {
-    constexpr std::size_t kLeast = (1 + 2 * kApart) * (1 + 2 * kApart);
-    return static_cast<std::size_t>(side) * static_cast<std::size_t>(side) / kLeast;
+    constexpr std::size_t kMinTexels = (1 + 2 * kApart) * (1 + 2 * kApart);
+    return static_cast<std::size_t>(side) * static_cast<std::size_t>(side) / kMinTexels;
 }
 
 [[noreturn]] void refuse_size(std::size_t charts, int side) {

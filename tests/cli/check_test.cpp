@@ -111,7 +111,7 @@ TEST_F(Check, FindsCoordinatesThatNoLightmapFits) {
     }
 }
 
-/// A tetrahedron, its faces outwards or inwards, and as many triangles of one point.
+/// A tetrahedron, its faces outwards or inwards, and `points` triangles of one point each.
 GlbFile tetrahedron(bool inwards, int points) {
     GlbFile file;
     const std::vector<float> positions = {0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1};

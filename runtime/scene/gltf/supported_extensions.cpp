@@ -14,8 +14,8 @@
 namespace prt {
 namespace {
 
-/// What may stand in extensionsRequired. Materials and lights change nothing but what is reflected; their
-/// base color is used. Textures of other formats are missed only where they are needed.
+/// Names that may stand in extensionsRequired. Materials and lights change nothing but what is reflected;
+/// their base color is used. Textures of other formats are missed only where they are needed.
 constexpr std::array<std::string_view, 35> kSupportedExtensions = {
     kTransferExtension,
     kClusteredExtension,

@@ -37,7 +37,7 @@ enum class BadTextures {
     ignore, ///< leave them empty: the material's factors alone count
 };
 
-/// What textures are wanted for.
+/// Purposes that textures are needed for.
 enum class TextureNeeds {
     shadows,    ///< what rays pass through: cut-outs, blended surfaces, glass, leaves
     visibility, ///< that, and emission
