@@ -15,7 +15,9 @@ namespace prt {
 namespace {
 
 TextureNeeds texture_needs(const BakeOptions& options) {
-    return options.bounces != 0 ? TextureNeeds::all : TextureNeeds::visibility;
+    if (options.bounces != 0)
+        return TextureNeeds::all;
+    return options.lamps.mode == LampMode::none ? TextureNeeds::shadows : TextureNeeds::visibility;
 }
 
 /// One operator for each medium of each node.

@@ -182,7 +182,7 @@ public:
     Comparison(const ComparisonOptions& a, SceneFile& baked)
         : a_(a), baked_(baked), model_(load_scene_file(a.shipped, a.reading)),
           shipped_(candidate(matched(model_, baked, a), a.shipped)) {
-        put_in_order_of(model_.scene, baked);
+        about(a_.shipped, [&] { put_in_order_of(model_.scene, baked); });
         areas_ = baked.lightmap ? baked.lightmap->areas : receiver_areas(baked.scene);
         edges_ = baked.lightmap ? baked.lightmap->edges : mesh_edges(baked.scene);
     }
@@ -279,9 +279,13 @@ public:
     /// Lit by the bake and by what is shipped, as `prt render` lights them, at one exposure and without
     /// textures, which would hide errors; then the error as the figures count it, and clusters.
     void add_pictures(const SplitLight& light, Report& report) const {
-        const TraceScene scene(
-            model_.scene, load_textures(model_.scene, bad_textures(a_.reading), TextureNeeds::visibility),
-            {.solid = solid_materials(baked_), .threads = a_.threads});
+        const TraceScene scene(model_.scene,
+                               about(a_.shipped,
+                                     [&] {
+                                         return load_textures(model_.scene, a_.reading.bad_textures,
+                                                              TextureNeeds::visibility);
+                                     }),
+                               {.solid = solid_materials(baked_), .threads = a_.threads});
         const Lighting lighting = judged(light);
         Lighting drawn = lighting;
         drawn.sky = deringed(drawn.sky);

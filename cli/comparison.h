@@ -2,6 +2,7 @@
 
 // A compressed file, or another bake of the same scene, held against its bake.
 
+#include "reading_options.h"
 #include "report/report.h"
 #include "split_light.h"
 
@@ -11,8 +12,8 @@ namespace prt::cli {
 
 struct ComparisonOptions {
     Path baked, shipped;
-    GltfOptions reading;   ///< of `shipped`
-    bool pictures = false; ///< of both and their difference, under the light that shows it best
+    ReadingOptions reading; ///< of `shipped`
+    bool pictures = false;  ///< of both and their difference, under the light that shows it best
     int threads = 0;
 };
 

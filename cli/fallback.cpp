@@ -20,7 +20,7 @@ std::optional<Fallback> load_fallback(const Path& light, int order, const LightO
 
 std::vector<std::byte> with_fallback(std::span<const std::byte> file, const Path& path, Fallback& fallback,
                                      BufferCompression buffers, int threads) {
-    GltfDocument document = parse_gltf(file, path, {.missing_images = MissingImages::ignore});
+    GltfDocument document = parse_gltf(file, path);
     LeveledScene levels = extract_levels(document);
     const std::vector<float> areas = areas_of_level(levels, 0);
     const bool all = levels.nodes.empty() || levels_have_transfer(document, levels);

@@ -1,6 +1,7 @@
 #include "inputs.h"
 
 #include "outputs.h"
+#include "prt/levels.h"
 #include "prt/light_file.h"
 #include "prt/lightmap_file.h"
 #include "prt/reorder.h"
@@ -101,7 +102,16 @@ SceneFile scene_file_of(GltfDocument document, const Path& path) {
     file.occluders = read_occluders(file.document);
     file.lobes = read_lobes(file.document, file.scene);
     file.instanced = std::move(instanced);
+    if (has_levels(file.document))
+        extract_levels(file.document);
     return file;
+}
+
+ModelToPassOn load_to_pass_on(const Path& path, const GltfOptions& options) {
+    SceneFile file = load_scene_file(path, options);
+    if (file.record())
+        print_notices(path.string(), file.scene.notices);
+    return {std::move(file.document), std::move(file.scene)};
 }
 
 Environment load_environment_map(const Path& path, const EnvironmentOptions& options) {

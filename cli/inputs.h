@@ -58,9 +58,18 @@ struct SceneFile {
 };
 /// Of one that holds transfer.
 const TransferLayout& layout_of(const SceneFile& model);
+/// Throws `Error` where anything of prtkit in the file is damaged: commands that write a model pass it on.
 SceneFile load_scene_file(const Path& path, const GltfOptions& options = {});
 /// The same of a document that was read from `path`.
 SceneFile scene_file_of(GltfDocument document, const Path& path);
+
+/// A model that a command writes again with additions.
+struct ModelToPassOn {
+    GltfDocument document;
+    Scene scene;
+};
+/// Reads all that `load_scene_file` reads, and prints the notices of the scene.
+ModelToPassOn load_to_pass_on(const Path& path, const GltfOptions& options);
 
 /// Throws `Error` where transfer is of texels, which `command` does not do.
 void check_of_vertices(const SceneFile& model, const Path& path, const std::string& command);

@@ -3,6 +3,7 @@
 // What coarser levels of detail of a shipped file differ from level 0 of its bake.
 
 #include "inputs.h"
+#include "reading_options.h"
 #include "report/report.h"
 #include "split_light.h"
 
@@ -13,7 +14,7 @@ namespace prt::cli {
 struct LevelFiles {
     const GltfDocument& baked;
     Path baked_path, shipped_path;
-    GltfOptions reading;
+    ReadingOptions reading;
     int threads = 0;
 };
 

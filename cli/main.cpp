@@ -61,7 +61,7 @@ int run(int argc, char** argv) {
         app.exit(nothing_to_do); // prints help
     }
     session.finish();
-    return 0;
+    return session.status();
 }
 
 constexpr const char* kNoMemory = "there is not enough memory";

@@ -15,8 +15,8 @@ const std::map<std::string, Backend> kBackends = {
 const std::map<std::string, Inside> kInsides = {{"refill", Inside::refill}, {"keep", Inside::keep}};
 const std::map<std::string, FitMode> kFits = {
     {"auto", FitMode::automatic}, {"vertex", FitMode::vertex}, {"surface", FitMode::surface}};
-const std::map<std::string, MissingImages> kBadTextures = {{"error", MissingImages::error},
-                                                           {"ignore", MissingImages::ignore}};
+const std::map<std::string, BadTextures> kBadTextures = {{"error", BadTextures::error},
+                                                         {"ignore", BadTextures::ignore}};
 const std::map<std::string, Window> kWindows = {{"none", Window::none},
                                                 {"hann", Window::hann},
                                                 {"lanczos", Window::lanczos},
@@ -68,13 +68,19 @@ void add_output(CLI::App* command, Path& output, const std::string& text) {
     command->add_option("-o,--output", output, text)->required()->type_name("FILE")->check(named);
 }
 
-void add_reading(CLI::App* command, GltfOptions& reading) {
+void add_reading(CLI::App* command, ReadingOptions& reading) {
     command->add_flag("--allow-outside", reading.allow_outside,
                       "a scene's buffers and images may lie outside its folder: for scenes that you trust");
-    choice(command, "--bad-textures", reading.missing_images, kBadTextures,
+    choice(command, "--bad-textures", reading.bad_textures, kBadTextures,
            "textures that are missing, damaged or of a format that is not read: stop where one is needed, or "
            "use the factors of their materials alone, and no emission where its texture is one",
            "error");
+    command
+        ->add_option_function<double>(
+            "--scene-limit", [&reading](double gigabytes) { reading.scene_limit = 1e9 * gigabytes; },
+            "GB that a scene may take with its instances and morph targets; otherwise 0.256 and 64 times the "
+            "size of its files")
+        ->check(above_zero());
 }
 
 void add_smooth_normals(CLI::App* command, GltfOptions& reading) {
@@ -84,10 +90,6 @@ void add_smooth_normals(CLI::App* command, GltfOptions& reading) {
                      "it flat ones")
         ->type_name("DEGREES")
         ->check(CLI::Range(0.0, 180.0));
-}
-
-BadTextures bad_textures(const GltfOptions& reading) {
-    return reading.missing_images == MissingImages::ignore ? BadTextures::ignore : BadTextures::error;
 }
 
 void add_threads(CLI::App* command, int& threads) {

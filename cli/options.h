@@ -4,6 +4,7 @@
 
 #include "inputs.h"
 #include "prt/bake.h"
+#include "reading_options.h"
 #include "report/publish.h"
 
 #include <CLI/CLI.hpp>
@@ -49,8 +50,8 @@ std::string named(const std::string& name);
 
 /// -o, --output: the file that a command is for.
 void add_output(CLI::App* command, Path& output, const std::string& text);
-/// --allow-outside, of every command that reads a scene.
-void add_reading(CLI::App* command, GltfOptions& reading);
+/// --allow-outside, --bad-textures and --scene-limit, of every command that reads a scene.
+void add_reading(CLI::App* command, ReadingOptions& reading);
 /// --smooth-normals
 void add_smooth_normals(CLI::App* command, GltfOptions& reading);
 void add_threads(CLI::App* command, int& threads);
@@ -61,8 +62,6 @@ CLI::Option* add_backend(CLI::App* command, Backend& backend, const std::string&
 CLI::Option* add_gpu(CLI::App* command, std::string& gpu);
 /// Makes a GPU that is named the one to bake on. Throws `Error` where none is used.
 void choose_gpu(TracerChoice& tracer);
-/// What `add_reading` was told of bad textures.
-BadTextures bad_textures(const GltfOptions& reading);
 void add_inside(CLI::App* command, Inside& inside);
 /// --fit, which is automatic where it is not given.
 void add_fit(CLI::App* command, FitMode& fit, const std::string& text);

@@ -78,9 +78,13 @@ public:
     /// Says that all went well: everything that was printed and written arrives, or nothing of what was
     /// written. Throws `Error`.
     void finish();
+    /// The program ends with this status, though all went well: a check has found something.
+    void set_status(int status) { status_ = status; }
+    int status() const { return status_; }
 
 private:
     std::string command_line_;
+    int status_ = 0;
     StagedOutputs outputs_;
     Interrupt interrupt_{[this] { outputs_.remove_names(); }};
 };

@@ -277,8 +277,10 @@ void add_volume_errors(BudgetRequest request, SceneFile& baked, Report& report, 
     options.apart = volume.baked.transfer.layout.has(PartKind::direct);
     ProgressBar bar = session.progress_bar("measuring the volume");
     const Progress progress = bar.progress();
-    const TraceScene traced(baked.scene, load_textures(baked.scene, bad_textures(request.reading)),
-                            {.threads = options.threads});
+    const TraceScene traced(
+        baked.scene,
+        about(request.baked, [&] { return load_textures(baked.scene, request.reading.bad_textures); }),
+        {.threads = options.threads});
     const FreePlaces places = free_places_in(traced, volume.grid, kPlaces, 1);
     const VolumeLookup lookup(volume.grid, volume.sights);
     const TransferLayout layout = volume.baked.transfer.layout.of_one_output();

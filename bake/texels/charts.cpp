@@ -27,10 +27,11 @@ glm::dvec2 checked(const glm::dvec2& at, const glm::dvec2& tile, const Primitive
     const glm::dvec2 uv = at - tile;
     for (int axis = 0; axis < 2; ++axis)
         if (!(uv[axis] >= -kOutside && uv[axis] <= 1 + kOutside))
-            throw Error(
-                fmt::format("a triangle of mesh {} primitive {} crosses the border of the texture, where "
-                            "TEXCOORD_{} is ({:.4g}, {:.4g}): for a place of its own it has to lie within",
-                            primitive.mesh, primitive.primitive, atlas.uv_set, at.x, at.y));
+            throw Error(fmt::format(
+                "a triangle of mesh {} primitive {} crosses the border of the texture, where "
+                "TEXCOORD_{} is ({:.4g}, {:.4g}): light of its own needs coordinates in 0..1; --unwrap "
+                "makes some",
+                primitive.mesh, primitive.primitive, atlas.uv_set, at.x, at.y));
     return glm::dvec2(std::clamp(uv.x, 0.0, 1.0) * atlas.width, std::clamp(uv.y, 0.0, 1.0) * atlas.height);
 }
 
@@ -44,8 +45,9 @@ const std::vector<glm::vec2>& coordinates(const Scene& scene, const Primitive& p
     const auto& sets = scene.vertex_arrays[primitive.vertices].texcoords;
     const auto set = static_cast<std::size_t>(uv_set);
     if (set >= sets.size() || sets[set].empty())
-        throw Error(fmt::format("mesh {} primitive {} has no TEXCOORD_{}: take another set, or unwrap it",
-                                primitive.mesh, primitive.primitive, uv_set));
+        throw Error(fmt::format(
+            "mesh {} primitive {} has no TEXCOORD_{}: take another set (--uv), or --unwrap makes one",
+            primitive.mesh, primitive.primitive, uv_set));
     return sets[set];
 }
 

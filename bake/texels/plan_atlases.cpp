@@ -27,7 +27,8 @@ double area_in_texture(const Scene& scene, const Atlas& atlas) {
         area += std::abs(a.x * b.y - a.y * b.x) / 2;
     }
     if (!(area > 0))
-        throw Error(fmt::format("TEXCOORD_{} of mesh {} is a line or a point: it has no place in a texture",
+        throw Error(fmt::format("TEXCOORD_{} of mesh {} is a line or a point, without texels: --unwrap makes "
+                                "other coordinates",
                                 atlas.uv_set, scene.primitives[atlas.primitives.front()].mesh));
     return area;
 }
@@ -96,8 +97,8 @@ std::vector<Atlas> plan_atlases(const Scene& scene, const TexelOptions& options)
             return {std::move(all)};
         if (options.atlases == AtlasMode::one)
             throw Error(fmt::format(
-                "{:.1f} % of what the charts of TEXCOORD_{} cover lies in two of them: a texture for "
-                "all needs a place for each",
+                "{:.1f} % of what the charts of TEXCOORD_{} cover lies in two of them, and a texture for all "
+                "has one value there: take --atlas each or --unwrap",
                 100 * share, options.uv_set));
     }
     std::vector<Atlas> atlases = of_each_object(scene, options);
@@ -106,7 +107,7 @@ std::vector<Atlas> plan_atlases(const Scene& scene, const TexelOptions& options)
             const Primitive& primitive = scene.primitives[atlas.primitives.front()];
             throw Error(fmt::format(
                 "charts of mesh {} (node {}) overlap: {:.1f} % of what its TEXCOORD_{} covers lies in two "
-                "of them, and both cannot have light of their own",
+                "of them, and both cannot have light of their own: --unwrap makes other coordinates",
                 primitive.mesh, primitive.node, 100 * share, options.uv_set));
         }
     return atlases;

@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
 #include <map>
 #include <utility>
 
@@ -164,6 +165,41 @@ std::array<std::vector<std::uint32_t>, 2> halves(std::span<const ChartFace> face
     return {{{sorted.begin(), middle}, {middle, sorted.end()}}};
 }
 
+/// Faces without area join charts: those that have one of their corners, else the first.
+void join_flat(std::span<const ChartFace> faces, std::span<const std::uint32_t> flat,
+               std::vector<SurfaceChart>& charts) {
+    if (charts.empty() || flat.empty()) {
+        if (!flat.empty())
+            charts.push_back({0, {flat.begin(), flat.end()}});
+        return;
+    }
+    const auto place = [](const glm::dvec3& corner) { return std::array{corner.x, corner.y, corner.z}; };
+    std::map<std::array<double, 3>, std::size_t> chart_at;
+    for (std::size_t c = 0; c < charts.size(); ++c)
+        for (const std::uint32_t f : charts[c].faces)
+            for (const glm::dvec3& corner : faces[f].corners)
+                chart_at.try_emplace(place(corner), c);
+    for (const std::uint32_t f : flat) {
+        std::size_t to = 0;
+        for (const glm::dvec3& corner : faces[f].corners)
+            if (const auto found = chart_at.find(place(corner)); found != chart_at.end())
+                to = found->second;
+        charts[to].faces.push_back(f);
+    }
+}
+
+/// Twice the area of a triangle whose height is what its corners are rounded to as floats, or less: corners
+/// on a line, but for that.
+double rounding_of(const ChartFace& face) {
+    constexpr double kRounding = 4 * 0x1p-24; // of two corners and the line between them
+    double largest = 0, longest = 0;
+    for (int i = 0; i < 3; ++i) {
+        largest = std::max(largest, glm::length(face.corners[i]));
+        longest = std::max(longest, glm::distance(face.corners[i], face.corners[(i + 1) % 3]));
+    }
+    return kRounding * largest * longest;
+}
+
 } // namespace
 
 glm::dvec2 projected(const glm::dvec3& position, int axis) {
@@ -182,14 +218,15 @@ std::vector<ChartFace> chart_faces(const Scene& scene, std::span<const std::size
             const glm::dvec3 normal =
                 glm::cross(face.corners[1] - face.corners[0], face.corners[2] - face.corners[0]);
             const double length = glm::length(normal);
-            face.normal = length > 0 ? normal / length : glm::dvec3(0);
+            face.normal = length > rounding_of(face) ? normal / length : glm::dvec3(0);
             faces.push_back(face);
         }
     }
     return faces;
 }
 
-std::vector<SurfaceChart> cut_into_charts(const Scene& scene, std::span<const ChartFace> faces) {
+std::vector<SurfaceChart> cut_into_charts(const Scene& scene, std::span<const ChartFace> faces,
+                                          std::size_t max_charts) {
     const std::vector<std::vector<std::uint32_t>> beside = neighbours(scene, faces);
     const std::vector<int> direction = directions(faces, beside);
     std::vector<int> part(faces.size(), -2);
@@ -197,21 +234,29 @@ std::vector<SurfaceChart> cut_into_charts(const Scene& scene, std::span<const Ch
     for (std::uint32_t f = 0; f < faces.size(); ++f)
         all[f] = f;
     std::vector<SurfaceChart> waiting, done;
+    std::vector<std::uint32_t> flat;
+    const auto has_area = [&](std::uint32_t f) { return faces[f].normal != glm::dvec3(0); };
     const auto wait = [&](std::span<const std::uint32_t> some) {
         const auto same = [&](std::uint32_t a, std::uint32_t b) { return direction[a] == direction[b]; };
         for (std::vector<std::uint32_t>& members : connected(some, beside, part, same))
-            waiting.push_back({direction[members.front()] / 2, std::move(members)});
+            if (std::any_of(members.begin(), members.end(), has_area))
+                waiting.push_back({direction[members.front()] / 2, std::move(members)});
+            else
+                flat.insert(flat.end(), members.begin(), members.end());
     };
     wait(all);
-    while (!waiting.empty()) {
+    while (!waiting.empty() && waiting.size() + done.size() <= max_charts) {
         SurfaceChart chart = std::move(waiting.back());
         waiting.pop_back();
-        if (chart.faces.size() == 1 || !overlaps(faces, chart))
+        // Two triangles that look to one side lie on two sides of their edge.
+        if (chart.faces.size() <= 2 || !overlaps(faces, chart))
             done.push_back(std::move(chart));
         else
             for (const std::vector<std::uint32_t>& half : halves(faces, chart))
                 wait(half);
     }
+    std::move(waiting.begin(), waiting.end(), std::back_inserter(done));
+    join_flat(faces, flat, done);
     return done;
 }
 

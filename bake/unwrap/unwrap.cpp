@@ -25,12 +25,15 @@ struct FlatBox {
     glm::dvec2 low, size; ///< metres
 };
 
+/// Boxes of the faces with area; those without follow, and are moved into the box.
 std::vector<FlatBox> flat_boxes(std::span<const ChartFace> faces, std::span<const SurfaceChart> charts) {
     std::vector<FlatBox> boxes;
     for (const SurfaceChart& chart : charts) {
-        glm::dvec2 low(std::numeric_limits<double>::infinity()), high = -low;
+        glm::dvec2 low(projected(faces[chart.faces.front()].corners[0], chart.axis)), high = low;
         for (const std::uint32_t f : chart.faces)
             for (const glm::dvec3& corner : faces[f].corners) {
+                if (faces[f].normal == glm::dvec3(0))
+                    break;
                 low = glm::min(low, projected(corner, chart.axis));
                 high = glm::max(high, projected(corner, chart.axis));
             }
@@ -48,12 +51,16 @@ struct Packed {
 
 std::optional<Packed> pack(std::span<const FlatBox> boxes, int side, double density) {
     std::vector<glm::ivec2> sizes;
+    double texels = 0;
     for (const FlatBox& box : boxes) {
         const glm::dvec2 size = glm::ceil(box.size * density) + 1.0 + 2.0 * kApart;
         if (!(size.x <= side && size.y <= side))
             return std::nullopt;
+        texels += size.x * size.y;
         sizes.emplace_back(size);
     }
+    if (texels > static_cast<double>(side) * side) // packing takes longer
+        return std::nullopt;
     std::optional<std::vector<glm::ivec2>> corners = pack_rectangles(sizes, side);
     if (!corners)
         return std::nullopt;
@@ -65,15 +72,35 @@ double area_of(std::span<const FlatBox> boxes) {
                            [](double sum, const FlatBox& box) { return sum + box.size.x * box.size.y; });
 }
 
+/// Returns how many of the smallest charts fit a texture.
+std::size_t max_charts(int side) {
+    constexpr std::size_t kMinTexels = (1 + 2 * kApart) * (1 + 2 * kApart);
+    return static_cast<std::size_t>(side) * static_cast<std::size_t>(side) / kMinTexels;
+}
+
+[[noreturn]] void refuse_size(std::size_t charts, int side) {
+    constexpr double kTexels = 2 * (2 + 2 * kApart) * (2 + 2 * kApart); // half of a texture may stay free
+    int wanted = 1;
+    while (wanted < kMostTexels &&
+           static_cast<double>(wanted) * wanted < kTexels * static_cast<double>(charts))
+        wanted *= 2;
+    throw Error(
+        fmt::format("a texture of {0} x {0} texels is too small for {1} charts or more: give {2} texels or "
+                    "more along a side, or each object a texture of its own (--atlas each)",
+                    side, charts, std::max(wanted, std::min(2 * side, kMostTexels))));
+}
+
 /// Packs charts with the maximum number of texels per metre that fits.
 Packed pack_into(std::span<const FlatBox> boxes, int side) {
     constexpr double kStep = 0.95;
     constexpr int kMostSteps = 200;
+    if (boxes.size() > max_charts(side))
+        refuse_size(boxes.size(), side);
     double density = side / std::sqrt(std::max(area_of(boxes), std::numeric_limits<double>::min()));
     for (int step = 0; step < kMostSteps; ++step, density *= kStep)
         if (std::optional<Packed> packed = pack(boxes, side, density))
             return std::move(*packed);
-    throw Error(fmt::format("a texture of {0} x {0} texels is too small for {1} charts", side, boxes.size()));
+    refuse_size(boxes.size(), side);
 }
 
 /// Packs charts into the smallest texture with this number of texels per metre.
@@ -105,7 +132,9 @@ public:
                 const auto next = static_cast<std::uint32_t>(split.source.size());
                 const auto [found, is_new] = vertices.try_emplace({face.primitive, t[i]}, next);
                 if (is_new) {
-                    const glm::dvec2 at = (projected(face.corners[i], chart.axis) - box.low) * packed.density;
+                    const glm::dvec2 at = glm::clamp(projected(face.corners[i], chart.axis) - box.low,
+                                                     glm::dvec2(0), box.size) *
+                                          packed.density;
                     split.source.push_back(t[i]);
                     split.uv.emplace_back((glm::dvec2(corner) + 0.5 + static_cast<double>(kApart) + at) /
                                           static_cast<double>(packed.side));
@@ -141,7 +170,8 @@ Unwrapping unwrap(const Scene& scene, const TexelOptions& options) {
     ChartWriter writer(scene, result.primitives);
     for (const std::vector<std::size_t>& primitives : groups(scene, options.atlases)) {
         const std::vector<ChartFace> faces = chart_faces(scene, primitives);
-        const std::vector<SurfaceChart> charts = cut_into_charts(scene, faces);
+        const std::vector<SurfaceChart> charts =
+            cut_into_charts(scene, faces, max_charts(options.size > 0 ? options.size : kMostTexels));
         const std::vector<FlatBox> boxes = flat_boxes(faces, charts);
         const Packed packed =
             options.size > 0 ? pack_into(boxes, options.size) : pack_by_density(boxes, options.per_metre);

@@ -43,7 +43,7 @@ void measure(const BudgetRequest& request, const SceneFile& baked, const SceneFi
     const Progress progress = bar.progress();
     const std::vector<BudgetLight> lights = budget_lights(request.lights);
     const Transfer repeated = repeat(baked, threads, progress.part(0, 0.4));
-    const BudgetEffort effort{.bad_textures = bad_textures(request.reading), .threads = threads};
+    const BudgetEffort effort{.bad_textures = request.reading.bad_textures, .threads = threads};
     const BudgetReference reference(baked.scene, lights, effort, progress.part(0.4, 0.8));
     std::optional<Transfer> coded;
     if (shipped)

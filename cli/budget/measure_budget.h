@@ -4,6 +4,7 @@
 
 #include "budget/budget_lights.h"
 #include "inputs.h"
+#include "reading_options.h"
 #include "report/report.h"
 #include "session.h"
 
@@ -11,8 +12,8 @@ namespace prt::cli {
 
 /// Files whose errors are measured against path tracing.
 struct BudgetRequest {
-    Path baked, shipped; ///< shipped: empty where there is none
-    GltfOptions reading; ///< of `shipped`
+    Path baked, shipped;    ///< shipped: empty where there is none
+    ReadingOptions reading; ///< of `shipped`
     BudgetLightOptions lights;
     std::vector<std::string> no_shadow; ///< materials that the bake let light through
 };

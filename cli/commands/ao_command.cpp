@@ -30,7 +30,7 @@ struct AoArguments {
     struct What {
         bool bent_normals = false, volume = false;
     } what;
-    GltfOptions reading;
+    ReadingOptions reading;
 
     bool in_textures() const { return textures.given(); }
 };
@@ -234,11 +234,11 @@ void run(AoArguments a, Session& session) {
     a.options.rays = a.rays.value_or(a.options.rays);
     a.reading.outputs = check_outputs({{a.output, "--output", {".glb"}}, {a.json, "--json", {".json"}}},
                                       {a.scene, a.textures.casters});
-    a.options.repairs.bad_textures = bad_textures(a.reading);
+    a.options.repairs.bad_textures = a.reading.bad_textures;
     const Stopwatch watch;
-    GltfDocument document = load_gltf(a.scene, a.reading);
-    Scene scene = extract_scene(document);
-    print_notices(a.scene.string(), scene.notices);
+    ModelToPassOn model = load_to_pass_on(a.scene, a.reading);
+    GltfDocument& document = model.document;
+    Scene& scene = model.scene;
     if (!a.what.volume && (!a.in_textures() || a.textures.unwrap))
         about(a.scene, [&] { separate(a, document, scene); });
     const TexelRoom room =

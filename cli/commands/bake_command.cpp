@@ -38,7 +38,7 @@ struct BakeArguments {
     InstanceArguments instances;
     LevelMode levels = LevelMode::carry;
     BakeOptions options;
-    GltfOptions reading;
+    ReadingOptions reading;
 };
 
 const std::map<std::string, Traversal> kTraversals = {
@@ -394,9 +394,10 @@ void run(BakeArguments a, Session& session) {
     inputs.insert(inputs.end(), {a.scene, a.texels.casters});
     a.reading.outputs =
         check_outputs({{a.output, "--output", {".glb"}}, {a.json, "--json", {".json"}}}, inputs);
-    a.options.repairs.bad_textures = bad_textures(a.reading);
+    a.options.repairs.bad_textures = a.reading.bad_textures;
     GltfDocument document = load_gltf(a.scene, a.reading);
     Scene scene = extract_scene(document);
+    read_occluders(document); // which it passes on
     print_notices(a.scene.string(), scene.notices);
     TexelRoom room;
     if (a.texels.given() && a.texels.unwrap)

@@ -15,7 +15,7 @@ struct BenchArguments {
     Path scene;
     ReportFiles files;
     BenchOptions options;
-    GltfOptions reading;
+    ReadingOptions reading;
     bool list_devices = false;
 };
 
@@ -51,7 +51,7 @@ void run(BenchArguments a, Session& session) {
         return print_devices();
     if (a.scene.empty())
         throw CLI::RequiredError("scene or --list-devices");
-    a.options.bad_textures = bad_textures(a.reading);
+    a.options.bad_textures = a.reading.bad_textures;
     a.reading.outputs = check_outputs({{a.files.json, "--json", {".json"}},
                                        {a.files.html, "--html", {".html", ".htm"}},
                                        {a.files.csv, "--csv", {".csv"}}},

@@ -49,7 +49,7 @@ struct CompressArguments {
         int bytes = 16;   ///< of a probe's weights
         int clusters = 0; ///< 0: by their number
     } volume;
-    GltfOptions reading;
+    ReadingOptions reading;
 };
 
 const std::map<std::string, WeightFormat> kWeights = {{"packed", WeightFormat::packed},
@@ -467,7 +467,7 @@ Written written(const CompressArguments& a, std::vector<std::byte> file, const B
     const std::optional<BakedLightmap>& lightmap = bake.lightmap;
     GltfDocument document = readable(a, [&] {
         return parse_gltf(file, a.output,
-                          {.missing_images = a.reading.missing_images, .instancing = Instancing::apart});
+                          {.instancing = Instancing::apart, .scene_limit = a.reading.scene_limit});
     });
     const std::uintmax_t bytes = session.write(a.output, file);
     file = {};

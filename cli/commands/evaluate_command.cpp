@@ -29,7 +29,7 @@ struct EvaluateArguments {
         bool sweep = false, budget = false, volume = false;
     } measures;
     std::vector<std::string> no_shadow; ///< names of materials
-    GltfOptions reading;
+    ReadingOptions reading;
     int threads = 0;
 };
 

@@ -7,6 +7,7 @@
 #include "report/lightmap_report.h"
 #include "report/of_texels.h"
 #include "report/volume_report.h"
+#include "scene_check.h"
 
 #include <fmt/ranges.h>
 
@@ -19,7 +20,8 @@ namespace {
 
 struct InfoArguments {
     Path file, json;
-    GltfOptions reading;
+    ReadingOptions reading;
+    bool check = false;
 };
 
 /// "{images} image", "{images} images"
@@ -228,6 +230,11 @@ void run(InfoArguments a, Session& session) {
         report.sentences.emplace_back("no transfer");
     if (model.lightmap)
         say_texels(report);
+    if (a.check) {
+        const std::vector<Finding> findings = check_model(model);
+        add_findings(findings, report);
+        session.set_status(findings.empty() ? 0 : 1);
+    }
     publish(report, a.json, session);
 }
 
@@ -238,6 +245,10 @@ void add_info(CLI::App& app, Session& session) {
     auto& a = arguments_for<InfoArguments>(command,
                                            [&session](const InfoArguments& given) { run(given, session); });
     command->add_option("file", a.file, "any .gltf or .glb")->required()->check(named);
+    command->add_flag(
+        "--check", a.check,
+        "also list what a bake or an importer would stumble over, with remedies: status 1 where "
+        "there is something");
     add_reading(command, a.reading);
     add_json(command, a.json);
 }

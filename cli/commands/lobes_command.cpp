@@ -23,7 +23,7 @@ struct LobesArguments {
     int poses = 8, frames = 6;
     PoseBakeOptions bake;
     LobeFitOptions fit;
-    GltfOptions reading;
+    ReadingOptions reading;
 };
 
 /// What a skin moves needs weights: without them the skin would turn nothing.
@@ -144,10 +144,10 @@ void run(LobesArguments a, Session& session) {
     choose_gpu(a.bake.tracer);
     a.reading.outputs =
         check_outputs({{a.output, "--output", {".glb"}}, {a.json, "--json", {".json"}}}, {a.model});
-    a.bake.bad_textures = bad_textures(a.reading);
+    a.bake.bad_textures = a.reading.bad_textures;
     a.fit.threads = a.bake.threads;
     set_band_costs(a.bake.order, a.fit);
-    GltfDocument document = load_gltf(a.model, a.reading);
+    GltfDocument document = load_to_pass_on(a.model, a.reading).document;
     const AnimatedScene model(document);
     Report report;
     about(a.model, [&] {

@@ -36,7 +36,7 @@ struct RelightArguments {
     LightOptions light_options;
     bool albedo = false;
     UnlitArguments unlit;
-    GltfOptions reading;
+    ReadingOptions reading;
     int threads = 0;
 };
 
@@ -163,8 +163,10 @@ void run(RelightArguments a, Session& session) {
     const SplitLight light = a.environment.empty() ? dark_sky(model.order())
                                                    : load_split_light(a.environment, model.order(), suns,
                                                                       a.light_options, a.threads);
-    std::vector<Texture> textures =
-        about(a.model, [&] { return load_textures(model.scene, bad_textures(a.reading)); });
+    std::vector<Texture> textures = about(a.model, [&] {
+        return load_textures(model.scene, a.reading.bad_textures,
+                             a.albedo ? TextureNeeds::all : TextureNeeds::shadows);
+    });
     const std::vector<bool> solid = solid_materials(model);
     ProgressBar bar = session.progress_bar("relighting");
     const bool suns_are_apart = !light.split.suns.empty() && layout_of(model).has(PartKind::direct);

@@ -59,7 +59,7 @@ struct RenderArguments {
     View view;
     Backend backend = Backend::automatic;
     Look look;
-    GltfOptions reading;
+    ReadingOptions reading;
     int threads = 0;
 
     ErrorOf error() const {
@@ -200,7 +200,7 @@ std::vector<glm::vec3> colors_to_show(const RenderArguments& a, const SceneFile&
         if (!baked.baked)
             throw Error(a.baked.string() + ": holds no raw transfer; --baked is the output of prt bake");
         check_belong_together(baked, a.baked, model, a.model);
-        put_in_order_of(model.scene, baked);
+        about(a.model, [&] { put_in_order_of(model.scene, baked); });
         if (model.lightmap)
             return lightmap_errors(baked, model, lighting, a.threads);
         return error_colors(exit_radiance(baked.baked->transfer, lighting, a.threads),
@@ -497,8 +497,10 @@ void run(RenderArguments a, Session& session) {
     note_lights(a, model, lighting);
     const bool suns = !light.split.suns.empty() && a.drawn_lit();
     std::vector<Texture> textures = about(a.model, [&] {
-        return load_textures(model.scene, bad_textures(a.reading),
-                             suns || a.traced() ? TextureNeeds::all : TextureNeeds::pictures);
+        return load_textures(model.scene, a.reading.bad_textures,
+                             suns || a.traced() ? TextureNeeds::all
+                             : a.drawn_lit()    ? TextureNeeds::pictures
+                                                : TextureNeeds::shadows);
     });
     const TraceScene scene(model.scene, std::move(textures), {.solid = solid, .threads = a.threads});
     Picture picture = empty_picture(a, model.scene);

@@ -26,7 +26,7 @@ struct ShaderArguments {
     std::optional<ConstantSource> constants; ///< unset: what the language can do
     bool compute = false, fragment = false, volume = false, occluders = false, lobes = false,
          instances = false;
-    GltfOptions reading;
+    ReadingOptions reading;
 };
 
 const std::map<std::string, ShaderLanguage> kLanguages = {{"glsl450", ShaderLanguage::glsl450},

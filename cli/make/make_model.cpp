@@ -96,7 +96,7 @@ private:
     /// Gives sides their own vertices.
     void separate() {
         BakeOptions options;
-        options.repairs.bad_textures = bad_textures(r_.reading);
+        options.repairs.bad_textures = r_.reading.bad_textures;
         options.threads = r_.threads;
         separate_sides(
             {.sides = r_.back_sides, .path = r_.scene, .options = options, .no_shadow = r_.no_shadow},
@@ -110,7 +110,7 @@ private:
             BudgetEffort{.noise = std::max(kShareOfNoise * allowed(), kLeastNoise),
                          .seconds =
                              kShareOfTime * r_.goal.seconds.value_or(0) / static_cast<double>(lights_.size()),
-                         .bad_textures = bad_textures(r_.reading),
+                         .bad_textures = r_.reading.bad_textures,
                          .threads = r_.threads},
             bar.progress());
     }
@@ -165,7 +165,7 @@ private:
         options.bounces = plan_.cut.bounces;
         options.rays = rays;
         options.fit = plan_.fit;
-        options.repairs.bad_textures = bad_textures(r_.reading);
+        options.repairs.bad_textures = r_.reading.bad_textures;
         options.threads = r_.threads;
         return options;
     }
@@ -259,8 +259,8 @@ private:
         write_transfer(document_, scene_, result.baked);
         const std::vector<std::byte> file = encode_glb(document_);
         session_.write(r_.baked, file);
-        model_.emplace(scene_file_of(
-            parse_gltf(file, r_.output, {.missing_images = r_.reading.missing_images}), r_.output));
+        model_.emplace(
+            scene_file_of(parse_gltf(file, r_.output, {.scene_limit = r_.reading.scene_limit}), r_.output));
         discard_transfer(model_->document);
     }
 
@@ -363,7 +363,7 @@ private:
             bake += fmt::format(" --smooth-normals {}", *r_.reading.smooth_normals_degrees);
         if (r_.reading.lamp_scale != 1)
             bake += fmt::format(" --lamp-scale {}", r_.reading.lamp_scale);
-        if (bad_textures(r_.reading) == BadTextures::ignore)
+        if (r_.reading.bad_textures == BadTextures::ignore)
             bake += " --bad-textures ignore";
         if (r_.back_sides == BackSides::shared)
             bake += " --back-sides shared";

@@ -5,6 +5,7 @@
 #include "back_sides.h"
 #include "budget/budget.h"
 #include "inputs.h"
+#include "reading_options.h"
 #include "report/report.h"
 #include "session.h"
 
@@ -31,7 +32,7 @@ struct MakeRequest {
     std::vector<std::string> no_shadow;
     BackSides back_sides = BackSides::automatic;
     MakeGoal goal;
-    GltfOptions reading;
+    ReadingOptions reading;
     int threads = 0;
 };
 

@@ -49,9 +49,7 @@ prt_status prt_model_load(const char* path, prt_model** model, prt_message* mess
     return guarded(message, [&] {
         check_pointers(path, model);
         *model = nullptr;
-        as_file([&] {
-            *model = make_model(prt::load_gltf(path, {.missing_images = prt::MissingImages::ignore}), path);
-        });
+        as_file([&] { *model = make_model(prt::load_gltf(path), path); });
     });
 }
 
@@ -60,10 +58,7 @@ prt_status prt_model_load_memory(const void* bytes, size_t size, prt_model** mod
         check_pointers(bytes, model);
         *model = nullptr;
         const std::span file(static_cast<const std::byte*>(bytes), size);
-        as_file([&] {
-            *model = make_model(
-                prt::parse_gltf(file, "memory", {.missing_images = prt::MissingImages::ignore}), "memory");
-        });
+        as_file([&] { *model = make_model(prt::parse_gltf(file, "memory"), "memory"); });
     });
 }
 

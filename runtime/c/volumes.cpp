@@ -71,9 +71,7 @@ prt_status prt_volume_load(const char* path, prt_volume** volume, prt_message* m
     return guarded(message, [&] {
         check_pointers(path, volume);
         *volume = nullptr;
-        as_file([&] {
-            *volume = make_volume(prt::load_gltf(path, {.missing_images = prt::MissingImages::ignore}), path);
-        });
+        as_file([&] { *volume = make_volume(prt::load_gltf(path), path); });
     });
 }
 
@@ -82,10 +80,7 @@ prt_status prt_volume_load_memory(const void* bytes, size_t size, prt_volume** v
         check_pointers(bytes, volume);
         *volume = nullptr;
         const std::span file(static_cast<const std::byte*>(bytes), size);
-        as_file([&] {
-            *volume = make_volume(
-                prt::parse_gltf(file, "memory", {.missing_images = prt::MissingImages::ignore}), "memory");
-        });
+        as_file([&] { *volume = make_volume(prt::parse_gltf(file, "memory"), "memory"); });
     });
 }
 

@@ -20,6 +20,7 @@
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <span>
 
 namespace prt {
 
@@ -43,6 +44,8 @@ struct ColumnTables {
 
     ColumnTables(int order, int width)
         : folded(width % 4 == 0), columns(static_cast<std::size_t>(folded ? width / 4 : width)) {
+        cosine.reserve(static_cast<std::size_t>(order) * columns);
+        sine.reserve(cosine.capacity());
         for (int m = 0; m < order; ++m)
             for (std::size_t x = 0; x < columns; ++x) {
                 const double phi = 2 * pi * (0.5 - (static_cast<double>(x) + 0.5) / width);
@@ -77,13 +80,16 @@ using WideInMemory [[gnu::vector_size(sizeof(double) * 8), gnu::aligned(8), gnu:
     return sum;
 }
 
-/// Computes `parts` [kParts][3][columns] of a row of pixels.
-[[gnu::always_inline]] inline void fold_row(const glm::vec3* row, const ColumnTables& tables, double* parts) {
+constexpr std::size_t kMaxColumns = 16384; ///< folded at a time
+
+/// Computes `parts` [kParts][3][count] of columns of the tables from `first` on.
+[[gnu::always_inline]] inline void fold_row(const glm::vec3* row, const ColumnTables& tables,
+                                            std::size_t first, std::size_t count, double* parts) {
     const std::size_t n = tables.columns;
-    for (std::size_t x = 0; x < n; ++x)
+    for (std::size_t x = first; x < first + count; ++x)
         for (int channel = 0; channel < 3; ++channel) {
             const auto at = [&](std::size_t column) { return static_cast<double>(row[column][channel]); };
-            double* to = parts + static_cast<std::size_t>(channel) * n + x;
+            double* to = parts + static_cast<std::size_t>(channel) * count + x - first;
             double value[kParts];
             if (tables.folded) {
                 const double ahead = at(x) + at(4 * n - 1 - x), behind = at(2 * n - 1 - x) + at(2 * n + x);
@@ -96,24 +102,33 @@ using WideInMemory [[gnu::vector_size(sizeof(double) * 8), gnu::aligned(8), gnu:
                 std::fill_n(value, kParts, at(x));
             }
             for (std::size_t part = 0; part < kParts; ++part)
-                to[part * 3 * n] = value[part];
+                to[part * 3 * count] = value[part];
         }
 }
 
-/// Computes the Fourier sums of a row. `parts` is a buffer for a folded row.
+/// Computes the Fourier sums of a row. `parts` is a buffer for the columns that are folded at a time.
 PRT_TARGET_CLONES
 void row_fourier(const glm::vec3* row, int width, int order, const ColumnTables& tables, double* parts,
                  RowFourier& result) {
-    fold_row(row, tables, parts);
     const std::size_t n = tables.columns;
+    result = {};
+    for (std::size_t first = 0; first < n; first += kMaxColumns) {
+        const std::size_t count = std::min(kMaxColumns, n - first);
+        fold_row(row, tables, first, count, parts);
+        for (std::size_t m = 0; m < static_cast<std::size_t>(order); ++m) {
+            const std::size_t odd = m % 2, at = m * n + first;
+            result.cosine[m] +=
+                weighted_sum(parts + (even_cosine + odd) * 3 * count, count, &tables.cosine[at], count);
+            result.sine[m] +=
+                weighted_sum(parts + (even_sine + odd) * 3 * count, count, &tables.sine[at], count);
+        }
+    }
     for (std::size_t m = 0; m < static_cast<std::size_t>(order); ++m) {
         // ∫ over a column of width d about phi: cos(m phi) 2 sin(m d / 2) / m.
         const double d = 2 * pi / width, md = static_cast<double>(m);
         const double extent = m == 0 ? d : 2 * std::sin(0.5 * md * d) / md;
-        const std::size_t odd = m % 2;
-        result.cosine[m] =
-            extent * weighted_sum(parts + (even_cosine + odd) * 3 * n, n, &tables.cosine[m * n], n);
-        result.sine[m] = extent * weighted_sum(parts + (even_sine + odd) * 3 * n, n, &tables.sine[m * n], n);
+        result.cosine[m] *= extent;
+        result.sine[m] *= extent;
     }
 }
 
@@ -171,23 +186,28 @@ ProjectedColors project_lat_long(const Environment& environment, int order, int 
     const ColumnTables tables(order, image.width);
     const GaussLegendre quadrature(pi / image.height > 0.2 ? 24 : 3); // same thresholds as points_for
     const auto height = static_cast<std::size_t>(image.height);
-    std::vector<ProjectedColors> rows(height);
-    parallel_for(height, 8, threads, [&](std::size_t begin, std::size_t end) {
-        std::vector<double> parts(kParts * 3 * tables.columns);
-        for (std::size_t y = begin; y < end; ++y) {
-            RowFourier fourier;
-            row_fourier(&image.pixels[y * static_cast<std::size_t>(image.width)], image.width, order, tables,
-                        parts.data(), fourier);
-            const double row = static_cast<double>(y);
-            const auto legendre =
-                row_legendre(order, pi * row / image.height, pi * (row + 1) / image.height, quadrature);
-            rows[y] = in_bands(order, legendre, fourier);
-        }
-    });
+    constexpr std::size_t kMaxRows = 4096; // at a time: a row has 2.4 KB, however few its pixels
+    std::vector<ProjectedColors> rows(std::min(height, kMaxRows));
     ProjectedColors polar{};
-    for (const ProjectedColors& row : rows)
-        for (std::size_t i = 0; i < polar.size(); ++i)
-            polar[i] += row[i];
+    for (std::size_t first = 0; first < height; first += kMaxRows) {
+        const std::size_t count = std::min(kMaxRows, height - first);
+        parallel_for(count, 8, threads, [&](std::size_t begin, std::size_t end) {
+            std::vector<double> parts(kParts * 3 * std::min(kMaxColumns, tables.columns));
+            for (std::size_t r = begin; r < end; ++r) {
+                const std::size_t y = first + r;
+                RowFourier fourier;
+                row_fourier(&image.pixels[y * static_cast<std::size_t>(image.width)], image.width, order,
+                            tables, parts.data(), fourier);
+                const double row = static_cast<double>(y);
+                const auto legendre =
+                    row_legendre(order, pi * row / image.height, pi * (row + 1) / image.height, quadrature);
+                rows[r] = in_bands(order, legendre, fourier);
+            }
+        });
+        for (const ProjectedColors& row : std::span(rows).first(count))
+            for (std::size_t i = 0; i < polar.size(); ++i)
+                polar[i] += row[i];
+    }
     return in_world(polar, order, environment.center);
 }
 

@@ -132,9 +132,11 @@ std::map<int, TextureEncoding> needed_images(const Scene& scene, TextureNeeds ne
     for (const Primitive& primitive : scene.primitives) {
         const Material& m = scene.materials[primitive.material];
         const bool leaf = m.transmission.factor > 0 && needs != TextureNeeds::pictures;
-        if (needs != TextureNeeds::visibility || m.alpha_mode != AlphaMode::opaque || leaf)
+        const bool colors = needs == TextureNeeds::pictures || needs == TextureNeeds::all;
+        if (colors || m.alpha_mode != AlphaMode::opaque || leaf)
             add(m.base_color_texture, TextureEncoding::srgb);
-        add(m.emission.texture, TextureEncoding::srgb);
+        if (needs != TextureNeeds::shadows)
+            add(m.emission.texture, TextureEncoding::srgb);
         if (leaf) {
             add(m.transmission.factor_texture, TextureEncoding::srgb); // linear data, but in the alpha
                                                                        // channel
@@ -183,13 +185,14 @@ std::vector<Texture> load_textures(const Scene& scene, BadTextures bad, TextureN
         const EncodedImage& encoded_image = there ? scene.images[static_cast<std::size_t>(image)] : nothing;
         try {
             if (encoded_image.bytes.empty())
-                throw Error("is not there");
+                throw Error(encoded_image.trouble.empty() ? "is not there" : encoded_image.trouble);
             check_format(encoded_image.bytes);
             textures[static_cast<std::size_t>(image)] =
                 make_texture(decode_image(encoded_image.bytes), encoding);
         } catch (const Error& error) {
             if (bad == BadTextures::error)
-                throw Error(encoded_image.name + " " + error.what());
+                throw Error(encoded_image.name + " " + error.what() +
+                            "; its pixels are needed here, unless --bad-textures ignore is given");
         }
     }
     return textures;

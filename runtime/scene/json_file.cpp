@@ -2,6 +2,7 @@
 
 #include "prt/support/error.h"
 #include "prt/support/file.h"
+#include "prt/support/json_tree.h"
 
 #include <glm/geometric.hpp>
 
@@ -22,7 +23,7 @@ Json read_json(const std::filesystem::path& path) {
     const std::vector<std::byte> file = read_file(path);
     const char* begin = reinterpret_cast<const char*>(file.data());
     try { // the words of the library name its inner parts
-        return Json::parse(begin, begin + file.size());
+        return parse_json_tree<Json>({begin, file.size()});
     } catch (const Json::parse_error& error) {
         throw Error("is no JSON from byte " + std::to_string(error.byte) + " on");
     } catch (const Json::exception&) {

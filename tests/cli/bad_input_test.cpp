@@ -110,9 +110,9 @@ TEST_F(BadInput, LightBeyondWhatIsComputedWith) {
 
 TEST_F(BadInput, ScenesReachOutsideTheirFolderWhereThatIsAllowed) {
     GlbFile file = triangle_file();
-    file.json["images"] = {{{"uri", "../picture.png"}}};
+    file.json["buffers"] = {{{"uri", "../data.bin"}, {"byteLength", file.binary.size()}}};
     std::filesystem::create_directory(folder / "scene");
-    folder.file("picture.png", "no picture");
+    folder.file("data.bin", {reinterpret_cast<const char*>(file.binary.data()), file.binary.size()});
     const std::string scene = (folder / "scene/scene.glb").string();
     file.write(scene);
     expect_refused(prt({"info", scene}), scene);
@@ -194,7 +194,10 @@ TEST_F(BadInput, MissingTexturesAreNamedAndMayBeIgnored) {
     file.json["meshes"][0]["primitives"][0]["material"] = 0;
     file.write(folder / "untextured.glb");
     const std::string scene = (folder / "untextured.glb").string();
-    expect_refused(prt({"bake", scene, "-o", out}), "gone.png");
+    const Outcome refused = prt({"bake", scene, "-o", out, "--bounces", "1"});
+    EXPECT_EQ(refused.status, 1);
+    EXPECT_NE(refused.err.find("prt: error: " + scene + ": image 0 'gone.png'"), std::string::npos)
+        << refused.err;
     const Outcome ignored =
         prt({"bake", scene, "-o", out, "--bad-textures", "ignore", "--rays", "4", "--bounces", "1"});
     EXPECT_EQ(ignored.status, 0) << ignored.err;

@@ -2,7 +2,10 @@
 // the exact answer beside it.
 #include "prt/gltf.h"
 
+#include "prt/animation.h"
+#include "prt/encode_glb.h"
 #include "prt/support/error.h"
+#include "prt/support/json_tree.h"
 #include "support/glb_file.h"
 #include "support/temporary_folder.h"
 
@@ -181,7 +184,7 @@ TEST(GltfCorpus, GltfpackQuantizedPositionsOfSixteenBits) {
 /// Result of reading a scene whose base color or normal map is `uri`, in a folder with "textures/Brick
 /// One.png".
 struct UriResult {
-    std::string refusal;
+    std::string trouble; ///< with the image
     std::vector<std::string> notices;
 };
 UriResult read_with_uri(const std::string& uri, const char* slot = "baseColorTexture") {
@@ -199,43 +202,154 @@ UriResult read_with_uri(const std::string& uri, const char* slot = "baseColorTex
         material = {{"pbrMetallicRoughness", material}};
     file.json["materials"] = Json::array({material});
     file.write(folder / "scene.glb");
-    try {
-        return {"", extract_scene(load_gltf(folder / "scene.glb")).notices};
-    } catch (const Error& error) {
-        return {error.what(), {}};
-    }
+    const Scene scene = extract_scene(load_gltf(folder / "scene.glb"));
+    return {scene.images.at(0).trouble, scene.notices};
 }
 
 TEST(GltfCorpus, UrisThatMeanOneFile) {
     for (const char* uri : {"textures/Brick%20One.png", "textures/Brick One.png"}) {
         const UriResult result = read_with_uri(uri);
-        EXPECT_EQ(result.refusal, "") << uri;
+        EXPECT_EQ(result.trouble, "") << uri;
         EXPECT_TRUE(result.notices.empty()) << uri;
     }
     for (const char* uri :
          {"textures\\Brick One.png", "Textures/brick one.PNG", "textures/Brick%20One.png?v=2",
           ".\\textures\\brick%20one.png#t", "textures/Brick%2520One.png"}) {
         const UriResult result = read_with_uri(uri);
-        EXPECT_EQ(result.refusal, "") << uri;
+        EXPECT_EQ(result.trouble, "") << uri;
         ASSERT_EQ(result.notices.size(), 1u) << uri;
         EXPECT_NE(result.notices[0].find("'textures/Brick One.png' is read"), std::string::npos)
             << result.notices[0];
     }
     const UriResult twin = read_with_uri("textures/Twin.png");
-    EXPECT_NE(twin.refusal.find("more than one is alike"), std::string::npos) << twin.refusal;
-    EXPECT_NE(read_with_uri("textures/gone.png").refusal.find("there is no such file"), std::string::npos);
-    EXPECT_NE(read_with_uri("pointer.png").refusal.find("git lfs pull"), std::string::npos);
+    EXPECT_NE(twin.trouble.find("more than one is alike"), std::string::npos) << twin.trouble;
+    EXPECT_NE(read_with_uri("textures/gone.png").trouble.find("there is no such file"), std::string::npos);
+    EXPECT_NE(read_with_uri("textures/gone%20too.png").trouble.find("there is no such file"),
+              std::string::npos);
+    EXPECT_NE(read_with_uri("pointer.png").trouble.find("git lfs pull"), std::string::npos);
 }
 
-TEST(GltfCorpus, MissingNormalMap) {
-    const UriResult result = read_with_uri("gone.png", "normalTexture");
-    EXPECT_EQ(result.refusal, "");
-    EXPECT_EQ(std::count_if(result.notices.begin(), result.notices.end(),
-                            [](const std::string& notice) {
-                                return notice.find("light does not need it") != std::string::npos;
-                            }),
-              1);
-    EXPECT_NE(read_with_uri("gone.png", "emissiveTexture").refusal, "");
+TEST(GltfCorpus, MissingImagesAreNotices) {
+    for (const char* slot : {"normalTexture", "emissiveTexture", "baseColorTexture"}) {
+        const UriResult result = read_with_uri("gone.png", slot);
+        EXPECT_EQ(std::count_if(result.notices.begin(), result.notices.end(),
+                                [](const std::string& notice) {
+                                    return notice.find("image 0 'gone.png' cannot be read: there is no such "
+                                                       "file") != std::string::npos;
+                                }),
+                  1);
+    }
+}
+
+TEST(GltfCorpus, SketchfabNormalsAndCoordinatesThatAreNotNumbers) {
+    const float nan = std::numeric_limits<float>::quiet_NaN();
+    for (const bool sparse : {false, true}) {
+        GlbFile file = test::triangle_file();
+        Json& attributes = file.json["meshes"][0]["primitives"][0]["attributes"];
+        const std::vector<float> normals = {0, 0, -1, nan, 0, 1, 0, 0, 0};
+        attributes["NORMAL"] = file.accessor(normals, test::kFloat, "VEC3", 3);
+        attributes["TEXCOORD_0"] =
+            file.accessor(std::vector<float>{0.25f, 0.5f, nan, 1, 1, 1}, test::kFloat, "VEC2", 2);
+        if (sparse) {
+            const std::vector<std::uint32_t> index = {1};
+            const std::vector<float> value = {nan, nan, nan};
+            file.json["accessors"][attributes["NORMAL"].get<std::size_t>()]["sparse"] = {
+                {"count", 1},
+                {"indices",
+                 {{"bufferView", file.view(std::as_bytes(std::span(index)))},
+                  {"componentType", test::kUnsignedInt}}},
+                {"values", {{"bufferView", file.view(std::as_bytes(std::span(value)))}}}};
+        }
+        const std::string bytes = file.bytes();
+        const GltfDocument document = parse_gltf(std::as_bytes(std::span(bytes)), "memory.glb");
+        const Scene scene = extract_scene(document);
+        EXPECT_EQ(notices_with(scene, "2 normals are zero or not finite"), 1);
+        EXPECT_EQ(notices_with(scene, "1 texture coordinates are not finite"), 1);
+        const Scene again = extract_scene(parse_gltf(encode_glb(document), "memory.glb"));
+        EXPECT_TRUE(again.notices.empty());
+        EXPECT_EQ(receivers_id(again), receivers_id(scene));
+        const VertexArray& vertices = again.vertex_arrays.at(0);
+        EXPECT_EQ(vertices.normals,
+                  (std::vector<glm::vec3>{{0, 0, -1}, {0, 0, 1}, {0, 0, 1}})); // as the triangle is wound
+        EXPECT_EQ(vertices.texcoords.at(0), (std::vector<glm::vec2>{{0.25f, 0.5f}, {0, 0}, {1, 1}}));
+    }
+}
+
+TEST(GltfCorpus, NormalsWithoutDataAreThoseOfTriangles) {
+    GlbFile file = test::triangle_file();
+    Json& attributes = file.json["meshes"][0]["primitives"][0]["attributes"];
+    file.json["accessors"].push_back({{"componentType", test::kFloat}, {"type", "VEC3"}, {"count", 3}});
+    attributes["NORMAL"] = file.json["accessors"].size() - 1;
+    const Scene scene = scene_of(file);
+    EXPECT_EQ(notices_with(scene, "3 normals are zero or not finite"), 1);
+    EXPECT_EQ(scene.vertex_arrays.at(0).normals, std::vector<glm::vec3>(3, {0, 0, 1}));
+}
+
+TEST(GltfCorpus, OctaneInstancesBeyondTheLimit) {
+    GlbFile file = test::triangle_file();
+    const std::vector<float> places(3 * 100);
+    file.json["nodes"][0]["extensions"]["EXT_mesh_gpu_instancing"]["attributes"]["TRANSLATION"] =
+        file.accessor(places, test::kFloat, "VEC3", 3);
+    file.json["extensionsUsed"] = {"EXT_mesh_gpu_instancing"};
+    const std::string bytes = file.bytes();
+    const auto read = [&](double limit) {
+        return extract_scene(
+            parse_gltf(std::as_bytes(std::span(bytes)), "memory.glb", {.scene_limit = limit}));
+    };
+    EXPECT_THROW(read(1e5), Error);
+    EXPECT_EQ(read(1e6).primitives.size(), 100u);
+    EXPECT_EQ(read(0).primitives.size(), 100u);
+}
+
+TEST(GltfCorpus, LargeExtrasStayInTheFile) {
+    GlbFile file = test::triangle_file();
+    Json kept = {{"list", Json::array()}};
+    for (int i = 0; i < 20'000; ++i)
+        kept["list"].push_back(i);
+    file.json["extras"] = file.json["extensions"]["OTHER_data"] = kept;
+    file.json["extensionsUsed"] = {"OTHER_data", "KHR_lights_punctual"};
+    file.json["extensions"]["KHR_lights_punctual"]["lights"] = {{{"type", "point"}}};
+    file.json["nodes"][0]["extensions"]["KHR_lights_punctual"]["light"] = 0;
+    file.json["nodes"][0]["extras"] = kept;
+    const std::string bytes = file.bytes();
+    const GltfDocument document = parse_gltf(std::as_bytes(std::span(bytes)), "memory.glb");
+    EXPECT_EQ(extract_scene(document).lights.size(), 1u);
+    const GlbFile written = test::glb_of(encode_glb(document));
+    EXPECT_EQ(written.json["extras"], kept);
+    EXPECT_EQ(written.json["extensions"]["OTHER_data"], kept);
+    EXPECT_EQ(written.json["nodes"][0]["extras"], kept);
+}
+
+TEST(GltfCorpus, AnimationsWithoutDataAreBoundedTogether) {
+    GlbFile file = test::triangle_file();
+    constexpr int kKeys = 1'000'000;
+    for (const char* type : {"SCALAR", "VEC3"})
+        file.json["accessors"].push_back({{"componentType", test::kFloat}, {"type", type}, {"count", kKeys}});
+    const std::size_t output = file.json["accessors"].size() - 1;
+    Json animation = {{"channels", Json::array()},
+                      {"samplers", {{{"input", output - 1}, {"output", output}}}}};
+    for (int i = 0; i < 20; ++i)
+        animation["channels"].push_back({{"sampler", 0}, {"target", {{"node", 0}, {"path", "scale"}}}});
+    file.json["animations"] = {animation};
+    const std::string bytes = file.bytes();
+    const GltfDocument document = parse_gltf(std::as_bytes(std::span(bytes)), "memory.glb");
+    try {
+        const AnimatedScene scene(document);
+        FAIL();
+    } catch (const Error& error) {
+        EXPECT_NE(std::string(error.what()).find("memory.glb: the keys of its animations"), std::string::npos)
+            << error.what();
+    }
+}
+
+/// Trees of one text by the parser of the library and by that of linear time.
+TEST(JsonTree, EqualsThatOfTheLibrary) {
+    for (const char* text : {"{}", "[]", "3", R"("a\u00e4")", "[1,-2,3.5,true,null,[],{}]",
+                             R"({"b":1,"a":{"c":[{"d":2}]},"e":3})", R"({"a":1,"b":2,"a":3})",
+                             R"({"z":0,"b":{"a":1,"a":2},"a":1,"b":2,"z":5,"c":6,"b":[7]})"})
+        EXPECT_EQ(parse_json_tree<Json>(text).dump(), Json::parse(text).dump()) << text;
+    for (const char* text : {"", "{", "[1,]", R"({"a":1}})", "1e999", "nul"})
+        EXPECT_THROW(parse_json_tree<Json>(text), Json::exception) << text;
 }
 
 /// A tile of 3D Tiles around `glb`: magic, version, length, and four tables of which one has eight bytes.

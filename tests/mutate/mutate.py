@@ -28,7 +28,7 @@ ENVIRONMENT = dict(os.environ, UBSAN_OPTIONS="print_stacktrace=1",
                    ASAN_OPTIONS="detect_leaks=0:quarantine_size_mb=16:hard_rss_limit_mb=1024:max_allocation_size_mb=512")
 INNER = re.compile(r"std::|vector::|basic_string|\[json\.exception|terminate called|Assertion|Sanitizer|runtime error")
 NO_NUMBER = re.compile(r"(?<![\w./-])-?(nan|inf)(?![\w./-])")
-NULLS = {"seam_place_metres"}  # where there is no seam
+NULLS = {"seam_place_metres", "relative_l2", "standard_error"}  # where there is no seam, and errors of light that there is none of
 LIGHT = {"prtkit_light": 1, "order": 3, "coefficients": {channel: [3] + [0.1] * 8 for channel in ("red", "green", "blue")}}  # that bakes want
 
 # How each kind of file is used: {file} is the changed one, {baked} and {shipped} are those that it came from.
@@ -37,15 +37,24 @@ SCENE = [["info", "{file}"],
          ["bake", "{file}", "-o", "out.glb", "--rays", "4", "--order", "2", "--backend", "cpu", "--bounces", "1"],
          ["render", "{file}", "--env", "light.json", "-o", "out.exr", "--size", "16x8", "--samples", "1", "--backend", "cpu"]]
 COMPRESS = ["compress", "{file}", "-o", "out.glb"]
-BAKED = SCENE[:2] + SCENE[3:] + [COMPRESS, COMPRESS + ["--meshopt"], COMPRESS + ["--reorder"],
+# Commands that pass on what is in a file.
+AO = ["ao", "{file}", "-o", "out.glb", "--rays", "4", "--backend", "cpu"]
+PASS_ON = [AO, AO + ["--volume"], AO + ["--size", "32", "--unwrap"],
+           ["lobes", "{file}", "-o", "out.glb", "--rays", "4", "--poses", "1", "--frames", "1", "--backend", "cpu"]]
+RELIGHT = ["relight", "{file}", "--env", "light.json", "-o", "out.glb"]
+MAKE = ["make", "{file}", "-o", "out.glb", "--lights", "light.json", "--max-error", "0.5", "--seconds", "0.1", "--best-effort"]
+SCENE += [["info", "{file}", "--check"], MAKE] + PASS_ON
+BAKED = SCENE[:2] + SCENE[3:4] + PASS_ON + [RELIGHT] + [COMPRESS, COMPRESS + ["--meshopt"], COMPRESS + ["--reorder"],
                                  COMPRESS + ["--weights", "float", "--preset", "custom", "--clusters", "3", "--components", "2"],
                                  ["evaluate", "{file}", "{shipped}"]]
-SHIPPED = SCENE[:1] + SCENE[3:] + [["evaluate", "{baked}", "{file}"], ["shader", "{file}", "-o", "out.vert"],
-                                 ["relight", "{file}", "--env", "light.json", "-o", "out.glb"]] + SCENE[1:2]
+SHIPPED = SCENE[:1] + SCENE[3:4] + PASS_ON + [["evaluate", "{baked}", "{file}"], ["shader", "{file}", "-o", "out.vert"],
+                                              RELIGHT] + SCENE[1:2]
+# Of occlusion volumes and of lobes.
+KEPT = SCENE[:1] + PASS_ON + SCENE[1:2]
 # Of texels.
-RAW_TEXELS = SCENE[:1] + SCENE[3:] + [COMPRESS, COMPRESS + ["--preset", "custom", "--clusters", "3", "--components", "2"],
+RAW_TEXELS = SCENE[:1] + SCENE[3:4] + PASS_ON + [COMPRESS, COMPRESS + ["--preset", "custom", "--clusters", "3", "--components", "2"],
                                       ["evaluate", "{file}", "{shipped}"]]
-TEXELS = SCENE[:1] + SCENE[3:] + [["evaluate", "{baked}", "{file}"], ["shader", "{file}", "-o", "out.comp"],
+TEXELS = SCENE[:1] + SCENE[3:4] + PASS_ON + [["evaluate", "{baked}", "{file}"], ["shader", "{file}", "-o", "out.comp"],
                                   ["shader", "{file}", "-o", "out.frag", "--fragment"]] + SCENE[1:2]
 SHIPMENTS = [["--meshopt"], ["--preset", "custom", "--weights", "float", "--clusters", "2", "--components", "3"], ["--preset", "u64", "--reorder"],
              ["--preset", "u32x4", "--guides", "position"],
@@ -68,6 +77,16 @@ class Bases:
             self.files += [(scene.read_bytes(), SCENE, names)] * 2 + [(baked.read_bytes(), BAKED, names)] * 3
             self.files += [(path.read_bytes(), SHIPPED, names) for path in shipped]
             self.add_lightmap(program, scene, folder)
+            self.add_kept(program, scene, folder)
+
+    def add_kept(self, program, scene, folder):
+        """Files of occlusion volumes and, where something moves, of lobes."""
+        for name, options in (("volume", ["ao", "--volume"]), ("lobes", ["lobes", "--poses", "1", "--frames", "0"])):
+            path = folder / f"{scene.stem}.{name}.glb"
+            done = subprocess.run([program, options[0], scene, "-o", path, *options[1:], "--rays", "4", "--backend", "cpu"], check=False,
+                                  env=ENVIRONMENT, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+            if done.returncode == 0:
+                self.files.append((path.read_bytes(), KEPT, {}))
 
     def add_lightmap(self, program, scene, folder):
         """Files of texels, where the scene's materials can have them."""
@@ -158,6 +177,8 @@ def finding(program, arguments, folder, before):
         if NO_NUMBER.search(out.decode()):
             return "prints a figure that is not finite: " + out.decode()
         return wrong_output(program, folder)
+    if "--check" in arguments and b"check: " in out:
+        return None
     lines = [line for line in error.decode().splitlines() if line.startswith("prt: error")]
     if len(lines) != 1 or not error.endswith((lines[0] + "\n").encode()):
         return f"says {len(lines)} lines of error: {error.decode()}"

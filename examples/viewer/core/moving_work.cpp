@@ -29,7 +29,7 @@ constexpr int kOccluderRays = 64;
 constexpr int kProbesOfCluster = 32, kMostClusters = 256;
 
 bool is_animated(const std::filesystem::path& path) {
-    return prt::has_animations(prt::load_gltf(path, {.missing_images = prt::MissingImages::ignore}));
+    return prt::has_animations(prt::load_gltf(path));
 }
 
 std::shared_ptr<const prt::CompressedVolume> compressed(Channel& channel, const prt::BakedVolume& volume) {

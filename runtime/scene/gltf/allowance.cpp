@@ -5,17 +5,39 @@
 
 namespace prt {
 
+namespace {
+
+std::string megabytes(double bytes) { // no more digits than mean something
+    constexpr double kMegabyte = 1e6;
+    return bytes < 1e18 ? std::to_string(static_cast<unsigned long long>(bytes / kMegabyte)) + " MB"
+                        : std::string("a million million MB");
+}
+
+double allowed(std::size_t file_bytes) {
+    constexpr double kAlways = 256e6, kPerByte = 64;
+    return kAlways + kPerByte * static_cast<double>(file_bytes);
+}
+
+std::string excess(double bytes, std::size_t file_bytes, const std::string& what) {
+    return what + " would take " + megabytes(bytes) + ", more than the " + megabytes(allowed(file_bytes)) +
+           " that a file of " + std::to_string(file_bytes) + " bytes may take";
+}
+
+} // namespace
+
 void check_allowed(double bytes, std::size_t file_bytes, const std::string& what) {
-    constexpr double kAlways = 256e6, kPerByte = 64, kMegabyte = 1e6;
-    const double most = kAlways + kPerByte * static_cast<double>(file_bytes);
-    if (bytes <= most)
+    if (!(bytes <= allowed(file_bytes)))
+        throw Error(excess(bytes, file_bytes, what));
+}
+
+void check_scene_allowed(double bytes, const GltfContents& contents, const std::string& what) {
+    const double limit = contents.scene_limit;
+    if (bytes <= (limit > 0 ? limit : allowed(contents.file_bytes)))
         return;
-    const auto megabytes = [](double value) { // avoids meaningless digits
-        return value < 1e18 ? std::to_string(static_cast<unsigned long long>(value / kMegabyte)) + " MB"
-                            : std::string("a million million MB");
-    };
-    throw Error(what + " would take " + megabytes(bytes) + ", more than the " + megabytes(most) +
-                " that a file of " + std::to_string(file_bytes) + " bytes may take");
+    if (limit > 0)
+        throw Error(what + " would take " + megabytes(bytes) + ", more than the limit of " +
+                    megabytes(limit));
+    throw Error(excess(bytes, contents.file_bytes, what) + ": allow more by --scene-limit");
 }
 
 } // namespace prt

@@ -2,6 +2,8 @@
 
 // Memory limit for reading a file.
 
+#include "gltf/contents.h"
+
 #include <cstddef>
 #include <string>
 
@@ -11,5 +13,8 @@ namespace prt {
 /// that a file describes without containing it, such as zeros and instances, has no other limit. `bytes` is a
 /// product of numbers from the file, in double so that it cannot overflow.
 void check_allowed(double bytes, std::size_t file_bytes, const std::string& what);
+
+/// The same of what scenes take by repetition, which `GltfOptions::scene_limit` replaces where it is not 0.
+void check_scene_allowed(double bytes, const GltfContents& contents, const std::string& what);
 
 } // namespace prt

@@ -68,7 +68,7 @@ AnimatedScene::AnimatedScene(const GltfDocument& document) {
         vertices_ = std::move(extraction.moving);
         for (std::size_t skin = 0; skin < contents.model.skins.size(); ++skin)
             skins_.push_back(read_skin(contents.model, static_cast<int>(skin)));
-        animations_ = read_animations(contents.model);
+        animations_ = read_animations(contents);
         tree_ = std::make_shared<const NodeTree>(node_tree(contents.model));
         const std::vector<glm::dmat4> standing = rest();
         for (std::size_t array = 0; array < vertices_.size(); ++array) {

@@ -3,6 +3,7 @@
 
 #include "gltf/allowance.h"
 #include "gltf/draco_primitives.h"
+#include "gltf/json_text.h"
 #include "gltf/meshopt_views.h"
 #include "prt/support/error.h"
 
@@ -46,7 +47,7 @@ constexpr std::array<std::string_view, 8> kReadExtensions = {
     "PRTKIT_",        kMeshoptExtension, kDracoExtension, "EXT_mesh_gpu_instancing",
     "KHR_materials_", "KHR_texture_",    "EXT_texture_",  "MSFT_texture_"};
 
-bool is_read(std::string_view extension) {
+bool is_checked(std::string_view extension) {
     return std::any_of(kReadExtensions.begin(), kReadExtensions.end(),
                        [&](std::string_view begin) { return extension.starts_with(begin); });
 }
@@ -87,29 +88,40 @@ std::size_t count_values(const Json& json) {
     return count;
 }
 
+/// Number of values that tinygltf stores in extras and extensions: those that the reader takes, and others.
+struct FreeValues {
+    std::size_t taken = 0, left = 0;
+};
+
 /// Checks the numbers in all data below `json` that is read; returns the number of values that tinygltf
 /// stores without conversion.
-std::size_t check_values(const Json& json) {
-    std::size_t kept = 0;
+FreeValues check_values(const Json& json) {
+    FreeValues kept;
+    const auto add = [&](const FreeValues& below) {
+        kept.taken += below.taken;
+        kept.left += below.left;
+    };
     if (json.is_array()) {
         for (const Json& value : json)
-            kept += value.is_structured() ? check_values(value) : 0;
+            if (value.is_structured())
+                add(check_values(value));
         return kept;
     }
     for (const auto& [key, value] : json.items()) {
         if (key == "extras") {
-            kept += count_values(value);
+            kept.left += count_values(value);
         } else if (key == "extensions") {
-            kept += count_values(value);
             for (const auto& [name, extension] : value.items())
-                if (is_read(name) && extension.is_structured())
+                (is_taken_extension(name) ? kept.taken : kept.left) += count_values(extension);
+            for (const auto& [name, extension] : value.items())
+                if (is_checked(name) && extension.is_structured())
                     check_values(extension);
         } else if (is_whole_number(key, value)) {
             check_whole(value, key);
         } else if (key == "attributes") {
             check_attributes(value);
         } else if (value.is_structured()) {
-            kept += check_values(value);
+            add(check_values(value));
         }
     }
     return kept;
@@ -155,15 +167,18 @@ double check_primitives(const Json& json) {
 
 } // namespace
 
-void check_shape(const Json& json, std::size_t text_bytes) {
+bool check_shape(const Json& json, std::size_t text_bytes) {
     double bytes = 0;
     for (const auto& [name, size] : kLists) {
         check_list(json, name);
         bytes += static_cast<double>(list_of(json, name).size() * size);
     }
-    bytes += static_cast<double>(check_values(json) * sizeof(tinygltf::Value));
+    constexpr std::size_t kFew = 10'000; // values, of two megabytes
+    const FreeValues values = check_values(json);
+    bytes += static_cast<double>(values.taken * sizeof(tinygltf::Value));
     bytes += check_primitives(json);
     check_allowed(bytes, text_bytes, "its JSON");
+    return values.left <= kFew;
 }
 
 void check_views(const Json& json) {

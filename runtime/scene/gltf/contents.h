@@ -35,9 +35,11 @@ struct GltfContents {
     tinygltf::Model
         model; ///< model from the file; edits of `json` do not update it, but its views follow the bytes
     Json json;
-    std::vector<std::vector<std::byte>> images; ///< encoded, by image index
+    std::vector<std::vector<std::byte>> images; ///< encoded, by image index; empty: cannot be read
+    std::vector<std::string> image_troubles;    ///< why images cannot be read, by image index
     std::vector<std::string> notices;           ///< changes made while reading, one line each
     std::size_t file_bytes = 0;                 ///< size of the file and its external buffers
+    double scene_limit = 0;                     ///< GltfOptions::scene_limit
     std::vector<ExpandedNode> expanded;
     std::vector<MeshApart> apart;
 

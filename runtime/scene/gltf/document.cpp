@@ -10,15 +10,16 @@
 #include "gltf/draco_primitives.h"
 #include "gltf/fallback.h"
 #include "gltf/glb.h"
-#include "gltf/image_uses.h"
 #include "gltf/instances.h"
 #include "gltf/json_text.h"
 #include "gltf/lights.h"
 #include "gltf/meshes_apart.h"
 #include "gltf/meshopt_views.h"
+#include "gltf/repair_vertices.h"
 #include "gltf/reread.h"
 #include "gltf/side_files.h"
 #include "gltf/smooth_primitives.h"
+#include "gltf/supported_extensions.h"
 #include "prt/encode_glb.h"
 #include "prt/support/error.h"
 #include "prt/support/file.h"
@@ -39,48 +40,6 @@
 
 namespace prt {
 namespace {
-
-constexpr const char* kCesiumOffset = "CESIUM_RTC";
-
-/// Extensions that are allowed in extensionsRequired. Materials and lights affect only reflection; their base
-/// color is used. Unsupported texture formats are an error only if the texture is needed.
-constexpr std::array<std::string_view, 35> kSupportedExtensions = {
-    kTransferExtension,
-    kClusteredExtension,
-    kLightmapExtension,
-    kVolumeExtension,
-    kInstancesExtension,
-    kMeshoptExtension,
-    kDracoExtension,
-    "EXT_mesh_gpu_instancing",
-    "MSFT_lod",
-    "KHR_mesh_quantization",
-    "KHR_node_visibility",
-    "EXT_texture_avif",
-    "EXT_texture_webp",
-    "KHR_texture_basisu",
-    "MSFT_texture_dds",
-    "KHR_texture_transform",
-    "KHR_lights_punctual",
-    "KHR_animation_pointer",
-    "KHR_xmp_json_ld",
-    "KHR_materials_anisotropy",
-    "KHR_materials_clearcoat",
-    "KHR_materials_diffuse_transmission",
-    "KHR_materials_dispersion",
-    "KHR_materials_emissive_strength",
-    "KHR_materials_ior",
-    "KHR_materials_iridescence",
-    "KHR_materials_pbrSpecularGlossiness",
-    "KHR_materials_sheen",
-    "KHR_materials_specular",
-    "KHR_materials_transmission",
-    "KHR_materials_unlit",
-    "KHR_materials_variants",
-    "KHR_materials_volume",
-    "EXT_lights_image_based",
-    kCesiumOffset, // moves the whole scene: light does not change
-};
 
 /// Returns the name of another scene format by suffix.
 std::string_view other_format(const std::filesystem::path& path) {
@@ -147,8 +106,7 @@ void check_required_extensions(const Json& json) {
     if (!json.contains("extensionsRequired"))
         return;
     for (const Json& name : json["extensionsRequired"])
-        if (!name.is_string() || std::find(kSupportedExtensions.begin(), kSupportedExtensions.end(),
-                                           name.get<std::string>()) == kSupportedExtensions.end())
+        if (!name.is_string() || !is_supported_extension(name.get<std::string>()))
             throw Error("requires the glTF extension " +
                         (name.is_string() ? name.get<std::string>() : name.dump()) +
                         ", which is not supported");
@@ -161,7 +119,7 @@ bool accept_deviations(GltfContents& contents) {
     if (nulls > 0)
         contents.notices.push_back(std::to_string(nulls) +
                                    " members of its JSON are null: they are read as absent");
-    if (extension_of(contents.json, kCesiumOffset))
+    if (extension_of(contents.json, kCesiumExtension))
         contents.notices.emplace_back("its offset CESIUM_RTC is not applied: light does not depend on it");
     const bool meshopt = use_ext_meshopt(contents.json), spots = complete_spots(contents.json);
     return meshopt || spots || nulls > 0;
@@ -177,10 +135,10 @@ void keep_encoded(std::vector<std::vector<std::byte>>& images, std::size_t i, co
 }
 
 /// Reads images in buffer views; tinygltf has read those in files.
-void take_images(GltfContents& contents, const GltfOptions& options, const SideFiles& files) {
+void take_images(GltfContents& contents, const SideFiles& files) {
     double total = 0;
     contents.images.resize(contents.model.images.size());
-    const std::set<std::size_t> unneeded = images_without_light(contents.json);
+    contents.image_troubles.resize(contents.images.size());
     for (std::size_t i = 0; i < contents.images.size(); ++i) {
         const tinygltf::Image& image = contents.model.images[i];
         if (image.bufferView >= 0) {
@@ -191,14 +149,10 @@ void take_images(GltfContents& contents, const GltfOptions& options, const SideF
         }
         if (!contents.images[i].empty())
             continue;
-        if (unneeded.contains(i))
-            contents.notices.push_back("image " + std::to_string(i) + " '" + printable(image.uri) +
-                                       "' cannot be read, and light does not need it");
-        else if (options.missing_images == MissingImages::error)
-            throw Error("image " + std::to_string(i) +
-                        (image.uri.empty()
-                             ? " is empty"
-                             : " '" + image.uri + "' cannot be read: " + files.first_trouble()));
+        contents.image_troubles[i] = image.uri.empty() ? "is empty" : files.trouble_of(image.uri);
+        contents.notices.push_back("image " + std::to_string(i) +
+                                   (image.uri.empty() ? "" : " '" + printable(image.uri) + "'") + ' ' +
+                                   contents.image_troubles[i]);
     }
 }
 
@@ -232,7 +186,7 @@ void load_model(GltfContents& contents, std::span<const std::byte> file, std::st
         if (!buffer.uri.empty())
             contents.file_bytes += buffer.data.size();
     contents.notices.insert(contents.notices.end(), files.notices().begin(), files.notices().end());
-    take_images(contents, options, files);
+    take_images(contents, files);
 }
 
 /// Joins all buffers into the first and redirects the buffer views.
@@ -263,6 +217,41 @@ void join_buffers(GltfContents& contents) {
         }
     buffers.resize(1);
     contents.json.erase("buffers");
+}
+
+/// Container of a file.
+struct FileForm {
+    bool binary;  ///< GLB
+    bool rewrite; ///< tinygltf gets another JSON than that of the file
+};
+
+/// Loads the model, and decompresses its data into the one buffer.
+void decompress_model(GltfContents& contents, std::span<const std::byte> file, std::string_view text,
+                      FileForm form, const GltfOptions& options) {
+    const bool meshopt = has_meshopt_views(contents.json), draco = has_draco_primitives(contents.json);
+    if (meshopt || draco || form.rewrite) {
+        Json plain = without_unread(contents.json);
+        if (meshopt)
+            plain = without_meshopt(std::move(plain));
+        if (draco)
+            plain = without_draco_indices(std::move(plain));
+        check_views(plain);
+        const std::string plain_text = plain.dump();
+        plain = {};
+        const std::vector<std::byte> rebuilt =
+            form.binary ? make_glb(plain_text, glb_binary(file)) : std::vector<std::byte>{};
+        load_model(contents, rebuilt, plain_text, form.binary, options);
+    } else {
+        check_views(contents.json);
+        load_model(contents, file, text, form.binary, options);
+    }
+    if (meshopt)
+        decompress_views(contents);
+    if (draco)
+        decompress_primitives(contents);
+    join_buffers(contents);
+    if (draco)
+        contents.cut_unused_bytes();
 }
 
 /// Returns the media type of an encoded image by its first bytes.
@@ -359,6 +348,7 @@ GltfDocument parse_gltf(std::span<const std::byte> whole_file, const std::filesy
         return parse_smoothed(whole_file, path, options);
     auto contents = std::make_unique<GltfContents>();
     contents->path = path;
+    contents->scene_limit = options.scene_limit;
     try {
         const std::span<const std::byte> file = without_tile(whole_file, contents->notices);
         check_is_gltf(file, path);
@@ -368,32 +358,13 @@ GltfDocument parse_gltf(std::span<const std::byte> whole_file, const std::filesy
                    : std::string_view(reinterpret_cast<const char*>(file.data()), file.size());
         contents->json = parse_json(text);
         const bool edited = accept_deviations(*contents);
-        check_shape(contents->json, text.size());
+        const bool small = check_shape(contents->json, text.size());
         check_required_extensions(contents->json);
         contents->file_bytes = file.size();
-        const bool meshopt = has_meshopt_views(contents->json), draco = has_draco_primitives(contents->json);
-        if (meshopt || draco || edited) {
-            Json plain = meshopt ? without_meshopt(contents->json) : contents->json;
-            if (draco)
-                plain = without_draco_indices(std::move(plain));
-            check_views(plain);
-            const std::string plain_text = plain.dump();
-            const std::vector<std::byte> rebuilt =
-                binary ? make_glb(plain_text, glb_binary(file)) : std::vector<std::byte>{};
-            load_model(*contents, rebuilt, plain_text, binary, options);
-        } else {
-            check_views(contents->json);
-            load_model(*contents, file, text, binary, options);
-        }
-        if (meshopt)
-            decompress_views(*contents);
-        if (draco)
-            decompress_primitives(*contents);
-        join_buffers(*contents);
-        if (draco)
-            contents->cut_unused_bytes();
+        decompress_model(*contents, file, text, {binary, edited || !small}, options);
         check_data(*contents);
         decode_vertices(*contents);
+        repair_vertices(*contents);
         set_fallback_aside(*contents);
         if (options.instancing == Instancing::apart)
             set_meshes_apart(*contents);

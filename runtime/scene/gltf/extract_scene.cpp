@@ -49,22 +49,14 @@ int attribute(const tinygltf::Primitive& primitive, const std::string& name) {
     return found == primitive.attributes.end() ? -1 : found->second;
 }
 
-/// Reads the sets of texture coordinates; returns the number of coordinates that are not finite and become 0.
-/// Some programs write such values for unmapped vertices.
-std::size_t read_texcoords(const tinygltf::Model& model, const tinygltf::Primitive& primitive,
-                           VertexArray& vertices) {
-    std::size_t replaced = 0;
+void read_texcoords(const tinygltf::Model& model, const tinygltf::Primitive& primitive,
+                    VertexArray& vertices) {
     for (int set = 0;; ++set) {
         const int accessor = attribute(primitive, "TEXCOORD_" + std::to_string(set));
         if (accessor < 0)
-            return replaced;
+            return;
         vertices.texcoords.push_back(read_vectors<glm::vec2>(model, accessor));
         check_count(vertices.texcoords.back().size(), vertices.size(), "TEXCOORD");
-        for (glm::vec2& uv : vertices.texcoords.back())
-            if (!std::isfinite(uv.x) || !std::isfinite(uv.y)) {
-                uv = glm::vec2(0);
-                ++replaced;
-            }
     }
 }
 
@@ -117,7 +109,7 @@ public:
             const std::string name = !image.uri.empty() ? image.uri : image.name;
             scene_.images.push_back(
                 {"image " + std::to_string(i) + (name.empty() ? "" : " '" + printable(name) + "'"),
-                 contents.images[i]});
+                 contents.images[i], contents.image_troubles[i]});
         }
         read_materials(model_, scene_, range_);
         scene_.notices = contents.notices;
@@ -176,7 +168,7 @@ private:
     std::size_t extract(const LevelNodes& nodes, std::span<const NodeTransform> coarser) {
         std::vector<NodeTransform> all = nodes.finest;
         all.insert(all.end(), coarser.begin(), coarser.end());
-        check_scene_size(model_, all, contents_.file_bytes);
+        check_scene_size(contents_, all);
         world_ = nodes.world;
         for (const NodeTransform& node : nodes.finest)
             add_node(node);
@@ -274,7 +266,7 @@ private:
             vertices.normals = read_vectors<glm::vec3>(model_, normals);
             check_count(vertices.normals.size(), vertices.size(), "NORMAL");
         }
-        seen_.bad_texcoords += read_texcoords(model_, file, vertices);
+        read_texcoords(model_, file, vertices);
         read_colors(model_, file, vertices);
         for (glm::vec4& color : vertices.colors)
             range_.clamp(color, "COLOR_0 of vertices");
@@ -366,9 +358,6 @@ private:
             scene_.notices.emplace_back(std::to_string(seen_.coarser_levels) +
                                         " nodes are coarser levels of detail of others (MSFT_lod or names), "
                                         "cast no shadow and are not drawn");
-        if (seen_.bad_texcoords > 0)
-            scene_.notices.emplace_back(std::to_string(seen_.bad_texcoords) +
-                                        " texture coordinates are not finite and become 0");
         if (!range_.notice().empty())
             scene_.notices.push_back(range_.notice());
         for (std::string& notice : unread_material_notices(model_, scene_))
@@ -380,7 +369,7 @@ private:
 
     /// Counts for notices to the user.
     struct Seen {
-        std::size_t flat_primitives = 0, skipped_primitives = 0, hidden_nodes = 0, bad_texcoords = 0;
+        std::size_t flat_primitives = 0, skipped_primitives = 0, hidden_nodes = 0;
         std::size_t coarser_levels = 0, vertices_before = 0, vertices_after = 0; ///< with flat normals
         bool has_morphs = false;
     };

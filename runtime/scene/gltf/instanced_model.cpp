@@ -1,4 +1,5 @@
 // Reads a file in two forms: with one node per instance, and with meshes as their transfer is stored.
+#include "gltf/contents.h"
 #include "prt/encode_glb.h"
 #include "prt/instances_gltf.h"
 #include "prt/support/error.h"
@@ -9,7 +10,7 @@ InstancedModel read_instanced(const GltfDocument& document, const Scene& scene,
                               const std::filesystem::path& path) {
     const GltfDocument apart =
         parse_gltf(encode_glb(document), path,
-                   {.missing_images = MissingImages::ignore, .instancing = Instancing::apart});
+                   {.instancing = Instancing::apart, .scene_limit = document.contents().scene_limit});
     InstancedModel model;
     model.stored = extract_scene(apart);
     model.baked = read_transfer(apart, model.stored);

@@ -86,7 +86,7 @@ std::size_t expand(GltfContents& contents, std::size_t n, double& bytes) {
         read_attributes(contents, nodes[n]["extensions"][kInstancingExtension].at("attributes"), count);
     bytes += static_cast<double>(count) *
              (kNode + kWeight * static_cast<double>(contents.model.nodes[n].weights.size()));
-    check_allowed(bytes, contents.file_bytes, "its instances");
+    check_scene_allowed(bytes, contents, "its instances");
     ExpandedNode expanded{n, nodes.size(), count, std::move(nodes[n]["extensions"][kInstancingExtension])};
     Json shared = Json::object(); // extension of the first instance
     if (const Json* found = extension_of(nodes[n], kInstancesExtension))

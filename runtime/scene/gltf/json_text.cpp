@@ -2,6 +2,7 @@
 #include "gltf/json_text.h"
 
 #include "prt/support/error.h"
+#include "prt/support/json_tree.h"
 
 #include <algorithm>
 #include <string>
@@ -45,7 +46,7 @@ void check_depth(std::string_view text) {
 Json parse_json(std::string_view text) {
     check_depth(text);
     try {
-        Json json = Json::parse(text);
+        Json json = parse_json_tree<Json>(text);
         if (!json.is_object() || !json.contains("asset") || !json["asset"].is_object())
             throw Error("is JSON, but no glTF: it has no asset");
         const std::string version = json["asset"].value("version", "");
@@ -79,6 +80,33 @@ std::size_t remove_nulls(Json& json) {
             removed += remove_nulls(value);
     }
     return removed;
+}
+
+bool is_taken_extension(std::string_view name) {
+    return name.starts_with("KHR_") || name.starts_with("EXT_") || name.starts_with("MSFT_");
+}
+
+Json without_unread(const Json& json) {
+    Json kept(json.type());
+    if (const auto* object = json.get_ptr<const Json::object_t*>()) {
+        for (const auto& [key, value] : *object) {
+            if (key == "extras")
+                continue;
+            Json member = key == "extensions" ? Json(value.type()) : without_unread(value);
+            if (const auto* extensions = value.get_ptr<const Json::object_t*>();
+                key == "extensions" && extensions)
+                for (const auto& [name, extension] : *extensions)
+                    if (is_taken_extension(name))
+                        member.get_ref<Json::object_t&>().emplace_back(name, extension);
+            kept.get_ref<Json::object_t&>().emplace_back(key, std::move(member));
+        }
+    } else if (const auto* array = json.get_ptr<const Json::array_t*>()) {
+        for (const Json& value : *array)
+            kept.push_back(without_unread(value));
+    } else {
+        kept = json;
+    }
+    return kept;
 }
 
 double json_bytes(const Json& json) {

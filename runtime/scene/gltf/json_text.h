@@ -16,6 +16,13 @@ Json parse_json(std::string_view text);
 /// the extensions of prtkit. Returns their number.
 std::size_t remove_nulls(Json& json);
 
+/// Returns whether the reader takes an extension from the model of tinygltf, not from the JSON alone.
+bool is_taken_extension(std::string_view name);
+
+/// Returns a copy of a glTF without extras and without extensions that only the JSON holds for the reader: tinygltf
+/// keeps ten times the memory for each value of theirs.
+Json without_unread(const Json& json);
+
 /// Returns the approximate memory size of `json` in bytes.
 double json_bytes(const Json& json);
 

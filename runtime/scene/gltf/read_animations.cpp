@@ -2,12 +2,14 @@
 #include "gltf/read_animations.h"
 
 #include "gltf/accessor.h"
+#include "gltf/allowance.h"
 #include "prt/support/error.h"
 
 #include <algorithm>
 #include <cmath>
 #include <optional>
 #include <string>
+#include <utility>
 
 namespace prt {
 namespace {
@@ -87,20 +89,40 @@ std::optional<AnimationChannel> read_channel(const tinygltf::Model& model,
     return channel;
 }
 
-double speed_of(const tinygltf::Value& extras) {
-    if (!extras.IsObject() || !extras.Has("speed") || !extras.Get("speed").IsNumber())
+double speed_of(const Json& animation) {
+    const auto extras = animation.find("extras");
+    if (extras == animation.end() || !extras->is_object() || !extras->contains("speed") ||
+        !extras->at("speed").is_number())
         return 0;
-    const double speed = extras.Get("speed").GetNumberAsDouble();
+    const double speed = extras->at("speed").get<double>();
     return speed >= 0 && speed <= 1e3 ? speed : 0; // supersonic speeds are treated as errors
+}
+
+/// Accessors claim keys that no data stands for, and channels read them as often as they name them.
+void check_keys(const GltfContents& contents) {
+    constexpr double kTime = 8, kValue = 40; // bytes while they are read
+    double bytes = 0;
+    for (const tinygltf::Animation& animation : contents.model.animations)
+        for (const tinygltf::AnimationChannel& channel : animation.channels) {
+            const auto sampler = static_cast<std::size_t>(channel.sampler);
+            if (channel.sampler < 0 || sampler >= animation.samplers.size())
+                continue; // refused where it is read
+            for (const auto& [accessor, size] : {std::pair(animation.samplers[sampler].input, kTime),
+                                                 std::pair(animation.samplers[sampler].output, kValue)})
+                bytes += size * static_cast<double>(get_accessor(contents.model, accessor).count);
+        }
+    check_allowed(bytes, contents.file_bytes, "the keys of its animations, once for each channel,");
 }
 
 } // namespace
 
-std::vector<Animation> read_animations(const tinygltf::Model& model) {
+std::vector<Animation> read_animations(const GltfContents& contents) {
+    const tinygltf::Model& model = contents.model;
+    check_keys(contents);
     std::vector<Animation> animations;
     for (std::size_t a = 0; a < model.animations.size(); ++a) {
         const tinygltf::Animation& file = model.animations[a];
-        Animation animation{file.name, 0, speed_of(file.extras), {}};
+        Animation animation{file.name, 0, speed_of(contents.json["animations"][a]), {}};
         for (std::size_t c = 0; c < file.channels.size(); ++c) {
             try {
                 if (std::optional<AnimationChannel> channel = read_channel(model, file, file.channels[c])) {

@@ -2,14 +2,13 @@
 
 // Reading of animations.
 
+#include "gltf/contents.h"
 #include "prt/animation.h"
-
-#include <tiny_gltf.h>
 
 namespace prt {
 
 /// Returns the translations, rotations and scales that the animations of a file apply to its nodes; other
 /// targets are ignored. Throws `Error` with the animation and its channel.
-std::vector<Animation> read_animations(const tinygltf::Model& model);
+std::vector<Animation> read_animations(const GltfContents& contents);
 
 } // namespace prt

@@ -8,8 +8,9 @@ namespace prt {
 
 GltfDocument reread(const GltfDocument& document, Instancing instancing) {
     // All readable images are embedded at this point.
-    GltfDocument again = parse_gltf(encode_glb(document), document.contents().path,
-                                    {.missing_images = MissingImages::ignore, .instancing = instancing});
+    GltfDocument again =
+        parse_gltf(encode_glb(document), document.contents().path,
+                   {.instancing = instancing, .scene_limit = document.contents().scene_limit});
     again.contents().notices = document.contents().notices;
     return again;
 }

@@ -13,6 +13,7 @@
 #include <algorithm>
 #include <map>
 #include <set>
+#include <string>
 
 namespace prt {
 namespace {
@@ -158,32 +159,59 @@ void join_small(const Scene& scene, const Carriers& carriers, double least, std:
     }
 }
 
-/// Returns materials reduced to their effect on occlusion: cut-outs keep their textures, all others lose
-/// them.
-std::vector<Material> materials_that_block(const Scene& scene, const std::set<std::size_t>& used) {
-    std::vector<Material> materials(scene.materials.size());
-    for (const std::size_t m : used) {
-        const Material& from = scene.materials[m];
-        Material& to = materials[m];
+/// Materials and images that a part uses, each once, so that all parts need no more memory than the scene.
+/// Materials are reduced to their effect on occlusion: cut-outs keep their textures, all others lose them.
+class PartMaterials {
+public:
+    PartMaterials(const Scene& scene, Scene& part) : scene_(scene), part_(part) {}
+
+    /// Returns the index in the part of a material of the scene.
+    std::size_t of(std::size_t material) {
+        const auto [found, is_new] = materials_.try_emplace(material, part_.materials.size());
+        if (!is_new)
+            return found->second;
+        const Material& from = scene_.materials[material];
+        Material to;
         if (from.alpha_mode != AlphaMode::opaque || from.glass.factor > 0 || from.transmission.factor > 0) {
             to = from;
             to.emission = {};
+            for (TextureUse* use : {&to.base_color_texture, &to.metal.texture, &to.glass.texture,
+                                    &to.transmission.factor_texture, &to.transmission.color_texture})
+                if (use->image >= 0)
+                    use->image = image(use->image);
         }
         to.double_sided = from.double_sided;
         to.casts_shadow = from.casts_shadow;
+        part_.materials.push_back(std::move(to));
+        return found->second;
     }
-    return materials;
-}
+
+private:
+    int image(int index) {
+        const auto [found, is_new] = images_.try_emplace(index, static_cast<int>(part_.images.size()));
+        if (is_new)
+            part_.images.push_back(static_cast<std::size_t>(index) < scene_.images.size()
+                                       ? scene_.images[static_cast<std::size_t>(index)]
+                                       : EncodedImage{"image " + std::to_string(index), {}});
+        return found->second;
+    }
+
+    const Scene& scene_;
+    Scene& part_;
+    std::map<std::size_t, std::size_t> materials_;
+    std::map<int, int> images_;
+};
 
 Scene part_of(const Scene& scene, const Triangles& triangles) {
     Scene part;
     part.origin = scene.origin;
-    std::set<std::size_t> used;
+    PartMaterials materials(scene, part);
     for (const auto& [p, chosen] : triangles) {
         const Primitive& from = scene.primitives[p];
         const VertexArray& array = scene.vertex_arrays[from.vertices];
-        Primitive to{from.node,     from.mesh, from.primitive, part.vertex_arrays.size(), from.material,
-                     from.mirrored, {}};
+        Primitive to{
+            from.node,     from.mesh, from.primitive, part.vertex_arrays.size(), materials.of(from.material),
+            from.mirrored, {}};
         VertexArray& kept = part.vertex_arrays.emplace_back();
         kept.texcoords.resize(array.texcoords.size());
         kept.first_receiver = part.vertex_arrays.size() < 2
@@ -209,14 +237,8 @@ Scene part_of(const Scene& scene, const Triangles& triangles) {
             const std::uint32_t x = number_of(corners.x), y = number_of(corners.y), z = number_of(corners.z);
             to.triangles.emplace_back(x, y, z);
         }
-        used.insert(from.material);
         part.primitives.push_back(std::move(to));
     }
-    part.materials = materials_that_block(scene, used);
-    for (const Material& material : part.materials)
-        if (material.alpha_mode != AlphaMode::opaque || material.glass.factor > 0 ||
-            material.transmission.factor > 0)
-            part.images = scene.images;
     return part;
 }
 

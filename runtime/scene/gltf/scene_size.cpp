@@ -68,8 +68,8 @@ double instance_bytes(const tinygltf::Model& model, const tinygltf::Mesh& mesh) 
 
 } // namespace
 
-void check_scene_size(const tinygltf::Model& model, std::span<const NodeTransform> nodes,
-                      std::size_t file_bytes) {
+void check_scene_size(const GltfContents& contents, std::span<const NodeTransform> nodes) {
+    const tinygltf::Model& model = contents.model;
     std::vector<double> of_mesh;
     for (const tinygltf::Mesh& mesh : model.meshes)
         of_mesh.push_back(instance_bytes(model, mesh));
@@ -79,7 +79,7 @@ void check_scene_size(const tinygltf::Model& model, std::span<const NodeTransfor
         if (node.visible && mesh >= 0 && static_cast<std::size_t>(mesh) < of_mesh.size())
             bytes += of_mesh[static_cast<std::size_t>(mesh)];
     }
-    check_allowed(bytes, file_bytes, "the scene, with its instances and morph targets,");
+    check_scene_allowed(bytes, contents, "the scene, with its instances and morph targets,");
 }
 
 } // namespace prt

@@ -122,9 +122,8 @@ SharedDocument with_shared_meshes(const GltfDocument& document, const std::vecto
     copy.remove_transfer();
     const std::vector<int> node_of = MeshSharing(copy, meshes).share(meshes.size());
     const GltfDocument written(std::make_unique<GltfContents>(std::move(copy)));
-    GltfDocument apart =
-        parse_gltf(encode_glb(written), from.path,
-                   {.missing_images = MissingImages::ignore, .instancing = Instancing::apart});
+    GltfDocument apart = parse_gltf(encode_glb(written), from.path,
+                                    {.instancing = Instancing::apart, .scene_limit = from.scene_limit});
     apart.contents().notices = from.notices;
     std::vector<int> stand_ins(meshes.size(), -1);
     for (const MeshApart& mesh : apart.contents().apart) {

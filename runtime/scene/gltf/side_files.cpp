@@ -21,14 +21,21 @@ bool is_below(const fs::path& path, const fs::path& folder) {
     return std::mismatch(folder.begin(), folder.end(), path.begin(), path.end()).first == folder.end();
 }
 
-/// Converts ASCII to lower case; with `escapes`, decodes URI escapes.
-std::string folded(std::string name, bool escapes) {
-    for (std::size_t at = 0; escapes && (at = name.find('%', at)) != std::string::npos; ++at) {
+/// Decodes the escapes of a URI.
+std::string unescaped(std::string name) {
+    for (std::size_t at = 0; (at = name.find('%', at)) != std::string::npos; ++at) {
         unsigned byte = 0;
         const char* digits = name.data() + at + 1;
         if (at + 2 < name.size() && std::from_chars(digits, digits + 2, byte, 16).ptr == digits + 2)
             name.replace(at, 3, 1, static_cast<char>(byte));
     }
+    return name;
+}
+
+/// Upper case of ASCII as lower case; where it is a file's name, without escapes of URIs.
+std::string folded(std::string name, bool escapes) {
+    if (escapes)
+        name = unescaped(std::move(name));
     std::transform(name.begin(), name.end(), name.begin(),
                    [](unsigned char c) { return static_cast<char>(c < 128 ? std::tolower(c) : c); });
     return name;
@@ -94,8 +101,7 @@ tinygltf::FsCallbacks SideFiles::callbacks() {
             return true;
         } catch (const Error& error) {
             *trouble = error.what();
-            if (self.first_trouble_.empty())
-                self.first_trouble_ = *trouble;
+            self.troubles_[name] = *trouble;
             return false;
         }
     };
@@ -125,6 +131,11 @@ fs::path SideFiles::place_of(const std::string& name) {
     if (!fs::is_regular_file(status))
         throw Error("is no regular file");
     return path;
+}
+
+std::string SideFiles::trouble_of(const std::string& uri) const {
+    const auto found = troubles_.find(unescaped(uri));
+    return found == troubles_.end() ? "cannot be read" : "cannot be read: " + found->second;
 }
 
 void SideFiles::check_outputs() const {

@@ -8,6 +8,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <map>
 #include <set>
 #include <string>
 #include <vector>
@@ -25,8 +26,8 @@ public:
 
     /// Returns callbacks that reference this object. They receive names as in the URIs, without a folder.
     tinygltf::FsCallbacks callbacks();
-    /// Returns the error of the first file that could not be read.
-    const std::string& first_trouble() const { return first_trouble_; }
+    /// Returns why the file that `uri` names could not be read.
+    std::string trouble_of(const std::string& uri) const;
     /// Returns the files that were read instead of the named ones, one line each.
     const std::set<std::string>& notices() const { return notices_; }
     /// Throws `Error` if one of the files is an output.
@@ -38,9 +39,9 @@ private:
     std::filesystem::path folder_;
     const GltfOptions& options_;
     std::set<std::filesystem::path> seen_;
-    std::uint64_t bytes_there_, bytes_read_ = 0; ///< total size of the scene and of all files once; bytes
-                                                 ///< read, including repeated names
-    std::string first_trouble_;
+    std::uint64_t bytes_there_, bytes_read_ = 0;  ///< total size of the scene and of all files once; bytes
+                                                  ///< read, including repeated names
+    std::map<std::string, std::string> troubles_; ///< by name, without escapes
     std::set<std::string> notices_;
     int searches_ = 0; ///< number of searches for missing files
 };

@@ -62,6 +62,30 @@ TEST(ConstantCube, ProjectsToAConstantLightWhateverItsSize) {
     }
 }
 
+/// More rows than are summed at a time: a half sphere of radiance 1 has the mean 1/2 and the slope 3/4 in y.
+TEST(Project, ImagesOfOneColumnAndMoreRowsThanABlock) {
+    const Environment environment =
+        lat_long(1, 10'000, [](const glm::dvec3& d) { return glm::dvec3(d.y > 0 ? 1 : 0); });
+    const Light light = project(environment, 2);
+    const double pi = std::numbers::pi;
+    EXPECT_NEAR(light.coefficients[0].x, std::sqrt(pi), 1e-5);
+    EXPECT_NEAR(light.coefficients[1].x, -std::sqrt(3 * pi) / 2, 1e-5);
+}
+
+/// More columns than are folded at a time, a quarter of them and all: a half sphere in x and one in z, so
+/// that sines and cosines of all blocks count.
+TEST(Project, ImagesOfOneRowAndMoreColumnsThanABlock) {
+    for (const int width : {80'000, 20'002}) {
+        const Environment environment = lat_long(
+            width, 1, [](const glm::dvec3& d) { return glm::dvec3((d.x > 0 ? 1 : 0) + (d.z > 0 ? 1 : 0)); });
+        const Light light = project(environment, 2);
+        const double pi = std::numbers::pi, slope = std::sqrt(3 * pi) / 2;
+        EXPECT_NEAR(light.coefficients[0].x, 2 * std::sqrt(pi), 2e-4); // edges of half a column
+        EXPECT_NEAR(light.coefficients[2].x, slope, 2e-4);
+        EXPECT_NEAR(light.coefficients[3].x, -slope, 2e-4);
+    }
+}
+
 TEST(Project, BasisFunctionsComeBack) {
     // Radiance 1 + Y_i: the coefficients are those of a constant, plus one at i.
     for (const int i : {1, 2, 3, 4, 7, 8, 11, 20, 35}) {

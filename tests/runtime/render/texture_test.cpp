@@ -1,11 +1,43 @@
 #include "prt/texture.h"
 
+#include "prt/support/error.h"
 #include "prt/tone_map.h"
 
 #include <gtest/gtest.h>
 
 namespace prt {
 namespace {
+
+TEST(Texture, NeedsAreThoseOfTheLightThatIsAsked) {
+    Scene scene;
+    for (int m = 0; m < 3; ++m) { // opaque, cut out, shining
+        Material& material = scene.materials.emplace_back();
+        material.base_color_texture.image = m;
+        material.alpha_mode = m == 1 ? AlphaMode::mask : AlphaMode::opaque;
+        if (m == 2)
+            material.emission.texture.image = 3;
+        scene.primitives.emplace_back().material = static_cast<std::size_t>(m);
+    }
+    const auto needed = [&](TextureNeeds needs) {
+        std::vector<int> images;
+        for (const auto& [image, encoding] : needed_images(scene, needs))
+            images.push_back(image);
+        return images;
+    };
+    EXPECT_EQ(needed(TextureNeeds::shadows), (std::vector<int>{1}));
+    EXPECT_EQ(needed(TextureNeeds::visibility), (std::vector<int>{1, 3}));
+    EXPECT_EQ(needed(TextureNeeds::pictures), (std::vector<int>{0, 1, 2, 3}));
+    EXPECT_EQ(needed(TextureNeeds::all), (std::vector<int>{0, 1, 2, 3}));
+    scene.images = {{"image 0", {}}, {"image 1 'leaf.png'", {}, "cannot be read: gone"}};
+    try {
+        load_textures(scene, BadTextures::error, TextureNeeds::shadows);
+        FAIL();
+    } catch (const Error& error) {
+        EXPECT_TRUE(std::string(error.what()).starts_with("image 1 'leaf.png' cannot be read: gone"))
+            << error.what();
+    }
+    EXPECT_TRUE(load_textures(scene, BadTextures::ignore, TextureNeeds::shadows).at(1).levels.empty());
+}
 
 TEST(Texture, MipsAverageInLinearLight) {
     const Texture texture = make_texture({2, 1, {{255, 255, 255, 255}, {0, 0, 0, 255}}});

@@ -212,14 +212,9 @@ INSTANTIATE_TEST_SUITE_P(
                },
                "node 0"},
         Damage{"no_such_material", [](GlbFile& f) { primitive(f)["material"] = 9; }, "material 9"},
-        Damage{"missing_image",
-               [](GlbFile& f) {
-                   f.json["images"] = {{{"uri", "gone.png"}}};
-               },
-               "gone.png"},
         Damage{"name_that_a_terminal_obeys",
                [](GlbFile& f) {
-                   f.json["images"] = {{{"uri", "\x1b[2J\r\ngone\xc2\x9b.png"}}};
+                   f.json["buffers"] = {{{"uri", "\x1b[2J\r\ngone\xc2\x9b.png"}, {"byteLength", 90}}};
                },
                "\\x1b[2J\\x0d gone\\u009b.png"},
         Damage{

@@ -52,7 +52,10 @@ protected:
         const fs::path path = folder / "scene/scene.glb";
         file.write(path);
         try {
-            load_gltf(path, options);
+            const Scene scene = extract_scene(load_gltf(path, options));
+            for (const EncodedImage& image : scene.images)
+                if (!image.trouble.empty())
+                    return image.trouble;
         } catch (const Error& error) {
             std::string message = error.what();
             EXPECT_TRUE(message.starts_with(path.string() + ": ")) << message;
@@ -81,7 +84,6 @@ TEST_F(SideFile, OutsideTheFolderIsReadWhereThatIsAllowed) {
         EXPECT_NE(refusal_of_image(uri).find("outside the folder"), std::string::npos) << uri;
         EXPECT_EQ(refusal_of_buffer(uri, {.allow_outside = true}), "") << uri;
         EXPECT_EQ(refusal_of_image(uri, {.allow_outside = true}), "") << uri;
-        EXPECT_EQ(refusal_of_image(uri, {.missing_images = MissingImages::ignore}), "") << uri;
     }
     EXPECT_NE(refusal_of_buffer("../gone.bin").find("outside the folder"), std::string::npos);
 }
@@ -111,14 +113,11 @@ TEST_F(SideFile, NamedTooOftenIsRefused) {
 }
 
 TEST_F(SideFile, OneThatIsAnOutputIsRefused) {
-    for (const char* uri : {"own.bin", "inward.bin", "parts/../own.bin"})
-        for (const MissingImages missing : {MissingImages::error, MissingImages::ignore}) {
-            const GltfOptions options{.missing_images = missing,
-                                      .outputs = {folder / "gone.glb", folder / "scene/own.bin"}};
-            EXPECT_NE(refusal_of_buffer(uri, options).find("which this run would replace"),
-                      std::string::npos);
-            EXPECT_NE(refusal_of_image(uri, options).find("which this run would replace"), std::string::npos);
-        }
+    for (const char* uri : {"own.bin", "inward.bin", "parts/../own.bin"}) {
+        const GltfOptions options{.outputs = {folder / "gone.glb", folder / "scene/own.bin"}};
+        EXPECT_NE(refusal_of_buffer(uri, options).find("which this run would replace"), std::string::npos);
+        EXPECT_NE(refusal_of_image(uri, options).find("which this run would replace"), std::string::npos);
+    }
     EXPECT_EQ(refusal_of_buffer("own.bin", {.outputs = {folder / "secret.bin", folder / "gone.glb"}}), "");
 }
 

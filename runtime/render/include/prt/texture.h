@@ -36,10 +36,11 @@ enum class BadTextures {
     ignore, ///< leave them empty: only the material's factors are used
 };
 
-/// Purpose of the textures; emission is always included.
+/// Purpose of the textures.
 enum class TextureNeeds {
-    pictures,   ///< base color
-    visibility, ///< base color
+    shadows,    ///< cut-outs, blended surfaces, glass and leaves: what rays pass through
+    visibility, ///< the same and emission
+    pictures,   ///< base color and emission
     all,        ///< textures for visibility, and for reflected light
 };
 

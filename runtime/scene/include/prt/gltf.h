@@ -31,9 +31,6 @@ private:
     std::unique_ptr<GltfContents> contents_;
 };
 
-/// Treatment of image files that are missing or must not be read.
-enum class MissingImages { error, ignore };
-
 /// Representation of meshes whose instances share their transfer (PRTKIT_instances).
 enum class Instancing {
     nodes, ///< each instance is a node
@@ -41,7 +38,6 @@ enum class Instancing {
 };
 
 struct GltfOptions {
-    MissingImages missing_images = MissingImages::error;
     /// Whether URIs may name files outside the folder of the scene, by "..", by links or by absolute paths.
     /// Otherwise only regular files in that folder and its subfolders are allowed.
     bool allow_outside = false;
@@ -52,11 +48,15 @@ struct GltfOptions {
     /// candela and lux, which exporters write, to watts.
     double lamp_scale = 1;
     /// Primitives without normals get smooth ones across edges whose triangles meet at this angle or less, in
-    /// the document, too. Unset: flat normals, as glTF says.
+    /// the document, too. Unset: flat normals, as glTF requires.
     std::optional<double> smooth_normals_degrees = {};
+    /// Bytes that the scene may take with its instances and morph targets; 0: 256 MB and 64 times the size of
+    /// its files, so that a small file cannot take all memory.
+    double scene_limit = 0;
 };
 
-/// Reads .gltf or .glb with its buffers and images. Throws `Error` with the file and the location in it.
+/// Reads .gltf or .glb with its buffers and images. Throws `Error` with the file and the location in it. An
+/// image that cannot be read is a notice, and an error only if its pixels are needed (`load_textures`).
 GltfDocument load_gltf(const std::filesystem::path& path, const GltfOptions& options = {});
 
 /// Reads a file in memory. `path` is its origin: used in messages, and to find the files that it references.

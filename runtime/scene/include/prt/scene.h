@@ -129,8 +129,9 @@ struct PunctualLight {
 };
 
 struct EncodedImage {
-    std::string name; ///< for messages
-    std::vector<std::byte> bytes;
+    std::string name;             ///< for messages
+    std::vector<std::byte> bytes; ///< empty: cannot be read
+    std::string trouble = {};     ///< why it cannot be read; throw it where its pixels are needed
 };
 
 struct Scene {

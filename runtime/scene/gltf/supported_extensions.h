@@ -1,0 +1,12 @@
+#pragma once
+
+#include <string_view>
+
+namespace prt {
+
+inline constexpr const char* kCesiumExtension = "CESIUM_RTC";
+
+/// Whether `name` may stand in extensionsRequired.
+bool is_supported_extension(std::string_view name);
+
+} // namespace prt
