@@ -1,4 +1,4 @@
-// An eight-sided basin with a bowl on a foot, from which water falls.
+// An octagonal basin with a bowl on a foot and falling water.
 
 #include "courtyard_parts.h"
 #include "shapes.h"

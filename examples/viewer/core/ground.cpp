@@ -92,8 +92,8 @@ std::optional<glm::vec3> Ground::widest() const {
     const float top = box.high.y + walker_.height;
     std::optional<glm::vec3> best;
     float most = 0;
-    for (const float height : {0.5f * (box.low.y + box.high.y), top}) { // search under a roof first, then on
-                                                                        // hills
+    // Searches under a roof first, then on hills.
+    for (const float height : {0.5f * (box.low.y + box.high.y), top}) {
         for (int i = 0; i < kCandidates * kCandidates; ++i) {
             const auto share = [](int k) { return (static_cast<float>(k) + 0.5f) / kCandidates; };
             const glm::vec3 place(std::lerp(box.low.x, box.high.x, share(i % kCandidates)), height,

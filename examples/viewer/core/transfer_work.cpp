@@ -83,8 +83,8 @@ bool add_vertices(LoadedModel& loaded, LoadedModel other) {
 /// cannot; empty on success.
 std::string add_transfer(LoadedModel& loaded, LoadedModel other) {
     const bool same_surface = loaded.model->surface_id == other.model->surface_id;
-    if (loaded.of_texels() && same_surface) // vertices may be split differently; maps then differ in the same
-                                            // way
+    // Vertices may be split differently; the maps then differ in the same way.
+    if (loaded.of_texels() && same_surface)
         return add_lightmap(loaded, other);
     if (loaded.model->receivers_id != other.model->receivers_id)
         return "is another scene than ";
