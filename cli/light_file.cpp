@@ -1,3 +1,5 @@
+// Reads and writes light files.
+
 #include "light_file.h"
 
 #include "json_file.h"

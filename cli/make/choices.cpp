@@ -1,3 +1,5 @@
+// Chooses order, bounces, rays and the requested compression error.
+
 #include "make/choices.h"
 
 #include "prt/bake.h"
@@ -41,7 +43,7 @@ void AskedError::came_out(double allowed, double total, double of_bytes, double 
     last_size_ = size;
     (keeps ? low_ : high_) = next_;
     open_ = of_bytes > 0 && !(keeps && total > kEnough * allowed) &&
-            !(keeps && same && high_ == 0) && // nothing is smaller
+            !(keeps && same && high_ == 0) && // no smaller size exists
 
             !(low_ > 0 && high_ > 0 && high_ < kClosest * low_);
     const double left = std::max(allowed - (total - of_bytes), 0.02 * allowed);
