@@ -1,11 +1,11 @@
-// A small figure as `prt lobes` would write it, of made-up lobes: squares in a plane, moved by two bones; and what light makes of
-// each, in plain numbers.
+// A small figure as `prt lobes` writes it, with synthetic lobes: squares in a plane, moved by two bones; and
+// their radiance, computed in plain JavaScript.
 import { Euler, Matrix3, Matrix4, Vector3 } from "three";
 import { evaluateSh } from "../src/sphericalHarmonics.js";
 import { Binary } from "./glb.js";
 
 export const [ACROSS, DOWN, LOBES, PROFILES] = [6, 5, 2, 7];
-const SIZE = 0.11; // of half a square
+const SIZE = 0.11; // half the side of a square
 
 function random(seed) {
   let state = seed;
@@ -14,7 +14,7 @@ function random(seed) {
   return next;
 }
 
-/** Gains of each profile: those of an open vertex, more or less. */
+/** Returns the gains of each profile: those of an unoccluded vertex, varied. */
 export function profiles(order) {
   const next = random(3);
   return Array.from({ length: PROFILES }, () => [1, 2 / 3, 1 / 4, 0.1].slice(0, order).map((gain) => gain * (0.4 + next())));
@@ -65,13 +65,13 @@ export function lobeModel(order = 4, change = () => {}) {
   return binary.file(json);
 }
 
-/** The matrices of the bones, turned by Euler angles, one on the other. */
+/** Returns the matrices of the two bones, rotated by Euler angles; the second is a child of the first. */
 export function boneMatrices([first, second]) {
   const [one, other] = [first, second].map((angles) => new Matrix4().makeRotationFromEuler(new Euler(...angles)));
   return [one, one.clone().multiply(other)];
 }
 
-/** The unit axis that two bytes stand for. */
+/** Returns the unit axis encoded by two bytes. */
 function axisOf([a, b]) {
   let [x, y] = [a, b].map((byte) => Math.min((byte - 127) / 127, 1));
   const z = 1 - Math.abs(x) - Math.abs(y);
