@@ -71,7 +71,10 @@ export const MAPS = [
   { width: 96, height: 64, repeats: false },
   { width: 40, height: 56, repeats: true },
 ];
-/** Where the texels' words are taken; rows of random ones first, with all values of bytes, alpha among them. */
+/**
+ * Returns the words of a texel: the first rows are random, with all values of bytes, including alpha; the
+ * others follow the surface.
+ */
 export function texelWords(i, x, y) {
   if (y >= 8) return wordsAt((x + 0.5) / MAPS[i].width, (y + 0.5) / MAPS[i].height, i);
   const next = random(1000 * i + 100 * y + x + 1);

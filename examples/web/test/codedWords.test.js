@@ -45,7 +45,7 @@ const plain = (value, bits) => [1, value, bits];
 
 const TRIANGLES = [0, 1, 2, 1, 2, 3, 2, 3, 4, 1, 3, 4, 6, 0, 1, 6, 0, 2];
 const CLUSTERS = { widths: [[3, 8], [2]], clusterBits: 2 };
-/** Of each vertex: its cluster and weights. */
+/** Cluster and weights of each vertex. */
 const FIELDS = [[0, 5, 200], [0, 4, 190], [0, 4, 194], [1, 3], [0, 6, 190], [0, 7, 190], [0, 1, 195]];
 const WORDS = FIELDS.map(([cluster, a, b = 0]) => cluster | (a << 2) | (b << 5));
 /**

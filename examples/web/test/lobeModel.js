@@ -20,7 +20,7 @@ export function profiles(order) {
   return Array.from({ length: PROFILES }, () => [1, 2 / 3, 1 / 4, 0.1].slice(0, order).map((gain) => gain * (0.4 + next())));
 }
 
-/** Of each square its middle, its normal, the share of the first bone, and bytes of its lobes. */
+/** Returns for each square its middle, its normal, the weight of the first bone, and the bytes of its lobes. */
 export function squares() {
   const next = random(5);
   return Array.from({ length: ACROSS * DOWN }, (_, i) => ({
@@ -86,14 +86,14 @@ const skinOf = (share, bones) => {
 };
 const turnOf = (skin) => new Matrix3().setFromMatrix4(skin).invert().transpose();
 
-/** Where the ends of a square's diagonal are, and its normal there. */
+/** Returns the positions of the ends of a square's diagonal, and its normal there. */
 export function cornersOf({ place: [x, y, z], normal, share }, bones) {
   const skin = skinOf(share, bones);
   const turned = new Vector3(...normal).applyMatrix3(turnOf(skin)).normalize().toArray();
   return [1, -1].map((side) => ({ place: new Vector3(x + side * SIZE, y - side * SIZE, z).applyMatrix4(skin).toArray(), normal: turned }));
 }
 
-/** Where a square is, and its radiance for albedo 1 under coefficients [order²][3]. */
+/** Returns the position of a square, and its radiance for albedo 1 under coefficients [order²][3]. */
 export function radianceOf({ place, share, lobes }, bones, order, light) {
   const skin = skinOf(share, bones);
   const turn = turnOf(skin);

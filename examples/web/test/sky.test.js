@@ -39,7 +39,7 @@ function modelTowardsX(root) {
 }
 
 const redOf = (model) => model.constantsTexture.image.data[0];
-/** Of white light from one direction d: 0.25 Y_0 + 0.3 * 0.4886 x. */
+/** Red value under white light from one direction d: 0.25 Y_0 + 0.3 * 0.4886 x. */
 const expectedRed = (x) => 0.25 * 0.282094791774 + 0.3 * 0.488602511903 * x;
 
 /** Light from one direction, in all three channels. */

@@ -71,7 +71,10 @@ function pixelsBy(drawing, target) {
 }
 const pixelsOf = (target) => pixelsBy(renderer, target);
 
-/** Of a model with lightmaps: the bytes of its words, and the radiance of its texels, in half floats and in floats. */
+/**
+ * Returns the bytes of the words of a model with lightmaps, and the radiance of its texels, in half floats
+ * and in floats.
+ */
 async function texels({ model, light, lamps }) {
   const { scene, userData } = await load(model);
   const { prtkit } = userData;
