@@ -123,7 +123,7 @@ TEST_F(Road, FilesWrittenFromDemandingScenesAreValidGltf) {
                                       "--components", "5", "--weights", weights});
         ASSERT_EQ(compress.status, 0) << compress.err;
         std::filesystem::rename(folder / "a picture.png",
-                                folder / "moved.png"); // what is written needs no other file
+                                folder / "moved.png"); // the written file needs no other file
         const Outcome render = prt({"render", at("c.glb"), "--env", at("light.json"), "-o", at("p.png")});
         EXPECT_EQ(render.status, 1);
         EXPECT_NE(render.err.find("light.json"), std::string::npos) << render.err; // the image was there
