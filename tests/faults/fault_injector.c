@@ -1,11 +1,11 @@
 // A library to preload: the n-th call of a kind, counted from main on, fails as if the system had no more
 // resources, or the process is killed there.
-//   PRT_FAULT=KIND:N[:all|:kill]  write, open, rename, sync, map, allocate or thread; from 1. all: later
-// calls fail, too.
-//   PRT_FAULT_COUNTS=FILE         writes the number of calls of each kind: "write 12
-// " ...
+//
+//   PRT_FAULT=KIND:N[:all|:kill]  KIND is write, open, rename, sync, map, allocate or thread; N starts at 1.
+//                                 all: later calls fail, too.
+//   PRT_FAULT_COUNTS=FILE         writes the number of calls of each kind: "write 12\n" ...
 //   PRT_FAULT_WITHOUT=WHAT        features that the file system does not support: tmpfile (O_TMPFILE),
-// exchange (renameat2), or both
+//                                 exchange (renameat2), or both
 #define _GNU_SOURCE
 #include <dlfcn.h>
 #include <errno.h>

@@ -166,7 +166,7 @@ TEST(HdrFlip, SeesErrorsInTheDarkAndInTheLight) {
     light.at(3, 10) = glm::vec3(10);
     EXPECT_GT(hdr_flip(image, dark)[10 * 40 + 30], 0.2f);
     EXPECT_GT(hdr_flip(image, light)[10 * 40 + 3], 0.1f);
-    // Scaling both pictures changes nothing.
+    // Scaling both pictures has no effect.
     Image twice = image, dark_twice = dark;
     for (Image* scaled : {&twice, &dark_twice})
         for (glm::vec3& pixel : scaled->pixels)
