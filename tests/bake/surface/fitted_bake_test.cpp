@@ -168,7 +168,8 @@ TEST(FittedBake, LampsLightAsTheyDoAndNeverTakeLightAway) {
         // A best fit of cells of 0.25 lies h²/6 of the curvature, 3 / pi at the peak, above it there.
         EXPECT_NEAR(static_cast<double>(lit[p].x), 1 / (std::numbers::pi * d * d * d), 0.01);
     }
-    // So near that its light is a peak between vertices: around it the best fit would be negative.
+    // The lamp is so near that its light is a peak between vertices: around it the best fit would be
+    // negative.
     scene.lights[0].position = {0.06f, 0.02f, 0.06f};
     for (const glm::vec3& v :
          exit_radiance(bake(scene, fitted_options()).baked.transfer, constant_light(3, glm::vec3(0))))
