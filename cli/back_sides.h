@@ -24,7 +24,7 @@ void add_back_sides(CLI::App* command, BackSides& sides);
 /// Input of `separate_sides`.
 struct SidesRequest {
     BackSides sides;
-    const Path& path; ///< of the scene, for messages
+    const Path& path; ///< path of the scene, for messages
     const BakeOptions& options;
     const std::vector<std::string>& no_shadow;
     bool levels = false; ///< coarser levels of detail, too

@@ -11,7 +11,7 @@ namespace prt::cli {
 
 struct ComparisonOptions {
     Path baked, shipped;
-    GltfOptions reading;   ///< of `shipped`
+    GltfOptions reading;   ///< options for `shipped`
     bool pictures = false; ///< pictures of both and their difference, under the light with the largest error
     int threads = 0;
 };

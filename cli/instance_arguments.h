@@ -23,7 +23,7 @@ struct InstanceArguments {
     InstanceMode mode = InstanceMode::own;
     double error = 0.1; ///< an instance with a larger error is baked separately
     std::vector<Path> lights;
-    SunCount suns; ///< of `lights`
+    SunCount suns; ///< number of suns of `lights`
     InstanceBakeOptions bake;
 };
 

@@ -13,7 +13,7 @@ namespace prt::cli {
 
 struct LobeErrorRequest {
     const AnimatedScene& model;
-    const LobeModel& lobes;   ///< as shipped
+    const LobeModel& lobes;   ///< the shipped lobes
     const MeanTransfer& mean; ///< the lobes were fitted to it
     std::span<const ModelPose> frames;
     PoseBakeOptions options; ///< options of the reference bakes of the frames; their seed differs from that

@@ -174,7 +174,7 @@ private:
 
 std::optional<Advice> advice(const AdviceSource& source, const ErrorBudget& budget,
                              const Progress& progress) {
-    constexpr double kWorthwhile = 0.02; // of the total
+    constexpr double kWorthwhile = 0.02; // fraction of the total
     const Adviser adviser(source, budget, progress);
     std::array<std::size_t, kErrorCauses> causes;
     std::iota(causes.begin(), causes.end(), std::size_t{0});

@@ -25,7 +25,7 @@ struct BudgetLightOptions {
     std::vector<Path> files; ///< empty: the default lights of `evaluate`
     SunCount suns = {std::nullopt};
     LightOptions reading;
-    int order = 6;     ///< of the transfer; suns are searched for with this order
+    int order = 6;     ///< order of the transfer; suns are searched for with it
     bool apart = true; ///< suns may be separate, because the transfer has a separate direct term
     int threads = 0;
 };

@@ -12,7 +12,7 @@ namespace prt::cli {
 /// Input of `add_budget`.
 struct BudgetRequest {
     Path baked, shipped; ///< shipped: empty if there is none
-    GltfOptions reading; ///< of `shipped`
+    GltfOptions reading; ///< options for `shipped`
     BudgetLightOptions lights;
     std::vector<std::string> no_shadow; ///< materials that the bake let light through
 };

@@ -240,7 +240,7 @@ std::string in_words(std::span<const PromiseKept> promises) {
 struct Outcome {
     CompressResult result;
     std::vector<SearchTrial> trials;
-    std::optional<SearchTrial> best; ///< of a search
+    std::optional<SearchTrial> best; ///< best trial of a search
 };
 
 /// A bake to compress. Its transfer keeps the format of the file, and its vertices are in the document.

@@ -292,10 +292,10 @@ struct Drawing {
 
 struct Rendered {
     Image image;
-    int samples = 1; ///< of `image` per pixel along each axis
+    int samples = 1; ///< samples of `image` per pixel along each axis
     double seconds = 0;
     std::optional<float> exposure = {}; ///< unset: numbers are shown unchanged
-    std::optional<double> noise = {};   ///< of path tracing, relative L2
+    std::optional<double> noise = {};   ///< noise of path tracing, relative L2
     std::optional<PictureError> error = {};
 };
 

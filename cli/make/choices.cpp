@@ -36,7 +36,7 @@ int choose_rays(double measured, int rays, double allowed) {
 }
 
 void AskedError::came_out(double allowed, double total, double of_bytes, double size) {
-    constexpr double kEnough = 0.87;                  // of the squared error: the root of it is within 7 %
+    constexpr double kEnough = 0.87;                  // fraction of the squared error: its root is within 7 %
     constexpr double kFarthest = 2.5, kClosest = 1.1; // steps
     const bool keeps = total <= allowed;
     const bool same = size == last_size_;

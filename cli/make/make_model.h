@@ -27,7 +27,7 @@ struct MakeRequest {
     Path scene, output, baked; ///< baked: empty if the bake is not kept
     std::vector<Path> lights;
     LightOptions reading_lights;
-    std::string light_options; ///< as given, repeated in the report
+    std::string light_options; ///< options as given, repeated in the report
     std::vector<std::string> no_shadow;
     BackSides back_sides = BackSides::automatic;
     MakeGoal goal;

@@ -169,7 +169,7 @@ private:
             light_order_ = order;
             gpu_.set_raw(transfer);
             add_row(fmt::format("PRT, order {}", order), PictureKind::prt,
-                    static_cast<double>(transfer.dimension()) * 2); // as float16
+                    static_cast<double>(transfer.dimension()) * 2); // bytes as float16
         }
         gpu_.drop_raw(); // a light change then counts the constants alone
         for (const double bytes : kBytes) {

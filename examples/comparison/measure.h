@@ -29,10 +29,10 @@ struct Options {
 struct Sky {
     std::string name;
     prt::Image lat_long;
-    prt::Light light; ///< of the maximum order
+    prt::Light light; ///< light of the maximum order
     /// Its brightest sun, if it has one; `rest` is the sky without it.
     std::vector<prt::SunDisc> suns = {};
-    prt::Light rest = {}; ///< of order 6
+    prt::Light rest = {}; ///< order 6
 };
 Sky load_sky(const std::filesystem::path& path);
 

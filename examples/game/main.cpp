@@ -32,7 +32,7 @@ namespace {
 
 constexpr int kWidth = 640, kHeight = 400;
 constexpr int kConstantsUnit = 0, kClustersUnit = 1, kShadowUnit = 2; // texture units
-constexpr int kShadowTexels = 2048;                                   // of the shadow map, along a side
+constexpr int kShadowTexels = 2048;                                   // texels along a side of the shadow map
 
 struct World {
     prt::Scene scene;

@@ -16,7 +16,7 @@ namespace examples {
 namespace {
 
 constexpr float kPitch = 5.2f;   ///< metres from tree to tree, on average
-constexpr float kMargin = 12;    ///< of the meadow around them
+constexpr float kMargin = 12;    ///< margin of the meadow around the trees
 constexpr float kGroundStep = 1; ///< from vertex to vertex
 
 float ground_height(float x, float z) {

@@ -24,8 +24,8 @@ inline constexpr float kTurn = 6.2831853f;
 /// coordinates are (u, 1 - v): a picture is upright if v points up.
 Mesh parametric_surface(int columns, int rows, const std::function<glm::vec3(float u, float v)>& surface);
 
-/// Returns a flat rectangle from `corner`, spanned by two edges, with vertices about `spacing` apart from
-/// each other. Texture coordinates are in metres.
+/// Returns a flat rectangle from `corner`, spanned by two edges, with a spacing of about `spacing` between
+/// vertices. Texture coordinates are in metres.
 Mesh rectangle(const glm::vec3& corner, const glm::vec3& edge_u, const glm::vec3& edge_v, float spacing);
 
 /// Appends `other` to `mesh`.

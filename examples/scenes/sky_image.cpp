@@ -16,7 +16,7 @@ namespace examples {
 namespace {
 
 constexpr double kPi = 3.14159265358979323846;
-constexpr double kSunRadius = 0.265 * kPi / 180; ///< of the moon, too
+constexpr double kSunRadius = 0.265 * kPi / 180; ///< radius of sun and moon
 const glm::dvec3 kGroundAlbedo(0.24, 0.2, 0.15);
 const glm::dvec3 kLuminance(0.2126, 0.7152, 0.0722); // weights for linear Rec. 709
 

@@ -11,7 +11,7 @@
 namespace examples {
 namespace {
 
-constexpr float kHouseWidth = 9, kHouseDepth = 8; ///< of a house, metres
+constexpr float kHouseWidth = 9, kHouseDepth = 8; ///< size of a house, metres
 constexpr float kSetBack = 7.5f;                  ///< distance of the fronts from the middle of the street
 
 /// Properties that differ between kinds.

@@ -201,7 +201,7 @@ TEST_F(Road, BouncesOnTheGpuLandInTheFileAndItsReport) {
 
 struct LampScene {
     const char *name, *group;
-    int lights, lamps; ///< besides the group windows that are lit; bulbs and a sign
+    int lights, lamps; ///< includes the group of lit windows; bulbs and a sign
 };
 void PrintTo(const LampScene& scene, std::ostream* to) {
     *to << scene.name;

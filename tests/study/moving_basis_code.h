@@ -8,7 +8,7 @@ namespace prt {
 struct MovingBasisCode {
     RowMatrix values;           ///< [points][dimension], decoded
     double error = 0;           ///< squared
-    double table_bytes = 0;     ///< of rows, positions of nodes and ranges of weights
+    double table_bytes = 0;     ///< size of rows, positions of nodes and ranges of weights
     std::size_t components = 0; ///< that have bits
 };
 

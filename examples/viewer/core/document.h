@@ -12,8 +12,8 @@ namespace viewer {
 
 /// Size and layout of the transfer.
 struct TransferFigures {
-    std::size_t raw_bytes = 0;                           ///< of the uncompressed transfer
-    double bytes_per_receiver = 0, bytes_with_bases = 0; ///< of the compressed transfer
+    std::size_t raw_bytes = 0;                           ///< uncompressed transfer
+    double bytes_per_receiver = 0, bytes_with_bases = 0; ///< compressed transfer
     int clusters = 0, order = 0, channels = 0;
 };
 

@@ -82,7 +82,7 @@ struct LightSettings {
 struct LoadedEnvironment {
     std::string name;
     prt::Image lat_long;
-    prt::Light light;        ///< of the maximum order
+    prt::Light light;        ///< light of the maximum order
     prt::Light sky;          ///< `light` without its suns
     prt::Image sky_lat_long; ///< image without the suns; empty if the environment has none
     std::vector<prt::SunDisc> suns;

@@ -87,8 +87,8 @@ public:
     void message(const std::string& text);
     void dismiss_messages() { messages_.clear(); }
 
-    /// The picture shown on one side: the wanted one, or its substitute until it is available. `note` gives
-    /// the reason, or the light that is missing in the picture.
+    /// The picture shown on one side: the wanted one, or its substitute until it is available. `note` is the
+    /// reason for a substitute, or names the light that is missing in the picture.
     struct Shown {
         PictureKind kind;
         std::string note;

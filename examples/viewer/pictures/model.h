@@ -45,7 +45,7 @@ struct Model {
 /// Transfer of texels; both are null if the receivers are vertices.
 struct LoadedLightmap {
     std::shared_ptr<const prt::BakedLightmap> baked;
-    std::shared_ptr<const prt::CompressedLightmap> compressed; ///< of all texels
+    std::shared_ptr<const prt::CompressedLightmap> compressed; ///< transfer of all texels
 
     const prt::LightmapLayout* layout() const {
         return compressed ? &compressed->layout : baked ? &baked->layout : nullptr;

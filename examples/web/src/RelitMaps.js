@@ -40,7 +40,7 @@ export class RelitMaps {
   form(renderer, version) {
     if (this.formed.get(renderer) === version) return;
     if (!this.formed.has(renderer)) this.forgetLost(renderer);
-    this.formed.set(renderer, version); // first: whoever draws may come here again
+    this.formed.set(renderer, version); // set first, because drawing may re-enter this function
     for (const { target, map } of this.targets.values()) this.pass.draw(renderer, target, map);
   }
 

@@ -8,7 +8,7 @@ import { checkInstanceNode, checkInstances, expect, INSTANCES } from "./wholeExt
 const GPU = "EXT_mesh_gpu_instancing";
 /** Numbers by which all light passes evenly, from above the horizon and from below: in the open they are 1, all others 0. */
 const EVEN = [3, 39];
-const ROUNDING = 1e-5; // of an element, relative to the scale: matrices in files are floats
+const ROUNDING = 1e-5; // tolerance of an element, relative to the scale: matrices in files are floats
 
 const holds = (value, what) => expect(value, what, INSTANCES);
 

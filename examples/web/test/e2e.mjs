@@ -23,7 +23,7 @@ const [width, height] = [640, 360];
 
 // Both draw with the same light, shader and tone curve. They differ in the antialiasing of edges (WebGL's
 // against 3 x 3 samples), in texture filtering, and in rounding to 8 bits.
-const MEAN_TOLERANCE = 0.5; // of 255
+const MEAN_TOLERANCE = 0.5; // levels out of 255
 const FAR = 16;
 const METERED = 0.1; // stops: grids of 48 x 48 points see edges and textures a little differently
 const FAR_SHARE = 0.01; // fraction of the pixels

@@ -62,7 +62,7 @@ public:
     LampLight on_cpu(const LampOptions& options = {}) { return light(cpu_, options); }
     LampLight on_gpu(const LampOptions& options = {}) { return light(gpu_, options); }
 
-    const std::vector<Lamp>& lamps() const { return lamps_; } ///< of the last call
+    const std::vector<Lamp>& lamps() const { return lamps_; } ///< lamps of the last call
     const Receivers& receivers() const { return receivers_; }
 
 private:

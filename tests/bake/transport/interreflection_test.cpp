@@ -447,7 +447,7 @@ TEST(Memory, OfAContainerIsItsLeastLimit) {
     write("membership", "0::/farm/job\n");
     write("mounted/farm/job/memory.max", "max\n");
     EXPECT_TRUE(std::isinf(limit()));
-    write("mounted/farm/memory.max", "8000000000\n"); // of the parent group
+    write("mounted/farm/memory.max", "8000000000\n"); // limit of the parent group
     EXPECT_EQ(limit(), 8e9);
     write("mounted/farm/job/memory.max", "2000000000\n");
     EXPECT_EQ(limit(), 2e9);

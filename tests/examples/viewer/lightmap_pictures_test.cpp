@@ -79,7 +79,7 @@ protected:
         const glm::vec3 way = direction_through({view.camera, glm::vec2(kShot)}, pixel);
         if (!hit || std::abs(view.camera.position.y + hit->distance * way.y + 0.5f) > 1e-3f)
             return glm::vec2(-1);
-        const prt::Scene& scene = loaded.model->scene; // of one primitive
+        const prt::Scene& scene = loaded.model->scene; // the scene has one primitive
         const auto& uv =
             scene.vertex_arrays[0]
                 .texcoords[static_cast<std::size_t>(loaded.lightmap.layout()->places[0].texcoord)];

@@ -204,7 +204,7 @@ TEST_F(LightmapViewer, HasNumbersOfBoth) {
     EXPECT_EQ(viewer->shown(left_picture(viewer->settings)).kind, PictureKind::error);
     EXPECT_EQ(viewer->shown(right_picture(viewer->settings)).kind, PictureKind::error);
     EXPECT_EQ(message(), "");
-    viewer->release_gpu(); // as after a driver reset
+    viewer->release_gpu(); // simulates a driver reset
     viewer->restore_gpu();
     work();
     EXPECT_EQ(viewer->shown(left_picture(viewer->settings)).kind, PictureKind::error);

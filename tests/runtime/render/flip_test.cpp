@@ -152,7 +152,7 @@ TEST(HdrFlip, LooksFromTheBrightestPixelToTheMedian) {
     const FlipExposures exposures = flip_exposures(image);
     EXPECT_NEAR(exposures.stop - exposures.start, 6, 1e-9);
     EXPECT_EQ(exposures.count, 6);
-    const double x = std::exp2(exposures.stop) * 0.6; // of the median
+    const double x = std::exp2(exposures.stop) * 0.6; // the median
     EXPECT_NEAR(x * (2.51 * x + 0.03) / (x * (2.43 * x + 0.59) + 0.14), 0.85, 1e-9);
 }
 

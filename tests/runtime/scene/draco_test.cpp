@@ -58,7 +58,7 @@ constexpr int kNormalId = 7, kTexcoordId = 3, kJointsId = 11, kWeightsId = 12, k
 
 struct Coding {
     int method = draco::MESH_EDGEBREAKER_ENCODING;
-    int bits = 0; ///< of quantised positions, normals and texture coordinates; 0: not quantised
+    int bits = 0; ///< bits of quantised positions, normals and texture coordinates; 0: not quantised
 };
 
 template <class T>

@@ -240,7 +240,7 @@ TEST(Instances, ConstantsAtAPlaceAreThoseOfTheModesTimesItsFactors) {
     const ClusteredTransfer mesh = clustered_mesh(draw);
     const Lighting lighting{draw.light(), draw.light()};
     std::vector<FormedInstance> instances;
-    for (const std::size_t first : {0u, 4u, 8u, 0u}) // of a mesh that has one cluster, or all
+    for (const std::size_t first : {0u, 4u, 8u, 0u}) // first receiver of a mesh with one cluster, or with all
         instances.push_back(
             {{draw.factors(), draw.rotation(), {draw.vector(), glm::abs(draw.vector()) + 0.1f}},
              rows_of(mesh, first, instances.size() == 3 ? 12 : 4)});
