@@ -1,3 +1,5 @@
+// Gives both sides of double-sided surfaces separate vertices.
+
 #include "back_sides.h"
 
 #include "no_shadow.h"
@@ -61,7 +63,7 @@ void separate_sides(const SidesRequest& request, GltfDocument& document, Scene& 
     document = with_separate_sides(std::move(document), all, triangles);
     Scene separate = extract_scene(document);
     leave_out_shadows(separate, request.no_shadow);
-    separate.notices = std::move(scene.notices); // of the file that was given
+    separate.notices = std::move(scene.notices); // notices of the input file
     const std::size_t added = separate.receivers() - scene.receivers();
     scene = std::move(separate); // the one of the document, also where a variant culls all of the backs
     if (added == 0)

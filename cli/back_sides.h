@@ -24,15 +24,15 @@ void add_back_sides(CLI::App* command, BackSides& sides);
 /// Input of `separate_sides`.
 struct SidesRequest {
     BackSides sides;
-    const Path& path; ///< of the scene, for messages
+    const Path& path; ///< path of the scene, for messages
     const BakeOptions& options;
     const std::vector<std::string>& no_shadow;
     bool levels = false; ///< coarser levels of detail, too
 };
-/// Puts document and scene with vertices for both sides in the place of these where sides need them, and says
-/// so on stderr and in the notices of the scene.
+/// Replaces document and scene by ones with separate vertices for both sides of double-sided surfaces, if the
+/// light of the sides differs. Reports this on stderr and in the notices of the scene.
 void separate_sides(const SidesRequest& request, GltfDocument& document, Scene& scene);
-/// Says on stderr where sides of `scene` need vertices that they do not get.
+/// Reports on stderr the sides of `scene` that need separate vertices but do not get them.
 void note_shared_sides(const SidesRequest& request, const Scene& scene);
 
 } // namespace prt::cli

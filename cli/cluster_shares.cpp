@@ -1,3 +1,5 @@
+// Sums area and error of each cluster.
+
 #include "cluster_shares.h"
 
 #include <glm/geometric.hpp>

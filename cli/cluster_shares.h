@@ -7,16 +7,16 @@
 
 namespace prt::cli {
 
-/// What one cluster contributes, over all lights of an evaluation.
+/// Contribution of one cluster, over all lights of an evaluation.
 struct ClusterShare {
     std::size_t cluster = 0, receivers = 0;
     int components = 0;
-    double area_share = 0;  ///< of all area
-    double error_share = 0; ///< of the squared error
-    double lit_rms = 0;     ///< of its receivers alone
+    double area_share = 0;  ///< fraction of the total area
+    double error_share = 0; ///< fraction of the total squared error
+    double lit_rms = 0;     ///< relative RMS error of its receivers
 };
 
-/// Sums what each cluster contributes, light by light.
+/// Sums the contribution of each cluster, light by light.
 class ClusterShares {
 public:
     explicit ClusterShares(std::size_t clusters) : shares_(clusters), norms_(clusters, 0) {}

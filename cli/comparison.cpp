@@ -1,3 +1,5 @@
+// Measures the errors of a file against its bake under several lights.
+
 #include "comparison.h"
 
 #include "cluster_shares.h"
@@ -27,13 +29,13 @@
 namespace prt::cli {
 namespace {
 
-/// The file that is measured: compressed, or another bake.
+/// The measured file: compressed, or another bake.
 struct Candidate {
     const SceneFile& model;
     Transfer transfer; ///< decoded
     std::optional<std::span<const std::uint16_t>> clusters;
 
-    /// Exit radiance by the road that a game takes.
+    /// Returns exit radiance, computed as a game does.
     std::vector<glm::vec3> radiance(const Lighting& lighting, int threads) const {
         return model.compressed ? exit_radiance(model.compressed->transfer, lighting, threads)
                                 : exit_radiance(transfer, lighting, threads);
@@ -48,23 +50,23 @@ Candidate candidate(const SceneFile& model, const Path& path) {
     throw Error(path.string() + ": holds no transfer; run prt bake and prt compress first");
 }
 
-/// Under one lighting.
+/// Error under one lighting.
 struct NamedError {
     std::string name;
     LitError error;
-    std::size_t suns = 0; ///< that are apart
-    bool judged = false;  ///< by which the verdict goes
+    std::size_t suns = 0; ///< number of separate suns
+    bool judged = false;  ///< counts for the verdict
 };
 
-/// Errors under the lights that were named and under those that are always tried.
+/// Errors under the named lights and under the standard lights.
 struct Evaluation {
     std::vector<NamedError> named, standard;
-    std::string worst_sun; ///< where it stands
+    std::string worst_sun; ///< direction of the worst sun
     std::vector<ClusterShare> clusters;
     double relative_l2 = 0;
 };
 
-/// Its texel and map.
+/// Returns the texel and its map.
 std::string place_of(const LightmapOfFile& lightmap, std::uint32_t receiver) {
     const std::vector<std::size_t> first = lightmap.layout.first_texels();
     const std::size_t texel = lightmap.texels[receiver];
@@ -73,7 +75,7 @@ std::string place_of(const LightmapOfFile& lightmap, std::uint32_t receiver) {
     return fmt::format("map {} texel {} {}", map, (texel - first[map]) % width, (texel - first[map]) / width);
 }
 
-/// Where it lies in the world, metres.
+/// Returns the position of a receiver in the world, metres.
 std::string place_of(const SceneFile& baked, std::uint32_t receiver) {
     if (baked.lightmap)
         return place_of(*baked.lightmap, receiver);
@@ -111,7 +113,7 @@ std::string about_lights(const Evaluation& evaluation) {
                 : "");
 }
 
-/// Nothing where the light that an error is relative to is none.
+/// Returns null if the light that an error is relative to is zero.
 Json finite(double value) {
     return std::isfinite(value) ? Json(value) : Json();
 }
@@ -201,7 +203,7 @@ public:
                            shipped_under(judged(light)));
         }
         add_worst_sun(evaluation);
-        // Half of what random light gives is negative, and the mean of no use to divide by.
+        // Half of the radiance under random light is negative, and its mean is useless as a divisor.
         const Lighting random{random_white_light(reference().layout.order)};
         const double square = lit_scale(wanted_under(random), areas_).mean_square;
         add_lamps(evaluation);
@@ -230,7 +232,8 @@ public:
         add_figure(report, {"components_most", "components, at most"}, t.bases.max_components());
     }
 
-    /// Errors of instances that share transfer, each over its own vertices, under what the verdict goes by.
+    /// Adds errors of instances that share transfer, each over its vertices, under the lighting of the
+    /// verdict.
     void add_instances(const std::vector<SplitLight>& lights, Report& report) const {
         if (!model_.instanced)
             return;
@@ -276,8 +279,8 @@ public:
         return v;
     }
 
-    /// Lit by the bake and by what is shipped, as `prt render` lights them, at one exposure and without
-    /// textures, which would hide errors; then the error as the figures count it, and clusters.
+    /// Adds pictures lit by the bake and by the shipped file, as `prt render` lights them, at one exposure
+    /// and without textures, which would hide errors; then the error as in the figures, and clusters.
     void add_pictures(const SplitLight& light, Report& report) const {
         const TraceScene scene(model_.scene,
                                about(a_.shipped,
@@ -308,7 +311,7 @@ public:
     }
 
 private:
-    /// With the receivers of `baked`, where texels that are none were filled.
+    /// Reduces `model` to the receivers of `baked`, because compression fills texels outside surfaces.
     static const SceneFile& matched(SceneFile& model, const SceneFile& baked, const ComparisonOptions& a) {
         check_belong_together(baked, a.baked, model, a.shipped);
         if (baked.lightmap && model.compressed)
@@ -322,11 +325,11 @@ private:
         return !light.split.suns.empty() && reference().layout.has(PartKind::direct) &&
                shipped_.transfer.layout.has(PartKind::direct);
     }
-    /// By what the verdict goes.
+    /// Returns the lighting of the verdict.
     Lighting judged(const SplitLight& light) const {
         return suns_apart(light) ? lighting_of(light) : Lighting{light.whole};
     }
-    /// Lamps are off unless the lighting says how bright they are.
+    /// Turns lamps off, unless the lighting contains their strengths.
     Lighting with_lamps(Lighting lighting) const {
         if (lighting.lamps.empty())
             lighting.lamps.assign(reference().layout.lamps(), glm::vec3(0));
@@ -368,7 +371,8 @@ private:
             add_each_lamp(evaluation);
     }
 
-    /// With its suns apart errors are over what the whole light gives, since suns are in the picture.
+    /// Adds errors under a named light. With separate suns, errors are relative to the radiance under the
+    /// whole light, because suns are in the picture.
     void add_named(const SplitLight& light, Evaluation& evaluation) const {
         const bool apart = suns_apart(light);
         const Lighting whole{light.whole};
@@ -388,7 +392,8 @@ private:
                  !apart});
     }
 
-    /// Suns of one strength: errors are over what all of them light (docs/math.md, eq. 35).
+    /// Adds the worst of suns with one strength: errors are relative to the mean over all suns (docs/math.md,
+    /// eq. 35).
     void add_worst_sun(Evaluation& evaluation) const {
         const DirectionalLights suns = directional_lights(reference().layout.order);
         LitScale all;
@@ -409,7 +414,7 @@ private:
         evaluation.standard.push_back({fmt::format("worst of {} suns", suns.lights.size()), worst});
     }
 
-    /// Brings what 98 % of the receivers stay below to 0.8.
+    /// Maps the 98th percentile of the receivers to 0.8.
     static float exposure_of(std::span<const glm::vec3> radiance, std::span<const glm::vec3> of_suns) {
         std::vector<float> values;
         for (std::size_t p = 0; p < radiance.size(); ++p) {
@@ -447,12 +452,12 @@ private:
     std::vector<Edge> edges_;
 };
 
-/// Where a difference is seen if anywhere.
+/// Returns the light with the largest error.
 const SplitLight& worst_of(const Evaluation& evaluation, const std::vector<SplitLight>& lights) {
     std::size_t light = 0, worst = 0;
     double most = -1;
     for (const NamedError& e : evaluation.named) {
-        if (!e.judged) // its row with suns apart comes next
+        if (!e.judged) // its row with separate suns follows
             continue;
         if (e.error.rms > most) {
             most = e.error.rms;

@@ -1,6 +1,6 @@
 #pragma once
 
-// A compressed file, or another bake of the same scene, held against its bake.
+// Compares a compressed file, or another bake of the same scene, with its bake.
 
 #include "reading_options.h"
 #include "report/report.h"
@@ -12,15 +12,16 @@ namespace prt::cli {
 
 struct ComparisonOptions {
     Path baked, shipped;
-    ReadingOptions reading; ///< of `shipped`
-    bool pictures = false;  ///< of both and their difference, under the light that shows it best
+    ReadingOptions reading; ///< options for `shipped`
+    bool pictures = false;  ///< pictures of both and their difference, under the light with the
+                            ///< largest error
     int threads = 0;
 };
 
-/// Adds a verdict, errors under `lights`, with their suns apart, too, where transfer allows it, and under
-/// those that are always tried, sizes and, for compressed files, clusters to `report`. Puts `baked`, which
-/// was loaded from `options.baked`, in the order of the shipped file. Throws `Error` where the files do not
-/// belong together.
+/// Adds a verdict, errors, sizes and, for compressed files, clusters to `report`. Errors are measured under
+/// `lights`, with separate suns if the transfer allows it, and under the standard lights. Puts `baked`,
+/// loaded from `options.baked`, in the order of the shipped file. Throws `Error` if the files do not belong
+/// together.
 void add_comparison(const ComparisonOptions& options, SceneFile& baked, const std::vector<SplitLight>& lights,
                     Report& report);
 

@@ -1,4 +1,4 @@
-// What an error of compression costs: the metric of a family, or of lights that are given.
+// Chooses the metric of compression: that of a light family, or of given lights.
 
 #include "compress_metric.h"
 
@@ -18,7 +18,7 @@ const std::map<std::string, MetricChoice> kMetrics = {{"outdoor", MetricChoice::
                                                       {"natural", MetricChoice::natural},
                                                       {"plain", MetricChoice::plain}};
 
-/// None of plain.
+/// Returns no family for plain.
 std::optional<LightFamily> family_of(MetricChoice choice) {
     switch (choice) {
     case MetricChoice::outdoor:
@@ -44,7 +44,7 @@ std::vector<Lighting> as_used(const std::vector<Lighting>& lightings, const Tran
     return all;
 }
 
-/// None where no distant light is known of the transfer.
+/// Returns no lighting if the transfer has no distant light.
 std::vector<Lighting> skies_to_promise(const std::vector<Lighting>& given, std::optional<LightFamily> family,
                                        const TransferLayout& layout) {
     if (layout.distant_parts().empty())

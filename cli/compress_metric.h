@@ -9,27 +9,27 @@ namespace prt::cli {
 
 enum class MetricChoice { outdoor, indoor, day, natural, plain };
 
-/// What `prt compress` is told of the lighting to come.
+/// Arguments of `prt compress` that describe the expected lighting.
 struct MetricArguments {
     MetricChoice metric = MetricChoice::outdoor;
-    std::vector<Path> lights; ///< to compress for, instead of `metric`
+    std::vector<Path> lights; ///< used instead of `metric`
     LightOptions light_options;
 };
 
-/// What an error costs, and the lightings under which one that is asked for is promised.
+/// The metric, and the lightings under which a requested error is guaranteed.
 struct ErrorTerms {
     LightMetric metric;
     std::vector<Lighting> promised; ///< lamps are dark in them
-    std::vector<Lighting> given;    ///< those of `promised` that are `--lights`
-    std::string covers;             ///< a sentence: the lightings under which promises hold
+    std::vector<Lighting> given;    ///< lightings of `promised` that come from `--lights`
+    std::string covers;             ///< a sentence about the lightings for which the guarantee holds
 };
 
-/// Has `budget` hold under the lightings of `terms`.
+/// Makes `budget` apply to the lightings of `terms`.
 void promise(ErrorTerms& terms, Budget& budget);
 
 void add_metric(CLI::App* command, MetricArguments& arguments);
 
-/// The `--lights`, their suns apart where transfer knows the difference.
+/// Returns the `--lights`, with separate suns if the transfer has a separate direct term.
 std::vector<NamedLighting> given_lights(const MetricArguments& arguments, const TransferLayout& layout,
                                         int threads);
 

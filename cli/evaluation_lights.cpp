@@ -1,3 +1,5 @@
+// Returns the standard lights of an evaluation.
+
 #include "evaluation_lights.h"
 
 #include <fmt/core.h>

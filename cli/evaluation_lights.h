@@ -6,21 +6,21 @@
 
 namespace prt::cli {
 
-/// What to evaluate under when the user names no lights: uniform, overcast, and a sun high in the front.
+/// Returns the lights of an evaluation without named lights: uniform, overcast, and a high sun in front.
 std::vector<SplitLight> default_lights(int order);
 
-/// A light turned about +Y by `count` equal angles, named after them.
+/// Returns a light rotated about +Y by `count` equal angles; the names contain the angles.
 std::vector<SplitLight> rotations(SplitLight light, int count);
 
-/// Suns all over the sphere, evenly spread.
+/// Suns evenly distributed over the sphere.
 struct DirectionalLights {
     std::vector<Light> lights;
     std::vector<glm::vec3> directions;
 };
 DirectionalLights directional_lights(int order);
 
-/// White light whose coefficients are independent and normally distributed, of one fixed seed: every error of
-/// a coefficient counts alike.
+/// Returns white light whose coefficients are independent and normally distributed, with a fixed seed: errors
+/// of all coefficients have equal weight.
 Light random_white_light(int order);
 
 } // namespace prt::cli

@@ -1,3 +1,5 @@
+// Adds vertex colors under one light to a compressed file.
+
 #include "fallback.h"
 
 #include "prt/encode_glb.h"

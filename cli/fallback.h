@@ -15,13 +15,13 @@ namespace prt::cli {
 /// The light of `prt compress --fallback`, which viewers without PRT show.
 struct Fallback {
     Lighting lighting;
-    std::string name; ///< of its file
+    std::string name; ///< name of its file
     // Found when it is written.
     float exposure = 1;
     std::size_t primitives = 0; ///< that show it
 };
 
-/// Throws `Error`. Nothing where `light` is empty.
+/// Loads the fallback light; empty if `light` is empty. Throws `Error`.
 std::optional<Fallback> load_fallback(const Path& light, int order, const LightOptions& options, int threads);
 
 /// `file`, a compressed .glb of vertices, with the fallback.

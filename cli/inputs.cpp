@@ -1,3 +1,5 @@
+// Loads scene files and lights for the commands.
+
 #include "inputs.h"
 
 #include "outputs.h"
@@ -90,7 +92,7 @@ SceneFile scene_file_of(GltfDocument document, const Path& path) {
         lightmap = {std::move(shipped->layout)};
         compressed = std::move(shipped->compressed);
     }
-    if (!baked && !compressed) // else they were given when it was baked
+    if (!baked && !compressed) // with transfer, the notices were printed when it was baked
         print_notices(path.string(), scene.notices);
     SceneFile file{.document = std::move(document),
                    .scene = std::move(scene),

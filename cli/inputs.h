@@ -1,6 +1,6 @@
 #pragma once
 
-// Files as the commands need them.
+// Loads files for the commands.
 
 #include "prt/gltf.h"
 #include "prt/image_file.h"
@@ -19,48 +19,48 @@
 
 namespace prt::cli {
 
-/// How every command reads lighting.
+/// Options for reading lighting, common to all commands.
 struct LightOptions {
     EnvironmentOptions environment;
     Window window = Window::none;
     double rotation_degrees = 0;
 };
 
-/// What a file says of texels beside their transfer.
+/// Texels of a file, in addition to their transfer.
 struct LightmapOfFile {
     LightmapLayout layout;
-    /// Of a bake; a compressed file has transfer of all texels.
+    /// Receivers of a bake; a compressed file has transfer of all texels.
     std::vector<std::uint32_t> texels = {};
     std::vector<float> areas = {};
     std::vector<Edge> edges = {};
 };
 
-/// A scene file with whatever transfer it holds. Notices go to stderr.
+/// A scene file with all transfer it contains. Notices are printed on stderr.
 struct SceneFile {
     GltfDocument document;
     Scene scene;
     std::optional<BakedTransfer> baked;
     std::optional<CompressedTransfer> compressed;
-    /// Set where receivers of the transfer are texels; else they are vertices.
+    /// Set if receivers of the transfer are texels; otherwise they are vertices.
     std::optional<LightmapOfFile> lightmap = {};
-    /// Of probes, beside transfer of surfaces.
+    /// Volume of probes, in addition to transfer of surfaces.
     std::optional<BakedVolume> volume = {};
     std::optional<CompressedVolume> compressed_volume = {};
     std::vector<NodeOccluder> occluders = {};
     std::optional<StoredLobes> lobes = {};
-    /// Set where instances share transfer: `baked` is then what all vertices have by it.
+    /// Set if instances share transfer: `baked` is then expanded to all vertices.
     std::optional<InstancedModel> instanced = {};
 
-    /// Order of the transfer, 0 where there is none.
+    /// Returns the order of the transfer, 0 without transfer.
     int order() const;
-    /// How the transfer was baked; null where there is none.
+    /// Returns the record of the bake; null without transfer.
     const BakeRecord* record() const;
 };
-/// Of one that holds transfer.
+/// Returns the layout of a model with transfer.
 const TransferLayout& layout_of(const SceneFile& model);
 /// Throws `Error` where anything of prtkit in the file is damaged: commands that write a model pass it on.
 SceneFile load_scene_file(const Path& path, const GltfOptions& options = {});
-/// The same of a document that was read from `path`.
+/// Returns the scene file of a document that was read from `path`.
 SceneFile scene_file_of(GltfDocument document, const Path& path);
 
 /// A model that a command writes again with additions.
@@ -71,10 +71,10 @@ struct ModelToPassOn {
 /// Reads all that `load_scene_file` reads, and prints the notices of the scene.
 ModelToPassOn load_to_pass_on(const Path& path, const GltfOptions& options);
 
-/// Throws `Error` where transfer is of texels, which `command` does not do.
+/// Throws `Error` if the transfer is of texels, which `command` does not support.
 void check_of_vertices(const SceneFile& model, const Path& path, const std::string& command);
 
-/// Calls `work`, whose errors are about `file`: they name it, once.
+/// Calls `work` and adds the name of `file` to its errors, once.
 template <class Work>
 auto about(const Path& file, Work work) {
     try {
@@ -87,24 +87,24 @@ auto about(const Path& file, Work work) {
     }
 }
 
-/// Puts the receivers of a bake in the order that they have in another file of the same scene, whose vertices
-/// prt compress --reorder may have moved.
+/// Puts the receivers of a bake into their order in another file of the scene, because prt compress --reorder
+/// may have moved vertices.
 void put_in_order_of(const Scene& scene, SceneFile& baked);
 
-/// Throws `Error` unless both hold transfer of one order for the same receivers.
+/// Throws `Error` unless both files have transfer of the same order for the same receivers.
 void check_belong_together(const SceneFile& baked, const Path& baked_path, const SceneFile& shipped,
                            const Path& shipped_path);
 
 struct LoadedLight {
     std::string name;
     Light light;
-    std::optional<Environment> environment; ///< where it came from an image
+    std::optional<Environment> environment; ///< set if the light comes from an image
 };
 
-/// An environment map. What was repaired or clipped in it goes to stderr.
+/// Loads an environment map. Repaired and clipped values are reported on stderr.
 Environment load_environment_map(const Path& path, const EnvironmentOptions& options);
 
-/// Lighting from an environment map or a light file, windowed and rotated, with `order` bands.
+/// Loads lighting from an environment map or a light file, windowed and rotated, with `order` bands.
 LoadedLight load_light(const Path& path, int order, const LightOptions& options, int threads);
 
 } // namespace prt::cli

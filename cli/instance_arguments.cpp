@@ -1,3 +1,5 @@
+// Selects meshes to share and bakes them.
+
 #include "instance_arguments.h"
 
 #include "no_shadow.h"
@@ -26,7 +28,7 @@ std::size_t vertices_of(const Scene& scene, int node) {
     return count;
 }
 
-/// Whether sharing leaves a quarter of the receivers to trace, or less.
+/// True if sharing leaves at most a quarter of the receivers to trace.
 bool pays(const InstanceArguments& arguments, const SharedMeshes& meshes, const Scene& scene) {
     std::size_t all = 0, traced = 0;
     for (const SharedMesh& mesh : meshes.meshes) {
@@ -40,7 +42,7 @@ bool pays(const InstanceArguments& arguments, const SharedMeshes& meshes, const 
     return all >= 4 * traced;
 }
 
-/// Takes the placements out that err too much, and meshes that one at most is left of.
+/// Removes placements with an error above `most`, and meshes with at most one remaining placement.
 SharedMeshes without_bad_ones(const SharedMeshes& meshes, const std::vector<double>& errors, double most) {
     SharedMeshes kept = meshes;
     kept.meshes.clear();
@@ -135,7 +137,8 @@ InstancedBake bake_shared(const InstanceArguments& arguments, const FlatScene& f
     for (const Path& path : arguments.lights)
         with_lights.lights.push_back(
             lighting_of(load_split_light(path, options.order, arguments.suns, {}, options.threads)));
-    constexpr double kFirstShare = 0.93; // those that stay change by a little where others are baked alone
+    // errors of the remaining instances change slightly when others are baked separately
+    constexpr double kFirstShare = 0.93;
     double begin = 0, limit = kFirstShare * arguments.error;
     for (bool good = false; !good; limit = arguments.error) {
         SharedDocument shared = with_shared_meshes(flat.document, meshes.meshes);

@@ -1,6 +1,6 @@
 #pragma once
 
-// How a bake deals with meshes that are drawn often.
+// Arguments of a bake for instanced meshes.
 
 #include "prt/instance_bake.h"
 #include "split_light.h"
@@ -14,38 +14,38 @@
 namespace prt::cli {
 
 enum class InstanceMode {
-    own,       ///< each has transfer of its own
-    shared,    ///< that of their mesh, times factors
-    automatic, ///< shared where that can be, and spares three quarters of the receivers
+    own,       ///< each instance has separate transfer
+    shared,    ///< instances use the transfer of their mesh times factors
+    automatic, ///< shared if possible, and if it saves three quarters of the receivers
 };
 
 struct InstanceArguments {
     InstanceMode mode = InstanceMode::own;
-    double error = 0.1; ///< above that an instance is baked alone
+    double error = 0.1; ///< an instance with a larger error is baked separately
     std::vector<Path> lights;
-    SunCount suns; ///< of `lights`
+    SunCount suns; ///< number of suns of `lights`
     InstanceBakeOptions bake;
 };
 
-/// --instances and what goes with it.
+/// Adds --instances and its related options.
 void add_instances(CLI::App* command, InstanceArguments& arguments);
 
 struct AskedFor {
     const BakeOptions& options;
-    bool other; ///< texels, volumes or finer meshes, which know no shared transfer
+    bool other; ///< texels, volumes or finer meshes, which do not support shared transfer
 };
-/// The meshes of the scene whose instances shall share; none where each shall have its own. What cannot be
-/// shared is told on stderr. Throws `Error` where sharing is asked for and cannot be.
+/// Returns the meshes whose instances share transfer; none if sharing is off. Reports meshes that cannot be
+/// shared on stderr. Throws `Error` if sharing is required but impossible.
 SharedMeshes meshes_to_share(const InstanceArguments& arguments, const GltfDocument& document,
                              const Scene& scene, const AskedFor& asked);
 
 struct InstancedBake {
-    std::optional<GltfDocument> document; ///< to be written; nothing where no instance can share
+    std::optional<GltfDocument> document; ///< document to write; empty if no instance can share
     InstanceBake bake;
-    SharedMeshes meshes;              ///< that share at last
-    std::vector<double> first_errors; ///< of all instances, before some were baked alone
+    SharedMeshes meshes;              ///< meshes that share in the result
+    std::vector<double> first_errors; ///< errors of all instances in the first pass
     std::size_t baked_alone = 0;
-    double seconds = 0; ///< of all passes
+    double seconds = 0; ///< total of all passes
     std::size_t rays = 0;
 };
 
@@ -54,7 +54,8 @@ struct FlatScene {
     const Scene& scene;
     const std::vector<std::string>& no_shadow;
 };
-/// Bakes, and again while instances err too much to share. Throws `Error` for a light that cannot be read.
+/// Bakes, and repeats while instances have too large an error to share. Throws `Error` for a light that
+/// cannot be read.
 InstancedBake bake_shared(const InstanceArguments& arguments, const FlatScene& flat, SharedMeshes meshes,
                           const BakeOptions& options, const Progress& progress);
 

@@ -1,3 +1,5 @@
+// Computes the errors of instances and their percentiles.
+
 #include "instance_errors.h"
 
 #include "report/instance_report.h"

@@ -11,13 +11,13 @@
 
 namespace prt::cli {
 
-/// lit_rms of each instance of the file, over its own vertices. `wanted`, `lit` [receivers], as `areas`;
-/// `scale` [receivers]: what errors are relative to.
+/// Returns lit_rms of each instance of the file, over its vertices. `wanted`, `lit` and `areas` are
+/// [receivers]; `scale` [receivers] is the radiance that errors are relative to.
 std::vector<double> instance_errors(const InstancedModel& file, const Scene& scene,
                                     std::span<const float> areas, std::span<const glm::vec3> wanted,
                                     std::span<const glm::vec3> lit, std::span<const glm::vec3> scale);
 
-/// Percentiles of such errors [lights][instances].
+/// Returns a table of percentiles of these errors [lights][instances].
 Table instances_table(const std::vector<SplitLight>& lights, const std::vector<std::vector<double>>& errors);
 
 } // namespace prt::cli

@@ -1,3 +1,5 @@
+// Suggests the nearest known command or option.
+
 #include "known_names.h"
 
 #include <algorithm>
@@ -10,7 +12,8 @@
 namespace prt::cli {
 namespace {
 
-/// Letters to change, add or leave out to make one word of the other (Levenshtein 1965).
+/// Returns the minimum number of letters to change, add or remove to convert one word to the other
+/// (Levenshtein 1965).
 std::size_t edit_distance(std::string_view a, std::string_view b) {
     std::vector<std::size_t> row(b.size() + 1);
     std::iota(row.begin(), row.end(), std::size_t{0});
@@ -44,7 +47,7 @@ bool is_in(const std::vector<std::string>& names, const std::string& name) {
     return std::find(names.begin(), names.end(), name) != names.end();
 }
 
-/// "; did you mean bake?", or "; there are " all names where none is near.
+/// Returns "; did you mean bake?", or "; there are " and all names if none is near.
 std::string suggestion(const std::vector<std::string>& names, const std::string& name) {
     std::string all, nearest;
     std::size_t least = 3;

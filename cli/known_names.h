@@ -6,8 +6,8 @@
 
 namespace prt::cli {
 
-/// Refuses the first command or long option of `words` that there is not, and names the one that was meant.
-/// CLI11 would name the values after it, too. Throws `CLI::ParseError`.
+/// Rejects the first unknown command or long option of `words`, and suggests the nearest name. CLI11 would
+/// also report the values after it. Throws `CLI::ParseError`.
 void check_names(const CLI::App& app, std::span<char* const> words);
 
 } // namespace prt::cli

@@ -1,3 +1,5 @@
+// Reads lamp strengths, and detects lamps that are far brighter than the sky.
+
 #include "lamp_strengths.h"
 
 #include "inputs.h"
@@ -124,7 +126,7 @@ std::optional<std::string> photometric_notice(const Scene& scene, const Relit& m
     const std::vector<bool> punctual = punctual_lamps(scene, model.layout);
     if (std::ranges::count(punctual, true) == 0)
         return std::nullopt;
-    // In the open; of what comes into closed rooms any lamp is a multiple.
+    // Compares with the unoccluded sky, because in closed rooms any lamp is many times brighter than the sky.
     glm::dvec3 sky = glm::dvec3(lighting.sky.coefficients[0]);
     if (lighting.suns)
         sky += glm::dvec3(lighting.suns->coefficients[0]);

@@ -1,6 +1,6 @@
 #pragma once
 
-// How bright the lamps of a model are set.
+// Strengths of the lamps of a model.
 
 #include "prt/scene.h"
 #include "prt/transfer.h"
@@ -17,23 +17,25 @@
 
 namespace prt::cli {
 
-/// As the scene has them, dark, or as a file says.
+/// Lamps as in the scene, off, or from a file.
 struct LampChoice {
     bool on = true;
-    std::filesystem::path file = {}; ///< {"NAME": strength or [red, green, blue], "*": of all others}
+    /// {"NAME": strength or [red, green, blue], "*": strength of all others}
+    std::filesystem::path file = {};
 };
 
 /// --lamps
 void add_lamps(CLI::App* command, LampChoice& lamps);
 
-/// --lamp-scale: a factor on lights of KHR_lights_punctual.
+/// Adds --lamp-scale: a factor on lights of KHR_lights_punctual.
 void add_lamp_scale(CLI::App* command, double& scale);
 
-/// Multiplies the strengths of lamps that hold lights of `scene`, not materials that shine alone.
+/// Multiplies the strengths of lamps that contain lights of `scene`; lamps of emissive materials are
+/// unchanged.
 void scale_lights(const Scene& scene, const TransferLayout& layout, double scale,
                   std::span<glm::vec3> strengths);
 
-/// How to compute the exit radiance of all receivers in a given light, and their areas.
+/// Computes the exit radiance of all receivers in a given light, and their areas.
 struct Relit {
     const TransferLayout& layout;
     std::function<std::vector<glm::vec3>(const Lighting&)> radiance;
@@ -42,13 +44,13 @@ struct Relit {
 /// Keeps references to `transfer` and `areas`.
 Relit relit_by(const Transfer& transfer, std::span<const float> areas, int threads);
 
-/// A line that suggests --lamp-scale where the lights of `scene` outshine the open sky as lights in candela
-/// and lux do. `lighting`: sky and lamps; no sky, no line.
+/// Returns a notice that suggests --lamp-scale if the lights of `scene` are far brighter than the open sky,
+/// as lights in candela and lux are. `lighting` contains sky and lamps; empty without a sky.
 std::optional<std::string> photometric_notice(const Scene& scene, const Relit& model,
                                               const Lighting& lighting);
 
-/// [layout.lamps()]. Throws `Error` for a file that names no lamp of the layout, and for strengths that are
-/// negative or not finite.
+/// Returns the strengths, [layout.lamps()]. Throws `Error` for a file that names no lamp of the layout, and
+/// for strengths that are negative or not finite.
 std::vector<glm::vec3> lamp_strengths(const LampChoice& lamps, const TransferLayout& layout);
 
 } // namespace prt::cli

@@ -1,3 +1,5 @@
+// Finds and bakes coarser levels of detail.
+
 #include "level_arguments.h"
 
 #include "options.h"

@@ -1,3 +1,5 @@
+// Compares coarser levels with level 0 at points of their surfaces.
+
 #include "level_errors.h"
 
 #include "prt/level_bake.h"

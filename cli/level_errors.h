@@ -1,6 +1,6 @@
 #pragma once
 
-// What coarser levels of detail of a shipped file differ from level 0 of its bake.
+// Measures errors of the coarser levels of a shipped file against level 0 of its bake.
 
 #include "inputs.h"
 #include "reading_options.h"

@@ -1,3 +1,5 @@
+// Bakes frames of an animation and compares lobes with them.
+
 #include "lobe_errors.h"
 
 #include "posed_lobes.h"
@@ -14,7 +16,7 @@
 namespace prt::cli {
 namespace {
 
-/// Transfer of a vertex that turns with its skin, in the order of the columns.
+/// Kinds of transfer that rotate with the skin, in the order of the columns.
 enum class Method { shipped, best, rest, unshadowed };
 constexpr std::size_t kMethods = 4;
 using ByMethod = std::array<double, kMethods>;

@@ -1,7 +1,7 @@
 #pragma once
 
-// What lobes err by in frames of an animation, beside what other transfer of one vertex does that turns with
-// its skin.
+// Measures errors of lobes in frames of an animation, and of other kinds of transfer that rotate with the
+// skin.
 
 #include "prt/lobes.h"
 #include "prt/pose_bake.h"
@@ -13,14 +13,15 @@ namespace prt::cli {
 
 struct LobeErrorRequest {
     const AnimatedScene& model;
-    const LobeModel& lobes;   ///< as shipped
-    const MeanTransfer& mean; ///< that they were fitted to
+    const LobeModel& lobes;   ///< the shipped lobes
+    const MeanTransfer& mean; ///< the lobes were fitted to it
     std::span<const ModelPose> frames;
-    PoseBakeOptions options; ///< of the bakes that frames are compared with; another seed than the fit's
+    PoseBakeOptions options; ///< options of the reference bakes of the frames; their seed differs from that
+                             ///< of the fit
 };
 
-/// Adds tables `lobe_errors` and `lobe_errors_by_frame` to `report`, their root mean squares as figures and
-/// sentences. Vertices that a frame seals in count nothing.
+/// Adds tables `lobe_errors` and `lobe_errors_by_frame` to `report`, and their root mean squares as figures
+/// and sentences. Vertices inside geometry in a frame are ignored.
 void add_lobe_errors(const LobeErrorRequest& request, const Progress& progress, Report& report);
 
 } // namespace prt::cli

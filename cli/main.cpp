@@ -1,3 +1,5 @@
+// The prt program: parses the command line, runs a command and reports errors.
+
 #include "commands/commands.h"
 #include "known_names.h"
 #include "prt/support/error.h"
@@ -20,7 +22,7 @@
 namespace prt::cli {
 namespace {
 
-/// As a shell would take it.
+/// Returns the command line, quoted for a shell.
 std::string command_line(int argc, char** argv) {
     std::string line = "prt";
     for (int i = 1; i < argc; ++i)
@@ -45,7 +47,7 @@ void add_commands(CLI::App& app, Session& session) {
     add_info(app, session);
 }
 
-/// Throws what went wrong. By then no thread is left that could say so, too.
+/// Runs the command. Throws its error, after all threads that could report it have ended.
 int run(int argc, char** argv) {
     Session session(command_line(argc, argv));
     CLI::App app("prtkit: bakes, compresses and relights precomputed radiance transfer", "prt");
@@ -76,8 +78,8 @@ int complain(int status, std::string_view what, std::string_view more = {}) noex
     return status;
 }
 
-/// Destructors of JSON ask for memory, and end the program where there is none. What was to be written has no
-/// name yet, or one that the next run removes.
+/// Destructors of JSON allocate memory, and terminate the program if they cannot. Output files have temporary
+/// names at this point, which the next run removes.
 [[noreturn]] void end_without_memory() {
     const std::exception_ptr error = std::current_exception();
     try {

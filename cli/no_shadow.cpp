@@ -1,3 +1,5 @@
+// Marks materials that cast no shadow.
+
 #include "no_shadow.h"
 
 #include "prt/support/error.h"

@@ -1,6 +1,6 @@
 #pragma once
 
-// Shells round a scene that let light in.
+// Materials that cast no shadow, such as shells around a scene that let light in.
 
 #include "prt/scene.h"
 
@@ -14,7 +14,7 @@ namespace prt::cli {
 /// --no-shadow
 void add_no_shadow(CLI::App* command, std::vector<std::string>& materials);
 
-/// Surfaces of these materials stop no light. Throws `Error` for a name that no material has.
+/// Marks surfaces of these materials as transparent to light. Throws `Error` for a name that no material has.
 void leave_out_shadows(Scene& scene, const std::vector<std::string>& materials);
 
 } // namespace prt::cli

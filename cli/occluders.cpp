@@ -1,3 +1,5 @@
+// Bakes occlusion volumes of the rigid parts of a file.
+
 #include "occluders.h"
 
 #include "prt/occluder_gltf.h"
@@ -32,7 +34,7 @@ Table table_of_parts() {
     return table;
 }
 
-/// Volumes of all parts, and what is told of them.
+/// Volumes of all parts, and their figures for the report.
 struct BakedParts {
     std::vector<NodeOccluder> occluders;
     std::vector<OcclusionVolume> volumes;

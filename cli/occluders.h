@@ -6,8 +6,8 @@
 
 namespace prt::cli {
 
-/// Bakes what each rigid part of `scene` blocks around it, and writes it into `document`, from which `scene`
-/// was extracted.
+/// Bakes the occlusion volume of each rigid part of `scene`, and writes it into `document`, from which
+/// `scene` was extracted.
 Report bake_occluders(GltfDocument& document, const Scene& scene, const OccluderOptions& options,
                       const Progress& progress);
 

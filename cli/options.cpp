@@ -1,3 +1,5 @@
+// Adds the options that several commands share.
+
 #include "options.h"
 
 #include <fmt/core.h>

@@ -1,6 +1,6 @@
 #pragma once
 
-// Options that several commands share, and how a command keeps what its options say.
+// Options shared by several commands, and storage for the options of a command.
 
 #include "inputs.h"
 #include "prt/bake.h"
@@ -16,8 +16,8 @@
 
 namespace prt::cli {
 
-/// What the options of `command` are to fill. It lives as long as the command, which calls `run` with it once
-/// all options are parsed.
+/// Returns the struct that the options of `command` fill. It lives as long as the command, which calls `run`
+/// with it after all options are parsed.
 template <class Arguments, class Run>
 Arguments& arguments_for(CLI::App* command, Run run) {
     auto arguments = std::make_shared<Arguments>();
@@ -25,7 +25,7 @@ Arguments& arguments_for(CLI::App* command, Run run) {
     return *arguments;
 }
 
-/// An option whose value is one of `choices`.
+/// Adds an option whose value is one of `choices`.
 template <class T, class Target>
 CLI::Option* choice(CLI::App* command, const std::string& name, Target& target,
                     const std::map<std::string, T>& choices, const std::string& text,
@@ -41,16 +41,16 @@ CLI::Option* choice(CLI::App* command, const std::string& name, Target& target,
         ->default_str(otherwise);
 }
 
-/// What an argument must be; else it is wrong usage, and the command does not begin.
-CLI::Validator real_in(double low, double high); ///< and no NaN
-CLI::Validator above_zero();                     ///< and finite
+/// Validators of arguments; an invalid value is a usage error, and the command does not start.
+CLI::Validator real_in(double low, double high); ///< rejects NaN
+CLI::Validator above_zero();                     ///< finite
 CLI::Validator seed();
-/// The error of a file's name, or nothing.
+/// Returns the error message for an empty file name; empty if the name is valid.
 std::string named(const std::string& name);
 
-/// -o, --output: the file that a command is for.
+/// Adds -o, --output: the main output of a command.
 void add_output(CLI::App* command, Path& output, const std::string& text);
-/// --allow-outside, --bad-textures and --scene-limit, of every command that reads a scene.
+/// Adds --allow-outside, --bad-textures and --scene-limit, for every command that reads a scene.
 void add_reading(CLI::App* command, ReadingOptions& reading);
 /// --smooth-normals
 void add_smooth_normals(CLI::App* command, GltfOptions& reading);
@@ -58,16 +58,16 @@ void add_threads(CLI::App* command, int& threads);
 void add_json(CLI::App* command, Path& json);
 void add_reports(CLI::App* command, ReportFiles& files);
 CLI::Option* add_backend(CLI::App* command, Backend& backend, const std::string& text);
-/// --gpu, of commands that bake on one.
+/// Adds --gpu, for commands that bake on one.
 CLI::Option* add_gpu(CLI::App* command, std::string& gpu);
-/// Makes a GPU that is named the one to bake on. Throws `Error` where none is used.
+/// Selects the GPU backend if a GPU is named. Throws `Error` if rays are not traced on a GPU.
 void choose_gpu(TracerChoice& tracer);
 void add_inside(CLI::App* command, Inside& inside);
-/// --fit, which is automatic where it is not given.
+/// Adds --fit, which is automatic by default.
 void add_fit(CLI::App* command, FitMode& fit, const std::string& text);
 void add_light_options(CLI::App* command, LightOptions& options);
 
-/// What `text` says, all of it, in any notation of C; nothing where that is no number.
+/// Return the number in `text`, in any notation of C; empty if `text` is not exactly one number.
 std::optional<int> whole_number(const std::string& text);
 std::optional<double> real_number(const std::string& text);
 

@@ -1,3 +1,5 @@
+// Checks the output files of a command.
+
 #include "outputs.h"
 
 #include "prt/support/error.h"
@@ -17,7 +19,7 @@ using Path = std::filesystem::path;
 
 namespace {
 
-/// Suffixes that say what a file holds.
+/// Suffixes that indicate the content of a file.
 constexpr std::array<std::string_view, 15> kTelling = {".glb",  ".gltf", ".bin", ".png", ".jpg",
                                                        ".jpeg", ".exr",  ".hdr", ".csv", ".json",
                                                        ".html", ".htm",  ".obj", ".fbx", ".ply"};
@@ -47,7 +49,7 @@ void check_suffix(const Output& output, bool stream) {
                             output.option, fmt::join(output.suffixes, " or ")));
 }
 
-/// The files that a name stands for: six where it holds {face}.
+/// Returns the files that a name stands for: six if it contains {face}.
 std::vector<Path> files_of(const Path& input) {
     constexpr std::string_view kMark = "{face}";
     const std::string name = input.string();
@@ -76,7 +78,7 @@ std::vector<Path> check_outputs(const std::vector<Output>& outputs, const std::v
     for (std::size_t i = 0; i < asked.size(); ++i) {
         const Output& output = asked[i];
         const std::string name = output.path.string();
-        const OutputFile place(output.path); // leaves nothing behind
+        const OutputFile place(output.path); // leaves no file behind
         check_suffix(output, place.is_stream());
         for (const Path& input : inputs)
             for (const Path& file : files_of(input))

@@ -9,21 +9,21 @@ namespace prt::cli {
 
 /// A file that a command is about to write.
 struct Output {
-    std::filesystem::path path; ///< empty: not asked for
+    std::filesystem::path path; ///< empty: not requested
     std::string option;         ///< "--json"
-    /// What its name may end in; empty: in anything that does not stand for another kind of file.
+    /// Allowed suffixes of its name; empty: any suffix that does not belong to another kind of file.
     std::vector<std::string_view> suffixes = {};
-    bool suffix_needed = false; ///< by whoever reads it; else a name without any will do
+    bool suffix_needed = false; ///< the reader requires a suffix; otherwise a name without one is valid, too
 };
 
-/// Asks before work begins whether all outputs can be written: there is such a folder and one may write
-/// there, names end in what is written, none is an input (a run never touches those) and no two are one.
-/// Returns those that are asked for, which readers of scenes refuse as parts of them
-/// (`GltfOptions::outputs`). Throws `Error`.
+/// Checks before work begins that all outputs can be written: the folder exists and is writable, names have
+/// allowed suffixes, no output is an input (a run never changes its inputs), and no two outputs are equal.
+/// Returns the requested outputs, which readers of scenes reject as parts of them (`GltfOptions::outputs`).
+/// Throws `Error`.
 std::vector<std::filesystem::path> check_outputs(const std::vector<Output>& outputs,
                                                  const std::vector<std::filesystem::path>& inputs);
 
-/// Lower-case, with the dot.
+/// Returns the suffix in lower case, with the dot.
 std::string suffix_of(const std::filesystem::path& path);
 
 } // namespace prt::cli

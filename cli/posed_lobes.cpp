@@ -1,3 +1,5 @@
+// Sums the lobes of vertices to transfer vectors.
+
 #include "posed_lobes.h"
 
 #include <array>

@@ -1,18 +1,18 @@
 #pragma once
 
-// Lobes as transfer of a pose, for what knows no lobes.
+// Converts lobes to transfer in a pose, for code that does not support lobes.
 
 #include "inputs.h"
 #include "prt/pose_bake.h"
 
 namespace prt::cli {
 
-/// The transfer vector [order²] that the lobes of a vertex are together in the pose of `frames`.
+/// Computes the transfer vector [order²] of the lobes of a vertex in the pose of `frames`.
 void lobe_transfer_in_pose(const LobeModel& lobes, const VertexFrames& frames, std::size_t vertex, int order,
                            std::span<float> transfer);
 
-/// The transfer that the lobes of `model`, which has some, are together in the pose of the file: `whole`, of
-/// one channel and as many bands as they have.
+/// Returns the transfer of the lobes of `model`, which must have lobes, in the pose of the file: `whole`,
+/// with one channel and the order of the lobes.
 BakedTransfer lobes_as_transfer(const SceneFile& model);
 
 } // namespace prt::cli

@@ -1,3 +1,5 @@
+// Handles interrupts, progress and outputs of a run.
+
 #include "session.h"
 
 #include "prt/support/error.h"
@@ -15,10 +17,10 @@
 namespace prt::cli {
 namespace {
 
-/// Set by whatever thread gets the signal: libraries start threads before main, so that blocking signals here
-/// would not keep them from ending the program.
+/// Set by the thread that receives the signal. Libraries start threads before main, so blocking signals here
+/// would not prevent them from terminating the program.
 std::atomic<bool> interrupted = false;
-static_assert(std::atomic<bool>::is_always_lock_free); // what a signal handler may touch
+static_assert(std::atomic<bool>::is_always_lock_free); // only lock-free atomics are safe in a signal handler
 
 constexpr auto kPatience = std::chrono::milliseconds(800);
 constexpr auto kPoll = std::chrono::milliseconds(50);

@@ -1,3 +1,5 @@
+// Quotes words for a shell.
+
 #include "shell_word.h"
 
 namespace prt::cli {

@@ -5,7 +5,7 @@
 
 namespace prt::cli {
 
-/// A word as a shell takes it for one: in quotes where it needs them.
+/// Returns a word quoted for a shell, if it needs quotes.
 std::string shell_word(std::string_view word);
 
 } // namespace prt::cli

@@ -1,3 +1,5 @@
+// Evaluates errors over all rotations of skies.
+
 #include "sky_errors.h"
 
 #include <fmt/core.h>

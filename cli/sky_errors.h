@@ -1,6 +1,6 @@
 #pragma once
 
-// What a compressed transfer errs by under skies, at every turn about +Y.
+// Measures errors of a compressed transfer under skies, at every rotation about +Y.
 
 #include "prt/error_moments.h"
 #include "prt/standard_skies.h"
@@ -8,16 +8,16 @@
 
 namespace prt::cli {
 
-/// How a lighting is used: all of it in the sky; and its suns apart, where there are any and `layout` keeps
-/// direct light apart.
+/// A use of a lighting: all light in the sky, or its suns separate, if it has any and `layout` has a separate
+/// direct term.
 struct LightingUse {
     Lighting lighting;
     bool suns_apart = false;
 };
 std::vector<LightingUse> uses_of(const Lighting& lighting, const TransferLayout& layout);
 
-/// Adds table `skies` to `report`, and a sentence about each that shows its errors. Lamps are off. Nothing
-/// where the transfer has no distant light.
+/// Adds table `skies` to `report`, and a sentence with the errors of each sky. Lamps are off. Does nothing if
+/// the transfer has no distant light.
 void add_sky_errors(const ErrorMoments& moments, const std::vector<NamedLighting>& skies, Report& report);
 
 } // namespace prt::cli

@@ -1,3 +1,5 @@
+// Computes sky occlusion from transfer of probes.
+
 #include "sky_occlusion.h"
 
 #include "prt/color.h"

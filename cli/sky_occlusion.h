@@ -1,8 +1,8 @@
 #pragma once
 
-// Sky occlusion of probes as Unity's adaptive probe volumes have it (Unity manual, "Sky occlusion", 2024):
-// how much of a grey sky arrives, bounces included, times the sky's own ambient probe. What volumes of
-// transfer are compared with.
+// Sky occlusion of probes as in Unity's adaptive probe volumes (Unity manual, "Sky occlusion", 2024): the
+// fraction of a grey sky that arrives, including bounces, times the sky's ambient probe. Baseline for volumes
+// of transfer.
 
 #include "prt/transfer_volume.h"
 
@@ -11,19 +11,19 @@
 
 namespace prt::cli {
 
-/// What a probe keeps.
+/// Data stored per probe.
 enum class SkyOcclusionKind {
     number,   ///< one for all normals
     linear,   ///< bands 0 and 1 by normal
-    directed, ///< these, and from where the ambient probe is read instead of the normal
+    directed, ///< bands 0 and 1, and a direction to read the ambient probe instead of the normal
 };
 
 class SkyOcclusion {
 public:
-    /// Of the probes of `volume`: what arrives under a uniform sky, grey.
+    /// Computes the incident light at the probes of `volume` under a uniform sky, as grey.
     SkyOcclusion(const BakedVolume& volume, int threads);
 
-    /// Irradiance over pi at a place by `sky` alone.
+    /// Returns the irradiance over pi at a position, from `sky` only.
     glm::vec3 irradiance(const VolumeCorners& corners, const glm::vec3& normal, const Light& sky,
                          SkyOcclusionKind kind) const;
 

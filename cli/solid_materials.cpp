@@ -1,3 +1,5 @@
+// Finds materials that are lit through a medium.
+
 #include "solid_materials.h"
 
 #include "prt/subsurface.h"

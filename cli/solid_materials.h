@@ -6,9 +6,10 @@
 
 namespace prt::cli {
 
-/// Which materials have something inside that all light passes: they are no thin sheets, and suns light them
-/// by transfer alone. [materials] A file says so of media that glTF describes; those of --subsurface a bake
-/// tells by what it lacks, direct light at any vertex; a compressed file does not, and texels have none.
+/// Returns the materials with a medium inside that all light passes: they are not thin sheets, and suns light
+/// them only through transfer. [materials] Media that glTF describes are found in the file. Media of
+/// --subsurface are found in a bake, because no vertex of such a material has direct light; a compressed file
+/// does not contain this information, and texels have no media.
 std::vector<bool> solid_materials(const SceneFile& model);
 
 } // namespace prt::cli

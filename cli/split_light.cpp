@@ -1,3 +1,5 @@
+// Loads lights and separates their suns.
+
 #include "split_light.h"
 
 #include "options.h"
@@ -11,7 +13,7 @@
 namespace prt::cli {
 namespace {
 
-/// The error of what `--suns` is given, or nothing.
+/// Returns the error of a value of `--suns`; empty if it is valid.
 std::string sun_count(const std::string& text) {
     const std::optional<int> count = whole_number(text);
     return text == "auto" || (count && *count >= 0 && *count <= 16) ? ""

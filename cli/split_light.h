@@ -1,6 +1,6 @@
 #pragma once
 
-// Lighting with its suns apart.
+// Lighting with separate suns.
 
 #include "inputs.h"
 #include "prt/suns.h"
@@ -12,42 +12,42 @@
 
 namespace prt::cli {
 
-/// How many suns to take out: none, so many, or as many as pay.
+/// Number of suns to separate: zero, a fixed number, or automatic.
 struct SunCount {
-    std::optional<int> count = 0; ///< unset: as many as pay
+    std::optional<int> count = 0; ///< unset: all that are worth separating
 };
 
 /// --suns
 void add_suns(CLI::App* command, SunCount& suns, const std::string& text, const std::string& otherwise);
 
-/// A sky without its suns, and what was found of them.
+/// A sky without its suns, and the suns found.
 struct SplitLight {
     LoadedLight sky;
     SunSplit split;
-    Light whole; ///< all of it together, as `load_light` gives it
+    Light whole; ///< sky and suns together, as `load_light` returns it
 };
 
-/// The suns together, as they light what is lit after a bounce.
+/// Returns the sum of the suns as light, used for light after a bounce.
 Light light_of_suns(const SplitLight& light);
 
-/// Its suns' light goes through `direct` transfer apart from the sky's, where there are any.
+/// Returns the lighting of sky and suns; light of the suns uses `direct` transfer separately from the sky.
 Lighting lighting_of(const SplitLight& light);
 
-/// Why suns cannot be lit apart from the sky where transfer is one part, and what to do about it.
+/// Error message: transfer without a separate direct term cannot be lit by separate suns, with advice.
 inline constexpr const char* kNotApart = "keeps no direct light apart, so that suns cannot be lit apart from "
                                          "the sky; lobes never do, other transfer without --whole";
 
-/// Without light.
+/// Returns a sky without light.
 SplitLight dark_sky(int order);
 
-/// The same with its suns in its sky.
+/// Returns the light with its suns in its sky.
 SplitLight together(SplitLight light);
 
-/// Turned about +Y, as `rotated_about_y`, without its image.
+/// Returns the light rotated about +Y, as by `rotated_about_y`, without its image.
 SplitLight turned(SplitLight light, double angle);
 
-/// Takes suns out of an environment map, or those of a light file, whose number is its own unless none is
-/// asked for; turned with the rest as asked. A window is for the rest alone.
+/// Separates suns from an environment map, or reads those of a light file; the default number for a light
+/// file is the number of suns in it. All are rotated as `options` requires. The window filters the rest only.
 SplitLight load_split_light(const Path& path, int order, const SunCount& suns, const LightOptions& options,
                             int threads);
 

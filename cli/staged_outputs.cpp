@@ -1,3 +1,5 @@
+// Publishes all output files together.
+
 #include "staged_outputs.h"
 
 namespace prt::cli {
@@ -22,7 +24,7 @@ void StagedOutputs::publish() {
             if (!file->is_stream())
                 file->publish();
     } catch (...) {
-        files_.clear(); // takes back
+        files_.clear(); // restores the previous files
         throw;
     }
     for (const auto& file : files_)

@@ -8,15 +8,15 @@
 
 namespace prt::cli {
 
-/// What a command writes: all of it appears at the end, together, or none.
+/// Output files of a command: all of them appear together at the end, or none.
 class StagedOutputs {
 public:
     OutputFile& add(const std::filesystem::path& path);
-    /// To disk, and into pipes, which cannot be taken back. Throws `Error` when that fails.
+    /// Writes to disk, and to pipes, which cannot be undone. Throws `Error` on failure.
     void finish();
-    /// Throws `Error` when that fails, with all as it was.
+    /// Publishes all files. Throws `Error` on failure, after restoring the previous state.
     void publish();
-    /// For a process that is about to end, from any thread.
+    /// Removes temporary files of a process that is about to end; callable from any thread.
     void remove_names() noexcept;
 
 private:

@@ -1,3 +1,5 @@
+// Prints text without control sequences.
+
 #include "terminal.h"
 
 #include "prt/support/error.h"

@@ -1,3 +1,5 @@
+// Parses texture options and prepares texture coordinates.
+
 #include "texel_arguments.h"
 
 #include "options.h"
@@ -26,7 +28,7 @@ double parse_density(const std::string& text) {
     return *density;
 }
 
-/// With what was said of coordinates and textures.
+/// Returns the options including those for coordinates and textures.
 TexelOptions texel_options(const TexelArguments& a) {
     TexelOptions options = a.texels;
     options.uv_set = a.uv_set.value_or(options.uv_set);
@@ -34,7 +36,7 @@ TexelOptions texel_options(const TexelArguments& a) {
     return options;
 }
 
-/// Gives the scene coordinates of its own.
+/// Generates new texture coordinates for the scene.
 TexelRoom unwrapped(const TexelArguments& a, const Path& path, GltfDocument& document, Scene& scene) {
     Unwrapping unwrapping = unwrap(scene, texel_options(a));
     const int set = free_texcoord(scene);
@@ -116,7 +118,7 @@ TexelRoom make_room(const TexelArguments& a, const Path& path, GltfDocument& doc
     const TexelOptions options = texel_options(a);
     if (!a.unwrap)
         return {plan_atlases(scene, options)};
-    try { // coordinates that have a place for everything are kept
+    try { // existing coordinates are kept if they have space for every surface
         TexelRoom room{plan_atlases(scene, options)};
         print_notices(path.string(), {fmt::format("has TEXCOORD_{} already, which is kept", options.uv_set)});
         return room;

@@ -23,22 +23,22 @@ struct TexelArguments {
     Path casters;
     std::optional<double> reach; ///< metres
 
-    /// Whether textures are asked for.
+    /// True if textures are requested.
     bool given() const { return texels.size > 0 || texels.per_metre > 0; }
 };
 
-/// The options that ask for textures.
+/// The options that request textures.
 struct TexelSizeOptions {
     CLI::Option *density, *size;
 };
 
-/// `what` begins what they say: "into textures".
+/// Adds the options of texels. `what` is the first part of their help: "into textures".
 TexelSizeOptions add_texels(CLI::App* command, TexelArguments& arguments, const std::string& what);
 
-/// Throws `Error` for options of textures where none are asked for.
+/// Throws `Error` for options of textures if no textures are requested.
 void check_texels(const TexelArguments& arguments);
 
-/// A finer model, and how far off it may lie: a fiftieth of the scene's extent where that is not said.
+/// A finer model, and its maximum distance: by default a fiftieth of the scene's extent.
 struct Finer {
     std::optional<Scene> scene;
     double reach = 0;
@@ -47,13 +47,13 @@ struct Finer {
 };
 Finer load_finer(const TexelArguments& arguments, const GltfOptions& reading, const Scene& scene);
 
-/// Textures for the scene, and what was done for room in them.
+/// Textures for the scene, and figures about their layout.
 struct TexelRoom {
     std::vector<Atlas> atlases;
     Json figures = Json::object();
 };
-/// Finds room for all surfaces of `scene`, read from `path`; with --unwrap document and scene get coordinates
-/// of their own where there is none. Throws `Error`.
+/// Finds space for all surfaces of `scene`, read from `path`. With --unwrap, document and scene get new
+/// coordinates if the existing ones have no space for every surface. Throws `Error`.
 TexelRoom make_room(const TexelArguments& arguments, const Path& path, GltfDocument& document, Scene& scene);
 
 } // namespace prt::cli

@@ -1,3 +1,5 @@
+// Path-traces pictures and their mean luminance.
+
 #include "traced_picture.h"
 
 #include "budget/budget_lights.h"

@@ -1,6 +1,6 @@
 #pragma once
 
-// `prt render --path-trace`: the reference for what the runtime draws.
+// `prt render --path-trace`: the reference for pictures of the runtime.
 
 #include "inputs.h"
 #include "prt/path_tracer.h"
@@ -12,7 +12,7 @@
 
 namespace prt::cli {
 
-/// Lights of a path-traced picture: the sky and its suns as the file has them, not as SH.
+/// Lights of a path-traced picture: sky and suns from the file, not as SH.
 struct TracedLights {
     Path environment; ///< empty: the sky is dark
     LightOptions reading;
@@ -21,15 +21,15 @@ struct TracedLights {
     int threads = 0;
 };
 
-/// Traces `paths` paths for each pixel of `picture` (its camera, size, and whether it is textured), with all
-/// bounces. The background is seen where `picture` has one.
+/// Traces `paths` paths per pixel of `picture` (with its camera, size and `textured`), with all bounces. The
+/// background is visible if `picture` has one.
 PathTracedPicture traced_picture(const Picture& picture, const TraceScene& scene, const TracedLights& lights,
                                  int paths, const Progress& progress);
 
-/// Mean luminance of the light that visible surfaces reflect, by a small path-traced picture.
+/// Returns the mean luminance of the light that visible surfaces reflect, from a small path-traced picture.
 float traced_luminance(const Picture& picture, const TraceScene& scene, const TracedLights& lights);
 
-/// Heat picture of an error map in 0..1, [height][width].
+/// Returns a heat picture of an error map in 0..1, [height][width].
 Image heat_image(int width, int height, std::span<const float> values);
 
 } // namespace prt::cli

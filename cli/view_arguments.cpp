@@ -1,3 +1,5 @@
+// Parses camera and exposure options.
+
 #include "view_arguments.h"
 
 #include "options.h"

@@ -1,6 +1,6 @@
 #pragma once
 
-// How pictures are framed and exposed: options that `render` shares with whatever draws.
+// Options for the camera and exposure of pictures.
 
 #include "prt/camera.h"
 #include "prt/scene.h"
@@ -12,13 +12,13 @@
 
 namespace prt::cli {
 
-/// How bright a picture is.
+/// Exposure of a picture.
 struct Exposure {
-    bool automatic = true; ///< by what the model shows
-    double stops = 0;      ///< of radiance, or beside the automatic ones
+    bool automatic = true; ///< from the visible surfaces of the model
+    double stops = 0;      ///< stops of exposure, added to the automatic ones
 };
 
-/// From where, and with how many pixels.
+/// Camera and size of a picture.
 struct View {
     int width = 1280, height = 720, samples = 2;
     std::optional<glm::dvec3> camera, look_at; ///< metres, world
@@ -31,7 +31,7 @@ void add_view(CLI::App* command, View& view);
 /// --exposure
 CLI::Option* add_exposure(CLI::App* command, Exposure& exposure);
 
-/// The camera of `view`; where it is not given, one that sees the whole scene.
+/// Returns the camera of `view`; by default one that sees the whole scene.
 Camera choose_camera(const View& view, const Scene& scene);
 
 } // namespace prt::cli

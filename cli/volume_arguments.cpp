@@ -1,3 +1,5 @@
+// Parses the options of volumes.
+
 #include "volume_arguments.h"
 
 #include "options.h"

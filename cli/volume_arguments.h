@@ -1,6 +1,6 @@
 #pragma once
 
-// Options of `bake` that ask for a volume beside what surfaces get.
+// Options of `bake` that request a volume in addition to transfer of surfaces.
 
 #include "inputs.h"
 #include "prt/volume_bake.h"
@@ -16,16 +16,16 @@ struct VolumeArguments {
     };
     std::optional<WorldBounds> bounds;
 
-    /// Whether one is asked for.
+    /// True if a volume is requested.
     bool given() const { return volume.spacing > 0 || volume.probes > 0; }
 };
 
 void add_volume(CLI::App* command, VolumeArguments& arguments);
 
-/// Throws `Error` for options of volumes where none is asked for.
+/// Throws `Error` for options of volumes if no volume is requested.
 void check_volume(const VolumeArguments& arguments);
 
-/// Of a scene, in whose frame bounds then are.
+/// Returns the options for a scene; bounds are converted to its coordinates.
 VolumeOptions volume_options(const VolumeArguments& arguments, const Scene& scene);
 
 } // namespace prt::cli

@@ -1,3 +1,5 @@
+// Compares interpolated light of a volume with path tracing.
+
 #include "volume_errors.h"
 
 #include "no_shadow.h"
@@ -21,10 +23,11 @@ namespace prt::cli {
 namespace {
 
 constexpr std::size_t kPlaces = 1000;
-/// Distances from surfaces, metres, that are told apart.
+/// Upper limits of the distance classes, metres.
 constexpr std::array<float, 4> kDistances = {0.05f, 0.2f, 0.5f, HUGE_VALF};
 
-/// Squared differences from both halves of a reference, and what they are relative to.
+/// Sum of the products of differences from both halves of a reference, and of the radiance they are relative
+/// to.
 struct ErrorSum {
     double error = 0, norm = 0;
 
@@ -34,7 +37,7 @@ struct ErrorSum {
 struct VolumeErrors {
     ErrorSum all;
     std::array<ErrorSum, kDistances.size()> by_distance;
-    ErrorSum irradiance; ///< of surfaces that face anywhere
+    ErrorSum irradiance; ///< irradiance on surfaces of all orientations
 };
 
 /// Even over the sphere (a spiral of equal areas).
@@ -49,7 +52,7 @@ std::vector<glm::vec3> normals_all_round() {
     return normals;
 }
 
-/// Irradiance over pi; below 0 where coefficients say so.
+/// Returns irradiance over pi; negative if the coefficients produce negative values.
 glm::dvec3 unclamped_irradiance(std::span<const glm::vec3> light, std::span<const float> basis) {
     constexpr std::array<double, 4> kCosine = {1, 2.0 / 3, 0.25, 0};
     glm::dvec3 sum(0);
@@ -59,7 +62,7 @@ glm::dvec3 unclamped_irradiance(std::span<const glm::vec3> light, std::span<cons
     return sum;
 }
 
-/// Of `found(place, normal)`.
+/// Returns the error of the irradiance `found(place, normal)`.
 ErrorSum irradiance_error(const FreePlaces& places, const std::array<std::vector<glm::vec3>, 2>& truth,
                           const std::function<glm::vec3(std::size_t, const glm::vec3&)>& found) {
     const std::size_t coefficients = truth[0].size() / places.positions.size();
@@ -81,7 +84,7 @@ ErrorSum irradiance_error(const FreePlaces& places, const std::array<std::vector
     return sum;
 }
 
-/// What comes in at probes: [probes][coefficients].
+/// Returns the errors of incident light at probes: [probes][coefficients].
 VolumeErrors errors_of(const VolumeLookup& lookup, std::span<const glm::vec3> incident,
                        const FreePlaces& places, const std::array<std::vector<glm::vec3>, 2>& truth) {
     const std::size_t coefficients = truth[0].size() / places.positions.size();
@@ -174,7 +177,7 @@ std::optional<CompressedVolume> shipped_volume(const BudgetRequest& request, con
     return std::move(small);
 }
 
-/// Light of the sky at places that no light of the sky reaches: what comes through walls.
+/// Returns the sky light at positions that no sky light reaches: leaks through walls.
 Table leak_table(const BakedVolume& volume, const VolumeLookup& lookup, const FreePlaces& places) {
     const std::size_t coefficients = volume.coefficients();
     double sum = 0, largest = 0;
@@ -183,7 +186,7 @@ Table leak_table(const BakedVolume& volume, const VolumeLookup& lookup, const Fr
         if (!places.shut[p])
             continue;
         const VolumeCorners corners = lookup.find(places.positions[p]);
-        double sky = 0; // of 1 that comes from everywhere, without bounces
+        double sky = 0; // light of a uniform sky of radiance 1, without bounces
         for (std::size_t i = 0; i < corners.probes.size(); ++i)
             sky += static_cast<double>(corners.weights[i] *
                                        volume.baked.transfer.vector(corners.probes[i] * coefficients)[0]);
@@ -218,7 +221,7 @@ BudgetLight dark() {
     return {"lamps", {DistantLight({}), {}, {}, black, black}};
 }
 
-/// The skies with dark lamps, and lamps in the dark where any shines; those are `lamps`.
+/// Returns the skies with all lamps off, and `lamps` in the dark if any shines.
 std::vector<VolumeLight> volume_lights(std::span<const BudgetLight> skies, const BudgetLight& night,
                                        const TransferLayout& layout, const SceneLamps& lamps) {
     std::vector<VolumeLight> lights;
@@ -231,7 +234,7 @@ std::vector<VolumeLight> volume_lights(std::span<const BudgetLight> skies, const
     return lights;
 }
 
-/// The same light by what other engines keep at probes: rows with irradiance alone.
+/// Adds rows for the same light from probe data of other engines; they contain irradiance only.
 void add_sky_occlusion(const VolumeLight& light, const SkyOcclusion& occlusion, const VolumeLookup& lookup,
                        const FreePlaces& places, const std::array<std::vector<glm::vec3>, 2>& truth,
                        Table& table) {

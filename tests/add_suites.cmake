@@ -1,6 +1,6 @@
-# Run as a script after a test program is linked: writes tests for ctest into OUTPUT, one per suite of PROGRAM named
-# `NAME/<suite>`, and one `NAME/<suite>/long` with the tests of the suite that match LONG_TESTS (a filter of gtest).
-# PROPERTIES: of each test, names and values.
+# Runs as a script after a test program is linked: writes tests for ctest into OUTPUT, one per suite of
+# PROGRAM named `NAME/<suite>`, and one `NAME/<suite>/long` with the tests of the suite that match LONG_TESTS
+# (a filter of gtest). PROPERTIES are names and values, set on each test.
 cmake_minimum_required(VERSION 3.25)
 
 # list_tests(<filter> <variable>): sets <variable> to the suites that have tests, and <variable>_<suite> to the tests.

@@ -1,5 +1,5 @@
-# Long tests, as gtest's filter names them: those that take longest along code that other tests also run. ctest labels
-# them `long`; `./test.sh` leaves them out, `./test.sh all` runs them.
+# Long tests, as a filter of gtest: the slowest tests of code that other tests also cover. ctest labels them
+# `long`; `./test.sh` skips them, `./test.sh all` runs them.
 set(long_tests
     All/ShaderVariants.ComputeItWithout* Bake.ErrorFalls* Bake.NumbersOfRays* *BakesTheLampsOfAScene/courtyard
     BelowTheZenith.IsDimmedByAll* BlockedCap.TakesThe* ColorBleeding.* Comparison.* Compress.TakesAllNumbers*

@@ -1,10 +1,12 @@
-# prt_tests(<name> SOURCES <file>... LIBRARIES <target>... [FIXTURES <fixture>...] [OPENGL] [LONG] [ALONE]): a test program.
-# ctest knows one test per suite, `<name>/<suite>`: one process runs all tests of a suite, so that SetUpTestSuite pays.
-# The tests of a suite that match `long_tests` (long_tests.cmake) form a test of their own, `<name>/<suite>/long`, with
-# the label `long`.
-# FIXTURES: what ctest sets up before.
-# OPENGL: do not look for leaks. The software driver keeps memory until the process ends and is unloaded by then, so its
-# leaks cannot be told from ours; the same code without OpenGL is checked.
+# prt_tests(<name> SOURCES <file>... LIBRARIES <target>... [FIXTURES <fixture>...] [OPENGL] [LONG] [ALONE]):
+# adds a test program.
+# ctest has one test per suite, `<name>/<suite>`: one process runs all tests of a suite, so that
+# SetUpTestSuite runs once.
+# The tests of a suite that match `long_tests` (long_tests.cmake) form a separate test, `<name>/<suite>/long`,
+# with the label `long`.
+# FIXTURES: fixtures that ctest sets up before.
+# OPENGL: do not check for leaks. The software driver keeps memory until the process ends and is unloaded by
+# then, so its leaks cannot be distinguished from ours; the code is also checked without OpenGL.
 # LONG: all tests are long; the target `gate` does not build the program.
 # ALONE: link GoogleTest, not test_support.
 function(prt_tests name)

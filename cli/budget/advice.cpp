@@ -1,3 +1,5 @@
+// Tries options against the largest causes of error.
+
 #include "budget/advice.h"
 
 #include "prt/compress.h"
@@ -47,7 +49,7 @@ private:
         return record.endless ? kEndlessBounces : record.bounces;
     }
 
-    /// The least order that brings light below what else there is, or the highest.
+    /// Tries the minimum order whose light error is below the sum of the other causes, or the maximum order.
     std::optional<Trial> more_bands() const {
         if (order() == kMaxOrder)
             return std::nullopt;
@@ -61,7 +63,7 @@ private:
 
     /// All triangles in four, at some of the points.
     std::optional<Trial> more_vertices() const {
-        if (s_.baked.lightmap) // what more texels bring is for another bake to say
+        if (s_.baked.lightmap) // a lightmap is not rebaked here, so the effect of more texels is unknown
             return std::nullopt;
         constexpr std::size_t kPoints = 256;
         const SurfacePoints some = some_of(s_.reference.points(), kPoints);
@@ -172,7 +174,7 @@ private:
 
 std::optional<Advice> advice(const AdviceSource& source, const ErrorBudget& budget,
                              const Progress& progress) {
-    constexpr double kWorthwhile = 0.02; // of the total
+    constexpr double kWorthwhile = 0.02; // fraction of the total
     const Adviser adviser(source, budget, progress);
     std::array<std::size_t, kErrorCauses> causes;
     std::iota(causes.begin(), causes.end(), std::size_t{0});
@@ -187,7 +189,7 @@ std::optional<Advice> advice(const AdviceSource& source, const ErrorBudget& budg
         const std::optional<Trial> trial = adviser.try_against(cause);
         if (!trial)
             continue;
-        // In shares of the sum, so that what causes do to each other stays in proportion.
+        // Computed as fractions of the sum, so that interactions between causes stay in proportion.
         const double after =
             budget.total.root() * std::sqrt(std::max(0.0, 1 - (now - trial->squared) / budget.sum()));
         if (after < (1 - kWorthwhile) * budget.total.root())

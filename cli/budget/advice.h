@@ -1,6 +1,6 @@
 #pragma once
 
-// What to change first, and what it would bring: measured, on a part of the model where that is enough.
+// Advice on which option to change first. Its effect is measured, on a part of the model if that suffices.
 
 #include "budget/budget.h"
 #include "inputs.h"
@@ -17,7 +17,7 @@ struct Advice {
     double before = 0, after = 0;         ///< total relative L2
 };
 
-/// What advice rests on.
+/// Input of `advice`.
 struct AdviceSource {
     const BudgetReference& reference;
     const SceneFile& baked;
@@ -25,8 +25,8 @@ struct AdviceSource {
     BudgetEffort effort;
 };
 
-/// Of the causes of `budget`, the mean over all lights, from the largest on, the first of which an option
-/// takes a fiftieth of the total or more; none where no option does.
+/// Returns the first option that reduces the total error by at least a fiftieth. Causes of `budget`, the mean
+/// over all lights, are tried from the largest on. Empty if no option does.
 std::optional<Advice> advice(const AdviceSource& source, const ErrorBudget& budget, const Progress& progress);
 
 } // namespace prt::cli

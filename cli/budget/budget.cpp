@@ -1,3 +1,5 @@
+// Measures an error budget under each light.
+
 #include "budget/budget.h"
 
 #include "prt/bake.h"

@@ -1,6 +1,6 @@
 #pragma once
 
-// What a picture's errors come from, under each of several lights.
+// Sources of the error of a picture, under each of several lights.
 
 #include "budget/budget_lights.h"
 #include "inputs.h"
@@ -14,14 +14,14 @@ namespace prt::cli {
 
 struct BudgetEffort {
     std::size_t points = 1024;
-    double noise = 5e-5; ///< of squared errors (`SurfaceRadianceOptions`)
+    double noise = 5e-5; ///< noise of squared errors (`SurfaceRadianceOptions`)
     double seconds = 0;  ///< for each light, about; 0: any
     std::uint64_t seed = 0x9e3779b97f4a7c15;
     BadTextures bad_textures = BadTextures::error;
     int threads = 0;
 };
 
-/// A scene, points on it, and what path tracing says of them under each light. Stays where it is.
+/// A scene, points on it, and their path-traced radiance under each light. Its address must not change.
 class BudgetReference {
 public:
     /// Keeps references to `scene` and `lights`. Throws `Error` where no surface can be seen.
@@ -33,12 +33,12 @@ public:
     const TraceScene& scene() const { return scene_; }
     const SurfaceRadiance& of(std::size_t light) const { return radiance_[light]; }
 
-    /// What a bake of that order and of so many bounces could hold under a light.
+    /// Returns the truncation of a bake of this order and number of bounces under a light.
     BandCut cut(std::size_t light, int order, int bounces) const {
         return {order, bounces, lights_[light].factors(order)};
     }
-    /// Squared relative errors, the mean over all lights: of so many bands, with all bounces; and of bounces
-    /// that are missing.
+    /// Return squared relative errors, as means over all lights: of truncating to `order` bands, with all
+    /// bounces; and of the bounces after the first `bounces`.
     double light_error(int order) const;
     double bounces_error(int bounces) const;
 
@@ -49,19 +49,19 @@ private:
     std::vector<SurfaceRadiance> radiance_; ///< [lights]
 };
 
-/// Transfer of the stages: as baked, by the same bake with another seed, and as shipped.
+/// Transfer of the stages: as baked, baked again with another seed, and as shipped.
 struct BudgetStages {
     const Transfer& baked;
     const Transfer& repeated;
     const Transfer* shipped = nullptr; ///< null: not compressed
     int bounces = 0;                   ///< or kEndlessBounces
-    bool alike = true;                 ///< both bakes have as many rays
+    bool alike = true;                 ///< both bakes have the same number of rays
     /// Null: their receivers are vertices, and their values are interpolated; else texels, which are
     /// filtered.
     const LightmapOfFile* lightmap = nullptr;
 };
 
-/// The same errors by two measures, [lights].
+/// Error budgets by two measures, [lights].
 struct Budgets {
     std::vector<ErrorBudget> relative, visible;
 };

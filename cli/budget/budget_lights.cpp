@@ -1,3 +1,5 @@
+// Loads lights for an error budget and splits off their suns.
+
 #include "budget/budget_lights.h"
 
 #include "evaluation_lights.h"
@@ -16,7 +18,7 @@ namespace {
 
 /// The sky that coefficients describe, dark where they are negative.
 Image drawn(const Light& light) {
-    constexpr int kWidth = 256; // a texel is a tenth of what ten bands resolve
+    constexpr int kWidth = 256; // a texel is a tenth of the resolution of ten bands
     const Light sky = deringed(light);
     Image image{kWidth, kWidth / 2, {}};
     for (int y = 0; y < image.height; ++y)
@@ -27,7 +29,7 @@ Image drawn(const Light& light) {
     return image;
 }
 
-/// Suns as rays meet them: wide ones as many, evenly over the disc.
+/// Returns suns for path tracing: a wide sun becomes several ones, evenly distributed over its disc.
 std::vector<Sun> as_seen_by_rays(std::span<const SunDisc> discs) {
     constexpr int kParts = 16;
     std::vector<Sun> suns;
@@ -46,8 +48,8 @@ std::vector<Sun> as_seen_by_rays(std::span<const SunDisc> discs) {
     return suns;
 }
 
-/// The image turned about +Y by `texels` of its columns; content moves to the left, as `rotated_about_y`
-/// turns.
+/// Returns the image rotated about +Y by `texels` columns; content moves to the left, as in
+/// `rotated_about_y`.
 Image turned(Image image, int texels) {
     for (int y = 0; y < image.height; ++y) {
         const auto row = image.pixels.begin() + static_cast<std::ptrdiff_t>(y) * image.width;
@@ -56,7 +58,7 @@ Image turned(Image image, int texels) {
     return image;
 }
 
-/// From an environment map whose suns are `split`.
+/// Returns the light of an environment map with the suns in `split`.
 MeasuredLight of_image(const SplitLight& light, const BudgetLightOptions& options) {
     const Image whole = resampled_lat_long(*light.sky.environment);
     const double degrees = std::remainder(options.reading.rotation_degrees, 360.0);

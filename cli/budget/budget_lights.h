@@ -1,6 +1,6 @@
 #pragma once
 
-// Lights as a budget of errors is measured under them: as they are, and as coefficients.
+// Lights for an error budget: as measured, and as coefficients.
 
 #include "prt/surface_radiance.h"
 #include "split_light.h"
@@ -14,24 +14,24 @@ struct BudgetLight {
     std::string name;
     MeasuredLight measured;
 
-    /// Of the sky, as it is drawn with so many bands: by `deringed`.
+    /// Returns the factors of `deringed` on the bands of the sky at this order.
     BandFactors factors(int order) const;
-    /// What transfer of that order is lit with; suns are in the sky unless they are apart.
+    /// Returns the lighting for transfer of this order; suns are in the sky unless they are separate.
     Lighting lighting(int order) const;
 };
 
 /// How lights come in.
 struct BudgetLightOptions {
-    std::vector<Path> files; ///< none: the default lights of `evaluate`
+    std::vector<Path> files; ///< empty: the default lights of `evaluate`
     SunCount suns = {std::nullopt};
     LightOptions reading;
-    int order = 6;     ///< of the transfer, by which suns are looked for
-    bool apart = true; ///< suns can be: transfer keeps direct light apart
+    int order = 6;     ///< order of the transfer; suns are searched for with it
+    bool apart = true; ///< suns may be separate, because the transfer has a separate direct term
     int threads = 0;
 };
 
-/// Environment maps, turned by whole texels. Of light files and analytic lights there is no more than their
-/// bands and suns: the sky is drawn from kMaxOrder of them.
+/// Loads the lights. Environment maps are rotated by a whole number of texels. Light files and analytic
+/// lights have only their bands and suns: their sky is drawn from kMaxOrder bands.
 std::vector<BudgetLight> budget_lights(const BudgetLightOptions& options);
 
 } // namespace prt::cli

@@ -1,3 +1,5 @@
+// Writes error budgets as tables, bars and sentences.
+
 #include "budget/budget_report.h"
 
 #include <fmt/core.h>
@@ -72,7 +74,7 @@ Table table_of(const std::vector<BudgetLight>& lights, const std::vector<ErrorBu
 }
 
 std::string causes_in_words(const ErrorBudget& mean) {
-    constexpr double kMuch = 1.25; // beyond what is not known of squares
+    constexpr double kMuch = 1.25; // exceeds the uncertainty of the squares
     std::vector<std::string> causes;
     for (const ErrorCause cause : kCauses)
         causes.push_back(fmt::format("{} {:.2f}", to_string(cause), 100 * mean.of(cause).root()));

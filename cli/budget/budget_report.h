@@ -18,7 +18,7 @@ std::string budget_in_words(const ErrorBudget& mean, const ErrorBudget& visible_
 /// "against light: prt bake --order 8 would bring 3.10 to 1.90 %"
 std::string advice_in_words(const std::optional<Advice>& advice);
 
-/// As figures of files.
+/// Adds the advice as figures.
 void add_advice(const std::optional<Advice>& advice, Report& report);
 
 } // namespace prt::cli

@@ -1,3 +1,5 @@
+// Measures the error budget of a bake and its shipped file.
+
 #include "budget/measure_budget.h"
 
 #include "budget/advice.h"
@@ -26,7 +28,7 @@ void check_no_media(const SceneFile& baked) {
                 "not enter, or none at all");
 }
 
-/// Of a bake that is done again.
+/// Repeats a bake with another seed.
 Transfer repeat(const SceneFile& baked, int threads, const Progress& progress) {
     if (!baked.lightmap)
         return repeated_bake(baked.scene, baked.baked->transfer, *baked.record(), threads, progress);

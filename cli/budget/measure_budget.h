@@ -10,16 +10,16 @@
 
 namespace prt::cli {
 
-/// Files whose errors are measured against path tracing.
+/// Input of `add_budget`.
 struct BudgetRequest {
-    Path baked, shipped;    ///< shipped: empty where there is none
-    ReadingOptions reading; ///< of `shipped`
+    Path baked, shipped;    ///< shipped: empty if there is none
+    ReadingOptions reading; ///< options for `shipped`
     BudgetLightOptions lights;
     std::vector<std::string> no_shadow; ///< materials that the bake let light through
 };
 
-/// Adds what errors over the surface come from to `report`. `baked` is in the order of the shipped file.
-/// Throws `Error` for what path tracing cannot be a reference for.
+/// Adds the sources of the error over the surface to `report`. Puts `baked` in the order of the shipped file.
+/// Throws `Error` if path tracing cannot provide a reference.
 void add_budget(BudgetRequest request, SceneFile& baked, Report& report, Session& session);
 
 } // namespace prt::cli

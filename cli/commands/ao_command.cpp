@@ -1,3 +1,5 @@
+// prt ao: bakes ambient occlusion into vertices or textures.
+
 #include "commands/commands.h"
 
 #include "back_sides.h"
@@ -73,7 +75,7 @@ std::vector<std::byte> normal_png(const Atlas& atlas, std::span<const glm::vec3>
     return encode_png(atlas.width, atlas.height, pixels);
 }
 
-/// The mean, of vertices by their areas.
+/// Returns the area-weighted mean of the vertices.
 double mean_of(std::span<const float> values, std::span<const float> weights) {
     double sum = 0, all = 0;
     for (std::size_t i = 0; i < values.size(); ++i) {
@@ -92,7 +94,7 @@ void add_notices(Report& report, const std::vector<std::string>& notices) {
     add_figures(report, {{"notices", all}});
 }
 
-/// A closed room is black where every surface blocks, however far it is.
+/// Closed rooms are black, because every surface blocks at any distance.
 constexpr float kBlack = 0.01f;
 constexpr double kMostlyBlack = 0.5;
 std::vector<std::string> notices_of_black(const AoArguments& a, double share) {
@@ -104,7 +106,7 @@ std::vector<std::string> notices_of_black(const AoArguments& a, double share) {
         100 * share)};
 }
 
-/// Share of the area of the vertices whose ambient light is black.
+/// Returns the fraction of the area of vertices whose ambient light is black.
 double black_share(std::span<const float> ambient, std::span<const float> areas) {
     std::vector<float> black;
     for (const float v : ambient)
@@ -210,7 +212,7 @@ void check_arguments(const AoArguments& a) {
         throw Error("--falloff and --distance are of surfaces: an occlusion volume ends at its reach");
 }
 
-/// Gives sides their own vertices.
+/// Gives both sides of double-sided surfaces separate vertices.
 void separate(const AoArguments& a, GltfDocument& document, Scene& scene) {
     BakeOptions options;
     options.repairs = {.bad_textures = a.options.repairs.bad_textures};

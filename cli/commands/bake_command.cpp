@@ -1,3 +1,5 @@
+// prt bake: bakes transfer into vertices, textures, volumes or instances.
+
 #include "commands/commands.h"
 
 #include "back_sides.h"
@@ -30,11 +32,11 @@ struct BakeArguments {
     std::vector<std::string> no_shadow; ///< names of materials
     struct Finer {
         std::optional<double> refine;  ///< relative L2 over the surface to split triangles for
-        std::size_t most_vertices = 0; ///< of a refined scene; 0: as many as `refine` allows
+        std::size_t most_vertices = 0; ///< maximum for a refined scene; 0: no limit except `refine`
     } finer;
     BackSides back_sides = BackSides::automatic;
-    TexelArguments texels;  ///< given: instead of vertices
-    VolumeArguments volume; ///< given: beside them
+    TexelArguments texels;  ///< if given: baked in place of vertices
+    VolumeArguments volume; ///< if given: baked in addition to surfaces
     InstanceArguments instances;
     LevelMode levels = LevelMode::carry;
     BakeOptions options;
@@ -64,7 +66,7 @@ int parse_bounces(const std::string& text) {
 
 constexpr double kPerMillimetre = 1000; ///< in 1/m
 
-/// Whether all three are, and none is NaN.
+/// True if all three components are in the range; false for NaN.
 bool all_in(const glm::dvec3& v, double low, double high) {
     return v.x >= low && v.x <= high && v.y >= low && v.y <= high && v.z >= low && v.z <= high;
 }
@@ -128,7 +130,7 @@ void add_transport(CLI::App* command, BakeOptions& options) {
         ->add_option_function<std::uint64_t>(
             "--memory-limit",
             [&options](const std::uint64_t& bytes) {
-                if (bytes > std::uint64_t{1} << 60) // what a negative number is taken for
+                if (bytes > std::uint64_t{1} << 60) // a negative number wraps to this range
                     throw CLI::ValidationError("--memory-limit", "is no size that memory can have");
                 options.memory.limit = static_cast<double>(bytes);
             },
@@ -209,7 +211,7 @@ void add_refinement(CLI::App* command, BakeArguments& a) {
         ->needs(refine);
 }
 
-/// Puts the finer document and scene in the place of these.
+/// Replaces document and scene by the refined ones.
 RefineStatistics refine(const BakeArguments& a, GltfDocument& document, Scene& scene, Session& session) {
     ProgressBar bar = session.progress_bar("refining");
     const RefineResult result =
@@ -220,12 +222,12 @@ RefineStatistics refine(const BakeArguments& a, GltfDocument& document, Scene& s
     document = refined(std::move(document), scene, result.refinement);
     Scene finer = extract_scene(document);
     leave_out_shadows(finer, a.no_shadow);
-    finer.notices = std::move(scene.notices); // of the file that was given
+    finer.notices = std::move(scene.notices); // notices of the input file
     scene = std::move(finer);
     return result.statistics;
 }
 
-/// What was baked, and of which mesh.
+/// Result of a bake, and statistics of the refined mesh.
 struct Baked {
     std::optional<RefineStatistics> refinement;
     BakeResult result;
@@ -237,7 +239,7 @@ Baked bake_scene(const BakeArguments& a, GltfDocument& document, Scene& scene, S
     BakeOptions options = a.options;
     if (a.finer.refine) {
         baked.refinement = refine(a, document, scene, session);
-        options.fit = FitMode::surface; // as the error was measured
+        options.fit = FitMode::surface; // the fit with which the error was measured
     }
     ProgressBar bar = session.progress_bar("baking");
     baked.result = bake(scene, options, bar.progress(), MeasureErrors::yes);
@@ -252,7 +254,7 @@ SidesRequest sides_of(const BakeArguments& a) {
             .levels = a.levels != LevelMode::ignore};
 }
 
-/// The volume that is asked for.
+/// Bakes the requested volume.
 std::optional<VolumeBake> bake_probes(const BakeArguments& a, const Scene& scene, Session& session) {
     if (!a.volume.given())
         return std::nullopt;
@@ -262,7 +264,7 @@ std::optional<VolumeBake> bake_probes(const BakeArguments& a, const Scene& scene
     });
 }
 
-/// The file with what surfaces have in `document`, and with its volume.
+/// Returns the file with the surface transfer in `document`, and with its volume.
 std::vector<std::byte> with_volume(const BakeArguments& a, GltfDocument& document, const Scene& scene,
                                    const std::optional<VolumeBake>& volume) {
     return about(a.scene, [&] {
@@ -274,14 +276,14 @@ std::vector<std::byte> with_volume(const BakeArguments& a, GltfDocument& documen
     });
 }
 
-/// Writes what vertices of level 0 have, and those of coarser levels where these get some.
+/// Writes the transfer of the vertices of level 0, and of coarser levels if they have some.
 void write_vertices(const BakeArguments& a, GltfDocument& document, const Scene& scene,
                     const BakedTransfer& baked, std::optional<BakedLevels>& levels, Session& session) {
     if (!levels || a.levels == LevelMode::ignore) {
         write_transfer(document, scene, baked);
         return;
     }
-    if (a.finer.refine) // the mesh of level 0 is another one
+    if (a.finer.refine) // refinement changed the mesh of level 0
         levels->scene = extract_levels(document);
     Scene& all = levels->scene.scene;
     leave_out_shadows(all, a.no_shadow);
@@ -294,7 +296,7 @@ void write_vertices(const BakeArguments& a, GltfDocument& document, const Scene&
     write_transfer(document, all, whole);
 }
 
-/// Says where the lights of the scene outshine a sky of radiance 1.
+/// Prints a notice if the lights of the scene are far brighter than a sky of radiance 1.
 void note_lights(const BakeArguments& a, const Scene& scene, const Transfer& transfer,
                  std::span<const float> areas) {
     const Lighting lighting{.sky = constant_light(transfer.layout.order, glm::vec3(1)),

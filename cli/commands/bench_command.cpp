@@ -1,3 +1,5 @@
+// prt bench: measures the speed of relighting.
+
 #include "commands/commands.h"
 
 #include "inputs.h"

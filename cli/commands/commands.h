@@ -8,8 +8,8 @@ namespace prt::cli {
 
 class Session;
 
-// Each declares one command: its options, and what it does with them once they are parsed. A command throws
-// `Error` when it cannot do its work, and `CLI::ParseError` for options that do not go together.
+// Declares one function per command, which adds the command with its options and its action. A command throws
+// `Error` if it cannot do its work, and `CLI::ParseError` for options that cannot be combined.
 void add_ao(CLI::App& app, Session& session);
 void add_bake(CLI::App& app, Session& session);
 void add_bench(CLI::App& app, Session& session);

@@ -1,3 +1,5 @@
+// prt compress: compresses transfer of vertices, textures, volumes or instances.
+
 #include "commands/commands.h"
 
 #include "compress_metric.h"
@@ -36,18 +38,18 @@ struct CompressArguments {
     struct Reports {
         Path json, trace;
     } reports;
-    SearchOptions options; ///< without a budget `options.compress` says it all
+    SearchOptions options; ///< without a budget only `options.compress` is used
     MetricArguments metric;
     bool components_given = false, guides_given = false;
-    bool preset = false; ///< `options.compress` is one, to be fitted to the mesh
+    bool preset = false; ///< `options.compress` is a preset, which is fitted to the mesh
     bool best_effort = false;
     struct Writing {
         bool meshopt = false, reorder = false, whole = false;
         Path fallback; ///< a light
     } writing;
     struct Volume {
-        int bytes = 16;   ///< of a probe's weights
-        int clusters = 0; ///< 0: by their number
+        int bytes = 16;   ///< bytes of a probe's weights
+        int clusters = 0; ///< 0: derived from the number of probes
     } volume;
     ReadingOptions reading;
 };
@@ -155,7 +157,7 @@ void add_volume_sizes(CLI::App* command, CompressArguments& a) {
         ->check(CLI::Range(1, 256));
 }
 
-/// What the options mean together: u32 where no size is given, a search where a budget is.
+/// Resolves combinations of options: u32 if no size is given, a search if a budget is given.
 void resolve(const CLI::App& command, CompressArguments& a) {
     SearchOptions& o = a.options;
     const auto given = [&](const char* name) { return command.count(name) > 0; };
@@ -186,7 +188,7 @@ void resolve(const CLI::App& command, CompressArguments& a) {
         return;
     if (!given("--components"))
         o.compress.coding.components = 8;
-    a.preset = !given("--clusters"); // as many as suit the mesh
+    a.preset = !given("--clusters"); // the preset's number of clusters is fitted to the mesh
 }
 
 /// "error 0.012, 5.1 bytes per vertex, 6.2 shader operations"
@@ -195,7 +197,7 @@ std::string in_words(const CompressStatistics& s, std::size_t receivers) {
                        s.bytes_with_bases(receivers), s.operations());
 }
 
-/// A promise, by its option and in words with the unit of its figures.
+/// A guarantee: its option, and a sentence with the unit of its figures.
 struct PromiseWords {
     const char *option, *what;
     bool percent = false;
@@ -238,20 +240,20 @@ std::string in_words(std::span<const PromiseKept> promises) {
 struct Outcome {
     CompressResult result;
     std::vector<SearchTrial> trials;
-    std::optional<SearchTrial> best; ///< of a search
+    std::optional<SearchTrial> best; ///< best trial of a search
 };
 
-/// A bake that is compressed. Its transfer stays as the file has it, and its vertices in the document.
+/// A bake to compress. Its transfer keeps the format of the file, and its vertices are in the document.
 struct Bake {
     GltfDocument document;
     StoredBake stored;
-    std::optional<BakedLightmap> lightmap = {}; ///< of texels; its transfer is in `stored`
+    std::optional<BakedLightmap> lightmap = {}; ///< bake of texels; its transfer is in `stored`
     std::optional<BakedVolume> volume = {};
     bool levels = false;                      ///< coarser levels of detail have transfer, too
-    std::vector<FileInstance> instances = {}; ///< that share transfer
+    std::vector<FileInstance> instances = {}; ///< instances that share transfer
 };
 
-/// The scene whose vertices have transfer: that of level 0, and of coarser levels where these have some.
+/// Returns the scene whose vertices have transfer: level 0, and coarser levels if they have transfer.
 Scene scene_of(const Bake& bake) {
     return bake.levels ? extract_levels(bake.document).scene : extract_scene(bake.document);
 }
@@ -262,7 +264,7 @@ Bake of_lightmap(GltfDocument document, BakedLightmap lightmap) {
     return {std::move(document), std::move(stored), std::move(lightmap)};
 }
 
-/// Those of the document where they have transfer.
+/// Returns the levels of the document if they have transfer.
 std::optional<LeveledScene> levels_to_compress(const GltfDocument& document) {
     if (!has_levels(document) || holds_instances(document))
         return std::nullopt;
@@ -270,7 +272,7 @@ std::optional<LeveledScene> levels_to_compress(const GltfDocument& document) {
     return levels_have_transfer(document, levels) ? std::optional(std::move(levels)) : std::nullopt;
 }
 
-/// What surfaces have.
+/// Returns the bake of vertices or texels.
 Bake bake_of_surfaces(GltfDocument document, const Scene& scene, const Path& path) {
     if (std::optional<BakedLightmap> lightmap = read_lightmap(document, scene)) {
         discard_transfer(document);
@@ -282,13 +284,13 @@ Bake bake_of_surfaces(GltfDocument document, const Scene& scene, const Path& pat
         throw Error(path.string() + (scene_file_of(std::move(document), path).compressed
                                          ? ": is compressed already; compress the bake it came from"
                                          : ": holds no transfer; run prt bake first"));
-    discard_transfer(document); // it is in `stored`, and would be in memory twice
+    discard_transfer(document); // it is in `stored`, and would use memory twice
     Bake bake{std::move(document), std::move(*stored)};
     bake.levels = levels.has_value();
     return bake;
 }
 
-/// Throws `Error` for instances that nobody could read: compressing copies what says where they are.
+/// Reads the instances. Throws `Error` for invalid ones, because compression copies their positions.
 std::vector<FileInstance> instances_of(const Path& path, const GltfOptions& reading, const Scene& stored) {
     const GltfDocument document = load_gltf(path, reading);
     return read_instances(document, extract_scene(document), stored);
@@ -296,7 +298,7 @@ std::vector<FileInstance> instances_of(const Path& path, const GltfOptions& read
 
 Bake load_bake(const Path& path, const GltfOptions& reading) {
     GltfOptions options = reading;
-    options.instancing = Instancing::apart; // meshes once, as their transfer is stored
+    options.instancing = Instancing::apart; // each mesh once, as its transfer is stored
     GltfDocument document = load_gltf(path, options);
     const Scene scene = extract_scene(document);
     std::vector<FileInstance> instances;
@@ -310,7 +312,8 @@ Bake load_bake(const Path& path, const GltfOptions& reading) {
     return bake;
 }
 
-/// A cluster for so many probes, and so many at least: more bases than that take more bytes than weights.
+/// Number of probes per cluster, and minimum number of clusters: with more clusters, bases would need more
+/// bytes than weights.
 constexpr std::size_t kProbesOfCluster = 700, kLeastClusters = 8;
 
 std::optional<CompressedVolumeResult> compress_probes(const CompressArguments& a, const Bake& bake,
@@ -331,7 +334,7 @@ std::optional<CompressedVolumeResult> compress_probes(const CompressArguments& a
     return compress_volume(*bake.volume, options, bar.progress());
 }
 
-/// Clusters are those that serve level 0 best; coarser levels find their places in them.
+/// Weight of coarser levels. Clusters are optimised for level 0, and coarser levels are assigned to them.
 constexpr float kShareOfCoarser = 1e-3f;
 
 std::vector<float> areas_to_compress(const LeveledScene& levels) {
@@ -354,7 +357,7 @@ SceneSurface surface_of_vertices(const Bake& bake) {
     return surface;
 }
 
-/// What the compressor may look at.
+/// Returns the areas and edges of the receivers for the compressor.
 SceneSurface surface_of(const Bake& bake, const SearchOptions& options) {
     if (bake.lightmap) {
         SceneSurface surface;
@@ -394,7 +397,7 @@ BufferCompression buffer_compression(const CompressArguments& a) {
     return a.writing.meshopt ? BufferCompression::meshopt : BufferCompression::none;
 }
 
-/// The bake's file with the result, in the order that is asked for.
+/// Returns the bake's file with the result, in the requested order.
 std::vector<std::byte> encoded(const CompressArguments& a, Bake bake, Scene& scene,
                                ClusteredTransfer compressed) {
     GltfDocument& document = bake.document;
@@ -411,18 +414,18 @@ std::vector<std::byte> encoded(const CompressArguments& a, Bake bake, Scene& sce
         result.transfer.receivers = reordered(result.transfer.receivers, order);
     }
     write_clustered(document, scene, result);
-    result = {}; // what is in the document makes room for the file
+    result = {}; // the document has a copy; this frees memory for the file
     for (Primitive& primitive : scene.primitives)
-        primitive.triangles = {}; // vertices alone are compared with what is written
+        primitive.triangles = {}; // only vertices are compared with the written file
     return encode_glb(document, buffers);
 }
 
 struct Written {
     Scene scene;
-    ClusteredTransfer transfer; ///< of the bake's receivers, in the order of the file
+    ClusteredTransfer transfer; ///< transfer of the bake's receivers, in the order of the file
     std::vector<float> areas;
     std::vector<Edge> edges;
-    std::uintmax_t bytes;                               ///< of the file
+    std::uintmax_t bytes;                               ///< file size
     std::vector<std::vector<float>> coarser_areas = {}; ///< [coarser levels][receivers]
 };
 
@@ -433,7 +436,7 @@ std::vector<Edge> edges_within(const Scene& scene, std::size_t count) {
     return edges;
 }
 
-/// Errors of coarser levels against what the bake gave them, over their own surfaces.
+/// Adds errors of coarser levels against their baked transfer, over their surfaces.
 void add_levels_compressed(const TransferView& transfer, const Written& written, Report& report) {
     if (written.coarser_areas.empty())
         return;
@@ -452,7 +455,7 @@ void add_levels_compressed(const TransferView& transfer, const Written& written,
     add_figures(report, {{"levels", std::move(list)}});
 }
 
-/// What `read` makes of the file that is about to be published, as everybody will read it.
+/// Calls `read`, which reads the written file before it is published, and explains its errors.
 template <class Read>
 auto readable(const CompressArguments& a, Read&& read) {
     try {
@@ -462,7 +465,7 @@ auto readable(const CompressArguments& a, Read&& read) {
     }
 }
 
-/// Stages the file and reads it back; its bytes stay in memory no longer than it takes to parse them.
+/// Stages the file and reads it back; its bytes are freed after parsing.
 Written written(const CompressArguments& a, std::vector<std::byte> file, const Bake& bake, Session& session) {
     const std::optional<BakedLightmap>& lightmap = bake.lightmap;
     GltfDocument document = readable(a, [&] {
@@ -504,7 +507,7 @@ std::string guides_in_words(const ClusteredBases& bases) {
     return bases.guides.empty() ? "none" : fmt::format("{}", fmt::join(guide_names(bases), ", "));
 }
 
-/// The errors are those of what is written, against `transfer` in its order.
+/// Returns the figures of a result. Errors are those of the written file, against `transfer` in its order.
 Json result_json(const CompressStatistics& s, const CompressOptions& options, const TransferView& transfer,
                  const Written& written) {
     const std::vector<float>& areas = written.areas;
@@ -512,28 +515,28 @@ Json result_json(const CompressStatistics& s, const CompressOptions& options, co
     const std::size_t receivers = transfer.receivers();
     const std::size_t uncompressed = transfer.dimension() * sizeof(float);
     const ClusteredBases& bases = written.transfer.bases;
-    return {{"order", transfer.layout().order},
-            {"channels", transfer.layout().channels()},
-            {"parts", parts_figures(transfer.layout())},
-            {"receivers", receivers},
-            {"clusters", s.clusters},
-            {"components_most", bases.max_components()},
-            {"components_mean", s.mean_components},
-            {"guides", guides_in_words(bases)},
-            {"shader_operations", s.operations()},
-            {"jump_across_clusters",
-             ClusterJumps(transfer, {areas, edges}, *options.metric, options.threads)
-                 .percentile_99(written.transfer, written.transfer.receivers.clusters)},
-            {"relative_l2", relative_l2(transfer, written.transfer, areas)},
-            {"lit_rms_by_iteration", s.lit_rms_by_iteration},
-            {"bytes_bound_per_vertex", s.bytes_per_receiver},
-            {"bytes_bound_per_vertex_with_bases", s.bytes_with_bases(receivers)},
-            {"bits_used_per_vertex", s.bits_per_receiver},
-            {"bytes_uncompressed_per_vertex", uncompressed},
-            {"bytes_attributes", s.bytes_per_receiver * receivers},
-            {"bytes_bases", s.basis_bytes},
-            {"bytes_constants", constant_rows(bases) * sizeof(glm::vec4)},
-            {"bytes_uncompressed", uncompressed * receivers}};
+    return {
+        {"order", transfer.layout().order},
+        {"channels", transfer.layout().channels()},
+        {"parts", parts_figures(transfer.layout())},
+        {"receivers", receivers},
+        {"clusters", s.clusters},
+        {"components_most", bases.max_components()},
+        {"components_mean", s.mean_components},
+        {"guides", guides_in_words(bases)},
+        {"shader_operations", s.operations()},
+        {"jump_across_clusters", ClusterJumps(transfer, {areas, edges}, *options.metric, options.threads)
+                                     .percentile_99(written.transfer, written.transfer.receivers.clusters)},
+        {"relative_l2", relative_l2(transfer, written.transfer, areas)},
+        {"lit_rms_by_iteration", s.lit_rms_by_iteration},
+        {"bytes_bound_per_vertex", s.bytes_per_receiver},
+        {"bytes_bound_per_vertex_with_bases", s.bytes_with_bases(receivers)},
+        {"bits_used_per_vertex", s.bits_per_receiver},
+        {"bytes_uncompressed_per_vertex", uncompressed},
+        {"bytes_attributes", s.bytes_per_receiver * receivers},
+        {"bytes_bases", s.basis_bytes},
+        {"bytes_constants", constant_rows(bases) * sizeof(glm::vec4)},
+        {"bytes_uncompressed", uncompressed * receivers}};
 }
 
 Json reuse_json(const VertexReuse& before, const VertexReuse& after) {
@@ -574,10 +577,9 @@ std::vector<std::string> sentences(const CompressArguments& a, bool fitted) {
             fmt::format("the mesh is small: {} fitted to it, so that bases do not outweigh weights",
                         a.options.compress.coding.format == WeightFormat::packed ? "clusters and bits are"
                                                                                  : "clusters are"));
-    list.emplace_back(
-        "expected error of the lit surface (lit_rms) {lit_rms:.3f%}, of the transfer (relative "
-        "L2) {relative_l2:.3f%}; between clusters it jumps by at most "
-        "{jump_across_clusters:.2f%} of what is seen in 99 % of places, on average over skies");
+    list.emplace_back("expected error of the lit surface (lit_rms) {lit_rms:.3f%}, of the transfer (relative "
+                      "L2) {relative_l2:.3f%}; between clusters it jumps by at most "
+                      "{jump_across_clusters:.2f%} of what is seen in 99 % of places, on average over skies");
     list.emplace_back(
         "{bytes_bound_per_vertex} bytes per vertex to bind ({bits_used_per_vertex} bits in use), "
         "{bytes_bound_per_vertex_with_bases:.2f} with the bases; uncompressed "
@@ -594,7 +596,7 @@ std::vector<std::string> sentences(const CompressArguments& a, bool fitted) {
     return list;
 }
 
-/// All but errors under skies.
+/// Returns all figures except errors under skies.
 Report report_of(const CompressArguments& a, const SearchOptions& options, const std::string& covers,
                  const TransferView& transfer, const Outcome& outcome, const Written& result) {
     const CompressStatistics& s = outcome.result.statistics;
@@ -629,7 +631,7 @@ void add_levels_and_instances(const Bake& bake, const TransferView& transfer, co
                                {{"count", bake.instances.size()}}, report);
 }
 
-/// What texels cannot be: a pass over a map knows no normals, and its words are packed.
+/// Checks the options for texels: a pass over a map has no normals, and its words are packed.
 void choose_for_texels(const CompressArguments& a, SearchOptions& options) {
     if (a.guides_given && options.compress.guides != GuideChoice::none)
         throw Error("--guides: texels know neither normals nor positions; leave it out, or say none");
@@ -645,7 +647,7 @@ void choose_for_texels(const CompressArguments& a, SearchOptions& options) {
     options.choose_guides = false;
 }
 
-/// What a file is written from; its transfer stays where it is read.
+/// Returns the data for writing a file; the transfer is not moved.
 Bake bake_without_transfer(Bake& bake) {
     return {std::move(bake.document), {{}, bake.stored.record}, bake.lightmap};
 }
@@ -666,7 +668,7 @@ void check_components(const CompressArguments& a, const TransferView& transfer) 
                                 transfer.dimension(), asked));
 }
 
-/// Under the metric, `skies`, and those that are always tried.
+/// Adds errors under the metric, under `skies`, and under the standard skies.
 void add_errors(const ErrorMoments& moments, const LightMetric& metric, std::vector<NamedLighting> skies,
                 Report& report) {
     add_figures(report, {{"lit_rms", expected_lit_rms(moments, metric)}});
@@ -715,7 +717,7 @@ void run(CompressArguments a, Session& session) {
     if (fallback)
         file = with_fallback(file, a.baked, *fallback, buffer_compression(a), threads);
     if (!a.writing.reorder)
-        scene = {}; // vertices are where they were
+        scene = {}; // vertices are in their original order
     const Written result = written(a, std::move(file), bake, session);
     if (a.writing.reorder) {
         transfer = in_order(std::move(transfer), matching_receivers(result.scene, scene));

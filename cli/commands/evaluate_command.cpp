@@ -1,3 +1,5 @@
+// prt evaluate: measures errors of a compressed file or of a bake.
+
 #include "commands/commands.h"
 
 #include "budget/measure_budget.h"
@@ -24,7 +26,7 @@ struct EvaluateArguments {
     std::vector<Path> lights;
     LightOptions light_options;
     SunCount suns = {std::nullopt};
-    int rotations = 1; ///< of each light about +Y
+    int rotations = 1; ///< number of rotations of each light about +Y
     struct Measures {
         bool sweep = false, budget = false, volume = false;
     } measures;
@@ -49,7 +51,7 @@ Sweep run_sweep(const EvaluateArguments& a, const SceneFile& baked, const std::v
     return sweep(transfer, surface, all, options, {}, bar.progress());
 }
 
-/// Those that were named, turned as asked, or the default ones.
+/// Returns the named lights, rotated as requested, or the default ones.
 std::vector<SplitLight> lights_of(const EvaluateArguments& a, int order) {
     std::vector<SplitLight> lights;
     for (const Path& path : a.lights)
@@ -59,7 +61,7 @@ std::vector<SplitLight> lights_of(const EvaluateArguments& a, int order) {
     return lights.empty() ? default_lights(order) : lights;
 }
 
-/// What is measured, before anything is.
+/// Returns a report with title and input files.
 Report empty_report(const EvaluateArguments& a, const Session& session) {
     Report report;
     report.title = a.shipped.empty() ? "Rate and distortion of " + a.baked.filename().string()

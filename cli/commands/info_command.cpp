@@ -1,3 +1,5 @@
+// prt info: prints the transfer in a file and its size.
+
 #include "commands/commands.h"
 
 #include "options.h"
@@ -29,7 +31,7 @@ std::string counted(const std::string& key, std::size_t count, const char* what)
     return fmt::format("{{{}}} {}{}", key, what, count == 1 ? "" : "s");
 }
 
-/// How the transfer was baked; `key` leads to its record.
+/// Returns a sentence about the bake; `key` is the path of its record.
 std::string record_sentence(const std::string& key, const BakeRecord& record) {
     const bool raster = record.method == BakeMethod::raster;
     return fmt::format("baked by {} on the {}, {} per vertex{}, {}, seed {{{}/seed}}",
@@ -83,7 +85,7 @@ void add_baked(const BakedTransfer& baked, Report& report) {
     report.sentences.push_back(record_sentence("transfer/bake", baked.record));
 }
 
-/// What clusters know of vertices without a byte of theirs, and what that costs.
+/// Adds the predictors of clusters, which need no bytes per vertex, and their shader cost.
 void add_guides(const ClusteredBases& bases, const std::string& own, Report& report) {
     if (bases.guides.empty())
         return;
@@ -171,7 +173,7 @@ void add_stored_lobes(const StoredLobes& lobes, Report& report) {
         counted("lobes/bounces", static_cast<std::size_t>(lobes.record.bounces), "bounce")));
 }
 
-/// Coarser levels of detail, which the figures of the scene leave out.
+/// Adds coarser levels of detail, which the figures of the scene do not include.
 void add_level_figures(const GltfDocument& document, Report& report) {
     if (!has_levels(document))
         return;

@@ -1,3 +1,5 @@
+// prt lobes: bakes lobes for skinned meshes.
+
 #include "commands/commands.h"
 
 #include "lobe_errors.h"
@@ -26,7 +28,7 @@ struct LobesArguments {
     ReadingOptions reading;
 };
 
-/// What a skin moves needs weights: without them the skin would turn nothing.
+/// Throws `Error` if a skinned mesh has no weights: the skin could not rotate its transfer.
 void check_weights(const AnimatedScene& model) {
     for (const Primitive& primitive : model.scene().primitives) {
         const MovingVertices& moving = model.vertices()[primitive.vertices];
@@ -54,7 +56,7 @@ bool moves(const AnimatedScene& model, std::span<const ModelPose> poses) {
                                [&](const ModelPose& pose) { return places(pose) != first; });
 }
 
-/// The mean square of lighting in each band, whichever way up.
+/// Returns the mean square of lighting in each band, over all orientations.
 void set_band_costs(int order, LobeFitOptions& options) {
     const LightMetric metric = natural_metric(layout_of_one(order, 1));
     const auto size = static_cast<std::size_t>(coefficient_count(order));
@@ -131,7 +133,7 @@ void measure_frames(const LobesArguments& a, const AnimatedScene& model, const M
         return;
     ProgressBar bar = session.progress_bar("measuring");
     PoseBakeOptions options = a.bake;
-    options.seed += 0x51ed270b; // far from those of the poses, which follow each other
+    options.seed += 0x51ed270b; // far from the seeds of the poses, which are consecutive
     add_lobe_errors({.model = model,
                      .lobes = made.lobes,
                      .mean = made.mean,

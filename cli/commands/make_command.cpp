@@ -1,3 +1,5 @@
+// prt make: bakes and compresses a scene in one step.
+
 #include "commands/commands.h"
 
 #include "lamp_strengths.h"

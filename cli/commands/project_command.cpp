@@ -1,3 +1,5 @@
+// prt project: converts an environment map to a light file.
+
 #include "commands/commands.h"
 
 #include "options.h"

@@ -1,3 +1,5 @@
+// prt relight: writes vertex colors under one light.
+
 #include "commands/commands.h"
 
 #include "lamp_strengths.h"
@@ -40,7 +42,7 @@ struct RelightArguments {
     int threads = 0;
 };
 
-/// Of each vertex, by which radiance for albedo 1 is multiplied.
+/// Returns the base color of each vertex, the factor on radiance for albedo 1.
 std::vector<glm::vec3> base_colors(const Surfaces& surfaces) {
     std::vector<glm::vec3> colors(surfaces.scene().receivers(), glm::vec3(1));
     const std::vector<float> areas = receiver_areas(surfaces.scene());
@@ -52,8 +54,8 @@ std::vector<glm::vec3> base_colors(const Surfaces& surfaces) {
     return colors;
 }
 
-/// Exit radiance for albedo 1 by transfer: the sky, and what suns give after a bounce. Transfer goes, here
-/// and in the document: it takes more memory than all that follows.
+/// Returns exit radiance for albedo 1 by transfer: from the sky, and from suns after a bounce. Discards the
+/// transfer in `model` and its document, because it needs more memory than all later steps.
 std::vector<glm::vec3> lit_by_transfer(const Lighting& lighting, int threads, SceneFile& model) {
     std::vector<glm::vec3> radiance = model.compressed
                                           ? exit_radiance(model.compressed->transfer, lighting, threads)

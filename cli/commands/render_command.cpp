@@ -1,3 +1,5 @@
+// prt render: draws a model under a light.
+
 #include "commands/commands.h"
 
 #include "lamp_strengths.h"
@@ -36,15 +38,16 @@ enum class Show { lit, clusters, error, ao };
 struct Look {
     Show show = Show::lit;
     Exposure exposure;
-    int paths = 0; ///< for each pixel by path tracing; 0: none are traced
+    int paths = 0; ///< per pixel for path tracing; 0: no path tracing
     ToneMap tone_map = ToneMap::filmic;
     bool background = true;
 };
 
-/// What is lit beside the sky.
+/// Lights in addition to the sky.
 struct Lights {
-    SunCount suns = {std::nullopt}; ///< as many as pay: their shadows show first, and no order has them
-    int sun_rays = 32;              ///< for each pixel and sun
+    /// automatic: shadows of suns are the most visible, and no order represents them
+    SunCount suns = {std::nullopt};
+    int sun_rays = 32; ///< for each pixel and sun
     LampChoice lamps;
     double lamp_scale = 1;
 };
@@ -91,7 +94,7 @@ std::unique_ptr<GlContext> choose_backend(Backend backend, bool shadows_on_cpu) 
     return context;
 }
 
-/// What is solid though its material does not say so: OpenGL's renderer would light it by suns twice.
+/// True if a material has a medium that glTF does not describe: OpenGL's renderer would add its suns twice.
 bool has_unnamed_media(const SceneFile& model, const std::vector<bool>& solid) {
     for (std::size_t m = 0; m < solid.size(); ++m)
         if (solid[m] && !has_medium(model.scene.materials[m]))
@@ -99,8 +102,8 @@ bool has_unnamed_media(const SceneFile& model, const std::vector<bool>& solid) {
     return false;
 }
 
-/// Why suns cannot be lit apart from the sky, and what to do about it; empty: they can. What holds no
-/// transfer has direct light only.
+/// Returns the reason why suns cannot be separate from the sky, with advice; empty if they can. A model
+/// without transfer has only direct light.
 std::string why_together(const RenderArguments& a, const SceneFile& model, const std::vector<bool>& solid) {
     if (model.record() && layout_of(model).has(PartKind::whole))
         return a.model.string() + ": " + kNotApart;
@@ -110,7 +113,7 @@ std::string why_together(const RenderArguments& a, const SceneFile& model, const
     return {};
 }
 
-/// With its suns apart where they can be, and are wanted.
+/// Loads the light, with separate suns if possible and requested.
 SplitLight load_lit(const RenderArguments& a, const SceneFile& model, const std::vector<bool>& solid) {
     const int order = model.order() > 0 ? model.order() : kUnshadowedOrder;
     if (a.environment.empty())
@@ -129,7 +132,7 @@ SplitLight load_lit(const RenderArguments& a, const SceneFile& model, const std:
     return together(std::move(light));
 }
 
-/// Of a model without transfer, too, which has no lamps.
+/// Returns the layout of the transfer; for a model without transfer one without lamps.
 TransferLayout layout_of_any(const SceneFile& model) {
     return model.record() ? layout_of(model) : layout_of_one(kUnshadowedOrder, 1, PartKind::direct);
 }
@@ -141,8 +144,8 @@ Lighting lighting_of(const RenderArguments& a, const SceneFile& model, const Spl
     return lighting;
 }
 
-/// Exit radiance for albedo 1 of the receivers, texels or vertices: compressed, baked, or unshadowed,
-/// whatever the model holds.
+/// Returns exit radiance for albedo 1 of the receivers, texels or vertices: from compressed or baked
+/// transfer, or unshadowed.
 std::vector<glm::vec3> lit_colors(const SceneFile& model, const Lighting& lighting, int threads) {
     if (model.compressed)
         return exit_radiance(model.compressed->transfer, lighting, threads);
@@ -151,7 +154,7 @@ std::vector<glm::vec3> lit_colors(const SceneFile& model, const Lighting& lighti
     return exit_radiance(unshadowed_transfer(model.scene, lighting.sky.order), lighting, threads);
 }
 
-/// Says where the lights of the model outshine its sky.
+/// Prints a notice if the lights of the model are far brighter than its sky.
 void note_lights(const RenderArguments& a, const SceneFile& model, const Lighting& lighting) {
     if (a.environment.empty() || !a.drawn_lit() || !model.record())
         return;
@@ -168,7 +171,7 @@ void note_lights(const RenderArguments& a, const SceneFile& model, const Lightin
         print_notices(a.model.string(), {std::move(*notice)});
 }
 
-/// Of all texels of a shipped lightmap, against those that its bake has.
+/// Returns errors of all texels of a shipped lightmap, against those in its bake.
 std::vector<glm::vec3> lightmap_errors(const SceneFile& baked, const SceneFile& model,
                                        const Lighting& lighting, int threads) {
     const LightmapOfFile& lightmap = *baked.lightmap;
@@ -212,12 +215,13 @@ std::vector<glm::vec3> colors_to_show(const RenderArguments& a, const SceneFile&
     return lit_colors(model, lighting, a.threads);
 }
 
-/// Colors of all texels, and what a meter looks at.
+/// Colors of all texels, and colors at vertices for the light meter.
 struct LitMaps {
     std::vector<glm::vec3> texels, at_vertices;
 };
 
-/// `colors` are those of the receivers: of a bake some texels, others take that of one close by.
+/// Returns the maps. `colors` belong to the receivers; a bake has only some texels, and other texels take the
+/// color of one nearby.
 LitMaps lit_maps(const SceneFile& model, const std::vector<glm::vec3>& colors) {
     const LightmapOfFile& lightmap = *model.lightmap;
     LitMaps lit{model.baked ? spread_over_maps(lightmap.layout, lightmap.texels, colors) : colors, {}};
@@ -225,7 +229,7 @@ LitMaps lit_maps(const SceneFile& model, const std::vector<glm::vec3>& colors) {
     return lit;
 }
 
-/// Factor on radiance. Where the picture shows nothing of the model that is lit, the light is measured.
+/// Returns the factor on radiance. If no lit surface is visible, the light is measured.
 float choose_exposure(const Exposure& exposure, const Picture& picture, const TraceScene& scene,
                       const Light& light, const TracedLights* traced) {
     const auto stops = static_cast<float>(std::exp2(exposure.stops));
@@ -245,7 +249,7 @@ float choose_exposure(const Exposure& exposure, const Picture& picture, const Tr
     return shown(meter.luminance(radiance) + sun_luminance(picture, scene));
 }
 
-/// A picture that shows nothing yet.
+/// Returns a picture without content.
 Picture empty_picture(const RenderArguments& a, const Scene& scene) {
     Picture picture;
     picture.scene = &scene;
@@ -258,7 +262,7 @@ Picture empty_picture(const RenderArguments& a, const Scene& scene) {
     return picture;
 }
 
-/// Lets OpenGL light what is compressed in the vertex shader, where it fits.
+/// Makes OpenGL light compressed transfer in the vertex shader, if it fits.
 void light_in_shader(const RenderArguments& a, const SceneFile& model, const Lighting& lighting,
                      Picture& picture) {
     if (!a.drawn_lit() || !model.compressed || model.lightmap)
@@ -280,18 +284,18 @@ void light_in_shader(const RenderArguments& a, const SceneFile& model, const Lig
 struct Drawing {
     const Picture& picture;
     const TraceScene& scene;
-    const Light& light;           ///< all of it, as SH
-    const TracedLights& lights;   ///< the same for paths
-    GlContext* context = nullptr; ///< that draws; null: the CPU does
-    bool holds_transfer = true;   ///< by which exposure is metered
+    const Light& light;           ///< combined, as SH
+    const TracedLights& lights;   ///< the lights for path tracing
+    GlContext* context = nullptr; ///< draws the picture; null: the CPU draws it
+    bool holds_transfer = true;   ///< used for metering the exposure
 };
 
 struct Rendered {
     Image image;
-    int samples = 1; ///< of `image` per pixel along each axis
+    int samples = 1; ///< samples of `image` per pixel along each axis
     double seconds = 0;
-    std::optional<float> exposure = {}; ///< unset: the numbers are shown as they are
-    std::optional<double> noise = {};   ///< of path tracing, relative L2
+    std::optional<float> exposure = {}; ///< unset: numbers are shown unchanged
+    std::optional<double> noise = {};   ///< noise of path tracing, relative L2
     std::optional<PictureError> error = {};
 };
 
@@ -301,7 +305,7 @@ Image drawn(const RenderArguments& a, const Drawing& drawing) {
                                          {.sun_rays = a.lights.sun_rays, .threads = a.threads});
 }
 
-/// The reference, or the error of what is drawn against it.
+/// Returns the reference, or the error of the picture against it.
 Rendered path_traced(const RenderArguments& a, const Drawing& drawing, Session& session) {
     Rendered result;
     ProgressBar bar = session.progress_bar("path tracing");
@@ -339,7 +343,7 @@ void write_picture(const RenderArguments& a, const Rendered& rendered, Session& 
         session.write(a.output, encode_exr(downsampled(rendered.image, rendered.samples)));
         return;
     }
-    // Views of numbers are shown as they are.
+    // Views of numbers are shown unchanged.
     const auto pixels = tone_mapped(rendered.image, rendered.samples, rendered.exposure.value_or(1.0f),
                                     rendered.exposure ? a.look.tone_map : ToneMap::srgb);
     session.write(a.output, encode_png(a.view.width, a.view.height, pixels));
@@ -397,7 +401,7 @@ Report report_of(const RenderArguments& a, const Picture& picture, const Rendere
     return report;
 }
 
-/// What CLI11 cannot see: options that need each other.
+/// Checks options that depend on each other, which CLI11 cannot check.
 void check_together(const RenderArguments& a) {
     const bool error = a.look.show == Show::error;
     if ((error && a.baked.empty() == !a.traced()) || (!error && !a.baked.empty()))
@@ -407,7 +411,7 @@ void check_together(const RenderArguments& a) {
         throw CLI::ValidationError("--path-trace", "goes with --show lit and --show error");
 }
 
-/// Reads the model. One that holds only lobes gets the transfer that they stand for.
+/// Reads the model. Lobes are converted to transfer if it has no other.
 SceneFile load_model(const RenderArguments& a) {
     SceneFile model = load_scene_file(a.model, a.reading);
     if (!model.record() && model.lobes)
@@ -417,7 +421,8 @@ SceneFile load_model(const RenderArguments& a) {
     return model;
 }
 
-/// The lights of a path-traced picture: those of the transfer; all lamps of a scene that holds none.
+/// Returns the lights of a path-traced picture: the lamps of the transfer, or all lamps of a scene without
+/// transfer.
 TracedLights traced_lights(const RenderArguments& a, const SceneFile& model, const Lighting& lighting) {
     TracedLights lights{.environment = a.environment, .reading = a.light_options, .threads = a.threads};
     lights.reading.window = Window::none;
@@ -434,7 +439,7 @@ TracedLights traced_lights(const RenderArguments& a, const SceneFile& model, con
     return lights;
 }
 
-/// Says what path tracing leaves out of the scene.
+/// Prints a notice about media that path tracing ignores.
 void note_media(const RenderArguments& a, const std::vector<bool>& solid) {
     if (a.traced() && std::ranges::count(solid, true) > 0)
         print_notices(a.model.string(),
@@ -451,7 +456,7 @@ struct Shown {
     std::optional<CompressedLightmap> on_gpu;
 };
 
-/// Fills `picture`, which refers to what is returned.
+/// Fills `picture`, which refers to the returned object.
 std::unique_ptr<Shown> show(const RenderArguments& a, const SceneFile& model, const Lighting& lighting,
                             const SplitLight& light, Picture& picture) {
     auto shown = std::make_unique<Shown>();
@@ -473,7 +478,7 @@ std::unique_ptr<Shown> show(const RenderArguments& a, const SceneFile& model, co
     return shown;
 }
 
-/// Lets OpenGL form the light of a compressed model itself.
+/// Makes OpenGL compute the light of a compressed model.
 void light_on_gpu(const RenderArguments& a, const SceneFile& model, const Lighting& lighting, Shown& shown,
                   Picture& picture) {
     light_in_shader(a, model, lighting, picture);

@@ -1,3 +1,5 @@
+// prt shader: writes shaders for a compressed file.
+
 #include "commands/commands.h"
 
 #include "options.h"
@@ -23,7 +25,7 @@ namespace {
 struct ShaderArguments {
     Path model, output;
     ShaderLanguage language = ShaderLanguage::glsl450;
-    std::optional<ConstantSource> constants; ///< unset: what the language can do
+    std::optional<ConstantSource> constants; ///< unset: the best option of the language
     bool compute = false, fragment = false, volume = false, occluders = false, lobes = false,
          instances = false;
     ReadingOptions reading;
@@ -36,16 +38,16 @@ const std::map<std::string, ShaderLanguage> kLanguages = {{"glsl450", ShaderLang
 const std::map<std::string, ConstantSource> kConstants = {{"buffer", ConstantSource::buffer},
                                                           {"block", ConstantSource::block},
                                                           {"texture", ConstantSource::texture}};
-/// Storage buffers where the language has them; there is always room in a texture.
+/// Returns storage buffers if the language has them, otherwise a texture, which always has space.
 ConstantSource constants_for(ShaderLanguage language) {
     const bool old = language == ShaderLanguage::glsl330 || language == ShaderLanguage::essl300;
     return old ? ConstantSource::texture : ConstantSource::buffer;
 }
 
-/// What every OpenGL, OpenGL ES and Vulkan guarantees, and few of them exceed on phones.
+/// Minimum that every OpenGL, OpenGL ES and Vulkan guarantees; few phones exceed it.
 constexpr std::size_t kGuaranteedBlock = 16384;
 
-/// A block larger than guaranteed compiles, and fails where it is linked.
+/// Warns of a block larger than guaranteed: it compiles, but linking fails.
 void warn_of_large_blocks(const Path& model, const ClusteredTransfer& transfer) {
     const std::size_t rows = constant_rows(transfer.bases), clusters = transfer.bases.clusters();
     const std::size_t bytes = sizeof(glm::vec4) * std::max(rows, clusters);
@@ -57,7 +59,7 @@ void warn_of_large_blocks(const Path& model, const ClusteredTransfer& transfer) 
                                    rows, bytes, kGuaranteedBlock, kGuaranteedBlock / sizeof(glm::vec4))});
 }
 
-/// A compute shader where the language has those.
+/// Writes a compute shader if the language has them.
 void write_lightmap_shader(const ShaderArguments& a, const ClusteredTransfer& transfer,
                            ConstantSource constants, Session& session) {
     const bool old = constants_for(a.language) == ConstantSource::texture;
@@ -70,7 +72,7 @@ void write_lightmap_shader(const ShaderArguments& a, const ClusteredTransfer& tr
                       pass == LightmapPass::compute ? "compute" : "fragment"));
 }
 
-/// The lookup, which is the same text in all languages, or the pass before it.
+/// Writes the lookup, which has the same text in all languages, or the pass before it.
 void write_volume_shader(const ShaderArguments& a, const SceneFile& model, Session& session) {
     if (!model.compressed_volume)
         throw Error(a.model.string() +
@@ -88,7 +90,7 @@ void write_volume_shader(const ShaderArguments& a, const SceneFile& model, Sessi
                       texels.x, texels.y, texels.z));
 }
 
-/// What moving objects block, behind the lookup of the volume that it asks for light.
+/// Writes occlusion by moving objects, after the lookup of the volume that provides light.
 void write_occluder_shader(const ShaderArguments& a, const SceneFile& model, Session& session) {
     const std::string lookup =
         model.compressed_volume
@@ -103,7 +105,7 @@ void write_occluder_shader(const ShaderArguments& a, const SceneFile& model, Ses
         kMostOccluders));
 }
 
-/// Transfer that turns with a skin, behind the lookup of the volume that lights it.
+/// Writes lobe transfer that rotates with a skin, after the lookup of the volume that lights it.
 void write_lobe_shader(const ShaderArguments& a, const SceneFile& model, Session& session) {
     if (!model.lobes)
         throw Error(a.model.string() + ": holds no lobes; run prt lobes first");
@@ -122,7 +124,7 @@ void write_lobe_shader(const ShaderArguments& a, const SceneFile& model, Session
         model.compressed_volume ? ", light by the volume of the file" : ""));
 }
 
-/// What positions of compressed transfer are seen from.
+/// Returns the origin of the positions of compressed transfer.
 glm::dvec3 origin_of(const SceneFile& model) {
     return model.instanced ? model.instanced->stored.origin : model.scene.origin;
 }

@@ -1,3 +1,5 @@
+// Chooses order, bounces, rays and the requested compression error.
+
 #include "make/choices.h"
 
 #include "prt/bake.h"
@@ -34,14 +36,14 @@ int choose_rays(double measured, int rays, double allowed) {
 }
 
 void AskedError::came_out(double allowed, double total, double of_bytes, double size) {
-    constexpr double kEnough = 0.87;                  // of the squared error: the root of it is within 7 %
+    constexpr double kEnough = 0.87;                  // fraction of the squared error: its root is within 7 %
     constexpr double kFarthest = 2.5, kClosest = 1.1; // steps
     const bool keeps = total <= allowed;
     const bool same = size == last_size_;
     last_size_ = size;
     (keeps ? low_ : high_) = next_;
     open_ = of_bytes > 0 && !(keeps && total > kEnough * allowed) &&
-            !(keeps && same && high_ == 0) && // nothing is smaller
+            !(keeps && same && high_ == 0) && // no smaller size exists
 
             !(low_ > 0 && high_ > 0 && high_ < kClosest * low_);
     const double left = std::max(allowed - (total - of_bytes), 0.02 * allowed);

@@ -1,6 +1,6 @@
 #pragma once
 
-// How `prt make` divides an error that is allowed among its causes. Squared errors throughout, relative to
+// Rules by which `prt make` divides the allowed error among its causes. All errors are squared, relative to
 // the squared radiance of the surface.
 
 #include "prt/error_budget.h"
@@ -9,60 +9,63 @@
 
 namespace prt::cli {
 
-/// Shares of what is allowed: bytes get what light, vertices and rays leave. Bands and rays are cheap beside
-/// bytes, which grow without end as their share goes to nothing.
+/// Fractions of the allowed error; bytes get the rest after light, vertices and rays. Bands and rays cost
+/// little compared with bytes, which grow without bound as their fraction approaches zero.
 inline constexpr double kShareOfLight = 0.4, kShareOfBounces = 0.05, kShareOfRays = 0.05;
-/// Meshes are refined where vertices have more than so much of it, to so much.
+/// Meshes are refined if the error between vertices exceeds the first fraction of the allowed error; the
+/// second is the target.
 inline constexpr double kMostOfVertices = 0.3, kShareOfVertices = 0.15;
-/// Rays of a vertex at least, however little time there is.
+/// Minimum number of rays per vertex, even if time is short.
 inline constexpr int kFewestRays = 64;
-/// Of what points and paths may be uncertain by.
+/// Allowed uncertainty of points and paths, as a fraction of the allowed error.
 inline constexpr double kShareOfNoise = 0.1;
-/// The least that they are asked for: squares of a third of a per cent, which nobody sees.
+/// Minimum of this uncertainty: the square of a third of a per cent, which is invisible.
 inline constexpr double kLeastNoise = 1e-5;
-/// What light, vertices and rays may take of it together: of the rest bytes would need too many.
+/// Maximum fraction for light, vertices and rays together; a smaller rest would require too many bytes.
 inline constexpr double kMostBeforeBytes = 0.85;
-/// What is aimed at where nothing is said: 3 %, or, where light and vertices leave more, so much that bytes
-/// get a third of it.
+/// Default target: 3 %, or, if light and vertices have a larger error, that error times kAboveRest (squared),
+/// so that bytes get a third of it.
 inline constexpr double kUsualError = 0.03, kAboveRest = 1.5;
 
-/// What light, vertices and rays are chosen for where bytes are given: about what eight of them leave.
+/// Target of light, vertices and rays if bytes are given: about the error of eight bytes.
 inline constexpr double kBesideBytes = 0.01;
-/// Of the time that may be taken, what paths get before bakes.
+/// Fraction of the allowed time for path tracing before the bakes.
 inline constexpr double kShareOfTime = 0.15;
 
-/// What path tracing tells of bands and of bounces.
+/// Path-traced errors of truncating bands and bounces.
 struct CutErrors {
     std::function<double(int order)> light;     ///< with all bounces
-    std::function<double(int bounces)> bounces; ///< of those that are missing
+    std::function<double(int bounces)> bounces; ///< error of the missing bounces
 };
 
 struct CutChoice {
     int order, bounces;
-    double squared; ///< of light and bounces
+    double squared; ///< sum of light and bounces
 };
 
-/// The fewest bounces without which next to nothing is missing, and the lowest order that leaves a share of
-/// `allowed`, or, where none does, little more than the highest.
+/// Returns the minimum number of bounces with a negligible error, and the minimum order whose light error is
+/// within its fraction of `allowed`. If no order is, its error is at most slightly above that of the maximum
+/// order.
 CutChoice choose_cut(const CutErrors& errors, double allowed);
 
 /// Rays per receiver, a power of two, so that their noise, `measured` with `rays`, has its share of
 /// `allowed`.
 int choose_rays(double measured, int rays, double allowed);
 
-/// Looks for the error to ask of the compressor so that what comes out is just below what is allowed.
+/// Searches for the error to request from the compressor, so that the total is just below the allowed error.
 class AskedError {
 public:
     explicit AskedError(double first) : next_(first) {}
 
     double next() const { return next_; }
-    /// Whether `next` may save bytes, or keep what is allowed.
+    /// True if `next` may save bytes, or meet the allowed error.
     bool worth_trying() const { return open_; }
-    /// What `next` led to: squared errors in all and of bytes, and a size.
+    /// Reports the result of `next`: total squared error, squared error of bytes, and size.
     void came_out(double allowed, double total, double of_bytes, double size);
 
 private:
-    double next_, low_ = 0, high_ = 0; ///< the largest that kept it, the least that did not; 0: none yet
+    /// maximum that met the allowed error, minimum that did not; 0: none yet
+    double next_, low_ = 0, high_ = 0;
     double last_size_ = 0;
     bool open_ = true;
 };

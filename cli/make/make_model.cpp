@@ -1,3 +1,5 @@
+// Measures, bakes, refines and compresses a scene under constraints.
+
 #include "make/make_model.h"
 
 #include "budget/budget_report.h"
@@ -44,7 +46,7 @@ struct Compressed {
     double total() const { return mean_budget(budgets.relative).total.value; }
 };
 
-/// What is spent.
+/// Chosen options.
 struct MakePlan {
     double error = 0; ///< that is aimed at
     CutChoice cut{};
@@ -53,7 +55,7 @@ struct MakePlan {
     int rays = 0;
 };
 
-/// What two bakes of few rays tell.
+/// Errors and time measured by two trial bakes with few rays.
 struct Pilot {
     ErrorBudget budget;
     double seconds_per_ray = 0;
@@ -93,7 +95,7 @@ private:
         return !r_.goal.seconds || watch_.seconds() < share * *r_.goal.seconds;
     }
 
-    /// Gives sides their own vertices.
+    /// Gives both sides of double-sided surfaces separate vertices.
     void separate() {
         BakeOptions options;
         options.repairs.bad_textures = r_.reading.bad_textures;
@@ -115,7 +117,7 @@ private:
             bar.progress());
     }
 
-    /// Path tracing tells what each order and number of bounces leaves, and so which to take.
+    /// Chooses order and number of bounces by the path-traced error of each.
     void choose_bands() {
         const CutErrors errors{[&](int order) { return reference_->light_error(order); },
                                [&](int bounces) { return reference_->bounces_error(bounces); }};
@@ -150,7 +152,7 @@ private:
         }
     }
 
-    /// Ends where an error that was asked for is used up before compression.
+    /// Throws `Error` if the allowed error is used up before compression.
     void check_possible(double squared, const std::string& cause) const {
         if (r_.goal.max_error && squared > kMostBeforeBytes * allowed() && !r_.goal.best_effort)
             throw Error(
@@ -176,7 +178,7 @@ private:
         return bake(scene_, options, bar.progress(), errors);
     }
 
-    /// Tells what vertices and rays cost, and whether vertices are fitted.
+    /// Measures the error of vertices and rays, and whether vertices are fitted.
     Pilot bake_pilot() {
         const Stopwatch stopwatch;
         BakeOptions options = bake_options(kPilotRays);
@@ -200,14 +202,16 @@ private:
         return pilot;
     }
 
-    /// Splits triangles until vertices have their share of the error; false where none is split.
+    /// Splits triangles until the error between vertices is within its fraction; false if no triangle is
+    /// split.
     bool refine_mesh(const Pilot& pilot) {
         constexpr double kLook = 1e3; // a target that is met at once
         BakeOptions options = bake_options(kPilotRays);
         options.fit = FitMode::surface;
         ProgressBar bar = session_.progress_bar("refining");
         const Progress progress = bar.progress();
-        // What is measured under these lights is to direct transfer between vertices as it will be then.
+        // Assumes that the error under these lights and the error of direct transfer between vertices
+        // decrease in proportion.
         const double now = refine(scene_, options, {.target = kLook}, progress.part(0, 0.1))
                                .statistics.before.error,
                      vertices = pilot.budget.of(ErrorCause::vertices).value;
@@ -227,10 +231,10 @@ private:
         return true;
     }
 
-    /// Rays by what noise they leave, in the time that there is.
+    /// Chooses rays by their noise, within the allowed time.
     void choose_effort(const Pilot& pilot) {
         plan_.rays = choose_rays(pilot.budget.of(ErrorCause::rays).value, kPilotRays, allowed());
-        if (r_.goal.seconds) { // half of what is left, for compressing takes as long
+        if (r_.goal.seconds) { // half of the remaining time, because compression takes as long as the bake
             const double left = 0.5 * (*r_.goal.seconds - watch_.seconds());
             while (plan_.rays > kFewestRays && plan_.rays * pilot.seconds_per_ray > left)
                 plan_.rays /= 2;
@@ -245,10 +249,11 @@ private:
                                                  percent(pilot.budget.of(ErrorCause::vertices).value)));
     }
 
-    /// Written and read, as those do who take one step after the other.
+    /// Bakes the transfer, writes the file and reads it back, as separate commands do.
     void bake_all() {
         const BakeResult result =
-            baked(bake_options(plan_.rays), "baking", MeasureErrors::yes); // as prt bake does
+            // measures errors, as prt bake does
+            baked(bake_options(plan_.rays), "baking", MeasureErrors::yes);
         for (const std::string& notice : result.statistics.notices)
             notices_.push_back(notice);
         note_lights(result.baked.transfer);
@@ -264,7 +269,7 @@ private:
         discard_transfer(model_->document);
     }
 
-    /// Says where the lights of the scene outshine the first of the skies.
+    /// Adds a notice if the lights of the scene are far brighter than the first of the skies.
     void note_lights(const Transfer& transfer) {
         Lighting lighting = lights_.front().lighting(transfer.layout.order);
         lighting.lamps.assign(transfer.layout.lamps(), glm::vec3(1));
@@ -319,8 +324,8 @@ private:
         return one.statistics.bytes_with_bases(transfer().receivers());
     }
 
-    /// What compression may err by is found by trying: it promises the worst turn of each sky at vertices,
-    /// and what counts is the surface as it stands.
+    /// Finds the allowed compression error by trials. The compressor guarantees the error for the worst
+    /// rotation of each sky at vertices, but the constraint is on the surface in its given orientation.
     Compressed within_error() {
         constexpr int kTries = 5;
         const auto rest = [&](const Budgets& all) {
@@ -442,7 +447,7 @@ private:
     std::vector<std::string> tried_, notices_;
 };
 
-/// Throws `Error` where nothing does.
+/// Throws `Error` if no light shines.
 void check_shine(const MakeRequest& request, const std::vector<BudgetLight>& lights) {
     const auto shines = [](const BudgetLight& light) {
         return light.measured.sky_bands.coefficients[0] + light.measured.sun_bands.coefficients[0] !=

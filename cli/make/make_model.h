@@ -1,6 +1,6 @@
 #pragma once
 
-// The whole road from a scene to what a game loads, spending where it pays.
+// Bakes and compresses a scene in one step, and spends bytes and time on the largest errors.
 
 #include "back_sides.h"
 #include "budget/budget.h"
@@ -15,20 +15,20 @@
 
 namespace prt::cli {
 
-/// What the result is to keep; with none of them `kUsualError` is aimed at.
+/// Constraints on the result; without any, the target is `kUsualError`.
 struct MakeGoal {
     std::optional<double>
-        max_error; ///< over the surface, against path tracing, root mean square of all lights
+        max_error; ///< over the surface, against path tracing, root mean square over all lights
     std::optional<double> bytes_per_vertex; ///< with bases
-    std::optional<double> seconds;          ///< in all
-    bool best_effort = false;               ///< write the nearest where nothing keeps the error
+    std::optional<double> seconds;          ///< total time
+    bool best_effort = false;               ///< write the closest result if nothing meets the error
 };
 
 struct MakeRequest {
-    Path scene, output, baked; ///< baked: empty where it is not to be kept
+    Path scene, output, baked; ///< baked: empty if the bake is not kept
     std::vector<Path> lights;
     LightOptions reading_lights;
-    std::string light_options; ///< as they were given, to be said again
+    std::string light_options; ///< options as given, repeated in the report
     std::vector<std::string> no_shadow;
     BackSides back_sides = BackSides::automatic;
     MakeGoal goal;
@@ -36,7 +36,7 @@ struct MakeRequest {
     int threads = 0;
 };
 
-/// Writes `request.output` and adds what was chosen, why, and what came of it to `report`. Throws `Error`.
+/// Writes `request.output` and adds the choices, their reasons and the results to `report`. Throws `Error`.
 void make_model(const MakeRequest& request, Report& report, Session& session);
 
 } // namespace prt::cli

@@ -1,3 +1,5 @@
+// Reports a bake of vertices.
+
 #include "report/bake_report.h"
 
 #include "options.h"
@@ -60,7 +62,7 @@ Json error_json(const BakeErrors::Error& error) {
     return json;
 }
 
-constexpr double kVisible = 0.02; ///< of the light of the scene
+constexpr double kVisible = 0.02; ///< relative to the light of the scene
 
 /// The error, where it is visible, and beyond doubt above `limit`; else 0.
 double above(const BakeErrors::Error& error, double limit) {
@@ -69,7 +71,8 @@ double above(const BakeErrors::Error& error, double limit) {
     return !is_above ? 0 : error.known ? error.relative_l2 : std::numeric_limits<double>::infinity();
 }
 
-/// Objects with `error(node)` above 0, the worst first: "'Pole' 78 %, 'Hood' 31 %, 3 more"; empty: none.
+/// Returns the names of objects with `error(node)` above 0, worst first: "'Pole' 78 %, 'Hood' 31 %, 3 more";
+/// empty if there is none.
 template <class Error>
 std::string worst_objects(const BakeErrors& errors, Error&& error) {
     constexpr std::size_t kNamed = 5;
@@ -204,7 +207,7 @@ Json statistics_json(const BakeStatistics& s) {
 
 constexpr double kDark = 0.05; ///< mean visibility; a cellar with a window has as much
 
-/// What the statistics say in words.
+/// Adds the statistics as sentences.
 void add_sentences(const BakeOutcome& baked, const Json& statistics, Report& report) {
     const BakeResult& result = baked.result;
     const BakeStatistics& s = result.statistics;

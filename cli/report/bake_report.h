@@ -10,16 +10,16 @@
 
 namespace prt::cli {
 
-/// What a bake was asked for, and what came of it.
+/// Options and result of a bake.
 struct BakeOutcome {
     std::string output;
     const BakeOptions& options;
-    bool no_shadow = false; ///< surfaces of some materials were left out
-    const Scene& scene;     ///< as it was baked
+    bool no_shadow = false; ///< surfaces of some materials cast no shadow
+    const Scene& scene;     ///< the baked scene
     const BakeResult& result;
-    std::optional<RefineStatistics> refinement; ///< none: the mesh is the file's
+    std::optional<RefineStatistics> refinement; ///< empty: the mesh is not refined
     double refine_target = 0;
-    std::uintmax_t bytes = 0; ///< of the file
+    std::uintmax_t bytes = 0; ///< file size
 };
 
 Report bake_report(const BakeOutcome& baked);

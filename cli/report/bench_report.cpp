@@ -1,3 +1,5 @@
+// Reports the timings of prt bench.
+
 #include "report/bench_report.h"
 
 #include <fmt/core.h>

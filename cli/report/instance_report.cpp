@@ -1,3 +1,5 @@
+// Reports a bake whose instances share transfer.
+
 #include "report/instance_report.h"
 
 #include "report/publish.h"

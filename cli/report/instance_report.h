@@ -9,21 +9,21 @@
 
 namespace prt::cli {
 
-/// A bake whose instances share transfer, and what came of it.
+/// Result of a bake whose instances share transfer.
 struct InstanceOutcome {
     std::string output;
-    const Scene& scene; ///< flat
+    const Scene& scene; ///< unshared
     const InstancedBake& baked;
-    double error = 0;         ///< that instances may have
-    std::uintmax_t bytes = 0; ///< of the file
+    double error = 0;         ///< allowed error of an instance
+    std::uintmax_t bytes = 0; ///< file size
 };
 
 Report instance_report(const InstanceOutcome& outcome);
 
-/// Adds `figures` of instances of compressed transfer, and what their constants take.
+/// Adds `figures` of instances of compressed transfer, and the size of their constants.
 void add_instance_constants(const std::vector<FormedInstance>& instances, Json figures, Report& report);
 
-/// {"median", "percentile_90", "percentile_99", "most"} of errors, of which there are some.
+/// Returns {"median", "percentile_90", "percentile_99", "most"} of errors, which must not be empty.
 Json percentiles(std::vector<double> errors);
 
 } // namespace prt::cli

@@ -1,3 +1,5 @@
+// Reports the bake and the errors of coarser levels.
+
 #include "report/level_report.h"
 
 #include <fmt/core.h>

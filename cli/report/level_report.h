@@ -5,7 +5,7 @@
 
 namespace prt::cli {
 
-/// What a bake made of coarser levels.
+/// Adds the bake of coarser levels to a report.
 void add_level_bake(const BakedLevels& levels, Report& report);
 
 } // namespace prt::cli

@@ -1,3 +1,5 @@
+// Reports a bake into a lightmap.
+
 #include "report/lightmap_report.h"
 
 #include "report/publish.h"

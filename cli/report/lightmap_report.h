@@ -8,12 +8,12 @@
 
 namespace prt::cli {
 
-/// What was baked into texels.
+/// Result of a bake into texels.
 struct LightmapOutcome {
     std::string output;
-    const Scene& scene; ///< as it was baked
+    const Scene& scene; ///< the baked scene
     const LightmapBake& bake;
-    std::uintmax_t bytes = 0; ///< of the file
+    std::uintmax_t bytes = 0; ///< file size
 };
 
 Report lightmap_report(const LightmapOutcome& baked);

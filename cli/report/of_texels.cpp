@@ -1,3 +1,5 @@
+// Renames vertices to texels in a report.
+
 #include "report/of_texels.h"
 
 #include <string>
@@ -24,7 +26,7 @@ std::string title_of_texels(std::string title) {
     return title == "vertices" ? "texels" : of_texels(std::move(title));
 }
 
-/// Keys alone.
+/// Renames keys only.
 Json of_texels(const Json& json) {
     if (json.is_array()) {
         Json list = Json::array();

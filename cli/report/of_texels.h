@@ -4,8 +4,8 @@
 
 namespace prt::cli {
 
-/// Figures and sentences of a report whose receivers are texels: "per vertex" becomes "per texel", in keys,
-/// too.
+/// Renames figures and sentences of a report whose receivers are texels: "per vertex" becomes "per texel",
+/// also in keys.
 void say_texels(Report& report);
 
 } // namespace prt::cli

@@ -1,7 +1,7 @@
 "use strict";
-// Draws a report of prt, which stands in the page as JSON (cli/report/report_page.cpp makes it).
+// Draws a report of prt, which the page contains as JSON (cli/report/report_page.cpp writes it).
 
-/** Makes an element of HTML, or of SVG where `space` says so; children are elements and text. */
+/** Creates an element of HTML, or of SVG if `space` is that of SVG; children are elements and text. */
 function element(name, attributes = {}, children = [], space = "http://www.w3.org/1999/xhtml") {
   const made = document.createElementNS(space, name);
   for (const [key, value] of Object.entries(attributes)) made.setAttribute(key, value);
@@ -14,7 +14,10 @@ const svg = (name, attributes, children) => element(name, attributes, children, 
 const kColors = 8; // --series-0.. of page.html
 const kWidth = 800, kHeight = 420, kLeft = 80, kRight = 190, kTop = 28, kBottom = 46;
 
-/** A logarithmic axis over all values, with a margin: where values stand from `from` to `to`, and its ticks. */
+/**
+ * Creates a logarithmic axis over all values, with a margin: its mapping of values to `from`..`to`, and its
+ * ticks.
+ */
 function logAxis(values, from, to) {
   const low = Math.min(...values) / 1.15, high = Math.max(...values) * 1.15;
   const place = (value) => from + (Math.log(value / low) / Math.log(high / low)) * (to - from);
@@ -60,7 +63,7 @@ function curve(series, row, x, y) {
   ];
 }
 
-/** Curves over logarithmic axes, without the points that have no place on them. */
+/** Draws curves over logarithmic axes, without points that are not above zero. */
 function chart(data) {
   const all = data.series.map((s) => ({ ...s, points: s.points.filter((p) => p.x > 0 && p.y > 0) }));
   const points = all.flatMap((series) => series.points);
@@ -92,7 +95,7 @@ function bar(data, series, line, scale) {
   ];
 }
 
-/** Bars under one another, and the names of their colors. */
+/** Draws bars below each other, and a legend of their colors. */
 function bars({ title, series, bars: list }) {
   const longest = Math.max(...list.map(({ lengths }) => lengths.reduce((sum, length) => sum + length, 0)), 1e-9);
   const height = kTop + 30 * list.length + 36, step = 110;

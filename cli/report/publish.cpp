@@ -1,3 +1,5 @@
+// Prints reports and writes their files.
+
 #include "report/publish.h"
 
 #include "terminal.h"
@@ -23,7 +25,7 @@ void publish(const Report& report, const ReportFiles& files, Session& session) {
     session.write(files.csv, report_csv(report));
     if (files.html.empty())
         return;
-    Report dated = report; // files of figures stay the same from run to run
+    Report dated = report; // only the page has a date, so that files of figures do not change from run to run
     const auto now = std::chrono::floor<std::chrono::seconds>(std::chrono::system_clock::now());
     dated.origin.emplace_back("date", fmt::format("{:%Y-%m-%d %H:%M} UTC", now));
     dated.origin.emplace_back("version", "prt " PRTKIT_VERSION);

@@ -7,15 +7,15 @@
 
 namespace prt::cli {
 
-/// Prints a report and writes its figures to `json`. An empty path: nothing is written.
+/// Prints a report and writes its figures to `json`. No file is written if the path is empty.
 void publish(const Report& report, const Path& json, Session& session);
 
-/// Where a report of figures is to go besides the terminal; empty: nowhere.
+/// Files for the figures of a report; empty: not written.
 struct ReportFiles {
     Path json, html, csv;
 };
 
-/// Prints a report and writes it to `files`, which also say by which version it was made; the page says when.
+/// Prints a report and writes it to `files`, with the program version; the page also contains the date.
 void publish(const Report& report, const ReportFiles& files, Session& session);
 
 /// The parts of a transfer vector: [{"kind": "direct", "channels": 1}, ...], and "1 channel of direct light,
@@ -23,7 +23,7 @@ void publish(const Report& report, const ReportFiles& files, Session& session);
 Json parts_figures(const TransferLayout& layout);
 std::string parts_in_words(const TransferLayout& layout);
 
-/// What the guides of clusters are called.
+/// Returns the names of the predictors of clusters.
 std::vector<std::string> guide_names(const ClusteredBases& bases);
 
 /// How a bake was made.

@@ -1,7 +1,7 @@
 #pragma once
 
-// A report is one list of figures. Text, JSON, CSV and HTML each show the same list in their way, so that no
-// figure is written down twice.
+// A report is one list of figures. Text, JSON, CSV and HTML show the same list, so that no figure is written
+// twice.
 
 #include <nlohmann/json.hpp>
 
@@ -13,18 +13,18 @@ namespace prt::cli {
 
 using Json = nlohmann::ordered_json;
 
-/// How people read a value. JSON and CSV hold the value itself, with the unit in its key.
+/// Format of a value for people. JSON and CSV contain the value itself, with the unit in its key.
 enum class Unit {
-    plain,   ///< as it is
-    percent, ///< a share of 1
+    plain,   ///< unchanged
+    percent, ///< value as a fraction of 1
     seconds,
 };
 
 struct Column {
     std::string key;        ///< in JSON and CSV
-    std::string title = {}; ///< for people; empty: in JSON and CSV alone
+    std::string title = {}; ///< for people; empty: only in JSON and CSV
     Unit unit = Unit::plain;
-    int digits = 3; ///< behind the point, of what people see
+    int digits = 3; ///< digits after the decimal point, for people
 };
 
 struct Figure {
@@ -33,7 +33,7 @@ struct Figure {
 };
 
 struct ChartPoint {
-    double x = 0, y = 0; ///< points that are not above zero are left out
+    double x = 0, y = 0; ///< points that are not above zero are omitted
     std::string label;   ///< shown when pointed at
 };
 
@@ -49,31 +49,31 @@ struct Chart {
     std::vector<ChartSeries> series;
 };
 
-/// A bar of parts one behind the other.
+/// A bar of consecutive parts.
 struct Bar {
     std::string name, value;     ///< at its beginning and at its end
     std::vector<double> lengths; ///< [series]
 };
 
-/// Bars under one another, on one scale.
+/// Bars below each other, on one scale.
 struct Bars {
     std::string title;
     std::vector<std::string> series;
     std::vector<Bar> bars;
 };
 
-/// Who a table is for.
+/// Readers of a table.
 enum class Audience { all, files, people };
 
 struct Table {
     std::string key;          ///< in JSON, with '/' between levels
-    std::string title, about; ///< about: a sentence on what the columns are
+    std::string title, about; ///< about: a sentence that explains the columns
     std::vector<Column> columns;
-    std::vector<std::vector<Json>> rows; ///< [rows][columns]; null: there is none
+    std::vector<std::vector<Json>> rows; ///< [rows][columns]; null: no value
     std::vector<Chart> charts = {};      ///< before the table, for HTML
-    std::vector<Bars> bars = {};         ///< the same
+    std::vector<Bars> bars = {};         ///< before the table, for HTML
     Audience audience = Audience::all;
-    std::size_t most_shown = 1000; ///< rows that people see
+    std::size_t most_shown = 1000; ///< maximum number of rows shown to people
 };
 
 struct ReportPicture {
@@ -83,16 +83,17 @@ struct ReportPicture {
 
 struct Report {
     std::string title;
-    std::string verdict;                                     ///< one line; empty: there is none
-    std::vector<std::pair<std::string, std::string>> origin; ///< files, command: what the figures are of
+    std::string verdict;                                     ///< one line; empty: no verdict
+    std::vector<std::pair<std::string, std::string>> origin; ///< files and command that the figures belong to
     std::vector<Figure> figures;
     std::vector<Table> tables;
     std::vector<ReportPicture> pictures; ///< for HTML
-    std::vector<std::string> notes;      ///< what is missing, and why
-    std::vector<std::string> notices;    ///< of how the scene was read; for JSON, as they are printed before
-    /// Lines of text that stand for all of the above on the terminal. "{key}" and "{key:format}" are figures
-    /// of the JSON, where '/' leads into lists and objects; a format is one of fmt's, and a '%' or 'M' behind
-    /// it means per cent or millions.
+    std::vector<std::string> notes;      ///< missing results and their reasons
+    /// notices about reading the scene; for JSON, because they are printed earlier
+    std::vector<std::string> notices;
+    /// Lines of text shown on the terminal instead of all members above. "{key}" and "{key:format}" are
+    /// figures of the JSON; '/' accesses members of lists and objects. A format is one of fmt's; a following
+    /// '%' or 'M' means per cent or millions.
     std::vector<std::string> sentences;
 };
 
@@ -101,21 +102,21 @@ void add_figure(Report& report, Column column, Json value);
 /// Adds the items of an object as figures.
 void add_figures(Report& report, const Json& object);
 
-/// A value as people read it, "-" where there is none.
+/// Returns a value in the format for people, "-" for null.
 std::string shown(const Json& value, const Column& column);
-/// The columns, as numbers, and rows that people see.
+/// Return the indices of the columns, and the number of rows, that people see.
 std::vector<std::size_t> columns_for_people(const Table& table);
 std::size_t rows_for_people(const Table& table);
 
-/// Lines for the terminal.
+/// Returns the text for the terminal.
 std::string report_text(const Report& report);
-/// All figures by key, tables as lists of objects.
+/// Returns all figures by key, tables as lists of objects.
 Json report_json(const Report& report);
 std::string json_text(const Json& json);
-/// A line for each row of each table, named in the first column; the last line, "summary", has the figures.
-/// The header names the keys of all tables, with units in brackets. Lists are in JSON alone.
+/// Returns a line for each row of each table, with the table in the first column; the last line, "summary",
+/// has the figures. The header lists the keys of all tables, with units in brackets. Only JSON has lists.
 std::string report_csv(const Report& report);
-/// A page that stands alone: report/page.html with the report as JSON in it. Nothing is loaded.
+/// Returns a self-contained page: report/page.html with the report as JSON. It loads no other file.
 std::string report_html(const Report& report);
 
 } // namespace prt::cli

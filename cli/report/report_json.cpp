@@ -1,3 +1,5 @@
+// Writes reports as JSON and CSV.
+
 #include "report/report.h"
 
 #include <algorithm>
@@ -6,7 +8,7 @@
 namespace prt::cli {
 namespace {
 
-/// As RFC 4180 quotes it.
+/// Returns a cell quoted by RFC 4180.
 std::string csv_cell(const Json& value) {
     std::string text = value.is_string() ? value.get<std::string>() : value.is_null() ? "" : value.dump();
     if (text.find_first_of(",\"\n\r") == std::string::npos)

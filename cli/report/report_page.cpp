@@ -1,3 +1,5 @@
+// Writes reports as HTML.
+
 #include "report/report.h"
 #include "report/report_files.h"
 
@@ -58,7 +60,7 @@ Json table_json(const Table& table) {
         {"title", table.title}, {"about", table.about}, {"rows", rows}, {"charts", charts}, {"bars", bars}};
 }
 
-/// What people see of a report, for report/page.js.
+/// Returns the visible content of a report, for report/page.js.
 Json page_json(const Report& report) {
     Json page = {{"title", report.title}, {"verdict", report.verdict}, {"notes", report.notes}};
     for (const char* list : {"origin", "figures", "tables", "pictures"})

@@ -1,3 +1,5 @@
+// Writes reports as text for the terminal.
+
 #include "prt/support/printable.h"
 #include "report/report.h"
 
@@ -9,7 +11,7 @@
 namespace prt::cli {
 namespace {
 
-/// Characters that a string takes on the terminal (UTF-8).
+/// Returns the number of characters of a UTF-8 string.
 std::size_t width_of(const std::string& text) {
     return static_cast<std::size_t>(std::count_if(
         text.begin(), text.end(), [](char c) { return (static_cast<unsigned char>(c) & 0xc0) != 0x80; }));
@@ -90,7 +92,7 @@ std::string with_figures(const std::string& sentence, const Json& figures) {
     return text + sentence.substr(at);
 }
 
-/// The first to the left, what it is about below it.
+/// Returns the sentences: the first at the left, its details indented below.
 std::string sentences_text(const Report& report) {
     const Json figures = report_json(report);
     std::string text;

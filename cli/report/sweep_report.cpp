@@ -1,3 +1,5 @@
+// Reports rate and distortion of compression methods.
+
 #include "report/sweep_report.h"
 
 #include <fmt/core.h>
@@ -17,7 +19,8 @@ std::vector<std::string> methods_of(const std::vector<SweepPoint>& points) {
     return methods;
 }
 
-/// The points of a method than which none is cheaper and better, from the cheapest on.
+/// Returns the Pareto front of a method's points: no other point is both cheaper and better. The cheapest is
+/// first.
 template <class Cost>
 std::vector<SweepPoint> frontier(const std::vector<SweepPoint>& points, const std::string& method,
                                  Cost&& cost) {
@@ -49,8 +52,8 @@ Chart chart(const std::vector<SweepPoint>& points, const char* x_title, Cost&& c
 
 using Best = const SweepPoint* (*)(const Sweep&, const std::string&, double);
 
-/// Of the best of every method for each limit its error and jumps; ours has its row even where it has no
-/// point.
+/// Returns a table of error and jumps of the best point of every method at each limit; our method has a row
+/// even without a point.
 template <class Limits>
 Table best_table(const Sweep& sweep, const std::vector<SweepPoint>& points, const Limits& limits,
                  const char* unit, Best best) {

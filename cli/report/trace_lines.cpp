@@ -1,4 +1,4 @@
-// Writes what the compressor tells of its work, for `prt compress --trace`.
+// Writes the events of the compressor as JSON lines, for `prt compress --trace`.
 #include "report/trace_lines.h"
 
 namespace prt::cli {

@@ -1,3 +1,5 @@
+// Summarises the errors of a compressed file in one line.
+
 #include "report/verdict.h"
 
 #include <fmt/core.h>

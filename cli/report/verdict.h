@@ -5,29 +5,27 @@
 
 namespace prt::cli {
 
-/// What a difference in radiance must pass, relative to the mean, to be seen: the upper end of Weber's
-/// fraction, 1 to 2 %, and little more than one step of an 8-bit sRGB display at its middle, 1.7 %
-/// (docs/math.md, section 6).
+/// Visible difference in radiance, relative to the mean: the upper end of Weber's fraction, 1 to 2 %, and
+/// slightly more than one step of an 8-bit sRGB display at its middle, 1.7 % (docs/math.md, section 6).
 inline constexpr double kVisible = 0.02;
 
-/// Measures that a verdict is based on, each the worst of the lights that were named.
+/// Measures that a verdict is based on, each the worst over the named lights.
 struct Verdict {
-    std::optional<std::size_t> bytes_per_vertex; ///< to bind; unset: not compressed
+    std::optional<std::size_t> bytes_per_vertex; ///< bytes of vertex attributes; unset: not compressed
     std::string under;                           ///< "these 3 lights"
     double lit_rms = 0;
-    double visible = 0;        ///< contrast error of 95 % of the area
-    std::string visible_under; ///< that light
-    double jumps = 0;          ///< of contrast, of 99 % of the edges
+    double visible = 0;        ///< contrast error that 95 % of the area stays below
+    std::string visible_under; ///< light of `visible`
+    double jumps = 0;          ///< jump of contrast that 99 % of the edges stay below
     std::string jumps_under;
-    std::optional<double> seam; ///< the largest jump of contrast between clusters
-    double seam_99 = 0;         ///< 99 % of such edges stay below
-    std::string seam_at;        ///< position of the largest
+    std::optional<double> seam; ///< maximum jump of contrast between clusters
+    double seam_99 = 0;         ///< jump that 99 % of edges between clusters stay below
+    std::string seam_at;        ///< position of the maximum
 };
 
-/// One line: "4 bytes a vertex, 0.9 % under these 3 lights; 95 % of the area within 1.1 % of what is seen;
-/// worst seam 2 %: looks the same as the bake". Otherwise it ends in "visible on close
-/// comparison: " (beyond `kVisible`) or "visibly wrong: " (beyond five times that) and the cause: "lamp
-/// LampTable".
+/// Returns one line: "4 bytes a vertex, 0.9 % under these 3 lights; 95 % of the area within 1.1 % of what is
+/// seen; worst seam 2 %: looks the same as the bake". Otherwise it ends in "visible on close comparison: "
+/// (above `kVisible`) or "visibly wrong: " (above five times `kVisible`) and the cause: "lamp LampTable".
 std::string in_one_line(const Verdict& verdict);
 
 } // namespace prt::cli

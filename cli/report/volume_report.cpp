@@ -1,3 +1,5 @@
+// Reports the bake and the compression of a volume.
+
 #include "report/volume_report.h"
 
 #include "report/publish.h"

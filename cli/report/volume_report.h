@@ -6,15 +6,15 @@
 
 namespace prt::cli {
 
-/// {"probes": 3213, "bricks": 40, "spacing_metres": 0.5, ..}
+/// Returns {"probes": 3213, "bricks": 40, "spacing_metres": 0.5, ..}.
 Json grid_figures(const VolumeGrid& grid, std::size_t probes, int order);
-/// "volume: 3213 probes in 40 bricks, 0.5 m apart, order 3", of figures under `key`.
+/// Returns "volume: 3213 probes in 40 bricks, 0.5 m apart, order 3", with the figures under `key`.
 std::string grid_sentence(const std::string& key);
 
-/// What was baked at probes.
+/// Adds the bake of a volume to a report.
 void add_volume_bake(const VolumeBake& bake, Report& report);
 
-/// What became of it.
+/// Adds the compression of a volume to a report.
 void add_volume_compression(const CompressStatistics& statistics, const CompressedVolume& volume,
                             Report& report);
 

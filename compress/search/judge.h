@@ -13,7 +13,7 @@ namespace prt {
 struct Verdict {
     double worst_lit_rms = 0; ///< maximum of the expected error and the errors under the budget's skies, at
                               ///< their worst rotations
-    double jump = 0; ///< jump limited by `Budget::max_jump`; 0 if there is no limit
+    double jump = 0;          ///< jump limited by `Budget::max_jump`; 0 if there is no limit
 };
 
 /// Evaluates results of one transfer against a budget. Keeps references.

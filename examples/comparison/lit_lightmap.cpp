@@ -1,3 +1,5 @@
+// Unwraps a scene, bakes a lightmap for it and compresses it.
+
 #include "lit_lightmap.h"
 
 #include "prt/lightmap_bake.h"

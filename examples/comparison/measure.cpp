@@ -1,3 +1,5 @@
+// Renders a scene by every method and measures error, bytes and time.
+
 #include "measure.h"
 
 #include "lit_lightmap.h"
@@ -28,7 +30,7 @@ using viewer::PictureKind;
 
 constexpr int kOrders[] = {3, 4, 5, 6};
 constexpr double kBytes[] = {5, 8, 12, 16};
-/// SSAO is given the radius that suits the scene best, of the scene's radius.
+/// Candidate radii of SSAO, relative to the scene's radius; the best one is used.
 constexpr float kSsaoRadii[] = {0.02f, 0.05f, 0.1f, 0.2f, 0.4f};
 
 class SceneMeasurement {
@@ -149,7 +151,7 @@ private:
         add_row(fmt::format("{} (radius {:g})", method, best_radius), kind, 0);
     }
 
-    /// As it was baked, in its parts.
+    /// Bakes the transfer with separate terms.
     prt::Transfer add_transfer() {
         say_("bake");
         prt::BakeOptions bake_options;
@@ -167,7 +169,7 @@ private:
             light_order_ = order;
             gpu_.set_raw(transfer);
             add_row(fmt::format("PRT, order {}", order), PictureKind::prt,
-                    static_cast<double>(transfer.dimension()) * 2); // as float16
+                    static_cast<double>(transfer.dimension()) * 2); // bytes as float16
         }
         gpu_.drop_raw(); // a light change then counts the constants alone
         for (const double bytes : kBytes) {
@@ -185,7 +187,7 @@ private:
 
     enum class Shadows { map, rays };
 
-    /// Under `sky` without its sun, whose light is added at each pixel.
+    /// Draws the scene under `sky` without its sun, and adds the sun's light at each pixel.
     template <class Transfer>
     prt::Image drawn_with_sun(const Sky& sky, const Transfer& transfer, Shadows shadows) const {
         const prt::Lighting lighting{sky.rest, prt::as_light(sky.suns, sky.rest.order)};
@@ -257,7 +259,7 @@ private:
         return prt::render_rays(picture, *lit.model->trace, {.sun_rays = 64});
     }
 
-    /// Of sky i.
+    /// Adds the error of a picture under sky i.
     void add_picture(std::size_t i, prt::Image picture, Row& row) const {
         row.errors.push_back(error_of(picture, i));
         if (i == 0)

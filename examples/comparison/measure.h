@@ -29,10 +29,10 @@ struct Options {
 struct Sky {
     std::string name;
     prt::Image lat_long;
-    prt::Light light; ///< of the highest order
-    /// Its brightest sun apart, where it has one, and what is left without.
+    prt::Light light; ///< light of the maximum order
+    /// Its brightest sun, if it has one; `rest` is the sky without it.
     std::vector<prt::SunDisc> suns = {};
-    prt::Light rest = {}; ///< of order 6
+    prt::Light rest = {}; ///< order 6
 };
 Sky load_sky(const std::filesystem::path& path);
 
@@ -40,7 +40,7 @@ struct Row {
     std::string method;
     double bytes_per_vertex = 0;
     std::vector<prt::PictureError> errors; ///< [skies]; their maps are empty
-    /// Drawing, and once per change of the light; none where the row is not a frame of the viewer's.
+    /// Time to draw a frame, and time per change of the light; unset if the row is not a frame of the viewer.
     std::optional<double> frame_milliseconds = {}, relight_milliseconds = {};
     prt::Image picture; ///< under the first sky, linear
 };
@@ -53,11 +53,12 @@ struct SceneResult {
     std::vector<Row> rows;
     prt::Image reference; ///< under the first sky
     std::vector<bool> surfaces;
-    float exposure = 1;                  ///< of the first sky
+    float exposure = 1;                  ///< for the first sky
     std::vector<double> reference_noise; ///< [skies] relative L2 of the mean of both references
 };
 
-/// Everything of one scene; base color 1 where the camera looks. `say` gets what is done next.
+/// Measures everything for one scene; the base color is 1 in all pictures. `say` receives the name of each
+/// next step.
 SceneResult measure(const std::filesystem::path& scene, const std::vector<Sky>& skies, const Options& options,
                     const prt::GlContext& context, const std::function<void(const std::string&)>& say);
 

@@ -1,3 +1,5 @@
+// Writes the comparison as a Markdown page.
+
 #include "report.h"
 
 #include "prt/receiver_colors.h"

@@ -6,8 +6,8 @@
 
 namespace comparison {
 
-/// Markdown with tables and pictures. `images`: where the pictures are, as the page refers to them. `note`: a
-/// last line.
+/// Returns Markdown with tables and pictures. `images` is the folder of the pictures, as the page refers to
+/// it. `note` is the last line.
 std::string report(const std::vector<SceneResult>& scenes, const std::vector<Sky>& skies,
                    const Options& options, const std::string& images, const std::string& note);
 

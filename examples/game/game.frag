@@ -1,15 +1,15 @@
 #version 330 core
-// The pixel of a relit surface: what transfer gives, and the sun with its shadow, times albedo, exposed.
+// Shades a relit surface: light by transfer plus the shadowed sun, times albedo and exposure.
 in vec3 radiance, normal, sun_place;
 out vec4 pixel;
 uniform vec3 albedo;
 uniform float exposure;
 uniform vec3 towards_sun, sun_irradiance;
 uniform sampler2DShadow shadow_map;
-uniform float sun_radius; // of a penumbra, over the way from what blocks
+uniform float sun_radius; // penumbra radius per distance from the blocker
 
-// Share of the sun that shows: 16 taps over the penumbra of what would block halfway to the near side of the
-// map. `bias` and the place are in units of the map.
+// Returns the visible fraction of the sun: 16 taps over the penumbra of a blocker halfway to the near side of
+// the map. `bias` and positions are in units of the map.
 float sun_visibility(float bias) {
     float radius = max(0.5 * sun_radius * sun_place.z, 1.0 / float(textureSize(shadow_map, 0).x)), open = 0.0;
     for (int i = 0; i < 16; ++i) {

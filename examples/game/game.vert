@@ -1,4 +1,5 @@
-// The vertex of a relit surface, behind the text of prtkit's prt_exit_radiance.glsl, which says #version.
+// Vertex shader of a relit surface. It follows the text of prtkit's prt_exit_radiance.glsl, which contains
+// #version.
 
 layout(location = PRT_LOCATION_POSITION) in vec3 position;
 layout(location = PRT_LOCATION_NORMAL) in vec3 vertex_normal;

@@ -1,8 +1,7 @@
 // A game that relights a model: game SHIPPED.glb SKY.exr OUTPUT.png [frames]
-//
-// What an engine does is all here, top to bottom; only the window is missing, so that it runs anywhere: after
-// so many frames, in which the sky turns once, it writes the last as a picture. The sun of the sky is apart:
-// the game draws it with its own shadow map, transfer does all the rest.
+// It shows all steps of an engine from top to bottom, without a window, so that it runs anywhere. The sky
+// rotates once during the given number of frames; the last frame is written as a picture. The sun is separate
+// from the sky: the game draws it with its own shadow map, and transfer lights the rest.
 
 #include "prt/color.h"
 #include "prt/constant_former.h"
@@ -14,7 +13,7 @@
 #include "prt/sh_rotation.h"
 #include "prt/shader_source.h"
 #include "prt/suns.h"
-#include "shared_layout.h" // where the shader has its attributes
+#include "shared_layout.h" // attribute locations of the shader
 
 #include <epoxy/gl.h>
 #include <glm/glm.hpp>
@@ -33,16 +32,16 @@ namespace {
 
 constexpr int kWidth = 640, kHeight = 400;
 constexpr int kConstantsUnit = 0, kClustersUnit = 1, kShadowUnit = 2; // texture units
-constexpr int kShadowTexels = 2048;                                   // of the shadow map, along a side
+constexpr int kShadowTexels = 2048;                                   // texels along a side of the shadow map
 
 struct World {
     prt::Scene scene;
     prt::ClusteredTransfer transfer;
     prt::Light sky;   ///< without the sun
-    prt::SunDisc sun; ///< black where the sky has none, or the transfer keeps no direct light apart
+    prt::SunDisc sun; ///< black if the sky has no sun, or the transfer has no separate direct term
 };
 
-/// What draws: the relit picture, and the sun's view of it.
+/// Shader programs: the relit picture, and the sun's shadow map.
 struct Programs {
     GLuint picture, shadow;
 };
@@ -116,7 +115,7 @@ Programs make_programs(const prt::ClusteredTransfer& transfer) {
     return programs;
 }
 
-// ---- Once: vertices. Their weights stand in one buffer for the whole model, their clusters in another.
+// ---- Once: vertices. One buffer holds the weights of the whole model, another its clusters.
 
 template <class T>
 GLuint buffer(GLenum target, const std::vector<T>& values) {
@@ -205,7 +204,7 @@ void make_table(int unit, GLint internal, GLenum format, GLenum type, std::vecto
     glTexImage2D(GL_TEXTURE_2D, 0, internal, width, height, 0, format, type, values.data());
 }
 
-/// Makes both tables. Returns the constants, which change with the light.
+/// Creates both tables. Returns the constants, which change with the light.
 std::vector<glm::vec4> make_tables(const prt::ClusteredTransfer& transfer) {
     auto layouts = prt::cluster_layouts(transfer.bases);
     make_table(kClustersUnit, GL_RGBA32UI, GL_RGBA_INTEGER, GL_UNSIGNED_INT, layouts);
@@ -262,7 +261,7 @@ void set_camera(GLuint program, const World& world) {
     glUniform1f(glGetUniformLocation(program, "exposure"), 0.8f / mean);
 }
 
-// ---- Every frame: draw what blocks the sun, upload the constants of the light that is, draw.
+// ---- Every frame: draw the shadow map, upload the constants of the current light, draw the picture.
 
 /// From the world to the sun's map, [0, 1]³: a cube round the scene.
 glm::mat4 sun_view(const World& world, const glm::vec3& towards_sun) {
@@ -324,7 +323,7 @@ void play(const World& world, int frames) {
         prt::SunDisc sun = world.sun;
         sun.towards = glm::vec3(glm::rotate(glm::dmat4(1), angle, glm::dvec3(0, 1, 0)) *
                                 glm::dvec4(glm::dvec3(world.sun.towards), 0));
-        // The sun lights what is lit after a bounce; its direct light is the shader's.
+        // The sun is part of the light after a bounce; the shader adds its direct light.
         former.form({turned, prt::as_light(sun, world.sky.order).coefficients}, constants);
         const glm::mat4 sun_map = sun_view(world, sun.towards);
         glBindFramebuffer(GL_FRAMEBUFFER, shadow_map);

@@ -1,5 +1,5 @@
 #version 330 core
-// What blocks the sun, as the sun sees it.
+// Projects blockers into the shadow map of the sun.
 layout(location = 0) in vec3 position;
 uniform mat4 sun_map;
 

@@ -8,12 +8,12 @@
 
 namespace examples {
 
-/// Draws that are the same whenever a scene is made.
+/// Random numbers that are the same in every run.
 class Chance {
 public:
     explicit Chance(unsigned seed) : random_(seed) {}
 
-    /// A unit vector, all directions alike.
+    /// Returns a unit vector, uniformly distributed over all directions.
     glm::vec3 direction() {
         return glm::normalize(glm::vec3(normal_(random_), normal_(random_), normal_(random_)));
     }

@@ -8,7 +8,7 @@
 
 namespace examples {
 
-/// Light that a surface gives by itself: radiance is color times picture times strength.
+/// Light emitted by a surface: radiance is color times picture times strength.
 struct Emission {
     glm::vec3 color{0}; ///< linear, 0..1
     float strength = 1;
@@ -20,7 +20,7 @@ struct Part {
     std::string name;
     glm::vec3 color; ///< linear base color
     Mesh mesh;
-    /// Of a leaf or cloth: the share of the light that passes, and its color. Above 0 the part is
+    /// Transmitted fraction of light for a leaf or cloth, and its color. A part with a value above 0 is
     /// double-sided.
     float transmission = 0;
     glm::vec3 transmission_color{1};
@@ -30,33 +30,33 @@ struct Part {
     SkinWeights skin = {};
 };
 
-/// `part` with light of its own.
+/// Returns `part` with emission.
 inline Part shining(Part part, const glm::vec3& color, float strength) {
     part.emission = {color, strength};
     return part;
 }
 
-/// A light of KHR_lights_punctual. Our pictures show a radiance of 1 as white, so intensities are scaled like
-/// that: an intensity of pi at a distance of 1 m makes white paper white.
+/// A light of KHR_lights_punctual. The pictures show radiance 1 as white, and intensities are scaled
+/// accordingly: an intensity of pi at a distance of 1 m makes white paper white.
 struct Lamp {
     std::string name;
     glm::vec3 position; ///< metres
     glm::vec3 color;    ///< linear, 0..1
     float intensity;    ///< candela, if radiance 1 is 1 cd/m²
     float range;        ///< metres
-    /// Of a spot, unit, and the angles of its cone from the axis, radians. Length 0: it shines all round.
+    /// Unit direction of a spot, and the angles of its cone from the axis, radians. Length 0: a point light.
     glm::vec3 direction{0};
     float inner_cone = 0, outer_cone = 0.78539816f;
 };
 
-/// Where a model stands: scaled, turned about +Y, counter-clockwise seen from above, then moved.
+/// Transform of a model: scaled, rotated about +Y (counter-clockwise seen from above), then moved.
 struct Placement {
     glm::vec3 origin; ///< metres
     float degrees = 0;
     float scale = 1;
 };
 
-/// A mesh that is drawn in many places: EXT_mesh_gpu_instancing.
+/// A mesh with many instances: EXT_mesh_gpu_instancing.
 struct Model {
     std::string name;
     std::vector<Part> parts;
@@ -66,22 +66,22 @@ struct Model {
 struct ExampleScene {
     std::vector<Part> parts;
     std::vector<Lamp> lamps = {};
-    Skeleton skeleton = {}; ///< that all parts hang on; without joints they stand still
+    Skeleton skeleton = {}; ///< skeleton of all parts; without joints they are static
     std::vector<Model> models = {};
 };
 
 ExampleScene torus_knot_over_plane();
 ExampleScene room_with_columns();
-/// The same of as few triangles as show its shape.
+/// Returns the room with columns with the minimum number of triangles that shows its shape.
 ExampleScene plain_room();
 /// The room with three lamps and a glowing sign.
 ExampleScene night_room();
 ExampleScene terrain();
-/// A tree in full leaf: light comes through the leaves.
+/// Returns a tree in full leaf: light passes through the leaves.
 ExampleScene tree();
 /// A courtyard with arcades, an orange tree, a fountain, awnings and lanterns; at home from noon to night.
 ExampleScene courtyard();
-/// Somebody of 1.8 m who looks along +Z and can walk: a skinned, animated mesh.
+/// Returns a person of 1.8 m who looks along +Z and can walk: a skinned, animated mesh.
 ExampleScene figure();
 /// Some 15 000 buildings of 1.5 million vertices and 1.8 million triangles, to measure with.
 ExampleScene city();

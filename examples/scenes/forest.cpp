@@ -1,4 +1,4 @@
-// A forest of few trees, drawn often: what instances share is judged by it.
+// A forest with many instances of few trees, used to evaluate transfer that instances share.
 
 #include "chance.h"
 #include "example_scenes.h"
@@ -16,7 +16,7 @@ namespace examples {
 namespace {
 
 constexpr float kPitch = 5.2f;   ///< metres from tree to tree, on average
-constexpr float kMargin = 12;    ///< of the meadow round them
+constexpr float kMargin = 12;    ///< margin of the meadow around the trees
 constexpr float kGroundStep = 1; ///< from vertex to vertex
 
 float ground_height(float x, float z) {
@@ -49,7 +49,7 @@ std::vector<Part> spruce() {
     return {{"needles", {0.06f, 0.13f, 0.05f}, needles}, trunk(2.2f, 0.14f, {0.20f, 0.14f, 0.10f})};
 }
 
-/// A crown of lumps: an ellipsoid whose radius is noise.
+/// Returns a lumpy crown: an ellipsoid with noise added to its radius.
 Mesh crown(const glm::vec3& center, const glm::vec3& radii, float lumps, float seed) {
     return parametric_surface(26, 19, [&](float u, float v) {
         const float polar = 0.5f * kTurn * glm::clamp(0.01f + 0.98f * v, 0.01f, 0.99f), turn = kTurn * u;

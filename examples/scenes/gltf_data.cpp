@@ -1,3 +1,5 @@
+// Appends data, views and accessors to a glTF buffer.
+
 #include "gltf_data.h"
 
 #include <glm/common.hpp>

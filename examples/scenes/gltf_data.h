@@ -10,7 +10,7 @@
 
 namespace examples {
 
-/// What a view is for: vertices or indices, which glTF wants to know, or anything else.
+/// Target of a view: vertices or indices as glTF requires, or none.
 inline constexpr int kNoTarget = 0;
 
 /// Appends `bytes` to the model's only buffer and returns the view on them, aligned to four bytes.
@@ -33,7 +33,7 @@ int add_accessor(tinygltf::Model& model, const std::vector<T>& values, const Ele
     return static_cast<int>(model.accessors.size()) - 1;
 }
 
-/// Says what the least and the most of `values` are in the accessor on them.
+/// Sets the minimum and the maximum of `values` in their accessor.
 void set_bounds(tinygltf::Accessor& accessor, const std::vector<glm::vec3>& values);
 void set_bounds(tinygltf::Accessor& accessor, const std::vector<float>& values);
 

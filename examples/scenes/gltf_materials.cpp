@@ -1,3 +1,5 @@
+// Writes materials, textures and lights of a scene.
+
 #include "gltf_materials.h"
 
 #include "prt/image_file.h"
@@ -40,7 +42,7 @@ void set_transmission(tinygltf::Model& model, tinygltf::Material& material, cons
     tinygltf::Value::Object extension;
     extension["diffuseTransmissionFactor"] = extension_value(part.transmission);
     extension["diffuseTransmissionColorFactor"] = extension_value(part.transmission_color);
-    if (part.picture) { // what colors reflected light colors that which passes
+    if (part.picture) { // the picture colors reflected and transmitted light
         tinygltf::Value::Object texture;
         texture["index"] = tinygltf::Value(material.pbrMetallicRoughness.baseColorTexture.index);
         extension["diffuseTransmissionColorTexture"] = tinygltf::Value(texture);

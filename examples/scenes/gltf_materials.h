@@ -7,7 +7,7 @@
 
 namespace examples {
 
-/// Says that the model uses an extension.
+/// Adds an extension to the list of extensions used.
 void use_extension(tinygltf::Model& model, const std::string& name);
 
 /// A number, or a list of three, of an extension.

@@ -1,3 +1,5 @@
+// Builds the mesh of a leaf.
+
 #include "leaf.h"
 
 #include <glm/geometric.hpp>

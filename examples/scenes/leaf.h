@@ -4,8 +4,9 @@
 
 namespace examples {
 
-/// Pointed at both ends, bent about its middle vein and hanging down towards the tip. `along` and `side` are
-/// unit and at right angles; columns x rows cells, `columns` even so that the vein is an edge.
+/// Returns a leaf, pointed at both ends, bent about its middle vein and drooping towards the tip. `along` and
+/// `side` are orthogonal unit vectors; it has columns x rows cells, with `columns` even so that the vein is
+/// an edge.
 Mesh leaf(const glm::vec3& base, const glm::vec3& along, const glm::vec3& side, float length, int columns,
           int rows);
 

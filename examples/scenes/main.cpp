@@ -18,7 +18,7 @@ namespace {
 struct NamedScene {
     std::string_view name;
     examples::ExampleScene (*make)();
-    bool asked_for = false; ///< large, and only written where its name is given
+    bool asked_for = false; ///< large, and only written if named
 };
 
 constexpr NamedScene kScenes[] = {{"knot", examples::torus_knot_over_plane},
@@ -31,11 +31,11 @@ constexpr NamedScene kScenes[] = {{"knot", examples::torus_knot_over_plane},
                                   {"plain_room", examples::plain_room, true},
                                   {"city", examples::city, true}};
 
-/// Scenes of as many things as are asked for: NAME:COUNT.
+/// Scenes with a number of objects given by the user: NAME:COUNT.
 struct CountedScene {
     std::string_view name;
     examples::ExampleScene (*make)(int count);
-    int usual; ///< where no count is given
+    int usual; ///< default count
 };
 
 constexpr CountedScene kCountedScenes[] = {{"forest", examples::forest, 2000},
@@ -46,7 +46,7 @@ std::string_view bare_name(std::string_view argument) {
     return argument.substr(0, argument.find(':'));
 }
 
-/// The number behind the colon, 0 where it is none in 1 to kMostCounted; `usual` where there is no colon.
+/// Returns the number after the colon, 0 if it is not in 1 to kMostCounted; `usual` without a colon.
 int count_of(std::string_view argument, int usual) {
     const std::size_t colon = argument.find(':');
     if (colon == std::string_view::npos)
@@ -84,7 +84,7 @@ bool is_known(std::string_view argument) {
            std::any_of(std::begin(kSkies), std::end(kSkies), is_named);
 }
 
-/// Writes what is named, or all that need not be asked for, and says what.
+/// Writes the named scenes and skies, or all that are written by default, and prints their paths.
 void write(const std::filesystem::path& folder, std::span<char* const> names) {
     const auto is_wanted = [&](std::string_view name, bool asked_for) {
         return names.empty() ? !asked_for : std::find(names.begin(), names.end(), name) != names.end();
@@ -126,7 +126,7 @@ int main(int argc, char** argv) {
     const std::span<char* const> arguments(argv + 1, static_cast<std::size_t>(argc - 1));
     const bool help =
         argc == 2 && (std::string_view(argv[1]) == "--help" || std::string_view(argv[1]) == "-h");
-    // A folder whose name begins like an option: ./-name
+    // A folder name that begins like an option is written as ./-name.
     if (help || arguments.empty() || arguments[0][0] == '-') {
         print_usage(help ? stdout : stderr);
         return help ? 0 : 2;

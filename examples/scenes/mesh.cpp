@@ -1,3 +1,5 @@
+// Builds and joins meshes.
+
 #include "mesh.h"
 
 #include <glm/geometric.hpp>

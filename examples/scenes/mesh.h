@@ -19,22 +19,22 @@ struct Mesh {
 
 inline constexpr float kTurn = 6.2831853f;
 
-/// A grid of (columns + 1) x (rows + 1) vertices over (u, v) in [0, 1]², front where u x v points. Normals by
-/// central differences of `surface`, which must be defined a little beyond [0, 1]. Texture coordinates are
-/// (u, 1 - v): a picture stands upright where v points up.
+/// Returns a grid of (columns + 1) x (rows + 1) vertices over (u, v) in [0, 1]², with its front side towards
+/// u x v. Normals are central differences of `surface`, which must be defined slightly beyond [0, 1]. Texture
+/// coordinates are (u, 1 - v): a picture is upright if v points up.
 Mesh parametric_surface(int columns, int rows, const std::function<glm::vec3(float u, float v)>& surface);
 
-/// A flat rectangle from `corner`, spanned by two edges, with vertices about `spacing` apart. Texture
-/// coordinates are in metres.
+/// Returns a flat rectangle from `corner`, spanned by two edges, with a spacing of about `spacing` between
+/// vertices. Texture coordinates are in metres.
 Mesh rectangle(const glm::vec3& corner, const glm::vec3& edge_u, const glm::vec3& edge_v, float spacing);
 
 /// Appends `other` to `mesh`.
 void append(Mesh& mesh, const Mesh& other);
 
-/// `mesh` turned and moved by a rigid transform.
+/// Returns `mesh` transformed by a rigid transform.
 Mesh placed(Mesh mesh, const glm::mat4& transform);
 
-/// Turned about +Y, counter-clockwise seen from above, then moved.
+/// Returns a rotation about +Y (counter-clockwise seen from above) followed by a translation.
 glm::mat4 placement(const glm::vec3& origin, float degrees);
 
 /// Texture coordinates times `factor`.

@@ -1,3 +1,5 @@
+// Paints the neon sign from strokes.
+
 #include "neon_sign.h"
 
 #include <glm/common.hpp>

@@ -1,5 +1,4 @@
-// The room at night: a ceiling lamp, a table lamp, a coloured floor lamp, and a sign of light on the back
-// wall.
+// The room at night: a ceiling lamp, a table lamp, a coloured floor lamp, and a neon sign on the back wall.
 
 #include "example_scenes.h"
 #include "neon_sign.h"
@@ -10,16 +9,15 @@
 namespace examples {
 namespace {
 
-/// What lamps are made of.
+/// Meshes of the lamps by material.
 struct Fixtures {
     Mesh brass, shades, bulbs, cool_bulbs, table;
     std::vector<Lamp> lamps;
 };
 
 constexpr glm::vec3 kWarm(1, 0.72f, 0.42f);
-/// Bulbs and shades are seen by their emission. If they reflected the lamp, which is centimetres away, they
-/// would be spots many times brighter than the room, and bounces would be the noise of the few rays that find
-/// them.
+/// Bulbs and shades are visible by their emission. If they reflected the lamp, which is centimetres away,
+/// they would be many times brighter than the room, and bounces would be noisy, because few rays hit them.
 constexpr glm::vec3 kBulb(0);
 
 /// A bell of sheet metal under a cord, open below; the bulb looks out of it.
@@ -33,7 +31,7 @@ void add_ceiling_lamp(Fixtures& to, const glm::vec3& place) {
         {"LampCeiling", place + glm::vec3(0, 0.02f, 0), kWarm, 16, 12, {0, -1, 0}, 0.6f, 1.15f});
 }
 
-/// A shade of cloth that shines, on a turned foot, on a round table.
+/// Adds an emissive cloth shade on a turned foot, on a round table.
 void add_table_lamp(Fixtures& to, const glm::vec3& floor) {
     constexpr float kTable = 0.72f;
     append(to.table, lathe(floor,
@@ -107,7 +105,7 @@ ExampleScene night_room() {
     add_ceiling_lamp(fixtures, {0, 2.7f, -1.6f});
     add_table_lamp(fixtures, {-1.5f, 0, -6.2f});
     add_floor_lamp(fixtures, {1.75f, 0, -9.1f});
-    // The sign stands a little before the back wall, in a case.
+    // The sign is in a case, slightly in front of the back wall.
     constexpr float kWide = 2.6f, kHigh = 1.3f, kWall = -10, kProud = 0.12f;
     const glm::vec3 corner(-0.3f - kWide / 2, 1.55f, kWall + kProud);
     const Mesh face = parametric_surface(

@@ -1,3 +1,5 @@
+// Computes value noise from a hash of lattice points.
+
 #include "noise.h"
 
 #include <cmath>

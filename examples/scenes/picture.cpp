@@ -1,3 +1,5 @@
+// Paints pictures in sRGB.
+
 #include "picture.h"
 
 #include <glm/common.hpp>

@@ -17,11 +17,11 @@ struct Picture {
     std::vector<glm::u8vec3> pixels; ///< [height][width], the topmost row first
 };
 
-/// Parts share pictures, which have names of their own.
+/// A picture that several parts can share; it is identified by its name.
 using SharedPicture = std::shared_ptr<const Picture>;
 
-/// A picture whose texels have the linear Rec. 709 color at their centers, u to the right and v downwards in
-/// [0, 1].
+/// Returns a picture whose texels are the linear Rec. 709 color at their centers, with u to the right and v
+/// downwards in [0, 1].
 SharedPicture painted(const std::string& name, int width, int height,
                       const std::function<glm::vec3(float u, float v)>& color);
 

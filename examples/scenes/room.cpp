@@ -11,8 +11,8 @@ constexpr float kWidth = 8, kHeight = 4, kDepth = 10;
 
 /// How large its triangles are.
 struct Fineness {
-    float spacing; ///< metres, of what is flat
-    int rows;      ///< of a column
+    float spacing; ///< metres, on flat surfaces
+    int rows;      ///< per column
 };
 
 Mesh column(float x, float z, int rows) {

@@ -1,3 +1,5 @@
+// Builds lofted surfaces, lathes, sweeps, boxes and tubes.
+
 #include "shapes.h"
 
 #include <glm/common.hpp>
@@ -33,7 +35,7 @@ std::vector<glm::vec3> column_of(const Rows& rows, std::size_t column) {
     return line;
 }
 
-/// Unit normals of the grid; those of a pole are the mean of the row beside it.
+/// Returns the unit normals of the grid; at a pole, the mean normal of the adjacent row.
 std::vector<glm::vec3> grid_normals(const Rows& rows) {
     const std::size_t columns = rows[0].size();
     const bool closed = std::all_of(rows.begin(), rows.end(), [](const auto& row) {
@@ -68,7 +70,7 @@ void add_triangle(Mesh& mesh, std::uint32_t a, std::uint32_t b, std::uint32_t c)
         mesh.indices.insert(mesh.indices.end(), {a, b, c});
 }
 
-/// The outline cut at its edges, each piece with points at most kShapeSpacing apart.
+/// Splits the outline at its edges, each piece with points at most kShapeSpacing from the next.
 std::vector<Outline> smooth_pieces(const Outline& outline) {
     std::vector<Outline> pieces(1);
     for (const glm::vec2& point : outline) {
@@ -224,7 +226,7 @@ Mesh bar(std::span<const glm::vec3> points, std::span<const float> radii, int se
     for (std::size_t i = 0; i < points.size(); ++i) {
         const glm::vec3 along =
             glm::normalize(points[std::min(i + 1, points.size() - 1)] - points[i == 0 ? 0 : i - 1]);
-        // A reference that no bar of the scenes lies along, so that rings do not turn against each other.
+        // A reference direction that is parallel to no bar of the scenes, so that rings do not twist.
         const glm::vec3 side = glm::normalize(glm::cross(along, glm::vec3(0.28f, 0.11f, 0.95f))),
                         other = glm::cross(along, side);
         auto& row = rows.emplace_back();

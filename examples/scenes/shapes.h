@@ -1,6 +1,6 @@
 #pragma once
 
-// Surfaces of masons, turners and smiths, with vertices about kShapeSpacing apart.
+// Architectural and turned surfaces with vertices about kShapeSpacing from each other.
 
 #include "mesh.h"
 
@@ -10,29 +10,31 @@ namespace examples {
 
 inline constexpr float kShapeSpacing = 0.17f; ///< metres
 
-/// A smooth surface through rows of equally many points, front where along a row x from row to row points. A
-/// row that ends where it begins is a closed ring; all its points may be one, a pole. Texture coordinates are
-/// lengths in metres.
+/// Returns a smooth surface through rows with equal numbers of points; its front is along row x next row. A
+/// row that ends at its first point is a closed ring; all its points may be equal (a pole). Texture
+/// coordinates are lengths in metres.
 Mesh lofted(const std::vector<std::vector<glm::vec3>>& rows);
 
-/// An outline is a line of points, smooth but for those that stand there twice: edges.
+/// A line of points. It is smooth, except at duplicate points, which are edges.
 using Outline = std::vector<glm::vec2>;
 
-/// An outline of (radius, height), from below to above outside, turned about the vertical through `base`.
+/// Returns the surface of an outline of (radius, height) rotated about the vertical through `base`; the
+/// outline runs upwards on the outside.
 Mesh lathe(const glm::vec3& base, const Outline& outline, int segments);
 
-/// An outline of (apothem, height) led round a regular polygon instead, whose sides are flat.
+/// Returns the surface of an outline of (apothem, height) along a regular polygon; its sides are flat.
 Mesh polygonal_lathe(const glm::vec3& base, const Outline& outline, int sides);
 
-/// Where an outline stands on its way: the outline's axes are `out` and `up`, the way goes along up x out.
+/// Frame of an outline on a path: the outline's axes are `out` and `up`, and the path is along up x out.
 struct Station {
     glm::vec3 origin, out, up;
 };
 
-/// An outline of (out, up), from below to above outside, led along a way.
+/// Returns the surface of an outline of (out, up) swept along a path; the outline runs upwards on the
+/// outside.
 Mesh moulding(const Outline& outline, std::span<const Station> way);
 
-/// Stations on the straight way from `from` to `to`; `out` is to the right of it, up is +Y.
+/// Returns stations on the straight path from `from` to `to`; `out` is to its right, up is +Y.
 std::vector<Station> straight_way(const glm::vec3& from, const glm::vec3& to);
 
 /// The six faces of a box.

@@ -1,6 +1,6 @@
 #pragma once
 
-// Joints that vertices hang on, and how they move.
+// A skeleton with skin weights and its movements.
 
 #include <glm/gtc/quaternion.hpp>
 #include <glm/vec3.hpp>
@@ -12,26 +12,26 @@
 
 namespace examples {
 
-/// At rest no joint is turned against the world.
+/// A joint; at rest it is not rotated relative to the world.
 struct Joint {
     std::string name;
     int parent;         ///< index of an earlier joint, -1 for the first
     glm::vec3 position; ///< at rest, metres, in the world
 };
 
-/// The turns of one joint against its parent.
+/// The rotations of one joint relative to its parent.
 struct JointTrack {
     int joint;
-    std::vector<glm::quat> rotations;      ///< a key each
-    std::vector<glm::vec3> positions = {}; ///< against the parent, metres; empty: as at rest
+    std::vector<glm::quat> rotations;      ///< one per key
+    std::vector<glm::vec3> positions = {}; ///< relative to the parent, metres; empty: the rest position
 };
 
-/// A movement that ends where it begins, linear between keys.
+/// A movement whose last key equals its first, linear between keys.
 struct Movement {
     std::string name;
-    std::vector<float> times; ///< seconds of the keys
+    std::vector<float> times; ///< times of the keys, seconds
     std::vector<JointTrack> tracks;
-    float speed = 0; ///< metres per second along +Z at which feet on the ground stand still
+    float speed = 0; ///< metres per second along +Z at which feet on the ground do not slide
 };
 
 struct Skeleton {
@@ -39,7 +39,7 @@ struct Skeleton {
     std::vector<Movement> movements;
 };
 
-/// By which joints each vertex goes. [vertices]; empty: it hangs on none
+/// Joints and weights of each vertex. [vertices]; empty: it is not skinned
 struct SkinWeights {
     std::vector<glm::u8vec4> joints;
     std::vector<glm::vec4> weights; ///< sum to 1

@@ -1,3 +1,5 @@
+// Computes sunny and night skies as lat-long images.
+
 #include "sky_image.h"
 
 #include "prt/sky.h"
@@ -14,12 +16,12 @@ namespace examples {
 namespace {
 
 constexpr double kPi = 3.14159265358979323846;
-constexpr double kSunRadius = 0.265 * kPi / 180; ///< of the moon, too
+constexpr double kSunRadius = 0.265 * kPi / 180; ///< radius of sun and moon
 const glm::dvec3 kGroundAlbedo(0.24, 0.2, 0.15);
-const glm::dvec3 kLuminance(0.2126, 0.7152, 0.0722); // of linear Rec. 709
+const glm::dvec3 kLuminance(0.2126, 0.7152, 0.0722); // weights for linear Rec. 709
 
-/// A lat-long image of radiance above the horizon, by direction; below lies ground under that sky and under
-/// `sun_irradiance`, which comes on top of it. A direction is that of a texel's center.
+/// Returns a lat-long image of radiance above the horizon, by direction; below is ground lit by that sky and
+/// by `sun_irradiance`, which is added to it. Directions are those of texel centers.
 prt::Environment over_ground(int height, const glm::dvec3& sun_irradiance,
                              const std::function<glm::dvec3(const glm::dvec3&)>& radiance) {
     prt::Environment environment;
@@ -41,8 +43,8 @@ prt::Environment over_ground(int height, const glm::dvec3& sun_irradiance,
     return environment;
 }
 
-/// Adds a disc of so much irradiance, on a surface that faces it. Texels have the share of the disc that lies
-/// in them, found by points, so that the sum is right whatever the image's size.
+/// Adds a disc of the given irradiance on a surface that faces it. Each texel gets the fraction of the disc
+/// inside it, found by sample points, so that the sum is correct at any image size.
 void add_disc(prt::Image& image, const glm::dvec3& direction, const glm::dvec3& irradiance) {
     constexpr int kAcross = 256; // points of the square round the disc
     const glm::dvec3 side = glm::normalize(glm::cross(direction, glm::dvec3(0.3, 0.1, 0.95))),
@@ -66,8 +68,9 @@ void add_disc(prt::Image& image, const glm::dvec3& direction, const glm::dvec3& 
     }
 }
 
-/// What the air leaves of red, green and blue sunlight, relative to luminance: optical depths at 610, 550 and
-/// 465 nm of air, haze and ozone, and air mass, as in Preetham, Shirley and Smits, appendix A.1.
+/// Returns the transmittance of the air for red, green and blue sunlight, relative to luminance: optical
+/// depths at 610, 550 and 465 nm of air, haze and ozone, and air mass, as in Preetham, Shirley and Smits,
+/// appendix A.1.
 glm::dvec3 sun_color(double turbidity, double height) {
     const glm::dvec3 wavelength(0.61, 0.55, 0.465); // micrometres
     const double zenith_angle = std::acos(height);

@@ -1,5 +1,5 @@
-// A street of few houses, drawn often, wall to wall: neighbours stand close, and some of them see more of
-// each other than of the sky.
+// A street with many instances of few houses, wall to wall: neighbours are close, and some of them see more
+// of each other than of the sky.
 
 #include "chance.h"
 #include "example_scenes.h"
@@ -11,15 +11,15 @@
 namespace examples {
 namespace {
 
-constexpr float kHouseWidth = 9, kHouseDepth = 8; ///< of a house, metres
-constexpr float kSetBack = 7.5f;                  ///< of fronts from the middle of the street
+constexpr float kHouseWidth = 9, kHouseDepth = 8; ///< size of a house, metres
+constexpr float kSetBack = 7.5f;                  ///< distance of the fronts from the middle of the street
 
-/// What differs from kind to kind.
+/// Properties that differ between kinds.
 struct HouseKind {
     const char* name;
     int storeys;
     float ridge; ///< height of the roof above the walls, metres
-    float porch; ///< how far a canopy stands out over the door; 0: none
+    float porch; ///< depth of the canopy over the door; 0: none
     glm::vec3 walls, roof;
 };
 

@@ -1,4 +1,4 @@
-// A trunk, and leaves spread over a crown, bent and turned at random.
+// A trunk with leaves spread over a crown, randomly bent and rotated.
 
 #include "example_scenes.h"
 #include "leaf.h"

@@ -1,3 +1,5 @@
+// Writes a scene as a binary glTF file.
+
 #include "write_scene.h"
 
 #include "gltf_materials.h"
@@ -73,7 +75,7 @@ tinygltf::Mesh make_mesh(tinygltf::Model& model, const std::string& name, const 
     return mesh;
 }
 
-/// A node that draws mesh number `mesh` wherever `drawn` stands.
+/// Returns a node that draws mesh number `mesh` at every placement of `drawn`.
 tinygltf::Node instancing_node(tinygltf::Model& model, const Model& drawn, int mesh) {
     std::vector<glm::vec3> translations, scales;
     std::vector<glm::vec4> rotations; // x, y, z, w

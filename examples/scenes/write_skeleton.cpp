@@ -1,3 +1,5 @@
+// Writes the nodes, skin and animations of a skeleton.
+
 #include "write_skeleton.h"
 
 #include "gltf_data.h"
@@ -45,7 +47,7 @@ tinygltf::Skin make_skin(tinygltf::Model& model, const std::vector<Joint>& joint
     return skin;
 }
 
-/// Adds what node `node` does by `values` at the times of accessor `times`.
+/// Adds a channel that animates node `node` with `values` at the times of accessor `times`.
 void add_channel(tinygltf::Animation& animation, int times, int values, int node, const char* path) {
     tinygltf::AnimationSampler sampler;
     sampler.input = times;

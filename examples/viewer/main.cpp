@@ -1,4 +1,4 @@
-// prt-viewer: precomputed radiance transfer to look at.
+// prt-viewer: shows models lit by precomputed radiance transfer.
 
 #include "script/script.h"
 #include "ui/window.h"

@@ -1,3 +1,5 @@
+// Configures Vite, which builds the page.
+
 import { defineConfig } from "vite";
 import { distFolder, publicFolder } from "./tools/folders.mjs";
 

@@ -1,4 +1,4 @@
-// Light files of prt project: docs/format.md.
+// Reads and writes light files of prt project (docs/format.md).
 
 #include "prt/light_file.h"
 

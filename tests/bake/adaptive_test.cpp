@@ -1,3 +1,5 @@
+// Tests bakes that choose the number of rays for a target error.
+
 #include "prt/bake.h"
 #include "prt/error_measures.h"
 #include "support/scene_builder.h"
@@ -41,7 +43,7 @@ TEST(TargetError, IsReachedAndSoIsTheEstimate) {
         const BakeResult result = bake(scene, options);
         EXPECT_LE(result.statistics.sampling_error, target);
         const double error = error_against_reference(scene, result.baked.transfer);
-        // The reference has some error of its own, the estimate some of its.
+        // Reference and estimate have some error themselves.
         EXPECT_LT(error, 1.25 * target);
         EXPECT_GT(error, 0.4 * target); // no rays thrown away
         EXPECT_NEAR(result.statistics.sampling_error, error, 0.35 * error);
@@ -75,13 +77,14 @@ TEST(TargetError, ThatIsLooseTakesNoRaysButTheFirst) {
     options.target_error = 10;
     const BakeStatistics statistics =
         bake(test::SceneBuilder().bowl({0, 0, 0}, 1, 12, 4).build(), options).statistics;
-    // Two scrambles of 32 rays, and of 128 receivers a third. None is dark, so that none is asked whether it
-    // is sealed in.
+    // Two scrambles of 32 rays, and a third one for 128 receivers. No receiver is dark, so the check for
+    // sealed receivers traces no rays.
     EXPECT_LE(statistics.rays, 64 * statistics.receivers.traced + 128 * 32);
 }
 
 TEST(TargetError, ThatTheFirstRaysReachToTheLastDigitTakesNoMore) {
-    // Of every other seed or so a sample errs more than predicted: then the prediction asks for no more rays.
+    // For about every other seed a sample has a larger error than predicted: the prediction then requires no
+    // more rays.
     BakeOptions options = cpu_options();
     options.order = 2;
     options.repairs.denoise = false;
@@ -99,8 +102,8 @@ TEST(TargetError, ThatTheFirstRaysReachToTheLastDigitTakesNoMore) {
 }
 
 TEST(TargetError, FindsTheWindowOfADarkRoom) {
-    // A bowl that is closed but for its first ring: one ray in a hundred finds the sky, and of most receivers
-    // none of the first 64.
+    // A bowl that is closed except for its first ring: one ray in a hundred reaches the sky, and for most
+    // receivers none of the first 64.
     constexpr int kRows = 16;
     const Scene scene = test::SceneBuilder().bowl({0, 0, 0}, 1, kRows, 1).build();
     const double open = (1 - std::cos(std::numbers::pi / kRows)) / 2;
@@ -114,7 +117,7 @@ TEST(TargetError, FindsTheWindowOfADarkRoom) {
     options.seed = 99;
     const double error =
         relative_l2(bake(scene, options).baked.transfer, result.baked.transfer, receiver_areas(scene));
-    EXPECT_LT(error, 0.12); // the reference has some of its own
+    EXPECT_LT(error, 0.12); // the reference has some error, too
     EXPECT_NEAR(result.statistics.sampling_error, error, 0.35 * error);
 }
 

@@ -1,3 +1,5 @@
+// Tests the options of bakes, their errors and their statistics.
+
 #include "prt/bake.h"
 
 #include "prt/support/error.h"
@@ -102,7 +104,7 @@ TEST(Bake, RefusesWhatItCannotDo) {
 }
 
 TEST(Bake, TellsWhatDepthMapsCannotDo) {
-    // On machines without a GPU, too: what is asked for is looked at first.
+    // Options are checked first, so this also holds on machines without a GPU.
     BakeOptions raster;
     raster.tracer.method = BakeMethod::raster;
     const auto expect_refusal = [](const BakeOptions& options, const char* reason) {

@@ -1,3 +1,5 @@
+// Compares transfer with closed forms.
+
 #include "prt/bake.h"
 #include "prt/sh.h"
 #include "support/quadrature.h"
@@ -48,9 +50,9 @@ TEST(BlockedReceiver, HasExactlyZero) {
         EXPECT_EQ(value, 0);
 }
 
-/// 2 ∫_c^1 t K_l P_l(t) dt for c = cos(blocked angle), K_l the norm of Y_l0: the transfer that a coaxial cap
-/// of blocked directions takes away, in closed form by t P_l = ((l+1) P_{l+1} + l P_{l-1}) / (2l+1) and ∫ P_n
-/// = (P_{n+1} - P_{n-1}) / (2n+1).
+/// Returns 2 ∫_c^1 t K_l P_l(t) dt for c = cos(blocked angle), with K_l the norm of Y_l0: the transfer that a
+/// coaxial cap of blocked directions removes, in closed form by t P_l = ((l+1) P_{l+1} + l P_{l-1}) / (2l+1)
+/// and ∫ P_n = (P_{n+1} - P_{n-1}) / (2n+1).
 double cap_transfer(int l, double c) {
     const auto p = [](int n, double t) { return n < 0 ? 1.0 : std::legendre(static_cast<unsigned>(n), t); };
     const auto integral = [&](int n) { return n == 0 ? 1 - c : (p(n - 1, c) - p(n + 1, c)) / (2 * n + 1); };
@@ -107,7 +109,7 @@ TEST(EndlessWall, BlocksHalfOfTheSky) {
 
 TEST(Uniform, LightOfRadianceOneGivesVisibility) {
     // A receiver in the middle of a square pit of slope 45 degrees sees sin²(45°) = half of the
-    // cosine-weighted sky of a cone; a cone is what a fine pyramid of many sides is.
+    // cosine-weighted sky of a cone; a pyramid with many sides approximates a cone.
     test::SceneBuilder builder;
     constexpr int kSides = 720;
     for (int i = 0; i < kSides; ++i) {
@@ -120,11 +122,11 @@ TEST(Uniform, LightOfRadianceOneGivesVisibility) {
     }
     const auto t = transfer_at(builder.build(), {0, 0, 0}, {0, 0, 1}, 1, 1 << 16);
     EXPECT_NEAR(t[0] / 0.28209479, 0.5,
-                1e-4); // the wall of height 1 at distance 1 leaves the cone of 45 degrees
+                1e-4); // the wall of height 1 at distance 1 leaves the cone of 45 degrees open
 }
 
 TEST(FootOfAWall, SeesHalfTheSkyWhateverTheSidesOfTheWall) {
-    // Vertices of the floor lie in the plane of the wall, exactly or but for rounding.
+    // Vertices of the floor are in the plane of the wall, exactly or up to rounding.
     for (const bool double_sided : {false, true})
         for (const float shift : {0.0f, 0.1f, 1000.3f}) {
             const glm::vec3 at(shift, 0, 0.7f * shift);

@@ -93,14 +93,14 @@ TEST(BakeErrors, OfASkyAreThoseOfInterpolation) {
             options.seed = static_cast<std::uint64_t>(seed);
             mean += errors_of(scene, options).nodes[0].sky.relative_l2 / kSeeds;
         }
-        // Some 50 of the points lie on the floor: 14 % in one standard deviation of one seed.
+        // About 50 of the points are on the floor: 14 % is one standard deviation for one seed.
         EXPECT_NEAR(mean, expected, 0.14 * expected) << cells;
         EXPECT_GT(expected, 0.01);
     }
 }
 
-/// The noise of few rays is the difference from a bake with many. The mesh is so fine that interpolation adds
-/// no error.
+/// The noise of few rays is the difference from a bake with many rays. The mesh is so fine that interpolation
+/// adds no error.
 TEST(BakeErrors, KnowTheNoiseOfRays) {
     const Scene scene = SceneBuilder().floor({0, 0, 0}, 1, 24).sphere({0, 0.7f, 0}, 0.4f, 24).build();
     const auto transfer = [&](int rays, std::uint64_t seed) {

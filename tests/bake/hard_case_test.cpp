@@ -1,3 +1,5 @@
+// Tests bakes of degenerate geometry and extreme scales.
+
 #include "prt/bake.h"
 #include "prt/sh.h"
 #include "scene/small_objects.h"
@@ -51,15 +53,15 @@ TEST(HardCase, DegenerateDuplicatedAndNeedleTrianglesDoNoHarm) {
     builder.triangle({0, 0, 0}, {0, 0, 0}, {0, 0, 0});           // a point
     builder.triangle({0, 0, 0}, {0.1f, 0, 0}, {0.2f, 0, 0});     // a line
     builder.triangle({-1, 0, 0}, {1, 0, 1e-7f}, {1, 0, 0});      // a needle
-    builder.triangle({0, 0, 0}, {1e-30f, 0, 0}, {0, 0, 1e-30f}); // nothing
+    builder.triangle({0, 0, 0}, {1e-30f, 0, 0}, {0, 0, 1e-30f}); // no area
     const Transfer t = bake_scene(builder.build());
     expect_finite(t);
     for (std::size_t p = 0; p < 2 * 9 * 6; ++p) // both floors lie open, one in the other
         expect_open(t, p);
 }
 
-/// A triangle without area lies on a floor. Two of its corners lie at corners of the floor and take their
-/// light; the third lies at no other vertex and stays black.
+/// A triangle without area is on a floor. Two of its corners are at corners of the floor and take their
+/// light; the third is at no other vertex and stays black.
 TEST(HardCase, VerticesWithoutAreaTakeTheLightOfTheirPosition) {
     for (const FitMode fit : {FitMode::vertex, FitMode::surface}) {
         BakeOptions options;
@@ -100,7 +102,7 @@ TEST_P(Magnitude, ScaledAndMovedScenesHaveTheSameTransfer) {
     const std::vector<float> areas = receiver_areas(builder().build());
     for (std::size_t p = 0; p < t.receivers(); ++p)
         for (std::size_t i = 0; areas[p] > 1e-6f && i < t.dimension();
-             ++i) // at the poles some have none but by rounding
+             ++i) // at the poles, some areas are nonzero only by rounding
             ASSERT_NEAR(t.vector(p)[i], moved.vector(p)[i], tolerance) << p << " " << i;
 }
 
@@ -116,8 +118,8 @@ TEST(HardCase, OpenFloorsStayOpenAtEveryDistanceFromTheOrigin) {
         }
 }
 
-/// A sphere over a floor, `size` m in all, that stands `distance` m from the middle of a world of that
-/// extent.
+/// Returns a sphere over a floor with a total size of `size` m, at `distance` m from the middle of a world of
+/// that extent.
 Scene small_object_far_out(float size, float distance) {
     Scene scene = SceneBuilder()
                       .floor({0, 0, 0}, 1, 8)
@@ -147,7 +149,7 @@ TEST(HardCase, SmallObjectsFarOutKeepTheirShadows) {
 TEST(HardCase, ObjectsTooSmallForTheirDistanceAreNamed) {
     for (const auto& [size, distance, too_small] :
          {std::tuple{0.04f, 6000.0f, true}, {0.04f, 60.0f, false}, {1.0f, 6000.0f, false}}) {
-        // The far triangle is an object of its own, far larger than its rounding.
+        // The far triangle is a separate object, far larger than its rounding.
         Scene scene = small_object_far_out(size, distance);
         Primitive mark = scene.primitives[0];
         mark.node_name = "mark";
@@ -202,7 +204,7 @@ TEST(HardCase, ANearlyBlockedReceiverKeepsItsLastLight) {
     const Transfer t =
         test::traced_at(TraceScene(scene), glm::vec3(0), {0, 1, 0}, {.order = 1, .rays = 1 << 16});
     // (1/pi) ∫ cos over the slit = (1/pi) ∫∫ dx dz / (1 + x² + z²)², x in ±0.005, z in ±50: 0.01/pi · pi/2,
-    // and what lies beyond the roof's edge 50 away: about (1/50)².
+    // plus the part beyond the roof's edge at distance 50: about (1/50)².
     EXPECT_NEAR(t.vectors[0] / 0.28209479, 0.01 / 2 + 4e-4, 5e-4);
 }
 

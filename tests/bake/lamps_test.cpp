@@ -52,7 +52,7 @@ std::vector<glm::vec3> lit_by_lamps(const Scene& scene, const BakeOptions& optio
     return exit_radiance(transfer, constant_light(options.order, glm::vec3(0)));
 }
 
-/// Calls `check` with the position of every receiver and what `expected` gives there.
+/// Calls `check` with the position of every receiver and the result of `expected` there.
 void expect_radiance(const Scene& scene, const BakeOptions& options,
                      const std::function<glm::dvec3(const glm::dvec3&)>& expected, double tolerance) {
     const auto lit = lit_by_lamps(scene, options);
@@ -65,7 +65,7 @@ void expect_radiance(const Scene& scene, const BakeOptions& options,
             largest = std::max(largest, right[c]);
         }
     }
-    EXPECT_GT(largest, 10 * tolerance); // or nothing was asked
+    EXPECT_GT(largest, 10 * tolerance); // otherwise the test checks nothing
 }
 
 /// R = I cos / (pi d²).
@@ -80,7 +80,7 @@ TEST(Lamps, OfPointsFallOffByTheSquare) {
         1e-5);
 }
 
-/// A sphere lights what is outside of it as its middle does.
+/// A sphere lights points outside it like a point light at its center.
 TEST(Lamps, OfRadiusAreAsBrightAsPoints) {
     BakeOptions options = lamp_options();
     options.lamps.radius = 0.4;
@@ -107,8 +107,8 @@ TEST(Lamps, EndWhereTheirRangeEnds) {
         1e-5);
 }
 
-/// Full within the inner cone, nothing outside of the outer one, and between them the square of what rises
-/// evenly with the cosine.
+/// The intensity is full within the inner cone and zero outside the outer one; in between it is the square of
+/// a function linear in the cosine.
 TEST(Lamps, OfSpotsEndSoftlyAtTheirCone) {
     PunctualLight light = point("lamp", {0, 2, 0});
     light.kind = PunctualKind::spot;
@@ -140,7 +140,8 @@ TEST(Lamps, FarAwayLightEverythingAlike) {
         [](const glm::dvec3&) { return glm::dvec3(3 / (std::numbers::pi * std::sqrt(1.25))); }, 1e-5);
 }
 
-/// The shadow of a roof under a point: sharp, where the line to the light goes through the roof.
+/// The shadow of a roof under a point light is sharp, and starts where the line to the light passes through
+/// the roof.
 TEST(Lamps, CastShadows) {
     Scene scene = test::join(
         {SceneBuilder().floor({0, 0, 0}, 2, 8).build(), SceneBuilder().floor({0, 1, 0}, 0.61f, 1).build()});
@@ -228,7 +229,7 @@ TEST(Lamps, LightWhatStandsInTheirPlane) {
         }
 }
 
-/// A quarter of an emitter that is there to a quarter is seen, and nothing of one that is cut out.
+/// An emitter with opacity one quarter emits a quarter, and one that is cut out emits nothing.
 TEST(Lamps, ShineByAsMuchOfThemAsIsThere) {
     Scene scene = floor_with(SceneBuilder().floor({0, 1, 0}, 0.7f, 2).build(), glm::vec3(2), true);
     const auto whole = lit_by_lamps(scene, lamp_options());
@@ -260,21 +261,21 @@ Scene closed_room(int rows, const glm::vec3& color) {
     return room;
 }
 
-/// Within a closed ball of albedo rho whose wall shines, what falls on it is L (1 + rho + rho² ...).
+/// In a closed ball of albedo rho with an emissive wall, irradiance over pi is L (1 + rho + rho² ...).
 TEST(Lamps, FillAClosedRoomByAllBounces) {
     Scene ball = closed_room(24, glm::vec3(0.5f));
     ball.materials[0].emission.radiance = glm::vec3(3);
     BakeOptions options = lamp_options(kEndlessBounces);
     options.rays = options.lamps.rays = 1024;
     const Transfer transfer = bake(ball, options).baked.transfer;
-    ASSERT_EQ(transfer.layout.parts.size(), 1u); // no sky comes in
+    ASSERT_EQ(transfer.layout.parts.size(), 1u); // no sky light enters
     EXPECT_EQ(transfer.layout.parts[0].kind, PartKind::lamp);
     EXPECT_EQ(transfer.layout.parts[0].channels, 1);
     const auto lit = exit_radiance(transfer, constant_light(2, glm::vec3(1)));
     const std::vector<float> areas = receiver_areas(ball);
-    // Faces lean up to 5.3 degrees away from the plane of a vertex, and nothing comes from between: the share
-    // sin² of the light, 0.85 %, is missing before each bounce: 5.9 are left at least. Samples of 6 cos have
-    // a standard deviation of 1.73: 0.054 over 1024 that were not spread evenly.
+    // Faces tilt by up to 5.3 degrees from the plane of a vertex, and no light comes from the gap: the
+    // fraction sin² of the light, 0.85 %, is missing before each bounce, so at least 5.9 remain. Samples of 6
+    // cos have a standard deviation of 1.73: 0.054 over 1024 samples that are not stratified.
     for (std::size_t p = 0; p < lit.size(); ++p)
         if (areas[p] > 0) {
             EXPECT_LT(lit[p].x, 6.06f) << p;
@@ -370,7 +371,7 @@ TEST(Lamps, ThatCannotBeAreRefused) {
               std::string::npos);
 }
 
-/// Light that nothing takes away would grow without end.
+/// Light without absorption would grow without bound.
 TEST(Lamps, OfWhiteClosedRoomsAreRefusedButForANumberOfBounces) {
     Scene room = closed_room(12, glm::vec3(1));
     room.primitives[0].node_name = "White room";

@@ -1,4 +1,4 @@
-// Direct light apart from the rest: what each part carries, and that nothing is lost between them.
+// Tests the direct term separate from the indirect one: the content of each, and that their sum is complete.
 
 #include "prt/bake.h"
 #include "support/scene_builder.h"
@@ -48,12 +48,12 @@ TEST(BakedParts, AreThoseThatTheSceneNeeds) {
     EXPECT_EQ(kinds_of(colored), kBoth);
     EXPECT_EQ(colored.layout.parts[0].channels, 1);
     EXPECT_EQ(colored.layout.parts[1].channels, 3);
-    // Nothing else is there that light could bounce off.
+    // There is no other surface for light to bounce off.
     EXPECT_EQ(kinds_of(parts_of(test::SceneBuilder().floor({0, 0, 0}, 2, 4).build(), 2)), kDirectAlone);
 }
 
-/// Of a bounce one ray in four is followed, and direct light is that of all: the same rays as without
-/// bounces.
+/// Bounces follow one ray in four, while direct light uses all rays: they are equal to those of a bake
+/// without bounces.
 TEST(BakedParts, DirectLightIsThatOfABakeWithoutBounces) {
     const Scene scene = ball_over({0.9f, 0.2f, 0.1f});
     // The filter looks at all light.
@@ -69,7 +69,7 @@ TEST(BakedParts, DirectLightIsThatOfABakeWithoutBounces) {
     }
 }
 
-/// A closed white box with a hole: all that comes in is spread until R is 1, wherever it was first.
+/// A closed white box with a hole: all incoming light spreads until R is 1, independent of the first hit.
 TEST(BakedParts, OfAFurnaceAddUpToTheSky) {
     const Transfer both = parts_of(
         test::painted(test::SceneBuilder().bowl({0, 0, 0}, 1, 12, 3).build(), glm::vec3(1)), kEndlessBounces);
@@ -90,7 +90,8 @@ TEST(BakedParts, OfAFurnaceAddUpToTheSky) {
     EXPECT_LT(brightest, 0.9f);
 }
 
-/// Half of what falls on the front of a thin leaf comes from behind, red: direct light of three channels.
+/// Half of the light on the front of a thin leaf comes from behind and is red: direct light has three
+/// channels.
 TEST(BakedParts, DirectLightHasTheColorOfTheSheetThatItComesThrough) {
     Scene leaf = test::painted(test::SceneBuilder().floor({0, 0, 0}, 1, 2).build(), {0.8f, 0.4f, 0.2f}, true);
     leaf.materials[0].transmission.factor = 0.5f;
@@ -105,7 +106,8 @@ TEST(BakedParts, DirectLightHasTheColorOfTheSheetThatItComesThrough) {
         EXPECT_LT(glm::distance(r, expected), 2e-3f);
 }
 
-/// All light of a medium has been inside of it: none of it is direct, and what lies beside it keeps its own.
+/// All light of a medium has passed through it: none of it is direct, and objects next to it keep their
+/// direct light.
 TEST(BakedParts, LightThroughMediaIsIndirect) {
     const Scene floor = test::painted(test::SceneBuilder().floor({0, 0, 0}, 2, 6).build(), glm::vec3(0.5f)),
                 ball =

@@ -1,6 +1,6 @@
-// What a driver makes of the baker's kernels: registers, occupancy and cycles, by
-// VK_KHR_pipeline_executable_properties. Runs nothing, so that AMD's driver serves on hardware that is not
-// there. Prints JSON: {kernel: {statistic: number}}. See tests/benchmarks/gpu_static.py.
+// Reports a driver's statistics of the baker's kernels: registers, occupancy and cycles, by
+// VK_KHR_pipeline_executable_properties. Runs no kernel, so that AMD's driver works for hardware that is not
+// present. Prints JSON: {kernel: {statistic: number}}. See tests/benchmarks/gpu_static.py.
 
 #include "shared_bake.h"
 

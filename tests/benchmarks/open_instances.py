@@ -9,7 +9,7 @@ import argparse
 import json
 import struct
 
-NUMBERS = 52  # of an instance, a byte each; the open has zeros
+NUMBERS = 52  # bytes of an instance, one per number; an unoccluded instance has zeros
 
 
 def main():

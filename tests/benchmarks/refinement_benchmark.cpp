@@ -1,7 +1,6 @@
-// How many vertices a scene needs for an error over its surface: triangles split where light needs it,
-// against all of them split in four, again and again. Judged by points of their own.
-//
-// refinement_benchmark SCENE [TARGET [RAYS [LEVELS]]]
+// Measures the number of vertices that a scene needs for an error over its surface: triangles split where
+// light requires it, against repeated splits of all triangles into four. Evaluated at independent points.
+//   refinement_benchmark SCENE [TARGET [RAYS [LEVELS]]]
 
 #include "prt/bake.h"
 #include "prt/refine.h"

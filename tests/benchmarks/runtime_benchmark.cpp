@@ -1,5 +1,5 @@
-// How fast the runtime library is: runtime_benchmark [--benchmark_filter=REGEX]. One thread unless said
-// otherwise.
+// Measures the speed of the runtime library: runtime_benchmark [--benchmark_filter=REGEX]. Uses one thread
+// unless noted.
 
 #include "prt/constant_former.h"
 #include "prt/dering.h"
@@ -120,7 +120,7 @@ void product(State& state) {
 }
 BENCHMARK(product)->ArgName("order")->Arg(3)->Arg(6);
 
-/// A sun over a sky: what a new sky costs once.
+/// A sun over a sky: cost of a new sky.
 void dering(State& state) {
     const int order = static_cast<int>(state.range(0));
     const Light light = sum(directional_light(order, glm::normalize(glm::vec3(1, 2, 3)), glm::vec3(3)),
@@ -151,7 +151,7 @@ ClusteredTransfer clustered(int clusters, int components, const TransferLayout& 
     return t;
 }
 
-/// Four channels: grey direct light, and three of what bounced. Lamps have three numbers each.
+/// Four channels: grey direct light, and three of indirect light. Lamps have three channels each.
 void constants(State& state) {
     const auto channels = static_cast<int>(state.range(0));
     TransferLayout layout = channels == 4
@@ -232,8 +232,8 @@ BENCHMARK(relight_lightmap)
     ->Unit(benchmark::kMillisecond)
     ->UseRealTime();
 
-/// 21 025 probes of sixteen bytes: 256 clusters of twelve directions. Lit by a sky of order 6, direct light
-/// and bounces apart.
+/// Returns 21 025 probes of sixteen bytes: 256 clusters of twelve directions, lit by a sky of order 6, with
+/// separate direct and indirect terms.
 CompressedVolume volume_of() {
     CompressedVolume volume{{.spacing = 1, .size = {7, 7, 6}, .bricks = {}}, 3, {}, {}};
     for (int i = 0; i < 7 * 7 * 6; ++i)
@@ -282,7 +282,7 @@ BENCHMARK(relight_volume)
     ->Unit(benchmark::kMillisecond)
     ->UseRealTime();
 
-/// At places all over, one by one.
+/// Looks up positions distributed over the volume, one by one.
 void look_up_volume(State& state) {
     const CompressedVolume volume = volume_of();
     const VolumeLookup lookup(volume.grid, volume.sights);
@@ -298,7 +298,7 @@ void look_up_volume(State& state) {
 }
 BENCHMARK(look_up_volume);
 
-/// What memory can do: a copy that no cache holds, bytes read and written.
+/// Measures memory bandwidth: a copy larger than any cache, bytes read and written.
 void plain_copy(State& state) {
     constexpr std::size_t kBytes = 512u << 20;
     std::vector<std::byte> from(kBytes), to(kBytes);

@@ -41,7 +41,7 @@ void measure(const char* path) {
     const std::size_t receivers = given.words.size() / static_cast<std::size_t>(given.layout.words);
     const WordCode code =
         encode_words(given.layout, earlier_neighbors(given.triangles, receivers), given.words);
-    double neighbor_seconds = 1e9, seconds = 1e9; // the fastest of many: other programs run, too
+    double neighbor_seconds = 1e9, seconds = 1e9; // minimum of many runs, because of other programs
     for (int i = 0; i < 50; ++i) {
         Stopwatch watch;
         const auto neighbors = earlier_neighbors(given.triangles, receivers);

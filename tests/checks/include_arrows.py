@@ -34,12 +34,12 @@ PARTS = {
     "comparison": ("examples/comparison", "viewer runtime image scene render gl shader bake compress fit",
                    "glm fmt CLI nlohmann epoxy"),
 }
-# What a folder or file may include although the table forbids it.
+# Includes that are allowed although the table forbids them.
 EXCEPTIONS = {
     # The viewer's and the GL renderer's buffers have the layout of the shaders, which is installed for games, too.
     ("examples/viewer", "shared_layout.h"), ("examples/viewer", "shared_viewer.h"),
     ("examples/game", "shared_layout.h"),
-    # Which tracer is made is decided in one place.
+    # One file decides which tracer is created.
     ("bake/trace/make_tracer.cpp", "bake_gpu"),
 }
 PACKAGES = {  # how their headers begin

@@ -1,4 +1,4 @@
-// Occlusion through the program: what is written, and what is refused.
+// Tests ambient occlusion through the program: written data and rejected input.
 
 #include "demanding_file.h"
 #include "prt/gltf.h"
@@ -24,7 +24,7 @@ protected:
         arguments.insert(arguments.end(), options.begin(), options.end());
         return prt(arguments);
     }
-    /// Of what was written. Nothing else that the file says is lost.
+    /// Returns the written scene. All other content of the file is preserved.
     Scene written() const {
         GltfDocument document = load_gltf(folder / "o.glb");
         EXPECT_NE(validator_errors(folder / "o.glb"), 1);
@@ -128,7 +128,7 @@ TEST_F(Occlusion, OfEachObjectHasAMaterialOfItsOwn) {
     EXPECT_EQ(read_json(folder / "o.json")["textures"], 2);
     const GlbFile file = read_glb(folder / "o.glb");
     std::vector<std::size_t> textures;
-    for (const auto& mesh : file.json["meshes"]) // the image beside the file is of one primitive of each
+    for (const auto& mesh : file.json["meshes"]) // the separate image belongs to one primitive of each mesh
         textures.push_back(file.json["materials"][mesh["primitives"][1]["material"].get<std::size_t>()]
                                     ["occlusionTexture"]["index"]
                                         .get<std::size_t>());

@@ -45,7 +45,7 @@ TEST_F(BackSides, GetVerticesWhereLightReachesThem) {
     const Scene scene = extract_scene(document);
     const auto transfer = read_transfer(document, scene);
     ASSERT_TRUE(transfer);
-    double above = 0, below = 0; // what the roof sees of a uniform sky
+    double above = 0, below = 0; // visible fraction of a uniform sky above and below the roof
     const VertexArray& vertices = scene.vertex_arrays[0];
     for (std::size_t v = 0; v < vertices.size(); ++v)
         if (vertices.positions[v].y > 0.1f)
@@ -54,7 +54,7 @@ TEST_F(BackSides, GetVerticesWhereLightReachesThem) {
     EXPECT_GT(above, 1.5 * below);
     EXPECT_GT(below, 0);
 
-    // The file is a scene like any other: the same comes out of it, and it compresses.
+    // The file is an ordinary scene: baking it again changes nothing, and it can be compressed.
     const Outcome again = bake("b.glb", "again.glb");
     ASSERT_EQ(again.status, 0) << again.err;
     EXPECT_EQ(read_file(folder / "again.glb"), read_file(folder / "b.glb"));
@@ -107,7 +107,7 @@ TEST_F(BackSides, AreRefinedAlike) {
         EXPECT_EQ(sum, 0);
 }
 
-/// A variant that culls backs leaves the mesh as it is, also where flat normals split its vertices.
+/// A variant that culls back faces keeps the mesh unchanged, also if flat normals split its vertices.
 TEST_F(BackSides, StayWhereAVariantCullsThem) {
     GlbFile file = triangle_file();
     const std::size_t tent = file.accessor(
@@ -147,7 +147,7 @@ TEST_F(BackSides, HaveOcclusionOfTheirOwn) {
     EXPECT_NE(validator_errors(folder / "b.glb"), 1);
 }
 
-/// Both levels, and light of the same kinds.
+/// Both levels get back sides, with equal kinds of light.
 TEST_F(BackSides, AreThoseOfCoarserLevels) {
     GlbFile file = roof_file();
     file.json["meshes"].push_back(file.json["meshes"][0]);
@@ -164,7 +164,7 @@ TEST_F(BackSides, AreThoseOfCoarserLevels) {
     }
 }
 
-/// Nothing shades the underside of the roof where its own material stops no light, in texels, too.
+/// The underside of the roof is unshadowed if its material casts no shadow, also in texels.
 TEST_F(BackSides, SeeThroughWhatStopsNoLight) {
     scene_file(SceneBuilder().floor({0, 1, 0}, 1, 3).sphere({0, 1, 0}, 3, 8).build())
         .write(folder / "plain.glb");

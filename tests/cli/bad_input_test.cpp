@@ -14,7 +14,7 @@
 namespace prt::test {
 namespace {
 
-/// Expects a clean refusal that names `file`, with nothing new in the folder.
+/// Expects a rejection with one error line that names `file`, and no new file in the folder.
 void expect_refused(const Outcome& outcome, const std::string& file) {
     EXPECT_EQ(outcome.status, 1) << outcome.err;
     EXPECT_TRUE(outcome.err.starts_with("prt: error: ")) << outcome.err;
@@ -127,7 +127,7 @@ TEST_F(BadInput, UnsupportedExtensionIsNamed) {
               std::string::npos);
 }
 
-/// Where no driver of either kind is found.
+/// Runs bakes in an environment without any GPU driver.
 class WithoutGpu : public BadInput {
 protected:
     Outcome bake(std::vector<std::string> options) {
@@ -262,7 +262,7 @@ TEST_F(BadInput, CompressAndEvaluateWantABake) {
     expect_refused(prt({"evaluate", shipped, shipped}), shipped);
 
     GlbFile other = triangle_file();
-    other.json["nodes"][0]["scale"] = {1, 2, 3}; // moved as a whole it would be the same scene
+    other.json["nodes"][0]["scale"] = {1, 2, 3}; // a rigid motion would keep the scene equal
     other.write(folder / "other.glb");
     const std::string other_baked = (folder / "other_baked.glb").string();
     ASSERT_EQ(prt({"bake", (folder / "other.glb").string(), "-o", other_baked, "--rays", "4"}).status, 0);
@@ -320,7 +320,7 @@ protected:
         EXPECT_NE(outcome.err.find(wrong), std::string::npos) << outcome.err;
         EXPECT_EQ(outcome.err.find("json.exception"), std::string::npos) << outcome.err;
     }
-    /// With `value` at `place`; null: without what is there.
+    /// Expects an error if `place` in the JSON is replaced by `value`; null removes the member.
     void refuse_at(const std::string& place, const nlohmann::json& value, const std::string& wrong) {
         nlohmann::json changed = light;
         const nlohmann::json::json_pointer at(place);
@@ -387,7 +387,7 @@ TEST_F(BadInput, TheInputIsNeverTouched) {
     ASSERT_EQ(prt({"bake", scene.string(), "-o", out, "--rays", "4"}).status, 0);
     EXPECT_EQ(std::filesystem::last_write_time(scene), time);
     EXPECT_EQ(std::filesystem::file_size(scene), size);
-    // Nor in place, by another name of it, or by a link to it.
+    // The input is also protected by an equivalent path, or a link to it.
     std::filesystem::create_symlink("good.glb", folder / "link.glb");
     for (const std::string& same :
          {scene.string(), (folder / "." / "good.glb").string(), (folder / "link.glb").string()})

@@ -1,5 +1,5 @@
-// Files with lightmaps that are wrong: each is refused in one line that says what is, and what the JSON shows
-// of it is refused by the schemas of docs/format.md, too. And files that are right: by neither.
+// Tests files with invalid lightmaps: each is rejected with a one-line error, and invalid JSON is also
+// rejected by the schemas of docs/format.md. Valid files are accepted by both.
 
 #include "prt/image_file.h"
 #include "road.h"
@@ -20,13 +20,13 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// Who refuses it beside prt.
+/// Result of the schema; prt rejects all of these files.
 enum class Schema { refuses, takes };
 
 struct Damage {
     const char* name;
     std::function<void(GlbFile&)> change;
-    const char* message; ///< part of what the user is told
+    const char* message; ///< part of the error message
     Schema schema = Schema::takes;
 };
 
@@ -40,7 +40,7 @@ Json& place(GlbFile& file) {
     return file.json["meshes"][0]["primitives"][0]["extensions"]["PRTKIT_lightmap"];
 }
 
-/// Number `i` of those that buffer view raw/`name` holds is another.
+/// Replaces number `i` in buffer view raw/`name`.
 template <class Number>
 void put(GlbFile& file, const char* name, std::size_t i, Number value) {
     const Json& view =
@@ -88,7 +88,7 @@ GlbFile shipped_file(bool alike = false) {
     return with_lightmap(mapped_floor(2), lightmap);
 }
 
-/// Of the maps themselves, whatever they hold.
+/// Returns damages to the maps, independent of their content.
 std::vector<Damage> damages_to_maps() {
     constexpr Schema kRefuses = Schema::refuses;
     return {

@@ -1,3 +1,5 @@
+// Builds a file with uncommon but valid glTF features.
+
 #include "demanding_file.h"
 
 namespace prt::test {

@@ -4,7 +4,8 @@
 
 namespace prt::test {
 
-/// A file that gives writers work: instances, missing normals, strips, an image beside it, sparse data.
+/// Returns a file that is demanding for writers: instances, missing normals, strips, an image in a separate
+/// file, sparse data.
 GlbFile demanding_file();
 
 } // namespace prt::test

@@ -1,4 +1,4 @@
-// What somebody meets who has never used the program: one line that helps, before any work is done.
+// Tests the experience of a first-time user: one helpful line, before any work starts.
 
 #include "program.h"
 #include "prt/image_file.h"
@@ -71,7 +71,7 @@ protected:
 };
 
 TEST_F(FirstHour, OutputsAreCheckedBeforeWorkBegins) {
-    // A bake of so many rays would take hours: that it ends at once says that nothing was baked.
+    // A bake with this number of rays would take hours: an immediate end shows that nothing was baked.
     const std::vector<std::string> bake = {"bake", at("t.glb"), "--rays", "16777216"};
     const auto with = [&](std::vector<std::string> more) {
         more.insert(more.begin(), bake.begin(), bake.end());
@@ -176,8 +176,8 @@ TEST_F(FirstHour, TheVerdictFallsWithTheErrorAndItsFiguresAreExplained) {
     };
     const std::string mean = verdict_of("1", "0"), all = verdict_of("1", "9");
     EXPECT_NE(mean.find("visibly wrong"), std::string::npos) << mean; // every vertex has the mean's light
-    EXPECT_NE(all.find("looks the same as the bake"), std::string::npos) << all; // nothing is left out
-    EXPECT_NE(all.find("lit_rms: relative L2"), std::string::npos) << all;       // what the columns are
+    EXPECT_NE(all.find("looks the same as the bake"), std::string::npos) << all; // all data are included
+    EXPECT_NE(all.find("lit_rms: relative L2"), std::string::npos) << all;       // the meaning of the columns
 }
 
 TEST_F(FirstHour, SmallMeshesAreToldThatSizesAreFitted) {

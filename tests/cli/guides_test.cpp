@@ -1,4 +1,4 @@
-// Models with guides through the program, and by decoders in another language.
+// Tests models with predictors through the program, and by decoders in other languages.
 
 #include "program.h"
 #include "prt/gltf.h"
@@ -18,7 +18,7 @@
 namespace prt::test {
 namespace {
 
-/// Coded bases of three clusters with rows for both guides.
+/// Returns coded bases of three clusters with rows for both predictors.
 ClusteredBases coded_bases(std::mt19937& random) {
     ClusteredBases bases;
     bases.layout = {3, {{PartKind::direct, 1}, {PartKind::indirect, 3}}};
@@ -53,7 +53,7 @@ ClusteredTransfer guided_transfer(const Scene& scene) {
     return t;
 }
 
-/// b.glb holds the vectors that the clusters of c.glb stand for.
+/// b.glb contains the vectors decoded from the clusters of c.glb.
 class Guided : public testing::Test {
 protected:
     void SetUp() override {
@@ -78,7 +78,7 @@ protected:
     }
 
     TemporaryFolder folder;
-    glm::dvec3 origin{0}; ///< of the guide of positions
+    glm::dvec3 origin{0}; ///< origin of the position predictor
 };
 
 TEST_F(Guided, ModelsAreDecodedFromTheFormatPage) {

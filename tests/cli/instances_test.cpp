@@ -1,5 +1,5 @@
-// Instances that share transfer, through the program: baked, compressed, told of, measured and drawn; and
-// what is refused.
+// Tests instances that share transfer through the program: baked, compressed, reported, evaluated and drawn;
+// and rejected input.
 
 #include "prt/instances_gltf.h"
 #include "prt/light.h"
@@ -31,7 +31,7 @@ protected:
             arguments.insert(arguments.end(), {"--rays", "32"});
         return prt(arguments);
     }
-    /// Boxes on no ground: `places` of their middles. Sides are a metre long.
+    /// Returns boxes without ground, with middles at `places`. Sides are a metre long.
     GlbFile boxes(const std::vector<float>& places) const {
         GlbFile file;
         std::vector<float> positions, normals;
@@ -140,7 +140,7 @@ TEST_F(SharedInstances, ThoseThatErrTooMuchAreBakedAlone) {
 }
 
 TEST_F(SharedInstances, AnInstanceInTheOpenHasFactorOne) {
-    boxes({0, 0, 0, 0, 1000, 0}).write(folder / "boxes.glb"); // none of the rays of so few meets the other
+    boxes({0, 0, 0, 0, 1000, 0}).write(folder / "boxes.glb"); // with few rays none of them hits the other box
     ASSERT_EQ(bake("boxes.glb", "shared.glb", "shared", {"--bounces", "2", "--json", at("bake.json")}).status,
               0);
     EXPECT_EQ(read_json(folder / "bake.json")["instances"]["in_the_open"], 2);
@@ -157,7 +157,7 @@ TEST_F(SharedInstances, NeighboursTakeLightFromEachOther) {
     const std::vector<FileInstance> instances = instances_of("shared.glb");
     ASSERT_EQ(instances.size(), 2u);
     const auto above = [](const FileInstance& instance) {
-        // The mean over the upper half, in the middle: of √4π Y_1-1 that is -√3 / 2, of band 2 nothing.
+        // The mean over the upper half, in the middle: √4π Y_1-1 contributes -√3 / 2, band 2 nothing.
         const auto& passing = instance.placed.factors.passing;
         return passing[0].w - 0.5f * std::sqrt(3.0f) * passing[1].w;
     };
@@ -183,12 +183,12 @@ TEST_F(SharedInstances, WhiteNeighboursGiveBackAtMostWhatComes) {
         EXPECT_LT(radiance.x, 1.001f); // rounding of a mesh's transfer to float16
         sum += static_cast<double>(radiance.x);
     }
-    // Least squares gives some vertices more than 1, up to 1.08 here; what holds the brightest to 1 takes
-    // some from others, and endless bounces of white boxes take it more than once.
+    // Least squares results in more than 1 at some vertices, up to 1.08 here; the limit of 1 for the
+    // brightest reduces others, and infinite bounces in white boxes apply it repeatedly.
     EXPECT_GT(sum / static_cast<double>(scene.receivers()), 0.92);
 }
 
-/// Its errors are those of factors, not of rays, of which a sample has 16 and 128.
+/// Reported errors are those of factors, not of rays; samples have 16 and 128 rays.
 TEST_F(SharedInstances, ErrorsAreToldAlikeByFewRaysAndByMany) {
     make("forest:24");
     double median[2];
@@ -221,7 +221,7 @@ TEST_F(SharedInstances, KeepTheirLimitUnderGivenSkies) {
         EXPECT_GE(lit[i], soft[i]);
         more += lit[i] > 1.05 * soft[i] ? 1 : 0;
     }
-    EXPECT_GE(more, 3u); // its sun makes shadows that factors do not hold
+    EXPECT_GE(more, 3u); // the sun casts shadows that factors cannot represent
     std::vector<double> sorted = lit;
     std::ranges::sort(sorted);
     const nlohmann::json kept =
@@ -231,7 +231,7 @@ TEST_F(SharedInstances, KeepTheirLimitUnderGivenSkies) {
     EXPECT_NE(bake("forest.glb", "shared.glb", "shared", {"--suns", "auto"}).status, 0);
 }
 
-/// A mesh of instances that plain nodes draw, too, beside and below them.
+/// A mesh of instances that plain nodes also draw, as siblings and as children.
 TEST_F(SharedInstances, ArePlainNodesAndInstancesAlike) {
     for (const bool below : {false, true}) {
         GlbFile file = boxes({0, 0, 0, 3, 0, 0});
@@ -253,7 +253,7 @@ TEST_F(SharedInstances, ArePlainNodesAndInstancesAlike) {
     }
 }
 
-/// What is baked alone may stand elsewhere in the file: it is compared all the same.
+/// Instances that are baked separately may be at another position in the file, and are still compared.
 TEST_F(SharedInstances, OfWhichSomeAreBakedAloneAreCompared) {
     boxes({0, 0, 0, 0, 1.2f, 0, 40, 0, 0, 80, 0, 0}).write(folder / "boxes.glb");
     ASSERT_EQ(bake("boxes.glb", "own.glb", "own", {"--rays", "256"}).status, 0);
@@ -361,7 +361,7 @@ TEST_F(SharedInstances, DamagedFactorsAreRefused) {
         file.write(folder / "damaged.glb");
         const Outcome outcome = prt({"info", at("damaged.glb")});
         EXPECT_NE(outcome.err.find("damaged.glb: "), std::string::npos) << outcome.err;
-        // What compresses it does not pass the damage on.
+        // Compression does not copy the damage to its output.
         EXPECT_EQ(prt({"compress", at("damaged.glb"), "-o", at("passed_on.glb")}).status, 1);
         EXPECT_FALSE(std::filesystem::exists(folder / "passed_on.glb"));
         return outcome.status;

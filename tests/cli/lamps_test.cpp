@@ -1,4 +1,4 @@
-// Lamps of a scene on the road from the file to what is lit.
+// Tests lamps of a scene through the pipeline, from the file to lit vertices.
 
 #include "program.h"
 #include "prt/gltf.h"
@@ -22,7 +22,7 @@ namespace {
 
 constexpr float kHeight = 1.5f;
 
-/// A floor under a white lamp of intensity 2, and one of a name of its own beside it.
+/// Returns a floor under a white lamp of intensity 2, and a second lamp with another name.
 GlbFile floor_with_lamps() {
     GlbFile file = scene_file(SceneBuilder().floor({0, 0, 0}, 1, 6).build());
     file.json["extensionsUsed"].push_back("KHR_lights_punctual");
@@ -63,7 +63,7 @@ protected:
                 names.push_back(part["name"]);
         return names;
     }
-    /// Vertices of what was lit, without a sky.
+    /// Returns the lit vertices, without a sky.
     VertexArray lit(const std::string& model, const std::string& strengths) const {
         const Outcome outcome = prt({"relight", at(model), "-o", at("lit.glb"), "--lamps", strengths});
         EXPECT_EQ(outcome.status, 0) << outcome.err;
@@ -172,7 +172,7 @@ TEST_F(LampsOnTheRoad, AloneHaveNoBudgetOfTheSky) {
     EXPECT_NE(outcome.err.find("none of it reaches this scene"), std::string::npos) << outcome.err;
 }
 
-// White would make a lamp of every triangle.
+// White would turn every triangle into a lamp.
 TEST_F(LampsOnTheRoad, WhoseTexturesAreMissingAreDark) {
     GlbFile file = scene_file(SceneBuilder().floor({0, 0, 0}, 1, 6).build());
     const std::array<std::byte, 4> damaged{};
@@ -233,7 +233,7 @@ TEST_F(LampsOnTheRoad, AloneLightAPicture) {
     EXPECT_NEAR(report["exposure_stops"].get<double>(), 0, 1);
 }
 
-/// An older version wrote them, and gave them no light until suns shone by them.
+/// An older version wrote these lamps, without light of their suns.
 TEST_F(LampsOnTheRoad, ThatAreSunsOfAnOlderVersionAreRefused) {
     GlbFile file = read_glb(folder / "b.glb");
     file.json["extensions"]["PRTKIT_transfer"]["parts"].back()["towards"] = {0, 1, 0};

@@ -1,4 +1,5 @@
-// Levels of detail through the program: baked, compressed, told of, measured and drawn; and what is refused.
+// Tests levels of detail through the program: baked, compressed, reported, evaluated and drawn; and rejected
+// input.
 
 #include "prt/levels.h"
 #include "road.h"
@@ -87,7 +88,7 @@ TEST_F(LevelsOfDetail, GoAllTheRoad) {
     const nlohmann::json errors = read_json(folder / "errors.json")["levels"];
     ASSERT_EQ(errors.size(), 2u);
     EXPECT_NEAR(errors[0]["baked_relative_l2"], levels["by_level"][0]["relative_l2"],
-                1e-4); // float16 at most
+                1e-4); // rounding of float16 at most
     EXPECT_LT(errors[0]["shipped_relative_l2"], 0.1);
     EXPECT_LT(errors[1]["lit_rms"], 0.2);
     ASSERT_EQ(prt({"info", at("shipped.glb"), "--json", at("info.json")}).status, 0);

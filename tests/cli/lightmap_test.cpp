@@ -1,4 +1,4 @@
-// Lightmaps through the program: baked, compressed, told of and drawn; and what is refused.
+// Tests lightmaps through the program: baked, compressed, reported and drawn; and rejected input.
 
 #include "prt/image_file.h"
 #include "prt/lightmap_file.h"
@@ -50,8 +50,8 @@ Scene cube() {
     return builder.build();
 }
 
-// Faces of which the neighbours touch each cost a few rays more, not a thousand. Each block is a node: in one
-// mesh two faces at one place would be the sides of a wall.
+// Faces that touch their neighbours cost a few rays more each, not a thousand. Each block is a node: in one
+// mesh, two faces at one position would be the sides of a wall.
 TEST_F(Lightmaps, OfBlocksThatTouchTakeTheRaysThatWereAsked) {
     GlbFile file = scene_file(cube());
     file.json["nodes"] = nlohmann::json::array();
@@ -65,7 +65,7 @@ TEST_F(Lightmaps, OfBlocksThatTouchTakeTheRaysThatWereAsked) {
     ASSERT_EQ(baked.status, 0) << baked.err;
     const nlohmann::json report = read_json(folder / "b.json");
     EXPECT_LT(report["rays"].get<double>(), 1.2 * 64 * report["texels_measured"].get<double>());
-    EXPECT_GT(report["texels_sealed"], 10000); // of 180 000
+    EXPECT_GT(report["texels_sealed"], 10000); // out of 180 000
 }
 
 TEST_F(Lightmaps, GoAllTheRoad) {
@@ -159,7 +159,7 @@ TEST_F(Lightmaps, LeaveNothingBehindWhereVerticesAreBakedAgain) {
     EXPECT_EQ(validator_errors(folder / "again.glb"), 0);
 }
 
-// Receivers are texels, of which there are fewer than vertices: nothing may look them up by vertex.
+// Receivers are texels, and there are fewer of them than vertices: code must not index them by vertex.
 TEST_F(Lightmaps, ShowSunsWhereVerticesAreMoreThanTexels) {
     GlbFile floor = mapped_floor(60);
     floor.json["meshes"][0]["primitives"].erase(1);

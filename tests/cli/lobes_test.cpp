@@ -1,4 +1,4 @@
-// prt lobes: transfer that turns with a skin, and what is refused.
+// Tests prt lobes: transfer that rotates with a skin, and rejected input.
 
 #include "prt/image_file.h"
 #include "prt/lobe_gltf.h"
@@ -23,7 +23,7 @@ protected:
         options.insert(options.begin(), {"lobes", at(model), "-o", at("out.glb")});
         return prt(options);
     }
-    /// One line that says why, and no file.
+    /// Expects a one-line error with the reason, and no output file.
     void expect_refusal(const char* model, const std::string& why, std::vector<std::string> options = {}) {
         const Outcome outcome = lobes(model, std::move(options));
         EXPECT_EQ(outcome.status, 1);
@@ -67,8 +67,8 @@ TEST_F(LobesCommand, GivesTheSameBytesForAnyNumberOfThreads) {
     EXPECT_EQ(read_glb(folder / "out.glb").binary, read_glb(folder / "one.glb").binary);
 }
 
-// Lobes of the pose of the file alone, rendered beside a bake of it, under light from one side. What order 4
-// and two lobes leave out and 3 % of noise stay far below what shadows do.
+// Compares rendered lobes of the file's only pose with its bake, under light from one side. The errors of
+// order 4 and two lobes, and 3 % of noise, are far below the effect of shadows.
 TEST_F(LobesCommand, AreRenderedInThePoseOfTheFile) {
     GlbFile still = read_glb(folder / "figure.glb");
     auto& animation = still.json["animations"][0];

@@ -1,4 +1,4 @@
-// Commands that take minutes: ended by Ctrl-C, or refused before they begin.
+// Tests commands that take minutes: stopped by Ctrl-C, or rejected before they start.
 
 #include "road.h"
 
@@ -12,7 +12,7 @@
 namespace prt::test {
 namespace {
 
-/// A bake, or another command, that takes minutes.
+/// A command that takes minutes.
 class LongWork : public Road, public testing::WithParamInterface<std::vector<const char*>> {};
 INSTANTIATE_TEST_SUITE_P(Phases, LongWork,
                          testing::Values(std::vector<const char*>{"--rays", "1000000"},
@@ -25,7 +25,7 @@ INSTANTIATE_TEST_SUITE_P(Phases, LongWork,
                                          std::vector<const char*>{"--rays", "1", "--subsurface",
                                                                   "1,1,1,0,0,0", "--bounces", "inf"}));
 
-/// Whether the process has said what becomes of SIGINT.
+/// True if the process has set a handler for SIGINT.
 bool minds_interrupts(pid_t process) {
     std::ifstream status("/proc/" + std::to_string(process) + "/status");
     for (std::string line; std::getline(status, line);)
@@ -41,7 +41,7 @@ TEST_P(LongWork, IsEndedByCtrlCAndLeavesNothing) {
     const pid_t child = fork();
     if (child == 0) {
         std::freopen("/dev/null", "w", stderr);
-        setenv("ASAN_OPTIONS", "detect_leaks=0", 1); // what is cut short has not cleaned up
+        setenv("ASAN_OPTIONS", "detect_leaks=0", 1); // a terminated process does not free its memory
         std::vector<const char*> arguments = {PRT_PROGRAM, "bake", scene.c_str(), "-o", output.c_str()};
         arguments.insert(arguments.end(), GetParam().begin(), GetParam().end());
         arguments.push_back(nullptr);
@@ -49,7 +49,7 @@ TEST_P(LongWork, IsEndedByCtrlCAndLeavesNothing) {
         _exit(127);
     }
     for (int waited = 0; waited < 3000 && !minds_interrupts(child);
-         ++waited) // a busy machine takes seconds to begin
+         ++waited) // a busy machine needs seconds to start
         std::this_thread::sleep_for(std::chrono::milliseconds(20));
     std::this_thread::sleep_for(std::chrono::milliseconds(1500));
     kill(child, SIGINT);

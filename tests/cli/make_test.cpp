@@ -1,4 +1,4 @@
-// prt make and prt evaluate --budget, from the command line to the file.
+// Tests prt make and prt evaluate --budget, from the command line to the file.
 
 #include "road.h"
 #include "support/glb_file.h"
@@ -14,7 +14,7 @@ std::string bytes_of(const std::filesystem::path& path) {
     return {std::istreambuf_iterator<char>(file), {}};
 }
 
-/// The arguments of a line that prt has printed, whose paths have no spaces.
+/// Returns the arguments of a printed command line; its paths contain no spaces.
 std::vector<std::string> arguments_of(const std::string& line) {
     std::istringstream words(line);
     std::vector<std::string> arguments{std::istream_iterator<std::string>(words), {}};
@@ -47,7 +47,7 @@ TEST_F(Make, KeepsTheErrorAndSaysHowToDoTheSameByHand) {
     EXPECT_TRUE(bytes_of(folder / "b.glb") == baked);
     EXPECT_TRUE(bytes_of(folder / "s.glb") == shipped);
 
-    // What was promised, measured by the other command: a bake more, and other points' paths are the same.
+    // Checks the guarantee with the other command: it needs one more bake, while points and paths are equal.
     const Outcome evaluated = prt({"evaluate", at("b.glb"), at("s.glb"), "--budget", "--lights",
                                    at("sky.exr"), "--json", at("e.json"), "--html", at("e.html")});
     ASSERT_EQ(evaluated.status, 0) << evaluated.err;
@@ -100,7 +100,7 @@ TEST_F(Road, RefusesBudgetsOfWhatPathsCannotTell) {
     EXPECT_NE(medium.err.find("comes out of a medium"), std::string::npos) << medium.err;
     EXPECT_EQ(std::count(medium.err.begin(), medium.err.end(), '\n'), 1) << medium.err;
     EXPECT_EQ(prt({"evaluate", at("b.glb"), "--budget", "--rotations", "4"}).status, 2);
-    EXPECT_EQ(prt({"make", at("t.glb"), "-o", at("s.glb")}).status, 2); // under what lights?
+    EXPECT_EQ(prt({"make", at("t.glb"), "-o", at("s.glb")}).status, 2); // lights are required
 }
 
 } // namespace

@@ -1,4 +1,4 @@
-// prt ao --volume: what moving parts block, and what is refused.
+// Tests prt ao --volume: occlusion by moving parts, and rejected input.
 
 #include "prt/gltf.h"
 #include "prt/occluder_gltf.h"
@@ -29,7 +29,7 @@ TEST_F(OccluderCommand, WritesVolumesAndSaysHowFarTheyAreOff) {
     EXPECT_EQ(read_occluders(load_gltf(folder / "out.glb")).size(), figures["parts"]);
     EXPECT_GT(figures["floor_mean_blocked"], figures["floor_mean_error"]);
     EXPECT_LT(figures["mean_error"], 0.05);
-    // The rest of the road leaves them where they are.
+    // Later commands keep the occluders.
     ASSERT_EQ(prt({"bake", at("out.glb"), "-o", at("baked.glb"), "--rays", "8", "--order", "2"}).status, 0);
     EXPECT_EQ(read_occluders(load_gltf(folder / "baked.glb")).size(), figures["parts"]);
     const Outcome info = prt({"info", at("baked.glb")});

@@ -1,5 +1,5 @@
-// What the program writes and how it ends: arguments that cannot be, streams that are closed or full, names
-// that are no files, text that a terminal would act on, runs that are killed or cancelled.
+// Tests output and exit of the program: invalid arguments, closed or full streams, invalid file names, text
+// with control sequences, killed or cancelled runs.
 
 #include "program.h"
 #include "prt/image_file.h"
@@ -13,7 +13,7 @@
 #include <fstream>
 #include <iterator>
 
-#ifndef __has_feature // gcc, which knows no sanitizers here
+#ifndef __has_feature // gcc, where this test assumes no sanitizers
 #define __has_feature(name) 0
 #endif
 
@@ -79,7 +79,7 @@ TEST_F(Output, StandardStreamsThatAreClosedOrFullShowInTheStatus) {
     for (const char* closed : {">&-", ">/dev/full", ">&- 2>&- <&-", ">/dev/full 2>/dev/full"}) {
         const Outcome outcome = shell(bake("--json out.json " + std::string(closed)));
         EXPECT_EQ(outcome.status, 1) << closed << outcome.err;
-        EXPECT_EQ(folder.files(), 1u) << closed; // nothing of what was to be written
+        EXPECT_EQ(folder.files(), 1u) << closed; // none of the outputs exists
     }
     for (const char* closed : {"2>&-", "2>/dev/full", "<&- 2>&-"}) {
         EXPECT_EQ(shell(bake(closed)).status, 0) << closed;
@@ -101,7 +101,7 @@ TEST_F(Output, StreamsAreWrittenToAndStay) {
     const Outcome outcome = shell(PRT_PROGRAM " info good.glb --json /dev/stdout >both && cat both");
     EXPECT_EQ(outcome.status, 0) << outcome.err;
     EXPECT_TRUE(std::filesystem::is_symlink("/dev/stdout"));
-    const std::size_t json = outcome.out.find("\n{\n"); // behind what is printed
+    const std::size_t json = outcome.out.find("\n{\n"); // after the printed text
     ASSERT_NE(json, std::string::npos) << outcome.out;
     EXPECT_TRUE(outcome.out.starts_with("good.glb: ")) << outcome.out;
     EXPECT_TRUE(outcome.out.ends_with("}\n")) << outcome.out;
@@ -174,8 +174,7 @@ TEST_F(Output, ACancelledPictureLeavesNothing) {
     }
 }
 
-/// Limits of descriptors, of the size of files and, where no sanitizer takes terabytes of it, of address
-/// space.
+/// Returns limits of descriptors, of file sizes and, unless a sanitizer reserves terabytes, of address space.
 std::vector<std::string> limits() {
     std::vector<std::string> list = {"ulimit -n 8", "ulimit -f 1"};
 #if !__has_feature(address_sanitizer)

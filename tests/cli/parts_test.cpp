@@ -1,4 +1,4 @@
-// Parts of transfer on the road from the bake to what is shipped.
+// Tests transfer terms through the pipeline, from the bake to the shipped file.
 
 #include "program.h"
 #include "prt/error_measures.h"
@@ -46,8 +46,8 @@ TEST_F(Parts, OfABakeWithBouncesAreKeptByTheCompressor) {
     EXPECT_EQ(figures_of({"info", at("c.glb")})["clustered_pca"]["parts"], both);
 }
 
-/// Compressed for a light with its suns, a model is lit better by it than one for natural light, suns apart
-/// as well as all in the sky.
+/// A model compressed for a light with its suns has a smaller error under it than one compressed for natural
+/// light, with separate suns and with all light in the sky.
 TEST_F(Parts, AreCompressedForLightsWithTheirSunsApartToo) {
     Light sky = hemisphere_light(3, {0, 1, 0}, glm::vec3(0.3f, 0.4f, 0.6f), glm::vec3(0.1f));
     nlohmann::json light = {{"prtkit_light", 1}, {"order", 3}};
@@ -78,7 +78,7 @@ TEST_F(Parts, AreCompressedForLightsWithTheirSunsApartToo) {
 TEST_F(Parts, AreMadeOneWhereTheUserAsksForIt) {
     EXPECT_EQ(figures_of({"compress", at("b.glb"), "-o", at("c.glb"), "--whole"})["parts"], whole);
     EXPECT_EQ(figures_of({"info", at("c.glb")})["clustered_pca"]["parts"], whole);
-    // The bake is the same light in other parts: all errors are of the coding.
+    // The bake represents equal light in other terms: all errors come from coding.
     const auto errors = figures_of({"evaluate", at("b.glb"), at("c.glb")});
     EXPECT_LT(errors["relative_l2"], 0.05);
     EXPECT_GT(errors["relative_l2"], 0);

@@ -45,8 +45,8 @@ protected:
 };
 
 TEST_F(PathTraced, FloorsAreAsBrightAsTheirLight) {
-    // Under radiance 0.7 a floor of albedo 1 gives 0.7; a sun of irradiance 2 at 60 degrees adds 2 cos 60 /
-    // pi.
+    // Under radiance 0.7 a floor of albedo 1 reflects 0.7; a sun of irradiance 2 at 60 degrees adds 2 cos 60
+    // / pi.
     EXPECT_NEAR(seen("floor.glb", {"--env", at("even.exr")}).g, 0.7, 0.01);
     nlohmann::json light = {{"prtkit_light", 1}, {"order", 6}};
     for (const char* channel : {"red", "green", "blue"})

@@ -1,3 +1,5 @@
+// Runs programs and captures their output.
+
 #include "program.h"
 
 #include "support/made_once.h"
@@ -45,7 +47,7 @@ Outcome prt(const std::vector<std::string>& arguments) {
     };
     if (!uses("gpu") && !uses("--gpu") && !uses("bench"))
         return run(PRT_PROGRAM, arguments);
-    // As for the test programs that use OpenGL: the driver's leaks cannot be told from ours.
+    // Leaks of the OpenGL driver cannot be distinguished from ours, as in the test programs that use OpenGL.
     std::vector<std::string> with_environment = {"ASAN_OPTIONS=detect_leaks=0", PRT_PROGRAM};
     with_environment.insert(with_environment.end(), arguments.begin(), arguments.end());
     return run("env", with_environment);

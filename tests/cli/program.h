@@ -14,18 +14,18 @@ struct Outcome {
 /// Runs prt with these arguments.
 Outcome prt(const std::vector<std::string>& arguments);
 
-/// Runs `prt ARGUMENTS... -o to`, once in this process for the same `key`; later calls copy the file. Throws
-/// where prt fails.
+/// Runs `prt ARGUMENTS... -o to`, once in this process for an equal `key`; later calls copy the file. Throws
+/// if prt fails.
 void prt_once(const std::string& key, const std::vector<std::string>& arguments,
               const std::filesystem::path& to);
 
-/// A model or sky that ctest makes once for all tests (tests/fixtures): `knot.baked.glb`.
+/// Returns a model or sky that ctest makes once for all tests (tests/fixtures): `knot.baked.glb`.
 std::filesystem::path fixture(const std::string& name);
 
 /// Copies example scenes (NAME.glb) and skies (NAME.exr) of the fixtures into `folder`.
 void copy_examples(const std::filesystem::path& folder, const std::vector<std::string>& names);
 
-/// Runs another program.
+/// Runs a different program.
 Outcome run(const std::string& program, const std::vector<std::string>& arguments);
 
 } // namespace prt::test

@@ -65,7 +65,7 @@ TEST_F(Road, RefusesRefinementOfWhatItCannotMeasure) {
                                                {"--most-vertices", "9"},
                                                {"--refine", "0.1", "--most-vertices", "0"}})
         EXPECT_EQ(bake(options).status, 2);
-    EXPECT_EQ(bake({"--refine", "0.02", "--rays", "16"}).status, 0); // nothing to split
+    EXPECT_EQ(bake({"--refine", "0.02", "--rays", "16"}).status, 0); // no triangle needs a split
 }
 
 } // namespace

@@ -1,4 +1,4 @@
-// prt relight: radiance of vertices, held against closed forms and against what the library says.
+// Tests prt relight: compares radiance of vertices with closed forms and with the library.
 
 #include "program.h"
 #include "prt/gltf.h"
@@ -30,7 +30,7 @@ protected:
             "suns": [{"towards": [0, 2, 0], "irradiance": [0, 1.25663706, 0], "half_angle_radians": 0.01}]})");
     }
     std::string at(const char* name) const { return (folder / name).string(); }
-    /// Colors of the vertices of what was written.
+    /// Returns the vertex colors of the written file.
     std::vector<glm::vec3> relit(const std::vector<std::string>& arguments) const {
         std::vector<std::string> all = {"relight", "-o", at("lit.glb")};
         all.insert(all.end(), arguments.begin(), arguments.end());
@@ -47,14 +47,14 @@ protected:
     TemporaryFolder folder;
 };
 
-/// A red sky of radiance 0.5 and a green sun overhead of irradiance 0.4 pi, which gives an open floor 0.4.
+/// A red sky of radiance 0.5 and a green sun overhead of irradiance 0.4 pi, which adds 0.4 on an open floor.
 TEST_F(Relight, AddsTheSkyByTransferAndTheSunsByRays) {
     for (const char* model : {"b.glb", "c.glb"})
         for (const glm::vec3& color : relit({at(model), "--env", at("sun.json")}))
             EXPECT_LT(glm::distance(color, glm::vec3(0.5f, 0.4f, 0)), 3e-3f) << model;
 }
 
-/// What lies under marble is lit by the sun once: after it has been inside.
+/// Surfaces of marble are lit by the sun once: through the medium.
 TEST_F(Relight, LightsMediaBySunsOnce) {
     ASSERT_EQ(prt({"bake", at("s.glb"), "-o", at("b.glb"), "--rays", "256", "--order", "4", "--subsurface",
                    "marble"})
@@ -107,8 +107,8 @@ TEST_F(Relight, WritesUnlitMaterialsWithAnExposure) {
         2);
 }
 
-/// A texel of a sun is found in the image, and shadowed by rays or held by the sky: on an open floor the
-/// same.
+/// A sun of one texel is found in the image, and shadowed by rays or kept in the sky: on an open floor the
+/// results are equal.
 TEST_F(Relight, FindsSunsInImages) {
     Image sky{64, 32, std::vector<glm::vec3>(64 * 32, glm::vec3(0.2f))};
     sky.at(20, 3) = glm::vec3(400);

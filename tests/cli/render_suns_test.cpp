@@ -1,4 +1,4 @@
-// prt render under skies with suns: what is lit apart, what is not, and what it says about it.
+// Tests prt render under skies with suns: separate and combined suns, and the notices about them.
 
 #include "program.h"
 #include "prt/image_file.h"
@@ -17,7 +17,7 @@
 namespace prt::test {
 namespace {
 
-/// A floor under a roof that covers what is beyond x = 1; the camera sees the floor from below the roof.
+/// A floor under a roof that covers x > 1; the camera sees the floor from below the roof.
 class RenderSuns : public testing::Test {
 protected:
     void SetUp() override {
@@ -27,7 +27,7 @@ protected:
         prt_once("b.glb", {"bake", at("s.glb"), "--rays", "256", "--order", "4"}, folder / "b.glb");
         prt_once("c.glb", {"compress", at("b.glb")}, folder / "c.glb");
         prt_once("w.glb", {"compress", at("b.glb"), "--whole"}, folder / "w.glb");
-        // Black but for a green sun overhead of irradiance 0.4 pi.
+        // Black except for a green sun overhead of irradiance 0.4 pi.
         nlohmann::json light = {{"prtkit_light", 1}, {"order", 6}};
         for (const char* channel : {"red", "green", "blue"})
             light["coefficients"][channel] = std::vector<double>(36, 0.0);
@@ -64,7 +64,7 @@ protected:
     const char* backend = "cpu";
 };
 
-/// The shadow of the roof begins at x = 1, which pixels of 3 cm tell.
+/// The shadow of the roof starts at x = 1; pixels of 3 cm resolve it.
 TEST_F(RenderSuns, ShadowsThemSharplyByRaysAndByMaps) {
     for (const auto& [model, by] : {std::pair("s.glb", "cpu"), // without transfer
                                     {"b.glb", "cpu"},
@@ -96,16 +96,16 @@ TEST_F(RenderSuns, LightsWithTheSkyWhatIsNotApart) {
         EXPECT_EQ(load_environment(folder / "w.exr").environment.image.pixels, none.pixels) << sky;
     }
     const Outcome none = render({at("w.glb"), "--env", at("plain.exr"), "-o", at("w.exr")});
-    EXPECT_EQ(none.err.find("apart"), std::string::npos) << none.err; // nothing to tell
+    EXPECT_EQ(none.err.find("apart"), std::string::npos) << none.err; // no notice is needed
 }
 
-/// Where marble lies under all of it, the sun comes through transfer alone, and so does its shadow.
+/// If the whole floor is marble, the sun and its shadow come only through transfer.
 TEST_F(RenderSuns, LightsMediaThroughTransfer) {
     ASSERT_EQ(prt({"bake", at("s.glb"), "-o", at("m.glb"), "--rays", "256", "--order", "4", "--subsurface",
                    "marble"})
                   .status,
               0);
-    // Windowed alike: a window for the rest alone leaves the suns as they are.
+    // Both without a window, because a window filters only the sky and not separate suns.
     const Image apart = rendered({at("m.glb"), "--env", at("sun.json"), "--window", "none"}),
                 together =
                     rendered({at("m.glb"), "--env", at("sun.json"), "--suns", "0", "--window", "none"});
@@ -128,7 +128,7 @@ TEST_F(RenderSuns, TellsThem) {
     EXPECT_NE(outcome.out.find("1 suns apart"), std::string::npos) << outcome.out;
 }
 
-/// Where all light is a sun's, the picture is as bright as any.
+/// If all light comes from a sun, the picture has the usual brightness.
 TEST_F(RenderSuns, ExposesForThem) {
     const Outcome outcome =
         render({at("s.glb"), "--env", at("sun.json"), "-o", at("p.png"), "--json", at("r.json")});
@@ -137,8 +137,8 @@ TEST_F(RenderSuns, ExposesForThem) {
     EXPECT_NEAR(report()["exposure_stops"].get<double>(), std::log2(0.22 / (0.7 * 0.4 * 0.7152)), 0.4);
 }
 
-/// Of a sky that is a sun alone transfer has nothing to give but what bounced, which none did; over the light
-/// of the whole sun that is no error, and the verdict says so.
+/// Under a sky with only a sun, transfer contributes only bounced light, and here there is none; relative to
+/// the light of the whole sun its error is zero, and the verdict reports this.
 TEST_F(RenderSuns, AreApartInTheVerdict) {
     const auto rows = [&](const char* shipped, const char* sky) {
         const Outcome outcome =

@@ -1,6 +1,6 @@
 #pragma once
 
-// A folder for the road through the program, and what is read of what stands in it.
+// A folder for the tests of the whole pipeline, and readers of its files.
 
 #include "program.h"
 #include "support/temporary_folder.h"
@@ -19,7 +19,7 @@ inline nlohmann::json read_json(const std::filesystem::path& path) {
     return nlohmann::json::parse(file);
 }
 
-/// What Khronos' validator says: number of errors, or -1 where it cannot be run.
+/// Returns the number of errors of Khronos' validator, or -1 if it cannot be run.
 inline int validator_errors(const std::filesystem::path& file) {
     if (std::string(PRT_NODE).empty() || !std::filesystem::exists(PRT_VALIDATOR_MODULES))
         return -1;

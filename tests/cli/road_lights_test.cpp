@@ -40,7 +40,7 @@ TEST_F(Road, SunsOfALightFileAreAddedToItsCoefficients) {
     const auto full = read_json(folder / "full.json"), suns = read_json(folder / "suns.json");
     EXPECT_EQ(suns["suns"].size(), 1u);
     EXPECT_GT(largest_difference(full, suns), 0.5);
-    // A disc stands for a square texel of 5.6 degrees; band 0 is the same.
+    // A disc represents a square texel of 5.6 degrees; band 0 is equal.
     EXPECT_LT(largest_difference(full, read_json(folder / "back.json")),
               0.02 * full["coefficients"]["red"][0].get<double>());
 
@@ -116,7 +116,7 @@ TEST_F(Road, AutomaticExposureIsThatOfTheModelAndIsReported) {
         EXPECT_EQ(report["exposure_automatic"].get<bool>(), std::string(exposure).starts_with("auto"));
         return report["exposure_stops"].get<double>();
     };
-    // An open receiver of that base colour under light of radiance 4 comes to 0.22.
+    // An open receiver of that base colour under light of radiance 4 is mapped to 0.22.
     const double luminance = 4 * (0.2126 * 0.25 + 0.7152 * 0.5 + 0.0722 * 0.125);
     for (const char* backend : {"cpu", "gpu"}) {
         EXPECT_NEAR(stops("auto", backend), std::log2(0.22 / luminance), 1e-3);
@@ -165,14 +165,14 @@ TEST_F(Road, TheSkyAtNoonHasTheSunItSays) {
                                         std::cos(glm::pi<double>() * (y + 1) / image.height));
             const glm::vec3 pixel = image.pixels[static_cast<std::size_t>(y * image.width + x)];
             const double luminance = glm::dot(glm::dvec3(pixel), glm::dvec3(0.2126, 0.7152, 0.0722));
-            const bool in_sun = luminance > 100; // the sky beside it has about 1
+            const bool in_sun = luminance > 100; // the adjacent sky has about 1
             (in_sun ? sun : sky) += luminance * d.y * solid_angle;
             if (in_sun)
                 farthest = std::max(farthest, std::acos(glm::dot(d, towards)));
         }
-    // Texels are 0.35 degrees wide: half a diagonal of them beside the disc's 0.265.
+    // Texels are 0.35 degrees wide: half a diagonal is added to the disc's 0.265.
     EXPECT_LT(glm::degrees(farthest), 0.265 + 0.25);
-    EXPECT_NEAR(sun / towards.y / sky, 6, 0.06); // 1 % for the texels' middles in the place of the disc
+    EXPECT_NEAR(sun / towards.y / sky, 6, 0.06); // 1 % error for texel centers instead of the disc
     EXPECT_NEAR((sun + sky) / glm::pi<double>(), 1, 0.01);
 }
 

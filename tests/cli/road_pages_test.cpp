@@ -16,17 +16,17 @@ std::size_t count(const std::string& text, std::string_view part) {
     return found;
 }
 
-/// A page loads nothing, from beside it or from elsewhere.
+/// Expects that a page loads no other file, local or remote.
 void expect_standing_alone(const std::filesystem::path& path) {
     std::ifstream file(path);
     const std::string page{std::istreambuf_iterator<char>(file), {}};
     for (const char* loading :
          {"src=", "href", "@import", "url(", "fetch(", "import(", "XMLHttpRequest", "{{"})
         EXPECT_EQ(page.find(loading), std::string::npos) << loading;
-    EXPECT_EQ(count(page, "</script>"), 2u); // the report and what draws it
+    EXPECT_EQ(count(page, "</script>"), 2u); // the report and the script that draws it
 }
 
-/// The elements of a page once its script has run, or nothing where there is no browser to run it.
+/// Returns the elements of a page after its script has run; empty if there is no browser.
 std::string drawn_page(const std::filesystem::path& path) {
     if (std::string(PRT_CHROMIUM).empty())
         return {};
@@ -54,7 +54,7 @@ TEST_F(Road, ASweepIsAPageThatStandsAlone) {
     EXPECT_EQ(count(drawn, "<svg"), 2u);
     std::size_t curves = 0;
     for (const char* points : {"equal_bytes", "equal_shader_operations"}) {
-        std::set<std::string> methods = {"prtkit"}; // has its place even without a point
+        std::set<std::string> methods = {"prtkit"}; // is listed even without a point
         for (const auto& point : sweep[points])
             methods.insert(point["method"]);
         curves += methods.size();
@@ -85,7 +85,7 @@ TEST_F(Road, BenchMeasuresEveryBackendAndMethod) {
     EXPECT_EQ(count(drawn, "<td>cpu trace fitted</td>"), 3u);
     EXPECT_EQ(count(drawn, "<polyline"), 12u); // one way is missing: no ray queries
     EXPECT_EQ(drawn.find("NaN"), std::string::npos);
-    // What a name holds is text, not markup.
+    // Names are escaped as text, not markup.
     EXPECT_NE(drawn.find("a&lt;b&gt;&amp;.glb"), std::string::npos);
 }
 

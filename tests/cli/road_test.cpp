@@ -123,7 +123,7 @@ TEST_F(Road, FilesWrittenFromDemandingScenesAreValidGltf) {
                                       "--components", "5", "--weights", weights});
         ASSERT_EQ(compress.status, 0) << compress.err;
         std::filesystem::rename(folder / "a picture.png",
-                                folder / "moved.png"); // what is written needs no other file
+                                folder / "moved.png"); // the written file needs no other file
         const Outcome render = prt({"render", at("c.glb"), "--env", at("light.json"), "-o", at("p.png")});
         EXPECT_EQ(render.status, 1);
         EXPECT_NE(render.err.find("light.json"), std::string::npos) << render.err; // the image was there
@@ -201,7 +201,7 @@ TEST_F(Road, BouncesOnTheGpuLandInTheFileAndItsReport) {
 
 struct LampScene {
     const char *name, *group;
-    int lights, lamps; ///< besides the group windows that are lit; bulbs and a sign
+    int lights, lamps; ///< includes the group of lit windows; bulbs and a sign
 };
 void PrintTo(const LampScene& scene, std::ostream* to) {
     *to << scene.name;

@@ -75,13 +75,13 @@ TEST_P(Shader, CompilesInEveryLanguage) {
             ASSERT_EQ(outcome.status, 0) << outcome.err;
             EXPECT_NE(outcome.out.find("no loop"), std::string::npos) << outcome.out; // there is one cluster
             const std::string text = text_of(folder / "s.vert");
-            EXPECT_EQ(text.find("#include"), std::string::npos); // stands alone
+            EXPECT_EQ(text.find("#include"), std::string::npos); // self-contained
             for (const char* name : {"attribute", "position", "view_projection", "radiance"})
                 EXPECT_NE(outcome.out.find(name), std::string::npos) << outcome.out;
             const std::size_t table = outcome.out.find("  attribute");
             ASSERT_NE(table, std::string::npos) << outcome.out;
             EXPECT_NE(text.find(outcome.out.substr(table + 2, outcome.out.find('\n', table) - table - 2)),
-                      std::string::npos); // a comment in the file says the same
+                      std::string::npos); // a comment in the file has the same table
             if (language == "vulkan")
                 compiles_for_vulkan("s.vert", "vert");
             else
@@ -113,7 +113,8 @@ TEST_F(VolumeShader, HasOneLookupForEveryLanguage) {
         const Outcome outcome = prt({"shader", at("v.glb"), "-o", at("v.glsl"), "--volume"});
         ASSERT_EQ(outcome.status, 0) << outcome.err;
         EXPECT_NE(outcome.out.find("RGBA16F"), std::string::npos) << outcome.out;
-        ASSERT_EQ(prt({"shader", at("v.glb"), "-o", at("again.glsl")}).status, 0); // it has nothing else
+        // the file contains only a volume
+        ASSERT_EQ(prt({"shader", at("v.glb"), "-o", at("again.glsl")}).status, 0);
         EXPECT_EQ(text_of(folder / "v.glsl"), text_of(folder / "again.glsl"));
         const std::string use =
             "layout(location = 0) out vec4 color;\n"

@@ -1,4 +1,4 @@
-// Volumes through the program: baked, compressed, told of and measured; and what is refused.
+// Tests volumes through the program: baked, compressed, reported and evaluated; and rejected input.
 
 #include "prt/gltf.h"
 #include "prt/volume_former.h"
@@ -68,7 +68,7 @@ TEST_F(Volumes, GoAllTheRoad) {
                                     at("sky.exr"), "--json", at("errors.json")});
     ASSERT_EQ(evaluation.status, 0) << evaluation.err;
     const nlohmann::json errors = read_json(folder / "errors.json")["volume_errors"];
-    ASSERT_EQ(errors.size(), 5u); // of both files, and what others keep at the same probes
+    ASSERT_EQ(errors.size(), 5u); // rows of both files, and of other engines' data at these probes
     for (const nlohmann::json& row : errors) {
         const bool ours = row["volume"] == "baked" || row["volume"] == "shipped";
         EXPECT_EQ(ours, row["error"].is_number());
@@ -112,8 +112,8 @@ TEST_F(Volumes, RefuseWhatMakesNone) {
     EXPECT_NE(bake({"--volume", "1", "--volume-bounds", "0,0,0,1,nan,1"}).status, 0);
 }
 
-/// What shaders look a volume up in, one behind the other: sights, index, and the light of coefficients
-/// cos(1), cos(2), .. with suns half as strong towards +Y.
+/// Writes the textures of a volume's shader lookup, one after the other: visibility distances, index, and the
+/// light of coefficients cos(1), cos(2), .. with half as strong suns towards +Y.
 void write_textures(const CompressedVolume& volume, const std::filesystem::path& path) {
     std::vector<glm::vec3> sky, suns;
     for (int i = 0; i < coefficient_count(volume.compressed.transfer.bases.layout.order); ++i)

@@ -1,3 +1,5 @@
+// Tests the compressor: errors, sizes, edge cases and limits.
+
 #include "prt/compress.h"
 
 #include "prt/error_measures.h"
@@ -89,7 +91,7 @@ TEST(Compress, RecoversKnownClustersAndTheirRank) {
 
 TEST(Compress, ErrorIsZeroWhenComponentsReachTheRank) {
     const Transfer t = random_transfer(300, 3, 1, 8);
-    EXPECT_LT(error_of(t, run(t, 1, 9)), 1e-6); // as many components as dimensions
+    EXPECT_LT(error_of(t, run(t, 1, 9)), 1e-6); // one component per dimension
     std::vector<std::size_t> truth;
     const Transfer low_rank = synthetic(400, 1, 5, truth);
     const CompressResult result = run(low_rank, 1, 16);
@@ -152,7 +154,7 @@ TEST(Compress, MoreClustersOrComponentsNeverHurtMuchAndQuantisingCostsLittle) {
 
 TEST(Compress, QuantisationErrorIsHalfAStepAtMost) {
     std::vector<std::size_t> truth;
-    const Transfer t = synthetic(500, 3, 2, truth); // exact but for the weights' rounding
+    const Transfer t = synthetic(500, 3, 2, truth); // exact except for the rounding of weights
     CompressOptions options;
     options.clusters = 3;
     options.coding.fixed_bits = {8, 8};
@@ -303,11 +305,11 @@ TEST(HardCase, ReceiversWithoutAreaDoNotCountButAreCoded) {
     EXPECT_LT(relative_l2(t, decode(result.transfer), areas), 1e-6);
     EXPECT_EQ(result.transfer.receivers.size(), 200u);
     const CompressResult nobody =
-        compress(t, {std::vector<float>(200, 0.0f)}, options); // then all count alike
+        compress(t, {std::vector<float>(200, 0.0f)}, options); // all receivers then have equal weight
     EXPECT_EQ(nobody.transfer.receivers.size(), 200u);
 }
 
-/// The longest vectors that there are, with no axis to leave out.
+/// Tests the longest possible vectors, without an axis to omit.
 TEST(Compress, TakesAllNumbersOfColoredPartsOfOrderTenAndAllLamps) {
     TransferLayout layout{10, {{PartKind::direct, 3}, {PartKind::indirect, 3}}};
     for (std::size_t k = 0; k < kMostLamps; ++k)
@@ -325,13 +327,13 @@ TEST(Compress, TakesAllNumbersOfColoredPartsOfOrderTenAndAllLamps) {
     options.coding.bits = 5;
     options.metric = plain_metric(t.layout);
     const CompressResult result = compress(t, {std::vector<float>(840, 1.0f)}, options);
-    // Noise is hardly compressed, and nothing of it is lost twice.
+    // Noise can hardly be compressed, and its error is counted once.
     EXPECT_GT(result.statistics.lit_rms, 0.9);
     EXPECT_LT(result.statistics.lit_rms, 1.01);
 }
 
-/// A floor under three lamps, the first a hand's breadth above it: light falls from 1 to 1e-5 of the most, as
-/// (h / r)^3. A sky that is nearly even.
+/// Returns a floor under three lamps, the first 0.1 m above it: light falls from 1 to 1e-5 of the maximum, as
+/// (h / r)^3. The sky is nearly uniform.
 Transfer lit_floor(std::size_t side) {
     TransferLayout layout{2, {{PartKind::whole, 1}}};
     for (const char* name : {"near", "far", "red"})
@@ -372,7 +374,7 @@ TEST(Compress, KeepsFaintLightOfLampsFarBelowTheirBrightest) {
         const LitError error =
             lit_error(exit_radiance(t, lighting), exit_radiance(decoded, lighting), areas, {}, std::nullopt);
         EXPECT_LT(error.visible.percentile_95, 0.12)
-            << k; // 1.0 and 0.5 where errors cost the same everywhere
+            << k; // 1.0 and 0.5 if errors have equal weight everywhere
         EXPECT_LT(error.rms, 0.05) << k;
         squares += error.visible.rms * error.visible.rms / 3;
     }
@@ -415,7 +417,8 @@ TEST(Compress, RefusesWhatItCannotDo) {
 TEST(Compress, RefusesAreasTransferAndEdgesThatCannotBe) {
     const Transfer fine = random_transfer(10, 3, 1, 1);
     const std::vector<float> ones(10, 1.0f);
-    for (const float area : {std::nanf(""), INFINITY}) { // as of triangles whose corners floats do not hold
+    // for example of triangles whose corners overflow floats
+    for (const float area : {std::nanf(""), INFINITY}) {
         std::vector<float> areas = ones;
         areas[4] = area;
         EXPECT_THROW(compress(fine, {areas}, {}), Error) << area;

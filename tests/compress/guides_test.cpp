@@ -1,5 +1,5 @@
-// What normals and positions tell of transfer: closed forms that clusters must find, and cases in which
-// guides tell nothing.
+// Tests predictors from normals and positions: closed forms that clusters must find, and cases in which
+// predictors are useless.
 
 #include "prt/compress.h"
 
@@ -102,8 +102,8 @@ TEST(CompressGuides, HalveTheErrorOfReceiversInTheOpen) {
 }
 
 TEST(CompressGuides, CodesAreTheNearestThatTheirClustersHave) {
-    // Each point's code in its own cluster is as good as coding again what guides leave can make it, and what
-    // is reported is what decodes.
+    // Each point's code in its cluster is as good as coding the residual of the predictors again, and the
+    // reported error is that of the decoded transfer.
     const Guided scene = open_sphere(700);
     const CompressResult result =
         compress(scene.transfer, scene.surface(), with(GuideChoice::normal, 12, {.bits = 12}));
@@ -133,7 +133,7 @@ TEST(CompressGuides, ThatTellNothingAreHarmless) {
     Guided scene = open_sphere(500);
     const double without =
         error_of(scene, compress(scene.transfer, scene.surface(), with(GuideChoice::none, 16, {})));
-    // Normals that are all alike, or all zero, guide nowhere and are left out.
+    // Normals that are all equal, or all zero, predict nothing and are omitted.
     for (const glm::vec3 same : {glm::vec3(0, 1, 0), glm::vec3(0)}) {
         Guided flat = scene;
         std::fill(flat.normals.begin(), flat.normals.end(), same);
@@ -141,7 +141,7 @@ TEST(CompressGuides, ThatTellNothingAreHarmless) {
         EXPECT_TRUE(r.transfer.bases.guides.empty());
         EXPECT_EQ(error_of(flat, r), without);
     }
-    // Chance tells nothing but to clusters of hardly any receivers.
+    // Random normals predict nothing, except in clusters with very few receivers.
     Guided chance = scene;
     std::mt19937 random(8);
     for (glm::vec3& n : chance.normals)
@@ -168,7 +168,7 @@ TEST(CompressGuides, PositionsFarFromTheMiddleLoseLittle) {
     EXPECT_NEAR(error(far), error(scene), 0.1 * error(scene));
 }
 
-/// Walls: nine receivers each, whose normals hardly differ, under light that differs at random.
+/// Returns walls of nine receivers each, with almost equal normals, under random light.
 Guided walls(std::size_t count) {
     Guided scene = scattered(9 * count, 4, 5);
     std::mt19937 random(6);
@@ -187,7 +187,7 @@ Guided walls(std::size_t count) {
     return scene;
 }
 
-/// What normals seem to tell of a few receivers are slopes of any size, and rounding is of one step for all.
+/// Normals of few receivers can produce slopes of any size, while all share one rounding step.
 TEST(CompressGuides, NormalsThatHardlyDifferSpoilNoRounding) {
     const Guided scene = walls(110);
     CompressOptions options = with(GuideChoice::normal, 100, {.bits = 33});

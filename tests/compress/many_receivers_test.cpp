@@ -1,4 +1,4 @@
-// As many receivers as are compressed with points in 16 bits, and seams in stretches.
+// Tests enough receivers that points are stored in 16 bits, and seams are solved in stretches.
 
 #include "prt/compress.h"
 #include "tuning.h"
@@ -51,8 +51,8 @@ TEST(ManyReceivers, AreTheSameForAnyNumberOfThreadsAndHoweverTheyAreStored) {
     EXPECT_EQ(one.transfer.bases.rows, other.transfer.bases.rows);
     EXPECT_EQ(one.transfer.receivers.weights, other.transfer.receivers.weights);
     EXPECT_EQ(one.statistics.lit_rms, other.statistics.lit_rms);
-    // Of four numbers, four components of six bits each leave a little: rounding points, at 1/65534 of what
-    // 1024 of them span, is far below.
+    // Four components of six bits leave a small error in four numbers; rounding of points, 1/65534 of the
+    // range of 1024 of them, is far below it.
     EXPECT_LT(one.statistics.lit_rms, 0.02);
     EXPECT_GT(one.statistics.lit_rms, 1e-4);
 }

@@ -1,3 +1,5 @@
+// Tests the search for a compression within a budget.
+
 #include "prt/search.h"
 
 #include "metric/light_family.h"
@@ -81,7 +83,7 @@ Transfer prop_transfer() {
     return t;
 }
 
-/// What is bound per receiver, counted from the arrays themselves, and the bases.
+/// Returns the bytes per receiver, counted from the arrays, including the bases.
 double bound_bytes(const CompressResult& result) {
     const ClusteredReceivers& r = result.transfer.receivers;
     return (static_cast<double>(r.weights.size()) + static_cast<double>(basis_bytes(result.transfer.bases))) /
@@ -117,8 +119,8 @@ TEST(Search, KeepsTheErrorThatWasAskedFor) {
     }
 }
 
-/// Three random vectors, mixed at random: one cluster with three components has them all, and clusters only
-/// take bits from weights.
+/// Three random vectors, randomly mixed: one cluster with three components represents them, and more clusters
+/// only reduce the bits of weights.
 TEST(Search, FindsFewClustersWhereTransferHasFewDimensions) {
     Transfer transfer = zero_transfer(5, 1, 500);
     std::mt19937 random(9);
@@ -140,8 +142,8 @@ TEST(Search, FindsFewClustersWhereTransferHasFewDimensions) {
               1.05 * compress(scene.transfer, {scene.areas}, by_hand).statistics.lit_rms);
 }
 
-/// Transfer of one vector with both signs is dark at some turn of every sky, where any error is infinite
-/// times the light.
+/// Transfer of one vector with both signs is dark at some rotation of every sky, and any error relative to
+/// the light is infinite there.
 TEST(Search, KeepsAnErrorWhereLightVanishesAtSomeTurn) {
     Transfer signs = zero_transfer(4, 1, 300), constant = signs;
     std::mt19937 random(4);
@@ -252,7 +254,7 @@ TEST(Search, LimitsJumpsAcrossClusters) {
     EXPECT_GT(free, 0.01);
     options.budget.max_jump = 0.5 * free;
     EXPECT_LE(jump(), 0.5 * free);
-    // The same under each of two skies at every one of the rotations.
+    // The limit also holds under each of two skies at every rotation.
     for (const double elevation : {0.3, 1.0})
         options.budget.skies_of_jumps.push_back({*daylight(3, {.sun_elevation = elevation}).suns});
     const SearchResult found = compress_within(transfer, surface, options);
@@ -262,7 +264,7 @@ TEST(Search, LimitsJumpsAcrossClusters) {
         for (int rotation = 0; rotation < 24; ++rotation) {
             const Light light = rotated_about_y(sky.sky, rotation * std::numbers::pi / 12);
             const auto wanted = exit_radiance(transfer, light), given = exit_radiance(decoded, light);
-            double logarithms = 0, largest = 0; // of receivers of one area
+            double logarithms = 0, largest = 0; // receivers of equal area
             for (const glm::vec3& radiance : wanted)
                 largest = std::max(largest, static_cast<double>(radiance.x));
             double lit = 0;
@@ -296,7 +298,7 @@ TEST(Search, RefusesGuidesThatTakeMoreOperationsThanThereMayBe) {
     options.choose_guides = false;
     options.budget.operations = 2;
     EXPECT_THROW(compress_within(scene.transfer, {.areas = scene.areas, .normals = normals}, options), Error);
-    options.budget.operations = 3; // all of them guides'
+    options.budget.operations = 3; // all of them used by predictors
     const SearchResult found =
         compress_within(scene.transfer, {.areas = scene.areas, .normals = normals}, options);
     EXPECT_EQ(found.result.statistics.operations(), 3);
@@ -418,7 +420,7 @@ TEST(Search, OperationsAloneAreSpentAsWellAsByHand) {
     const Tried scene(2500, 1, 7);
     const SearchResult alone = scene.within({{}, {}, 2.0});
     EXPECT_LE(alone.result.statistics.operations(), 2);
-    EXPECT_LT(bound_bytes(alone.result), 24.01); // three times two words at most
+    EXPECT_LT(bound_bytes(alone.result), 24.01); // at most three times two words
     CompressOptions by_hand;
     by_hand.clusters = 208; // a dozen receivers each
     by_hand.coding.components = 2;
@@ -439,7 +441,7 @@ TEST(Presets, FillTheirWords) {
     EXPECT_EQ(preset_u64().bits + preset_u64().cluster_bits, 64);
 }
 
-/// Half of the receivers are alike, so that clusters need no directions there.
+/// Half of the receivers are equal, so that clusters need no directions there.
 TEST(Presets, OfFixedBitsAreDividedAlikeInAllClusters) {
     Transfer transfer = smooth_transfer(600, 1, 4);
     for (std::size_t p = 0; p < 300; ++p)
@@ -464,7 +466,7 @@ TEST(Search, PresetsFitSmallMeshes) {
         EXPECT_LT(found.result.statistics.lit_rms, 0.03);
         EXPECT_GT(found.result.statistics.operations(), 1); // clusters, not a copy of the mesh
     }
-    // Where there is room for the bases, the preset is what it says.
+    // If the bases fit, the preset is used unchanged.
     const Tried large(3000, 1, 8);
     const SearchResult whole = compress_preset(large.transfer, {large.areas}, {.coding = preset_u32()});
     EXPECT_TRUE(whole.trials.empty());

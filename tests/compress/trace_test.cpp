@@ -1,4 +1,4 @@
-// The trace tells how a result came about, and changes nothing.
+// Tests that the trace explains the result, and does not change it.
 
 #include "prt/search.h"
 
@@ -11,7 +11,8 @@
 namespace prt {
 namespace {
 
-/// Curved sheets of different sizes, so that vector quantisation starts with too many clusters on some.
+/// Returns curved sheets of different sizes, so that vector quantisation starts with too many clusters on
+/// some.
 Transfer curved_sheets(std::size_t receivers) {
     Transfer t = zero_transfer(3, 1, receivers);
     std::mt19937 random(3);
@@ -34,8 +35,8 @@ std::vector<Event> those_of(const std::vector<CompressEvent>& events) {
     return found;
 }
 
-/// Mean of Y² / (Y + a)² under natural light, receivers alike: weight of the squared light where errors count
-/// by contrast (docs/math.md, eq. 28c).
+/// Returns the mean of Y² / (Y + a)² under natural light with equal weights of receivers: the weight of
+/// squared light if errors count by contrast (docs/math.md, eq. 28c).
 double light_seen(const Transfer& t) {
     const LightMetric metric = natural_metric(t.layout);
     const std::size_t n = t.dimension();
@@ -71,7 +72,7 @@ TEST(Trace, TellsHowTheResultCameAbout) {
 
     ASSERT_TRUE(std::holds_alternative<ClustersSeeded>(events.front()));
     EXPECT_EQ(std::get<ClustersSeeded>(events.front()).clusters, 24u);
-    // Merges make room for as many splits, in pairs; a sweep is kept exactly where it lowers the cost.
+    // Merges and splits come in pairs; a sweep is kept exactly if it lowers the cost.
     std::size_t splits = 0, merges = 0, emptied = 0;
     for (const CompressEvent& event : events) {
         if (const auto* merge = std::get_if<ClusterMerge>(&event)) {
@@ -98,15 +99,14 @@ TEST(Trace, TellsHowTheResultCameAbout) {
     for (const CodingRound& round : those_of<CodingRound>(events))
         if (round.rounded)
             least = std::min(least, round.error);
-    constexpr double kShare = 0.3; // of contrast in the cost
+    constexpr double kShare = 0.3; // fraction of contrast in the cost
     const double lit = with.statistics.lit_rms, contrast = with.statistics.sky_contrast,
                  cost = std::sqrt(((1 - kShare) * lit * lit + kShare * contrast * contrast) /
                                   (1 - kShare + kShare * light_seen(t)));
     EXPECT_NEAR(std::sqrt(least), cost, 0.02 * cost);
 }
 
-/// What is cheap to merge and what gains by a split may be one cluster, where some receivers count for
-/// little.
+/// A cluster may be cheap to merge and also gain by a split, if some receivers have little weight.
 TEST(Trace, NoClusterMovesTwiceInASweep) {
     const Transfer t = curved_sheets(600);
     std::vector<float> areas(t.receivers(), 1.0f);
@@ -154,7 +154,7 @@ TEST(Trace, NoBarRunsBackwards) {
                                 shown = share;
                             },
                             {}};
-    // A preset whose bases are too large for so few receivers: the search follows in the same bar.
+    // A preset whose bases are too large for so few receivers: the search continues in the progress bar.
     const CompressOptions options{.clusters = 256, .coding = preset_u32()};
     EXPECT_FALSE(compress_preset(sheets, {areas}, options, progress).trials.empty());
     EXPECT_EQ(shown, 1);

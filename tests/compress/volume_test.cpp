@@ -12,7 +12,7 @@
 namespace prt {
 namespace {
 
-/// Two bricks whose matrices are a mean and a few directions, as smooth functions of position, and some
+/// Returns two bricks whose matrices are a mean and a few directions, as smooth functions of position, plus
 /// noise.
 BakedVolume smooth_volume(int order, float noise) {
     BakedVolume volume;

@@ -1,5 +1,5 @@
-// Scenes as exporters write them: one small file for each deviation, named after exporter and deviation, and
-// the exact answer beside it.
+// Tests scenes as exporters write them: one small file for each deviation, named after exporter and
+// deviation, with the exact result.
 #include "prt/gltf.h"
 
 #include "prt/animation.h"
@@ -95,7 +95,7 @@ TEST(GltfCorpus, BlenderSpotWithoutBlend) {
     EXPECT_EQ(notices_with(scene, "2 spots have an inner cone"), 1);
 }
 
-/// A triangle whose positions are compressed under the name `extension`, as gltfpack lays files out.
+/// Returns a triangle whose positions are compressed under the name `extension`, with gltfpack's file layout.
 GlbFile with_meshopt(const char* extension) {
     GlbFile file = test::triangle_file();
     Json& primitive = file.json["meshes"][0]["primitives"][0];
@@ -181,7 +181,7 @@ TEST(GltfCorpus, GltfpackQuantizedPositionsOfSixteenBits) {
     EXPECT_NEAR(scene.world(positions[2]).y, 1, 1e-6);
 }
 
-/// Result of reading a scene whose base color or normal map is `uri`, in a folder with "textures/Brick
+/// Result of reading a scene with `uri` as base color or normal map, in a folder with "textures/Brick
 /// One.png".
 struct UriResult {
     std::string trouble; ///< with the image

@@ -1,4 +1,4 @@
-// Environment maps as programs write them: one small file for each deviation, and the exact answer beside it.
+// Tests environment maps as programs write them: one small file for each deviation, with the exact result.
 #include "prt/image_file.h"
 
 #include "prt/support/error.h"
@@ -27,7 +27,7 @@ glm::vec3 sky(int x, int y) {
     return {static_cast<float>(128 + x) / 256, static_cast<float>(192 + y) / 256, 0.5f};
 }
 
-std::string rgbe(const glm::vec3& color) { // of largest component in [0.5, 1)
+std::string rgbe(const glm::vec3& color) { // its largest component must be in [0.5, 1)
     std::string bytes;
     for (int c = 0; c < 3; ++c)
         bytes += static_cast<char>(static_cast<unsigned char>(color[c] * 256));

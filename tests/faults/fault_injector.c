@@ -1,9 +1,11 @@
-// A library to preload: the n-th call of a kind that a program makes, from main on, fails as it does where
-// the system has no more, or the process is killed there.
-//   PRT_FAULT=KIND:N[:all|:kill]  write, open, rename, sync, map, allocate or thread; from 1. all: those
-//   behind it, too. PRT_FAULT_COUNTS=FILE         writes how many calls of each kind there were: "write 12\n"
-//   ... PRT_FAULT_WITHOUT=WHAT        what a file system lacks: tmpfile (O_TMPFILE), exchange (renameat2), or
-//   both
+// A library to preload: the n-th call of a kind, counted from main on, fails as if the system had no more
+// resources, or the process is killed there.
+//
+//   PRT_FAULT=KIND:N[:all|:kill]  KIND is write, open, rename, sync, map, allocate or thread; N starts at 1.
+//                                 all: later calls fail, too.
+//   PRT_FAULT_COUNTS=FILE         writes the number of calls of each kind: "write 12\n" ...
+//   PRT_FAULT_WITHOUT=WHAT        features that the file system does not support: tmpfile (O_TMPFILE),
+//                                 exchange (renameat2), or both
 #define _GNU_SOURCE
 #include <dlfcn.h>
 #include <errno.h>
@@ -31,7 +33,7 @@ static int fault_kind = kKinds, fault_all, fault_kill, no_tmpfile, no_exchange;
 static long fault_at;
 static const char* counts_file;
 
-/// Whether this call is to fail; sets errno.
+/// Returns true if this call must fail; sets errno.
 static int fails(enum Kind kind) {
     if (!atomic_load(&armed))
         return 0;
@@ -170,7 +172,7 @@ static int armed_main(int count, char** words, char** environment) {
     return status;
 }
 
-/// Faults begin with main: what loads libraries is not on trial.
+/// Faults start with main: loading of libraries is not tested.
 int __libc_start_main(Main main, int count, char** words, void (*init)(void), void (*fini)(void),
                       void (*at_exit)(void), void* stack) {
     read_environment();

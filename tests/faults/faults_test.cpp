@@ -1,5 +1,5 @@
-// Everything that a program asks of the system fails once, at every place where it asks: the road of a small
-// scene, with the library of fault_injector.c. Never half a file, never a lost input, one line that says so.
+// Makes every system call of a program fail once: the pipeline of a small scene, with the library of
+// fault_injector.c. No partial file may be left, no input lost, and the error is one line.
 
 #include "cli/program.h"
 #include "prt/support/file.h"
@@ -16,7 +16,7 @@
 namespace prt::test {
 namespace {
 
-/// One command, in a folder of its own with what it reads.
+/// One command, in a separate folder with its inputs.
 struct Command {
     std::vector<std::string> words;
     std::vector<std::string> inputs, outputs; ///< names in the folder
@@ -35,7 +35,7 @@ Files files_of(const std::filesystem::path& folder) {
     return files;
 }
 
-/// Of each kind so many faults are tried, evenly; 0: all (PRT_FAULTS, for a run by hand).
+/// Number of faults per kind, evenly distributed; 0: all (PRT_FAULTS, for a manual run).
 long faults_of_a_kind() {
     const char* given = std::getenv("PRT_FAULTS");
     return given ? std::atol(given) : 3;
@@ -80,7 +80,7 @@ protected:
         return run("env", words);
     }
 
-    /// A folder with what `command` reads, and with old files where it writes.
+    /// Fills a folder with the inputs of `command`, and with old files at its outputs if `old`.
     void prepare(const TemporaryFolder& folder, const Command& command, bool old) const {
         for (const std::string& input : command.inputs)
             folder.file(input, whole.at(input));
@@ -102,7 +102,7 @@ protected:
                 ADD_FAILURE() << output << " is missing";
             } else if (output.ends_with(".glb") || output.ends_with(".exr")) {
                 EXPECT_TRUE(found->second == whole.at(output)) << output;
-            } else { // says how long it took
+            } else { // contains the duration
                 EXPECT_TRUE(found->second.ends_with(output.ends_with(".html") ? ">\n" : "}\n")) << output;
             }
         }
@@ -140,10 +140,10 @@ protected:
             }
         const Outcome after = run_in(folder, command, {});
         EXPECT_EQ(after.status, 0) << after.err;
-        expect_whole(folder, command, old, true); // and nothing else is left
+        expect_whole(folder, command, old, true); // and no other file is left
     }
 
-    /// How many calls of each kind a command makes.
+    /// Returns the number of calls of each kind that a command makes.
     std::map<std::string, long> counts_of(const Command& command, const std::string& without) const {
         const TemporaryFolder folder, notes;
         prepare(folder, command, true);
@@ -164,14 +164,14 @@ protected:
             for (const std::string& kind : kinds) {
                 const long all = counts.at(kind), most = faults_of_a_kind();
                 const long tried = most == 0 ? all : std::min(all, most);
-                for (long i = 0; i < tried; ++i) // the last calls are those that publish
+                for (long i = 0; i < tried; ++i) // the last calls publish the files
                     one(command, kind + ":" + std::to_string(all - i * all / tried), without, i % 2 == 0);
             }
         }
     }
 
     TemporaryFolder road;
-    Files whole; ///< of a road without faults
+    Files whole; ///< files of a run without faults
 };
 
 TEST_F(Faults, WhateverFailsOnceNothingIsLost) {
@@ -184,7 +184,7 @@ TEST_F(Faults, NorWhereFilesNeedANameFromTheStart) {
     spread({"write", "open", "rename", "sync"}, "tmpfile", fail);
     spread({"rename"}, "tmpfile,exchange",
            [&](const Command& command, const std::string& fault, const std::string& without, bool) {
-               if (command.outputs.size() == 1) // of two, what was there cannot come back
+               if (command.outputs.size() == 1) // with two outputs, old files cannot be restored
                    fail_once(command, fault, without, true);
            });
 }
@@ -195,7 +195,7 @@ TEST_F(Faults, AKilledRunLeavesWholeFilesAndTheNextCleansUp) {
     spread({"write", "rename", "sync"}, "tmpfile", kill);
 }
 
-/// OpenEXR leaves lines out where it has no memory to compress them, and says nothing.
+/// OpenEXR omits lines without an error if it has no memory to compress them.
 TEST_F(Faults, APictureIsWholeOrNone) {
     const Command render = commands().back();
     const long all = counts_of(render, "").at("allocate");
@@ -203,7 +203,7 @@ TEST_F(Faults, APictureIsWholeOrNone) {
         fail_once(render, "allocate:" + std::to_string(n), "", true);
 }
 
-/// Embree builds its trees in threads of its own library, and says so where it gets none.
+/// Embree builds its trees in threads of its library, and reports an error if it gets none.
 TEST_F(Faults, OneThreadIsEnoughOrOneLine) {
     for (const Command& command : commands()) {
         fail_once(command, "thread:1:all", "", false);

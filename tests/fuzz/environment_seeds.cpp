@@ -16,7 +16,7 @@
 namespace prt::fuzz {
 namespace {
 
-constexpr int kWidth = 16, kHeight = 8; // the least that run lengths are used for is 8
+constexpr int kWidth = 16, kHeight = 8; // 8 is the minimum width for run-length encoding
 
 void write_exr_seed(const Path& path, Imf::PixelType type, Imf::Compression compression, bool tiled) {
     Imf::Header header(kWidth, kHeight);

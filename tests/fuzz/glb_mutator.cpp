@@ -1,5 +1,5 @@
-// Mutates models where it counts: a member of the JSON, its text, or the binary chunk, and puts the container
-// round both again, whose lengths random bytes would break at once.
+// Mutates models in effective positions: a member of the JSON, its text, or the binary chunk. Then it
+// rebuilds the container, because random bytes would break its lengths at once.
 #include "gltf/glb.h"
 #include "target.h"
 

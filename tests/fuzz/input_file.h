@@ -7,7 +7,7 @@
 
 namespace prt::fuzz {
 
-/// A file that holds one input at a time, for readers that take a path. Nothing else is in its folder.
+/// A file that holds one input at a time, for readers that require a path. Its folder contains no other file.
 class InputFile {
 public:
     explicit InputFile(const char* name) : path_(folder_ / name) {}

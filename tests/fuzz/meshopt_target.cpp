@@ -1,5 +1,5 @@
-// One compressed buffer view: the first byte chooses mode, filter and stride, two more the number of
-// elements, what follows is the data.
+// Decodes one compressed buffer view: the first byte selects mode, filter and stride, two more the number of
+// elements, the rest is the data.
 #include "input_file.h"
 
 #include "prt/gltf.h"

@@ -187,7 +187,7 @@ void write_lightmaps(const Path& folder) {
     test::with_lightmap(scene, spread_over_maps(baked, coded)).write(folder / "lightmap.coded.glb");
 }
 
-/// A skinned triangle whose joint says what it blocks.
+/// Writes a skinned triangle with an occluder at its joint.
 void write_occluder(const Path& folder) {
     GltfDocument document = document_of(dressed_file());
     OcclusionVolume volume{glm::vec3(-1), glm::vec3(1), 4, {}};

@@ -17,8 +17,8 @@ void write(const Path& path, const std::string& bytes) {
     std::ofstream(path, std::ios::binary) << bytes;
 }
 
-/// As meshopt_target.cpp reads them: mode and filter, stride / 4 - 1 or / 2 - 1 above; the number of
-/// elements.
+/// Encodes a seed for meshopt_target.cpp: mode and filter, and above them stride / 4 - 1 or / 2 - 1; then the
+/// number of elements.
 std::string view_seed(int choice, std::size_t count, const std::vector<unsigned char>& data) {
     std::string seed{char(choice), char(count % 256), char(count / 256)};
     return seed.append(data.begin(), data.end());
@@ -75,7 +75,7 @@ void write_round_trip_seeds(const Path& folder) {
                       values);
 }
 
-/// As words_target.cpp reads them; the frequencies are padded to whole words.
+/// Writes seeds for words_target.cpp; the frequencies are padded to whole words.
 void write_word_seeds(const Path& folder) {
     for (const int clusters : {0, 3, 19})
         for (const int components : {0, 4, 12}) {

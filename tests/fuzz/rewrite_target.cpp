@@ -1,5 +1,5 @@
-// A model that was read is given transfer, written, plain or compressed, and is then read as what it was: so
-// do bake and compress.
+// Adds transfer to a model that was read, writes it, plain or compressed, and reads it back, as bake and
+// compress do.
 #include "input_file.h"
 #include "whole_model.h"
 
@@ -12,7 +12,7 @@
 namespace prt::fuzz {
 namespace {
 
-/// What the bits of the input's last byte ask for.
+/// Options in the bits of the input's last byte.
 constexpr unsigned kWithMeshopt = 1, kWithClusters = 2, kWithNewOrder = 4;
 
 BakedTransfer some_transfer(const Scene& scene) {
@@ -37,7 +37,7 @@ CompressedTransfer some_clusters(const Scene& scene) {
     return compressed;
 }
 
-/// What was written is read, or the writer is at fault.
+/// Reads a written file; an error is a bug of the writer.
 WholeModel read_again(const InputFile& file, std::size_t receivers) {
     try {
         WholeModel model = read_whole(read_file(file.path()), file.path());
@@ -62,7 +62,7 @@ void reverse_vertices(WholeModel& model) {
 
 void rewrite(WholeModel model, const InputFile& file, unsigned bits) {
     const std::size_t receivers = model.scene.receivers();
-    if (receivers > 20'000) // takes long and shows no more
+    if (receivers > 20'000) // slow, and covers no other code
         return;
     write_transfer(model.document, model.scene, some_transfer(model.scene));
     save_glb(model.document, file.path());

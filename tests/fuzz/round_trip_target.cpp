@@ -1,5 +1,5 @@
-// Transfer is compressed, written, read and evaluated: what was read lights as what was written does, to the
-// bit. The first eight bytes choose options, what follows is transfer, over and over.
+// Compresses transfer, writes it, reads it and evaluates it: the light before and after is equal to the bit.
+// The first eight bytes select options, the rest is transfer, repeated.
 #include "input_file.h"
 
 #include "prt/compress.h"

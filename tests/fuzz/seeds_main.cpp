@@ -1,5 +1,6 @@
-// fuzz_seeds FOLDER: writes the seed corpora of all targets, a folder for each and beside it CORPUS.list, the
-// names of its files with commas between, which libFuzzer takes without writing to the corpus what it finds.
+// fuzz_seeds FOLDER: writes the seed corpora of all targets, one folder per target, and next to it
+// CORPUS.list with the names of its files, separated by commas. libFuzzer reads this list without writing its
+// findings to the corpus.
 #include "seeds.h"
 
 #include <algorithm>

@@ -1,7 +1,7 @@
 #pragma once
 
-// What the fuzz targets share. A target ends in one of two ways: the input is refused with an `Error`, or
-// what was made of it is whole. All else is a finding: `expect` and any other exception end the process.
+// Common code of the fuzz targets. A target ends in one of two ways: it rejects the input with an `Error`, or
+// its result is valid. Everything else is a finding: `expect` and any other exception end the process.
 
 #include "prt/support/error.h"
 
@@ -17,7 +17,7 @@
 
 namespace prt::fuzz {
 
-/// What should not be. No target catches it: it ends the process, which libFuzzer reports with the input.
+/// An invalid result. No target catches it: it ends the process, and libFuzzer reports the input.
 struct Finding : std::logic_error {
     using std::logic_error::logic_error;
 };
@@ -33,8 +33,8 @@ void expect_finite(std::span<const Number> values, const char* what) {
         expect(std::isfinite(value), what);
 }
 
-/// What a message says before it quotes the file, which libFuzzer fills with the words below and with quotes:
-/// in quotation marks, or as a URI.
+/// Returns the part of a message before it quotes the file, in quotation marks or as a URI; libFuzzer fills
+/// the quotation with the words below and with quotes.
 inline std::string_view before_quotes(std::string_view message) {
     return message.substr(0, std::min(message.find_first_of("\"'"), message.find("data:")));
 }
@@ -51,7 +51,7 @@ inline void expect_plain(std::string_view message) {
         }
 }
 
-/// Calls `work`, which may refuse what came in.
+/// Calls `work`, which may reject the input.
 template <class Work>
 int take(Work&& work) {
     try {

@@ -104,7 +104,8 @@ void check_lightmap(const Scene& scene, const CompressedLightmap& lightmap) {
         expect(cluster < transfer.bases.clusters(), "a texel is in no cluster");
 }
 
-/// What nodes block, at places in and around their boxes; and the parts that could.
+/// Evaluates occluders of nodes at positions in and around their boxes; and the parts that could be
+/// occluders.
 void check_occluders(const GltfDocument& document, const Scene& scene) {
     for (const NodeOccluder& occluder : read_occluders(document)) {
         const PlacedOccluder where = placed(occluder.volume, glm::mat4(1), 0);
@@ -121,7 +122,7 @@ void check_occluders(const GltfDocument& document, const Scene& scene) {
     expect(triangles == scene.triangles(), "parts have other triangles");
 }
 
-/// Every vertex by its lobes, whatever their bytes.
+/// Evaluates every vertex with its lobes, for any bytes.
 void check_lobes_of(const GltfDocument& document, const Scene& scene) {
     const std::optional<StoredLobes> stored = read_lobes(document, scene);
     if (!stored)

@@ -7,7 +7,7 @@
 
 namespace prt::fuzz {
 
-/// What a file holds, all of it read.
+/// The complete content of a file.
 struct WholeModel {
     GltfDocument document;
     Scene scene;

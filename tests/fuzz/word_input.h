@@ -1,6 +1,6 @@
 #pragma once
 
-// Shape of the words that the first bytes of an input of `words` stand for.
+// Layout of the words in the first bytes of an input of `words`.
 
 #include "prt/coded_words.h"
 
@@ -13,8 +13,8 @@ struct WordInput {
     std::vector<EarlierNeighbors> neighbors;
 };
 
-/// `head` [kWordHead]: clusters, components, bits, vertices, and how far corners of triangles are from each
-/// other; the last byte says where the frequencies end.
+/// Decodes `head` [kWordHead]: clusters, components, bits, vertices, and distances between the corners of
+/// triangles; the last byte is the end of the frequencies.
 inline WordInput word_input(std::span<const std::uint8_t> head) {
     ClusteredBases bases;
     const int clusters = 1 + head[0] % 20;

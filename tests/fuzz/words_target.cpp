@@ -1,5 +1,6 @@
-// Coded words: the first bytes choose clusters and vertices (word_input.h), what follows is the code. Words
-// that are decoded are coded and decoded again. The same bytes as words come back, too.
+// Decodes coded words: the first bytes select clusters and vertices (word_input.h), the rest is the code.
+// Decoded words are coded and decoded again. The bytes are also used as words, which must survive coding and
+// decoding.
 #include "target.h"
 #include "word_input.h"
 
@@ -8,7 +9,7 @@
 namespace prt::fuzz {
 namespace {
 
-constexpr std::size_t kColumns = 16; ///< of frequencies; their drops are before them
+constexpr std::size_t kColumns = 16; ///< columns of frequencies; their drops precede them
 
 void expect_round_trip(const WordInput& input, const std::vector<std::uint32_t>& words) {
     const WordCode code = encode_words(input.layout, input.neighbors, words);

@@ -1,3 +1,5 @@
+// Damages shipped files at random positions.
+
 #include "damage.h"
 
 #include "prt/image_file.h"
@@ -22,7 +24,7 @@ std::size_t below(std::size_t count, Random& random) {
     return count == 0 ? 0 : random() % count;
 }
 
-/// Numbers that counts, bits, scales and places are not, or only just.
+/// Returns numbers that are invalid, or barely valid, as counts, bits, scales and indices.
 Json strange_number(Random& random) {
     static const Json kNumbers = {
         0,          1,          2,      3,     7,           15,     16,
@@ -30,7 +32,7 @@ Json strange_number(Random& random) {
         2147483647, 4294967295, -1,     -2,    -128,        -65536, 0.5,
         -0.0,       1e-45,      1e-300, 1e9,   1.0000001e9, -1e9,   1e15,
         1e18,       1e30,       3e38,   -3e38, 1e39,        1e300,  9007199254740993,
-        nullptr}; // what NaN and infinity become in JSON
+        nullptr}; // JSON replaces NaN and infinity by null
     return kNumbers[below(kNumbers.size(), random)];
 }
 
@@ -301,7 +303,7 @@ void change_attributes(GlbFile& file, Random& random) {
         *at = random() % 2 ? Json(below(file.json["accessors"].size(), random)) : strange_value(random);
 }
 
-/// Normals and positions that are not finite, zero, tiny, huge or turned round.
+/// Replaces normals and positions by values that are not finite, zero, tiny, huge or negated.
 void change_vertices(GlbFile& file, Random& random) {
     const Json& attributes = primitive(file, random)["attributes"];
     const char* name = random() % 3 && attributes.contains("NORMAL") ? "NORMAL" : "POSITION";
@@ -356,7 +358,7 @@ GlbFile damaged(GlbFile file, std::uint32_t seed) {
     for (std::size_t n = 1 + (random() % 4 == 0) + (random() % 16 == 0); n > 0; --n)
         try {
             kChanges[below(std::size(kChanges), random)](file, random);
-        } catch (const Json::exception&) { // what it would change is gone already
+        } catch (const Json::exception&) { // an earlier change removed the member
         }
     return file;
 }

@@ -6,8 +6,8 @@
 
 namespace prt::test {
 
-/// `file` with damage to one place of its compressed transfer, or of the mesh that this is of, or to a few.
-/// The same seed gives the same.
+/// Returns `file` with damage at one or a few positions of its compressed transfer, or of the mesh with the
+/// transfer. Equal seeds produce equal files.
 GlbFile damaged(GlbFile file, std::uint32_t seed);
 
 } // namespace prt::test

@@ -1,5 +1,6 @@
-// Shipped files with damage in every place: each is refused in one line, or what is made of it is finite. A
-// number of cases in PRTKIT_HOSTILE_CASES, from PRTKIT_HOSTILE_FIRST on, takes the place of the small one.
+// Tests shipped files with damage at every position: each is rejected with a one-line error, or its results
+// are finite. PRTKIT_HOSTILE_CASES replaces the small default number of cases, starting with
+// PRTKIT_HOSTILE_FIRST.
 
 #include "damage.h"
 #include "fuzz/target.h"
@@ -26,8 +27,8 @@ std::uint32_t number_from(const char* name, std::uint32_t otherwise) {
     return text ? static_cast<std::uint32_t>(std::strtoul(text, nullptr, 10)) : otherwise;
 }
 
-/// What a program does with a shipped file. Whether it is one of vertices. Throws `Error` where it is
-/// refused, and fuzz::Finding.
+/// Uses a shipped file as a program does. Returns true if its receivers are vertices. Throws `Error` if it is
+/// rejected, and fuzz::Finding.
 bool use(std::span<const std::byte> bytes) {
     const fuzz::WholeModel model = fuzz::read_whole(bytes, "damaged.glb");
     if (model.lightmap) {
@@ -49,7 +50,7 @@ bool use(std::span<const std::byte> bytes) {
     return true;
 }
 
-/// The same through C. Whether the model was read.
+/// Uses a file through the C interface. Returns true if the model was read.
 bool use_in_c(std::span<const std::byte> bytes) {
     prt_model* model = nullptr;
     prt_message message = {};
@@ -74,7 +75,7 @@ bool use_in_c(std::span<const std::byte> bytes) {
 /// Whether it was read.
 bool is_read(const std::string& file) {
     const std::span<const std::byte> bytes = std::as_bytes(std::span(file));
-    bool read = true, of_vertices = true; // others are nothing to C
+    bool read = true, of_vertices = true; // the C interface supports only vertices
     try {
         of_vertices = use(bytes);
     } catch (const Error& error) {
@@ -111,7 +112,7 @@ TEST(HostileShippedFiles, AreRefusedInALineOrDecodedToFiniteNumbers) {
     getrusage(RUSAGE_SELF, &usage);
     RecordProperty("megabytes", std::to_string(usage.ru_maxrss / 1000));
     std::printf("%u cases, %zu read, at most %ld MB\n", cases, read, usage.ru_maxrss / 1000);
-    EXPECT_LT(usage.ru_maxrss, 1'000'000); // kilobytes; a file of these sizes may take 256 MB at a time
+    EXPECT_LT(usage.ru_maxrss, 1'000'000); // kilobytes; a file of these sizes may need 256 MB at a time
 }
 
 } // namespace

@@ -1,5 +1,5 @@
-// Files with damaged volumes, through C: each is refused in one line, or what is formed and looked up is
-// finite.
+// Tests files with damaged volumes through the C interface: each is rejected with a one-line error, or its
+// constants and lookups are finite.
 
 #include "damage.h"
 #include "fuzz/target.h"

@@ -1,7 +1,8 @@
-// The plug-in of examples/web on damaged shipped files:
+// Tests the plug-in of examples/web with damaged shipped files:
 //   node load_web.mjs FOLDER [verbose]
-// Every FOLDER/*.glb is loaded by three's GLTFLoader with it: it is refused by an Error that says why, or lit by finite
-// numbers, in bounded time. FOLDER/whole.*.glb are right, and must be read. Prints what is not so; status 1 then.
+// three's GLTFLoader loads every FOLDER/*.glb with the plug-in: an Error with the reason rejects it, or its
+// light is finite, in bounded time. FOLDER/whole.*.glb are valid and must be read. Prints all violations, and
+// then exits with status 1.
 import { readFileSync, readdirSync } from "node:fs";
 import { createRequire } from "node:module";
 import { dirname, join } from "node:path";
@@ -17,9 +18,9 @@ const { PrtkitPlugin, PrtkitVolume, projectEquirectangular } = await import(path
 const [folder, verbose] = process.argv.slice(2);
 const white = projectEquirectangular(new DataTexture(new Float32Array([1, 1, 1, 1]), 1, 1, RGBAFormat, FloatType));
 globalThis.createImageBitmap ??= async () => ({}); // node decodes no images
-const SECONDS = 20; // a file takes milliseconds
+const SECONDS = 20; // normal files need milliseconds
 
-/** The same of a volume. */
+/** Returns the first error of a volume; null if it is valid. */
 function wrongVolume(volume) {
   const floats = new PrtkitVolume(volume.source, volume.root, volume.plugin, { floats: true });
   floats.setLight(white.deringed(), 0.3);
@@ -29,7 +30,7 @@ function wrongVolume(volume) {
   return floats.texture.image.data.every(Number.isFinite) ? null : "the light of probes is not finite";
 }
 
-/** What is wrong with a model that was read; nothing where all is right. */
+/** Returns the first error of a model that was read; null if it is valid. */
 function wrongModel(gltf) {
   const model = gltf.userData.prtkit;
   if (!model) return null;
@@ -51,7 +52,7 @@ function wrongModel(gltf) {
   return wrong;
 }
 
-/** What is wrong with the way in which a file is refused. */
+/** Returns the error in the way a file is rejected; null if there is none. */
 function wrongRefusal(error) {
   if (!(error instanceof Error)) return "what is thrown is no Error";
   const inOurs = /examples\/web\/src/.test(error.stack.split("\n").find((line) => line.trim().startsWith("at ")) ?? "");
@@ -59,7 +60,7 @@ function wrongRefusal(error) {
   return inOurs && !ours ? `says ${error.name}: ${error.message}` : null;
 }
 
-process.on("unhandledRejection", () => {}); // GLTFLoader leaves some behind when it gives up
+process.on("unhandledRejection", () => {}); // GLTFLoader leaves some unhandled when it fails
 let read = 0;
 let findings = 0;
 const files = readdirSync(folder).filter((name) => name.endsWith(".glb"));

@@ -1,3 +1,5 @@
+// Builds valid shipped files with all variants of the format.
+
 #include "shipped_files.h"
 
 #include "prt/compress.h"
@@ -30,7 +32,7 @@ struct Recipe {
     std::string name;
     TransferLayout layout;
     CompressOptions options;
-    bool position_alone = false; ///< a guide that the compressor does not choose
+    bool position_alone = false; ///< a predictor that the compressor never chooses alone
     GlbFile scene = {};
     bool has_fallback = false;
 };
@@ -40,7 +42,8 @@ GlbFile smooth_scene() {
     return scene_file(SceneBuilder().floor({0, 0, 0}, 2, 3).sphere({0.3f, 1, 0}, 0.8f, 4).build());
 }
 
-/// Normals in bytes, a primitive without any, nodes that mirror, scale and turn.
+/// Returns a scene with normals in bytes, a primitive without normals, and nodes that mirror, scale and
+/// rotate.
 GlbFile hard_scene() {
     GlbFile file = smooth_scene();
     file.json["extensionsUsed"] = {"KHR_mesh_quantization"};

@@ -12,12 +12,11 @@ struct ShippedFile {
     GlbFile file;
 };
 
-/// Valid shipped files of every kind, made anew: each choice of guides, bits that are fixed and free, weights
-/// of floats and of bytes, rows that are coded and plain, lamps, quantised normals, nodes that mirror,
-/// lightmaps.
+/// Creates valid shipped files of every kind: each choice of predictors, fixed and variable bits, weights as
+/// floats and as bytes, coded and plain rows, lamps, quantised normals, mirrored nodes, lightmaps.
 std::vector<ShippedFile> shipped_files();
 
-/// A triangle with a volume whose bases are plain, and one whose bases are coded.
+/// Creates a triangle with a volume with plain bases, and one with coded bases.
 std::vector<ShippedFile> volume_files();
 
 } // namespace prt::test

@@ -23,15 +23,15 @@ import tempfile
 
 from mutations import mutate
 
-SECONDS = 60  # of one command, sanitized, on a busy machine; an idle one takes a few
+SECONDS = 60  # limit for one command, sanitized, on a busy machine; an idle machine needs a few seconds
 ENVIRONMENT = dict(os.environ, UBSAN_OPTIONS="print_stacktrace=1",
                    ASAN_OPTIONS="detect_leaks=0:quarantine_size_mb=16:hard_rss_limit_mb=1024:max_allocation_size_mb=512")
 INNER = re.compile(r"std::|vector::|basic_string|\[json\.exception|terminate called|Assertion|Sanitizer|runtime error")
 NO_NUMBER = re.compile(r"(?<![\w./-])-?(nan|inf)(?![\w./-])")
-NULLS = {"seam_place_metres", "relative_l2", "standard_error"}  # where there is no seam, and errors of light that there is none of
+NULLS = {"seam_place_metres", "relative_l2", "standard_error"}  # null if there is no seam, or no light to compare with
 LIGHT = {"prtkit_light": 1, "order": 3, "coefficients": {channel: [3] + [0.1] * 8 for channel in ("red", "green", "blue")}}  # that bakes want
 
-# How each kind of file is used: {file} is the changed one, {baked} and {shipped} are those that it came from.
+# Commands for each kind of file: {file} is the changed one, {baked} and {shipped} are the original files.
 SCENE = [["info", "{file}"],
          ["bake", "{file}", "-o", "out.glb", "--rays", "4", "--order", "2", "--backend", "cpu"],
          ["bake", "{file}", "-o", "out.glb", "--rays", "4", "--order", "2", "--backend", "cpu", "--bounces", "1"],
@@ -49,9 +49,9 @@ BAKED = SCENE[:2] + SCENE[3:4] + PASS_ON + [RELIGHT] + [COMPRESS, COMPRESS + ["-
                                  ["evaluate", "{file}", "{shipped}"]]
 SHIPPED = SCENE[:1] + SCENE[3:4] + PASS_ON + [["evaluate", "{baked}", "{file}"], ["shader", "{file}", "-o", "out.vert"],
                                               RELIGHT] + SCENE[1:2]
-# Of occlusion volumes and of lobes.
+# Commands for files of occlusion volumes and lobes.
 KEPT = SCENE[:1] + PASS_ON + SCENE[1:2]
-# Of texels.
+# Commands for files of texels.
 RAW_TEXELS = SCENE[:1] + SCENE[3:4] + PASS_ON + [COMPRESS, COMPRESS + ["--preset", "custom", "--clusters", "3", "--components", "2"],
                                       ["evaluate", "{file}", "{shipped}"]]
 TEXELS = SCENE[:1] + SCENE[3:4] + PASS_ON + [["evaluate", "{baked}", "{file}"], ["shader", "{file}", "-o", "out.comp"],

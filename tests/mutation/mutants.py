@@ -20,7 +20,8 @@ class Mutant(NamedTuple):
         return source[:self.begin] + self.after + source[end:]
 
 
-# Operators with a blank on both sides, as the formatter sets them: pointers, references and templates have none.
+# Operators with a blank on both sides, as the formatter writes them; pointers, references and templates have
+# none.
 OPERATORS = {"+": "-", "-": "+", "*": "/", "/": "*", "%": "*", "+=": "-=", "-=": "+=", "*=": "/=", "/=": "*=",
              "&&": "||", "||": "&&", "&": "|", "|": "&", "<<": ">>", ">>": "<<",
              "<": "<=", "<=": "<", ">": ">=", ">=": ">", "==": "!=", "!=": "==", "===": "!==", "!==": "==="}

@@ -24,8 +24,9 @@ from mutants import mutants
 from targets import SUFFIXES, suites_of
 
 LONGEST_BUILD = 1800  # seconds
-TIMES_NORMAL, LEAST_LIMIT = 5, 60  # a test is stopped after so many times its normal run, and seconds at least
-MOST_MEMORY = 8 << 30  # bytes of a test program: what is wrong may ask for any
+# a test is stopped after this multiple of its normal time, but not before this number of seconds
+TIMES_NORMAL, LEAST_LIMIT = 5, 60
+MOST_MEMORY = 8 << 30  # bytes of a test program: a mutant may request any amount
 
 
 def files_of(root, paths):
@@ -90,7 +91,8 @@ class Tests:
 
     def run_suite(self, suite):
         command = suite.command(self.build, self.root)
-        options = {} if suite.program == "node" else {"preexec_fn": limit_memory}  # node reserves more than it takes
+        # node reserves more than it uses
+        options = {} if suite.program == "node" else {"preexec_fn": limit_memory}
         return run(command, self.limits.get(suite, LONGEST_BUILD), **options)
 
     def measure(self, suite):
@@ -154,7 +156,7 @@ def main():
     tests = Tests(root, arguments.build.resolve())
     signal.signal(signal.SIGTERM, signal.default_int_handler)  # ends as Ctrl-C does
     try:
-        for mutant in sorted(drawn):  # those of one file together: it is built anew once for each
+        for mutant in sorted(drawn):  # mutants of one file are consecutive: each suite is rebuilt once
             line = {**mutant._asdict(), **tests.judge(mutant)}
             with arguments.log.open("a", encoding="utf-8") as log:
                 log.write(json.dumps(line) + "\n")

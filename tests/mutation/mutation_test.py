@@ -25,7 +25,7 @@ int sum(const int* a, int b) {
     return *a + b;
 }
 """
-# Stands for a test program: sum.cpp must add, and must not loop.
+# Replaces a test program: sum.cpp must add, and must not loop.
 PROGRAM = """#!/bin/sh
 grep -q 'a + b;' {root}/runtime/sh/sum.cpp && exit 0
 echo '[  FAILED  ] Sum.Adds'; exit 1

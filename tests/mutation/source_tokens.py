@@ -17,7 +17,8 @@ class Token(NamedTuple):
 # In the order that they are tried.
 PATTERNS = re.compile(r"""
     (?P<skipped> //[^\n]*(?:\\\n[^\n]*)* | /\*.*?\*/
-               | ^[ \t]*\#(?:[^\n\\]|\\.)*                     # a preprocessor line and those that it goes on in
+               # a preprocessor line with its continuation lines
+               | ^[ \t]*\#(?:[^\n\\]|\\.)*
                | R"(?P<mark>[^(\s]*)\(.*?\)(?P=mark)"
                | "(?:[^"\\\n]|\\.)*" | '(?:[^'\\\n]|\\.)*' | `(?:[^`\\]|\\.)*` | \s+ )
   | (?P<name> [A-Za-z_$][\w$]* )
@@ -37,7 +38,7 @@ def tokens(source):
 
 def without_messages(all_tokens):
     """Leaves out assertions (`assert(...)`, `static_assert(...)`) and what is thrown, to its semicolon."""
-    end_at = None  # what ends the part that is left out, at its depth
+    end_at = None  # end of the omitted part, at its depth
     depth = 0
     for token in all_tokens:
         if end_at is None and token.text in ("assert", "static_assert", "throw"):

@@ -25,7 +25,7 @@ WHOLE_BAKE = Suite("bake_tests", "PathTracer*:EndlessWall*:OneSided*:Bake*:Stora
 DIFFUSION = Suite("bake_tests", "Diffusion*")
 RENDER, GPU = Suite("render_tests"), Suite("gpu_tests")
 
-# The longest folder that a path begins with tells.
+# The longest folder that is a prefix of the path is used.
 SUITES = {
     "runtime/sh/": [SMALL_ORDERS, RUNTIME],
     "runtime/light/": [Suite("runtime_tests", "Light*:Sky*:*Cube*:*Image*:LatLong*:OtherLayouts*"), RUNTIME],
@@ -47,7 +47,7 @@ SUITES = {
     "bake/pictures/": [Suite("bake_tests", "PathTracer*:DistantLight*:Storage*"), RENDER],
     "shaders/": [RENDER, GPU],
     "shaders/viewer_": [Suite("viewer_tests")],
-    # Of the web page the package alone: the rest is seen in Chromium.
+    # Only the package of the web page is tested here: the rest is tested in Chromium.
     **{f"examples/web/src/{name}.js": [Suite("node")] for name in ("PrtkitLoader", "PrtkitModel", "clusteredPca", "sphericalHarmonics", "turns")},
 }
 

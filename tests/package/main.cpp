@@ -1,5 +1,5 @@
-// Every library is linked, and the runtime gives the answer that is known: an open receiver under uniform
-// light 1.
+// Links every library, and checks that the runtime returns the known radiance of an open receiver under
+// uniform light 1.
 
 #include "prt/bake.h"
 #include "prt/clustered_transfer.h"

@@ -1,4 +1,4 @@
-# The installed package, used by projects that know nothing of this build.
+# Tests the installed package in projects that are independent of this build.
 if(NOT TARGET prt OR NOT TARGET example_scenes OR PRTKIT_SANITIZED)
     return()
 endif()

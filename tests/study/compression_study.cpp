@@ -1,8 +1,7 @@
-// Error at equal bytes and at equal shader operations: what `prt evaluate --sweep` measures, and two methods
-// of research beside it, a moving basis (Silvennoinen and Sloan 2021) and residual vector quantisation (Chen,
-// Guan and Wang 2010).
-//
-//     compression_study BAKED.glb [--lights SKY]... [--json FILE]
+// Measures error at equal bytes and at equal shader operations: the methods of `prt evaluate --sweep`, and
+// two methods of research: a moving basis (Silvennoinen and Sloan 2021) and residual vector quantisation
+// (Chen, Guan and Wang 2010).
+//      compression_study BAKED.glb [--lights SKY]... [--json FILE]
 
 #include "moving_basis_candidates.h"
 #include "prt/gltf.h"
@@ -35,8 +34,8 @@ struct StudyArguments {
     int threads = 0; ///< 0: all
 };
 
-/// The given ones, or those that `prt evaluate` takes where none are given: a uniform light, an overcast sky
-/// and a sun.
+/// Returns the given lights, or the default ones of `prt evaluate`: a uniform light, an overcast sky and a
+/// sun.
 std::vector<Light> lights_of(const StudyArguments& arguments, int order) {
     std::vector<Light> lights;
     for (const std::filesystem::path& path : arguments.lights)

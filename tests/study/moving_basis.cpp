@@ -1,4 +1,4 @@
-// A basis that moves through space: its values, and other forms of the same basis.
+// A basis that varies over space: its values, and equivalent forms of the basis.
 
 #include "moving_basis.h"
 
@@ -32,7 +32,7 @@ Spread spread_of(const GridPoints& points, const RowMatrix& vectors) {
     return spread;
 }
 
-/// Calls `use(i, rows)` for every place of grid.receivers with the rows there.
+/// Calls `use(i, rows)` for every index of grid.receivers with its interpolated rows.
 template <class Use>
 void for_rows(const SparseGrid& grid, const MovingBasis& basis, Use&& use) {
     RowMatrix rows;
@@ -43,7 +43,7 @@ void for_rows(const SparseGrid& grid, const MovingBasis& basis, Use&& use) {
         }
 }
 
-/// Makes weights to^T (w - mean), bases from^T B and means M + mean^T B.
+/// Transforms weights to to^T (w - mean), bases to from^T B and means to M + mean^T B.
 void change_weights(MovingBasis& basis, const Eigen::VectorXf& mean, const Eigen::MatrixXf& to,
                     const Eigen::MatrixXf& from) {
     const Index rows = basis.rows_per_node();
@@ -142,7 +142,7 @@ void normalise(const GridPoints& points, const SparseGrid& grid, MovingBasis& ba
         return;
     const Spread weights = spread_of(points, basis.weights);
     const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXf> whole(weights.covariance);
-    const float least = 1e-10f * whole.eigenvalues().maxCoeff(); // float rounding, squared, makes 1e-14
+    const float least = 1e-10f * whole.eigenvalues().maxCoeff(); // float rounding, squared, is 1e-14
     Eigen::MatrixXf to = whole.eigenvectors(), from = whole.eigenvectors();
     for (Index l = 0; l < components; ++l) {
         const float variance = whole.eigenvalues()[l], deviation = std::sqrt(std::max(0.0f, variance));

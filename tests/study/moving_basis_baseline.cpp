@@ -1,4 +1,4 @@
-// A basis that moves, within the bytes of a table: as fine a grid as there is room for.
+// Fits a moving basis within a table size: with the finest grid that fits.
 
 #include "moving_basis_baseline.h"
 
@@ -49,7 +49,7 @@ Transfer transfer_of(const RoundedFrame& frame, const RowMatrix& values, const T
     return transfer;
 }
 
-/// The smallest cells for which at most so many nodes are needed; nothing where one cell has more.
+/// Returns the smallest cells that need at most this number of nodes; empty if one cell needs more.
 std::optional<double> smallest_cells(std::span<const glm::vec3> positions, double nodes) {
     const auto needed = [&](double size) {
         return static_cast<double>(sparse_grid(positions, size).nodes.size());
@@ -110,11 +110,11 @@ private:
     struct Try {
         MovingBasisResult result;
         double error = 0;          ///< squared
-        double bits_of_number = 0; ///< of rows, all tables counted in
+        double bits_of_number = 0; ///< bits per number of the rows, including all tables
     };
 
-    /// With as few axes as leave `dropped`, and as many nodes as there is room for at so many bits each
-    /// number; nothing where there is no room for one cell.
+    /// Fits with the minimum number of axes whose error is at most `dropped`, and with the maximum number of
+    /// nodes at this number of bits per number; empty if not even one cell fits.
     std::optional<Try> attempt(double dropped, double bits, int rounds) {
         Frame frame = whole_;
         truncate(frame, axes_needed(whole_, dropped));
@@ -128,7 +128,7 @@ private:
             return std::nullopt;
         Try found;
         MovingBasisCode code;
-        if (frame.dimension > 0) { // else all receivers are alike, and the origin is all there is
+        if (frame.dimension > 0) { // otherwise all receivers are equal, and the origin is sufficient
             const GridPoints points{values_in(frame, transfer_, options_.threads), significance_,
                                     surface_.positions, options_.threads};
             MovingBasisFit fit = fit_moving_basis(points, *size, components, {.rounds = rounds});

@@ -1,7 +1,6 @@
 #pragma once
 
-// The moving basis as a baseline of the compressor, with what its code takes. For the study; nothing else
-// uses it.
+// The moving basis as a baseline of the compressor, including its code size. Used only by the study.
 
 #include "prt/baselines.h"
 #include "prt/light_metric.h"
@@ -15,12 +14,13 @@
 namespace prt {
 
 struct MovingBasisOptions {
-    int components = 4;   ///< of a receiver, at most
-    int weight_bits = 32; ///< of a receiver, all components together; what carries more has more of them
-    /// At most, in all. The grid is the finest that there is room for.
+    int components = 4;   ///< maximum per receiver
+    int weight_bits = 32; ///< bits of a receiver for all components; components with more energy get more
+                          ///< bits
+    /// Maximum size of all tables. The grid is the finest that fits.
     double table_bytes = std::numeric_limits<double>::infinity();
-    std::size_t nodes = std::numeric_limits<std::size_t>::max(); ///< of the grid, at most
-    LightMetric metric = {};                                     ///< what an error costs
+    std::size_t nodes = std::numeric_limits<std::size_t>::max(); ///< maximum number of nodes of the grid
+    LightMetric metric = {};                                     ///< cost of an error
     int threads = 0;
 };
 
@@ -29,11 +29,11 @@ struct MovingBasisResult {
     std::size_t nodes = 0;
 };
 
-/// A mean and a basis at every node of a regular grid over the positions, between which is interpolated
-/// linearly, and weights of each receiver (Silvennoinen and Sloan 2021, "Moving Basis Decomposition for
-/// Precomputed Light Transport"; docs/math.md, section 4): nothing jumps. `mean_components` are 8 for every
-/// component and for the mean: each is blended from 8 corners. Nothing where no grid keeps to the bytes.
-/// `surface` has areas and positions.
+/// Fits a mean and a basis at every node of a regular grid over the positions, with linear interpolation
+/// between nodes, and weights of each receiver (Silvennoinen and Sloan 2021, "Moving Basis Decomposition for
+/// Precomputed Light Transport"; docs/math.md, section 4): the result is continuous. `mean_components` are 8
+/// for every component and for the mean: each is blended from 8 corners. Empty if no grid fits the size.
+/// `surface` needs areas and positions.
 std::optional<MovingBasisResult> moving_basis(const Transfer& transfer, const ReceiverSurface& surface,
                                               const MovingBasisOptions& options,
                                               const Progress& progress = {});

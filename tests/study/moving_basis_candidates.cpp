@@ -13,17 +13,17 @@
 namespace prt {
 namespace {
 
-/// A moving basis for one of `kSweepBytes`: those that were best on the knot, the head, the room or the
+/// A moving basis for one of `kSweepBytes`: settings that were best on the knot, the head, the room or the
 /// bunny.
 struct MovingBasisSetting {
-    double bytes;                ///< of a receiver, tables included
-    int weight_bits, components; ///< of a receiver
+    double bytes;                ///< per receiver, including tables
+    int weight_bits, components; ///< per receiver
 };
 
 constexpr MovingBasisSetting kMovingBasisSettings[] = {
     {5, 32, 5}, {5, 32, 8}, {7, 32, 5}, {7, 32, 8}, {9, 32, 6}, {9, 64, 12}, {13, 64, 8}, {13, 64, 12},
 };
-/// Each takes eight operations, and the mean as many.
+/// Each component needs eight operations, and so does the mean.
 constexpr int kMovingBasisComponents[] = {0, 1, 2, 4};
 
 SweepCandidate candidate(const Transfer& transfer, const ReceiverSurface& surface, MovingBasisOptions options,

@@ -10,9 +10,9 @@ namespace prt {
 
 inline constexpr const char* kMovingBasis = "moving basis";
 
-/// For the errors that `sweep` compresses for without a metric in its options. `by_bytes`: grids that keep to
-/// each of `kSweepBytes`; `by_components`: grids of at most `kSweepClusters` nodes. Nothing where `surface`
-/// has no positions. They keep references to `transfer` and to what `surface` refers to.
+/// Return candidates for the errors that `sweep` uses without a metric in its options. `by_bytes`: grids that
+/// fit each of `kSweepBytes`; `by_components`: grids of at most `kSweepClusters` nodes. Empty if `surface`
+/// has no positions. The candidates keep references to `transfer` and to the data of `surface`.
 std::vector<SweepCandidate> moving_basis_candidates(const Transfer& transfer, const ReceiverSurface& surface,
                                                     int threads);
 

@@ -29,7 +29,8 @@ struct WeightSteps {
     }
 };
 
-/// With the reach whose rounding loses least: a few receivers may have weights far beyond all others.
+/// Returns the steps for the range with the smallest rounding error: a few receivers may have far larger
+/// weights than all others.
 WeightSteps steps_for(const GridPoints& points, const RowMatrix& weights, Index component, int bits) {
     WeightSteps steps{weights.col(component).cwiseAbs().maxCoeff(), static_cast<float>((1 << bits) - 1)};
     const float deviation =
@@ -50,7 +51,7 @@ WeightSteps steps_for(const GridPoints& points, const RowMatrix& weights, Index 
     return best;
 }
 
-/// Each weight rounded to what the former left over (Babai 1986), then one by one to what all others do.
+/// Rounds each weight given the residual of the previous ones (Babai 1986), then one by one given all others.
 void round_weights(const WeightEquations& equations, std::span<const WeightSteps> steps,
                    Eigen::Ref<Eigen::RowVectorXf> weights) {
     const Eigen::MatrixXf& gram = equations.gram;
@@ -83,8 +84,8 @@ void code_weights(const GridPoints& points, MovingBasisFit& fit, std::span<const
     });
 }
 
-/// The step of rows that adds the squared `error` to values: each is a sum over corners, whose rounding is
-/// independent, and over components, whose weights have variance 1.
+/// Returns the step of rows that adds the squared `error` to values: each value is a sum over corners with
+/// independent rounding, and over components with weights of variance 1.
 float step_of_rows(const GridPoints& points, const MovingBasisFit& fit, double error) {
     double squares = 0;
     for (std::size_t i = 0; i < fit.grid.share.size(); ++i)
@@ -94,8 +95,8 @@ float step_of_rows(const GridPoints& points, const MovingBasisFit& fit, double e
     return static_cast<float>(std::sqrt(12 * error / (squares * numbers)));
 }
 
-/// Rounds rows to multiples of `step` and returns their bytes: each number of each row has as many bits at
-/// all nodes as its range there takes, and three bytes for the least of them and how many bits they have.
+/// Rounds rows to multiples of `step` and returns their bytes: each number of each row has, at all nodes, the
+/// bits that its range requires, plus three bytes for its minimum and its number of bits.
 double round_rows(MovingBasis& basis, float step) {
     const Index kinds = basis.rows_per_node(), nodes = basis.rows.rows() / kinds;
     double bytes = 0;
@@ -115,8 +116,8 @@ double round_rows(MovingBasis& basis, float step) {
     return bytes;
 }
 
-/// A number of two bytes for every node of the box, or a hash table half of whose entries, of four bytes, are
-/// in use.
+/// Returns the bytes of node positions: two bytes for every node of the box, or a hash table with entries of
+/// four bytes, half of them used.
 double bytes_of_places(const SparseGrid& grid) {
     return static_cast<double>(std::min(2 * grid.nodes_of_box, 8 * grid.nodes.size()));
 }
@@ -144,7 +145,7 @@ MovingBasisCode code_moving_basis(const GridPoints& points, MovingBasisFit fit, 
     if (step > 0) {
         code.table_bytes += round_rows(fit.basis, step);
         code_weights(points, fit, plan.bits, price);
-    } else // nothing may be lost
+    } else // the code must be lossless
         code.table_bytes += static_cast<double>(fit.basis.rows.size()) * sizeof(float);
     code.values = values_of(points, fit.grid, fit.basis);
     code.error = squared_error(points, code.values);

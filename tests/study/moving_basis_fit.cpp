@@ -1,5 +1,5 @@
-// A moving basis by alternating least squares (Silvennoinen and Sloan 2021, "Moving Basis Decomposition for
-// Precomputed Light Transport"): docs/math.md, section 4.
+// Fits a moving basis by alternating least squares (Silvennoinen and Sloan 2021, "Moving Basis Decomposition
+// for Precomputed Light Transport"): docs/math.md, section 4.
 
 #include "moving_basis_fit.h"
 
@@ -10,8 +10,8 @@
 namespace prt {
 namespace {
 
-/// Rows and weights in turn. Rows are carried on the way they went (Nesterov 1983) until that makes the error
-/// larger, which takes a fifth of the rounds.
+/// Optimises rows and weights in alternation. Rows are extrapolated (Nesterov 1983) until this increases the
+/// error, which needs a fifth of the rounds.
 void alternate(const GridPoints& points, MovingBasisFit& fit, const MovingBasisSchedule& schedule,
                int rounds) {
     MovingBasis& basis = fit.basis;

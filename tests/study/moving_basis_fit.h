@@ -12,20 +12,22 @@ struct MovingBasisFit {
 
 struct MovingBasisSchedule {
     RowPrices prices = {tuning::kSmoothness, tuning::kRowRidge};
-    double weight_price = tuning::kWeightPrice; ///< of a squared weight, as a share of the squared error
+    double weight_price = tuning::kWeightPrice; ///< cost of a squared weight, as a fraction of the squared
+                                                ///< error
     int rounds = tuning::kRoundsOfGrid;
 };
 
-/// The least squared error with cells of `size`, by alternating least squares, from principal components of
-/// all points on, which are those of the one cell of the first grid, on ever finer grids. Normalised.
+/// Returns the fit with minimum squared error for cells of `size`, by alternating least squares on
+/// successively finer grids. It starts from the principal components of all points, on a first grid with one
+/// cell. Normalised.
 MovingBasisFit fit_moving_basis(const GridPoints& points, double size, std::size_t components,
                                 const MovingBasisSchedule& schedule = {});
 
-/// The best weights, the rows given, where a squared weight costs `price`.
+/// Computes the best weights for the given rows; a squared weight costs `price`.
 void solve_weights(const GridPoints& points, const SparseGrid& grid, MovingBasis& basis, float price = 0);
 
-/// How much each product of two rows, and of each row with what the mean leaves, counts for the weights of
-/// the receiver at place `i` of grid.receivers.
+/// Coefficients of the products of two rows, and of each row with the residual after the mean, in the
+/// equations of the weights of the receiver at index `i` of grid.receivers.
 struct WeightEquations {
     Eigen::MatrixXf gram;  ///< [components][components]
     Eigen::VectorXf right; ///< [components]

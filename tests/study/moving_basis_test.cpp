@@ -1,3 +1,5 @@
+// Tests the moving basis.
+
 #include "moving_basis_baseline.h"
 #include "moving_basis_candidates.h"
 #include "moving_basis_code.h"
@@ -30,7 +32,7 @@ GridPoints points_of(std::span<const glm::vec3> positions, Index dimension) {
             std::vector<float>(positions.size(), 1 / static_cast<float>(positions.size())), positions, 1};
 }
 
-/// A basis that turns by some twenty degrees from node to node, and points that have its values.
+/// Returns points with the values of a basis that rotates by about twenty degrees from node to node.
 GridPoints points_on(const SparseGrid& grid, std::span<const glm::vec3> positions, std::size_t components) {
     std::mt19937 random(3);
     std::normal_distribution<float> normal;
@@ -88,7 +90,7 @@ TEST(MovingBasis, FindsAMovingBasis) {
     for (const std::size_t components : {0u, 1u, 2u}) {
         const GridPoints points = points_on(grid, positions, components);
         const MovingBasisFit fit = fit_moving_basis(points, 1, components, exactly(600));
-        EXPECT_LT(root_error(points, fit), 5e-4) << components; // of values about 1, in float
+        EXPECT_LT(root_error(points, fit), 5e-4) << components; // for values of about 1, in float
         if (components > 0) {
             const MovingBasisFit less = fit_moving_basis(points, 1, components - 1, exactly(50));
             EXPECT_GT(root_error(points, less), 0.1) << components;
@@ -126,8 +128,9 @@ TEST(MovingBasis, NormalisingChangesNoValue) {
 }
 
 TEST(MovingBasis, CountsBitsOfRowsByWhatTheyReach) {
-    // At either end of an edge 1/2 and -1/2, give or take 1/10: a squared error of 1/100 stays. The step that
-    // adds a fifth of it is sqrt(12/500) = 0.155, three of which are 1/2: -3 .. 3 have 3 bits, at 2 nodes.
+    // At either end of an edge 1/2 and -1/2, plus or minus 1/10: a squared error of 1/100 remains. The step
+    // that adds a fifth of it is sqrt(12/500) = 0.155, three of which are 1/2: -3 .. 3 have 3 bits, at 2
+    // nodes.
     std::vector<glm::vec3> positions;
     for (int i = 0; i < 40; ++i)
         positions.push_back({i % 2, 0, 0});
@@ -138,7 +141,8 @@ TEST(MovingBasis, CountsBitsOfRowsByWhatTheyReach) {
     const MovingBasisCode code = code_moving_basis(points, fit, 32, 0.2);
     EXPECT_EQ(code.components, 0u);
     EXPECT_NEAR(code.error, 0.01 + std::pow(0.5 - 3 * std::sqrt(12.0 / 500), 2), 1e-5);
-    EXPECT_EQ(code.table_bytes, 16 + 2 * 3 / 8.0 + 3); // two places of four bytes, twice as many entries
+    // two positions of four bytes, and twice this number of entries
+    EXPECT_EQ(code.table_bytes, 16 + 2 * 3 / 8.0 + 3);
 }
 
 TEST(MovingBasis, KeepsToItsBytesAndNodes) {
@@ -170,7 +174,7 @@ TEST(MovingBasis, KeepsToItsBytesAndNodes) {
     ASSERT_TRUE(one);
     EXPECT_LE(one->nodes, 50u);
     EXPECT_EQ(one->result.payload_bytes, 8);
-    // One direction that turns is one component of a basis that moves, and two of one that does not.
+    // One rotating direction is one component of a moving basis, and two components of a fixed one.
     const auto still = classic_cpca(transfer, areas, {.clusters = 1, .components = 1});
     EXPECT_LT(relative_l2(transfer, one->result.decoded, areas), 0.05);
     EXPECT_GT(relative_l2(transfer, still.decoded, areas), 0.2);

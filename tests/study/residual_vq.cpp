@@ -1,4 +1,4 @@
-// Residual vector quantisation: every codebook codes what the ones before it leave over (Chen, Guan and Wang
+// Residual vector quantisation: every codebook codes the residual of the previous ones (Chen, Guan and Wang
 // 2010, "Approximate Nearest Neighbor Search by Residual Vector Quantization"), by faiss.
 
 #include "residual_vq.h"
@@ -19,7 +19,7 @@ BaselineResult residual_vq(const Transfer& transfer, std::size_t codebooks, std:
     faiss::ResidualQuantizer quantizer(dimension, codebooks, 8);
     quantizer.cp.seed = static_cast<int>(seed);
     quantizer.train_type = faiss::ResidualQuantizer::Train_default; // minutes less than by growing dimensions
-    quantizer.cp.min_points_per_centroid = 1; // small meshes are what they are: no warning
+    quantizer.cp.min_points_per_centroid = 1;                       // avoids a warning for small meshes
     quantizer.train(receivers, transfer.vectors.data());
     std::vector<std::uint8_t> codes(receivers * quantizer.code_size);
     quantizer.compute_codes(transfer.vectors.data(), codes.data(), receivers);

@@ -9,8 +9,8 @@
 
 namespace prt {
 
-/// M codebooks of 256 rows for as many M as the sweep has sizes; nothing where there are fewer receivers than
-/// rows. They keep a reference to `transfer`.
+/// Returns M codebooks of 256 rows, for each size of the sweep; empty if there are fewer receivers than rows.
+/// The candidates keep a reference to `transfer`.
 std::vector<SweepCandidate> residual_vq_candidates(const Transfer& transfer, std::uint64_t seed);
 
 } // namespace prt

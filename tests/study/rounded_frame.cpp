@@ -13,10 +13,10 @@ RoundedFrame rounded(const Frame& frame, const LightMetric& metric, double error
     for (const double value : frame.origin)
         result.origin.push_back(
             static_cast<double>(glm::unpackHalf1x16(glm::packHalf1x16(static_cast<float>(value)))));
-    double trace = 0; // what an error of 1 in every number costs
+    double trace = 0; // cost of an error of 1 in every number
     for (std::size_t i = 0; i < frame.full(); ++i)
         trace += metric.moments[i * frame.full() + i] * frame.scale * frame.scale;
-    // Coordinates are as large as their deviation: every axis loses alike.
+    // The deviation of coordinates is their size: every axis has an equal loss.
     const double step = std::sqrt(12 * error / (trace * static_cast<double>(frame.dimension)));
     for (std::size_t i = 0; i < frame.dimension; ++i) {
         if (!(error > 0)) {
@@ -31,7 +31,7 @@ RoundedFrame rounded(const Frame& frame, const LightMetric& metric, double error
             most = std::max(most, std::abs(q));
             value = q * own;
         }
-        // Beside them their step.
+        // Adds the step of each axis.
         result.bytes += std::ceil(std::log2(2 * most + 1)) * static_cast<double>(frame.full()) / 8 + 4;
     }
     return result;

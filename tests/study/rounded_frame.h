@@ -7,7 +7,7 @@ namespace prt {
 /// A frame as a file has it.
 struct RoundedFrame {
     std::vector<double> origin;    ///< [full], as float16
-    std::vector<double> synthesis; ///< [dimension][full], each axis in steps of its own
+    std::vector<double> synthesis; ///< [dimension][full], each axis with a separate step
     double bytes = 0;
 };
 

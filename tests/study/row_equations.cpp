@@ -1,4 +1,4 @@
-// Rows of a moving basis, the weights given: sparse least squares by conjugate gradients.
+// Rows of a moving basis for given weights: sparse least squares by conjugate gradients.
 
 #include "row_equations.h"
 
@@ -19,7 +19,7 @@ Eigen::RowVectorXf products(const RowMatrix& a, const RowMatrix& b) {
     return a.cwiseProduct(b).colwise().sum();
 }
 
-/// 0 where there is nothing left to divide by.
+/// Returns the ratios, and 0 for a zero denominator.
 Eigen::RowVectorXf ratios(const Eigen::RowVectorXf& a, const Eigen::RowVectorXf& b) {
     return (b.array() > 0).select(a.array() / b.array(), 0.0f);
 }
@@ -48,7 +48,7 @@ void RowEquations::find_partners() {
     for (const SparseGrid::Cell& cell : grid_.cells)
         for (std::size_t corner = 0; corner < kCorners; ++corner)
             for (const std::size_t axis : {1u, 2u, 4u}) {
-                // A corner that is not needed has another's number.
+                // An unused corner has the index of a second one.
                 const std::uint32_t a = cell.nodes[corner], b = cell.nodes[corner ^ axis];
                 if (make_an_edge(grid_.nodes[a], grid_.nodes[b]))
                     partners_[a].push_back(b);
@@ -76,7 +76,7 @@ void RowEquations::invert_blocks() {
             }
         }
     for (std::size_t n = 0; n < blocks.size(); ++n) {
-        // 1e-7: below float rounding, for nodes that nothing tells of, or too little.
+        // 1e-7: below float rounding, for nodes with no data or too few.
         blocks[n].diagonal().array() +=
             smoothness_ * static_cast<float>(partners_[n].size()) + 1e-7f * blocks[n].trace() + 1e-30f;
         blocks[n].diagonal().tail(rows_ - 1).array() += ridge_ * reach_[n];

@@ -6,24 +6,24 @@
 
 namespace prt {
 
-/// What rows cost beside the error.
+/// Costs of rows in addition to the error.
 struct RowPrices {
-    float smoothness = 0; ///< of differences between nodes of one edge, all nodes together
-    float ridge = 0;      ///< of the squared length of bases, where receivers are
+    float smoothness = 0; ///< for differences between nodes of one edge, all nodes together
+    float ridge = 0;      ///< for the squared length of bases, at receivers
 };
 
-/// Equations of the least error of all rows of a grid, the weights given, without a matrix. Sums have one
-/// order, whatever the number of threads.
+/// Matrix-free normal equations of all rows of a grid for given weights. Sums have a fixed order, independent
+/// of the number of threads.
 class RowEquations {
 public:
     /// Keeps references.
     RowEquations(const GridPoints& points, const SparseGrid& grid, const MovingBasis& basis,
                  const RowPrices& prices);
 
-    /// What the equations make of `rows`.
+    /// Applies the matrix of the equations to `rows`.
     RowMatrix apply(const RowMatrix& rows) const;
     RowMatrix right_side() const;
-    /// Solves what is each node's own.
+    /// Solves the diagonal block of each node.
     RowMatrix preconditioned(const RowMatrix& residual) const;
 
 private:
@@ -36,7 +36,7 @@ private:
     const GridPoints& points_;
     const SparseGrid& grid_;
     const MovingBasis& basis_;
-    Eigen::Index rows_; ///< of a node
+    Eigen::Index rows_; ///< rows per node
     float smoothness_, ridge_;
     std::vector<std::vector<std::size_t>> parts_;    ///< [nodes]: cells · kCorners + corner
     std::vector<std::vector<std::size_t>> partners_; ///< [nodes]: at the other ends of edges of cells
@@ -44,8 +44,8 @@ private:
     std::vector<Eigen::MatrixXf> inverses_;          ///< [nodes]
 };
 
-/// Takes `steps` of conjugate gradients (Hestenes and Stiefel 1952), each number of the rows for itself,
-/// from the rows of `basis` on.
+/// Takes `steps` of conjugate gradients (Hestenes and Stiefel 1952), separately for each column of the rows,
+/// starting from the rows of `basis`.
 void improve_rows(const GridPoints& points, const SparseGrid& grid, MovingBasis& basis,
                   const RowPrices& prices, int steps);
 

@@ -1,4 +1,4 @@
-// Where receivers lie between the nodes of a regular grid.
+// Finds the cells of receivers in a regular grid.
 
 #include "sparse_grid.h"
 
@@ -31,7 +31,7 @@ glm::ivec3 corner_offset(std::size_t corner) {
     return {static_cast<int>(corner & 1), static_cast<int>(corner >> 1 & 1), static_cast<int>(corner >> 2)};
 }
 
-/// Of `place`, in edges from the least corner of a cell.
+/// Returns the interpolation weights at `place`, in edges from the minimum corner of a cell.
 std::array<float, kCorners> shares_of(const glm::dvec3& place) {
     std::array<float, kCorners> shares{};
     for (std::size_t corner = 0; corner < kCorners; ++corner) {
@@ -45,7 +45,7 @@ std::array<int, 3> key_of(const glm::ivec3& place) {
     return {place.z, place.y, place.x};
 }
 
-/// Numbers places in the order in which they are asked for.
+/// Numbers positions in the order in which they are requested.
 class NodeNumbers {
 public:
     explicit NodeNumbers(std::vector<glm::ivec3>& places) : places_(places) {}

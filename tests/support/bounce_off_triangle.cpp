@@ -1,3 +1,5 @@
+// Computes one bounce off a triangle by the baker and by quadrature.
+
 #include "support/bounce_off_triangle.h"
 
 #include "prt/bake.h"
@@ -18,8 +20,8 @@ namespace {
 constexpr std::size_t kCoefficients = 4;
 using Vector = std::array<double, 3 * kCoefficients>; // [channels][order²]
 
-/// Corners of a triangle that leans: the receiver at the origin sees much of the first, less of the second
-/// and least of the third, so that corners taken for each other show.
+/// Corners of a tilted triangle: the receiver at the origin sees much of the first, less of the second and
+/// little of the third, so that exchanged corners are detected.
 const std::array<glm::dvec3, 3> kCorners = {{{-0.3, 0.4, -0.3}, {1.2, 0.7, -1}, {0, 1.4, 3.5}}};
 const std::array<glm::dvec3, 3> kColors = {{{0.9, 0.2, 0.1}, {0.1, 0.8, 0.3}, {0.3, 0.1, 0.7}}};
 const std::array<glm::dvec2, 3> kTexcoords = {{{0.15, 0.2}, {0.9, 0.3}, {0.35, 0.85}}};
@@ -52,8 +54,8 @@ EncodedImage ramps() {
     return {"ramps.png", encode_png(kSize, kSize, pixels)};
 }
 
-/// Vertices 0 to 2 are the receiver's, 3 to 5 the triangle's. Normals at its corners lean apart, so that they
-/// are lit from different sides.
+/// Vertices 0 to 2 belong to the receiver, 3 to 5 to the triangle. Normals at its corners diverge, so that
+/// they are lit from different sides.
 Scene scene_of(Varying varying, bool behind) {
     const Scene receiver = SceneBuilder().triangle({0, 0, 0}, {0, 0, 0.01f}, {0.01f, 0, 0}).build();
     const bool turned =
@@ -104,8 +106,8 @@ glm::dvec3 reflectance(Varying varying, const std::array<double, 3>& at,
                                          : glm::dvec3(1);
 }
 
-/// (1/pi) ∫ rho T cos cos' / d² dA by the midpoint rule, where T and rho are taken from the corners that
-/// `corner` says in the place of 0, 1 and 2.
+/// Returns (1/pi) ∫ rho T cos cos' / d² dA by the midpoint rule. T and rho are those of the corners in
+/// `corner`, instead of 0, 1 and 2.
 Vector quadrature(Varying varying, const Transfer& direct, const std::array<std::size_t, 3>& corner) {
     constexpr int kSteps = 200;
     Vector sum{};

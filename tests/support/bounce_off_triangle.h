@@ -1,6 +1,7 @@
 #pragma once
 
-// What one large triangle sends onto a small receiver below it, by the baker and by a quadrature of its own.
+// Computes the light that one large triangle reflects onto a small receiver below it, by the baker and by an
+// independent quadrature.
 
 #include "prt/baked_transfer.h"
 
@@ -9,7 +10,7 @@
 
 namespace prt::test {
 
-/// What varies over the triangle.
+/// The quantity that varies over the triangle.
 enum class Varying {
     light,             ///< reflectance belongs to the corners
     vertex_colors,     ///< and light
@@ -23,9 +24,8 @@ std::ostream& operator<<(std::ostream& out, Varying varying);
 
 /// Largest difference from the quadrature over all coefficients, as a share of the largest of them.
 struct BounceError {
-    double baked; ///< of the baker
-    double
-        swapped; ///< of the quadrature with any two corners of the triangle taken for each other, the least
+    double baked;   ///< error of the baker
+    double swapped; ///< minimum error of the quadrature with any two corners of the triangle exchanged
 };
 BounceError bounce_off_triangle(Varying varying, Backend backend);
 

@@ -1,7 +1,7 @@
 #pragma once
 
-// Numbers that break careless arithmetic, and what is asked of functions that get them: their result is
-// finite, or they refuse with `prt::Error`.
+// Numbers that break careless arithmetic. Functions that get them must return finite results, or throw
+// `prt::Error`.
 
 #include "prt/support/error.h"
 
@@ -22,14 +22,14 @@ inline constexpr std::array kExtremes = {std::numeric_limits<float>::quiet_NaN()
                                          -std::numeric_limits<float>::infinity(),
                                          3e38f,
                                          -3e38f,
-                                         1e19f,  // whose square floats do not hold
-                                         1e-45f, // the least that is not zero
+                                         1e19f,  // its square overflows floats
+                                         1e-45f, // smallest positive float
                                          -1e-38f,
                                          0.0f,
                                          -0.0f,
                                          1.0f};
 
-/// What a function gives, as numbers.
+/// Results of a function, as numbers.
 using Numbers = std::vector<double>;
 
 /// Numbers of anything that holds vectors of GLM: colors, directions, pixels.
@@ -42,7 +42,7 @@ Numbers numbers_of(const Vectors& vectors) {
     return numbers;
 }
 
-/// A function at an order, with two numbers where it takes some.
+/// A function with an order and up to two numbers as arguments.
 struct ExtremeCase {
     const char* name;
     std::function<Numbers(int order, float x, float y)> call;

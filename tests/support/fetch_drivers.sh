@@ -1,9 +1,9 @@
 #!/usr/bin/env bash
-# fetch_drivers.sh FOLDER: unpacks newer graphics drivers than the system has, for tests, and installs nothing: from
-# Debian's backports, by the machine's own Debian sources. FOLDER then has
+# fetch_drivers.sh FOLDER: unpacks newer graphics drivers than those of the system, for tests, without
+# installing them: from Debian's backports, by the machine's Debian sources. FOLDER then contains
 #   lavapipe.json   a software device for Vulkan with ray queries
-#   radeon.json     AMD's driver, which compiles for chips that are not there (RADV_FORCE_FAMILY)
-#   lib             what they link to, for LD_LIBRARY_PATH
+#   radeon.json     AMD's driver, which also compiles for absent chips (RADV_FORCE_FAMILY)
+#   lib             their libraries, for LD_LIBRARY_PATH
 set -euo pipefail
 mkdir -p "${1:?folder}"
 folder=$(cd "$1" && pwd)

@@ -1,3 +1,5 @@
+// Computes radiance of vertices and lightmaps with OpenGL.
+
 #include "support/gl_radiance.h"
 
 #include "prt/gl_objects.h"
@@ -23,7 +25,7 @@ void attach_vectors(GLuint vertex_array, GLuint location, const GlObject& buffer
     glVertexArrayAttribBinding(vertex_array, location, location);
 }
 
-/// The attributes that guides want of a mesh, from the coordinates of all receivers.
+/// Attaches the attributes of predictors to a mesh, from the coordinates of all receivers.
 std::vector<GlObject> attach_guides(GLuint vertex_array, const ClusteredTransfer& transfer) {
     std::vector<GlObject> buffers;
     const ClusteredBases& bases = transfer.bases;
@@ -50,8 +52,8 @@ GlObject make_words(const LightmapSize& size, std::span<const std::uint32_t> wor
     return texture;
 }
 
-/// The words of a map, each in a texture that shaders find at its unit. `bytes`: as four bytes each, as
-/// prt_lightmap.frag reads them.
+/// Binds the words of a map, each in a texture at its unit. `bytes`: as four bytes each, as prt_lightmap.frag
+/// reads them.
 std::vector<GlObject> bind_words(const CompressedLightmap& lightmap, std::size_t map, bool bytes) {
     std::vector<GlObject> textures;
     for (int w = 0; w < lightmap.compressed.transfer.receivers.words; ++w) {
@@ -101,7 +103,7 @@ std::vector<glm::vec3> exit_radiance_gl(const ClusteredTransfer& transfer, const
     const std::vector<GlObject> guides = attach_guides(vertex_array.name(), transfer);
     std::vector<glm::vec3> radiance(transfer.receivers.size());
     const GlObject output = make_buffer(std::span<const glm::vec3>(radiance));
-    // Nothing is drawn, but without a window there is no framebuffer unless we make one.
+    // Nothing is drawn, but without a window there is no framebuffer unless the test creates one.
     const GlObject framebuffer = make_framebuffer();
     glNamedFramebufferParameteri(framebuffer.name(), GL_FRAMEBUFFER_DEFAULT_WIDTH, 1);
     glNamedFramebufferParameteri(framebuffer.name(), GL_FRAMEBUFFER_DEFAULT_HEIGHT, 1);

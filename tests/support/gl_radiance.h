@@ -18,7 +18,7 @@ std::vector<glm::vec3> exit_radiance_gl(const ClusteredTransfer& transfer, const
 /// The radiance that the compute shader writes at full precision: [texels of the layout].
 std::vector<glm::vec3> lightmap_radiance_gl(const CompressedLightmap& lightmap, const Lighting& lighting,
                                             const GlContext& context);
-/// The same by `shaders/prt_lightmap.frag`, drawn over maps.
+/// Returns the radiance computed by `shaders/prt_lightmap.frag`, drawn over the maps.
 std::vector<glm::vec3> lightmap_radiance_by_fragments(const CompressedLightmap& lightmap,
                                                       const Lighting& lighting, const GlContext& context);
 

@@ -1,3 +1,5 @@
+// Builds and parses .glb files.
+
 #include "glb_file.h"
 
 #include <cstdint>

@@ -33,7 +33,7 @@ struct GlbFile {
 inline constexpr int kByte = 5120, kUnsignedByte = 5121, kShort = 5122, kUnsignedShort = 5123,
                      kUnsignedInt = 5125, kFloat = 5126;
 
-/// A .glb taken apart.
+/// Parses a .glb into its parts.
 GlbFile glb_of(std::span<const std::byte> bytes);
 GlbFile read_glb(const std::filesystem::path& path);
 

@@ -1,3 +1,5 @@
+// Builds scenes for tests of the GPU tracer.
+
 #include "support/gpu_scenes.h"
 
 #include "support/scene_builder.h"

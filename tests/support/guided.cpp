@@ -1,3 +1,5 @@
+// Adds random predictors to transfer.
+
 #include "support/guided.h"
 
 #include <glm/common.hpp>

@@ -7,18 +7,18 @@
 
 namespace prt::test {
 
-/// None, each kind, and both.
+/// Returns the sets of predictors: none, each kind, and both.
 const std::vector<std::vector<GuideKind>>& sets_of_guides();
 
-/// Puts guides of `kinds` into `bases`, with random rows behind the means, random scales and centers; the
-/// rows are not coded any more.
+/// Adds predictors of `kinds` to `bases`, with random rows after the means, random scales and centers; the
+/// rows are no longer coded.
 void add_guides(ClusteredBases& bases, const std::vector<GuideKind>& kinds, std::mt19937& random);
 
-/// The same with coordinates for all receivers: unit normals, some of them of 8 bits and some zero, and
-/// positions seen from the guide's origin, metres.
+/// Adds predictors with coordinates for all receivers: unit normals, some of them of 8 bits and some zero,
+/// and positions relative to the predictor's origin, metres.
 void add_guides(ClusteredTransfer& transfer, const std::vector<GuideKind>& kinds, std::mt19937& random);
 
-/// Random code of as many rows as `bases` has, over axes of these `scales`, and the rows that it stands for.
+/// Creates random code for the rows of `bases`, over axes of these `scales`, and sets the decoded rows.
 void code_bases(ClusteredBases& bases, const std::vector<float>& scales, std::mt19937& random);
 
 /// T = mean + sum_i (scale_i x_i - center_i) guide_i + sum_j w_j direction_j of receiver `p`, in double.

@@ -1,3 +1,5 @@
+// Builds a file whose instances share transfer.
+
 #include "support/instanced_model.h"
 
 #include "prt/encode_glb.h"
@@ -12,7 +14,7 @@ namespace prt::test {
 GlbFile instanced_triangles() {
     GlbFile file = triangle_file();
     file.json["nodes"] = nlohmann::ordered_json::array();
-    for (const float x : {0.0f, 2.0f, 5.0f}) // turned by 45 degrees, one of the yaws
+    for (const float x : {0.0f, 2.0f, 5.0f}) // rotated by 45 degrees, one of the yaw bins
         file.json["nodes"].push_back(
             {{"mesh", 0}, {"translation", {x, 1, 0}}, {"rotation", {0, 0.38268343, 0, 0.92387953}}});
     file.json["nodes"].push_back({{"mesh", 1}, {"translation", {0, 0, 9}}});

@@ -1,3 +1,5 @@
+// Adds simplified levels of detail to files.
+
 #include "support/level_file.h"
 
 #include <meshoptimizer.h>
@@ -41,7 +43,7 @@ std::vector<unsigned> indices_of(const GlbFile& file, const Json& primitive) {
     }
 }
 
-/// Those of the vertices that are left.
+/// Returns the values of the remaining vertices.
 std::vector<float> kept(const std::vector<float>& values, const std::vector<unsigned>& remap,
                         std::size_t count) {
     std::vector<float> result(3 * count);
@@ -88,7 +90,7 @@ Json simplified(GlbFile& file, const Json& primitive, float share) {
     return result;
 }
 
-/// Lists `node` beside `sibling`.
+/// Adds `node` to the list that contains `sibling`.
 void add_sibling(Json& json, std::size_t sibling, std::size_t node) {
     const auto add_to = [&](Json& list) {
         for (const Json& other : list)

@@ -6,11 +6,12 @@
 
 namespace prt::test {
 
-/// How a file says which nodes are levels of detail.
+/// How a file marks nodes as levels of detail.
 enum class LevelsBy { extension, names };
 
-/// Gives each node that has a mesh coarser levels, by meshoptimizer of about these shares of its triangles:
-/// nodes out of the scene and MSFT_lod, or siblings and names. Their vertices have positions and normals.
+/// Adds coarser levels to each node with a mesh, simplified by meshoptimizer to about these fractions of its
+/// triangles: as nodes outside the scene with MSFT_lod, or as named siblings. Their vertices have positions
+/// and normals.
 GlbFile with_levels(GlbFile file, std::span<const float> shares, LevelsBy by = LevelsBy::extension);
 
 } // namespace prt::test

@@ -1,3 +1,5 @@
+// Builds files with lightmaps.
+
 #include "support/lightmap_model.h"
 
 #include "prt/encode_glb.h"
@@ -71,7 +73,7 @@ GlbFile with_lightmap(const GlbFile& scene, const CompressedLightmap& lightmap) 
 std::size_t add_image(GlbFile& file, std::span<const std::byte> png, const char* type) {
     const std::size_t view = file.view(png);
     file.json["images"].push_back({{"bufferView", view}, {"mimeType", type}});
-    file.json.erase("buffers"); // of another length now: it is written anew
+    file.json.erase("buffers"); // its length changed: it is rewritten
     return file.json["images"].size() - 1;
 }
 

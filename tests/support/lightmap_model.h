@@ -12,8 +12,8 @@
 
 namespace prt::test {
 
-/// A floor of so many cells along a side, which two primitives show: coordinates 0 fill the square from 0 to
-/// 1, coordinates 1 lie in four squares about it.
+/// Returns a floor of `cells` cells along a side, in two primitives: coordinates 0 fill the square from 0 to
+/// 1, coordinates 1 are in four squares around it.
 GlbFile mapped_floor(int cells);
 
 /// Its texels in two maps: by coordinates 0 in the first, by coordinates 1 in the second, which repeats.
@@ -27,7 +27,7 @@ BakedLightmap made_up_lightmap(const LightmapLayout& layout, const TransferLayou
 GlbFile with_lightmap(const GlbFile& scene, const BakedLightmap& lightmap);
 GlbFile with_lightmap(const GlbFile& scene, const CompressedLightmap& lightmap);
 
-/// The place in `file.json["images"]` of a new image of these bytes.
+/// Adds an image with these bytes and returns its index in `file.json["images"]`.
 std::size_t add_image(GlbFile& file, std::span<const std::byte> png, const char* type = "image/png");
 
 } // namespace prt::test

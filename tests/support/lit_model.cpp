@@ -1,3 +1,5 @@
+// Builds a small file with transfer.
+
 #include "support/lit_model.h"
 
 #include "prt/gltf.h"

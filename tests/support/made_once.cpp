@@ -1,3 +1,5 @@
+// Makes files once per process.
+
 #include "made_once.h"
 
 #include "temporary_folder.h"

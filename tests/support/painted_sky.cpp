@@ -1,3 +1,5 @@
+// Paints environment maps from functions and discs.
+
 #include "support/painted_sky.h"
 
 #include "prt/support/parallel.h"
@@ -24,7 +26,7 @@ glm::dvec3 direction_at(const Environment& e, double x, double y) {
         return angular_direction(2 * u / size - 1, 2 * v / size - 1);
     if (e.layout == EnvironmentLayout::cube_faces)
         return cube_face_direction(face, 2 * u / size - 1, 2 * v / size - 1);
-    // The middles of border texels lie on the border; what is beyond belongs to the neighbor.
+    // The centers of border texels are on the border; directions beyond belong to the neighbour.
     const auto at = [&](double t) { return std::clamp((2 * t - 1) / (size - 1) - 1, -1.0, 1.0); };
     return cube_direction(face, at(u), at(v));
 }

@@ -1,6 +1,6 @@
 #pragma once
 
-// Environment maps with discs in them, whose light is known in closed form.
+// Environment maps with discs; their light is known in closed form.
 
 #include "prt/environment.h"
 
@@ -27,9 +27,9 @@ using Radiance = std::function<glm::dvec3(const glm::dvec3& direction)>;
 Environment painted_sky(EnvironmentLayout layout, int width, int height, const Radiance& sky,
                         const std::vector<PaintedDisc>& discs);
 
-/// Goes up from the horizon by the sevenfold, bluer, and is bright towards +Z.
+/// Returns a sky that becomes seven times brighter and bluer from the horizon up, and is bright towards +Z.
 glm::dvec3 gradient_sky(const glm::dvec3& direction);
-/// The same with clouds from a degree to a radian wide, twice as bright as the gaps.
+/// Returns the gradient sky with clouds from a degree to a radian wide, twice as bright as the gaps.
 glm::dvec3 cloudy_sky(const glm::dvec3& direction);
 
 } // namespace prt::test

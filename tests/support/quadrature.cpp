@@ -1,3 +1,5 @@
+// Integrates functions over the sphere and over intervals.
+
 #include "quadrature.h"
 
 #include <cmath>
@@ -14,7 +16,7 @@ glm::dvec3 direction(double z, double phi) {
     return {r * std::cos(phi), r * std::sin(phi), z};
 }
 
-/// P_n(z) and its derivative, by std::legendre, which is not what the library uses.
+/// Returns P_n(z) and its derivative, by std::legendre, which the library does not use.
 std::pair<double, double> legendre(unsigned n, double z) {
     const double p = std::legendre(n, z), before = std::legendre(n - 1, z);
     return {p, n * (z * p - before) / (z * z - 1)};

@@ -1,3 +1,5 @@
+// Creates random lightmaps.
+
 #include "support/random_lightmap.h"
 
 #include <array>

@@ -7,8 +7,8 @@
 
 namespace prt::test {
 
-/// Maps of these sizes whose texels are in any cluster, with any weights. Bits of a weight differ, and so do
-/// clusters, unless `alike`.
+/// Returns maps of these sizes whose texels have random clusters and weights. Bits of weights and clusters
+/// differ, unless `alike`.
 CompressedLightmap random_lightmap(const std::vector<LightmapSize>& maps, int words, bool alike,
                                    std::mt19937& random);
 

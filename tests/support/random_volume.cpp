@@ -1,3 +1,5 @@
+// Creates random volumes.
+
 #include "support/random_volume.h"
 
 #include <algorithm>
@@ -59,7 +61,7 @@ CompressedVolume random_volume(const VolumeGrid& grid, int order, bool alike, st
     layout.outputs = static_cast<std::size_t>(coefficient_count(order));
     volume.compressed.transfer.bases = random_bases(layout, alike, random);
     volume.compressed.transfer.receivers = random_receivers(volume.compressed.transfer.bases, probes, random);
-    // Nearer surfaces than a fifth of a cell would magnify what is rounded in a position.
+    // Surfaces nearer than a fifth of a cell would amplify the rounding of positions.
     std::uniform_int_distribution<int> sight(60, 400);
     for (std::size_t p = 0; p < probes; ++p) {
         ProbeSight& s = volume.sights.emplace_back();

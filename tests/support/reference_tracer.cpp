@@ -1,3 +1,5 @@
+// Traces direct transfer independently of the baker.
+
 #include "reference_tracer.h"
 
 #include <embree3/rtcore.h>

@@ -1,7 +1,7 @@
 #pragma once
 
-// Direct transfer by another way than the baker's, to judge it by: only Embree is shared. Own starts of rays,
-// own samples (jittered strata), own basis (bands 0 to 2 as polynomials).
+// Computes direct transfer independently of the baker, as a reference: only Embree is shared. Ray origins,
+// samples (jittered strata) and basis (bands 0 to 2 as polynomials) are implemented separately.
 
 #include "prt/scene.h"
 
@@ -18,9 +18,9 @@ struct ReferenceTransfer {
     double relative_l2(const std::vector<float>& other, const std::vector<float>& areas) const;
 };
 
-/// Rays start a millionth of the scene's size above the faces of a vertex, along the sum of their normals
-/// (the open side of all of them, where they are no worse than a corner of a box), whatever the vertex's
-/// normal. `rays` is a square.
+/// Rays start a millionth of the scene's size above the faces of a vertex, along the sum of their normals (on
+/// the open side of all of them, if they form no worse corner than a box), independent of the vertex's
+/// normal. `rays` must be a square number.
 ReferenceTransfer reference_transfer(const Scene& scene, int rays);
 
 } // namespace prt::test

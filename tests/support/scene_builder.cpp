@@ -1,3 +1,5 @@
+// Builds scenes of simple shapes.
+
 #include "scene_builder.h"
 
 #include <glm/geometric.hpp>

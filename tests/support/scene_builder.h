@@ -6,7 +6,7 @@
 
 namespace prt::test {
 
-/// Makes scenes of one vertex array and one primitive without a file.
+/// Builds scenes of one vertex array and one primitive without a file.
 class SceneBuilder {
 public:
     SceneBuilder& triangle(const glm::vec3& a, const glm::vec3& b, const glm::vec3& c);

@@ -1,3 +1,5 @@
+// Creates and removes temporary folders.
+
 #include "temporary_folder.h"
 
 #include <cstdlib>

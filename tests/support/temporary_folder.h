@@ -5,7 +5,7 @@
 
 namespace prt::test {
 
-/// A folder of its own for a test, removed at the end.
+/// A separate folder for a test, removed at the end.
 class TemporaryFolder {
 public:
     TemporaryFolder();

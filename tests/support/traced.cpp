@@ -1,3 +1,5 @@
+// Traces transfer of receivers.
+
 #include "support/traced.h"
 
 #include "prt/make_tracer.h"

@@ -7,11 +7,11 @@
 
 namespace prt::test {
 
-/// Of those `receivers` that have an area and a normal; the others get zeros.
+/// Returns the transfer of the `receivers` that have an area and a normal; all others get zeros.
 Transfer traced(Tracer& tracer, const Receivers& receivers, const TraceOptions& options,
                 const ReceiverSink& sink = {});
 
-/// Of one receiver under `scene`, on the CPU.
+/// Returns the transfer of one receiver under `scene`, on the CPU.
 Transfer traced_at(const TraceScene& scene, const glm::vec3& position, const glm::vec3& normal,
                    const TraceOptions& options);
 

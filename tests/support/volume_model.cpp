@@ -1,3 +1,5 @@
+// Builds a file with a volume.
+
 #include "support/volume_model.h"
 
 #include "prt/encode_glb.h"

@@ -15,7 +15,7 @@ inline VulkanChoice vulkan_choice() {
     return {.traversal = queries ? Traversal::device : Traversal::compute, .validate = true};
 }
 
-/// Expects that the device was used as Vulkan says, and traverses as it was chosen to.
+/// Expects that the device was used without validation errors, with the chosen kind of traversal.
 inline void expect_valid(const VulkanDevice& device) {
     EXPECT_EQ(device.traits().ray_queries, vulkan_choice().traversal == Traversal::device);
     for (const std::string& complaint : device.complaints())

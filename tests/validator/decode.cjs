@@ -1,7 +1,7 @@
-// A decoder of prtkit files in another language, written from docs/format.md alone:
+// An independent decoder of prtkit files in JavaScript, written from docs/format.md only:
 //   node decode.cjs BAKED SHIPPED [NODE_MODULES]
-// prints the area-weighted relative L2 error of SHIPPED against BAKED, and its expected lit_rms under natural light. Of
-// lightmaps NODE_MODULES has the reader of PNG, pngjs.
+// Prints the area-weighted relative L2 error of SHIPPED against BAKED, and its expected lit_rms under natural
+// light. Lightmaps need the PNG reader pngjs in NODE_MODULES.
 const fs = require("fs");
 const { resolve } = require("path");
 
@@ -135,7 +135,7 @@ function codedRows(glb, code, rows) {
   });
 }
 
-/// Per cluster its mean, the rows of its guides and its directions.
+/// Returns for each cluster its mean, the rows of its predictors and its directions.
 function clusterRows(glb, extension) {
   const dimension = dimensionOf(extension);
   const guided = 3 * (extension.guides ?? []).length;
@@ -164,7 +164,8 @@ function clusterRows(glb, extension) {
   return extension.components.map((m) => rows.slice(next, (next += 1 + guided + m)));
 }
 
-/// Coordinates of every vertex of a primitive in the guides. The scene's nodes must not move their meshes.
+/// Returns the coordinates of every vertex of a primitive in the predictors. The scene's nodes must not
+/// transform their meshes.
 function guideCoordinates(glb, extension, primitive) {
   const guides = extension.guides ?? [];
   const normals = glb.accessor(primitive.attributes.NORMAL);
@@ -177,7 +178,7 @@ function guideCoordinates(glb, extension, primitive) {
   );
 }
 
-/// What makes cluster and weights of the bytes of a receiver's words.
+/// Returns a function that decodes cluster and weights from the bytes of a receiver's words.
 function packedCodes(glb, { components, packing }) {
   const widths = new Bits(glb.bytes(packing.bufferView));
   const bits = components.map((m) => Array.from({ length: m }, () => widths.read(4) + 1));
@@ -220,7 +221,7 @@ function texelBytes(glb, { maps }) {
   });
 }
 
-/// A cluster's rows, put together by weights of those behind the mean.
+/// Returns the mean of a cluster plus its other rows multiplied by weights.
 function combined(rows, weights) {
   const vector = [...rows[0]];
   weights.forEach((w, j) => rows[1 + j].forEach((b, i) => (vector[i] += w * b)));
@@ -264,7 +265,7 @@ function vertices(baked, shipped) {
   });
 }
 
-/// The same of every texel that is a receiver. All texels are decoded.
+/// Returns the decoded vectors of every texel that is a receiver. All texels are decoded.
 function texels(baked, shipped) {
   const extension = shipped.json.extensions.PRTKIT_lightmap;
   const rows = clusterRows(shipped, extension);
@@ -313,7 +314,7 @@ function costs(vector) {
       of[p].forEach((value, i) => {
         squares += value ** 2;
         if (a.kind === "lamp") {
-          byLamps.set(p, (byLamps.get(p) ?? 0) + value ** 2); // as it is, by itself
+          byLamps.set(p, (byLamps.get(p) ?? 0) + value ** 2); // each lamp separately, at its own strength
           return;
         }
         parts.forEach((b, q) => {
@@ -340,7 +341,7 @@ for (const { area, vector, decoded } of ofTexels ? texels(baked, shipped) : vert
     lamps.set(lamp, sum);
   }
 }
-// All lamps together cost as much as the sky and each as much as the others, where both give something.
+// All lamps together cost as much as the sky, and each as much as the others, if both have light.
 const shining = [...lamps.values()].filter(({ norm }) => norm > 0);
 const all = sums.litNorm > 0 ? sums.litNorm : shining.reduce((sum, { norm }) => sum + norm, 0);
 for (const { error, norm } of shining) {

@@ -1,8 +1,9 @@
-// The textures of examples/web for a volume against those of the runtime:
+// Compares the textures of examples/web for a volume with those of the runtime:
 //   node form_web.mjs SHIPPED TEXTURES
-// TEXTURES: words of sights and of the index, and bits of half floats of light, one behind the other, under a sky of coefficients
-// cos(1), cos(2), .. and suns half as strong towards +Y. Says what differs; status 1 then. Half floats may be neighbours: both
-// sum in another order.
+// TEXTURES contains words of visibility distances and of the index, and bits of half floats of light, one
+// after the other, under a sky of coefficients cos(1), cos(2), .. and suns half as strong towards +Y. Prints
+// the differences, and then exits with status 1. Half floats may differ by one step: the order of sums
+// differs.
 import { readFileSync } from "node:fs";
 import { lightColumns } from "../../examples/web/src/clusteredPca.js";
 import { halfFloat } from "../../examples/web/src/halfFloat.js";

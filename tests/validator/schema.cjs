@@ -1,7 +1,7 @@
-// What the JSON schemas of docs/format.md say of files:
+// Validates files with the JSON schemas of docs/format.md:
 //   node schema.cjs NODE_MODULES FORMAT FILE...
-// prints a line for each .glb: its name, and "right" or what is wrong. Of every extension of prtkit that the file has at the
-// top level, on its nodes, and on its primitives. Exit status: 1 where one is wrong, 2 where a schema is.
+// Prints a line for each .glb: its name, and "right" or the errors, for every prtkit extension of the file at
+// the top level, on its nodes, and on its primitives. Exit status: 1 if a file is invalid, 2 if a schema is.
 const fs = require("fs");
 const path = require("path");
 const [modules, format, ...files] = process.argv.slice(2);
@@ -12,14 +12,15 @@ const schemas = blocks.filter((text) => text.includes('"$schema"')).map((text) =
 const ajv = new Ajv({ strictTypes: false, allErrors: true });
 let check;
 try {
-  for (const schema of schemas) ajv.addSchema(schema, schema.$id ?? schema.title); // all, before one refers to another
+  // all schemas first, because they refer to each other
+  for (const schema of schemas) ajv.addSchema(schema, schema.$id ?? schema.title);
   check = new Map(schemas.map(({ $id, title }) => [title, ajv.getSchema($id ?? title)]));
 } catch (error) {
   console.log(error.message);
   process.exit(2);
 }
 
-/// What is wrong with a value by the schema of this title; one that there is no schema for must not be there.
+/// Returns the errors of a value by the schema of this title; a value without a schema is an error.
 function wrong(title, value) {
   const validate = check.get(title);
   if (!validate) return [`there is no schema '${title}'`];

@@ -15,8 +15,8 @@ using namespace plan;
 constexpr float kRing = 0.15f; ///< breadth of the stones round an arch
 constexpr float kCeiling = 4.06f;
 
-/// An arch from `x` to `x + width` of the plane z = 0: the columns of vertices from its foot to the storey,
-/// along x. The first and the last stand on the pier.
+/// Returns the lower edge of the wall over an arch from `x` to `x + width` in the plane z = 0, from left to
+/// right: from the foot of the arch to the storey. The first and the last point are on the pier.
 std::vector<glm::vec2> arch_feet(float x, float width) {
     constexpr int kSteps = 22;
     const float middle = x + width / 2, radius = kArch + kRing - 0.02f;
@@ -29,7 +29,7 @@ std::vector<glm::vec2> arch_feet(float x, float width) {
     return feet;
 }
 
-/// What stands above a row of arches, facing +z.
+/// Returns the wall above a row of arches, facing +z.
 Mesh spandrels(float width, int bays) {
     constexpr int kRows = 9;
     std::vector<std::vector<glm::vec3>> rows(kRows + 1);
@@ -43,13 +43,13 @@ Mesh spandrels(float width, int bays) {
     return lofted(rows);
 }
 
-/// The same wall from behind, at z = -kArcadeWall.
+/// Returns the back of this wall, at z = -kArcadeWall.
 Mesh spandrels_behind(float width, int bays) {
     return placed(spandrels(width, bays),
                   placement({width * static_cast<float>(bays), 0, -kArcadeWall}, 180));
 }
 
-/// Stones round an arch, which stand a little before the wall, and what one sees of it from below.
+/// Returns the stones around an arch, which protrude from the wall, and their visible underside.
 Mesh arch_ring(float middle) {
     std::vector<Station> way;
     constexpr int kSteps = 26;

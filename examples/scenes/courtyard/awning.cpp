@@ -17,8 +17,8 @@ namespace {
 
 using namespace plan;
 
-/// The two faces of a cloth that lets no light through. Each is one-sided and has light of its own; a
-/// double-sided sheet would show the light of its front on both sides.
+/// Returns both faces of an opaque cloth. Each face is one-sided and has separate transfer; a double-sided
+/// sheet would show the light of its front on both sides.
 Mesh both_faces(const Mesh& cloth) {
     constexpr float kThickness = 0.012f;
     Mesh back = cloth;
@@ -33,7 +33,7 @@ Mesh both_faces(const Mesh& cloth) {
     return mesh;
 }
 
-/// An awning before the wall z = 0: where its middle is, how wide it is and where its edges are.
+/// An awning in front of the wall z = 0: its middle, its width and the positions of its edges.
 struct Awning {
     float middle, width, out, high, low;
 };

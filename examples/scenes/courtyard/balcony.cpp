@@ -1,4 +1,4 @@
-// A balcony before the three doors of the back wing, with a railing of iron and a cloth hung over it.
+// A balcony in front of the three doors of the back wing, with an iron railing and a cloth over it.
 
 #include "courtyard_parts.h"
 #include "plan.h"

@@ -1,3 +1,5 @@
+// Assembles the courtyard from its parts.
+
 #include "courtyard_parts.h"
 
 namespace examples {

@@ -1,12 +1,12 @@
 #pragma once
 
-// What the courtyard is put together from: each adds to the meshes that it is made of.
+// The parts of the courtyard. Each function adds to the meshes of its materials.
 
 #include "materials.h"
 
 namespace examples {
 
-/// Floors of court, galleries and what lies around.
+/// Adds the floors of court, galleries and surroundings.
 void add_paving(Courtyard& to);
 /// Ground floor: arches on columns, galleries behind them.
 void add_arcades(Courtyard& to);

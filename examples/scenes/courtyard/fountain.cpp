@@ -1,4 +1,4 @@
-// An eight-sided basin with a bowl on a foot, from which water falls.
+// An octagonal basin with a bowl on a foot and falling water.
 
 #include "courtyard_parts.h"
 #include "shapes.h"
@@ -10,7 +10,7 @@ namespace examples {
 namespace {
 
 const glm::vec3 kFountain(-0.7f, 0, -4.9f);
-constexpr float kRim = 0.66f, kLevel = 0.56f, kInner = 1.34f; ///< of the basin
+constexpr float kRim = 0.66f, kLevel = 0.56f, kInner = 1.34f; ///< basin
 constexpr float kBowl = 1.62f;                                ///< height of the bowl's rim
 
 /// The basin's water, with rings about where the streams fall.

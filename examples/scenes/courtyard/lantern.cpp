@@ -17,7 +17,7 @@ constexpr float kRadius = 0.12f, kHeight = 0.34f;
 constexpr float kIntensity = 8; ///< white paper 1.6 m away is white
 constexpr int kSides = 6;
 
-/// A lantern whose ring is at `top`, with its lamp.
+/// Adds a lantern with its ring at `top`, and its lamp.
 void add_lantern(Courtyard& to, const glm::vec3& top) {
     const glm::vec3 foot = top - glm::vec3(0, kHeight + 0.2f, 0);
     append(to.building.iron, polygonal_lathe(foot,
@@ -47,7 +47,7 @@ void add_lantern(Courtyard& to, const glm::vec3& top) {
         append(to.building.iron, bar(foot + post, foot + post + glm::vec3(0, kHeight, 0), 0.01f, 4));
     }
     append(to.glass.flames, lathe(foot, {{0.012f, 0.02f}, {0.03f, 0.06f}, {0.022f, 0.1f}, {0, 0.15f}}, 8));
-    // Above the flame, which would stand in its way.
+    // Above the flame, so that the flame does not block the lamp.
     const std::string name = "Lantern" + std::to_string(to.lamps.size() + 1);
     to.lamps.push_back({name, foot + glm::vec3(0, 0.2f, 0), {1, 0.62f, 0.27f}, kIntensity, 14});
 }

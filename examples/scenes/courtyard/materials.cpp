@@ -1,4 +1,4 @@
-// Colors and pictures of what the courtyard is made of.
+// Colors and pictures of the courtyard's materials.
 #include "materials.h"
 
 #include "textures.h"

@@ -4,7 +4,7 @@
 
 namespace examples {
 
-/// The meshes of the courtyard by what they are made of. Each becomes a part.
+/// The meshes of the courtyard by material. Each becomes a part of the scene.
 struct Courtyard {
     struct Building {
         Mesh paving, plaster, garden_plaster, stone, glazed_tiles, roof_tiles, wood, painted_wood, iron;

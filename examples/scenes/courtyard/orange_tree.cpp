@@ -16,7 +16,7 @@ namespace {
 const glm::vec3 kTree(2.7f, 0, -7.4f);
 constexpr float kPlanter = 0.5f; ///< height
 
-/// A branch that bends upwards, and where it ends.
+/// Adds a branch that bends upwards; returns the position of its end.
 glm::vec3 add_branch(Mesh& bark, const glm::vec3& from, const glm::vec3& along, float radius,
                      float end_radius, int segments) {
     constexpr std::size_t kPoints = 6;
@@ -31,7 +31,7 @@ glm::vec3 add_branch(Mesh& bark, const glm::vec3& from, const glm::vec3& along, 
     return points.back();
 }
 
-/// Leaves about the end of a twig, each turned outwards.
+/// Adds leaves around the end of a twig, each facing outwards.
 void add_leaves(Mesh& leaves, Chance& growth, const glm::vec3& middle, const glm::vec3& crown, int count) {
     for (int i = 0; i < count; ++i) {
         const glm::vec3 base =

@@ -1,8 +1,8 @@
 #pragma once
 
-// Where the walls of the courtyard stand, in metres. The court lies between x = -kHalf and kHalf and z =
-// -kDeep and 0, and is open to the front (+z). An arcade of two storeys stands on its left and at its back, a
-// garden wall on its right.
+// Positions of the courtyard's walls, in metres. The court extends from x = -kHalf to kHalf and from z =
+// -kDeep to 0, and is open to the front (+z). A two-storey arcade is on its left and at its back, a garden
+// wall on its right.
 
 #include "example_scenes.h"
 
@@ -15,12 +15,12 @@ inline constexpr float kArcadeWall = 0.36f; ///< thickness
 inline constexpr float kOuterWall = 0.3f;
 inline constexpr float kWing = kArcadeWall + kGallery + kOuterWall; ///< depth of a wing
 inline constexpr float kStep = 0.14f;  ///< the galleries lie higher than the court
-inline constexpr float kSpring = 2.5f; ///< where the arches begin
+inline constexpr float kSpring = 2.5f; ///< height of the arches' feet
 inline constexpr float kArch = 0.86f;  ///< radius of their openings
 inline constexpr float kStorey = 4.3f, kEaves = 7.3f;
 inline constexpr float kRoofSlope = 0.36f;
 inline constexpr float kGardenWall = 2.9f; ///< height
-inline constexpr float kFront = 6;         ///< how far the paving goes on before the court
+inline constexpr float kFront = 6;         ///< extent of the paving in front of the court
 inline constexpr float kTall = 0.5f;       ///< spacing of vertices where nobody looks
 
 /// From the frame of a wing, in which its front is the plane z = 0, facing +z, from x = 0 to kDeep.

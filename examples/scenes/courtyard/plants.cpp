@@ -41,7 +41,7 @@ void add_bougainvillea(Courtyard& to) {
     }
 }
 
-/// A clay pot with soil and a plant of long leaves.
+/// Adds a clay pot with soil and a plant with long leaves.
 void add_pot(Courtyard& to, const glm::vec3& place, float size, bool flowering, unsigned seed) {
     Outline outline = {{0.15f, 0},      {0.17f, 0.02f}, {0.21f, 0.2f},  {0.235f, 0.36f},
                        {0.235f, 0.36f}, {0.26f, 0.37f}, {0.27f, 0.41f}, {0.26f, 0.44f},

@@ -1,4 +1,4 @@
-// Roofs of round tiles, which fall towards the court and meet in a valley.
+// Roofs of round tiles, which slope towards the court and meet in a valley.
 
 #include "courtyard_parts.h"
 #include "plan.h"
@@ -13,7 +13,7 @@ using namespace plan;
 
 constexpr float kTile = 0.26f, kCourse = 0.42f, kOverhang = 0.5f;
 
-/// From x = `from` to `to_x` of its wing, over a wing that begins at z = 0 and lies behind.
+/// Returns the tiles from x = `from` to `to_x` of a wing that begins at z = 0 and extends towards -z.
 Mesh tiled_slope(float from, float to_x) {
     const float length = to_x - from, depth = kWing + kOverhang + 0.15f;
     const int tiles = static_cast<int>(std::lround(length / kTile));

@@ -1,3 +1,5 @@
+// Paints the tiling pictures of the courtyard.
+
 #include "textures.h"
 
 #include "noise.h"
@@ -21,7 +23,8 @@ float fraction(float x) {
     return x - std::floor(x);
 }
 
-/// 0 on the star of two squares, one turned by an eighth, of radius `size`; below inside.
+/// Returns the distance to a star of two squares, one rotated by 45 degrees, of radius `size`; negative
+/// inside.
 float star_distance(const glm::vec2& p, float size) {
     const glm::vec2 a = glm::abs(p);
     return std::min(std::max(a.x, a.y), (a.x + a.y) * 0.70710678f) - size;
@@ -45,7 +48,7 @@ SharedPicture paving_picture() {
         const int course = static_cast<int>(y);
         const float x = fraction(u + 0.37f * lattice(course, 7)) * 4;
         const int slab = static_cast<int>(x);
-        // Borders between slabs stand askew, but for that at the seam of the picture.
+        // Borders between slabs are slanted, except at the edge of the picture.
         const auto border = [&](int i) {
             return static_cast<float>(i) + (i % 4 == 0 ? 0 : 0.5f * (lattice(i, course + 20) - 0.5f));
         };

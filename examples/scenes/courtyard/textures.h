@@ -1,6 +1,6 @@
 #pragma once
 
-// Pictures of what the courtyard is built of. All tile; sizes are those of one picture on the wall.
+// Tiling pictures of the courtyard's building materials. Sizes are those of one picture on the wall.
 
 #include "picture.h"
 

@@ -49,7 +49,7 @@ void add_casement(Courtyard& to, const Window& window, const glm::mat4& wing) {
     }
 }
 
-/// Two shutters that stand open, of slats between rails.
+/// Adds two open shutters of slats between rails.
 void add_shutters(Courtyard& to, const Opening& o, const glm::mat4& wing) {
     const float width = (o.high.x - o.low.x) / 2;
     for (const float x : {o.low.x - width - 0.05f, o.high.x + 0.05f}) {

@@ -4,11 +4,11 @@
 
 namespace examples::anatomy {
 
-/// What the figure wears and is, a mesh for each material.
+/// Returns the mesh of the shirt. The figure has one mesh per material.
 SoftMesh shirt();
-/// Trousers, shoes and hair.
+/// Returns the mesh of trousers, shoes and hair.
 SoftMesh dark_parts();
-/// Head, neck and hands.
+/// Returns the mesh of head, neck and hands.
 SoftMesh skin_parts();
 
 } // namespace examples::anatomy

@@ -1,3 +1,5 @@
+// Joints of the figure at rest.
+
 #include "figure/bones.h"
 
 #include <cmath>

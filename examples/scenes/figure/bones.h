@@ -1,6 +1,6 @@
 #pragma once
 
-// The joints of the figure and where they are while it stands, its arms a little away from its body.
+// The joints of the figure and their rest positions: it stands with its arms slightly away from its body.
 
 #include "skeleton.h"
 
@@ -31,7 +31,7 @@ enum Bone : int {
     bone_count
 };
 
-/// Left is +X for somebody who looks along +Z.
+/// Left is +X for a person who looks along +Z.
 enum class Side { left, right };
 inline constexpr std::array kSides = {Side::left, Side::right};
 
@@ -40,7 +40,7 @@ constexpr float sign_of(Side side) {
     return side == Side::left ? 1.0f : -1.0f;
 }
 
-/// The first joint of an arm or a leg; those behind it follow.
+/// Returns the first joint of an arm or a leg; the next indices continue it.
 constexpr int upper_arm(Side side) {
     return side == Side::left ? left_upper_arm : right_upper_arm;
 }
@@ -48,10 +48,11 @@ constexpr int thigh(Side side) {
     return side == Side::left ? left_thigh : right_thigh;
 }
 
-inline constexpr float kUpperArm = 0.29f, kForearm = 0.26f;      ///< lengths, metres
-inline constexpr float kThigh = 0.42f, kShin = 0.415f;           ///< lengths, metres
-inline constexpr float kAnkleHeight = 0.085f;                    ///< above the sole
-inline constexpr float kBallAhead = 0.12f, kBallHeight = 0.025f; ///< where toes bend, from under the ankle
+inline constexpr float kUpperArm = 0.29f, kForearm = 0.26f; ///< lengths, metres
+inline constexpr float kThigh = 0.42f, kShin = 0.415f;      ///< lengths, metres
+inline constexpr float kAnkleHeight = 0.085f;               ///< above the sole
+/// position of the toe joint, relative to the point below the ankle
+inline constexpr float kBallAhead = 0.12f, kBallHeight = 0.025f;
 inline constexpr float kHeelBehind = 0.065f;
 
 /// Unit, from the shoulder to the hand at rest.

@@ -1,4 +1,4 @@
-// A dance: what a body shadows of itself changes as much as it can.
+// A dance that changes the body's self-shadowing as much as possible.
 #include "figure/dance.h"
 
 #include "figure/movement.h"
@@ -17,14 +17,14 @@ constexpr float kHipsHigh = 0.885f, kBend = 0.055f, kHipsAside = 0.09f; ///< met
 constexpr float kDancerFootAside = 0.13f;
 constexpr float kKickHeight = 0.42f, kKickAhead = 0.46f; ///< metres, of the ankle
 
-/// 0 but for half of a cycle, in which it goes up to 1 and back.
+/// Returns 0, except in half of a cycle, in which it rises to 1 and falls back.
 float beat(float phase) {
     const float rest = phase - std::floor(phase), up = rest < 0.5f ? 0.5f - 0.5f * wave(2 * rest) : 0;
     return up * up * (3 - 2 * up);
 }
 
-/// Hangs as `lift` is 0, stands up beside the head as it is 1; as `across` is 1 the forearm lies before the
-/// chest.
+/// Moves an arm: at `lift` 0 it hangs, at 1 it is raised next to the head; at `across` 1 the forearm is in
+/// front of the chest.
 void raise_arm(Pose& pose, Side side, float lift, float across) {
     const auto arm = static_cast<std::size_t>(upper_arm(side));
     const float sign = sign_of(side);
@@ -50,7 +50,7 @@ Pose dancing(float phase) {
     pose.rotations[neck] = turn(0.5f * yaw, kY) * turn(glm::radians(-5.0f), kX);
     pose.rotations[head] = turn(0.4f * yaw, kY) * turn(glm::radians(9.0f) * aside, kZ);
     for (const Side side : kSides) {
-        const float own = phase + (side == Side::left ? 0.0f : 0.5f); // half a cycle apart
+        const float own = phase + (side == Side::left ? 0.0f : 0.5f); // offset by half a cycle
         raise_arm(pose, side, beat(own + 0.1f), beat(own + 0.55f));
         place_foot(pose, side, foot_at(beat(own + 0.25f)), kDancerFootAside);
     }

@@ -1,4 +1,4 @@
-// Somebody who walks, stands and dances: limbs of elliptical sections on a skeleton.
+// A person who walks, stands and dances: limbs of elliptical sections on a skeleton.
 
 #include "example_scenes.h"
 #include "figure/body.h"

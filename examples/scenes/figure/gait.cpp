@@ -1,6 +1,6 @@
-// A walk by what is known of people's: feet stand for 60 % of a cycle, heel first and toes last; hips are
-// highest while one leg is straight below them, and turn with the legs; arms swing against them (Perry and
-// Burnfield, Gait Analysis, 2010).
+// A human walk: a foot is on the ground for 60 % of a cycle, heel first and toes last; hips are highest while
+// one leg is straight below them, and rotate with the legs; arms swing against them (Perry and Burnfield,
+// Gait Analysis, 2010).
 #include "figure/gait.h"
 
 #include "figure/movement.h"
@@ -14,11 +14,12 @@ namespace {
 
 constexpr float kSpeed = 1.15f; ///< metres per second
 constexpr float kPeriod = 1.1f; ///< seconds, for two steps
-constexpr float kStance = 0.6f; ///< of the cycle, from heel strike to toe off
+constexpr float kStance = 0.6f; ///< fraction of the cycle, from heel strike to toe off
 constexpr float kStride = kSpeed * kPeriod;
 constexpr float kStepAhead = 0.315f; ///< metres, of the flat foot's ankle before the hips as the heel strikes
 constexpr float kStrikePitch = 0.31f, kOffPitch = -0.84f; ///< radians
-constexpr float kFlatFrom = 0.10f, kFlatTo = 0.32f;       ///< of the cycle: the whole sole is on the ground
+constexpr float kFlatFrom = 0.10f, kFlatTo = 0.32f;       ///< range of the cycle with the whole sole on the
+                                                          ///< ground
 constexpr float kHipsHeight = 0.914f, kBob = 0.014f, kSway = 0.018f; ///< metres
 constexpr float kLift = 0.025f; ///< metres, of the foot in the air, so that its toes do not drag
 constexpr float kFootAside = 0.082f;
@@ -31,7 +32,7 @@ float hermite(float a, float da, float b, float db, float t) {
     return (2 * t3 - 3 * t2 + 1) * a + (t3 - 2 * t2 + t) * da + (3 * t2 - 2 * t3) * b + (t3 - t2) * db;
 }
 
-/// How far the foot that stands is rolled, toes up.
+/// Returns the pitch of the foot on the ground, toes up.
 float stance_pitch(float phase) {
     if (phase < kFlatFrom)
         return hermite(kStrikePitch, -0.8f * kStrikePitch, 0, 0, phase / kFlatFrom);
@@ -40,7 +41,8 @@ float stance_pitch(float phase) {
     return hermite(0, 0, kOffPitch, 0.75f * kOffPitch, (phase - kFlatTo) / (kStance - kFlatTo));
 }
 
-/// The foot that stands: it rolls over its heel, then about the joint of its toes, which lie still.
+/// Returns the position of the foot on the ground: it rolls over its heel, then about the toe joint, while
+/// the toes rest.
 FootPlace stance(float phase) {
     const float pitch = stance_pitch(phase);
     const glm::vec2 pivot = pitch > 0 ? glm::vec2(0, -kHeelBehind) : glm::vec2(kBallHeight, kBallAhead);
@@ -51,7 +53,8 @@ FootPlace stance(float phase) {
     return {place.x, place.y, pitch, std::max(-pitch, 0.0f)};
 }
 
-/// The foot in the air goes on as it left the ground, and comes down a little slower than the ground passes.
+/// Returns the position of the foot in the air: it continues its motion at toe off, and comes down slightly
+/// slower than the ground passes.
 FootPlace swing(float phase) {
     constexpr float kStep = 1e-3f, kRetraction = 0.3f;
     const float length = 1 - kStance, t = (phase - kStance) / length;
@@ -61,7 +64,7 @@ FootPlace swing(float phase) {
         return hermite(off.*value, length * (off.*value - before.*value) / kStep, strike.*value,
                        slower * length * (after.*value - strike.*value) / kStep, t);
     };
-    const float lifted = 6.75f * kLift * t * (1 - t) * (1 - t); // most at a third of the way
+    const float lifted = 6.75f * kLift * t * (1 - t) * (1 - t); // maximum at a third of the swing
     return {between(&FootPlace::height, 1) + lifted, between(&FootPlace::ahead, kRetraction),
             between(&FootPlace::pitch, 1), between(&FootPlace::toe_bend, 1)};
 }
@@ -87,7 +90,7 @@ Pose walking(float phase) {
     Pose pose;
     pose.hips_position = {kSway * aside, kHipsHeight + kBob * wave(2 * (phase - 0.3f)), 0};
     pose.rotations[hips] = turn(yaw, kY) * turn(roll, kZ);
-    // The chest turns against the hips, and the head looks ahead.
+    // The chest rotates against the hips, and the head looks ahead.
     pose.rotations[spine] = turn(-roll, kZ) * turn(-0.85f * yaw, kY) * turn(glm::radians(3.0f), kX);
     pose.rotations[chest] = turn(-0.85f * yaw, kY);
     pose.rotations[neck] = turn(0.35f * yaw, kY) * turn(glm::radians(-1.5f), kX);

@@ -4,7 +4,7 @@
 
 namespace examples::anatomy {
 
-/// A walk that loops, its root in place: the ground passes below.
+/// Returns a looping walk with a fixed root: the ground passes below.
 Movement walk();
 /// Standing, breathing.
 Movement idle();

@@ -1,3 +1,5 @@
+// Samples the poses of a cycle as keys.
+
 #include "figure/movement.h"
 
 #include <cmath>

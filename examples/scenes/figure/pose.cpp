@@ -1,3 +1,5 @@
+// Solves the angles of legs and arms.
+
 #include "figure/pose.h"
 
 #include <glm/geometric.hpp>
@@ -11,8 +13,8 @@ namespace {
 
 constexpr glm::vec3 kSideways(1, 0, 0);
 
-/// The turn of a bone that points along -Y at rest to `along`, which is normal to `sideways`, where its X
-/// goes.
+/// Returns the rotation of a bone that points along -Y at rest to `along`, and of its X axis to `sideways`,
+/// which is normal to `along`.
 glm::quat bone_turn(const glm::vec3& along, const glm::vec3& sideways) {
     return glm::quat_cast(glm::mat3(sideways, -along, glm::cross(sideways, -along)));
 }

@@ -1,6 +1,6 @@
 #pragma once
 
-// A pose of the skeleton, and legs that reach for where their feet shall be.
+// A pose of the skeleton, and inverse kinematics for its legs.
 
 #include "figure/bones.h"
 
@@ -16,18 +16,18 @@ private:
     static std::array<glm::quat, bone_count> turned();
 };
 
-/// Where a foot is: its ankle, metres, and how far it and its toes are turned, radians.
+/// Position of a foot's ankle, metres, and rotations of the foot and its toes, radians.
 struct FootPlace {
-    float height, ahead; ///< of the ankle
+    float height, ahead; ///< position of the ankle
     float pitch;         ///< toes up
-    float toe_bend;      ///< of the toes against the foot, up
+    float toe_bend;      ///< rotation of the toes relative to the foot, up
 };
 
-/// A turn about an axis by radians.
+/// Returns the rotation about an axis by an angle in radians.
 glm::quat turn(float angle, const glm::vec3& axis);
 
-/// Turns thigh, shin, foot and toes of a side so that the foot is at `place`, `aside` metres from the middle.
-/// The hips are set before. Throws std::logic_error where the leg is too short.
+/// Rotates thigh, shin, foot and toes of a side so that the foot is at `place`, `aside` metres from the
+/// middle. The hips must be set before. Throws std::logic_error if the leg is too short.
 void place_foot(Pose& pose, Side side, const FootPlace& place, float aside);
 
 } // namespace examples::anatomy

@@ -1,3 +1,5 @@
+// Builds soft limbs and their skin weights.
+
 #include "figure/soft_limb.h"
 
 #include "shapes.h"
@@ -21,7 +23,7 @@ Section operator+(const Section& a, const Section& b) {
     return {a.along + b.along, a.half_width + b.half_width, a.half_depth + b.half_depth, a.ahead + b.ahead};
 }
 
-/// Between `sections[i]` and the next, by Catmull and Rom, whose tangents are those of the neighbours.
+/// Returns the section between `sections[i]` and the next by Catmull-Rom interpolation.
 Section between(std::span<const Section> sections, std::size_t i, float t) {
     const Section& a = sections[i];
     const Section& b = sections[i + 1];

@@ -1,6 +1,6 @@
 #pragma once
 
-// Smooth closed surfaces of elliptical sections along an axis, which hang on the joints along it.
+// Smooth closed surfaces of elliptical sections along an axis, skinned to the joints along it.
 
 #include "mesh.h"
 #include "skeleton.h"
@@ -20,8 +20,8 @@ struct Section {
     float along, half_width, half_depth, ahead = 0;
 };
 
-/// A joint that holds what lies behind `from` along the axis; between two the weights change smoothly over
-/// `blend` metres to either side.
+/// A joint that influences the part after `from` along the axis; between two joints the weights change
+/// smoothly within `blend` metres on either side.
 struct HeldBy {
     int joint;
     float from = 0, blend = 0;
@@ -29,13 +29,13 @@ struct HeldBy {
 
 struct LimbShape {
     int segments;                              ///< round the axis
-    float spacing = 0.03f;                     ///< of rings along it, metres
+    float spacing = 0.03f;                     ///< distance of the rings along the axis, metres
     float first_cap = 0.01f, last_cap = 0.01f; ///< how far its round ends reach beyond the sections
-    float squareness = 2; ///< exponent of the ellipses: 2, and more for what is rather a box
-    float floor = -1;     ///< nothing is below: soles are flat
+    float squareness = 2; ///< exponent of the ellipses: 2 for an ellipse, larger for a box-like shape
+    float floor = -1;     ///< minimum height: soles are flat
 };
 
-/// A mesh whose vertices hang on joints.
+/// A mesh with skin weights.
 struct SoftMesh {
     Mesh mesh;
     SkinWeights skin;

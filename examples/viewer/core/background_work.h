@@ -1,6 +1,7 @@
 #pragma once
 
-// Work beside the drawing: it posts what it finds, and the thread that draws takes it in between two frames.
+// Runs work in a background thread. The work posts its findings; the drawing thread collects them between
+// frames.
 
 #include "prt/support/progress.h"
 
@@ -16,15 +17,16 @@ namespace viewer {
 
 enum class Stage { starting, reading, baking, compressing, occlusion, saving, measuring };
 
-/// One piece of work at a time, which posts values of type `Finding`. Starting another stops the first
-/// without waiting for it; nothing that it posts afterwards counts.
+/// Runs one job at a time, which posts values of type `Finding`. Starting another job stops the first without
+/// waiting for it; its later posts are ignored.
 template <class Finding>
 class BackgroundWork {
 public:
-    /// What work sees of the outside.
+    /// Connects a job to the drawing thread: it reports progress and findings, and carries the request to
+    /// stop.
     class Channel {
     public:
-        /// Says what is done next, to the panel in words.
+        /// Sets the current stage and its label for the panel, and resets the progress.
         void enter(Stage stage, std::string label) {
             const std::lock_guard lock(mutex_);
             stage_ = stage;
@@ -55,7 +57,7 @@ public:
     };
 
     ~BackgroundWork() { retire(); }
-    /// `work` throws nothing but `prt::Cancelled`.
+    /// Starts a job. `work` must throw no exception except `prt::Cancelled`.
     void start(std::function<void(Channel&)> work) {
         retire();
         auto channel = std::make_shared<Channel>();
@@ -65,15 +67,15 @@ public:
             try {
                 work(*channel);
             } catch (const prt::Cancelled&) {
-                // whoever asked for it knows
+                // The caller requested the stop, so nothing is reported.
             }
             const std::lock_guard lock(channel->mutex_);
             channel->done_ = true;
         });
     }
-    /// Ends the work without waiting for it; what it posts afterwards does not count.
+    /// Stops the job without waiting for it; its later posts are ignored.
     void stop() { retire(); }
-    /// Returns what was posted since the last call.
+    /// Returns the findings posted since the last call.
     std::vector<Finding> collect() {
         std::erase_if(retired_, [](const Job& job) {
             const std::lock_guard lock(job.channel->mutex_);
@@ -96,7 +98,7 @@ public:
     bool busy() const { return job_.channel != nullptr; }
     Stage stage() const { return read(&Channel::stage_); }
     std::string label() const { return read(&Channel::label_); }
-    double share() const { return read(&Channel::share_); } ///< of the stage, 0..1
+    double share() const { return read(&Channel::share_); } ///< fraction of the stage that is done, 0..1
 
 private:
     struct Job {
@@ -110,7 +112,7 @@ private:
         retired_.push_back(std::exchange(job_, {}));
     }
 
-    /// What the channel holds, or what a new one would.
+    /// Returns a member of the current channel under its lock, or a default value if no job runs.
     template <class T>
     T read(T Channel::*member) const {
         if (!job_.channel)
@@ -120,7 +122,7 @@ private:
     }
 
     Job job_;
-    std::vector<Job> retired_; ///< asked to stop, not yet at an end
+    std::vector<Job> retired_; ///< jobs that were stopped but have not ended yet
 };
 
 } // namespace viewer

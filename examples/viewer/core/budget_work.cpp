@@ -1,3 +1,5 @@
+// Measures an error budget for the open model and colors its surface by the error.
+
 #include "core/budget_work.h"
 
 #include "prt/bake.h"
@@ -19,17 +21,18 @@ namespace {
 
 using Radiance = std::vector<glm::vec3>;
 
-/// Of noise in squared errors, and paths of each half: a sixteenth of the time that files are given, for
-/// errors of some percent. The interval of the total says what is left.
+/// Target noise of squared errors, and number of paths per half. This takes a sixteenth of the default time
+/// for files and is enough for errors of a few percent; the interval of the total shows the remaining
+/// uncertainty.
 constexpr double kNoise = 2e-4;
 constexpr int kMostPaths = 1024;
 
-/// One thread is left to draw.
+/// Leaves one thread for drawing.
 int threads_beside_drawing() {
     return std::max(1, prt::thread_count(0) - 1);
 }
 
-/// Paths do not enter media.
+/// Throws `prt::Error` if the scene has a medium, because the path tracer does not enter media.
 void check_no_media(const prt::Scene& scene) {
     for (const prt::Material& material : scene.materials)
         if (prt::medium_of(material))
@@ -38,7 +41,7 @@ void check_no_media(const prt::Scene& scene) {
                              "does not enter");
 }
 
-/// By which `windowed` scales the bands.
+/// Returns the factors by which `windowed` scales the bands.
 prt::BandFactors window_factors(const prt::Light& light, prt::Window window) {
     if (window == prt::Window::automatic)
         return prt::dering_factors(light);
@@ -54,7 +57,7 @@ prt::BandFactors window_factors(const prt::Light& light, prt::Window window) {
     return factors;
 }
 
-/// At points; lamps are off.
+/// Returns the exit radiance interpolated at `points`, with all lamps off.
 template <class Transfer>
 Radiance radiance_at(const prt::SurfacePoints& points, const Transfer& transfer,
                      const prt::TransferLayout& layout, prt::Lighting lighting) {
@@ -62,7 +65,7 @@ Radiance radiance_at(const prt::SurfacePoints& points, const Transfer& transfer,
     return prt::interpolated(points, prt::exit_radiance(transfer, lighting, threads_beside_drawing()));
 }
 
-/// The raw transfer baked again; the one that there is where it is of that.
+/// Returns the raw transfer baked with another seed; reuses the existing one if the subject has it.
 std::shared_ptr<const prt::Transfer> repeated(Channel& channel, const BudgetSubject& subject) {
     if (subject.repeated)
         return subject.repeated;
@@ -74,7 +77,7 @@ std::shared_ptr<const prt::Transfer> repeated(Channel& channel, const BudgetSubj
     return repeated;
 }
 
-/// The picture of the total.
+/// Returns the colors of the picture of the total error.
 std::vector<glm::vec3> total_colors(const Model& model, const prt::SurfacePoints& points,
                                     const prt::SurfaceRadiance& reference, const Radiance& shown) {
     std::vector<double> squared;
@@ -82,14 +85,15 @@ std::vector<glm::vec3> total_colors(const Model& model, const prt::SurfacePoints
     for (std::size_t p = 0; p < points.size(); ++p) {
         const glm::dvec3 a(reference.truth(0)[p]), b(reference.truth(1)[p]), sun(reference.suns()[p]),
             at_point(shown[p]);
-        squared.push_back(glm::dot(at_point - a, at_point - b)); // their noise has no mean
+        squared.push_back(glm::dot(at_point - a, at_point - b)); // The noise of `a` and `b` is independent,
+                                                                 // so the product has no bias.
         norm += static_cast<double>(points.receivers.areas[p]) * glm::dot(a + sun, b + sun);
         area += static_cast<double>(points.receivers.areas[p]);
     }
     return surface_error_colors(model, points, squared, norm / area);
 }
 
-/// Spreads sums from receivers that have a weight to those that have none, an edge in each round.
+/// Spreads sums from receivers with a weight to receivers without one, by one edge per iteration.
 void spread(const std::vector<prt::Edge>& edges, std::vector<double>& sums, std::vector<double>& weights) {
     for (bool more = true; more;) {
         more = false;

@@ -1,34 +1,36 @@
 #pragma once
 
-// Where the error over the surface comes from, measured in the background.
+// Measures the sources of the error over the surface in the background.
 
 #include "core/findings.h"
 
 namespace viewer {
 
-/// What a budget is measured of.
+/// Input of an error budget.
 struct BudgetSubject {
-    LoadedModel loaded;                            ///< with raw transfer; what is compressed may be missing
-    std::shared_ptr<const prt::Transfer> repeated; ///< `raw` baked again with another seed; null: not yet
+    LoadedModel loaded;                            ///< must have raw transfer; compressed transfer is
+                                                   ///< optional
+    std::shared_ptr<const prt::Transfer> repeated; ///< `raw` baked again with another seed; null: not baked
+                                                   ///< yet
     LightRig rig;
-    int light_order = 6; ///< whose bands the rig's window is laid over
+    int light_order = 6; ///< the rig's window filters the bands of this order
     RadianceVersion version;
 };
 
-/// Suns are apart where the version says so and transfer keeps direct light apart; lamps are off. Where there
-/// is compressed transfer it is of its order, else of the bake's. Posts the repeated bake and the budget.
-/// Throws `prt::Error` for what path tracing cannot be a reference for.
+/// Posts the repeated bake and the error budget. Suns are separate if `version` requires it and the transfer
+/// has a separate direct term; lamps are off. The budget uses the order of the compressed transfer if there
+/// is one, otherwise that of the bake. Throws `prt::Error` if path tracing cannot provide a reference.
 void find_budget(Channel& channel, const BudgetSubject& subject);
 
-/// Why there is no budget where only a lightmap is open.
+/// Message shown if only a lightmap is open: a budget is measured for vertices only.
 inline constexpr const char* kMeasuredOfVertices = "measured of vertices alone; open these, too";
 
-/// The total of `SurfaceBudget` that is white in its picture, as relative L2.
+/// Total error of `SurfaceBudget` (relative L2) that is drawn white.
 inline constexpr double kWhiteSurfaceError = 0.3;
 
-/// Squared errors at points as heat at receivers: the mean by area of points near by. Receivers of triangles
-/// without points take it from the nearest along edges; dark blue where none is. `norm`: of the radiance,
-/// squared.
+/// Converts squared errors at points to heat colors at receivers: the area-weighted mean over nearby points.
+/// Receivers of triangles without points take the value of the nearest receiver along edges; dark blue if
+/// none is reachable. `norm` is the squared radiance that errors are relative to.
 std::vector<glm::vec3> surface_error_colors(const Model& model, const prt::SurfacePoints& points,
                                             std::span<const double> squared, double norm);
 

@@ -1,3 +1,5 @@
+// Stores findings in the document and computes its figures.
+
 #include "core/document.h"
 
 #include "core/transfer_work.h"

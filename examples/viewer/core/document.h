@@ -1,6 +1,6 @@
 #pragma once
 
-// The model that is open, and all that was found out about it.
+// The open model and all results computed for it.
 
 #include "core/findings.h"
 #include "core/moving.h"
@@ -10,46 +10,47 @@
 
 namespace viewer {
 
-/// What transfer takes.
+/// Size and layout of the transfer.
 struct TransferFigures {
-    std::size_t raw_bytes = 0;                           ///< as baked
-    double bytes_per_receiver = 0, bytes_with_bases = 0; ///< compressed
+    std::size_t raw_bytes = 0;                           ///< uncompressed transfer
+    double bytes_per_receiver = 0, bytes_with_bases = 0; ///< compressed transfer
     int clusters = 0, order = 0, channels = 0;
 };
 
-/// What that of texels takes, and where they are.
+/// Size of the transfer of a lightmap, and its maps.
 struct LightmapFigures {
     TransferFigures transfer;
     std::vector<prt::LightmapSize> maps;
-    std::size_t texels = 0, receivers = 0; ///< of the maps; those on surfaces, 0: the file does not say
+    std::size_t texels = 0, receivers = 0; ///< number of texels in all maps; number of texels on surfaces, 0:
+                                           ///< unknown
 };
 
 struct Document {
     LoadedModel loaded;
-    LoadedModel beside; ///< `OpenModels`
+    LoadedModel beside; ///< the second model, see `OpenModels`
     Occlusion occlusion;
-    CompressionSettings compressed_as;  ///< the compressed transfer, or the one that is on its way
-    std::uint64_t transfer_version = 1; ///< counts up with every transfer
+    CompressionSettings compressed_as;  ///< settings of the compressed transfer, existing or in progress
+    std::uint64_t transfer_version = 1; ///< increases with every new transfer
     RepeatedBake repeated;
-    std::optional<SurfaceBudget> budget; ///< the last that was measured, which may be of another light
+    std::optional<SurfaceBudget> budget; ///< the last measured budget; its light may be outdated
     Moving moving;
 
-    const Model* model() const { return loaded.model.get(); } ///< null: nothing is open
+    const Model* model() const { return loaded.model.get(); } ///< null: no model is open
     std::string name() const { return model() ? model()->path.filename().string() : std::string(); }
     const prt::Transfer* raw() const { return loaded.raw.get(); }
     const prt::ClusteredTransfer* compressed() const { return loaded.compressed.get(); }
     int raw_order() const { return raw() ? raw()->layout.order : 0; }
-    /// Those of the receivers that a picture shows.
+    /// Returns the model whose receivers `picture` shows.
     const LoadedModel& shown_by(const SidePicture& picture) const;
-    /// Both vertices and a lightmap are open.
+    /// True if both vertices and a lightmap are open.
     bool has_both() const { return beside.model != nullptr; }
-    /// Null: there is none.
+    /// Returns the model with the lightmap; null if there is none.
     const LoadedModel* lightmap() const {
         return loaded.of_texels() ? &loaded : has_both() ? &beside : nullptr;
     }
-    /// Of all transfer that there is.
+    /// Returns the layouts of all transfer in the document.
     std::vector<const prt::TransferLayout*> layouts() const;
-    /// Bands that the light needs: as many as the transfers have, three at least.
+    /// Returns the number of bands the light needs: the maximum order of all transfers, at least three.
     int light_order() const;
 
     void open(const OpenModels& models);

@@ -1,3 +1,5 @@
+// Measures exit radiance at the visible receivers and computes the exposure from it.
+
 #include "core/exposure.h"
 
 #include "core/texel_light.h"
@@ -10,7 +12,7 @@
 namespace viewer {
 namespace {
 
-using Indices = std::span<const std::uint32_t>; ///< of receivers, ascending
+using Indices = std::span<const std::uint32_t>; ///< receivers in ascending order
 
 glm::vec3 normal_of(const prt::Scene& scene, std::uint32_t receiver) {
     const auto array = std::prev(std::upper_bound(
@@ -19,7 +21,7 @@ glm::vec3 normal_of(const prt::Scene& scene, std::uint32_t receiver) {
     return array->normals[receiver - array->first_receiver];
 }
 
-/// Exit radiance for albedo 1 of a few receivers.
+/// Returns the unshadowed exit radiance of the receivers for albedo 1.
 std::vector<glm::vec3> unshadowed(const prt::Scene& scene, const prt::Light& light, Indices receivers) {
     const prt::Light bands = prt::truncated(light, 3);
     const prt::TransferLayout layout = prt::layout_of_one(3, 1, prt::PartKind::direct);
@@ -51,15 +53,16 @@ std::vector<glm::vec3> compressed(const prt::ClusteredTransfer& transfer, const 
     return radiance;
 }
 
-/// What is left of the exposure at night, to which eyes adapt in part, so that it stays dark and brighter
-/// lamps look brighter (as the key of G. Krawczyk et al., "Perceptual Effects in Real-time Tone Mapping",
-/// 2005, falls with luminance). Chosen by eye for the courtyard: 0.06 by its lanterns is shown as 0.1.
+/// Returns the factor on the exposure at night. Eyes adapt only in part, so that night stays dark and
+/// brighter lamps look brighter (compare the key of G. Krawczyk et al., "Perceptual Effects in Real-time Tone
+/// Mapping", 2005, which falls with luminance). The constants were chosen by eye for the courtyard: luminance
+/// 0.06 from its lanterns is shown as 0.1.
 float night_share(float luminance, float darkness) {
     constexpr float kDaylight = 0.5f, kPower = 0.4f;
     return std::pow(std::min(1.0f, luminance / kDaylight), kPower * darkness);
 }
 
-/// Whatever transfer there is.
+/// Returns the exit radiance from the transfer that exists, or the unshadowed radiance without transfer.
 std::vector<glm::vec3> radiance_at(const LoadedModel& loaded, const prt::Light& light,
                                    const LampSettings& lamps, Indices receivers) {
     if (!loaded.raw && !loaded.compressed)

@@ -1,6 +1,6 @@
 #pragma once
 
-// Automatic exposure of what the camera sees of the model.
+// Automatic exposure from the visible part of the model.
 
 #include "core/document.h"
 #include "pictures/lamps.h"
@@ -15,7 +15,7 @@ namespace viewer {
 
 class ExposureMeter {
 public:
-    /// What the camera sees.
+    /// The visible part of the model.
     struct View {
         const Model* model;
         prt::Camera camera;
@@ -24,23 +24,24 @@ public:
 
         friend bool operator==(const View&, const View&) = default;
     };
-    /// What it is lit by. The compressed transfer counts first, and without any the light arrives unshadowed.
+    /// The light on the model. The exposure uses the compressed transfer if there is one, then the raw
+    /// transfer; without transfer the light is unshadowed.
     struct Lit {
         const LoadedModel& loaded;
         const LampSettings& lamps;
-        float darkness;          ///< of the night, 0..1
-        RadianceVersion version; ///< tells lights and transfers apart
+        float darkness;          ///< fraction of night, 0..1
+        RadianceVersion version; ///< identifies the state of light and transfer
     };
-    /// Factor on radiance: what is seen of the model comes to a mean luminance of 0.22, at night to less;
-    /// `light` is called where something has changed. Where nothing lit is seen of the
-    /// model, the light is measured.
+    /// Returns the factor on radiance that maps the mean luminance of the visible surfaces to 0.22, lower at
+    /// night. Calls `light` only if the view or the light changed. Measures the light itself if no lit
+    /// surface is visible.
     float exposure(const View& view, const Lit& lit, const std::function<prt::Light()>& light);
-    /// Of the last exposure.
+    /// Returns the last exposure in stops.
     float stops() const { return std::log2(exposure_); }
 
 private:
-    std::optional<View> view_;                       ///< that `meter_` belongs to
-    const prt::LightmapLayout* lightmaps_ = nullptr; ///< the same
+    std::optional<View> view_;                       ///< view of `meter_`
+    const prt::LightmapLayout* lightmaps_ = nullptr; ///< lightmap of `meter_`
     std::optional<prt::LightMeter> meter_;
     RadianceVersion version_;
     float exposure_ = 1;

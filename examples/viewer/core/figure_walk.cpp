@@ -1,3 +1,5 @@
+// Walks a figure along a path or around obstacles.
+
 #include "core/figure_walk.h"
 
 #include <glm/geometric.hpp>
@@ -10,11 +12,11 @@ namespace viewer {
 namespace {
 
 constexpr float kTurnAround = std::numbers::pi_v<float>;
-/// Metres that are walked before what is ahead is looked at again.
+/// Distance between two checks for obstacles ahead, metres.
 constexpr float kLook = 0.1f;
-/// As far as it goes at once; a file may name any speed.
+/// Maximum distance per call, because a file may contain any speed.
 constexpr double kMostMetres = 1e4;
-/// Radians of turning for each metre walked.
+/// Rotation per metre walked, radians.
 constexpr float kTurn = 1.6f;
 constexpr float kLookAhead = 1.5f; ///< metres
 
@@ -26,7 +28,8 @@ glm::vec3 level(const glm::vec3& v) {
     return {v.x, 0, v.z};
 }
 
-/// Of the least turns with room ahead; where nothing has room, back.
+/// Returns the heading with free room ahead that needs the smallest rotation; the opposite heading if there
+/// is none.
 float free_heading(const Ground& ground, const glm::vec3& position, float heading) {
     constexpr int kTurns = 12;
     for (int i = 1; i <= kTurns; ++i)
@@ -85,7 +88,7 @@ void FigureWalk::follow_path() {
 void FigureWalk::wander(float metres) {
     const Ground ground(*model_, walker_);
     const float way = ground.free_way(position_, ahead(heading_), kLookAhead);
-    if (way < kLookAhead) { // turns, more slowly the more room there is
+    if (way < kLookAhead) { // rotate more slowly if there is more room
         const float wanted = free_heading(ground, position_, heading_);
         const float most = kTurn * metres * (1 + 2 * (kLookAhead - way) / kLookAhead);
         heading_ += std::clamp(wanted - heading_, -most, most);

@@ -1,6 +1,6 @@
 #pragma once
 
-// The way of a figure over the ground: along a path, or to wherever there is room.
+// Moves a figure over the ground: along a path, or freely where there is room.
 
 #include "core/ground.h"
 
@@ -10,10 +10,10 @@ namespace viewer {
 
 class FigureWalk {
 public:
-    /// Stands still at the origin.
+    /// Creates a figure that does not move, at the origin.
     FigureWalk() = default;
-    /// Along `path` round and round, over the floor below its points, or, where it is empty, from the widest
-    /// place on, turning before what is in the way. Keeps `model`.
+    /// Walks along the closed `path` over the floor below its points. If `path` is empty, starts at the
+    /// position with the most free room and avoids obstacles. Keeps `model`.
     FigureWalk(std::shared_ptr<const Model> model, const Walker& walker, std::vector<glm::vec3> path);
 
     void advance(double metres);
@@ -29,7 +29,7 @@ private:
     std::vector<glm::vec3> path_;
     glm::vec3 position_{0};
     float heading_ = 0;
-    double walked_ = 0; ///< metres along the path
+    double walked_ = 0; ///< distance walked along the path, metres
 };
 
 } // namespace viewer

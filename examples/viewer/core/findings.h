@@ -1,6 +1,6 @@
 #pragma once
 
-// What work in the background finds. Values: nothing in them is changed once they are posted.
+// Results of background jobs. They are immutable once posted.
 
 #include "core/background_work.h"
 #include "core/light_rig.h"
@@ -21,51 +21,52 @@
 
 namespace viewer {
 
-/// What is asked of the compressor; changed by sliders, carried out in the background.
+/// Settings of the compressor; sliders change them and a background job applies them.
 struct CompressionSettings {
-    int order = 6; ///< at most the bake's
+    int order = 6; ///< at most the order of the bake
     int clusters = 256;
     int components = 4;
 
     friend bool operator==(const CompressionSettings&, const CompressionSettings&) = default;
 };
 
-/// Transfer as it was baked, and how.
+/// Transfer as baked, and the record of the bake.
 struct Baked {
     std::shared_ptr<const prt::Transfer> transfer;
     prt::BakeRecord record;
 };
 
-/// Of `model`: of its vertices, or of texels.
+/// Compressed transfer of `model`, for its vertices or for texels.
 struct Compressed {
     std::shared_ptr<const Model> model;
     std::shared_ptr<const prt::ClusteredTransfer> transfer = {};
-    std::shared_ptr<const prt::CompressedLightmap> lightmap = {}; ///< instead
+    std::shared_ptr<const prt::CompressedLightmap> lightmap = {}; ///< set instead of `transfer` for texels
     CompressionSettings how;
 };
 
-/// A scene, by vertices, by a lightmap, or by both: then each has a model, whose vertices may differ.
+/// A scene lit by vertices, by a lightmap, or by both. With both, each has a model, because their vertices
+/// may differ.
 struct OpenModels {
     LoadedModel first;
-    LoadedModel beside; ///< of texels, where the first is of vertices
+    LoadedModel beside; ///< lightmap model if `first` is lit by vertices
 };
 
-/// Share of the hemisphere that is open. [receivers]
+/// Fraction of the hemisphere that is open. [receivers]
 using Occlusion = std::shared_ptr<const std::vector<float>>;
 
 struct EnvironmentFile {
     std::filesystem::path path;
-    std::shared_ptr<const LoadedEnvironment> environment; ///< null where it cannot be read
-    std::string why;                                      ///< then
+    std::shared_ptr<const LoadedEnvironment> environment; ///< null: the file cannot be read
+    std::string why;                                      ///< message if the file cannot be read
 };
 
-/// Colors of all pictures of numbers that there are of `model`.
+/// Colors of all available number pictures of `model`.
 struct NumberPictures {
     std::shared_ptr<const Model> model;
     std::vector<std::pair<PictureKind, std::vector<glm::vec3>>> colors;
 };
 
-/// Tells two states of the light on the model apart.
+/// Identifies a state of the light on the model.
 struct RadianceVersion {
     std::uint64_t transfer = 0, light = 0, lamps = 0;
     bool suns_apart = false;
@@ -73,38 +74,40 @@ struct RadianceVersion {
     friend bool operator==(const RadianceVersion&, const RadianceVersion&) = default;
 };
 
-/// A bake done again with another seed.
+/// A bake repeated with another seed.
 struct RepeatedBake {
     std::shared_ptr<const prt::Transfer> of, transfer;
 };
 
-/// Where the error over the surface of `model` comes from, under one light without lamps.
+/// Sources of the error over the surface of `model`, under one light without lamps.
 struct SurfaceBudget {
     std::shared_ptr<const Model> model;
     RadianceVersion version; ///< `lamps` is 0
     prt::ErrorBudget errors;
-    std::vector<glm::vec3> colors; ///< [receivers] of the total, for `PictureKind::surface_error`
+    std::vector<glm::vec3> colors; ///< [receivers] colors of the total error, for
+                                   ///< `PictureKind::surface_error`
 };
 
-/// Files apart by what they are: those with animations are figures, where others are scenes or one is open.
+/// Files sorted by kind: files with animations are figures if other files are scenes or a scene is open.
 struct SortedFiles {
     std::vector<std::filesystem::path> scenes, figures;
 };
 
-/// A file that was opened as a figure.
+/// A file opened as a figure.
 struct FigureFile {
     std::filesystem::path path;
     std::shared_ptr<const prt::AnimatedScene> figure;
-    std::shared_ptr<const prt::LobeModel> lobes = {}; ///< of its vertices; null: it has none
+    std::shared_ptr<const prt::LobeModel> lobes = {}; ///< lobes of its vertices; null: the file has none
 };
 
-/// What the nodes of a figure's file block around them.
+/// Occluders of the nodes of a figure's file.
 struct FoundOccluders {
     std::shared_ptr<const prt::AnimatedScene> figure;
     std::vector<prt::NodeOccluder> occluders;
 };
 
-/// A volume of `model`, and the rays of each probe of a bake that goes on; 0: it is what the file holds.
+/// A volume of `model`. `rays` is the number of rays per probe of a bake in progress; 0: the volume comes
+/// from the file.
 struct FoundVolume {
     std::shared_ptr<const Model> model;
     std::shared_ptr<const prt::CompressedVolume> volume;
@@ -117,7 +120,7 @@ struct Saved {
 
 enum class JobKind { model, environments, numbers, saving, budget, figure, volume };
 
-/// A job ended with this message.
+/// The job ended with this error message.
 struct Failure {
     JobKind job;
     std::string why;

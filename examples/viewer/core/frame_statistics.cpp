@@ -1,3 +1,5 @@
+// Measures the time from frame to frame and the time to open a model.
+
 #include "core/frame_statistics.h"
 
 #include <epoxy/gl.h>

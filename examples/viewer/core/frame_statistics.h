@@ -1,6 +1,6 @@
 #pragma once
 
-// What is measured from frame to frame.
+// Measures frame times and collects the figures shown.
 
 #include "core/document.h"
 #include "pictures/frame_renderer.h"
@@ -12,23 +12,23 @@
 namespace viewer {
 
 struct Milliseconds {
-    double frame = 0;     ///< mean of the last frames, from one to the next
-    double longest = 0;   ///< between two frames, since it was set to 0
-    double gpu = 0;       ///< of a frame
-    double vertices = 0;  ///< of the vertex stage of the right picture alone
-    double constants = 0; ///< forming and uploading, when the light changes
-    double open = 0;      ///< from asking for the model to its first frame
+    double frame = 0;     ///< mean over the last frames
+    double longest = 0;   ///< longest time between two frames since it was reset
+    double gpu = 0;       ///< GPU time of a frame
+    double vertices = 0;  ///< GPU time of the vertex stage of the right picture
+    double constants = 0; ///< time to compute and upload the constants when the light changes
+    double open = 0;      ///< time from the request to open a model to its first frame
 };
 
-/// What the panel and scripts report.
+/// Figures shown by the panel and reported by scripts.
 struct Figures {
     Milliseconds milliseconds;
     std::size_t receivers = 0, triangles = 0, triangles_drawn = 0;
-    TransferFigures transfer; ///< of vertices
+    TransferFigures transfer; ///< transfer of vertices
     std::optional<LightmapFigures> lightmap;
-    std::optional<InstanceFigures> instances; ///< that share transfer
+    std::optional<InstanceFigures> instances; ///< figures of instances that share transfer
     int reference_passes = 0;
-    Difference difference; ///< of the two pictures, while it is shown
+    Difference difference; ///< difference of the two pictures; valid only while it is shown
 };
 
 class FrameStatistics {
@@ -36,12 +36,12 @@ public:
     Figures figures;
 
     void begin_frame();
-    /// True for every 16th frame of a model, which takes the time of its vertex stage.
+    /// Returns true for every 16th frame of a model; such a frame measures its vertex stage.
     bool times_vertices() { return frames_++ % 16 == 0; }
 
     void begin_opening() { opening_.emplace(); }
     void fail_opening() { opening_.reset(); }
-    /// A frame of a model is drawn. Waits for the GPU where it is the first.
+    /// Reports that a frame of a model was drawn. Waits for the GPU after the first frame.
     void end_opening();
 
 private:

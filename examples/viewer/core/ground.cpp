@@ -1,3 +1,5 @@
+// Finds floor and free room by casting rays into the scene.
+
 #include "core/ground.h"
 
 #include <glm/geometric.hpp>
@@ -13,7 +15,7 @@ namespace {
 constexpr glm::vec3 kDown(0, -1, 0);
 /// Cosine of the steepest floor, 45 degrees.
 constexpr float kSteepestGround = 0.7f;
-/// Probed along each side of the scene for somewhere to stand.
+/// Number of candidate positions along each side of the scene.
 constexpr int kCandidates = 12;
 constexpr int kDirections = 8;
 
@@ -40,13 +42,13 @@ std::optional<glm::vec3> Ground::below(const glm::vec3& place) const {
     if (normal.y < kSteepestGround * glm::length(normal))
         return {};
     const glm::vec3 stand = place + floor->distance * kDown;
-    const float knee = 0.2f * walker_.height; // above what lies on the floor
+    const float knee = 0.2f * walker_.height; // above objects on the floor
     if (hit(stand - knee * kDown, -kDown, walker_.height - knee))
         return {};
     return stand;
 }
 
-/// Up to what stands in the way at three heights and over the width of the body.
+/// Returns the free distance at three heights and over the width of the body.
 float Ground::free_body_way(const glm::vec3& floor, const glm::vec3& towards, float reach) const {
     const glm::vec3 side = glm::cross(towards, kDown);
     float way = reach;
@@ -73,7 +75,7 @@ float Ground::free_way(const glm::vec3& floor, const glm::vec3& towards, float r
     return way;
 }
 
-/// Mean over all directions, of which each counts up to some metres.
+/// Returns the mean free distance over all directions; each counts at most some metres.
 float Ground::room_about(const glm::vec3& floor) const {
     constexpr float kEnough = 4;
     float sum = 0, least = kEnough;
@@ -90,7 +92,8 @@ std::optional<glm::vec3> Ground::widest() const {
     const float top = box.high.y + walker_.height;
     std::optional<glm::vec3> best;
     float most = 0;
-    for (const float height : {0.5f * (box.low.y + box.high.y), top}) { // under a roof first, then on hills
+    // Searches under a roof first, then on hills.
+    for (const float height : {0.5f * (box.low.y + box.high.y), top}) {
         for (int i = 0; i < kCandidates * kCandidates; ++i) {
             const auto share = [](int k) { return (static_cast<float>(k) + 0.5f) / kCandidates; };
             const glm::vec3 place(std::lerp(box.low.x, box.high.x, share(i % kCandidates)), height,

@@ -1,6 +1,6 @@
 #pragma once
 
-// Where in a scene somebody can stand and walk.
+// Finds positions in a scene where a figure can walk.
 
 #include "pictures/model.h"
 
@@ -10,10 +10,10 @@
 
 namespace viewer {
 
-/// Of one who walks, metres.
+/// Size of a walking figure, metres.
 struct Walker {
     float height = 1.8f, width = 0.6f;
-    float step = 0.35f; ///< that legs climb
+    float step = 0.35f; ///< maximum height of a step
 };
 
 class Ground {
@@ -21,13 +21,14 @@ public:
     /// Keeps a reference to `model`.
     Ground(const Model& model, const Walker& walker) : model_(model), walker_(walker) {}
 
-    /// The floor below a place, on which one can stand: not too steep, with room for the head.
+    /// Returns the floor below `place` if a figure fits there: the floor is not too steep and the headroom
+    /// suffices.
     std::optional<glm::vec3> below(const glm::vec3& place) const;
-    /// How far one can walk from a place on the floor in unit direction `towards` (horizontal), at most
-    /// `reach`: up to what stands in the way of legs, body or shoulders, and as long as there is a floor to
-    /// step on.
+    /// Returns the free distance from the position `floor` along the horizontal unit direction `towards`, at
+    /// most `reach`: up to an obstacle for legs, body or shoulders, or to the end of the floor.
     float free_way(const glm::vec3& floor, const glm::vec3& towards, float reach) const;
-    /// The floor with most room about it, at most half of the scene's height up; nothing where there is none.
+    /// Returns the floor position with the most free room around it, up to half of the scene's height; empty
+    /// if there is none.
     std::optional<glm::vec3> widest() const;
 
 private:

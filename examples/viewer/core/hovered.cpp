@@ -1,3 +1,5 @@
+// Finds the receiver under the pointer and decodes its transfer.
+
 #include "core/hovered.h"
 
 #include "core/texel_light.h"
@@ -20,7 +22,7 @@ std::uint32_t vertex_at(const Model& model, const prt::RayHit& hit) {
     return w.x >= w.y && w.x >= w.z ? corners.x : w.y >= w.z ? corners.y : corners.z;
 }
 
-/// The one that counts most in a filter.
+/// Returns the texel with the largest filter weight.
 std::uint32_t texel_at(const LoadedModel& loaded, const prt::RayHit& hit) {
     const prt::BilinearTexels filter =
         prt::LightmapLookup(loaded.model->scene, *loaded.lightmap.layout()).filter(hit.triangle, hit.uv);
@@ -34,7 +36,7 @@ glm::vec3 position_of(const prt::Scene& scene, std::uint32_t receiver) {
     return glm::vec3(0);
 }
 
-/// The transfer vector of one receiver.
+/// Returns the transfer vector of one receiver.
 std::vector<float> decoded(const prt::ClusteredTransfer& transfer, std::size_t receiver,
                            const std::vector<float>& weights) {
     const prt::ClusteredBases& bases = transfer.bases;
@@ -52,14 +54,14 @@ std::vector<float> decoded(const prt::ClusteredTransfer& transfer, std::size_t r
     return vector;
 }
 
-/// All light of the first channel.
+/// Returns the combined transfer terms of the first channel.
 std::vector<float> first_channel(std::span<const float> vector, const prt::TransferLayout& layout) {
     std::vector<float> whole = prt::as_whole(vector, layout);
     whole.resize(static_cast<std::size_t>(prt::coefficient_count(layout.order)));
     return whole;
 }
 
-/// Cluster, weights and vector of a receiver of compressed transfer.
+/// Fills cluster, weights and vector from compressed transfer.
 void take_compressed(const prt::ClusteredTransfer& compressed, Hovered& found) {
     found.cluster = compressed.receivers.clusters[found.receiver];
     const auto layouts = prt::cluster_layouts(compressed.bases);

@@ -1,3 +1,5 @@
+// Starts the background jobs and posts their findings.
+
 #include "core/jobs.h"
 
 #include "core/budget_work.h"
@@ -17,7 +19,7 @@ void find_occlusion(Channel& channel, const Model& model) {
     channel.post(std::make_shared<const std::vector<float>>(ambient_occlusion(model, channel.progress())));
 }
 
-/// Computes and posts what `open` lacks.
+/// Computes and posts the results that `open` lacks.
 void complete(Channel& channel, OpenModels open) {
     LoadedModel& first = open.first;
     if (!first.has_transfer())
@@ -32,7 +34,7 @@ EnvironmentFile read_environment(const std::filesystem::path& path) {
     try {
         return {path, std::make_shared<const LoadedEnvironment>(load_environment(path.string())), ""};
     } catch (const prt::Error& error) {
-        return {path, nullptr, error.what()}; // the others are read all the same
+        return {path, nullptr, error.what()}; // one bad file does not stop the others
     }
 }
 
@@ -44,7 +46,7 @@ void Jobs::start(JobKind kind, std::function<void(Channel&)> work) {
             work(channel);
         } catch (const prt::Cancelled&) {
             throw;
-        } catch (const std::exception& error) { // also std::bad_alloc of a file that is too large
+        } catch (const std::exception& error) { // catches std::bad_alloc too, from a file that is too large
             channel.post(Failure{kind, error.what()});
         }
     });

@@ -1,3 +1,5 @@
+// Sums the lights of the rig as SH light, as suns and as an environment for path tracing.
+
 #include "core/light_rig.h"
 
 #include "prt/color.h"
@@ -39,7 +41,7 @@ LoadedEnvironment ready(std::string name, const prt::Environment& environment) {
     return result;
 }
 
-/// About +Y, as prt::rotated_about_y.
+/// Rotates `d` about +Y, as prt::rotated_about_y does.
 glm::vec3 turned(const glm::vec3& d, float angle) {
     const float c = std::cos(angle), s = std::sin(angle);
     return {c * d.x + s * d.z, d.y, c * d.z - s * d.x};
@@ -56,21 +58,22 @@ std::vector<prt::Sun> as_seen_by_rays(const std::vector<prt::SunDisc>& discs) {
     return suns;
 }
 
-/// Share of the sky's daylight, 0..1; the rest is night. Dusk ends where the sun is 8.6 degrees below the
-/// horizon, between the ends of civil and of nautical twilight.
+/// Returns the fraction of daylight in the sky, 0..1; the rest is night. Dusk ends when the sun is 8.6
+/// degrees below the horizon, between the ends of civil and nautical twilight.
 double daylight(const glm::dvec3& sun) {
     const double share = std::clamp(1 + sun.y / 0.15, 0.0, 1.0);
     return share * share;
 }
 
-/// Without a moon, a little lighter towards the horizon: a thousandth of the sky at noon, as the night of the
-/// example scenes, so that their lanterns and their sky fit into one picture. Real nights are far darker.
+/// Returns the sky radiance of a moonless night, slightly brighter towards the horizon: a thousandth of the
+/// sky at noon, as in the night of the example scenes, so that lanterns and sky fit into one picture. Real
+/// nights are far darker.
 glm::dvec3 night_radiance(const glm::dvec3& direction) {
     const glm::dvec3 zenith(0.004, 0.007, 0.018), horizon(0.012, 0.016, 0.03);
     return glm::mix(horizon, zenith, std::sqrt(direction.y));
 }
 
-/// The sky of the model over a ground that reflects it; dusk fades into night.
+/// Returns the model sky above a ground that reflects it; dusk fades into night.
 prt::Image day_image(const Day& day, const glm::dvec3& sun) {
     constexpr int kWidth = 128, kHeight = 64;
     const glm::dvec3 above = glm::normalize(glm::dvec3(sun.x, std::max(sun.y, 0.02), sun.z));
@@ -82,7 +85,8 @@ prt::Image day_image(const Day& day, const glm::dvec3& sun) {
     for (int y = 0; y < kHeight; ++y)
         for (int x = 0; x < kWidth; ++x) {
             const glm::dvec3 d = prt::lat_long_direction(kWidth, kHeight, x + 0.5, y + 0.5);
-            glm::dvec3 pixel = irradiance * glm::dvec3(kGround) / kPi; // the upper rows came first
+            glm::dvec3 pixel = irradiance * glm::dvec3(kGround) / kPi; // the upper rows, computed first,
+                                                                       // light the ground
             if (d.y > 0) {
                 pixel = glm::mix(night_radiance(d), glm::max(sky.radiance(d), 0.0), share);
                 irradiance += pixel * (d.y * 2 * kPi / kWidth * kPi / kHeight * std::sqrt(1 - d.y * d.y));
@@ -92,7 +96,8 @@ prt::Image day_image(const Day& day, const glm::dvec3& sun) {
     return image;
 }
 
-/// About `axis`, filled up to the solid angle that it has.
+/// Adds a cone of constant radiance about `axis`, scaled so that the covered pixels have its exact solid
+/// angle.
 void add_cone(prt::Image& image, const glm::vec3& axis, double half_angle, const glm::vec3& radiance) {
     const double wanted = 2 * kPi * (1 - std::cos(half_angle));
     std::vector<std::size_t> inside;
@@ -159,7 +164,7 @@ void LightRig::set(const LightSettings& settings) {
     const glm::dvec3 sun = sun_at(settings.time.hour);
     day_ = ready("day", {day_image(settings.time, sun), prt::EnvironmentLayout::lat_long});
     day_sun_ = glm::vec3(sun);
-    // Four times the sky's irradiance at noon; yellow, then red, towards the horizon.
+    // The sun has four times the sky's irradiance at noon; it becomes yellow, then red, towards the horizon.
     const auto height = static_cast<float>(std::clamp(sun.y, 0.0, 1.0));
     day_sun_irradiance_ = height <= 0
                               ? glm::vec3(0)
@@ -190,7 +195,7 @@ float LightRig::unit() const {
     return environment ? environment->mean : 1;
 }
 
-/// Those that are not in the environment's image.
+/// Returns the suns that are not part of the environment image: the day's and the added ones.
 std::vector<prt::SunDisc> LightRig::own_suns() const {
     std::vector<prt::SunDisc> suns;
     if (settings_.day && day_sun_irradiance_ != glm::vec3(0))
@@ -202,7 +207,7 @@ std::vector<prt::SunDisc> LightRig::own_suns() const {
     return suns;
 }
 
-/// Those that are.
+/// Returns the suns of the environment image, rotated with it.
 std::vector<prt::SunDisc> LightRig::turned_suns() const {
     const LoadedEnvironment* environment = base();
     std::vector<prt::SunDisc> suns;
@@ -213,7 +218,7 @@ std::vector<prt::SunDisc> LightRig::turned_suns() const {
     return suns;
 }
 
-/// Lights that are no suns.
+/// Adds the lights that are not suns.
 void LightRig::add_shapes(prt::Light& sum) const {
     for (const RigLight& light : settings_.lights) {
         if (!light.on)
@@ -259,7 +264,7 @@ LightApart LightRig::light_apart(int order) const {
     return {{prt::windowed(sky, settings_.window), std::move(of_suns)}, std::move(suns)};
 }
 
-/// Of an image of the environment, null where there is none, and these suns.
+/// Returns a distant light from an image of the environment (may be null) and these suns.
 prt::DistantLight LightRig::distant_light(const prt::Image* lat_long,
                                           const std::vector<prt::SunDisc>& suns) const {
     const bool plain = lat_long && settings_.rotation == 0 &&
@@ -267,7 +272,7 @@ prt::DistantLight LightRig::distant_light(const prt::Image* lat_long,
                                     [](const RigLight& l) { return l.on && l.kind != LightKind::sun; });
     if (plain)
         return prt::DistantLight(*lat_long, as_seen_by_rays(suns));
-    // All in one image, in the axes of the world.
+    // All lights are drawn into one image, in world axes.
     prt::Image image{1024, 512, std::vector<glm::vec3>(std::size_t{1024} * 512, glm::vec3(0))};
     if (lat_long) {
         const float c = std::cos(settings_.rotation), s = std::sin(settings_.rotation);

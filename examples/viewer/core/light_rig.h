@@ -1,6 +1,6 @@
 #pragma once
 
-// Where light comes from: an environment or a day, and lights that can be moved.
+// The light on the scene: an environment or a day, and movable lights.
 
 #include "prt/distant_light.h"
 #include "prt/environment.h"
@@ -21,7 +21,7 @@ enum class LightKind { sun, cone, sphere, hemisphere };
 
 struct LightName {
     LightKind kind;
-    const char* id; ///< for scripts and for people
+    const char* id; ///< name in scripts and in the panel
 };
 inline constexpr std::array<LightName, 4> kLights = {{{LightKind::sun, "sun"},
                                                       {LightKind::cone, "cone"},
@@ -30,7 +30,7 @@ inline constexpr std::array<LightName, 4> kLights = {{{LightKind::sun, "sun"},
 
 struct WindowName {
     prt::Window window;
-    const char *id, *title, *tip; ///< for scripts; for people
+    const char *id, *title, *tip; ///< id for scripts; title and tip for the panel
 };
 inline constexpr std::array<WindowName, 4> kWindows = {
     {{prt::Window::automatic, "auto", "auto: no negative light",
@@ -44,18 +44,19 @@ struct RigLight {
     LightKind kind = LightKind::sun;
     bool on = true;
     glm::vec3 direction{0, 1, 0}; ///< unit, towards the light
-    float distance = 2;           ///< sphere: to its center, in radii of the scene
+    float distance = 2;           ///< sphere: distance to its center, in radii of the scene
     float size = 0.4f;            ///< cone: half angle, radians; sphere: radius, in radii of the scene
     glm::vec3 color{1, 0.9f, 0.75f};
-    float strength = 3; ///< suns: irradiance over pi; others: radiance; over the mean of the environment
+    float strength = 3; ///< relative to the mean of the environment; suns: irradiance over pi; others:
+                        ///< radiance
 
     friend bool operator==(const RigLight&, const RigLight&) = default;
 };
 
-/// A light of that kind as it comes first.
+/// Returns a light of this kind with its default values.
 RigLight make_light(LightKind kind);
 
-/// A clear day on the equinox at 45 degrees north, +Z to the south.
+/// Time of a clear day on the equinox at 45 degrees north; +Z points south.
 struct Day {
     double hour = 10; ///< 0..24
     double turbidity = 3;
@@ -63,32 +64,33 @@ struct Day {
     friend bool operator==(const Day&, const Day&) = default;
 };
 
-/// What is set; the environment itself is shared.
+/// User settings of the light; the environment itself is shared.
 struct LightSettings {
-    bool day = true; ///< instead of the environment
+    bool day = true; ///< use the day, not the environment
     Day time;
     bool environment_on = true;
-    float rotation = 0; ///< of environment or day about +Y, radians
-    /// Against ringing, over all lights together; the path-traced reference has no bands and no window.
+    float rotation = 0; ///< rotation of the environment or the day about +Y, radians
+    /// Filter against ringing of the sum of all lights. The path-traced reference has no bands and needs no
+    /// window.
     prt::Window window = prt::Window::automatic;
     std::vector<RigLight> lights;
 
     friend bool operator==(const LightSettings&, const LightSettings&) = default;
 };
 
-/// An environment map, ready to light.
+/// An environment map prepared as a light.
 struct LoadedEnvironment {
     std::string name;
     prt::Image lat_long;
-    prt::Light light;        ///< of the highest order
-    prt::Light sky;          ///< the same without its suns
-    prt::Image sky_lat_long; ///< and its image; empty where it has none
+    prt::Light light;        ///< light of the maximum order
+    prt::Light sky;          ///< `light` without its suns
+    prt::Image sky_lat_long; ///< image without the suns; empty if the environment has none
     std::vector<prt::SunDisc> suns;
-    float mean = 1; ///< luminance
+    float mean = 1; ///< mean luminance
 };
 LoadedEnvironment load_environment(const std::string& path);
 
-/// Light taken apart: what lights transfer, and the suns that are shadowed at each pixel.
+/// Light split into the lighting of the transfer and suns that are shadowed per pixel.
 struct LightApart {
     prt::Lighting lighting;
     std::vector<prt::SunDisc> suns;
@@ -98,29 +100,30 @@ class LightRig {
 public:
     LightRig();
     const LightSettings& settings() const { return settings_; }
-    /// Counts up `version` where something changes.
+    /// Changes the settings; increases `version` if they differ.
     void set(const LightSettings& settings);
     void set_environment(std::shared_ptr<const LoadedEnvironment> environment);
     bool has_environment() const { return environment_ != nullptr; }
     std::string environment_name() const { return environment_ ? environment_->name : std::string(); }
     std::uint64_t version() const { return version_; }
 
-    /// All lights together, under the window.
+    /// Returns the windowed sum of all lights.
     prt::Light light(int order) const;
-    /// The same, its strongest suns apart: the environment's own, the day's and those that were added. The
-    /// window is for the rest.
+    /// Returns the light with its strongest suns separate: those of the environment, of the day and the added
+    /// ones. The window filters the rest only.
     LightApart light_apart(int order) const;
-    /// The same light as rays meet it. Suns are suns; all else is in its environment.
+    /// Returns the light for path tracing. Suns stay suns; everything else is part of its environment.
     prt::DistantLight distant_light() const;
-    /// As an error budget measures it: under no window, all in the sky or with the suns of `light_apart`
-    /// apart.
+    /// Returns the light for an error budget, without a window. The suns are part of the sky, or separate as
+    /// in `light_apart`.
     prt::MeasuredLight measured_light() const;
     prt::MeasuredLight measured_light_apart() const;
 
-    /// How much it is night, 0..1; an environment map is as it is.
+    /// Returns the fraction of night, 0..1; 0 for an environment map.
     float darkness() const;
 
-    /// Behind the scene: the environment or the day's sky, not turned; null where neither is on.
+    /// Returns the unrotated image behind the scene, the environment or the sky of the day; null if neither
+    /// is on.
     const prt::Image* background() const;
     std::uint64_t background_version() const { return background_version_; }
 

@@ -1,3 +1,5 @@
+// Builds the mesh of a spherical function.
+
 #include "core/lobe.h"
 
 #include "prt/sh_vector.h"
@@ -39,7 +41,7 @@ ColoredMesh make_lobe(int order, std::span<const float> function, const glm::vec
             const float value =
                 values[static_cast<std::size_t>(ring) * kRow + static_cast<std::size_t>(segment)];
             mesh.positions.push_back(center + d * (scale * std::abs(value)));
-            // Shaded as a ball, so that it looks round.
+            // Shaded like a sphere, so that it looks round.
             const float shade = 0.35f + 0.65f * std::max(0.0f, glm::dot(d, towards_eye));
             mesh.colors.emplace_back(
                 shade * (value >= 0 ? glm::vec3(0.95f, 0.3f, 0.1f) : glm::vec3(0.1f, 0.35f, 0.95f)), 1);

@@ -1,7 +1,7 @@
 #pragma once
 
-// A function on the sphere as a surface: as far from the center as its absolute value, red where positive,
-// blue where negative.
+// Draws a function on the sphere as a surface. The distance from the center is the absolute value; positive
+// values are red, negative ones blue.
 
 #include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
@@ -13,11 +13,12 @@ namespace viewer {
 
 struct ColoredMesh {
     std::vector<glm::vec3> positions;
-    std::vector<glm::vec4> colors; ///< linear, lit from `towards_eye`
+    std::vector<glm::vec4> colors; ///< linear, shaded for light from `towards_eye`
     std::vector<glm::uvec3> triangles;
 };
 
-/// `function` [order²]; its largest absolute value lies at distance `radius` from `center`.
+/// Returns the surface of `function` [order²]; its maximum absolute value is at distance `radius` from
+/// `center`.
 ColoredMesh make_lobe(int order, std::span<const float> function, const glm::vec3& center, float radius,
                       const glm::vec3& towards_eye);
 

@@ -1,3 +1,5 @@
+// Moves and animates the figure, and returns the surfaces of the moving objects.
+
 #include "core/moving.h"
 
 #include "pictures/joined_scene.h"
@@ -14,7 +16,7 @@
 namespace viewer {
 namespace {
 
-/// Of an animation that does not say how fast its feet go, metres per second.
+/// Walking speed for animations without one, metres per second.
 constexpr double kUsualSpeed = 1.2;
 constexpr float kSphereRadius = 0.35f; ///< metres
 
@@ -24,7 +26,7 @@ std::string small_letters(std::string text) {
     return text;
 }
 
-/// The figure's box at rest, in its file's world.
+/// Bounding box of the figure at rest, in its file's world space.
 struct RestBox {
     glm::dvec3 low, high;
 };
@@ -33,7 +35,7 @@ RestBox rest_box(const prt::AnimatedScene& figure) {
     return {figure.scene().world(box.low), figure.scene().world(box.high)};
 }
 
-/// Takes the figure's feet to the place.
+/// Returns the transform that moves the figure's feet to its position.
 glm::dmat4 placement_of(const prt::AnimatedScene& figure, const FigureWalk& walk, double scale) {
     glm::dmat4 placement = glm::translate(glm::dmat4(1), glm::dvec3(walk.position()));
     placement = glm::rotate(placement, static_cast<double>(walk.heading()), glm::dvec3(0, 1, 0));
@@ -49,7 +51,8 @@ Walker walker_of(const prt::AnimatedScene* figure, double scale) {
     return {height, height / 3, 0.2f * height};
 }
 
-/// Around the figure however it moves: a ball as wide as it is long, about its middle.
+/// Returns a box around the figure in every pose: a sphere about its middle with the diameter of its rest
+/// box.
 prt::Bounds box_of(const prt::AnimatedScene& figure, const glm::dmat4& placement) {
     const RestBox rest = rest_box(figure);
     const glm::vec3 middle(placement * glm::dvec4(0.5 * (rest.low + rest.high), 1));

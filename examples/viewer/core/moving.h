@@ -1,6 +1,6 @@
 #pragma once
 
-// What moves through the scene that is open, and the volume that lights it.
+// The objects that move through the open scene, and the volume that lights them.
 
 #include "core/figure_walk.h"
 #include "core/findings.h"
@@ -18,26 +18,27 @@
 
 namespace viewer {
 
-/// What a script may say of the figure.
+/// Figure options of a script.
 struct FigureChoice {
-    std::string animation = {};        ///< empty: the one called like a walk, else the first
-    double scale = 1;                  ///< of the file
-    std::vector<glm::dvec3> path = {}; ///< in the world of the model's file; empty: wherever there is room
+    std::string animation = {};        ///< empty: the animation named like a walk, otherwise the first
+    double scale = 1;                  ///< scale factor on the file's units
+    std::vector<glm::dvec3> path = {}; ///< path in the world space of the model's file; empty: walk freely
+                                       ///< where there is room
 };
 
-/// The figure, how it stands, and where.
+/// State of the moving figure, its pose and position.
 class Moving {
 public:
     void set_figure(const FigureFile& file);
-    /// What it blocks, of the figure that is there; of another one it is left out.
+    /// Sets the occluders if they belong to the current figure; ignores them otherwise.
     void set_occluders(const FoundOccluders& found) {
         if (found.figure == file_.figure)
             occluders_ = found.occluders;
     }
     void set_volume(const FoundVolume& found) { volume_ = found; }
-    /// Throws `prt::Error` where the figure has no such animation.
+    /// Throws `prt::Error` if the figure does not have this animation.
     void choose(const FigureChoice& choice, const std::shared_ptr<const Model>& model);
-    /// Another scene is open: the figure starts anew there, and there is no volume.
+    /// Adapts to another open scene: restarts the figure there and removes the volume.
     void enter(const std::shared_ptr<const Model>& model);
     void advance(double seconds, double speed);
 
@@ -46,14 +47,14 @@ public:
     const std::filesystem::path& path() const { return file_.path; }
     const std::vector<prt::NodeOccluder>& occluders() const { return occluders_; }
     const FoundVolume& volume() const { return volume_; }
-    /// For the frame: what lights or shades others by the figure takes its matrices from here.
+    /// Pose of the frame. All code that lights or shades objects by the figure uses these matrices.
     const FigurePose& pose() const { return pose_; }
-    /// The surfaces of what is shown, as they stand, seen from the origin of the scene; what mirrors is left
-    /// out. Null: nothing is. The same until something changes.
+    /// Returns the surfaces of the shown objects in their current pose, in scene space; null if nothing is
+    /// shown. Mirrored surfaces are omitted. Returns the same object until something changes.
     std::shared_ptr<const prt::Scene> surfaces(const MovingSettings& shown);
-    /// Whether a volume was not yet asked for since the scene was opened; it is now.
+    /// Returns true once per opened scene: a volume was not requested yet, and is requested now.
     bool ask_for_volume() { return !std::exchange(volume_asked_, true); }
-    /// Beside where the figure began.
+    /// Spheres next to the starting position of the figure.
     const TwoSpheres& spheres() const { return spheres_; }
 
 private:
@@ -66,12 +67,12 @@ private:
     FoundVolume volume_;
     FigureChoice choice_;
     FigureWalk walk_;
-    double seconds_ = 0; ///< of the animation
+    double seconds_ = 0; ///< time in the animation
     FigurePose pose_;
     TwoSpheres spheres_;
     bool volume_asked_ = false;
     struct Surfaces {
-        std::uint64_t version = 0; ///< of the pose
+        std::uint64_t version = 0; ///< version of the pose
         bool figure = false, spheres = false;
         std::shared_ptr<const prt::Scene> scene;
     };

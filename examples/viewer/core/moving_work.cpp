@@ -1,3 +1,5 @@
+// Reads figures and measures their occluders; reads or bakes volumes.
+
 #include "core/moving_work.h"
 
 #include "core/transfer_work.h"
@@ -17,13 +19,13 @@
 namespace viewer {
 namespace {
 
-/// A first light at once, then better ones. What compression takes grows with the square of the bands'
-/// numbers, so that the first have few.
+/// Rays and order of the stages: the first light at once, then better ones. Compression time grows with the
+/// square of the number of bands, so the first stages have few.
 struct VolumeStage {
     int rays, order;
 };
 constexpr VolumeStage kVolumeStages[] = {{32, 2}, {128, 3}, {512, kBakeOrder}};
-/// Of a bake of the viewer's own: seconds on a few cores.
+/// Limit for volumes that the viewer bakes itself: seconds on a few cores.
 constexpr std::size_t kMostProbes = 3000;
 constexpr int kOccluderRays = 64;
 constexpr int kProbesOfCluster = 32, kMostClusters = 256;
@@ -70,7 +72,7 @@ std::vector<prt::NodeOccluder> measured_occluders(Channel& channel, const prt::G
         } catch (const prt::Cancelled&) {
             throw;
         } catch (const prt::Error&) {
-            channel.progress().check(); // a part without extent blocks nothing
+            channel.progress().check(); // a part without extent does not block light
         }
     }
     return occluders;

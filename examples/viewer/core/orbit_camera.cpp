@@ -1,3 +1,5 @@
+// Rotates, moves and zooms the orbit camera.
+
 #include "core/orbit_camera.h"
 
 #include <glm/geometric.hpp>
@@ -10,7 +12,7 @@ namespace viewer {
 namespace {
 
 constexpr float kHalfTurn = std::numbers::pi_v<float>;
-constexpr float kSteepest = 0.49f * kHalfTurn; ///< `up` must not point along the view
+constexpr float kSteepest = 0.49f * kHalfTurn; ///< `up` must not be parallel to the view direction
 
 } // namespace
 

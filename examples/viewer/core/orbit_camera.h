@@ -6,17 +6,18 @@
 
 namespace viewer {
 
-/// A camera on a sphere about a point that it looks at.
+/// A camera on a sphere about its target.
 class OrbitCamera {
 public:
     OrbitCamera() = default;
     explicit OrbitCamera(const prt::Camera& camera);
 
-    /// `turns` is the way of the pointer as a share of the window's height: one height is half a turn.
+    /// Rotates the camera. `turns` is the pointer movement as a fraction of the window height; one height
+    /// rotates by half a turn.
     void orbit(const glm::vec2& turns);
-    /// Moves what is looked at with the pointer; `way` as above.
+    /// Moves the target with the pointer; `way` is the pointer movement as a fraction of the window height.
     void pan(const glm::vec2& way);
-    /// Nearer for positive `notches`.
+    /// Moves closer for positive `notches`.
     void zoom(float notches);
 
     prt::Camera camera() const;

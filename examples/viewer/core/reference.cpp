@@ -1,3 +1,5 @@
+// Path-traces the reference picture in a background thread.
+
 #include "core/reference.h"
 
 #include "pictures/joined_scene.h"
@@ -10,7 +12,7 @@
 namespace viewer {
 namespace {
 
-constexpr int kCoarser = 4; ///< the first picture has so many times fewer pixels along each axis
+constexpr int kCoarser = 4; ///< The first picture is smaller by this factor along each axis.
 
 std::vector<prt::Texture> textures_of(const Model& model, const prt::Scene& moving) {
     std::vector<prt::Texture> textures = model.trace->textures();
@@ -19,7 +21,7 @@ std::vector<prt::Texture> textures_of(const Model& model, const prt::Scene& movi
     return textures;
 }
 
-/// A model with what stands in it.
+/// A model together with the moving objects in it.
 struct WholeScene {
     WholeScene(const Model& model, const prt::Scene& moving)
         : scene(joined(model.scene, moving)), trace(scene, textures_of(model, moving)) {}
@@ -57,7 +59,7 @@ void Reference::show(const Subject& subject, const LightRig& rig) {
         try {
             trace(subject, rig, *shared, token);
         } catch (const prt::Cancelled&) {
-            // another picture is wanted
+            // another picture is requested
         }
         const std::lock_guard lock(shared->mutex);
         shared->done = true;
@@ -69,7 +71,7 @@ void Reference::trace(const Subject& subject, const LightRig& rig, Shared& share
     const std::shared_ptr<const WholeScene> whole =
         subject.moving ? std::make_shared<const WholeScene>(*subject.model, *subject.moving) : nullptr;
     const prt::TraceScene& scene = whole ? whole->trace : *subject.model->trace;
-    // One thread is left to draw.
+    // Leaves one thread for drawing.
     const int threads = std::max(1, prt::thread_count(0) - 1);
     const prt::DistantLight light = rig.distant_light();
     prt::PathTraceOptions coarse = subject.options;

@@ -18,27 +18,27 @@ class Reference {
 public:
     ~Reference();
 
-    /// What the picture is of.
+    /// Input of the picture.
     struct Subject {
         std::shared_ptr<const Model> model;
         prt::PathTraceOptions options;
         std::uint64_t light_version = 0;
-        std::shared_ptr<const prt::Scene> moving = {}; ///< that stands in it; null: nothing
+        std::shared_ptr<const prt::Scene> moving = {}; ///< moving objects in the scene; null: none
 
         friend bool operator==(const Subject&, const Subject&) = default;
     };
-    /// Starts anew where the subject is another: at once a coarse picture, then a fine one that refines.
-    /// `rig` is lit as its version says.
+    /// Restarts if the subject changes: first a coarse picture, then a full one that refines. `rig` must
+    /// match the version of the subject's light.
     void show(const Subject& subject, const LightRig& rig);
     void stop();
 
     struct Result {
         prt::Image image;
-        std::vector<bool> surfaces; ///< which pixels show the scene
+        std::vector<bool> surfaces; ///< true for pixels that show the scene
     };
-    /// The newest picture, at first that of the last subject; null: none yet.
+    /// Returns the newest picture, which at first is that of the previous subject; null if there is none yet.
     const Result* result();
-    int passes() const; ///< at full resolution; 0: coarse
+    int passes() const; ///< number of passes at full resolution; 0: coarse
 
 private:
     struct Shared {
@@ -61,7 +61,7 @@ private:
     std::vector<Job> retired_;
 };
 
-/// Noise of so many paths is below what the eye sees.
+/// Maximum number of passes; its noise is below the visible threshold.
 inline constexpr int kMostPasses = 4096;
 
 } // namespace viewer

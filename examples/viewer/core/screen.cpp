@@ -1,3 +1,5 @@
+// Converts between pixels and directions.
+
 #include "core/screen.h"
 
 #include <glm/geometric.hpp>
@@ -29,7 +31,7 @@ glm::vec3 direction_on_sphere(const Screen& screen, const glm::vec2& pixel, cons
                               float radius, bool far_side) {
     const glm::vec3 d = direction_through(screen, pixel), to_center = center - screen.camera.position;
     const float along = glm::dot(to_center, d);
-    const glm::vec3 nearest = d * along - to_center; // from the center to the ray
+    const glm::vec3 nearest = d * along - to_center; // vector from the center to the nearest point of the ray
     const float inside = radius * radius - glm::dot(nearest, nearest);
     if (inside <= 0)
         return glm::normalize(nearest);

@@ -1,6 +1,6 @@
 #pragma once
 
-// Between places in the scene and pixels of the screen, from its top left.
+// Converts between positions in the scene and pixels of the screen, counted from its top left.
 
 #include "prt/camera.h"
 
@@ -16,13 +16,14 @@ struct Screen {
     glm::vec2 size{1};
 };
 
-/// Unit direction from the camera through `pixel`.
+/// Returns the unit direction from the camera through `pixel`.
 glm::vec3 direction_through(const Screen& screen, const glm::vec2& pixel);
-/// Nothing where `place` is behind the camera.
+/// Returns the pixel of the position `place`; empty if it is behind the camera.
 std::optional<glm::vec2> pixel_of(const Screen& screen, const glm::vec3& place);
 
-/// Unit direction from `center` to where the ray through `pixel` meets the sphere of that radius: its near
-/// side, or its far side where `far_side`; beside it the nearest point of its outline.
+/// Returns the unit direction from `center` to the intersection of the ray through `pixel` with the sphere of
+/// that radius: its near side, or its far side if `far_side`. A ray that misses returns the nearest point of
+/// the outline.
 glm::vec3 direction_on_sphere(const Screen& screen, const glm::vec2& pixel, const glm::vec3& center,
                               float radius, bool far_side);
 

@@ -1,3 +1,5 @@
+// Evaluates raw or compressed lightmap transfer at some texels.
+
 #include "core/texel_light.h"
 
 #include "prt/lightmap_file.h"

@@ -1,6 +1,6 @@
 #pragma once
 
-// Light of a few places of a lightmap, on the CPU.
+// Computes the light of a few texels of a lightmap on the CPU.
 
 #include "pictures/model.h"
 
@@ -13,12 +13,12 @@
 
 namespace viewer {
 
-/// Exit radiance for albedo 1 of some texels of a lightmap, in ascending order: of the compressed transfer
-/// where there is some, else of the raw one; black where a bake has none.
+/// Returns the exit radiance for albedo 1 of some texels of a lightmap, in ascending order. Uses the
+/// compressed transfer if it exists, otherwise the raw one; texels without a baked receiver are black.
 std::vector<glm::vec3> texel_radiance(const LoadedModel& loaded, const prt::Lighting& lighting,
                                       std::span<const std::uint32_t> texels);
 
-/// Which of the receivers `texels`, in ascending order, `texel` is; nothing: none.
+/// Returns the index of `texel` in `texels`, which is in ascending order; empty if it is not there.
 std::optional<std::size_t> receiver_of(std::span<const std::uint32_t> texels, std::uint32_t texel);
 
 } // namespace viewer

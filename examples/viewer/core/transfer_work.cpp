@@ -1,3 +1,5 @@
+// Loads, bakes, compresses and saves the transfer of the open model.
+
 #include "core/transfer_work.h"
 
 #include "prt/bake.h"
@@ -13,10 +15,10 @@
 namespace viewer {
 namespace {
 
-/// A first picture at once, then better ones.
+/// Rays of the stages: a first picture at once, then better ones.
 constexpr int kBakeRays[] = {16, 128, 1024};
 
-/// What the compressor may look at.
+/// Returns the areas and edges of the receivers for the compressor.
 prt::SceneSurface surface_of(const LoadedModel& loaded) {
     if (!loaded.of_texels())
         return prt::SceneSurface(loaded.model->scene);
@@ -28,25 +30,26 @@ prt::SceneSurface surface_of(const LoadedModel& loaded) {
     return surface;
 }
 
-/// The preset where its own sizes are asked for, made to fit small meshes as `prt compress` does; else as
-/// asked.
+/// Compresses with the preset, fitted to small meshes as `prt compress` does, if the settings match its
+/// sizes; otherwise with the given settings.
 prt::CompressResult compressed_as(const CompressionSettings& how, const LoadedModel& loaded,
                                   const prt::Progress& progress) {
     const prt::Transfer transfer = truncated(*loaded.raw, how.order);
     prt::CompressOptions options{.coding = prt::preset_u32x4()};
-    if (loaded.of_texels()) // which know no normals
+    if (loaded.of_texels()) // texels have no normals
         options.guides = prt::GuideChoice::none;
     const prt::SceneSurface owner = surface_of(loaded);
     const prt::ReceiverSurface surface = owner.view();
     if (how.clusters == options.clusters && how.components == options.coding.components)
         return prt::compress_preset(transfer, surface, options, progress).result;
     options.clusters = how.clusters;
-    // As many bits for each component as the preset has.
+    // The number of bits per component is that of the preset.
     options.coding = {.components = how.components, .bits = 6 * how.components};
     return prt::compress(transfer, surface, options, progress);
 }
 
-/// Takes over from `other` the transfer of texels that `loaded` lacks. Returns why not, empty: done.
+/// Takes over the transfer of texels that `loaded` lacks from `other`. Returns the reason if it cannot; empty
+/// on success.
 std::string add_lightmap(LoadedModel& loaded, const LoadedModel& other) {
     if (*loaded.lightmap.layout() != *other.lightmap.layout() ||
         loaded.model->receivers_id != other.model->receivers_id)
@@ -60,7 +63,7 @@ std::string add_lightmap(LoadedModel& loaded, const LoadedModel& other) {
     return "";
 }
 
-/// The same of vertices.
+/// Takes over the transfer of vertices that `loaded` lacks. Returns true on success.
 bool add_vertices(LoadedModel& loaded, LoadedModel other) {
     if (loaded.compressed && !loaded.raw && other.raw) {
         loaded.raw = std::make_shared<const prt::Transfer>(
@@ -76,17 +79,20 @@ bool add_vertices(LoadedModel& loaded, LoadedModel other) {
     return false;
 }
 
-/// Takes over what `loaded` lacks, of the same kind of receivers.
+/// Takes over the transfer that `loaded` lacks, for the same kind of receivers. Returns the reason if it
+/// cannot; empty on success.
 std::string add_transfer(LoadedModel& loaded, LoadedModel other) {
     const bool same_surface = loaded.model->surface_id == other.model->surface_id;
-    if (loaded.of_texels() && same_surface) // vertices may be split otherwise: then so are maps
+    // Vertices may be split differently; the maps then differ in the same way.
+    if (loaded.of_texels() && same_surface)
         return add_lightmap(loaded, other);
     if (loaded.model->receivers_id != other.model->receivers_id)
         return "is another scene than ";
     return add_vertices(loaded, std::move(other)) ? "" : "adds no transfer to ";
 }
 
-/// Adds `other` to the scene that is open: its transfer to that of the same receivers, or all of it beside.
+/// Adds `other` to the open scene: its transfer if the receivers are equal, otherwise the whole model as the
+/// second one. Returns the reason if it cannot; empty on success.
 std::string add_model(OpenModels& open, LoadedModel other) {
     if (open.first.receivers() == other.receivers())
         return add_transfer(open.first, std::move(other));
@@ -109,7 +115,7 @@ OpenModels load_together(const std::vector<std::filesystem::path>& paths, const 
             throw prt::Error(paths[i].string() + ": " + why + paths.front().string());
     for (const LoadedModel* before : {&open.first, &open.beside})
         if (before->model)
-            add_model(models, *before); // where it is of this scene
+            add_model(models, *before); // only if it holds this scene
     return models;
 }
 

@@ -1,3 +1,5 @@
+// Applies user requests and findings to the viewer.
+
 #include "core/viewer.h"
 
 #include "core/budget_work.h"
@@ -24,7 +26,7 @@ bool is_model(const std::filesystem::path& path) {
     return path.extension() == ".glb" || path.extension() == ".gltf";
 }
 
-/// A name beside the model that is free.
+/// Returns a free file name next to the model.
 std::filesystem::path shipped_path(const std::filesystem::path& model) {
     for (int i = 1;; ++i) {
         const std::string number = i == 1 ? "" : fmt::format("-{}", i);
@@ -61,7 +63,7 @@ void Viewer::reset_camera() {
         camera = OrbitCamera(prt::automatic_camera(document_.model()->scene, aspect, kFieldOfView));
 }
 
-// ---- what is asked for
+// ---- user requests
 
 void Viewer::open(const std::vector<std::filesystem::path>& paths) {
     std::vector<std::filesystem::path> models, environments;
@@ -87,7 +89,7 @@ void Viewer::open(const std::vector<std::filesystem::path>& paths) {
 void Viewer::open_scenes(const std::vector<std::filesystem::path>& paths) {
     statistics_.begin_opening();
     OpenModels before{document_.loaded, document_.beside};
-    if (jobs_.baking()) // it is done again, to its end, where the scene stays
+    if (jobs_.baking()) // an unfinished bake restarts if the scene stays open
         before.first.raw = nullptr;
     jobs_.open(paths, before);
 }
@@ -126,18 +128,18 @@ void Viewer::recompress_where_asked() {
     if (!document_.raw() || !document_.compressed() || compression == document_.compressed_as)
         return;
     if (!jobs_.may_compress())
-        return; // first what is under way
+        return; // wait for the running job first
     document_.compressed_as = compression;
     jobs_.compress(document_, compression);
 }
 
 void Viewer::update(double seconds) {
     if (settings.day_runs && lights.day)
-        lights.time.hour = std::fmod(lights.time.hour + seconds, 24.0); // an hour a second
+        lights.time.hour = std::fmod(lights.time.hour + seconds, 24.0); // one hour per second
     for (const Finding& finding : jobs_.collect())
         try {
             std::visit([this](const auto& found) { take(found); }, finding);
-        } catch (const prt::Error& error) { // what was found does not fit the GPU
+        } catch (const prt::Error& error) { // the finding does not fit into GPU memory
             message(error.what());
         }
     lighting_.rig.set(lights);
@@ -146,7 +148,7 @@ void Viewer::update(double seconds) {
     follow_moving(seconds);
 }
 
-// ---- what was found
+// ---- findings
 
 void Viewer::take(const OpenModels& models) {
     document_.open(models);
@@ -160,7 +162,7 @@ void Viewer::take(const OpenModels& models) {
     upload_models();
 }
 
-/// Lists the lamps of the transfer that there is; those that stay keep their strength.
+/// Lists the lamps of the current transfer; lamps that remain keep their strength.
 void Viewer::follow_lamps() {
     std::vector<Lamp>& lamps = settings.lit.lamps.each;
     lamps = lamps_of(document_.layouts(), lamps);
@@ -198,7 +200,7 @@ GpuModel& Viewer::gpu_model(const SidePicture& picture) const {
 
 void Viewer::upload_models() {
     upload_moving();
-    gpu_->model.reset(); // there may not be room for two
+    gpu_->model.reset(); // memory may not suffice for two models
     gpu_->beside.reset();
     gpu_->model = uploaded(document_.loaded);
     if (document_.has_both())
@@ -218,7 +220,7 @@ void Viewer::take(const Baked& baked) {
 
 void Viewer::take(const Compressed& compressed) {
     if (compressed.model == document_.loaded.model && compression == document_.compressed_as)
-        compression = compressed.how; // the file's own, when a model was opened
+        compression = compressed.how; // settings in the file of a newly opened model
     document_.set(compressed);
     follow_lamps();
     GpuModel* const model = gpu_model(compressed.model.get());

@@ -1,7 +1,7 @@
 #pragma once
 
-// The viewer without a window: panels, keys and scripts change its public members and call it, whoever owns
-// the OpenGL context draws it.
+// The viewer without a window. Panels, keys and scripts change its public members and call its functions; the
+// owner of the OpenGL context draws it.
 
 #include "core/frame_statistics.h"
 #include "core/hovered.h"
@@ -24,51 +24,53 @@ namespace viewer {
 
 class Viewer {
 public:
-    /// An OpenGL 4.5 context must be current, here and in all that draws.
+    /// Requires a current OpenGL 4.5 context, as does every function that draws.
     Viewer();
 
-    /// Models and environment maps; a message for what is neither. At once: files are read in the background.
-    /// A bake and what was compressed of it are shown together, be it that one of them is open already.
+    /// Opens models and environment maps; shows a message for other files. Returns at once, because files are
+    /// read in the background. A bake and its compressed transfer are shown together, also if one of them is
+    /// already open.
     void open(const std::vector<std::filesystem::path>& paths);
-    /// Opens a file as the figure that walks through the scene, in the background.
+    /// Opens a file in the background as the figure that walks through the scene.
     void open_figure(const std::filesystem::path& path);
-    /// Throws `prt::Error` where there is no figure, or it has no such animation.
+    /// Throws `prt::Error` if there is no figure, or if it does not have this animation.
     void choose_figure(const FigureChoice& choice);
-    /// It goes on as in so many seconds, at once.
+    /// Advances the figure by `seconds` at once.
     void walk_figure(double seconds);
-    /// Bakes the model anew, though it may hold transfer.
+    /// Bakes the model again, even if it already has transfer.
     void bake_anew();
-    /// There is a bake of which the error over the surface can be measured: of vertices.
+    /// True if the error over the surface can be measured: there is a bake of vertices.
     bool can_measure() const {
         return document_.raw() && !document_.loaded.of_texels() && !jobs_.busy(JobKind::model);
     }
-    /// The viewer bakes vertices alone.
+    /// True if the model can be baked. The viewer bakes vertices only.
     bool can_bake() const { return document_.model() && !document_.loaded.of_texels() && !jobs_.busy(); }
-    /// Measures it in the background, under the present light.
+    /// Measures the budget in the background, under the current light.
     void measure_budget();
     void stop_budget() { jobs_.stop(JobKind::budget); }
-    /// The budget that was measured last is of this light and of this transfer.
+    /// True if the last budget belongs to the current light and transfer.
     bool budget_is_current() const { return document_.budget && document_.budget->version == lampless(); }
-    /// There is compressed transfer to save.
+    /// True if there is compressed transfer to save.
     bool can_save() const { return document_.compressed() && !jobs_.busy(JobKind::saving); }
-    /// Writes the model with it in the background; a message says where, or why not. `output` empty: beside
-    /// the model, under a name that is free.
+    /// Writes the model with its compressed transfer in the background; a message reports the path or the
+    /// error. If `output` is empty, a free name next to the model is used.
     void save(std::filesystem::path output = {});
-    /// The whole model in view, as it was when it was opened.
+    /// Shows the whole model, as after opening it.
     void reset_camera();
-    /// Of `lighting().environments`.
+    /// Selects one of `lighting().environments`.
     void use_environment(std::size_t index);
 
     Settings settings;
-    CompressionSettings compression; ///< what differs from what is there is compressed in the background
+    CompressionSettings compression; ///< if these settings differ from the compressed transfer, it is
+                                     ///< compressed again in the background
     OrbitCamera camera;
-    LightSettings lights; ///< taken over by `update`
+    LightSettings lights; ///< applied by `update`
 
-    /// Takes in what was found in the background, and lets `seconds` pass.
+    /// Applies the findings of the background jobs, and advances time by `seconds`.
     void update(double seconds);
-    /// The frame, without panels. Throws `prt::Error` where the device cannot.
+    /// Draws the frame without panels. Throws `prt::Error` if the device cannot draw it.
     void draw(std::uint32_t framebuffer, int width, int height);
-    /// The pointer is over this pixel, or nowhere.
+    /// Sets the pixel under the pointer; empty if the pointer is outside.
     void hover(std::optional<glm::vec2> pixel) { seen_.pointer = pixel; }
 
     const Document& document() const { return document_; }
@@ -80,37 +82,38 @@ public:
     Screen screen() const { return {camera.camera(), glm::vec2(seen_.size)}; }
     FrameRenderer& renderer() { return gpu_->renderer; }
 
-    /// Newest last; shown until they are dismissed.
+    /// Messages, newest last; shown until they are dismissed.
     const std::deque<std::string>& messages() const { return messages_; }
     void message(const std::string& text);
     void dismiss_messages() { messages_.clear(); }
 
-    /// What a side shows: what was asked for, or what stands in for it until it is there, and why; or what
-    /// it leaves out.
+    /// The picture shown on one side: the wanted one, or its substitute until it is available. `note` is the
+    /// reason for a substitute, or names the light that is missing in the picture.
     struct Shown {
         PictureKind kind;
         std::string note;
     };
     Shown shown(const SidePicture& wanted) const;
-    /// Why no side can show this of the models that are open, whatever is waited for; empty: one can.
+    /// Returns the reason if no side can ever show this picture for the open models; empty if one can.
     std::string never_shown(const SidePicture& wanted) const;
 
-    /// The context is gone, with all that was on the GPU; call `restore_gpu` with another one.
+    /// Frees all GPU objects after the context is lost; call `restore_gpu` with another context.
     void release_gpu() { gpu_.reset(); }
     void restore_gpu();
 
 private:
     struct Gpu {
         FrameRenderer renderer;
-        std::unique_ptr<GpuModel> model, beside; ///< as of the document
+        std::unique_ptr<GpuModel> model, beside; ///< models of the document
         prt::GlObject background;
         std::uint64_t background_version = 0;
-        RadianceVersion lit, numbers, budget; ///< that the model is lit by, that were asked for
+        RadianceVersion lit, numbers, budget; ///< versions of the light on the model, of the requested
+                                              ///< numbers, of the requested budget
         GpuTimer frame, vertices;
         MeshRenderer meshes;
         MovingStage moving;
     };
-    /// The screen as it was last drawn.
+    /// State of the screen in the last frame.
     struct Seen {
         glm::ivec2 size{1};
         std::optional<glm::vec2> pointer;
@@ -135,7 +138,7 @@ private:
     void upload_moving();
     void upload_models();
     std::unique_ptr<GpuModel> uploaded(const LoadedModel& loaded);
-    /// Of the document's model; null: it is of none.
+    /// Returns the GPU model of a model of the document; null if it has none.
     GpuModel* gpu_model(const Model* model) const;
     GpuModel& gpu_model(const SidePicture& picture) const;
     void recompress_where_asked();
@@ -144,7 +147,7 @@ private:
         return {document_.transfer_version, lighting_.rig.version(), lighting_.lamps_version(),
                 settings.lit.suns_apart};
     }
-    /// What a budget depends on.
+    /// Returns the version that a budget depends on: without lamps.
     RadianceVersion lampless() const {
         RadianceVersion lampless = version();
         lampless.lamps = 0;

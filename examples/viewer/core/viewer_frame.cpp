@@ -1,4 +1,4 @@
-// How the viewer draws a frame.
+// Draws a frame of the viewer.
 
 #include "core/budget_work.h"
 #include "core/lobe.h"
@@ -75,7 +75,7 @@ void Viewer::follow_light() {
     }
 }
 
-/// Asks for colors for numbers, of the newest transfer and light. What takes the CPU goes to the background.
+/// Requests the colors of number pictures for the newest transfer and light; a background job computes them.
 void Viewer::find_numbers() {
     const bool wanted = shows_numbers(settings.left) || shows_numbers(settings.right);
     const bool there = document_.compressed() || document_.beside.compressed;
@@ -85,7 +85,7 @@ void Viewer::find_numbers() {
     jobs_.find_numbers(document_, light().lighting, lighting_.lamps());
 }
 
-/// Measures the budget of the newest transfer and light for its picture, one after the other.
+/// Measures the budget for its picture when transfer or light change, one at a time.
 void Viewer::follow_budget() {
     const bool asked = gpu_->budget == lampless() || budget_is_current() || jobs_.busy(JobKind::budget);
     if (wants(PictureKind::surface_error) && can_measure() && !asked)
@@ -114,7 +114,7 @@ FrameView Viewer::frame_view() {
     return view;
 }
 
-/// What a picture that is there leaves out.
+/// Returns a note about light that is missing in an available picture.
 std::string Viewer::left_out(const SidePicture& picture) const {
     const PictureKind kind = picture.kind;
     const bool transfer = kind == PictureKind::prt || kind == PictureKind::prt_compressed;
@@ -153,7 +153,8 @@ Viewer::Shown Viewer::shown(const SidePicture& wanted) const {
 
 void Viewer::draw_sides(const std::array<SidePicture, 2>& pictures, const FrameView& view) {
     const LoadedModel* const lightmap = document_.lightmap();
-    const bool grid = settings.drawing.texel_grid && lightmap && !settings.difference; // it would be one
+    // the difference would be a grid, too
+    const bool grid = settings.drawing.texel_grid && lightmap && !settings.difference;
 
     const int width = seen_.size.x,
               split = static_cast<int>(std::lround(settings.split * static_cast<float>(width)));
@@ -191,7 +192,7 @@ void Viewer::show_reference(int side, const FrameView& view) {
         gpu_->renderer.show(side, result->image, result->surfaces);
 }
 
-/// Takes the figures of the frame that was just drawn.
+/// Collects the figures of the frame just drawn.
 void Viewer::measure(const SidePicture& right, const FrameView& view) {
     Figures& figures = statistics_.figures;
     figures.milliseconds.gpu = gpu_->frame.milliseconds();
@@ -213,14 +214,14 @@ void Viewer::measure(const SidePicture& right, const FrameView& view) {
         figures.lightmap = lightmap_figures_of(*lightmap);
 }
 
-/// The side that the pointer is over.
+/// Returns the picture on the side under the pointer.
 SidePicture Viewer::under_pointer() const {
     const bool left = !settings.difference && seen_.pointer &&
                       seen_.pointer->x < settings.split * static_cast<float>(seen_.size.x);
     return left ? left_picture(settings) : right_picture(settings);
 }
 
-/// Of the receiver under the pointer.
+/// Draws the transfer of the receiver under the pointer as a lobe.
 void Viewer::draw_lobe(std::uint32_t framebuffer, const FrameView& view) {
     if (seen_.pointer)
         seen_.hovered = find_hovered(document_.shown_by(under_pointer()), settings.right == PictureKind::prt,

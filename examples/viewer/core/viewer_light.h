@@ -1,6 +1,6 @@
 #pragma once
 
-// The light of the viewer: the rig, the environments that it can take, and what is formed of them.
+// The light of the viewer: the rig, the available environments, and the SH light computed from them.
 
 #include "core/exposure.h"
 #include "core/light_rig.h"
@@ -11,24 +11,24 @@ namespace viewer {
 class ViewerLight {
 public:
     LightRig rig;
-    std::vector<std::shared_ptr<const LoadedEnvironment>> environments; ///< in the order that they came
+    std::vector<std::shared_ptr<const LoadedEnvironment>> environments; ///< in the order of loading
     ExposureMeter meter;
 
-    /// Counts up `lamps_version` where something changes.
+    /// Changes the lamps; increases `lamps_version` if they differ.
     void set_lamps(const LampSettings& lamps);
     const LampSettings& lamps() const { return lamps_; }
     std::uint64_t lamps_version() const { return lamps_version_; }
 
-    /// The rig's light, formed once for all that want it.
+    /// Returns the rig's light; computes it once per version.
     const prt::Light& light(int order);
-    /// The same with its suns apart, or with all in its sky.
+    /// Returns the rig's light with its suns separate, or with all light in its sky.
     const LightApart& light_for_pictures(int order, bool suns_apart);
 
 private:
     LampSettings lamps_;
     std::uint64_t lamps_version_ = 1;
     prt::Light light_;
-    std::uint64_t version_ = 0; ///< of the rig
+    std::uint64_t version_ = 0; ///< version of the rig
     LightApart apart_;
     struct {
         std::uint64_t rig = 0;

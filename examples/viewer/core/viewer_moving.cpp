@@ -1,4 +1,4 @@
-// What the viewer does about what moves.
+// Handles moving objects in the viewer.
 
 #include "core/viewer.h"
 
@@ -43,7 +43,7 @@ void Viewer::take(const FoundVolume& found) {
     document_.moving.set_volume(found);
     follow_lamps();
     gpu_->moving.set_volume(found.volume);
-    gpu_->lit = {}; // it may have more bands than there were
+    gpu_->lit = {}; // the new volume may need more bands
 }
 
 void Viewer::upload_moving() {
@@ -53,8 +53,8 @@ void Viewer::upload_moving() {
     gpu_->lit = {};
 }
 
-/// Lets the figure walk, unless it is traced as it stands; asks for a volume where something is lit by it,
-/// once there is time.
+/// Moves the figure, unless the path tracer shows it in its current pose. Requests a volume once the model
+/// job is idle if an object needs it.
 void Viewer::follow_moving(double seconds) {
     const MovingSettings& shown = settings.drawing.moving;
     Moving& moving = document_.moving;

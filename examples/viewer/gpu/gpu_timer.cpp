@@ -1,3 +1,5 @@
+// Measures GPU time with a ring of timestamp queries.
+
 #include "gpu/gpu_timer.h"
 
 #include <epoxy/gl.h>
@@ -25,7 +27,7 @@ void GpuTimer::begin() {
         milliseconds_ = static_cast<double>(to - from) * 1e-6;
         ++read_;
     }
-    measuring_ = started_ - read_ < kRounds; // else all queries are still on their way
+    measuring_ = started_ - read_ < kRounds; // skip the measurement if all queries are in flight
     if (measuring_)
         glQueryCounter(queries_[2 * (started_ % kRounds)], GL_TIMESTAMP);
 }

@@ -5,7 +5,8 @@
 
 namespace viewer {
 
-/// Time between `begin` and `end` on the GPU, by timestamps, without waiting: a result is some frames old.
+/// Measures the GPU time between `begin` and `end` by timestamps. It does not wait, so a result is some
+/// frames old.
 class GpuTimer {
 public:
     GpuTimer();
@@ -15,7 +16,7 @@ public:
 
     void begin();
     void end();
-    double milliseconds() const { return milliseconds_; } ///< the newest; 0 before there is one
+    double milliseconds() const { return milliseconds_; } ///< newest result; 0 before the first
 
 private:
     static constexpr std::size_t kRounds = 4;

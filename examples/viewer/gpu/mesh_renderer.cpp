@@ -1,3 +1,5 @@
+// Draws colored meshes with OpenGL.
+
 #include "gpu/mesh_renderer.h"
 
 #include "shared_layout.h"

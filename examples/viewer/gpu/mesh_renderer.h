@@ -8,7 +8,7 @@
 
 namespace viewer {
 
-/// Draws colored meshes in front of what is there.
+/// Draws colored meshes in front of the existing picture.
 class MeshRenderer {
 public:
     MeshRenderer();

@@ -1,3 +1,5 @@
+// Creates an offscreen framebuffer and saves screenshots.
+
 #include "gpu/offscreen.h"
 
 #include "prt/gl_scene.h"
@@ -26,7 +28,7 @@ void save_screenshot(std::uint32_t framebuffer, int width, int height, const std
     glPixelStorei(GL_PACK_ALIGNMENT, 1);
     glReadPixels(0, 0, width, height, GL_RGB, GL_UNSIGNED_BYTE, pixels.data());
     prt::check_gl("reading the picture back");
-    for (std::size_t y = 0; y < h / 2; ++y) // OpenGL's rows start at the bottom
+    for (std::size_t y = 0; y < h / 2; ++y) // OpenGL's first row is at the bottom
         std::swap_ranges(pixels.begin() + static_cast<std::ptrdiff_t>(y * w),
                          pixels.begin() + static_cast<std::ptrdiff_t>((y + 1) * w),
                          pixels.begin() + static_cast<std::ptrdiff_t>((h - 1 - y) * w));

@@ -6,7 +6,7 @@
 
 namespace viewer {
 
-/// Something to draw on where there is no window, 8 bits with depth.
+/// A framebuffer for drawing without a window, 8 bits per channel with depth.
 class Offscreen {
 public:
     Offscreen(int width, int height);
@@ -19,7 +19,7 @@ private:
     prt::GlObject color_, depth_, framebuffer_;
 };
 
-/// What `framebuffer` shows, as a PNG. Throws `prt::Error` where it cannot be written.
+/// Writes the content of `framebuffer` to a PNG. Throws `prt::Error` if the file cannot be written.
 void save_screenshot(std::uint32_t framebuffer, int width, int height, const std::filesystem::path& path);
 
 } // namespace viewer

@@ -1,3 +1,5 @@
+// Places the occluders of a frame and binds them for the shaders.
+
 #include "pictures/contact_shadows.h"
 
 #include <epoxy/gl.h>
@@ -12,7 +14,7 @@
 namespace viewer {
 namespace {
 
-/// Of a ball of radius 1 about the origin, in closed form.
+/// Returns the occlusion volume of a sphere of radius 1 about the origin, in closed form.
 prt::OcclusionVolume unit_ball() {
     prt::OcclusionVolume volume{glm::vec3(-3), glm::vec3(3), 10, {}};
     constexpr float kCells = prt::kOccluderSide - 1;

@@ -1,6 +1,6 @@
 #pragma once
 
-// What moves takes from the light of what it comes near to (prt/occlusion_volume.h).
+// Shadows of moving objects on surfaces near them (prt/occlusion_volume.h).
 
 #include "pictures/figure_pose.h"
 
@@ -15,7 +15,7 @@
 
 namespace viewer {
 
-/// A ball in the scene.
+/// A sphere in the scene.
 struct Ball {
     glm::vec3 middle;
     float radius;
@@ -23,28 +23,28 @@ struct Ball {
 
 class ContactShadows {
 public:
-    /// Of a figure's file, by its nodes.
+    /// Sets the occluders of the nodes of a figure's file.
     void set_figure(std::vector<prt::NodeOccluder> occluders);
     bool has_figure() const { return !nodes_.empty(); }
 
-    /// The list of a frame: the figure as it stands, unless it is not shown, and balls.
+    /// Sets the occluders of a frame: the figure in its pose (null: hidden) and spheres.
     void place(const FigurePose* pose, std::span<const Ball> balls);
-    /// Nothing is near to anything.
+    /// True if there are no occluders in the frame.
     bool empty() const { return placed_.empty(); }
-    /// Binds the list and sets the uniforms of `program`, in use (viewer_occluders.glsl).
+    /// Binds the list and sets the uniforms of `program`, which must be in use (viewer_occluders.glsl).
     void use(const prt::GlObject& program);
 
 private:
     std::vector<prt::NodeOccluder> nodes_;
-    std::optional<prt::GlOccluders> gpu_; ///< once something is placed
+    std::optional<prt::GlOccluders> gpu_; ///< created with the first occluder
     std::vector<prt::PlacedOccluder> placed_;
-    prt::Bounds box_{}; ///< that their reaches lie in
+    prt::Bounds box_{}; ///< encloses the reaches of all occluders
 };
 
-/// What one drawing of a scene's surfaces needs of them.
+/// Occluders for drawing the surfaces of a scene.
 struct OccluderPass {
     ContactShadows* shadows = nullptr;
-    std::string defines; ///< of the volume that knows the light; empty: none does
+    std::string defines; ///< shader defines of the volume that provides the light; empty: there is no volume
 };
 
 } // namespace viewer

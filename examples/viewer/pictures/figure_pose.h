@@ -1,6 +1,6 @@
 #pragma once
 
-// Where what moves is in a frame.
+// Pose and position of the moving figure in a frame.
 
 #include "prt/scene.h"
 
@@ -11,19 +11,20 @@
 
 namespace viewer {
 
-/// What the vertex arrays of a scene that moves are multiplied by: [vertex arrays][matrices], as
-/// prt::AnimatedScene::matrices gives them, placed in the scene that is open.
+/// Matrices of the vertex arrays of a moving scene: [vertex arrays][matrices], as returned by
+/// prt::AnimatedScene::matrices, transformed into the open scene.
 using Palettes = std::vector<std::vector<glm::mat4>>;
 
-/// The figure in a frame: all that lights or shades others by it needs of it.
+/// The figure in a frame: all data that lighting and shading by the figure need.
 struct FigurePose {
-    std::vector<glm::dmat4> nodes; ///< world matrices of its file's nodes, joints among them
-    glm::dmat4 placement{1};   ///< its file's world to positions of the scene that is open (Scene::origin)
-    Palettes palettes;         ///< of its vertex arrays, `placement` in them
-    prt::Bounds box{};         ///< around it, in the scene
-    std::uint64_t version = 0; ///< another one where it has moved; 0: there is none
+    std::vector<glm::dmat4> nodes; ///< world matrices of the nodes of its file, including joints
+    glm::dmat4 placement{1};   ///< transform from the world space of its file to positions of the open scene
+                               ///< (Scene::origin)
+    Palettes palettes;         ///< palettes of its vertex arrays, including `placement`
+    prt::Bounds box{};         ///< bounding box in the scene
+    std::uint64_t version = 0; ///< changes when the figure moves; 0: there is no figure
 
-    /// The matrix of a node, placed in the scene.
+    /// Returns the matrix of a node in the scene.
     glm::dmat4 node(std::size_t index) const { return placement * nodes[index]; }
 };
 

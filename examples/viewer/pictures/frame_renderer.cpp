@@ -1,3 +1,5 @@
+// Draws the pictures of both sides and composites them.
+
 #include "pictures/frame_renderer.h"
 
 #include "prt/support/error.h"
@@ -17,7 +19,7 @@
 namespace viewer {
 namespace {
 
-/// As it is seen: neither base colours nor heat nor most lights have it.
+/// Display color of the texel grid: base colors, heat colors and most lights differ from it.
 constexpr glm::vec3 kGridColor(0.0f, 0.3f, 0.55f);
 
 prt::GlObject make_target(GLenum format, int width, int height) {
@@ -45,14 +47,14 @@ prt::GlObject make_framebuffer(std::initializer_list<const prt::GlObject*> color
     return framebuffer;
 }
 
-/// Around the model and what moves.
+/// Returns a box around the model and the moving objects.
 prt::Bounds box_of(const GpuModel& model, const FrameView& view) {
     const prt::Bounds& box = model.model().box;
     const auto moving = view.moving ? view.moving->box() : std::nullopt;
     return moving ? prt::Bounds{glm::min(box.low, moving->low), glm::max(box.high, moving->high)} : box;
 }
 
-/// Work groups of viewer_difference.comp.
+/// Returns the number of work groups of viewer_difference.comp along an axis.
 int groups_along(int pixels) {
     return (pixels + 15) / 16;
 }
@@ -127,13 +129,13 @@ void FrameRenderer::scissor(const Columns& columns) const {
     glEnable(GL_SCISSOR_TEST);
 }
 
-/// Leaves the scissor on at `columns`.
+/// Clears `columns` and leaves the scissor enabled there.
 void FrameRenderer::clear(const Side& side, PictureKind kind, const Columns& columns) const {
     constexpr float kNothing[4] = {0, 0, 0, 0}, kFar = 1;
     glViewport(0, 0, size_.width * size_.samples, size_.height * size_.samples);
     scissor(columns);
     glClearNamedFramebufferfv(side.framebuffer.name(), GL_COLOR, 0, kNothing);
-    if (is_ssao(kind)) // looks beyond the columns that are asked for
+    if (is_ssao(kind)) // SSAO reads beyond the requested columns
         glDisable(GL_SCISSOR_TEST);
     glClearNamedFramebufferfv(side.framebuffer.name(), GL_DEPTH, 0, &kFar);
     glEnable(GL_SCISSOR_TEST);
@@ -205,12 +207,12 @@ void FrameRenderer::draw_background(const Side& side, const FrameView& view) con
     glUniform3fv(prt::uniform(background, "up"), 1, glm::value_ptr(up));
     glUniform1f(prt::uniform(background, "rotation"), view.background_rotation);
     glBindTextureUnit(PRT_UNIT_BACKGROUND, view.background->name());
-    glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_FALSE); // alpha says where surfaces are
+    glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_FALSE); // alpha marks surfaces
     fill_screen();
     glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
 }
 
-/// Draws opaque surfaces into the G-buffer and lights that; leaves the side's framebuffer bound.
+/// Draws opaque surfaces into the G-buffer and lights it; leaves the side's framebuffer bound.
 void FrameRenderer::draw_deferred(int index, PictureKind kind, GpuModel& model, GeometryPass pass,
                                   const DrawSettings& settings, const FrameView& view) const {
     const Side& side = sides_[static_cast<std::size_t>(index)];
@@ -276,7 +278,7 @@ void FrameRenderer::show(int index, const prt::Image& image, const std::vector<b
     Side& side = sides_[static_cast<std::size_t>(index)];
     std::vector<glm::vec4> pixels;
     pixels.reserve(image.pixels.size());
-    for (int y = image.height - 1; y >= 0; --y) // OpenGL's rows start at the bottom
+    for (int y = image.height - 1; y >= 0; --y) // OpenGL's first row is at the bottom
         for (int x = 0; x < image.width; ++x) {
             const auto i = static_cast<std::size_t>(y) * static_cast<std::size_t>(image.width) +
                            static_cast<std::size_t>(x);

@@ -1,6 +1,6 @@
 #pragma once
 
-// Draws pictures of a model into textures, linear and half precision, and puts them on the screen.
+// Draws pictures of a model into textures (linear, half precision) and composites them on the screen.
 
 #include "pictures/gpu_model.h"
 #include "pictures/moving_stage.h"
@@ -12,30 +12,31 @@
 
 namespace viewer {
 
-/// What a frame shows beside the settings.
+/// View of a frame, in addition to the settings.
 struct FrameView {
     prt::Camera camera;
     float exposure = 1;
     const prt::GlObject* background = nullptr; ///< lat-long; null: black
     float background_rotation = 0;             ///< radians
-    MovingStage* moving = nullptr;             ///< null: nothing moves
+    MovingStage* moving = nullptr;             ///< null: there are no moving objects
 };
 
-/// How two pictures differ over the pixels where both show a surface.
+/// Difference of two pictures over the pixels where both show a surface.
 struct Difference {
-    double relative_l2 = 0; ///< root of the squared difference over the squared second picture, all channels
-    double mean = 0;        ///< radiance of the second picture
+    double relative_l2 = 0; ///< square root of the summed squared difference over the summed squared second
+                            ///< picture, all channels
+    double mean = 0;        ///< mean radiance of the second picture
     double pixels = 0;
 };
 
-/// Of a screen, in pixels.
+/// Size of a screen, in pixels.
 struct FrameSize {
     int width = 0, height = 0, samples = 1; ///< per pixel along each axis
 
     friend bool operator==(const FrameSize&, const FrameSize&) = default;
 };
 
-/// [first, last) of a screen.
+/// Range [first, last) of pixel columns of a screen.
 struct Columns {
     int first, last;
 };
@@ -44,31 +45,33 @@ class FrameRenderer {
 public:
     FrameRenderer();
 
-    /// Makes targets anew where the size changes.
+    /// Recreates the targets if the size changes.
     void resize(const FrameSize& size);
 
-    /// Draws into side 0 (left) or 1 (right). Only `columns` need be right. `kind` is not the reference.
+    /// Draws into side 0 (left) or 1 (right). Only `columns` need to be correct. `kind` must not be the
+    /// reference.
     void draw(int side, PictureKind kind, GpuModel& model, const DrawSettings& settings,
               const FrameView& view, const Columns& columns);
-    /// Over a side as it was drawn last: the texels of the lightmap that `model` has, of the same surface.
+    /// Draws the texel borders of the lightmap of `model` over the last picture of a side, which must show
+    /// the same surface.
     void draw_texel_grid(int side, PictureKind kind, GpuModel& model, const DrawSettings& settings,
                          const FrameView& view, const Columns& columns);
-    /// Side `side` shows this image instead, of any size; `surfaces` goes to alpha.
+    /// Shows this image on a side instead, at any size; `surfaces` becomes its alpha.
     void show(int side, const prt::Image& image, const std::vector<bool>& surfaces);
-    /// The vertex stage alone: nothing is rasterised.
+    /// Runs only the vertex stage, without rasterisation.
     void draw_vertices_only(PictureKind kind, GpuModel& model, const DrawSettings& settings,
                             const FrameView& view);
 
-    /// Both sides, or their difference, to `framebuffer`. `mean`: radiance that the difference is relative
-    /// to.
+    /// Draws both sides, or their difference, to `framebuffer`. `mean` is the radiance that the difference is
+    /// relative to.
     void composite(std::uint32_t framebuffer, const Settings& settings, const FrameView& view,
                    const std::array<PictureKind, 2>& kinds, double mean);
-    /// Of the sides as they were drawn last; waits for the GPU.
+    /// Returns the difference of the last pictures of the sides; waits for the GPU.
     Difference difference();
 
-    /// Read back: linear radiance, [height · samples][width · samples], and alpha.
+    /// Reads back linear radiance, [height · samples][width · samples], and alpha.
     prt::Image read(int side, std::vector<float>* alpha = nullptr) const;
-    /// Ambient occlusion of the G-buffer in 0..31 and of the screen, read back: [height · samples][width ·
+    /// Reads back the ambient occlusion of the G-buffer (0..31) and of SSAO: [height · samples][width ·
     /// samples], rows from the bottom. For tests.
     std::vector<std::uint8_t> read_gbuffer_occlusion() const;
     std::vector<float> read_ssao() const;
@@ -77,7 +80,7 @@ private:
     enum class Pass { background, ssao, ssao_blur, deferred, composite, difference };
     struct Side {
         prt::GlObject color, depth, framebuffer, color_only;
-        prt::GlObject shown; ///< an image in place of `color`
+        prt::GlObject shown; ///< image that replaces `color`
         bool shows_image = false;
     };
     struct GBuffer {
@@ -85,7 +88,7 @@ private:
         std::array<prt::GlObject, 2> framebuffers; ///< [sides]
     };
     struct SsaoTargets {
-        std::array<prt::GlObject, 2> textures, framebuffers; ///< as found; blurred
+        std::array<prt::GlObject, 2> textures, framebuffers; ///< [raw; blurred]
     };
     struct Sums {
         prt::GlObject buffer;
@@ -113,7 +116,7 @@ private:
     std::array<Side, 2> sides_;
     GBuffer gbuffer_;
     SsaoTargets ssao_;
-    Sums sums_; ///< of the difference
+    Sums sums_; ///< sums for the difference
 };
 
 } // namespace viewer

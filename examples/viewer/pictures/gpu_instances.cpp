@@ -1,3 +1,5 @@
+// Groups instances by mesh, selects the visible ones and draws them.
+
 #include "pictures/gpu_instances.h"
 
 #include "pictures/triangle_clusters.h"
@@ -22,7 +24,7 @@ std::array<glm::vec4, 3> rows_of(const glm::dmat4& matrix) {
     return {turned[0], turned[1], turned[2]};
 }
 
-/// Round all that a node of `scene` draws, in its own frame.
+/// Returns the box around all primitives of a node of `scene`, in the node's space.
 prt::InstanceBox box_of(const prt::Scene& scene, const std::vector<std::size_t>& primitives) {
     std::vector<glm::vec3> positions;
     for (const std::size_t p : primitives) {
@@ -32,7 +34,7 @@ prt::InstanceBox box_of(const prt::Scene& scene, const std::vector<std::size_t>&
     return prt::box_round(positions);
 }
 
-/// What is drawn once, as an instance that nothing stands round.
+/// Returns a node that is drawn once, as an unoccluded instance.
 prt::FormedInstance drawn_once(const prt::InstancedModel& model, const prt::InstanceBox& box,
                                const std::vector<std::size_t>& primitives) {
     prt::FormedInstance one{{prt::open_factors(), glm::dmat3(1), box}, {}};
@@ -76,7 +78,7 @@ GpuInstances::GpuInstances(std::shared_ptr<const prt::InstancedModel> model,
     attach(arrays_);
 }
 
-/// Returns what constants are formed for, group by group.
+/// Returns the instances that need constants, group by group.
 std::vector<prt::FormedInstance> GpuInstances::add_groups(const glm::dvec3& origin) {
     const prt::Scene& stored = model_->stored;
     for (std::size_t p = 0; p < stored.primitives.size(); ++p) {

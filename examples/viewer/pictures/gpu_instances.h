@@ -1,7 +1,7 @@
 #pragma once
 
-// A scene of instances on the GPU: meshes once, drawn as often as they stand in view, and lit by transfer
-// that they share.
+// An instanced scene on the GPU: each mesh is stored once, drawn for every visible instance, and lit by
+// shared transfer.
 
 #include "pictures/instance_radiance.h"
 
@@ -20,18 +20,18 @@
 
 namespace viewer {
 
-/// What one of them takes.
+/// Size and cost of an instanced scene.
 struct InstanceFigures {
     std::size_t instances = 0, meshes = 0;
-    std::size_t bytes_in_file = 0;  ///< factors
-    double bytes_of_constants = 0;  ///< on average, of a lighting
-    double bytes_of_radiance = 0;   ///< the same, of vertices, which is found of these
-    double milliseconds_formed = 0; ///< of all, when the light last changed
+    std::size_t bytes_in_file = 0;  ///< factors of an instance in the file
+    double bytes_of_constants = 0;  ///< constants of an instance for a lighting, on average
+    double bytes_of_radiance = 0;   ///< exit radiance of the vertices of an instance, on average
+    double milliseconds_formed = 0; ///< time to compute all constants at the last change of light
 };
 
 class GpuInstances {
 public:
-    /// `model` has compressed transfer; `origin` is that of the scene that is shown.
+    /// `model` must have compressed transfer; `origin` is that of the shown scene.
     GpuInstances(std::shared_ptr<const prt::InstancedModel> model, std::span<const prt::Texture> textures,
                  const glm::dvec3& origin);
 
@@ -39,26 +39,27 @@ public:
     void set_light(const prt::Lighting& lighting) { radiance_->set_light(lighting); }
     InstanceFigures figures() const;
 
-    /// Chooses what may be visible; near ones come first, or where `culling` is off all.
+    /// Selects the instances that may be visible, near ones first; all instances if `culling` is off.
     void look(const glm::mat4& view_projection, const glm::vec3& eye, bool culling);
     void shine(std::span<const glm::vec3> strengths) { scene_.shine(strengths); }
-    /// Draws what was chosen with `program`, in use, of the blended surfaces or of all others. `lit`: by the
-    /// transfer, with a program of shaders/instance_radiance.glsl. Returns how many triangles.
+    /// Draws the selected instances with `program`, which must be in use: their blended surfaces or all
+    /// others. If `lit`, `program` uses the transfer (shaders/instance_radiance.glsl). Returns the number of
+    /// triangles.
     std::size_t draw(const prt::GlObject& program, bool lit, bool blended) const;
 
 private:
-    /// Attributes of an instance, as a vertex shader takes them.
+    /// Attributes of an instance in the vertex shader.
     struct Row {
         std::array<glm::vec4, 3> world; ///< rows of the matrix
-        std::uint32_t number;           ///< in its group
+        std::uint32_t number;           ///< index in its group
     };
-    /// A mesh, or a node of the scene that nothing shares.
+    /// A mesh with all its instances, or a node of the scene that is not shared.
     struct Group {
         int node = 0;
         std::vector<std::size_t> primitives;
         std::vector<Row> rows;
-        std::vector<glm::vec4> spheres;   ///< [instances] round it: middle and radius
-        std::size_t first = 0, count = 0; ///< of those that were chosen
+        std::vector<glm::vec4> spheres;   ///< [instances] bounding spheres: center and radius
+        std::size_t first = 0, count = 0; ///< range of the selected instances
     };
     std::vector<prt::FormedInstance> add_groups(const glm::dvec3& origin);
     void attach(const prt::GlVertexArrays& arrays) const;

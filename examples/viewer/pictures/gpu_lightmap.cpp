@@ -1,3 +1,5 @@
+// Relights raw lightmap transfer with compute shaders.
+
 #include "pictures/gpu_lightmap.h"
 
 #include "shared_layout.h"
@@ -10,7 +12,7 @@
 namespace viewer {
 namespace {
 
-/// For each map the receivers of its texels, or of one near them.
+/// Returns for each map the receivers of its texels, or of a texel near them.
 std::vector<prt::GlObject> nearest_of_maps(const prt::BakedLightmap& lightmap) {
     const std::vector<std::size_t> first = lightmap.layout.first_texels();
     std::vector<prt::GlObject> buffers;

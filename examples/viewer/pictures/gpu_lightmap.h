@@ -1,6 +1,6 @@
 #pragma once
 
-// Lightmaps on the GPU, lit when the light changes.
+// Lightmaps on the GPU, relit when the light changes.
 
 #include "pictures/raw_transfer.h"
 
@@ -12,10 +12,10 @@
 
 namespace viewer {
 
-/// As it was baked: radiance of receivers by a compute shader, and of all texels by another.
+/// Raw lightmap transfer: one compute shader computes the radiance of receivers, another that of all texels.
 class RawLightmap {
 public:
-    /// `most_receivers`: as of `RawTransfer`.
+    /// `most_receivers`: see `RawTransfer`.
     RawLightmap(std::shared_ptr<const prt::BakedLightmap> lightmap, std::size_t most_receivers);
 
     const prt::TransferLayout& layout() const { return transfer_.layout(); }
@@ -27,11 +27,11 @@ private:
     RawTransfer transfer_;
     prt::GlObject program_;
     std::vector<prt::GlObject>
-        nearest_; ///< [maps] the receiver of each texel; none: the map has no receivers
+        nearest_; ///< [maps] the receiver of each texel; empty: the map has no receivers
     std::vector<prt::GlObject> maps_;
 };
 
-/// As games have it.
+/// Compressed lightmap transfer, relit in the same way as in games.
 class LitLightmap {
 public:
     explicit LitLightmap(std::shared_ptr<const prt::CompressedLightmap> lightmap)
@@ -45,7 +45,7 @@ private:
     prt::GlLightmap lit_;
 };
 
-/// Maps of `colors` [texels of the layout] that are looked up unfiltered.
+/// Creates maps of `colors` [texels of the layout] with nearest filtering.
 std::vector<prt::GlObject> make_unfiltered_maps(const prt::LightmapLayout& layout,
                                                 std::span<const glm::vec3> colors);
 

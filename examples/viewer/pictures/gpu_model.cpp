@@ -1,3 +1,5 @@
+// Lights and draws a model from every kind of transfer.
+
 #include "pictures/gpu_model.h"
 
 #include "prt/sh.h"
@@ -13,7 +15,7 @@
 namespace viewer {
 namespace {
 
-/// Of the lines over what is below them.
+/// Opacity of the grid lines.
 constexpr float kGridShare = 0.85f;
 
 void set_matrix(const prt::GlObject& program, const glm::mat4& matrix) {
@@ -38,7 +40,7 @@ GpuModel::GpuModel(std::shared_ptr<const Model> model, std::size_t most_receiver
 }
 
 void GpuModel::set_raw(const prt::Transfer& transfer) {
-    drop_raw(); // there may not be room for two
+    drop_raw(); // memory may not suffice for two
     RawTransfer raw(transfer, most_receivers_);
     prt::GlVertexArrays arrays = scene_.make_vertex_arrays();
     scene_.attach_receivers(arrays, raw.radiance(), PRT_LOCATION_RADIANCE, 3);
@@ -69,7 +71,8 @@ void GpuModel::set_instanced(std::shared_ptr<const prt::InstancedModel> instance
     light_instances();
 }
 
-/// Programs depend on whose transfer it is, and compressed ones on its layout.
+/// Removes the programs that depend on the kind of transfer; programs of compressed transfer depend on its
+/// layout, too.
 void GpuModel::take_raw(Raw raw) {
     raw_.emplace(std::move(raw));
     std::erase_if(programs_.surfaces,
@@ -140,7 +143,7 @@ void GpuModel::set_numbers(PictureKind kind, std::span<const glm::vec3> colors) 
         numbers_.colors[kind] = prt::make_buffer(colors);
 }
 
-/// Has as many bands.
+/// True if the light has enough bands for the layout.
 bool GpuModel::lights(const prt::TransferLayout& layout) const {
     return lit_.lighting && lit_.lighting->sky.order >= layout.order;
 }
@@ -177,7 +180,8 @@ const prt::TransferLayout* GpuModel::layout_of(Source source) const {
     return raw_ ? &raw_->layout : nullptr;
 }
 
-/// As `prt render` shows it: what no transfer knows shines as in the scene, unless all lamps are off.
+/// Returns the emission as `prt render` shows it: emission that no transfer includes keeps the scene's
+/// strength, unless all lamps are off.
 std::vector<glm::vec3> GpuModel::emission_of(Source source) const {
     if (source == Source::numbers || !lit_.lamps.on)
         return {};
@@ -186,7 +190,7 @@ std::vector<glm::vec3> GpuModel::emission_of(Source source) const {
                                    layout ? strengths_of(lit_.lamps, *layout) : std::vector<glm::vec3>());
 }
 
-/// Of transfer that a picture shows; null where it shows none.
+/// Returns the layout of the transfer that a picture shows; null if it shows none.
 const prt::TransferLayout* GpuModel::layout_shown(PictureKind kind) const {
     const Source source = source_of(kind);
     return source == Source::raw || source == Source::compressed ? layout_of(source) : nullptr;
@@ -236,7 +240,7 @@ const prt::GlVertexArrays& GpuModel::arrays(Source source) const {
     case Source::raw:
         return raw_->arrays;
     case Source::compressed:
-        return compressed_->arrays; // instances have their own
+        return compressed_->arrays; // instances have separate arrays
     case Source::numbers:
         return numbers_.arrays;
     case Source::normals:
@@ -245,7 +249,7 @@ const prt::GlVertexArrays& GpuModel::arrays(Source source) const {
     return plain_.arrays;
 }
 
-/// Where radiance comes from.
+/// Returns the defines that select the source of radiance.
 std::string GpuModel::defines_of(const Surface& surface) const {
     if (surface.source == Source::normals)
         return surface.instanced ? "#define PRT_INSTANCED\n" : "";
@@ -286,7 +290,7 @@ const prt::GlObject& GpuModel::use(PictureKind kind, const GeometryPass& pass) {
         glUniform1i(prt::uniform(chosen, "occluded"), kind == PictureKind::baked_ao);
         glUniform1i(prt::uniform(chosen, "dithered"), pass.dithered);
         glUniform3fv(prt::uniform(chosen, "irradiance_sh"), 9, glm::value_ptr(lit_.irradiance.front()));
-        glVertexAttrib1f(PRT_LOCATION_AO, 1); // until there is an occlusion
+        glVertexAttrib1f(PRT_LOCATION_AO, 1); // default until the occlusion is computed
     }
     const prt::GlLightmapTextures lightmap = lightmap_of(kind);
     scene_.light_by(lightmap);
@@ -393,7 +397,8 @@ void GpuModel::draw_texel_grid(const GeometryPass& pass, const glm::vec3& color,
     glDepthFunc(GL_LEQUAL);
     glDepthMask(GL_FALSE);
     for (std::size_t p = 0; p < model_->scene.primitives.size(); ++p)
-        scene_.draw(grid, numbers_.arrays, p); // whose vertices have nothing in the place of texels
+        scene_.draw(grid, numbers_.arrays, p); // these vertex arrays bind no other attribute at the location
+                                               // of the texel coordinates
     glDepthMask(GL_TRUE);
     glDepthFunc(GL_LESS);
     glDisable(GL_POLYGON_OFFSET_FILL);

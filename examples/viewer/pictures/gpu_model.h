@@ -1,6 +1,6 @@
 #pragma once
 
-// A model on the GPU, with all that it can be lit by.
+// A model on the GPU with all its transfer.
 
 #include "pictures/contact_shadows.h"
 #include "pictures/gpu_instances.h"
@@ -22,70 +22,70 @@
 
 namespace viewer {
 
-/// What one drawing of the geometry needs beside the model.
+/// Parameters of one drawing of the geometry.
 struct GeometryPass {
     glm::mat4 view_projection{1};
     glm::vec3 eye{0};
     bool gbuffer = false;
     bool culling = true, textured = true, dithered = true;
-    const OccluderPass* occluders = nullptr; ///< null: nothing moves near
+    const OccluderPass* occluders = nullptr; ///< null: no occluders are near
 };
 
 class GpuModel {
 public:
-    /// `most_receivers`: of raw transfer that one dispatch takes, a multiple of 256.
+    /// `most_receivers`: maximum number of raw receivers per dispatch, a multiple of 256.
     explicit GpuModel(std::shared_ptr<const Model> model, std::size_t most_receivers = 1u << 21);
     const Model& model() const { return *model_; }
 
     void set_raw(const prt::Transfer& transfer);
     void drop_raw() { raw_.reset(); }
     void set_compressed(const prt::ClusteredTransfer& transfer);
-    /// The same of texels; a model has transfer of its vertices or of texels.
+    /// Sets transfer of texels. A model has transfer of its vertices or of texels, not both.
     void set_raw(std::shared_ptr<const prt::BakedLightmap> lightmap);
     void set_compressed(std::shared_ptr<const prt::CompressedLightmap> lightmap);
-    /// Compressed transfer that instances share; then they are drawn as such, with and without it.
+    /// Sets compressed transfer that instances share. All pictures then draw the instances, lit by it or not.
     void set_instanced(std::shared_ptr<const prt::InstancedModel> instanced);
     void set_occlusion(std::span<const float> occlusion);
-    /// [receivers], or [texels of all maps] where the model has a lightmap.
+    /// `colors` are [receivers], or [texels of all maps] if the model has a lightmap.
     void set_numbers(PictureKind kind, std::span<const glm::vec3> colors);
-    /// Of as many bands as the transfers have, and three at least. `suns` are shadowed at each pixel where
-    /// the picture's transfer keeps direct light apart, and where it has none. `lamps`, by name, are those
-    /// of each transfer, and what shines shows it; `lighting` needs none.
+    /// The light must have the maximum order of the transfers, at least three bands. `suns` are shadowed per
+    /// pixel if the picture's transfer has a separate direct term, and in pictures without transfer. `lamps`
+    /// are matched by name with those of each transfer, and scale emission, too; `lighting` needs no lamps.
     void set_lighting(const prt::Lighting& lighting, std::span<const prt::SunDisc> suns,
                       const LampSettings& lamps = {});
-    /// A sky alone: no lamp shines.
+    /// Sets a sky only: no lamp is on.
     void set_light(const prt::Light& light) { set_lighting({light}, {}, {.on = false}); }
-    /// There are suns apart, but that picture's transfer keeps no direct light apart, and so is lit by sky
-    /// and suns together. For pictures that `can_draw`.
+    /// True if there are separate suns, but the transfer of this picture has no separate direct term, so that
+    /// it is lit by sky and suns together. Requires `can_draw`.
     bool takes_suns_as_sky(PictureKind kind) const;
     bool can_draw(PictureKind kind) const;
-    /// Seconds that the constants of the compressed transfer took, forming and uploading.
+    /// Seconds to compute and upload the constants of the compressed transfer.
     double seconds_constants() const { return measured_.seconds_constants; }
-    /// Null: none share transfer.
+    /// null: no instances share transfer.
     const GpuInstances* instances() const { return instances_ ? &*instances_ : nullptr; }
 
-    /// Draws shadow maps for what is seen, where `kind` needs them; before what is drawn of that.
+    /// Draws shadow maps for the view if `kind` needs them. Call it before drawing the picture.
     void draw_shadows(PictureKind kind, const prt::SunShadows::View& view) { draw_shadows(kind, view, {}); }
-    /// The same with what moves, which is lit by suns whatever the picture.
+    /// Draws shadow maps including moving objects, which are lit by suns in every picture.
     void draw_shadows(PictureKind kind, const prt::SunShadows::View& view,
                       const prt::SunShadows::Moving& moving);
-    /// Binds the maps that were drawn last, where there are any.
+    /// Binds the shadow maps drawn last, if there are any.
     void use_shadows() const;
     void draw_opaque(PictureKind kind, const GeometryPass& pass);
-    /// Always forward.
+    /// Always uses forward shading.
     void draw_blended(PictureKind kind, const GeometryPass& pass);
-    /// Edges of all triangles.
+    /// Draws the edges of all triangles.
     void draw_wires(const GeometryPass& pass, const glm::vec3& color);
-    /// Borders of the lightmap's texels, where it has one; `samples` per pixel along each axis.
+    /// Draws the borders of the lightmap's texels, if there is one; `samples` per pixel along each axis.
     void draw_texel_grid(const GeometryPass& pass, const glm::vec3& color, int samples);
-    /// The first nine coefficients of exit radiance by normal: irradiance.glsl.
+    /// The first nine coefficients of unshadowed exit radiance by normal: irradiance.glsl.
     const std::array<glm::vec3, 9>& irradiance() const { return lit_.irradiance; }
-    std::size_t drawn_triangles() const { return measured_.drawn_triangles; } ///< of the last opaque drawing
+    std::size_t drawn_triangles() const { return measured_.drawn_triangles; } ///< in the last opaque drawing
 
 private:
     enum class Source { normals, raw, compressed, numbers };
     static Source source_of(PictureKind kind);
-    struct Surface { ///< that a program draws
+    struct Surface { ///< key of a program that draws surfaces
         Source source;
         bool gbuffer, suns, instanced;
         std::string occluders; ///< defines
@@ -102,16 +102,16 @@ private:
         prt::GlVertexArrays arrays;
         prt::TransferLayout layout;
     };
-    /// What all that is drawn is lit by.
+    /// The light on all drawn surfaces.
     struct Lit {
         std::optional<prt::Lighting> lighting;
-        std::array<glm::vec3, 9> irradiance{}; ///< of the sky
+        std::array<glm::vec3, 9> irradiance{}; ///< irradiance of the sky
         std::vector<prt::SunDisc> suns;
         LampSettings lamps;
     };
     struct Numbers {
         std::map<PictureKind, prt::GlObject> colors;
-        std::map<PictureKind, std::vector<prt::GlObject>> maps; ///< instead, of texels
+        std::map<PictureKind, std::vector<prt::GlObject>> maps; ///< used instead of `colors` for texels
         prt::GlVertexArrays arrays;
     };
     struct Programs {
@@ -125,9 +125,9 @@ private:
     void light_instances();
     bool lights(const prt::TransferLayout& layout) const;
     prt::Lighting lighting_of(const prt::TransferLayout& layout) const;
-    /// That knows the lamps of such a picture; null: none does.
+    /// Returns the layout with the lamps of such a picture; null if no transfer is used.
     const prt::TransferLayout* layout_of(Source source) const;
-    /// The lightmap that a picture looks up; without a layout where it looks up none.
+    /// Returns the lightmap of a picture; without a layout if the picture uses none.
     prt::GlLightmapTextures lightmap_of(PictureKind kind) const;
     prt::GlLightmapTextures any_lightmap() const;
     std::string defines_of(const Surface& surface) const;
@@ -138,7 +138,7 @@ private:
     const prt::GlObject& use(PictureKind kind, const GeometryPass& pass);
     const prt::GlVertexArrays& arrays(Source source) const;
     void draw_instances(PictureKind kind, const GeometryPass& pass);
-    /// Null: a picture shows all vertices, one by one.
+    /// Returns the instances of a picture; null if it draws all vertices individually.
     GpuInstances* instances_of(PictureKind kind);
 
     std::shared_ptr<const Model> model_;
@@ -146,14 +146,14 @@ private:
     prt::GlScene scene_;
     struct Plain {
         prt::GlVertexArrays arrays;
-        std::optional<prt::GlObject> occlusion; ///< once it is found
+        std::optional<prt::GlObject> occlusion; ///< available after it is computed
     };
     Plain plain_;
-    std::optional<prt::SunShadows> shadows_; ///< once there are suns
+    std::optional<prt::SunShadows> shadows_; ///< created with the first suns
     Lit lit_;
     std::optional<Raw> raw_;
     std::optional<Compressed> compressed_;
-    std::optional<GpuInstances> instances_; ///< with compressed transfer, instead
+    std::optional<GpuInstances> instances_; ///< replaces `compressed_` for instances
     Numbers numbers_;
     Programs programs_;
     struct Measured {

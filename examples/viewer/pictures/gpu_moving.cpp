@@ -1,3 +1,5 @@
+// Draws skinned and rigidly moving scenes.
+
 #include "pictures/gpu_moving.h"
 
 #include "prt/lobe_shader.h"
@@ -15,7 +17,7 @@
 namespace viewer {
 namespace {
 
-/// Of a sphere between the poles.
+/// Rows of a sphere between the poles, and columns.
 constexpr int kRows = 24, kColumns = 48;
 
 std::vector<glm::uvec2> influences_of(const prt::MovingVertices& moving) {
@@ -23,7 +25,7 @@ std::vector<glm::uvec2> influences_of(const prt::MovingVertices& moving) {
     for (std::size_t i = 0; i < moving.weights.size(); ++i)
         influences.emplace_back(moving.matrices[i], std::bit_cast<std::uint32_t>(moving.weights[i]));
     if (influences.empty())
-        influences.emplace_back(0); // a buffer is not empty
+        influences.emplace_back(0); // a buffer must not be empty
     return influences;
 }
 
@@ -32,7 +34,7 @@ std::vector<glm::uvec2> influences_of(const prt::MovingVertices& moving) {
 GpuMoving::GpuMoving(prt::Scene scene, std::span<const prt::MovingVertices> moving,
                      std::span<const prt::Texture> textures)
     : scene_(std::move(scene)), gpu_(scene_, textures), arrays_(gpu_.make_vertex_arrays()) {
-    // What shines does so as in its file.
+    // Emission keeps the strength of its file.
     gpu_.shine(std::vector<glm::vec3>(scene_.materials.size(), glm::vec3(1)));
     for (const prt::MovingVertices& m : moving) {
         const std::vector<glm::uvec2> influences = influences_of(m);

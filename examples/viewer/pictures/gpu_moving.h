@@ -11,27 +11,28 @@
 
 namespace viewer {
 
-/// A scene on the GPU whose vertices the vertex shader moves (shaders/skinning.glsl). Stays where it is.
+/// A scene on the GPU whose vertices are moved by the vertex shader (shaders/skinning.glsl). Its address must
+/// not change.
 class GpuMoving {
 public:
-    /// `scene` with its vertices as they are before they move.
+    /// `scene` contains the vertices before they are moved.
     GpuMoving(prt::Scene scene, std::span<const prt::MovingVertices> moving,
               std::span<const prt::Texture> textures);
     GpuMoving(const GpuMoving&) = delete;
     GpuMoving& operator=(const GpuMoving&) = delete;
 
-    /// From now on they light its vertices where the program is PRT_LOBED.
+    /// Sets the lobes that light its vertices in PRT_LOBED programs.
     void set_lobes(const prt::LobeModel& lobes);
     void move(const Palettes& palettes);
-    /// Draws all of it with a program of viewer_moving.vert, in use.
+    /// Draws everything with a program of viewer_moving.vert, which must be in use.
     void draw(const prt::GlObject& program);
-    /// The same with one of sun_caster.vert, PRT_SKINNED.
+    /// Draws everything with a PRT_SKINNED program of sun_caster.vert, which must be in use.
     void draw_casters(const prt::GlObject& program);
 
 private:
     struct Vertices {
         prt::GlObject influences, palette;
-        int each = 0; ///< influences of a vertex; 0: all go by one matrix
+        int each = 0; ///< influences per vertex; 0: all vertices use one matrix
         std::size_t matrices = 0;
     };
     void bind(const prt::GlObject& program, std::size_t primitive) const;
@@ -43,17 +44,17 @@ private:
     prt::GlObject lobe_words_, lobe_profiles_;
 };
 
-/// A figure's scene with its vertices as they are before they move.
+/// Returns a figure's scene with its vertices before they are moved.
 prt::Scene scene_before_moving(const prt::AnimatedScene& figure);
 
-/// A sphere of radius 1 about the origin, of that base color, and how it moves: by one matrix.
+/// A sphere of radius 1 about the origin with this base color, moved by one matrix.
 struct UnitSphere {
     prt::Scene scene;
     std::vector<prt::MovingVertices> moving;
 };
 UnitSphere unit_sphere(const glm::vec3& color);
 
-/// White paper.
+/// Base color of white paper.
 inline constexpr glm::vec3 kMattColor(0.8f);
 
 } // namespace viewer

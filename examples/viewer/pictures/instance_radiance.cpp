@@ -1,3 +1,5 @@
+// Computes the exit radiance of instances by transform feedback.
+
 #include "pictures/instance_radiance.h"
 
 #include "prt/instance_shader.h"
@@ -13,8 +15,9 @@ namespace viewer {
 namespace {
 
 constexpr GLuint kTableBinding = 10;
-constexpr std::size_t kVertexBytes = 8; ///< four halves
-constexpr std::size_t kAlignment = 256; ///< of a storage buffer's part, the most that a device may ask for
+constexpr std::size_t kVertexBytes = 8; ///< four half floats
+constexpr std::size_t kAlignment = 256; ///< maximum alignment of storage buffer ranges that a device may
+                                        ///< require
 
 } // namespace
 
@@ -46,7 +49,7 @@ InstanceRadiance::InstanceRadiance(const prt::ClusteredTransfer& transfer, const
     glNamedFramebufferParameteri(framebuffer_.name(), GL_FRAMEBUFFER_DEFAULT_HEIGHT, 1);
 }
 
-/// Attributes that step from instance to instance.
+/// Attaches the attributes that advance per instance.
 void InstanceRadiance::attach_table(const prt::GlVertexArrays& arrays) const {
     for (const prt::GlObject& array : arrays) {
         glVertexArrayBindingDivisor(array.name(), kTableBinding, 1);
@@ -69,9 +72,10 @@ void InstanceRadiance::set_light(const prt::Lighting& lighting) {
     glUseProgram(program_.name());
     transfer_.use();
     prt::bind_storage(PRT_BINDING_CONSTANTS, constants_.buffer);
-    glBindFramebuffer(GL_FRAMEBUFFER, framebuffer_.name()); // nothing is drawn, but OpenGL wants one
+    glBindFramebuffer(GL_FRAMEBUFFER, framebuffer_.name()); // OpenGL requires a framebuffer, though nothing
+                                                            // is drawn
     glEnable(GL_RASTERIZER_DISCARD);
-    constexpr GLsizei kRowBytes = 2 * sizeof(glm::vec4); // of the table
+    constexpr GLsizei kRowBytes = 2 * sizeof(glm::vec4); // row of the table
     for (const Place& place : places_) {
         if (place.bytes() == 0)
             continue;

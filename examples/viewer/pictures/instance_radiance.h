@@ -1,7 +1,7 @@
 #pragma once
 
-// Exit radiance of all vertices of instances that share transfer, eight bytes each. It is found once for a
-// lighting, not in every frame: then a frame reads one vector for a vertex, whatever the transfer has.
+// Exit radiance of all vertices of instances that share transfer, eight bytes each. It is computed once per
+// lighting, not in every frame: a frame then reads one vector per vertex, independent of the transfer.
 
 #include "prt/gl_scene.h"
 #include "prt/gl_transfer.h"
@@ -15,8 +15,7 @@
 
 namespace viewer {
 
-/// Instances that follow each other in the table of an InstanceFormer, all of one mesh, and its vertex
-/// arrays.
+/// Consecutive instances of one mesh in the table of an InstanceFormer, and the vertex arrays of the mesh.
 struct MeshInstances {
     std::size_t first = 0, count = 0;
     std::vector<std::size_t> vertex_arrays;
@@ -24,25 +23,30 @@ struct MeshInstances {
 
 class InstanceRadiance {
 public:
-    /// `formed`: all instances, of which `meshes` are parts; vertex arrays are those of `scene`, which lasts.
+    /// `formed` are all instances, and `meshes` are ranges of them. Vertex arrays are those of `scene`, which
+    /// must outlive this object.
     InstanceRadiance(const prt::ClusteredTransfer& transfer, const prt::GlScene& scene,
                      std::span<const prt::FormedInstance> formed, std::span<const MeshInstances> meshes);
 
     void set_light(const prt::Lighting& lighting);
-    /// For `program`, which is in use: where shaders/instance_radiance.glsl finds the vertices of mesh `mesh`
-    /// in vertex array `vertex_array`, one of it.
+    /// Sets the location of the vertices of mesh `mesh` in its vertex array `vertex_array` for
+    /// shaders/instance_radiance.glsl. `program` must be in use.
     void use(const prt::GlObject& program, std::size_t mesh, std::size_t vertex_array) const;
 
-    std::size_t bytes() const;                                   ///< of exit radiance
-    std::size_t bytes_of_constants() const;                      ///< of which it is found
-    double seconds_formed() const { return constants_.seconds; } ///< of these, when the light last changed
+    std::size_t bytes() const;              ///< size of the exit radiance
+    std::size_t bytes_of_constants() const; ///< size of the constants it is computed
+                                            ///< from
+    double seconds_formed() const {
+        return constants_.seconds;
+    } ///< time to compute the constants at the
+      ///< last change of light
 
 private:
-    /// A vertex array of a mesh.
+    /// A vertex array of a mesh, and its range of the radiance buffer.
     struct Place {
         std::size_t mesh, vertex_array, vertices;
         std::size_t first_instance, instances;
-        std::size_t begin; ///< bytes
+        std::size_t begin; ///< offset, bytes
         std::size_t bytes() const;
     };
     void attach_table(const prt::GlVertexArrays& arrays) const;

@@ -1,3 +1,5 @@
+// Joins two scenes for path tracing.
+
 #include "pictures/joined_scene.h"
 
 #include <initializer_list>
@@ -5,7 +7,7 @@
 namespace viewer {
 namespace {
 
-/// The same material where its images come after so many others.
+/// Returns the material with its image indices increased by `images`.
 prt::Material behind(prt::Material material, int images) {
     for (prt::TextureUse* use :
          {&material.base_color_texture, &material.metal.texture, &material.transmission.factor_texture,

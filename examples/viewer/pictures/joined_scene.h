@@ -7,8 +7,8 @@
 
 namespace viewer {
 
-/// Adds the surfaces of `other`, whose positions are seen from the origin of `scene`, with its materials and
-/// images. Lights of `other` are left out.
+/// Adds the surfaces of `other` to `scene`, with their materials and images. Positions of `other` are
+/// relative to the origin of `scene`. Lights of `other` are omitted.
 void join(prt::Scene& scene, const prt::Scene& other);
 prt::Scene joined(prt::Scene scene, const prt::Scene& other);
 

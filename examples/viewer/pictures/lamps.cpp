@@ -1,3 +1,5 @@
+// Lists lamps and computes their strengths.
+
 #include "pictures/lamps.h"
 
 #include <algorithm>

@@ -1,6 +1,6 @@
 #pragma once
 
-// How bright the lamps of a model are set.
+// Strengths of the lamps of a model.
 
 #include "prt/transfer_layout.h"
 
@@ -12,38 +12,39 @@
 
 namespace viewer {
 
-/// A lamp of the model (`TransferPart`), by its name.
+/// A lamp of the model (`TransferPart`), identified by its name.
 struct Lamp {
     std::string name;
     bool on = true;
     float strength = 1; ///< 1: as in the scene
-    glm::vec3 color{1}; ///< what its light is multiplied with, linear Rec. 709
+    glm::vec3 color{1}; ///< factor on its light, linear Rec. 709
 
     friend bool operator==(const Lamp&, const Lamp&) = default;
 };
 
 struct LampSettings {
     bool on = true;
-    float strength = 1; ///< what that of every lamp is multiplied with
+    float strength = 1; ///< factor on the strength of every lamp
     std::vector<Lamp> each = {};
 
     friend bool operator==(const LampSettings&, const LampSettings&) = default;
 };
 
-/// The largest strength; what shines stays within what floats hold.
+/// Maximum strength; it keeps emission within the range of floats.
 inline constexpr float kMostLampStrength = 1e9f;
 
-/// Those that the layouts have, each name once, as `known` has them set; new ones shine as in the scene.
+/// Returns the lamps of the layouts, each name once. Lamps in `known` keep their settings; new ones have the
+/// strength of the scene.
 std::vector<Lamp> lamps_of(std::span<const prt::TransferLayout* const> layouts,
                            const std::vector<Lamp>& known);
 
-/// Of each lamp of `layout`, by name; 0 where it is off, or all are.
+/// Returns the strength of each lamp of `layout`, matched by name; 0 if it is off, or if all lamps are off.
 std::vector<glm::vec3> strengths_of(const LampSettings& settings, const prt::TransferLayout& layout);
 
-/// Whether one of them gives light.
+/// True if at least one lamp gives light.
 bool any_shines(const LampSettings& settings);
 
-/// `lighting` with the lamps of `layout` set so.
+/// Returns `lighting` with these strengths for the lamps of `layout`.
 prt::Lighting with_lamps(prt::Lighting lighting, const LampSettings& settings,
                          const prt::TransferLayout& layout);
 

@@ -1,3 +1,5 @@
+// Loads models and computes their derived data.
+
 #include "pictures/model.h"
 
 #include "prt/bake.h"
@@ -12,10 +14,10 @@
 namespace viewer {
 namespace {
 
-/// Enough for a picture: 8 bits of occlusion are 0.4 %.
+/// Enough for a picture: one step of 8 bits of occlusion is 0.4 %.
 constexpr int kOcclusionRays = 256;
 
-/// FNV-1a of three corners, a word at a time, in their order.
+/// Returns an FNV-1a hash of three corners, in their order, one word at a time.
 std::uint64_t triangle_hash(const glm::vec3& a, const glm::vec3& b, const glm::vec3& c) {
     std::uint64_t hash = 0xcbf29ce484222325;
     for (const glm::vec3* corner : {&a, &b, &c})
@@ -25,7 +27,8 @@ std::uint64_t triangle_hash(const glm::vec3& a, const glm::vec3& b, const glm::v
     return hash ^ hash >> 32;
 }
 
-/// A sum over triangles and over the corners that they may begin with, so that neither's order matters.
+/// Returns the sum of hashes over triangles and their possible first corners, so that the order of both does
+/// not matter.
 std::uint64_t surface_id(const prt::Scene& scene) {
     std::uint64_t sum = 0;
     for (const prt::Primitive& primitive : scene.primitives) {
@@ -37,7 +40,7 @@ std::uint64_t surface_id(const prt::Scene& scene) {
     return sum;
 }
 
-/// Errors in images of a lightmap name no file.
+/// Reads a compressed lightmap and adds the file name to its errors.
 std::optional<prt::CompressedLightmap> read_compressed(const prt::GltfDocument& document,
                                                        const prt::Scene& scene,
                                                        const std::filesystem::path& path) {
@@ -49,7 +52,7 @@ std::optional<prt::CompressedLightmap> read_compressed(const prt::GltfDocument& 
     }
 }
 
-/// As its transfer is stored, or where that is raw of all vertices.
+/// Loads an instanced model: compressed transfer as it is stored, raw transfer expanded to all vertices.
 LoadedModel load_instanced(const prt::GltfDocument& document, prt::Scene scene,
                            const std::filesystem::path& path) {
     prt::InstancedModel instanced = prt::read_instanced(document, scene, path);
@@ -81,7 +84,7 @@ std::shared_ptr<const Model> make_model(prt::Scene scene, std::filesystem::path 
         model->clusters.push_back(
             make_triangle_clusters(primitive, model->scene.vertex_arrays[primitive.vertices]));
     model->trace.emplace(model->scene, prt::load_textures(model->scene, prt::BadTextures::ignore));
-    model->trace->rays(); // now rather than in the first frame
+    model->trace->rays(); // build it now, not in the first frame
     return model;
 }
 
@@ -136,12 +139,12 @@ std::vector<float> ambient_occlusion(const Model& model, const prt::Progress& pr
     prt::BakeOptions options;
     options.order = 1;
     options.rays = kOcclusionRays;
-    options.tracer.backend = prt::Backend::cpu; // beside the window's own context
+    options.tracer.backend = prt::Backend::cpu; // does not touch the window's OpenGL context
     options.repairs.bad_textures = prt::BadTextures::ignore;
     options.memory.storage = prt::TransferStorage::float32;
-    options.lamps.mode = prt::LampMode::none; // how open a place is, whatever shines there
+    options.lamps.mode = prt::LampMode::none; // ambient occlusion ignores lamps
     const prt::Transfer direct = prt::bake(model.scene, options, progress).baked.transfer;
-    // R under uniform light of radiance 1.
+    // Exit radiance under uniform light of radiance 1 is the open fraction.
     const auto radiance = prt::exit_radiance(direct, prt::constant_light(1, glm::vec3(1)));
     std::vector<float> open;
     for (const glm::vec3& r : radiance)

@@ -1,6 +1,6 @@
 #pragma once
 
-// A scene file in memory, and what the viewer computes of it once.
+// A scene file in memory, and the data that the viewer computes once from it.
 
 #include "pictures/picture_kind.h"
 #include "pictures/triangle_clusters.h"
@@ -22,7 +22,7 @@
 
 namespace viewer {
 
-/// Never changes once it is loaded; shared by threads.
+/// Immutable after loading; shared by threads.
 struct Model {
     std::filesystem::path path;
     prt::Scene scene;                                   ///< triangles in the order of `clusters`
@@ -33,32 +33,33 @@ struct Model {
     glm::vec3 center{0};
     float radius = 1;
     std::string receivers_id;
-    std::uint64_t surface_id = 0;         ///< of the triangles' places, whatever their vertices and order
-    std::optional<prt::TraceScene> trace; ///< of `scene`
+    std::uint64_t surface_id = 0;         ///< hash of the triangles' positions, independent of vertex sharing
+                                          ///< and order
+    std::optional<prt::TraceScene> trace; ///< for rays into `scene`
 
     Model() = default;
     Model(const Model&) = delete;
     Model& operator=(const Model&) = delete;
 };
 
-/// Transfer of texels; both are null where receivers are vertices.
+/// Transfer of texels; both are null if the receivers are vertices.
 struct LoadedLightmap {
     std::shared_ptr<const prt::BakedLightmap> baked;
-    std::shared_ptr<const prt::CompressedLightmap> compressed; ///< of all texels
+    std::shared_ptr<const prt::CompressedLightmap> compressed; ///< transfer of all texels
 
     const prt::LightmapLayout* layout() const {
         return compressed ? &compressed->layout : baked ? &baked->layout : nullptr;
     }
 };
 
-/// What a file holds.
+/// Content of a file.
 struct LoadedModel {
     std::shared_ptr<const Model> model;
     std::shared_ptr<const prt::Transfer> raw;
     std::shared_ptr<const prt::ClusteredTransfer> compressed;
-    prt::BakeRecord record;  ///< of the transfer
-    LoadedLightmap lightmap; ///< where receivers are texels: `raw` and `compressed` are within
-    /// Where instances share compressed transfer: there is no other.
+    prt::BakeRecord record;  ///< record of the transfer
+    LoadedLightmap lightmap; ///< set if the receivers are texels; `raw` and `compressed` are parts of it
+    /// Set if instances share compressed transfer; `compressed` is then null.
     std::shared_ptr<const prt::InstancedModel> instanced;
 
     bool has_transfer() const { return raw || compressed || instanced; }
@@ -69,20 +70,20 @@ struct LoadedModel {
     void set(std::shared_ptr<const prt::CompressedLightmap> of_all_texels);
 };
 
-/// What the viewer needs of `scene`; textures that are missing or damaged are left out.
+/// Prepares `scene` for the viewer; missing or damaged textures are ignored.
 std::shared_ptr<const Model> make_model(prt::Scene scene, std::filesystem::path path);
 
 /// Reads `path`. Throws `prt::Error`.
 LoadedModel load_model(const std::filesystem::path& path);
 
-/// Of a model from a place, a sample for each pixel; nothing but `radiance` lights it.
+/// Draws the model with one sample per pixel; only `radiance` lights it.
 prt::Picture picture_of(const Model& model, std::span<const glm::vec3> radiance, const prt::Camera& camera,
                         int width, int height);
 
-/// Share of the cosine-weighted hemisphere that is open, for every receiver.
+/// Returns the open fraction of the cosine-weighted hemisphere for every receiver.
 std::vector<float> ambient_occlusion(const Model& model, const prt::Progress& progress);
 
-/// The first bands of `transfer`.
+/// Returns the first bands of `transfer`.
 prt::Transfer truncated(const prt::Transfer& transfer, int order);
 
 } // namespace viewer

@@ -1,3 +1,5 @@
+// Lights and draws the moving objects.
+
 #include "pictures/moving_stage.h"
 
 #include "prt/lobe_shader.h"
@@ -16,11 +18,11 @@
 namespace viewer {
 namespace {
 
-/// The second is of polished metal.
+/// The second sphere is polished metal.
 constexpr std::array kSphereColors = {kMattColor, glm::vec3(0.9f)};
-/// Bands of the sky that lobes are lit by without a volume; light has as many at least.
+/// Number of sky bands that light lobes without a volume; the light has at least this order.
 constexpr int kOrderOfSky = 3;
-/// Of a probe's sphere, in finest cells.
+/// Radius of a probe's sphere, in finest cells.
 constexpr float kProbeRadius = 0.1f;
 
 bool sees_nothing(const prt::ProbeSight& sight) {
@@ -113,7 +115,7 @@ void MovingStage::light_volume() {
         volume_.gpu->set_light(with_lamps(*lit_.lighting, lit_.lamps, layout));
 }
 
-/// A volume that keeps no direct light apart has suns in its sky.
+/// Returns true if suns are added per pixel. A volume without a separate direct term has them in its sky.
 bool MovingStage::adds_suns() const {
     return lit_.suns && (!has_volume() || volume_.gpu->former().layout().has(prt::PartKind::direct));
 }

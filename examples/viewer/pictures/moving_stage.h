@@ -1,7 +1,6 @@
 #pragma once
 
-// What moves through the scene that is open, on the GPU, lit by its volume: a figure, two spheres, and the
-// probes.
+// The moving objects on the GPU, lit by the volume of the open scene: a figure, two spheres, and the probes.
 
 #include "pictures/contact_shadows.h"
 #include "pictures/gpu_moving.h"
@@ -18,18 +17,18 @@
 
 namespace viewer {
 
-/// What one drawing of it needs.
+/// Parameters of one drawing of the moving objects.
 struct MovingPass {
     glm::mat4 view_projection{1};
     glm::vec3 eye{0};
     bool textured = true;
     float exposure = 1;
-    const std::array<glm::vec3, 9>& irradiance; ///< of the sky, where there is no volume yet
+    const std::array<glm::vec3, 9>& irradiance; ///< irradiance of the sky, used until there is a volume
 };
 
-/// A matt and a mirroring sphere.
+/// A matte and a mirroring sphere.
 struct TwoSpheres {
-    std::array<glm::vec3, 2> middles{}; ///< the matt one first
+    std::array<glm::vec3, 2> middles{}; ///< centers, the matte one first
     float radius = 0;                   ///< metres; 0: none
 
     friend bool operator==(const TwoSpheres&, const TwoSpheres&) = default;
@@ -39,7 +38,7 @@ class MovingStage {
 public:
     MovingStage();
 
-    /// Null: there is none; or its vertices have no lobes.
+    /// `figure` null: there is none; `lobes` null: its vertices have no lobes.
     void set_figure(std::shared_ptr<const prt::AnimatedScene> figure, const prt::LobeModel* lobes);
     void set_occluders(std::vector<prt::NodeOccluder> occluders) {
         shadows_.set_figure(std::move(occluders));
@@ -48,21 +47,19 @@ public:
     void pose(const FigurePose& pose);
     void place(const TwoSpheres& spheres);
     void show(const MovingSettings& settings) { shown_ = settings; }
-    /// `suns` are apart from `lighting`: they are added at each pixel where the volume keeps direct light
-    /// apart.
+    /// `suns` are not part of `lighting`: they are added per pixel if the volume has a separate direct term.
     void set_lighting(const prt::Lighting& lighting, std::span<const prt::SunDisc> suns,
                       const LampSettings& lamps);
 
     bool has_volume() const { return volume_.gpu != nullptr; }
     bool shows_anything() const { return shows_figure() || shows_spheres() || shows_probes(); }
-    /// Around what is shown but probes.
+    /// Returns the box around the shown objects except probes.
     std::optional<prt::Bounds> box() const;
-    /// What it takes from the light of surfaces near it; nothing where nothing is shown that does. Binds the
-    /// volume.
+    /// Returns the occluders that shade nearby surfaces; empty if no shown object has any. Binds the volume.
     std::optional<OccluderPass> occluders();
-    /// What casts shadows into maps of the suns.
+    /// Returns the objects that cast shadows into shadow maps.
     prt::SunShadows::Moving casters();
-    /// Over what has been drawn of the scene; the maps of its suns are bound.
+    /// Draws over the scene; the maps of its suns must be bound.
     void draw(const MovingPass& pass);
 
 private:
@@ -83,7 +80,7 @@ private:
     bool shows_probes() const { return shown_.probes && has_volume(); }
     void light_volume();
     bool adds_suns() const;
-    struct Surface { ///< that a program draws
+    struct Surface { ///< key of a program that draws surfaces
         bool suns, lobed;
 
         friend auto operator<=>(const Surface&, const Surface&) = default;
@@ -93,8 +90,8 @@ private:
     void draw_probes(const MovingPass& pass);
 
     std::unique_ptr<GpuMoving> figure_;
-    std::optional<prt::LobeModel> lobes_;                     ///< of the figure
-    std::array<std::unique_ptr<GpuMoving>, 2> sphere_models_; ///< once they are shown
+    std::optional<prt::LobeModel> lobes_;                     ///< lobes of the figure
+    std::array<std::unique_ptr<GpuMoving>, 2> sphere_models_; ///< created when they are first shown
     MovingSettings shown_;
     FigurePose pose_;
     TwoSpheres spheres_;

@@ -1,6 +1,6 @@
 #pragma once
 
-// What one side of the viewer shows.
+// The kinds of pictures that a side of the viewer can show.
 
 #include <algorithm>
 #include <array>
@@ -9,26 +9,26 @@
 namespace viewer {
 
 enum class PictureKind {
-    unshadowed,     ///< irradiance of the normal, nothing in the way
-    ssao,           ///< times screen-space ambient occlusion, from depth alone
-    ssao_normals,   ///< the same from depth and normals
-    baked_ao,       ///< times ambient occlusion of the vertices
+    unshadowed,     ///< irradiance by normal, without occlusion
+    ssao,           ///< unshadowed times screen-space ambient occlusion, from depth only
+    ssao_normals,   ///< unshadowed times screen-space ambient occlusion, from depth and normals
+    baked_ao,       ///< unshadowed times ambient occlusion of the vertices
     prt,            ///< raw transfer
     prt_compressed, ///< compressed transfer
     reference,      ///< path tracing
     clusters,       ///< a color per cluster
-    components,     ///< how many directions the cluster has
-    error,          ///< of the compression, under this light
-    seams,          ///< jumps of that error between clusters
-    surface_error,  ///< all of it, at points over the surface, against path tracing
+    components,     ///< number of components of the cluster
+    error,          ///< error of the compression under this light
+    seams,          ///< jumps of the compression error between clusters
+    surface_error,  ///< total error against path tracing, at points over the surface
 };
 
-/// Whose transfer.
+/// Kind of receivers.
 enum class Receivers { vertices, texels };
 
 struct PictureName {
     PictureKind kind;
-    const char *id, *title; ///< for scripts; for people
+    const char *id, *title; ///< name in scripts, name in the panel
 };
 
 inline constexpr std::array<PictureName, 12> kPictures = {{
@@ -50,7 +50,7 @@ inline const PictureName& name_of(PictureKind kind) {
     return *std::ranges::find(kPictures, kind, &PictureName::kind);
 }
 
-/// The next in the list; after the last the first.
+/// Returns the next kind in the list; the first after the last.
 inline PictureKind next(PictureKind kind) {
     const auto at = static_cast<std::size_t>(&name_of(kind) - kPictures.data());
     return kPictures[(at + 1) % kPictures.size()].kind;
@@ -60,13 +60,13 @@ inline bool is_ssao(PictureKind kind) {
     return kind == PictureKind::ssao || kind == PictureKind::ssao_normals;
 }
 
-/// Of transfer, so that vertices and texels of one scene have two of them.
+/// True for pictures of transfer; a scene with vertices and a lightmap has two of each.
 inline bool shows_transfer(PictureKind kind) {
     return kind == PictureKind::prt || kind == PictureKind::prt_compressed || kind == PictureKind::clusters ||
            kind == PictureKind::components || kind == PictureKind::error || kind == PictureKind::seams;
 }
 
-/// Colors that stand for numbers: shown as they are, without exposure and base color.
+/// True for colors that encode numbers: shown unchanged, without exposure and base color.
 inline bool shows_numbers(PictureKind kind) {
     return kind == PictureKind::clusters || kind == PictureKind::components || kind == PictureKind::error ||
            kind == PictureKind::seams || kind == PictureKind::surface_error;

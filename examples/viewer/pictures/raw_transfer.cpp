@@ -1,3 +1,5 @@
+// Computes exit radiance from raw transfer with a compute shader.
+
 #include "pictures/raw_transfer.h"
 
 #include "prt/shader_source.h"
@@ -33,8 +35,8 @@ void RawTransfer::set_light(const prt::Lighting& lighting) {
         coefficients.emplace_back(color, 0);
     glNamedBufferSubData(light_.name(), 0, static_cast<GLsizeiptr>(coefficients.size() * sizeof(glm::vec4)),
                          coefficients.data());
-    // A storage buffer is bound in pieces: a device may allow no more than 128 MB of it. Pieces of a multiple
-    // of 256 receivers keep every alignment.
+    // The storage buffer is bound in ranges, because a device may limit it to 128 MB. Ranges of a multiple of
+    // 256 receivers keep every alignment.
     GLint64 most = 0;
     glGetInteger64v(GL_MAX_SHADER_STORAGE_BLOCK_SIZE, &most);
     const std::size_t piece = std::max<std::size_t>(

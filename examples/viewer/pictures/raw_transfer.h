@@ -5,21 +5,21 @@
 
 namespace viewer {
 
-/// Transfer as it was baked, on the GPU: a compute shader forms exit radiance when the light changes.
+/// Raw transfer on the GPU: a compute shader computes exit radiance when the light changes.
 class RawTransfer {
 public:
-    /// `most_receivers`: that one dispatch takes, a multiple of 256.
+    /// `most_receivers`: maximum number of receivers per dispatch, a multiple of 256.
     RawTransfer(const prt::Transfer& transfer, std::size_t most_receivers);
 
     const prt::TransferLayout& layout() const { return layout_; }
-    /// Forms the radiance. `lighting` has as many bands as the transfer at least.
+    /// Computes the radiance. `lighting` must have at least the order of the transfer.
     void set_light(const prt::Lighting& lighting);
-    /// Three floats for each receiver.
+    /// Three floats per receiver.
     const prt::GlObject& radiance() const { return radiance_; }
 
 private:
     prt::TransferLayout layout_;
-    std::size_t receivers_, stride_; ///< bytes of a receiver
+    std::size_t receivers_, stride_; ///< number of receivers; bytes per receiver
     std::size_t most_receivers_;
     prt::GlObject vectors_, light_, radiance_, program_;
 };

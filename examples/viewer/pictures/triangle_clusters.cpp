@@ -1,3 +1,5 @@
+// Builds triangle clusters and tests them against the view frustum.
+
 #include "pictures/triangle_clusters.h"
 
 #include <glm/common.hpp>
@@ -33,14 +35,15 @@ std::vector<TriangleCluster> make_triangle_clusters(prt::Primitive& primitive,
 }
 
 std::array<glm::vec4, 6> frustum_planes(const glm::mat4& m) {
-    // A point is inside where -w <= x, y, z <= w in clip space: sums and differences of the matrix' rows.
+    // A point is inside if -w <= x, y, z <= w in clip space: planes are sums and differences of the matrix
+    // rows.
     const glm::vec4 x = glm::row(m, 0), y = glm::row(m, 1), z = glm::row(m, 2), w = glm::row(m, 3);
     return {w + x, w - x, w + y, w - y, w + z, w - z};
 }
 
 bool may_be_visible(const std::array<glm::vec4, 6>& planes, const prt::Bounds& box) {
     return std::all_of(planes.begin(), planes.end(), [&](const glm::vec4& plane) {
-        // The corner that is farthest inside.
+        // The corner farthest inside.
         const glm::vec3 corner(plane.x >= 0 ? box.high.x : box.low.x, plane.y >= 0 ? box.high.y : box.low.y,
                                plane.z >= 0 ? box.high.z : box.low.z);
         return glm::dot(glm::vec3(plane), corner) + plane.w >= 0;

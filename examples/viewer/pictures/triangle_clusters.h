@@ -1,6 +1,6 @@
 #pragma once
 
-// Culling of geometry that the camera does not see, cluster by cluster.
+// Culls clusters of triangles outside the view.
 
 #include "prt/gl_scene.h"
 #include "prt/scene.h"
@@ -14,7 +14,7 @@
 
 namespace viewer {
 
-/// Triangles that lie together, and the box round them.
+/// Neighboring triangles, and their bounding box.
 struct TriangleCluster {
     prt::TriangleRange triangles;
     prt::Bounds box;
@@ -22,18 +22,19 @@ struct TriangleCluster {
 
 inline constexpr std::size_t kClusterTriangles = 128;
 
-/// Puts the triangles of `primitive` in spatial order and cuts them into clusters.
+/// Sorts the triangles of `primitive` spatially and splits them into clusters.
 std::vector<TriangleCluster> make_triangle_clusters(prt::Primitive& primitive,
                                                     const prt::VertexArray& vertices);
 
-/// Planes a x + b y + c z + d >= 0 that bound what `view_projection` shows (G. Gribb and K. Hartmann, "Fast
-/// Extraction of Viewing Frustum Planes", 2001): left, right, bottom, top, near, far. Not normalised.
+/// Returns planes a x + b y + c z + d >= 0 that bound the view of `view_projection` (G. Gribb and K.
+/// Hartmann, "Fast Extraction of Viewing Frustum Planes", 2001): left, right, bottom, top, near, far. They
+/// are not normalised.
 std::array<glm::vec4, 6> frustum_planes(const glm::mat4& view_projection);
 
-/// False only where all of `box` lies outside of one plane.
+/// Returns false only if the whole `box` is outside one plane.
 bool may_be_visible(const std::array<glm::vec4, 6>& planes, const prt::Bounds& box);
 
-/// What may be visible of `clusters`, neighbouring ranges joined.
+/// Returns the ranges of `clusters` that may be visible, with adjacent ranges joined.
 std::vector<prt::TriangleRange> visible_ranges(std::span<const TriangleCluster> clusters,
                                                const std::array<glm::vec4, 6>& planes);
 

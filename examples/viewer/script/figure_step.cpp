@@ -1,3 +1,5 @@
+// Parses the figure options of a script.
+
 #include "script/figure_step.h"
 
 #include "prt/support/error.h"
@@ -9,7 +11,7 @@
 
 namespace viewer {
 
-/// Metres: rays and paths stay exact there.
+/// Maximum coordinate of a path, metres; rays and paths stay exact within it.
 constexpr double kFarthest = 1e6;
 
 FigureChoice figure_choice(const nlohmann::json& json) {

@@ -6,8 +6,8 @@
 
 namespace viewer {
 
-/// What a script says of the figure: {"animation": name, "scale": factor, "path": [[x, y, z], ...]}, all of
-/// which may be left out. Throws `prt::Error` for a scale that is none, and for places that are not finite.
+/// Parses the figure options of a script: {"animation": name, "scale": factor, "path": [[x, y, z], ...]};
+/// each may be omitted. Throws `prt::Error` for an invalid scale and for positions that are not finite.
 FigureChoice figure_choice(const nlohmann::json& json);
 
 } // namespace viewer

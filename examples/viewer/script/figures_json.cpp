@@ -1,3 +1,5 @@
+// Converts figures and budgets to JSON.
+
 #include "script/figures_json.h"
 
 namespace viewer {

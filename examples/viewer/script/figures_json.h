@@ -1,6 +1,6 @@
 #pragma once
 
-// What scripts write of measures, as JSON.
+// Converts figures and budgets to JSON for scripts.
 
 #include "core/frame_statistics.h"
 

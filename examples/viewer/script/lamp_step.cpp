@@ -1,3 +1,5 @@
+// Sets lamp strengths from the JSON of a script.
+
 #include "script/lamp_step.h"
 
 #include "prt/support/error.h"
@@ -19,7 +21,7 @@ float strength_of(const nlohmann::json& value, const std::string& name) {
     return strength;
 }
 
-/// `lamp`, on, with that strength. The slider shows the largest channel.
+/// Turns `lamp` on with this strength. The slider shows the largest channel.
 void set_strength(Lamp& lamp, const glm::vec3& strength) {
     lamp.on = true;
     lamp.strength = std::max({strength.r, strength.g, strength.b});

@@ -1,4 +1,4 @@
-// The steps of a script: a table of functions on a player.
+// Executes the steps of a script: a table of functions on a player.
 
 #include "script/script.h"
 
@@ -31,7 +31,7 @@ namespace {
 
 using Json = nlohmann::json;
 
-constexpr double kPatience = 600; ///< seconds that a step waits at most
+constexpr double kPatience = 600; ///< maximum waiting time of a step, seconds
 
 // ---- values of steps
 
@@ -49,7 +49,7 @@ void take(const Json& json, const char* name, T& value) {
         value = json.at(name).get<T>();
 }
 
-/// The row of `table` called `id`; `what` it lists is for the message where there is none.
+/// Returns the row of `table` with this `id`; `what` names its rows in the error message.
 template <class Table>
 const auto& named(const Table& table, const std::string& id, const char* what) {
     const auto row = std::ranges::find_if(table, [&](const auto& r) { return r.id == id; });
@@ -66,7 +66,7 @@ void take_number(const Json& json, const Command& command, float& value) {
     value = number;
 }
 
-/// Sets what `command` is of.
+/// Changes the setting of `command` to the value in `json`.
 void take(const Json& json, const Command& command, Settings& settings) {
     const Place place = command.place(settings);
     if (PictureKind* const* kind = std::get_if<PictureKind*>(&place))
@@ -93,18 +93,18 @@ RigLight light_of(const Json& json) {
 
 // ---- the player
 
-/// The viewer, its controls and panels, and a screen for them.
+/// The viewer, its controls and panels, and an offscreen target for them.
 struct Player {
     explicit Player(std::filesystem::path script_folder) : folder(std::move(script_folder)) {
         make_context();
     }
     void make_context();
     void make_interface(float scale) {
-        interface.reset(); // Dear ImGui has one context at a time
+        interface.reset(); // Dear ImGui supports one context at a time
         interface = std::make_unique<UserInterface>(nullptr, scale);
     }
     void draw(int frames = 1);
-    /// Draws until `done`, and once more.
+    /// Draws frames until `done`, then one more.
     void wait(const std::function<bool()>& done, const char* what);
     std::filesystem::path path(const Json& json) const { return folder / json.get<std::string>(); }
     void fail_on_message() const {
@@ -155,7 +155,7 @@ void Player::wait(const std::function<bool()>& done, const char* what) {
     draw();
 }
 
-// ---- steps, as docs/viewer.md lists them
+// ---- steps, in the order of docs/viewer.md
 
 void set_size(Player& player, const Json& json) {
     player.size = {json.at(0).get<int>(), json.at(1).get<int>()};
@@ -194,7 +194,7 @@ void set(Player& player, const Json& json) {
             take(json.at(command.id), command, player.viewer->settings);
 }
 
-/// In the world of the model's file.
+/// Sets the camera in the world space of the model's file.
 void set_camera(Player& player, const Json& json) {
     prt::Camera camera = player.viewer->camera.camera();
     const Model* model = player.viewer->document().model();
@@ -237,7 +237,7 @@ void set_lamps(Player& player, const Json& json) {
     set_strengths(player.viewer->settings.lit.lamps.each, json);
 }
 
-/// Opens a figure, says how it moves, and lets it walk for some seconds at once.
+/// Opens a figure, sets its options, and advances it by some seconds at once.
 void set_figure(Player& player, const Json& json) {
     Viewer& viewer = *player.viewer;
     if (json.contains("file")) {
@@ -263,7 +263,7 @@ void press(Player& player, const Json& json) {
     const Button button = name == "right" ? Button::right : name == "middle" ? Button::middle : Button::left;
     const glm::vec2 pixel = vec2(json, 1);
     player.interface->point(pixel);
-    player.draw(); // a panel says in the next frame that it is under the pointer
+    player.draw(); // a panel detects the pointer one frame later
     player.interface->press(button == Button::left);
     player.draw();
     if (!player.interface->wants_pointer())
@@ -293,18 +293,18 @@ void press_keys(Player& player, const Json& json) {
             throw prt::Error(fmt::format("there is no key '{}'", key));
 }
 
-/// The pointer rests there; on a panel long enough for what it says of the control.
+/// Moves the pointer; over a panel, waits long enough for the tooltip.
 void hover(Player& player, const Json& json) {
     constexpr int kRest = 30; // frames
     const glm::vec2 pixel = vec2(json);
     player.interface->point(pixel);
-    player.draw(2); // a panel says in the next frame that it is under the pointer
+    player.draw(2); // a panel detects the pointer one frame later
     for (int frame = 0; frame < kRest && player.interface->wants_pointer(); ++frame)
         player.draw();
     player.viewer->hover(player.interface->wants_pointer() ? std::nullopt : std::optional(pixel));
 }
 
-/// Waits until it is written; the message that says so is expected.
+/// Waits until the file is written; the message about it is expected.
 void save(Player& player, const Json& json) {
     Viewer& viewer = *player.viewer;
     viewer.save(player.path(json));
@@ -317,7 +317,7 @@ void set_scale(Player& player, const Json& json) {
     player.make_interface(json.get<float>());
 }
 
-/// The light turns by a degree a frame.
+/// Rotates the light by one degree per frame.
 void spin(Player& player, const Json& json) {
     player.viewer->forget_longest();
     for (int i = 0; i < json.get<int>(); ++i) {
@@ -367,10 +367,10 @@ void write_figures(Player& player, const Json& json) {
     write(player.path(json), figures_json(player.viewer->figures()));
 }
 
-/// Measures the budget where that of the present light is not there yet.
+/// Measures the budget if that of the current light is not available.
 void write_budget(Player& player, const Json& json) {
     Viewer& viewer = *player.viewer;
-    player.draw(); // takes over the light that is set
+    player.draw(); // applies the pending light
     if (!viewer.jobs().busy(JobKind::budget) && !viewer.budget_is_current())
         viewer.measure_budget();
     player.wait([&] { return !viewer.jobs().busy(JobKind::budget); }, "the budget");
@@ -436,7 +436,7 @@ Json read_steps(const std::filesystem::path& script) {
 
 void run_script(const std::filesystem::path& script, const std::vector<std::filesystem::path>& files) {
     const Json steps = read_steps(script);
-    /// Says of which step an error is.
+    /// Adds the index of the step to an error.
     const auto at_step = [&](std::size_t i, const auto& work) {
         const std::string at = fmt::format("{}: step {}: ", script.string(), i + 1);
         try {

@@ -1,3 +1,5 @@
+// Draws the panel of the error budget.
+
 #include "ui/budget_panel.h"
 
 #include "core/budget_work.h"
@@ -34,7 +36,7 @@ std::string percent(double share) {
     return fmt::format("{:.2f} %", 100 * share);
 }
 
-/// Shares of the squares of the causes, side by side.
+/// Draws the shares of the squared errors next to each other.
 void draw_bar(const prt::ErrorBudget& errors) {
     const ImVec2 at = ImGui::GetCursorScreenPos(), size(ImGui::GetContentRegionAvail().x, scaled(14));
     double sum = 0;

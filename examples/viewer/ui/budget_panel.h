@@ -4,7 +4,7 @@
 
 namespace viewer {
 
-/// Where the error over the surface comes from: a bar of the causes' shares, and their numbers.
+/// Shows the sources of the error over the surface: a bar of their shares, and their values.
 void budget_panel(Viewer& viewer);
 
 } // namespace viewer

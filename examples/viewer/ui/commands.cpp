@@ -1,3 +1,5 @@
+// The table of settings and keys.
+
 #include "ui/commands.h"
 
 #include "ui/controls.h"
@@ -11,7 +13,7 @@
 namespace viewer {
 namespace {
 
-/// The place that member pointers lead to, one after the other.
+/// Returns the member reached by following the member pointers in turn.
 template <auto... members>
 Place place(Settings& settings) {
     return &(settings.*....*members);

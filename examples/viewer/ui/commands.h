@@ -1,7 +1,6 @@
 #pragma once
 
-// The one table of what can be set and what keys do: keys, panel, scripts, the help and docs/viewer.md follow
-// it.
+// The table of all settings and keys. Keys, panel, scripts, the help and docs/viewer.md follow it.
 
 #include "core/viewer.h"
 
@@ -13,34 +12,34 @@ namespace viewer {
 
 class Controls;
 
-/// Where a setting is, by its type.
+/// Pointer to a setting, by its type.
 using Place = std::variant<PictureKind*, bool*, int*, float*>;
 
-/// Of a slider.
+/// Range of a slider.
 struct Range {
     float low = 0, high = 1;
     const char* format = "%.3f";
     bool logarithmic = false;
-    bool strict = false; ///< nothing below `low` makes sense, in scripts neither
+    bool strict = false; ///< values below `low` are invalid, also in scripts
 };
 
 struct Command {
-    const char* id = "";                 ///< of a setting in scripts; empty: scripts press the key
+    const char* id = "";                 ///< id of a setting in scripts; empty: scripts press the key
     char key = 0;                        ///< 0: none
-    const char* help = "";               ///< of the key; empty: another line says it
-    const char* label = "";              ///< in the panel
-    const char* tip = "";                ///< what the panel says of it
-    Place (*place)(Settings&) = nullptr; ///< null: no setting
-    void (*press)(Controls&) = nullptr;  ///< null: its key takes the next value of the setting
+    const char* help = "";               ///< help of the key; empty: another entry describes it
+    const char* label = "";              ///< label in the panel
+    const char* tip = "";                ///< tooltip in the panel
+    Place (*place)(Settings&) = nullptr; ///< returns the setting; null: the command has none
+    void (*press)(Controls&) = nullptr;  ///< null: its key selects the next value of the setting
     Range range{};
 };
 
-/// In the order of the help.
+/// Returns all commands in the order of the help.
 std::span<const Command> commands();
-/// The setting called `id`. Throws `prt::Error` where there is none.
+/// Returns the setting with this `id`. Throws `prt::Error` if there is none.
 const Command& setting(std::string_view id);
 
-/// Takes the next value of a switch or a picture.
+/// Selects the next value of a switch or a picture.
 void switch_setting(const Place& place);
 
 } // namespace viewer

@@ -1,3 +1,5 @@
+// Maps pointer and keys to the viewer.
+
 #include "ui/controls.h"
 
 #include "ui/commands.h"
@@ -11,7 +13,7 @@
 namespace viewer {
 namespace {
 
-constexpr float kGrab = 14; ///< pixels about a handle
+constexpr float kGrab = 14; ///< pixels around a handle
 constexpr float kSplitGrab = 7;
 
 float handle_radius(const Viewer& viewer, const RigLight& light) {

@@ -1,6 +1,6 @@
 #pragma once
 
-// The pointer and the keyboard, from a window or a script.
+// Handles the pointer and the keyboard, from a window or a script.
 
 #include "core/viewer.h"
 
@@ -10,8 +10,8 @@ namespace viewer {
 
 enum class Button { left, middle, right };
 
-/// What the pointer drags: the camera (left), what it looks at (middle), the environment (right); a light or
-/// the split where it is pressed on one. Pixels from the top left.
+/// Drags the camera (left button), its target (middle) or the environment (right); a light or the split if it
+/// is pressed on one. Pixels are counted from the top left.
 class Controls {
 public:
     explicit Controls(Viewer& viewer) : viewer_(viewer) {}
@@ -20,11 +20,11 @@ public:
     void move(const glm::vec2& pixel);
     void release() { drag_ = Drag::nothing; }
     void scroll(float notches) { viewer_.camera.zoom(notches); }
-    /// False for a key that means nothing.
+    /// Returns false for a key without a function.
     bool key(char key);
     std::function<void()> screenshot = [] {}, quit = [] {}; ///< called by their keys
 
-    /// The light under the pointer or being dragged, -1: none.
+    /// Returns the light under the pointer or being dragged; -1: none.
     int light_at(const glm::vec2& pixel) const;
 
 private:
@@ -36,7 +36,7 @@ private:
     bool far_side_ = false;
 };
 
-/// Where the handle of a light is in the scene.
+/// Returns the position of a light's handle in the scene.
 glm::vec3 handle_place(const Viewer& viewer, const RigLight& light);
 
 } // namespace viewer

@@ -1,3 +1,5 @@
+// Draws names, legends and light handles over the pictures.
+
 #include "ui/overlay.h"
 
 #include "core/budget_work.h"
@@ -19,7 +21,7 @@ namespace {
 constexpr float kUnscaledFont = 13;
 constexpr ImU32 kWhite = IM_COL32(255, 255, 255, 255), kShade = IM_COL32(0, 0, 0, 150);
 
-/// From pixels of the picture, which may be finer.
+/// Converts pixels of the picture, which may be finer, to units of the interface.
 ImVec2 to_interface(const glm::vec2& pixel) {
     const ImVec2 finer = ImGui::GetIO().DisplayFramebufferScale;
     return {pixel.x / finer.x, pixel.y / finer.y};
@@ -64,16 +66,16 @@ std::string side_label(const Viewer& viewer, const SidePicture& picture) {
     return fmt::format("{}: {}. Meanwhile: {}", title, shown.note, name_of(shown.kind).title);
 }
 
-/// The name, and what the picture leaves out.
+/// Returns the name of the picture and a note about missing light.
 std::string brief_label(const Viewer& viewer, const SidePicture& picture) {
     const Viewer::Shown shown = viewer.shown(picture);
     const bool partly = shown.kind == picture.kind && !shown.note.empty();
     return title_of(viewer, picture) + (partly ? " (" + shown.note + ")" : "");
 }
 
-/// What the colors of a picture of numbers mean.
+/// Meaning of the colors of a number picture.
 struct Legend {
-    bool heat = true; ///< a ramp from `low` to `high`; else colors that only tell apart
+    bool heat = true; ///< a ramp from `low` to `high`; otherwise colors that only distinguish
     std::string low, high, note;
 };
 
@@ -106,7 +108,7 @@ ImU32 display_color(const glm::vec3& linear) {
         {prt::srgb_encode(linear.r), prt::srgb_encode(linear.g), prt::srgb_encode(linear.b), 1});
 }
 
-/// Steps of color between (x, y) and (x + width, y + height).
+/// Draws the color steps between (x, y) and (x + width, y + height).
 void draw_colors(ImDrawList& list, const Legend& legend, float x, float y, float width, float height) {
     const int steps = legend.heat ? 60 : 12;
     for (int i = 0; i < steps; ++i) {
@@ -118,7 +120,7 @@ void draw_colors(ImDrawList& list, const Legend& legend, float x, float y, float
     }
 }
 
-/// Its lower left corner is (x, bottom).
+/// Draws the legend; its lower left corner is (x, bottom).
 void draw_legend(ImDrawList& list, const Legend& legend, float x, float bottom, float width) {
     const float line = ImGui::GetTextLineHeight(), bar = scaled(12), gap = scaled(3);
     const float height = bar + (legend.heat ? 2 : 1) * (line + gap), top = bottom - height;
@@ -143,7 +145,7 @@ void draw_difference(const Viewer& viewer, ImDrawList& list, const ImVec2& size)
                 size.x - width - scaled(16), size.y - scaled(12), width);
 }
 
-/// The name of what a side shows, and its legend above, from the split away.
+/// Draws the name of a side's picture and its legend above, next to the split.
 void draw_side(const Viewer& viewer, ImDrawList& list, const SidePicture& picture, bool left, float split,
                const ImVec2& size) {
     const std::string text = side_label(viewer, picture);

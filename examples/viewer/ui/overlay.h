@@ -1,6 +1,6 @@
 #pragma once
 
-// What is drawn over the pictures without a panel: names of the sides, legends, handles of lights.
+// Draws over the pictures without a panel: names of the sides, legends, handles of lights.
 
 #include "core/viewer.h"
 
@@ -8,7 +8,7 @@ namespace viewer {
 
 void draw_overlay(const Viewer& viewer);
 
-/// `pixels` of a display of 96 dots an inch, in units of the interface.
+/// Converts `pixels` of a 96 dpi display to units of the interface.
 float scaled(float pixels);
 
 } // namespace viewer

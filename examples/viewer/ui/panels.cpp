@@ -1,3 +1,5 @@
+// Draws the panels of the viewer.
+
 #include "ui/panels.h"
 
 #include "ui/budget_panel.h"
@@ -16,7 +18,8 @@
 namespace viewer {
 namespace {
 
-/// What a side shows; `lightmap` is the setting of whether it shows transfer of texels, where there are both.
+/// Shows the controls of a side's picture. `lightmap` is the id of the setting that selects transfer of
+/// texels, used if there are both.
 void choose_side(Viewer& viewer, const char* id, const char* lightmap,
                  SidePicture (*picture)(const Settings&)) {
     const Receivers receivers = picture(viewer.settings).receivers;
@@ -86,7 +89,7 @@ void choose_sky(Viewer& viewer) {
         l.day = l.environment_on = false;
     const auto& environments = viewer.lighting().environments;
     for (std::size_t i = 0; i < environments.size(); ++i) {
-        ImGui::PushID(static_cast<int>(i)); // files of one name
+        ImGui::PushID(static_cast<int>(i)); // files may have equal names
         if (ImGui::Selectable(environments[i]->name.c_str(), !l.day && environments[i]->name == current))
             viewer.use_environment(i);
         ImGui::PopID();
@@ -110,7 +113,7 @@ void choose_window(prt::Window& window) {
     ImGui::EndCombo();
 }
 
-/// False where it is to be removed.
+/// Returns false if the light is to be removed.
 bool light_controls(RigLight& light) {
     ImGui::Separator();
     check(std::ranges::find(kLights, light.kind, &LightName::kind)->id, light.on,
@@ -171,15 +174,15 @@ void light_panel(Viewer& viewer) {
     }
 }
 
-/// The light of a lamp, and what colors it.
+/// Shows the controls of a lamp's strength and color.
 void lamp_controls(Lamp& lamp) {
-    constexpr float kBrightest = 10; // of the slider; a script may go beyond
+    constexpr float kBrightest = 10; // maximum of the slider; a script may exceed it
     check("##on", lamp.on, "On or off.");
     ImGui::SameLine();
     ImGui::ColorEdit3("##colour", &lamp.color.x, ImGuiColorEditFlags_NoInputs | ImGuiColorEditFlags_Float);
     tip("What the light of this lamp is multiplied with.");
     ImGui::SameLine();
-    ImGui::SetNextItemWidth(scaled(110)); // and as much for the name
+    ImGui::SetNextItemWidth(scaled(110)); // leaves equal space for the name
     ImGui::SliderFloat(lamp.name.c_str(), &lamp.strength, 0, std::max(kBrightest, lamp.strength), "%.2f",
                        ImGuiSliderFlags_Logarithmic | ImGuiSliderFlags_AlwaysClamp);
     tip("Strength; 1 is as in the scene.");
@@ -227,7 +230,7 @@ void compression_controls(Viewer& viewer) {
     tip("Weights per vertex: more are closer, and take more bytes and shader time.");
 }
 
-/// `receiver`: what one is called.
+/// Shows the figures of transfer; `receiver` is the name of one receiver.
 void transfer_lines(const TransferFigures& t, const char* receiver, std::size_t baked_receivers) {
     if (t.bytes_per_receiver > 0)
         line(fmt::format("bytes per {}", receiver).c_str(),

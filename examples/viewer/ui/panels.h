@@ -4,9 +4,10 @@
 
 namespace viewer {
 
-/// Everything of Dear ImGui in a frame: call between its NewFrame and Render.
+/// Draws all of Dear ImGui in a frame; call it between NewFrame and Render.
 void draw_panels(Viewer& viewer);
-/// Closes the drop-down that is open, else messages, else the help. Between ImGui::NewFrame and Render.
+/// Closes the open drop-down, otherwise messages, otherwise the help. Call it between ImGui::NewFrame and
+/// Render.
 void close_topmost(Viewer& viewer);
 
 } // namespace viewer

@@ -1,3 +1,5 @@
+// Sets up Dear ImGui and draws the panels.
+
 #include "ui/user_interface.h"
 
 #include "ui/panels.h"
@@ -23,13 +25,13 @@ UserInterface::UserInterface(GLFWwindow* window, float scale) : window_(window) 
     ImFontConfig font;
     font.SizePixels = std::round(kFontPixels * scale);
     ImGui::GetIO().Fonts->AddFontDefault(&font);
-    ImGui::GetIO().IniFilename = nullptr; // nothing is written where the viewer is started
+    ImGui::GetIO().IniFilename = nullptr; // writes no file into the working directory
     ImGui::StyleColorsDark();
     ImGui::GetStyle().WindowRounding = 4;
     ImGui::GetStyle().Colors[ImGuiCol_WindowBg].w = 0.86f;
     ImGui::GetStyle().ScaleAllSizes(scale);
     if (window_)
-        ImGui_ImplGlfw_InitForOpenGL(window_, false); // our callbacks call it
+        ImGui_ImplGlfw_InitForOpenGL(window_, false); // the window's callbacks call it
     ImGui_ImplOpenGL3_Init("#version 450 core");
 }
 

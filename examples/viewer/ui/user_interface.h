@@ -8,10 +8,10 @@ struct GLFWwindow;
 
 namespace viewer {
 
-/// Dear ImGui in the current context, over a window or over none.
+/// Dear ImGui in the current OpenGL context, with or without a window.
 class UserInterface {
 public:
-    /// `window` null: a script is the pointer. `scale`: of letters and panels, 1 for 96 dots an inch.
+    /// `window` null: a script controls the pointer. `scale` is the size of letters and panels, 1 at 96 dpi.
     explicit UserInterface(GLFWwindow* window, float scale = 1);
     ~UserInterface();
     UserInterface(const UserInterface&) = delete;
@@ -19,10 +19,10 @@ public:
 
     /// Draws the panels over `framebuffer`.
     void draw(Viewer& viewer, std::uint32_t framebuffer, int width, int height);
-    /// Where there is no window: the pointer, pixels from the top left, and its left button.
+    /// Move the pointer (pixels from the top left) and its left button; only without a window.
     void point(const glm::vec2& pixel);
     void press(bool down);
-    /// Closes the drop-down that is open, else messages, else the help, in the next frame.
+    /// Closes the open drop-down, otherwise messages, otherwise the help, in the next frame.
     void close() { close_ = true; }
     bool wants_pointer() const;
     bool wants_keyboard() const;

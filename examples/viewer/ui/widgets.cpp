@@ -1,3 +1,5 @@
+// Draws the parts of panels.
+
 #include "ui/widgets.h"
 
 #include "ui/overlay.h"

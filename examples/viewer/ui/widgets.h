@@ -1,6 +1,6 @@
 #pragma once
 
-// What panels are made of, within a window of Dear ImGui.
+// Parts of panels, for use within a window of Dear ImGui.
 
 #include "ui/commands.h"
 
@@ -10,20 +10,19 @@
 
 namespace viewer {
 
-/// Explains the control before it to a pointer that rests on it.
+/// Shows a tooltip for the previous control.
 void tip(const char* text);
-/// A name and its value; `what` explains it.
+/// Shows a name and its value; `what` is its tooltip.
 void line(const char* name, const std::string& value, const char* what = nullptr);
 void check(const char* label, bool& value, const char* what);
-/// Explains, to a pointer that rests on it, why the control before it is disabled; nothing where `reason` is
-/// empty.
+/// Shows a tooltip with the reason why the previous control is disabled; does nothing if `reason` is empty.
 void say_why_disabled(const std::string& reason);
-/// A drop-down of pictures; those for which `why_not` has a reason are disabled.
+/// Shows a drop-down of pictures; those with a reason from `why_not` are disabled.
 void choose_picture(const Command& command, PictureKind& kind,
                     const std::function<std::string(PictureKind)>& why_not);
-/// What the table says of the setting.
+/// Shows the control of a setting, as the table describes it.
 void control(Settings& settings, const Command& command);
-/// The settings called `ids`, in one line.
+/// Shows the settings with these `ids` in one line.
 void controls(Settings& settings, std::initializer_list<const char*> ids);
 
 } // namespace viewer

@@ -1,3 +1,5 @@
+// Runs the viewer in a GLFW window.
+
 #include "ui/window.h"
 
 #include "gpu/offscreen.h"
@@ -19,7 +21,7 @@
 namespace viewer {
 namespace {
 
-/// GLFW for as long as there is a window.
+/// Initialises GLFW; terminates it in the destructor.
 struct Glfw {
     Glfw() {
         if (!glfwInit())
@@ -41,7 +43,7 @@ Window create_window(int width, int height) {
     glfwWindowHint(GLFW_OPENGL_PROFILE, GLFW_OPENGL_CORE_PROFILE);
     glfwWindowHint(GLFW_CONTEXT_ROBUSTNESS, GLFW_LOSE_CONTEXT_ON_RESET);
     Window window(glfwCreateWindow(width, height, "prtkit", nullptr, nullptr));
-    if (!window) { // some drivers have no robust contexts
+    if (!window) { // some drivers do not support robust contexts
         glfwWindowHint(GLFW_CONTEXT_ROBUSTNESS, GLFW_NO_ROBUSTNESS);
         window.reset(glfwCreateWindow(width, height, "prtkit", nullptr, nullptr));
     }
@@ -131,8 +133,8 @@ private:
         });
     }
 
-    /// Letters as large as the display's other programs have them. Where the framebuffer is finer than the
-    /// window, that much of it is done by the system.
+    /// Sets the size of letters to that of other programs on the display. If the framebuffer is finer than
+    /// the window, the system already scales by that ratio.
     void make_interface() {
         float scale = 1, ignored = 1;
         int width = 1, window_width = 1, height = 1;
@@ -141,7 +143,7 @@ private:
         glfwGetWindowSize(window_.get(), &window_width, &height);
         if (width > 0)
             scale *= static_cast<float>(window_width) / static_cast<float>(width);
-        interface_.reset(); // Dear ImGui has one context at a time
+        interface_.reset(); // Dear ImGui supports one context at a time
         interface_ =
             std::make_unique<UserInterface>(window_.get(), std::clamp(std::round(4 * scale) / 4, 1.0f, 4.0f));
     }
@@ -150,7 +152,7 @@ private:
         return *static_cast<Application*>(glfwGetWindowUserPointer(window));
     }
 
-    /// In pixels of the framebuffer, which may be finer than the window's coordinates.
+    /// Returns the pointer in framebuffer pixels, which may be finer than window coordinates.
     glm::vec2 pointer() const {
         double x = 0, y = 0;
         int width = 0, height = 0, window_width = 1, window_height = 1;
@@ -179,7 +181,7 @@ private:
     void draw(int width, int height) {
         try {
             viewer_->draw(0, width, height);
-        } catch (const prt::Error& error) { // no room, or the context is lost
+        } catch (const prt::Error& error) { // out of memory, or the context is lost
             viewer_->message(error.what());
         }
         if (wants_screenshot_) {
@@ -201,7 +203,7 @@ private:
         }
     }
 
-    /// The driver was reset: all that was on the GPU is gone, nothing else.
+    /// Recovers from a driver reset: all GPU objects are lost, other state remains.
     void recover() {
         interface_.reset();
         viewer_->release_gpu();

@@ -5,7 +5,7 @@
 
 namespace viewer {
 
-/// Opens a window and stays until it is closed. Throws `prt::Error` without a display or OpenGL 4.5.
+/// Opens a window and returns after it is closed. Throws `prt::Error` without a display or OpenGL 4.5.
 void run_window(const std::vector<std::filesystem::path>& files, int width, int height);
 
 } // namespace viewer

@@ -1,17 +1,19 @@
-// Constants of instances that share the transfer of their mesh, which the shader of it reads instead of those of the model
-// (shaders/prt_instances.glsl): what prt::InstanceFormer does. They are linear in the place within the box of the mesh, so that a
-// row takes three vectors instead of one. No three.js here.
+// Computes constants of instances that share the transfer of their mesh, which their shader reads in place of
+// those of the model (shaders/prt_instances.glsl), as prt::InstanceFormer does. They are linear in the
+// position within the box of the mesh, so that a row needs three vectors, not one. Does not use three.js.
 
 import { formConstants, lightColumns } from "./clusteredPca.js";
 import { ADDED_BANDS, ADDED_MODES, InstanceModes, instanceTurns, PASSING_MODES, responsesOf } from "./instanceModes.js";
 import { rotationMatrices, turnedBands } from "./sphericalHarmonics.js";
 import { formAtYaw, polarRows, termsOf, turnTerms, yawSeries } from "./yawHarmonics.js";
 
-/** Turns about +Y in which light is formed: 0.7 degrees off at most. */
+/** Number of rotations about +Y for which light is computed: at most 0.7 degrees off. */
 const YAWS = 256;
 
-/** The rows of the clusters that a mesh has, in their order, and at which of these the rows of each cluster begin. `numbers`: of
- * the clusters of its vertices. */
+/**
+ * Returns the rows of the clusters that a mesh uses, in their order, and the first of these rows for each
+ * cluster. `numbers`: the clusters of its vertices.
+ */
 export function rowsOf({ components, firstRows, rowCount }, numbers) {
   const used = new Set(numbers);
   const list = [];
@@ -23,8 +25,11 @@ export function rowsOf({ components, firstRows, rowCount }, numbers) {
   return { list: Uint32Array.from(list), begins };
 }
 
-/** Writes numbers of an instance in the place of its rows: `factors` as files have them, `added` [ADDED_MODES][3] of its light, in
- * the axes of the mesh. Unrolled over the passing modes, as most of the time is spent here. */
+/**
+ * Writes the constants of an instance for its rows: `factors` as in files, `added` [ADDED_MODES][3] the
+ * reflected modes of its light, in the axes of the mesh. Unrolled over the transmitted modes, because most of
+ * the time is spent here.
+ */
 function writeRows(constants, at, rows, modes, responses, factors, added) {
   const [a, b, c, d, e, f, g, h, i, j] = modes;
   const p = factors;
@@ -63,15 +68,16 @@ function writeRows(constants, at, rows, modes, responses, factors, added) {
   }
 }
 
-/** What an instance adds of a light on level ground, [ADDED_MODES][3] in the axes of the world. */
+/** Returns the light that an instance adds, given the light on level ground, [ADDED_MODES][3] in world axes. */
 function addedBy(factors, onLevel) {
   return Float64Array.from({ length: 3 * ADDED_MODES }, (_, i) => factors[4 * PASSING_MODES + i] * onLevel[i % 3]);
 }
 
 export class InstanceFormer {
   /**
-   * `rows`: of shaderRows. `instances`: { factors, rotation, box, rows } of each: its numbers as files have them; from the frame of
-   * the mesh into the world, [9] by columns; the box of the mesh; the list of rowsOf.
+   * `rows`: see shaderRows. `instances`: { factors, rotation, box, rows } of each: its factors as in files;
+   * rotation from the space of the mesh to the world, [9] by columns; the box of the mesh; the list of
+   * rowsOf.
    */
   constructor(clusters, rows, instances, yaws = YAWS) {
     this.clusters = clusters;
@@ -92,7 +98,7 @@ export class InstanceFormer {
     this.polarRows = isUpright ? polarRows(clusters, rows) : null;
     this.series = this.constantsOfModes.map(() => (isUpright ? new Float64Array(3 * termsOf(order) * rowCount) : null));
     of.forEach((turn, i) => this.turns[turn].instances.push(i));
-    /** Of the constants of each instance, in vectors of four; and of all. */
+    /** First constant of each instance, in vectors of four, and total size. */
     this.begins = new Float64Array(instances.length);
     this.size = 0;
     instances.forEach(({ rows: { length } }, i) => {
@@ -114,7 +120,10 @@ export class InstanceFormer {
     return [low, high];
   }
 
-  /** The constants of the passing modes under `skies` and, where there are any, `suns`, for the rows that a turn has use for. */
+  /**
+   * Computes the constants of the transmitted modes under `skies` and, if there are any, `suns`, for the rows
+   * that a rotation uses.
+   */
   formModes({ rotation, terms, instances }, skies, suns) {
     const { clusters, rows } = this;
     let [first, end] = [Infinity, 0];
@@ -135,8 +144,10 @@ export class InstanceFormer {
     });
   }
 
-  /** Writes the constants of all instances, [size][4], under coefficients [order²][3] in the world's axes; `suns`: as of
-   * lightColumns. */
+  /**
+   * Writes the constants of all instances, [size][4], under coefficients [order²][3] in world axes; `suns`:
+   * see lightColumns.
+   */
   form(sky, suns, constants) {
     const skies = this.modes.passing(sky);
     const passed = suns ? this.modes.passing(suns) : null;

@@ -1,4 +1,4 @@
-// Transfer of the surfaces of one file, whose volume is lit alike.
+// Transfer of the surfaces of one file; its volume gets the same light.
 
 import { LitTransfer } from "./LitTransfer.js";
 

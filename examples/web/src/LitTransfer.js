@@ -1,4 +1,4 @@
-// What lights the compressed transfer of one file: a sky, suns that are apart, lamps.
+// Lights the compressed transfer of one file by a sky, separate suns and lamps.
 
 import { Vector3 } from "three";
 import { lightColumns } from "./clusteredPca.js";
@@ -7,9 +7,9 @@ import { lightOfSuns } from "./lightFile.js";
 import { shownBy, turnForModel, turnIntoModel } from "./turns.js";
 import { warnOfUnusedLights } from "./unusedLights.js";
 
-/** Who extends it forms what is drawn: `form(sky, suns)`, of coefficients in the frame of the bake. */
+/** Base class; derived classes implement `form(sky, suns)`, with coefficients in the space of the bake. */
 export class LitTransfer {
-  /** `clusters`: of clustersOf; `root`: the scene of the file, by whose turn in the world `setSky` lights. */
+  /** `clusters`: see clustersOf; `root`: the scene of the file, whose world rotation `setSky` uses. */
   constructor(clusters, root = null) {
     this.root = root;
     this.clusters = clusters;
@@ -18,19 +18,19 @@ export class LitTransfer {
     this.directApart = clusters.parts[0].kind === "direct";
     /** Names of the lamps that can be dimmed. */
     this.lamps = clusters.parts.filter(({ kind }) => kind === "lamp").map(({ name }) => name);
-    /** By lamp, what its strength is; of shining materials, uniforms. */
+    /** Strength of each lamp, as uniforms of emissive materials. */
     this.strengths = new Map(this.lamps.map((name) => [name, { value: new Vector3() }]));
     this.setStrengths({});
-    this.sky = null; // of setSky
-    this.suns = null; // as setLight or setSky has them
-    this.areLightsChecked = true; // nothing is lit yet
+    this.sky = null; // see setSky
+    this.suns = null; // see setLight and setSky
+    this.areLightsChecked = true; // no light is set yet
   }
 
   /**
-   * Lights by `light` turned about +Y by `angle` radians. `suns`: those that three's directional lights add with their
-   * shadows; here they light what is lit after a bounce. Where direct light is not apart they light in full here, and three's
-   * lights add nothing. `lamps`: strengths by name, numbers or [red, green, blue]; those that it does not name shine as in the
-   * scene.
+   * Lights by `light` rotated about +Y by `angle` radians. `suns`: the light of the suns that three's
+   * directional lights add with their shadows; here they light only after a bounce. Without a separate direct
+   * term they are fully included here, and three's lights add nothing. `lamps`: strengths by name, numbers or
+   * [red, green, blue]; other lamps keep the strength of the scene.
    */
   setLight(light, angle = 0, suns = null, lamps = {}) {
     if (Array.isArray(suns)) throw new Error("prtkit: setLight takes suns as lightOfSuns returns them; setSky takes an array of lights");
@@ -43,9 +43,10 @@ export class LitTransfer {
   }
 
   /**
-   * Lights by `light` as `scene` shows it, in every frame: turned by its environmentRotation, times its
-   * environmentIntensity, or those of the background where it has no environment; and as the model is turned itself.
-   * `suns`: as of setLight, or an array of DirectionalLights of `scene`, read in every frame. `lamps`: as of setLight.
+   * Lights by `light` as `scene` shows it, in every frame: rotated by its environmentRotation, times its
+   * environmentIntensity, or those of the background if it has no environment; and relative to the rotation
+   * of the model. `suns`: see setLight, or an array of DirectionalLights of `scene`, read in every frame.
+   * `lamps`: see setLight.
    */
   setSky(light, scene, { suns = null, lamps = {} } = {}) {
     this.checkOrders(light, suns);
@@ -56,7 +57,7 @@ export class LitTransfer {
     this.followSky();
   }
 
-  /** Forms anew where what the sky is shown by has changed since. */
+  /** Computes the light again if the display of the sky has changed. */
   followSky() {
     if (!this.sky) return;
     const { light, scene, suns, shown } = this.sky;
@@ -91,7 +92,7 @@ export class LitTransfer {
     return lightColumns(this.clusters, sky, suns, strengths);
   }
 
-  /** By which what a material of this name shines with is multiplied. */
+  /** Returns the factor on the emission of a material of this name. */
   strengthOf(material) {
     const lamp = this.clusters.parts.find(({ kind, name, members = [name] }) => kind === "lamp" && members.includes(material));
     return lamp ? this.strengths.get(lamp.name) : { value: new Vector3(1, 1, 1) };

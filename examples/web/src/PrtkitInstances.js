@@ -1,4 +1,5 @@
-// Instances of a file that share the transfer of their mesh: one InstancedMesh for each primitive of it, and what lights each.
+// Instances of a file that share the transfer of their mesh: one InstancedMesh for each of its primitives,
+// and their light.
 
 import { BufferGeometry, InstancedBufferAttribute, InstancedMesh, Matrix4 } from "three";
 import { bakedFrame } from "./bakedFrame.js";
@@ -11,7 +12,7 @@ import { expect, INSTANCES } from "./wholeExtension.js";
 const MOST_TEXELS = 2 ** 26; // 1 GB
 const IN_PLACE = new Matrix4();
 
-/** The same attributes as `source`, for others of instances beside them. */
+/** Returns a geometry with the attributes of `source`, to which other instance attributes can be added. */
 function shared(source) {
   const geometry = new BufferGeometry();
   geometry.setIndex(source.index);
@@ -26,14 +27,14 @@ function* clustersOfVertices({ attributes: { position, prt_words_0: words, prt_c
     yield words ? words.array[v * words.itemSize] & (2 ** clusterBits - 1) : cluster.getX(v);
 }
 
-/** Guides as the shader of instances has them, which does not take their origin off before. */
+/** Returns the defines for predictors in the shader of instances, which subtracts their origin itself. */
 function originOf(guides) {
   const { origin } = guides.find(({ kind }) => kind === "position") ?? {};
   const number = (value) => (Number.isInteger(value) ? value.toFixed(1) : String(value));
   return origin ? { PRT_GUIDE_ORIGIN: `vec3(${origin.map((value) => number(Math.fround(value))).join(", ")})` } : {};
 }
 
-/** Nodes that draw a mesh together: those that stay where they are, and each that animations move alone. */
+/** Groups the nodes that draw a mesh together: static nodes in one group, and each animated node separately. */
 function groupsOf(nodes, json) {
   const moving = movingNodes(json);
   const groups = new Map();
@@ -55,13 +56,13 @@ function objectsOf(gltf, { associations }) {
   return objects;
 }
 
-/** What is drawn of a group: the matrix and the factors of each instance, and what turns them into the world. */
+/** Returns the instances of a group: matrix and factors of each, and its rotation to the world. */
 async function instancesOf({ nodes, moves }, objects, factors, boxes, parser) {
   const count = factors.length / FACTORS;
   const instances = [];
   for (const node of nodes) {
     const object = objects.get(node.node);
-    if (!object) continue; // of another scene
+    if (!object) continue; // in a different scene
     const places = await placesOf(node, parser, count - node.first);
     places.forEach((place, i) => {
       const world = object.matrixWorld.clone().multiply(place);
@@ -76,8 +77,8 @@ async function instancesOf({ nodes, moves }, objects, factors, boxes, parser) {
 
 export class PrtkitInstances {
   /**
-   * The instances of `nodes` (takeInstancesAside) in `gltf`, whose matrices are those of the file. `model`: PrtkitModel of it;
-   * `bytes`: of the factors; `definesOf`: of vertexTransfer.js.
+   * Creates the instances of `nodes` (takeInstancesAside) in `gltf`, whose matrices are those of the file.
+   * `model`: its PrtkitModel; `bytes`: the factors; `definesOf`: see vertexTransfer.js.
    */
   static async of(nodes, { gltf, parser, model, extension, bytes, definesOf }) {
     const factors = factorsOf(extension, bytes);
@@ -98,7 +99,7 @@ export class PrtkitInstances {
   }
 
   constructor({ clusters, rows }, groups, { parser, definesOf, bytesPerInstance }) {
-    /** Bytes of what a file has of each. */
+    /** Bytes per instance in a file. */
     this.bytesPerInstance = bytesPerInstance;
     for (const group of groups) {
       const lit = group.primitives.filter(({ mesh }) => mesh.isMesh && definesOf(mesh.geometry));
@@ -114,10 +115,10 @@ export class PrtkitInstances {
     this.former = new InstanceFormer(clusters, rows, all);
     this.width = widthFor(size);
     this.constantsTexture = constantsTextureOf(size, this.width);
-    this.clustersTextures = []; // each mesh has but the rows of its own clusters
+    this.clustersTextures = []; // each mesh has only the rows of its clusters
     this.meshes = [];
     this.transfers = new Map(); // by mesh
-    this.renderers = new WeakSet(); // whose textures are large enough
+    this.renderers = new WeakSet(); // renderers whose textures are large enough
     const drawn = new Set(); // geometries
     let first = 0;
     for (const group of groups) {
@@ -126,14 +127,14 @@ export class PrtkitInstances {
     }
   }
 
-  /** Draws a group, whose instances are those from `first` on. */
+  /** Draws a group; its instances start at `first`. */
   add({ mesh: number, instances, primitives, parent, rows }, first, { clusters, drawn, definesOf, parser }) {
     const clustersTexture = clustersTextureOf({ ...clusters, firstRows: rows.begins }, this.width);
     this.clustersTextures.push(clustersTexture);
     const uniforms = { prt_constants: { value: this.constantsTexture }, prt_clusters: { value: clustersTexture } };
     const own = { ...tablesOf(this.width), PRT_INSTANCES: 1, ...originOf(clusters.guides) };
     const table = this.former.table(first, instances.length).map((array) => new InstancedBufferAttribute(array, 4));
-    let matrices = null; // the same of all primitives
+    let matrices = null; // shared by all primitives
     for (const { mesh, primitive } of primitives) {
       if (!mesh.isMesh) continue; // points and lines
       const defines = definesOf(mesh.geometry);
@@ -155,7 +156,7 @@ export class PrtkitInstances {
     }
   }
 
-  /** What a mesh is lit by, where it is one of these. */
+  /** Returns the transfer of a mesh, if it is one of these. */
   transferOf(mesh) {
     return this.transfers.get(mesh);
   }
@@ -166,7 +167,7 @@ export class PrtkitInstances {
     this.constantsTexture.needsUpdate = true;
   }
 
-  /** Throws where a device has no textures as wide as the constants take. */
+  /** Throws if the device does not support textures as wide as the constants need. */
   checkSize(renderer) {
     if (this.renderers.has(renderer)) return;
     const { maxTextureSize } = renderer.capabilities;
@@ -183,7 +184,7 @@ export class PrtkitInstances {
   }
 }
 
-/** Guides whose places are seen from the origin of the mesh. */
+/** Returns predictors whose positions are relative to the origin of the mesh. */
 function atOrigin(guides) {
   return guides.map((guide) => (guide.kind === "position" ? { ...guide, origin: [0, 0, 0] } : guide));
 }

@@ -4,22 +4,22 @@
 //   const gltf = await loader.loadAsync("shipped.glb");
 //   const sky = await new HDRLoader().setDataType(FloatType).loadAsync("sky.hdr");
 //   const { prtkit } = gltf.userData;
-//   const light = projectEquirectangular(sky, prtkit.order).deringed(); // as three shows it: its centre looks at +X
+//   const light = projectEquirectangular(sky, prtkit.order).deringed(); // as three shows it: its centre faces +X
 //   scene.background = scene.environment = halfFloatSky(sky);
-//   prtkit.setSky(light, scene); // follows scene.environmentRotation; setLight(light, angle) turns it by hand
+//   prtkit.setSky(light, scene); // follows scene.environmentRotation; setLight(light, angle) rotates it explicitly
 //
-// With suns apart, of a light file of `prt project --suns auto`:
+// With separate suns, from a light file of `prt project --suns auto`:
 //
 //   const { sky, suns } = readLightFile(await (await fetch("light.json")).json());
 //   const lights = new SunLights(suns).fit(gltf.scene).turn(angle);
 //   scene.add(lights);
 //   prtkit.setLight(sky.deringed(), angle, lightOfSuns(suns, prtkit.order));
 //
-// What moves through a model with a volume (`prt bake --volume`) is lit where it is:
+// Moving objects in a model with a volume (`prt bake --volume`) are lit at their position:
 //
 //   prtkit.volume.light(character.scene);
 //
-// Models made with --meshopt want loader.setMeshoptDecoder(MeshoptDecoder), as three's loader does for all such files.
+// Models made with --meshopt need loader.setMeshoptDecoder(MeshoptDecoder), as all such files do.
 
 import { decodeVertices } from "./codedVertices.js";
 import { setFallbackAside } from "./fallback.js";
@@ -57,7 +57,7 @@ export class PrtkitPlugin {
     this.name = VERTICES;
     this.canOcclude = true;
     this.canShare = true; // instances and lobes
-    this.instances = []; // nodes that draw what shares its transfer
+    this.instances = []; // nodes whose meshes share transfer
   }
 
   async beforeRoot() {
@@ -108,7 +108,7 @@ export class PrtkitPlugin {
     return PrtkitInstances.of(this.instances, { gltf, parser, model, extension, bytes, definesOf });
   }
 
-  /** What is lit by lobes that turn with its skin. */
+  /** Returns the model of lobes that rotate with a skin. */
   async turning(extension, gltf) {
     checkLobes(extension);
     const { bufferView } = extension.profiles;
@@ -135,7 +135,7 @@ export class PrtkitPlugin {
     return views;
   }
 
-  /** What draws the lightmaps of `model`; and how a material is lit: by WebGLRenderer. */
+  /** Creates the pass that draws the lightmaps of `model`, for WebGLRenderer. */
   passOf(model, defines, words) {
     return new TexelPass(model.uniforms, defines, words);
   }
@@ -144,21 +144,21 @@ export class PrtkitPlugin {
     return relitMaterial(source, transfer);
   }
 
-  /** The same of what moves through a volume. */
+  /** Returns a material for moving objects in a volume. */
   copiedMaterial(source, transfer) {
     return copiedMaterial(source, transfer);
   }
 
-  /** Before a mesh is drawn: another renderer would leave out its light. */
+  /** Checks the renderer before a mesh is drawn: a different renderer would ignore its light. */
   checkRenderer(renderer) {
     if (!renderer.isWebGLRenderer) throw new Error("prtkit: WebGPURenderer wants the plug-in of prtkit-web/webgpu");
   }
 
-  /** Gives the meshes of `gltf` what lights them. `of(mesh, primitive)`: their transfer. */
+  /** Assigns transfer to the meshes of `gltf`. `of(mesh, primitive)` returns their transfer. */
   convert(gltf, model, of) {
     const { json, associations } = this.parser;
     for (const scene of gltf.scenes) {
-      scene.updateMatrixWorld(true); // as in the file
+      scene.updateMatrixWorld(true); // matrices of the file
       scene.traverse((object) => {
         const from = associations.get(object);
         if (!object.isMesh || from?.meshes === undefined) return;

@@ -1,4 +1,5 @@
-// Transfer of figures that turns with their skins: zonal lobes of vertices (docs/format.md, PRTKIT_lobes), and what lights them.
+// Transfer of figures that rotates with their skins: zonal lobes of vertices (docs/format.md, PRTKIT_lobes),
+// and their light.
 
 import { DataTexture, FloatType, NearestFilter, Object3D, RGBAFormat, Vector3 } from "three";
 import { LitSurfaces } from "./LitSurfaces.js";
@@ -7,7 +8,10 @@ import { expect, LOBES } from "./wholeExtension.js";
 const LARGEST_GAIN = 1e3;
 const holds = (value, what) => expect(value, what, LOBES);
 
-/** Gains of all profiles, [count][4]: those of the bands that there are, then 0. `bytes`: of their buffer view. */
+/**
+ * Returns the gains of all profiles, [count][4]: those of the existing bands, then 0. `bytes`: their buffer
+ * view.
+ */
 export function profilesOf({ order, profiles: { count } }, bytes) {
   holds(bytes.byteLength === 4 * order * count, `the profiles are not ${count} of ${order} floats`);
   const gains = new Float32Array(bytes.buffer.slice(bytes.byteOffset, bytes.byteOffset + bytes.byteLength));
@@ -15,7 +19,7 @@ export function profilesOf({ order, profiles: { count } }, bytes) {
   return Float32Array.from({ length: 4 * count }, (_, i) => (i % 4 < order ? gains[order * (i >> 2) + (i % 4)] : 0));
 }
 
-/** Puts lobes where the shader reads them, in the place of attributes of the file. */
+/** Replaces the file's lobe attributes by those of the shader. */
 function convertLobes(geometry, { lobes, profiles: { count } }) {
   for (let k = 0; k < lobes; ++k) {
     const attribute = geometry.getAttribute(`_prt_lobe_${k}`);
@@ -29,10 +33,11 @@ function convertLobes(geometry, { lobes, profiles: { count } }) {
 }
 
 export class PrtkitLobes extends LitSurfaces {
-  /** `extension`: which is right; `bytes`: of its profiles. */
+  /** `extension`: validated; `bytes`: its profiles. */
   constructor(extension, bytes) {
     const { order, lobes } = extension;
-    // Suns that are apart are left to the renderer's shadow maps. Axes are turned into the world, and so is the light of skies.
+    // The renderer's shadow maps handle separate suns. Axes are rotated to world space, and so is the light
+    // of skies.
     super({ order, parts: [{ kind: "direct", channels: 3 }] }, new Object3D());
     this.extension = extension;
     /** Lobes of a vertex. */
@@ -56,7 +61,7 @@ export class PrtkitLobes extends LitSurfaces {
     };
   }
 
-  /** What `mesh` is lit by. */
+  /** Returns the transfer of `mesh`. */
   transferOf({ geometry }) {
     if (!this.converted.has(geometry)) {
       convertLobes(geometry, this.extension);

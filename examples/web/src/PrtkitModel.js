@@ -1,11 +1,11 @@
-// The compressed transfer of one file, shared by its meshes, and what lights it.
+// The compressed transfer of one file, shared by its meshes, and its light.
 
 import { formConstants, shaderRows } from "./clusteredPca.js";
 import { LitSurfaces } from "./LitSurfaces.js";
 import { clustersTextureOf, constantsTextureOf } from "./tables.js";
 
 export class PrtkitModel extends LitSurfaces {
-  /** `clusters`: of decodeClusters; `root`: the scene of the file, by whose turn in the world `setSky` lights. */
+  /** `clusters`: see decodeClusters; `root`: the scene of the file, whose world rotation `setSky` uses. */
   constructor(clusters, root = null) {
     super(clusters, root);
     this.rows = shaderRows(this.clusters);
@@ -40,7 +40,7 @@ export class PrtkitModel extends LitSurfaces {
     };
   }
 
-  /** What passes near the surfaces, and takes from their light: PrtkitOccluders, or null. */
+  /** Sets the occluders near the surfaces: PrtkitOccluders, or null. */
   setOccluders(occluders) {
     if (!this.canOcclude) throw new Error("prtkit: what moves takes no light with WebGPURenderer");
     this.occluders = occluders;

@@ -1,14 +1,14 @@
-// What objects that move take from the light of baked surfaces near them: PRTKIT_occlusion_volume, of `prt ao --volume`.
+// Occlusion of baked surfaces by moving objects near them: PRTKIT_occlusion_volume, from `prt ao --volume`.
 
 import { ByteType, Data3DTexture, LinearFilter, Matrix3, RGBAFormat, Vector3, Vector4 } from "three";
 import { checkOccluder, expect, OCCLUDERS } from "./wholeExtension.js";
 
 const SIDE = 8;
 const BYTES = 4 * SIDE ** 3;
-/** Of shared_layout.h. */
+/** Equal to the value in shared_layout.h. */
 export const MOST_OCCLUDERS = 32;
 
-/** The parts of a file that take light: [{ object, low, high, reach, texels }]. */
+/** Returns the occluding parts of a file: [{ object, low, high, reach, texels }]. */
 export async function occludersOf({ json, associations }, gltf, viewsOf) {
   const { nodes: all = [] } = json;
   expect(Array.isArray(all), "nodes are no list", OCCLUDERS);
@@ -33,18 +33,18 @@ export async function occludersOf({ json, associations }, gltf, viewsOf) {
   return found;
 }
 
-/** Whether an object is to be seen, as far as it and what it is in say. */
+/** True if an object and all its ancestors are visible. */
 function isShown(object) {
   for (let at = object; at; at = at.parent) if (!at.visible) return false;
   return true;
 }
 
-/** Where a part stands, as five rows of the shader: prt::placed. Returns the middle of what it reaches. */
+/** Writes the placement of a part as five rows of the shader: prt::placed. Returns the center of its reach. */
 function place({ object, low, high, reach }, slot, rows) {
   const linear = new Matrix3().setFromMatrix4(object.matrixWorld);
   const scale = Math.cbrt(Math.abs(linear.determinant()));
   const centre = new Vector3(...low.map((value, axis) => 0.5 * (value + high[axis]))).applyMatrix4(object.matrixWorld);
-  const inverse = linear.invert().multiplyScalar(scale).elements; // zero where there is none
+  const inverse = linear.invert().multiplyScalar(scale).elements; // zero if there is no inverse
   for (let axis = 0; axis < 3; ++axis) {
     const row = new Vector3(inverse[axis], inverse[3 + axis], inverse[6 + axis]);
     rows[axis].set(row.x, row.y, row.z, -row.dot(centre));
@@ -54,7 +54,7 @@ function place({ object, low, high, reach }, slot, rows) {
   return centre;
 }
 
-/** Of one file, `gltf.userData.prtkitOccluders`: given to `setOccluders` of what they pass. */
+/** Occluders of one file, `gltf.userData.prtkitOccluders`: pass it to `setOccluders` of the surfaces. */
 export class PrtkitOccluders {
   constructor(parts) {
     this.parts = parts;
@@ -65,10 +65,10 @@ export class PrtkitOccluders {
     this.texture.minFilter = this.texture.magFilter = LinearFilter;
     this.rows = Array.from({ length: 5 * MOST_OCCLUDERS }, () => new Vector4());
     this.count = 0;
-    this.reach = new Vector4(); // a sphere, out of which none takes any
+    this.reach = new Vector4(); // a sphere that contains all reaches
   }
 
-  /** Takes the parts where they are now; those that are not shown take nothing. */
+  /** Updates the positions of the parts; invisible parts do not occlude. */
   update() {
     this.count = 0;
     const centres = this.parts.flatMap((part, slot) => (isShown(part.object) ? [place(part, slot, this.rows.slice(5 * this.count++))] : []));

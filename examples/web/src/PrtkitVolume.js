@@ -1,4 +1,4 @@
-// Light of what moves through a scene: the probes of a file, formed into textures, in three's materials.
+// Light of moving objects in a scene: the probes of a file, computed into textures, for three's materials.
 
 import {
   Data3DTexture,
@@ -30,14 +30,17 @@ function texture3d(data, size, format, type) {
   return texture;
 }
 
-/** Unit, to where most of the light of suns comes from, which for one is the sun itself; null where there is none. */
+/**
+ * Returns the unit direction of most light of the suns, which for one sun is its direction; null without
+ * light.
+ */
 function directionOf(coefficients) {
   const [y, z, x] = [1, 2, 3].map((i) => [0.2126, 0.7152, 0.0722].reduce((sum, share, c) => sum + share * coefficients[3 * i + c], 0));
   const length = Math.hypot(x, y, z);
   return length > 0 ? [-x / length, -y / length, z / length] : null;
 }
 
-/** What is asked of the volume's light, as steps of a few milliseconds. */
+/** Computes the requested light of the volume in steps of a few milliseconds. */
 function* forming(former, clusters, { columns, sun }, texels) {
   const count = clusters.components.length;
   const rows = clusters.rowCount / count;
@@ -48,8 +51,10 @@ function* forming(former, clusters, { columns, sun }, texels) {
 }
 
 export class PrtkitVolume extends LitTransfer {
-  /** `volume`: of volumeOf; `root`: the scene of the file. `plugin`: has the materials of its renderer. `floats`: light as floats,
-   * which are not filtered, not as half floats. */
+  /**
+   * `volume`: see volumeOf; `root`: the scene of the file. `plugin`: has the materials of its renderer.
+   * `floats`: store light as unfiltered floats, not as half floats.
+   */
   constructor(volume, root, plugin, { floats = false } = {}) {
     super(volume.clusters, root);
     this.source = volume;
@@ -81,11 +86,11 @@ export class PrtkitVolume extends LitTransfer {
       prtSunsApart: { value: false },
     };
     this.asked = null; // light that is to be formed
-    this.steps = null; // of the light that is being formed
+    this.steps = null; // steps of the light being computed
     this.isFormed = false; // any light
     this.frame = -1;
-    this.renderers = new WeakSet(); // whose textures are long enough
-    this.tables = null; // of nodes
+    this.renderers = new WeakSet(); // renderers whose textures are large enough
+    this.tables = null; // tables of nodes
     this.beforeRender = (renderer, scene) => {
       this.checkLights(scene);
       this.advance(renderer);
@@ -93,15 +98,15 @@ export class PrtkitVolume extends LitTransfer {
     this.place();
   }
 
-  /** Files have it beside the transfer of surfaces, or alone. */
+  /** Returns this volume: files have it in addition to transfer of surfaces, or alone. */
   get volume() {
     return this;
   }
 
   /**
-   * Lights `object` and what it holds where it is, from now on: its meshes get copies of their materials, and cast and receive
-   * shadows of suns. What transfer lights, and what has no light of three's, stays what it is. Throws an Error for materials of
-   * other kinds.
+   * Lights `object` and its descendants at their position from now on: its meshes get copies of their
+   * materials, and cast and receive shadows of suns. Meshes with transfer, and materials that three does not
+   * light, are unchanged. Throws an Error for other materials.
    */
   light(object) {
     object.traverse((mesh) => {
@@ -118,29 +123,31 @@ export class PrtkitVolume extends LitTransfer {
     return object;
   }
 
-  /** Where a probe is, in the world of the file. */
+  /** Returns the position of a probe in the world of the file. */
   placeOfProbe(probe) {
     return new Vector3(...placeOf(this.source.grid, probe));
   }
 
-  /** Whether a probe is inside of something, and gives no light. */
+  /** True if a probe is inside geometry, and gives no light. */
   isSealed(probe) {
     return this.source.sights.subarray(6 * probe, 6 * probe + 6).every((sight) => sight === 0);
   }
 
-  /** Of `lamps` those that the volume has. */
+  /** Returns the entries of `lamps` that the volume has. */
   knownOf(lamps) {
     return Object.fromEntries(Object.entries(lamps).filter(([name]) => this.strengths.has(name)));
   }
 
-  /** Notes what light is to be formed, for coefficients in the frame of the bake: it is formed when something is drawn by it. */
+  /**
+   * Requests light, as coefficients in the space of the bake: it is computed when an object is drawn with it.
+   */
   form(sky, suns) {
     const apart = suns !== null && this.directApart;
     const open = sky.map((value, i) => value + (suns && !apart ? suns[i] : 0));
     this.asked = { columns: this.columns(sky, suns), sun: apart ? directionOf(suns) : null, apart, open };
   }
 
-  /** Whether the light that was set is what is drawn: a change takes a few frames. */
+  /** True if the light set last is the one drawn: a change takes a few frames. */
   get isSettled() {
     return !this.asked && !this.steps;
   }
@@ -161,7 +168,7 @@ export class PrtkitVolume extends LitTransfer {
     if (this.steps.next().done) this.show(this.forming);
   }
 
-  /** Puts what was formed in the place of what was shown. */
+  /** Replaces the shown light by the computed one. */
   show({ apart, open }) {
     this.steps = null;
     this.isFormed = true;
@@ -171,7 +178,7 @@ export class PrtkitVolume extends LitTransfer {
     this.uniforms.prtSkyLight.value.forEach((light, i) => light.fromArray(open, 3 * i));
   }
 
-  /** Where the file's scene is now. */
+  /** Updates the transform of the file's scene. */
   place() {
     const origin = new Matrix4().makeTranslation(...this.source.grid.origin.map((value) => -value));
     this.uniforms.prtToVolume.value.copy(this.root.matrixWorld).invert().premultiply(origin);

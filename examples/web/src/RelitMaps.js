@@ -36,20 +36,20 @@ export class RelitMaps {
     return this.targets.get(key).target.texture;
   }
 
-  /** Draws all maps, unless `renderer` has those of this version of the constants. */
+  /** Draws all maps, unless `renderer` has drawn this version of the constants. */
   form(renderer, version) {
     if (this.formed.get(renderer) === version) return;
     if (!this.formed.has(renderer)) this.forgetLost(renderer);
-    this.formed.set(renderer, version); // first: whoever draws may come here again
+    this.formed.set(renderer, version); // set first, because drawing may re-enter this function
     for (const { target, map } of this.targets.values()) this.pass.draw(renderer, target, map);
   }
 
-  /** What a device held is gone when it is lost: to be drawn again when it is there again. */
+  /** Forgets the maps of a lost device, so that they are drawn again when it returns. */
   forgetLost({ domElement }) {
     domElement?.addEventListener?.("webglcontextrestored", () => this.formed.clear());
   }
 
-  /** Frees what is on the device; it is made again where a map is still drawn with. */
+  /** Frees the maps on the device; a map that is still in use is created again. */
   dispose() {
     this.formed.clear();
     this.pass.dispose();

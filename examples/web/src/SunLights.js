@@ -1,12 +1,15 @@
-// The suns of a light file as three's own directional lights, with shadow maps that are fitted to what they shine on.
+// The suns of a light file as three's directional lights, with shadow maps fitted to the lit objects.
 
 import { Box3, DirectionalLight, Group, Vector3 } from "three";
 import { environmentTurn, shownBy, turnedBy } from "./turns.js";
 
-const RADIUS_AT = 0.1; // sunLight.glsl has the same
-const MARGIN = 2; // texels of a map beyond what it is fitted to
+const RADIUS_AT = 0.1; // equal to the value in sunLight.glsl
+const MARGIN = 2; // texels of a map beyond the fitted box
 
-/** The light of one sun: irradiance is what three multiplies with base color / pi and the cosine. */
+/**
+ * Returns the light of one sun: irradiance is the factor that three multiplies with base color / pi and the
+ * cosine.
+ */
 function lightOf({ irradiance }, mapSize) {
   const strongest = Math.max(...irradiance);
   const light = new DirectionalLight(0xffffff, strongest);
@@ -20,12 +23,12 @@ function lightOf({ irradiance }, mapSize) {
  * To be added to the scene itself. Other materials of the scene are lit by them as by any light.
  */
 export class SunLights extends Group {
-  /** `suns`: of readLightFile. `mapSize`: texels along each side of a shadow map. */
+  /** `suns`: see readLightFile. `mapSize`: texels along each side of a shadow map. */
   constructor(suns, { mapSize = 2048 } = {}) {
     super();
     this.suns = suns;
     this.rotated = [1, 0, 0, 0, 1, 0, 0, 0, 1];
-    this.scene = null; // of follow
+    this.scene = null; // see follow
     this.shown = "";
     this.box = new Box3(new Vector3(-1, -1, -1), new Vector3(1, 1, 1));
     this.lights = suns.map((sun) => lightOf(sun, mapSize));
@@ -33,7 +36,10 @@ export class SunLights extends Group {
     this.place();
   }
 
-  /** Fits the shadow maps to `object`, an Object3D or a Box3: what is outside neither casts shadows nor gets any. */
+  /**
+   * Fits the shadow maps to `object`, an Object3D or a Box3: objects outside neither cast nor receive
+   * shadows.
+   */
   fit(object) {
     const box = object.isBox3 ? object.clone() : new Box3().setFromObject(object);
     if (box.isEmpty()) throw new RangeError("there is nothing to fit shadow maps to");
@@ -42,7 +48,7 @@ export class SunLights extends Group {
     return this;
   }
 
-  /** Turns the suns about +Y by `angle` radians, as `setLight` does the light. */
+  /** Rotates the suns about +Y by `angle` radians, as `setLight` does with the light. */
   turn(angle) {
     const [c, s] = [Math.cos(angle), Math.sin(angle)];
     this.scene = null;
@@ -51,7 +57,10 @@ export class SunLights extends Group {
     return this;
   }
 
-  /** Turns and dims the suns, in every frame, as `scene` does its environment: as `setSky` does the light. */
+  /**
+   * Rotates and dims the suns, in every frame, as `scene` does its environment, as `setSky` does with the
+   * light.
+   */
   follow(scene) {
     this.scene = scene;
     this.shown = "";
@@ -75,7 +84,7 @@ export class SunLights extends Group {
     super.updateMatrixWorld(force);
   }
 
-  /** Makes the suns so many times as strong as they were at first. */
+  /** Multiplies the original strength of the suns by a factor. */
   dim(factor) {
     this.lights.forEach((light, i) => (light.intensity = factor * Math.max(...this.suns[i].irradiance)));
     return this;
@@ -98,11 +107,13 @@ export class SunLights extends Group {
   }
 }
 
-/** The camera of a shadow map, which stands at `from` and looks at the middle of `box`, sees it and nothing else. */
+/**
+ * Fits the camera of a shadow map, at `from` and facing the middle of `box`, so that it sees exactly the box.
+ */
 function fitShadow(shadow, from, box, tangent) {
   const { camera, mapSize } = shadow;
   camera.position.copy(from);
-  camera.lookAt(box.getCenter(new Vector3())); // as three's shadow does
+  camera.lookAt(box.getCenter(new Vector3())); // three's shadow uses this orientation
   camera.updateMatrixWorld(true);
   const low = new Vector3(Infinity, Infinity, Infinity);
   const high = low.clone().negate();
@@ -122,8 +133,9 @@ function fitShadow(shadow, from, box, tangent) {
 
   const texel = (2 * half) / mapSize.x;
   shadow.radius = (tangent * RADIUS_AT * (camera.far - camera.near)) / texel;
-  // For three's filters, which compare their taps with one depth. A tap r texels t aside, along a slope of angle a to the
-  // light, is r t tan(a) deeper, which a step d along the normal makes up for where d >= r t sin(a); taps are in a square.
+  // For three's filters, which compare their taps with one depth. A tap at a distance of r texels of size t,
+  // along a slope of angle a to the light, is r t tan(a) deeper; an offset d along the normal compensates
+  // this if d >= r t sin(a); taps are in a square.
   shadow.normalBias = Math.SQRT2 * (shadow.radius + 1) * texel;
   shadow.needsUpdate = true;
 }

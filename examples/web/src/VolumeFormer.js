@@ -1,4 +1,5 @@
-// Incident light of the probes of a volume, as shaders/prt_volume.glsl looks it up: what prt::VolumeFormer does. No three.js here.
+// Computes incident light of the probes of a volume for the lookup in shaders/prt_volume.glsl, as
+// prt::VolumeFormer does. Does not use three.js.
 
 import { formConstants, shaderRows } from "./clusteredPca.js";
 import { halvesOf } from "./halfFloat.js";
@@ -6,7 +7,7 @@ import { evaluateSh } from "./sphericalHarmonics.js";
 import { BRICK_PROBES } from "./volumeGrid.js";
 import { texelOf } from "./volumeTextures.js";
 
-/** Where each probe is in a plane: texels [first[p], first[p + 1]). */
+/** Returns the texels of each probe in a plane: [first[p], first[p + 1]). */
 function texelsOfProbes({ ofBrick, levels }, atlas) {
   const first = new Uint32Array(levels.length + 1);
   for (const probe of ofBrick) ++first[probe + 1];
@@ -17,7 +18,10 @@ function texelsOfProbes({ ofBrick, levels }, atlas) {
   return { first, texels };
 }
 
-/** Of the rows of output 0, what `direct` transfer gives to light without color, [rowCount][order²]; null without that part. */
+/**
+ * Returns the `direct` transfer of output 0 for light without color, [rowCount][order²]; null without a
+ * direct term.
+ */
 function directRows({ order, parts: [part], rowCount, outputs }, rows) {
   if (part.kind !== "direct") return null;
   const columns = order * order;
@@ -30,7 +34,7 @@ function directRows({ order, parts: [part], rowCount, outputs }, rows) {
 }
 
 export class VolumeFormer {
-  /** `volume`: of volumeOf (volumeTransfer.js); `atlas`: of atlasOf. */
+  /** `volume`: see volumeOf (volumeTransfer.js); `atlas`: see atlasOf. */
   constructor({ grid, clusters, words, stride }, atlas) {
     this.clusters = clusters;
     this.words = words;
@@ -40,12 +44,15 @@ export class VolumeFormer {
     this.direct = directRows(clusters, this.rows);
     this.probes = grid.levels.length;
     Object.assign(this, texelsOfProbes(grid, atlas));
-    this.numbers = 4 * atlas.planes; // of a row, and of a probe: colors of the coefficients, the sun, and nothing
+    // per row and per probe: colors of the coefficients, the sun, and padding
+    this.numbers = 4 * atlas.planes;
     this.constants = new Float64Array(this.numbers * clusters.rowCount);
   }
 
-  /** The constants of the rows of clusters [first, last), for `columns` of lightColumns. `sun`: a unit direction, whose share that
-   * a probe sees is formed beside the light; null: none is. */
+  /**
+   * Computes the constants of the rows of clusters [first, last), for `columns` of lightColumns. `sun`: a
+   * unit direction, whose visible fraction is computed in addition to the light; null: no sun.
+   */
   formConstants(columns, sun, first, last) {
     const { clusters, rows, constants, direct, numbers } = this;
     const { order, outputs, firstRows, rowCount } = clusters;

@@ -1,4 +1,4 @@
-// What the page shows, in its address: a link to it shows the same.
+// Stores the state of the page in its address: a link shows the same state.
 
 /** Numbers of the address, or undefined. */
 export function vectorOf(asked, name) {
@@ -8,7 +8,8 @@ export function vectorOf(asked, name) {
 const rounded = (values) => values.map((value) => Number(value.toFixed(3))).join(",");
 
 /**
- * The address of what is shown. `names`: of the model and the sky; a file of the user's has none, and is not in a link.
+ * Returns the address of the current state. `names`: those of model and sky; a user's file has no name and is
+ * not part of a link.
  */
 export function addressOf(picture, { model, quality, sky, comparing, panel }) {
   const { camera, controls } = picture;

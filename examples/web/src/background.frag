@@ -1,5 +1,5 @@
-// A lat-long image turned about +Y by `angle`; `middle` is the column that looks at +Z: 0.75 where the centre looks at
-// +X, as in three, and 0.5 where it looks at +Z, as in OpenEXR.
+// Draws a lat-long image rotated about +Y by `angle`; `middle` is the column that faces +Z: 0.75 if the
+// centre faces +X, as in three, and 0.5 if it faces +Z, as in OpenEXR.
 uniform sampler2D environment;
 uniform float angle;
 uniform float middle;

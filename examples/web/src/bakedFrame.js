@@ -1,10 +1,13 @@
-// From the attributes of a mesh, as GLTFLoader leaves them, to the frame of the bake, in which the guides of clusters are:
-// the world of the file, whatever the program does with the model later.
+// Transforms the attributes of a mesh, as loaded by GLTFLoader, to the space of the bake, which predictors
+// use: the world of the file, independent of later transforms of the model.
 
 import { BufferAttribute, Matrix3, Matrix4, Vector3 } from "three";
 import { expect, LARGEST_WEIGHT } from "./wholeExtension.js";
 
-/** The cofactors of a matrix, by which normals turn, as large as floats like them; also where there is no inverse. */
+/**
+ * Returns the cofactors of a matrix, which rotate normals, scaled to a safe range of floats; works without an
+ * inverse, too.
+ */
 export function normalMatrix(matrix) {
   const [x, y, z] = [0, 1, 2].map((column) => new Vector3().setFromMatrixColumn(matrix, column));
   const side = matrix.determinant() < 0 ? -1 : 1;
@@ -28,7 +31,7 @@ function skinMatrix({ geometry, skeleton }, v) {
   return sum;
 }
 
-/** A vector of an attribute with what its morph targets add. */
+/** Returns a vector of an attribute with its morph targets added. */
 function morphed({ geometry, morphTargetInfluences }, name, v) {
   const vector = new Vector3();
   if (!geometry.hasAttribute(name)) return vector;
@@ -40,7 +43,7 @@ function morphed({ geometry, morphTargetInfluences }, name, v) {
   return vector;
 }
 
-/** Sums of the triangles' normals at each vertex: what a vertex takes that has none of its own. */
+/** Returns the sums of the triangles' normals at each vertex, for vertices without normals. */
 function normalsOfTriangles({ index }, places) {
   const sums = places.map(() => new Vector3());
   const corner = (i) => (index ? index.getX(i) : i);
@@ -53,10 +56,10 @@ function normalsOfTriangles({ index }, places) {
   return sums;
 }
 
-/** Whether a float holds the square of a vector, and of what a matrix makes of it. */
+/** True if floats can represent the square of a vector, also after a transform. */
 const isOfUsualLength = (vector) => vector.lengthSq() > 1e-12 && vector.lengthSq() < 1e12;
 
-/** Whether there are vertices whose normals the shader cannot make unit. */
+/** True if the shader cannot normalise the normals of some vertices. */
 function lacksNormals({ attributes: { normal, position } }) {
   if (normal?.count !== position.count) return true;
   const vector = new Vector3();
@@ -70,7 +73,10 @@ function unitOrZero(vector) {
   return length > 0 && length < Infinity ? vector.divideScalar(length) : vector.set(0, 0, 0);
 }
 
-/** Places seen from `origin` and normals of all vertices as attributes, for meshes that no one matrix moves there. */
+/**
+ * Returns positions relative to `origin` and normals of all vertices as attributes, for meshes that no single
+ * matrix transforms.
+ */
 function bakedAttributes(mesh, world, origin) {
   const { geometry } = mesh;
   const vertices = Array.from({ length: geometry.getAttribute("position").count }, (_, v) => v);
@@ -78,7 +84,7 @@ function bakedAttributes(mesh, world, origin) {
   const places = vertices.map((v) => morphed(mesh, "position", v).applyMatrix4(matrices[v]).sub(origin));
   const normals = vertices.map((v) => unitOrZero(morphed(mesh, "normal", v).applyMatrix3(normalMatrix(matrices[v]))));
   if (normals.some((normal) => normal.lengthSq() === 0)) {
-    // A mirroring node turns triangles round.
+    // A mirroring node reverses the winding of triangles.
     const side = !mesh.isSkinnedMesh && world.determinant() < 0 ? -1 : 1;
     const sums = normalsOfTriangles(geometry, places);
     normals.forEach((normal, v) => normal.lengthSq() === 0 && unitOrZero(normal.copy(sums[v]).multiplyScalar(side)));
@@ -88,7 +94,10 @@ function bakedAttributes(mesh, world, origin) {
   geometry.setAttribute("prt_baked_normal", attribute(normals));
 }
 
-/** Throws where a place is farther from the origin of its guide than the guide's `scale` allows; NaN is, too. */
+/**
+ * Throws if a position is farther from the origin of its predictor than the predictor's `scale` allows, or
+ * NaN.
+ */
 function checkPlaces(mesh, toBake, { scale }) {
   const { prt_baked_place: baked, position } = mesh.geometry.attributes;
   const [places, matrix] = baked ? [baked, new Matrix4()] : [position, toBake];
@@ -99,7 +108,7 @@ function checkPlaces(mesh, toBake, { scale }) {
   }
 }
 
-/** Whether floats would lose digits of places: the matrix moves the mesh by far more than its size. */
+/** True if floats would lose digits of positions: the matrix moves the mesh by far more than its size. */
 function isFar({ geometry }, toBake) {
   if (!geometry.boundingBox) geometry.computeBoundingBox();
   const size = geometry.boundingBox.clone().applyMatrix4(toBake).getSize(new Vector3()).length();
@@ -107,9 +116,10 @@ function isFar({ geometry }, toBake) {
 }
 
 /**
- * What the shader of `mesh` needs for `guides`: { defines, uniforms }. The world matrices of its scene are those of the
- * file. Skinned and morphed meshes, those that lack normals and those of small triangles far from their own origin get
- * attributes of their own, in the pose of the file. `world`: what takes the mesh to the frame of the bake.
+ * Returns the shader inputs of `mesh` for `guides`: { defines, uniforms }. The world matrices of its scene
+ * must be those of the file. Skinned and morphed meshes, meshes without normals and small ones far from their
+ * origin get separate attributes, in the pose of the file. `world`: transform from the mesh to the space of
+ * the bake.
  */
 export function bakedFrame(mesh, guides, world = mesh.matrixWorld) {
   if (guides.length === 0) return { defines: {}, uniforms: {} };

@@ -1,4 +1,4 @@
-// Decoding of PRTKIT_clustered_pca, as docs/format.md says. No three.js here.
+// Decodes PRTKIT_clustered_pca, as defined in docs/format.md. Does not use three.js.
 
 import { codedRows } from "./codedRows.js";
 import { checkExtension, expect, LARGEST_TRANSFER } from "./wholeExtension.js";
@@ -24,7 +24,7 @@ class BitReader {
   }
 }
 
-/** `count` finite floats, of at most `largest`. */
+/** Returns `count` finite floats with absolute values up to `largest`. */
 function floats(bytes, count, largest, what) {
   expect(bytes.byteLength === 4 * count, `${what} have another size than ${count} floats`);
   const values = new Float32Array(bytes.buffer.slice(bytes.byteOffset, bytes.byteOffset + bytes.byteLength));
@@ -44,17 +44,19 @@ const dimensionOf = ({ order, parts, outputs = 1 }) =>
   outputs * parts.reduce((sum, part) => sum + part.channels * columnsOf(order, part), 0);
 
 /**
- * The clusters of a file.
- *
- * `extension`: the object at the top level of the glTF; `view(i)`: the bytes of buffer view i. Throws an Error that says
- * what is wrong with a file that is damaged or of another version.
+ * Decodes the clusters of a file.
+ * `extension`: the object at the top level of the glTF; `view(i)`: the bytes of buffer view i. Throws an
+ * Error with the reason for a damaged file or a different version.
  */
 export function decodeClusters(extension, view) {
   checkExtension(extension);
   return clustersOf(extension, view);
 }
 
-/** The same of an extension that is right, of vertices, of texels or of probes, which have several `outputs`. */
+/**
+ * Decodes the clusters of a validated extension of vertices, of texels, or of probes, which have several
+ * `outputs`.
+ */
 export function clustersOf(extension, view, outputs = 1) {
   const { order, parts, components, guides = [], bases, packing } = extension;
   const guideRows = 3 * guides.length;
@@ -81,7 +83,10 @@ export function packedWidths({ components, packing }, view) {
   return components.map((m) => Array.from({ length: m }, () => bits.read(4) + 1));
 }
 
-/** Throws where rows of few bytes would take more memory than a file of this size may: 256 MB, and 64 bytes for each. */
+/**
+ * Throws if rows of few bytes would need more memory than is allowed for this file size: 256 MB, plus 64
+ * bytes per byte.
+ */
 function checkRows(rows, axes, dimension, bytes) {
   const values = rows * (axes + 3 * dimension) + axes * dimension;
   expect(4 * values <= 256e6 + 64 * bytes, `the bases would take ${Math.round((4 * values) / 1e6)} MB`);
@@ -100,7 +105,7 @@ function stepsOf({ step, steps }, clusterCount, axisCount, view) {
   return result;
 }
 
-/** The rows that coded bases stand for. */
+/** Returns the rows of coded bases. */
 function decodedRows({ order, parts, outputs, components, guides, firstRows, rowCount }, bases, view) {
   const dimension = dimensionOf({ order, parts, outputs });
   const axisCount = bases.values.drops.length;
@@ -135,9 +140,10 @@ function decodedRows({ order, parts, outputs, components, guides, firstRows, row
 }
 
 /**
- * Rows that the vertex shader multiplies with what it reads. A guide counts scale x - center: the scale goes into its row,
- * the center times the row out of the mean, so that the shader multiplies x. For packed weights w = (2 q - M) / M the
- * factor 2 / M goes into the directions, and their sum out of the mean, so that it multiplies the integers q themselves.
+ * Returns the rows that the vertex shader multiplies with its inputs. The value of a predictor is scale x -
+ * center: the scale is multiplied into its row, and the center times the row is subtracted from the mean, so
+ * that the shader multiplies x. For packed weights w = (2 q - M) / M the factor 2 / M is multiplied into the
+ * directions, and their sum is subtracted from the mean, so that the shader multiplies the integers q.
  */
 export function shaderRows(clusters) {
   const { guides, centers, widths, components, firstRows, rows } = clusters;
@@ -178,9 +184,9 @@ export function clusterTable(clusters) {
 }
 
 /**
- * The colours that the parts are multiplied with, one behind the other, [columns][3]: `sky` [>= order²][3] for direct
- * light, with `suns` added for the rest (null: all light is in the sky), and `lamps` [lamps][3], what each lamp is dimmed
- * or coloured by (null: all shine as in the scene).
+ * Returns the colours that multiply the terms, one after the other, [columns][3]: `sky` [>= order²][3] for
+ * direct light, plus `suns` for the other terms (null: all light is in the sky), and `lamps` [lamps][3], the
+ * factor of each lamp (null: the strength of the scene).
  */
 export function lightColumns({ order, parts }, sky, suns = null, lamps = null) {
   const columns = new Float64Array(3 * parts.reduce((sum, part) => sum + columnsOf(order, part), 0));
@@ -195,7 +201,8 @@ export function lightColumns({ order, parts }, sky, suns = null, lamps = null) {
 }
 
 /**
- * Writes for every row its product with the lighting, RGBA, to `constants` [rows][outputs][4]. `columns`: of lightColumns.
+ * Writes for every row its product with the lighting, RGBA, to `constants` [rows][outputs][4]. `columns`: see
+ * lightColumns.
  */
 export function formConstants(clusters, rows, columns, constants) {
   const { order, parts, rowCount, outputs = 1 } = clusters;

@@ -2,7 +2,7 @@
 
 import { expect } from "./wholeExtension.js";
 
-/** A model of a bit: [how often it is 1 in 65536ths, how many it has seen], of `count` bits. */
+/** Returns models of `count` bits: [probability of 1 in 65536ths, number of bits seen]. */
 function models(count) {
   const array = new Uint32Array(2 * count);
   for (let i = 0; i < count; ++i) array[2 * i] = 32768;
@@ -47,7 +47,7 @@ class RangeDecoder {
   }
 }
 
-/** A number of at most `width` bits. `own`: the models of that width: zero, longer [15], second [15]. */
+/** Returns a number of at most `width` bits. `own`: the models of that width: zero, longer [15], second [15]. */
 function numberOf(decoder, width, own) {
   if (decoder.bit(own, 0)) return 0;
   const sign = decoder.plain(1) ? -1 : 1;
@@ -60,7 +60,7 @@ function numberOf(decoder, width, own) {
 
 /** Numbers [rows][drops.length]. */
 export function codedRows(bytes, drops, rows) {
-  // Each row has four bits at least: none are made of nothing.
+  // Each row has at least four bits: a short file cannot contain many rows.
   expect(drops.length === 0 || rows / 2 <= bytes.length, "the coded rows end too early");
   const values = new Int16Array(rows * drops.length);
   if (drops.length === 0) return values;

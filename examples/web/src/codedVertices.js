@@ -7,7 +7,7 @@ import { checkExtension, expect, VERTICES } from "./wholeExtension.js";
 
 const STRIP = 5;
 const FAN = 6;
-const BYTES_PER_VERTEX = 120; // what is made of one beside its words
+const BYTES_PER_VERTEX = 120; // memory per vertex in addition to its words
 
 /** Corners of the triangles of a primitive, each three in any order. */
 async function trianglesOf(parser, { indices, mode }, count) {
@@ -33,7 +33,7 @@ function codedPrimitives(json, vertices) {
   return coded;
 }
 
-/** Puts attributes in the place of coded words in the JSON of `parser`. `views(list)`: the bytes of buffer views. */
+/** Replaces coded words in the JSON of `parser` by attributes. `views(list)`: the bytes of buffer views. */
 export async function decodeVertices(parser, views) {
   const { json } = parser;
   const extension = json.extensions?.[VERTICES];

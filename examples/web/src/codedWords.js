@@ -8,14 +8,14 @@ const FREQUENCY_BITS = 10;
 const TOTAL = 1 << FREQUENCY_BITS;
 const LEAST_STATE = 1 << 16;
 const STATES = 4;
-const BLOCK = 16384; // vertices that are coded by themselves
-const COLUMNS = 16; // of rows of frequencies
-const SYMBOL_BITS = 6; // most of a weight's difference
+const BLOCK = 16384; // vertices per independently coded block
+const COLUMNS = 16; // columns of the rows of frequencies
+const SYMBOL_BITS = 6; // maximum bits of a symbol of a weight's difference
 const CLUSTER_CONTEXTS = 9;
 const NEW_CLUSTER = 3;
 const DAMAGED = "the coded words are damaged";
 
-/** The first context of weights whose differences have symbols of so many bits. */
+/** Returns the first context of weights whose differences have symbols with this number of bits. */
 const firstContext = (bits) => CLUSTER_CONTEXTS + ((bits - 1) * (bits + 6)) / 2;
 const CONTEXTS = firstContext(SYMBOL_BITS + 1);
 const rowsOf = (context) => (context >= firstContext(6) ? 4 : context >= firstContext(5) ? 2 : 1);
@@ -32,7 +32,7 @@ function slotsOf(bytes, drops) {
     row += rowsOf(context);
     const sum = own.reduce((total, frequency) => (frequency < 0 ? NaN : total + frequency), 0);
     expect(sum === 0 || sum === TOTAL, `${DAMAGED}: the frequencies have another sum than ${TOTAL}`);
-    if (sum === 0) own[0] = TOTAL; // not used
+    if (sum === 0) own[0] = TOTAL; // unused
     let slot = context * TOTAL;
     own.forEach((frequency, symbol) => {
       for (let i = 0; i < frequency; ++i) slots.set([symbol, frequency, i], 3 * slot++);
@@ -41,7 +41,7 @@ function slotsOf(bytes, drops) {
   return slots;
 }
 
-/** Takes symbols of contexts, and plain bits; four states take turns. */
+/** Decodes symbols of contexts, and plain bits, with four interleaved states. */
 class RansDecoder {
   constructor(bytes, slots) {
     this.bytes = bytes;
@@ -79,11 +79,14 @@ class RansDecoder {
   }
 }
 
-/** Up to three vertices before each one along its edges, [vertices][3]; those that are not used are itself. */
+/**
+ * Returns up to three earlier vertices along the edges of each vertex, [vertices][3]; unused entries contain
+ * the vertex itself.
+ */
 export function earlierNeighbors(triangles, vertices) {
   const neighbors = Uint32Array.from({ length: 3 * vertices }, (_, i) => Math.floor(i / 3));
   const add = (v, before) => {
-    if (Math.floor(v / BLOCK) !== Math.floor(before / BLOCK)) return; // of another block
+    if (Math.floor(v / BLOCK) !== Math.floor(before / BLOCK)) return; // in a different block
     for (let i = 3 * v; i < 3 * v + 3; ++i) {
       if (neighbors[i] === v) neighbors[i] = before;
       if (neighbors[i] === before) return;
@@ -126,7 +129,7 @@ function prediction(clusters, neighbors, v) {
 
 const bitWidth = (value) => 32 - Math.clz32(value);
 
-/** What weight j of `width` bits is expected to be, by the weights of vertices `same`, and its context. */
+/** Returns the prediction of weight j of `width` bits from the weights of vertices `same`, and its context. */
 function expected(weights, same, j, width, plain) {
   const first = firstContext(width - plain);
   if (same.length === 0) return [1 << (width - 1), first];
@@ -139,8 +142,8 @@ function expected(weights, same, j, width, plain) {
 }
 
 /**
- * Words [vertices][words] of `code`: { frequencies, drops, bits }, the first and the last bytes; `clusters`: { widths,
- * clusterBits }; `neighbors`: those of earlierNeighbors.
+ * Returns words [vertices][words] of `code`: { frequencies, drops, bits }, the first and the last as bytes;
+ * `clusters`: { widths, clusterBits }; `neighbors`: see earlierNeighbors.
  */
 export function codedWords({ frequencies, drops, bits }, clusters, neighbors) {
   const { widths, clusterBits } = clusters;

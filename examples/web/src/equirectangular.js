@@ -16,14 +16,15 @@ export function texels(texture) {
   const stride = texture.format === RGBAFormat ? 4 : data.length / (width * height);
   if (stride < 3) throw new Error("the environment has fewer than three channels");
   const value = texture.type === HalfFloatType ? DataUtils.fromHalfFloat : (v) => v;
-  // HDRLoader stores the top row first and asks for a flip, EXRLoader has it flipped already.
+  // HDRLoader stores the top row first and requires a flip, EXRLoader has flipped it already.
   return { width, height, data, stride, topFirst: texture.flipY, value };
 }
 
 /**
- * The lighting of an equirectangular texture, from the directions where three shows it as `scene.background`: +Y on top, the
- * centre column looks at +X. `center: "z"` is for images of OpenEXR's layout, which `halfFloatSky` turns for three. Load the
- * texture with setDataType(FloatType): half floats cut off a sun.
+ * Returns the lighting of an equirectangular texture, in the orientation in which three shows it as
+ * `scene.background`: +Y at the top, the centre column faces +X. `center: "z"` is for images with OpenEXR's
+ * layout, which `halfFloatSky` rotates for three. Load the texture with setDataType(FloatType), because half
+ * floats clip a sun.
  */
 export function projectEquirectangular(texture, order = MAX_ORDER, { center = "x" } = {}) {
   return projectLatLong({ ...texels(texture), center }, order);
@@ -32,9 +33,10 @@ export function projectEquirectangular(texture, order = MAX_ORDER, { center = "x
 const LARGEST_HALF = 65504;
 
 /**
- * A copy of an equirectangular texture for `scene.background` and `scene.environment`, in half floats, where a sun above
- * 65504 is cut off: three keeps environments in half floats, and one infinite texel turns all its materials black. With
- * `center: "z"` its columns are moved by a quarter of the width, so that three shows at +Z what was in the middle.
+ * Returns a copy of an equirectangular texture for `scene.background` and `scene.environment`, in half
+ * floats, limited to 65504: three stores environments in half floats, and one infinite texel makes all its
+ * materials black. With `center: "z"` its columns are moved by a quarter of the width, so that three shows
+ * the center at +Z.
  */
 export function halfFloatSky(texture, { center = "x" } = {}) {
   const { width, height, data, stride, value } = texels(texture);

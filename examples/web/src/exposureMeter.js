@@ -1,11 +1,11 @@
-// Automatic exposure: the light that comes from the model, not the sky behind it, as `prt render` meters it.
+// Automatic exposure from the light of the model, without the sky behind it, as in `prt render`.
 
 import { FloatType, NearestFilter, WebGLRenderTarget } from "three";
 
 const SIZE = 48; // pixels along each side
 const MEAN_SHOWN = 0.22;
 
-/** Draws into a small target and reads it back. Where a device cannot draw floats there is nothing to read. */
+/** Draws into a small target and reads it back. Not possible on devices that cannot draw floats. */
 export class ExposureMeter {
   constructor(renderer) {
     this.renderer = renderer;
@@ -15,7 +15,9 @@ export class ExposureMeter {
     this.pixels = new Float32Array(4 * SIZE * SIZE);
   }
 
-  /** The exposure that shows `scene`, which holds nothing but the model, well; null where nothing lit is to be seen. */
+  /**
+   * Returns a good exposure of `scene`, which must contain only the model; null if no lit surface is visible.
+   */
   exposure(scene, camera) {
     if (!this.possible) return null;
     const { renderer, target, pixels } = this;

@@ -5,7 +5,7 @@ import { VERTICES } from "./wholeExtension.js";
 
 const UNLIT = "KHR_materials_unlit";
 
-/** Makes `json`, a whole glTF, what it is without its fallback, before three reads materials and attributes. */
+/** Removes the fallback from `json`, a whole glTF, before three reads materials and attributes. */
 export function setFallbackAside(json) {
   if (!json.extensions?.[VERTICES]?.fallback) return;
   const lit = new Set();

@@ -1,6 +1,6 @@
 // 16 bits of IEEE 754.
 
-/** The number that they stand for. */
+/** Returns the number with these bits. */
 export function halfFloat(bits) {
   const sign = bits & 0x8000 ? -1 : 1;
   const exponent = (bits >> 10) & 31;
@@ -13,7 +13,7 @@ const LARGEST = 65504;
 const number = new Float32Array(1);
 const word = new Uint32Array(number.buffer);
 
-/** The bits nearest to numbers, even ones where two are; of what is beyond the largest, those of the largest. */
+/** Converts numbers to the nearest half floats, ties to even, limited to the largest half float. */
 export function halvesOf(values, halves) {
   for (let i = 0; i < values.length; ++i) {
     const value = values[i];
@@ -21,7 +21,7 @@ export function halvesOf(values, halves) {
     const sign = (word[0] >>> 16) & 0x8000;
     const magnitude = word[0] & 0x7fffffff;
     if (magnitude < 0x38800000) {
-      number[0] = Math.abs(number[0]) + 0.5; // whose last place is what the smallest halves are multiples of
+      number[0] = Math.abs(number[0]) + 0.5; // its last bit is the step of the smallest half floats
       halves[i] = sign | (word[0] - 0x3f000000);
     } else halves[i] = sign | ((magnitude - 0x38000000 + 0xfff + ((magnitude >>> 13) & 1)) >>> 13);
   }

@@ -1,5 +1,6 @@
-// Lighting of instances that share the transfer of their mesh (docs/format.md, PRTKIT_instances): its modes, and the turns that it
-// is formed in. What prt::InstanceModes and prt::instance_turns do. No three.js here.
+// Lighting of instances that share the transfer of their mesh (docs/format.md, PRTKIT_instances): its modes,
+// and the rotations for which it is computed, as prt::InstanceModes and prt::instance_turns do. Does not use
+// three.js.
 
 import { evaluateSh, gaussLegendre } from "./sphericalHarmonics.js";
 
@@ -8,11 +9,11 @@ const ABOVE_MODES = ABOVE_BANDS ** 2;
 /** Light from above the horizon times √(4π) Y of three bands; that from below. */
 export const PASSING_MODES = ABOVE_MODES + 1;
 export const ADDED_BANDS = 2;
-/** What level ground throws back times √(4π) Y of two bands. */
+/** Light reflected by level ground, times √(4π) Y of two bands. */
 export const ADDED_MODES = ADDED_BANDS ** 2;
-/** Of an instance: ten rows of four numbers, four colours. */
+/** Numbers of an instance: ten rows of four numbers, four colours. */
 export const FACTORS = 4 * PASSING_MODES + 3 * ADDED_MODES;
-/** Of the even one, it makes the mode 1. */
+/** Makes the constant mode 1. */
 const SCALE = Math.sqrt(4 * Math.PI);
 
 /** Modes as linear operators on the coefficients of light, in the world's axes with +Y up. */
@@ -21,12 +22,13 @@ export class InstanceModes {
     const count = order * order;
     this.count = count;
     this.matrices = Array.from({ length: PASSING_MODES }, () => new Float64Array(count * count));
-    this.level = new Float64Array(count); // what level ground gets
-    // Exact for the polynomials of 2 order in the height and in the azimuth that two functions of the light and one of a mode make.
+    this.level = new Float64Array(count); // weights for the irradiance of level ground
+    // Exact for polynomials of twice the order in height and azimuth: products of two functions of the light
+    // and one of a mode.
     const heights = gaussLegendre(order + 1);
     const around = 2 * order + 2;
     const bands = Math.max(order, ABOVE_BANDS);
-    const basis = new Float64Array(bands * bands); // begins with those of fewer bands
+    const basis = new Float64Array(bands * bands); // a basis of fewer bands is its first part
     for (let h = 0; h <= order; ++h)
       for (let a = 0; a < around; ++a) {
         const y = 0.5 * (heights.nodes[h] + 1);
@@ -46,7 +48,7 @@ export class InstanceModes {
     for (let i = 0; i < count; ++i) for (let j = 0; j < count; ++j) below[i * count + j] = Number(i === j) - above[i * count + j];
   }
 
-  /** What the passing modes are lit with, each [order²][3], of coefficients of light. */
+  /** Returns the light of the transmitted modes, each [order²][3], from coefficients of light. */
   passing(light) {
     const { count } = this;
     return this.matrices.map((matrix) => {
@@ -58,13 +60,13 @@ export class InstanceModes {
     });
   }
 
-  /** What level ground gets of light: the added modes are lit by as much. */
+  /** Returns the light on level ground, which multiplies the reflected modes. */
   onLevel(light) {
     return [0, 1, 2].map((c) => this.level.reduce((sum, factor, i) => sum + factor * light[3 * i + c], 0));
   }
 }
 
-/** What rows make of the light of the added modes in their own frame, [rows][ADDED_MODES][3]. */
+/** Returns the response of rows to the light of the reflected modes in their space, [rows][ADDED_MODES][3]. */
 export function responsesOf({ order, parts, rowCount }, rows) {
   const count = order * order;
   const responses = new Float64Array(3 * ADDED_MODES * rowCount);
@@ -79,8 +81,8 @@ export function responsesOf({ order, parts, rowCount }, rows) {
   return responses;
 }
 
-const ROUNDING = 1e-6; // of quaternions in floats
-const SAME = 1e-4; // of elements: 0.01 degrees
+const ROUNDING = 1e-6; // rounding of quaternions in floats
+const SAME = 1e-4; // tolerance of elements: 0.01 degrees
 
 /** A rotation about +Y, [9] by columns. */
 function yawMatrix(angle) {
@@ -89,9 +91,10 @@ function yawMatrix(angle) {
 }
 
 /**
- * The turn that each rotation, [9] by columns, is lit in, so that light is formed for few: `rotations`, which of them, `of`, and
- * `yaws`, about +Y, null for others.
- * Turns about +Y fall into `bins` of even yaw; of others those that are alike are one, and of all where `bins` is 0.
+ * Groups rotations, [9] by columns, so that light is computed for few: `rotations`, the index `of` each into
+ * them, and `yaws`, about +Y, null for others.
+ * Rotations about +Y fall into `bins` of equal yaw; equal rotations are merged for others, and for all if
+ * `bins` is 0.
  */
 export function instanceTurns(all, bins) {
   const rotations = [];

@@ -1,5 +1,5 @@
-// Nodes of a glTF that draw instances of meshes whose transfer they share (docs/format.md, PRTKIT_instances): read by three as
-// nodes without a mesh, and drawn by InstancedMesh.
+// Nodes of a glTF that draw instances of meshes with shared transfer (docs/format.md, PRTKIT_instances):
+// three reads them as nodes without a mesh, and InstancedMesh draws them.
 
 import { Matrix4, Quaternion, Vector3 } from "three";
 import { FACTORS } from "./instanceModes.js";
@@ -8,13 +8,14 @@ import { checkInstanceNode, checkInstances, expect, INSTANCES } from "./wholeExt
 const GPU = "EXT_mesh_gpu_instancing";
 /** Numbers by which all light passes evenly, from above the horizon and from below: in the open they are 1, all others 0. */
 const EVEN = [3, 39];
-const ROUNDING = 1e-5; // of an element, of the scale: matrices of files are floats
+const ROUNDING = 1e-5; // tolerance of an element, relative to the scale: matrices in files are floats
 
 const holds = (value, what) => expect(value, what, INSTANCES);
 
 /**
- * Takes meshes and instances off the nodes of `json`, a whole glTF, that share transfer, before three reads it:
- * [{ node, mesh, first, box, attributes }] with the accessors of its instances, null where the node is one.
+ * Removes meshes and instances of shared transfer from the nodes of `json`, a whole glTF, before three reads
+ * it. Returns [{ node, mesh, first, box, attributes }] with the accessors of its instances, null if the node
+ * is a single instance.
  */
 export function takeInstancesAside(json) {
   const extension = json.extensions?.[INSTANCES];
@@ -53,7 +54,10 @@ export function putInstancesBack({ nodes }, shared) {
   }
 }
 
-/** The factors of all instances, [count][FACTORS]; `bytes`: of their buffer view, what each is off that of the open. */
+/**
+ * Returns the factors of all instances, [count][FACTORS]; `bytes`: their buffer view, which contains the
+ * differences from an unoccluded instance.
+ */
 export function factorsOf({ count, factors: { scales } }, bytes) {
   holds(bytes.byteLength === FACTORS * count, `the factors are not those of ${count} instances`);
   const { buffer, byteOffset, byteLength } = bytes;
@@ -65,7 +69,10 @@ export function factorsOf({ count, factors: { scales } }, bytes) {
   return factors;
 }
 
-/** The rotation in a matrix that turns, moves and scales evenly, [9] by columns; null where it does anything else. */
+/**
+ * Returns the rotation of a matrix that rotates, moves and scales uniformly, [9] by columns; null for other
+ * matrices.
+ */
 export function evenRotation({ elements: e }) {
   const axes = [0, 4, 8].map((at) => new Vector3(e[at], e[at + 1], e[at + 2]));
   const volume = axes[0].dot(axes[1].clone().cross(axes[2]));
@@ -78,13 +85,13 @@ export function evenRotation({ elements: e }) {
 
 const SIZES = { TRANSLATION: 3, ROTATION: 4, SCALE: 3 };
 
-/** The matrices of the instances of a node, in its frame, `most` of them at most; `parser`: of GLTFLoader. */
+/** Returns the matrices of the instances of a node, in its space, at most `most`; `parser`: of GLTFLoader. */
 export async function placesOf({ node, attributes }, parser, most) {
   if (attributes === null) return [new Matrix4()];
   const read = {};
   for (const [name, size] of Object.entries(SIZES)) {
     if (attributes[name] === undefined) continue;
-    const claimed = parser.json.accessors?.[attributes[name]]?.count; // of data that need not be there
+    const claimed = parser.json.accessors?.[attributes[name]]?.count; // the data may be missing
     holds(claimed >= 1 && claimed <= most, `node ${node} draws no instances, or more than have factors`);
     try {
       read[name] = await parser.getDependency("accessor", attributes[name]);
@@ -104,7 +111,7 @@ export async function placesOf({ node, attributes }, parser, most) {
   });
 }
 
-/** Nodes that animations move, with what hangs on them. */
+/** Returns the animated nodes and their descendants. */
 export function movingNodes({ animations = [], nodes = [] }) {
   const moving = new Set();
   const found = animations.flatMap((animation) => (animation?.channels ?? []).map((channel) => channel?.target?.node));

@@ -15,8 +15,8 @@ function sunOf({ towards, irradiance, half_angle_radians: halfAngle }) {
 }
 
 /**
- * The sky and the suns of a light file, parsed: { sky: ShLight, suns: [{ towards, irradiance, halfAngle }] }. Throws an
- * Error that says what is wrong with it.
+ * Parses the sky and the suns of a light file: { sky: ShLight, suns: [{ towards, irradiance, halfAngle }] }.
+ * Throws an Error with the reason if it is invalid.
  */
 export function readLightFile(json) {
   if (json?.prtkit_light !== 1) throw new Error("light file: prtkit_light is not 1");
@@ -31,7 +31,10 @@ export function readLightFile(json) {
   return { sky: ShLight.fromCoefficients(order, values), suns: suns.map(sunOf) };
 }
 
-/** Of each band, a disc's coefficients over those of a point of the same irradiance (docs/math.md, eq. 14). */
+/**
+ * Returns for each band a disc's coefficients relative to those of a point with equal irradiance
+ * (docs/math.md, eq. 14).
+ */
 function discBands(order, halfAngle) {
   const z = Math.cos(halfAngle);
   const bands = [2 / (1 + z)];
@@ -45,7 +48,7 @@ function discBands(order, halfAngle) {
   return bands;
 }
 
-/** Suns as spherical harmonics, together: what lights by them after a bounce. */
+/** Returns the sum of suns as spherical harmonics, for light after a bounce. */
 export function lightOfSuns(suns, order = MAX_ORDER) {
   const coefficients = new Float64Array(3 * order * order);
   for (const { towards, irradiance, halfAngle } of suns) {

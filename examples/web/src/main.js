@@ -1,4 +1,4 @@
-// The page: the panel, the pointer, what the address asks for.
+// The page: the panel, the pointer, the parameters of the address.
 //   ?model=knot&quality=0&sky=0&suns=1&window=auto&angle=40&exposure=0&shine=0&figure=1&spheres=0&probes=0&split=0.5&camera=x,y,z&target=x,y,z&fov=35&panel=0
 
 import { addressOf, vectorOf } from "./address.js";
@@ -9,7 +9,7 @@ const element = (id) => document.getElementById(id);
 const canvas = element("view");
 const asked = new URLSearchParams(location.search);
 
-const loads = new Map(); // what is under way, and which share of it is there
+const loads = new Map(); // loads in progress, and the fraction loaded
 
 function showLoads() {
   const shares = [...loads.values()];
@@ -18,8 +18,10 @@ function showLoads() {
   element("loading").hidden = loads.size === 0;
 }
 
-/** Says that `what` is loading until `work` is at an end; first waits for the browser to show it. `work` is given what tells how
- * far it is. */
+/**
+ * Shows that `what` is loading until `work` ends; first waits for the browser to show it. `work` gets a
+ * function that reports its progress.
+ */
 async function loading(what, work) {
   loads.set(what, 0);
   showLoads();
@@ -133,7 +135,7 @@ async function start() {
   async function showModel(keepCamera) {
     const level = quality();
     const camera = keepCamera ? undefined : askedCamera ?? model().camera;
-    askedCamera = undefined; // another model has a place of its own
+    askedCamera = undefined; // a different model has a different camera
     const began = performance.now();
     try {
       await loading(model().title, (progress) => picture.setModel(level.file, { keepCamera, camera, way: model().way, clip: model().clip, progress }));
@@ -153,7 +155,7 @@ async function start() {
     showAddress();
   }
 
-  /** The model before it was compressed, beside what is shown, where that is chosen and there is one. */
+  /** Shows the model before compression next to the current one, if it is selected and exists. */
   async function showBefore() {
     const { before } = model();
     element("compare").disabled = !before;
@@ -167,7 +169,7 @@ async function start() {
     showAddress();
   }
 
-  /** A link to what is shown is in the address of the page, from a moment after anything has changed. */
+  /** Stores a link to the current state in the address of the page, shortly after a change. */
   function showAddress() {
     clearTimeout(showAddress.waiting);
     showAddress.waiting = setTimeout(() => {
@@ -184,7 +186,7 @@ async function start() {
     }, 200);
   }
 
-  /** A slider for each lamp, and for the daylight beside them; nothing for a model without lamps. */
+  /** Shows a slider for each lamp and for the daylight; nothing for a model without lamps. */
   function showLamps() {
     const { lamps } = picture.gltf.userData.prtkit;
     element("lamps").hidden = lamps.length === 0;
@@ -195,7 +197,7 @@ async function start() {
     if (lamps.length === 0) picture.setDaylight(1);
   }
 
-  /** Whether anything can move through the model, and why not. */
+  /** Enables the controls of moving objects if the model supports them, otherwise shows the reason. */
   function showMoving() {
     const { volume } = picture.gltf.userData.prtkit;
     element("moving").disabled = !volume;
@@ -203,7 +205,7 @@ async function start() {
     element("unmoving").textContent = "This model has no volume to light what moves: bake it with prt bake --volume.";
   }
 
-  /** Loads who walks when that is first asked for. */
+  /** Loads the figure when it is first requested. */
   async function setFigure(shown) {
     picture.setMoving("figure", shown);
     if (!shown || !figure || setFigure.isLoaded) return;
@@ -212,7 +214,7 @@ async function start() {
     picture.draw();
   }
 
-  /** Whether there is anything to choose. */
+  /** Enables the switch of separate suns if they are possible. */
   function showSuns() {
     element("suns").disabled = !picture.canSunsBeApart;
   }
@@ -255,7 +257,10 @@ async function start() {
     showAddress();
   }
 
-  /** Files of the user's: shown, and added to their lists where that works. A light file goes with the sky of its name. */
+  /**
+   * Shows the user's files, and adds them to their lists on success. A light file belongs to the sky with an
+   * equal name.
+   */
   async function openFiles(files) {
     const stem = ({ name }) => name.replace(/\.[^.]*$/, "");
     const ofOne = (a, b) => stem(a) === stem(b);
@@ -338,7 +343,7 @@ async function start() {
     element("drop").hidden = false;
   });
   addEventListener("dragleave", (event) => {
-    if (!event.relatedTarget) element("drop").hidden = true; // out of the page
+    if (!event.relatedTarget) element("drop").hidden = true; // left the page
   });
   addEventListener("drop", guarded((event) => {
     event.preventDefault();
@@ -364,12 +369,12 @@ function turnLight(picture, angle) {
 
 const TURN_PER_SECOND = Math.PI / 12;
 
-/** While that is chosen. */
+/** Rotates the light continuously while the option is selected. */
 function turnLightByItself(picture) {
   let before = null;
   const step = (now) => {
     if (!element("turning").checked) return;
-    // A frame that took long, or a page that was hidden, does not make it jump.
+    // A slow frame, or a hidden page, does not cause a jump.
     if (before !== null) turnLight(picture, picture.angle + TURN_PER_SECOND * Math.min((now - before) / 1000, 0.1));
     before = now;
     requestAnimationFrame(step);
@@ -380,7 +385,7 @@ function turnLightByItself(picture) {
   };
 }
 
-/** Drag with the right button or with Shift: the light. OrbitControls has the rest. */
+/** Dragging with the right button or with Shift rotates the light. OrbitControls handles all other dragging. */
 function turnLightByDragging(picture) {
   let last = null;
   picture.controls.mouseButtons.RIGHT = null;

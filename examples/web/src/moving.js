@@ -1,4 +1,5 @@
-// What moves through the scene and is lit by its volume: somebody who walks, two spheres to judge the light by, and the probes.
+// Moving objects lit by the volume of the scene: a walking figure, two spheres to evaluate the light, and the
+// probes.
 
 import {
   AnimationMixer,
@@ -16,9 +17,9 @@ import { PrtkitPlugin } from "./PrtkitLoader.js";
 import { Walk } from "./walk.js";
 
 const RADIUS = 0.25; // metres
-const ASIDE = 0.75; // of who walks, on both sides
+const ASIDE = 0.75; // distance from the figure, on both sides
 const HIGH = 1.2; // over the ground
-const PROBE_SHARE = 0.06; // of the least distance of probes
+const PROBE_SHARE = 0.06; // fraction of the minimum distance of probes
 const USUAL_SPEED = 1.2; // metres a second
 
 function ball(color, metalness, roughness) {
@@ -44,14 +45,14 @@ export class Moving {
     this.model = null; // PrtkitModel
     this.volume = null;
     this.walk = null;
-    this.occluders = null; // of the figure
-    this.mixer = null; // of the figure, once it is there
+    this.occluders = null; // occluders of the figure
+    this.mixer = null; // mixer of the figure, after it is loaded
     this.speed = USUAL_SPEED;
     this.metres = 0;
     this.placeAll();
   }
 
-  /** Loads somebody who can walk: the animation "walk", or the first. */
+  /** Loads a figure that can walk: the animation "walk", or the first. */
   async load(url, progress) {
     const loader = new GLTFLoader().register((parser) => new PrtkitPlugin(parser));
     const { scene, animations, userData } = await loader.loadAsync(url, progress);
@@ -68,12 +69,12 @@ export class Moving {
     this.placeAll();
   }
 
-  /** Takes light from what is baked, as far as it is known how much. */
+  /** Makes the figure occlude baked surfaces, if it has occluders. */
   passBy() {
     if (this.model?.setOccluders && this.walk) this.model.setOccluders(this.occluders);
   }
 
-  /** Goes on in another scene: `gltf`, and the way of Walk there. Where it has no volume nothing is shown. */
+  /** Continues in a different scene: `gltf`, and the path of Walk there. Without a volume nothing is shown. */
   enter(gltf, way) {
     this.model = gltf.userData.prtkit;
     this.volume = this.model.volume ?? null;
@@ -94,7 +95,7 @@ export class Moving {
     this.parts.probes.clear();
   }
 
-  /** The probes, each lit by what is around it; those inside of something are red. */
+  /** Creates the probes, each lit by its surroundings; probes inside geometry are red. */
   makeProbes() {
     const { volume } = this;
     const all = Array.from({ length: volume.probes }, (_, probe) => probe);
@@ -111,12 +112,12 @@ export class Moving {
     this.placeAll();
   }
 
-  /** Whether anything changes from picture to picture. */
+  /** True if the picture changes from frame to frame. */
   get isWalking() {
     return this.walk !== null && ((this.shown.figure && this.mixer !== null) || this.shown.spheres);
   }
 
-  /** Whether the light of the volume that was set is still to be formed; what is not drawn waits for it. */
+  /** True if the light of the volume is not complete yet; invisible objects do not count. */
   get isWaiting() {
     return Object.values(this.parts).some(({ visible, children }) => visible && children.length > 0) && !this.volume.isSettled;
   }

@@ -1,5 +1,5 @@
-// Materials of WebGPURenderer, lit by transfer as relitMaterial.js has those of WebGLRenderer. Where transfer goes is told by
-// transferShader.js; suns that are apart have three's own shadows here.
+// Materials of WebGPURenderer lit by transfer, like those of relitMaterial.js for WebGLRenderer.
+// transferShader.js describes the use of transfer; separate suns use three's shadows here.
 
 import {
   clearcoatNormalView,
@@ -21,7 +21,7 @@ import { radianceOfVertices } from "./radianceNodes.js";
 import { matte } from "./relitMaterial.js";
 import { lightOfVolume } from "./volumeNodes.js";
 
-// Of the material that is drawn.
+// Uniforms of the material being drawn.
 const strength = uniform(new Vector3()).onObjectUpdate(({ material }) => material._transfer.uniforms.prtStrength.value);
 const sunsApart = uniform(0).onObjectUpdate(({ material }) => Number(material._transfer.uniforms.prtSunsApart.value));
 const transmission = uniform(new Vector4()).onObjectUpdate(({ material }) => material._transfer.traits.transmission);
@@ -43,7 +43,7 @@ class LightNode extends LightingNode {
   setup() {}
 }
 
-/** Suns that are apart, through thin sheets, too: sunLoop.glsl. */
+/** Adds separate suns, also through thin sheets: see sunLoop.glsl. */
 function sunLight(lighting, thin) {
   const { direct } = lighting;
   return (data, builder) => {
@@ -59,8 +59,10 @@ function sunLight(lighting, thin) {
   };
 }
 
-/** Changes what a lighting model of three's adds up, of what moves: the light of a volume is its diffuse light, and what it mirrors.
- * As transferShader.js has it. */
+/**
+ * Changes the sums of three's lighting model for moving objects: the light of a volume is the diffuse light
+ * and the mirrored light, as in transferShader.js.
+ */
 function moving(lighting, { volume, reflects }) {
   lighting.direct = sunLight(lighting, false);
   if (lighting.indirectSpecular === undefined) {
@@ -82,7 +84,7 @@ function moving(lighting, { volume, reflects }) {
   return lighting;
 }
 
-/** Changes what a lighting model of three's adds up: the transfer's `radiance` is its diffuse light around. */
+/** Changes the sums of three's lighting model: `radiance` of the transfer is the diffuse ambient light. */
 function relit(lighting, { radiance, reflects, thin }) {
   const diffuse = radiance.max(0);
   if (lighting.indirectSpecular === undefined)
@@ -107,7 +109,10 @@ function relit(lighting, { radiance, reflects, thin }) {
   return lighting;
 }
 
-/** Own properties of `source`, as three makes node materials of others; colours and vectors are copies. */
+/**
+ * Copies the properties of `source`, as three does for node materials; colours and vectors are copied by
+ * value.
+ */
 function take(material, source) {
   for (const [key, value] of Object.entries(source)) {
     if (["uuid", "type", "version", "_transfer"].includes(key) || value?.isNode) continue;
@@ -118,7 +123,7 @@ function take(material, source) {
 
 const lit = (Base) =>
   class extends Base {
-    /** `transfer`: as of relitMaterial. */
+    /** `transfer`: see relitMaterial. */
     light(transfer) {
       this._transfer = transfer;
       this.shadowSide = DoubleSide; // every triangle blocks from both sides
@@ -131,7 +136,10 @@ const lit = (Base) =>
       return Boolean(this._transfer.lightMap);
     }
 
-    /** Of whom the same nodes are: all of a model whose attributes, coordinates and suns are alike. */
+    /**
+     * Returns a key of the node graph, shared by all materials of a model with equal attributes, coordinates
+     * and suns.
+     */
     customProgramCacheKey() {
       const { model, defines, traits, lightMap } = this._transfer;
       const parts = [(model.constantsTexture ?? model.texture).id, JSON.stringify(defines), traits?.lit, traits?.transmission.w > 0, lightMap?.channel];
@@ -148,7 +156,7 @@ const lit = (Base) =>
       return this.isMapped ? null : super.setupLightMap(builder);
     }
 
-    /** Three's own lights are left out but for suns: they are in the sky, or lamps of the transfer. */
+    /** Omits three's lights except suns: other light is in the sky, or in lamps of the transfer. */
     setupLighting(builder) {
       const { lightsNode } = this;
       const { model, traits } = this._transfer;
@@ -189,7 +197,7 @@ const LitPhysical = lit(MeshPhysicalNodeMaterial);
 const LitStandard = lit(MeshStandardNodeMaterial);
 const LitLambert = lit(MeshLambertNodeMaterial);
 
-/** As relitMaterial, for WebGPURenderer. */
+/** Returns a relit material for WebGPURenderer; see relitMaterial. */
 export function nodeMaterial(source, transfer) {
   const Material = source.isMeshPhysicalMaterial ? LitPhysical : source.isMeshStandardMaterial ? LitStandard : LitLambert;
   const material = new Material();

@@ -4,7 +4,7 @@ import { float, ivec2, screenCoordinate, textureLoad, uvec4, vec4 } from "three/
 import { NoBlending, NodeMaterial, QuadMesh, RendererUtils } from "three/webgpu";
 import { radianceOfWords } from "./radianceNodes.js";
 
-const LARGEST_HALF = 65504; // filters and mipmaps would spread what is larger
+const LARGEST_HALF = 65504; // filters and mipmaps would spread larger values
 
 /** The word that a texel has in an image. */
 function wordOf(image, texel) {

@@ -1,4 +1,4 @@
-// What is on the canvas: a model, a sky, a camera. No panel here.
+// The content of the canvas: a model, a sky, a camera. Does not include the panel.
 
 import {
   AnimationMixer,
@@ -48,7 +48,7 @@ async function loadLightFile(url) {
   return readLightFile(await response.json());
 }
 
-/** A model and its transfer; throws where it has none that is compressed. `progress`: of three's loaders. */
+/** Loads a model and its transfer; throws if it has no compressed transfer. `progress`: see three's loaders. */
 async function loadModel(url, progress) {
   const loader = new GLTFLoader().setMeshoptDecoder(MeshoptDecoder).register((parser) => new PrtkitPlugin(parser));
   const gltf = await loader.loadAsync(url, progress);
@@ -70,7 +70,7 @@ function disposeOf(gltf) {
   gltf.userData.prtkit?.dispose();
 }
 
-/** The animation of that name, or the first, of a figure; null where it has none. */
+/** Returns the animation with that name, or the first, of a figure; null if it has none. */
 function danceOf({ scene, animations }, name) {
   const clip = animations.find((animation) => animation.name === name) ?? animations[0];
   if (!clip) return null;
@@ -86,13 +86,14 @@ export class Picture {
     this.renderer.toneMapping = CustomToneMapping;
     this.renderer.setClearColor(0x000000, 0);
     this.renderer.shadowMap.enabled = true;
-    this.renderer.shadowMap.type = BasicShadowMap; // what transfer lights filters it as wide as the sun is
+    // relit materials filter it according to the size of the sun
+    this.renderer.shadowMap.type = BasicShadowMap;
     this.meter = new ExposureMeter(this.renderer);
     this.scene = new Scene();
     this.camera = new PerspectiveCamera(35, 1, 0.01, 100);
     this.controls = new OrbitControls(this.camera, canvas);
     this.controls.addEventListener("change", () => this.draw());
-    this.fieldOfView = 35; // degrees, of the shorter side
+    this.fieldOfView = 35; // degrees, along the shorter side
     this.background = new Mesh(
       new BoxGeometry(2, 2, 2),
       new ShaderMaterial({
@@ -108,31 +109,34 @@ export class Picture {
     this.background.visible = false;
     this.scene.add(this.background);
     this.moving = new Moving(this.scene);
-    this.movedAt = null; // milliseconds, of the picture before
-    this.isMetered = false; // for what the light and the camera are
+    this.movedAt = null; // time of the previous picture, milliseconds
+    this.isMetered = false; // true if the exposure fits the current light and camera
     this.gltf = null;
-    this.before = null; // the same model before it was compressed
-    this.split = 0.5; // before it on the left, as a share of the width
+    this.before = null; // the model before compression
+    this.split = 0.5; // the model before compression is on the left; fraction of the width
     this.shine = false; // whether materials reflect the sky
-    this.light = null; // of the sky with its suns, all bands
-    this.sunny = null; // the sky without its suns, and these, where a light file says them
+    this.light = null; // light of the sky with its suns, all bands
+    this.sunny = null; // the sky without its suns, and the suns, if there is a light file
     this.sunLights = null;
     this.shadowMapSize = shadowMapSize;
-    this.sunsApart = true; // where there are suns, and the model can have them apart
+    this.sunsApart = true; // if there are suns, and the model supports separate ones
     this.window = "auto";
-    this.lit = null; // what lights the model: { sky, suns }, as many bands as it has, the sky under the window
+    // light of the model: { sky, suns }, with the model's order, the sky filtered by the window
+    this.lit = null;
     this.angle = 0;
-    this.daylight = 1; // times the sky and its suns
+    this.daylight = 1; // factor on the sky and its suns
     this.lamps = {}; // strengths by name
     this.stops = 0;
-    this.still = false; // nobody walks
-    this.dance = null; // of a model whose transfer turns with its skin
+    this.still = false; // the figure does not walk
+    this.dance = null; // animation of a model with lobes
     this.drawn = 0;
     this.pending = false;
   }
 
-  /** Shows the model at `url`; the camera stays where a model was shown before and `keepCamera` is set. `way`: of Walk; `clip`: name
-   * of the animation of what turns with its skin. */
+  /**
+   * Shows the model at `url`; the camera is kept if a model was shown before and `keepCamera` is set. `way`:
+   * see Walk; `clip`: name of the animation of a model with lobes.
+   */
   async setModel(url, { keepCamera = false, camera, way, clip, progress } = {}) {
     const gltf = await loadModel(url, progress);
     this.removeModel();
@@ -156,7 +160,7 @@ export class Picture {
     for (const { shadow } of this.sunLights?.lights ?? []) shadow.needsUpdate = true;
   }
 
-  /** Shows the model at `url`, the same one before it was compressed, left of `split`; null: no longer. */
+  /** Shows the model at `url`, the current model before compression, left of `split`; null: not shown. */
   async setBefore(url, progress) {
     const gltf = url ? await loadModel(url, progress) : null;
     this.removeBefore();
@@ -165,7 +169,7 @@ export class Picture {
     this.relight();
   }
 
-  /** As a share of the width. */
+  /** Sets the split as a fraction of the width. */
   setSplit(share) {
     this.split = share;
     this.draw();
@@ -187,8 +191,8 @@ export class Picture {
   }
 
   /**
-   * `file`: a lat-long sky; `center` says which axis its middle looks at: "x" as three has it, "z" as OpenEXR has it.
-   * `light`: its light file, which has its suns. One of both is enough.
+   * `file`: a lat-long sky; `center` is the axis that its middle faces: "x" as in three, "z" as in OpenEXR.
+   * `light`: its light file, with its suns. At least one of both is required.
    */
   async setSky({ file, exr = /\.exr(\?|$)/.test(file), center = "x", light }, progress) {
     const [image, split] = await Promise.all([
@@ -218,7 +222,7 @@ export class Picture {
     this.background.visible = true;
   }
 
-  /** Whether materials reflect the sky as three has it; what they scatter is transfer's either way. */
+  /** Sets whether materials reflect the sky as in three; diffuse light comes from transfer in both cases. */
   setShine(shine) {
     this.shine = shine;
     this.scene.environment?.dispose();
@@ -227,7 +231,7 @@ export class Picture {
     this.draw();
   }
 
-  /** `split`: what a light file says, or null. */
+  /** `split`: content of a light file, or null. */
   setSuns(split) {
     this.sunLights?.removeFromParent();
     this.sunLights?.dispose();
@@ -235,29 +239,29 @@ export class Picture {
     this.sunny = split?.suns.length > 0 ? split : null;
     if (!this.sunny) return;
     this.sunLights = new SunLights(split.suns, { mapSize: this.shadowMapSize });
-    for (const { shadow } of this.sunLights.lights) shadow.autoUpdate = false; // nothing moves but they do
+    for (const { shadow } of this.sunLights.lights) shadow.autoUpdate = false; // only the suns move
     this.scene.add(this.sunLights);
   }
 
-  /** With sharp shadows, or in the sky with the rest of it. */
+  /** Sets whether suns are separate, with sharp shadows, or part of the sky. */
   setSunsApart(apart) {
     this.sunsApart = apart;
     this.formLight();
   }
 
-  /** Whether suns can be lit apart: where the sky has them, and the model keeps direct light apart. */
+  /** True if suns can be separate: the sky has suns, and the model has a separate direct term. */
   get canSunsBeApart() {
     const model = this.gltf?.userData.prtkit;
     return Boolean(this.sunny && model?.directApart && this.sunny.sky.order >= model.order);
   }
 
-  /** One of WINDOWS. */
+  /** Sets one of WINDOWS. */
   setWindow(name) {
     this.window = name;
     this.formLight();
   }
 
-  /** Once for each sky and model: turning the light does not change what its window takes out. */
+  /** Computes the light, once for each sky and model: rotation does not change the effect of the window. */
   formLight() {
     const { order } = this.gltf?.userData.prtkit ?? {};
     if (this.light && order) {
@@ -275,7 +279,7 @@ export class Picture {
     this.relight();
   }
 
-  /** Times the sky and its suns. */
+  /** Sets the factor on the sky and its suns. */
   setDaylight(factor) {
     this.daylight = factor;
     this.relight();
@@ -307,7 +311,10 @@ export class Picture {
     this.draw();
   }
 
-  /** From the front, a little from the right and above; or `camera`: { position, target, fieldOfView }. */
+  /**
+   * Sets the camera in front, slightly to the right and above; or to `camera`: { position, target,
+   * fieldOfView }.
+   */
   frame(camera) {
     this.gltf.scene.updateMatrixWorld(true);
     const box = new Box3().setFromObject(this.gltf.scene);
@@ -339,7 +346,7 @@ export class Picture {
     this.camera.updateProjectionMatrix();
   }
 
-  /** Of the model without what moves through it, so that it does not change as that comes and goes. */
+  /** Measures the exposure of the model without moving objects, so that it does not change when they move. */
   expose() {
     if (this.isMetered) return;
     this.isMetered = true;
@@ -352,7 +359,7 @@ export class Picture {
     this.renderer.toneMappingExposure = (metered ?? 0.25 / this.light.meanLuminance()) * 2 ** this.stops;
   }
 
-  /** Once, before the browser shows the next frame. */
+  /** Draws once, before the browser shows the next frame. */
   draw() {
     this.isMetered = false;
     this.drawSoon();
@@ -371,12 +378,12 @@ export class Picture {
     });
   }
 
-  /** Whether there is something to see that goes on by itself. */
+  /** True if the picture is animated. */
   get isMoving() {
     return (this.moving.isWalking || this.dance !== null) && !this.still;
   }
 
-  /** A picture that took long, or a page that was hidden, does not make it jump. */
+  /** A slow picture, or a hidden page, does not cause a jump. */
   move(now) {
     if (this.isMoving && this.movedAt !== null) {
       const seconds = Math.min((now - this.movedAt) / 1000, 0.1);
@@ -387,7 +394,7 @@ export class Picture {
     this.movedAt = this.isMoving ? now : null;
   }
 
-  /** All of the picture, or the model before it was compressed on the left and after on the right. */
+  /** Draws the whole picture, or the model before compression on the left and after it on the right. */
   render() {
     const { renderer, before, gltf } = this;
     if (!before || !gltf) return renderer.render(this.scene, this.camera);

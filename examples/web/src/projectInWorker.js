@@ -1,13 +1,13 @@
-// Projection of a sky beside the main thread, which a large one holds up for a second.
+// Projects a sky outside the main thread, which a large sky would block for a second.
 
 import { HalfFloatType } from "three";
 import { projectEquirectangular, texels } from "./equirectangular.js";
 import { MAX_ORDER, ShLight } from "./sphericalHarmonics.js";
 
 /**
- * A promise of what projectEquirectangular returns, made by a worker of its own, which is given a copy of the texels; where
- * there are no workers, as in node, by the caller. Rejects with what projectEquirectangular throws, and with an Error where
- * the worker does not start.
+ * Returns a promise of the result of projectEquirectangular, computed by a separate worker on a copy of the
+ * texels; without workers, as in node, in the calling thread. Rejects with the errors of
+ * projectEquirectangular, and with an Error if the worker does not start.
  */
 export async function projectInWorker(texture, order = MAX_ORDER, { center = "x" } = {}) {
   if (typeof Worker === "undefined") return projectEquirectangular(texture, order, { center });

@@ -1,4 +1,4 @@
-// Beside the main thread: { image, order } to { order, polar } of its light, or { error }.
+// Worker: receives { image, order }, returns { order, polar } of its light, or { error }.
 
 import { halfFloat } from "./halfFloat.js";
 import { projectLatLong } from "./sphericalHarmonics.js";

@@ -1,4 +1,4 @@
-// shaders/prt_exit_radiance.glsl in three's node language, for WebGPURenderer: of vertices, and of texels.
+// shaders/prt_exit_radiance.glsl in three's node language, for WebGPURenderer: for vertices and texels.
 
 import {
   attribute,
@@ -24,7 +24,7 @@ const ROW_BITS = Math.log2(TABLES.PRT_TEXTURE_WIDTH);
 const entry = (table, i) =>
   textureLoad(table, ivec2(i.bitAnd(uint(TABLES.PRT_TEXTURE_WIDTH - 1)), i.shiftRight(uint(ROW_BITS))));
 
-/** What reads bits of words: `width` of them from bit `at` on, which may lie across two. */
+/** Returns a function that reads `width` bits of words from bit `at`; they may cross two words. */
 function bitsOf(words) {
   const word = (i) => words.reduce((chosen, one, k) => (k === 0 ? one : i.equal(uint(k)).select(one, chosen)), null);
   return (at, width) => {
@@ -39,8 +39,8 @@ function bitsOf(words) {
 const NO_GUIDES = { rows: 0, of: null };
 
 /**
- * Radiance of what has the packed `words()`. `guides`: { rows, of }, how many rows of a cluster they take and, given its first
- * row, what they add to its mean.
+ * Returns the radiance of the packed `words()`. `guides`: { rows, of }: number of rows per cluster, and a
+ * function that returns their contribution to the mean, given the cluster's first row.
  */
 export function radianceOfWords({ constantsTexture, clustersTexture }, words, clusterBits, guides = NO_GUIDES) {
   return Fn(() => {
@@ -61,7 +61,7 @@ export function radianceOfWords({ constantsTexture, clustersTexture }, words, cl
   })();
 }
 
-/** The same where weights are vectors of four beside the cluster. */
+/** Returns the radiance for weights in vectors of four and a separate cluster. */
 function radianceOfWeights({ constantsTexture, clustersTexture }, vectors, guides) {
   return Fn(() => {
     const cluster = entry(clustersTexture, attribute("prt_cluster", "uint")).toVar();
@@ -77,12 +77,12 @@ function radianceOfWeights({ constantsTexture, clustersTexture }, vectors, guide
   })();
 }
 
-// By the material that is drawn: the same nodes serve all of a model.
+// Uniforms by the material being drawn: the nodes are shared by the whole model.
 const ofMaterial = (value, name) => uniform(value).onObjectUpdate(({ material }) => material._transfer.uniforms[name].value);
 const toBake = ofMaterial(new Matrix4(), "prtToBake");
 const normalToBake = ofMaterial(new Matrix3(), "prtNormalToBake");
 
-/** Place and normal of a vertex in the frame of the bake, as transferVertex.glsl has them. */
+/** Returns position and normal of a vertex in the space of the bake, as in transferVertex.glsl. */
 function bakedFrameOf(defines) {
   if (defines.PRT_BAKED_ATTRIBUTES) return { place: attribute("prt_place", "vec3"), normal: attribute("prt_normal", "vec3") };
   const turned = normalToBake.mul(normalGeometry);

@@ -1,11 +1,11 @@
-// Materials as GLTFLoader makes them, lit by transfer, and by suns that are apart from it.
+// Materials of GLTFLoader, lit by transfer and by separate suns.
 
 import { DoubleSide, MeshLambertMaterial, Vector3, Vector4 } from "three";
 import { addLobes, addTransfer, addVolume, PACKED_SHADOW_MAPS } from "./transferShader.js";
 
 /**
- * How suns meet a material of the glTF: { lit, transmission, casts }. A medium has all of its light from transfer; shadow
- * maps hold one depth, so that glass and what is blended casts no shadow.
+ * Returns the treatment of suns by a material of the glTF: { lit, transmission, casts }. A medium has all of
+ * its light from transfer; shadow maps store one depth, so that glass and blended surfaces cast no shadow.
  */
 export function sunTraits(gltfMaterial) {
   const extensions = gltfMaterial?.extensions ?? {};
@@ -22,7 +22,7 @@ export function sunTraits(gltfMaterial) {
   };
 }
 
-/** What has no shading of its own, an unlit material, is matte. */
+/** Returns a matte material for a material without shading (unlit). */
 export function matte(source) {
   return new MeshLambertMaterial({
     name: source.name,
@@ -39,14 +39,16 @@ export function matte(source) {
   });
 }
 
-/** Gives `material` its light, and its clones theirs: three copies neither defines nor what is done before compiling. What the
- * source of one that moves does then, is done. */
+/**
+ * Adds the light to `material` and its clones, because three copies neither defines nor the function before
+ * compiling. Also calls the function of the source material of a moving object.
+ */
 function light(material, transfer) {
   const { uniforms, defines, traits, lightMap, model, source } = transfer;
   material.defines = { ...material.defines, ...defines };
   if (traits?.lit) material.defines.PRT_SUNS = 1;
   if (PACKED_SHADOW_MAPS) material.defines.PRT_PACKED_SHADOW_MAPS = 1;
-  // Radiance of what has albedo 1; three has irradiance in light maps.
+  // Radiance for albedo 1; three's light maps contain irradiance.
   if (lightMap) Object.assign(material, { lightMap, lightMapIntensity: Math.PI });
   material.shadowSide = DoubleSide; // every triangle blocks from both sides
   material.onBeforeCompile = (shader, renderer) => {
@@ -67,15 +69,18 @@ function light(material, transfer) {
 }
 
 /**
- * `source`, the material that GLTFLoader made, as one of its own, lit by `transfer`: `uniforms` of the model, and the strength
- * of what shines; `defines` of the geometry's attributes; `lightMap`, where texels have the transfer; `traits` of sunTraits,
- * null where the model keeps no direct light apart; `model`: whose light it is.
+ * Returns a copy of `source`, the material of GLTFLoader, lit by `transfer`: `uniforms` of the model, and the
+ * strength of emission; `defines` of the geometry's attributes; `lightMap`, if texels have the transfer;
+ * `traits` of sunTraits, null if the model has no separate direct term; `model`: the source of the light.
  */
 export function relitMaterial(source, transfer) {
   return light(source.isMeshStandardMaterial ? source.clone() : matte(source), { ...transfer, own: source });
 }
 
-/** Whether a volume can light a material: what three has no light for stays what it is. Throws for what it cannot. */
+/**
+ * True if a volume can light a material; materials that three does not light are unchanged. Throws for
+ * unsupported materials.
+ */
 function takesVolume({ isMeshStandardMaterial, isMeshLambertMaterial, isMeshPhongMaterial, isMeshToonMaterial, lights, type }) {
   if (isMeshStandardMaterial || isMeshLambertMaterial) return true;
   if (isMeshPhongMaterial || isMeshToonMaterial || lights === true)
@@ -83,21 +88,24 @@ function takesVolume({ isMeshStandardMaterial, isMeshLambertMaterial, isMeshPhon
   return false;
 }
 
-/** What of a volume lights a material of what moves: as the transfer of relitMaterial. */
+/** Returns the transfer of relitMaterial for a moving object in a volume. */
 export function transferOfVolume(source, volume) {
   const traits = { lit: true, transmission: new Vector4(1, 1, 1, 0) };
   const uniforms = { ...volume.uniforms, prtStrength: { value: new Vector3(1, 1, 1) } };
   return { uniforms, defines: volume.defines, traits, model: volume, source };
 }
 
-/** The same of what has lobes, which `lobes`, a transfer of it, has. */
+/** Returns the transfer of a moving object with the lobes of the transfer `lobes`. */
 const turning = (transfer, { uniforms: { prt_lobe_profiles }, defines: { PRT_LOBES } }) => ({
   ...transfer,
   uniforms: { ...transfer.uniforms, prt_lobe_profiles },
   defines: { ...transfer.defines, PRT_LOBES },
 });
 
-/** A copy of `source` that `volume` lights, which stays what it is; itself where nothing is to be done. */
+/**
+ * Returns a copy of `source` lit by `volume`, with all other properties unchanged; `source` itself if no
+ * change is needed.
+ */
 export function movingMaterial(source, volume, copied) {
   const transfer = source._transfer;
   const lobes = transfer?.defines.PRT_LOBES ? transfer : null;

@@ -4,7 +4,10 @@ export const MAX_ORDER = 10;
 
 const index = (l, m) => l * (l + 1) + m;
 
-/** Q_l^m(z) of docs/math.md, eq. 3: the polynomial in z beside sin^m(theta), normalised; [order²], m >= 0 filled. */
+/**
+ * Returns Q_l^m(z) of docs/math.md, eq. 3: the polynomial in z that multiplies sin^m(theta), normalised;
+ * [order²], m >= 0 filled.
+ */
 function legendre(order, z, out) {
   let product = 1;
   for (let m = 0; m < order; ++m) {
@@ -63,8 +66,9 @@ export function gaussLegendre(count) {
 }
 
 /**
- * For each band l the matrix M_ij = ∫ Y_i(w) Y_j(turn(w)) dw, by a quadrature that is exact for it: light of coefficients L is
- * M L seen from axes that `turn` takes to those of L. `turn(x, y, z)`: the direction [3], of a rotation.
+ * Returns for each band l the matrix M_ij = ∫ Y_i(w) Y_j(turn(w)) dw, by an exact quadrature: light of
+ * coefficients L is M L in axes that `turn` maps to those of L. `turn(x, y, z)`: the direction [3] after a
+ * rotation.
  */
 function bandMatrices(order, turn) {
   const rings = gaussLegendre(order);
@@ -90,14 +94,20 @@ function bandMatrices(order, turn) {
   return matrices;
 }
 
-/** Matrices of bands that turn coefficients about the polar axis +Y, azimuth from +Z to +X, into those about +Z. */
+/**
+ * Returns matrices of bands that convert coefficients about the polar axis +Y, azimuth from +Z to +X, to
+ * those about +Z.
+ */
 export const polarMatrices = (order) => bandMatrices(order, (x, y, z) => [z, x, y]);
 
-/** What light of the world is in axes that `rotation` takes into the world's, [9] by columns: for `turnedBands`. */
+/**
+ * Returns matrices for `turnedBands` that convert light in the world to axes that `rotation` maps to the
+ * world's, [9] by columns.
+ */
 export const rotationMatrices = (order, [a, b, c, d, e, f, g, h, k]) =>
   bandMatrices(order, (x, y, z) => [a * x + d * y + g * z, b * x + e * y + h * z, c * x + f * y + k * z]);
 
-/** Coefficients [order²][3] turned by the matrices of all bands. */
+/** Returns coefficients [order²][3] rotated by the matrices of all bands. */
 export function turnedBands(matrices, coefficients) {
   const result = new Float64Array(3 * matrices.length ** 2);
   matrices.forEach((matrix, l) => {
@@ -115,7 +125,8 @@ export function turnedBands(matrices, coefficients) {
 const matricesByOrder = new Map();
 
 /**
- * Lighting that turns about +Y: coefficients are kept about that axis, where a turn mixes m with -m alone.
+ * Lighting for rotation about +Y: coefficients use that axis as pole, so that a rotation mixes only m with
+ * -m.
  */
 export class ShLight {
   /** `polar`: [order²][3] about +Y, azimuth from +Z towards +X. */
@@ -126,14 +137,14 @@ export class ShLight {
     this.matrices = matricesByOrder.get(order);
   }
 
-  /** Of RGB coefficients [order²][3] in prtkit's convention: what `coefficients` gives. */
+  /** Creates a light from RGB coefficients [order²][3] in prtkit's convention: the inverse of `coefficients`. */
   static fromCoefficients(order, coefficients) {
     const light = new ShLight(order, new Float64Array(3 * order * order));
     for (let l = 0; l < order; ++l) {
       const size = 2 * l + 1;
       for (let i = 0; i < size; ++i)
         for (let j = 0; j < size; ++j) {
-          const factor = light.matrices[l][i * size + j]; // orthogonal: the transpose turns back
+          const factor = light.matrices[l][i * size + j]; // orthogonal: the transpose is the inverse
           for (let channel = 0; channel < 3; ++channel)
             light.polar[3 * (l * l + j) + channel] += factor * coefficients[3 * (l * l + i) + channel];
         }
@@ -142,8 +153,8 @@ export class ShLight {
   }
 
   /**
-   * RGB coefficients [order²][3] as prtkit wants them, the light turned about +Y by `angle` radians: light from +Z comes
-   * from +X after a quarter turn.
+   * Returns RGB coefficients [order²][3] in prtkit's convention, with the light rotated about +Y by `angle`
+   * radians: after a quarter rotation, light from +Z comes from +X.
    */
   coefficients(angle = 0) {
     const { order, polar } = this;
@@ -173,8 +184,8 @@ export class ShLight {
   }
 
   /**
-   * This light turned by any rotation, or mirrored: what comes from d comes from `matrix` times d, [9] by columns. By a
-   * quadrature that is exact for the bands that there are.
+   * Returns this light under any rotation or reflection: light from d then comes from `matrix` times d, [9]
+   * by columns. Uses a quadrature that is exact for its bands.
    */
   rotated(matrix) {
     const { order } = this;
@@ -198,47 +209,47 @@ export class ShLight {
     return ShLight.fromCoefficients(order, after);
   }
 
-  /** This light and `other` together, in the bands that both have. */
+  /** Returns the sum of this light and `other`, in the bands that both have. */
   plus(other) {
     const order = Math.min(this.order, other.order);
     return new ShLight(order, this.polar.slice(0, 3 * order * order).map((value, i) => value + other.polar[i]));
   }
 
-  /** This light so many times as strong. */
+  /** Returns this light multiplied by a factor. */
   times(factor) {
     return new ShLight(this.order, this.polar.map((value) => factor * value));
   }
 
-  /** The same light with the least filter under which its radiance is nowhere negative: `deringFactors`. */
+  /** Returns the light under the weakest filter that makes its radiance nowhere negative: `deringFactors`. */
   deringed() {
     const factors = deringFactors(this.order, this.polar);
     const band = (i) => Math.floor(Math.sqrt(Math.floor(i / 3) + 0.5));
     return new ShLight(this.order, Float64Array.from(this.polar, (v, i) => v * factors[band(i)]));
   }
 
-  /** Luminance (Rec. 709) of the mean radiance over all directions. */
+  /** Returns the luminance (Rec. 709) of the mean radiance over all directions. */
   meanLuminance() {
     const y00 = 0.5 / Math.sqrt(Math.PI);
     return y00 * (0.2126 * this.polar[0] + 0.7152 * this.polar[1] + 0.0722 * this.polar[2]);
   }
 }
 
-/** Azimuth, from +Z towards +X, of the middle of a lat-long image that looks at that axis. */
+/** Azimuth, from +Z towards +X, of the middle of a lat-long image that faces that axis. */
 const CENTER_AZIMUTH = { x: Math.PI / 2, z: 0 };
 
 /**
- * Projects a lat-long image: +Y on top, columns from the centre to the right turn from +Z towards -X. The image is
- * constant over each texel, and the basis is integrated over it (docs/math.md, eq. 15).
- *
- * `image`: { width, height, data, stride, topFirst, value, center }: numbers per pixel, whether the first row is +Y, what
- * turns a stored number into radiance, and which axis the centre looks at: "z" as in OpenEXR, "x" as in three.
+ * Projects a lat-long image: +Y at the top, columns from the centre to the right rotate from +Z towards -X.
+ * The image is constant over each texel, and the basis is integrated over it (docs/math.md, eq. 15).
+ * `image`: { width, height, data, stride, topFirst, value, center }: numbers per pixel, whether the first row
+ * is +Y, a function from a stored number to radiance, and the axis of the centre: "z" as in OpenEXR, "x" as
+ * in three.
  */
 export function projectLatLong(image, order) {
   const { width, height, data, stride = 4, topFirst = true, value = (v) => v, center = "z" } = image;
   if (!(order >= 1 && order <= MAX_ORDER)) throw new RangeError(`order ${order} is outside 1..${MAX_ORDER}`);
   if (!(center in CENTER_AZIMUTH)) throw new RangeError(`the centre looks at "x" or "z", not "${center}"`);
   const middle = CENTER_AZIMUTH[center];
-  // ∫ cos(m phi) and sin(m phi) over the columns, whose azimuth falls by 2 pi: [2 order - 1][width]
+  // ∫ cos(m phi) and sin(m phi) over the columns, with azimuth decreasing by 2 pi: [2 order - 1][width]
   const columns = Array.from({ length: 2 * order - 1 }, () => new Float64Array(width));
   for (let x = 0; x < width; ++x) {
     const high = middle + 2 * Math.PI * (0.5 - x / width);
@@ -296,8 +307,8 @@ export function projectLatLong(image, order) {
 }
 
 /**
- * Radiance on a grid of `rows` rings of 2 `rows` directions, as shares of the channels' means: the least, the largest,
- * and of every patch of the grid the lowest direction where it is negative.
+ * Returns radiance on a grid of `rows` rings of 2 `rows` directions, relative to the channels' means: the
+ * minimum, the maximum, and the lowest direction of every patch of the grid in which it is negative.
  */
 function radianceOnGrid(order, shares, rows) {
   const columns = 2 * rows;
@@ -353,7 +364,10 @@ function radianceOnGrid(order, shares, rows) {
   return result;
 }
 
-/** Solves the symmetric system `matrix` x = `right` by Cholesky's method; rows that depend on others count for little. */
+/**
+ * Solves the symmetric system `matrix` x = `right` by Cholesky's method; linearly dependent rows have little
+ * effect.
+ */
 function solveSymmetric(matrix, right) {
   const n = right.length;
   const l = matrix.map((row) => Float64Array.from(row));
@@ -414,8 +428,9 @@ function leastChange(order, weights, rows, tolerance) {
 }
 
 /**
- * The mean radiance of a channel; 0 where it is not positive, or less than a millionth of a coefficient: light that is
- * nowhere negative has none so far above it, and shares of it would be rounding and overflow.
+ * Returns the mean radiance of a channel; 0 if it is not positive, or less than a millionth of a coefficient:
+ * light that is nowhere negative has no larger coefficients, and relative values would be rounding errors and
+ * overflow.
  */
 function usableMean(coefficients, channel) {
   let largest = 0;
@@ -425,12 +440,12 @@ function usableMean(coefficients, channel) {
 }
 
 /**
- * The factors of the bands [order] under which a light is nowhere negative in any channel, and which change what receivers
- * show the least: docs/math.md, eq. 16 to 19. `coefficients`: [order²][3], about any axis. 1 where nothing is negative.
- * Turning the light does not change them.
+ * Returns the factors of the bands [order] that make a light nowhere negative in any channel with the minimum
+ * change of light on receivers: docs/math.md, eq. 16 to 19. `coefficients`: [order²][3], about any axis. 1 if
+ * the light is nowhere negative. The factors do not depend on the rotation of the light.
  */
 export function deringFactors(order, coefficients) {
-  const slack = 0.01; // of the mean; less is taken out by less contrast
+  const slack = 0.01; // relative to the mean; the remainder is removed by reducing contrast
   const between = (rows) => {
     const drop = (((order - 1) * Math.PI) / rows) ** 2 / 8;
     return drop / (1 - 2 * drop) + 1e-9;

@@ -3,7 +3,7 @@
 // Define PRT_PACKED_SHADOW_MAPS where three packs depths into colors.
 
 uniform bool prtSunsApart;
-uniform vec4 prtTransmission; // color of what passes a thin sheet, and how much
+uniform vec4 prtTransmission; // color of transmitted light through a thin sheet, and its fraction
 
 #if NUM_DIR_LIGHTS > 0
 
@@ -13,9 +13,9 @@ uniform mat4 directionalShadowMatrix[NUM_DIR_LIGHT_SHADOWS];
 
 #if defined(SHADOWMAP_TYPE_BASIC) && !defined(USE_REVERSED_DEPTH_BUFFER)
 
-// Percentage-closer soft shadows (R. Fernando, SIGGRAPH 2005 sketch): what blocks is looked for in the cone that the
-// sun fills, and the map is filtered over what that cone is as wide as at the mean blocker. Both compare with the plane
-// of the surface, so that a slope does not shadow itself.
+// Percentage-closer soft shadows (R. Fernando, SIGGRAPH 2005 sketch): blockers are searched in the cone of
+// the sun, and the map is filtered over the width of that cone at the mean blocker. Both compare with the
+// plane of the surface, so that a slope does not shadow itself.
 
 const int kPrtSearch = 24, kPrtTaps = 32;
 const float kPrtSteepest = 50.0; // beyond, a plane that is interpolated from its pixels is not to be trusted
@@ -30,7 +30,7 @@ float prtMapDepth(sampler2D map, ivec2 texel) {
 #endif
 }
 
-// Of the plane at the middle of a texel; `slope`: depth for each texel.
+// Returns the depth of the plane at the center of a texel; `slope`: depth per texel.
 float prtPlaneDepth(vec3 place, vec2 slope, ivec2 texel) {
   return place.z + dot(slope, vec2(texel) + 0.5 - place.xy);
 }
@@ -41,9 +41,9 @@ vec2 prtSpiral(int i, float turn) {
   return vec2(cos(angle), sin(angle));
 }
 
-// How far off blockers are on average over the disc of the sun, as a share of the map's depth; negative: there are
-// none. `spread`: texels that the sun's radius is wide for each depth between. Taps are as many for every doubling of
-// the radius: blockers next to the surface are found in the middle, those far off anywhere.
+// Returns the mean distance of blockers over the disc of the sun, as a fraction of the map's depth; negative:
+// there are none. `spread`: radius of the sun in texels per unit of depth. Each doubling of the radius has an
+// equal number of taps: blockers next to the surface are found near the center, distant ones anywhere.
 float prtBlockerDistance(sampler2D map, vec3 place, vec2 slope, float spread, float turn) {
   float away = 0.0, found = 0.0;
   float steps = log2(spread * place.z + 1.5) + 1.0; // from half a texel
@@ -52,7 +52,7 @@ float prtBlockerDistance(sampler2D map, vec3 place, vec2 slope, float spread, fl
     ivec2 texelAt = ivec2(floor(place.xy + radius * prtSpiral(i, turn)));
     float depth = prtMapDepth(map, texelAt);
     float between = max(place.z - depth, 0.0);
-    float share = radius / (spread * between + 1.5); // of the sun's radius there
+    float share = radius / (spread * between + 1.5); // relative to the sun's radius there
     if (share <= 1.0 && depth < prtPlaneDepth(place, slope, texelAt)) {
       away += share * share * between;
       found += share * share;
@@ -61,14 +61,16 @@ float prtBlockerDistance(sampler2D map, vec3 place, vec2 slope, float spread, fl
   return found > 0.0 ? away / found : -1.0;
 }
 
-// Share of a sun's light that arrives at a place in the world. `face`: unit normal of the triangle, on the lit side.
+// Returns the visible fraction of a sun at a position in the world. `face`: unit normal of the triangle, on
+// the lit side.
 float prtVisibility(sampler2D map, mat4 toMap, DirectionalLightShadow sun, vec3 at, vec3 face) {
   // Rows of the matrix are orthogonal: an orthographic camera's. Texels along the first two, the depth along the third.
   mat3 axes = transpose(mat3(toMap));
   axes[0] *= sun.shadowMapSize.x;
   axes[1] *= sun.shadowMapSize.y;
   vec3 squares = vec3(dot(axes[0], axes[0]), dot(axes[1], axes[1]), dot(axes[2], axes[2]));
-  // A texel off the surface: in a corner what is nearer to it than a texel does not see the other wall in the map.
+  // One texel off the surface: in a corner, a position nearer than a texel does not see the other wall in the
+  // map.
   vec3 place = (toMap * vec4(at + face * inversesqrt(squares.x), 1.0)).xyz;
   place.z += sun.shadowBias;
   if (any(lessThan(place, vec3(0.0))) || any(greaterThan(place, vec3(1.0))))
@@ -78,7 +80,7 @@ float prtVisibility(sampler2D map, mat4 toMap, DirectionalLightShadow sun, vec3 
   vec2 slope = -n.xy / (n.z < 0.0 ? min(n.z, -1e-12) : max(n.z, 1e-12));
   slope *= min(1.0, kPrtSteepest * sqrt(squares.z / squares.x) / max(length(slope), 1e-12));
 
-  // Patterns of neighbouring pixels are turned against each other (J. Jimenez, SIGGRAPH 2014 course).
+  // Patterns of neighbouring pixels are rotated relative to each other (J. Jimenez, SIGGRAPH 2014 course).
   float turn = 6.2831853 * fract(52.9829189 * fract(dot(gl_FragCoord.xy, vec2(0.06711056, 0.00583715))));
   float spread = sun.shadowRadius / kPrtRadiusAt; // texels for each depth between
   float away = prtBlockerDistance(map, place, slope, spread, turn);
@@ -92,7 +94,8 @@ float prtVisibility(sampler2D map, mat4 toMap, DirectionalLightShadow sun, vec3 
     open += step(prtPlaneDepth(place, slope, texelAt), prtMapDepth(map, texelAt));
   }
   open /= float(kPrtTaps);
-  // A penumbra within a texel is not resolved. In a corner half of the taps are beyond the other wall: none is open.
+  // A penumbra within a texel is not resolved. In a corner half of the taps are beyond the other wall: half
+  // open then counts as closed.
   open = mix(max(2.0 * open - 1.0, 0.0), open, clamp(width - 1.0, 0.0, 1.0));
   return mix(1.0, open, sun.shadowIntensity);
 }

@@ -15,7 +15,7 @@ if (prtSunsApart) {
     directLight.visible = true;
     prtCosine = dot(geometryNormal, directLight.direction);
     towardsSun = sign(dot(prtFace, directLight.direction));
-    // On a side that the triangle turns away from the sun it shadows itself.
+    // The side that faces away from the sun is in the triangle's shadow.
     if (prtCosine * towardsSun > 0.0 && (prtCosine > 0.0 || prtTransmission.a > 0.0)) {
 #if defined(USE_SHADOWMAP) && (UNROLLED_LOOP_INDEX < NUM_DIR_LIGHT_SHADOWS)
       if (receiveShadow)

@@ -5,12 +5,12 @@ import { clusterTable } from "./clusteredPca.js";
 
 const WIDTH = 256;
 
-/** Of the shader: where its tables are, which have so many texels in a row. */
+/** Returns the shader defines of tables with `width` texels per row. */
 export const tablesOf = (width) => ({ PRT_CONSTANTS_TEXTURE: 1, PRT_TEXTURE_WIDTH: width });
-/** The same of a model's. */
+/** Defines of a model's tables. */
 export const TABLES = tablesOf(WIDTH);
 
-/** The width of a table of so many vectors that is not much higher than it is wide. */
+/** Returns the width of an approximately square table for `count` vectors. */
 export const widthFor = (count) => Math.max(WIDTH, 2 ** Math.ceil(Math.log2(Math.max(1, count)) / 2));
 
 function tableTexture(count, data, format, type, width) {
@@ -23,7 +23,7 @@ function tableTexture(count, data, format, type, width) {
   return texture;
 }
 
-/** Of so many constants, which are zero. */
+/** Returns a table of `count` constants, which are zero. */
 export const constantsTextureOf = (count, width = WIDTH) => tableTexture(count, new Float32Array(0), RGBAFormat, FloatType, width);
 
 /** The table of clusters. */

@@ -8,7 +8,7 @@ const PRECISION = "precision highp float;\nprecision highp int;\n";
 const VERTEX = "in vec3 position;\nvoid main() { gl_Position = vec4(position.xy, 0.0, 1.0); }";
 
 export class TexelPass {
-  /** `uniforms`, `defines`: of the model's tables; `words`: of a texel. */
+  /** `uniforms`, `defines`: of the model's tables; `words`: words per texel. */
   constructor(uniforms, defines, words) {
     const material = new RawShaderMaterial({
       glslVersion: GLSL3,
@@ -31,7 +31,7 @@ export class TexelPass {
     this.quad.material.uniforms.prt_word_images.value = words;
     const before = [renderer.getRenderTarget(), renderer.getActiveCubeFace(), renderer.getActiveMipmapLevel()];
     const isImmersive = renderer.xr.enabled;
-    renderer.xr.enabled = false; // it would give its own camera
+    renderer.xr.enabled = false; // XR would replace the camera
     renderer.setRenderTarget(target);
     this.quad.render(renderer);
     renderer.setRenderTarget(...before);
@@ -39,6 +39,6 @@ export class TexelPass {
   }
 
   dispose() {
-    this.quad.material.dispose(); // its geometry is that of all such passes
+    this.quad.material.dispose(); // its geometry is shared by all passes
   }
 }

@@ -1,4 +1,4 @@
-// Models whose texels have the transfer: PRTKIT_lightmap.
+// Models with transfer of texels: PRTKIT_lightmap.
 
 import { clustersOf } from "./clusteredPca.js";
 import { wordsOf } from "./packedWords.js";
@@ -19,7 +19,10 @@ function coordinatesOf({ geometry }, { texCoord }) {
   return texCoord;
 }
 
-/** As transferOfVertices. `passOf(model, defines, words)`: what draws the maps. */
+/**
+ * Loads transfer of texels; see transferOfVertices. `passOf(model, defines, words)`: creates the pass that
+ * draws the maps.
+ */
 export async function transferOfTexels(extension, views, root, parser, passOf) {
   checkLightmap(extension, parser.json.images?.length ?? 0);
   const bytes = await views(viewsOf(extension));

@@ -1,5 +1,5 @@
-// What transfer adds to the shaders of three's lit materials, as `onBeforeCompile` is given them: exit radiance, or the light of
-// a volume, in the place of the diffuse light that three would find around, and suns that are apart. All else is three's:
+// Adds transfer to the shaders of three's lit materials in `onBeforeCompile`: exit radiance, or the light of
+// a volume, replaces three's diffuse ambient light, and separate suns are added. All else is three's:
 // specular reflection, normal maps, coats, shadows, fog, tone mapping.
 
 import { ShaderChunk } from "three";
@@ -17,28 +17,31 @@ import volumeLight from "./volumeLight.glsl.js";
 // Three packed the depths of its shadow maps into colors until release 181.
 export const PACKED_SHADOW_MAPS = ShaderChunk.shadowmap_pars_fragment.includes("unpackRGBAToDepth");
 
-/** `text` with what `pattern` finds replaced; a three that has it otherwise is refused, not drawn wrong. */
+/**
+ * Returns `text` with matches of `pattern` replaced; throws for a release of three without a match, because
+ * it would be drawn incorrectly.
+ */
 function replaced(text, pattern, replacement) {
   const result = text.replace(pattern, replacement);
   if (result === text) throw new Error(`prtkit: this release of three has no ${pattern} in its shaders`);
   return result;
 }
 
-// Three's own lights are left out: point, spot and area lights, ambient light, probes. What they would be is in the sky, or
-// a lamp of the transfer. Directional lights are shaded by sunLoop.glsl.
+// Three's lights are omitted: point, spot and area lights, ambient light, probes. Their light is in the sky,
+// or in a lamp of the transfer. sunLoop.glsl shades directional lights.
 const LIGHTS = replaced(
   replaced(ShaderChunk.lights_fragment_begin, /#if \( (NUM_\w+_LIGHTS) > 0 \) && defined\( RE_Direct\w* \)/g, "#if 0 // $1"),
   "vec3 irradiance = getAmbientLightIrradiance( ambientLightColor );",
   "vec3 irradiance = vec3( 0.0 );",
 );
 
-// Without those that three adds to it behind ambient light. A light map is the user's own, and stays.
+// Without the terms that three adds after ambient light. A light map belongs to the user, and is kept.
 const NO_IRRADIANCE = `
   irradiance = vec3( 0.0 );
   totalEmissiveRadiance *= prtStrength;
 ${sunLoop}`;
 
-// What takes light from baked surfaces, in the world.
+// Occluders of baked surfaces, in world space.
 const OCCLUDERS = `
 #ifdef PRT_OCCLUDERS
 #define PRT_MOST_OCCLUDERS ${MOST_OCCLUDERS}
@@ -50,7 +53,7 @@ uniform vec4 prtOccluderReach; // a sphere, out of which none takes any
 ${occluders}
 #endif`;
 
-// How shaders of one's own look a volume up: the uniforms of PrtkitVolume.
+// Lookup of a volume for custom shaders: the uniforms of PrtkitVolume.
 export const VOLUME = `
 #define PRT_VOLUME_ORIGIN vec3( 0.0 ) // prtToVolume has taken it off
 #define PRT_VOLUME_SPACING prtVolumeSpacing
@@ -62,7 +65,8 @@ uniform highp ivec3 prtVolumeSize, prtVolumeBricks;
 uniform highp ivec4 prtVolumeFirst;
 ${volume}`;
 
-// Of what moves: by the normal of the surface for where it is looked up, by that of the pixel for what it is lit with.
+// Light of moving objects: the normal of the surface is used for the lookup, and the normal of the pixel for
+// the light.
 const INCIDENT = `
   vec3 prtIncident[ PRT_VOLUME_COEFFICIENTS ];
   prt_volume_incident( prtVolumePlace, prtTowards( nonPerturbedNormal ), prtIncident );
@@ -77,8 +81,9 @@ const INCIDENT = `
 #endif
 #endif`;
 
-// With an environment the transfer is what three calls the irradiance of it, and shares energy with the specular reflection as
-// that does. Without, nothing is reflected but diffusely, and rough metals as bounces have them (docs/math.md, section 6).
+// With an environment the transfer replaces three's irradiance, and shares energy with the specular
+// reflection in the same way. Without an environment there is only diffuse reflection, and rough metals as in
+// bounces (docs/math.md, section 6).
 const TRANSFER = `
 #ifdef PRT_LIGHTMAP
   vec3 prtRadiance = RECIPROCAL_PI * irradiance; // of three's light map, which is the transfer's
@@ -98,7 +103,7 @@ const TRANSFER = `
   reflectedLight.indirectDiffuse += prtDiffuse * diffuseColor.rgb;
 #endif`;
 
-// Occlusion of the surroundings is in the transfer; three's texture of it stays with what is specular.
+// The transfer includes ambient occlusion; three's occlusion texture is applied only to specular light.
 const OCCLUSION = replaced(ShaderChunk.aomap_fragment, "reflectedLight.indirectDiffuse *= ambientOcclusion;", "");
 
 // A vertex without a normal has that of its triangle.
@@ -108,7 +113,7 @@ const FACE_NORMAL = `
 
 const include = (name) => `#include <${name}>`;
 
-/** What both have: `vertex` and `fragment` before main, `lights` behind three's own. */
+/** Common changes: `vertex` and `fragment` before main, `lights` after three's lights. */
 function addLight(shader, { vertex, fragment, lights }) {
   const add = (stage, name, text) => (shader[stage] = replaced(shader[stage], include(name), text));
   const addFragment = (name, text) => add("fragmentShader", name, text);
@@ -121,7 +126,10 @@ function addLight(shader, { vertex, fragment, lights }) {
   addFragment("lights_fragment_maps", `${include("lights_fragment_maps")}${lights}${TRANSFER}`);
 }
 
-/** Adds transfer to the shaders of MeshStandardMaterial, MeshPhysicalMaterial or MeshLambertMaterial with these defines. */
+/**
+ * Adds transfer to the shaders of MeshStandardMaterial, MeshPhysicalMaterial or MeshLambertMaterial with
+ * these defines.
+ */
 export function addTransfer(shader, { PRT_INSTANCES }) {
   addLight(shader, {
     vertex: `#ifndef PRT_LIGHTMAP\n${PRT_INSTANCES ? instanceRadiance : exitRadiance}\n#endif`,
@@ -131,7 +139,7 @@ export function addTransfer(shader, { PRT_INSTANCES }) {
   shader.fragmentShader = replaced(shader.fragmentShader, include("aomap_fragment"), OCCLUSION);
 }
 
-// Axes of lobes turn as normals do: with all that moves a vertex. `skinMatrix` is three's.
+// Axes of lobes rotate like normals: by all transforms of a vertex. `skinMatrix` belongs to three.
 const LOBE_TURN = `
   mat3 prtMoved = mat3( modelMatrix );
 #ifdef USE_INSTANCING
@@ -152,19 +160,22 @@ uniform highp sampler2D prt_lobe_profiles;
 
 const LIT_AT_VERTICES = "in vec3 prtRadiance;";
 
-/** Behind the place of the vertex. */
+/** Inserted after the position of the vertex. */
 function turnLobes(shader) {
   shader.vertexShader = replaced(shader.vertexShader, "prtLight( transformed );", `prtLight( transformed );${LOBE_TURN}`);
 }
 
-/** Adds transfer that turns with a skin to them. */
+/** Adds transfer that rotates with a skin to the shaders. */
 export function addLobes(shader) {
   addLight(shader, { vertex: `${PROFILES}\n${lobes}`, fragment: LIT_AT_VERTICES, lights: "" });
   turnLobes(shader);
   shader.fragmentShader = replaced(shader.fragmentShader, include("aomap_fragment"), OCCLUSION);
 }
 
-/** Adds the light of a volume to them, by lobes where they have some. Occlusion of its own is what a thing that moves has in textures: it stays. */
+/**
+ * Adds the light of a volume to the shaders, by lobes if there are any. Occlusion textures of a moving object
+ * contain its self-occlusion and are kept.
+ */
 export function addVolume(shader, { PRT_LOBES }) {
   const [vertex, fragment] = PRT_LOBES ? [`${VOLUME}\n${PROFILES}\n${lobes}`, LIT_AT_VERTICES] : ["", ""];
   addLight(shader, { vertex, fragment: `${VOLUME}\n${volumeLight}\n${fragment}`, lights: INCIDENT });

@@ -1,7 +1,8 @@
-// From the attributes of a mesh to the frame of the bake, in which guides are; the place is seen from their origin.
-// Included into the vertex shader of three's materials, behind prt_exit_radiance.glsl or prt_instances.glsl. Attributes
-// and matrices without prt are three's. Define PRT_LIGHTMAP where texels have the transfer, PRT_VOLUME where probes
-// have it, not vertices; PRT_LOBES where vertices have it as lobes.
+// Transforms the attributes of a mesh to the space of the bake, which predictors use; the position is
+// relative to their origin. Included into the vertex shader of three's materials, after
+// prt_exit_radiance.glsl or prt_instances.glsl. Attributes and matrices without prt are three's. Define
+// PRT_LIGHTMAP if texels have the transfer, PRT_VOLUME if probes have it, not vertices; PRT_LOBES if vertices
+// have it as lobes.
 #if defined(PRT_LOBES)
 // Behind prt_lobes.glsl.
 in vec4 prt_lobe_0;
@@ -16,7 +17,8 @@ uniform vec3 prtLobeLight[PRT_LOBE_COEFFICIENTS];
 #endif
 out vec3 prtRadiance;
 
-// `turn`: of prt_lobe_turn, from the mesh to where the light is given: the world, or a volume, in which `place` is.
+// `turn`: rotation of prt_lobe_turn, from the mesh to the space of the light: the world, or a volume, which
+// contains `place`.
 vec3 prtLobeRadiance(mat3 turn, vec3 place) {
   PrtLobe lobes[PRT_LOBES];
   lobes[0] = prt_turned_lobe(prt_lobe(prt_lobe_0), turn);
@@ -74,10 +76,10 @@ vec3 prtBakedNormal() {
 #ifdef PRT_INSTANCES
 in vec4 prt_instance_0, prt_instance_1;
 #endif
-out vec3 prtRadiance; // of a receiver of albedo 1
+out vec3 prtRadiance; // for a receiver of albedo 1
 #endif
 
-// In the world. Of the part of a pixel that a triangle covers: its middle may be beyond a wall.
+// Position in the world, within the covered part of a pixel: its center may be beyond a wall.
 centroid out vec3 prtPlace;
 #ifdef PRT_VOLUME
 uniform mat4 prtToVolume;

@@ -1,4 +1,4 @@
-// Which way a scene and a model are turned, as rotation matrices by columns, [9]: what ShLight.rotated takes.
+// Rotations of a scene and a model, as matrices by columns, [9], the format of ShLight.rotated.
 
 import { Euler, Matrix4, REVISION, Vector3 } from "three";
 
@@ -13,15 +13,18 @@ function product(a, b) {
   });
 }
 
-/** How three turns an equirectangular environment by `euler`: light of direction d in the image comes from this times d. */
+/**
+ * Returns three's rotation of an equirectangular environment by `euler`: light of direction d in the image
+ * comes from this matrix times d.
+ */
 export function environmentTurn(euler, revision = Number.parseInt(REVISION)) {
   if (revision >= 184) return upperLeft(new Matrix4().makeRotationFromEuler(euler));
-  // Earlier releases look up directions turned by the negative angles in the same order.
+  // Earlier releases look up directions rotated by the negative angles in the same order.
   const lookup = new Euler(-euler.x, -euler.y, -euler.z, euler.order);
   return transposed(upperLeft(new Matrix4().makeRotationFromEuler(lookup)));
 }
 
-/** The turn of an object in the world, without its place and its scale; mirrored where the object is. */
+/** Returns the rotation of an object in the world, without its position and scale; mirrored if the object is. */
 function worldTurn({ matrixWorld }) {
   const axes = [0, 1, 2].map((column) => new Vector3().setFromMatrixColumn(matrixWorld, column).normalize());
   axes[1].addScaledVector(axes[0], -axes[1].dot(axes[0])).normalize();
@@ -29,22 +32,28 @@ function worldTurn({ matrixWorld }) {
   return axes.flatMap((axis) => axis.toArray());
 }
 
-/** What `scene` shows its environment by: its own turn and strength, or, where it has none, those of the background. */
+/**
+ * Returns rotation and strength of the environment of `scene`, or those of the background without an
+ * environment.
+ */
 export function shownBy(scene) {
   return scene.environment
     ? { euler: scene.environmentRotation, strength: scene.environmentIntensity }
     : { euler: scene.backgroundRotation, strength: scene.backgroundIntensity };
 }
 
-/** From the directions of the world to those of `root`, the model as it was baked, where it may be turned since. */
+/** Returns the rotation from world directions to those of `root`, the model as baked. */
 export const turnIntoModel = (root) => transposed(worldTurn(root));
 
-/** The same from the directions of the image. */
+/**
+ * Returns the rotation from the directions of the image to those of `root`, the model as baked, which may be
+ * rotated since.
+ */
 export function turnForModel(scene, root) {
   return product(turnIntoModel(root), environmentTurn(shownBy(scene).euler));
 }
 
-/** The vector `v` [3] turned by a matrix. */
+/** Returns the vector `v` [3] rotated by a matrix. */
 export function turnedBy(m, [x, y, z]) {
   return [m[0] * x + m[3] * y + m[6] * z, m[1] * x + m[4] * y + m[7] * z, m[2] * x + m[5] * y + m[8] * z];
 }

@@ -1,4 +1,4 @@
-// Models whose vertices have the transfer: PRTKIT_clustered_pca.
+// Models with transfer of vertices: PRTKIT_clustered_pca.
 
 import { bakedFrame } from "./bakedFrame.js";
 import { decodeClusters } from "./clusteredPca.js";
@@ -7,8 +7,11 @@ import { TABLES } from "./tables.js";
 import { convertGeometry } from "./vertexWeights.js";
 import { checkExtension, viewsOf } from "./wholeExtension.js";
 
-/** What a file with `extension` has: { model, of, definesOf }. `of(mesh)`: what the mesh is lit by, null where it is not;
- * `definesOf(geometry)`: of its attributes, which are then those that the shader reads, null where it has none. */
+/**
+ * Loads a file with `extension`: { model, of, definesOf }. `of(mesh)`: the transfer of the mesh, null without
+ * one; `definesOf(geometry)`: defines of its attributes, after conversion to those of the shader, null
+ * without transfer.
+ */
 export async function transferOfVertices(extension, views, root) {
   checkExtension(extension);
   const bytes = await views(viewsOf(extension));

@@ -1,4 +1,4 @@
-// Clusters and weights of vertices, from the attributes of a file to those of the shader.
+// Converts clusters and weights of vertices from the attributes of a file to those of the shader.
 
 import { BufferAttribute } from "three";
 import { wordsOf } from "./packedWords.js";
@@ -16,7 +16,7 @@ function packedWords(groups) {
   return words;
 }
 
-/** Words [first, first + 4) of each vertex, or as many as there are. */
+/** Returns words [first, first + 4) of each vertex, or fewer at the end. */
 function wordAttribute(words, stride, first) {
   const size = Math.min(4, stride - first);
   const count = words.length / stride;
@@ -44,7 +44,7 @@ function takeGroups(geometry, count) {
   return groups.slice(0, count);
 }
 
-/** Where vertices have words: attributes of them. Returns their defines. */
+/** Converts vertices with words to attributes of words. Returns their defines. */
 function convertWords(geometry, clusters) {
   const count = wordsOf(clusters);
   expect(count <= 8, `a vertex has ${count} words of packed weights, more than 8`);
@@ -62,7 +62,7 @@ function convertWords(geometry, clusters) {
 /** Integers of earlier versions, which were normalised. */
 const REMOVED = new Map([[Int8Array, "snorm8"], [Int16Array, "snorm16"]]);
 
-/** Where vertices have a cluster and floats. Returns their defines. */
+/** Converts vertices with a cluster and float weights. Returns their defines. */
 function convertWeights(geometry, { components }) {
   const groups = takeGroups(geometry, Math.ceil(Math.max(...components) / 4));
   expect(groups.length <= 12, "a vertex has more than 48 components");
@@ -90,7 +90,7 @@ const bytesOf = ({ attributes }) =>
     .filter(([name]) => /^prt_(words|cluster|weights)/.test(name))
     .reduce((sum, [, { array, data, itemSize }]) => sum + itemSize * (array ?? data.array).BYTES_PER_ELEMENT, 0);
 
-/** Puts the attributes that the shader reads in place of those of the file: { defines, bytesPerVertex }. */
+/** Replaces the attributes of the file by those of the shader: { defines, bytesPerVertex }. */
 export function convertGeometry(geometry, clusters) {
   expect(geometry.hasAttribute("position"), "a primitive has no POSITION");
   const defines = clusters.widths ? convertWords(geometry, clusters) : convertWeights(geometry, clusters);

@@ -1,4 +1,4 @@
-// Where the probes of a volume are (docs/format.md, PRTKIT_transfer_volume). No three.js here.
+// Positions of the probes of a volume (docs/format.md, PRTKIT_transfer_volume). Does not use three.js.
 
 import { expect, PROBES } from "./wholeExtension.js";
 
@@ -9,10 +9,10 @@ const CELLS = 4;
 export const SIDE = CELLS + 1;
 export const BRICK_PROBES = SIDE ** 3;
 const MOST_LEVEL = 3;
-/** Of the index, where there is no brick. */
+/** Value of the index without a brick. */
 export const NO_BRICK = 0xffffffff;
 
-/** Throws where what a file of `bytes` describes would take more memory than one of that size may. */
+/** Throws if a volume would need more memory than is allowed for a file of `bytes`. */
 function checkMemory(taken, bytes) {
   holds(taken <= 256e6 + 64 * bytes, `the volume would take ${Math.round(taken / 1e6)} MB`);
 }
@@ -49,7 +49,7 @@ function probesOf(bricks) {
   for (let e = 0; e < ofBrick.length; ++e) {
     const b = Math.floor(e / BRICK_PROBES);
     const corner = cornerOf(bricks, b, e % BRICK_PROBES);
-    const key = (corner[2] * 8192 + corner[1]) * 8192 + corner[0]; // none is beyond 4 (1024 + 8)
+    const key = (corner[2] * 8192 + corner[1]) * 8192 + corner[0]; // coordinates are at most 4 (1024 + 8)
     let probe = numbers.get(key);
     if (probe === undefined) {
       probe = levels.length;
@@ -64,9 +64,10 @@ function probesOf(bricks) {
 }
 
 /**
- * The grid of an extension that is right: `origin`, `spacing` and `size` as in the file, `bricks` [n][4], `index`, and of the
- * probes `ofBrick` [n][125], their `corners` [probes][3] in finest cells and `levels` [probes], those of the coarsest brick that
- * has them. `numbers`: the bytes of the bricks; `bytes`: of all that the volume has in the file.
+ * Returns the grid of a validated extension: `origin`, `spacing` and `size` as in the file, `bricks` [n][4],
+ * `index`, and for the probes `ofBrick` [n][125], their `corners` [probes][3] in finest cells and `levels`
+ * [probes], that of the coarsest brick with the probe. `numbers`: the bytes of the bricks; `bytes`: size of
+ * the volume in the file.
  */
 export function gridOf({ origin, spacing, size }, numbers, bytes) {
   checkMemory(16 * size[0] * size[1] * size[2], bytes);

@@ -24,9 +24,9 @@ import {
 import { DataTexture, Texture3DNode } from "three/webgpu";
 import { SIDE } from "./volumeGrid.js";
 
-const WIDTH = 2048; // of tables
+const WIDTH = 2048; // width of tables
 
-/** Whole numbers of a 3D texture as a table: three has none of them in three dimensions on WebGPU. */
+/** Returns the integers of a 3D texture as a table: three has no integer 3D textures on WebGPU. */
 function tableOf({ image: { data, width, height, depth }, format, type }) {
   const rows = Math.ceil((width * height * depth) / WIDTH);
   const padded = new Uint32Array((data.length / (width * height * depth)) * WIDTH * rows);
@@ -40,7 +40,7 @@ function tableOf({ image: { data, width, height, depth }, format, type }) {
   return { texture, entry };
 }
 
-/** A texel of a 3D texture by its whole coordinates: three's own node has none for these. */
+/** A texel of a 3D texture at integer coordinates: three has no node for it. */
 class TexelNode extends Texture3DNode {
   static get type() {
     return "PrtTexelNode";
@@ -76,7 +76,7 @@ function tablesOf(volume) {
 const CORNERS = Array.from({ length: 8 }, (_, i) => [i & 1, (i >> 1) & 1, i >> 2]);
 const AXES = ["x", "y", "z"];
 
-/** Changes `brick` to the one that holds a place inside of the volume, where there is one. */
+/** Changes `brick` to the one that contains a position inside the volume, if there is one. */
 function findBrick({ index, spacing, size }, position, brick) {
   const bricks = position.div(4 * spacing);
   const place = ivec3(bricks.floor()).clamp(ivec3(0), ivec3(...size).sub(1)).toVar();
@@ -88,7 +88,10 @@ function findBrick({ index, spacing, size }, position, brick) {
   });
 }
 
-/** How a probe counts that has these sights, for a place at `from` seen from there, in cells. */
+/**
+ * Returns the weight of a probe with these visibility distances, for a position `from` relative to it, in
+ * cells.
+ */
 function sightOf(sights, from) {
   const byte = (word, shift) => float(word.shiftRight(uint(shift)).bitAnd(uint(255)));
   const pairs = [[byte(sights.x, 0), byte(sights.x, 8)], [byte(sights.x, 16), byte(sights.x, 24)], [byte(sights.y, 0), byte(sights.y, 8)]];
@@ -101,7 +104,7 @@ function sightOf(sights, from) {
   return behind.mul(behind).mul(behind.mul(-2).add(3)).oneMinus().max(float(1e-4).div(passed.clamp(1, 16).pow(8)));
 }
 
-/** The eight probes around a place: { texel, weights }. */
+/** Returns the eight probes around a position: { texel, weights }. */
 function findPlace(tables, position, normal) {
   const { spacing, size, first, bricks } = tables;
   const most = vec3(...size.map((n) => 4 * spacing * n));
@@ -127,7 +130,7 @@ function findPlace(tables, position, normal) {
   return { least, weights: weights.map((weight) => weight.div(sum).toVar()) };
 }
 
-/** Coefficients of the light that comes in at a place. */
+/** Returns the coefficients of incident light at a position. */
 function incidentOf(tables, position, normal) {
   const { least, weights } = findPlace(tables, position, normal);
   const { light, bricks, coefficients } = tables;
@@ -140,7 +143,7 @@ function incidentOf(tables, position, normal) {
   return Array.from({ length: coefficients }, (_, o) => vec3(number(3 * o), number(3 * o + 1), number(3 * o + 2)));
 }
 
-/** Radiance in unit direction `n` of light whose band l counts `bands[l]`. */
+/** Returns the radiance in unit direction `n` of light with factor `bands[l]` for band l. */
 function incidentSum(light, n, bands) {
   const { x, y, z } = n;
   const [xx, yy, zz] = [x.mul(x), y.mul(y), z.mul(z)];
@@ -164,7 +167,7 @@ function incidentSum(light, n, bands) {
   return sums.reduce((sum, part) => sum.add(part)).max(0);
 }
 
-/** What the bands keep of light that a surface of this roughness mirrors. */
+/** Returns factors of the bands for mirrored light at this roughness. */
 function blurredBands(roughness) {
   const a = roughness.mul(roughness).toVar();
   const even = mix(vec3(1), vec3(2 / 3, 0.25, 0), a);
@@ -175,8 +178,11 @@ function blurredBands(roughness) {
 
 const COSINE = [1, 2 / 3, 1 / 4, 0];
 
-/** What lights a pixel that is drawn by a material of `volume`: { irradianceOverPi(normal), mirrored(normal, roughness, environment) };
- * directions are those of the camera's space. `environment`: null where there is none. */
+/**
+ * Returns the light of a pixel drawn with a material of `volume`: { irradianceOverPi(normal),
+ * mirrored(normal, roughness, environment) }; directions are in camera space. `environment`: null without
+ * one.
+ */
 export function lightOfVolume(volume) {
   const { uniforms } = volume;
   const toVolume = uniform(uniforms.prtToVolume.value);

@@ -1,15 +1,22 @@
-// What shaders/prt_volume.glsl looks up, as numbers: runtime/include/prt/volume_textures.h says what is where. No three.js here.
+// Numbers of the textures that shaders/prt_volume.glsl reads: runtime/include/prt/volume_textures.h describes
+// their layout. Does not use three.js.
 
 import { BRICK_PROBES, NO_BRICK, SIDE } from "./volumeGrid.js";
 
 const GUARANTEED_TEXELS = 256; // along a side of a 3D texture
-/** Of shared_layout.h: how far a probe sees at most, in cells, and where it begins to count less. */
+/**
+ * Equal to the values in shared_layout.h: maximum visibility distance in cells, and the fraction of it where
+ * the weight starts to decrease.
+ */
 const SIGHT_CELLS = 4;
 const SIGHT_FULL = 0.8;
 const ROOM = 1e-3; // for rounding
 const BLIND = 1e18;
 
-/** Bricks along each axis of the textures, and planes of four numbers: as few layers as there can be, then as little unused. */
+/**
+ * Returns the bricks along each axis of the textures, and planes of four numbers: with the minimum number of
+ * layers, then with the minimum of unused texels.
+ */
 export function atlasOf({ bricks }, order) {
   const along = Math.floor(GUARANTEED_TEXELS / SIDE);
   const count = bricks.length / 4;
@@ -27,9 +34,12 @@ export function texelOf({ bricks: [x, y] }, b, i) {
   return (w * SIDE * y + v) * SIDE * x + u;
 }
 
-/** Whether a probe with `sights`, as corner `step` (bits of x, y and z) of a cell, sees all of it. `width`: of its own cells. */
+/**
+ * True if a probe with `sights`, as corner `step` (bits of x, y and z) of a cell, sees the whole cell.
+ * `width`: the cell's width in cells of the probe.
+ */
 function seesCell(sights, probe, step, width) {
-  let passed = 0; // at the corner that is opposite: 1 is where a surface is
+  let passed = 0; // at the opposite corner; a surface is at 1
   for (let axis = 0; axis < 3; ++axis) {
     const sight = sights[6 * probe + 2 * axis + ((step >> axis) & 1 ? 0 : 1)] / 255;
     passed = Math.max(passed, sight > 0 ? 1 / (SIGHT_CELLS * width * sight ** 2) : BLIND);
@@ -37,8 +47,10 @@ function seesCell(sights, probe, step, width) {
   return passed <= SIGHT_FULL - ROOM;
 }
 
-/** [texels][2]: bytes -x, +x, -y, +y, then -z, +z, the level of the probe less that of the brick, and 1 where all eight corners of
- * the cell above see all of it: there weights are trilinear. */
+/**
+ * Returns [texels][2]: bytes -x, +x, -y, +y, then -z, +z, the level of the probe minus that of the brick, and
+ * 1 if all eight corners of the cell see the whole cell: weights are then trilinear.
+ */
 export function sightTexels({ bricks, ofBrick, levels }, sights, atlas) {
   const texels = new Uint32Array(2 * atlas.texels);
   const coarser = (b, i) => levels[ofBrick[BRICK_PROBES * b + i]] - bricks[4 * b + 3];
@@ -61,6 +73,6 @@ export function sightTexels({ bricks, ofBrick, levels }, sights, atlas) {
   return texels;
 }
 
-/** 4 · brick + level, where there is a brick. */
+/** Returns 4 · brick + level, if there is a brick. */
 export const indexTexels = ({ index, bricks }) =>
   index.map((brick) => (brick === NO_BRICK ? NO_BRICK : 4 * brick + bricks[4 * brick + 3]));

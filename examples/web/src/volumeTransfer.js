@@ -17,8 +17,9 @@ function checkWords(words, stride, { clusterBits, components }) {
 }
 
 /**
- * The volume of a file with `extension`: { grid, order, clusters, sights, words, stride }, `order` that of incident light, `words`
- * [probes][stride]. `view(i)`: the bytes of buffer view i. Throws an Error that says what is wrong with a damaged file.
+ * Decodes the volume of a file with `extension`: { grid, order, clusters, sights, words, stride }, with
+ * `order` that of incident light, `words` [probes][stride]. `view(i)`: the bytes of buffer view i. Throws an
+ * Error with the reason for a damaged file.
  */
 export function volumeOf(extension, view) {
   checkVolume(extension);

@@ -2,10 +2,10 @@
 
 import { Box3, CatmullRomCurve3, Raycaster, Vector3 } from "three";
 
-const STEP = 0.25; // metres between places where the ground is looked for
+const STEP = 0.25; // metres between positions at which the ground height is computed
 const DOWN = new Vector3(0, -1, 0);
 
-/** Round the middle of what there is, for scenes that say nothing of a way. */
+/** Returns a path around the middle of the scene, for scenes without a path. */
 function around(ground) {
   const box = new Box3().setFromObject(ground);
   const [centre, size] = [box.getCenter(new Vector3()), box.getSize(new Vector3())];
@@ -14,8 +14,10 @@ function around(ground) {
 }
 
 export class Walk {
-  /** `way`: `points` [x, z] that it goes through and comes back from the last to the first, and the height `from` which the
-   * ground is looked for downwards. `ground`: what may be walked on. */
+  /**
+   * `way`: `points` [x, z] of a closed path, and the height `from` which rays go down to the ground.
+   * `ground`: surfaces to walk on.
+   */
   constructor(ground, way = around(ground)) {
     const curve = new CatmullRomCurve3(way.points.map(([x, z]) => new Vector3(x, way.from, z)), true);
     this.length = curve.getLength();
@@ -25,12 +27,12 @@ export class Walk {
     for (const place of this.places) {
       ray.set(place, DOWN);
       const hit = ray.intersectObject(ground)[0];
-      height = hit ? hit.point.y : height; // over a hole it goes on as before
+      height = hit ? hit.point.y : height; // over a hole the height is unchanged
       place.y = height ?? 0;
     }
   }
 
-  /** The place after so many metres. */
+  /** Returns the position after a distance in metres. */
   at(metres) {
     const count = this.places.length;
     const steps = (((metres / this.length) % 1) + 1) * count;
@@ -38,7 +40,7 @@ export class Walk {
     return this.places[first % count].clone().lerp(this.places[(first + 1) % count], steps - first);
   }
 
-  /** Where it goes there, as a turn about +Y from +Z. */
+  /** Returns the walking direction there, as a rotation about +Y from +Z. */
   heading(metres) {
     const along = this.at(metres + STEP).sub(this.at(metres - STEP));
     return Math.atan2(along.x, along.z);

@@ -1,3 +1,3 @@
-// Of WebGPURenderer: all that PrtkitLoader.d.ts has, with a plug-in whose materials are nodes.
+// For WebGPURenderer: exports of PrtkitLoader.d.ts, with a plug-in that creates node materials.
 export * from "./PrtkitLoader.js";
 export { PrtkitPlugin } from "./PrtkitLoader.js";

@@ -1,4 +1,4 @@
-// The plug-in for WebGPURenderer: as PrtkitLoader.js, whose all else this has, too.
+// The plug-in for WebGPURenderer, with all other exports of PrtkitLoader.js.
 //
 //   import { PrtkitPlugin } from "prtkit-web/webgpu";
 //   const loader = new GLTFLoader().register((parser) => new PrtkitPlugin(parser));

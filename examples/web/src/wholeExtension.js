@@ -1,4 +1,5 @@
-// What the JSON of PRTKIT_clustered_pca, PRTKIT_lightmap, PRTKIT_transfer_volume and others must be before anything is computed from it (docs/format.md).
+// Validates the JSON of PRTKIT_clustered_pca, PRTKIT_lightmap, PRTKIT_transfer_volume and others before it is
+// used (docs/format.md).
 
 import { FACTORS } from "./instanceModes.js";
 
@@ -8,15 +9,15 @@ export const PROBES = "PRTKIT_transfer_volume";
 export const OCCLUDERS = "PRTKIT_occlusion_volume";
 export const INSTANCES = "PRTKIT_instances";
 export const LOBES = "PRTKIT_lobes";
-/** What is wrong with a file that is not compressed. */
+/** Error message for a file that is not compressed. */
 export const AS_BAKED = "holds transfer as it was baked; make it one to ship: prt compress baked.glb -o shipped.glb";
 
-/** Throws an Error that says `what` is wrong with the file, unless `holds`. `name`: of the extension that it is wrong with. */
+/** Throws an Error with `what` unless `holds`. `name`: the extension with the error. */
 export function expect(holds, what, name = VERTICES) {
   if (!holds) throw new Error(`${name}: ${what}`);
 }
 
-/** What `work` returns; what it finds wrong with clusters is wrong with the extension `name`. */
+/** Returns the result of `work`; its errors about clusters get the name of extension `name`. */
 export function inNameOf(name, work) {
   try {
     return work();
@@ -25,9 +26,9 @@ export function inNameOf(name, work) {
   }
 }
 
-/** Of scales of guides and float weights, and metres that a vertex is from the origin of the world. */
+/** Limit for scales of predictors and float weights, and for metres of a vertex from the origin of the world. */
 export const LARGEST_WEIGHT = 1e9;
-/** Of values of bases. */
+/** Limit for values of bases. */
 export const LARGEST_TRANSFER = 1e6;
 
 const isObject = (v) => typeof v === "object" && v !== null && !Array.isArray(v);
@@ -59,7 +60,7 @@ const KINDS = ["normal", "position"];
 
 const areThree = (v) => Array.isArray(v) && v.length === 3 && v.every((x) => Math.abs(x) <= LARGEST_WEIGHT && typeof x === "number");
 
-/** Whether guides are none, or each kind once at most, normals first. */
+/** True if predictors contain each kind at most once, normals first. */
 function areGuides(guides) {
   if (!Array.isArray(guides)) return false;
   const kinds = guides.map((guide) => KINDS.indexOf(guide?.kind));
@@ -72,7 +73,7 @@ function areGuides(guides) {
   );
 }
 
-/** One step for all axes, or one for groups of axes in each cluster. */
+/** True if there is one step for all axes, or one per group of axes in each cluster. */
 function checkSteps({ step, steps, values }) {
   const least = steps === undefined ? step : steps?.least;
   expect(Number.isFinite(least) && least >= 0, "the step of the bases is no number from 0 on");
@@ -109,7 +110,7 @@ function checkPacking({ packing, components }) {
   expect(isWhole(frequencies?.byteLength, 0, 2 ** 31 - 1) && areDrops(frequencies.drops), "the frequencies of the coded words are wrong");
 }
 
-/** Throws an Error that says what is wrong with the object at the top level of a glTF. */
+/** Throws an Error with the reason for an invalid object at the top level of a glTF. */
 export function checkExtension(extension) {
   expect(isObject(extension), "the extension is no object");
   const { version } = extension;
@@ -117,7 +118,7 @@ export function checkExtension(extension) {
   checkClusters(extension);
 }
 
-/** The same of what vertices and texels have alike. */
+/** Validates the common members of vertices and texels. */
 function checkClusters(extension) {
   const { order, parts, components, guides, centers } = extension;
   expect(isWhole(order, 1, 10) && areParts(parts), "order or parts are wrong");
@@ -132,7 +133,7 @@ function checkClusters(extension) {
   checkPacking(extension);
 }
 
-const LARGEST_MAP = 16384; // texels along a side: what textures have at most
+const LARGEST_MAP = 16384; // texels along a side: maximum size of textures
 
 const isMap = (map) =>
   isObject(map) &&
@@ -141,7 +142,7 @@ const isMap = (map) =>
   ["boolean", "undefined"].includes(typeof map.repeats) &&
   Array.isArray(map.images);
 
-/** As checkExtension, of PRTKIT_lightmap in a glTF with so many `images`. */
+/** Validates PRTKIT_lightmap in a glTF with `images` images; see checkExtension. */
 export function checkLightmap(extension, images) {
   const holds = (value, what) => expect(value, what, TEXELS);
   holds(isObject(extension), "the extension is no object");
@@ -162,7 +163,7 @@ export function checkLightmap(extension, images) {
 
 const areNumbers = (v) => Array.isArray(v) && v.length === 3 && v.every((x) => Number.isFinite(x) && Math.abs(x) < 1e30);
 
-/** As checkExtension, of PRTKIT_transfer_volume. */
+/** Validates PRTKIT_transfer_volume; see checkExtension. */
 export function checkVolume(extension) {
   const holds = (value, what) => expect(value, what, PROBES);
   holds(isObject(extension), "the extension is no object");
@@ -178,7 +179,7 @@ export function checkVolume(extension) {
   holds([bricks, sights, words].every(isView), "bricks, sights or words are not there");
 }
 
-/** The same of PRTKIT_occlusion_volume of a node. */
+/** Validates PRTKIT_occlusion_volume of a node. */
 export function checkOccluder(extension) {
   const holds = (value, what) => expect(value, what, OCCLUDERS);
   holds(isObject(extension), "the extension is no object");
@@ -190,9 +191,9 @@ export function checkOccluder(extension) {
 }
 
 const MOST_INSTANCES = 1_000_000;
-const LARGEST_SCALE = 500; // of a byte of factors
+const LARGEST_SCALE = 500; // scale of a byte of factors
 
-/** As checkExtension, of PRTKIT_instances at the top level. */
+/** Validates PRTKIT_instances at the top level; see checkExtension. */
 export function checkInstances(extension) {
   const holds = (value, what) => expect(value, what, INSTANCES);
   holds(isObject(extension), "the extension is no object");
@@ -208,13 +209,13 @@ export function checkInstances(extension) {
     holds(areThree(box?.middle) && areThree(box.half) && box.half.every((width) => Math.fround(width) > 0), "a box is none");
 }
 
-/** The same of node `n`, of `count` instances and so many `boxes`. */
+/** Validates the extension of node `n`, with `count` instances and `boxes` boxes in the file. */
 export function checkInstanceNode(extension, n, count, boxes) {
   const isRight = isObject(extension) && isWhole(extension.first, 0, count - 1) && isWhole(extension.box, 0, boxes - 1);
   expect(isRight, `node ${n} has an instance or a box that is not there`, INSTANCES);
 }
 
-/** As checkExtension, of PRTKIT_lobes. */
+/** Validates PRTKIT_lobes; see checkExtension. */
 export function checkLobes(extension) {
   const holds = (value, what) => expect(value, what, LOBES);
   holds(isObject(extension), "the extension is no object");
@@ -224,7 +225,7 @@ export function checkLobes(extension) {
   holds(areFloats(profiles) && isWhole(profiles.count, 1, 256), "the profiles are not 1 to 256 of floats");
 }
 
-/** The buffer views that an extension, which is right, names. */
+/** Returns the buffer views of a validated extension. */
 export function viewsOf({ packing, centers, guides, bases, bricks, sights, words }) {
   const { origin, units, scales, steps, axes, values } = bases;
   const coded = values ? [origin, units, scales, steps, axes, values] : [bases];

@@ -1,5 +1,5 @@
-// Windows over the bands of a light, as `prt render --window` has them: spherical harmonics of few bands ring about strong
-// lights, which shows as dark and coloured shadows.
+// Windows over the bands of a light, as in `prt render --window`: spherical harmonics of few bands ring
+// around strong lights, which is visible as dark and coloured shadows.
 
 import { ShLight } from "./sphericalHarmonics.js";
 
@@ -14,7 +14,7 @@ function faded(light, factor) {
   return new ShLight(light.order, polar);
 }
 
-/** By name: what it is called, and the light under it. */
+/** Title of each window by name, and a function that applies it to a light. */
 export const WINDOWS = {
   auto: { title: "auto: no negative light", apply: (light) => light.deringed() },
   none: { title: "none", apply: (light) => light },

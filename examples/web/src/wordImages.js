@@ -1,9 +1,10 @@
-// Images whose pixels are words of texels, not colours: as textures of the bytes that the file has.
+// Images whose pixels contain words of texels, not colours: loaded as textures with the exact bytes of the
+// file.
 
 import { LoaderUtils, NearestFilter, Texture } from "three";
 import { expect, TEXELS } from "./wholeExtension.js";
 
-/** The bytes of image `i` of a glTF, in its buffers or beside it. */
+/** Returns the bytes of image `i` of a glTF, from its buffers or a separate file. */
 async function imageBytes(parser, i) {
   const { bufferView, uri } = parser.json.images[i];
   try {
@@ -32,7 +33,7 @@ async function decoded(bytes, i) {
   }
 }
 
-/** A texture of image `i`, of a map of that size. `parser`: of GLTFLoader. */
+/** Returns a texture of image `i`, for a map of that size. `parser`: of GLTFLoader. */
 export async function wordTexture(parser, i, size) {
   const bytes = await imageBytes(parser, i);
   checkHeader(bytes, size, i);

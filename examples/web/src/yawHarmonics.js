@@ -1,5 +1,6 @@
-// Constants of clusters under light that is turned about +Y: about that axis a turn mixes azimuthal orders m and -m alone, so that
-// constants are series of cos(m yaw) and sin(m yaw), of which many turns are soon formed. No three.js here.
+// Constants of clusters under light rotated about +Y: a rotation mixes only azimuthal orders m and -m, so
+// that constants are series of cos(m yaw) and sin(m yaw), which are cheap for several rotations. Does not use
+// three.js.
 
 import { polarMatrices, ShLight } from "./sphericalHarmonics.js";
 
@@ -30,8 +31,9 @@ export function turnTerms(order, yaw) {
 }
 
 /**
- * The series of each row and colour, [rows][3][termsOf(order)], of light turned into frames that stand at a yaw: `rows` of
- * polarRows; coefficients [order²][3] of `sky`, which lights direct parts, and of all light, which lights the rest.
+ * Computes the series of each row and colour, [rows][3][termsOf(order)], of light in spaces rotated by a yaw:
+ * `rows` of polarRows; coefficients [order²][3] of `sky`, for direct terms, and of all light, for the other
+ * terms.
  */
 export function yawSeries({ order, parts, rowCount }, rows, sky, all, series) {
   const [direct, rest] = [sky, all].map((light) => ShLight.fromCoefficients(order, light).polar);
@@ -49,7 +51,8 @@ export function yawSeries({ order, parts, rowCount }, rows, sky, all, series) {
           const middle = l * l + l;
           series[to] += rows[own + middle] * light[3 * middle + c];
           for (let m = 1; m <= l; ++m) {
-            const [even, odd] = [rows[own + middle + m], rows[own + middle - m]]; // of cos and sin of the azimuth
+            // factors of cos and sin of the azimuth
+            const [even, odd] = [rows[own + middle + m], rows[own + middle - m]];
             const [p, q] = [light[3 * (middle + m) + c], light[3 * (middle - m) + c]];
             series[to + 2 * m - 1] += even * p + odd * q;
             series[to + 2 * m] += even * q - odd * p;

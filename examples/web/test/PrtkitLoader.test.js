@@ -1,4 +1,4 @@
-// The plug-in against a parser that hands out what GLTFLoader does.
+// Tests the plug-in with a parser that returns the same data as GLTFLoader.
 import assert from "node:assert/strict";
 import { test } from "node:test";
 import {
@@ -136,7 +136,7 @@ test("bytes of a vertex are those of the attributes that are bound", async () =>
 });
 
 test("tables longer than a row of their texture go on in the next", async () => {
-  const count = 300; // clusters without components: as many rows of constants
+  const count = 300; // clusters without components: one row of constants each
   const { packing: _packing, ...extension } = { ...packed, components: new Array(count).fill(0) };
   const cluster = new BufferAttribute(new Uint16Array([0, count - 1]), 1);
   const { gltf, parser } = scene({ _prt_cluster: cluster }, extension);
@@ -172,7 +172,7 @@ test("a light of fewer bands than the model is refused", async () => {
   gltf.userData.prtkit.setLight(enough);
 });
 
-/** What three compiles of a material. */
+/** Compiles a material as three does. */
 function compiled({ onBeforeCompile, isMeshLambertMaterial }) {
   const { vertexShader, fragmentShader } = isMeshLambertMaterial ? ShaderLib.lambert : ShaderLib.physical;
   const shader = { uniforms: {}, vertexShader, fragmentShader };
@@ -190,7 +190,7 @@ test("the shader is that of the runtime, and the material three's", async () => 
   assert.doesNotMatch(shader.vertexShader, /#include "/);
   // Behind skins and morph targets, which move where a pixel is looked for in a shadow map.
   assert.match(shader.vertexShader, /#include <skinning_vertex>[^]*prtLight\( transformed \);/);
-  // No light of three's but what suns add, and no ambient light.
+  // Only suns are added by three's lights, and there is no ambient light.
   assert.doesNotMatch(shader.fragmentShader, /#if \( NUM_\w+_LIGHTS > 0 \) && defined\( RE_Direct/);
   assert.doesNotMatch(shader.fragmentShader, /getAmbientLightIrradiance/);
   assert.doesNotMatch(shader.fragmentShader, /indirectDiffuse \*= ambientOcclusion/);
@@ -289,7 +289,7 @@ test("suns of three's light what keeps direct light apart, while they are apart"
     assert.equal(prtSunsApart.value, false);
     model.setLight(light, 0, light);
     assert.equal(prtSunsApart.value, lit);
-    // Direct transfer leaves the suns out, a whole one has them.
+    // Direct transfer does not include the suns, combined transfer does.
     const l0 = Math.sqrt(4 * Math.PI);
     assert.ok(Math.abs(model.constantsTexture.image.data[0] - (lit ? 1 : 2) * 1.5 * l0) < 1e-5);
     model.setLight(light);
@@ -333,7 +333,7 @@ test("lamps are dimmed and coloured by name, and so is what shines", async () =>
   assert.deepEqual(mesh.material.emissive.toArray(), [0.5, 0.25, 1]);
   for (const bad of [{ Moon: 1 }, { Sign: -1 }, { Sign: NaN }, { Sign: [1, 2] }, { Sign: [1, 2, -3] }, { Sign: Infinity }, { Sign: null }])
     assert.throws(() => model.setLight(white(), 0, null, bad), RangeError);
-  lit(5, 7, 11); // what is refused changes nothing
+  lit(5, 7, 11); // a rejected light changes nothing
 });
 
 test("what shines is dimmed with the group that it is a member of", async () => {
@@ -375,7 +375,10 @@ test("half floats and three channels are read", () => {
   assert.ok(Math.abs(light.polar[2] - 4 * Math.sqrt(4 * Math.PI)) < 1e-5);
 });
 
-/** Direction of the texel in which three's shaders look up `direction`, by the text of their own equirectUv. */
+/**
+ * Returns the direction of the texel in which three's shaders look up `direction`, after checking their
+ * equirectUv.
+ */
 function threeTexel([x, y, z], width, height) {
   const text = ShaderChunk.common.replace(/\s+/g, " ");
   assert.ok(text.includes("float u = atan( dir.z, dir.x ) * RECIPROCAL_PI2 + 0.5;"), "three looks up u otherwise");
@@ -385,7 +388,7 @@ function threeTexel([x, y, z], width, height) {
   return [Math.floor(u * width), height - 1 - Math.floor(v * height)];
 }
 
-/** A texture as HDRLoader makes it, black but for the texel that three shows in `direction`. */
+/** Returns a texture as HDRLoader creates it, black except for the texel that three shows in `direction`. */
 function brightTowards(direction, value = 1000, width = 128) {
   const height = 64;
   const data = new Float32Array(4 * width * height);
@@ -396,7 +399,7 @@ function brightTowards(direction, value = 1000, width = 128) {
   return texture;
 }
 
-/** Where most light comes from: bands 0 and 1 hold -y, z, -x. */
+/** Returns the direction of most light: bands 0 and 1 contain -y, z, -x. */
 function mainDirection(light, angle) {
   const c = light.coefficients(angle);
   const d = [-c[9], -c[3], c[6]];
@@ -426,7 +429,7 @@ test("a sky for three's own materials is finite in half floats", () => {
   const values = [...sky.image.data].map(DataUtils.fromHalfFloat);
   assert.equal(Math.max(...values), 65504);
   assert.equal(sky.flipY, sun.flipY);
-  // The rest of it is the same, and so is where it is.
+  // All other values and their positions are unchanged.
   const dim = projectEquirectangular(halfFloatSky(brightTowards(unit([0.3, 0.5, -0.8]), 100)), 4).polar;
   projectEquirectangular(brightTowards(unit([0.3, 0.5, -0.8]), 100), 4).polar.forEach((value, i) =>
     assert.ok(Math.abs(value - dim[i]) < 1e-6));

@@ -1,3 +1,5 @@
+// Tests the lights that represent suns in three.
+
 import assert from "node:assert/strict";
 import { test } from "node:test";
 import { Box3, BoxGeometry, Matrix4, Mesh, Scene, Vector3 } from "three";
@@ -16,7 +18,7 @@ test("a sun is a directional light of its irradiance, which turns as the light d
   assert.deepEqual(light.color.clone().multiplyScalar(light.intensity).toArray().map((v) => Math.round(1e6 * v) / 1e6), [3, 2, 1]);
   near(direction(light).z, 1, 1e-12);
   lights.turn(Math.PI / 2);
-  near(direction(light).x, 1, 1e-12); // light from +Z comes from +X after a quarter turn
+  near(direction(light).x, 1, 1e-12); // after a quarter rotation, light from +Z comes from +X
   assert.equal(lights.dim(0.5).dim(0.25).lights[0].intensity, 0.75);
   assert.equal(new SunLights([{ ...sun, irradiance: [0, 0, 0] }]).lights[0].intensity, 0);
 });
@@ -28,7 +30,7 @@ test("a shadow map sees the box that it is fitted to from anywhere, and is fille
       const lights = new SunLights([{ ...sun, towards }]).fit(box).turn(angle);
       lights.updateMatrixWorld(true);
       const [light] = lights.lights;
-      light.shadow.updateMatrices(light); // as three's renderer does
+      light.shadow.updateMatrices(light); // three's renderer does this
       const seen = new Box3();
       for (let corner = 0; corner < 8; ++corner) {
         const at = new Vector3(corner & 1 ? 4 : -4, corner & 2 ? 4 : 0, corner & 4 ? 1 : -10);

@@ -1,4 +1,4 @@
-// Places and normals that guides are given, against those of the world of the file.
+// Compares positions and normals of predictors with those in the world space of the file.
 import assert from "node:assert/strict";
 import { test } from "node:test";
 import { Bone, BufferAttribute, BufferGeometry, Group, Matrix4, Mesh, Quaternion, Skeleton, SkinnedMesh, Vector3 } from "three";
@@ -17,7 +17,7 @@ function geometryOf(positions = POSITIONS, normals = NORMALS) {
   return geometry;
 }
 
-/** What the shader computes of vertex `v`. */
+/** Returns the values that the shader computes for vertex `v`. */
 function inShader(mesh, { defines, uniforms }, v) {
   const { attributes } = mesh.geometry;
   if (defines.PRT_BAKED_ATTRIBUTES)
@@ -30,7 +30,7 @@ function inShader(mesh, { defines, uniforms }, v) {
 const near = (vector, expected, most = 1e-6) =>
   assert.ok(vector.distanceTo(expected) < most, `${vector.toArray()}, not ${expected.toArray()}`);
 
-/** A mesh in a node of its own in a scene that has moved. */
+/** Returns a mesh in a separate node of a moved scene. */
 function placed(mesh, matrix) {
   const scene = new Group().add(mesh);
   matrix.decompose(mesh.position, mesh.quaternion, mesh.scale);
@@ -49,12 +49,12 @@ test("places and normals are those of the file's world, also of nodes that mirro
     const matrix = new Matrix4().compose(new Vector3(5, 6, 7), turn, new Vector3(...scale));
     const mesh = placed(new Mesh(geometryOf()), matrix);
     const frame = bakedFrame(mesh, GUIDES);
-    // Of a size whose squares floats hold, however small the node is.
+    // The squares stay within the range of floats, even for a very small node.
     assert.ok(Math.abs(Math.max(...frame.uniforms.prtNormalToBake.value.elements.map(Math.abs)) - 1) < 1e-12);
     for (let v = 0; v < 3; ++v) {
       const [place, normal] = inShader(mesh, frame, v);
       near(place, new Vector3(...POSITIONS[v]).applyMatrix4(matrix).sub(new Vector3(...ORIGIN)));
-      // A normal stays at right angles to what turns with the surface, and on its side.
+      // A normal stays perpendicular to tangents that rotate with the surface, and on its side.
       const along = new Vector3(...NORMALS[v]);
       for (const tangent of [new Vector3(1, 0, 0).cross(along), new Vector3(0, 1, 0).cross(along)]) {
         const turned = tangent.clone().transformDirection(matrix);
@@ -84,7 +84,7 @@ test("guides of one kind want no more than that", () => {
 test("places far from the origin of their mesh keep their digits", () => {
   const far = new Vector3(1e6, -2e6, 5e5);
   const guides = [{ kind: "position", origin: far.toArray(), scale: [1, 1, 1] }];
-  // By the node: the matrix takes it off.
+  // The node contains the offset, and the matrix removes it.
   const byNode = placed(new Mesh(geometryOf()), new Matrix4().makeTranslation(far));
   const frame = bakedFrame(byNode, guides);
   assert.ok(!frame.defines.PRT_BAKED_ATTRIBUTES);
@@ -140,13 +140,13 @@ test("skinned meshes are taken in the pose of the file, morphed ones at its weig
   bones[0].position.set(0, 3, 0);
   bones[1].quaternion.setFromAxisAngle(new Vector3(0, 0, 1), Math.PI / 2);
   const scene = new Group().add(mesh, ...bones);
-  mesh.position.set(50, 0, 0); // does not move what is skinned
+  mesh.position.set(50, 0, 0); // does not move skinned meshes
   scene.updateMatrixWorld(true);
   mesh.bind(new Skeleton(bones, [new Matrix4(), new Matrix4()]), new Matrix4());
   const frame = bakedFrame(mesh, GUIDES);
   const origin = new Vector3(...ORIGIN);
   near(inShader(mesh, frame, 0)[0], new Vector3(0, 3, 0).sub(origin));
-  near(inShader(mesh, frame, 1)[0], new Vector3(-2, 1, 0).sub(origin)); // (1, 2, 0) turned
+  near(inShader(mesh, frame, 1)[0], new Vector3(-2, 1, 0).sub(origin)); // (1, 2, 0) rotated
   near(inShader(mesh, frame, 1)[1], new Vector3(0, 0.6, 0.8));
   near(inShader(mesh, frame, 2)[0], new Vector3(-0.5, 2, 0.5).sub(origin)); // half (0, 4, 0.5), half (-1, 0, 0.5)
 });

@@ -16,13 +16,16 @@ const CLUSTER_BITS = 4;
 const SIZE = 4 + 3 * 4 + 1;
 const WORDS = 2;
 
-/** Numbers that look random, and are the same in every run. */
+/** Returns a generator of pseudo-random numbers, equal in every run. */
 function random(seed) {
   let state = seed;
   return () => (state = (state * 1664525 + 1013904223) % 2 ** 32) / 2 ** 32;
 }
 
-/** Bases without guides, or with the guide of normals: bright means, and directions about a fifth of them. */
+/**
+ * Returns bases without predictors, or with predictors from the normal: bright means, and directions of about
+ * a fifth of the mean.
+ */
 function bases(guides) {
   const next = random(7);
   const row = (most, mean) =>
@@ -30,7 +33,7 @@ function bases(guides) {
   return COMPONENTS.flatMap((m) => [...row(0.05, true), ...Array.from({ length: guides + m }, () => row(0.08, false)).flat()]);
 }
 
-/** The words of what is at (u, v) of object `i`: its cluster, and weights that go smoothly from place to place. */
+/** Returns the words at (u, v) of object `i`: its cluster, and smoothly varying weights. */
 export function wordsAt(u, v, i) {
   const cluster = (i + Math.floor(2.999 * u)) % COMPONENTS.length;
   let bits = BigInt(cluster);
@@ -57,7 +60,7 @@ const clusters = (binary, guides) => ({
   packing: { clusterBits: CLUSTER_BITS, bufferView: binary.view(packedWidths()) },
 });
 
-/** Texels whose words are `of(x, y)`: an image for each word. */
+/** Returns texels with the words `of(x, y)`: one image per word. */
 function images(binary, width, height, of) {
   const words = Array.from({ length: WORDS }, () => new Uint32Array(width * height));
   for (let y = 0; y < height; ++y) for (let x = 0; x < width; ++x) of(x, y).forEach((word, j) => (words[j][y * width + x] = word));
@@ -68,7 +71,10 @@ export const MAPS = [
   { width: 96, height: 64, repeats: false },
   { width: 40, height: 56, repeats: true },
 ];
-/** Where the texels' words are taken; rows of random ones first, with all values of bytes, alpha among them. */
+/**
+ * Returns the words of a texel: the first rows are random, with all values of bytes, including alpha; the
+ * others follow the surface.
+ */
 export function texelWords(i, x, y) {
   if (y >= 8) return wordsAt((x + 0.5) / MAPS[i].width, (y + 0.5) / MAPS[i].height, i);
   const next = random(1000 * i + 100 * y + x + 1);
@@ -110,7 +116,7 @@ function unpacked([low, high]) {
   return { cluster, weights: [...weights, 0, 0, 0, 0].slice(0, 4) };
 }
 
-/** Attributes of what is not packed. */
+/** Returns the attributes of unpacked weights. */
 function weightAttributes(binary, words) {
   const vertices = words.map(unpacked);
   const bytes = new Uint8Array(4 * vertices.length); // each cluster in four
@@ -123,13 +129,16 @@ function weightAttributes(binary, words) {
 }
 
 const MAPPED = "texels";
-/** How vertices have it: the guides beside, and how weights lie. */
+/** Predictors of vertices, for each way to store weights. */
 const GUIDES = {
   vertices: [{ kind: "normal", scale: [1, 1, 1] }],
   weights: [{ kind: "normal", scale: [1, 1, 1] }, { kind: "position", origin: [0.1, 0.2, -0.1], scale: [0.3, 0.3, 0.3] }],
 };
 
-/** The file. `by`: "vertices", "weights" (of vertices, not packed) or "texels"; `change(json, binary)` may make it another one. */
+/**
+ * Returns the file. `by` is "vertices", "weights" (of vertices, not packed) or "texels"; `change(json,
+ * binary)` may modify it.
+ */
 export function bakedModel(by, change = () => {}) {
   const binary = new Binary();
   const shapes = [new PlaneGeometry(4, 4, 24, 24).rotateX(-Math.PI / 2), new SphereGeometry(0.7, 40, 24).translate(-0.5, 1, 0), new SphereGeometry(0.35, 24, 16).translate(0.9, 0.5, 0.6)];

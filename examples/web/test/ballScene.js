@@ -1,4 +1,4 @@
-/** A ball of radius 1 as text of a glTF, of base color 0.8, 0.7, 0.6: nothing about it is shadowed. */
+/** Returns a sphere of radius 1 as glTF text, with base color 0.8, 0.7, 0.6: it is unshadowed everywhere. */
 export function ballScene(rings = 48) {
   const positions = [];
   const indices = [];

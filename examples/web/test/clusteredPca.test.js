@@ -1,3 +1,5 @@
+// Tests the decoder of clustered transfer.
+
 import assert from "node:assert/strict";
 import { test } from "node:test";
 import { clusterTable, decodeClusters, formConstants, lightColumns, shaderRows } from "../src/clusteredPca.js";
@@ -5,7 +7,7 @@ import { codedRows } from "../src/codedRows.js";
 import { viewsOf } from "../src/wholeExtension.js";
 import { encodedRows } from "./encodedRows.js";
 
-/** Numbers of given widths as bytes, lowest bit first. */
+/** Packs numbers of given widths into bytes, lowest bit first. */
 function bits(values) {
   const bytes = [];
   let position = 0;
@@ -18,7 +20,10 @@ function bits(values) {
 }
 const bytesOf = (...values) => new Uint8Array(new Float32Array(values).buffer);
 
-/** Two clusters of order 1: mean 2 with directions 0.5 and 0.25, mean 3 with none. Widths 3 and 5. */
+/**
+ * Two clusters of order 1: one with mean 2 and directions 0.5 and 0.25, one with mean 3 and no directions.
+ * Widths 3 and 5.
+ */
 const plain = {
   version: 7,
   order: 1,
@@ -70,7 +75,7 @@ test("coded bases are sums over axes", () => {
     bytesOf(1, 2, 3),
     bytesOf(2, 4),
     encodedRows([0, 0, 1], [[4, [3, -1, 2]], [3, [-4, 0, -1]]]),
-    // The mean, and the direction, where nothing is left for the second axis.
+    // The mean and the direction; the second axis has no residual.
     encodedRows([0, 2], [[5, [-16, 3]], [2, [1, 0]]]),
   ];
   const { rows } = decodeClusters(extension, (i) => views[i]);
@@ -79,7 +84,7 @@ test("coded bases are sums over axes", () => {
     assert.equal(rows[a], [1, 2, 3][a] + 0.5 * (2 * -16 * axes[0][a] + 4 * 3 * axes[1][a]));
     assert.equal(rows[3 + a], 2 * 0.5 * (2 * 1 * axes[0][a]));
   }
-  // With units, what the axes give is multiplied by them, and what the mean begins with is not.
+  // With units, the contribution of the axes is multiplied by them, and the start value of the mean is not.
   const scaled = { ...extension, bases: { ...extension.bases, units: { bufferView: 4, componentType: 5126 } } };
   const wide = decodeClusters(scaled, (i) => [...views, bytesOf(1, 0.5, 4)][i]).rows;
   for (let a = 0; a < 3; ++a) {
@@ -89,7 +94,10 @@ test("coded bases are sums over axes", () => {
   assert.throws(() => decodeClusters(scaled, (i) => [...views, bytesOf(1)][i]), /units have another size/);
 });
 
-/** Two clusters of order 1 with guides: mean, six rows, one direction of two bits; mean and six rows. */
+/**
+ * Two clusters of order 1 with predictors: a mean, six rows and one direction of two bits; a mean and six
+ * rows.
+ */
 const guided = {
   version: 7,
   order: 1,

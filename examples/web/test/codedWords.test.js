@@ -1,3 +1,5 @@
+// Tests the decoder of entropy-coded words.
+
 import assert from "node:assert/strict";
 import { test } from "node:test";
 import { codedWords, earlierNeighbors } from "../src/codedWords.js";
@@ -21,9 +23,12 @@ function encodedSteps(steps) {
 }
 
 const DROPS = new Array(16).fill(0);
-/** Contexts that STEPS use: clusters by the one before, one, two alike, three alike, and a, b, a; weights of 2, 3 and 6 bits. */
+/**
+ * Contexts that STEPS use: for clusters by the previous ones (the previous cluster, one, two equal, three
+ * equal, and a, b, a); for weights of 2, 3 and 6 bits.
+ */
 const USED = [[0, 1, 2, 4, 6], [], [0], [0, 1, 2, 3], [], [], [0, 1, 3, 4]];
-/** Rows of frequencies: in these contexts all symbols alike, none in others. */
+/** Returns rows of frequencies: equal for all symbols in these contexts, zero in others. */
 function evenFrequencies() {
   const rows = [];
   const add = (bits, contexts, symbols) => {
@@ -40,15 +45,18 @@ const plain = (value, bits) => [1, value, bits];
 
 const TRIANGLES = [0, 1, 2, 1, 2, 3, 2, 3, 4, 1, 3, 4, 6, 0, 1, 6, 0, 2];
 const CLUSTERS = { widths: [[3, 8], [2]], clusterBits: 2 };
-/** Of each vertex: its cluster and weights. */
+/** Cluster and weights of each vertex. */
 const FIELDS = [[0, 5, 200], [0, 4, 190], [0, 4, 194], [1, 3], [0, 6, 190], [0, 7, 190], [0, 1, 195]];
 const WORDS = FIELDS.map(([cluster, a, b = 0]) => cluster | (a << 2) | (b << 5));
-/** The same by hand: differences 0, -1, 1, ... are 0, 1, 2, ...; of eight bits the lowest two are plain. */
+/**
+ * The coding steps, derived by hand: differences 0, -1, 1, ... are symbols 0, 1, 2, ...; of eight bits the
+ * lowest two are stored plain.
+ */
 const STEPS = [
-  [plain(0, 2), even(2, 8), even(36, 64), plain(0, 2)], // before it is nothing: 4 + 1, 128 + 72
+  [plain(0, 2), even(2, 8), even(36, 64), plain(0, 2)], // no previous word: 4 + 1, 128 + 72
   [even(0, 4), even(1, 8), even(4, 64), plain(3, 2)], // by vertex 0: 5 - 1, 200 - 10
   [even(0, 4), even(1, 8), even(0, 64), plain(1, 2)], // by 0 and 1: 5 - 1, 195 - 1
-  [even(3, 4), plain(1, 2), even(2, 4)], // another cluster: 2 + 1
+  [even(3, 4), plain(1, 2), even(2, 4)], // a different cluster: 2 + 1
   [even(0, 4), even(4, 8), even(0, 64), plain(3, 2)], // by 2 and 1, not by 3: 4 + 2, 192 - 2
   [even(0, 4), even(2, 8), even(0, 64), plain(0, 2)], // no triangle: by the one before
   [even(0, 4), even(5, 8), even(0, 64), plain(0, 2)], // by 0, 1 and 2: 4 - 3, 195

@@ -1,6 +1,8 @@
-// The built page in headless Chromium: its pictures against those of `prt render`, its controls, its messages.
-//   node test/e2e.mjs [FOLDER for screenshots] [PATTERN of the names of checks, else all]
-// Needs `npm run build`, a chromium (CHROMIUM, else /usr/bin/chromium), and prt (PRT, else build/release).
+// Tests the built page in headless Chromium: its pictures against those of `prt render`, its controls, its
+// messages.
+//   node test/e2e.mjs [FOLDER for screenshots] [PATTERN of the names of checks, default all]
+// Needs `npm run build`, a chromium (CHROMIUM, default /usr/bin/chromium), and prt (PRT, default
+// build/release).
 import assert from "node:assert/strict";
 import { execFileSync } from "node:child_process";
 import { mkdirSync, mkdtempSync, readFileSync, rmSync, writeFileSync } from "node:fs";
@@ -19,12 +21,12 @@ if (screenshots) mkdirSync(screenshots, { recursive: true });
 const work = mkdtempSync(join(tmpdir(), "prtkit-web-"));
 const [width, height] = [640, 360];
 
-// Both draw the same light with the same shader and tone curve. What differs: antialiasing of edges (WebGL's against
-// 3 x 3 samples), texture filtering, and 8 bits of rounding.
-const MEAN_TOLERANCE = 0.5; // of 255
+// Both draw with the same light, shader and tone curve. They differ in the antialiasing of edges (WebGL's
+// against 3 x 3 samples), in texture filtering, and in rounding to 8 bits.
+const MEAN_TOLERANCE = 0.5; // levels out of 255
 const FAR = 16;
 const METERED = 0.1; // stops: grids of 48 x 48 points see edges and textures a little differently
-const FAR_SHARE = 0.01; // of the pixels
+const FAR_SHARE = 0.01; // fraction of the pixels
 
 const server = await preview({ root: web, preview: { port: 0, host: "127.0.0.1" }, logLevel: "error" });
 const { port } = server.httpServer.address();
@@ -54,7 +56,7 @@ async function check(name, body) {
   await page.close();
 }
 
-// Nobody walks through, but where a check is of that: prt renders what is baked.
+// Pages show no walking figure, except in its test: prt renders only baked geometry.
 const url = (query) => `http://127.0.0.1:${port}/?${new URLSearchParams({ figure: 0, ...query })}`;
 const picture = (page, past = 0) =>
   page.waitForFunction((n) => globalThis.prtkitPicture?.drawn > n, past, { timeout: 120_000 });
@@ -144,9 +146,10 @@ function vertexColors(path) {
 }
 
 /**
- * Linear radiance of what the page shows against `colors` of vertices, drawn alike: where colors change little from pixel
- * to pixel (next to a sharp shadow vertices say nothing), the root of the mean squared difference over that of the radiance,
- * and of the means the ratio; and the share of such pixels.
+ * Compares linear radiance of the page with `colors` of vertices, both drawn in the same way. Uses pixels
+ * whose color changes little between neighbours, because vertices do not resolve sharp shadows. Returns the
+ * root mean squared difference relative to that of the radiance, the ratio of the means, and the fraction of
+ * such pixels.
  */
 const radianceAgainst = (page, colors) =>
   page.evaluate((truth) => {
@@ -206,8 +209,8 @@ const radianceAgainst = (page, colors) =>
   }, colors);
 
 /**
- * Takes out what suns reflect specularly, which three adds to Lambert's law and prt has none of: by a further change before
- * compiling, as programs make them.
+ * Removes the specular reflection of suns, which three adds to Lambert's law and prt does not have, by a
+ * further change before compiling, as programs do.
  */
 async function matte(page) {
   const count = await drawn(page);
@@ -227,10 +230,14 @@ async function matte(page) {
   await picture(page, count);
 }
 
-// What turns with its skin has no bake that prt renders; radiance of instances that share theirs prt writes to nodes of its own.
+// Lobes have no bake that prt renders; prt writes radiance of instances with shared transfer to separate
+// nodes.
 const poseless = models.filter(({ clip }) => !clip);
 const normal = ({ levels }) => levels[1] ?? levels[0];
-/** Of instances from nearer than the page shows them: edges, which both smooth in their way, would be most of the difference. */
+/**
+ * Returns a view of instances closer than on the page: otherwise edges, which both antialias differently,
+ * would dominate the difference.
+ */
 const viewOf = ({ camera, shares }) => ({ fieldOfView: 35, ...(camera ?? standardCamera), ...(shares ? { fieldOfView: 12 } : {}) });
 
 for (const [i, model] of poseless.filter(({ shares }) => !shares).entries())
@@ -248,7 +255,8 @@ for (const [i, model] of poseless.filter(({ shares }) => !shares).entries())
       const d = await radianceAgainst(page, vertexColors(lit));
       console.log(`  ${(100 * d.rms).toFixed(2)} % rms, means ${d.ratio.toFixed(4)} times, over ${(100 * d.even).toFixed(0)} % of the model`);
       assert.deepEqual(errors, []);
-      // Of 32 taps at the shadow map against 256 rays, and of pixels that look even but lie in a wide penumbra.
+      // Error of 32 taps of the shadow map against 256 rays, and of pixels with little change inside a wide
+      // penumbra.
       assert.ok(d.rms < 0.02, `${d.rms}`);
     });
 
@@ -287,7 +295,7 @@ for (const [i, model] of poseless.entries())
       writeFileSync(join(screenshots, `${model.name}.suns.prt.png`), Buffer.from(expected.split(",")[1], "base64"));
     }
     assert.deepEqual(errors, []);
-    // Facets of the forest are coarse: some turn away from the sun before the normals of their vertices do.
+    // Facets of the forest are coarse: some face away from the sun before the normals of their vertices do.
     const times = model.shares ? 3 : 2;
     assert.ok(d.mean < times * MEAN_TOLERANCE, `mean difference ${d.mean}`);
     assert.ok(d.far < times * FAR_SHARE, `${d.far} of the pixels differ`);
@@ -353,7 +361,7 @@ await check("a Radiance sky lights as prt render does", async (page, errors) => 
 await check("the sky is where three's own background has it", async (page, errors) => {
   await onlyWarmSky(page);
   const upwards = { position: [1, 0.5, 6], target: [0, 2.2, 0], fieldOfView: 70 }; // the warm side is in view
-  const angle = 20; // the light turns by as much as three's rotation
+  const angle = 20; // rotation of the light, equal to three's rotation
   await page.goto(url({ model: "knot", angle, ...query(upwards) }));
   await picture(page);
   const before = await canvas(page);
@@ -367,7 +375,7 @@ await check("the sky is where three's own background has it", async (page, error
       shown.background.visible = false;
       shown.scene.background = texture;
       shown.scene.backgroundRotation.y = radians;
-      shown.expose = () => {}; // as it was
+      shown.expose = () => {}; // keep the exposure
       shown.draw();
     }, turn);
   await showThrees((angle * Math.PI) / 180);
@@ -400,7 +408,7 @@ await check("dragging with the right button turns the light", async (page, error
   const count = await drawn(page);
   await page.mouse.move(400, 200);
   await page.mouse.down({ button: "right" });
-  await page.mouse.move(580, 200, { steps: 4 }); // half the height: a quarter turn
+  await page.mouse.move(580, 200, { steps: 4 }); // half the height: a quarter rotation
   await page.mouse.up({ button: "right" });
   await picture(page, count);
   await page.waitForTimeout(200);
@@ -456,7 +464,7 @@ await check("files that are dropped are shown and listed", async (page, errors) 
   await dropped(page, { "mine.glb": join(distFolder, normal(other).file) });
   await page.waitForFunction(() => document.querySelector("#model").selectedOptions[0].text === "mine.glb");
   await picture(page, count);
-  // The same as chosen from the list, from the same place.
+  // Shows the model as if it was chosen from the list, from the same camera.
   const view = await page.evaluate(() => {
     const { camera, controls, fieldOfView } = globalThis.prtkitPicture;
     return { position: camera.position.toArray(), target: controls.target.toArray(), fieldOfView };
@@ -521,7 +529,7 @@ await check("lamps light as in prt, and are dimmed", async (page, errors) => {
   const bulb = { type: "point", name: "Bulb", color: [1, 0.9, 0.7], intensity: 2 };
   const red = { type: "point", name: "Red", color: [1, 0.1, 0.05], intensity: 1.5 };
   const prtRun = (...options) => execFileSync(prt, options, { stdio: "ignore" });
-  /** A model of these lights, and what prt has of it at the vertices. */
+  /** Creates a model with these lights, and returns prt's colors at the vertices. */
   const made = (name, lights) => {
     const at = (suffix) => join(work, name + suffix);
     lampScene(at(".gltf"), lights);
@@ -594,7 +602,7 @@ await check("a light file is dropped with its sky or alone", async (page, errors
     assert.equal(await page.locator("#suns").isDisabled(), false);
     assert.ok(await page.evaluate(() => globalThis.prtkitPicture.sunLights.visible));
     if (screenshots) await page.screenshot({ path: join(screenshots, `light-file-${pictures.length}.png`) });
-    // Without what is behind the model: an image, or what few bands have of it.
+    // Hides the background: an image, or the few bands of a light file.
     const shown = await drawn(page);
     await page.evaluate(() => {
       globalThis.prtkitPicture.background.visible = false;
@@ -604,9 +612,10 @@ await check("a light file is dropped with its sky or alone", async (page, errors
     pictures.push(await canvas(page));
   }
   const d = await difference(page, ...pictures);
-  assert.ok(d.mean < 0.01, `${d.mean}`); // the same light
+  assert.ok(d.mean < 0.01, `${d.mean}`); // equal light
   await dropped(page, { "warm.hdr": warmSky });
-  await page.waitForFunction(() => document.querySelector("#suns").disabled); // an image alone has none
+  // an image without a light file has no suns
+  await page.waitForFunction(() => document.querySelector("#suns").disabled);
   const notALight = join(work, "notes.json");
   writeFileSync(notALight, "{}");
   await dropped(page, { "notes.json": notALight });
@@ -648,7 +657,7 @@ await check("somebody walks through a model with a volume, and casts a shadow; o
   });
   assert.ok(shown.apart < 1e-6 && shown.lit > 0 && shown.formed, JSON.stringify(shown));
   if (screenshots) await page.screenshot({ path: join(screenshots, "figure.png") });
-  // Standing still, with and without it: some of the picture is another, and so is the ground where its shadow is.
+  // With and without the standing figure: part of the picture differs, and so does the ground in its shadow.
   const still = (figure) =>
     page.evaluate(async (isShown) => {
       const shownPicture = globalThis.prtkitPicture;

@@ -1,14 +1,15 @@
-// Files with baked light for other viewers, through GLTFLoader: with the plug-in as if there were none, without it unlit.
+// Loads files with baked fallback light through GLTFLoader: with the plug-in the fallback is ignored, without
+// it the model is unlit.
 import assert from "node:assert/strict";
 import { test } from "node:test";
 import { GLTFLoader } from "three/examples/jsm/loaders/GLTFLoader.js";
 import { PrtkitPlugin } from "../src/PrtkitLoader.js";
 import { bakedModel } from "./bakedModel.js";
 
-globalThis.ProgressEvent ??= Event; // of browsers; three's FileLoader makes some
+globalThis.ProgressEvent ??= Event; // exists in browsers; three's FileLoader creates some
 const count = (json, { attributes }) => json.accessors?.[attributes.POSITION].count;
 
-/** The floor has colours of its own, the ball none, and the lantern, which shines, no fallback. */
+/** Adds a fallback: colors for the floor, none for the ball, and no fallback for the emissive lantern. */
 function addFallback(json, binary) {
   delete json.textures;
   json.materials = json.materials.map(({ normalTexture: _, ...material }) => structuredClone(material));

@@ -1,4 +1,4 @@
-// Writers of what test models are made of: glTF in one file, and PNG.
+// Writes test models: binary glTF files, and PNG.
 import { crc32, deflateSync } from "node:zlib";
 
 /** Buffer views and accessors of one file, one behind the other. */
@@ -37,7 +37,7 @@ export class Binary {
 
 /** A PNG of four channels of 8 bits. */
 export function png(width, height, bytes) {
-  const rows = Buffer.alloc(height * (4 * width + 1)); // each begins with its filter: none
+  const rows = Buffer.alloc(height * (4 * width + 1)); // each row begins with its filter: 0
   for (let y = 0; y < height; ++y) Buffer.from(bytes.buffer, bytes.byteOffset + 4 * width * y, 4 * width).copy(rows, y * (4 * width + 1) + 1);
   const chunk = (name, data) => {
     const body = Buffer.concat([Buffer.from(name), data]);
@@ -53,7 +53,10 @@ export function png(width, height, bytes) {
   return Buffer.concat([Buffer.from([137, 80, 78, 71, 13, 10, 26, 10]), chunk("IHDR", header), chunk("IDAT", deflateSync(rows)), chunk("IEND", Buffer.alloc(0))]);
 }
 
-/** The extension of that name at the top level of a file, and what gives the bytes of its buffer views. */
+/**
+ * Returns the extension of that name at the top level of a file, and a function that returns the bytes of its
+ * buffer views.
+ */
 export function extensionOf(file, name) {
   const length = file.readUInt32LE(12);
   const json = JSON.parse(file.toString("utf8", 20, 20 + length));

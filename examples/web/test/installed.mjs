@@ -1,7 +1,8 @@
-// The package as users have it: packed, installed into an empty project, built by Vite, drawn by Chromium.
+// Tests the package in a user's setup: packed, installed into an empty project, built by Vite, drawn by
+// Chromium.
 //   node test/installed.mjs
-// Needs `npm run build` for a model and its sky, a chromium (CHROMIUM, else /usr/bin/chromium), and prt (PRT, else
-// build/release). THREE names the folder of another release of three than that of this project.
+// Needs `npm run build` for a model and its sky, a chromium (CHROMIUM, default /usr/bin/chromium), and prt
+// (PRT, default build/release). THREE names the folder of a different release of three than this project's.
 import assert from "node:assert/strict";
 import { execFileSync } from "node:child_process";
 import { copyFileSync, cpSync, mkdirSync, mkdtempSync, readFileSync, rmSync, symlinkSync, writeFileSync } from "node:fs";
@@ -120,7 +121,8 @@ await check("backgrounds are turned as is counted on", async () => {
   const revision = Number.parseInt(JSON.parse(readFileSync(join(three, "package.json"), "utf8")).version.split(".")[1]);
   const { Euler } = await import("three");
   const [x, y] = [90, 20];
-  // Of a flipped image of 128 x 64: +X in the middle, +Z a quarter of the width right of it.
+  // Direction of a texel of a flipped image of 128 x 64: +X in the middle, +Z a quarter of the width to its
+  // right.
   const [azimuth, theta] = [2 * Math.PI * ((x + 0.5) / 128 - 0.5), (Math.PI * (y + 0.5)) / 64];
   const direction = [Math.sin(theta) * Math.cos(azimuth), Math.cos(theta), Math.sin(theta) * Math.sin(azimuth)];
   for (const rotation of [[0, 0, 0], [0, 1, 0], [0.4, -0.7, 1.1]]) {

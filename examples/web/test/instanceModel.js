@@ -1,5 +1,5 @@
-// A small model whose balls are instances that share their transfer, as `prt bake --instances shared` and `prt compress` would
-// write it, of made-up transfer and factors.
+// A small model whose balls are instances with shared transfer, as `prt bake --instances shared` and `prt
+// compress` write it, with synthetic transfer and factors.
 import { bakedModel, COMPONENTS } from "./bakedModel.js";
 
 export const PARTS = [
@@ -18,7 +18,7 @@ function random(seed) {
   return () => (state = (state * 1664525 + 1013904223) % 2 ** 32) / 2 ** 32;
 }
 
-/** Numbers of all instances, [COUNT][52]: much of the light passes, some comes back. */
+/** Returns the numbers of all instances, [COUNT][52]: much of the light is transmitted, some is reflected. */
 function numbers() {
   const next = random(17);
   const row = (mean) => [0.3 * (next() - 0.5), 0.3 * (next() - 0.5), 0.3 * (next() - 0.5), mean + 0.2 * (next() - 0.5)];
@@ -30,7 +30,7 @@ function numbers() {
 }
 
 const base = Array.from({ length: 52 }, (_, j) => Number(j === 3 || j === 39));
-/** Of each number its own, so that none is taken for another's. */
+/** A different scale for each number, so that exchanged numbers are detected. */
 export const SCALES = base.map((_, j) => 0.01 + 0.0001 * j);
 
 /** Their bytes, as a file has them. */
@@ -38,20 +38,20 @@ export function bytes() {
   return Int8Array.from(numbers(), (value, n) => Math.round((value - base[n % 52]) / SCALES[n % 52]));
 }
 
-/** What the bytes say. */
+/** Returns the decoded factors. */
 export function factors() {
   return Array.from(bytes(), (q, n) => base[n % 52] + SCALES[n % 52] * q);
 }
 
 const half = Math.SQRT1_2;
-/** Turned by nothing, by a bin of yaw, by yaw between bins, and leaning. */
+/** Instances rotated by nothing, by a bin of yaw, by yaw between bins, and tilted. */
 export const PLACES = {
   TRANSLATION: [-1.5, 0, -1, 1, 0.2, -1, 0.4, 0, 1.2, -1, 0.5, 1],
   ROTATION: [0, 0, 0, 1, 0, half, 0, half, 0, Math.sin(0.51), 0, Math.cos(0.51), 0.48, 0.36, 0, 0.8],
   SCALE: [0.5, 0.5, 0.5, 0.6, 0.6, 0.6, 0.4, 0.4, 0.4, 0.5, 0.5, 0.5],
 };
 
-/** The file; `by`: as of bakedModel; `change(json, binary)` may make it another one. */
+/** Returns the file; `by`: see bakedModel; `change(json, binary)` may modify it. */
 export function instanceModel(by = "vertices", change = () => {}) {
   return bakedModel(by, (json, binary) => {
     const clusters = json.extensions.PRTKIT_clustered_pca;

@@ -17,7 +17,10 @@ const lightOf = (order, seed) =>
   ShLight.fromCoefficients(order, Array.from({ length: 3 * order * order }, (_, i) => Math.cos(seed * i + 1) + (i < 3 ? 3 : 0)));
 const near = (value, expected, most, what = "") => assert.ok(Math.abs(value - expected) <= most, `${what} ${value}, not ${expected}`);
 
-/** Calls `take(direction, solid angle)` so that integrals of low polynomials over each half of the sphere are exact. */
+/**
+ * Calls `take(direction, solid angle)` with a quadrature that is exact for low polynomials over each half of
+ * the sphere.
+ */
 function overHalves(take) {
   const { nodes, weights } = gaussLegendre(13);
   for (const side of [1, -1])
@@ -51,8 +54,10 @@ const HARMONICS = [
 const PASSED = [...HARMONICS.map((harmonic) => (direction) => harmonic(direction) * Number(direction[1] > 0)), ([, y]) => Number(y < 0)];
 const THROWN = HARMONICS.slice(0, 4);
 
-/** What each mode is lit with in the frame of an instance, turned into the world's by `rotation` (Matrix3): for each coefficients
- * [order²][3] of the sky and of sky and suns. */
+/**
+ * Returns the light of each mode in the space of an instance, rotated to world space by `rotation` (Matrix3):
+ * coefficients [order²][3] for the sky, and for sky and suns.
+ */
 function modesInFrame(order, sky, suns, rotation) {
   const both = suns ? sky.map((value, i) => value + suns[i]) : sky;
   const modes = Array.from({ length: 14 }, () => [0, 1].map(() => new Float64Array(3 * order * order)));
@@ -102,7 +107,10 @@ test("turns about +Y fall into bins, others are their own", () => {
   assert.equal(instanceTurns([yaw(0), yaw(0.4 * step)], 0).rotations.length, 2);
 });
 
-/** What the shader makes of vertex `v` of instance `i` of a mesh: prt_instances.glsl and prt_exit_radiance.glsl, in plain numbers. */
+/**
+ * Returns the shader's result for vertex `v` of instance `i` of a mesh: prt_instances.glsl and
+ * prt_exit_radiance.glsl in plain JavaScript.
+ */
 function shaded(prtkit, mesh, i, v) {
   const { attributes } = mesh.geometry;
   const four = (attribute, n) => [0, 1, 2, 3].map((k) => attribute.getComponent(n, k));
@@ -139,7 +147,10 @@ function shaded(prtkit, mesh, i, v) {
   return sum;
 }
 
-/** The same from the transfer of the vertex and the lights of the modes: docs/format.md, PRTKIT_instances. */
+/**
+ * Returns the expected result from the transfer of the vertex and the lights of the modes: docs/format.md,
+ * PRTKIT_instances.
+ */
 function expectedOf(prtkit, mesh, v, modes, numbers, box) {
   const { clusters } = prtkit;
   const { order, guides, components, firstRows, rows, widths } = clusters;
@@ -213,7 +224,7 @@ test("an instance in the open has the light of its mesh", async () => {
   }));
   const { prtkit } = userData;
   prtkit.setLight(lightOf(2, 3), 0.3);
-  const constants = prtkit.constantsTexture.image.data; // of what is not turned
+  const constants = prtkit.constantsTexture.image.data; // constants without rotation
   const { instances: { constantsTexture, former } } = prtkit;
   const { rows } = former.instances[0];
   for (let row = 0; row < rows.length; ++row)
@@ -240,7 +251,7 @@ test("each primitive is drawn at once, where its nodes are", async () => {
       return new Vector3().setFromMatrixPosition(matrix);
     }));
   for (let i = 0; i < 4; ++i) assert.ok(places[i].distanceTo(new Vector3(...PLACES.TRANSLATION.slice(3 * i))) < 1e-6);
-  // The hill turns +X to -Z, and +Z to +X.
+  // The hill rotates +X to -Z, and +Z to +X.
   assert.ok(places[4].distanceTo(new Vector3(0.5, 0.1, -0.8)) < 1e-6, places[4].toArray());
   assert.ok(places[5].distanceTo(new Vector3(1.5, 0.1, 0.5)) < 1e-6, places[5].toArray());
   // Culled by all of them together.
@@ -248,7 +259,7 @@ test("each primitive is drawn at once, where its nodes are", async () => {
   balls.computeBoundingSphere();
   const box = new Box3().setFromObject(balls);
   assert.ok(box.min.x < -1.5 - 0.25 && box.max.x > 1.2 && balls.boundingSphere.radius > 1.5);
-  // What three read is what the file has.
+  // three's data equal the content of the file.
   assert.equal(parser.json.nodes[1].mesh, 1);
   assert.ok(parser.json.nodes[1].extensions.EXT_mesh_gpu_instancing.attributes.TRANSLATION >= 0);
   for (const mesh of instances.meshes) assert.ok(mesh.castShadow && mesh.receiveShadow && mesh.material.defines.PRT_SUNS);
@@ -278,7 +289,7 @@ test("light that changes is formed anew, also as the model is turned", async () 
   const { version } = texture;
   prtkit.setSky(light, shown);
   assert.ok(texture.version > version && turned.some((value, i) => Math.abs(value - texture.image.data[i]) > 1e-3));
-  scene.rotation.y = -0.4; // the light comes from as far round
+  scene.rotation.y = -0.4; // rotates the light by the same angle
   scene.updateMatrixWorld(true);
   prtkit.followSky();
   turned.forEach((value, i) => near(texture.image.data[i], value, 1e-5));

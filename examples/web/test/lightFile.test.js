@@ -1,3 +1,5 @@
+// Tests the reader of light files.
+
 import assert from "node:assert/strict";
 import { test } from "node:test";
 import { lightOfSuns, readLightFile } from "../src/lightFile.js";

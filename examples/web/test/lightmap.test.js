@@ -1,4 +1,4 @@
-// Files with PRTKIT_lightmap: what is made of them, and what is refused. renderers.mjs draws them.
+// Tests files with PRTKIT_lightmap: loading and rejection. renderers.mjs draws them.
 import assert from "node:assert/strict";
 import { afterEach, beforeEach, test } from "node:test";
 import { ShaderLib } from "three";
@@ -8,7 +8,7 @@ import { bakedModel, MAPS } from "./bakedModel.js";
 import { png } from "./glb.js";
 
 const { createImageBitmap } = globalThis;
-globalThis.ProgressEvent ??= Event; // of browsers; three's FileLoader makes some
+globalThis.ProgressEvent ??= Event; // exists in browsers; three's FileLoader creates some
 let asked;
 beforeEach(() => {
   asked = [];

@@ -1,11 +1,11 @@
-// A small figure as `prt lobes` would write it, of made-up lobes: squares in a plane, moved by two bones; and what light makes of
-// each, in plain numbers.
+// A small figure as `prt lobes` writes it, with synthetic lobes: squares in a plane, moved by two bones; and
+// their radiance, computed in plain JavaScript.
 import { Euler, Matrix3, Matrix4, Vector3 } from "three";
 import { evaluateSh } from "../src/sphericalHarmonics.js";
 import { Binary } from "./glb.js";
 
 export const [ACROSS, DOWN, LOBES, PROFILES] = [6, 5, 2, 7];
-const SIZE = 0.11; // of half a square
+const SIZE = 0.11; // half the side of a square
 
 function random(seed) {
   let state = seed;
@@ -14,13 +14,13 @@ function random(seed) {
   return next;
 }
 
-/** Gains of each profile: those of an open vertex, more or less. */
+/** Returns the gains of each profile: those of an unoccluded vertex, varied. */
 export function profiles(order) {
   const next = random(3);
   return Array.from({ length: PROFILES }, () => [1, 2 / 3, 1 / 4, 0.1].slice(0, order).map((gain) => gain * (0.4 + next())));
 }
 
-/** Of each square its middle, its normal, the share of the first bone, and bytes of its lobes. */
+/** Returns for each square its middle, its normal, the weight of the first bone, and the bytes of its lobes. */
 export function squares() {
   const next = random(5);
   return Array.from({ length: ACROSS * DOWN }, (_, i) => ({
@@ -65,13 +65,13 @@ export function lobeModel(order = 4, change = () => {}) {
   return binary.file(json);
 }
 
-/** The matrices of the bones, turned by Euler angles, one on the other. */
+/** Returns the matrices of the two bones, rotated by Euler angles; the second is a child of the first. */
 export function boneMatrices([first, second]) {
   const [one, other] = [first, second].map((angles) => new Matrix4().makeRotationFromEuler(new Euler(...angles)));
   return [one, one.clone().multiply(other)];
 }
 
-/** The unit axis that two bytes stand for. */
+/** Returns the unit axis encoded by two bytes. */
 function axisOf([a, b]) {
   let [x, y] = [a, b].map((byte) => Math.min((byte - 127) / 127, 1));
   const z = 1 - Math.abs(x) - Math.abs(y);
@@ -86,14 +86,14 @@ const skinOf = (share, bones) => {
 };
 const turnOf = (skin) => new Matrix3().setFromMatrix4(skin).invert().transpose();
 
-/** Where the ends of a square's diagonal are, and its normal there. */
+/** Returns the positions of the ends of a square's diagonal, and its normal there. */
 export function cornersOf({ place: [x, y, z], normal, share }, bones) {
   const skin = skinOf(share, bones);
   const turned = new Vector3(...normal).applyMatrix3(turnOf(skin)).normalize().toArray();
   return [1, -1].map((side) => ({ place: new Vector3(x + side * SIZE, y - side * SIZE, z).applyMatrix4(skin).toArray(), normal: turned }));
 }
 
-/** Where a square is, and its radiance for albedo 1 under coefficients [order²][3]. */
+/** Returns the position of a square, and its radiance for albedo 1 under coefficients [order²][3]. */
 export function radianceOf({ place, share, lobes }, bones, order, light) {
   const skin = skinOf(share, bones);
   const turn = turnOf(skin);

@@ -1,4 +1,4 @@
-// A file with parts that take light, of made-up texels; and how much they take, in plain numbers.
+// A file with occluding parts and synthetic texels; and their occlusion, computed in plain JavaScript.
 import { Matrix4, Vector3 } from "three";
 import { Binary } from "./glb.js";
 
@@ -8,7 +8,10 @@ export const BOXES = [
   { min: [-0.1, -0.1, -0.1], max: [0.2, 0.3, 0.1], reach: 0.9 },
 ];
 
-/** Lean and root of what is blocked, -1..1 in 127ths, smooth over the box. */
+/**
+ * Returns the mean blocked direction and the square root of the blocked fraction, -1..1 in 127ths, smooth
+ * over the box.
+ */
 function texelsOf(box) {
   const texels = new Int8Array(4 * SIDE ** 3);
   for (let i = 0; i < SIDE ** 3; ++i) {
@@ -45,7 +48,10 @@ function filtered(texels, at) {
   return sum;
 }
 
-/** Of the cosine-weighted hemisphere about `normal`, what of an evenly blocked cap is above it: by a grid of directions. */
+/**
+ * Returns the part of the cosine-weighted hemisphere about `normal` that an evenly blocked cap covers, by a
+ * grid of directions.
+ */
 function capCosine(towards, share, normal) {
   const least = 1 - 2 * share; // cosine of its border
   const axis = new Vector3(...towards);
@@ -66,7 +72,10 @@ function capCosine(towards, share, normal) {
   return (sum / (rings * steps)) * 4 * share; // over pi, of 4 pi share
 }
 
-/** How much of even light a part that `matrix` places leaves to a receiver, as docs/format.md says. */
+/**
+ * Returns the fraction of uniform light that remains at a receiver with one part at `matrix`, as defined in
+ * docs/format.md.
+ */
 function leftBy({ min, max, reach }, texels, matrix, position, normal) {
   const scale = Math.cbrt(matrix.determinant());
   const middle = min.map((value, a) => (value + max[a]) / 2);
@@ -92,7 +101,7 @@ function leftBy({ min, max, reach }, texels, matrix, position, normal) {
   return 1 - (blocked / share) * capCosine(turned.normalize().toArray(), share, normal);
 }
 
-/** What all parts leave, where `moved` has placed them. */
+/** Returns the fraction that remains with all parts, at the matrices `moved`. */
 export function leftAt(moved, position, normal) {
   return BOXES.reduce((left, box, i) => left * leftBy(box, texelsOf(i), new Matrix4().fromArray(moved[i]), position, normal), 1);
 }

@@ -1,4 +1,4 @@
-// What `npm pack` makes, installed elsewhere. installed.mjs draws with it.
+// Tests the result of `npm pack`, installed elsewhere. installed.mjs draws with it.
 import assert from "node:assert/strict";
 import { execFileSync } from "node:child_process";
 import { mkdirSync, mkdtempSync, readFileSync, rmSync, symlinkSync, writeFileSync } from "node:fs";

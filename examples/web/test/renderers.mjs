@@ -1,8 +1,9 @@
-// Made-up models in headless Chromium: what the plug-in computes on the device against plain numbers, and WebGPURenderer
-// against WebGLRenderer.
-//   node test/renderers.mjs [PATTERN of the names of checks, else all]      PICTURES=FOLDER keeps what is compared
-// Needs a chromium (CHROMIUM, else /usr/bin/chromium). THREE names the folder of another release of three than that of this
-// project.
+// Draws synthetic models in headless Chromium: compares the plug-in's results on the device with plain
+// JavaScript, and WebGPURenderer with WebGLRenderer.
+//   node test/renderers.mjs [PATTERN of the names of checks, default all]      PICTURES=FOLDER keeps the
+// compared pictures
+// Needs a chromium (CHROMIUM, default /usr/bin/chromium). THREE names the folder of a different release of
+// three than this project's.
 import assert from "node:assert/strict";
 import { mkdtempSync, readFileSync, rmSync, writeFileSync } from "node:fs";
 import { tmpdir } from "node:os";
@@ -39,7 +40,7 @@ const server = await createServer({
 process.on("exit", () => rmSync(server.config.cacheDir, { recursive: true, force: true }));
 await server.listen();
 const errors = [];
-// The last: three's, of its own clones since release 187.
+// The last but one comes from three itself, about its clones, since release 187.
 const UNHEARD = /GPU stall|WebGPU is not available|iridescenceThicknessRange|does not light baked meshes/;
 /** A floor that light passes, and a ball that is unlit. */
 function leafy(json) {
@@ -56,7 +57,7 @@ models["passer.glb"] = occluderModel();
 for (const order of [2, 3, 4]) models[`lobes_${order}.glb`] = lobeModel(order);
 for (const by of ["vertices", "texels"]) models[`leaf_${by}.glb`] = bakedModel(by, leafy);
 
-/** A page of a browser of its own: where WebGPU in software gives up, it takes the process of all pages along. */
+/** Opens a page in a separate browser: a crash of software WebGPU takes the process of all pages with it. */
 async function opened(...options) {
   const browser = await chromium.launch({
     executablePath: process.env.CHROMIUM ?? "/usr/bin/chromium",
@@ -152,13 +153,13 @@ const cases = {
   "a sky": {},
   "a reflected environment": { environment: true },
   "suns": { suns: true },
-  // On WebGPU in software three's shadow maps stay empty, whatever the material.
+  // On software WebGPU three's shadow maps stay empty, with any material.
   "suns with shadows, and an environment": { suns: true, shadows: true, environment: true, but: "webgpu" },
   "suns through sheets from below, and an unlit ball": { suns: "from below", model: "leaf" },
   "fog": { suns: true, fog: true, picture: "radiance" }, // three mixes it in before or behind the tone curve
   "other lights, which add nothing": { others: true },
   "cloned materials": { change: "clone", environment: true },
-  // Before, WebGPURenderer turns reflections the other way than backgrounds.
+  // Earlier releases of WebGPURenderer rotate reflections opposite to backgrounds.
   ...(revision >= 184 ? { "a turned environment": { environment: true, probed: true, change: "metal" } } : {}),
   "metals": { change: "metal" },
   "instances": { copies: "instances", suns: true },
@@ -207,7 +208,7 @@ for (const by of ["vertices", "texels"])
 await check("texels: without an environment, the picture is that of three's own light map", async () => {
   const [ours, own] = [await ask("picture", { api: "webgl", ...given("texels", { change: "matte" }) }), await ask("picture", { api: "webgl", ...given("texels", { change: "three's own" }) })];
   const { mean } = compared(ours, own);
-  // Later releases take off what is reflected, though nothing is.
+  // Later releases subtract reflected light, though there is none.
   assert.ok(mean < (revision < 184 ? 0.1 : 1), `mean ${mean} of 255`);
   return `mean ${mean.toFixed(3)} of 255`;
 });
@@ -222,7 +223,10 @@ const places = [
   { place: [0.07, 1.23, 0.29], turn: [1.1, -0.7, 0.9] },
 ];
 
-/** The largest difference of what a square shows from plain numbers, over the brightest of them. */
+/**
+ * Returns the maximum difference between a square's picture and plain JavaScript, relative to the maximum
+ * radiance.
+ */
 async function offPlain(askThere, asked, expected) {
   const { extension, view } = extensionOf(models[asked.model], "PRTKIT_transfer_volume");
   const volume = volumeOf(extension, view);
@@ -236,7 +240,7 @@ async function offPlain(askThere, asked, expected) {
       const row = asked.api === "webgpu" ? down - 1 - y : y;
       const at = new Vector3((2 * (x + 0.5)) / across - 1, (2 * (y + 0.5)) / down - 1, 0).applyEuler(turned);
       const incident = incidentAround(volume, asked.place.map((value, a) => value + at.toArray()[a]), normal, columns);
-      // Nodes of three look from one place with orthographic cameras, too.
+      // Nodes of three compute one view position, also for orthographic cameras.
       const towards = asked.api === "webgl" ? normal : new Vector3(0, 0, 2).applyEuler(turned).sub(at).normalize().toArray();
       const cosine = normal.reduce((sum, value, a) => sum + value * towards[a], 0);
       const mirrored = normal.map((value, a) => 2 * cosine * value - towards[a]);
@@ -254,7 +258,8 @@ for (const [api, askThere] of [["webgl", ask], ["nodes", ask], ["webgpu", onWebg
     const found = [];
     for (const floats of [true, false])
       for (const place of places) found.push(await offPlain(askThere, { ...matte, floats, ...place }, (incident, normal) => sumOf(incident, normal)));
-    // Filters of half floats take shares of a cell in 256ths, and neighbours differ by as much as all light.
+    // Filters of half floats use fractions of a cell in 256ths, and neighbours differ by as much as all
+    // light.
     assert.ok(Math.max(...found.slice(0, 4)) < 1e-5 && Math.max(...found.slice(4)) < 2 ** -8, found.join());
     return `${Math.max(...found.slice(0, 4)).toExponential(1)} off in floats, ${Math.max(...found.slice(4)).toExponential(1)} in half floats`;
   });
@@ -269,7 +274,7 @@ for (const [api, askThere] of [["webgl", ask], ["nodes", ask], ["webgpu", onWebg
   await check(`${api}: chrome mirrors what comes in from there`, async () => {
     const off = await offPlain(askThere, { ...matte, material: "chrome", floats: true, ...places[1] }, (incident, normal, mirrored) =>
       sumOf(incident, mirrored, [1, 1, 1, 1]));
-    assert.ok(off < 0.02, `${off}`); // three's fit of what is scattered more than once
+    assert.ok(off < 0.02, `${off}`); // error of three's fit for multiple scattering
     return `${off.toExponential(1)} off`;
   });
 }
@@ -293,7 +298,7 @@ await check("what passes over baked surfaces takes as much of their light as pla
       least = Math.min(least, expected);
       for (let c = 0; c < 3; ++c) most = Math.max(most, Math.abs(occluded[at + c] / open[at + c] - expected));
     }
-  // The numbers integrate over a grid of directions, within 1e-3; filters take shares in 256ths.
+  // The reference integrates over a grid of directions, within 1e-3; filters use fractions in 256ths.
   assert.ok(least < 0.8 && most < 4e-3, `${most}; darkest ${least}`);
   return `${most.toExponential(1)} off, the darkest is ${least.toFixed(2)}`;
 });

@@ -1,4 +1,4 @@
-// What turns and dims the light by itself, and where light may come from.
+// Tests automatic rotation and dimming of the light, and the sources of light.
 import assert from "node:assert/strict";
 import { test } from "node:test";
 import {
@@ -28,7 +28,10 @@ const near = (actual, expected, tolerance, what = "") =>
   assert.ok(Math.abs(actual - expected) <= tolerance, `${what} ${actual} is not within ${tolerance} of ${expected}`);
 const allNear = (actual, expected, tolerance, what) => expected.forEach((value, i) => near(actual[i], value, tolerance, `${what}, ${i}:`));
 
-/** A model of one cluster without components whose mean is that of an open receiver in a light of order 2 that looks at +X. */
+/**
+ * Returns a model of one cluster without components; its mean is that of an unoccluded receiver facing +X in
+ * a light of order 2.
+ */
 function modelTowardsX(root) {
   const values = [0.25, 0, 0, -0.3];
   const extension = { version: 7, order: 2, parts: [{ kind: "whole", channels: 1 }], components: [0], bases: { bufferView: 0 } };
@@ -36,7 +39,7 @@ function modelTowardsX(root) {
 }
 
 const redOf = (model) => model.constantsTexture.image.data[0];
-/** Of white light from one direction d: 0.25 Y_0 + 0.3 * 0.4886 x. */
+/** Red value under white light from one direction d: 0.25 Y_0 + 0.3 * 0.4886 x. */
 const expectedRed = (x) => 0.25 * 0.282094791774 + 0.3 * 0.488602511903 * x;
 
 /** Light from one direction, in all three channels. */
@@ -53,7 +56,7 @@ test("a turn of the environment about +Y is the angle of setLight, in all releas
 });
 
 test("three looks up environments as is counted on", () => {
-  // The lookup is a matrix times the direction; what the matrix is has changed with release 184, and is seen in e2e.mjs.
+  // The lookup is a matrix times the direction; the matrix has changed with release 184, which e2e.mjs tests.
   assert.match(ShaderChunk.envmap_physical_pars_fragment, /envMapRotation \* worldNormal/);
   const euler = new Euler(0.4, -0.7, 1.1);
   const d = [0.36, 0.48, 0.8];
@@ -72,7 +75,7 @@ test("a sky turns and dims with its scene, by itself", () => {
   scene.backgroundRotation.y = Math.PI / 2;
   model.beforeRender();
   near(redOf(model), expectedRed(1), 1e-6, "turned");
-  scene.environment = new Texture(); // which has a rotation of its own
+  scene.environment = new Texture(); // it has a separate rotation
   model.beforeRender();
   near(redOf(model), expectedRed(0), 1e-6, "environment");
   scene.environmentRotation.y = -Math.PI / 2;
@@ -144,7 +147,7 @@ test("half floats of a worker are those of three", () => {
   assert.ok(Number.isNaN(halfFloat(0x7e00)));
 });
 
-/** A Worker that runs src/projectionWorker.js here, with messages that are copied as those of a browser. */
+/** Provides a Worker that runs src/projectionWorker.js in this thread, with copied messages as in a browser. */
 async function withWorker(body) {
   await import("../src/projectionWorker.js");
   const { onmessage } = globalThis;

@@ -1,3 +1,5 @@
+// Tests spherical harmonics, projection and windows.
+
 import assert from "node:assert/strict";
 import { test } from "node:test";
 import { deringFactors, evaluateSh, gaussLegendre, projectLatLong, ShLight } from "../src/sphericalHarmonics.js";
@@ -127,7 +129,10 @@ function sunAndSky(order, towards, sky) {
   return coefficients;
 }
 
-/** The least radiance of any channel under these factors, over directions that have nothing to do with the filter's grid. */
+/**
+ * Returns the minimum radiance of any channel under these factors, over directions independent of the
+ * filter's grid.
+ */
 function leastRadiance(order, coefficients, factors) {
   const light = coefficients.map((v, i) => v * factors[Math.floor(Math.sqrt(Math.floor(i / 3) + 0.5))]);
   let least = Infinity;

@@ -96,7 +96,7 @@ test("a probe in the open has the light as it is, and sees the sun", () => {
   const towards = [0.48, 0.8, 0.36];
   volume.setLight(light, 0, lightOfSuns([{ towards, irradiance: [5, 4, 3], halfAngle: 0 }], 3));
   volume.settle();
-  // Of a direction among nine coefficients that are the identity, a probe sees Y_0 of Y_0.
+  // Transfer of the probe is the identity for nine coefficients, so it receives Y_0 · Y_0 of a direction.
   for (const probe of [0, 17, PROBES - 1]) {
     const numbers = numbersAt(volume, probe);
     light.coefficients().forEach((expected, n) => assert.ok(Math.abs(numbers[n] - expected) < 1e-6));
@@ -136,7 +136,7 @@ test("a change of light takes several pictures, in which the former light is sho
   draw();
   assert.ok(!volume.isSettled);
   assert.deepEqual(numbersAt(volume, 5), before);
-  volume.beforeRender(renderer); // of the same picture
+  volume.beforeRender(renderer); // in the same frame
   for (let i = 0; i < 3 && !volume.isSettled; ++i) draw();
   assert.ok(volume.isSettled);
   assert.notDeepEqual(numbersAt(volume, 5), before);
@@ -161,7 +161,7 @@ test("a volume goes beside the transfer of surfaces, and is lit with it", async 
   assert.deepEqual([prtkit.volume.probes, prtkit.volume.incidentOrder, prtkit.volume.bytesPerProbe], [PROBES, 3, 14]);
   prtkit.setLight(light, 0.2, null, { Lantern: 0.5 });
   assert.deepEqual(prtkit.volume.strengths.get("Lantern").value.toArray(), [0.5, 0.5, 0.5]);
-  // The model has two bands, the volume three: nothing is changed where one of both cannot be.
+  // The model has order two, the volume three: an error of one leaves both unchanged.
   const former = prtkit.constantsTexture.version;
   assert.throws(() => prtkit.setLight(ShLight.fromCoefficients(2, coefficients.slice(0, 12))), /the light has order 2, the model needs 3/);
   assert.equal(prtkit.constantsTexture.version, former);
@@ -204,7 +204,7 @@ test("materials of what moves are copies that keep their own shader, and so do t
   volume.light(character);
   assert.equal(box.material, lit); // once is enough
   const second = new PrtkitVolume(readVolume(), new Group(), new PrtkitPlugin());
-  second.light(character); // it has moved into another one
+  second.light(character); // it has moved into the second volume
   assert.equal(box.material._transfer.model, second);
   assert.equal(box.material._transfer.source, source);
   assert.throws(() => volume.light(new Mesh(new BoxGeometry(), new MeshPhongMaterial())), /not MeshPhongMaterial/);

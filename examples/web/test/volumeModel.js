@@ -1,5 +1,5 @@
-// A small volume as `prt compress` would write it: two bricks of unlike levels, of made-up transfer or of probes that nothing is
-// in the way of; and what its light is, in plain numbers.
+// A small volume as `prt compress` writes it: two bricks of different levels, with synthetic transfer or with
+// unoccluded probes; and its light, computed in plain JavaScript.
 import { evaluateSh } from "../src/sphericalHarmonics.js";
 import { Binary } from "./glb.js";
 import { radianceOfWords } from "./wordRadiance.js";
@@ -15,7 +15,7 @@ const COMPONENTS = [3, 0, 5];
 const WIDTHS = [[8, 5, 11], [], [16, 3, 9, 8, 7]];
 const CLUSTER_BITS = 2;
 const STRIDE = 2;
-/** A coarse brick, and a fine one beside it; the box is larger than both. */
+/** A coarse brick, and a fine one next to it; the box is larger than both. */
 const BRICKS = [0, 0, 0, 1, 2, 0, 0, 0];
 export const GRID = { origin: [-2, -0.5, -1.5], spacing: 0.25, size: [3, 2, 2] };
 /** Two bricks of 125 probes each, of which 3 x 3 are one. */
@@ -26,7 +26,7 @@ function random(seed) {
   return () => (state = (state * 1664525 + 1013904223) % 2 ** 32) / 2 ** 32;
 }
 
-/** Rows of what nothing is in the way of: each coefficient of the light comes in as it is. */
+/** Returns rows of an unoccluded probe: incident light equals the lighting. */
 const openRow = (outputs) =>
   Array.from({ length: outputs }, (_, o) => Float32Array.from({ length: SIZE }, (__, i) => Number(i === o))).flatMap((row) => [...row]);
 
@@ -106,7 +106,7 @@ export function incidentAt({ clusters, words, stride }, probe, columns) {
 
 const clamp = (x, low, high) => Math.min(Math.max(x, low), high);
 
-/** The brick that holds a place, of `bricks` [n][4]; -1 where none does. */
+/** Returns the brick of `bricks` [n][4] that contains a position; -1 if there is none. */
 function brickAt({ origin, spacing, size, bricks }, place) {
   const at = place.map((x, a) => clamp(Math.floor((x - origin[a]) / (4 * spacing)), 0, size[a] - 1));
   for (let b = 0; b < bricks.length / 4; ++b) {
@@ -116,7 +116,7 @@ function brickAt({ origin, spacing, size, bricks }, place) {
   return -1;
 }
 
-/** [probe, weight] of the eight around a place, as docs/format.md says. */
+/** Returns [probe, weight] of the eight probes around a position, as defined in docs/format.md. */
 export function weightsAt({ grid, sights }, position, normal) {
   const { origin, spacing, size, bricks, ofBrick, corners, levels } = grid;
   const most = origin.map((x, a) => x + 4 * spacing * size[a]);
@@ -145,7 +145,7 @@ export function weightsAt({ grid, sights }, position, normal) {
   return found.map(([probe, weight]) => [probe, weight / sum]);
 }
 
-/** Coefficients of the light that comes in at a place. */
+/** Returns the coefficients of incident light at a position. */
 export function incidentAround(volume, position, normal, columns) {
   const light = Array.from({ length: volume.clusters.outputs }, () => [0, 0, 0]);
   for (const [probe, weight] of weightsAt(volume, position, normal))
@@ -155,7 +155,7 @@ export function incidentAround(volume, position, normal, columns) {
 
 const COSINE = [1, 2 / 3, 1 / 4, 0];
 
-/** Radiance in a direction, whose band l counts `bands[l]`; irradiance over pi where nothing is said. */
+/** Returns radiance in a direction with factors `bands[l]` per band l; by default irradiance over pi. */
 export function sumOf(light, direction, bands = COSINE) {
   const basis = evaluateSh(Math.sqrt(light.length), ...direction);
   return [0, 1, 2].map((c) =>

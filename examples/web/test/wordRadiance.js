@@ -1,4 +1,5 @@
-// Radiance of packed words as docs/format.md says, in plain numbers: to compare with what a shader computes.
+// Computes radiance of packed words in plain JavaScript, as defined in docs/format.md, for comparison with
+// shaders.
 
 /** Red, green and blue of the texel with `words` under the colours `columns` (lightColumns) that light the parts. */
 export function radianceOfWords({ parts, order, components, firstRows, rows, widths, clusterBits }, columns, words) {

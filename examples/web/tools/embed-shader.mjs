@@ -1,15 +1,15 @@
-// Makes GLSL JavaScript modules, with what it includes and without its comments: those of shaders/, of which there is one
-// source, and what stands in src/.
+// Converts GLSL to JavaScript modules, with includes and without comments: files of shaders/, the only
+// source, and of src/.
 import { readFileSync, writeFileSync } from "node:fs";
 import { fileURLToPath } from "node:url";
 
 const root = new URL("../../../", import.meta.url);
 const runtime = ["prt_exit_radiance.glsl", "prt_instances.glsl", "prt_lightmap.frag", "prt_lobes.glsl", "prt_occluders.glsl", "prt_volume.glsl"];
 
-/** Comments are for who reads shaders/; browsers load the modules. */
+/** Removes comments: they are for readers of shaders/, and browsers load the modules. */
 const bare = (text) => text.replace(/[ \t]*\/\/.*$/gm, "").replace(/\n\s+/g, "\n").trimStart();
 
-/** A module: what it includes that is one itself is imported, so that it is there once. */
+/** Writes a module. An included file that is a module is imported, so that it exists once. */
 function embed(folder, name) {
   const imports = [];
   const resolve = (file) =>

@@ -1,4 +1,4 @@
-// Where models and the built page go: PRTKIT_WEB for tests, which make small ones.
+// Folders of the models and the built page; PRTKIT_WEB overrides them for tests, which use small models.
 import { join, resolve } from "node:path";
 import { fileURLToPath } from "node:url";
 
@@ -7,5 +7,5 @@ const elsewhere = process.env.PRTKIT_WEB;
 const folder = elsewhere ? resolve(elsewhere) : web;
 export const publicFolder = join(folder, "public");
 export const distFolder = join(folder, "dist");
-/** Scenes and bakes while models are made; not part of what is served. */
+/** Scenes and bakes while models are made; not served. */
 export const workFolder = join(folder, "work");

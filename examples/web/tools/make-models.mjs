@@ -1,8 +1,9 @@
-// Makes the page's models with prt: public/models/ and public/skies/. Scenes and sky are the example ones; more with
+// Makes the page's models with prt: public/models/ and public/skies/. Scenes and sky are the example ones;
+// add others with
 //   npm run models -- scene.glb sky.hdr
-// PRT_RAYS and PRT_SCENES (knot,tree) make less of them, for tests.
-// An interrupted run goes on where it was: what is baked stays in work/ until all is done.
-// prt and example_scenes are those of build/release (./demo.sh builds them), or in PRT and PRT_EXAMPLE_SCENES.
+// PRT_RAYS and PRT_SCENES (knot,tree) reduce the work for tests. An interrupted run continues: bakes stay in
+// work/ until all models are done. prt and example_scenes are those of build/release (./demo.sh builds them),
+// or in PRT and PRT_EXAMPLE_SCENES.
 import { execFileSync } from "node:child_process";
 import { copyFileSync, existsSync, mkdirSync, readFileSync, rmSync, statSync, writeFileSync } from "node:fs";
 import { basename, extname, join } from "node:path";
@@ -27,10 +28,10 @@ const run = (program, ...options) => execFileSync(program, options, { stdio: ["i
 mkdirSync(work, { recursive: true });
 mkdirSync(join(publicFolder, "models"), { recursive: true });
 mkdirSync(join(publicFolder, "skies"), { recursive: true });
-// forest:2000 is a forest of so many trees.
+// forest:2000 is a forest of 2000 trees.
 const specs = process.env.PRT_SCENES?.split(",") ?? ["knot", "room", "tree", "terrain", "night_room", "courtyard", "forest:2000", "figure"];
 const names = specs.map((spec) => spec.split(":")[0]);
-const times = process.env.PRT_SCENES ? [] : ["noon", "evening", "night"]; // for what has lamps
+const times = process.env.PRT_SCENES ? [] : ["noon", "evening", "night"]; // for models with lamps
 if (!existsSync(join(work, "sky.exr"))) run(exampleScenes, work, ...specs, ...(names.includes("figure") ? [] : ["figure"]), ...times, "sky"); // the sky is written last
 
 const levels = [
@@ -38,7 +39,7 @@ const levels = [
   { name: "u64", title: "normal", options: ["--preset", "u64"] },
   { name: "u128", title: "fine", options: ["--clusters", "64", "--components", "16", "--bits", "122"] }, // with the cluster four words
 ];
-/** Next to what the bake holds: as many components as a shader may have, not rounded. */
+/** Close to the bake: the maximum number of components of a shader, not rounded. */
 const asBaked = ["--weights", "float", "--clusters", "16", "--components", "48", "--guides", "none", "--seam-weight", "0"];
 const cameras = {
   room: { position: [1.2, 1.9, 4.2], target: [0, 1.8, -5], fieldOfView: 45 },
@@ -49,7 +50,7 @@ const cameras = {
   forest: { position: [13, 12, 34], target: [0, 2, 0] },
   figure: { position: [1.3, 1.7, 3.4], target: [0, 0.95, 0] },
 };
-/** Ways of who walks through, and how far apart the probes of the light there are, in metres. */
+/** Paths of the walking figure, and distance between the probes of the volume there, in metres. */
 const walks = {
   room: { spacing: 0.5, way: { points: [[0, -1.2], [0.9, -3.5], [0.4, -7.8], [-0.4, -8.6], [-1, -5.5], [-0.6, -2.2]], from: 2 } },
   tree: { spacing: 0.5, way: { points: [[1.9, 1.6], [0, 2.2], [-1.9, 1.4], [-1.6, -1.6], [1.6, -1.7]], from: 1 } },
@@ -57,15 +58,18 @@ const walks = {
   night_room: { spacing: 0.5, way: { points: [[0, -1.2], [0.9, -3.5], [0.4, -7.2], [-0.4, -7.4], [-0.9, -4.8], [-0.6, -2.2]], from: 2 } },
   courtyard: { spacing: 1, way: { points: [[2.6, 0.5], [1.6, -4.4], [-1.8, -4.8], [-3, 0], [-0.5, 3]], from: 2 } },
 };
-const large = new Set(["courtyard", "forest"]); // fewer rays, and one file: it would take an hour
-/** What instances share: all of them, in few clusters, as each has constants of its own for those of its mesh. */
+const large = new Set(["courtyard", "forest"]); // fewer rays and one file, otherwise it would take an hour
+/**
+ * Models whose instances share transfer, in few clusters, because each instance has constants for all
+ * clusters of its mesh.
+ */
 const shared = {
   forest: { bake: ["--instances", "shared", "--instance-error", "1"], level: { name: "u32", title: "small", options: ["--clusters", "48"] } },
 };
-/** What turns with a skin is no bake of one pose, but lobes for all: the animation that is shown. */
+/** Skinned models have no bake of one pose, but lobes for all poses of the animation shown. */
 const dancing = { figure: "dance" };
 const scenes = names.filter((name) => !dancing[name]).map((name) => ({ name, file: join(work, `${name}.glb`) }));
-// The example sky is in OpenEXR's layout; those of users are taken as three takes them.
+// The example sky has OpenEXR's layout; skies of users have three's layout.
 const skies = [{ title: "clear day", file: join(work, "sky.exr"), center: "z" }];
 for (const title of times) skies.push({ title, file: join(work, `${title}.exr`), center: "z" });
 for (const path of extra) {

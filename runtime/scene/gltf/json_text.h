@@ -19,8 +19,8 @@ std::size_t remove_nulls(Json& json);
 /// Returns whether the reader takes an extension from the model of tinygltf, not from the JSON alone.
 bool is_taken_extension(std::string_view name);
 
-/// Returns a copy of a glTF without extras and without extensions that only the JSON holds for the reader: tinygltf
-/// keeps ten times the memory for each value of theirs.
+/// Returns a copy of a glTF without extras and without extensions that only the JSON holds for the reader:
+/// tinygltf keeps ten times the memory for each value of theirs.
 Json without_unread(const Json& json);
 
 /// Returns the approximate memory size of `json` in bytes.

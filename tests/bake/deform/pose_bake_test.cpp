@@ -1,4 +1,4 @@
-// Transfer of a model that moves, in the frames of its vertices, and lobes that turn with it.
+// Tests transfer of a moving model, in the frames of its vertices, and lobes that rotate with it.
 
 #include "prt/pose_bake.h"
 
@@ -67,8 +67,8 @@ void add_keys(GlbFile& file, const std::string& name, const std::vector<float>& 
          {"channels", {{{"sampler", 0}, {"target", {{"node", 2}, {"path", "rotation"}}}}}}});
 }
 
-/// The upper half of the tube turns about +Z by `degrees` in two seconds; node 0, which carries the mesh, is
-/// not asked where it is.
+/// Returns a tube whose upper half rotates about +Z by `degrees` in two seconds; the transform of node 0,
+/// which has the mesh, is ignored.
 GlbFile bending(float degrees) {
     GlbFile file = test::triangle_file();
     file.binary.clear();
@@ -107,7 +107,7 @@ TEST(Poses, LieInTheMiddlesOfEqualSpansBesideTheFilesOwn) {
     GlbFile file = bending(90);
     add_keys(file, "again", {0, 1}, {0, 0, 0, 1, 0, 0, 0, 1});
     const AnimatedScene model = animated(file);
-    const std::vector<ModelPose> poses = poses_of(model, 6); // of three seconds
+    const std::vector<ModelPose> poses = poses_of(model, 6); // in three seconds
     ASSERT_EQ(poses.size(), 7u);
     EXPECT_EQ(poses[0].animation, "");
     EXPECT_DOUBLE_EQ(poses[1].seconds, 0.25);
@@ -165,7 +165,7 @@ TEST(VertexFrames, TakeCosineLobesOfNormalsToThoseBeforeTheSkin) {
     for (std::size_t v = 0; v < frames.vertices(); ++v) {
         const float upper = model.vertices()[0].weights[4 * v + 1];
         if (upper > 0 && upper < 1)
-            continue; // what bends is no rotation
+            continue; // the bent part is not a rotation
         std::array<double, 16> world, own, expected;
         clamped_cosine_lobe(4, glm::dvec3(normals[v]), world);
         clamped_cosine_lobe(4, glm::dvec3(model.vertices()[0].normals[v]), expected);
@@ -194,12 +194,12 @@ TEST(PoseBake, LobesOfABentTubeTurnWithTheBend) {
         lobe_transfer({&lobe, 1}, 4, still.vector(v));
         lobe.axis = turned_axis(lobe.axis, axis_turn(glm::mat3(frames.matrix(v))));
         lobe_transfer({&lobe, 1}, 4, turned.vector(v));
-        // The ends see next to nothing of each other: their lobes are those of their normals.
+        // The ends hardly see each other: their lobes are those of their normals.
         if (v < 2 * kSides || v >= (kRings - 2) * kSides) {
             EXPECT_GT(glm::dot(lobe.axis, normals[v]), 0.995f) << v;
         }
     }
-    // Noise of 4096 rays and what the inside of the bend sees of itself; without turns it is half of all.
+    // Noise of 4096 rays, and occlusion inside the bend; without rotation the error is half of all light.
     EXPECT_LT(relative_l2(truth.transfer, turned, truth.areas), 0.06);
     EXPECT_GT(relative_l2(truth.transfer, still, truth.areas), 0.25);
 }
@@ -218,7 +218,7 @@ TEST(PoseBake, MeansAreOfPosesThatShowAVertex) {
         for (std::size_t i = 0; i < sum.size(); ++i)
             sum[i] += one.vectors[i] / static_cast<double>(poses.size());
     }
-    EXPECT_EQ(all.hidden, 0u); // nothing is inside of a tube without ends
+    EXPECT_EQ(all.hidden, 0u); // no vertex is inside a tube without ends
     for (std::size_t i = 0; i < sum.size(); ++i)
         EXPECT_NEAR(all.vectors[i], sum[i], 1e-12);
 }

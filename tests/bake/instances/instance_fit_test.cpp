@@ -1,5 +1,5 @@
-// Factors of instances by least squares: found again where light has some, whatever samples are left out,
-// and as their areas weigh where it has none.
+// Tests least-squares fits of instance factors: they are recovered if the light has factors, for any subset
+// of samples; otherwise samples count by their areas.
 
 #include "instances/instance_fit.h"
 
@@ -29,7 +29,7 @@ struct Draw {
     }
 };
 
-/// A mesh of random transfer, all of whose receivers are samples.
+/// A mesh of random transfer; all of its receivers are samples.
 class InstanceFits : public testing::Test {
 protected:
     InstanceFits() {
@@ -43,7 +43,7 @@ protected:
         }
         shared.emplace(mesh, kUp);
     }
-    /// What the samples get where the modes have `factors`.
+    /// Returns the light of the samples for modes with `factors`.
     std::vector<float> light_of(const InstanceFactors& factors) const {
         std::vector<float> light(mesh.vectors.size());
         for (std::size_t s = 0; s < kSamples; ++s)
@@ -68,8 +68,9 @@ protected:
     std::vector<float> none = std::vector<float>(kSamples * mesh.dimension());
 };
 
-// The ridge, a ten-thousandth of what samples tell of a number in the mean, draws the numbers that they tell
-// least of, the high bands at the rim of the box, towards the open: by a sixth of their spread at most.
+// The ridge is a ten-thousandth of the mean weight of samples on a number. It pulls the least determined
+// numbers, the high bands at the rim of the box, towards unoccluded factors: by at most a sixth of their
+// spread.
 constexpr float kSpread = 0.3f, kRidged = kSpread / 6;
 
 TEST_F(InstanceFits, FindTheFactorsThatLightHas) {
@@ -102,7 +103,7 @@ TEST_F(InstanceFits, ASampleOfTwiceTheAreaIsTwoSamples) {
     Transfer longer = mesh;
     std::vector<float> light = light_of(draw.factors(kSpread));
     for (float& value : light)
-        value += draw.number(); // nothing fits it
+        value += draw.number(); // no factors fit it
     std::vector<float> longer_light = light;
     for (std::size_t s = 0; s < kSamples; s += 3) {
         samples.areas[s] = 2;
@@ -133,7 +134,7 @@ TEST_F(InstanceFits, ASampleOfTwiceTheAreaIsTwoSamples) {
 TEST_F(InstanceFits, TakeTheNoiseOfRaysFromTheirErrors) {
     const InstanceFactors wanted = draw.factors(kSpread);
     const std::vector<float> exact = light_of(wanted);
-    constexpr std::size_t kFirst = 3; // of the samples that are traced twice
+    constexpr std::size_t kFirst = 3; // first sample that is traced twice
     constexpr int kTries = 60;
     double with = 0, without = 0;
     for (int t = 0; t < kTries; ++t) {
@@ -154,7 +155,7 @@ TEST_F(InstanceFits, TakeTheNoiseOfRaysFromTheirErrors) {
     EXPECT_LT(with, 0.15 * without);
 }
 
-/// What the factors get wrong under one light is what its coefficients make of the difference.
+/// The error of the factors under one light equals the error of its coefficients applied to the difference.
 TEST_F(InstanceFits, ErrUnderTheWorstLight) {
     const InstanceFactors wanted = draw.factors(kSpread), other = draw.factors(kSpread);
     const std::vector<float> light = light_of(wanted), modelled = light_of(other);
@@ -167,7 +168,7 @@ TEST_F(InstanceFits, ErrUnderTheWorstLight) {
         for (glm::vec3& coefficient : sky.sky.coefficients)
             coefficient = glm::vec3(draw.number());
         double wrong = 0, right = 0;
-        const std::size_t count = sky.sky.coefficients.size(); // of a channel: direct, then red, green, blue
+        const std::size_t count = sky.sky.coefficients.size(); // per channel: direct, then red, green, blue
         for (std::size_t s = 0; s < kSamples; ++s)
             for (std::size_t color = 0; color < 3; ++color) {
                 double off = 0, sum = 0;
@@ -184,7 +185,7 @@ TEST_F(InstanceFits, ErrUnderTheWorstLight) {
         largest = std::max(largest, std::sqrt(wrong / right));
         skies.push_back(std::move(sky));
     }
-    EXPECT_GT(largest, 1.01 * soft); // or the lights told nothing
+    EXPECT_GT(largest, 1.01 * soft); // otherwise the lights have no effect
     EXPECT_NEAR(fit.error(*shared, {light, all}, {none, 0}, other, skies), largest, 1e-3 * largest);
 }
 

@@ -28,7 +28,7 @@ Scene room() {
     return scene;
 }
 
-/// Patches of a scene whose receivers are lit unevenly.
+/// Patches of a scene with unevenly lit receivers.
 class Patches {
 public:
     explicit Patches(Scene scene, bool lit = true) : scene_(std::move(scene)) {
@@ -87,7 +87,7 @@ TEST(BrightPatches, PicksByItsDensity) {
     }
 }
 
-/// What lies in the plane of a receiver does not light it, and is left out but beside other patches.
+/// A patch in the plane of a receiver does not light it, and is omitted unless other patches are near.
 TEST(BrightPatches, LeavesOutTheReceiversPlane) {
     const Patches all(test::painted(test::join({SceneBuilder().floor({0, 0, 0}, 2, 40).build(),
                                                 SceneBuilder().sphere({0.5f, 1, 0.5f}, 0.4f, 16).build()}),

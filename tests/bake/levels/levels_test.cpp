@@ -1,5 +1,5 @@
-// Light of level 0 on coarser levels: what is nearest, exactness, closed forms, and against baking a level on
-// its own.
+// Tests light of level 0 on coarser levels: nearest points, exactness, closed forms, and comparison with a
+// separate bake of a level.
 
 #include "levels/nearest_places.h"
 #include "prt/error_measures.h"
@@ -22,7 +22,7 @@ namespace levels_of_detail {
 
 using test::SceneBuilder;
 
-/// `coarser` as level 1 of `finest`, beside what is in `around`.
+/// Returns `coarser` as level 1 of `finest`, together with the scenes of `around`.
 LeveledScene leveled(const Scene& finest, const Scene& coarser, const std::vector<Scene>& around = {}) {
     std::vector<Scene> parts = {finest};
     parts.insert(parts.end(), around.begin(), around.end());
@@ -40,7 +40,7 @@ Transfer zeros(const Scene& scene, int order = 2) {
     return zero_transfer(layout_of_one(order, 1, PartKind::direct), scene.receivers());
 }
 
-/// Transfer that is a function of places and normals.
+/// Transfer as a function of positions and normals.
 using Light = std::function<float(const glm::vec3& position, const glm::vec3& normal, std::size_t column)>;
 Transfer transfer_of(const Scene& scene, const Light& light) {
     Transfer transfer = zeros(scene);
@@ -58,7 +58,7 @@ float wild(const glm::vec3& p, const glm::vec3& n, std::size_t column) {
     return std::sin(7 * k * p.x + 3) + std::cos(5 * p.y * k + p.z) + 0.5f * std::sin(4 * n.x + 9 * n.y - n.z);
 }
 
-/// A box of quads whose normals are those of its sides; `lean` shears the top, so that edges are not square.
+/// Returns a box of quads with the normals of its sides; `lean` shears the top, so that edges are not square.
 Scene box(const glm::vec3& half, float lean = 0) {
     SceneBuilder builder;
     for (int axis = 0; axis < 3; ++axis)
@@ -86,7 +86,7 @@ void expect_carried_exactly(const Scene& scene) {
     for (std::size_t p = 0; p < scene.receivers(); ++p)
         for (std::size_t c = 0; c < finest.dimension(); ++c) {
             EXPECT_EQ(bake.transfer.vector(p)[c], finest.vector(p)[c]);
-            // Places are rounded to 1e-7 of a few metres, and the light changes by 30 a metre.
+            // Positions are rounded to 1e-7 of a few metres, and the light changes by 30 per metre.
             if (areas[p] > 0) {
                 EXPECT_NEAR(bake.transfer.vector(scene.receivers() + p)[c], finest.vector(p)[c], 3e-5f) << p;
             }
@@ -118,8 +118,9 @@ TEST(Levels, OfAPlaneHaveWhatIsLinearToRounding) {
                         linear(coarse.vertex_arrays[0].positions[v], {}, c), 2e-6f);
 }
 
-/// What bands l = 1 and 2 of the cosine lobe curve by at most, |Y''| <= l (l + 1) |Y|, over circumcircles of
-/// the triangles, R²/2 times that, is how far the nearest linear function can be; twice for both meshes.
+/// Bound: the curvature of bands l = 1 and 2 of the cosine lobe, |Y''| <= l (l + 1) |Y|, times R²/2 with R
+/// the circumradius of the triangles, is the maximum distance to the nearest linear function; twice that for
+/// both meshes.
 TEST(Levels, OfASphereInTheOpenHaveTheLobesOfTheirNormals) {
     constexpr int kRows = 16, kFineRows = 64, kOrder = 3;
     const Scene fine = SceneBuilder().sphere({0, 0, 0}, 1, kFineRows).build(),
@@ -147,7 +148,7 @@ TEST(Levels, OfASphereInTheOpenHaveTheLobesOfTheirNormals) {
     EXPECT_LT(bake.levels[0].squares.relative_l2(), (bound(kRows) + bound(kFineRows)) / 0.46);
 }
 
-/// The nearest place by all triangles, and by points all over them.
+/// Compares the nearest point with tests of all triangles, and with points distributed over them.
 TEST(Levels, NearestPlacesAreThoseOfBruteForce) {
     const Scene scene = test::join(
         {SceneBuilder().sphere({0, 0, 0}, 1, 7).build(), box({0.4f, 0.05f, 2}), box({2, 0.3f, 0.2f}, 0.5f)});
@@ -182,7 +183,7 @@ TEST(Levels, NearestPlacesAreThoseOfBruteForce) {
         const NearestPlace expected = rule.result(), found = places.find(position, normal);
         EXPECT_EQ(found.triangle, expected.triangle);
         EXPECT_EQ(found.distance, expected.distance);
-        // A twentieth of the diagonal is what a better normal is worth, and points lie 4 / 24 apart.
+        // A twentieth of the diagonal is the weight of a better normal, and points have a distance of 4 / 24.
         EXPECT_LE(found.distance, any + 0.051 * places.diagonal());
         EXPECT_GE(found.distance, any - 0.2);
     }

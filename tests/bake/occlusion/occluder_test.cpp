@@ -24,7 +24,8 @@ glm::vec3 any_direction(std::mt19937& random) {
     return glm::normalize(glm::vec3(x, y, z) + glm::vec3(1e-3f, 0, 0));
 }
 
-/// Of a ball of radius r at a distance, for a receiver in direction `out` of it.
+/// Returns the occlusion by a sphere with this ratio of radius to distance, for a receiver in direction `out`
+/// of it.
 float of_ball(float ratio, const glm::vec3& out, const glm::vec3& normal) {
     return blocked_cosine(cap_of(0.5f * (1 - std::sqrt(1 - ratio * ratio)), -out), normal);
 }
@@ -49,7 +50,7 @@ TEST(Occluder, OfABallIsTheBall) {
         if (d > 1)
             largest_far = std::max(largest_far, error);
     }
-    EXPECT_LT(mean, 0.02); // texels are 0.31 m apart
+    EXPECT_LT(mean, 0.02); // texels have a spacing of 0.31 m
     EXPECT_LT(largest_far, 0.06);
     EXPECT_LT(baked.mean_error, 0.02);
     EXPECT_GT(baked.mean_blocked, 0.04);
@@ -63,7 +64,7 @@ TEST(Occluder, FarAwayIsAlmostAllThereIsAndThenNothing) {
     for (float d = 1.4f; d < 12; d *= 1.15f) {
         const glm::vec3 out = any_direction(random);
         const float found = blocked_cosine(blocked_at(baked.volume, where, d * out), -out);
-        // The form factor is (r / d)²; what is left out at the end is at most 1 % times the square of 1 /
+        // The form factor is (r / d)²; the cut at the end of the reach is at most 1 % times the square of 1 /
         // 0.6.
         EXPECT_NEAR(found, 0.25f / (d * d), 0.2f * 0.25f / (d * d) + 0.028f) << d;
         if (d > 1.01f * baked.volume.reach) {

@@ -18,7 +18,7 @@ namespace {
 
 using test::SceneBuilder;
 
-constexpr double kTall = 1000; ///< of what stands for endless
+constexpr double kTall = 1000; ///< height that approximates infinity
 
 OcclusionOptions at_vertices(int rays = 16384) {
     OcclusionOptions options;
@@ -27,7 +27,7 @@ OcclusionOptions at_vertices(int rays = 16384) {
     return options;
 }
 
-/// A small floor triangle about the origin, facing up, whose first vertex is there.
+/// Returns a small floor triangle that faces up; its first vertex is at the origin.
 Scene spot() {
     return SceneBuilder().triangle({0, 0, 0}, {-0.01f, 0, 0.01f}, {0.01f, 0, 0.01f}).build();
 }
@@ -63,7 +63,7 @@ TEST(AmbientOcclusion, BeforeAnEndlessWallIsThatOfItsHeight) {
         const OcclusionResult result =
             ambient_occlusion(test::join({spot(), wall(distance, height)}), at_vertices());
         EXPECT_NEAR(result.openness.ambient[0], (1 + std::cos(angle)) / 2, 3e-3) << elevation;
-        // Where light comes from, by quadrature over what the wall leaves.
+        // Mean direction of light, by quadrature over the directions that the wall leaves open.
         glm::dvec3 mean(0);
         for (int axis = 0; axis < 3; ++axis)
             mean[axis] = test::integrate_sphere(400, [&](const glm::dvec3& d) {
@@ -75,7 +75,7 @@ TEST(AmbientOcclusion, BeforeAnEndlessWallIsThatOfItsHeight) {
     }
 }
 
-/// Of a plane at that height over the spot: ∫ ρ(h / cos θ) 2 cos θ sin θ dθ.
+/// Returns the occlusion by a plane at that height over the spot: ∫ ρ(h / cos θ) 2 cos θ sin θ dθ.
 double under_a_plane(const Falloff& falloff, double height) {
     constexpr int kSteps = 100000;
     double sum = 0;
@@ -104,7 +104,7 @@ TEST(Obscurance, UnderAPlaneIsTheIntegralOfTheFalloff) {
             const OcclusionResult result = ambient_occlusion(under_a_wide_plane(height), options);
             EXPECT_NEAR(result.openness.ambient[0], under_a_plane(falloff, static_cast<double>(height)), 3e-3)
                 << height;
-            if (result.openness.ambient[0] > 0.05f) { // of less, few rays say where from
+            if (result.openness.ambient[0] > 0.05f) { // below that, few rays determine the direction
                 EXPECT_NEAR(result.openness.bent_normals[0].y, 1, 1e-2);
             }
         }
@@ -115,7 +115,7 @@ TEST(Obscurance, OfAClosedRoomIsNotBlack) {
     EXPECT_EQ(ambient_occlusion(room, at_vertices(64)).openness.ambient[20], 0);
     OcclusionOptions options = at_vertices(4096);
     options.tracer.falloff.terms = {{2, 1}};
-    // From a place on a sphere, what is met under θ is 2 R cos θ away.
+    // From a point on a sphere, the distance to the hit at angle θ is 2 R cos θ.
     double expected = 0;
     constexpr int kSteps = 10000;
     for (int i = 0; i < kSteps; ++i) {
@@ -130,7 +130,7 @@ TEST(Obscurance, OfAClosedRoomIsNotBlack) {
 }
 
 TEST(Obscurance, InsideSolidsIsThatOfNeighbours) {
-    // A floor that goes through a closed block: what is inside takes the light of what is not.
+    // A floor that passes through a closed block: receivers inside take the light of those outside.
     Scene floor = SceneBuilder().floor({0, 0, 0}, 2, 8).build(),
           block = SceneBuilder().sphere({0, 0, 0}, 0.8f, 16).build();
     OcclusionOptions options = at_vertices(1024);

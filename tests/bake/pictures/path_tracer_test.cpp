@@ -21,7 +21,7 @@ Image uniform_environment(float radiance) {
     return {4, 2, std::vector<glm::vec3>(8, glm::vec3(radiance))};
 }
 
-/// A sky whose radiance differs everywhere, with a bright spot.
+/// Returns a sky whose radiance varies everywhere, with a bright spot.
 Image uneven_environment() {
     Image image{64, 32, {}};
     for (int y = 0; y < 32; ++y)
@@ -84,7 +84,7 @@ TEST(DistantLight, SamplesItsDirectionsWithTheDensityThatItStates) {
         blue += weight * static_cast<double>(s.radiance.b);
         lobe += weight * std::max(0.0, static_cast<double>(s.direction.x));
         if (HasFailure())
-            return; // texels' borders aside, one failure tells it all
+            return; // one failure suffices, except at borders of texels
     }
     EXPECT_NEAR(sphere, 4 * pi, 0.01 * 4 * pi);
     EXPECT_NEAR(lobe, pi, 0.01 * pi);
@@ -220,7 +220,7 @@ TEST(PathTracer, AgreesWithTheBakerOnASphereOverAFloor) {
         sum += glm::dvec3(interpolated.pixels[i]);
         reference_sum += glm::dvec3(reference.pixels[i]);
     }
-    // What is left: 256 paths (some 2 %), and interpolation over the floor's cells at the contact.
+    // Remaining error: 256 paths (about 2 %), and interpolation over the floor's cells at the contact.
     EXPECT_LT(std::sqrt(squared / norm), 0.03);
     for (int c = 0; c < 3; ++c)
         EXPECT_NEAR(sum[c] / reference_sum[c], 1, 0.005) << c;

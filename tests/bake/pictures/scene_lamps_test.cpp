@@ -54,7 +54,7 @@ struct Night {
     explicit Night(Scene s, const char* lamp = "lamp", const glm::vec3& strength = glm::vec3(1))
         : scene(std::move(s)), traced(scene), lamps(traced, lamps_called({lamp}), std::vector{strength}) {}
 
-    /// Exit radiance for albedo 1 of what is seen straight down from `eye`.
+    /// Returns the exit radiance for albedo 1 of the surface directly below `eye`.
     glm::vec3 below(const glm::vec3& eye, int passes, int bounces = 0) const {
         PathTraceOptions options;
         options.camera = {eye, eye - glm::vec3(0, 1, 0), {0, 0, 1}, 0.001f};
@@ -68,7 +68,7 @@ struct Night {
         return tracer.image().pixels[0];
     }
 
-    /// Coefficients of order 3 at a place, the mean of both halves.
+    /// Returns coefficients of order 3 at a position, the mean of both halves.
     std::vector<glm::vec3> incident(const glm::vec3& place, int paths) const {
         const Light black = constant_light(kMaxOrder, glm::vec3(0));
         const MeasuredLight light{DistantLight({}), {}, {}, black, black};
@@ -167,7 +167,7 @@ TEST(SceneLamps, AShiningFurnaceIsAsBrightAsItsBouncesAddUpTo) {
     EXPECT_NEAR(light[0].r, 2 * std::sqrt(4 * pi), 0.05);
     for (std::size_t o = 1; o < 9; ++o)
         EXPECT_NEAR(light[o].r, 0, 0.05) << o;
-    // Of what is seen: e + (albedo 1) · 2 e.
+    // The visible radiance is e + (albedo 1) · 2 e.
     EXPECT_NEAR(night.below({0, 0, 0}, 8192, kEndlessBounces).r, 1 + 2, 0.03);
 }
 

@@ -17,7 +17,7 @@ namespace {
 const double kPi = std::numbers::pi;
 const glm::vec3 kWhite(3, 2, 1);
 
-/// Those of the vertices of one scene.
+/// Returns the radiance of the vertices of one scene.
 std::vector<glm::vec3> lit_by(const Scene& scene, const SunDisc& sun, int rays = 256) {
     const TraceScene traced(scene);
     return sun_radiance(traced, std::span(&sun, 1), {.rays = rays});
@@ -55,14 +55,14 @@ TEST(SunRadiance, OfASunOnTheHorizonIsThatOfItsUpperHalf) {
         EXPECT_NEAR(static_cast<double>(r.x), 2 * half_angle / (3 * kPi) / kPi, 0.01 * half_angle / kPi);
 }
 
-/// The edge of a large roof stands before the middle of the sun.
+/// The edge of a large roof covers half of the sun.
 TEST(SunRadiance, HalfTheSunGivesHalfTheLight) {
     const Scene floor = test::SceneBuilder().floor({0, 0, 0}, 0.01f, 1).build();
     const Scene roof = test::SceneBuilder().quad({0, 1, -5}, {0, 1, 5}, {5, 1, 5}, {5, 1, -5}).build();
     const Scene scene = test::join({floor, roof});
     const SunDisc sun{{0, 1, 0}, glm::vec3(1), 0.1};
     const std::vector<glm::vec3> lit = lit_by(scene, sun, 4096);
-    double mean = 0; // corners stand 0.01 to both sides of the middle
+    double mean = 0; // corners are 0.01 on either side of the middle
     for (std::size_t p = 0; p < floor.receivers(); ++p)
         mean += static_cast<double>(lit[p].x) / static_cast<double>(floor.receivers());
     EXPECT_NEAR(mean, 0.5 / kPi, 0.01 / kPi);
@@ -79,7 +79,7 @@ TEST(SunRadiance, IsDimmedByWhatIsBlended) {
         EXPECT_NEAR(static_cast<double>(lit[p].x), 0.75 / kPi, 1e-3);
 }
 
-/// A leaf that is lit from below shows what it lets through, over its base color (docs/math.md, eq. 38).
+/// A leaf lit from below shows the transmitted light, divided by its base color (docs/math.md, eq. 38).
 TEST(SunRadiance, ComesThroughALeaf) {
     Scene leaf = test::painted(test::SceneBuilder().floor({0, 0, 0}, 1, 1).build(), glm::vec3(0.5f), true);
     leaf.materials[0].transmission.factor = 0.4f;
@@ -89,7 +89,7 @@ TEST(SunRadiance, ComesThroughALeaf) {
         EXPECT_NEAR(static_cast<double>(r.x), 0.6 / kPi, 2e-3);
 }
 
-/// A sun wide enough for order 10 is the same by transfer and by rays.
+/// Transfer and rays agree for a sun wide enough for order 10.
 TEST(SunRadiance, OfAWideSunIsThatOfTransfer) {
     const Scene scene = test::SceneBuilder().floor({0, 0, 0}, 2, 6).sphere({0, 0.8f, 0}, 0.5f, 10).build();
     const SunDisc sun{glm::normalize(glm::vec3(0.4f, 1, 0.2f)), glm::vec3(1), 0.6};
@@ -106,7 +106,7 @@ TEST(SunRadiance, OfAWideSunIsThatOfTransfer) {
             static_cast<double>(areas[p]) * std::pow(static_cast<double>(by_rays[p].x - by_transfer[p].x), 2);
         norm += static_cast<double>(areas[p]) * std::pow(static_cast<double>(by_rays[p].x), 2);
     }
-    // Order 10 leaves 2 % of a disc of 34 degrees on what is shadowed.
+    // Order 10 has an error of 2 % for a disc of 34 degrees in shadow.
     EXPECT_LT(std::sqrt(error / norm), 0.03);
 }
 

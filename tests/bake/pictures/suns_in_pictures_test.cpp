@@ -1,4 +1,5 @@
-// Suns in pictures by rays: closed forms of shadows, and what the path tracer and light at vertices say.
+// Tests suns in pictures by rays: closed forms of shadows, and comparison with the path tracer and light at
+// vertices.
 
 #include "prt/light_meter.h"
 #include "prt/path_tracer.h"
@@ -69,8 +70,7 @@ TEST(SunsInPictures, FallOnAnOpenFloorWithTheCosine) {
                 const Image image =
                     shown.lit_by({{towards_sun_at(elevation), glm::vec3(irradiance), half_angle}});
                 const glm::dvec3 expected = irradiance / pi * std::sin(elevation * pi / 180);
-                // The cosine varies by the half angle over the disc, of which a sample of 16 / 9 takes 2
-                // points.
+                // The cosine varies by the half angle over the disc; a sample of 16 / 9 takes 2 points of it.
                 expect_all(image, expected, 1e-5 + half_angle * glm::length(irradiance) / pi);
                 expect_all(downsampled(image, samples), expected,
                            1e-5 + 0.1 * half_angle * glm::length(irradiance) / pi);
@@ -78,9 +78,9 @@ TEST(SunsInPictures, FallOnAnOpenFloorWithTheCosine) {
     expect_all(SunnyPicture(floor).lit_by({{towards_sun_at(-5), glm::vec3(1), 0.01}}), glm::dvec3(0), 1e-9);
 }
 
-/// A long wall. Seen from a point of the floor its top stands before a share of the sun, a segment of its
-/// disc: all of it in the umbra, none beyond the penumbra. With t the height in the disc in half angles a,
-/// the sine of the elevation e is sin e + a t cos e, of which the mean over what is above t = u is taken.
+/// A long wall. Seen from a point of the floor, its top covers a segment of the sun's disc: all of it in the
+/// umbra, none beyond the penumbra. With t the height in the disc in half angles a, the sine of the elevation
+/// e is sin e + a t cos e; the expected value is its mean over the disc above t = u.
 TEST(SunsInPictures, CastTheUmbraAndPenumbraOfAWall) {
     const Scene scene =
         test::join({SceneBuilder().floor({0, 0, 0}, 20, 1).build(),
@@ -95,14 +95,14 @@ TEST(SunsInPictures, CastTheUmbraAndPenumbraOfAWall) {
     for (int y = 0; y < image.height; ++y)
         for (int x = 0; x < image.width; ++x) {
             const glm::dvec3 along = view_direction(frame, image.width, image.height, x + 0.5, y + 0.5);
-            const double distance = 1.75 - 2 * along.x / -along.y; // of the point from the wall
+            const double distance = 1.75 - 2 * along.x / -along.y; // distance of the point from the wall
             const double u = (std::atan2(1.0, distance) - elevation) / half_angle;
             const double edge = std::clamp(u, -1.0, 1.0), across = std::sqrt(1 - edge * edge);
             const double share = 0.5 - (edge * across + std::asin(edge)) / pi;
             const double sine = share * std::sin(elevation) +
                                 half_angle * std::cos(elevation) * 2 / (3 * pi) * std::pow(across, 3);
             (u > 1 ? umbra : u < -1 ? lit : penumbra) += 1;
-            // The disc's own curvature, and of 1024 points those on the edge.
+            // The curvature of the disc, and points on its edge out of 1024.
             ASSERT_NEAR(static_cast<double>(image.at(x, y).x), sine / pi, std::abs(u) > 1.02 ? 1e-4 : 1e-3)
                 << distance;
         }
@@ -120,8 +120,8 @@ TEST(SunsInPictures, AddUp) {
         ASSERT_LT(glm::distance(both.pixels[i], first.pixels[i] + second.pixels[i]), 1e-5f);
 }
 
-/// Of a base of 0.5 a leaf reflects 0.3 and lets 0.4 through; as exit radiance for albedo 1 either is over
-/// the base (docs/math.md, eq. 38).
+/// With base color 0.5 a leaf reflects 0.3 and transmits 0.4; as exit radiance for albedo 1 both are divided
+/// by the base color (docs/math.md, eq. 38).
 TEST(SunsInPictures, ShineThroughLeaves) {
     Scene leaf = test::painted(SceneBuilder().floor({0, 0, 0}, 4, 1).build(), glm::vec3(0.5f), true);
     leaf.materials[0].transmission.factor = 0.4f;
@@ -156,7 +156,7 @@ TEST(SunsInPictures, LeaveMediaToTransfer) {
         EXPECT_EQ(r, glm::vec3(0));
 }
 
-/// Normals that lean towards a sun below the floor, and away from one above it.
+/// Tests normals that lean towards a sun below the floor, and away from one above it.
 TEST(SunsInPictures, DoNotLeakOverTheEdgeOfASurface) {
     Scene floor = SceneBuilder().floor({0, 0, 0}, 4, 1).build();
     for (glm::vec3& normal : floor.vertex_arrays[0].normals)

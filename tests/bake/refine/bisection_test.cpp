@@ -1,4 +1,4 @@
-// Splitting of triangles: nothing opens, nothing hangs, nothing gets thin.
+// Tests splitting of triangles: no cracks, no hanging nodes, no thin triangles.
 
 #include "refine/bisection.h"
 
@@ -33,7 +33,7 @@ std::array<glm::vec3, 3> corners(const Scene& scene, std::size_t primitive, cons
     return {at[t.x], at[t.y], at[t.z]};
 }
 
-/// How many triangles have each edge, by the places of its ends; edges without length are left out.
+/// Counts the triangles of each edge, by the positions of its ends; edges without length are ignored.
 std::map<Ends, int> edge_uses(const Scene& scene) {
     std::map<Ends, int> uses;
     for (std::size_t p = 0; p < scene.primitives.size(); ++p)
@@ -65,7 +65,7 @@ double area(const Scene& scene) {
     return sum;
 }
 
-/// The least angle of triangles with an area, radians.
+/// Returns the minimum angle of triangles with an area, radians.
 double least_angle(const Scene& scene) {
     double least = std::numbers::pi;
     for (std::size_t p = 0; p < scene.primitives.size(); ++p)
@@ -106,7 +106,7 @@ Scene split_by_chance(Scene scene, int rounds, unsigned seed = 1) {
 TEST(Bisection, KeepsAClosedMeshClosed) {
     const Scene sphere = SceneBuilder()
                              .sphere({0, 0, 0}, 1, 5)
-                             .transform([](const glm::vec3& p) { // its ends meet but for roundings
+                             .transform([](const glm::vec3& p) { // its ends meet up to rounding
                                  return glm::round(p * 1024.0f) / 1024.0f;
                              })
                              .build();
@@ -175,7 +175,7 @@ TEST(Bisection, KeepsAnglesHoweverOftenItIsDone) {
         }
         finer = split_at(finer, {nearest});
     }
-    // At least half of the least before (Rosenberg and Stenger 1975).
+    // At least half of the original minimum (Rosenberg and Stenger 1975).
     EXPECT_GE(least_angle(finer), 0.5 * least_angle(one) - 1e-4);
     EXPECT_NEAR(area(finer), area(one), 1e-6);
 }
@@ -190,14 +190,14 @@ TEST(Bisection, TakesWhatMeshesShouldNotHave) {
     builder.triangle({2, 2, 2}, {2, 2, 2}, {2, 2, 2});               // a point
     builder.triangle({0, 1, 0}, {1, 1, 0}, {0.5f, 1.0f + 1e-6f, 0}); // a needle
     Scene scene = builder.build();
-    scene.vertex_arrays[0].positions.emplace_back(9, 9, 9); // of no triangle
+    scene.vertex_arrays[0].positions.emplace_back(9, 9, 9); // unused by triangles
     scene.vertex_arrays[0].normals.emplace_back(0, 1, 0);
     const Scene finer = split_by_chance(scene, 5);
     EXPECT_GT(finer.triangles(), 2 * scene.triangles());
     EXPECT_NEAR(area(finer), area(scene), 1e-6);
     std::map<Ends, int> uses = edge_uses(finer);
     int duplicated = 0;
-    for (const auto& [ends, count] : uses) { // both copies are split alike
+    for (const auto& [ends, count] : uses) { // both copies are split in the same way
         const auto& [ax, ay, az] = ends.first;
         const auto& [bx, by, bz] = ends.second;
         if (ay > 0 && ay < 1 && by > 0 && by < 1) {
@@ -230,7 +230,7 @@ TEST(Bisection, PartsFillTheirTriangles) {
                     1e-6f);
             }
             const glm::dvec2 u = part.corners[1] - part.corners[0], v = part.corners[2] - part.corners[0];
-            EXPECT_GT(u.x * v.y - u.y * v.x, 0); // turned as the whole is
+            EXPECT_GT(u.x * v.y - u.y * v.x, 0); // orientation of the whole triangle
             areas[part.whole] += u.x * v.y - u.y * v.x;
         }
         for (const double sum : areas)

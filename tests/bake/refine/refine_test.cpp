@@ -1,4 +1,4 @@
-// Where triangles are split, and when not.
+// Tests the decision to split triangles.
 
 #include "prt/refine.h"
 
@@ -26,7 +26,7 @@ BakeOptions options_of_order(int order) {
     return options;
 }
 
-/// A floor of two triangles under a wall that stands on it, off its middle.
+/// Returns a floor of two triangles with a wall on it, off its middle.
 Scene floor_to_refine() {
     return SceneBuilder()
         .floor({0, 0, 0}, 4)
@@ -58,8 +58,8 @@ TEST(Refine, ReachesTheTargetBySurfaceReference) {
     const SurfaceReference reference(traced, {.order = 4, .points = 3000, .rays = 4096});
     options.rays = 4096; // noise of some 0.3 %
     const double error = reference.relative_l2(bake(finer, options).baked.transfer);
-    // What is estimated is of fits to half of the points, which are worse than the bake's; the last round
-    // takes off more than is needed. (The plain room of benchmarks.md: 1.83 % estimated, 1.75 % judged.)
+    // The estimate uses fits to half of the points, which are worse than the bake's; the last round reduces
+    // the error more than needed. (The plain room of benchmarks.md: 1.83 % estimated, 1.75 % measured.)
     EXPECT_LT(error, 0.03 * 1.1);
     EXPECT_GT(error, 0.03 * 0.6);
 }
@@ -104,12 +104,12 @@ TEST(Refine, DoesNotDependOnThreads) {
 }
 
 TEST(Refine, IsNotDeceivedByTheNoiseOfFewRays) {
-    const Scene scene = SceneBuilder().sphere({0, 0, 0}, 1, 24).build(); // nothing shadows it
+    const Scene scene = SceneBuilder().sphere({0, 0, 0}, 1, 24).build(); // unshadowed
     for (const std::uint64_t seed : {1u, 2u, 3u}) {
         BakeOptions options = options_of_order(3);
         options.rays = 1;
         options.seed = seed;
-        // Lobes of normals up to 7.5 degrees apart: (0.13 / 2)² / 2 between vertices, at most.
+        // Lobes of normals up to 7.5 degrees from each other: at most (0.13 / 2)² / 2 between vertices.
         EXPECT_EQ(refine(scene, options, {.target = 0.01}).statistics.rounds, 0);
     }
 }

@@ -1,5 +1,5 @@
-// What blocks light, held against a tracer that shares nothing with the baker but Embree (DESIGN, "What is
-// blocked"): one-sided surfaces block from both sides, rays start on the open side of every face.
+// Tests occlusion against a tracer that shares only Embree with the baker (DESIGN, "What is blocked"):
+// one-sided surfaces block from both sides, and rays start on the open side of every face.
 
 #include "prt/bake.h"
 #include "scene/ray_starts.h"
@@ -29,7 +29,7 @@ BakeResult bake_kept(const Scene& scene, Inside inside = Inside::keep) {
     return bake(scene, options);
 }
 
-/// The estimate of the bake tells how far it is from the truth.
+/// Expects that the estimate of the bake matches its error.
 void expect_error_as_estimated(const Scene& scene, Inside inside = Inside::keep) {
     const BakeResult result = bake_kept(scene, inside);
     const double error = test::reference_transfer(scene, 16384)
@@ -45,8 +45,8 @@ Scene canopy() {
     return SceneBuilder().floor({0, 0, 0}, 2, 8).floor({0, 1, 0}, 1.5f).build();
 }
 
-/// Share of the cosine-weighted sky that a square of half side `half` at unit height leaves open of the point
-/// below its middle (the configuration factor of a parallel rectangle).
+/// Returns the fraction of the cosine-weighted sky that a square of half side `half` at unit height leaves
+/// open for the point below its middle (the configuration factor of a parallel rectangle).
 double beside_square(double half) {
     const double a = std::sqrt(1 + half * half);
     return 1 - 4 / (2 * pi) * 2 * (half / a * std::atan(half / a));
@@ -91,14 +91,14 @@ TEST(OneSidedHull, HalfSunkInOneSidedTerrainErrsAsEstimated) {
                             })
                             .sphere({0.01f, 0.03f, 0.02f}, 0.8f, 10) // no vertex of it on the terrain itself
                             .build();
-    // What the hull covers of the terrain sees nothing but the hull's inside: these are sealed in.
+    // Receivers of the terrain under the hull see only the hull's inside: they are sealed.
     const BakeResult refilled = bake_kept(scene, Inside::refill);
     EXPECT_GT(refilled.statistics.receivers.sealed, 20u);
     EXPECT_EQ(refilled.statistics.receivers.refilled, refilled.statistics.receivers.sealed);
     const auto& positions = scene.vertex_arrays[0].positions;
     const test::ReferenceTransfer truth = test::reference_transfer(scene, 1024);
     for (std::size_t p = 0; p < scene.receivers(); ++p)
-        if (truth.vectors[p][0] > 0.01) { // light comes from above or below: nothing to repair
+        if (truth.vectors[p][0] > 0.01) { // light comes from above or below: no repair is needed
             EXPECT_NEAR(static_cast<double>(refilled.baked.transfer.vector(p)[0]), truth.vectors[p][0], 0.04)
                 << positions[p].x << " " << positions[p].y << " " << positions[p].z;
         }
@@ -126,7 +126,7 @@ TEST(SealedIn, ReceiversTakeTheLightOfTheirNeighboursOrStayDark) {
 }
 
 TEST(SealedIn, AHoleThatLetsLightInLeavesReceiversAsTheyAre) {
-    // A closed one-sided sphere about a floor, but for one quad: it leaves some 0.3 % of the light.
+    // A closed one-sided sphere around a floor, except for one quad, which admits about 0.3 % of the light.
     Scene scene = SceneBuilder().floor({0, 0, 0}, 1, 10).sphere({0, 0, 0}, 0.6f, 12).build();
     auto& triangles = scene.primitives[0].triangles;
     const std::size_t quad = 10 * 10 * 2 + 2 * (3 * 24 + 5);
@@ -140,7 +140,7 @@ TEST(SealedIn, AHoleThatLetsLightInLeavesReceiversAsTheyAre) {
 }
 
 TEST(Shell, OfAMaterialThatCastsNoShadowLetsAllLightIn) {
-    // An outline: a closed hull whose fronts look inwards.
+    // An outline: a closed hull whose front faces point inwards.
     Scene hull = SceneBuilder().bowl({0, 0, 0}, 3, 8, 0).build();
     const Scene inside = SceneBuilder().floor({0, 0, 0}, 1, 4).sphere({0, 0.5f, 0}, 0.3f, 8).build();
     const auto light = [](const Scene& scene) {
@@ -162,8 +162,8 @@ TEST(Shell, OfAMaterialThatCastsNoShadowLetsAllLightIn) {
 }
 
 TEST(FootOfAWall, InTheMiddleOfAFloorSeesItsFront) {
-    // Vertices of the floor lie on the wall's lower edge, and floor goes on behind it: half of the sky is
-    // left, but for what lies past the wall's ends.
+    // Vertices of the floor are on the wall's lower edge, and the floor continues behind it: half of the sky
+    // is visible, plus the part past the wall's ends.
     for (const bool closed : {false, true}) {
         SceneBuilder builder;
         builder.floor({0, 0, 0}, 2, 4).quad({0, 0, 50}, {0, 0, -50}, {0, 100, -50}, {0, 100, 50});
@@ -185,7 +185,7 @@ TEST(FootOfAWall, InTheMiddleOfAFloorSeesItsFront) {
 }
 
 TEST(FootOfAWall, OfAGridThatSharesItsVerticesIsNotBlack) {
-    // The vertices' faces lie all round, so that nothing but the wall tells a side.
+    // The vertices' faces surround them, so that only the wall determines a side.
     Scene scene = SceneBuilder().floor({0, 0, 0}, 2, 4).build();
     VertexArray& vertices = scene.vertex_arrays[0];
     for (glm::uvec3& t : scene.primitives[0].triangles)
@@ -210,7 +210,7 @@ TEST(FootOfAWall, OfAGridThatSharesItsVerticesIsNotBlack) {
     EXPECT_EQ(feet, 5);
 }
 
-/// A strip of cells along x, 1 wide; normals of the edge at z = 0 lean towards +z by `degrees`.
+/// Returns a strip of cells along x, 1 wide; normals of the edge at z = 0 lean towards +z by `degrees`.
 Scene leaning_strip(double degrees) {
     Scene scene;
     VertexArray vertices;
@@ -244,7 +244,8 @@ TEST_P(LeaningNormal, LosesWhatLiesBelowItsOwnFaceAndNoMore) {
         const Scene scene = test::painted(leaning_strip(GetParam()), glm::vec3(1), double_sided);
         const BakeResult result = bake_kept(scene);
         const double open = (1 + std::cos(GetParam() * pi / 180)) / 2;
-        for (const std::size_t p : {16u, 20u, 24u}) // in the middle; the strip's width leaves a little open
+        // in the middle; the strip's width leaves a small part open
+        for (const std::size_t p : {16u, 20u, 24u})
             EXPECT_NEAR(static_cast<double>(result.baked.transfer.vector(p)[0]) * std::sqrt(4 * pi), open,
                         0.04)
                 << p;
@@ -252,8 +253,8 @@ TEST_P(LeaningNormal, LosesWhatLiesBelowItsOwnFaceAndNoMore) {
     }
 }
 
-/// A closed box of `cells` x `cells` quads a side; vertices are shared, their normals smooth: at edges they
-/// lean 45 degrees off their faces, at corners 55.
+/// Adds a closed box of `cells` x `cells` quads per side; vertices are shared and their normals smooth: at
+/// edges they tilt 45 degrees from the faces, at corners 55.
 void add_smooth_box(Scene& scene, const glm::vec3& low, const glm::vec3& high, int cells) {
     VertexArray& vertices = scene.vertex_arrays[0];
     const auto vertex = [&](const glm::ivec3& at) {
@@ -286,7 +287,7 @@ void add_smooth_box(Scene& scene, const glm::vec3& low, const glm::vec3& high, i
                 }
 }
 
-/// Somebody made of boxes that stand apart by a centimetre.
+/// Returns a person made of boxes with gaps of a centimetre.
 Scene box_figure() {
     Scene scene;
     scene.vertex_arrays.emplace_back();
@@ -349,7 +350,7 @@ TEST(RayStart, LiesAboveEveryFaceOfRandomFansWhateverTheNormal) {
             leaning += glm::dot(face, glm::dvec3(normal)) < 0.7;
         }
         if (least_mean <= 0.1 * glm::length(mean) || glm::dot(mean, glm::dvec3(normal)) <= 0)
-            continue; // no place need be above all faces, or the normal looks at the fan's other side
+            continue; // then no point need be above all faces, or the normal points to the back of the fan
         EXPECT_GE(least, 0.45) << trial;
         EXPECT_LE(most_back, -0.45) << trial;
         EXPECT_LE(glm::length(start), 21) << trial;

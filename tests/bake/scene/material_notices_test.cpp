@@ -1,4 +1,4 @@
-// What users are told of materials that the bake takes for simpler than they are.
+// Tests notices about materials that the bake simplifies.
 
 #include "scene/material_notices.h"
 
@@ -7,7 +7,8 @@
 namespace prt {
 namespace {
 
-/// A scene with a primitive for each of `materials`, and a material of tinted, polished metal that none has.
+/// Returns a scene with a primitive for each of `materials`, and an unused material of tinted, polished
+/// metal.
 Scene scene_of_materials(std::vector<Material> materials) {
     Scene scene;
     scene.primitives.resize(materials.size());

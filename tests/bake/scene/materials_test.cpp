@@ -1,4 +1,4 @@
-// Cut-outs, blended surfaces, leaves, receivers inside geometry, textures at the hit.
+// Tests cut-outs, blended surfaces, leaves, receivers inside geometry, and textures at the hit.
 
 #include "prt/bake.h"
 #include "prt/light.h"
@@ -73,8 +73,8 @@ TEST(Blended, SurfacesLetTheirShareThrough) {
     half.materials[0].base_color.a = 0.25f;
     const auto open = transfer_below(SceneBuilder().floor({0, -9, 0}, 0.1f).build(), {});
     const auto blocked = transfer_below(ceiling(), {}), through = transfer_below(half, {});
-    // Where more is blocked than open the open rays are summed, else the blocked ones: to the error of
-    // sampling.
+    // If more rays are blocked than open, the open ones are summed, otherwise the blocked ones: equal up to
+    // sampling error.
     for (std::size_t k = 0; k < open.size(); ++k)
         EXPECT_NEAR(through[k], 0.75f * open[k] + 0.25f * blocked[k], 2e-4f) << k;
     // Two of them, one over the other and larger, so that every ray that meets one meets both.
@@ -125,7 +125,7 @@ TEST(Glass, PassesItsFactorTimesItsTextureTimesItsTint) {
     const auto t = transfer_below(test::join(sheets), {numbers({153, 0, 0, 0})}, 256);
     for (std::size_t k = 0; k < t.size(); ++k)
         EXPECT_NEAR(static_cast<double>(t[k]), std::pow(0.9 * 0.6 * 0.5, 2) * lobe[k], 0.005) << k;
-    // Blended beside: alpha stops its share first.
+    // With blending: alpha stops its fraction first.
     sheets.pop_back();
     sheets[0].materials[0].alpha_mode = AlphaMode::blend;
     sheets[0].materials[0].base_color.a = 0.25f;
@@ -172,7 +172,7 @@ TEST(Metal, ReflectsDiffuselyAsFarAsItIsRough) {
     // Metallic in blue, roughness in green, both as numbers: 51 is a fifth, not sRGB.
     EXPECT_NEAR(reflected(1, 1, {numbers({9, 51, 255, 9})}), 0.8f * 0.04f, 1e-6f);
     EXPECT_NEAR(reflected(1, 0, {numbers({9, 255, 51, 9})}), 0.8f * 0.8f, 1e-6f);
-    // The same image where it is color elsewhere.
+    // The image is also used as a color texture.
     EXPECT_NEAR(reflected(1, 1, {make_texture({1, 1, {{9, 51, 255, 9}}})}), 0.8f * 0.04f, 1e-5f);
 }
 
@@ -194,7 +194,7 @@ TEST(Metal, BouncesByThatShareAndSaysSo) {
             return exit_radiance(result.baked.transfer, constant_light(1, glm::vec3(1)))[12 * 25].x;
         };
         const float direct = radiance(0);
-        EXPECT_EQ(notices, 0u); // without bounces it is nothing to the bake
+        EXPECT_EQ(notices, 0u); // without bounces it does not affect the bake
         return radiance(1) - direct;
     };
     std::size_t notices = 0;
@@ -245,7 +245,7 @@ TEST(BadTextures, StopOnlyABakeThatNeedsThem) {
 }
 
 TEST(Leaf, TakesLightFromBehindThroughDiffuseTransmission) {
-    // A lone sheet: in front and behind there is nothing, so both sides have their clamped-cosine lobe.
+    // A single sheet: nothing is in front or behind, so both sides have their clamped-cosine lobe.
     Scene leaf = SceneBuilder().floor({0, 0, 0}, 1, 2).build();
     Material& m = leaf.materials[0];
     m.base_color = {0.2f, 0.5f, 0.1f, 1};
@@ -274,7 +274,7 @@ TEST(Leaf, TakesLightFromBehindThroughDiffuseTransmission) {
 }
 
 TEST(Leaf, VariesFromVertexToVertex) {
-    // What passes is white, what is reflected has the color of the vertex, by which all is multiplied later.
+    // Transmitted light is white; reflected light has the color of the vertex, which is multiplied later.
     Scene leaf = SceneBuilder().triangle({0, 0, 0}, {0, 0, 1}, {1, 0, 0}).build();
     leaf.vertex_arrays[0].colors = {{1, 0.5f, 0.25f, 1}, {0.25f, 1, 0.5f, 1}, {0.5f, 0.25f, 1, 1}};
     Material& m = leaf.materials[0];
@@ -286,7 +286,7 @@ TEST(Leaf, VariesFromVertexToVertex) {
     options.tracer.backend = Backend::cpu;
     const Transfer t = bake(leaf, options).baked.transfer;
     ASSERT_EQ(t.layout.channels(), 3);
-    const double half = 0.25 / std::sqrt(std::numbers::pi); // of Y_00, all of which either side sees
+    const double half = 0.25 / std::sqrt(std::numbers::pi); // half of Y_00, which either side sees completely
     for (std::size_t p = 0; p < 3; ++p)
         for (int c = 0; c < 3; ++c) {
             const auto base = static_cast<double>(m.base_color[c] * leaf.vertex_arrays[0].colors[p][c]);
@@ -320,7 +320,7 @@ TEST(Leaf, LightsWhatIsBelowIt) {
         const Transfer t = bake(scene, options).baked.transfer;
         return exit_radiance(t, constant_light(6, glm::vec3(1)))[8 * 4 * 6 + 4 * 6].x;
     };
-    // The leaf blocks 16/17 or so; all of what it scatters down comes from above: f · 1 · (its light from
+    // The leaf blocks about 16/17; all light that it scatters down comes from above: f · 1 · (its light from
     // above).
     const float without = floor_under_leaf(0), with = floor_under_leaf(0.5f);
     EXPECT_GT(with, without + 0.3f);
@@ -340,7 +340,7 @@ TEST(Textures, MakeASurfaceVaryOnlyWhereTheyCount) {
     const auto metal = [](Material& m) { m.metal.texture.image = 0; };
     EXPECT_TRUE(varies(0.5f, factor));
     EXPECT_TRUE(varies(0.5f, color));
-    EXPECT_FALSE(varies(0.5f, metal)); // a leaf is none
+    EXPECT_FALSE(varies(0.5f, metal)); // a metal is not a leaf
     EXPECT_FALSE(varies(0, factor));
     EXPECT_FALSE(varies(0, color));
     EXPECT_TRUE(varies(0, metal));

@@ -47,7 +47,7 @@ TEST(SharedPlaces, HaveOneValue) {
     EXPECT_GT(shared, 100u);
 }
 
-/// Six triangles meet at a vertex inside the floor: the mean of as many nets of rays has less noise than one.
+/// Six triangles meet at a vertex inside the floor: the mean of six sets of rays has less noise than one.
 TEST(SharedPlaces, HaveTheNoiseOfAllTheirRays) {
     const Scene scene = floor_under_lid();
     // Corners of different triangles get different positions; 0.1 mm does not change their light.
@@ -72,7 +72,7 @@ TEST(SharedPlaces, HaveTheNoiseOfAllTheirRays) {
     EXPECT_NEAR(noise(scene) / noise(apart), 1 / std::sqrt(6), 0.1);
 }
 
-/// A sheet stands on the edges of the middle of a floor.
+/// A sheet is on the edges in the middle of a floor.
 TEST(SharedPlaces, AreNoneAcrossAWall) {
     const Scene scene =
         test::painted(test::join({SceneBuilder().floor({0, 0, 0}, 2, 4).build(),

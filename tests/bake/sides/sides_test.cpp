@@ -146,7 +146,7 @@ TEST(WallsThatAreThereTwice, ReflectAllOfAUniformSky) {
         EXPECT_NEAR(shown(result.baked.transfer, p), 1, 1e-3) << p;
 }
 
-/// No light comes in, but nothing is inside of anything.
+/// No light enters, but no receiver is inside an object.
 TEST(WallsThatAreThereTwice, AreDarkInAClosedRoom) {
     BakeOptions options;
     options.order = 1;
@@ -204,8 +204,7 @@ TEST(SidesToSeparate, AreLitByALampInside) {
     EXPECT_EQ(separated(scene), 0u);
 }
 
-/// A sphere that shines lights the room that it hangs in, and itself stays dark inside, but for its own
-/// light.
+/// An emissive sphere lights its room, and stays dark inside except for its emission.
 TEST(SidesToSeparate, AreLitByWhatShines) {
     Scene scene =
         double_sided(test::join({scene_of(kClosed), SceneBuilder().sphere({0, 1, 0}, 0.1f, 4).build()}));
@@ -234,7 +233,7 @@ TEST(SidesToSeparate, AreThoseWithALitBackAlone) {
     EXPECT_GT(separated(double_sided(inverted)), 0u);
 }
 
-/// A room of four metres with a window of half a metre, whatever the seed.
+/// A room of four metres with a window of half a metre, for any seed.
 TEST(SidesToSeparate, AreLitThroughASmallWindow) {
     SceneBuilder builder;
     add(builder, {{-2, 0, -2}, {2, 3, 2}, true});
@@ -252,8 +251,8 @@ TEST(SidesToSeparate, AreLitThroughASmallWindow) {
     }
 }
 
-/// A box that hangs together with a plain which nobody sees from below: as many of its triangles as come in
-/// one patch with it get backs, too.
+/// A box connected to a plain that is invisible from below: the triangles of the plain in a common patch with
+/// the box get back sides, too.
 TEST(SidesToSeparate, AreThoseOfABoxOnAPlain) {
     SceneBuilder builder;
     builder.floor({0, 0, 0}, 100, 40);

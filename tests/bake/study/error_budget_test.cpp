@@ -17,7 +17,7 @@
 namespace prt::test {
 namespace {
 
-/// Whose radiance at a height y above the horizon, -1..1, is so much; bands are those of the image.
+/// Returns a sky with `radiance` at height y above the horizon, -1..1; its bands are those of the image.
 MeasuredLight sky_of(const std::function<float(float y)>& radiance) {
     Image image{8, 180, {}};
     for (int y = 0; y < image.height; ++y)
@@ -41,7 +41,7 @@ BandCut cut_of(int order, int bounces = kEndlessBounces) {
     return cut;
 }
 
-/// The same at all points.
+/// Returns equal values for all points.
 std::vector<glm::vec3> all_points(const SurfacePoints& points, float value) {
     return std::vector<glm::vec3>(points.size(), glm::vec3(value));
 }
@@ -84,7 +84,7 @@ TEST(SurfacePoints, LieOnTheirTrianglesAndStandForAllOfTheArea) {
 }
 
 TEST(SurfacePoints, InsideOfABoxDoNotCount) {
-    // A floor with a closed box on it: what lies under the box sees only the insides of its walls.
+    // A floor with a closed box on it: points under the box see only the insides of its walls.
     const Scene scene = SceneBuilder().floor(glm::vec3(0), 2, 8).sphere(glm::vec3(0, 0.2f, 0), 1, 16).build();
     const TraceScene traced(scene);
     const SurfacePoints points = surface_points(traced, {.count = 2000});
@@ -130,8 +130,8 @@ TEST(SurfaceRadiance, IsOneEverywhereInAWhiteWorldUnderUniformLight) {
 }
 
 TEST(ErrorBudget, OfLightIsWhatBandsLoseOfACap) {
-    // Light from less than 60 degrees off the normal: an open floor has 1 - cos² 60° = 0.75 of it, and of N
-    // bands what the clamped cosine's coefficients give.
+    // Light from less than 60 degrees off the normal: an open floor receives 1 - cos² 60° = 0.75 of it, and N
+    // bands produce the value of the clamped cosine's coefficients.
     const Lit lit(open_floor(), sky_of([](float y) { return y > 0.5f ? 1.0f : 0.0f; }), 1024);
     for (const int order : {1, 2, 3, 5, 7}) {
         std::vector<double> lobe(static_cast<std::size_t>(order * order));
@@ -147,8 +147,8 @@ TEST(ErrorBudget, OfLightIsWhatBandsLoseOfACap) {
 }
 
 TEST(ErrorBudget, OfBouncesIsWhatIsMissing) {
-    // Each point of a closed bowl but for a hole bounces: with albedo 1 all bounces give 1, none give what
-    // the sky itself does.
+    // Each point of a bowl that is closed except for a hole reflects light: with albedo 1 all bounces give 1,
+    // and no bounces give only direct light of the sky.
     const Lit lit(painted(SceneBuilder().bowl(glm::vec3(0), 1, 24, 6).build(), glm::vec3(1)), uniform(), 256);
     const std::vector<glm::vec3> direct = lit.reference.under(cut_of(1, 0), 0);
     double wanted = 0, area = 0;
@@ -194,8 +194,9 @@ TEST(ErrorBudget, FindsEachCauseOfAPaintedFloor) {
         const ErrorBudget budget = budget_of(lit, values, alike);
         EXPECT_NEAR(budget.of(ErrorCause::light).value, 0, 1e-5);
         EXPECT_NEAR(budget.of(ErrorCause::bounces).value, 0, 1e-12);
-        // Independent values of three corners, interpolated: the mean of the sum of squared shares is 1/2. A
-        // thousand points leave 5 % of a squared normal deviate's mean, and products with the bend the rest.
+        // Independent values of three corners are interpolated: the mean of the sum of squared weights is
+        // 1/2. A thousand points have an error of 5 % in a squared normal deviate's mean, and products with
+        // the second differences account for the rest.
         EXPECT_NEAR(budget.of(ErrorCause::vertices).value, 0.0025, 6e-4);
         EXPECT_NEAR(budget.of(ErrorCause::rays).value, 0.0032, 6e-4);
         EXPECT_NEAR(budget.of(ErrorCause::bytes).value, 0.00045, 6e-5);
@@ -204,7 +205,7 @@ TEST(ErrorBudget, FindsEachCauseOfAPaintedFloor) {
     }
 }
 
-/// Where all is lit alike, eyes adapt to a tenth of that: contrast errors are those of luminance over 1.1.
+/// Under uniform light, eyes adapt to a tenth of it: contrast errors are those of luminance over 1.1.
 TEST(ErrorBudget, OfContrastIsOverTheLightAndWeightedAsLuminance) {
     const Lit lit(SceneBuilder().floor(glm::vec3(0), 2, 40).build(), uniform());
     const auto error = [&](const glm::vec3& by) {
@@ -216,7 +217,7 @@ TEST(ErrorBudget, OfContrastIsOverTheLightAndWeightedAsLuminance) {
     EXPECT_NEAR(error({0, 0.2f, 0}), std::sqrt(0.7152) * 0.2 / 1.1, 1e-4);
 }
 
-/// A black bowl is darker the deeper it is: the same error is seen better there.
+/// A black bowl is darker at larger depth: an equal error is more visible there.
 TEST(ErrorBudget, OfContrastCountsDimLight) {
     const Lit lit(painted(SceneBuilder().bowl(glm::vec3(0), 1, 24, 6).build(), glm::vec3(0)), uniform(),
                   2048);
@@ -250,7 +251,7 @@ TEST(ErrorBudget, IsNothingWhereNothingIsWrong) {
 }
 
 TEST(ErrorBudget, LeavesSunsThatAreApartToTheRenderer) {
-    // A sun alone, apart: nothing is asked of transfer, and errors are over what the sun gives.
+    // Only a separate sun: transfer is not used, and errors are relative to the light of the sun.
     MeasuredLight light = uniform();
     light.all = DistantLight(Image{1, 1, {glm::vec3(0)}}, {{glm::vec3(0, 1, 0), glm::vec3(2)}});
     light.sky.emplace(Image{1, 1, {glm::vec3(0)}});
@@ -267,8 +268,8 @@ TEST(ErrorBudget, LeavesSunsThatAreApartToTheRenderer) {
 }
 
 TEST(ErrorBudget, OfSplitTrianglesIsNothingWhereLightIsEven) {
-    // Light whose reference at corners and points is the same function has no error however triangles are
-    // split: an open floor under one sky.
+    // If the reference at corners and points is one function, light has no error however triangles are split:
+    // an open floor under one sky.
     const Lit lit(open_floor(), uniform());
     const QuarterCorners quarters = quarter_corners(lit.traced, lit.points);
     const SurfaceRadiance corners(lit.traced, quarters.corners, lit.light, {.paths = 64, .most_paths = 64});

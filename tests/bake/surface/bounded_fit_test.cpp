@@ -1,5 +1,5 @@
-// Fitted light stays within what light can be: uniform light 1 gives 0..1, closed rooms are dark, white
-// furnaces are 1.
+// Tests that fitted light stays within physical bounds: uniform light 1 results in 0..1, closed rooms are
+// dark, white furnaces are 1.
 
 #include "prt/bake.h"
 #include "prt/light.h"
@@ -119,7 +119,7 @@ void add_cells(SceneBuilder& builder, const glm::vec3& a, const glm::vec3& x, co
         }
 }
 
-/// The inside of a closed cube of 2 m whose floor lies at y = 0.
+/// Returns the inside of a closed cube of 2 m with its floor at y = 0.
 Scene dark_room() {
     SceneBuilder builder;
     constexpr int kCells = 4;
@@ -133,7 +133,7 @@ Scene dark_room() {
     return builder.build();
 }
 
-/// Its outer faces and the ground around it, with cells that meet those inside.
+/// Returns its outer faces and the ground around it, with cells that match those inside.
 Scene ground_and_outside() {
     SceneBuilder builder;
     constexpr int kCells = 4;
@@ -151,7 +151,7 @@ Scene ground_and_outside() {
     return builder.build();
 }
 
-/// Light that the floor of the room and the ground beside it take from each other, in one node or in two.
+/// Tests that the floor of the room and the ground around it do not exchange light, in one node or in two.
 TEST(BoundedFit, DarkRoomsStayDarkOnGroundOfTheirLevel) {
     Scene scene = test::join({dark_room(), ground_and_outside()});
     const std::size_t inside = scene.vertex_arrays[0].size();
@@ -172,7 +172,7 @@ TEST(BoundedFit, DarkRoomsStayDarkOnGroundOfTheirLevel) {
     }
 }
 
-/// A box whose lower vertices are hidden in a floor of two triangles.
+/// Returns a box whose lower vertices are hidden in a floor of two triangles.
 Scene box_in_floor() {
     Scene box = test::painted(SceneBuilder().sphere({0, 0, 0}, 0.5f, 2).build(), glm::vec3(0.8f));
     for (glm::vec3& p : box.vertex_arrays[0].positions)
@@ -195,7 +195,7 @@ TEST(BoundedFit, LampsGiveNoLessThanNothing) {
         ASSERT_EQ(transfer.layout.lamp_parts().size(), 1u);
         for (std::size_t p = 0; p < transfer.receivers(); ++p) {
             EXPECT_GE(transfer.vector(p)[sky], -1e-6f) << bounces;
-            EXPECT_LE(transfer.vector(p)[sky], 1.0f) << bounces; // 1/pi and what comes back of it
+            EXPECT_LE(transfer.vector(p)[sky], 1.0f) << bounces; // 1/pi plus the reflected part
         }
     }
 }

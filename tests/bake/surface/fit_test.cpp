@@ -1,3 +1,5 @@
+// Tests least-squares fits of vertex values to samples over the surface.
+
 #include "surface/fit_choice.h"
 #include "surface/fit_solver.h"
 
@@ -27,7 +29,7 @@ struct Fitted {
           equations(fit_equations(traced.surfaces(), receivers, samples,
                                   alike_receivers(traced.surfaces(), receivers))) {}
 
-    /// The values of receivers of a function over space, and what bending costs.
+    /// Fits a function over space to the receivers, with a weight on second differences.
     std::vector<float> fit(const std::function<double(const glm::vec3&)>& f, float bend_weight) const {
         std::vector<float> at_samples;
         for (const glm::vec3& p : samples.receivers.positions)
@@ -113,7 +115,7 @@ TEST(Bend, IsOfEdgesThatTwoTrianglesShare) {
 }
 
 TEST(Bend, IsNotThatOfEdgesWithoutLength) {
-    // Beside the pole of a sphere whose vertices are not quite in one place: a denormal apart.
+    // At the pole of a sphere whose vertices are not exactly equal: they differ by a denormal.
     const std::vector<FitTriangle> triangles = {{{0, 1, 2}, {{{0, 0, 0}, {3.3e-41, 0, 0}, {1, 1, 0}}}},
                                                 {{1, 0, 3}, {{{3.3e-41, 0, 0}, {0, 0, 0}, {1, -1, 0}}}}};
     EXPECT_EQ(bends_of(triangles).size(), 0);
@@ -128,12 +130,13 @@ TEST_P(FitWeight, IsExactForLinearFunctions) {
         return 3 + 2 * static_cast<double>(p.x) - static_cast<double>(p.z);
     };
     const std::vector<float> values = floor.fit(f, GetParam());
-    for (std::size_t p = 0; p < values.size(); ++p) // but for the slope's price, 1e-5, at the ends
+    // except for the smoothness cost of the slope, 1e-5, at the ends
+    for (std::size_t p = 0; p < values.size(); ++p)
         EXPECT_NEAR(static_cast<double>(values[p]), f(floor.positions()[p]), 3e-4);
 }
 
-// On an even mesh the best continuous function that is linear between nodes lies h²/6 below x² at every node:
-// then what is left, (x - a)(b - x) - h²/6, is orthogonal to all hats.
+// On an even mesh the best continuous piecewise linear function is h²/6 below x² at every node: the residual,
+// (x - a)(b - x) - h²/6, is orthogonal to all hat functions.
 TEST(Fit, OfAParabolaIsBestOnAverage) {
     constexpr int kCells = 12;
     const Fitted floor(SceneBuilder().floor({0, 0, 0}, 1, kCells).build(), 60000);
@@ -151,7 +154,7 @@ TEST(Fit, OfAParabolaIsBestOnAverage) {
     EXPECT_GT(inside, 100);
 }
 
-/// Mean squared error over a square of what is interpolated between `values`, by many points.
+/// Returns the mean squared error over a square of the interpolated `values`, by many points.
 double squared_error(const Fitted& floor, std::span<const float> values,
                      const std::function<double(const glm::vec3&)>& f) {
     const SurfaceSamples points =
@@ -195,7 +198,8 @@ TEST(Fit, OfAConstantIsExactOnAnyMesh) {
         for (const std::uint32_t p : lit)
             on_surface[p] = true;
         for (std::size_t p = 0; p < values.size(); ++p)
-            // Rounding of floats, 6e-8, over what a lone sample ties corners together with, 1e-5.
+            // Rounding of floats, 6e-8, divided by the weight with which a single sample couples corners,
+            // 1e-5.
             EXPECT_NEAR(values[p], on_surface[p] ? 0.7f : 0.0f, 6e-3f) << p << " " << weight;
     }
 }
@@ -216,7 +220,7 @@ TEST(Fit, DoesNotDependOnThreads) {
 TEST(FitChoice, IsWhatErrsLess) {
     EXPECT_TRUE(choose_fit({.between = 0.05, .sampling = 0.002}, 1024, false).better);
     EXPECT_FALSE(choose_fit({.between = 0.005, .sampling = 0.02}, 1024, false).better);
-    EXPECT_FALSE(choose_fit({}, 1024, false).better); // nothing errs: as it was
+    EXPECT_FALSE(choose_fit({}, 1024, false).better); // no error: the choice does not change
     EXPECT_FALSE(choose_fit({.between = 1e-7}, 1024, false).better);
     // The clearer it is, the more samples, of no fewer than 128 rays.
     EXPECT_TRUE(choose_fit({.between = 0.02, .sampling = 0.014}, 1024, false).better);

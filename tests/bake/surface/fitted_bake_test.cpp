@@ -1,4 +1,4 @@
-// Bakes whose vertices are fitted to the surface, against closed forms and denser bakes.
+// Tests bakes whose vertices are fitted to the surface, against closed forms and denser bakes.
 
 #include "surface/surface_samples.h"
 
@@ -41,7 +41,7 @@ TEST(FittedBake, IsTheLobeWhereNothingShadows) {
     EXPECT_LT(result.statistics.sampling_error, 1e-6);
 }
 
-/// A floor of large cells that a wall stands on, off their edges.
+/// Returns a floor of large cells with a wall on it, off their edges.
 Scene floor_with_wall() {
     return test::join(
         {SceneBuilder().floor({0, 0, 0}, 1, 8).build(),
@@ -49,7 +49,7 @@ Scene floor_with_wall() {
                        glm::vec3(0.5f), true)});
 }
 
-/// Half of the hemisphere is behind the wall where it is near; far from it, next to nothing.
+/// Near the wall it covers half of the hemisphere; far from it, almost nothing.
 TEST(FittedBake, ErrsLessBetweenVerticesThanOneAtVertices) {
     const Scene scene = floor_with_wall();
     BakeOptions options = fitted_options(2048);
@@ -82,7 +82,7 @@ TEST(FittedBake, ErrsLessBetweenVerticesThanOneAtVertices) {
     EXPECT_LT(error(fitted), 0.9 * error(plain));
 }
 
-/// The first vertex at a place may belong to triangles without area alone.
+/// The first vertex at a position may belong only to triangles without area.
 TEST(FittedBake, HasNoUseForTheFirstOfVerticesWhereThatHasNoArea) {
     Scene scene = SceneBuilder().floor({0, 0, 0}, 1, 2).build();
     VertexArray& vertices = scene.vertex_arrays[0];
@@ -136,7 +136,7 @@ TEST(FittedBake, BouncesAreAGeometricSeries) {
     }
 }
 
-// Normals of a coarse bowl send rays below the plane of their triangle: what these meet is light, too.
+// Normals of a coarse bowl send rays below the plane of their triangle: their hits count as light, too.
 TEST(FittedBake, OfAWhiteFurnaceIsOneOnCoarseHollowSurfaces) {
     const Scene bowl =
         test::painted(SceneBuilder().bowl({0, 0, 0}, 1, 8, 3).build(), glm::vec3(1), /*double_sided=*/true);
@@ -153,7 +153,7 @@ TEST(FittedBake, OfAWhiteFurnaceIsOneOnCoarseHollowSurfaces) {
     EXPECT_NEAR(mean / area, 1, 1e-3);
 }
 
-/// A lamp h over a floor gives 1 / (pi h²) below it, and falls as h / (pi d³).
+/// A lamp at height h over a floor results in 1 / (pi h²) below it, and falls off as h / (pi d³).
 TEST(FittedBake, LampsLightAsTheyDoAndNeverTakeLightAway) {
     Scene scene = SceneBuilder().floor({0, 0, 0}, 2, 16).build();
     PunctualLight lamp;
@@ -168,7 +168,8 @@ TEST(FittedBake, LampsLightAsTheyDoAndNeverTakeLightAway) {
         // A best fit of cells of 0.25 lies h²/6 of the curvature, 3 / pi at the peak, above it there.
         EXPECT_NEAR(static_cast<double>(lit[p].x), 1 / (std::numbers::pi * d * d * d), 0.01);
     }
-    // So near that its light is a peak between vertices: round it the best fit would be below zero.
+    // The lamp is so near that its light is a peak between vertices: around it the best fit would be
+    // negative.
     scene.lights[0].position = {0.06f, 0.02f, 0.06f};
     for (const glm::vec3& v :
          exit_radiance(bake(scene, fitted_options()).baked.transfer, constant_light(3, glm::vec3(0))))
@@ -187,7 +188,7 @@ TEST(FittedBake, LightsThinSheetsFromBothSides) {
 }
 
 TEST(FittedBake, TakesTheLightOfNeighboursInsideGeometry) {
-    // A box on a floor whose cells it covers in the middle: nothing sees these.
+    // A box on a floor covers some of its cells: they see nothing.
     SceneBuilder builder;
     builder.floor({0, 0, 0}, 1, 20);
     builder.sphere({0, 0, 0}, 0.35f, 12);

@@ -39,7 +39,7 @@ Transfer indirect(const Scene& scene, BakeOptions options, bool* denoised = null
     return light;
 }
 
-/// A floor beside a wall that lights it, and a ball that shades both.
+/// Returns a floor next to a wall that lights it, and a ball that shadows both.
 Scene corner() {
     SceneBuilder wall;
     for (int i = -8; i < 8; ++i)
@@ -89,7 +89,7 @@ TEST(NoiseFilter, LeavesDirectLightOfLamps) {
         ASSERT_EQ(filtered.vector(v).back(), noisy.vector(v).back());
 }
 
-/// The same of the sky, whose direct light has an edge where the ball touches the floor.
+/// Tests the noise of a sky, whose direct light has an edge where the ball touches the floor.
 TEST(NoiseFilter, TakesMostOfTheNoiseOfASky) {
     const Scene scene = corner();
     const std::vector<float> areas = receiver_areas(scene);
@@ -113,7 +113,8 @@ TEST(NoiseFilter, TakesMostOfTheNoiseOfASky) {
     }
 }
 
-/// Noise of rays that miss the sky is that of rays that meet a wall: filtered apart they would not add up.
+/// Rays that miss the sky and rays that hit a wall have common noise: filtered separately they would not add
+/// up.
 TEST(NoiseFilter, KeepsAllLightOfAWhiteFurnace) {
     Scene scene = corner();
     scene.lights.clear();
@@ -131,7 +132,7 @@ TEST(NoiseFilter, KeepsAllLightOfAWhiteFurnace) {
     }
 }
 
-/// Transfer is that of a surface of albedo 1: where two materials meet there is no step in it.
+/// Transfer is that of a surface of albedo 1, so it has no step where two materials meet.
 TEST(NoiseFilter, SeesNoBoundaryOfMaterials) {
     const Scene one = corner();
     Scene two = one;
@@ -144,7 +145,7 @@ TEST(NoiseFilter, SeesNoBoundaryOfMaterials) {
     EXPECT_EQ(bake(one, options).baked.transfer.vectors, bake(two, options).baked.transfer.vectors);
 }
 
-/// Two rooms on one floor, a lamp in one of them. The wall between them stands on vertices of the floor.
+/// Two rooms on one floor, one of them with a lamp. The wall between them is on vertices of the floor.
 TEST(NoiseFilter, LightsNoDarkRoom) {
     const auto room = [](float low, float high) {
         SceneBuilder walls;

@@ -1,4 +1,4 @@
-// Transfer of texels: closed forms, energy, and what cannot be baked into them.
+// Tests transfer of texels: closed forms, energy, and scenes that cannot be baked into texels.
 
 #include "prt/lightmap_bake.h"
 #include "prt/sh.h"
@@ -83,16 +83,16 @@ struct WalledFloor {
             atlases[a].width = atlases[a].height = a == 0 ? size : 2;
         }
     }
-    /// Of the sky, cosine-weighted, that the floor sees at distance d of the wall: all but
-    /// (1 - cos(elevation of its top)) / 2.
+    /// Returns the cosine-weighted visible fraction of the sky at distance d from the wall: 1 - (1 -
+    /// cos(elevation of its top)) / 2.
     static double visibility(double d) { return (1 + d / std::hypot(d, kHeight)) / 2; }
 };
 
-/// Error of what a bilinear filter reads, root mean square over the floor. Two bakes with noise of their own
-/// show that which they have in common: the mean of the product of their errors.
+/// Root mean square error over the floor of bilinear lookups. The mean product of the errors of two bakes
+/// with independent noise is their common error.
 struct LookupErrors {
-    double all = 0;    ///< of the floor
-    double inside = 0; ///< more than half a texel from its edges, where filters have nothing to read beyond
+    double all = 0;    ///< over the whole floor
+    double inside = 0; ///< more than half a texel from its edges, where filters have no data beyond
 };
 LookupErrors lookup_errors(int size, int rays) {
     const WalledFloor floor(size);
@@ -139,7 +139,7 @@ TEST(LightmapBake, ComesToTheClosedFormAsTexelsGetFiner) {
         EXPECT_LT(fine.inside, 0.33 * coarse.inside) << size;
         coarse = fine;
     }
-    // Measured: 0.00079 and 0.00006, of which bakes tell 0.0001 from nothing.
+    // Measured: 0.00079 and 0.00006; bakes resolve errors down to 0.0001.
     EXPECT_LT(coarse.all, 1e-3);
     EXPECT_LT(coarse.inside, 2e-4);
 }
@@ -162,7 +162,7 @@ TEST(LightmapBake, OfALampFallsWithTheSquareOfTheDistance) {
     }
 }
 
-/// Each triangle has a chart of its own in a map.
+/// A scene in which each triangle has a separate chart in a map.
 struct Charted {
     Scene scene;
     std::vector<Atlas> atlases;
@@ -224,7 +224,7 @@ TEST(LightmapBake, JumpsForTheCompressorAreThoseThatItStitches) {
 }
 
 TEST(LightmapBake, BouncesAsVerticesDo) {
-    // A wall beside a floor, both cut fine: at vertices of the floor both bakes see the same.
+    // A wall next to a floor, both finely divided: at vertices of the floor both bakes agree.
     const Scene wall = SceneBuilder()
                            .floor({0, 0, 0}, 1, 16)
                            .transform([](const glm::vec3& p) { return glm::vec3(-1, p.x + 1, p.z); })
@@ -264,7 +264,7 @@ TEST(LightmapBake, BouncesAsVerticesDo) {
         }
     }
     ASSERT_GT(norm, 0);
-    EXPECT_LT(std::sqrt(error / norm), 0.02); // texels have a quarter of the rays at each of four places
+    EXPECT_LT(std::sqrt(error / norm), 0.02); // texels have a quarter of the rays at each of four positions
 }
 
 TEST(LightmapBake, IsTheSameForAnyNumberOfThreads) {
@@ -277,7 +277,7 @@ TEST(LightmapBake, IsTheSameForAnyNumberOfThreads) {
               bake_lightmap(bowl.scene, bowl.atlases, three).lightmap.baked.transfer.vectors);
 }
 
-/// `scene`, which has a map, and `more` whose coordinates are one point.
+/// Returns `scene`, which has a map, and `more`, whose coordinates are one point.
 Scene beside_map(const Scene& scene, const Scene& more) {
     Scene both = test::join({scene, more});
     VertexArray& last = both.vertex_arrays.back();
@@ -290,7 +290,7 @@ Atlas of_one_texel() {
     return {.primitives = {1}, .uv_set = 0, .width = 1, .height = 1};
 }
 
-/// Of all light of a sky, direct and bounced: their noise makes up for each other.
+/// Returns the distance for all light of a sky, direct and bounced, because their noise compensates.
 double relative_distance(const Transfer& truth, const Transfer& x) {
     const auto columns = static_cast<std::size_t>(coefficient_count(truth.layout.order));
     double error = 0, norm = 0;
@@ -307,7 +307,8 @@ double relative_distance(const Transfer& truth, const Transfer& x) {
     return std::sqrt(error / norm);
 }
 
-/// Noise falls, little is lost where there is none, and the estimate is that of what is left.
+/// Tests that the filter reduces noise, loses little without noise, and that the estimate is that of the
+/// remaining noise.
 TEST(LightmapBake, FiltersNoise) {
     const Scene floor = floor_map(SceneBuilder().floor({0, 0, 0}, 1, 4).build());
     const Scene scene = test::painted(
@@ -335,7 +336,7 @@ TEST(LightmapBake, FiltersNoLightFromOneSurfaceToAnother) {
     const auto floor = [](float low, float high) {
         return SceneBuilder().quad({low, 0, 1}, {high, 0, 1}, {high, 0, -1}, {low, 0, -1}).build();
     };
-    SceneBuilder cover; // of the right floor, closed all round
+    SceneBuilder cover; // over the right floor, closed on all sides
     cover.quad({0, 0.3f, -1}, {1, 0.3f, -1}, {1, 0.3f, 1}, {0, 0.3f, 1});
     cover.quad({0, 0, -1}, {0, 0.3f, -1}, {0, 0.3f, 1}, {0, 0, 1});
     cover.quad({1, 0, 1}, {1, 0.3f, 1}, {1, 0.3f, -1}, {1, 0, -1});
@@ -350,7 +351,7 @@ TEST(LightmapBake, FiltersNoLightFromOneSurfaceToAnother) {
     const LightmapBake baked = bake_lightmap(scene, {whole(floors, 32), of_cover}, options);
     for (std::size_t p = 0; p < baked.lightmap.texels.size(); ++p) {
         const std::uint32_t texel = baked.lightmap.texels[p];
-        if (texel < 32 * 32 && texel % 32 >= 17) { // beyond those that filters blend
+        if (texel < 32 * 32 && texel % 32 >= 17) { // beyond the texels that filters blend
             EXPECT_EQ(baked.lightmap.baked.transfer.vector(p)[0], 0) << texel;
         }
     }

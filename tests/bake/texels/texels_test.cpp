@@ -1,4 +1,4 @@
-// Texels as receivers: where they lie, what lies between charts, and seams.
+// Tests texels as receivers: their positions, gutters between charts, and seams.
 
 #include "prt/occlusion_maps.h"
 #include "prt/support/error.h"
@@ -23,7 +23,7 @@ namespace {
 
 using test::SceneBuilder;
 
-/// `scene` with coordinates that `place` gives of positions.
+/// Returns `scene` with coordinates `place(position)`.
 Scene mapped(Scene scene, const std::function<glm::vec2(const glm::vec3&)>& place) {
     for (VertexArray& vertices : scene.vertex_arrays) {
         vertices.texcoords.assign(1, {});
@@ -43,7 +43,7 @@ Atlas atlas_of(const Scene& scene, int size) {
     return plan_atlases(scene, {.size = size, .uv_set = 0}).front();
 }
 
-/// Of the first primitive, unplanned.
+/// Returns an atlas of the first primitive, without planning.
 Atlas first_primitive(int size) {
     Atlas atlas;
     atlas.primitives = {0};
@@ -76,7 +76,8 @@ TEST(Texels, LieWhereTheirCoordinatesSay) {
 }
 
 TEST(Texels, ThatAChartTouchesHaveAPlaceOnIt) {
-    // Smaller than the points of a texel are apart, thinner than a texel, a line, a point; at the border.
+    // Shapes smaller than the spacing of points in a texel, thinner than a texel, a line, a point; at the
+    // border.
     const struct {
         glm::vec2 corner, size;
         std::size_t texels;
@@ -89,7 +90,7 @@ TEST(Texels, ThatAChartTouchesHaveAPlaceOnIt) {
         const Scene scene = mapped(SceneBuilder().floor({0, 0, 0}, 1).build(), [&](const glm::vec3& p) {
             return c.corner + c.size * (glm::vec2(p.x, p.z) + 1.0f) / 2.0f;
         });
-        const Atlas atlas = first_primitive(8); // of coordinates that planning refuses, too
+        const Atlas atlas = first_primitive(8); // for coordinates that planning rejects, too
         std::set<std::uint32_t> texels;
         for (const TexelSample& sample : samples_of(scene, atlas)) {
             texels.insert(sample.texel);
@@ -148,7 +149,7 @@ TEST(Texels, OfObjectsThatOverlapHaveTexturesOfTheirOwn) {
 }
 
 TEST(Texels, OfNeedlesAcrossTheTextureAreFew) {
-    // Lines from corner to corner: only what they touch is looked at.
+    // Lines from corner to corner: only the texels they touch are visited.
     const Scene scene = mapped(SceneBuilder().floor({0, 0, 0}, 1, 30).build(),
                                [](const glm::vec3& p) { return glm::vec2(0.5f + 0.45f * p.x); });
     const Atlas atlas = first_primitive(256);
@@ -187,17 +188,17 @@ TEST(Gutters, HaveWhatIsNearest) {
     fill(62, 3);
     fill_gutters(atlas, filled, values, 2);
     EXPECT_EQ(values[0], 1);
-    EXPECT_EQ(values[2 * 10], 1); // beside the first
+    EXPECT_EQ(values[2 * 10], 1); // next to the first
     EXPECT_EQ(values[2 * 52 + 1], 30);
     for (std::size_t t = 0; t < atlas.texels(); ++t) {
         EXPECT_GE(values[2 * t], 1) << t;
         EXPECT_LE(values[2 * t], 3) << t;
         EXPECT_NEAR(values[2 * t + 1], 10 * values[2 * t], 1e-4);
     }
-    fill_gutters(atlas, std::vector<bool>(atlas.texels()), values, 2); // nothing to fill from
+    fill_gutters(atlas, std::vector<bool>(atlas.texels()), values, 2); // there is no source to fill from
 }
 
-/// Two halves of a floor whose charts lie apart, one of them turned.
+/// Returns two halves of a floor in separate charts, one of them rotated.
 Scene cut_floor() {
     Scene scene = SceneBuilder().floor({0, 0, 0}, 1, 8).build();
     VertexArray& vertices = scene.vertex_arrays[0];
@@ -369,7 +370,7 @@ TEST(OcclusionMaps, HaveWhatArrivesAtAFinerModel) {
             .quad({0.5f, -0.2f, -0.5f}, {0.5f, -0.2f, 0.5f}, {0.5f, 0, 0.5f}, {0.5f, 0, -0.5f})
             .quad({-0.5f, -0.2f, 0.5f}, {-0.5f, -0.2f, -0.5f}, {-0.5f, 0, -0.5f}, {-0.5f, 0, 0.5f})
             .build();
-    fine.origin = {0, 5, 0}; // both are of one place in the world
+    fine.origin = {0, 5, 0}; // both are at one position in the world
     for (glm::vec3& p : fine.vertex_arrays[0].positions)
         p.y -= 5;
     const Atlas atlas = first_primitive(16);
@@ -379,8 +380,8 @@ TEST(OcclusionMaps, HaveWhatArrivesAtAFinerModel) {
         const OcclusionMap map = map_of(plate, atlas, options, {&fine, reach});
         return static_cast<double>(map.openness.ambient[row * 16 + column]);
     };
-    EXPECT_NEAR(at(0.5, 1, 1), 1, 1e-3); // beside the pit
-    // In its middle: what is open is a square of 1 m, 0.2 m above; of a quarter of it, by the closed form of
+    EXPECT_NEAR(at(0.5, 1, 1), 1, 1e-3); // next to the pit
+    // In its middle, a square of 1 m at a height of 0.2 m is open; a quarter of it by the closed form of
     // parallel rectangles over a corner.
     const double x = 0.5 / 0.2, y = x, a = std::sqrt(1 + x * x);
     const double open = 4 / (2 * 3.14159265) * (x / a * std::atan(y / a) + y / a * std::atan(x / a));
@@ -397,7 +398,7 @@ TEST(OcclusionMaps, LeaveOutWhatIsInsideSolids) {
     const OcclusionMap map = map_of(scene, atlas, options);
     const double inside = 3.14159 * 0.25 / 4 * 32 * 32;
     EXPECT_NEAR(static_cast<double>(map.sealed), inside, 0.15 * inside);
-    EXPECT_GT(*std::ranges::min_element(map.openness.ambient), 0.3f); // and none is black
+    EXPECT_GT(*std::ranges::min_element(map.openness.ambient), 0.3f); // and no texel is black
 }
 
 } // namespace

@@ -1,4 +1,4 @@
-// Bounces on the GPU against those of the processor.
+// Compares bounces on the GPU with those on the CPU.
 
 #include "prt/sh_basis.h"
 #include "prt/trace_scene.h"
@@ -15,7 +15,7 @@
 namespace prt {
 namespace {
 
-/// Rows that some random hits make, of a scene whose materials differ.
+/// Rows of random hits in a scene with different materials.
 class RandomGather {
 public:
     explicit RandomGather(int channels, bool varies)
@@ -83,7 +83,7 @@ struct Case {
     GatherBlocks::Room room;
 };
 constexpr std::size_t kAll = SIZE_MAX;
-/// Blocks of everything, of a few rows, and of a few rows of which most are uploaded each time.
+/// Blocks of all rows, of a few rows, and of a few rows of which most are uploaded each time.
 const Case kCases[] = {{1, 6, false, {}},          {3, 2, false, {}},           {3, 4, true, {}},
                        {3, 3, true, {2048, kAll}}, {1, 10, false, {512, 3000}}, {3, 1, true, {1024, 0}}};
 
@@ -144,8 +144,8 @@ TEST(GpuGather, AddsRowsToSums) {
                         expected[row(r).sums[i] * stride + k] += row(r).weights[i] * rows[r * stride + k];
             gpu.load(c.order, exit.vectors);
             EXPECT_TRUE(gpu.apply_to_sums({random.gather.rows(), row, weights}, found));
-            // An addition rounds to 2^-30 of the largest value, some 4.5; the sum of 40 that cancel is 0.01
-            // of the weight: 1.4e-8 of 0.01, and as much again for what else differs.
+            // An addition rounds to 2^-30 of the largest value, about 4.5; the sum of 40 canceling terms is
+            // 0.01 of the weight: 1.4e-8 of 0.01, and an equal amount for other differences.
             EXPECT_LT(relative_difference(expected, found), 1e-5) << c.order << " " << scale;
         }
     }
@@ -183,7 +183,7 @@ TEST(GpuGather, AddsBounces) {
         EXPECT_LT(relative_difference(sum.vectors, found.vectors), 1e-6) << c.order;
         EXPECT_NEAR(energy->before_last, before, 1e-5 * before);
         EXPECT_GT(energy->last, 0);
-        if (c.room.resident == kAll) { // nothing moves but transfer, there and back, and the rows once
+        if (c.room.resident == kAll) { // only transfer is moved, in both directions, and the rows once
             std::size_t rows = 0;
             for (const GatherBlocks::Block& block : gpu.blocks().all())
                 rows += 4 * (block.rows + 1) + 4 * block.entries * (1 + (c.varies ? 3u : 1u));

@@ -1,5 +1,5 @@
-// Light of lamps on the GPU: against closed forms, and against the CPU for every lamp at every receiver. Both
-// take the same samples, so that only rays differ that graze.
+// Tests light of lamps on the GPU: against closed forms, and against the CPU for every lamp at every
+// receiver. Both use equal samples, so that only grazing rays differ.
 
 #include "lamps/lamp_light.h"
 #include "prt/bake.h"
@@ -62,7 +62,7 @@ public:
     LampLight on_cpu(const LampOptions& options = {}) { return light(cpu_, options); }
     LampLight on_gpu(const LampOptions& options = {}) { return light(gpu_, options); }
 
-    const std::vector<Lamp>& lamps() const { return lamps_; } ///< last asked for
+    const std::vector<Lamp>& lamps() const { return lamps_; } ///< lamps of the last call
     const Receivers& receivers() const { return receivers_; }
 
 private:
@@ -80,13 +80,13 @@ glm::dvec3 radiance(const LampLight& light, std::size_t receiver, std::size_t la
     return {vector[lamp], vector[stride + lamp], vector[2 * stride + lamp]};
 }
 
-/// Every lamp gives some light, and what it gives differs by at most `tolerance` of its brightest, but where
-/// a ray grazes something: at so few receivers that an error of any kind is more.
+/// Expects that every lamp gives some light, and that CPU and GPU differ by at most `tolerance` of the
+/// maximum, except where a ray grazes a surface: at so few receivers that any other error would affect more.
 void expect_equal(LitScene& scene, const LampOptions& options, double tolerance = 1e-3) {
     constexpr std::size_t kGrazing = 4;
     const LampLight cpu = scene.on_cpu(options), gpu = scene.on_gpu(options);
     EXPECT_NEAR(static_cast<double>(gpu.rays), static_cast<double>(cpu.rays),
-                1e-3 * static_cast<double>(cpu.rays)); // but for lights on the horizon
+                1e-3 * static_cast<double>(cpu.rays)); // except for lights on the horizon
     for (std::size_t k = 0; k < scene.lamps().size(); ++k) {
         double brightest = 0, largest = 0;
         for (std::size_t p = 0; p < scene.receivers().size(); ++p)
@@ -133,7 +133,7 @@ Material material(AlphaMode mode) {
     return m;
 }
 
-/// All kinds of lamps over a floor with a ball and a screen that `screen` makes.
+/// Returns all kinds of lamps over a floor with a ball and a screen of material `screen`.
 Scene all_kinds(const Material& screen) {
     Material sign;
     sign.name = "sign";
@@ -156,7 +156,8 @@ TEST(GpuLamps, OfPointsFallOffByTheSquare) {
     Scene floor = SceneBuilder().floor({0, 0, 0}, 2, 8).build();
     floor.lights = {bulb("bulb", {0.3f, 1.5f, -0.2f}, {2, 1, 0.5f})};
     LitScene scene(floor);
-    for (const double radius : {0.0, 0.4}) { // a sphere lights what is outside of it as its middle does
+    // a sphere lights points outside it like a point light at its center
+    for (const double radius : {0.0, 0.4}) {
         LampOptions options;
         options.radius = radius;
         const LampLight light = scene.on_gpu(options);
@@ -176,7 +177,7 @@ TEST(GpuLamps, ThatAreSpheresShineAsTheirSolidAngle) {
     ball.materials[0].emission.radiance = glm::vec3(4, 2, 1);
     LitScene scene(test::join({SceneBuilder().floor({0, 0, 0}, 2, 4).build(), ball}));
     LampOptions options;
-    options.rays = 300; // of two dispatches
+    options.rays = 300; // in two dispatches
     const LampLight light = scene.on_gpu(options);
     for (std::size_t p = 0; p < 25; ++p) {
         const glm::dvec3 to = glm::dvec3(0, 1.2, 0) - glm::dvec3(scene.receivers().positions[p]);
@@ -191,7 +192,7 @@ TEST(GpuLamps, ThatAreSpheresShineAsTheirSolidAngle) {
 }
 
 TEST(GpuLamps, OfAllKindsAreTheCpus) {
-    std::vector<double> lit; // by what passes the screen
+    std::vector<double> lit; // light through the screen
     for (const AlphaMode mode : {AlphaMode::opaque, AlphaMode::mask, AlphaMode::blend}) {
         LitScene scene(all_kinds(material(mode)), {dots()});
         expect_equal(scene, {});
@@ -245,7 +246,7 @@ TEST(GpuLamps, LightWhatStandsInTheirPlane) {
     }
 }
 
-/// A lamp without a triangle that shines gets nothing of the one before it.
+/// A lamp without an emissive triangle gets no data of the previous one.
 TEST(GpuLamps, OfBlackTexturesAreDark) {
     Material black = material(AlphaMode::opaque);
     black.emission.radiance = glm::vec3(1);
@@ -267,7 +268,7 @@ TEST(GpuLamps, OfBlackTexturesAreDark) {
     EXPECT_GT(lit, 0.1);
 }
 
-/// Rays are counted on through the dispatches of a lamp of many.
+/// Ray indices continue through the dispatches of a lamp with many rays.
 TEST(GpuLamps, OfManyRaysAreTheCpus) {
     Scene floors = test::join(
         {SceneBuilder().floor({0, 0, 0}, 1, 2).build(), SceneBuilder().floor({0.1f, 0.3f, 0}, 0.2f).build()});

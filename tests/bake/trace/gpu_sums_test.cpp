@@ -1,4 +1,4 @@
-// Sums of vectors on the GPU against sums of the vectors that Embree's rays give.
+// Compares sums of vectors on the GPU with sums over Embree's hits.
 
 #include "prt/sh_basis.h"
 #include "support/gpu_scenes.h"
@@ -27,7 +27,7 @@ public:
           receivers_(vertex_receivers(scene_)), indices_(receivers_on_surfaces(receivers_)),
           gpu(traced_, test::vulkan_choice(), piece_bytes) {
         std::mt19937 random(5);
-        std::uniform_int_distribution<std::uint32_t> sum(0, kSums); // the last: none
+        std::uniform_int_distribution<std::uint32_t> sum(0, kSums); // the last index: no sum
         std::uniform_real_distribution<float> unit(0, 1);
         for (std::size_t i = 0; i < indices_.size(); ++i) {
             SumRow row{{}, {}, i % 3 == 0 ? -1.0f : 1.0f};
@@ -106,7 +106,7 @@ double relative(std::span<const float> expected, std::span<const float> found) {
     return std::sqrt(error / norm);
 }
 
-/// What a grazing ray or two can make of so few receivers.
+/// Error by one or two grazing rays with so few receivers.
 constexpr double kGrazingRays = 3e-4;
 
 void expect_same(const Summed::Result& expected, const Summed::Result& found) {

@@ -24,10 +24,10 @@ namespace {
 
 using namespace test;
 
-/// What a grazing ray or two of so small scenes can make, relative L2.
+/// Relative L2 error by one or two grazing rays in so small scenes.
 constexpr double kGrazing = 3e-4;
 
-/// Both tracers on one scene. The GPU's must have been used as Vulkan says.
+/// Both tracers on one scene. The GPU must be used without validation errors.
 class Pair {
 public:
     explicit Pair(Scene scene, std::vector<Texture> textures = {}, std::size_t piece_bytes = 64 << 20)
@@ -93,7 +93,7 @@ TEST(GpuTrace, MeetsWhatTheCpuMeets) {
             }
         }
         EXPECT_GT(all, 1000);
-        EXPECT_LT(different, 0.004 * all) << stride; // a ray that goes astray counts twice
+        EXPECT_LT(different, 0.004 * all) << stride; // a ray with another hit counts twice
     }
 }
 
@@ -184,7 +184,7 @@ TEST(GpuTrace, HasCopiesOfAMeshOnce) {
     EXPECT_NEAR(weight_of_hits(shared, shared.gpu(), options), hits, 1e-3 * hits);
     if (vulkan_choice().traversal == Traversal::device) {
         EXPECT_EQ(alone.gpu().copies(), 0u);
-        EXPECT_EQ(shared.gpu().copies(), 2u * kCopies - 1); // the squeezed ball is another mesh
+        EXPECT_EQ(shared.gpu().copies(), 2u * kCopies - 1); // the squeezed ball is a different mesh
         EXPECT_LT(shared.gpu().scene_bytes(), alone.gpu().scene_bytes());
     }
 }
@@ -212,7 +212,7 @@ TEST(GpuTrace, MeetsTheSameTrianglesOfCopies) {
 }
 
 TEST(GpuTrace, TakesDegenerateTrianglesAsTheCpuDoes) {
-    constexpr std::size_t kFloor = 36; // vertices, which stand before those of the triangles
+    constexpr std::size_t kFloor = 36; // vertices, which precede those of the triangles
     for (std::uint32_t seed = 0; seed < 6; ++seed) {
         Pair pair(degenerate_triangles(seed));
         const TraceOptions options{.order = 1, .rays = 1024, .seed = seed};
@@ -220,7 +220,7 @@ TEST(GpuTrace, TakesDegenerateTrianglesAsTheCpuDoes) {
         double different = 0; // rays, about
         for (std::size_t p = 0; p < kFloor; ++p)
             different += 1024 * std::abs(static_cast<double>(cpu.vectors[p] - gpu.vectors[p])) / kY00;
-        // What rounding decides: edges, and triangles a kilometre long.
+        // Decided by rounding: edges, and triangles a kilometre long.
         EXPECT_LT(different, 1e-3 * kFloor * 1024) << seed;
         for (const float v : gpu.vectors)
             EXPECT_TRUE(std::isfinite(v));
@@ -277,7 +277,8 @@ TEST(GpuTrace, MeetsTheFrontsOfOppositeTriangles) {
             if (pair.receivers().positions[p].y > 0) {
                 EXPECT_LT(hit.triangle, 18u); // the floor
             } else {
-                EXPECT_TRUE(hit.triangle == 18 || hit.triangle == 19) << hit.triangle; // those that look down
+                // the triangles that face down
+                EXPECT_TRUE(hit.triangle == 18 || hit.triangle == 19) << hit.triangle;
                 ++from_below;
             }
         }

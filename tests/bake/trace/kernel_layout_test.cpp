@@ -17,8 +17,8 @@
 namespace prt {
 namespace {
 
-/// Offsets by "Struct.member", and strides of arrays by "Struct", as SPIR-V says (its specification, section
-/// 3).
+/// Returns offsets by "Struct.member", and strides of arrays by "Struct", read from SPIR-V (its
+/// specification, section 3).
 std::map<std::string, std::uint32_t> layout_of(std::span<const std::uint32_t> spirv) {
     enum : std::uint32_t {
         name = 5,

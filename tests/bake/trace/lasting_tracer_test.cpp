@@ -39,7 +39,7 @@ public:
     }
 
 private:
-    /// Of which nothing is left.
+    /// Sums whose results are lost.
     class FailingSums final : public VectorSums {
     public:
         explicit FailingSums(FailingTracer& tracer) : tracer_(tracer) {}
@@ -61,7 +61,7 @@ private:
     int batches_;
 };
 
-/// Light fitted to a surface over a plan of its own.
+/// Light fitted to a surface by a separate plan.
 class Fitted {
 public:
     const TraceScene& traced() const { return traced_; }
@@ -118,7 +118,7 @@ TEST(LastingTracer, SumsAnewWhereSumsAreLost) {
         EXPECT_EQ(found.direct.rays, expected.direct.rays);
         EXPECT_EQ(found.sealed.rays, expected.sealed.rays);
     }
-    FailingTracer alone(fitted.traced(), 0); // nobody goes on
+    FailingTracer alone(fitted.traced(), 0); // there is no fallback
     EXPECT_THROW(fitted.of(alone), GpuLost);
 }
 

@@ -43,7 +43,7 @@ private:
     EmbreeTracer cpu_;
 };
 
-/// A number of a buffer's variable, as the driver lays it out; -1 where there is none.
+/// Returns a layout property of a buffer variable from the driver; -1 if there is no such variable.
 int layout_of(const GlObject& program, const char* variable, GLenum property) {
     const GLuint index = glGetProgramResourceIndex(program.name(), GL_BUFFER_VARIABLE, variable);
     GLint value = -1;

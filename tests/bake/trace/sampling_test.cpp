@@ -1,3 +1,5 @@
+// Tests the samples of rays and their sequences.
+
 #include "prt/sh.h"
 #include "support/scene_builder.h"
 #include "trace/chunk_kernels.h"
@@ -25,7 +27,7 @@ TEST(SobolChunk, HoldsEveryPointOnce) {
     }
 }
 
-/// Leaves numbers on the stack that no ray may have.
+/// Leaves values on the stack that are invalid for rays.
 [[gnu::noinline]] void litter() {
     volatile float stack[1 << 16];
     for (volatile float& value : stack)
@@ -40,7 +42,7 @@ TEST(EmbreeTracer, LanesWithoutRaysDoNotMatter) {
     std::vector<float> vector(4);
     for (const int rays : {1, 3, 17})
         for (std::uint32_t receiver = 0; receiver < 50; ++receiver) {
-            litter(); // Embree, where it checks rays, ends the program at those of lanes that have none
+            litter(); // if Embree checks rays, it aborts at invalid rays of inactive lanes
             tracer.trace(receivers, std::span(&receiver, 1), {.order = 2, .rays = rays, .hit_stride = 2},
                          vector, [](std::size_t, std::span<const Hit>) {});
             EXPECT_TRUE(std::isfinite(vector[0]));

@@ -1,4 +1,4 @@
-// Our hierarchy of triangles: what it must hold, and in which numbers.
+// Tests our bounding volume hierarchy: its contents and their number formats.
 
 #include "trace/gpu/wide_bvh.h"
 
@@ -12,7 +12,7 @@
 namespace prt {
 namespace {
 
-/// So many small triangles, in the plane z = 0 where `depth` is 0.
+/// Small triangles at random positions, in the plane z = 0 if `depth` is 0.
 struct ScatteredTriangles {
     std::vector<glm::vec3> positions;
     std::vector<glm::uvec3> corners;
@@ -64,7 +64,7 @@ TEST(WideBvh, HoldsEveryTriangleOnceInsideItsBoxes) {
                                        high = static_cast<float>(byte_of(node.high[axis], slot));
                             const float value =
                                 mesh.positions[mesh.corners[t][corner]][static_cast<int>(axis)];
-                            EXPECT_TRUE(std::isnormal(step)); // GPUs take smaller numbers for 0
+                            EXPECT_TRUE(std::isnormal(step)); // GPUs flush smaller numbers to 0
                             EXPECT_LE(origin + low * step, value);
                             EXPECT_GE(origin + high * step, value);
                         }

@@ -1,3 +1,5 @@
+// Tests bounces against closed forms and brute force.
+
 #include "available_memory.h"
 #include "prt/bake.h"
 #include "prt/gltf.h"
@@ -40,7 +42,7 @@ std::vector<glm::vec3> under_uniform_light(const Transfer& transfer) {
 
 struct Bowl {
     Scene scene;
-    double share; ///< of the sphere that is wall
+    double share; ///< fraction of the sphere that is wall
 };
 
 Bowl make_bowl(double albedo) {
@@ -79,12 +81,12 @@ TEST(SphericalBowl, BouncesAreAGeometricSeries) {
 TEST(SphericalBowl, EndlessBouncesStopByThemselvesWhereLittleRemains) {
     const BakeResult result = bake_bounces(make_bowl(0.8).scene, kEndlessBounces, 256);
     EXPECT_LT(result.statistics.remaining_energy, 1e-5);
-    // Bounce by bounce it takes 0.8 · 0.854 to the power n below 1e-5: 31 of them.
+    // Iterating bounces takes 31 steps until 0.8 · 0.854 to the power n is below 1e-5.
     EXPECT_LT(result.baked.record.bounces, 25);
 }
 
-/// One side of a box about `middle`, seen along `axis` (0..5: +x, -x, ...), of cells x cells quads whose
-/// fronts look inwards; a square hole of half side `hole` in its middle.
+/// Adds one side of a box about `middle`, seen along `axis` (0..5: +x, -x, ...), of cells x cells quads whose
+/// fronts face inwards, with a square hole of half side `hole` in its middle.
 void add_side(SceneBuilder& builder, const glm::vec3& middle, int axis, int cells, float hole) {
     glm::vec3 out(0), u(0), v(0);
     out[axis / 2] = axis % 2 == 0 ? 1.0f : -1.0f;
@@ -130,7 +132,7 @@ TEST_P(PinHole, LeavesAWhiteRoomAsBrightAsTheSky) {
 }
 
 TEST(SphericalBowl, EveryBandIsGatheredAlike) {
-    // From the first bounce on the transfer is the same everywhere: the mean of the direct one.
+    // From the first bounce on the transfer is equal everywhere: the mean of the direct one.
     const Bowl bowl = make_bowl(1);
     const Transfer direct = bake_bounces(bowl.scene, 0, 4096).baked.transfer;
     const Transfer once = as_whole(bake_bounces(bowl.scene, 1, 4096).baked.transfer);
@@ -152,8 +154,9 @@ TEST(SphericalBowl, EveryBandIsGatheredAlike) {
     }
 }
 
-/// Share of the hemisphere above a point, weighted by the cosine, that a parallel disc takes: the disc has
-/// `radius`, lies `height` above, its axis `offset` aside (the view factor of an element to a parallel disc).
+/// Returns the cosine-weighted fraction of the hemisphere above a point that a parallel disc covers: the disc
+/// has `radius`, height `height` above the point, and its axis at distance `offset` (the view factor of an
+/// element to a parallel disc).
 double disc_factor(double height, double radius, double offset) {
     if (offset < 1e-9)
         return radius * radius / (radius * radius + height * height);
@@ -219,7 +222,7 @@ TEST(WhiteFurnace, IsExactlyOneWhateverTheGeometry) {
     EXPECT_GT(looked_at, 1000);
 }
 
-// Brute force by another method: random walks against every triangle, in double precision.
+// Brute force by an independent method: random walks against every triangle, in double precision.
 class BouncedPaths {
 public:
     explicit BouncedPaths(const Scene& scene) {
@@ -231,7 +234,8 @@ public:
             }
     }
 
-    /// Exit radiance of a receiver of albedo 1 under uniform light, of at most `bounces` bounces.
+    /// Returns the exit radiance of a receiver of albedo 1 under uniform light, with at most `bounces`
+    /// bounces.
     glm::dvec3 radiance(glm::dvec3 position, glm::dvec3 normal, int bounces, int paths) {
         glm::dvec3 sum(0);
         for (int i = 0; i < paths; ++i)
@@ -302,7 +306,7 @@ TEST(ColorBleeding, OfAWallOntoAFloorIsThatOfPathTracing) {
     const glm::vec3 x(2 * h, 0, 0), y(0, 2 * h, 0), z(0, 0, 2 * h), corner(-h, 0, -h);
     const Scene scene =
         test::join({test::painted(fine(corner, z, x), white), test::painted(fine(corner, y, z), red)});
-    // The same geometry with two triangles each for the path tracer, which tries all.
+    // The same geometry with two triangles per side for the path tracer, which tests all triangles.
     const auto coarse = [](const glm::vec3& c, const glm::vec3& u, const glm::vec3& v) {
         return SceneBuilder().quad(c, c + u, c + u + v, c + v).build();
     };
@@ -324,7 +328,7 @@ TEST(ColorBleeding, OfAWallOntoAFloorIsThatOfPathTracing) {
         ++compared;
     }
     EXPECT_GE(compared, 8);
-    const glm::vec3 near = radiance[6 * 24 * 2]; // beside the wall, in the middle of the floor's edge
+    const glm::vec3 near = radiance[6 * 24 * 2]; // next to the wall, in the middle of the floor's edge
     EXPECT_GT(near.r, near.b + 0.02f);
 }
 
@@ -349,7 +353,8 @@ TEST(Bounces, AreTheSameToTheByteForAnyNumberOfThreads) {
 }
 
 TEST(Bounces, OfAFileWithAlbedosAboveOneEndAtOne) {
-    // Nearly closed, white by the clamp: under uniform light 1 what leaves is 1, however often it bounces.
+    // Nearly closed, and white by the clamp: under uniform light 1 the exit radiance is 1 for any number of
+    // bounces.
     const Scene bowl = SceneBuilder().bowl({0, 0, 0}, 1, 8, 2).build();
     test::GlbFile file = test::scene_file(bowl);
     auto& primitive = file.json["meshes"][0]["primitives"][0];
@@ -376,7 +381,7 @@ TEST(Bounces, AreLeftOutWhereNothingScatters) {
     EXPECT_EQ(result.baked.record.bounces, 0);
     ASSERT_FALSE(result.statistics.notices.empty());
     EXPECT_NE(result.statistics.notices[0].find("black"), std::string::npos);
-    // Nothing to see: a single floor.
+    // No bounces: a single floor.
     const BakeResult floor = bake_bounces(SceneBuilder().floor({0, 0, 0}, 1).build(), 3, 64);
     EXPECT_EQ(floor.baked.record.bounces, 0);
     EXPECT_EQ(floor.statistics.gather.entries, 0u);
@@ -425,7 +430,7 @@ TEST(Memory, OfBouncesIsWhatRaysReallyMeet) {
     options.rays = 2048;
     options.bounces = 1;
     options.tracer.backend = Backend::cpu;
-    options.memory.limit = 50e6; // as much as 9 600 · 2 048 entries would be, a third of them
+    options.memory.limit = 50e6; // a third of the memory for 9 600 · 2 048 entries
     EXPECT_NO_THROW(bake(scene, options));
 }
 
@@ -442,7 +447,7 @@ TEST(Memory, OfAContainerIsItsLeastLimit) {
     write("membership", "0::/farm/job\n");
     write("mounted/farm/job/memory.max", "max\n");
     EXPECT_TRUE(std::isinf(limit()));
-    write("mounted/farm/memory.max", "8000000000\n"); // of the group above
+    write("mounted/farm/memory.max", "8000000000\n"); // limit of the parent group
     EXPECT_EQ(limit(), 8e9);
     write("mounted/farm/job/memory.max", "2000000000\n");
     EXPECT_EQ(limit(), 2e9);

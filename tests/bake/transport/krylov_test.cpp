@@ -1,4 +1,4 @@
-// The solver of endless bounces on operators whose solutions are known.
+// Tests the solver of infinite bounces with operators whose solutions are known.
 
 #include "transport/krylov.h"
 
@@ -40,7 +40,7 @@ std::vector<float> right_side() {
 }
 
 TEST(Krylov, IsExactWhereOneStepSolvesAColumn) {
-    // Light that never comes back, that nearly always does, and darkness beside them.
+    // Light that is fully absorbed, light that is almost fully reflected, and darkness.
     for (const std::vector<float>& factors :
          {std::vector<float>{0, 0, 0}, {1e-9F, 0.5F, 0}, {0, 0.99F, 1e-6F}}) {
         std::vector<float> x = right_side();
@@ -56,8 +56,8 @@ TEST(Krylov, IsExactWhereOneStepSolvesAColumn) {
 }
 
 TEST(Krylov, StopsWhereOnlyRoundingErrorsAreLeftOfADirection) {
-    // Elements that are all equal all round the same way: a column is longer or shorter than 1 by up to an
-    // epsilon, and what is left beside itself is itself.
+    // All elements are equal and are permuted cyclically: the norm of a column differs from 1 by up to an
+    // epsilon, and its residual is parallel to itself.
     for (std::size_t rows = 1; rows < 200; ++rows) {
         std::vector<float> x(rows * kColumns, 1.0F);
         solve_fixed_point(scaled({0, 0, 0}, false), x, {.columns = kColumns, .check = {}});

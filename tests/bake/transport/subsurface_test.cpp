@@ -1,3 +1,5 @@
+// Tests dipole diffusion and media.
+
 #include "prt/bake.h"
 #include "prt/light.h"
 #include "prt/subsurface.h"
@@ -34,7 +36,7 @@ TEST(Dipole, IntegratesToItsClosedForm) {
             EXPECT_NEAR(dipole.total(), dipole.inside(std::numeric_limits<double>::infinity()), 1e-12);
             EXPECT_LE(dipole.total(), 1);
         }
-    // Nothing absorbed: everything comes back.
+    // Without absorption all light returns.
     EXPECT_NEAR(Dipole(1000, 0, 1.3).total(), 1, 1e-12);
 }
 
@@ -159,7 +161,8 @@ TEST(Diffusion, OfAShadowsEdgeIsTheIntegralOfTheDipole) {
         const glm::vec3& p = receivers.positions[i];
         if (std::abs(p.z) > 0.2f || std::abs(p.x) > 0.2f)
             continue;
-        // Light from the half plane at signed distance x: of the ring of radius r, the share beyond the edge.
+        // Light from the half plane at signed distance x: the fraction of the ring of radius r beyond the
+        // edge.
         double expected = 0;
         constexpr int kSteps = 4000;
         constexpr double kFar = 0.8;
@@ -170,8 +173,9 @@ TEST(Diffusion, OfAShadowsEdgeIsTheIntegralOfTheDipole) {
                 r <= std::abs(x) ? (x > 0 ? 1 : 0) : 1 - std::acos(std::clamp(x / r, -1.0, 1.0)) / pi;
             expected += lit * dipole.reflectance(r) * 2 * pi * r * kFar / kSteps / dipole.total();
         }
-        // On the mesh the edge is a ramp, of 1/64 and a shaken place: that blurs and shifts a response which
-        // rises by about 0.3 over the depth of 0.03, so by less than 0.08 at the edge, and less beyond.
+        // On the mesh the edge is a ramp of 1/64 at a jittered position: this blurs and shifts a response
+        // that rises by about 0.3 over the depth of 0.03, so by less than 0.08 at the edge, and by less
+        // farther away.
         EXPECT_NEAR(static_cast<double>(values[i]), expected, std::abs(x) < 0.035 ? 0.08 : 0.04) << p.x;
     }
 }
@@ -211,7 +215,7 @@ TEST(Diffusion, OverASpeckIsItsAreaTimesTheMiddleOfTheDipole) {
 }
 
 TEST(Diffusion, FromAfarIsTheSumOverTrianglesByTheirArea) {
-    // A dark triangle, and two beyond it, so near each other that they stand as one.
+    // A dark triangle, and two distant ones, so near each other that they are merged.
     Plane scattered;
     const auto add = [&](float x, float leg) {
         const auto first = static_cast<unsigned>(scattered.receivers.size());
@@ -263,7 +267,7 @@ TEST(Subsurface, BlursShadowsAndKeepsTheirLight) {
     EXPECT_LT(darkest_soft, 0.95f); // the shadow is still there
     // A vertex in the corner of the floor has a quarter of a plane round it, to which light spreads.
     EXPECT_NEAR(soft[0].x, sharp[0].x / 4, 0.01f);
-    EXPECT_NEAR(soft_mean, sharp_mean, 0.1 * sharp_mean); // but for what leaves over the floor's edge
+    EXPECT_NEAR(soft_mean, sharp_mean, 0.1 * sharp_mean); // except for light lost over the floor's edge
 }
 
 TEST(Subsurface, OfBodiesSideBySideIsThatOfEachAlone) {
@@ -284,7 +288,7 @@ TEST(Subsurface, OfBodiesSideBySideIsThatOfEachAlone) {
         EXPECT_NEAR(both[i], expected[i], 1e-6f) << i;
 }
 
-/// A triangle that is filled with a medium of those coefficients in red, and of 2000/m in green and blue.
+/// Bakes a triangle filled with a medium with these coefficients in red, and with 2000/m in green and blue.
 Transfer bake_medium(double scattering, double absorption) {
     BakeOptions options;
     options.order = 2;

@@ -1,4 +1,4 @@
-// Unwrapped surfaces: every place has one of its own.
+// Tests unwrapping: every surface point gets a unique coordinate.
 
 #include "prt/unwrap.h"
 
@@ -20,7 +20,7 @@ namespace {
 
 using test::SceneBuilder;
 
-/// The scene with the coordinates that unwrapping gives, as its only set.
+/// Returns the scene with the coordinates of the unwrapping as its only set.
 Scene with(const Scene& scene, const Unwrapping& unwrapping) {
     Scene result = scene;
     result.vertex_arrays.clear();
@@ -54,7 +54,7 @@ Scene helix() {
     for (int i = 0; i < kSteps; ++i)
         builder.quad(at(i, 1), at(i, 2), at(i + 1, 2), at(i + 1, 1));
     Scene scene = builder.build();
-    // One sheet: neighbours have the same normal where they touch.
+    // One sheet: adjacent triangles have equal normals where they touch.
     for (glm::vec3& n : scene.vertex_arrays[0].normals)
         n = {0, 1, 0};
     return scene;
@@ -146,11 +146,11 @@ TEST_P(Unwrapped, SurfacesHavePlacesOfTheirOwn) {
     const std::vector<ChartTriangle> charts = chart_triangles(after, atlas);
     EXPECT_EQ(sample_texels(charts, atlas).overlapping, 0);
     for (const VertexArray& vertices : after.vertex_arrays)
-        for (const glm::vec2& uv : vertices.texcoords[0]) { // two texels at least to the border
+        for (const glm::vec2& uv : vertices.texcoords[0]) { // at least two texels from the border
             EXPECT_GE(std::min(uv.x, uv.y), 2.0f / kSize);
             EXPECT_LE(std::max(uv.x, uv.y), 1 - 2.0f / kSize);
         }
-    // Triangles are what they were, and projections shrink none to less than 0.3.
+    // Triangles are unchanged, and projections shrink none to less than 0.3.
     const double density = unwrapping.texels_per_metre * unwrapping.texels_per_metre;
     std::size_t chart = 0;
     for (std::size_t p = 0; p < before.primitives.size(); ++p) {
@@ -178,7 +178,7 @@ TEST(Unwrap, MakesTexturesAsFineAsAsked) {
     EXPECT_DOUBLE_EQ(unwrapping.texels_per_metre, 32);
     EXPECT_GE(unwrapping.atlases.at(0).width, 64 + 5);
     EXPECT_LE(unwrapping.atlases[0].width, 80);
-    EXPECT_EQ(unwrapping.primitives[0].source.size(), floor.vertex_arrays[0].size()); // none is split
+    EXPECT_EQ(unwrapping.primitives[0].source.size(), floor.vertex_arrays[0].size()); // no vertex is split
     EXPECT_THROW(unwrap(floor, {.per_metre = 1e5}), Error);
     EXPECT_THROW(unwrap(crumpled(1), {.size = 8}), Error);
 }

@@ -84,8 +84,9 @@ double half_product(std::size_t o, std::size_t i) {
 }
 
 TEST(VolumeBake, OverABlackFloorIsHalfOfTheIdentity) {
-    // Hits are shares of triangles: floats tell places of the floor apart by a few millionths of its size.
-    // Processors round them otherwise, which a centimetre above 10 km of floor was 12 % of a direction.
+    // Hits are barycentric coordinates: floats resolve positions on the floor to a few millionths of its
+    // size. Processors round them differently, which was 12 % of a direction a centimetre above 10 km of
+    // floor.
     const Scene scene = test::painted(SceneBuilder().floor({0, 0, 0}, 1e3f).build(), glm::vec3(0));
     const std::vector<glm::vec3> places = {{0, 0.5f, 0}, {1, 0.01f, 2}, {-3, 2, 1}};
     const PlacedLight light = bake_places(scene, places, 3, rays(6 * 4096));
@@ -111,11 +112,11 @@ TEST(VolumeBake, OfAWhiteFurnaceIsOneEverywhere) {
         const double expected = r % 9 == 0 ? std::sqrt(4 * std::numbers::pi) : 0;
         error = std::max(error, std::abs(static_cast<double>(light[r].x) - expected));
     }
-    EXPECT_LT(error, 0.08); // of 3.54: rays are as even over the sphere as 1 536 are
+    EXPECT_LT(error, 0.08); // out of 3.54: rays are as even over the sphere as 1 536 are
 }
 
 TEST(VolumeBake, LightDoesNotComeThroughAThinWall) {
-    // A room that is open to the sky, and beside it one that is shut, with one sheet between them.
+    // A room that is open to the sky, and next to it a closed one, with one sheet between them.
     SceneBuilder lit, dark;
     add_box(lit, {-2, -1, -1}, {0, 1, 1}, 4, 3);
     add_box(dark, {0, -1, -1}, {2, 1, 1}, 4);
@@ -157,7 +158,7 @@ TEST(VolumeBake, AFitErrsLessBetweenProbes) {
     const auto error = [&](double fit) {
         VolumeOptions volume = probes(0.7, {{-2, -1, -1}, {2, 1, 1}});
         volume.fit_points = fit;
-        const VolumeBake bake = bake_volume(scene, volume, rays(6 * 1024, 2)); // noise is not asked
+        const VolumeBake bake = bake_volume(scene, volume, rays(6 * 1024, 2)); // noise is not tested
         const VolumeLookup lookup(bake.volume.grid, bake.volume.sights);
         const Transfer& t = bake.volume.baked.transfer;
         double sum = 0;

@@ -1,4 +1,4 @@
-// Light of a sky in closed rooms: none, whatever the walls, the spacing and the place of the grid.
+// Tests that no sky light enters closed rooms, for all walls, spacings and positions of the grid.
 
 #include "prt/sh.h"
 #include "prt/transfer.h"
@@ -42,7 +42,7 @@ struct Leak {
     double mean = 0, largest = 0;
 };
 
-/// Light in a closed room of 3 x 2.4 x 3.4 m relative to that of the sky, of which none comes in.
+/// Returns the light in a closed room of 3 x 2.4 x 3.4 m relative to that of the sky; no sky light enters it.
 Leak leak_into_room(float wall, float spacing, bool double_sided, const glm::vec3& shift) {
     const glm::vec3 low(-1.5f, -1.2f, -1.7f), high = -low;
     Scene scene = box(low, high, true);
@@ -77,8 +77,8 @@ Leak leak_into_room(float wall, float spacing, bool double_sided, const glm::vec
     return leak;
 }
 
-/// Distances that a probe sees whose rays are even over the sphere, in front of the plane normal·x = offset.
-/// `limit`: of the plane, how far it reaches from its middle.
+/// Returns the visibility distances of a probe with evenly distributed rays in front of the plane normal·x =
+/// offset. `limit` is the extent of the plane from its middle.
 std::array<float, 6> distances_before(const glm::vec3& normal, float offset, float limit) {
     constexpr int kRays = 20000;
     SightVotes votes;
@@ -130,7 +130,7 @@ TEST(SightVotes, PassPoles) {
     EXPECT_NEAR(distances_before({1, 0, 0}, 0.5f, 0.4f)[1], 0.5f, 1e-5f);
 }
 
-/// The worst of some places of the grid.
+/// Returns the worst leak over some positions of the grid.
 Leak worst_leak(float wall, float spacing, bool double_sided) {
     Leak worst;
     for (const glm::vec3& shift :

@@ -1,4 +1,4 @@
-// Codes for given clusters and clusters for given codes, in turn.
+// Tests alternating optimisation: codes for given clusters, and clusters for given codes.
 
 #include "clusters/clustering.h"
 #include "coding/refit.h"
@@ -12,7 +12,8 @@
 namespace prt {
 namespace {
 
-/// A spectrum like that of transfer, without structure: clusters of some members and many components.
+/// Returns transfer with a spectrum like that of real transfer, without structure: clusters with few members
+/// and many components.
 Transfer falling_spectrum(std::size_t receivers, unsigned seed) {
     Transfer t = zero_transfer(4, 1, receivers);
     std::mt19937 random(seed);
@@ -31,7 +32,8 @@ TEST(Alternation, NeverLosesWhatARoundHasFound) {
         const Frame frame = fit_frame(transfer, significance, plain_metric(layout_of_one(4, 1)), 0, 1);
         const PointBlocks points(transfer, frame, {}, 1);
         ClusteringOptions how;
-        how.clusters = kReceivers / 9; // as many members as least squares has unknowns, or fewer
+        // the number of members is at most the number of unknowns of least squares
+        how.clusters = kReceivers / 9;
         how.spending.most_components = 16;
         how.spending.bits = 33;
         std::mt19937_64 random(seed);

@@ -1,4 +1,4 @@
-// The course of clustered PCA, on points whose clusters are known.
+// Tests clustered PCA on points whose clusters are known.
 
 #include "clusters/clustering.h"
 #include "metric/frame.h"
@@ -32,7 +32,7 @@ Transfer crossing_subspaces(std::size_t subspaces, unsigned seed) {
     return t;
 }
 
-/// A cluster for each subspace, with as many components as it has dimensions, leaves nothing.
+/// True if one cluster per subspace, with a component per dimension, has no residual.
 bool finds_subspaces(unsigned seed, const ClusteringSchedule& schedule) {
     const Transfer t = crossing_subspaces(3, seed);
     const std::vector<float> significance(t.receivers(), 1.0f / static_cast<float>(t.receivers()));

@@ -21,13 +21,14 @@ double cell_error(double begin, double step) {
     return step * (5 * off * off * density(middle - off) + 5 * off * off * density(middle + off)) / 18;
 }
 
-/// The same from `begin` to infinity, in closed form.
+/// Returns the mean squared error from `begin` to infinity, in closed form.
 double tail_error(double begin, double y) {
     const double beyond = 0.5 * std::erfc(begin / std::numbers::sqrt2);
     return (1 + y * y) * beyond + (begin - 2 * y) * density(begin);
 }
 
-/// Mean squared error of a Gaussian of variance 1 through 2^bits levels `step` apart, by quadrature.
+/// Returns the mean squared error of a Gaussian of variance 1 quantised to 2^bits levels with spacing `step`,
+/// by quadrature.
 double quantiser_error(int bits, double step) {
     const int half = 1 << (bits - 1);
     double error = tail_error((half - 1) * step, (half - 0.5) * step);

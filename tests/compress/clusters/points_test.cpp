@@ -1,4 +1,4 @@
-// Points in blocks: as floats, and rounded to 16 bits.
+// Tests blocks of points: as floats, and rounded to 16 bits.
 
 #include "clusters/points.h"
 

@@ -1,4 +1,4 @@
-// Weights in as many bits as their grids have: nothing is lost, and nobody else is touched.
+// Tests packing of weights with the bits of their grids: it is lossless, and does not change other weights.
 
 #include "coding/code_weights.h"
 
@@ -9,7 +9,7 @@
 namespace prt {
 namespace {
 
-/// Clusters of 0 to `most` components on grids that `grid(random)` gives.
+/// Returns clusters with 0 to `most` components on grids returned by `grid(random)`.
 template <class Grid>
 QuantisedClusters some_clusters(std::size_t most, std::mt19937& random, Grid&& grid) {
     QuantisedClusters clusters{AffineClusters(most + 1, 1, most), {}};

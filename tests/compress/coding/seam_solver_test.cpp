@@ -14,7 +14,8 @@ namespace {
 
 constexpr std::size_t kDimension = 4, kClusters = 4;
 
-/// Receivers in a chain, each fourth with an edge to the one four further on, whose clusters take turns.
+/// Receivers in a chain, with an edge from every fourth to the fourth next; clusters alternate along the
+/// chain.
 struct SmallMesh {
     PointBlocks points;
     std::vector<float> significance;
@@ -23,7 +24,8 @@ struct SmallMesh {
     QuantisedClusters clusters;
     Codes codes;
 
-    /// Means of clusters are `apart`; rows of one are orthogonal, and lean against those of the others.
+    /// Creates clusters with a distance of `apart` between means; rows of one cluster are orthogonal, and
+    /// oblique to those of the others.
     SmallMesh(std::size_t count, std::size_t components, float apart, const WeightGrid& grid)
         : clusters{AffineClusters(kClusters, kDimension, components), {}} {
         std::mt19937 random(3);
@@ -97,7 +99,7 @@ struct SmallMesh {
     }
 };
 
-/// The least that weights can make of eq. 28 in the clusters that receivers have: a dense least-squares
+/// Returns the minimum of eq. 28 over the weights, with the receivers' clusters fixed: a dense least-squares
 /// problem.
 double least_energy(const SmallMesh& mesh, double seam_price) {
     const std::size_t components = mesh.clusters.max_components;
@@ -126,8 +128,8 @@ double least_energy(const SmallMesh& mesh, double seam_price) {
 }
 
 TEST(SeamSolver, WeightsThatMayBeAnyReachTheLeastOfTheSum) {
-    // Means so far apart that all keep their cluster. Sweeps over the receivers alone would be slow: the
-    // price binds neighbours together.
+    // Means are so far from each other that all receivers keep their cluster. Sweeps over single receivers
+    // would converge slowly, because the seam weight couples neighbours.
     for (const std::size_t components : {1u, 2u}) {
         SmallMesh mesh(12, components, 100, WeightGrid::any());
         constexpr double kPrice = 50;
@@ -166,8 +168,8 @@ TEST(SeamSolver, NoReceiverAloneFindsACheaperCodeAfterwards) {
 }
 
 TEST(SeamSolver, StretchesReachWhatAllTogetherDo) {
-    // Weights that may be any: all together reach the least, which a stretch beside others that stay misses
-    // by what binds it to them.
+    // Continuous weights: solving all receivers together reaches the minimum; a stretch with fixed neighbours
+    // misses it because of the coupling to them.
     constexpr double kPrice = 2;
     SmallMesh together(400, 2, 100, WeightGrid::any());
     const double start = together.energy(together.codes, kPrice);
@@ -183,7 +185,7 @@ TEST(SeamSolver, StretchesReachWhatAllTogetherDo) {
 }
 
 TEST(SeamSolver, AReceiverStaysWhereNoOtherClusterIsCheaper) {
-    // Clusters are all the same, and nothing but a mean.
+    // All clusters are equal and have only a mean.
     SmallMesh mesh(12, 0, 0, WeightGrid::any());
     const std::vector<std::uint32_t> before = mesh.codes.clusters;
     smooth_seams(mesh.points, mesh.significance, mesh.edges, {}, mesh.clusters, {.seam_price = 1},

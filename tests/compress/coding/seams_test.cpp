@@ -1,3 +1,5 @@
+// Tests seams between clusters and between charts.
+
 #include "prt/compress.h"
 #include "prt/error_measures.h"
 #include "prt/support/error.h"
@@ -9,7 +11,7 @@
 namespace prt {
 namespace {
 
-/// A grid whose transfer turns smoothly: clusters are patches, and every patch has borders.
+/// A grid whose transfer rotates smoothly: clusters are patches, and every patch has borders.
 struct Grid {
     static constexpr std::uint32_t kSize = 60;
     Transfer transfer = zero_transfer(3, 1, kSize* kSize);
@@ -86,7 +88,7 @@ TEST_P(Seams, SmoothingKeepsTheMeanNumberOfComponents) {
     EXPECT_GT(result.statistics.mean_components, 1.2);
 }
 
-/// Two charts side by side that show one place, half a texel apart.
+/// Two adjacent charts that show one position, with an offset of half a texel.
 struct TwoCharts : Grid {
     static constexpr std::uint32_t kWidth = kSize / 2;
     std::vector<SeamJump> jumps;

@@ -1,3 +1,5 @@
+// Tests errors over all rotations of a light.
+
 #include "prt/error_moments.h"
 
 #include "prt/error_measures.h"
@@ -93,7 +95,7 @@ TEST_P(OfLayouts, MomentsDoNotDependOnThreads) {
     EXPECT_EQ(one.references, three.references);
 }
 
-/// Lamps stay where they are while the sky turns.
+/// Lamps keep their direction while the sky rotates.
 TEST_P(OfLayouts, NoTurnIsWorseThanTheWorstAndItIsFound) {
     Case c(GetParam());
     const Lighting lighting = c.lighting();
@@ -109,12 +111,12 @@ TEST_P(OfLayouts, NoTurnIsWorseThanTheWorstAndItIsFound) {
     for (int degree = 0; degree < 720; ++degree)
         worst = std::max(worst, lit_rms(moments, at(degree * M_PI / 360)));
     EXPECT_GT(found.worst, worst * (1 - 1e-6));
-    EXPECT_LT(found.worst, worst * (1 + 1e-4)); // half a degree away from the top at most
+    EXPECT_LT(found.worst, worst * (1 + 1e-4)); // at most half a degree from the maximum
     EXPECT_NEAR(c.measured(at(found.worst_angle)), found.worst, 1e-5 * found.worst);
 }
 
-/// A receiver that sees band 1 along X alone is dark where the light comes along Z. In space, the mean square
-/// of a coefficient of band 1 is a third of its power.
+/// A receiver that sees only band 1 along X is dark if light comes along Z. In space, the mean square of a
+/// coefficient of band 1 is a third of its power.
 TEST(ErrorMomentsOverTurns, CompareWithATenthOfTheMeanOverAllRotationsInTheDark) {
     const TransferLayout layout = layout_of_one(2, 1);
     Transfer reference = zero_transfer(layout, 1), approximation = reference;
@@ -130,7 +132,7 @@ TEST(ErrorMomentsOverTurns, CompareWithATenthOfTheMeanOverAllRotationsInTheDark)
     EXPECT_NEAR(found.mean, 0.005 / std::sqrt(4.0 / 2), 1e-6);
 }
 
-/// Light of bands that transfer does not have: there is nothing to compare with but float's rounding.
+/// Light in bands that transfer does not have: errors are relative to float rounding only.
 TEST(ErrorMomentsOverTurns, AreFiniteWhereTransferHasOtherBandsThanTheLight) {
     const TransferLayout layout = layout_of_one(2, 1);
     Transfer reference = zero_transfer(layout, 1), approximation = reference;

@@ -1,3 +1,5 @@
+// Tests jumps of contrast between neighbouring receivers.
+
 #include "prt/jumps.h"
 
 #include "prt/support/error.h"
@@ -9,8 +11,8 @@
 namespace prt {
 namespace {
 
-/// A hundred pairs of receivers of transfer 1; the second of pair i errs by i thousandths. All are alike, so
-/// that eyes adapt to a tenth of their light, and contrast is the error over 1.1.
+/// A hundred pairs of receivers of transfer 1; the second receiver of pair i has an error of i thousandths.
+/// All are equal, so eyes adapt to a tenth of their light, and contrast is the error over 1.1.
 struct Pairs {
     static constexpr std::uint32_t kCount = 100;
     Transfer reference = zero_transfer(1, 1, 2 * kCount), approximation = reference;
@@ -54,7 +56,7 @@ TEST(Jumps, InsideClustersAndOfWhatBothEndsShareDoNotCount) {
     EXPECT_EQ(pairs.jump(), 0);
 }
 
-/// Pairs whose errors are along X: light from X lights the error, and lowers the mean where it is turned
+/// Pairs whose errors are along X: light from X increases the error, and reduces the mean when it is rotated
 /// away.
 TEST(Jumps, UnderSkiesAreThoseOfTheWorstSkyAtItsWorstRotation) {
     Pairs pairs;
@@ -84,7 +86,7 @@ TEST(Jumps, UnderSkiesAreThoseOfTheWorstSkyAtItsWorstRotation) {
     EXPECT_EQ(jump({light(0, 0)}), 0); // dark
 }
 
-/// The same error beside less light: the 99th percentile is the pair of the dark receivers.
+/// With an equal error at less light, the 99th percentile is the pair of dark receivers.
 TEST(Jumps, CountAgainstTheLightOfTheirReceivers) {
     Pairs pairs;
     for (const std::uint32_t p : {100u, 101u, 102u, 103u}) // errors of 0.050 and 0.051

@@ -1,3 +1,5 @@
+// Tests the light families of the metric.
+
 #include "metric/light_family.h"
 
 #include "prt/error_measures.h"
@@ -40,7 +42,7 @@ std::vector<double> random_vector(const TransferLayout& layout) {
     return vector;
 }
 
-/// What an error costs, before and after each run of coefficients in it is rotated.
+/// Returns the cost of an error after rotating each run of its coefficients.
 double cost(const LightMetric& metric, const std::vector<double>& error, const glm::dmat3& rotation) {
     const auto size = static_cast<std::size_t>(coefficient_count(metric.layout.order));
     const ShRotation rotated(metric.layout.order, rotation);
@@ -99,8 +101,8 @@ TEST_P(Family, LeavesNoErrorFreeAtAnyOrder) {
         }
 }
 
-/// Every draw is scaled to a mean square of 1 on open receivers, of which the mean over normals only asks for
-/// traces of bands; natural light's hundredth is added.
+/// Every draw is scaled to a mean square of 1 on open receivers; its mean over normals depends only on the
+/// traces of bands. A hundredth of natural light is added.
 TEST_P(UprightFamily, HasAMeanSquareOfOneOnOpenReceivers) {
     const int order = 6;
     const Eigen::MatrixXd moments = matrix_of(metric_of_family(GetParam(), layout_of_one(order, 1)));
@@ -110,7 +112,7 @@ TEST_P(UprightFamily, HasAMeanSquareOfOneOnOpenReceivers) {
     EXPECT_NEAR(sum / (4 * pi), 1, 0.02);
 }
 
-/// Suns apart or not: open receivers have direct light alone.
+/// With separate suns or without: open receivers have only direct light.
 TEST_P(UprightFamily, HasAMeanSquareOfOneOnOpenReceiversInDirectLight) {
     const int order = 6;
     const Eigen::MatrixXd moments =
@@ -122,7 +124,7 @@ TEST_P(UprightFamily, HasAMeanSquareOfOneOnOpenReceiversInDirectLight) {
     EXPECT_GT(moments.bottomRightCorner(36, 36).trace(), 1.2 * moments.topLeftCorner(36, 36).trace());
 }
 
-/// What other parts see beyond direct transfer is suns alone, and a sun has one power in every band.
+/// Terms other than direct transfer additionally see only suns, and a sun has equal power in every band.
 TEST(OutdoorFamily, DiffersBetweenPartsByItsSuns) {
     const int order = 5;
     const Eigen::Index size = coefficient_count(order);
@@ -136,7 +138,7 @@ TEST(OutdoorFamily, DiffersBetweenPartsByItsSuns) {
         EXPECT_NEAR(suns.segment(l * l, 2 * l + 1).mean(), suns[0], 1e-4 * suns[0]); // lights are floats
 }
 
-/// Lightings drawn as the model says: a member, a turn, a texture, suns apart or not.
+/// Lightings drawn from the model: a member, a rotation, a texture, suns separate or not.
 class Draws {
 public:
     Draws(LightFamily family, int order) : model_(family_model(family, order)), order_(order) {
@@ -214,7 +216,7 @@ TEST(StandardSkies, HaveAMeanRadianceOfOne) {
         EXPECT_NEAR(radiance(truncated(lighting.sky, 1), {0, 1, 0}).x, 1, 1e-5f);
 }
 
-/// Sky, sun and ground belong together: what looks down sees a fifth of what falls onto the ground.
+/// Sky, sun and ground are consistent: a receiver facing down sees a fifth of the light on the ground.
 TEST(StandardSkies, ShineOntoTheGroundThatReflectsThem) {
     const auto seen = [](const Light& light, const glm::dvec3& normal) {
         std::array<double, kMaxOrder * kMaxOrder> lobe{};
@@ -227,7 +229,7 @@ TEST(StandardSkies, ShineOntoTheGroundThatReflectsThem) {
     for (const double elevation : {0.1, 0.7, 1.4}) {
         const Lighting day = daylight(kMaxOrder, {.sun_elevation = elevation, .turbidity = 3});
         const Light all = sum(day.sky, *day.suns);
-        // Ten bands leave 1 % of the sun's light on ground that it does not reach.
+        // Ten bands have an error of 1 % of the sun's light on ground facing away from it.
         EXPECT_NEAR(seen(day.sky, {0, -1, 0}) / seen(all, {0, 1, 0}), 0.2, 0.01) << elevation;
     }
     const Light overcast = overcast_day(kMaxOrder).sky;

@@ -1,3 +1,5 @@
+// Tests metrics of lights against brute force.
+
 #include "prt/light_metric.h"
 
 #include "prt/error_measures.h"
@@ -28,7 +30,7 @@ Transfer random_transfer(std::size_t receivers, int order, int channels, unsigne
     return random_transfer(receivers, layout_of_one(order, channels), seed);
 }
 
-/// Squared errors and radiance of all receivers alike, light by light.
+/// Sums of squared errors and of squared radiance with equal weights of receivers, light by light.
 struct LitSums {
     double error = 0, norm = 0;
 
@@ -53,8 +55,8 @@ class Metric : public testing::TestWithParam<int> {}; // channels
 INSTANTIATE_TEST_SUITE_P(Channels, Metric, testing::Values(1, 3));
 
 TEST_P(Metric, OfLightsIsTheMeanOfWhatEachTurnOfEachCosts) {
-    // Against brute force: 360 turns of two lights, each weighed by its energy, and a hundredth of natural
-    // light.
+    // Compares with brute force: 360 rotations of two lights, weighted by their energy, and a hundredth of
+    // natural light.
     const int channels = GetParam(), order = 4;
     std::mt19937 random(7);
     const std::vector<Light> lights = {random_light(order, random), random_light(order + 1, random)};
@@ -132,7 +134,7 @@ TEST(MetricOfParts, OfLightsWithSunsIsTheMeanOfWhatEachTurnOfEachCosts) {
     EXPECT_NEAR(found, sums.rms(), 0.01 * found); // the hundredth of natural light
 }
 
-/// Lamps shine as they are, each by itself, beside any sky.
+/// Each lamp shines separately, in addition to any sky.
 TEST(MetricOfParts, OfLampsIsTheMeanOverTheirStrengths) {
     const TransferLayout layout{
         2, {{PartKind::whole, 1}, {PartKind::lamp, 1, "white"}, {PartKind::lamp, 3, "red"}}};
@@ -213,7 +215,7 @@ TEST(LightMetric, RefusesWhatMakesNoSense) {
 }
 
 TEST(ExpectedLitRms, CountsEveryReceiver) {
-    Transfer reference = zero_transfer(1, 1, 9000); // more than one thread takes at a time
+    Transfer reference = zero_transfer(1, 1, 9000); // more than one thread processes at a time
     std::fill(reference.vectors.begin(), reference.vectors.end(), 1.0f);
     Transfer other = reference;
     for (std::size_t p = 8550; p < 9000; ++p)

@@ -1,3 +1,5 @@
+// Tests the baselines of the study.
+
 #include "prt/baselines.h"
 
 #include "prt/error_measures.h"
@@ -45,7 +47,7 @@ TEST(Baselines, CountsTheWholeWordsThatAGameBinds) {
     EXPECT_EQ(truncated_sh(t, 3).table_bytes, 9 * 4); // tables have no padding
     EXPECT_EQ(classic_cpca(t, areas, {.clusters = 1, .components = 4}).payload_bytes, 4);
     EXPECT_EQ(classic_cpca(t, areas, {.clusters = 8, .components = 3}).payload_bytes,
-              4); // the cluster's byte beside three weights
+              4); // the cluster's byte and three weights
     EXPECT_EQ(classic_cpca(t, areas, {.clusters = 8, .components = 4}).payload_bytes, 8);
     EXPECT_EQ(classic_cpca(t, areas, {.clusters = 300, .components = 0}).payload_bytes,
               4); // two bytes of cluster

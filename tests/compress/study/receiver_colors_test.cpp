@@ -1,3 +1,5 @@
+// Tests colors that show clusters and errors of receivers.
+
 #include "prt/receiver_colors.h"
 
 #include <glm/geometric.hpp>
@@ -70,7 +72,7 @@ TEST(ReceiverColors, OfErrorsAreContrastAtTheAdaptation) {
     const double first = std::sqrt(0.2126 * 0.125 * 0.125 + 0.7152 * 0.25 * 0.25) / (2 + kAdaptation);
     expect_colors(error_colors(mesh.reference, mesh.approximation, mesh.areas),
                   {heat_color(first / kWhiteError), glm::vec3(1), glm::vec3(0), glm::vec3(0)});
-    const std::vector<glm::vec3> dark(4, glm::vec3(0)); // any light is an infinite contrast to none
+    const std::vector<glm::vec3> dark(4, glm::vec3(0)); // any light has an infinite contrast to zero
     expect_colors(error_colors(dark, mesh.approximation, mesh.areas), std::vector(4, glm::vec3(1)));
     expect_colors(error_colors(dark, dark, mesh.areas), dark);
 }

@@ -1,3 +1,5 @@
+// Tests sweeps over compression settings.
+
 #include "prt/sweep.h"
 
 #include <gtest/gtest.h>
@@ -7,7 +9,8 @@
 namespace prt {
 namespace {
 
-/// Transfer that turns over a strip of 500 receivers: two dimensions of it are smooth, the rest small.
+/// Returns transfer that rotates along a strip of 500 receivers: two dimensions of it are smooth, the rest is
+/// small.
 Transfer strip() {
     Transfer t = zero_transfer(2, 1, 500);
     for (std::size_t p = 0; p < t.receivers(); ++p) {
@@ -102,7 +105,8 @@ TEST(Sweep, MeasuresJumpsAlongAllEdgesAlike) {
                                                  [&](const Progress&) {
                                                      return CandidateResult{"", {uneven, 0, 0, 0}};
                                                  }},
-                                                scaled(transfer, "bright", 1.25f)}; // by the same everywhere
+                                                // by an equal factor everywhere
+                                                scaled(transfer, "bright", 1.25f)};
     const Sweep result = sweep(transfer, {areas, edges}, lights, {}, others);
     EXPECT_NEAR(best_by_bytes(result, "uneven", 0)->jumps, 0.25, 1e-6);
     EXPECT_NEAR(best_by_bytes(result, "bright", 3)->jumps, 0, 1e-6);

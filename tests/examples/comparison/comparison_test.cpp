@@ -63,7 +63,7 @@ TEST(Comparison, MeasuresEveryMethodAndWritesItsPage) {
         EXPECT_LT(r.errors[0].flip_mean, 0.3) << r.method;
         EXPECT_TRUE(r.errors[0].flip.empty());
     }
-    // A ball that shades a floor: whatever sees no shadow errs more.
+    // A ball shadows a floor: methods without shadows have larger errors.
     EXPECT_LT(row("PRT, order 6").errors[0].relative_l2, 0.5 * row("unshadowed").errors[0].relative_l2);
     EXPECT_LT(row("PRT, order 6").errors[0].relative_l2, row("PRT, order 3").errors[0].relative_l2);
     // The sun is a texel of 11 degrees, of which order 6 misses the edge of the shadow.

@@ -1,4 +1,4 @@
-// The figure that example_scenes makes: its size, and that its feet stand still on ground that passes.
+// Tests the figure of example_scenes: its size, and that its feet do not slide on the passing ground.
 
 #include "prt/animation.h"
 #include "support/temporary_folder.h"
@@ -14,7 +14,7 @@ namespace prt {
 namespace {
 
 constexpr double kOnGround =
-    0.0015; ///< metres: what is lower bears weight, what leaves the ground is higher a step later
+    0.0015; ///< metres: a lower vertex bears weight; a vertex that leaves the ground is higher one step later
 
 AnimatedScene figure() {
     const test::TemporaryFolder folder;
@@ -70,7 +70,7 @@ TEST(ExampleFigure, ItsFeetDoNotSlideAndItsWalkLoops) {
             if (before[v].y > kOnGround || now[v].y > kOnGround)
                 continue;
             ++bearing;
-            // The ground passes by 5.75 mm; a foot that is rolling turns about what it stands on.
+            // The ground passes by 5.75 mm; a rolling foot rotates about its contact point.
             EXPECT_NEAR(now[v].z - before[v].z, -walk.speed * step, 1e-3) << i;
             EXPECT_NEAR(now[v].x, before[v].x, 1e-3) << i;
         }
@@ -97,7 +97,7 @@ TEST(ExampleFigure, ItsDanceLoopsOnTheGround) {
             lowest = std::min(lowest, now[v].y);
             moved = std::max(moved, glm::distance(now[v], first[v]));
         }
-        EXPECT_NEAR(lowest, 0, 0.01f) << i; // a foot stands at all times
+        EXPECT_NEAR(lowest, 0, 0.01f) << i; // a foot is on the ground at all times
     }
     EXPECT_GT(moved, 0.8f); // hands go from the thighs to above the head
     const std::vector<glm::vec3> last = places_of(scene, *dance, dance->duration - 1e-6);

@@ -1,4 +1,5 @@
-// The forest and the street that example_scenes makes: as many as asked for, of few meshes, on the ground.
+// Tests the forest and the street of example_scenes: the requested number of instances, of few meshes, on the
+// ground.
 
 #include "prt/gltf.h"
 #include "prt/instances_gltf.h"
@@ -43,7 +44,7 @@ TEST(InstancedScenes, ATreeHasSomeSixHundredVertices) {
     const Scene scene = extract_scene(document);
     std::size_t of_trees = 0;
     for (const Primitive& primitive : scene.primitives)
-        if (primitive.mesh > 0) // the meadow comes first
+        if (primitive.mesh > 0) // mesh 0 is the meadow
             of_trees += scene.vertex_arrays[primitive.vertices].size();
     EXPECT_GT(of_trees, 60 * 400u);
     EXPECT_LT(of_trees, 60 * 900u);

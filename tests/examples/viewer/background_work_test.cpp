@@ -37,7 +37,7 @@ TEST(BackgroundWork, PostsWhatItFindsInOrder) {
 }
 
 TEST(BackgroundWork, ThatMakesWayPostsNothingMore) {
-    std::atomic<bool> begun = false; // outlives the work, whose destructor waits for it
+    std::atomic<bool> begun = false; // outlives the work; the work's destructor waits for it
     Work work;
     work.start([&](Work::Channel& channel) {
         for (;;) {
@@ -53,7 +53,7 @@ TEST(BackgroundWork, ThatMakesWayPostsNothingMore) {
 }
 
 TEST(BackgroundWork, ThatIsStoppedPostsNothingMore) {
-    std::atomic<bool> begun = false; // outlives the work, whose destructor waits for it
+    std::atomic<bool> begun = false; // outlives the work; the work's destructor waits for it
     Work work;
     work.start([&](Work::Channel& channel) {
         for (;;) {

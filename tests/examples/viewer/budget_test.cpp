@@ -1,4 +1,4 @@
-// The error over the surface as a picture; what it is measured under.
+// Tests the picture of the error over the surface, and the light of its budget.
 
 #include "core/budget_work.h"
 
@@ -13,13 +13,13 @@
 namespace viewer {
 namespace {
 
-/// A floor and, apart from it, a ball; no two triangles share vertices.
+/// Returns a floor and a separate ball; triangles share no vertices.
 std::shared_ptr<const Model> floor_and_ball() {
     return make_model(prt::test::SceneBuilder().floor({0, -0.5f, 0}, 1, 6).sphere({0, 3, 0}, 0.5f, 6).build(),
                       "ball.glb");
 }
 
-/// The same, but for those that `keep` refuses.
+/// Returns the points for which `keep` is true.
 template <class Keep>
 prt::SurfacePoints kept(const prt::SurfacePoints& points, Keep&& keep) {
     prt::SurfacePoints some;

@@ -40,7 +40,7 @@ TEST(Screen, DirectionsOnASphereMeetThePixel) {
             EXPECT_LT(glm::distance(*back, pixel), 0.05f);
             EXPECT_EQ(glm::dot(d, kScreen.camera.position - center) > 0, !far_side);
         }
-    // Beside the sphere: its outline.
+    // Outside the sphere: its outline.
     const glm::vec3 d = direction_on_sphere(kScreen, {0, 180}, center, 0.8f, false);
     EXPECT_NEAR(glm::length(d), 1, 1e-5f);
 }
@@ -49,7 +49,7 @@ TEST(OrbitCamera, TurnsAboutItsTarget) {
     const prt::Camera before{{3, 2, 4}, {1, 1, 1}, {0, 1, 0}, 0.6f};
     OrbitCamera orbit(before);
     EXPECT_LT(glm::distance(orbit.camera().position, before.position), 1e-5f);
-    orbit.orbit({0.5f, 0}); // half a height: a quarter turn
+    orbit.orbit({0.5f, 0}); // half a height: a quarter rotation
     const glm::vec3 a = before.position - before.target, b = orbit.camera().position - before.target;
     EXPECT_NEAR(glm::length(b), glm::length(a), 1e-5f);
     EXPECT_NEAR(b.x * a.x + b.z * a.z, 0, 1e-4f);
@@ -77,7 +77,7 @@ TEST(Controls, EveryKeyOfTheTableDoesSomething) {
     int calls = 0;
     controls.screenshot = controls.quit = [&] { ++calls; };
     for (const Command& command : commands()) {
-        if (command.key == 0 || command.key == 'R') // without a model there is nothing to look at
+        if (command.key == 0 || command.key == 'R') // without a model there is nothing to see
             continue;
         viewer.dismiss_messages();
         const Settings settings = viewer.settings;
@@ -107,7 +107,7 @@ TEST(Commands, HaveEachKeyAndEachNameOnce) {
     EXPECT_THROW(setting("nothing"), prt::Error);
 }
 
-/// What stands between backticks in `text`.
+/// Returns the words between backticks in `text`.
 std::set<std::string> quoted(const std::string& text) {
     std::set<std::string> words;
     for (std::size_t at = text.find('`'); at != std::string::npos; at = text.find('`', at + 1)) {

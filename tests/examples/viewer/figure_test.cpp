@@ -1,4 +1,4 @@
-// A figure that walks through the scene, and what lights it.
+// Tests a figure that walks through the scene, and its light.
 
 #include "core/ground.h"
 #include "core/viewer.h"
@@ -35,7 +35,7 @@ using prt::test::GlbFile;
 using prt::test::SceneBuilder;
 
 constexpr int kFigureWidth = 160, kFigureHeight = 90;
-constexpr float kBallRadius = 0.4f; ///< of the figure, a ball on the floor
+constexpr float kBallRadius = 0.4f; ///< the figure is a ball on the floor
 
 /// A floor of 6 m, and a wall along its -x side.
 prt::Scene floor_and_wall() {
@@ -45,7 +45,7 @@ prt::Scene floor_and_wall() {
         .build();
 }
 
-/// A grey ball that turns once in a second; `bad` breaks its animation.
+/// Returns a grey ball that rotates once per second; `bad` breaks its animation.
 GlbFile ball_figure(bool bad = false) {
     GlbFile file = prt::test::scene_file(prt::test::painted(
         SceneBuilder().sphere({0, kBallRadius, 0}, kBallRadius, 24).build(), glm::vec3(0.6f)));
@@ -61,8 +61,8 @@ GlbFile ball_figure(bool bad = false) {
     return file;
 }
 
-/// With compressed transfer of bands below `order`, of vertices and in a volume, so that the viewer has
-/// nothing to bake or to compress.
+/// Returns a scene with compressed transfer of this order, at vertices and in a volume, so that the viewer
+/// does not bake or compress.
 std::vector<std::byte> shipped_scene(int order, std::size_t probes, int rays) {
     const std::string bare = prt::test::scene_file(floor_and_wall()).bytes();
     prt::GltfDocument document = prt::parse_gltf(std::as_bytes(std::span(bare)), "scene.glb");
@@ -122,7 +122,7 @@ protected:
     const Moving& moving() const { return viewer->document().moving; }
     /// The middle of the figure in the scene.
     glm::vec3 middle() const { return glm::vec3(moving().pose().node(0) * glm::dvec4(0, kBallRadius, 0, 1)); }
-    /// So near that the ball fills the picture.
+    /// Moves the camera so close that the ball fills the picture.
     void look_at_ball(const glm::vec3& from) {
         viewer->camera = OrbitCamera(
             {.position = middle() + 1.4f * kBallRadius * glm::normalize(from), .target = middle()});
@@ -169,7 +169,7 @@ TEST_F(FigureTest, StandsOnTheFloorWalksAtItsSpeedAndStopsBeforeTheWall) {
         EXPECT_GT(now.x, box.low.x);
         EXPECT_TRUE(now.x < box.high.x && now.z > box.low.z && now.z < box.high.z);
     }
-    EXPECT_GT(way, 10); // 30 m but for turns
+    EXPECT_GT(way, 10); // 30 m, minus rotations
     EXPECT_LT(way, 1.01f * 1.5f * 20);
     viewer->settings.drawing.moving.walks = false;
     viewer->update(1);
@@ -193,8 +193,8 @@ TEST_F(FigureTest, FollowsThePathOfAScriptAtItsSpeed) {
     EXPECT_THROW(viewer->choose_figure({.animation = "dance"}), prt::Error);
 }
 
-// The mean of what a ball sends to the camera under a day with its sun apart, by the volume and by paths:
-// within what issue 21 allows incident light, 8 %. Its pixels differ by noise of the paths, too.
+// Mean radiance of a ball under a day with a separate sun, by the volume and by paths: within the 8 % that
+// issue 21 allows for incident light. Its pixels also differ by noise of the paths.
 TEST_F(FigureTest, IsLitAsPathsLightItWhereItStands) {
     prt::test::glb_of(shipped_scene(6, 3000, 512)).write(folder / "scene.glb");
     open_both();
@@ -225,7 +225,7 @@ TEST_F(FigureTest, ChangesWithTheLightAsTheSceneDoes) {
     look_at_ball({0.4f, 0.3f, 1});
     frame(0);
     const glm::dvec3 morning = mean_of_left();
-    viewer->lights.day = viewer->lights.environment_on = false; // nothing shines
+    viewer->lights.day = viewer->lights.environment_on = false; // there is no light
     frame(0);
     EXPECT_LT(mean_of_left().g, 1e-4 * morning.g);
     viewer->lights.lights.push_back(make_light(LightKind::hemisphere));
@@ -255,8 +255,8 @@ GlbFile ball_with_lobes(std::uint8_t share) {
     return prt::test::glb_of(prt::encode_glb(document));
 }
 
-// Lobes along the normals are what the fragment shader does without any, but for bytes of axes, 0.95 degrees,
-// and light that is interpolated between vertices, 7.5 degrees apart.
+// Lobes along the normals are equal to the fragment shader without lobes, except for axes in bytes, 0.95
+// degrees, and light interpolated between vertices, 7.5 degrees from each other.
 TEST_F(FigureTest, IsLitByItsLobesWhereItHasSome) {
     std::array<glm::dvec3, 3> means;
     for (std::size_t i = 0; i < means.size(); ++i) {
@@ -277,7 +277,7 @@ TEST_F(FigureTest, IsLitByItsLobesWhereItHasSome) {
     EXPECT_NEAR(means[2].g / means[1].g, 102.0 / 255, 0.005);
 }
 
-// Nothing but the figure is in the way of the only sun: in its shadow no light is left.
+// Only the figure blocks the only sun: its shadow is black.
 TEST_F(FigureTest, CastsItsShadowIntoTheMapsOfTheSuns) {
     open_both();
     viewer->settings.drawing.moving.walks = false;
@@ -304,8 +304,7 @@ TEST_F(FigureTest, CastsItsShadowIntoTheMapsOfTheSuns) {
     EXPECT_NEAR(mean_of_left().g, open, 1e-6 * open);
 }
 
-// Under an even sky the floor loses the form factor of the ball that stands on it, all of which is above the
-// horizon.
+// Under a uniform sky the floor loses the form factor of the ball on it, all of which is above the horizon.
 TEST_F(FigureTest, TakesFromTheFloorBesideItWhatItBlocks) {
     open_both();
     viewer->settings.drawing.moving.walks = false;
@@ -325,7 +324,7 @@ TEST_F(FigureTest, TakesFromTheFloorBesideItWhatItBlocks) {
     const double left = mean_of_left().g / without;
     const double distance = std::hypot(kAside, kBallRadius),
                  ratio = static_cast<double>(kBallRadius) / distance;
-    // Texels are 0.25 m apart, and three bands know the hemisphere's light.
+    // Texels have a spacing of 0.25 m, and the light of the hemisphere has three bands.
     EXPECT_NEAR(left, 1 - ratio * ratio * static_cast<double>(kBallRadius) / distance, 0.06);
 }
 

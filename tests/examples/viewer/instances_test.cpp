@@ -1,4 +1,4 @@
-// Instances that share transfer in the viewer, against the same transfer vertex by vertex.
+// Compares instances that share transfer in the viewer with transfer of individual vertices.
 
 #include "gpu/offscreen.h"
 #include "pictures/frame_renderer.h"
@@ -64,7 +64,8 @@ protected:
     std::vector<float> alpha;
 };
 
-/// Relative L2 over all pixels; places differ by the rounding of a matrix, and with them pixels of borders.
+/// Returns the relative L2 difference over all pixels; positions differ by the rounding of a matrix, and so
+/// do pixels at borders.
 double difference(const prt::Image& a, const prt::Image& b) {
     double wrong = 0, all = 1e-30;
     for (std::size_t i = 0; i < a.pixels.size(); ++i) {

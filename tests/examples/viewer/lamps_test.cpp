@@ -1,4 +1,4 @@
-// Lamps and what shines: their strengths in every picture, in the panel's keys and in scripts.
+// Tests lamps and emission: their strengths in every picture, in the panel's keys and in scripts.
 
 #include "core/viewer.h"
 #include "gpu/offscreen.h"
@@ -72,7 +72,7 @@ prt::Scene lit_scene() {
     return scene;
 }
 
-/// A square that shines and reflects nothing, its material without a name.
+/// Returns an emissive square that reflects nothing; its material has no name.
 prt::Scene shining_square(const glm::vec3& radiance) {
     prt::Scene scene = prt::test::painted(SceneBuilder().floor({0, 0, 0}, 1, 8).build(), glm::vec3(0));
     scene.materials[0].emission.radiance = radiance;
@@ -119,7 +119,7 @@ protected:
         renderer->draw(1, kind, *gpu, settings, view, {0, kColumns});
         return renderer->read(1, &alpha);
     }
-    /// What the renderer of `prt render` draws from the same place.
+    /// Returns the picture of the renderer of `prt render` from the same camera.
     prt::Picture picture_of(std::span<const glm::vec3> radiance) const {
         return viewer::picture_of(*model, radiance, view.camera, kColumns, kRows);
     }
@@ -231,7 +231,7 @@ TEST_F(LampPictures, ShowTexturesOfWhatShinesAsTheRendererDoes) {
             ASSERT_LT(largest(glm::abs(image.pixels[i] - expected.pixels[i])), 2e-3f);
             sum += static_cast<double>(glm::abs(image.pixels[i].r / 1.0f - image.pixels[i].g / 1.5f));
         }
-        EXPECT_GT(sum, 100); // colors are apart
+        EXPECT_GT(sum, 100); // colors differ
     }
 }
 
@@ -288,7 +288,7 @@ TEST_F(ViewedLamp, IsSetByScripts) {
         {"set": {"panels": true}}, {"screenshot": "panel.png"}
     )"),
               "");
-    // Both lamps are in one place, so that one of strength 2 is as both.
+    // Both lamps have one position, so that one of strength 2 equals both.
     const prt::Image8 both = picture("as_baked.png"), one = picture("one.png"), red = picture("red.png"),
                       off = picture("off.png");
     const std::size_t middle = 18 * 64 + 32;
@@ -319,7 +319,7 @@ TEST_F(ViewedLamp, IsRefusedWithTheReason) {
     says(R"({"set": {"lamp_strength": -0.5}})", "lamp_strength is a finite number from 0 on, not -0.5");
     says(R"({"set": {"lamp_strength": 1e39}})", "lamp_strength is a finite number");
     says(R"({"set": {"lamp_strength": null}})", "must be number");
-    // What JSON has no number for does not reach the step.
+    // Values that JSON cannot represent do not reach the step.
     EXPECT_NE(why(R"({"lamps": {"*": NaN}})").find("script.json"), std::string::npos);
 }
 
@@ -388,8 +388,8 @@ TEST_F(LampsOfTheViewer, AreSaidToBeMissingWherePicturesHaveNone) {
     EXPECT_EQ(viewer->shown(PictureKind::unshadowed).note, "");
 }
 
-// By day what is seen comes to one brightness, at night brighter lamps look brighter: 0.6 of a stop is
-// taken back.
+// By day the exposure is fully automatic; at night brighter lamps look brighter: 0.6 of a stop is
+// compensated.
 TEST_F(LampsOfTheViewer, AreMeteredInFullByDayAndInPartAtNight) {
     viewer->lights.day = viewer->lights.environment_on = false; // no night either
     frame();
@@ -398,7 +398,7 @@ TEST_F(LampsOfTheViewer, AreMeteredInFullByDayAndInPartAtNight) {
     EXPECT_NEAR(stops() - alone, -2, 0.01f);
     viewer->lights.day = true;
     viewer->lights.time.hour = 0;
-    // Some 0.15 and 0.3 of luminance, where the sky gives 0.01.
+    // About 0.15 and 0.3 of luminance, with 0.01 from the sky.
     lamps().strength = 4;
     const float night = stops();
     EXPECT_LT(night, alone - 2 - 0.3f);
@@ -419,9 +419,9 @@ TEST_F(LampsOfTheViewer, LightNumbersToo) {
     };
     viewer->lights.day = viewer->lights.environment_on = false;
     const prt::Image once = error_picture();
-    lamps().strength = 4; // the same share of the light
+    lamps().strength = 4; // an equal fraction of the light
     EXPECT_EQ(error_picture().pixels, once.pixels);
-    viewer->lights.day = true; // of another light
+    viewer->lights.day = true; // a different light
     EXPECT_NE(error_picture().pixels, once.pixels);
 }
 

@@ -21,7 +21,8 @@ namespace {
 
 constexpr int kOrder = 6;
 
-/// Projects what rays meet: the environment of `distant_light`, and its suns as directional lights.
+/// Projects the light for path tracing: the environment of `distant_light`, and its suns as directional
+/// lights.
 prt::Light projected(const prt::DistantLight& light) {
     prt::Light sum = prt::project({light.environment(), prt::EnvironmentLayout::lat_long}, kOrder);
     for (const prt::Sun& sun : light.suns())
@@ -124,7 +125,7 @@ TEST(LightRig, DayFallsIntoABlueNightThatIsDarkerThanDusk) {
     const auto mean = [&](double hour) {
         settings.time.hour = hour;
         rig.set(settings);
-        return 0.2820948f * rig.light(kOrder).coefficients[0]; // of radiance over all directions
+        return 0.2820948f * rig.light(kOrder).coefficients[0]; // mean radiance over all directions
     };
     glm::vec3 last = mean(17.5);
     EXPECT_EQ(rig.darkness(), 0);
@@ -147,7 +148,7 @@ TEST(LightRig, DayFallsIntoABlueNightThatIsDarkerThanDusk) {
     EXPECT_EQ(rig.darkness(), 0);
 }
 
-/// The least radiance of any channel on a grid of two degrees, over the mean of the channel.
+/// Returns the minimum radiance of any channel on a grid of two degrees, over the mean of the channel.
 float least_over_mean(const prt::Light& light) {
     std::vector<float> basis(static_cast<std::size_t>(prt::coefficient_count(light.order)));
     float least = std::numeric_limits<float>::infinity();
@@ -198,7 +199,7 @@ TEST(LightRig, TakenApartIsTheSameLight) {
     ASSERT_EQ(apart.suns.size(), 2U);
     EXPECT_LT(relative_difference(together(apart), rig.light(kOrder)), 1e-6);
     const auto rays = rig.distant_light().suns();
-    for (const prt::Sun& sun : rays) // the same suns as rays meet
+    for (const prt::Sun& sun : rays) // path tracing uses the same suns
         EXPECT_TRUE(std::ranges::any_of(apart.suns, [&](const prt::SunDisc& disc) {
             return disc.towards == sun.towards && disc.irradiance == sun.irradiance;
         }));
@@ -255,17 +256,17 @@ TEST(LightRig, FindsTheSunsOfAnEnvironmentAndTurnsThemWithIt) {
 TEST(LightRig, MeasuresBandsAndRaysOfTheSameLight) {
     LightRig rig;
     LightSettings settings = rig.settings(); // a day with its sun
-    settings.window = prt::Window::hann;     // of which bands and rays know nothing
+    settings.window = prt::Window::hann;     // does not affect bands and rays
     settings.rotation = 1;
-    settings.lights.assign(6, make_light(LightKind::sun)); // more than are apart
+    settings.lights.assign(6, make_light(LightKind::sun)); // more than the maximum number of separate suns
     settings.lights.push_back(make_light(LightKind::hemisphere));
     for (std::size_t i = 0; i < 6; ++i)
         settings.lights[i].direction = glm::normalize(glm::vec3(std::cos(i), 0.5f, std::sin(i)));
     rig.set(settings);
     const auto bands = [](const prt::Light& light) { return prt::truncated(light, kOrder); };
     const prt::MeasuredLight together = rig.measured_light(), apart = rig.measured_light_apart();
-    // The day's image of 128 x 64 is turned in one of 1024 x 512, sampled in between; its sun has an extent
-    // that rays do not meet.
+    // The day's image of 128 x 64 is rotated in one of 1024 x 512 with interpolation; its sun has an extent
+    // that rays do not hit.
     constexpr double kTurned = 0.01;
     EXPECT_FALSE(together.sky);
     EXPECT_LT(relative_difference(bands(together.sky_bands), projected(together.all)), kTurned);
@@ -288,7 +289,7 @@ TEST(LightRig, CountsItsChanges) {
     const auto background = rig.background_version();
     rig.set(settings);
     EXPECT_GT(rig.version(), version);
-    EXPECT_EQ(rig.background_version(), background); // turned by the shader
+    EXPECT_EQ(rig.background_version(), background); // the shader rotates it
     settings.time.hour += 1;
     rig.set(settings);
     EXPECT_GT(rig.background_version(), background);

@@ -1,3 +1,5 @@
+// Writes files of a ball on a floor, once per process.
+
 #include "examples/viewer/lightmap_files.h"
 
 #include "prt/compress.h"

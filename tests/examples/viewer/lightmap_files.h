@@ -1,6 +1,7 @@
 #pragma once
 
-// A ball on a floor in files: as it is, baked at vertices, and baked at texels of places of its own.
+// Files of a ball on a floor: without transfer, baked at vertices, and baked at texels with separate
+// coordinates.
 
 #include "pictures/model.h"
 
@@ -19,7 +20,7 @@ public:
     std::filesystem::path vertices() const;
     /// Raw transfer of a map with `size` texels along its sides.
     std::filesystem::path raw(int size = 64) const;
-    /// The same, compressed.
+    /// Compressed transfer of a map with `size` texels along its sides.
     std::filesystem::path shipped(int size = 64) const;
     const prt::test::TemporaryFolder& folder() const { return folder_; }
 

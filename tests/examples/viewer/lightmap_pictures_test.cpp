@@ -1,4 +1,4 @@
-// Pictures by lightmaps, against those that prt render draws, and where their texels are.
+// Tests pictures by lightmaps against those of prt render, and the positions of texels.
 
 #include "core/hovered.h"
 #include "core/screen.h"
@@ -28,7 +28,7 @@ namespace {
 
 constexpr glm::ivec2 kShot(160, 120);
 
-/// A sun beside the sky.
+/// A sky with a separate sun.
 struct LitApart {
     std::vector<prt::SunDisc> suns{{glm::normalize(glm::vec3(0.6f, 1, 0.4f)), {3, 2.5f, 2}, 0.01}};
     prt::Lighting lighting{prt::overcast_sky(4, {0.3f, 0.4f, 0.6f}), prt::as_light(suns[0], 4)};
@@ -58,7 +58,8 @@ protected:
         renderer->draw(1, kind, *gpu, settings.drawing, view, {0, kShot.x});
         return renderer->read(1);
     }
-    /// Straight down on the floor beside the ball, so near that `pixels` are a texel, and askew to texels.
+    /// Moves the camera straight above the floor next to the ball, so close that `pixels` equal a texel, and
+    /// rotated relative to texels.
     void look_at_floor(float pixels) {
         const prt::LightmapLayout& layout = *loaded.lightmap.layout();
         ASSERT_EQ(layout.maps.size(), 1u);
@@ -72,13 +73,13 @@ protected:
         return loaded.model->trace->rays().nearest(
             {view.camera.position, direction_through({view.camera, glm::vec2(kShot)}, pixel)});
     }
-    /// Of the floor, in texels from the corner of the map; -1 beside it.
+    /// Returns the position on the floor in texels from the corner of the map; -1 outside it.
     glm::vec2 texel_at(const glm::vec2& pixel) const {
         const auto hit = hit_at(pixel);
         const glm::vec3 way = direction_through({view.camera, glm::vec2(kShot)}, pixel);
         if (!hit || std::abs(view.camera.position.y + hit->distance * way.y + 0.5f) > 1e-3f)
             return glm::vec2(-1);
-        const prt::Scene& scene = loaded.model->scene; // of one primitive
+        const prt::Scene& scene = loaded.model->scene; // the scene has one primitive
         const auto& uv =
             scene.vertex_arrays[0]
                 .texcoords[static_cast<std::size_t>(loaded.lightmap.layout()->places[0].texcoord)];
@@ -88,7 +89,7 @@ protected:
                glm::vec2(map.width, map.height);
     }
 
-    /// All texels' by C++, in the place of the compute shaders.
+    /// Returns the radiance of all texels computed in C++, instead of compute shaders.
     std::vector<glm::vec3> radiance(PictureKind kind) const {
         if (kind == PictureKind::prt_compressed)
             return prt::exit_radiance(*loaded.compressed, lit.lighting);
@@ -187,7 +188,7 @@ TEST_F(LightmapPictures, OfNumbersShowThoseOfTheTexelAtEachPixel) {
     EXPECT_GT(compared, std::size_t{kShot.x} * kShot.y / 2);
 }
 
-/// Pixels where two pictures differ by more than `least`.
+/// Returns the pixels where two pictures differ by more than `least`.
 std::set<std::pair<int, int>> changed_pixels(const prt::Image& a, const prt::Image& b, float least) {
     std::set<std::pair<int, int>> changed;
     for (int y = 0; y < a.height; ++y)
@@ -237,7 +238,8 @@ TEST_F(LightmapPictures, HaveNoGridWhereTexelsAreSmallerThanAFewPixels) {
         return sum;
     };
     const double none = changed(2.2f), faint = changed(5), whole = changed(9);
-    // The floor is nearest but for the ball, where derivatives of a pixel at an edge are of another triangle.
+    // The floor is the nearest surface except at the ball, where derivatives of a pixel at an edge come from
+    // another triangle.
     EXPECT_LT(none, 1e-4 * whole);
     EXPECT_GT(faint, 0.01 * whole);
     EXPECT_LT(faint, whole); // though there are more lines
@@ -307,7 +309,7 @@ TEST_F(LightmapPictures, OfErrorsAreBrightestWhereATexelLostMost) {
     EXPECT_LT(glm::length(errors[least]), glm::length(errors[most]));
 }
 
-/// A floor that fills a map, gives off some light, and has a lamp over it.
+/// Returns a floor that fills a map, emits some light, and has a lamp over it.
 prt::Scene floor_with_lamp() {
     prt::Scene scene =
         prt::test::painted(prt::test::SceneBuilder().floor({0, 0, 0}, 1, 4).build(), {0.7f, 0.5f, 0.3f});
@@ -350,7 +352,7 @@ TEST_F(LightmapPictures, ShowLampsAndWhatShines) {
     const prt::TransferLayout& layout = loaded.raw->layout;
     const std::vector<glm::vec3> strengths = strengths_of(lamps, layout);
     const std::vector<glm::vec3> emission = prt::emission_strengths(scene, layout, strengths);
-    ASSERT_EQ(strengths.size(), 2u); // the lamp, and what shines
+    ASSERT_EQ(strengths.size(), 2u); // the lamp, and the emissive floor
     lit.suns.clear();
     lit.lighting = {lit.lighting.sky, {}, strengths};
     for (const PictureKind kind : {PictureKind::prt, PictureKind::prt_compressed}) {

@@ -1,4 +1,4 @@
-// Lightmaps in the viewer: opened alone, beside vertices, and where files do not belong together.
+// Tests lightmaps in the viewer: alone, together with vertices, and with files that do not belong together.
 
 #include "core/viewer.h"
 #include "examples/viewer/lightmap_files.h"
@@ -84,9 +84,9 @@ TEST_F(LightmapViewer, CompressesABakeAndSaysWhatItTakes) {
     EXPECT_EQ(figures.texels, 64u * 64);
     EXPECT_GT(figures.receivers, 0u);
     EXPECT_LT(figures.receivers, figures.texels);
-    EXPECT_EQ(figures.transfer.bytes_per_receiver, 4); // one word, as the preset says
+    EXPECT_EQ(figures.transfer.bytes_per_receiver, 4); // one word, as in the preset
     EXPECT_EQ(figures.transfer.order, 4);
-    EXPECT_EQ(viewer->figures().transfer.bytes_per_receiver, 0); // there is none of vertices
+    EXPECT_EQ(viewer->figures().transfer.bytes_per_receiver, 0); // there is no transfer of vertices
     // Sliders compress anew.
     viewer->compression = {.order = 3, .clusters = 4, .components = 1};
     work();
@@ -129,7 +129,7 @@ TEST_F(LightmapViewer, PutsABakeAndItsCompressedFileTogether) {
             EXPECT_EQ(message(), "");
             EXPECT_FALSE(viewer->document().has_both());
             EXPECT_EQ(viewer->shown(PictureKind::prt).kind, PictureKind::prt);
-            EXPECT_EQ(viewer->figures().lightmap->transfer.bytes_per_receiver, 8); // of the file
+            EXPECT_EQ(viewer->figures().lightmap->transfer.bytes_per_receiver, 8); // from the file
             EXPECT_LT(difference(PictureKind::prt, PictureKind::prt_compressed), 0.1);
         }
 }
@@ -168,13 +168,14 @@ TEST_F(LightmapViewer, ShowsVerticesAndALightmapSideBySide) {
             ASSERT_TRUE(viewer->document().has_both());
             EXPECT_FALSE(viewer->document().loaded.of_texels());
             EXPECT_TRUE(viewer->document().beside.of_texels());
-            // Vertices left, the lightmap right: the same light, measured in other places.
+            // Vertices on the left, the lightmap on the right: the light is equal, measured at different
+            // positions.
             const double beside = difference(PictureKind::prt_compressed, PictureKind::prt_compressed);
             EXPECT_GT(beside, 0.01);
             EXPECT_LT(beside, 0.4);
             viewer->settings.drawing.lightmap.left = true;
             EXPECT_EQ(difference(PictureKind::prt_compressed, PictureKind::prt_compressed), 0);
-            // Vertices have their bake; of the lightmap there is none.
+            // Vertices have a bake; the lightmap has none.
             EXPECT_EQ(viewer->never_shown(PictureKind::prt), "");
             EXPECT_NE(viewer->never_shown({PictureKind::prt, Receivers::texels}), "");
             EXPECT_TRUE(viewer->can_measure());
@@ -203,7 +204,7 @@ TEST_F(LightmapViewer, HasNumbersOfBoth) {
     EXPECT_EQ(viewer->shown(left_picture(viewer->settings)).kind, PictureKind::error);
     EXPECT_EQ(viewer->shown(right_picture(viewer->settings)).kind, PictureKind::error);
     EXPECT_EQ(message(), "");
-    viewer->release_gpu(); // as where a driver was reset
+    viewer->release_gpu(); // simulates a driver reset
     viewer->restore_gpu();
     work();
     EXPECT_EQ(viewer->shown(left_picture(viewer->settings)).kind, PictureKind::error);

@@ -1,4 +1,4 @@
-// Every picture of the viewer, drawn on the driver there is, against something computed in another way.
+// Compares every picture of the viewer, drawn with the available driver, with an independent computation.
 
 #include "gpu/offscreen.h"
 #include "pictures/frame_renderer.h"
@@ -98,9 +98,9 @@ protected:
         return true;
     }
 
-    /// Mean absolute difference over the mean, where pixels and their neighbours show a surface; the
-    /// silhouette of the ball against the floor is left out by `most`, which bounds what counts as the same
-    /// place.
+    /// Returns the mean absolute difference relative to the mean, over pixels whose neighbours all show a
+    /// surface. `most` excludes the silhouette of the ball against the floor: it is the maximum difference of
+    /// neighbours on one surface.
     double mean_difference(const prt::Image& a, const prt::Image& b, float most = 0.2f) const {
         double difference = 0, mean = 0;
         std::size_t compared = 0, surface = 0;
@@ -143,7 +143,7 @@ protected:
     std::vector<float> alpha;
 };
 
-/// A sky, and a sun beside it.
+/// A sky with a separate sun.
 struct SunApart {
     std::vector<prt::SunDisc> suns{{glm::normalize(glm::vec3(0.6f, 1, 0.4f)), {3, 2.5f, 2}, 0.01}};
     prt::Lighting lighting{prt::overcast_sky(6, {0.3f, 0.4f, 0.6f}), prt::as_light(suns[0], 6)};
@@ -160,7 +160,7 @@ TEST_F(ViewerPictures, OfRawTransferAreThoseOfCpp) {
     EXPECT_LT(mean_difference(drawn(PictureKind::prt), rays(prt::exit_radiance(transfer, light))), kSame);
     settings.drawing.deferred = true; // base color in 8 bits
     EXPECT_LT(mean_difference(drawn(PictureKind::prt), rays(prt::exit_radiance(transfer, light))), 0.006);
-    // Another light.
+    // A different light.
     light = prt::rotated_about_y(light, 2);
     gpu->set_light(light);
     EXPECT_LT(mean_difference(drawn(PictureKind::prt), rays(prt::exit_radiance(transfer, light))), 0.006);
@@ -226,7 +226,7 @@ TEST_F(ViewerPictures, OfBakedOcclusionAreThoseOfTracedOcclusion) {
     prt::PathTracer tracer(*model->trace, white, options);
     for (int i = 0; i < 128; ++i)
         tracer.add_pass();
-    // What is left: noise of 128 paths, and the cells of the floor at the contact.
+    // Remaining error: noise of 128 paths, and the cells of the floor at the contact.
     EXPECT_LT(mean_difference(picture, tracer.image(), 0.5f), 0.03);
     double sum = 0, reference = 0;
     for (std::size_t i = 0; i < alpha.size(); ++i)
@@ -237,8 +237,8 @@ TEST_F(ViewerPictures, OfBakedOcclusionAreThoseOfTracedOcclusion) {
     EXPECT_NEAR(sum / reference, 1, 0.01);
 }
 
-// The open share of a floor at distance d from an endless wall of height h: 1 - (1 - d / sqrt(d² + h²)) / 2.
-// A lamp over it adds nothing.
+// The visible fraction of a floor at distance d from an infinite wall of height h: 1 - (1 - d / sqrt(d² +
+// h²)) / 2. A lamp over it has no effect.
 TEST_F(ViewerPictures, OcclusionOfVerticesByAWallIsItsClosedForm) {
     prt::Scene wall = SceneBuilder()
                           .floor({0, 0, 2}, 2, 16)
@@ -365,7 +365,7 @@ TEST_P(Ssao, MakesNoHaloesAboutWhatIsFarInFront) {
     view.camera = {{0, 0, 12}, {0, 0, 0}, {0, 1, 0}, 0.6f};
     settings.drawing.ssao.radius = 0.4f / model->radius;
     const auto values = occlusion();
-    for (float x = 0.1f; x < 2; x += 0.1f) // beside the board's edge, as seen from the camera
+    for (float x = 0.1f; x < 2; x += 0.1f) // next to the board's edge, as seen from the camera
         EXPECT_GT(at_place(values, {1.5f * x, 0, 0}), 0.9f) << x;
 }
 

@@ -1,4 +1,4 @@
-// Scripts drive what the window drives.
+// Tests scripts, which control everything that the window controls.
 
 #include "script/script.h"
 
@@ -28,7 +28,7 @@ protected:
             prt::test::SceneBuilder().floor({0, -0.5f, 0}, 1.5f, 10).sphere({0, 0, 0}, 0.5f, 12).build())
             .write(folder / "ball.glb");
     }
-    /// The same with transfer, raw and compressed, so that nothing is left to bake.
+    /// Returns the files with raw and compressed transfer, so that nothing needs to be baked.
     std::vector<std::filesystem::path> with_transfer() const {
         prt::GltfDocument document = prt::load_gltf(folder / "ball.glb");
         const prt::Scene scene = prt::extract_scene(document);
@@ -106,7 +106,7 @@ TEST_F(Script, KeysAndThePointerDoWhatTheyDoInTheWindow) {
     ])",
         {folder / "ball.glb"});
     EXPECT_NE(picture("a.png").pixels, picture("turned.png").pixels);
-    // Half the window's height is a quarter turn; the last bit of a pixel may differ.
+    // Half the window's height is a quarter rotation; the last bit of a pixel may differ.
     const prt::Image8 turned = picture("turned.png"), same = picture("same.png");
     for (std::size_t i = 0; i < same.pixels.size(); ++i)
         for (int c = 0; c < 3; ++c)
@@ -116,7 +116,7 @@ TEST_F(Script, KeysAndThePointerDoWhatTheyDoInTheWindow) {
     EXPECT_NE(picture("lobe.png").pixels, picture("wires.png").pixels);
 }
 
-/// Whether the two pictures are the same in the rectangle.
+/// True if the two pictures are equal in the rectangle.
 bool same(const prt::Image8& a, const prt::Image8& b, const glm::ivec2& low, const glm::ivec2& high) {
     for (int y = low.y; y < high.y; ++y)
         for (int x = low.x; x < high.x; ++x)
@@ -137,7 +137,8 @@ TEST_F(Script, EscapeClosesADropDownAndTipsExplainControls) {
     const glm::ivec2 low(20, 110), high(210, 150); // below the drop-down, above all figures
     EXPECT_FALSE(same(picture("before.png"), picture("open.png"), low, high));
     EXPECT_TRUE(same(picture("before.png"), picture("closed.png"), low, high));
-    EXPECT_FALSE(same(picture("before.png"), picture("tip.png"), {330, 100}, {420, 200})); // beside the panel
+    // next to the panel
+    EXPECT_FALSE(same(picture("before.png"), picture("tip.png"), {330, 100}, {420, 200}));
 }
 
 TEST_F(Script, PicturesOfNumbersHaveALegend) {
@@ -201,7 +202,7 @@ TEST_F(Script, MeasuresWhereTheErrorOverTheSurfaceComesFrom) {
                      together = budget["squared_together"].get<double>();
         EXPECT_GT(total, 0) << name;
         EXPECT_NEAR(sum + together, total, 1e-9) << name;
-        // What causes do to each other is the smaller part where there are several of like size.
+        // Interactions between causes are smaller than half of the total if several causes have similar size.
         EXPECT_LT(std::abs(together), 0.5 * total) << name;
         EXPECT_GT(budget["causes"]["bytes"]["squared"].get<double>(), 0) << name;
         EXPECT_GT(budget["causes"]["rays"]["squared"].get<double>(), 0) << name;

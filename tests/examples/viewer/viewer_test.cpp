@@ -230,7 +230,7 @@ TEST_F(ViewerTest, LightsSunsApartUnlessToldOtherwise) {
         sum += static_cast<double>(glm::length(together.pixels[i]));
     }
     EXPECT_GT(difference, 0.02 * sum);
-    EXPECT_EQ(viewer->lighting().meter.stops(), stops); // so that both can be compared
+    EXPECT_EQ(viewer->lighting().meter.stops(), stops); // unchanged, so that both can be compared
     viewer->settings.lit.suns_apart = true;
     EXPECT_EQ(picture().pixels, apart.pixels);
     viewer->lights.time.hour = 0; // no sun, no difference
@@ -295,8 +295,8 @@ TEST_F(ViewerTest, GivesSmallModelsNoMoreBasesThanTheirWeightsAreWorth) {
     open({baked(6)});
     const auto receivers = static_cast<double>(viewer->figures().receivers);
     EXPECT_LT(receivers, 1000);
-    EXPECT_EQ(viewer->figures().transfer.bytes_per_receiver, 4); // one word, as the preset says
-    // Bases of twice the weights' bytes, or 4 KB; 256 clusters would take ten times that.
+    EXPECT_EQ(viewer->figures().transfer.bytes_per_receiver, 4); // one word, as in the preset
+    // Bases have twice the weights' bytes, or 4 KB; 256 clusters would need ten times that.
     EXPECT_LE(viewer->figures().transfer.bytes_with_bases, 4 + std::max(8.0, 4096 / receivers));
 }
 
@@ -305,7 +305,7 @@ TEST_F(ViewerTest, SavesWhatItHasCompressedBesideTheModel) {
     viewer->compression = {3, 8, 2};
     frame();
     frames_until([&] { return !viewer->jobs().busy(); });
-    for (const char* name : {"baked.shipped.glb", "baked.shipped-2.glb"}) { // nothing is overwritten
+    for (const char* name : {"baked.shipped.glb", "baked.shipped-2.glb"}) { // no file is overwritten
         viewer->save();
         frames_until([&] { return !viewer->jobs().busy(); });
         ASSERT_FALSE(viewer->messages().empty());
@@ -315,7 +315,7 @@ TEST_F(ViewerTest, SavesWhatItHasCompressedBesideTheModel) {
         ASSERT_TRUE(saved);
         EXPECT_EQ(saved->transfer.bases.layout.order, 3);
         EXPECT_EQ(static_cast<int>(saved->transfer.bases.clusters()), viewer->figures().transfer.clusters);
-        EXPECT_EQ(saved->record.rays, 64); // those of the bake
+        EXPECT_EQ(saved->record.rays, 64); // from the bake
         EXPECT_FALSE(prt::read_transfer(document, prt::extract_scene(document)));
     }
     viewer->save(folder / "missing" / "a.glb");
@@ -335,7 +335,7 @@ TEST_F(ViewerTest, ResetsTheCamera) {
 }
 
 TEST_F(ViewerTest, MetersTheModelAndNotTheSky) {
-    // An open floor of base color c under light of radiance 4 shows 4 c, which comes to 0.22.
+    // An open floor of base color c under light of radiance 4 has radiance 4 c, which is mapped to 0.22.
     prt::test::GlbFile file = prt::test::scene_file(SceneBuilder().floor({0, 0, 0}, 1, 4).build());
     file.json["materials"] = {
         {{"pbrMetallicRoughness", {{"baseColorFactor", {0.25, 0.5, 0.125, 1}}, {"metallicFactor", 0}}}}};
@@ -392,7 +392,7 @@ TEST_F(ViewerTest, LosesItsContextAndGoesOn) {
 }
 
 TEST_F(ViewerTest, RefinesTheReference) {
-    open({baked(), shipped()}); // nothing is left to compress
+    open({baked(), shipped()}); // compressed already
     viewer->settings.right = PictureKind::reference;
     viewer->settings.left = PictureKind::prt;
     viewer->settings.difference = true;
@@ -404,7 +404,7 @@ TEST_F(ViewerTest, RefinesTheReference) {
     const double late = viewer->figures().difference.relative_l2;
     EXPECT_LT(late, early);
     EXPECT_LT(late, 0.08); // 64 rays in the bake, 64 paths here, a coarse mesh
-    // Another light starts it anew.
+    // A different light restarts it.
     viewer->lights.rotation = 1;
     frame();
     EXPECT_LT(viewer->figures().reference_passes, 64);
@@ -455,7 +455,7 @@ TEST_F(ViewerTest, LightsAreGrabbedAndMoved) {
     controls.move({kWidth / 4, 80});
     EXPECT_NEAR(viewer->settings.split, 0.25f, 1e-6f);
     controls.press(Button::right, {100, 50});
-    controls.move({145, 50}); // half a height: a quarter turn
+    controls.move({145, 50}); // half a height: a quarter rotation
     EXPECT_NEAR(viewer->lights.rotation, 1.5708f, 1e-3f);
     const glm::vec3 before = viewer->camera.camera().position;
     controls.press(Button::left, {10, 10});

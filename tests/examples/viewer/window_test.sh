@@ -1,11 +1,11 @@
 #!/usr/bin/env bash
-# The viewer in a window of a virtual display: keys, dragging, sizes, screenshots, leaving.
+# Tests the viewer in a window of a virtual display: keys, dragging, sizes, screenshots, exit.
 #   window_test.sh VIEWER MODEL SKY
 set -euo pipefail
 viewer=$1 model=$2 sky=$3
 folder=$(mktemp -d)
 cd "$folder"
-# The server says which display it took.
+# The server reports the number of its display.
 Xvfb -displayfd 3 -screen 0 1024x768x24 -nolisten tcp 3>display 2>server.log &
 server=$!
 trap 'kill $server 2>/dev/null || true; rm -rf "$folder"' EXIT
@@ -29,7 +29,7 @@ size() { od -An -tu1 -j16 -N8 "$1" | awk '{ print $3 * 256 + $4 "x" $7 * 256 + $
 
 sleep 1
 screenshot prtkit-1.png
-xdotool mousemove 500 200 mousedown 1 mousemove 560 240 mousemove 600 260 mouseup 1 # turn
+xdotool mousemove 500 200 mousedown 1 mousemove 560 240 mousemove 600 260 mouseup 1 # rotate
 xdotool mousemove 500 200 click 4                                                   # nearer
 xdotool key d key d key w key h key h key Tab key Tab key g
 screenshot prtkit-2.png
@@ -47,7 +47,7 @@ for _ in $(seq 100); do kill -0 $program 2>/dev/null || break; sleep 0.1; done
 wait $program
 [ ! -s viewer.log ] || { cat viewer.log; exit 1; }
 
-# Without a display it says so, in one line.
+# Without a display it prints a one-line error.
 status=0
 env -u DISPLAY -u WAYLAND_DISPLAY "$viewer" 2>message || status=$?
 [ $status = 1 ] && [ "$(wc -l <message)" = 1 ] && grep -q -- --headless message

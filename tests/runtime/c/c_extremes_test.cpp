@@ -1,4 +1,4 @@
-// The C interface with numbers that are none: what it writes is finite, or it says PRT_BAD_ARGUMENT.
+// Tests the C interface with invalid numbers: its output is finite, or it returns PRT_BAD_ARGUMENT.
 
 #include "prt/prt.h"
 #include "support/extremes.h"
@@ -10,7 +10,8 @@ namespace {
 using test::ExtremeCase;
 using test::Numbers;
 
-/// What a function wrote to `to`, or `Error` where it refused. Nothing else may come back.
+/// Returns the values written to `to`, or throws `Error` if the function rejected its arguments. Other status
+/// codes are failures.
 template <class Values>
 Numbers written(prt_status status, const prt_message& message, const Values& to) {
     if (status == PRT_BAD_ARGUMENT)
@@ -19,7 +20,7 @@ Numbers written(prt_status status, const prt_message& message, const Values& to)
     return Numbers(to.begin(), to.end());
 }
 
-/// Calls `make(to, message)` with room for `count` numbers.
+/// Calls `make(to, message)` with space for `count` numbers.
 template <class Make>
 Numbers made(std::size_t count, Make&& make) {
     std::vector<float> to(count, 0.0f);
@@ -110,7 +111,7 @@ const ExtremeCase kFunctions[] = {
              std::fill_n(to, 3 * square(n), 0.5f);
              to[0] = x;
              const prt_status status = prt_light_rotate(n, turn, to, m);
-             EXPECT_TRUE(status == PRT_OK || to[3 * square(n) - 1] == (n == 1 ? to[2] : 0.5f)); // as it was
+             EXPECT_TRUE(status == PRT_OK || to[3 * square(n) - 1] == (n == 1 ? to[2] : 0.5f)); // unchanged
              return status;
          });
      }},

@@ -1,4 +1,4 @@
-// A model with guides through the C interface.
+// Tests a model with predictors through the C interface.
 
 #include "prt/prt.h"
 
@@ -81,7 +81,7 @@ TEST_F(CGuides, ShadersTakeThePositionsOfMeshes) {
     std::string source(size, ' ');
     ASSERT_EQ(prt_model_shader(model, PRT_GLSL450, PRT_CONSTANTS_IN_BUFFER, source.data(), &size, nullptr),
               PRT_OK);
-    // And so is the origin of the guide: test::add_guides puts it there.
+    // Also contains the origin of the predictor, which test::add_guides sets.
     EXPECT_NE(source.find("PRT_GUIDE_ORIGIN vec3(2.50000000e-01, -2.00000000e+00, 1.29999995e+00)"),
               std::string::npos);
 }

@@ -45,7 +45,7 @@ TEST_F(CInstances, AreThoseOfTheFile) {
     }
     EXPECT_EQ(drawn, 3u);
     const float x = info.worlds[12 + 3] - info.worlds[3];
-    EXPECT_FLOAT_EQ(x, 2); // of the second instance against the first
+    EXPECT_FLOAT_EQ(x, 2); // second instance relative to the first
 }
 
 TEST_F(CInstances, HaveTheConstantsOfCpp) {

@@ -1,5 +1,5 @@
-// The C interface from eight threads at once, under the thread sanitizer: each with lights, messages and
-// models of its own, and all with one model and one lighting that they only read.
+// Tests the C interface from eight threads at once, under the thread sanitizer: each has separate lights,
+// messages and models, and all read one common model and one lighting.
 
 #include "prt/prt.h"
 #include "support/lit_model.h"
@@ -18,7 +18,7 @@ constexpr std::size_t kLight = 3 * kOrder * kOrder;
 constexpr float kUp[3] = {0, 1, 0}, kWhite[3] = {1, 1, 1}, kNone[3] = {0, 0, 0};
 constexpr float kHalfTurn[9] = {1, 0, 0, 0, -1, 0, 0, 0, -1};
 
-/// All that a thread computes, which must be the same in each.
+/// All results of a thread; they must be equal in each.
 struct Seen {
     std::vector<float> light, radiance;
     bool operator==(const Seen&) const = default;
@@ -33,7 +33,7 @@ std::vector<float> radiance_of(const prt_model* model, const float* light) {
     return radiance;
 }
 
-/// Lights of a thread's own, by every function that makes or changes some.
+/// Creates separate lights in a thread, by every function that makes or changes lights.
 std::vector<float> own_light() {
     std::vector<float> light(kLight);
     prt_message message;

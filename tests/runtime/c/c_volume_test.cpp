@@ -20,7 +20,7 @@
 namespace prt {
 namespace {
 
-/// A volume beside a triangle without transfer.
+/// A volume in a file with a triangle without transfer.
 class CVolume : public testing::Test {
 protected:
     void SetUp() override {

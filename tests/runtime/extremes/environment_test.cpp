@@ -1,4 +1,4 @@
-// Environment maps with pixels that are no radiance, and directions that are none.
+// Tests environment maps with invalid pixels, and invalid directions.
 
 #include "prt/environment.h"
 #include "support/extremes.h"
@@ -33,7 +33,7 @@ ExtremeCase repaired(const char* name, BadPixels policy) {
             }};
 }
 
-/// Of white pixels, in a direction that need not be one.
+/// Samples white pixels in a direction that may be invalid.
 ExtremeCase sampled(const char* name, EnvironmentLayout layout) {
     return {name, [layout](int, float x, float y) {
                 const Environment white = environment_of(layout, 1, 1);

@@ -1,4 +1,4 @@
-// Every function that makes or changes lighting gives finite coefficients or refuses.
+// Tests that every function that makes or changes lighting returns finite coefficients or throws.
 
 #include "prt/dering.h"
 #include "prt/light.h"
@@ -20,7 +20,7 @@ Numbers coefficients(const Light& light) {
     return numbers_of(light.coefficients);
 }
 
-/// Of such a mean and such a coefficient, where there is one.
+/// Returns a light with this mean and this last coefficient, if there is one.
 Light light_of(int order, float mean, float other) {
     Light light{order, std::vector<glm::vec3>(static_cast<std::size_t>(order * order), glm::vec3(0.1f))};
     light.coefficients[0] = {mean, 1, 1};

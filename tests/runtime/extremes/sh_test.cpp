@@ -1,6 +1,6 @@
-// Spherical harmonics with numbers that are none. Rotations refuse what turns nothing. The rest is arithmetic
-// on vectors, of which prt/sh.h and prt/sh_vector.h say that nothing is checked: what is not finite stays so
-// there, and only that they come to an end, within their arrays, is asked (the sanitizers look).
+// Tests spherical harmonics with invalid numbers. Rotations reject invalid matrices. All other functions are
+// arithmetic on vectors, which prt/sh.h and prt/sh_vector.h document as unchecked: non-finite values
+// propagate, and the functions must only terminate and stay within their arrays (checked by the sanitizers).
 
 #include "prt/sh.h"
 #include "prt/sh_conventions.h"
@@ -16,7 +16,7 @@ namespace {
 using test::ExtremeCase;
 using test::Numbers;
 
-/// A function of finite coefficients, turned.
+/// Returns a rotated function of finite coefficients.
 Numbers turned(int order, const ShRotation& rotation) {
     std::vector<double> function(static_cast<std::size_t>(order * order), 0.5), result(function.size());
     rotation.apply(std::span<const double>(function), std::span<double>(result));
@@ -62,7 +62,8 @@ TEST(Order, OutsideItsRangeIsRefused) {
     }
 }
 
-/// All arithmetic of an order on two functions, into arrays of just the size. What the last says is its sum.
+/// Runs all arithmetic of an order on two functions, with arrays of exact size. Returns the sum of the last
+/// result.
 double arithmetic(int order, float x, float y) {
     const auto count = static_cast<std::size_t>(order * order);
     const std::vector<float> a(count, x), b(count, y);
@@ -92,7 +93,7 @@ TEST(ShArithmetic, EndsWithinItsArraysWhateverTheNumbers) {
         EXPECT_TRUE(std::isfinite(arithmetic(order, 1e-45f, -0.0f)));
         EXPECT_TRUE(std::isfinite(arithmetic(order, 1, 1e15f)));
         EXPECT_FALSE(
-            std::isfinite(arithmetic(order, test::kExtremes[0], 1))); // which tells that it came through
+            std::isfinite(arithmetic(order, test::kExtremes[0], 1))); // shows that the value propagates
     }
 }
 

@@ -1,6 +1,6 @@
-// Transfer and its measures with numbers that are none. Measures refuse them; forming and evaluating are
-// arithmetic for every frame, in which what is not finite stays so (prt/constant_former.h), and which must
-// end within their arrays.
+// Tests transfer and its measures with invalid numbers. Measures reject them; forming and evaluating are
+// per-frame arithmetic, in which non-finite values propagate (prt/constant_former.h), and which must stay
+// within their arrays.
 
 #include "prt/adjacency.h"
 #include "prt/constant_former.h"

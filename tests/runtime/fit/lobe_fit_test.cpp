@@ -46,7 +46,8 @@ Targets open_vertices(std::size_t count) {
     return targets;
 }
 
-/// The cosine lobe where a cap about another axis is not blocked, by quadrature: transfer such as bakes have.
+/// Returns the cosine lobe outside a blocked cap about a different axis, by quadrature: transfer like that of
+/// bakes.
 Targets shadowed_vertices(std::size_t count) {
     std::mt19937 random(2);
     std::uniform_real_distribution<double> unit(0, 1);
@@ -166,7 +167,7 @@ TEST(LobeFit, BytesCostLittleAndRespectTheFurnace) {
                   lobe_error(targets.view(), fitted, options) + 0.05)
             << lobes; // measured: 0.04
         for (std::size_t v = 0; v < model.vertices(); ++v) {
-            float white = 0; // what leaves under radiance 1 from everywhere
+            float white = 0; // exit radiance under uniform radiance 1
             for (std::size_t k = 0; k < lobes; ++k)
                 white += coded[v * lobes + k].profile[0];
             EXPECT_LE(white, 1 + 1e-5f);

@@ -1,4 +1,4 @@
-// Images without suns, and those that break careless arithmetic.
+// Tests images without suns, and images that break careless arithmetic.
 
 #include "prt/suns.h"
 
@@ -46,7 +46,7 @@ TEST(PlainSkies, HaveNoSuns) {
             EXPECT_EQ(paying_suns(painted_sky(layout, 96, 48, sky, {})), 0u) << name;
 }
 
-/// Nothing stands out of them, so that not even what is asked for is found.
+/// No pixel is brighter than the others, so that even a requested number of suns is not found.
 TEST(PlainSkies, GiveNoSunsToThoseWhoAsk) {
     for (const float radiance : {0.0f, 1.0f}) {
         const SunSplit split = find_suns(image_of(64, 32, glm::vec3(radiance)), {.count = 3});

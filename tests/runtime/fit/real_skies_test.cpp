@@ -1,4 +1,4 @@
-// Suns of photographed skies, whose pictures show one sun each.
+// Tests suns of photographed skies with one sun each.
 
 #include "prt/suns.h"
 
@@ -18,7 +18,7 @@ SunSplit split_of(const char* name) {
     return find_suns(load_environment(test::shared_file(name)).environment);
 }
 
-/// Two images of one place, of other layouts and other texels.
+/// Two images of one location, with different layouts and texels.
 TEST(RealSkies, AreOneSunInCubeAndLatLong) {
     if (test::shared_file("env/KernerEnvCube.exr").empty() ||
         test::shared_file("env/KernerEnvLatLong.exr").empty())

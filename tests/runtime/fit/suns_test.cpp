@@ -32,7 +32,7 @@ const SunDisc& nearest(const SunSplit& split, const glm::dvec3& towards) {
         split.suns, {}, [&](const SunDisc& sun) { return glm::distance(glm::dvec3(sun.towards), towards); });
 }
 
-/// What every search is held to: 0.1 degrees, 2 % of each channel, 20 % of the size.
+/// Requirements on every search: 0.1 degrees, 2 % of each channel, 20 % of the size.
 void expect_found(const SunSplit& split, const PaintedDisc& disc) {
     ASSERT_FALSE(split.suns.empty());
     const SunDisc& sun = nearest(split, disc.towards);
@@ -43,7 +43,7 @@ void expect_found(const SunSplit& split, const PaintedDisc& disc) {
     EXPECT_NEAR(sun.half_angle, disc.half_angle, 0.2 * disc.half_angle);
 }
 
-/// A sun as bright as makes it about half of the light, and an image of 3 to 7 texels across it.
+/// A sun that is about half of the light, and an image with 3 to 7 texels across it.
 struct SunSize {
     double degrees;
     int width;
@@ -105,7 +105,7 @@ TEST(Suns, StandWhereTheyDoBesideBrightClouds) {
 }
 
 TEST(Suns, NearEachOtherKeepTheirColors) {
-    // Three degrees apart, of one degree and of 1.5.
+    // Three degrees from each other, with diameters of one degree and of 1.5.
     const std::vector<PaintedDisc> discs = {{unit(0.3, 0.4, 0.8), 0.5 * kDegree, {900, 300, 100}},
                                             {unit(0.3, 0.46, 0.8), 0.75 * kDegree, {100, 200, 500}}};
     const SunSplit split = find_suns(
@@ -142,7 +142,7 @@ TEST(Suns, MayBeClipped) {
     EXPECT_NEAR(split.suns[0].half_angle, disc.half_angle, 0.2 * disc.half_angle);
 }
 
-/// What a lens spreads around a sun, is no part of its disc.
+/// Light that a lens spreads around a sun is not part of its disc.
 TEST(Suns, KeepTheirSizeInAHalo) {
     const PaintedDisc disc{unit(0.5, 0.6, -0.4), 0.75 * kDegree, glm::dvec3(5000)};
     const Radiance sky = [&](const glm::dvec3& w) {
@@ -170,7 +170,7 @@ TEST(Suns, OfOneTexelAreNoLargerThanIt) {
     }
 }
 
-/// Channel by channel in band 0; in the others a disc stands for what was taken.
+/// Compares band 0 by channel; in the other bands a disc replaces the removed pixels.
 TEST(Suns, AndRemainderAddUpToTheWhole) {
     for (const EnvironmentLayout layout : {EnvironmentLayout::lat_long, EnvironmentLayout::cube,
                                            EnvironmentLayout::cube_faces, EnvironmentLayout::angular}) {

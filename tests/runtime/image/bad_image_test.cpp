@@ -22,7 +22,7 @@
 namespace prt {
 namespace {
 
-/// What is said when the file is read as an environment; nothing when it is read.
+/// Returns the error of reading the file as an environment; empty if it is read.
 std::string refusal(const std::filesystem::path& path) {
     try {
         load_environment(path, {EnvironmentLayout::lat_long});
@@ -98,7 +98,7 @@ TEST(ExrFile, ClaimsAreHeldAgainstTheFile) {
             EXPECT_NE(refusal(folder.file("large.exr", exr_with(folder, window, side, last))), "") << last;
     const std::string channels("channels\0chlist\0", 16);
     EXPECT_NE(refusal(folder.file("channels.exr", exr_with(folder, channels, 0, 2'000'000'000))), "");
-    std::string untyped = exr_with(folder, channels, 0, 55); // as it is
+    std::string untyped = exr_with(folder, channels, 0, 55); // the value is written unchanged
     untyped.insert(8, std::string("odd\0\0", 5) + "\1\2\3\x70");
     EXPECT_NE(refusal(folder.file("untyped.exr", untyped)).find("an attribute claims"), std::string::npos);
     for (const std::string& attribute : {window, channels})
@@ -150,7 +150,7 @@ std::string inflating_zeros(std::size_t bytes) {
 }
 
 TEST(ImageLimits, HoldToTheLastPixelAndByte) {
-    constexpr std::int64_t kSide = 1 << 14; // its square is the most
+    constexpr std::int64_t kSide = 1 << 14; // its square is the maximum
     EXPECT_NO_THROW(check_image_size(kSide, kSide, 0, 0));
     EXPECT_THROW(check_image_size(kSide + 1, kSide, 0, 0), Error);
     EXPECT_NO_THROW(check_image_size(kSide * kSide, 1, 0, 0));
@@ -172,14 +172,14 @@ TEST(Png, OneThatInflatesToMoreThanItSaysIsRefused) {
     EXPECT_LT(usage.ru_maxrss, 400'000) << "kilobytes";
 }
 
-/// `bytes` as a stream of zlib that packs nothing (RFC 1950 and 1951), without a true checksum.
+/// Returns `bytes` as an uncompressed zlib stream (RFC 1950 and 1951), without a valid checksum.
 std::string stored(const std::string& bytes) {
     const auto low = static_cast<char>(bytes.size() & 255u), high = static_cast<char>(bytes.size() >> 8);
     return std::string("\x78\x01\x01", 3) + low + high + static_cast<char>(~low) + static_cast<char>(~high) +
            bytes + "....";
 }
 
-/// Leaves something where the next function has its variables.
+/// Leaves values on the stack where the next function has its variables.
 [[gnu::noinline]] void soil_stack() {
     volatile char soil[1 << 16];
     for (volatile char& byte : soil)

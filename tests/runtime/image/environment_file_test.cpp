@@ -1,3 +1,5 @@
+// Tests environment files: layouts, formats and their pixels.
+
 #include "prt/image_file.h"
 
 #include "prt/sh_basis.h"

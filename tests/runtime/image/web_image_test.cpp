@@ -1,4 +1,4 @@
-// WebP and AVIF against what their own encoders were given.
+// Compares decoded WebP and AVIF images with the input of their encoders.
 
 #include "prt/image_file.h"
 #include "prt/image_size.h"
@@ -111,7 +111,7 @@ TEST(WebImages, DamagedAnywhereEnd) {
                 file[12 + random() % (file.size() - 12)] = static_cast<std::byte>(random());
             try {
                 decode_image(file);
-            } catch (const Error&) { // what is wrong is told, or not seen
+            } catch (const Error&) { // an error is reported, or not detected
             }
         }
 }

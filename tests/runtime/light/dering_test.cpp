@@ -1,3 +1,5 @@
+// Tests the filter against negative light.
+
 #include "prt/dering.h"
 
 #include "prt/sh.h"
@@ -16,7 +18,7 @@
 namespace prt {
 namespace {
 
-/// Least radiance of any channel over `directions`, as a share of the channel's mean, in double.
+/// Returns the minimum radiance of any channel over `directions`, relative to the channel's mean, in double.
 double least_share(const Light& light, const std::vector<glm::dvec3>& directions) {
     double least = 1e30;
     std::array<double, kMaxOrder * kMaxOrder> basis{};
@@ -31,7 +33,7 @@ double least_share(const Light& light, const std::vector<glm::dvec3>& directions
     return least;
 }
 
-/// A spherical Fibonacci lattice, whose points have nothing to do with the cells of the filter.
+/// Returns a spherical Fibonacci lattice; its points are independent of the cells of the filter.
 std::vector<glm::dvec3> lattice(int count) {
     std::vector<glm::dvec3> directions;
     for (int i = 0; i < count; ++i) {
@@ -61,8 +63,7 @@ TEST(Dering, NoDirectionHasNegativeRadianceAtAnyOrder) {
         }
 }
 
-/// Whatever shadows them: of all receivers of a normal the darkest is the one that sees only what is
-/// negative.
+/// For any occlusion: of all receivers with one normal, the darkest sees only the negative light.
 TEST(Dering, NoShadowedReceiverHasNegativeExitRadiance) {
     const Light raw = sunny(6, kTowards, {0.1f, 0.1f, 0.2f}), quiet = deringed(raw);
     double darkest_raw = 0, darkest_quiet = 0;
@@ -88,8 +89,8 @@ TEST(Dering, WhatIsNowhereNegativeStaysAsItIs) {
 }
 
 /// For a white sun of order 3 the filter is known: 1 + 3 a t + 5 b (3 t² - 1) / 2 >= 0 on [-1, 1], with
-/// least (1 - a)² 3 + (1 - b)² 5/4 (the power of bands 1 and 2 is as 3 to 5, over l²). The minimum lies
-/// within, at t = -a / (5 b), where 1 - 5 b / 2 - 3 a² / (10 b) = 0.
+/// minimum (1 - a)² 3 + (1 - b)² 5/4 (the powers of bands 1 and 2 have a ratio of 3 to 5, over l²). The
+/// minimum is inside the interval, at t = -a / (5 b), where 1 - 5 b / 2 - 3 a² / (10 b) = 0.
 TEST(Dering, FactorsOfASunAreThoseOfTheClosedForm) {
     double best_a = 0, best_b = 0, best = 1e9;
     for (int i = 1; i < 400000; ++i) {
@@ -108,7 +109,7 @@ TEST(Dering, FactorsOfASunAreThoseOfTheClosedForm) {
     EXPECT_EQ(factors[0], 1);
 }
 
-/// Diffusion over the sphere, exp(-t l (l+1)), is the one window whose effect is monotone, and was ours
+/// Diffusion over the sphere, exp(-t l (l+1)), is the only window with a monotone effect, and was used
 /// before.
 TEST(Dering, KeepsMoreThanTheLeastDiffusionDoes) {
     const std::vector<glm::dvec3> directions = lattice(4000);

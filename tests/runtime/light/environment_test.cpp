@@ -1,3 +1,5 @@
+// Tests lookups and resampling of environment layouts.
+
 #include "prt/environment.h"
 
 #include "prt/support/error.h"
@@ -86,7 +88,7 @@ TEST(LatLong, ImagesOfOtherLayoutsHaveAsManyPixelsToATurn) {
         EXPECT_EQ(flat.pixels.size(), static_cast<std::size_t>(flat.width * flat.height));
         return std::pair(flat.width, flat.height);
     };
-    // A face of a cube is a quarter of a turn, the middle row of a probe a whole one.
+    // A face of a cube covers 90 degrees, the middle row of a probe 360.
     EXPECT_EQ(size(EnvironmentLayout::cube, 3, 18), std::pair(12, 6));
     EXPECT_EQ(size(EnvironmentLayout::cube_faces, 1, 6), std::pair(4, 2));
     EXPECT_EQ(size(EnvironmentLayout::angular, 10, 10), std::pair(10, 5));

@@ -1,3 +1,5 @@
+// Tests lights of simple shapes against numerical integrals.
+
 #include "prt/light.h"
 
 #include "prt/sh.h"
@@ -59,7 +61,7 @@ TEST(Light, ConeAgreesWithQuadrature) {
     const double error = largest_error(light, 600, [&](const glm::dvec3& w) {
         return glm::dot(w, glm::dvec3(axis)) > std::cos(0.7) ? 2.0 : 0.0;
     });
-    EXPECT_LT(error, 2e-3); // a cell is 2e-5 sr; some thousand lie on the rim
+    EXPECT_LT(error, 2e-3); // a cell is 2e-5 sr; about a thousand cells are on the rim
 }
 
 TEST(Light, ConeOfTheWholeSphereIsConstant) {
@@ -165,7 +167,8 @@ std::pair<std::vector<double>, std::vector<double>> line_quadrature(int n) {
     return {nodes, weights};
 }
 
-/// ∫ over the disc of Y(w) cos / distance², in polar coordinates on the disc: another way than along its rim.
+/// Returns ∫ over the disc of Y(w) cos / distance², in polar coordinates on the disc: independent of the
+/// integral along its rim.
 std::vector<double> disc_by_area(int order, const glm::dvec3& center, const glm::dvec3& normal,
                                  double radius) {
     const glm::dvec3 u = glm::normalize(glm::cross(normal, glm::dvec3(0.3, 0.5, -0.8))),
@@ -202,7 +205,7 @@ TEST(Light, DiscThatFacesTheReceiverIsACone) {
     EXPECT_LT(largest_difference(disc_light(10, {0, 3, 0}, {0, -1, 0}, 3, {1, 2, 3}),
                                  cone_light(10, {0, 1, 0}, std::numbers::pi / 4, {1, 2, 3})),
               3e-6);
-    // As large as can be it covers half of the sphere.
+    // The largest disc covers half of the sphere.
     const Light wide = disc_light(4, {0, 0, 1e-3f}, {0, 0, -1}, 1000, {1, 1, 1});
     EXPECT_NEAR(wide.coefficients[0].r, 2 * std::numbers::pi * 0.2820948, 1e-5);
 }
@@ -263,8 +266,8 @@ TEST(Light, DiscIsDarkFromBehindAndRefusesNonsense) {
     EXPECT_THROW(disc_light(4, {0, 0, 2}, {0, 0, 0}, 1, {1, 1, 1}), Error);
 }
 
-/// Another way, that minds neither the rim nor the plane of the disc: rings about the disc's normal, of each
-/// the arc that the disc covers.
+/// An independent integral that is accurate at the rim and in the plane of the disc: over rings about the
+/// disc's normal, with the arc of each that the disc covers.
 std::vector<double> disc_by_rings(int order, const glm::dvec3& center, const glm::dvec3& normal,
                                   double radius) {
     const double height = -glm::dot(normal, center);
@@ -273,7 +276,7 @@ std::vector<double> disc_by_rings(int order, const glm::dvec3& center, const glm
     const glm::dvec3 u = offset > 0 ? lateral / offset : glm::dvec3(0, 0, 1), v = glm::cross(u, normal);
     std::vector<double> sum(static_cast<std::size_t>(coefficient_count(order)), 0), y(sum.size());
     const auto [nodes, weights] = line_quadrature(60);
-    // Both ends of an interval may have the slope of a root: s -> sin²(pi s / 2) takes it away.
+    // Both ends of an interval may have the slope of a square root: s -> sin²(pi s / 2) removes it.
     const auto between = [&, &nodes = nodes, &weights = weights](double from, double to, std::size_t i) {
         const double s = 0.5 * (1 + nodes[i]);
         return std::pair(from + (to - from) * std::pow(std::sin(0.5 * pi * s), 2),
@@ -358,7 +361,7 @@ TEST(Light, ConesOfNoAngleAreRefused) {
     EXPECT_NO_THROW(cone_light(3, {0, 1, 0}, static_cast<double>(static_cast<float>(pi)), {1, 1, 1}));
 }
 
-/// The figures are those of D3DX's native tables and of DirectXMath.
+/// The values are those of D3DX's native tables and of DirectXMath.
 TEST(ShConventions, LightsOfD3dxHaveItsNumbers) {
     for (const int order : {2, 3, 6})
         EXPECT_NEAR(d3dx_cone_light(order, {0, 0, 1}, 0.5, {1.7f, 0, 0}).coefficients[0].r, 1.604815f, 2e-6f);

@@ -1,3 +1,5 @@
+// Tests the projection of environment maps to spherical harmonics.
+
 #include "prt/environment.h"
 
 #include "prt/sh.h"
@@ -102,7 +104,8 @@ TEST(Project, BasisFunctionsComeBack) {
 }
 
 TEST(Project, ConeImageAgreesWithTheClosedForm) {
-    // The image of the cone is antialiased over its texels, since nothing smaller than a texel can be said.
+    // The image of the cone is antialiased over its texels, because an image does not resolve smaller
+    // details.
     const glm::dvec3 axis = glm::normalize(glm::dvec3(0.5, 0.4, 0.7));
     const double half_angle = 0.5;
     Environment environment{{1024, 512, {}}, EnvironmentLayout::lat_long};
@@ -199,7 +202,7 @@ Environment angular(int size, const Radiance& radiance) {
     for (int y = 0; y < size; ++y)
         for (int x = 0; x < size; ++x) {
             const double u = 2 * (x + 0.5) / size - 1, v = 2 * (y + 0.5) / size - 1;
-            // Texels whose center is outside show what their nearest part within shows.
+            // Texels with a center outside show the radiance of the nearest point inside.
             const double shrink = std::min(1.0, 1 / std::hypot(u, v));
             environment.image.pixels.emplace_back(radiance(angular_direction(shrink * u, shrink * v)));
         }
@@ -247,7 +250,8 @@ TEST(OtherLayouts, BasisFunctionsComeBack) {
     }
 }
 
-/// Texel by texel, with 4 x 4 points in each, in double: what the projection shortens by symmetry and floats.
+/// Projects texel by texel, with 4 x 4 points in each, in double, without the symmetry and the floats of the
+/// library.
 Light by_texels(const Environment& environment, int order) {
     const Image& image = environment.image;
     const int size = image.width;
@@ -315,8 +319,7 @@ TEST(OtherLayouts, SamplingFindsWhatIsThere) {
     }
 }
 
-/// A sun in one texel of a lat-long map is a directional light, wherever it stands: at the poles, on the
-/// seam.
+/// A sun in one texel of a lat-long map is a directional light at any position: at the poles, on the seam.
 TEST(Project, ADeltaSunIsADirectionalLightEverywhere) {
     constexpr int kWidth = 2048, kHeight = 1024;
     for (const auto& [x, y] : {std::pair(5, 0), std::pair(700, kHeight - 1), std::pair(0, 300),
@@ -331,8 +334,8 @@ TEST(Project, ADeltaSunIsADirectionalLightEverywhere) {
         const Light sun = directional_light(8, towards, glm::vec3(1e5f, 2e5f, 0.5e5f) * float(solid_angle));
         const Light expected = sum(sun, constant_light(8, glm::vec3(1e-3f)));
         const double scale = static_cast<double>(glm::length(expected.coefficients[0]));
-        // At a pole a texel is a sector, whose centroid is a sixth of a row from its center: 5e-4 radians, by
-        // which a function of band 7 changes by at most 7 times as much.
+        // At a pole a texel is a sector; its centroid is a sixth of a row from its center: 5e-4 radians, and
+        // a function of band 7 changes by at most 7 times this.
         const double tolerance = y == 0 || y == kHeight - 1 ? 4e-3 : 1e-4;
         EXPECT_LT(largest_difference(project(environment, 8), expected), tolerance * scale) << x << " " << y;
     }

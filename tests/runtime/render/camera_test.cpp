@@ -1,3 +1,5 @@
+// Tests camera frames and default cameras.
+
 #include "prt/camera.h"
 
 #include "prt/support/error.h"

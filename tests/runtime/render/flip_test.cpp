@@ -152,7 +152,7 @@ TEST(HdrFlip, LooksFromTheBrightestPixelToTheMedian) {
     const FlipExposures exposures = flip_exposures(image);
     EXPECT_NEAR(exposures.stop - exposures.start, 6, 1e-9);
     EXPECT_EQ(exposures.count, 6);
-    const double x = std::exp2(exposures.stop) * 0.6; // of the median
+    const double x = std::exp2(exposures.stop) * 0.6; // the median
     EXPECT_NEAR(x * (2.51 * x + 0.03) / (x * (2.43 * x + 0.59) + 0.14), 0.85, 1e-9);
 }
 
@@ -166,7 +166,7 @@ TEST(HdrFlip, SeesErrorsInTheDarkAndInTheLight) {
     light.at(3, 10) = glm::vec3(10);
     EXPECT_GT(hdr_flip(image, dark)[10 * 40 + 30], 0.2f);
     EXPECT_GT(hdr_flip(image, light)[10 * 40 + 3], 0.1f);
-    // Scaling both pictures changes nothing.
+    // Scaling both pictures has no effect.
     Image twice = image, dark_twice = dark;
     for (Image* scaled : {&twice, &dark_twice})
         for (glm::vec3& pixel : scaled->pixels)

@@ -22,7 +22,7 @@ static_assert(kMostProfiles == PRT_MOST_PROFILES);
 
 constexpr std::size_t kLobes = 3;
 
-/// What a vertex is given: its words, the matrix of its skin, its normal in the world and that of a map.
+/// Input of a vertex: its words, the matrix of its skin, its normal in the world and that of a normal map.
 struct Vertex {
     std::array<LobeWord, kLobes> words;
     glm::mat3 matrix;
@@ -66,7 +66,8 @@ struct Lit {
     glm::vec3 plain, mapped;
 };
 
-/// The least turn that takes unit `from` to unit `to`, of an axis: what a normal map does to lobes.
+/// Applies the smallest rotation from unit vector `from` to unit vector `to` to an axis, as a normal map does
+/// to lobes.
 glm::vec3 axis_onto(const glm::vec3& axis, const glm::vec3& from, const glm::vec3& to) {
     const glm::vec3 sum = from + to;
     return axis - glm::dot(sum, axis) / (1 + glm::dot(from, to)) * sum + 2 * glm::dot(from, axis) * to;
@@ -146,7 +147,7 @@ void bind_vertices(const std::vector<Vertex>& vertices) {
     const auto stride = static_cast<GLsizei>(sizeof(Vertex));
     for (GLuint a = 0; a < 8; ++a) {
         glEnableVertexAttribArray(a);
-        // The words are not normalised; behind them stand five vectors of three floats.
+        // The words are not normalised; five vectors of three floats follow them.
         const std::size_t offset =
             a < kLobes ? a * sizeof(LobeWord) : kLobes * sizeof(LobeWord) + (a - kLobes) * sizeof(glm::vec3);
         glVertexAttribPointer(a, a < kLobes ? 4 : 3, a < kLobes ? GL_UNSIGNED_BYTE : GL_FLOAT, GL_FALSE,

@@ -57,7 +57,7 @@ Objects any_objects(std::mt19937& random) {
     return objects;
 }
 
-/// Openness and what is left of the sun.
+/// Returns ambient visibility and visible fraction of the sun.
 std::vector<glm::vec2> found_by_cpp(const Objects& objects, const std::vector<Place>& places) {
     std::vector<glm::vec2> all;
     for (const Place& place : places) {

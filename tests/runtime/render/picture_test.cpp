@@ -22,7 +22,7 @@ namespace {
 
 constexpr int kWidth = 160, kHeight = 120;
 
-/// A sphere on a floor, the floor with a texture whose second half is cut out, a pane in front.
+/// A sphere on a floor, which has a texture with its second half cut out, and a pane in front.
 struct TestScene {
     Scene scene;
     std::vector<Texture> textures;
@@ -64,7 +64,7 @@ struct TestScene {
     }
 };
 
-/// Whether a pixel or a neighbour lies on an edge of the picture's content.
+/// True if a pixel or a neighbour is at an edge of the picture's content.
 bool near_edge(const Image& image, int x, int y) {
     for (int dy = -1; dy <= 1; ++dy)
         for (int dx = -1; dx <= 1; ++dx) {
@@ -128,7 +128,7 @@ TEST_F(Pictures, OfCompressedTransferAgree) {
     BakeOptions bake_options;
     bake_options.rays = 64;
     bake_options.repairs.bad_textures =
-        BadTextures::ignore; // the scene names a texture whose image it does not hold
+        BadTextures::ignore; // the image of one of the scene's textures is missing
     const Transfer transfer = bake(objects.scene, bake_options).baked.transfer;
     CompressOptions options;
     options.clusters = 8;
@@ -147,7 +147,7 @@ TEST_F(Pictures, OfCompressedTransferAgree) {
     const Difference d = difference(rays, gl);
     RecordProperty("mean_absolute_difference_255ths", std::to_string(d.mean));
     EXPECT_LT(d.mean, 1.0);
-    EXPECT_GT(d.compared, 0.6); // most of the picture was looked at
+    EXPECT_GT(d.compared, 0.6); // most of the picture was compared
 }
 
 TEST_F(Pictures, OfColorsAgree) {
@@ -197,7 +197,7 @@ TEST_F(Pictures, SeeTheBackgroundWhereTheCameraLooks) {
     }
 }
 
-/// Two square sheets at one place, one facing +Z and one facing -Z, each of one side.
+/// Returns two coincident one-sided square sheets, one facing +Z and one facing -Z.
 Scene coincident_sheets(bool front_first) {
     const auto sheet = [](float sign) {
         return test::painted(
@@ -210,7 +210,7 @@ Scene coincident_sheets(bool front_first) {
 TEST(RayRenderer, CoincidentSheetsShowTheOneThatFacesTheCamera) {
     for (const bool front_first : {true, false}) {
         const Scene scene = coincident_sheets(front_first);
-        std::vector<glm::vec3> colors; // of the sheets that face +Z red, of the others green
+        std::vector<glm::vec3> colors; // red for the sheets that face +Z, green for the others
         for (const VertexArray& array : scene.vertex_arrays)
             for (const glm::vec3& normal : array.normals)
                 colors.emplace_back(normal.z > 0, normal.z < 0, 0);
@@ -267,13 +267,13 @@ TEST(LightMeter, MeasuresWhatTheModelShowsAndNotTheSky) {
     const LightMeter meter(picture, RayScene(scene));
     std::vector<glm::vec3> radiance;
     for (const std::uint32_t receiver : meter.receivers()) {
-        ASSERT_LT(receiver, behind); // of the two sheets alone
+        ASSERT_LT(receiver, behind); // only of the two sheets
         radiance.emplace_back(receiver < right ? 2.0f : 6.0f);
     }
     const float expected = 4 * (0.2126f * color.r + 0.7152f * color.g + 0.0722f * color.b);
     EXPECT_NEAR(meter.luminance(radiance), expected, 1e-4f * expected);
     EXPECT_NEAR(exposure_for(expected) * expected, 0.22f, 1e-6f);
-    picture.camera.position = {0, 0, -10}; // nothing of it to be seen but the white sheet far behind
+    picture.camera.position = {0, 0, -10}; // only the distant white sheet is visible
     const LightMeter from_behind(picture, RayScene(scene));
     for (const std::uint32_t receiver : from_behind.receivers())
         EXPECT_GE(receiver, behind);
@@ -304,12 +304,12 @@ TEST(LightMeter, MeasuresTheTexelsThatShow) {
     std::vector<glm::vec3> radiance;
     for (const std::uint32_t texel : meter.receivers())
         radiance.push_back(texels[texel]);
-    // A quarter of the sheet shows 8 times 0.5; rays are 2 % of the sheet apart.
+    // A quarter of the sheet has 8 times 0.5; rays have a distance of 2 % of the sheet.
     EXPECT_NEAR(meter.luminance(radiance), 1, 0.05);
     glm::vec3 shown(0);
     for (const glm::vec3& pixel : render_rays(picture, TraceScene(scene)).pixels)
         shown += pixel;
-    const float covered = std::pow(1 / (20 * std::tan(0.1f)), 2.0f); // of the picture
+    const float covered = std::pow(1 / (20 * std::tan(0.1f)), 2.0f); // fraction of the picture
     EXPECT_NEAR(meter.luminance(radiance), shown.g / (480.0f * 480.0f * covered), 0.05f);
 }
 

@@ -1,6 +1,6 @@
-// Ten pairs of pictures, ranked by eye from slight to ruined: a floor with a lamp 5 cm above one corner, four
-// hundred times as bright as the rest, and a ball that leaves a contact shadow. The visible error ranks them
-// alike; relative L2, which the lamp dominates, does not.
+// Ten pairs of pictures, ranked by eye from slight to severe errors: a floor with a lamp 5 cm above one
+// corner, four hundred times as bright as the rest, and a ball with a contact shadow. The visible error has
+// an equal ranking; relative L2, which the lamp dominates, does not.
 
 #include "prt/error_measures.h"
 #include "prt/flip.h"
@@ -23,7 +23,7 @@ constexpr int kSize = 48;   ///< pixels, which are the receivers, too
 constexpr double kSide = 4; ///< metres
 
 struct Floor {
-    double lamp, ceiling, sky, open; ///< open: share of the sky that the ball leaves
+    double lamp, ceiling, sky, open; ///< open: fraction of the sky that the ball leaves visible
     double light(double openness) const { return lamp + ceiling + sky * openness; }
 };
 
@@ -92,7 +92,7 @@ Radiance scaled(const std::function<double(const glm::dvec2&)>& factor) {
     return [factor](const glm::dvec2& p) { return factor(p) * truth(p); };
 }
 
-/// White noise of this standard deviation, another for each call.
+/// Returns white noise of this standard deviation, different for each call.
 std::function<double(const glm::dvec2&)> noise(double deviation, unsigned seed) {
     return [random = std::mt19937(seed), normal = std::normal_distribution<double>(0, deviation)](
                const glm::dvec2&) mutable { return 1 + normal(random); };
@@ -135,7 +135,7 @@ std::vector<Edge> grid_edges() {
     return edges;
 }
 
-/// Whether every pair that looks worse than another has the greater number.
+/// True if every pair that looks worse than a second one has the greater number.
 bool ranked(const std::vector<double>& numbers) {
     const std::vector<Pair> all = pairs();
     for (std::size_t i = 0; i < all.size(); ++i)

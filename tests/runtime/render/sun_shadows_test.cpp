@@ -33,7 +33,7 @@ protected:
         ASSERT_TRUE(context_) << why;
     }
 
-    /// Of `scene` in black light, by suns alone.
+    /// Draws `scene` in black light, lit only by suns.
     Image lit(const Scene& scene, std::span<const SunDisc> suns, const Camera& camera,
               std::span<const Texture> textures = {}) const {
         const std::vector<glm::vec3> black(scene.receivers(), glm::vec3(0));
@@ -55,7 +55,7 @@ protected:
     std::unique_ptr<GlContext> context_;
 };
 
-/// What of a scene a pixel shows.
+/// The point of a scene that a pixel shows.
 struct Place {
     glm::vec3 position, face; ///< unit, towards the camera
     unsigned triangle;
@@ -83,7 +83,7 @@ std::optional<Place> seen_at(const RayScene& rays, const Scene& scene, const Cam
                  hit->triangle};
 }
 
-/// Share of rays over the disc of `sun` that get away; through nothing.
+/// Returns the unoccluded fraction of rays over the disc of `sun`; opaque surfaces only.
 double visibility(const RayScene& rays, const Place& place, const SunDisc& sun) {
     const glm::vec3 origin = place.position + place.face * (4 * rays.triangle_offset(place.triangle));
     const glm::vec3 side = glm::normalize(glm::cross(sun.towards, glm::vec3(0.3f, 0.2f, 0.93f))),
@@ -141,7 +141,7 @@ struct Agreement {
     double compared = 0, wrong = 0, error = 0;
 };
 
-/// Where the sun is all seen or all hidden from round a pixel, the picture is to say so.
+/// If the sun is fully visible or fully hidden around a pixel, the picture must agree.
 Agreement agreement(const Image& image, const Scene& scene, const SunDisc& sun, const Camera& camera) {
     const RayScene rays(scene);
     Agreement result;
@@ -206,16 +206,17 @@ TEST_F(SunShadowPictures, OfTwoSunsAreTheSumOfEach) {
         difference += static_cast<double>(glm::distance(both.pixels[i], first.pixels[i] + second.pixels[i]));
     }
     EXPECT_GT(sum, 100);
-    EXPECT_LE(difference, 1e-3 * sum); // map sizes are those of the larger need of the two
+    EXPECT_LE(difference, 1e-3 * sum); // map sizes are the larger of the two required sizes
 }
 
-/// A roof over the half x > 0 of a floor, at height 1, below the zenith's sun: at x the straight edge cuts
-/// the disc at t = x / tan(half angle) of its radius, and leaves 1/2 - (t sqrt(1 - t²) + asin t) / pi of it.
+/// A roof over the half x > 0 of a floor, at height 1, below a sun at the zenith: at x the straight edge cuts
+/// the disc at t = x / tan(half angle) of its radius, and 1/2 - (t sqrt(1 - t²) + asin t) / pi of it is
+/// visible.
 TEST_F(SunShadowPictures, HaveThePenumbraOfAStraightEdge) {
     const double half_angle = 0.2;
     Scene roof = test::SceneBuilder().floor({4, 1, 0}, 4, 1).build();
     const Scene scene = test::join({test::SceneBuilder().floor({0, 0, 0}, 4, 1).build(), roof});
-    // From under the roof, whose front is above.
+    // From under the roof, whose front faces up.
     const Camera camera{.position = {0, 0.9f, 0}, .target = {0, 0, 0}, .up = {0, 0, -1}};
     const Image image = lit(scene, {{0, 1, 0}, glm::vec3(static_cast<float>(kHalfTurn)), half_angle}, camera);
     const CameraFrame frame = camera_frame(camera);
@@ -229,12 +230,12 @@ TEST_F(SunShadowPictures, HaveThePenumbraOfAStraightEdge) {
             mean += static_cast<double>(image.at(x, y).r) / kDown;
         worst = std::max(worst, std::abs(mean - open));
     }
-    // What blocks only near the rim of the cone may be missed by the 24 texels that are looked at.
+    // A blocker near the rim of the cone may be missed by the 24 sampled texels.
     EXPECT_LT(worst, 0.03);
 }
 
-/// A floor below what `above` holds, seen from the side and lit from the zenith by irradiance pi: how much of
-/// it arrives in the middle.
+/// A floor below the scene `above`, seen from the side and lit from the zenith by irradiance pi: returns the
+/// fraction that arrives in the middle.
 class BelowTheZenith : public SunShadowPictures {
 protected:
     double through(const Scene& above, std::span<const Texture> textures = {}) const {
@@ -259,7 +260,7 @@ protected:
 
 TEST_F(BelowTheZenith, IsDarkUnderWhatIsOpaqueFromBothSides) {
     EXPECT_EQ(through(pane(1)), 0);
-    EXPECT_EQ(through(test::SceneBuilder() // that turns its back to the sun
+    EXPECT_EQ(through(test::SceneBuilder() // its back faces the sun
                           .quad({-2, 1, -2}, {2, 1, -2}, {2, 1, 2}, {-2, 1, 2})
                           .build()),
               0);
@@ -283,7 +284,8 @@ TEST_F(BelowTheZenith, IsDimmedByAllBlendedLayersAndGlassTogether) {
 
 TEST_F(BelowTheZenith, IsNotDimmedByWhatIsBelowOrItself) {
     EXPECT_NEAR(through(blended(-1, 0.5f)), 1, 1e-5);
-    Scene glass_floor = blended(0.01f, 0.5f); // lit in full, and half of what is seen is the floor, dimmed
+    // fully lit; half of the visible light comes from the floor, dimmed
+    Scene glass_floor = blended(0.01f, 0.5f);
     EXPECT_NEAR(through(glass_floor), 0.5 + 0.5 * 0.5, 2e-3);
 }
 

@@ -1,3 +1,5 @@
+// Tests texture lookups.
+
 #include "prt/texture.h"
 
 #include "prt/support/error.h"

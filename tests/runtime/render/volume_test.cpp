@@ -42,8 +42,8 @@ struct Place {
     glm::vec3 position, normal;
 };
 
-/// Inside and outside, and on faces between bricks; numbers that floats hold, so that rounding moves none
-/// over a face.
+/// Returns positions inside, outside, and on faces between bricks; their coordinates are exact in floats, so
+/// that rounding moves none across a face.
 std::vector<Place> places_in(const VolumeGrid& grid, std::mt19937& random) {
     std::uniform_int_distribution<int> along(-1024, 6 * 1024), axis(0, 6);
     std::vector<Place> places;
@@ -61,8 +61,8 @@ std::vector<Place> places_in(const VolumeGrid& grid, std::mt19937& random) {
     return places;
 }
 
-/// What a shader finds at a place: [coefficients] of incident light; irradiance and radiance from where the
-/// place faces, where most light comes from, and how much of the sun is seen.
+/// Result of a shader at a position: [coefficients] of incident light; irradiance and radiance from the
+/// facing direction, the main light direction, and the visible fraction of the sun.
 struct Found {
     std::vector<glm::vec3> light;
     glm::vec3 irradiance, radiance, direction;
@@ -79,7 +79,7 @@ glm::vec3 radiance_of(std::span<const glm::vec3> incident, const glm::vec3& towa
     return glm::max(sum, glm::vec3(0));
 }
 
-/// Unit, and no axis: every function of the basis has a value of its own there.
+/// A unit vector that is not an axis: every function of the basis has a different value there.
 const glm::vec3 kFacing = glm::normalize(glm::vec3(0.3f, -0.8f, 0.45f));
 
 std::vector<Found> found_by_cpp(const CompressedVolume& volume, const std::vector<Place>& places) {
@@ -120,7 +120,7 @@ const char* version_of(ShaderLanguage language) {
                                                  : "#version 300 es\nprecision highp float;\n";
 }
 
-/// A program whose vertex shader looks places up; transform feedback records what it finds.
+/// Returns a program whose vertex shader looks positions up; transform feedback records the results.
 GLuint lookup_program(const std::string& functions, ShaderLanguage language) {
     const std::string vertex = version_of(language) + functions + R"(
 layout(location = 0) in vec3 position;
@@ -218,7 +218,8 @@ float largest_difference(const std::vector<Found>& a, const std::vector<Found>& 
         largest = std::max({largest, std::sqrt(square) / unit, std::abs(a[i].sun - b[i].sun),
                             glm::distance(a[i].irradiance, b[i].irradiance) / unit,
                             glm::distance(a[i].radiance, b[i].radiance) / unit,
-                            0.1f * glm::distance(a[i].direction, b[i].direction)}); // of a small difference
+                            // relative to a small difference
+                            0.1f * glm::distance(a[i].direction, b[i].direction)});
     }
     return largest;
 }
@@ -280,7 +281,7 @@ TEST_P(VolumeLanguages, FindWhatCppFinds) {
                 largest_difference(expected, found_by_shader(volume, format, GetParam(), places));
             RecordProperty((format == VolumeFormat::rgba32 ? "floats_" : "halves_") + std::to_string(order),
                            std::to_string(1e9f * largest));
-            // Half floats, and filters whose shares of a cell may have eight bits.
+            // Half floats, and filters whose weights may have eight bits.
             EXPECT_LT(largest,
                       format == VolumeFormat::rgba32 ? test::rounding_tolerance() : test::filter_tolerance())
                 << order;

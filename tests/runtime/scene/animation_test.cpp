@@ -29,7 +29,7 @@ AnimatedScene animated(const GlbFile& file) {
     return AnimatedScene(load_gltf(folder / "moving.glb"));
 }
 
-/// What is said of a file that is refused; empty: it is not.
+/// Returns the error of a rejected file; empty if it is accepted.
 std::string refusal(const GlbFile& file) {
     try {
         animated(file);
@@ -54,7 +54,7 @@ void animate(GlbFile& file, const Keys& keys, int node = 0) {
          {"channels", {{{"sampler", 0}, {"target", {{"node", node}, {"path", keys.path}}}}}}});
 }
 
-/// A turn about +Z as glTF has it.
+/// Returns a rotation about +Z as a glTF quaternion.
 std::vector<float> turn(double degrees) {
     const double half = degrees * kPi / 360;
     return {0, 0, static_cast<float>(std::sin(half)), static_cast<float>(std::cos(half))};
@@ -67,8 +67,8 @@ std::vector<float> joined(const std::vector<std::vector<float>>& parts) {
     return all;
 }
 
-/// The triangle of two joints one above the other: vertex 0 goes by the lower, 1 by the upper, 2 by half of
-/// each. The upper one is at (0, 1, 0).
+/// Returns the triangle with two joints, one above the other: vertex 0 follows the lower, vertex 1 the upper,
+/// vertex 2 both equally. The upper joint is at (0, 1, 0).
 GlbFile skinned_file() {
     GlbFile file = test::triangle_file();
     auto& attributes = file.json["meshes"][0]["primitives"][0]["attributes"];
@@ -102,7 +102,7 @@ TEST(Animation, HalfOfTheTimeIsHalfOfTheAngle) {
     const AnimatedScene scene = animated(file);
     EXPECT_EQ(scene.animations().at(0).duration, 3);
     for (const double seconds :
-         {0.0, 1.0, 1.5, 2.0, 2.75, 3.0, 9.0}) { // before the first key and behind the last
+         {0.0, 1.0, 1.5, 2.0, 2.75, 3.0, 9.0}) { // before the first key and after the last
         const double angle = std::clamp((seconds - 1) / 2, 0.0, 1.0) * 120 * kPi / 180;
         const auto nodes = scene.pose(scene.animations()[0], seconds);
         expect_near(glm::dvec3(nodes[0] * glm::dvec4(1, 0, 0, 0)), {std::cos(angle), std::sin(angle), 0});
@@ -113,7 +113,7 @@ TEST(Animation, RotationsTurnTheShortWay) {
     GlbFile file = test::triangle_file();
     std::vector<float> far = turn(90);
     for (float& number : far)
-        number = -number; // the same turn
+        number = -number; // an equal rotation
     animate(file, {"rotation", "LINEAR", {0, 1}, joined({turn(0), far})});
     const AnimatedScene scene = animated(file);
     const auto nodes = scene.pose(scene.animations()[0], 0.5);
@@ -133,7 +133,7 @@ TEST(Animation, StepsHoldAndLinesGoStraight) {
     expect_near({scaled[0][0], scaled[1][1], scaled[2][2]}, {1.5, 2, 1});
 }
 
-// A cubic is what Hermite's polynomial of its ends and slopes is, whatever the length of the interval.
+// A cubic equals the Hermite interpolation of its ends and slopes, for any length of the interval.
 TEST(Animation, SplinesAreTheCubicsOfTheirTangents) {
     const auto x = [](double t) { return 2 * t * t * t - 3 * t * t + 0.5 * t + 1; };
     const auto slope = [](double t) { return 6 * t * t - 6 * t + 0.5; };
@@ -160,7 +160,7 @@ TEST(Animation, SplinesOfRotationsAreUnit) {
     const AnimatedScene scene = animated(file);
     const auto nodes = scene.pose(scene.animations()[0], 0.5);
     EXPECT_NEAR(glm::determinant(nodes[0]), 1, 1e-12);
-    // By symmetry the middle of two keys without tangents is half of the turn.
+    // By symmetry the middle of two keys without tangents is half of the rotation.
     expect_near(glm::dvec3(nodes[0] * glm::dvec4(1, 0, 0, 0)), {std::sqrt(0.5), std::sqrt(0.5), 0});
 }
 
@@ -183,11 +183,11 @@ TEST(Skins, AJointTurnedByARightAngleTakesItsVerticesWithIt) {
     const auto nodes = scene.pose(scene.animations()[0], 1);
     const Scene posed = scene.posed(nodes, glm::dmat4(1));
     const auto& positions = posed.vertex_arrays[0].positions;
-    // About (0, 1, 0): (1, 0, 0) lies at (1, -1, 0) from there, which turns to (1, 1, 0).
+    // Relative to (0, 1, 0), (1, 0, 0) is at (1, -1, 0), which is rotated to (1, 1, 0).
     expect_near(positions[0], {0, 0, 0});
     expect_near(positions[1], {1, 2, 0});
     expect_near(positions[2], {0, 1, 0}); // at the joint itself
-    // The palette is what a shader takes: joint world times inverse bind, then the identity.
+    // The palette is the shader's input: joint world times inverse bind, then the identity.
     const auto palette = scene.matrices(0, nodes);
     ASSERT_EQ(palette.size(), 3u);
     EXPECT_EQ(palette[2], glm::dmat4(1));
@@ -211,7 +211,7 @@ TEST(Skins, NormalsTurnWithTheirJointsAndLeanAgainstScales) {
     expect_near(wide.vertex_arrays[0].normals[2], leaning);
 }
 
-/// As a scene is extracted, placed where it was.
+/// Expects that the rest pose equals the extracted scene at its original position.
 void expect_rest_is_scene(const AnimatedScene& animated, const Scene& scene) {
     const Scene posed = animated.posed(animated.rest(), glm::translate(glm::dmat4(1), -scene.origin));
     ASSERT_EQ(posed.vertex_arrays.size(), scene.vertex_arrays.size());
@@ -235,7 +235,7 @@ TEST(Skins, AtRestTheSceneIsAsItIsExtracted) {
     flat.json["meshes"][0]["primitives"][0]["attributes"].erase("NORMAL");
     GlbFile rigid = test::triangle_file();
     rigid.json["nodes"][0]["scale"] = {2, -1, 0.5};
-    GlbFile loose = skinned_file(); // vertex 0 hangs on nothing
+    GlbFile loose = skinned_file(); // vertex 0 has no joint
     loose.json["meshes"][0]["primitives"][0]["attributes"]["WEIGHTS_0"] =
         loose.accessor(std::vector<float>{0, 0, 0, 0, 1, 0, 0, 0, 0.5f, 0.5f, 0, 0}, test::kFloat, "VEC4", 4);
     for (const GlbFile& file : {turned, flat, rigid, loose}) {

@@ -1,3 +1,5 @@
+// Tests damaged glTF files: each is rejected with a clear error.
+
 #include "prt/gltf.h"
 
 #include "prt/support/error.h"
@@ -22,7 +24,7 @@ using test::GlbFile;
 struct Damage {
     const char* name;
     std::function<void(GlbFile&)> change;
-    const char* message; ///< part of what the user is told
+    const char* message; ///< part of the error message
 };
 void PrintTo(const Damage& damage, std::ostream* out) {
     *out << damage.name;
@@ -263,7 +265,7 @@ TEST(DamagedGlb, EveryByteChangedIsReadOrRefused) {
         const auto path = folder.file("changed.glb", changed);
         try {
             extract_scene(load_gltf(path));
-        } catch (const Error&) { // fine: the point is that nothing else happens
+        } catch (const Error&) { // expected; any other exception is a failure
         }
     }
 }
@@ -317,7 +319,7 @@ TEST(HostileGltf, ZerosAndInstancesAreBounded) {
     EXPECT_EQ(refusal_of(often.bytes()), "was read");
 }
 
-/// A file whose node 0 has `count` instances of the mesh, at the origin.
+/// Returns a file whose node 0 has `count` instances of the mesh, at the origin.
 GlbFile instanced_file(std::size_t count) {
     GlbFile file = test::triangle_file();
     const std::size_t places = file.json["accessors"].size();

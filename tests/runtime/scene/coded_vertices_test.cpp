@@ -1,4 +1,4 @@
-// Packed words of vertices, coded in files: what is written is read back bit by bit.
+// Tests entropy-coded words of vertices in files: they are read back bit by bit.
 
 #include "prt/gltf.h"
 #include "prt/support/error.h"
@@ -21,8 +21,8 @@ using Json = nlohmann::ordered_json;
 
 constexpr const char* kExtension = "PRTKIT_clustered_pca";
 
-/// Three primitives of `size` vertices along a side: two halves of one grid, which share its vertices, and
-/// another grid, drawn as a strip.
+/// Returns three primitives of `size` vertices along a side: two halves of one grid with common vertices, and
+/// a second grid, drawn as a strip.
 GlbFile grids(std::uint32_t size) {
     GlbFile file = test::triangle_file();
     std::vector<float> positions, normals;
@@ -55,7 +55,7 @@ GlbFile grids(std::uint32_t size) {
     return file;
 }
 
-/// Three clusters of one weight or none; weights are waves.
+/// Returns three clusters with at most one weight; weights are waves.
 CompressedTransfer transfer_of(const Scene& scene, std::uint32_t size) {
     CompressedTransfer compressed;
     compressed.record.receivers = receivers_id(scene);
@@ -138,13 +138,13 @@ TEST(CodedVertices, ReadAndSavedAgainArePlain) {
         EXPECT_FALSE(primitive.contains("extensions"));
     }
     EXPECT_EQ(read(files.folder / "again.glb").weights, read(files.plain).weights);
-    // Nothing of the code stays in the file: no more than padding, and what interleaved views say.
+    // No code remains in the file: only padding, and the description of interleaved views.
     EXPECT_LT(std::filesystem::file_size(files.folder / "again.glb"),
               std::filesystem::file_size(files.plain) + 200);
 }
 
 TEST(CodedVertices, StayAttributesWhereThoseAreSmaller) {
-    const Files files(3); // less than the frequencies take
+    const Files files(3); // smaller than the frequencies
     EXPECT_FALSE(json_of(files.coded)["extensions"][kExtension]["packing"].contains("words"));
     EXPECT_EQ(read(files.coded).weights, read(files.plain).weights);
 }

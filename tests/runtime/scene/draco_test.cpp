@@ -1,4 +1,4 @@
-// KHR_draco_mesh_compression: meshes compressed by Draco's own encoder against the same meshes as they were.
+// Tests KHR_draco_mesh_compression: meshes compressed by Draco's encoder against the original meshes.
 
 #include "prt/gltf.h"
 #include "prt/support/error.h"
@@ -58,7 +58,7 @@ constexpr int kNormalId = 7, kTexcoordId = 3, kJointsId = 11, kWeightsId = 12, k
 
 struct Coding {
     int method = draco::MESH_EDGEBREAKER_ENCODING;
-    int bits = 0; ///< of quantised positions, normals and texture coordinates; 0: not quantised
+    int bits = 0; ///< bits of quantised positions, normals and texture coordinates; 0: not quantised
 };
 
 template <class T>
@@ -145,7 +145,8 @@ Scene draco_scene(const GlbFile& file) {
     return extract_scene(parse_gltf(std::as_bytes(std::span(bytes)), "memory.glb"));
 }
 
-/// The vertex of `vertices` with the texture coordinates nearest to `texcoord`: they tell vertices apart.
+/// Returns the vertex of `vertices` whose texture coordinates are nearest to `texcoord`, because they
+/// identify vertices.
 std::uint32_t nearest_vertex(const VertexArray& vertices, const glm::vec2& texcoord) {
     const auto& set = vertices.texcoords[0];
     return static_cast<std::uint32_t>(std::min_element(set.begin(), set.end(),
@@ -156,7 +157,7 @@ std::uint32_t nearest_vertex(const VertexArray& vertices, const glm::vec2& texco
                                       set.begin());
 }
 
-/// Triangles by vertices, turned so that the least comes first.
+/// Returns triangles by vertices, rotated so that the smallest index is first.
 std::multiset<std::array<std::uint32_t, 3>> triangles_of(const Primitive& primitive,
                                                          const std::vector<std::uint32_t>& vertex) {
     std::multiset<std::array<std::uint32_t, 3>> triangles;
@@ -177,7 +178,8 @@ TEST(Draco, GivesTheMeshBackWithinItsQuantisation) {
             const Scene scene = draco_scene(draco_file(grid, {method, bits}));
             const VertexArray& vertices = scene.vertex_arrays[0];
             ASSERT_EQ(vertices.size(), truth.size());
-            // Half a step of the largest extent, which is 1; directions have as many steps in two dimensions.
+            // Half a step of the largest extent, which is 1; directions have an equal number of steps in two
+            // dimensions.
             const float step = bits == 0 ? 0.0f : 1.0f / static_cast<float>((1 << bits) - 1);
             std::vector<std::uint32_t> vertex;
             for (std::size_t i = 0; i < vertices.size(); ++i) {
@@ -234,7 +236,7 @@ TEST(Draco, SharedDataIsDecodedForEveryPrimitiveThatUsesIt) {
     GlbFile file = draco_file(Grid(5), {});
     const auto other = file.view(compressed(Grid(8), {}));
     auto same = first_primitive(file), different = first_primitive(file);
-    different["extensions"]["KHR_draco_mesh_compression"]["bufferView"] = other; // into the same accessors
+    different["extensions"]["KHR_draco_mesh_compression"]["bufferView"] = other; // for the same accessors
     file.json["meshes"][0]["primitives"].push_back(same);
     file.json["meshes"][0]["primitives"].push_back(different);
     const Scene scene = draco_scene(file), small = draco_scene(draco_file(Grid(5), {})),
@@ -261,7 +263,7 @@ TEST(Draco, UncompressedDataBesideItIsUsedWhereItIsNotRequired) {
               draco_scene(plain_file(grid)).vertex_arrays[0].positions);
 }
 
-/// What the user is told about `file`; nothing where it is read.
+/// Returns the error message of `file`; empty if it is read.
 std::string message_of(const GlbFile& file) {
     try {
         draco_scene(file);
@@ -306,8 +308,8 @@ TEST(Draco, EveryTruncationIsRefused) {
 TEST(Draco, ClaimsBeyondTheDataAreRefusedBeforeMemoryIsTaken) {
     for (const int method : {draco::MESH_EDGEBREAKER_ENCODING, draco::MESH_SEQUENTIAL_ENCODING}) {
         GlbFile file = draco_file(Grid(3), {method, 11});
-        // Behind the header of 11 bytes: how it goes through the triangles, and the number of vertices (16),
-        // then that of triangles (18), seven bits to a byte.
+        // After the header of 11 bytes: the traversal method, and the number of vertices (16), then that of
+        // triangles (18), seven bits per byte.
         const std::size_t at = method == draco::MESH_EDGEBREAKER_ENCODING ? 13 : 11;
         ASSERT_EQ(file.binary[at], std::byte{18});
         const std::byte many[] = {std::byte{0xff}, std::byte{0xff}, std::byte{0xff}, std::byte{0xff},

@@ -1,3 +1,5 @@
+// Tests the extraction of scenes from glTF documents.
+
 #include "prt/gltf.h"
 
 #include "prt/support/error.h"
@@ -53,7 +55,7 @@ float signed_area(const Scene& scene) {
     return area;
 }
 
-/// Where a vertex lies in the file's world.
+/// Returns the position of a vertex in the file's world space.
 glm::vec3 world(const Scene& scene, const VertexArray& vertices, std::size_t i) {
     return glm::vec3(scene.world(vertices.positions[i]));
 }
@@ -123,7 +125,7 @@ TEST(Nodes, HierarchyInstancesAndMirrorsPlaceTheMesh) {
     const auto& scaled = scene.vertex_arrays[scene.primitives[1].vertices];
     EXPECT_LT(glm::distance(world(scene, scaled, 1), glm::vec3(12, 0, 0)), 1e-6f);
     EXPECT_LT(glm::distance(world(scene, scaled, 2), glm::vec3(10, 3, 0)), 1e-6f);
-    // A mirror turns the winding round, and the front stays the front.
+    // A mirror transform reverses the winding, so that the front side stays the front.
     EXPECT_TRUE(scene.primitives[2].mirrored);
     const auto& mirrored = scene.vertex_arrays[scene.primitives[2].vertices];
     const glm::uvec3 t = scene.primitives[2].triangles[0];
@@ -135,7 +137,7 @@ TEST(Nodes, HierarchyInstancesAndMirrorsPlaceTheMesh) {
 }
 
 TEST(Nodes, FarFromTheOriginLoseNoDigits) {
-    // A hundredth of a millimetre, a hundred kilometres away: floats there are 8 mm apart.
+    // A hundredth of a millimetre at a distance of a hundred kilometres: floats there have steps of 8 mm.
     const auto moved = [](double where) {
         GlbFile file = test::triangle_file();
         const double small = 1e-5;
@@ -228,7 +230,7 @@ TEST(Normals, ZeroOnesAreTakenFromTheTrianglesAndOthersMadeUnit) {
     const Scene scene = scene_of(file);
     const VertexArray& v = scene.vertex_arrays[0];
     EXPECT_EQ(v.normals[0], glm::vec3(0, 0, 1));  // zero
-    EXPECT_EQ(v.normals[1], glm::vec3(0, 0, -1)); // flipped stays as the file says
+    EXPECT_EQ(v.normals[1], glm::vec3(0, 0, -1)); // flipped normals are kept
     EXPECT_EQ(v.normals[2], glm::vec3(0, 0, 1));  // not a number
     EXPECT_EQ(scene.notices.size(), 1u);
 }
@@ -331,7 +333,7 @@ TEST(VertexArrays, AreSharedByPrimitivesThatShareAccessors) {
 
     const auto cluster = file.accessor(std::vector<float>{0, 0, 0}, test::kFloat, "SCALAR", 1);
     file.json["meshes"][0]["primitives"][1]["attributes"]["_PRT_CLUSTER"] = cluster;
-    EXPECT_EQ(scene_of(file).vertex_arrays.size(), 1u); // a bake would take it away
+    EXPECT_EQ(scene_of(file).vertex_arrays.size(), 1u); // a bake would remove it
 
     const auto texcoord = file.accessor(std::vector<float>{0, 0, 1, 0, 0, 1}, test::kFloat, "VEC2", 2);
     file.json["meshes"][0]["primitives"][1]["attributes"]["TEXCOORD_0"] = texcoord;

@@ -1,4 +1,5 @@
-// Baked light for viewers that do not know the extensions: what they are shown, and that nobody else sees it.
+// Tests baked light for viewers that do not support the extensions: its colors, and that other readers ignore
+// it.
 
 #include "prt/fallback.h"
 
@@ -27,8 +28,8 @@ GltfDocument document_of(const GlbFile& file) {
     return parse_gltf(std::as_bytes(std::span(text)), "model.glb");
 }
 
-/// Primitives of material 0, with colors and without, of a material that shines and of none; and points of
-/// material 0, which have no transfer.
+/// Returns primitives of material 0, with colors and without, of an emissive material and without material;
+/// and points of material 0, which have no transfer.
 GlbFile scene_of_all_kinds() {
     GlbFile file = test::triangle_file();
     file.json["materials"] = {
@@ -117,9 +118,9 @@ TEST(Fallback, ShowsLightOnMaterialsThatSendItBack) {
     for (std::size_t p = 0; p < 6; ++p)
         EXPECT_EQ(is_unlit(file, primitives[p]), unlit[p]) << p;
     EXPECT_EQ(primitives[2]["material"], 1);
-    EXPECT_EQ(primitives[3]["material"], 2); // as it was
+    EXPECT_EQ(primitives[3]["material"], 2); // unchanged
     EXPECT_FALSE(primitives[3]["attributes"].contains("COLOR_0"));
-    EXPECT_EQ(primitives[5]["material"], 0); // of which the others have a copy
+    EXPECT_EQ(primitives[5]["material"], 0); // the others have a copy of it
     EXPECT_EQ(primitives[0]["material"], primitives[1]["material"]);
     EXPECT_EQ(file.json["materials"][primitives[0]["material"].get<std::size_t>()]["name"], "wall");
 
@@ -163,7 +164,7 @@ TEST(Fallback, GoesWithTheTransfer) {
     const std::string text = file.json.dump();
     for (const char* word : {"PRT", "fallback"})
         EXPECT_EQ(text.find(word), std::string::npos) << word;
-    EXPECT_EQ(file.json["extensionsUsed"], Json({"KHR_materials_unlit"})); // of the sign
+    EXPECT_EQ(file.json["extensionsUsed"], Json({"KHR_materials_unlit"})); // used by the sign
     EXPECT_TRUE(file.json["meshes"][0]["primitives"][0]["attributes"].contains("COLOR_0"));
     EXPECT_FALSE(file.json["meshes"][0]["primitives"][1]["attributes"].contains("COLOR_0"));
     GltfDocument plain = document_of(shipped(scene_of_all_kinds()));
@@ -188,7 +189,7 @@ TEST(Fallback, OfDamagedFilesIsRefusedOrAside) {
     file.json["meshes"][0]["primitives"][0]["attributes"]["_PRT_COLOR_0"] = 999;
     EXPECT_THROW(document_of(file), Error);
     file = right;
-    file.json["extensions"][kOwn].erase("fallback"); // materials alone say nothing
+    file.json["extensions"][kOwn].erase("fallback"); // materials alone are not a fallback
     EXPECT_EQ(extract_scene(document_of(file)).primitives.size(), 5u);
     GltfDocument bare = document_of(scene_of_all_kinds());
     const Scene scene = extract_scene(bare);

@@ -1,4 +1,4 @@
-// Guides in files: what the reader sees of them is what the writer had.
+// Tests predictors in files: the reader returns the data of the writer.
 
 #include "prt/coded_rows.h"
 #include "prt/gltf.h"
@@ -23,7 +23,8 @@ using test::GlbFile;
 
 const std::vector<GuideKind> kBoth = {GuideKind::normal, GuideKind::position};
 
-/// Quantised normals, a primitive without normals that folds, and nodes that mirror, scale and turn it all.
+/// Returns quantised normals, a folded primitive without normals, and nodes that mirror, scale and rotate the
+/// mesh.
 GlbFile hard_file(const glm::dvec3& place) {
     GlbFile file = test::triangle_file();
     file.json["extensionsUsed"] = {"KHR_mesh_quantization"};
@@ -130,7 +131,7 @@ TEST_P(GuidesInFiles, ComeBackAsTheyAre) {
             EXPECT_EQ(t.bases.rows, c.transfer.bases.rows);
             EXPECT_EQ(t.bases.bits, c.transfer.bases.bits);
             EXPECT_EQ(t.receivers.weights, c.transfer.receivers.weights);
-            // Those of flat normals are rounded once more.
+            // Predictors of flat normals are rounded a second time.
             ASSERT_EQ(t.receivers.guides.size(), c.transfer.receivers.guides.size());
             for (std::size_t i = 0; i < t.receivers.guides.size(); ++i)
                 EXPECT_NEAR(t.receivers.guides[i], c.transfer.receivers.guides[i], 1e-6f) << i;
@@ -194,7 +195,7 @@ TEST(GuidesInFile, LeaveNothingBehind) {
               std::filesystem::file_size(folder / "after.glb"));
 }
 
-/// What a file with guides is refused with after `change` of its extension.
+/// The error of a file with predictors after `change` of its extension.
 class GuidedFile {
 public:
     explicit GuidedFile(WeightFormat format) {
@@ -274,7 +275,7 @@ TEST(GuidesInFile, ThatMakeNoSenseAreRefusedInALine) {
         e["centers"]["bufferView"] = file.view(std::vector<std::byte>(1, std::byte{0xff}));
     };
     EXPECT_NE(guided_file.refusal(ends_early).find("the centers: "), std::string::npos);
-    // The bases have rows for guides, and the widths of weights none.
+    // The bases have rows for predictors, and the widths of weights have none.
     EXPECT_NE(guided_file.refusal([](Json& e, GlbFile&) {
         e["guides"].erase(1);
         e["centers"]["drops"] = {0, 0, 0};
@@ -289,7 +290,7 @@ TEST(GuidesInFile, RowsOfZerosAreNotAllocatedForNothing) {
         constexpr std::size_t kClusters = 65536, kDimension = 12, kAxes = 200;
         e["components"] = std::vector<int>(kClusters, 0);
         const auto zero_rows = [&](std::size_t rows, std::size_t columns) {
-            // Rows of zeros are their levels, however many columns they have.
+            // Rows of zeros consist of their levels, for any number of columns.
             const RowCode code = encode_rows(std::vector<std::int32_t>(rows, 0), 1);
             return nlohmann::ordered_json{{"bufferView", file.view(code.bits)},
                                           {"drops", std::vector<int>(columns, 0)}};
@@ -302,7 +303,7 @@ TEST(GuidesInFile, RowsOfZerosAreNotAllocatedForNothing) {
         e["bases"]["axes"] = zero_rows(kAxes, kDimension);
         e["bases"]["values"] = zero_rows(7 * kClusters, kAxes);
     };
-    // Seven rows a cluster take 433 MB of 0.3 + 0.02 MB of file, one row took 62.
+    // Seven rows per cluster need 433 MB for 0.3 + 0.02 MB of file, one row needs 62 MB.
     EXPECT_NE(guided_file.refusal(many).find("its bases would take"), std::string::npos)
         << guided_file.refusal(many);
 }

@@ -1,4 +1,4 @@
-// Levels of detail in files: what says that a node is one, where it stands, and what is refused.
+// Tests levels of detail in files: their marks, their positions, and invalid files.
 
 #include "prt/levels.h"
 
@@ -17,7 +17,7 @@ namespace levels_in_files {
 using test::GlbFile;
 using Json = nlohmann::ordered_json;
 
-/// Nodes that all draw the triangle; the first `roots` stand in the scene.
+/// Returns nodes that all draw the triangle; the first `roots` nodes are in the scene.
 GlbFile file_of(const std::vector<Json>& nodes, std::size_t roots) {
     GlbFile file = test::triangle_file();
     file.json["nodes"] = Json::array();
@@ -179,7 +179,7 @@ TEST(LevelsInFiles, WithoutTrianglesAreLeftOutAndTold) {
         extract_levels(loaded(file_of({with_ids(Json::object(), {1, 2}), empty, Json::object()}, 1)));
     ASSERT_EQ(levels.nodes.size(), 1u);
     ASSERT_EQ(levels.nodes[0].coarser.size(), 1u);
-    EXPECT_EQ(levels.nodes[0].coarser[0].level, 2); // by its place in the list
+    EXPECT_EQ(levels.nodes[0].coarser[0].level, 2); // from its index in the list
     EXPECT_EQ(levels.notices.size(), 1u);
     const LeveledScene group =
         extract_levels(loaded(file_of({with_ids(empty, {1}), empty, Json::object()}, 3)));
@@ -189,7 +189,7 @@ TEST(LevelsInFiles, WithoutTrianglesAreLeftOutAndTold) {
 
 TEST(LevelsInFiles, HaveTransferOfTheirOwnBesideThatOfTheScene) {
     GltfDocument document =
-        loaded(file_of({with_ids(Json::object(), {1}), Json::object()}, 1)); // of one mesh
+        loaded(file_of({with_ids(Json::object(), {1}), Json::object()}, 1)); // both with one mesh
     const LeveledScene levels = extract_levels(document);
     EXPECT_FALSE(levels_have_transfer(document, levels));
     BakedTransfer baked{zero_transfer(2, 1, 6), {}};

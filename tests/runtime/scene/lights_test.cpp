@@ -1,4 +1,4 @@
-// Lights of KHR_lights_punctual and materials that shine, as files give them.
+// Tests lights of KHR_lights_punctual and emissive materials in files.
 
 #include "prt/gltf.h"
 #include "prt/support/error.h"
@@ -44,7 +44,7 @@ std::string error_of(const GlbFile& file) {
 }
 
 TEST(PunctualLights, StandWhereTheirNodesStand) {
-    // A quarter turn about +X takes -Z to +Y.
+    // A quarter rotation about +X maps -Z to +Y.
     const double half = std::sqrt(0.5);
     const Scene scene =
         scene_with_lights(with_light({{"type", "spot"},

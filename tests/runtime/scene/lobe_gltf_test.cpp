@@ -64,7 +64,7 @@ TEST(LobesOfFiles, AreReadAsTheyWereWritten) {
     EXPECT_FALSE(read_lobes(none, extract_scene(none)));
 }
 
-/// As a file that is written and read again.
+/// Writes a document as a file and reads it back.
 GltfDocument read_again(const GltfDocument& document) {
     return parse_gltf(encode_glb(document), "memory.glb");
 }

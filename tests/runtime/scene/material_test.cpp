@@ -1,4 +1,4 @@
-// What materials, nodes and textures beyond the core of glTF come to, and what is said of the rest.
+// Tests materials, nodes and textures beyond the core of glTF, and notices about unsupported ones.
 
 #include "prt/gltf.h"
 #include "prt/support/error.h"
@@ -165,13 +165,13 @@ TEST(Hidden, NodesAndAllBelowThemAreNoPartOfTheScene) {
     EXPECT_EQ(notices_with(scene, "3 meshes are hidden"), 1u);
 }
 
-/// Three instances of the triangle, moved, turned and scaled, below a node that moves all up.
+/// Returns three instances of the triangle, moved, rotated and scaled, below a node that moves all up.
 GlbFile three_instances() {
     GlbFile file = test::triangle_file();
     const auto half = static_cast<std::int16_t>(std::lround(32767 * std::sqrt(0.5)));
     const auto translation =
         file.accessor(std::vector<float>{0, 0, 0, 5, 0, 0, 0, 0, -7}, test::kFloat, "VEC3", 3);
-    const auto rotation = // none, then a quarter turn about z
+    const auto rotation = // none, then a quarter rotation about z
         file.accessor(std::vector<std::int16_t>{0, 0, 0, 32767, 0, 0, half, half, 0, 0, 0, 32767},
                       test::kShort, "VEC4", 4, true);
     const auto scale =
@@ -204,7 +204,7 @@ TEST(Instances, AreNodesOfTheirOwnInTheScene) {
                            [&](const glm::vec3& c) { return glm::distance(c, expected) < 1e-3f; });
     };
     EXPECT_TRUE(has({1, 10, 0}));
-    EXPECT_TRUE(has({5, 12, 0})); // scaled to 2, turned to +y, moved
+    EXPECT_TRUE(has({5, 12, 0})); // scaled to 2, rotated to +y, moved
     EXPECT_TRUE(has({0.5f, 10, -7}));
     EXPECT_TRUE(has({1, 10, 100}));
     EXPECT_EQ(notices_with(scene, "its 3 instances"), 1u);

@@ -1,4 +1,4 @@
-// EXT_meshopt_compression: what is written compressed is read back bit by bit.
+// Tests EXT_meshopt_compression: compressed data are read back bit by bit.
 
 #include "prt/gltf.h"
 #include "prt/support/error.h"
@@ -21,7 +21,8 @@ namespace {
 
 using test::GlbFile;
 
-/// A curved grid with texture coordinates of two bytes, and an extra image-like view that nothing may touch.
+/// Returns a curved grid with texture coordinates of two bytes, and an additional view that must stay
+/// unchanged.
 GlbFile grid_file(std::uint32_t size) {
     GlbFile file = test::triangle_file();
     std::vector<float> positions, normals;
@@ -87,7 +88,8 @@ TEST(Meshopt, ComesBackBitByBitAndIsSmaller) {
     EXPECT_EQ(a.vertex_arrays[0].texcoords, b.vertex_arrays[0].texcoords);
     EXPECT_EQ(receivers_id(a), receivers_id(b));
     ASSERT_EQ(a.primitives[0].triangles.size(), b.primitives[0].triangles.size());
-    for (std::size_t t = 0; t < a.primitives[0].triangles.size(); ++t) { // the codec may turn a triangle
+    // the codec may rotate the corners of a triangle
+    for (std::size_t t = 0; t < a.primitives[0].triangles.size(); ++t) {
         const glm::uvec3 x = a.primitives[0].triangles[t], y = b.primitives[0].triangles[t];
         EXPECT_TRUE(x == y || x == glm::uvec3(y.y, y.z, y.x) || x == glm::uvec3(y.z, y.x, y.y)) << t;
     }
@@ -146,13 +148,14 @@ TEST(Meshopt, DamagedDataIsRefused) {
     });
 }
 
-/// Adds a view of `values` as a filter leaves them, packed, whose elements take `stride` bytes.
+/// Adds a compressed view of `values`, which have the format of a filter's output; elements have `stride`
+/// bytes.
 template <class T>
 std::size_t filtered_view(GlbFile& file, const std::vector<T>& values, std::size_t stride,
                           const char* filter) {
     const std::size_t count = values.size() * sizeof(T) / stride;
     std::vector<unsigned char> packed(meshopt_encodeVertexBufferBound(count, stride));
-    meshopt_encodeVertexVersion(0); // what the extension asks for
+    meshopt_encodeVertexVersion(0); // version required by the extension
     packed.resize(meshopt_encodeVertexBuffer(packed.data(), packed.size(), values.data(), count, stride));
     const std::size_t index = file.view(std::as_bytes(std::span(packed)), stride);
     auto& view = file.json["bufferViews"][index];
@@ -224,7 +227,8 @@ TEST(Meshopt, ExponentialPositionsAreMantissasTimesPowersOfTwo) {
 }
 
 TEST(Meshopt, QuaternionsOfInstancesGetTheirLargestNumberBack) {
-    // A quarter turn about +Y, (0, s, 0, s): without the last number, the others times the root of 2.
+    // A quarter rotation about +Y, (0, s, 0, s): without the last number, the others times the square root of
+    // 2.
     GlbFile file = test::triangle_file();
     const std::vector<std::int16_t> values = {0, 32767, 0, 32764 | 3};
     const std::size_t view = filtered_view(file, values, 8, "QUATERNION"),

@@ -40,7 +40,7 @@ GlbFile chain() {
     return file;
 }
 
-/// An animation that turns a node.
+/// Adds an animation that rotates a node.
 void turn(GlbFile& file, int node) {
     const std::size_t times = file.accessor(std::vector<float>{0, 1}, test::kFloat, "SCALAR", 1);
     file.json["accessors"][times]["min"] = {0};
@@ -127,7 +127,7 @@ TEST(RigidParts, ThatAreSmallGoWithWhatCarriesThem) {
     EXPECT_EQ(names_of(parts_of(file, 0.8)), (std::vector<std::string>{"root"}));
 }
 
-/// Two triangles, each skinned to a joint of its own, one of which is a metre up.
+/// Returns two triangles, each skinned to a separate joint; one of the joints is a metre up.
 GlbFile skinned() {
     GlbFile file = test::triangle_file();
     file.binary.clear();

@@ -1,4 +1,4 @@
-// Finer files and scenes: what a vertex in the middle of an edge has.
+// Tests refined files and scenes: the attributes of a vertex in the middle of an edge.
 
 #include "prt/refinement.h"
 
@@ -29,7 +29,7 @@ Refinement first_edge_split(const Scene& scene) {
     return refinement;
 }
 
-/// A file, and the same with more vertices.
+/// A file, and its version with more vertices.
 struct Finer {
     explicit Finer(const GlbFile& file) {
         file.write(folder / "file.glb");
@@ -227,13 +227,13 @@ TEST(RefinedFile, KeepsVerticesWithoutWeights) {
 TEST(RefinedFile, SplitsStripsAndWhatIsTurned) {
     GlbFile file = test::triangle_file();
     primitive_in(file)["mode"] = 5;
-    file.json["nodes"][0]["scale"] = {-1, 1, 1}; // the scene turns its triangles round
+    file.json["nodes"][0]["scale"] = {-1, 1, 1}; // the scene reverses the winding
     const Finer finer(file);
     ASSERT_TRUE(finer.in_file.primitives[0].mirrored);
     EXPECT_FALSE(finer.primitive_in().contains("mode"));
     expect_same(finer.in_memory, finer.in_file);
     EXPECT_EQ(finer.element<std::uint32_t>(finer.primitive_in()["indices"], 0, 3),
-              (std::vector<std::uint32_t>{0, 1, 3})); // as the file had it: 0 1 2 without the middle 3
+              (std::vector<std::uint32_t>{0, 1, 3})); // in the order of the file: 0 1 2 without the middle 3
 }
 
 TEST(RefinedFile, KeepsFlatNormalsOfPrimitivesWithoutAny) {
@@ -249,7 +249,7 @@ TEST(RefinedFile, IsRefinedForEachNodeByItself) {
     GlbFile file = test::triangle_file();
     file.json["nodes"] = {{{"mesh", 0}}, {{"mesh", 0}, {"translation", {5, 0, 0}}}};
     file.json["scenes"][0]["nodes"] = {0, 1};
-    const Finer finer(file); // of node 0 alone
+    const Finer finer(file); // only node 0
     ASSERT_EQ(finer.in_file.primitives.size(), 2);
     EXPECT_EQ(finer.in_file.primitives[0].triangles.size(), 2);
     EXPECT_EQ(finer.in_file.primitives[1].triangles.size(), 1);

@@ -1,3 +1,5 @@
+// Tests the reordering of vertices in files.
+
 #include "prt/reorder.h"
 
 #include "prt/support/error.h"
@@ -14,8 +16,8 @@ namespace {
 
 using test::GlbFile;
 
-/// Two nodes share a mesh whose two primitives share vertices, with colors and a morph target; and an
-/// animation.
+/// Returns two nodes with one mesh, whose two primitives share vertices, with colors and a morph target; and
+/// an animation.
 GlbFile instanced_file() {
     GlbFile file = test::triangle_file();
     const auto position = file.accessor(std::vector<float>{0, 0, 0, 1, 0, 0, 0, 1, 0, 1, 1, 1, 2, 0, 1},
@@ -47,7 +49,7 @@ GlbFile instanced_file() {
     return file;
 }
 
-/// Corners of all triangles, in order, whatever the order of the vertices.
+/// Returns the corners of all triangles, in order, independent of the order of the vertices.
 std::vector<glm::vec3> corners(const Scene& scene) {
     std::vector<glm::vec3> result;
     for (const Primitive& primitive : scene.primitives)
@@ -65,7 +67,7 @@ TEST(Reorder, MovesVerticesAndDrawsTheSame) {
     instanced_file().write(folder / "a.glb");
     GltfDocument document = load_gltf(folder / "a.glb");
     const Scene scene = extract_scene(document);
-    ASSERT_EQ(scene.vertex_arrays.size(), 2u); // of each node
+    ASSERT_EQ(scene.vertex_arrays.size(), 2u); // one per node
     const std::vector<std::uint32_t> order = {4, 2, 0, 1, 3, 5, 9, 8, 7, 6};
     reorder_vertices(document, scene, order);
     save_glb(document, folder / "b.glb");
@@ -74,9 +76,9 @@ TEST(Reorder, MovesVerticesAndDrawsTheSame) {
     EXPECT_EQ(corners(moved), corners(scene));
     EXPECT_EQ(moved.vertex_arrays[0].positions[0], scene.vertex_arrays[0].positions[4]);
     EXPECT_EQ(moved.vertex_arrays[1].positions[1], scene.vertex_arrays[1].positions[4]);
-    EXPECT_EQ(receivers_id(moved), receivers_id(scene)); // the same receivers, in another order
+    EXPECT_EQ(receivers_id(moved), receivers_id(scene)); // equal receivers in a different order
     EXPECT_EQ(matching_receivers(moved, scene), order);
-    // What was replaced is gone: a second time changes nothing in the size.
+    // Replaced data are removed: a second time does not change the size.
     std::vector<std::uint32_t> same(order.size());
     for (std::uint32_t i = 0; i < same.size(); ++i)
         same[i] = i;

@@ -1,4 +1,4 @@
-// Files whose double-sided surfaces become two.
+// Tests files whose double-sided surfaces are split into two sides.
 
 #include "prt/separate_sides.h"
 
@@ -13,7 +13,7 @@ namespace {
 using test::GlbFile;
 using Json = nlohmann::ordered_json;
 
-/// A square of two triangles, both sides of material 0, with all that says which way its vertices look.
+/// Returns a square of two triangles, both with material 0, and with all attributes that contain directions.
 GlbFile square_file() {
     GlbFile file = test::triangle_file();
     Json& primitive = file.json["meshes"][0]["primitives"][0];
@@ -73,7 +73,8 @@ TEST(SeparateSides, TurnAllThatLooksSomewhere) {
     using Bytes = std::vector<std::int8_t>;
     using Floats = std::vector<float>;
     EXPECT_EQ(file.element<std::int8_t>(attributes["NORMAL"], 4, 3), (Bytes{0, 0, -127}));
-    EXPECT_EQ(file.element<std::int8_t>(attributes["NORMAL"], 7, 3), (Bytes{127, 0, 0})); // of -128
+    // the negative of -128
+    EXPECT_EQ(file.element<std::int8_t>(attributes["NORMAL"], 7, 3), (Bytes{127, 0, 0}));
     EXPECT_EQ(file.element<float>(attributes["TANGENT"], 6, 4), (Floats{-1, -0.0f, -0.0f, 1}));
     EXPECT_EQ(file.element<float>(attributes["TEXCOORD_0"], 6, 2), (Floats{1, 1}));
     EXPECT_EQ(file.element<float>(target["POSITION"], 5, 3), (Floats{4, 5, 6}));
@@ -100,7 +101,7 @@ TEST(SeparateSides, LeaveTheOtherTrianglesDoubleSided) {
     EXPECT_EQ(lamp_name(file.after, file.after.primitives[1].material), "material 0");
 }
 
-/// A square of variants: material 1, and another one that is `double_sided` or not.
+/// Returns a square with variants: material 1, and a second one that is `double_sided` or not.
 GlbFile file_of_variants(bool double_sided) {
     GlbFile file = square_file();
     Json& primitive = file.json["meshes"][0]["primitives"][0];
@@ -163,7 +164,7 @@ TEST(SeparateSides, AreOfANode) {
     const Primitive& mirrored = result.after.primitives[1];
     ASSERT_EQ(mirrored.triangles.size(), 4u);
     const VertexArray& vertices = result.after.vertex_arrays[mirrored.vertices];
-    for (std::size_t t = 0; t < 4; ++t) { // normals and turns agree
+    for (std::size_t t = 0; t < 4; ++t) { // normals and winding agree
         const glm::uvec3& c = mirrored.triangles[t];
         const glm::vec3 &a = vertices.positions[c.x], &b = vertices.positions[c.y],
                         &d = vertices.positions[c.z];

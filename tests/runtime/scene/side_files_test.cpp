@@ -17,7 +17,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// A scene in a folder of its own, with files in and beside it.
+/// A scene in a separate folder, with files inside and outside it.
 class SideFile : public testing::Test {
 protected:
     SideFile() {
@@ -37,7 +37,7 @@ protected:
         return {reinterpret_cast<const char*>(file.binary.data()), file.binary.size()};
     }
 
-    /// What is said of a scene whose buffer is `uri`.
+    /// Returns the error of a scene whose buffer is `uri`.
     std::string refusal_of_buffer(const std::string& uri, const GltfOptions& options = {}) {
         test::GlbFile file = test::triangle_file();
         file.json["buffers"] = {{{"uri", uri}, {"byteLength", file.binary.size()}}};

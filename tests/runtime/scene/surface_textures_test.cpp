@@ -38,7 +38,7 @@ std::vector<std::byte> some_png() {
     return encode_png(2, 2, std::vector<glm::u8vec3>(4, glm::u8vec3(100)));
 }
 
-/// Two nodes with a triangle each, whose primitives have one material; a third primitive of lines, too.
+/// Returns two nodes with a triangle each, whose primitives share a material, and a third primitive of lines.
 GlbFile shared_material() {
     GlbFile file = test::triangle_file();
     file.json["materials"] = {{{"name", "shared"}, {"extras", {{"keep", 1}}}}};
@@ -65,7 +65,7 @@ TEST(SurfaceTextures, GiveEveryTextureAMaterial) {
     const auto material = [&](std::size_t mesh, std::size_t primitive) {
         return file.json["meshes"][mesh]["primitives"][primitive]["material"].get<std::size_t>();
     };
-    EXPECT_EQ(material(1, 1), 0u); // lines keep what they had
+    EXPECT_EQ(material(1, 1), 0u); // lines keep their material
     EXPECT_FALSE(file.json["materials"][0].contains("occlusionTexture"));
     const auto &a = file.json["materials"][material(0, 0)], &b = file.json["materials"][material(1, 0)];
     EXPECT_EQ(a["name"], "shared");
@@ -162,7 +162,7 @@ TEST(VertexSplits, TakeAllThatVerticesHaveAlong) {
     given.json["meshes"][0]["primitives"][0]["attributes"]["COLOR_0"] = color;
     Written written(given);
     EXPECT_EQ(free_texcoord(written.scene), 0);
-    // Every corner a vertex of its own, and one more that is split.
+    // A separate vertex for every corner, and one more that is split.
     const VertexSplit split{{2, 1, 0, 1}, {{0.1f, 0.2f}, {0.3f, 0.4f}, {0.5f, 0.6f}, {0.7f, 0.8f}}, {}};
     std::vector<VertexSplit> splits(2, split);
     for (std::size_t p = 0; p < 2; ++p) {

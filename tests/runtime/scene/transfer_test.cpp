@@ -1,3 +1,5 @@
+// Tests writing and reading of transfer in files.
+
 #include "prt/gltf.h"
 
 #include "prt/support/error.h"
@@ -310,7 +312,7 @@ public:
         const auto* data = reinterpret_cast<const std::byte*>(bytes_.data());
         changed.binary.assign(data + 28 + length, data + bytes_.size());
         change(changed);
-        changed.json.erase("buffers"); // of the length that it has now
+        changed.json.erase("buffers"); // it is rewritten with the current length
         changed.write(files_.folder / "changed.glb");
         const GltfDocument d = load_gltf(files_.folder / "changed.glb");
         read_clustered(d, extract_scene(d));
@@ -458,7 +460,7 @@ TEST(TransferInGltf, EverythingThatTheSchemaForbidsIsRefused) {
         [&](auto& j) { extension(j)["components"][0] = -1; },
         [&](auto& j) { extension(j)["packing"]["clusterBits"] = 0; }, // for two clusters
         [&](auto& j) { extension(j)["packing"]["clusterBits"] = 1.5; },
-        [&](auto& j) { bases(j)["step"] = 0.01; }, // beside "steps"
+        [&](auto& j) { bases(j)["step"] = 0.01; }, // not allowed together with "steps"
         [&](auto& j) { bases(j)["steps"]["least"] = -0.01; },
         [&](auto& j) { bases(j)["steps"]["least"] = "small"; },
         [&](auto& j) { bases(j)["steps"]["least"] = 1e39; },
@@ -524,7 +526,7 @@ TEST(TransferInGltf, WhatTheFileDoesNotHoldIsNotAllocated) {
         extension(file.json)["components"] = std::vector<int>(65536, 27);
     };
     EXPECT_NE(refusal(read_plain, many_clusters).find("bytes, but there are"), std::string::npos);
-    // A row of zeros has four bits and becomes as many values as there are axes.
+    // A row of zeros has four bits and is decoded to one value per axis.
     const auto many_axes = [&](GlbFile& file) {
         auto& e = extension(file.json);
         e["components"] = std::vector<int>(2048, 16);
@@ -547,7 +549,7 @@ TEST(TransferInGltf, DataThatTransferSharesWithGeometryStays) {
     shared.json["extensions"]["PRTKIT_transfer"] =
         test::read_glb(files.written).json["extensions"]["PRTKIT_transfer"];
     auto& primitive = shared.json["meshes"][0]["primitives"][0];
-    primitive["extensions"]["PRTKIT_transfer"]["vectors"] = {{"bufferView", 0}}; // of the positions
+    primitive["extensions"]["PRTKIT_transfer"]["vectors"] = {{"bufferView", 0}}; // the view of the positions
     primitive["attributes"]["_PRT_CLUSTER"] = 1;                                 // the normals
     shared.write(files.source);
     GltfDocument again = load_gltf(files.source);

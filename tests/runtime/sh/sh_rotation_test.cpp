@@ -1,3 +1,5 @@
+// Tests rotations of spherical harmonics.
+
 #include "prt/sh_rotation.h"
 
 #include "prt/sh.h"
@@ -57,7 +59,8 @@ TEST(ShRotation, TwoTurnsAreOne) {
               1e-12);
 }
 
-/// Against the function itself, where the axis of the tilt hardly shows in the matrix, and at half turns.
+/// Compares with the function itself, for tilts whose axis is hardly visible in the matrix, and for half
+/// rotations.
 TEST(ShRotation, NearlyNoTiltAndHalfTurnsAreExact) {
     const auto f = random_function(2);
     for (const double tilt : {0.0, 1e-300, 1e-17, 1e-9, 1e-5, pi - 1e-9, pi}) {
@@ -111,8 +114,8 @@ TEST(ShRotation, FloatsAndColorsAreTheSame) {
     }
 }
 
-/// Bands know nothing of each other, so a rotation of fewer bands is the beginning of one of more, and
-/// touches nothing behind its end. Against the function itself.
+/// Bands are independent, so a rotation of fewer bands equals the first bands of one of more, and changes no
+/// further elements. Compared with the function itself.
 TEST(ShRotation, EveryOrderTurnsTheFunctionAndNothingElse) {
     const glm::dmat3 r = glm::mat3_cast(turn(2.3, {0.3, -1, 0.7}));
     const glm::dvec3 w = glm::normalize(glm::dvec3(0.2, 0.9, -0.5)), before = glm::transpose(r) * w;
@@ -168,7 +171,7 @@ TEST(ShRotation, TenThousandComposedMatricesKeepTheNorm) {
         before += f[i] * f[i];
         after += g[i] * g[i];
     }
-    EXPECT_NEAR(after / before, 1, 1e-12); // what is taken apart is made orthonormal
+    EXPECT_NEAR(after / before, 1, 1e-12); // the input is orthonormalised
 }
 
 TEST(ShRotation, WhatIsNoRotationIsRefused) {

@@ -1,3 +1,5 @@
+// Tests the basis of spherical harmonics.
+
 #include "prt/sh.h"
 
 #include "prt/sh_rotation.h"
@@ -100,7 +102,7 @@ TEST_P(ShOrder, ClampedCosineLobeIsTheIntegralOfTheClampedCosine) {
         });
         EXPECT_NEAR(lobe[i], integral, 2e-4) << i; // the midpoint rule errs by the square of a cell, 0.01
         if (i >= 40)
-            break; // the high bands are the same code; one of each parity has been seen
+            break; // high bands use the same code; each parity was tested
     }
 }
 

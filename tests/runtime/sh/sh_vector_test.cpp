@@ -1,3 +1,5 @@
+// Tests arithmetic on vectors of spherical harmonics.
+
 #include "prt/sh_vector.h"
 
 #include "prt/sh.h"

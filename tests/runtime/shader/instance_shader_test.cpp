@@ -1,4 +1,4 @@
-// The vertex shader of instances against C++, through compressed transfer with guides.
+// Compares the vertex shader of instances with C++, for compressed transfer with predictors.
 
 #include "prt/compress.h"
 #include "prt/gl_renderer.h"
@@ -48,7 +48,7 @@ InstanceFactors random_factors(std::mt19937& random) {
     return factors_of(numbers);
 }
 
-/// What the nine modes of an instance are evaluated to, one by one.
+/// Returns the radiance evaluated for each of the nine modes of an instance.
 std::vector<glm::vec3> radiance_of(const ClusteredTransfer& mesh, const PlacedInstance& instance,
                                    const Lighting& lighting) {
     std::array<std::vector<glm::vec3>, kInstanceModes> of_modes;

@@ -1,12 +1,13 @@
 #!/usr/bin/env bash
-# lint_shaders.sh FOLDER: compiles every shader of a folder, with the defines of its variants, by Khronos' reference
-# compiler: drivers take more than the language has. What games get has tests of its own, in all languages.
+# lint_shaders.sh FOLDER: compiles every shader of a folder, with the defines of its variants, by Khronos'
+# reference compiler, because drivers accept more than the language allows. Shaders for games have separate
+# tests, in all languages.
 set -euo pipefail
 cd "$1"
 folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT
 
-# expand FILE: the file with its includes in place, each once, as prt::shader_source does.
+# expand FILE: prints the file with each include inserted once, as prt::shader_source does.
 expand() {
     awk 'function put(name, line, part) {
             if (seen[name]++) return

@@ -1,4 +1,4 @@
-// What the vertex shader is told of a model.
+// Tests the defines of the vertex shader for a model.
 
 #include "prt/shader_source.h"
 

@@ -1,3 +1,5 @@
+// Runs vertex shaders with transform feedback.
+
 #include "run_shader.h"
 
 #include "prt/constant_former.h"
@@ -78,7 +80,7 @@ void bind_receivers(const ClusteredReceivers& receivers) {
     glVertexAttribIPointer(PRT_LOCATION_CLUSTER, 1, GL_UNSIGNED_SHORT, 2, nullptr);
 }
 
-/// The attributes of a mesh that guides want: normals, and positions in the file's world.
+/// Binds the attributes of predictors: normals, and positions in the file's world space.
 void bind_guides(const ClusteredTransfer& transfer, const glm::vec3& scene_origin) {
     const std::size_t rows = transfer.bases.guide_rows();
     for (std::size_t g = 0; g < transfer.bases.guides.size(); ++g) {

@@ -1,7 +1,7 @@
 #pragma once
 
-// Runs the vertex shader of a model in the context that is current, and reads back what it computes. Only
-// what OpenGL ES 3.0 has is called, so that one test serves both kinds of context.
+// Runs the vertex shader of a model in the current context, and reads back its result. It calls only
+// functions of OpenGL ES 3.0, so that one test serves both kinds of context.
 
 #include "prt/clustered_transfer.h"
 #include "prt/shader_source.h"
@@ -29,24 +29,25 @@ private:
     bool current_ = false;
 };
 
-/// Whether the device of the current context filters textures, divides and takes roots as C++ does: Mesa's
-/// software does.
+/// True if the device of the current context filters textures, divides and computes roots exactly as C++
+/// does: Mesa's software rasteriser does.
 bool device_is_exact();
-/// Of radiance against C++. GLSL lets divisions and inverse roots be off by 2.5 and 2 units; by small sums of
-/// weights, as where few probes see a place, they count a hundred times: 7e-5 on an NVIDIA H200.
+/// Tolerance of radiance against C++. GLSL allows errors of 2.5 units for divisions and of 2 units for
+/// inverse roots; with small sums of weights, where few probes see a position, they are amplified a hundred
+/// times: 7e-5 on an NVIDIA H200.
 float rounding_tolerance();
-/// Of what textures filter. OpenGL lets shares of a texel have 8 bits: each of three axes is off by 1/512 of
-/// how far neighbours differ, which is up to four times the mean in random volumes.
+/// Tolerance of filtered textures. OpenGL allows filter weights of 8 bits: on each of three axes the error is
+/// 1/512 of the difference between neighbours, which is up to four times the mean in random volumes.
 float filter_tolerance();
 
 /// A shader object. A test in which it does not compile fails.
 GLuint compiled(GLenum stage, const std::string& source);
 
-/// A program in use, of a vertex shader that writes `radiance` and a fragment shader that shows it. A test in
-/// which it does not link fails.
+/// Links and uses a program: a vertex shader that writes `radiance`, and a fragment shader that outputs it.
+/// The test fails if it does not link.
 GLuint linked_program(const std::string& vertex_shader, ShaderLanguage language);
 
-/// Nothing is drawn, but without a window there is no framebuffer unless we make one.
+/// Nothing is drawn, but without a window there is no framebuffer unless the test creates one.
 void bind_small_framebuffer();
 
 template <class T>
@@ -58,11 +59,11 @@ void bind_buffer(GLenum target, GLuint binding, const std::vector<T>& values) {
     glBindBufferBase(target, binding, name);
 }
 
-/// Where positions of guides are seen from.
+/// Origin of the positions of predictors.
 inline constexpr glm::vec3 kSceneOrigin{3, -1, 2};
 
-/// What a vertex shader writes as `radiance` for every receiver, from these constants; what else it reads is
-/// bound.
+/// Returns the `radiance` that a vertex shader writes for every receiver, given these constants; all other
+/// inputs must be bound.
 std::vector<glm::vec3> radiance_of_vertices(const ClusteredTransfer& transfer,
                                             const std::string& vertex_shader,
                                             const std::vector<glm::vec4>& constants, ShaderLanguage language,

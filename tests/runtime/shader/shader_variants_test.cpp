@@ -1,4 +1,5 @@
-// The vertex shader in every language and with every place for the constants, run by the driver, against C++.
+// Compares the vertex shader with C++, in every language and with every storage of the constants, run by the
+// driver.
 
 #include "prt/compress.h"
 #include "prt/constant_former.h"
@@ -23,7 +24,7 @@
 namespace prt::test {
 namespace {
 
-/// Sky and suns apart, and lamps.
+/// Returns a layout with separate sky and suns, and lamps.
 TransferLayout several_parts() {
     return {4,
             {{PartKind::direct, 1},
@@ -32,7 +33,7 @@ TransferLayout several_parts() {
              {PartKind::lamp, 1, "window"}}};
 }
 
-/// Clusters that each have components, and bits for them, of their own; or all the same.
+/// Bits per component: different for each cluster, or equal in all.
 enum class Division { of_their_own, alike };
 
 ClusteredTransfer compressed(WeightFormat format, Division division = Division::of_their_own,
@@ -81,7 +82,7 @@ protected:
             ASSERT_TRUE(desktop);
         }
     }
-    /// With all sets of guides.
+    /// Compares with C++ for all sets of predictors.
     void agree_with_cpp(const ClusteredTransfer& plain, const Lighting& lighting) {
         const auto [language, constants] = GetParam();
         for (const std::vector<GuideKind>& guides : sets_of_guides()) {
@@ -254,7 +255,7 @@ TEST(ConstantsShader, FormsWhatCppForms) {
     std::vector<ClusteredTransfer> transfers = {compressed(WeightFormat::packed),
                                                 compressed(WeightFormat::float32)};
     for (const auto& [first, second] :
-         {std::pair(1, 3), std::pair(3, 1)}) { // rows of four channels as those of parts
+         {std::pair(1, 3), std::pair(3, 1)}) { // rows of four channels, as with several terms
         transfers.push_back(transfers[1]);
         ClusteredBases& bases = transfers.back().bases;
         bases.layout.parts = {{PartKind::direct, first}, {PartKind::indirect, second}};
@@ -262,7 +263,7 @@ TEST(ConstantsShader, FormsWhatCppForms) {
         for (std::size_t i = 0; i < bases.rows.size(); ++i)
             bases.rows[i] = std::sin(static_cast<float>(i));
     }
-    // Lamps beside a sky and alone, more than a word has bits.
+    // Lamps with and without a sky, more than the bits of a word.
     for (const bool sky : {true, false}) {
         transfers.push_back(transfers[1]);
         ClusteredBases& bases = transfers.back().bases;

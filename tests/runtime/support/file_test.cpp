@@ -1,3 +1,5 @@
+// Tests files that are written and published atomically.
+
 #include "prt/support/file.h"
 
 #include "prt/support/error.h"
@@ -126,7 +128,7 @@ TEST(OutputFile, WritesIntoPipesAndDevices) {
     EXPECT_THROW(full.commit(), Error);
 }
 
-/// While it lives standard input is closed, so that what is opened next has the descriptor 0.
+/// Closes standard input during its lifetime, so that the next opened file has descriptor 0.
 class NoStandardInput {
 public:
     NoStandardInput() : kept_(::fcntl(STDIN_FILENO, F_DUPFD_CLOEXEC, 3)) { ::close(STDIN_FILENO); }
@@ -176,7 +178,7 @@ TEST(OutputFile, WritesIntoAStreamThroughDescriptorZero) {
 
 TEST(OutputFile, RemovesWhatAKilledProcessLeftButNotWhatIsBeingWritten) {
     const test::TemporaryFolder folder;
-    const std::string begin = ".prtkit-af63dc4c8601ec8c-"; // of "a", by Fowler, Noll and Vo
+    const std::string begin = ".prtkit-af63dc4c8601ec8c-"; // Fowler-Noll-Vo hash of "a"
     folder.file(begin + "1-1", "left");
     folder.file(begin + "1-2", "another still writes");
     folder.file(".prtkit-af63df4c8601f1a5-1-1", "of b");

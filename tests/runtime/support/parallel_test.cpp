@@ -1,3 +1,5 @@
+// Tests parallel loops.
+
 #include "prt/support/parallel.h"
 
 #include "prt/support/error.h"

@@ -1,3 +1,5 @@
+// Tests the removal of control characters.
+
 #include "prt/support/printable.h"
 
 #include <gtest/gtest.h>

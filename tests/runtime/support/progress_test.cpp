@@ -1,3 +1,5 @@
+// Tests progress and cancellation.
+
 #include "prt/support/progress.h"
 
 #include <gtest/gtest.h>

@@ -1,3 +1,5 @@
+// Tests adjacency lists of edges.
+
 #include "prt/adjacency.h"
 
 #include <gtest/gtest.h>
@@ -13,7 +15,7 @@ TEST(Edges, AreUniqueAscendingAndJoinTwoReceivers) {
 }
 
 TEST(Adjacency, HoldsBothEndsOfEveryEdgeAndNothingElse) {
-    std::vector<Edge> edges; // of numbers below 30, those whose product leaves 1 over 7
+    std::vector<Edge> edges; // pairs of numbers below 30 with product 1 modulo 7
     for (std::uint32_t a = 0; a < 30; ++a)
         for (std::uint32_t b = a + 1; b < 30; ++b)
             if (a * b % 7 == 1)

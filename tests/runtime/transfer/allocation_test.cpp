@@ -1,4 +1,4 @@
-// What runs every frame allocates nothing: a program of its own, because it counts every allocation.
+// Tests that per-frame functions do not allocate. A separate program, because it counts every allocation.
 
 #include "prt/constant_former.h"
 #include "prt/lightmap_former.h"
@@ -21,7 +21,7 @@ namespace {
 std::atomic<std::size_t> allocations = 0;
 }
 
-// Not inlined: else the compiler sees free() undo what it takes for its own new.
+// Not inlined: otherwise the compiler sees free() for memory from its own operator new.
 [[gnu::noinline]] void* operator new(std::size_t size) {
     ++allocations;
     if (void* memory = std::malloc(size))

@@ -1,3 +1,5 @@
+// Tests clustered transfer: decoding, constants and sizes.
+
 #include "prt/clustered_transfer.h"
 
 #include "prt/support/error.h"
@@ -17,7 +19,7 @@ struct Shape {
     WeightFormat format;
 };
 
-/// Random bases whose clusters have different numbers of components, and random receivers.
+/// Returns random bases whose clusters have different numbers of components, and random receivers.
 ClusteredTransfer random_transfer(const Shape& shape, std::mt19937& random) {
     ClusteredTransfer t;
     t.bases.layout = layout_of_one(shape.order, shape.channels);
@@ -106,7 +108,7 @@ TEST(Guides, AddScaledCoordinatesLessTheCenterOfTheCluster) {
     t.bases.guides = {{GuideKind::normal, glm::vec3(0), {2, 4, 8}},
                       {GuideKind::position, {10, 20, 30}, {1, 0.5f, 0.25f}}};
     t.bases.centers = {0, 0, 0, 0, 0, 0, 1, 2, 3, 4, 5, 6};
-    // A mean, six rows of guides and no direction; a mean, six and one.
+    // A mean, six rows of predictors and no direction; a mean, six rows and one direction.
     t.bases.rows = {100, 1, 1, 1, 1, 1, 1, 7, 1, 10, 100, 1000, 10000, 100000, 0.5f};
     t.receivers.components = 4;
     t.receivers.clusters = {0, 1};
@@ -119,7 +121,7 @@ TEST(Guides, AddScaledCoordinatesLessTheCenterOfTheCluster) {
         (std::vector<float>{100 + 8 + 3 + 2 + 2, 7 + (2 - 1) + 10 * (0 - 2) + 100 * (0 - 3) + 1000 * (4 - 4) +
                                                      10000 * (4 - 5) + 100000 * (5 - 6) + 0.5f * 3}));
     EXPECT_EQ(constant_rows(t.bases), 15u);
-    EXPECT_EQ(bytes_per_receiver(t), 20u); // of guides none
+    EXPECT_EQ(bytes_per_receiver(t), 20u); // predictors need no bytes
 }
 
 TEST(ClusteredTransfer, PackedWeightsLieWhereTheFormatSays) {
@@ -223,7 +225,7 @@ TEST(Evaluate, RunsOfAClusterAreWhatTheirReceiversAre) {
 }
 
 TEST(ClusteredTransfer, PackedWeightsComeBackAlsoAcrossWords) {
-    // Directions are unit vectors and the mean is zero, so that what is decoded are the weights.
+    // Directions are unit vectors and the mean is zero, so that the decoded values are the weights.
     ClusteredTransfer t;
     t.bases.layout = layout_of_one(3, 1);
     t.bases.components = {8};

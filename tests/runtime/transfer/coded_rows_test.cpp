@@ -1,3 +1,5 @@
+// Tests entropy-coded rows of bases.
+
 #include "prt/clustered_bases.h"
 #include "prt/coded_rows.h"
 
@@ -50,8 +52,8 @@ TEST(CodedRows, ComeBackExactly) {
 }
 
 TEST(CodedRows, SmallColumnsCostLittle) {
-    // Rows whose values fall by half from column to column, at sizes that differ from row to row: about as
-    // many bits as the values have, and the level.
+    // Rows whose values halve from column to column, with a size that varies from row to row: the code needs
+    // about the bits of the values, and the level.
     std::mt19937 random(4);
     std::vector<std::int32_t> values;
     for (int r = 0; r < 200; ++r)
@@ -64,13 +66,13 @@ TEST(CodedRows, SmallColumnsCostLittle) {
     for (int r = 0; r < 200; ++r)
         for (int i = 0; i < 12; ++i)
             plain += static_cast<std::size_t>(std::max(0, 5 + r % 8 - i));
-    // And what the models take to learn that all sizes are alike.
+    // And the bits needed to adapt the models to equal frequencies of all sizes.
     EXPECT_LT(8 * encode_rows(values, 12).bits.size(), plain + 200 * 5 + 700);
 }
 
 TEST(CodedRows, ZerosTakeTheirLevelsAlone) {
     const std::vector<std::int32_t> zeros(70, 0);
-    EXPECT_EQ(encode_rows(zeros, 7).bits.size(), 8u); // and what tells one end from another
+    EXPECT_EQ(encode_rows(zeros, 7).bits.size(), 8u); // and the end of the stream
     EXPECT_EQ(decode_rows(encode_rows(zeros, 7), 10), zeros);
     EXPECT_TRUE(decode_rows(encode_rows({}, 0), 10).empty());
 }
@@ -109,7 +111,7 @@ TEST(CodedRows, ThatEndTooEarlyAreRefused) {
 }
 
 TEST(CodedBases, AreTheOriginInMeansAndScaledSumsOfTheAxes) {
-    // Two clusters of two directions and none, and one of one: rows 0, 3 and 4 are means.
+    // Two clusters with two directions and with none, and one with one: rows 0, 3 and 4 are means.
     const std::vector<int> components = {2, 0, 1};
     const std::array<bool, 6> is_mean = {true, false, false, true, true, false};
     constexpr std::size_t kAxes = 3, kDimension = 5;
@@ -177,7 +179,8 @@ TEST(CodedBases, HaveStepsOfTheirOwnInEachClusterAndGroupOfAxes) {
 }
 
 TEST(CodedBases, RowsOfGuidesHaveTheStepOfMeansAndNoOrigin) {
-    const std::vector<std::int32_t> values = {5, 6, 7, 8, 9, -5, -6, -7, -8}; // a direction, then none
+    // a cluster with one direction, then one without
+    const std::vector<std::int32_t> values = {5, 6, 7, 8, 9, -5, -6, -7, -8};
     const CodedBases coded{
         {100}, {1}, 0.5f, encode_rows(std::vector<std::int32_t>{2}, 1), encode_rows(values, 1)};
     EXPECT_EQ(decode_bases(coded, {1, 0}, 3), (std::vector<float>{105, 6, 7, 8, 18, 95, -6, -7, -8}));

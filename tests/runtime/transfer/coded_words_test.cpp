@@ -1,3 +1,5 @@
+// Tests entropy-coded words of receivers.
+
 #include "prt/clustered_transfer.h"
 #include "prt/coded_words.h"
 
@@ -11,7 +13,7 @@
 namespace prt {
 namespace {
 
-/// Clusters of random components, whose weights have bits of `widths`.
+/// Returns clusters with random numbers of components; bits of weights are in the range `widths`.
 WordLayout random_layout(std::size_t clusters, std::size_t components, std::pair<int, int> widths,
                          std::mt19937& random) {
     ClusteredBases bases;
@@ -31,7 +33,7 @@ WordLayout random_layout(std::size_t clusters, std::size_t components, std::pair
     return {cluster_layouts(bases), cluster_bits, std::max(1, static_cast<int>((most + 31) / 32))};
 }
 
-/// Words whose weights change by up to `noise` 65536ths of their range from receiver to receiver.
+/// Returns words whose weights change by up to `noise` 65536ths of their range from receiver to receiver.
 std::vector<std::uint32_t> random_words(const WordLayout& layout, std::size_t receivers, unsigned noise,
                                         std::mt19937& random) {
     const auto stride = static_cast<std::size_t>(layout.words);
@@ -52,7 +54,7 @@ std::vector<std::uint32_t> random_words(const WordLayout& layout, std::size_t re
     return words;
 }
 
-/// Triangles of anything: degenerate ones, edges of many, vertices of none.
+/// Returns random triangles: with degenerate ones, edges of many triangles, and unused vertices.
 std::vector<std::uint32_t> random_triangles(std::size_t receivers, std::size_t count, std::mt19937& random) {
     std::vector<std::uint32_t> triangles;
     for (std::size_t t = 0; t < count; ++t) {
@@ -132,7 +134,7 @@ TEST(CodedWords, TakeLittleMoreThanTheirEntropy) {
 }
 
 TEST(CodedWords, ArePredictedByThreeNeighborsThatPrecede) {
-    // Vertex 4 has all others as neighbours, 3 three of them; the fourth neighbour is one too many.
+    // Vertex 4 has all others as neighbours, 3 has three of them; a fourth neighbour is ignored.
     const std::vector<std::uint32_t> triangles = {0, 1, 4, 4, 2, 3, 3, 0, 2, 3, 3, 1};
     const std::vector<EarlierNeighbors> expected = {{0, 0, 0}, {0, 1, 1}, {0, 2, 2}, {2, 0, 1}, {0, 1, 2}};
     EXPECT_EQ(earlier_neighbors(triangles, 5), expected);
@@ -156,7 +158,7 @@ TEST(CodedWords, CannotHoldBitsBehindTheWeights) {
     given.words[7] |= 1u << 6;
     EXPECT_FALSE(can_code_words(given.layout, given.words));
     std::mt19937 random(2);
-    const WordLayout layout = random_layout(5, 1, {2, 2}, random); // of three bits: 5 to 7 are no clusters
+    const WordLayout layout = random_layout(5, 1, {2, 2}, random); // three bits: 5 to 7 are invalid clusters
     EXPECT_FALSE(can_code_words(layout, std::vector<std::uint32_t>{4, 5}));
 }
 
@@ -199,7 +201,7 @@ TEST(CodedWords, DamagedAreRefusedOrOtherWords) {
             EXPECT_EQ(std::string(error.what()).find('\n'), std::string::npos);
         }
     }
-    // Plain bits, and symbols as frequent as another, may change alone.
+    // Plain bits, and symbols of equal frequency, may change without being detected.
     EXPECT_GT(10 * refused, 9 * code.bits.size());
 }
 

@@ -1,3 +1,5 @@
+// Tests the constants of clusters under a light.
+
 #include "prt/constant_former.h"
 
 #include "prt/support/error.h"
@@ -138,7 +140,7 @@ TEST(ConstantsOfParts, AreTheSumOfEachUnderItsLight) {
     }
 }
 
-/// As `exit_radiance` of the rows themselves.
+/// Compares with `exit_radiance` of the rows.
 TEST(ConstantsOfParts, AreLitByLampsBesideTheSkyAndAlone) {
     for (const bool has_sky : {true, false}) {
         TransferLayout layout{4, {}};
@@ -167,7 +169,7 @@ TEST_P(Constants, FormedInPartsAreTheSame) {
     std::vector<glm::vec4> whole(former.rows()), parts(former.rows(), glm::vec4(-7));
     former.form(light.coefficients, whole);
     former.form(light.coefficients, parts, 0, 16);
-    for (std::size_t row = 16; row < former.rows(); ++row) // another thread may write there
+    for (std::size_t row = 16; row < former.rows(); ++row) // a second thread may write there
         EXPECT_EQ(parts[row], glm::vec4(-7));
     former.form(light.coefficients, parts, 16, former.rows());
     EXPECT_EQ(whole, parts);

@@ -1,3 +1,5 @@
+// Tests the error measures of lit transfer.
+
 #include "prt/error_measures.h"
 
 #include "prt/mesh_edges.h"
@@ -48,8 +50,8 @@ TEST(RelativeL2, ComparesOtherPartsAsAWhole) {
 }
 
 TEST(LitError, HasTheDefinedMeasures) {
-    // A square of two triangles, receivers 0..5; the two in the second triangle lie in another cluster. Its
-    // corners are not shared, so no edge crosses; then one that does.
+    // A square of two triangles, receivers 0..5; the two in the second triangle have a different cluster. Its
+    // corners are not shared, so no edge crosses clusters; then with an edge that does.
     Scene scene = test::SceneBuilder().quad({0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}).build();
     const std::vector<float> areas(6, 1.0f);
     const std::vector<glm::vec3> reference(6, glm::vec3(2)),
@@ -72,7 +74,7 @@ TEST(LitError, HasTheDefinedMeasures) {
 }
 
 TEST(LitError, UnderALightThatReachesNothingIsOverTheScaleThatIsGiven) {
-    // A sun below the floor: nothing is lit, and an error of a thousandth is infinitely many times as much.
+    // A sun below the floor: nothing is lit, and an error of a thousandth is infinite relative to the light.
     const std::vector<float> areas = {1, 3};
     const std::vector<glm::vec3> dark(2, glm::vec3(0)), lit = {glm::vec3(2), glm::vec3(0.4f)},
                                                         error(2, glm::vec3(0.001f));
@@ -87,8 +89,8 @@ TEST(LitError, UnderALightThatReachesNothingIsOverTheScaleThatIsGiven) {
 }
 
 TEST(LitError, IsSeenAgainstTheLightThatIsThere) {
-    // Five decades: every receiver errs by a tenth of its own light, and the darkest by what the brightest
-    // has.
+    // Five decades: every receiver has an error of a tenth of its light, and the darkest one the error of the
+    // brightest.
     std::vector<glm::vec3> reference, approximation;
     std::vector<float> areas;
     double logarithms = 0;
@@ -109,7 +111,7 @@ TEST(LitError, IsSeenAgainstTheLightThatIsThere) {
     EXPECT_NEAR(seen.adaptation, a, 1e-5 * a);
     EXPECT_NEAR(seen.percentile_95, contrast(89), 1e-5); // 50 receivers of three, and 40 of one: 95 %
     EXPECT_NEAR(seen.percentile_99, contrast(97), 1e-5);
-    EXPECT_NEAR(seen.jumps_99, contrast(11) - contrast(10), 1e-5); // beside 6 of the area of 10
+    EXPECT_NEAR(seen.jumps_99, contrast(11) - contrast(10), 1e-5); // its ends have 6 of the area of 10
     approximation[0] += approximation[99];
     seen = lit_error(reference, approximation, areas, {}, std::nullopt).visible;
     EXPECT_GT(seen.rms, 1000);

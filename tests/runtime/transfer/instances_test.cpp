@@ -1,4 +1,4 @@
-// Modes and factors of instances, against quadrature, turned lighting, and each other.
+// Tests modes and factors of instances, against quadrature, rotated lighting, and each other.
 
 #include "prt/instances.h"
 
@@ -98,7 +98,7 @@ TEST(Instances, ATurnedInstanceIsLitAsItsMeshByTurnedLight) {
     expect_near(turned_mesh, exit_radiance(transfer, lighting), 1e-4f);
 }
 
-/// What a shader computes, by lightings of modes, is what the file stands for.
+/// Lightings of modes, as in a shader, agree with modes of transfer, as defined by the file.
 TEST(Instances, ModesOfLightDoWhatModesOfTransferDo) {
     Draw draw;
     const Transfer transfer = draw.transfer(7);
@@ -126,7 +126,7 @@ TEST(Instances, ModesOfLightDoWhatModesOfTransferDo) {
 TEST(Instances, PassingModesAreIntegralsOverHalvesOfTheSphere) {
     const glm::dvec3 up = glm::normalize(glm::dvec3(0.3, 0.8, -0.5));
     const InstanceModes modes(3, up);
-    // Midpoints of a fine grid: of a step no quadrature is exact.
+    // Midpoints of a fine grid, because no quadrature is exact for a step.
     constexpr int kSteps = 400;
     std::array<double, kPassingModes> sums{};
     for (int i = 0; i < kSteps; ++i)
@@ -202,7 +202,7 @@ TEST(Instances, UprightOnesShareTheTurnsOfFewYaws) {
             EXPECT_LT(glm::distance(exact.rotations[exact.of[i]][c], rotations[i][c]), 3e-4);
 }
 
-/// Of random weights: three clusters of four receivers each, the last of three components.
+/// Returns random weights: three clusters of four receivers each, the last with three components.
 ClusteredTransfer clustered_mesh(Draw& draw) {
     ClusteredTransfer mesh;
     mesh.bases.layout = {kOrder, {{PartKind::direct, 1}, {PartKind::indirect, 3}}};
@@ -221,7 +221,7 @@ ClusteredTransfer clustered_mesh(Draw& draw) {
     return mesh;
 }
 
-/// What the former's constants make of a place: those of a lighting, for all clusters.
+/// Returns the constants at a position: those of a lighting, for all clusters.
 std::vector<glm::vec4> constants_at(std::span<const glm::vec4> formed, const glm::vec4& table_0,
                                     const glm::vec4& table_1, const glm::vec3& position,
                                     const ConstantRows& rows) {
@@ -240,7 +240,7 @@ TEST(Instances, ConstantsAtAPlaceAreThoseOfTheModesTimesItsFactors) {
     const ClusteredTransfer mesh = clustered_mesh(draw);
     const Lighting lighting{draw.light(), draw.light()};
     std::vector<FormedInstance> instances;
-    for (const std::size_t first : {0u, 4u, 8u, 0u}) // of a mesh that has one cluster, or all
+    for (const std::size_t first : {0u, 4u, 8u, 0u}) // first receiver of a mesh with one cluster, or with all
         instances.push_back(
             {{draw.factors(), draw.rotation(), {draw.vector(), glm::abs(draw.vector()) + 0.1f}},
              rows_of(mesh, first, instances.size() == 3 ? 12 : 4)});

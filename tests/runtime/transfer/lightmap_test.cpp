@@ -85,7 +85,7 @@ INSTANTIATE_TEST_SUITE_P(All, Formats,
                          testing::Values(LightmapFormat::rgb9e5, LightmapFormat::r11g11b10,
                                          LightmapFormat::rgba16));
 
-/// Of one color, over the largest where that says the exponent.
+/// Returns the maximum error of one color; relative to the largest color if it determines the exponent.
 float largest_error(LightmapFormat format, const glm::vec3& truth, int color) {
     const float largest = std::max({truth.r, truth.g, truth.b, 0x1p-15f});
     const float own = std::max(truth[color], 0x1p-14f);
@@ -96,7 +96,7 @@ float largest_error(LightmapFormat format, const glm::vec3& truth, int color) {
     return own * (color == 2 ? 0x1p-6f : 0x1p-7f);
 }
 
-/// One cluster for each color, no weights: what a texel holds is the constant, to the bit.
+/// One cluster for each color, without weights: a texel contains the constant, to the bit.
 struct Palette {
     CompressedLightmap lightmap;
     std::vector<glm::vec4> constants;
@@ -181,7 +181,7 @@ TEST_P(Formats, HaveSmallerLevelsThatAreMeans) {
                               low = std::min(2 * y + 1, from.height - 1);
                     const glm::vec3 mean = 0.25f * (at(from, 2 * x, 2 * y) + at(from, right, 2 * y) +
                                                     at(from, 2 * x, low) + at(from, right, low));
-                    for (int c = 0; c < 3; ++c) // the first is of what was not rounded yet
+                    for (int c = 0; c < 3; ++c) // the first level is computed from unrounded values
                         EXPECT_NEAR(at(levels[l], x, y)[c], mean[c], 3 * largest_error(GetParam(), mean, c));
                 }
     }

@@ -1,4 +1,4 @@
-// Zonal lobes: their words by docs/format.md, their turns, and what they make of light.
+// Tests zonal lobes: their words as defined in docs/format.md, their rotations, and their light.
 
 #include "prt/lobes.h"
 
@@ -39,7 +39,7 @@ LobeModel two_profiles() {
 
 TEST(Lobes, WordsAreThoseOfTheFormat) {
     const LobeModel model = two_profiles();
-    // (190 - 127) / 127 and (64 - 127) / 127 leave 1/127 of z.
+    // (190 - 127) / 127 and (64 - 127) / 127 result in z = 1/127.
     const Lobe lobe = model.decode(LobeWord{190, 64, 1, 51});
     expect_near(lobe.axis, glm::normalize(glm::vec3(63, -63, 1)));
     EXPECT_FLOAT_EQ(lobe.profile[0], 0.1f); // a fifth of the profile
@@ -74,7 +74,7 @@ TEST(Lobes, TurnAsNormalsDo) {
         const glm::quat turn = glm::angleAxis(0.1f * static_cast<float>(i), any_direction(random));
         expect_near(turned_axis(axis, axis_turn(3.0f * glm::mat3_cast(turn))), turn * axis);
         expect_near(turned_axis(axis, axis_turn(-glm::mat3_cast(turn))), -(turn * axis)); // mirrored
-        // The normal of a plane stays normal to it whatever the matrix.
+        // The normal of a plane stays normal to it for any matrix.
         const glm::vec3 along = glm::normalize(glm::cross(axis, any_direction(random)));
         const glm::mat3 any(any_direction(random), 2.0f * any_direction(random), any_direction(random));
         EXPECT_NEAR(glm::dot(turned_axis(axis, axis_turn(any)), glm::normalize(any * along)), 0, 2e-4f);

@@ -1,4 +1,4 @@
-// What moving objects block: caps against quadrature and spheres, volumes where they stand.
+// Tests occlusion by moving objects: caps against quadrature and spheres, and placed volumes.
 
 #include "prt/occlusion_volume.h"
 
@@ -26,7 +26,7 @@ glm::vec3 any_direction(std::mt19937& random) {
     return glm::normalize(glm::vec3(x, y, z) + glm::vec3(1e-3f, 0, 0));
 }
 
-/// A volume of a ball about the origin, in closed form at its places.
+/// Returns the volume of a ball about the origin, in closed form at its texels.
 OcclusionVolume ball(float radius) {
     OcclusionVolume volume;
     volume.low = glm::vec3(-4 * radius);
@@ -84,7 +84,7 @@ TEST(BlockedCap, TakesTheCosineWeightedShareOfWhatIsAboveTheHorizon) {
 }
 
 TEST(BlockedCap, OfASphereStraightAboveIsItsFormFactor) {
-    const double ratio = 0.6; // of radius and distance: the form factor is its square
+    const double ratio = 0.6; // ratio of radius to distance: the form factor is its square
     const auto share = static_cast<float>(0.5 * (1 - std::sqrt(1 - ratio * ratio)));
     EXPECT_NEAR(blocked_cosine(cap_of(share, {0, 1, 0}), {0, 1, 0}), ratio * ratio, 1e-5);
 }

@@ -1,3 +1,5 @@
+// Tests layouts of transfer terms.
+
 #include "prt/transfer_layout.h"
 
 #include "prt/error_measures.h"
@@ -68,7 +70,7 @@ TransferLayout with_two_lamps(int order) {
 TEST(TransferLayout, OfLampsHasANumberForEachChannelOfEach) {
     const TransferLayout layout = with_two_lamps(4), lamps{4, {layout.parts.end() - 2, layout.parts.end()}};
     EXPECT_NO_THROW(check_layout(layout));
-    EXPECT_NO_THROW(check_layout(lamps)); // no sky comes in
+    EXPECT_NO_THROW(check_layout(lamps)); // no sky light enters
     EXPECT_EQ(layout.lamps(), 2u);
     EXPECT_EQ(layout.dimension(), 68u);
     EXPECT_EQ(layout.columns(), 34u);
@@ -84,7 +86,7 @@ TEST(TransferLayout, OfLampsHasANumberForEachChannelOfEach) {
     EXPECT_THROW(check_layout(wrong), Error);
     wrong = layout;
     std::swap(wrong.parts[1], wrong.parts[2]);
-    EXPECT_THROW(check_layout(wrong), Error); // lamps stand behind
+    EXPECT_THROW(check_layout(wrong), Error); // lamps must be last
     wrong = {4, {}};
     for (std::size_t k = 0; k <= kMostLamps; ++k)
         wrong.parts.push_back({PartKind::lamp, 1, std::to_string(k)});
@@ -99,7 +101,7 @@ TEST(LightColumns, OfLampsAreTheirStrengths) {
     std::vector<glm::vec3> columns = light_columns(layout, lighting);
     ASSERT_EQ(columns.size(), 20u);
     EXPECT_EQ(columns[17], lighting.sky.coefficients[8]);
-    EXPECT_EQ(columns[18], glm::vec3(1)); // as in the scene
+    EXPECT_EQ(columns[18], glm::vec3(1)); // strength of the scene
     EXPECT_EQ(columns[19], glm::vec3(1));
     lighting.lamps = {{1, 2, 3}, {4, 5, 6}};
     columns = light_columns(layout, lighting);

@@ -1,4 +1,4 @@
-// Transfer read block by block is what it is as a whole.
+// Tests that transfer read block by block equals the complete transfer.
 
 #include "prt/transfer_view.h"
 

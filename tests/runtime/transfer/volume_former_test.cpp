@@ -61,7 +61,7 @@ TEST_P(VolumeFormats, HoldTheLightOfEveryProbeInEveryBrick) {
     const VolumeProbes probes = probes_of(volume.grid);
     const std::vector<glm::vec3> incident = incident_light(volume, lighting_of_probes());
     const float most =
-        format == VolumeFormat::rgba16 ? 0x1p-11f : 1e-6f; // half a step; sums in another order
+        format == VolumeFormat::rgba16 ? 0x1p-11f : 1e-6f; // half a step; sums have a different order
     for (const int threads : {1, 2}) {
         const Formed formed = formed_by(former, std::nullopt, threads);
         for (std::size_t b = 0; b < probes.of_brick.size(); ++b)

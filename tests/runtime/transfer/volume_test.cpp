@@ -1,4 +1,4 @@
-// Volumes in memory: how probes count, in closed form, and the light that comes in at them.
+// Tests volumes in memory: weights of probes in closed form, and incident light.
 
 #include "prt/constant_former.h"
 #include "prt/sh.h"
@@ -77,7 +77,7 @@ TEST(VolumeWeights, AreExactForLinearLightWhereNothingHides) {
         const glm::vec3 place = random_place(grid, random);
         const glm::vec3 bricks = (place - grid.origin) / (grid.spacing * static_cast<float>(kBrickCells));
         if (bricks.x > 3 && (bricks.y > 1 || bricks.z > 1))
-            continue; // of no brick
+            continue; // in no brick
         const VolumeCorners corners = lookup.find(place);
         float light = 0;
         for (std::size_t c = 0; c < 8; ++c)
@@ -111,7 +111,7 @@ TEST(VolumeWeights, OfPlacesOutsideAreThoseOfTheNearestInside) {
     EXPECT_EQ(outside.weights, inside.weights);
 }
 
-/// Values of hanging probes are what is interpolated between those of the coarse brick.
+/// Sets values of hanging probes by interpolation in the coarse brick.
 void interpolate_hanging(const VolumeGrid& grid, const VolumeProbes& probes, std::vector<float>& values) {
     for (const VolumeProbes::Hanging& hanging : probes.hanging) {
         const VolumeCorners corners =
@@ -251,7 +251,7 @@ TEST(Irradiance, OfASkyWithoutAColorIsItsRadiance) {
         const Light sky = constant_light(order, {1, 2, 3});
         EXPECT_LT(glm::distance(irradiance_of(sky.coefficients, {0, 0.6f, 0.8f}), {1, 2, 3}), 1e-5f);
     }
-    // The cosine to +y, clamped: 2/3 of it on what faces +y, from band 1.
+    // The clamped cosine to +y: 2/3 of it on receivers facing +y, from band 1.
     std::vector<glm::vec3> cosine(4, glm::vec3(0));
     cosine[1] = glm::vec3(-1 / 0.48860251f); // radiance y
     EXPECT_NEAR(irradiance_of(cosine, {0, 1, 0}).x, 2.0f / 3, 1e-5f);

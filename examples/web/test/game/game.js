@@ -1,4 +1,4 @@
-// A program that has installed the package: installed.mjs builds it with Vite and asks it for pictures.
+// A program that has installed the package: installed.mjs builds it with Vite and requests pictures.
 import {
   AmbientLight,
   BasicShadowMap,
@@ -64,7 +64,10 @@ function compared(a, b) {
   return { rms: Math.sqrt(difference / squares), ratio: sumA / sumB };
 }
 
-/** A sky of radiance 1 that is brighter by `side` on one side; or black but for one bright texel `at` [x, y]. */
+/**
+ * Returns a sky of radiance 1 that is brighter by `side` on one side; or a black one with a bright texel `at`
+ * [x, y].
+ */
 function skyTexture({ side = 0.3, at } = {}) {
   const [columns, rows] = [128, 64];
   const data = new Float32Array(4 * columns * rows);
@@ -100,7 +103,7 @@ async function ball({ model, rotation, metalness, side }) {
   const camera = cameraAt([0, 1, 5], [0, 0, 0]);
   gltf.scene.traverse(({ material }) => material && (material.metalness = metalness));
   const lit = radiance(scene, camera);
-  gltf.scene.rotation.set(0.5, 0.9, -0.3); // a ball looks the same
+  gltf.scene.rotation.set(0.5, 0.9, -0.3); // a sphere looks the same after rotation
   const turned = compared(radiance(scene, camera), lit);
   scene.add(new AmbientLight(0xffffff, 3), new PointLight(0xffffff, 30).translateZ(3)); // which are in the sky, or lamps
   const others = compared(radiance(scene, camera), lit);
@@ -111,7 +114,7 @@ async function ball({ model, rotation, metalness, side }) {
   return { own: compared(lit, radiance(scene, camera)), turned, others };
 }
 
-/** Where the camera looks to see the bright texel of a background that is turned: what it has in the middle. */
+/** Returns the middle pixel of a view along `direction` of a rotated background, which has one bright texel. */
 async function inTheMiddle({ rotation, direction, at }) {
   const scene = new Scene();
   scene.background = halfFloatSky(skyTexture({ at }));
@@ -120,7 +123,7 @@ async function inTheMiddle({ rotation, direction, at }) {
   return pixels[4 * ((height / 2) * width + width / 2)];
 }
 
-/** Instances, and clones of the scene, at the same places with suns that are apart; and fog. */
+/** Compares instances with clones of the scene, at the same positions, with separate suns and fog. */
 async function copies({ model }) {
   const gltf = await load(model);
   const { prtkit } = gltf.userData;

@@ -1,5 +1,5 @@
-// Draws test models by WebGLRenderer and by WebGPURenderer, and reads back what the plug-in draws beside the picture:
-// renderers.mjs asks.
+// Draws test models with WebGLRenderer and WebGPURenderer, and reads back other results of the plug-in, as
+// renderers.mjs requests.
 import {
   ACESFilmicToneMapping,
   AmbientLight,
@@ -71,7 +71,10 @@ function pixelsBy(drawing, target) {
 }
 const pixelsOf = (target) => pixelsBy(renderer, target);
 
-/** Of a model with lightmaps: the bytes of its words, and the radiance of its texels, in half floats and in floats. */
+/**
+ * Returns the bytes of the words of a model with lightmaps, and the radiance of its texels, in half floats
+ * and in floats.
+ */
 async function texels({ model, light, lamps }) {
   const { scene, userData } = await load(model);
   const { prtkit } = userData;
@@ -101,7 +104,7 @@ async function texels({ model, light, lamps }) {
   drawnOnce();
   const doubled = pixelsOf([...prtkit.maps.targets.values()][0].target);
   prtkit.dispose();
-  const again = drawnOnce(); // what was disposed of is made again
+  const again = drawnOnce(); // disposed objects are created again
   return {
     targets: prtkit.maps.targets.size,
     once,
@@ -147,7 +150,7 @@ function evenSky() {
 
 const PLACES = [[-0.6, 0, -0.5], [0.9, 0.3, 0.6]];
 
-/** Instances of all meshes, at each of the places. */
+/** Returns instances of all meshes, at each of the positions. */
 function instancesOf(root) {
   const instances = [];
   root.updateMatrixWorld(true);
@@ -174,7 +177,7 @@ function probe() {
   return made;
 }
 
-/** A scene with the model in the light that is asked for. */
+/** Returns a scene with the model in the requested light. */
 async function sceneOf(api, { model, light, environment, suns, shadows, fog, others, change, copies, besides, probed, wrong }) {
   const Plugin = (api === "webgl") !== Boolean(wrong) ? PrtkitPlugin : NodePlugin;
   const gltf = await load(model, Plugin);
@@ -245,7 +248,7 @@ async function picture({ api, ...asked }) {
   return [...sheet.getImageData(0, 0, columns, rows).data];
 }
 
-/** The same as radiance without a tone curve, in sRGB of 0 to 255, and without a canvas. */
+/** Draws the scene as radiance without a tone curve, in sRGB of 0 to 255, and without a canvas. */
 async function radiance({ api, ...asked }) {
   const drawing = await rendererOf(api);
   const { scene, prtkit } = await sceneOf(api, asked);
@@ -285,7 +288,7 @@ async function nodeTexels({ api, ...asked }) {
   return { maps, drawn };
 }
 
-/** A square about the origin that looks along +Z, as what moves may be. */
+/** Returns a square about the origin that faces +Z, as each kind of moving object. */
 function squares(kind, material) {
   const geometry = new PlaneGeometry(2, 2);
   if (kind === "instances") {
@@ -320,8 +323,9 @@ const MATERIALS = {
 };
 
 /**
- * What a square sends out that a volume lights, floats from below upwards, red, green, blue and alpha, without a tone curve. It is
- * a `kind` of mesh, 2 metres wide, at `place` turned by `turn` (Euler angles), and the camera looks at it along its normal.
+ * Returns the radiance of a square lit by a volume: floats from the bottom row up, red, green, blue and
+ * alpha, without a tone curve. The square is a `kind` of mesh, 2 metres wide, at position `place` with
+ * rotation `turn` (Euler angles); the camera looks at it along its normal.
  */
 async function lit({ api = "webgl", model, floats, kind, material, place, turn, light, lamps, moved, size: [width, height] }) {
   const drawing = await rendererOf(api);
@@ -352,8 +356,10 @@ async function lit({ api = "webgl", model, floats, kind, material, place, turn, 
   return [...pixels];
 }
 
-/** The floor of a model from above, 2 metres wide about `centre`, without and with what passes over it: floats. `moved`: the place,
- * turn and scale of each part of `passer`. */
+/**
+ * Returns floats of a model's floor from above, 2 metres wide about `centre`, without and with the passing
+ * object. `moved` contains position, rotation and scale of each part of `passer`.
+ */
 async function occluded({ model, passer, moved, centre, size: [width, height], light }) {
   const drawing = await rendererOf("webgl");
   const [gltf, passing] = [await load(model), await load(passer)];
@@ -381,8 +387,11 @@ async function occluded({ model, passer, moved, centre, size: [width, height], l
   return pictures;
 }
 
-/** What a figure with lobes sends out in a pose, from the front, 2 metres wide: floats, from below upwards. `pose`: Euler angles of
- * its bones; `turn`: of all of it; `volume`: a file whose volume lights it, else the sky does. */
+/**
+ * Returns floats of a figure with lobes in a pose, from the front, 2 metres wide, from the bottom row up.
+ * `pose`: Euler angles of its bones; `turn`: rotation of the figure; `volume`: a file whose volume lights it;
+ * otherwise the sky does.
+ */
 async function posed({ model, volume, pose, turn, light, size: [width, height] }) {
   const drawing = await rendererOf("webgl");
   const { scene: figure, userData } = await load(model);
@@ -395,7 +404,7 @@ async function posed({ model, volume, pose, turn, light, size: [width, height] }
     const own = around.userData.prtkit.volume;
     const exact = new PrtkitVolume(own.source, around.scene, own.plugin, { floats: true });
     exact.setLight(ShLight.fromCoefficients(exact.order, light));
-    own.light(figure); // another one takes over
+    own.light(figure); // a second volume takes over
     exact.light(figure);
   } else prtkit.setSky(ShLight.fromCoefficients(prtkit.order, light), scene);
   const seen = new OrthographicCamera(-1, 1, 1, -1, 0.1, 10);

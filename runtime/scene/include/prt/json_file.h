@@ -1,6 +1,6 @@
 #pragma once
 
-// Files of JSON, with errors in our words. Needs nlohmann-json. Experimental.
+// Reads JSON files with clear errors. Needs nlohmann-json. Experimental.
 
 #include <glm/vec3.hpp>
 #include <nlohmann/json.hpp>
@@ -13,10 +13,10 @@ namespace prt::json {
 
 using Json = nlohmann::ordered_json;
 
-/// Throws `Error` for what is no JSON; it does not name the file.
+/// Reads JSON. Throws `Error` for invalid JSON; the error does not contain the file name.
 Json read_json(const std::filesystem::path& path);
 
-/// A member of `object`, which throws `Error` with its key unless it is such.
+/// Returns a member of `object`. Throws `Error` with its key if it is missing or has another type.
 const Json& member(const Json& object, const char* key);
 double number(const Json& object, const char* key);
 /// In [low, high].

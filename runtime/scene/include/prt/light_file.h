@@ -10,18 +10,18 @@
 
 namespace prt {
 
-/// Contents of a light file.
+/// Content of a light file.
 struct LightFile {
     Light sky; ///< its coefficients
     std::vector<SunDisc> suns;
 };
 
-/// Throws `Error` that names the file.
+/// Reads a light file. Throws `Error` with the file name.
 LightFile read_light_file(const std::filesystem::path& path);
-/// Its first `order` bands. Throws `Error`, too, where it has fewer.
+/// Reads the first `order` bands. Also throws `Error` if the file has fewer.
 LightFile read_light_file(const std::filesystem::path& path, int order);
 
-/// Its coefficients with its suns added.
+/// Returns the coefficients of the sky plus those of the suns.
 Light all_light(const LightFile& file);
 
 } // namespace prt
