@@ -43,12 +43,13 @@ warnings() {
         xargs ninja -C build/warnings --quiet
 }
 
-# Sources that changed since the branch left main; on main itself since a day before the last commit.
+# Sources that changed since the branch left main; on main itself those of the six hours before
+# the last commit, which is more than one session lands.
 tidy() {
     local base
     base=$(git merge-base HEAD origin/main 2>/dev/null || true)
     if [ -z "$base" ] || [ "$base" = "$(git rev-parse HEAD)" ]; then
-        base=$(git rev-list -1 --first-parent --before=$(($(git show -s --format=%ct HEAD) - 86400)) HEAD)
+        base=$(git rev-list -1 --first-parent --before=$(($(git show -s --format=%ct HEAD) - 21600)) HEAD)
     fi
     run_tidy ${base:+"$base"}
 }

@@ -3,7 +3,8 @@
 
 tidy_commands.py BUILD OUTPUT [BASE]
 BUILD: a build folder with compile_commands.json. OUTPUT: folder for a compile_commands.json of its own.
-BASE: a commit; only sources that changed since then, and one source for each header that changed. All without it.
+BASE: a commit; only sources whose code changed since then, and one source for each header whose code changed. All without
+it. Comments are no code, unless they contain NOLINT.
 Tests are left out: the warnings of two compilers cover them, and reading them takes as long as all others.
 A joined source (CMAKE_UNITY_BUILD) stands for its members where MANY of them changed, as its headers are read once.
 """
@@ -27,7 +28,24 @@ def members(source):
 def changed_files(root, base):
     output = subprocess.run(["git", "diff", "--name-only", "-z", "--diff-filter=d", base, "--", "*.cpp", "*.h"],
                             cwd=root, capture_output=True, text=True, check=True).stdout
-    return {root / name for name in output.split("\0") if name}
+    names = [name for name in output.split("\0") if name]
+    return {root / name for name in names if code_of((root / name).read_text()) != code_of(text_at(root, base, name))}
+
+
+def text_at(root, base, name):
+    """The text of a file in a commit; empty if it does not exist there."""
+    return subprocess.run(["git", "show", f"{base}:{name}"], cwd=root, capture_output=True, text=True).stdout
+
+
+TOKEN = re.compile(r'"(?:\\.|[^"\\\n])*"|\'(?:\\.|[^\'\\\n])*\'|//[^\n]*|/\*.*?\*/|\s+', re.S)
+
+
+def code_of(text):
+    """A source without comments and white space."""
+    def kept(match):
+        token = match[0]
+        return token if token[0] in "\"'" or "NOLINT" in token else ""
+    return TOKEN.sub(kept, text)
 
 
 def with_includers(root, changed, sources):
@@ -86,4 +104,5 @@ def main():
     print(f"clang-tidy: {len(selected)} sources")
 
 
-main()
+if __name__ == "__main__":
+    main()
