@@ -9,22 +9,26 @@
 #include <filesystem>
 #include <vector>
 
-namespace prt::json {
+namespace prt {
 
 using Json = nlohmann::ordered_json;
+
+namespace json {
 
 /// Reads JSON. Throws `Error` for invalid JSON; the error does not contain the file name.
 Json read_json(const std::filesystem::path& path);
 
 /// Returns a member of `object`. Throws `Error` with its key if it is missing or has another type.
 const Json& member(const Json& object, const char* key);
+/// Returns a finite number.
 double number(const Json& object, const char* key);
-/// In [low, high].
+/// Returns a number in [low, high].
 double number_in(const Json& object, const char* key, double low, double high);
-/// `count` finite floats.
+/// Returns `count` finite floats.
 std::vector<float> numbers(const Json& object, const char* key, std::size_t count);
 glm::vec3 vector_of(const Json& object, const char* key);
-/// Made unit.
+/// Returns a vector, normalised.
 glm::vec3 direction_of(const Json& object, const char* key);
 
-} // namespace prt::json
+} // namespace json
+} // namespace prt
