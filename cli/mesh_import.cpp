@@ -24,7 +24,7 @@ namespace {
 namespace fs = std::filesystem;
 using MeshJson = nlohmann::ordered_json;
 
-std::string suffix_of(const fs::path& path) {
+std::string lower_suffix_of(const fs::path& path) {
     std::string suffix = path.extension().string();
     std::ranges::transform(suffix, suffix.begin(),
                            [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
@@ -207,7 +207,7 @@ std::vector<std::byte> as_glb(const fs::path& path, bool allow_outside) {
 } // namespace
 
 GltfDocument load_model(const fs::path& path, const GltfOptions& options) {
-    const std::string suffix = suffix_of(path);
+    const std::string suffix = lower_suffix_of(path);
     if (suffix != ".obj" && suffix != ".ply")
         return load_gltf(path, options);
     std::vector<std::byte> file;
