@@ -3,6 +3,7 @@
 
 #include "mesh_import.h"
 
+#include "outputs.h"
 #include "prt/srgb.h"
 #include "prt/support/error.h"
 #include "prt/support/file.h"
@@ -14,7 +15,6 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 #include <cstdint>
 
@@ -23,13 +23,6 @@ namespace {
 
 namespace fs = std::filesystem;
 using MeshJson = nlohmann::ordered_json;
-
-std::string lower_suffix_of(const fs::path& path) {
-    std::string suffix = path.extension().string();
-    std::ranges::transform(suffix, suffix.begin(),
-                           [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-    return suffix;
-}
 
 /// Opens files in one folder and below it only.
 class FolderFiles : public Assimp::DefaultIOSystem {
@@ -207,7 +200,7 @@ std::vector<std::byte> as_glb(const fs::path& path, bool allow_outside) {
 } // namespace
 
 GltfDocument load_model(const fs::path& path, const GltfOptions& options) {
-    const std::string suffix = lower_suffix_of(path);
+    const std::string suffix = suffix_of(path);
     if (suffix != ".obj" && suffix != ".ply")
         return load_gltf(path, options);
     std::vector<std::byte> file;
