@@ -15,8 +15,6 @@
 namespace prt {
 namespace {
 
-using json::Json;
-
 constexpr const char* kChannels[3] = {"red", "green", "blue"};
 
 SunDisc sun_of(const Json& entry) {
