@@ -327,10 +327,10 @@ TEST(GltfCorpus, AnimationsWithoutDataAreBoundedTogether) {
         file.json["accessors"].push_back({{"componentType", test::kFloat}, {"type", type}, {"count", kKeys}});
     const std::size_t output = file.json["accessors"].size() - 1;
     Json animation = {{"channels", Json::array()},
-                      {"samplers", {{{"input", output - 1}, {"output", output}}}}};
+                      {"samplers", Json::array({{{"input", output - 1}, {"output", output}}})}};
     for (int i = 0; i < 20; ++i)
         animation["channels"].push_back({{"sampler", 0}, {"target", {{"node", 0}, {"path", "scale"}}}});
-    file.json["animations"] = {animation};
+    file.json["animations"] = Json::array({animation});
     const std::string bytes = file.bytes();
     const GltfDocument document = parse_gltf(std::as_bytes(std::span(bytes)), "memory.glb");
     try {
