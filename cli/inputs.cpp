@@ -2,7 +2,6 @@
 
 #include "inputs.h"
 
-#include "mesh_import.h"
 #include "outputs.h"
 #include "prt/levels.h"
 #include "prt/light_file.h"
@@ -65,7 +64,7 @@ void put_in_order_of(const Scene& scene, SceneFile& baked) {
 }
 
 SceneFile load_scene_file(const Path& path, const GltfOptions& options) {
-    return scene_file_of(load_model(path, options), path);
+    return scene_file_of(load_gltf(path, options), path);
 }
 
 SceneFile scene_file_of(GltfDocument document, const Path& path) {

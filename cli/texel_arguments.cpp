@@ -2,7 +2,6 @@
 
 #include "texel_arguments.h"
 
-#include "mesh_import.h"
 #include "options.h"
 #include "prt/support/error.h"
 #include "prt/unwrap.h"
@@ -108,7 +107,7 @@ Finer load_finer(const TexelArguments& a, const GltfOptions& reading, const Scen
     Finer finer;
     if (a.casters.empty())
         return finer;
-    finer.scene = extract_scene(load_model(a.casters, reading));
+    finer.scene = extract_scene(load_gltf(a.casters, reading));
     print_notices(a.casters.string(), finer.scene->notices);
     const Bounds box = bounds(scene);
     finer.reach = a.reach.value_or(static_cast<double>(glm::distance(box.low, box.high)) / 50);

@@ -6,7 +6,6 @@
 #include "instance_arguments.h"
 #include "lamp_strengths.h"
 #include "level_arguments.h"
-#include "mesh_import.h"
 #include "no_shadow.h"
 #include "options.h"
 #include "outputs.h"
@@ -398,7 +397,7 @@ void run(BakeArguments a, Session& session) {
     a.reading.outputs =
         check_outputs({{a.output, "--output", {".glb"}}, {a.json, "--json", {".json"}}}, inputs);
     a.options.repairs.bad_textures = a.reading.bad_textures;
-    GltfDocument document = load_model(a.scene, a.reading);
+    GltfDocument document = load_gltf(a.scene, a.reading);
     Scene scene = extract_scene(document);
     read_occluders(document); // which it passes on
     print_notices(a.scene.string(), scene.notices);

@@ -3,7 +3,6 @@
 #include "commands/commands.h"
 
 #include "inputs.h"
-#include "mesh_import.h"
 #include "options.h"
 #include "outputs.h"
 #include "prt/gpu_devices.h"
@@ -39,7 +38,7 @@ void print_devices() {
 }
 
 Report scene_report(const BenchArguments& a, Session& session) {
-    const GltfDocument document = load_model(a.scene, a.reading);
+    const GltfDocument document = load_gltf(a.scene, a.reading);
     const Scene scene = extract_scene(document);
     print_notices(a.scene.string(), scene.notices);
     ProgressBar bar = session.progress_bar("measuring");

@@ -7,7 +7,6 @@
 #include "compress_metric.h"
 #include "lamp_strengths.h"
 #include "make/choices.h"
-#include "mesh_import.h"
 #include "no_shadow.h"
 #include "options.h"
 #include "prt/encode_glb.h"
@@ -65,7 +64,7 @@ struct Pilot {
 class Maker {
 public:
     Maker(const MakeRequest& request, Session& session, std::vector<BudgetLight> lights)
-        : r_(request), session_(session), document_(load_model(request.scene, request.reading)),
+        : r_(request), session_(session), document_(load_gltf(request.scene, request.reading)),
           scene_(extract_scene(document_)), lights_(std::move(lights)) {
         print_notices(r_.scene.string(), scene_.notices);
         leave_out_shadows(scene_, r_.no_shadow);

@@ -25,7 +25,7 @@ PARTS = {
     "compress": ("compress", "runtime scene", "glm Eigen"),
     "compress_study": ("compress/study", "runtime scene compress", "glm Eigen"),
     "shaders": ("shaders", "", ""),
-    "cli": ("cli", "runtime shader fit image scene render gl bake bake_gpu compress", "glm fmt CLI nlohmann assimp"),
+    "cli": ("cli", "runtime shader fit image scene render gl bake bake_gpu compress", "glm fmt CLI nlohmann"),
     "example_scenes": ("examples/scenes", "runtime image", "glm tinygltf"),
     "game": ("examples/game", "runtime shader fit image scene gl", "glm epoxy"),
     "viewer": ("examples/viewer", "runtime fit image scene render gl shader bake compress",
@@ -45,7 +45,7 @@ EXCEPTIONS = {
 PACKAGES = {  # how their headers begin
     "glm/": "glm", "ceres/": "ceres", "Eigen/": "Eigen", "OpenEXR/": "OpenEXR", "Imath": "OpenEXR", "Imf": "OpenEXR",
     "stb/": "stb", "zlib": "zlib", "tiny_gltf": "tinygltf", "nlohmann/": "nlohmann", "meshoptimizer": "meshoptimizer",
-    "draco/": "draco", "assimp/": "assimp",
+    "draco/": "draco",
     "epoxy/": "epoxy", "webp/": "libwebp", "avif/": "libavif", "GLFW/": "glfw", "embree3/": "embree", "fmt/": "fmt", "CLI/": "CLI",
     "imgui": "imgui", "backends/imgui": "imgui", "vulkan/vulkan_raii": "vulkan",
 }
