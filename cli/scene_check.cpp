@@ -1,3 +1,5 @@
+// Lists problems that importers and bakes have with a scene.
+
 #include "scene_check.h"
 
 #include "prt/support/error.h"

@@ -1,3 +1,5 @@
+// Reads JSON files and checks the types of members.
+
 #include "prt/json_file.h"
 
 #include "prt/support/error.h"

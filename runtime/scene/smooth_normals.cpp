@@ -106,7 +106,7 @@ private:
     std::uint32_t vertex_of(std::size_t corner) const {
         return triangles_[corner / 3][static_cast<int>(corner % 3)];
     }
-    /// Where normals of a set cancel, or a triangle has none.
+    /// Returns the normal of the triangle, or +Z if it has none: for sets whose normals cancel.
     glm::vec3 face_or_up(std::size_t corner) const {
         const glm::dvec3 face = faces_[corner / 3];
         return face == glm::dvec3(0) ? glm::vec3(0, 0, 1) : glm::vec3(face);

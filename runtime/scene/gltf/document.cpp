@@ -323,7 +323,7 @@ GltfDocument load_gltf(const std::filesystem::path& path, const GltfOptions& opt
     return parse_gltf(read_file(path), path, options);
 }
 
-/// As parse_gltf, with smooth normals where there are none.
+/// Parses a file as `parse_gltf` does, and adds smooth normals to primitives without normals.
 GltfDocument parse_smoothed(std::span<const std::byte> file, const std::filesystem::path& path,
                             const GltfOptions& options) {
     GltfOptions plain = options;

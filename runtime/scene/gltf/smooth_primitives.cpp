@@ -1,3 +1,5 @@
+// Gives primitives without normals smooth ones.
+
 #include "gltf/smooth_primitives.h"
 
 #include "gltf/accessor.h"

@@ -388,8 +388,8 @@ std::string refusal(const Damage& read_changed, const std::function<void(GlbFile
     return "was read";
 }
 
-/// What programs do to a file that holds data they do not know: each is refused with the reason and the
-/// remedy.
+/// Other programs change files with data that they do not support: each change is refused with the reason and
+/// the remedy.
 TEST(TransferInGltf, ChangesOfOtherProgramsAreRefusedWithTheRemedy) {
     const std::string remedy =
         ": another program has changed the file; run it before prt bake, or run prt compress again";
