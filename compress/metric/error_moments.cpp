@@ -4,6 +4,7 @@
 #include "prt/error_moments.h"
 
 #include "metric/color_blocks.h"
+#include "metric/rotated_lighting.h"
 #include "metric/transfer_columns.h"
 #include "prt/error_measures.h"
 #include "prt/support/error.h"
@@ -147,13 +148,6 @@ double least_square(const ErrorMoments& moments, const Lighting& lighting) {
            std::max(mean_square_over_rotations(moments, lighting), kRoundingOfFloats * possible);
 }
 
-Lighting turned(const Lighting& lighting, int order, double angle) {
-    Lighting result{rotated_about_y(truncated(lighting.sky, order), angle), {}, lighting.lamps};
-    if (lighting.suns)
-        result.suns = rotated_about_y(truncated(*lighting.suns, order), angle);
-    return result;
-}
-
 /// A trigonometric polynomial, defined by its values at an odd number of equally spaced angles.
 class TrigonometricPolynomial {
 public:
@@ -257,7 +251,7 @@ LitRmsOverTurns lit_rms_over_turns(const ErrorMoments& moments, const Lighting& 
     const int order = moments.layout.order, turns = 4 * order - 3;
     Eigen::VectorXd errors(turns), references(turns);
     for (int k = 0; k < turns; ++k) {
-        const Squares squares = squares_under(moments, turned(lighting, order, 2 * pi * k / turns));
+        const Squares squares = squares_under(moments, rotated_about_y(lighting, order, 2 * pi * k / turns));
         errors[k] = squares.error;
         references[k] = squares.reference;
     }

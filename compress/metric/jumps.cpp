@@ -3,6 +3,7 @@
 #include "prt/jumps.h"
 
 #include "metric/color_blocks.h"
+#include "metric/rotated_lighting.h"
 #include "metric/transfer_columns.h"
 #include "prt/color.h"
 #include "prt/error_measures.h"
@@ -42,9 +43,7 @@ Eigen::MatrixXd rows_of_skies(std::span<const Lighting> skies, const TransferLay
     for (const Lighting& sky : skies)
         for (int r = 0; r < kRotationsOfJumps; ++r, ++row) {
             const double angle = 2 * std::numbers::pi * r / kRotationsOfJumps;
-            Lighting rotated{rotated_about_y(truncated(sky.sky, layout.order), angle), {}, sky.lamps};
-            if (sky.suns)
-                rotated.suns = rotated_about_y(truncated(*sky.suns, layout.order), angle);
+            const Lighting rotated = rotated_about_y(sky, layout.order, angle);
             const std::vector<glm::vec3> columns = light_columns(layout, rotated);
             for (glm::length_t c = 0; c < 3; ++c) {
                 const std::vector<std::size_t> numbers = numbers_of_color(layout, c);

@@ -188,7 +188,7 @@ private:
             throw Error("texture " + std::to_string(index) + " is not there");
         const tinygltf::Texture& texture = model_.textures[static_cast<std::size_t>(index)];
         use.image = image_of(texture);
-        if (use.image < 0) { // a placeholder that is reported as missing if it is needed
+        if (use.image < 0) { // an image without data: `load_textures` reports it if its pixels are needed
             use.image = static_cast<int>(scene_.images.size());
             scene_.images.push_back({"the image of texture " + std::to_string(index), {}});
         } else if (static_cast<std::size_t>(use.image) >= model_.images.size()) {
