@@ -154,7 +154,7 @@ private:
         std::priority_queue<Candidate> queue;
         for (const std::uint32_t p : indices_) {
             squares_.predicted += predicted(p, planned_[p]);
-            if (error_[p] > 0 && planned_[p] < static_cast<std::uint32_t>(kMostRays))
+            if (error_[p] > 0 && planned_[p] < static_cast<std::uint32_t>(kMaxRays))
                 queue.push(candidate(p));
         }
         while (squares_.predicted > wanted && !queue.empty()) {
@@ -163,7 +163,7 @@ private:
             const std::uint32_t p = best.receiver;
             squares_.predicted -= best.gain_per_ray * planned_[p];
             planned_[p] *= 2;
-            if (planned_[p] < static_cast<std::uint32_t>(kMostRays))
+            if (planned_[p] < static_cast<std::uint32_t>(kMaxRays))
                 queue.push(candidate(p));
         }
         return squares_.predicted <= wanted;
@@ -172,7 +172,7 @@ private:
     /// Traces the sequences up to the planned number of rays.
     void extend() {
         Transfer added = empty_transfer();
-        for (std::uint32_t rays = kFirstRays; rays < static_cast<std::uint32_t>(kMostRays); rays *= 2) {
+        for (std::uint32_t rays = kFirstRays; rays < static_cast<std::uint32_t>(kMaxRays); rays *= 2) {
             std::vector<std::uint32_t> members;
             for (const std::uint32_t p : indices_)
                 if (rays_[p] == rays && planned_[p] > rays)

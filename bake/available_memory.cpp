@@ -25,7 +25,7 @@ double limit_in(const std::filesystem::path& file) {
 
 /// Returns the smallest limit in files called `name` from `folder` up to `top`. A container sees its own
 /// group at the top.
-double least_limit(std::filesystem::path folder, const std::filesystem::path& top, const char* name) {
+double min_limit(std::filesystem::path folder, const std::filesystem::path& top, const char* name) {
     double least = limit_in(top / name);
     for (; folder != top && folder.has_relative_path(); folder = folder.parent_path())
         least = std::min(least, limit_in(folder / name));
@@ -45,11 +45,10 @@ double control_group_limit(const std::filesystem::path& membership, const std::f
         const std::filesystem::path path = std::filesystem::path(line.substr(second + 1)).relative_path();
         if (controllers.empty())
             least =
-                std::min(least, least_limit(path.empty() ? mounted : mounted / path, mounted, "memory.max"));
+                std::min(least, min_limit(path.empty() ? mounted : mounted / path, mounted, "memory.max"));
         else if (("," + controllers + ",").find(",memory,") != std::string::npos) {
             const std::filesystem::path top = mounted / "memory";
-            least =
-                std::min(least, least_limit(path.empty() ? top : top / path, top, "memory.limit_in_bytes"));
+            least = std::min(least, min_limit(path.empty() ? top : top / path, top, "memory.limit_in_bytes"));
         }
     }
     return least;

@@ -32,15 +32,15 @@ void check_raster_options(const BakeOptions& options) {
 
 void check_options(const BakeOptions& options) {
     check_order(options.order);
-    if (options.rays < 1 || options.rays > kMostRays)
-        throw Error(fmt::format("rays per receiver must lie in 1..{}, not {}", kMostRays, options.rays));
-    if (options.bounces != kEndlessBounces && (options.bounces < 0 || options.bounces > kMostBounces))
+    if (options.rays < 1 || options.rays > kMaxRays)
+        throw Error(fmt::format("rays per receiver must lie in 1..{}, not {}", kMaxRays, options.rays));
+    if (options.bounces != kEndlessBounces && (options.bounces < 0 || options.bounces > kMaxBounces))
         throw Error(
-            fmt::format("bounces must lie in 0..{} or be endless, not {}", kMostBounces, options.bounces));
+            fmt::format("bounces must lie in 0..{} or be endless, not {}", kMaxBounces, options.bounces));
     if (!(options.lamps.radius >= 0 && std::isfinite(options.lamps.radius)))
         throw Error("the radius of lamps must be finite and not negative");
-    if (options.lamps.rays < 1 || options.lamps.rays > kMostRays)
-        throw Error(fmt::format("rays to lamps must lie in 1..{}, not {}", kMostRays, options.lamps.rays));
+    if (options.lamps.rays < 1 || options.lamps.rays > kMaxRays)
+        throw Error(fmt::format("rays to lamps must lie in 1..{}, not {}", kMaxRays, options.lamps.rays));
     if (options.target_error && !(*options.target_error > 0 && std::isfinite(*options.target_error)))
         throw Error("the error to reach must be finite and above 0");
     if (options.target_error && options.fit == FitMode::surface)

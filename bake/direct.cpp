@@ -30,7 +30,7 @@ std::vector<std::uint32_t> trace_adaptively(const BakePlan& plan, Tracer& tracer
     direct.sampling_error = adaptive.error;
     if (!adaptive.reached)
         direct.notices.push_back(
-            fmt::format("the error to reach was not reached with {} rays per receiver", kMostRays));
+            fmt::format("the error to reach was not reached with {} rays per receiver", kMaxRays));
     return std::move(adaptive.rays);
 }
 

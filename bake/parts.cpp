@@ -101,7 +101,7 @@ Transfer with_lamps(const Transfer& sky, const Transfer& light, const std::vecto
         for (std::size_t k = 0; k < lamps.size(); ++k)
             for (int c = 0; c < parts[k].channels; ++c) {
                 *to = light.vector(p)[static_cast<std::size_t>(c) * stride + k];
-                if (!(std::abs(*to++) <= kLargestTransfer))
+                if (!(std::abs(*to++) <= kMaxTransfer))
                     throw Error(fmt::format("lamp '{}' lights a vertex with a radiance above 1e6, more than "
                                             "files hold: give it less intensity, and more at runtime",
                                             printable(lamps[k].name)));

@@ -40,13 +40,13 @@ std::vector<DiffusionOperator> make_diffusion(const Scene& scene, const Media& m
 
 void check_medium(const Medium& medium, const std::string& material) {
     for (int c = 0; c < 3; ++c)
-        if (!(medium.scattering[c] >= kLeastScattering && medium.scattering[c] <= kMostCoefficient &&
-              medium.absorption[c] >= 0 && medium.absorption[c] <= kMostCoefficient))
+        if (!(medium.scattering[c] >= kMinScattering && medium.scattering[c] <= kMaxCoefficient &&
+              medium.absorption[c] >= 0 && medium.absorption[c] <= kMaxCoefficient))
             throw Error(
                 fmt::format("the medium of material '{}' scatters {:.3g} and absorbs {:.3g} per unit: "
                             "they must lie in {:.0e}..{:.0e} and 0..{:.0e}",
-                            material, medium.scattering[c], medium.absorption[c], kLeastScattering,
-                            kMostCoefficient, kMostCoefficient));
+                            material, medium.scattering[c], medium.absorption[c], kMinScattering,
+                            kMaxCoefficient, kMaxCoefficient));
 }
 
 } // namespace

@@ -16,7 +16,7 @@ namespace prt {
 namespace {
 
 /// One of kReceiversPerCheck receivers is sampled again to estimate the error of a bake, within these limits.
-constexpr std::size_t kReceiversPerCheck = 32, kLeastChecked = 256, kMostChecked = 1024;
+constexpr std::size_t kReceiversPerCheck = 32, kMinChecked = 256, kMaxChecked = 1024;
 
 double area_of(const Receivers& receivers, std::uint32_t p) {
     return static_cast<double>(receivers.areas[p]);
@@ -31,7 +31,7 @@ std::map<std::uint32_t, double> choose_receivers(const Receivers& receivers, con
         const double visible = static_cast<double>(transfer.vector(p)[0]) / kY00;
         return area_of(receivers, p) * (0.02 + std::clamp(visible * (1 - visible), 0.0, 0.25));
     };
-    const std::size_t wanted = std::clamp(all.size() / kReceiversPerCheck, kLeastChecked, kMostChecked);
+    const std::size_t wanted = std::clamp(all.size() / kReceiversPerCheck, kMinChecked, kMaxChecked);
     std::map<std::uint32_t, double> weights;
     for (const Picked& picked : pick(all.size(), wanted, [&](std::size_t i) { return likely(all[i]); }))
         weights[all[picked.index]] = picked.stands_for;

@@ -55,7 +55,7 @@ std::size_t check_gather_memory(const BakePlan& plan, Tracer& tracer, const Rece
     double most = 0, likely = 0;
     std::size_t traced = 0;
     for (const auto& [rays, members] : by_rays)
-        most += static_cast<double>(members.size()) * rays * GatherOperator::kMostBytesPerRay;
+        most += static_cast<double>(members.size()) * rays * GatherOperator::kMaxBytesPerRay;
     // A ray can hit any number of blended surfaces.
     if (!plan.scene.surfaces().traits().alpha && fits_memory(plan, most * copies))
         return 0;

@@ -174,7 +174,7 @@ Table clusters_table(const Evaluation& evaluation) {
                      {"lit_rms", "lit_rms", Unit::percent}};
     for (const ClusterShare& c : evaluation.clusters)
         table.rows.push_back({c.cluster, c.receivers, c.components, c.area_share, c.error_share, c.lit_rms});
-    table.most_shown = 8;
+    table.max_shown = 8;
     return table;
 }
 

@@ -19,11 +19,11 @@
 namespace prt::cli {
 namespace {
 
-constexpr double kMostStrength = 1e9;
+constexpr double kMaxStrength = 1e9;
 
 float strength_of(const Json& value, const std::string& name) {
     const double strength = value.is_number() ? value.get<double>() : -1;
-    if (!(strength >= 0 && strength <= kMostStrength))
+    if (!(strength >= 0 && strength <= kMaxStrength))
         throw Error(fmt::format("the strength of '{}' is neither a number in 0..1e9 nor three of them",
                                 printable(name)));
     return static_cast<float>(strength);

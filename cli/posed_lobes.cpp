@@ -8,7 +8,7 @@ namespace prt::cli {
 
 void lobe_transfer_in_pose(const LobeModel& lobes, const VertexFrames& frames, std::size_t vertex, int order,
                            std::span<float> transfer) {
-    std::array<Lobe, kMostLobes> of_vertex;
+    std::array<Lobe, kMaxLobes> of_vertex;
     lobes.decode(vertex, of_vertex);
     for (Lobe& lobe : of_vertex)
         lobe.axis = turned_axis(lobe.axis, axis_turn(glm::mat3(frames.matrix(vertex))));

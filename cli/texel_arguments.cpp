@@ -64,7 +64,7 @@ TexelSizeOptions add_texels(CLI::App* command, TexelArguments& a, const std::str
             ->type_name("N/m");
     CLI::Option* size =
         command->add_option("--size", a.texels.size, what + ", with so many texels along each side")
-            ->check(CLI::Range(1, kMostTexels))
+            ->check(CLI::Range(1, kMaxTexels))
             ->excludes(density);
     command->add_option("--uv", a.uv_set, "coordinates that textures use: TEXCOORD_n")
         ->default_str("1")

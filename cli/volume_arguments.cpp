@@ -56,7 +56,7 @@ void add_volume(CLI::App* command, VolumeArguments& arguments) {
     command
         ->add_option("--volume-order", volume.order, "SH bands of the light that comes in at a probe, 2 to 4")
         ->capture_default_str()
-        ->check(CLI::Range(2, kMostIncidentOrder));
+        ->check(CLI::Range(2, kMaxIncidentOrder));
     command
         ->add_option("--volume-fit", volume.fit_points,
                      fmt::format("points for each probe where light between probes is measured, which probes "

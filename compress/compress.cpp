@@ -48,30 +48,30 @@ FoundClusters find_clusters(const Task& task, const Progress& progress) {
     how.start.assign(task.course.start.begin(), task.course.start.end());
     if (task.course.draft)
         how.schedule = draft_schedule();
-    double most_dropped = !bases_are_coded(options)                ? 0
-                          : task.transfer.layout().outputs > 1     ? tuning::kDroppedOfOutputs
-                          : options.coding.bits > tuning::kFewBits ? tuning::kDroppedOfManyBits
-                                                                   : tuning::kDroppedOfFewBits;
+    double max_dropped = !bases_are_coded(options)                ? 0
+                         : task.transfer.layout().outputs > 1     ? tuning::kDroppedOfOutputs
+                         : options.coding.bits > tuning::kFewBits ? tuning::kDroppedOfManyBits
+                                                                  : tuning::kDroppedOfFewBits;
     const std::optional<SeenLamps>& lamps = task.light.lamps();
     const TransferView transfer = lamps ? lamps->logarithmic() : task.transfer;
     const LightMetric& metric = lamps ? lamps->metric() : task.light.metric();
     for (double from = 0;;) { // a second attempt is rare
         const double to = 1 - 0.03 * (1 - from);
         FoundClusters found;
-        found.frame = fit_frame(transfer, task.significance, metric, most_dropped, options.threads);
+        found.frame = fit_frame(transfer, task.significance, metric, max_dropped, options.threads);
         if (found.frame.dimension > 0) // otherwise there is nothing to predict
             found.guides = task.guides;
         found.points = PointBlocks(transfer, found.frame, found.guides, options.threads,
-                                   rounding_allowed(task, tuning::kRoundingOverDropped * most_dropped));
+                                   rounding_allowed(task, tuning::kRoundingOverDropped * max_dropped));
         std::mt19937_64 random(options.seed);
         found.clustering =
             cluster_points(found.points, task.significance, how, random, progress.part(from, to));
         const double cost = found.clustering.cost;
         const double lost = found.frame.dropped + found.points.rounding();
-        if (!(lost > tuning::kTooMuchDropped * cost) || most_dropped == 0)
+        if (!(lost > tuning::kTooMuchDropped * cost) || max_dropped == 0)
             return found;
-        most_dropped =
-            cost < tuning::kExactError ? 0 : std::max(tuning::kDroppedAgain * cost, tuning::kLeastDropped);
+        max_dropped =
+            cost < tuning::kExactError ? 0 : std::max(tuning::kDroppedAgain * cost, tuning::kMinDropped);
         from = to;
     }
 }

@@ -19,12 +19,12 @@ namespace {
 }
 
 void check_packed(const WeightCoding& coding, int clusters) {
-    if (coding.fixed_bits.empty() && (coding.bits < 0 || coding.bits > kMostPackedBits))
-        out_of_range("bits of a vertex's weights must lie in 0.." + std::to_string(kMostPackedBits),
+    if (coding.fixed_bits.empty() && (coding.bits < 0 || coding.bits > kMaxPackedBits))
+        out_of_range("bits of a vertex's weights must lie in 0.." + std::to_string(kMaxPackedBits),
                      coding.bits);
     for (const int bits : coding.fixed_bits)
-        if (bits < 1 || bits > kMostBits)
-            out_of_range("bits of a weight must lie in 1.." + std::to_string(kMostBits), bits);
+        if (bits < 1 || bits > kMaxWeightBits)
+            out_of_range("bits of a weight must lie in 1.." + std::to_string(kMaxWeightBits), bits);
     if (coding.cluster_bits < 0 || coding.cluster_bits > 16 ||
         (coding.cluster_bits > 0 && clusters > 1 << coding.cluster_bits))
         throw Error(std::to_string(clusters) + " clusters do not fit " + std::to_string(coding.cluster_bits) +
@@ -40,7 +40,7 @@ void check_options(const CompressOptions& o) {
         out_of_range("components per vertex must be finite and not negative", o.mean_components);
     if (o.coding.format == WeightFormat::packed)
         check_packed(o.coding, o.clusters);
-    if (!(o.seam_price >= 0 && o.seam_price <= kMostPrice))
+    if (!(o.seam_price >= 0 && o.seam_price <= kMaxPrice))
         out_of_range("the seam weight must lie in 0..1e6", o.seam_price);
     if (o.basis_share && !(*o.basis_share >= 0 && *o.basis_share < 1))
         out_of_range("the share of the bases must lie in 0..1", *o.basis_share);
@@ -62,7 +62,7 @@ void check_finite(const TransferView& transfer, std::span<const float> areas) {
     for (std::size_t begin = 0; begin < transfer.receivers(); begin += kRead) {
         vectors.resize(std::min(kRead, transfer.receivers() - begin) * transfer.dimension());
         transfer.read(begin, vectors);
-        if (!std::ranges::all_of(vectors, [](float v) { return std::abs(v) <= kMostTransfer; }))
+        if (!std::ranges::all_of(vectors, [](float v) { return std::abs(v) <= kMaxInputTransfer; }))
             throw Error("the transfer holds values that are not finite, or beyond 1e12");
     }
     if (!std::all_of(areas.begin(), areas.end(), [](float area) { return std::isfinite(area); }))
@@ -136,16 +136,16 @@ ClusteringOptions clustering_options(const CompressOptions& options, std::size_t
     how.mean_components = options.mean_components;
     how.trace = options.trace;
     how.threads = options.threads;
-    how.spending.most_components = std::min(coding.components, static_cast<int>(dimension));
+    how.spending.component_limit = std::min(coding.components, static_cast<int>(dimension));
     if (coding.format != WeightFormat::packed)
         return how;
     how.rows_cost = options.bases_count;
-    int most = kMostPackedComponents;
+    int most = kMaxPackedComponents;
     if (!coding.fixed_bits.empty())
         most = std::min(most, static_cast<int>(coding.fixed_bits.size()));
     else if (coding.bits == 0)
         most = 0;
-    how.spending.most_components = std::min(how.spending.most_components, most);
+    how.spending.component_limit = std::min(how.spending.component_limit, most);
     how.spending.bits = coding.bits;
     how.spending.fixed_bits = coding.fixed_bits;
     return how;

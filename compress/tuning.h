@@ -64,7 +64,7 @@ inline constexpr double kSpotsShare = 0.25;
 /// the area has a tenth less contrast error.
 inline constexpr double kSkyContrastShare = 0.3;
 /// Fraction of a lamp's contrast below which a color gets no axis. By hand.
-inline constexpr double kLeastColor = 1e-7;
+inline constexpr double kMinColor = 1e-7;
 
 // The frame: squared errors relative to the mean squared exit radiance, like lit_rms².
 
@@ -76,7 +76,7 @@ inline constexpr int kFewBits = 48;
 inline constexpr double kDroppedOfOutputs = 1e-4;
 /// If the dropped axes caused more than this fraction of the error, the frame is built again with the second
 /// fraction of it, or with all axes if the error is below kExactError (float rounding). By hand.
-inline constexpr double kTooMuchDropped = 0.04, kDroppedAgain = 0.01, kLeastDropped = 1e-13,
+inline constexpr double kTooMuchDropped = 0.04, kDroppedAgain = 0.01, kMinDropped = 1e-13,
                         kExactError = 1e-11;
 /// Number of receivers above which points are rounded to 16 bits: half of the memory. The error that this may
 /// add, relative to the error of axes dropped initially; later, as a fraction of the error. By hand. On a
@@ -102,21 +102,21 @@ inline constexpr double kMeanSquareWeight = 0.2;
 inline constexpr double kGuideRidge = 1e-4;
 /// Minimum variance of predictors within clusters for the choice of their unit, because they hardly vary
 /// there. By hand.
-inline constexpr double kLeastGuideVariance = 1e-6;
+inline constexpr double kMinGuideVariance = 1e-6;
 
 /// Lloyd's iteration for the start: maximum number of iterations, and the relative decrease of the error that
 /// ends it. By hand. [preset]
-inline constexpr int kMostLloydIterations = 50;
+inline constexpr int kMaxLloydIterations = 50;
 inline constexpr double kLloydTolerance = 1e-3;
 /// Rounds per component while components are added one by one, and after each sweep of moves. By hand.
 /// [trace]
 inline constexpr int kRoundsPerComponent = 2, kRoundsAfterMoves = 2;
 /// Maximum number of rounds of clustered PCA, and the relative decrease of the cost that ends them. By hand.
 /// [trace]
-inline constexpr int kMostRounds = 200;
+inline constexpr int kMaxRounds = 200;
 inline constexpr double kRoundTolerance = 1e-3;
 /// Maximum number of sweeps of split-and-merge moves. Later sweeps are rarely kept. [trace]
-inline constexpr int kMostMoveSweeps = 8;
+inline constexpr int kMaxMoveSweeps = 8;
 /// Tolerance of rounds and maximum number of move sweeps for drafts. [budget]
 inline constexpr double kDraftTolerance = 1e-2;
 inline constexpr int kDraftMoveSweeps = 1;
@@ -164,17 +164,17 @@ inline constexpr int kRoundsFromNothing = 2;
 /// rows. At 1e-9, clusters of nine points on 2 478 had slopes of 34, and 1.32 instead of 0.43 %. [preset]
 inline constexpr double kRefitRidge = 1e-4;
 /// Lengths of rows that are tried, as fractions of the largest coordinate: 1 to 0.3. By hand. [preset]
-inline constexpr int kMostLengthTenths = 10, kLeastLengthTenths = 3;
+inline constexpr int kMaxLengthTenths = 10, kMinLengthTenths = 3;
 /// Conjugate gradients of the seams: maximum number of steps, and the relative decrease of the squared
 /// residual that ends them. Weights are rounded afterwards, to much larger steps. By hand. [seams]
-inline constexpr int kMostSolverSteps = 30;
+inline constexpr int kMaxSolverSteps = 30;
 inline constexpr double kSolverTolerance = 1e-6;
 /// Number of receivers whose weights are solved for together, which limits the memory of the solver. On a
 /// grid of 1.5 million vertices jumps are equal to a thousandth. [seams]
 inline constexpr std::size_t kSolvedTogether = 65536;
 /// Sweeps over the receivers that choose clusters at seams, and the fraction of changes below which they end.
 /// By hand. [seams]
-inline constexpr int kMostSeamSweeps = 10;
+inline constexpr int kMaxSeamSweeps = 10;
 inline constexpr std::size_t kReceiversPerSeamChange = 200;
 /// UV seams of lightmaps: cost of a squared jump relative to the mean squared error of a receiver, cost of an
 /// adjacent receiver in another cluster relative to the mean squared error, and the number of sweeps until
@@ -184,7 +184,7 @@ inline constexpr std::size_t kReceiversPerSeamChange = 200;
 inline constexpr double kJumpPrice = 16, kJumpBorder = 5;
 inline constexpr int kJumpSweeps = 6;
 /// Minimum relative saving of another code, which prevents oscillation by rounding.
-inline constexpr double kLeastSeamGain = 1e-6;
+inline constexpr double kMinSeamGain = 1e-6;
 
 // search/
 
@@ -204,7 +204,7 @@ inline constexpr double kHopeless = 1.02;
 /// Fractions of the error that rounding bases may add, tried relative to the format's; and the maximum.
 /// [budget]
 inline constexpr double kOtherShares[] = {0.3, 3};
-inline constexpr double kMostShare = 0.9;
+inline constexpr double kMaxShare = 0.9;
 
 /// Number of steps without improvement before a search reverses. By hand. [budget]
 inline constexpr int kPatience = 2;
@@ -217,17 +217,17 @@ inline constexpr double kBasesOverWeights = 2, kAlwaysForBases = 4096;
 /// [budget]
 inline constexpr std::size_t kReceiversPerCluster = 12, kAlwaysClusters = 64;
 /// Maximum number of clusters if only operations are limited. [budget] --shader-ops
-inline constexpr std::size_t kMostClustersOfOperations = 512;
+inline constexpr std::size_t kMaxClustersOfOperations = 512;
 /// Fraction of the bytes that ends a line. For a preset that does not fit, whose limit is a rule of thumb,
 /// the last tenth is not worth a trial. By hand. [budget]
-inline constexpr double kLeastFilled = 0.975, kLeastFilledOfPreset = 0.9;
+inline constexpr double kMinFilled = 0.975, kMinFilledOfPreset = 0.9;
 /// Ratio of total bytes to weight bytes above which both settings of `bases_count` are tried. A preset's
 /// settings differ only if the bases exceed their share because of few vertices: 2 478 vertices had 0.479 and
 /// 0.506 %, and 0.069 and 0.074 %. [budget]
 inline constexpr double kBothWays = 2, kBothWaysOfPreset = 1.02 * (1 + kBasesOverWeights);
 /// Bytes of the bases of a cluster per coefficient of a transfer vector, before the first trial: splits from
 /// too few clusters cost less than a start with too many. Minimum bytes of a cluster after a trial. [budget]
-inline constexpr double kBytesPerClusterAndNumber = 12, kLeastBytesPerCluster = 4;
+inline constexpr double kBytesPerClusterAndNumber = 12, kMinBytesPerCluster = 4;
 /// Clusters of the first trial for an error. [budget]
 inline constexpr double kFirstClusters = 64;
 /// Fraction of an allowed error that ends a line, for complete trials and drafts. By hand. [budget]
@@ -237,8 +237,8 @@ inline constexpr double kNearEnough = 0.98, kNearEnoughOfDrafts = 0.95;
 inline constexpr double kNearClusters = 1.03;
 /// Decrease of log error per log clusters: typical value, value for fewer clusters, and limits of estimates
 /// from two trials. Measured on the demo scenes. [budget]
-inline constexpr double kErrorExponent = 0.4, kErrorExponentDown = 0.28, kLeastErrorExponent = 0.15,
-                        kMostErrorExponent = 2;
+inline constexpr double kErrorExponent = 0.4, kErrorExponentDown = 0.28, kMinErrorExponent = 0.15,
+                        kMaxErrorExponent = 2;
 /// Minimum logarithm of a ratio of clusters for an estimate of that exponent. By hand. [budget]
 inline constexpr double kTellingRatio = 0.15;
 /// Ratio of basis bytes with an additional word for the same number of clusters; and the ratio of bytes at
@@ -246,7 +246,7 @@ inline constexpr double kTellingRatio = 0.15;
 inline constexpr double kBasesOfAWordMore = 1.5, kClearlyMore = 1.1;
 /// Factors of clusters from one trial to the next: above the first, a larger payload is needed; the second is
 /// the maximum increase per trial. By hand. [budget]
-inline constexpr double kHopelessFactor = 64, kMostFactor = 4;
+inline constexpr double kHopelessFactor = 64, kMaxGrowth = 4;
 /// Bits above which the loss is negligible: of the cluster and of each component. [budget] --shader-ops
 inline constexpr double kEnoughClusterBits = 16, kEnoughWeightBits = 12;
 /// Start of a search over payloads, in bytes. For an error: kFirstBytes for one percent, and kBytesPerHalving

@@ -32,7 +32,7 @@ layout(std430, binding = PRT_BINDING_SHARES) readonly buffer Shares {
     float shares[];
 };
 layout(std430, binding = PRT_BINDING_SH_FACTORS) readonly buffer ShFactors {
-    vec4 sh_factors[PRT_MOST_COEFFICIENTS]; // at PRT_SH_FACTOR(l, m): a_lm, b_lm, sectoral factor (l = m), lobe factor
+    vec4 sh_factors[PRT_MAX_COEFFICIENTS]; // at PRT_SH_FACTOR(l, m): a_lm, b_lm, sectoral factor (l = m), lobe factor
 };
 layout(push_constant) uniform Push {
     TracePush push;
@@ -44,7 +44,7 @@ shared float partial[kSubgroups * uint(kCoefficients)];
 shared float partial_blocked[kSubgroups];
 
 // In registers: every index into it is known at compile time.
-float total[PRT_MOST_COEFFICIENTS];
+float total[PRT_MAX_COEFFICIENTS];
 
 #define PRT_BANDS_FROM(m, STEP)                                                                                        \
     STEP(m, 0) STEP(m, 1) STEP(m, 2) STEP(m, 3) STEP(m, 4) STEP(m, 5) STEP(m, 6) STEP(m, 7) STEP(m, 8) STEP(m, 9)

@@ -112,7 +112,7 @@ vec4 light_of_lights(LampReceiver receiver, uint seed) {
         SeenLight light = see_light(lights[i], receiver);
         uint rays = 0u;
         if (light.weight > 0.0)
-            rays = light.half_angle > 0.0 ? rays_of_share(push.most_rays, light.weight / all) : 1u;
+            rays = light.half_angle > 0.0 ? rays_of_share(push.max_rays, light.weight / all) : 1u;
         uint begin = clamp(push.first_ray, before, before + rays) - before;
         uint end = clamp(push.end_ray, before, before + rays) - before;
         if (begin < end) {
@@ -161,17 +161,17 @@ vec4 light_of_triangles(LampReceiver receiver, uint seed) {
     }
     vec4 sum = vec4(0.0);
     float before = 0.0;
-    uint ray = push.first_ray, end = min(push.end_ray, push.most_rays);
+    uint ray = push.first_ray, end = min(push.end_ray, push.max_rays);
     for (uint i = push.first_triangle; i < push.end_triangle; ++i) {
         SeenTriangle seen = see_shining(shining[i], receiver);
         float weight = shining[i].luminance * seen.angle, until = before + weight;
         bool running = weight > 0.0 && ray < end;
         while (running) {
-            float target = all * ((float(ray) + unit_number(seed)) / float(push.most_rays));
+            float target = all * ((float(ray) + unit_number(seed)) / float(push.max_rays));
             running = target < until || i == last; // independent of the rounding of the sum
             if (running) {
                 vec2 u = vec2(clamp((target - before) / weight, 0.0, 1.0), golden(ray, seed * 2654435761u));
-                float stands_for = all / (shining[i].luminance * float(push.most_rays));
+                float stands_for = all / (shining[i].luminance * float(push.max_rays));
                 sum += vec4(stands_for * irradiance_along(receiver, shining[i], seen, u), 1.0);
                 ++ray;
                 running = ray < end;

@@ -29,7 +29,7 @@ uint trace_visibility(Chunk c, uint lane) {
     uint mask = 0u, i = lane;
     for (; i < c.count; i += uint(PRT_BEAM)) {
         aim(c, i);
-        float share = 1.0 - transmittance(c.ray, kFar, PRT_LEAST_TRANSMITTANCE);
+        float share = 1.0 - transmittance(c.ray, kFar, PRT_MIN_TRANSMITTANCE);
         if (kAlpha)
             shares[c.row * uint(PRT_CHUNK) + i] = share;
         mask |= share > 0.0 ? 1u << (i / uint(PRT_BEAM)) : 0u;
@@ -49,7 +49,7 @@ uint trace_some_hits(Chunk c, uint lane) {
             found = nearest(c.ray, 0.0, kFar, hit);
             hits[slots + i] = found ? record_of(c, hit, 1.0) : HitRecord(PRT_NO_HIT, 0.0, 0.0, 0.0, 0.0, 0u);
         } else {
-            found = transmittance(c.ray, kFar, PRT_LEAST_TRANSMITTANCE) == 0.0;
+            found = transmittance(c.ray, kFar, PRT_MIN_TRANSMITTANCE) == 0.0;
         }
         mask |= found ? 1u << (i / uint(PRT_BEAM)) : 0u;
     }
@@ -74,7 +74,7 @@ uint trace_through(Chunk c, uint lane) {
             passing = nearest(c.ray, t, kFar, hit);
             if (passing) {
                 float passes = left * (1.0 - hit.covered);
-                passes = passes < PRT_LEAST_TRANSMITTANCE ? 0.0 : passes;
+                passes = passes < PRT_MIN_TRANSMITTANCE ? 0.0 : passes;
                 uint slot = atomicAdd(hit_count, 1u);
                 running = slot < push.hit_room;
                 if (running) {

@@ -15,7 +15,7 @@
 //     PRT_GUIDE_POSITION     the position relative to PRT_GUIDE_ORIGIN, a vec3: numbers, or the name of a uniform.
 // Storage of the constants, which contain the data of prt::ConstantFormer and prt::cluster_layouts:
 //     PRT_CONSTANTS_BUFFER   storage buffers (the default; OpenGL 4.3, Vulkan, Direct3D 11),
-//     PRT_CONSTANTS_BLOCK    uniform blocks, with PRT_MOST_ROWS and PRT_MOST_CLUSTERS, or
+//     PRT_CONSTANTS_BLOCK    uniform blocks, with PRT_MAX_ROWS and PRT_MAX_CLUSTERS, or
 //     PRT_CONSTANTS_TEXTURE  textures with PRT_TEXTURE_WIDTH texels per row, RGBA32F and RGBA32UI.
 
 #include "shared_layout.h"
@@ -31,7 +31,7 @@
 
 #if defined(PRT_CONSTANTS_BLOCK)
 layout(std140 PRT_BINDING(PRT_BINDING_CONSTANTS)) uniform PrtConstants {
-    vec4 prt_constants[PRT_MOST_ROWS];
+    vec4 prt_constants[PRT_MAX_ROWS];
 };
 #elif defined(PRT_CONSTANTS_TEXTURE)
 PRT_SAMPLER(PRT_BINDING_CONSTANTS) sampler2D prt_constants;
@@ -80,7 +80,7 @@ vec3 prt_color(vec3 color) {
 #ifndef PRT_CLUSTER_ROWS
 #if defined(PRT_CONSTANTS_BLOCK)
 layout(std140 PRT_BINDING(PRT_BINDING_CLUSTERS)) uniform PrtClusters {
-    uvec4 prt_clusters[PRT_MOST_CLUSTERS];
+    uvec4 prt_clusters[PRT_MAX_CLUSTERS];
 };
 #elif defined(PRT_CONSTANTS_TEXTURE)
 PRT_SAMPLER(PRT_BINDING_CLUSTERS) usampler2D prt_clusters;

@@ -22,7 +22,7 @@ layout(binding = PRT_UNIT_WORD_IMAGES + 1, PRT_LIGHTMAP_FORMAT) writeonly unifor
 layout(binding = PRT_IMAGE_LIGHTMAP, PRT_LIGHTMAP_FORMAT) writeonly uniform image2D prt_lightmap;
 #endif
 
-const float kLargestHalf = 65504.0; // filters and mipmaps would spread values beyond the range of half floats
+const float kMaxHalf = 65504.0; // filters and mipmaps would spread values beyond the range of half floats
 
 void main() {
     ivec2 texel = ivec2(gl_GlobalInvocationID.xy), size = imageSize(prt_lightmap);
@@ -37,5 +37,5 @@ void main() {
             prt_words_1[i - 4] = word;
     }
     vec3 radiance = prt_exit_radiance(vec3(0.0), vec3(0.0)); // texels have no predictors
-    imageStore(prt_lightmap, texel, vec4(clamp(radiance, vec3(-kLargestHalf), vec3(kLargestHalf)), 1.0));
+    imageStore(prt_lightmap, texel, vec4(clamp(radiance, vec3(-kMaxHalf), vec3(kMaxHalf)), 1.0));
 }

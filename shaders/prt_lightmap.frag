@@ -20,7 +20,7 @@ PRT_SAMPLER(PRT_UNIT_WORD_IMAGES) usampler2D prt_word_images[PRT_PACKED_WORDS];
 layout(location = 0) out vec4 prt_texel;
 
 // Filters and mipmaps would spread values beyond the range of half floats.
-const float kLargestHalf = 65504.0;
+const float kMaxHalf = 65504.0;
 
 uint prt_word_of(uvec4 bytes) {
     return bytes.r | bytes.g << 8 | bytes.b << 16 | bytes.a << 24;
@@ -52,5 +52,5 @@ void main() {
     prt_words_1.w = prt_word_of(PRT_BYTES(7));
 #endif
     vec3 radiance = prt_exit_radiance(vec3(0.0), vec3(0.0)); // texels have no predictors
-    prt_texel = vec4(clamp(radiance, -kLargestHalf, kLargestHalf), 1.0);
+    prt_texel = vec4(clamp(radiance, -kMaxHalf, kMaxHalf), 1.0);
 }

@@ -38,7 +38,7 @@ layout(std140, binding = PRT_BINDING_LOBES) uniform PrtLobeProfiles {
 #else
 layout(std140) uniform PrtLobeProfiles {
 #endif
-    vec4 prt_lobe_profiles[PRT_MOST_PROFILES];
+    vec4 prt_lobe_profiles[PRT_MAX_PROFILES];
 };
 #define PRT_LOBE_PROFILE(i) prt_lobe_profiles[i]
 #endif

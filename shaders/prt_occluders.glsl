@@ -15,7 +15,7 @@
 // defined,
 //     PRT_OCCLUDER_ROWS     an array of vec4, five per object, and
 //     PRT_OCCLUDER_COUNT    an int.
-// PRT_MOST_OCCLUDERS: capacity of the block.
+// PRT_MAX_OCCLUDERS: capacity of the block.
 
 #include "shared_layout.h"
 
@@ -32,7 +32,7 @@ layout(std140, binding = PRT_BINDING_OCCLUDERS) uniform PrtOccluders {
 #else
 layout(std140) uniform PrtOccluders {
 #endif
-    vec4 prt_occluder_rows[5 * PRT_MOST_OCCLUDERS];
+    vec4 prt_occluder_rows[5 * PRT_MAX_OCCLUDERS];
     ivec4 prt_occluder_count; // in x
 };
 #define PRT_OCCLUDER_ROWS prt_occluder_rows

@@ -31,7 +31,7 @@ layout(binding = PRT_IMAGE_VOLUME, PRT_VOLUME_FORMAT) writeonly uniform image3D 
 #define PRT_VOLUME_OUTPUTS (PRT_VOLUME_ORDER * PRT_VOLUME_ORDER)
 #define PRT_VOLUME_NUMBERS (3 * PRT_VOLUME_OUTPUTS + 1)
 
-const float kLargestHalf = 65504.0;
+const float kMaxHalf = 65504.0;
 
 vec4 prt_sums[PRT_VOLUME_OUTPUTS];
 
@@ -98,6 +98,6 @@ void main() {
     for (int n = 0; n < PRT_VOLUME_NUMBERS; n += 4) {
         vec4 numbers = vec4(prt_number(n), prt_number(n + 1), prt_number(n + 2), prt_number(n + 3));
         ivec3 texel = ivec3(gl_GlobalInvocationID) + ivec3(0, 0, 5 * int(bricks.z) * (n / 4));
-        imageStore(prt_volume_image, texel, clamp(numbers, vec4(-kLargestHalf), vec4(kLargestHalf)));
+        imageStore(prt_volume_image, texel, clamp(numbers, vec4(-kMaxHalf), vec4(kMaxHalf)));
     }
 }

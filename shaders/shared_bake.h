@@ -76,12 +76,12 @@
 #define PRT_WRAP_CLAMP 2
 
 // Spherical harmonics, and the index of the recurrence factors of band l and degree m.
-#define PRT_MOST_ORDER 10
-#define PRT_MOST_COEFFICIENTS (PRT_MOST_ORDER * PRT_MOST_ORDER)
-#define PRT_SH_FACTOR(l, m) (PRT_MOST_ORDER * (l) + (m))
+#define PRT_MAX_ORDER 10
+#define PRT_MAX_COEFFICIENTS (PRT_MAX_ORDER * PRT_MAX_ORDER)
+#define PRT_SH_FACTOR(l, m) (PRT_MAX_ORDER * (l) + (m))
 
 // A ray with a smaller remaining share ends at the surface it hits.
-#define PRT_LEAST_TRANSMITTANCE (1.0 / 1024.0)
+#define PRT_MIN_TRANSMITTANCE (1.0 / 1024.0)
 
 // Rays that are generated together, threads that trace them, and number of such beams per workgroup.
 #define PRT_CHUNK 1024

@@ -80,10 +80,10 @@
 #define PRT_OCCLUDER_FADE 0.6
 #define PRT_OCCLUDER_BORDER 0.4
 // Maximum number of lobe profiles: prt/lobes.h.
-#define PRT_MOST_PROFILES 256
+#define PRT_MAX_PROFILES 256
 
-#ifndef PRT_MOST_OCCLUDERS
-#define PRT_MOST_OCCLUDERS 32
+#ifndef PRT_MAX_OCCLUDERS
+#define PRT_MAX_OCCLUDERS 32
 #endif
 
 #endif

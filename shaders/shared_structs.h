@@ -56,7 +56,7 @@ struct LampPush {
                                                                // bound receivers
     uint first_light, end_light, first_triangle, end_triangle; // ranges of the lamp
     uint scramble;                                             // scramble of its samples
-    uint most_rays;                                            // rays to all parts of the lamp that have an extent
+    uint max_rays;                                             // rays to all parts of the lamp that have an extent
     uint first_ray, end_ray;                                   // ray range of this dispatch
     float radius;                                              // radius of points and spots, metres
     float nearest;                                             // minimum distance of a point light, metres
@@ -115,7 +115,7 @@ struct ThreadProgress {
 struct Direction {
     vec4 towards_light;
     mat4 map_from_world; // to [0, 1]³
-    float basis[PRT_MOST_COEFFICIENTS];
+    float basis[PRT_MAX_COEFFICIENTS];
 };
 
 // A triangle that does not stop all light.

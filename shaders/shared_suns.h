@@ -3,9 +3,9 @@
 #ifndef PRT_SHARED_SUNS_H
 #define PRT_SHARED_SUNS_H
 
-#define PRT_MOST_SUNS 4
-#define PRT_MOST_SLICES 4 // slices of the view by distance; each has a map per sun
-#define PRT_MAP_BORDER 2  // texels of a map beyond the fitted region
+#define PRT_MAX_SUNS 4
+#define PRT_MAX_SLICES 4 // slices of the view by distance; each has a map per sun
+#define PRT_MAP_BORDER 2 // texels of a map beyond the fitted region
 
 // Storage buffers. Vertices lit by suns read them, because weights may use all attributes.
 #define PRT_BINDING_NORMALS 6
@@ -37,9 +37,9 @@ struct SunMap {
 };
 
 struct SunsSeen {
-    SunLight suns[PRT_MOST_SUNS];
-    SunMap maps[PRT_MOST_SUNS * PRT_MOST_SLICES]; // [count][slices]
-    vec4 slice_ends;                              // distances along the view, in ascending order
+    SunLight suns[PRT_MAX_SUNS];
+    SunMap maps[PRT_MAX_SUNS * PRT_MAX_SLICES]; // [count][slices]
+    vec4 slice_ends;                            // distances along the view, in ascending order
     vec4 eye;
     vec4 forward; // unit view direction
     int count, slices;

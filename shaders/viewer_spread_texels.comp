@@ -15,7 +15,7 @@ layout(std430, binding = PRT_BINDING_TEXEL_RECEIVERS) readonly buffer Nearest {
 };
 layout(binding = PRT_IMAGE_LIGHTMAP, rgba16f) writeonly uniform image2D lightmap;
 
-const float kLargestHalf = 65504.0;
+const float kMaxHalf = 65504.0;
 
 void main() {
     ivec2 texel = ivec2(gl_GlobalInvocationID.xy), size = imageSize(lightmap);
@@ -23,5 +23,5 @@ void main() {
         return;
     uint at = 3u * receivers[texel.y * size.x + texel.x];
     vec3 lit = vec3(radiance[at], radiance[at + 1u], radiance[at + 2u]);
-    imageStore(lightmap, texel, vec4(clamp(lit, vec3(-kLargestHalf), vec3(kLargestHalf)), 1.0));
+    imageStore(lightmap, texel, vec4(clamp(lit, vec3(-kMaxHalf), vec3(kMaxHalf)), 1.0));
 }

@@ -21,11 +21,11 @@ constexpr Eigen::Index kPassingUnknowns = 4 * kPassingModes;
 /// the normal matrix.
 constexpr double kRidge = 1e-4;
 /// Receivers that would exceed the bound are held to it by rows of this weight, relative to the same mean; at
-/// most kMostHeld receivers per step, and at most kMostBoundSteps steps. The remaining excess then scales
+/// most kMaxHeld receivers per step, and at most kMaxBoundSteps steps. The remaining excess then scales
 /// down all factors.
 constexpr double kHeld = 4;
-constexpr std::size_t kMostHeld = 16;
-constexpr int kMostBoundSteps = 4;
+constexpr std::size_t kMaxHeld = 16;
+constexpr int kMaxBoundSteps = 4;
 
 /// Weight of a coefficient: skies have less energy in higher bands, so that band l has weight 1 / sqrt(l +
 /// 1).
@@ -184,8 +184,8 @@ InstanceFactors InstanceFit::fit(const Targets& targets, const UniformBound* bou
     normal.diagonal().array() += kRidge * mean;
     right += kRidge * mean * open_;
     InstanceFactors factors = factors_of_unknowns(normal.ldlt().solve(right));
-    for (int step = 0; bound && step < kMostBoundSteps; ++step) {
-        const std::vector<InstanceFactors> exceeding = bound->exceeding(factors, kMostHeld);
+    for (int step = 0; bound && step < kMaxBoundSteps; ++step) {
+        const std::vector<InstanceFactors> exceeding = bound->exceeding(factors, kMaxHeld);
         if (exceeding.empty())
             return factors;
         for (const InstanceFactors& row : exceeding) {

@@ -22,15 +22,15 @@ namespace {
 constexpr std::size_t kGatheredAtOnce = 1 << 14;
 constexpr std::size_t kExpandedAtOnce = 8; ///< instances that are processed together for each vertex of their
                                            ///< mesh
-constexpr int kMostEndless = 200;          ///< maximum number of endless bounces
-constexpr double kLeastChange = 1e-4;      ///< relative change of light on surfaces drawn once, below which
+constexpr int kMaxEndlessBounces = 200;    ///< maximum number of endless bounces
+constexpr double kMinChange = 1e-4;        ///< relative change of light on surfaces drawn once, below which
                                            ///< endless bounces stop
 constexpr int kSampleHitStride = 8;        ///< as kHitStride; there are many samples per factor
-constexpr int kLeastSampleRays = 16;
+constexpr int kMinSampleRays = 16;
 /// Minimum share of a sample's rays that end at backs for it to be a candidate. The rays are few; at sealed
 /// samples 98 of 100 end at backs.
-constexpr double kLeastBacksOfSealed = 0.5;
-constexpr float kLeastExcess = 1e-6f; ///< relative excess over incident light that is more than rounding
+constexpr double kMinSealedBackShare = 0.5;
+constexpr float kMinExcess = 1e-6f;   ///< relative excess over incident light that is more than rounding
 constexpr int kProbesOfSamples = 128; ///< rays per sample; if a sample is sealed in, the other samples of its
                                       ///< instance determine the factors
 
@@ -121,7 +121,7 @@ void InstanceLight::trace_samples(const Progress& progress) {
     for (std::size_t s = 0; s < receivers_.sampled.size(); s += kSamplesToOfNoise)
         noisy.push_back(receivers_.sampled[s]);
     const int rays =
-        std::max(kLeastSampleRays, static_cast<int>(std::lround(options_.rays * plan_.options.rays)));
+        std::max(kMinSampleRays, static_cast<int>(std::lround(options_.rays * plan_.options.rays)));
     constexpr double kOnce = static_cast<double>(kSamplesToOfNoise) / (kSamplesToOfNoise + 1);
     trace_samples(receivers_.sampled, rays, false, progress.part(0, kOnce));
     trace_samples(noisy, rays, true, progress.part(kOnce, 1));
@@ -150,7 +150,7 @@ void InstanceLight::trace_samples(std::span<const std::uint32_t> receivers, int 
                    receivers_.instances[i].node;
         });
         if (!again)
-            samples_.may_be_sealed[sample] = backs_of(surfaces, hits) >= kLeastBacksOfSealed * rays;
+            samples_.may_be_sealed[sample] = backs_of(surfaces, hits) >= kMinSealedBackShare * rays;
         if (met)
             std::atomic_ref(samples_.met[i]).store(1, std::memory_order_relaxed);
     };
@@ -194,7 +194,7 @@ void InstanceLight::find_sealed_in(const Progress& progress) {
     for (std::size_t o = 0; o < receivers_.own.size(); ++o)
         if (own_.direct[o * sizes_.count] <= 0)
             dark.push_back(receivers_.own[o]);
-    const std::vector<bool> sealed = sealed_of(std::move(dark), kMostProbes);
+    const std::vector<bool> sealed = sealed_of(std::move(dark), kMaxProbes);
     if (std::ranges::find(sealed, true) != sealed.end() && plan_.options.repairs.inside == Inside::refill)
         bounce_.refill =
             Refill(MeshNeighbours(plan_.scene.surfaces(), plan_.receivers(), plan_.transport->fronts, sealed),
@@ -224,13 +224,12 @@ void InstanceLight::bounce(const Progress& progress) {
         std::copy_n(exit_of(receivers_.own[o]).begin(), sizes_.count, &own_.direct[o * sizes_.count]);
     fit(0, true);
     const bool endless = plan_.bounces == kEndlessBounces;
-    const int most = endless ? kMostEndless : plan_.bounces;
+    const int most = endless ? kMaxEndlessBounces : plan_.bounces;
     while (result_.bounces < most) {
         gather_light();
         ++result_.bounces;
         const double change = take_own();
-        const bool last =
-            result_.bounces == most || (endless && result_.bounces > 2 && change < kLeastChange);
+        const bool last = result_.bounces == most || (endless && result_.bounces > 2 && change < kMinChange);
         fit(endless ? 1 : static_cast<std::size_t>(result_.bounces), !last);
         if (last)
             break;
@@ -329,9 +328,9 @@ void InstanceLight::fit(std::size_t step, bool gives) {
 
 /// Scales factors down until they add no energy after quantisation to bytes.
 void InstanceLight::bound_as_stored(const std::vector<UniformBound>& bounds) {
-    constexpr int kMostRounds = 16; // all instances share the scales of bytes, which change if one of them
-                                    // changes
-    for (int round = 0; round < kMostRounds; ++round) {
+    constexpr int kMaxRounds = 16; // all instances share the scales of bytes, which change if one of them
+                                   // changes
+    for (int round = 0; round < kMaxRounds; ++round) {
         const std::vector<InstanceFactors> stored = decoded(coded(result_.factors));
         std::atomic<bool> changed = false;
         for (std::size_t g = 0; g < groups_.size(); ++g)
@@ -343,7 +342,7 @@ void InstanceLight::bound_as_stored(const std::vector<UniformBound>& bounds) {
                                      continue;
                                  const float share = bounds[g].share(
                                      in_axes_of_mesh(stored[i], receivers_.instances[i].rotation));
-                                 if (share > 1 - kLeastExcess)
+                                 if (share > 1 - kMinExcess)
                                      continue;
                                  result_.factors[i] = scaled(result_.factors[i], share);
                                  changed = true;

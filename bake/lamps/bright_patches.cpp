@@ -20,7 +20,7 @@ using std::numbers::pi;
 constexpr std::uint32_t kLeafTriangles = 32;
 constexpr int kBins = 12;
 constexpr double kInPlane = 1e-6; ///< height over distance
-constexpr double kLargestChoice = 1 - 0x1p-53;
+constexpr double kMaxChoice = 1 - 0x1p-53;
 
 /// Cosine and sine of an angle in [0, π].
 struct Angle {
@@ -268,7 +268,7 @@ std::optional<BrightPatches::Point> BrightPatches::pick(const Receiver& receiver
             return std::nullopt;
         const bool goes_left = choice < left;
         const double share = goes_left ? left : 1 - left;
-        choice = std::clamp(goes_left ? choice / left : (choice - left) / share, 0.0, kLargestChoice);
+        choice = std::clamp(goes_left ? choice / left : (choice - left) / share, 0.0, kMaxChoice);
         probability *= share;
         node = goes_left ? node + 1 : nodes_[node].right;
     }

@@ -45,11 +45,11 @@ public:
             if (!used_[g])
                 throw Error(fmt::format("no lamp is called '{}' beside those of groups before",
                                         printable(groups_[g].pattern)));
-        if (lamps_.size() > kMostLamps)
+        if (lamps_.size() > kMaxLamps)
             throw Error(fmt::format("the scene has {} lamps of different names, and at most {} can be dimmed "
                                     "apart: put some into groups (--lamp-group) or leave them out (--lamps "
                                     "none)",
-                                    lamps_.size(), kMostLamps));
+                                    lamps_.size(), kMaxLamps));
         return std::move(lamps_);
     }
 

@@ -21,7 +21,7 @@ struct Lamp {
 
 /// Returns all lamps of the scene, in the order of their first members. Members of `options.groups` have the
 /// name of their group, other lamps their own name. The result is empty in `LampMode::none`. Throws `Error`
-/// for a pattern that matches no lamp, and for more than kMostLamps.
+/// for a pattern that matches no lamp, and for more than kMaxLamps.
 std::vector<Lamp> choose_lamps(const Surfaces& surfaces, const LampOptions& options);
 
 /// Whether all light of `lamps` is white.

@@ -15,7 +15,7 @@ namespace {
 
 /// Number of samples for each receiver of the level, and for each receiver of level 0, whose detail the level
 /// has to show.
-constexpr std::size_t kSamplesOfReceiver = 16, kSamplesOfFinest = 4, kMostLevelSamples = std::size_t{1} << 22;
+constexpr std::size_t kSamplesOfReceiver = 16, kSamplesOfFinest = 4, kMaxLevelSamples = std::size_t{1} << 22;
 /// Maximum root mean square distance of a level relative to the diagonal of level 0. Two crossed quads for a
 /// tree have a tenth; a level that was moved next to its node has one or more.
 constexpr double kTooFar = 0.25;
@@ -65,8 +65,8 @@ std::array<std::uint32_t, 3> FinestSurface::corners(std::uint32_t triangle) cons
 }
 
 SurfaceSamples samples_of(const PartSurface& level, std::size_t finest_receivers, std::uint64_t seed) {
-    const std::size_t count = std::min(kMostLevelSamples, std::max(kSamplesOfReceiver * level.points().size(),
-                                                                   kSamplesOfFinest * finest_receivers));
+    const std::size_t count = std::min(kMaxLevelSamples, std::max(kSamplesOfReceiver * level.points().size(),
+                                                                  kSamplesOfFinest * finest_receivers));
     return sample_surfaces(level.traced.surfaces(), level.receivers, {.count = count, .seed = seed});
 }
 

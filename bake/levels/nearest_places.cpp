@@ -100,7 +100,7 @@ void NearestRule::add(std::uint32_t triangle, const std::array<glm::dvec3, 3>& c
     const NearestPlace place{triangle, shares, distance};
     if (any_.worse_than(score, triangle))
         any_ = {score, place};
-    if (cosine >= kLeastCosine && agreeing_.worse_than(score, triangle))
+    if (cosine >= kMinCosine && agreeing_.worse_than(score, triangle))
         agreeing_ = {score, place};
 }
 

@@ -44,7 +44,7 @@ public:
 
 private:
     static constexpr double kReach = 0.05, kTie = 1e-3;
-    static constexpr double kLeastCosine = 0.5;
+    static constexpr double kMinCosine = 0.5;
 
     struct Candidate {
         double score; ///< squared distance, plus a term for the normal

@@ -37,7 +37,7 @@ std::vector<std::optional<float>> blocked_by_rays(const Scene& scene, std::span<
     std::vector<std::optional<float>> blocked(places.size());
     std::array<float, kCosine.size() * kCosine.size()> basis{};
     for (std::size_t p = 0; p < places.size(); ++p) {
-        if (light.backs[p] > kMostOccluderBacks)
+        if (light.backs[p] > kMaxOccluderBackShare)
             continue;
         evaluate_sh(kOrder, normals[p], basis);
         // The first row, that of Y00, holds Y00 times the bands of the unoccluded directions.

@@ -13,7 +13,7 @@
 namespace prt {
 
 /// A position is inside the object if more of its rays end at backs.
-inline constexpr float kMostOccluderBacks = 0.25f;
+inline constexpr float kMaxOccluderBackShare = 0.25f;
 
 /// Options of the bake of order 2 that measures the blocked share and its direction.
 BakeOptions bake_options(const OccluderOptions& options);

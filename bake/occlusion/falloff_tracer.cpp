@@ -50,7 +50,7 @@ void FalloffTracer::trace(const Receivers& receivers, std::span<const std::uint3
         receivers, indices, every_hit, vectors,
         [&](std::size_t i, std::span<const Hit> hits) {
             const std::span<double> here = std::span(passing_all).subspan(i * stride, stride);
-            if (looks_sealed(scene_.surfaces(), hits, options.rays, options.rays < kMostProbes))
+            if (looks_sealed(scene_.surfaces(), hits, options.rays, options.rays < kMaxProbes))
                 std::ranges::fill(here, 0.0);
             else
                 passing(receivers.positions[indices[i]], hits, options, here);

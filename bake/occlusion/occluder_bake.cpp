@@ -96,7 +96,7 @@ Seen look(const Scene& part, const Points& points, const BakeOptions& options, c
     const auto linear = static_cast<float>(kY00 * 4 * std::numbers::pi * 0.48860251190291992);
     Seen seen;
     for (std::size_t p = 0; p < points.at.size(); ++p) {
-        if (light.backs[p] > kMostOccluderBacks)
+        if (light.backs[p] > kMaxOccluderBackShare)
             continue;
         const std::span<const float> open = light.transfer.vector(4 * p);
         BlockedPoint& point = seen.points.emplace_back();

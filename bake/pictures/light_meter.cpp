@@ -15,15 +15,15 @@
 namespace prt {
 namespace {
 
-constexpr int kMostAcross = 48; ///< maximum number of rays along each axis
+constexpr int kMaxAcross = 48; ///< maximum number of rays along each axis
 /// Brighter than the middle grey of photographs (0.18), at which plaster looks grey.
 constexpr float kMeanShown = 0.22f;
 
 } // namespace
 
 LightMeter::LightMeter(const Picture& picture, const RayScene& ray_scene) {
-    const PrimaryRays rays(picture, ray_scene, std::min(picture.width, kMostAcross),
-                           std::min(picture.height, kMostAcross));
+    const PrimaryRays rays(picture, ray_scene, std::min(picture.width, kMaxAcross),
+                           std::min(picture.height, kMaxAcross));
     struct Reading {
         std::uint32_t receiver;
         glm::vec3 weight;
@@ -71,8 +71,8 @@ float LightMeter::luminance(std::span<const glm::vec3> radiance) const {
 
 float sun_luminance(const Picture& picture, const TraceScene& scene) {
     constexpr int kPoints = 8; // points per disc: the mean over the picture smooths penumbrae
-    const PrimaryRays rays(picture, scene.rays(), std::min(picture.width, kMostAcross),
-                           std::min(picture.height, kMostAcross));
+    const PrimaryRays rays(picture, scene.rays(), std::min(picture.width, kMaxAcross),
+                           std::min(picture.height, kMaxAcross));
     const SunLight suns(picture, scene, kPoints);
     glm::vec3 sum(0);
     float covered = 0;

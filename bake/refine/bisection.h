@@ -16,7 +16,7 @@ namespace prt {
 
 /// Minimum edge length relative to half the scene's extent. Corners are rounded to at most 2^-24 of the half
 /// extent: with edges of 2^-13 of it triangles tilt by at most 2^-11, and rays still start 30 roundings off.
-inline constexpr double kLeastEdge = 1.0 / 8192;
+inline constexpr double kMinEdge = 1.0 / 8192;
 
 /// Marks edges of a scene's `WeldedEdges` for splitting. If an edge is marked, the longest edge of each of
 /// its triangles is marked, too.

@@ -12,7 +12,7 @@ Scene with_short_edges(const Scene& scene, double longest) {
     Scene even = scene;
     const Bounds box = bounds(scene);
     const glm::vec3 size = box.high - box.low;
-    const double shortest = kLeastEdge * 0.5 * static_cast<double>(std::max({size.x, size.y, size.z}));
+    const double shortest = kMinEdge * 0.5 * static_cast<double>(std::max({size.x, size.y, size.z}));
     longest = std::max(longest, 2 * shortest);
     while (true) {
         const WeldedEdges edges = welded_edges(even);

@@ -25,7 +25,7 @@ namespace {
 constexpr std::size_t kOfFold = 1, kOfFoldInParts = 2, kOfSurface = 4096;
 /// Number of points that measure the noise of rays, and their rays.
 constexpr std::size_t kFirstPoints = 256;
-constexpr int kFirstRays = 256, kFewestRaysOfPoint = 64, kMostRaysOfPoint = 16384;
+constexpr int kFirstRays = 256, kFewestRaysOfPoint = 64, kMaxRaysOfPoint = 16384;
 /// Noise of a point from one scramble, relative to the significant error. Triangles that noise makes look
 /// good are not traced again: the plain room (benchmarks.md) baked with 4 096 rays had 2.03 % where 1.82 %
 /// were estimated, but with a value of 3 it had 2.49 % instead of 1.95 %.
@@ -145,7 +145,7 @@ int LightPoints::choose_rays(const SurfaceSamples& added, const Progress& progre
     const double rays =
         kFirstRays * std::pow(std::sqrt(noise / norm) / (kNoiseOfPoint * tolerance_), 1 / 0.75);
     return static_cast<int>(std::clamp<double>(std::ceil(rays / kFewestRaysOfPoint) * kFewestRaysOfPoint,
-                                               kFewestRaysOfPoint, kMostRaysOfPoint));
+                                               kFewestRaysOfPoint, kMaxRaysOfPoint));
 }
 
 std::vector<float> LightPoints::trace(const Receivers& receivers, int rays, const Progress& progress) {

@@ -18,7 +18,7 @@ namespace prt {
 namespace {
 
 /// Default limit of the number of vertices.
-constexpr std::size_t kTimesVertices = 4, kLeastLimit = 20000;
+constexpr std::size_t kTimesVertices = 4, kMinLimit = 20000;
 /// Share of the squared error whose triangles are split in one round, largest errors first. The plain room
 /// (benchmarks.md) to 2 %: 0.3 took 15 rounds to 6 951 vertices, 0.7 took 8 rounds to 7 487 vertices, with
 /// 1.94 % left in both cases.
@@ -46,9 +46,9 @@ public:
         : options_(options), how_(how), points_(traced, tracer, options, how.target), finer_(scene) {
         const Bounds box = bounds(scene);
         const glm::vec3 size = box.high - box.low;
-        least_edge_ = kLeastEdge * 0.5 * static_cast<double>(std::max({size.x, size.y, size.z}));
-        most_ = how.most_vertices > 0 ? how.most_vertices
-                                      : std::max(kTimesVertices * scene.receivers(), kLeastLimit);
+        min_edge_ = kMinEdge * 0.5 * static_cast<double>(std::max({size.x, size.y, size.z}));
+        most_ =
+            how.max_vertices > 0 ? how.max_vertices : std::max(kTimesVertices * scene.receivers(), kMinLimit);
         result_.refinement = no_refinement(scene);
     }
 
@@ -106,7 +106,7 @@ private:
         std::vector<std::uint32_t> worst;
         for (std::uint32_t t = 0; t < e.size(); ++t) {
             const std::uint32_t longest = edges.of_triangle[t][edges.longest[t]];
-            if (e[t] > 0 && longest != kNoEdge && edges.lengths[longest] >= 2 * least_edge_)
+            if (e[t] > 0 && longest != kNoEdge && edges.lengths[longest] >= 2 * min_edge_)
                 worst.push_back(t);
         }
         std::stable_sort(worst.begin(), worst.end(),
@@ -148,8 +148,8 @@ private:
     const RefineOptions& how_;
     LightPoints points_;
     Scene finer_;
-    double least_edge_ = 0; ///< metres
-    std::size_t most_ = 0;  ///< vertices
+    double min_edge_ = 0;  ///< metres
+    std::size_t most_ = 0; ///< vertices
     double first_ = 0, shown_ = 0;
     RefineResult result_;
 };

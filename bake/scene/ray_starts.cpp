@@ -17,7 +17,7 @@ namespace {
 /// Minimum height of an origin above a face, and its distance along the surface, in surface offsets. A
 /// distance of four reaches into a wedge of 20 degrees between a face and one that meets it at the vertex,
 /// also at its corners.
-constexpr double kLeastHeight = 0.5, kAlong = 4;
+constexpr double kMinHeight = 0.5, kAlong = 4;
 /// Maximum distance from the position: a spike whose faces are 3 degrees off its axis needs it.
 constexpr double kLongest = 16;
 
@@ -74,7 +74,7 @@ private:
     std::vector<const glm::uvec3*> triangles_;
 };
 
-double least_height(std::span<const Face> faces, const glm::dvec3& way) {
+double min_height(std::span<const Face> faces, const glm::dvec3& way) {
     double least = std::numeric_limits<double>::infinity();
     for (const Face& face : faces)
         least = std::min(least, glm::dot(way, face.normal));
@@ -116,7 +116,7 @@ glm::dvec3 most_open_direction(std::span<const Face> faces, std::vector<double>&
         nearest += way * moved;
     }
     const double length = glm::length(nearest);
-    if (!(length > 0) || !(least_height(faces, nearest / length) > 0))
+    if (!(length > 0) || !(min_height(faces, nearest / length) > 0))
         return glm::dvec3(0);
     return nearest / length;
 }
@@ -124,13 +124,13 @@ glm::dvec3 most_open_direction(std::span<const Face> faces, std::vector<double>&
 /// Direction along the surface towards the centroids of `faces`; zero if they surround the vertex. On a
 /// straight edge of a regular mesh the mean has length 0.6 to 0.9, inside it is near zero.
 glm::dvec3 inward_direction(std::span<const Face> faces, const glm::dvec3& up) {
-    constexpr double kLeastMean = 0.25;
+    constexpr double kMinMean = 0.25;
     glm::dvec3 sum(0);
     for (const Face& face : faces)
         sum += face.to_middle;
     const glm::dvec3 along = sum - up * glm::dot(up, sum);
     const double length = glm::length(along);
-    return length > kLeastMean * static_cast<double>(faces.size()) ? along / length : glm::dvec3(0);
+    return length > kMinMean * static_cast<double>(faces.size()) ? along / length : glm::dvec3(0);
 }
 
 /// Flips the normals of `faces` to the side of `normal`.
@@ -157,13 +157,13 @@ glm::dvec3 ray_start(std::span<Face> all, const glm::dvec3& normal, std::vector<
         if (up == glm::dvec3(0))
             return normal;
     }
-    glm::dvec3 start = up * std::min(1 / least_height(faces, up), kLongest);
+    glm::dvec3 start = up * std::min(1 / min_height(faces, up), kLongest);
     const glm::dvec3 inward = inward_direction(faces, up);
     double most = kAlong;
     for (const Face& face : faces) {
         const double falls = -glm::dot(inward, face.normal);
         if (falls > 0)
-            most = std::min(most, std::max(0.0, glm::dot(start, face.normal) - kLeastHeight) / falls);
+            most = std::min(most, std::max(0.0, glm::dot(start, face.normal) - kMinHeight) / falls);
     }
     return start + most * inward;
 }

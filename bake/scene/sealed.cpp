@@ -12,8 +12,8 @@
 namespace prt {
 namespace {
 
-constexpr double kLeastBacks = 0.98; ///< minimum share of all rays; among loose sheets it can reach nine
-                                     ///< tenths
+constexpr double kMinBackShare = 0.98; ///< minimum share of all rays; among loose sheets it can reach nine
+                                       ///< tenths
 constexpr float kNotSealed = -1;
 constexpr int kFirstRays = 16; ///< rays per receiver in the first round
 
@@ -23,7 +23,7 @@ constexpr int kFirstRays = 16; ///< rays per receiver in the first round
 void accept_groups(const std::vector<float>& backs, int probes, std::vector<std::uint32_t>& candidates,
                    std::vector<bool>& sealed) {
     const auto size = static_cast<std::size_t>((probes + kFirstRays - 1) / kFirstRays);
-    const double needed = kLeastBacks * kFirstRays * static_cast<double>(size);
+    const double needed = kMinBackShare * kFirstRays * static_cast<double>(size);
     std::vector<std::uint32_t> left;
     for (std::size_t begin = 0; begin < candidates.size(); begin += size) {
         const auto group = std::span(candidates).subspan(begin, std::min(size, candidates.size() - begin));
@@ -55,8 +55,8 @@ bool looks_sealed(const Surfaces& surfaces, std::span<const Hit> hits, int rays,
     for (const Hit& hit : hits)
         ended += static_cast<double>(hit.weight);
     // With few rays more fronts may be hit by chance.
-    const double by_chance = maybe ? 3 * std::sqrt((1 - kLeastBacks) * rays) : 0;
-    return ended > rays - kRounding && backs_of(surfaces, hits) >= kLeastBacks * rays - by_chance;
+    const double by_chance = maybe ? 3 * std::sqrt((1 - kMinBackShare) * rays) : 0;
+    return ended > rays - kRounding && backs_of(surfaces, hits) >= kMinBackShare * rays - by_chance;
 }
 
 Sealed find_sealed(Tracer& tracer, const TraceScene& scene, const Receivers& receivers,

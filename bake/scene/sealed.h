@@ -15,7 +15,7 @@
 namespace prt {
 
 /// Maximum number of rays per receiver.
-inline constexpr int kMostProbes = 1024;
+inline constexpr int kMaxProbes = 1024;
 
 /// Number of rays that hit back faces of single-sided surfaces.
 double backs_of(const Surfaces& surfaces, std::span<const Hit> hits);
@@ -35,6 +35,6 @@ struct Sealed {
 /// `tracer` does not report hits.
 Sealed find_sealed(Tracer& tracer, const TraceScene& scene, const Receivers& receivers,
                    std::vector<std::uint32_t> dark, std::uint64_t seed, const std::stop_token& stop,
-                   int probes = kMostProbes);
+                   int probes = kMaxProbes);
 
 } // namespace prt

@@ -24,7 +24,7 @@ constexpr std::uint32_t kManyPatches = 16, kFewPaths = 128;
 /// A patch is lit if this number of paths found light.
 constexpr std::uint32_t kCertain = 4;
 /// A piece is separated completely if this share of its area is lit.
-constexpr double kMostly = 0.5;
+constexpr double kMajority = 0.5;
 
 bool can_separate(const Surfaces& surfaces, std::uint32_t t) {
     const Material& material = surfaces.material(t);
@@ -193,7 +193,7 @@ private:
         std::vector<bool> result;
         for (const Patch& patch : patches_) {
             const Areas& areas = of_pieces[piece_of(patch)];
-            if (patch.is_lit() || areas.lit > kMostly * areas.all) {
+            if (patch.is_lit() || areas.lit > kMajority * areas.all) {
                 result.resize(surfaces_.triangles());
                 for (const std::uint32_t t : patch.triangles)
                     result[t] = true;

@@ -63,7 +63,7 @@ public:
 
 private:
     void make_reference(BenchResult& result, const Progress& progress) {
-        const int rays = std::min(kMostRays, kReferenceFactor * options_.most_rays);
+        const int rays = std::min(kMaxRays, kReferenceFactor * options_.max_rays);
         const auto wanted = static_cast<std::size_t>(std::max(64.0, kReferenceRays / rays));
         const std::size_t step = std::max<std::size_t>(1, indices_.size() / wanted);
         std::vector<std::uint32_t> sample;
@@ -90,15 +90,15 @@ private:
                            .fitted = setup.fitted,
                            .traversal = setup.traversal};
         double per_ray = 0;
-        for (int rays = options_.fewest_rays; rays <= options_.most_rays; rays *= 2) {
+        for (int rays = options_.fewest_rays; rays <= options_.max_rays; rays *= 2) {
             const double expected = per_ray * rays;
-            if (expected > options_.most_seconds) {
+            if (expected > options_.max_seconds) {
                 series.left_out =
                     fmt::format("{} {} and more would take {:.0f} s and more", rays,
                                 setup.method == BakeMethod::raster ? "directions" : "rays", expected);
                 break;
             }
-            const double share = static_cast<double>(rays) / options_.most_rays;
+            const double share = static_cast<double>(rays) / options_.max_rays;
             try {
                 const Progress part = progress.part(share / 2, share);
                 series.runs.push_back(setup.fitted ? measure_fit(rays, series.device, part)

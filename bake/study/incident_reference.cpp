@@ -23,7 +23,7 @@
 namespace prt {
 namespace {
 
-constexpr float kMostBacks = 0.25f;
+constexpr float kMaxBackShare = 0.25f;
 /// Density of the first ray, which unlike a camera ray does not pass back sides of surfaces.
 constexpr float kEven = 1 / (4 * std::numbers::pi_v<float>);
 
@@ -39,7 +39,7 @@ struct IncidentSum {
     std::span<glm::vec3> coefficients;
 
     void add(const glm::vec3& from, const glm::vec3& irradiance) {
-        std::array<float, kMostIncidentOrder * kMostIncidentOrder> basis{};
+        std::array<float, kMaxIncidentOrder * kMaxIncidentOrder> basis{};
         evaluate_sh(order, from, std::span(basis).first(coefficients.size()));
         for (std::size_t o = 0; o < coefficients.size(); ++o)
             coefficients[o] += basis[o] * irradiance;
@@ -83,7 +83,7 @@ std::optional<Surroundings> surroundings_of(const TraceScene& scene, const glm::
         around.distance = std::min(around.distance, hit->distance * std::abs(glm::dot(met.side.face, d)));
         backs += met.back && !scene.surfaces().two_sided(hit->triangle);
     }
-    if (static_cast<float>(backs) > kMostBacks * kDirections)
+    if (static_cast<float>(backs) > kMaxBackShare * kDirections)
         return std::nullopt;
     return around;
 }

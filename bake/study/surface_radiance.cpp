@@ -137,7 +137,7 @@ SurfaceRadiance::SurfaceRadiance(const TraceScene& scene, const SurfacePoints& p
     const Stopwatch stopwatch;
     int done = 0;
     for (int next = options.paths; done < next;) {
-        const auto most = static_cast<double>(std::max(options.paths, options.most_paths));
+        const auto most = static_cast<double>(std::max(options.paths, options.max_paths));
         for_each_receiver(all, options.threads, progress.part(done / most, next / most),
                           [&](std::uint32_t p) {
                               for (std::size_t h = 0; h < sums.size(); ++h)
@@ -147,7 +147,7 @@ SurfaceRadiance::SurfaceRadiance(const TraceScene& scene, const SurfacePoints& p
         done = next;
         const bool late = options.seconds > 0 && stopwatch.seconds() > options.seconds;
         if (!late && noise_of(points, sums, suns_, done) > options.noise)
-            next = std::max(done, std::min(2 * done, options.most_paths));
+            next = std::max(done, std::min(2 * done, options.max_paths));
     }
     for (std::size_t h = 0; h < sums.size(); ++h)
         for (PointSum& sum : sums[h]) {

@@ -12,7 +12,7 @@ namespace {
 /// are best and differ little.
 constexpr double kWeightOfNoise = 0.15;
 /// Minimum signal relative to noise: the two estimates can cancel by chance.
-constexpr double kLeastSignal = 0.02;
+constexpr double kMinSignal = 0.02;
 constexpr double kMinWeight = 0.0005, kMaxWeight = 0.5;
 
 /// Sums of squared bends.
@@ -53,7 +53,7 @@ std::vector<float> bend_weights(const FitEquations& equations, std::span<const f
         Squares near;
         for (const std::uint32_t u : bend.unknowns)
             near += round[u];
-        const double signal = std::max(near.all - near.noise, kLeastSignal * near.noise);
+        const double signal = std::max(near.all - near.noise, kMinSignal * near.noise);
         weights.push_back(static_cast<float>(
             signal > 0 ? std::clamp(kWeightOfNoise * near.noise / signal, kMinWeight, kMaxWeight)
                        : kMinWeight));

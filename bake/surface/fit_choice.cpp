@@ -16,11 +16,11 @@ namespace prt {
 namespace {
 
 /// One test point per kReceiversPerPoint receivers, within these limits.
-constexpr std::size_t kReceiversPerPoint = 100, kLeastPoints = 16, kMostPoints = 256;
+constexpr std::size_t kReceiversPerPoint = 100, kMinTestPoints = 16, kMaxTestPoints = 256;
 /// All vertices first trace this share of their rays, with a maximum.
-constexpr int kShareOfFirstLook = 32, kMostFirst = 64;
+constexpr int kShareOfFirstLook = 32, kMaxFirstRays = 64;
 /// Maximum rays of a half: more rays would give no additional information.
-constexpr int kMostOfHalf = 4096;
+constexpr int kMaxHalfRays = 4096;
 
 /// Light at receivers from two independent scrambles with half of a receiver's rays each.
 struct Halves {
@@ -74,7 +74,8 @@ private:
     std::vector<float> first_look() {
         const std::vector<std::uint32_t> indices = receivers_on_surfaces(plan_.receivers());
         const TraceOptions options{.order = 1,
-                                   .rays = std::clamp(plan_.options.rays / kShareOfFirstLook, 1, kMostFirst),
+                                   .rays =
+                                       std::clamp(plan_.options.rays / kShareOfFirstLook, 1, kMaxFirstRays),
                                    .seed = plan_.options.seed + 4 * kSecondScramble};
         Transfer light = zero_transfer(1, 1, plan_.receivers().size());
         trace_receivers(tracer_, plan_.receivers(), indices, options, light, {{}, progress_.stop});
@@ -84,7 +85,7 @@ private:
 
     SurfaceSamples points() {
         const std::size_t count =
-            std::clamp(plan_.receivers().size() / kReceiversPerPoint, kLeastPoints, kMostPoints);
+            std::clamp(plan_.receivers().size() / kReceiversPerPoint, kMinTestPoints, kMaxTestPoints);
         const std::vector<float> light = first_look();
         return sample_varied(plan_.scene.surfaces(), *plan_.transport, {light},
                              {.count = count, .seed = plan_.options.seed + 1});
@@ -94,7 +95,7 @@ private:
         return corner_receivers(plan_.scene.surfaces(), *plan_.transport, place.triangle, place.back);
     }
 
-    int rays_of_half() const { return std::clamp(plan_.options.rays / 2, 1, kMostOfHalf); }
+    int rays_of_half() const { return std::clamp(plan_.options.rays / 2, 1, kMaxHalfRays); }
 
     Halves trace(const Receivers& receivers, std::span<const std::uint32_t> indices) {
         TraceOptions options{.order = plan_.options.order,
@@ -149,15 +150,15 @@ FitChoice choose_fit(const FitTrial& trial, int rays, bool filtered) {
     // between vertices half of its square remains, or an eighth if it is filtered.
     constexpr double kBestFit = 0.5, kOfFewSamples = 0.6, kNoise = 0.75, kVertexNoise = 0.5,
                      kFiltered = 0.125;
-    constexpr double kNothing = 1e-3;                  // invisible
-    constexpr int kMostSamples = 16, kLeastRays = 128; // rays per sample: fewer rays take longer
+    constexpr double kNothing = 1e-3;               // invisible
+    constexpr int kMaxSamples = 16, kMinRays = 128; // rays per sample: fewer rays take longer
     const double between = trial.between * trial.between, noise = trial.sampling * trial.sampling;
     FitChoice best;
     double least = 0;
-    for (int samples = 2; samples <= kMostSamples; samples *= 2) {
+    for (int samples = 2; samples <= kMaxSamples; samples *= 2) {
         const double error =
             kBestFit * between * (1 + kOfFewSamples / samples) + kNoise * std::sqrt(samples) * noise;
-        if (samples > 2 && (rays / samples < kLeastRays || error >= least))
+        if (samples > 2 && (rays / samples < kMinRays || error >= least))
             break;
         best.samples = samples;
         least = error;

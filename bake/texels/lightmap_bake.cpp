@@ -101,7 +101,7 @@ double squared_jumps(const Atlas& atlas, std::span<const SeamPoint> seams, std::
     return sum;
 }
 
-std::uint32_t most_read(const BilinearTexels& filter) {
+std::uint32_t max_read(const BilinearTexels& filter) {
     return filter.texels[std::max_element(filter.weights, filter.weights + 4) - filter.weights];
 }
 
@@ -151,7 +151,7 @@ private:
     std::size_t rows_at_once() const {
         const double rays = std::max(1.0, static_cast<double>(options_.rays) / kSamplesOfTexel);
         return static_cast<std::size_t>(
-            std::clamp(kBytesOfRows / (rays * GatherOperator::kMostBytesPerRay), 256.0, 65536.0));
+            std::clamp(kBytesOfRows / (rays * GatherOperator::kMaxBytesPerRay), 256.0, 65536.0));
     }
 
     void trace(const BakePlan& plan, Tracer& tracer, const TexelPlaces& places, TexelTransport& transport,
@@ -234,7 +234,7 @@ private:
         for (const SeamPoint& point : seams) {
             const auto receiver_at = [&](const glm::dvec2& place) {
                 const auto found =
-                    std::ranges::lower_bound(areas.texels, most_read(bilinear_at(atlas, place)));
+                    std::ranges::lower_bound(areas.texels, max_read(bilinear_at(atlas, place)));
                 return static_cast<std::uint32_t>(begin +
                                                   static_cast<std::size_t>(found - areas.texels.begin()));
             };

@@ -15,7 +15,7 @@ namespace prt {
 namespace {
 
 /// Charts that are packed next to each other touch, and programs round: this share may be in two charts.
-constexpr double kMostOverlap = 1e-3;
+constexpr double kMaxOverlap = 1e-3;
 
 /// Area of the charts in a texture with one texel per side. Throws `Error` if the coordinates have no area.
 double area_in_texture(const Scene& scene, const Atlas& atlas) {
@@ -52,11 +52,11 @@ Atlas sized(const Scene& scene, Atlas atlas, const TexelOptions& options) {
     double side = options.size;
     if (options.size == 0) // so that a metre has this number of texels in the mean
         side = std::ceil(options.per_metre * std::sqrt(area_on_surfaces(scene, atlas) / in_texture));
-    if (!(side <= kMostTexels))
+    if (!(side <= kMaxTexels))
         throw Error(
             fmt::format("{:.3g} texels a metre need a texture of {:.3g} texels along a side, more than "
                         "{}: give fewer, or each object a texture of its own",
-                        options.per_metre, side, kMostTexels));
+                        options.per_metre, side, kMaxTexels));
     atlas.width = atlas.height = options.size > 0 ? options.size : std::max(4, static_cast<int>(side));
     return atlas;
 }
@@ -85,15 +85,15 @@ double overlap(const Scene& scene, const Atlas& atlas) {
 } // namespace
 
 std::vector<Atlas> plan_atlases(const Scene& scene, const TexelOptions& options) {
-    if (options.size > kMostTexels || options.size < 0)
+    if (options.size > kMaxTexels || options.size < 0)
         throw Error(
-            fmt::format("a texture has 1 to {} texels along a side, not {}", kMostTexels, options.size));
+            fmt::format("a texture has 1 to {} texels along a side, not {}", kMaxTexels, options.size));
     if (options.size == 0 && !(options.per_metre > 0 && std::isfinite(options.per_metre)))
         throw Error("the number of texels a metre must be finite and above 0");
     if (options.atlases != AtlasMode::each) {
         Atlas all = of_all(scene, options);
         const double share = overlap(scene, all);
-        if (share <= kMostOverlap)
+        if (share <= kMaxOverlap)
             return {std::move(all)};
         if (options.atlases == AtlasMode::one)
             throw Error(fmt::format(
@@ -103,7 +103,7 @@ std::vector<Atlas> plan_atlases(const Scene& scene, const TexelOptions& options)
     }
     std::vector<Atlas> atlases = of_each_object(scene, options);
     for (const Atlas& atlas : atlases)
-        if (const double share = overlap(scene, atlas); share > kMostOverlap) {
+        if (const double share = overlap(scene, atlas); share > kMaxOverlap) {
             const Primitive& primitive = scene.primitives[atlas.primitives.front()];
             throw Error(fmt::format(
                 "charts of mesh {} (node {}) overlap: {:.1f} % of what its TEXCOORD_{} covers lies in two "

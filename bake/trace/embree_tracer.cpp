@@ -115,7 +115,7 @@ Hit hit_of(const Plan& plan, const glm::vec3& normal, const RTCRayHit16& packet,
         {packet.hit.primID[lane], packet.hit.u[lane], packet.hit.v[lane], weight, footprint, facing > 0});
 }
 
-constexpr float kLeastTransmittance = PRT_LEAST_TRANSMITTANCE;
+constexpr float kMinTransmittance = PRT_MIN_TRANSMITTANCE;
 
 /// A packet of rays that continue through surfaces that transmit a share of them.
 struct alignas(64) Walk {
@@ -139,7 +139,7 @@ int note_hits(const Plan& plan, bool alpha, Walk& walk, Work& work) {
         const float coverage =
             alpha ? plan.surfaces.coverage({hit.triangle, {hit.u, hit.v}, hit.footprint}) : 1.0f;
         const float passes = left * (1 - coverage);
-        left = passes < kLeastTransmittance ? 0.0f : passes;
+        left = passes < kMinTransmittance ? 0.0f : passes;
         hit.weight -= left;
         if (hit.weight > 0)
             work.hits.push_back(hit);

@@ -21,7 +21,7 @@ constexpr double kNegligible = 1e-4;
 /// Maximum number of parts of triangles in the sum for a receiver: four times the number for media with a
 /// mean free path of 0.5 mm on triangles of 0.1 m. If colors have both a long reach and a steep fall-off more
 /// parts would be needed; parts then stay larger than the tolerance requires.
-constexpr int kMostParts = 1 << 22;
+constexpr int kMaxParts = 1 << 22;
 
 double reach_of(const Dipole& dipole) {
     double low = 0, high = dipole.depth();
@@ -56,7 +56,7 @@ DiffusionOperator::DiffusionOperator(const Receivers& receivers, std::vector<glm
         return !(doubled_area(position(t.x), position(t.y), position(t.z)) > 0);
     });
     const double falloff = std::max({dipoles_[0].falloff(), dipoles_[1].falloff(), dipoles_[2].falloff()});
-    most_extent_ = 10 * tolerance_ / (falloff * falloff);
+    max_extent_ = 10 * tolerance_ / (falloff * falloff);
     tabulate_kernel();
     for (const glm::uvec3& t : triangles_)
         for (int corner = 0; corner < 3; ++corner)
@@ -166,14 +166,14 @@ private:
 
     bool small(double squared_extent, double distance) const {
         const double scale = distance * distance + diffusion_.scale_ * diffusion_.scale_;
-        return squared_extent <= diffusion_.tolerance_ * scale && squared_extent <= diffusion_.most_extent_;
+        return squared_extent <= diffusion_.tolerance_ * scale && squared_extent <= diffusion_.max_extent_;
     }
 
     /// Adds the integrals over a part of a triangle whose corners have these barycentric coordinates; parts
     /// that are large relative to the variation of K are split into four.
     void integrate(const std::array<glm::dvec3, 3>& p, const std::array<glm::dvec3, 3>& barycentrics,
                    int depth, CornerWeights& weights) {
-        constexpr int kMostDepth = 16;
+        constexpr int kMaxDepth = 16;
         const double extent =
             std::max({glm::dot(p[1] - p[0], p[1] - p[0]), glm::dot(p[2] - p[1], p[2] - p[1]),
                       glm::dot(p[0] - p[2], p[0] - p[2])});
@@ -181,7 +181,7 @@ private:
         const double distance = glm::distance(at_, center), area = doubled_area(p[0], p[1], p[2]) / 2;
         if (distance - std::sqrt(extent) > diffusion_.reach_)
             return;
-        if (depth == kMostDepth || parts_ >= kMostParts || small(extent, distance)) {
+        if (depth == kMaxDepth || parts_ >= kMaxParts || small(extent, distance)) {
             ++parts_;
             const glm::dvec3 middle = (barycentrics[0] + barycentrics[1] + barycentrics[2]) / 3.0;
             const glm::vec3 k = diffusion_.kernel(distance * distance);

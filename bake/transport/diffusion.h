@@ -59,9 +59,9 @@ private:
     std::vector<std::uint32_t> members_;
     std::array<Dipole, 3> dipoles_;
     double tolerance_;
-    double scale_;           ///< minimum depth of a dipole, the scale on which K varies, m
-    double reach_;           ///< distance beyond which light is negligible, m
-    double most_extent_ = 0; ///< maximum squared extent of merged triangles, m²
+    double scale_;          ///< minimum depth of a dipole, the scale on which K varies, m
+    double reach_;          ///< distance beyond which light is negligible, m
+    double max_extent_ = 0; ///< maximum squared extent of merged triangles, m²
     /// K at evenly spaced logarithms of 1 + r²/scale², which are densest where the curvature of K is large;
     /// avoids slow exponentials.
     std::vector<glm::vec3> kernel_;

@@ -32,7 +32,7 @@ public:
     void set_row(std::size_t row, std::span<const Hit> hits, int rays);
     std::size_t rows() const { return rows_.size(); }
     /// Upper bound: a row has at most three entries per ray, each with a source and a weight per channel.
-    static constexpr double kMostBytesPerRay = 3 * 16;
+    static constexpr double kMaxBytesPerRay = 3 * 16;
 
     std::size_t entries() const;
     std::size_t bytes() const;

@@ -174,9 +174,9 @@ std::optional<Propagated> bounce_on_device(Transfer& transfer, const TransportOp
                       .beside = std::move(beside)};
 }
 
-/// Adds bounces one after another, until at most `least_remaining` remains.
+/// Adds bounces one after another, until at most `min_remaining` remains.
 Propagated bounce_often(Transfer transfer, const TransportOperators& operators, int bounces,
-                        double least_remaining, int threads, const Progress& progress) {
+                        double min_remaining, int threads, const Progress& progress) {
     const ColumnOperator bounce =
         bounce_operator(operators, transfer.layout.order, transfer.layout.channels(), threads);
     const auto coefficients = static_cast<std::size_t>(coefficient_count(transfer.layout.order));
@@ -194,14 +194,14 @@ Propagated bounce_often(Transfer transfer, const TransportOperators& operators, 
         const double energy = largest_norm(now, coefficients);
         result.remaining = remaining_after({before, energy}, largest_norm(transfer.vectors, coefficients));
         before = result.last = energy;
-        result.converged = result.remaining < least_remaining;
+        result.converged = result.remaining < min_remaining;
         if (result.converged)
             break;
         progress.update(static_cast<double>(result.bounces) / bounces);
     }
     if (result.bounces < bounces)
         result.beside = gather_beside(operators, transfer, threads);
-    result.converged |= least_remaining == 0;
+    result.converged |= min_remaining == 0;
     result.transfer = std::move(transfer);
     return result;
 }
@@ -306,7 +306,7 @@ Propagated propagate(Transfer direct, const TransportOperators& operators, int b
     // then not necessarily the sum over bounces, so compute the sum itself.
     return operators.diffusion.empty()
                ? bounce_endlessly(std::move(direct), operators, threads, progress)
-               : bounce_often(std::move(direct), operators, kMostBounces, 1e-5, threads, progress);
+               : bounce_often(std::move(direct), operators, kMaxBounces, 1e-5, threads, progress);
 }
 
 SharpTransfer propagate_sharply(Transfer smooth, const LightAtSamples& light,

@@ -81,23 +81,23 @@ std::size_t max_charts(int side) {
 [[noreturn]] void refuse_size(std::size_t charts, int side) {
     constexpr double kTexels = 2 * (2 + 2 * kApart) * (2 + 2 * kApart); // half of a texture may stay free
     int wanted = 1;
-    while (wanted < kMostTexels &&
+    while (wanted < kMaxTexels &&
            static_cast<double>(wanted) * wanted < kTexels * static_cast<double>(charts))
         wanted *= 2;
     throw Error(
         fmt::format("a texture of {0} x {0} texels is too small for {1} charts or more: give {2} texels or "
                     "more along a side, or each object a texture of its own (--atlas each)",
-                    side, charts, std::max(wanted, std::min(2 * side, kMostTexels))));
+                    side, charts, std::max(wanted, std::min(2 * side, kMaxTexels))));
 }
 
 /// Packs charts with the maximum number of texels per metre that fits.
 Packed pack_into(std::span<const FlatBox> boxes, int side) {
     constexpr double kStep = 0.95;
-    constexpr int kMostSteps = 200;
+    constexpr int kMaxTries = 200;
     if (boxes.size() > max_charts(side))
         refuse_size(boxes.size(), side);
     double density = side / std::sqrt(std::max(area_of(boxes), std::numeric_limits<double>::min()));
-    for (int step = 0; step < kMostSteps; ++step, density *= kStep)
+    for (int step = 0; step < kMaxTries; ++step, density *= kStep)
         if (std::optional<Packed> packed = pack(boxes, side, density))
             return std::move(*packed);
     refuse_size(boxes.size(), side);
@@ -107,13 +107,13 @@ Packed pack_into(std::span<const FlatBox> boxes, int side) {
 Packed pack_by_density(std::span<const FlatBox> boxes, double density) {
     constexpr double kStep = 1.06;
     double side = std::max(4.0, std::sqrt(area_of(boxes)) * density);
-    for (; side <= kMostTexels; side = std::ceil(side * kStep))
+    for (; side <= kMaxTexels; side = std::ceil(side * kStep))
         if (std::optional<Packed> packed = pack(boxes, static_cast<int>(side), density))
             return std::move(*packed);
     throw Error(fmt::format(
         "{:.3g} texels a metre need a texture of more than {} texels along a side: give fewer, or "
         "each object a texture of its own",
-        density, kMostTexels));
+        density, kMaxTexels));
 }
 
 /// Writes the charts of one texture.
@@ -171,7 +171,7 @@ Unwrapping unwrap(const Scene& scene, const TexelOptions& options) {
     for (const std::vector<std::size_t>& primitives : groups(scene, options.atlases)) {
         const std::vector<ChartFace> faces = chart_faces(scene, primitives);
         const std::vector<SurfaceChart> charts =
-            cut_into_charts(scene, faces, max_charts(options.size > 0 ? options.size : kMostTexels));
+            cut_into_charts(scene, faces, max_charts(options.size > 0 ? options.size : kMaxTexels));
         const std::vector<FlatBox> boxes = flat_boxes(faces, charts);
         const Packed packed =
             options.size > 0 ? pack_into(boxes, options.size) : pack_by_density(boxes, options.per_metre);

@@ -10,7 +10,7 @@ namespace {
 /// Adds a block. `values` is [count][columns], `sums` is [rows][columns]; columns are a multiple of
 /// kLaneCount.
 PRT_TARGET_CLONES
-void add_block(const std::array<float, OuterSums::kMostRows>* weights, const float* values, std::size_t count,
+void add_block(const std::array<float, OuterSums::kMaxRows>* weights, const float* values, std::size_t count,
                std::size_t rows, std::size_t columns, float* sums) {
     for (std::size_t i = 0; i < columns; i += kLaneCount)
         for (std::size_t o = 0; o < rows; ++o) {

@@ -12,9 +12,9 @@ namespace prt {
 /// Computes sums[o][i] = sum over all added products of weights[o] values[i].
 class OuterSums {
 public:
-    static constexpr std::size_t kAtOnce = 16, kMostRows = 16;
+    static constexpr std::size_t kAtOnce = 16, kMaxRows = 16;
 
-    /// Sets the sums to zero, [rows][columns], with at most kMostRows rows. Reuses its memory.
+    /// Sets the sums to zero, [rows][columns], with at most kMaxRows rows. Reuses its memory.
     void begin(std::size_t rows, std::size_t columns);
 
     struct Room {
@@ -32,7 +32,7 @@ private:
     void flush();
 
     std::size_t rows_ = 0, columns_ = 0, count_ = 0;
-    std::array<std::array<float, kMostRows>, kAtOnce> weights_{};
+    std::array<std::array<float, kMaxRows>, kAtOnce> weights_{};
     std::vector<float> values_, sums_;
 };
 

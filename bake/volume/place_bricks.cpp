@@ -59,7 +59,7 @@ public:
     VolumeGrid place(const std::vector<PlacedTriangle>& triangles) {
         const int longest = std::max({grid_.size.x, grid_.size.y, grid_.size.z});
         int top = 0;
-        while (top < kMostBrickLevel && 1 << (top + 1) <= longest)
+        while (top < kMaxBrickLevel && 1 << (top + 1) <= longest)
             ++top;
         const int step = 1 << top;
         for (int z = 0; z < grid_.size.z; z += step)
@@ -113,10 +113,10 @@ void check_spacing(const Bounds& bounds, double spacing) {
                                 "scene: choose other bounds, or a larger distance",
                                 spacing));
     const glm::dvec3 bricks = glm::dvec3(bounds.high - bounds.low) / (kBrickCells * spacing);
-    if (std::max({bricks.x, bricks.y, bricks.z}) > kMostBricksAlong)
+    if (std::max({bricks.x, bricks.y, bricks.z}) > kMaxBricksAlong)
         throw Error(fmt::format("probes {:g} m apart are more than {} along the volume: make it smaller, or "
                                 "their distance larger",
-                                spacing, kMostBricksAlong * kBrickCells));
+                                spacing, kMaxBricksAlong * kBrickCells));
 }
 
 } // namespace
@@ -135,13 +135,13 @@ Bounds volume_bounds(const Scene& scene, const VolumeOptions& options) {
     return box;
 }
 
-VolumeGrid place_bricks(const Scene& scene, const VolumeOptions& options, std::size_t most_bricks) {
+VolumeGrid place_bricks(const Scene& scene, const VolumeOptions& options, std::size_t max_bricks) {
     const std::vector<PlacedTriangle> triangles = triangles_of(scene);
     const Bounds box = volume_bounds(scene, options);
     if (options.probes == 0) {
         check_spacing(box, options.spacing);
-        VolumeGrid grid = Placement(box, static_cast<float>(options.spacing), most_bricks).place(triangles);
-        if (grid.bricks.size() > most_bricks)
+        VolumeGrid grid = Placement(box, static_cast<float>(options.spacing), max_bricks).place(triangles);
+        if (grid.bricks.size() > max_bricks)
             throw Error(
                 fmt::format("probes {:g} m apart do not fit into memory: set them further apart, or take "
                             "a lower order",
@@ -150,7 +150,7 @@ VolumeGrid place_bricks(const Scene& scene, const VolumeOptions& options, std::s
     }
     const glm::dvec3 extent(box.high - box.low);
     const double longest = std::max({extent.x, extent.y, extent.z});
-    double most = longest, least = longest / (kMostBricksAlong * kBrickCells) * 1.01;
+    double most = longest, least = longest / (kMaxBricksAlong * kBrickCells) * 1.01;
     VolumeGrid grid = Placement(box, static_cast<float>(most), options.probes).place(triangles);
     // Lower bound of the spacing: below it even a volume of coarsest bricks alone has more probes.
     least =

@@ -19,7 +19,7 @@ using Shares = ProbeFit::Shares;
 
 /// Weight of a probe's own measurement relative to points: a point at the position of a probe has weight 1.
 constexpr float kOwnWeight = 1;
-constexpr int kMostGradientSteps = 40;
+constexpr int kMaxGradientSteps = 40;
 /// Residual at which a column counts as solved, relative to its right-hand side.
 constexpr double kSolved = 1e-3;
 /// Columns that the product of sparse rows processes at once.
@@ -179,7 +179,7 @@ struct FitColumns {
             square *= kSolved * kSolved;
         scale_rows(a.inverse_diagonal.data(), r.data(), rows, d.data());
         dot_columns(r.data(), d.data(), rows, rz);
-        for (int step = 0; step < kMostGradientSteps; ++step) {
+        for (int step = 0; step < kMaxGradientSteps; ++step) {
             dot_columns(r.data(), r.data(), rows, rest);
             if (std::ranges::equal(rest, solved, std::ranges::less_equal()))
                 return;

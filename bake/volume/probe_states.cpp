@@ -79,7 +79,7 @@ ProbeStates measure_probes(const ProbeTask& task, const VolumeGrid& grid, const 
                       [&](std::size_t i, const PlaceSeen& seen) {
                           const std::size_t p = missing[i];
                           std::ranges::copy(seen.vectors, &states.values[p * states.stride]);
-                          states.blind[p] = seen.backs > kMostBacks;
+                          states.blind[p] = seen.backs > kMaxBackShare;
                           states.moved[p] = places[i] != cells[i].corner;
                           states.distances[p] = seen.distances;
                       });

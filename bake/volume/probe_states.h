@@ -15,7 +15,7 @@
 namespace prt {
 
 /// A position is inside geometry if more of its rays end at dark back faces.
-inline constexpr float kMostBacks = 0.25f;
+inline constexpr float kMaxBackShare = 0.25f;
 
 struct ProbeStates {
     std::size_t stride = 0;

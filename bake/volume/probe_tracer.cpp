@@ -291,7 +291,7 @@ std::size_t ProbeTracer::add_lamps(const Task& task, std::size_t place, Space& s
         const Lamp& lamp = plan_.lamps[k];
         if (plan_.options.lamps.mode != LampMode::all)
             continue;
-        std::array<double, kMostIncidentOrder * kMostIncidentOrder> basis{};
+        std::array<double, kMaxIncidentOrder * kMaxIncidentOrder> basis{};
         const auto take = [&](const glm::dvec3& towards, const glm::dvec3& irradiance) {
             evaluate_sh(layout_.order, towards, std::span(basis).first(layout_.coefficients()));
             for (std::size_t o = 0; o < layout_.coefficients(); ++o)

@@ -30,14 +30,14 @@ VolumeGrid with_finer_levels(VolumeGrid grid) {
     for (const VolumeBrick& brick : grid.bricks)
         most = std::max(most, brick.level);
     const int longest = std::max({grid.size.x, grid.size.y, grid.size.z});
-    int levels = std::min(kMostRefinements, kMostBrickLevel - most);
-    while (levels > 0 && longest << levels > kMostBricksAlong)
+    int levels = std::min(kMaxRefinements, kMaxBrickLevel - most);
+    while (levels > 0 && longest << levels > kMaxBricksAlong)
         --levels;
     return with_levels_raised(std::move(grid), levels);
 }
 
 VolumeGrid without_unused_levels(VolumeGrid grid) {
-    int levels = kMostBrickLevel;
+    int levels = kMaxBrickLevel;
     for (const VolumeBrick& brick : grid.bricks)
         levels = std::min(levels, brick.level);
     // A box that is not a multiple of coarser bricks keeps its levels.

@@ -12,9 +12,9 @@
 namespace prt {
 
 /// Maximum number of levels by which bricks may be split below the levels that depend on surfaces.
-inline constexpr int kMostRefinements = 2;
+inline constexpr int kMaxRefinements = 2;
 
-/// Returns the same bricks with their levels raised as far as possible, at most by kMostRefinements.
+/// Returns the same bricks with their levels raised as far as possible, at most by kMaxRefinements.
 VolumeGrid with_finer_levels(VolumeGrid grid);
 /// Returns the same bricks with the finest of them on level 0.
 VolumeGrid without_unused_levels(VolumeGrid grid);

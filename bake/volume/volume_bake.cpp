@@ -38,8 +38,8 @@ void check_volume_options(const VolumeOptions& volume, const BakeOptions& option
         throw Error("method raster draws depth maps for vertices: use method trace for volumes");
     if (options.target_error)
         throw Error("an error to reach is one of vertices: give probes a number of rays");
-    if (volume.order < 2 || volume.order > kMostIncidentOrder)
-        throw Error(fmt::format("incident light of volumes has 2 to {} bands, not {}", kMostIncidentOrder,
+    if (volume.order < 2 || volume.order > kMaxIncidentOrder)
+        throw Error(fmt::format("incident light of volumes has 2 to {} bands, not {}", kMaxIncidentOrder,
                                 volume.order));
     if (volume.probes == 0 && !(volume.spacing > 0 && volume.spacing <= kFarthestVertex))
         throw Error(fmt::format("probes of a volume cannot be {:g} m apart", volume.spacing));
@@ -93,7 +93,7 @@ void check_room(const VolumeOptions& volume, double probes, std::size_t numbers,
 }
 
 /// Maximum number of bricks: the number of probes that a brick adds is at least its number of cells.
-std::size_t most_bricks(const VolumeOptions& volume, std::size_t numbers, double there) {
+std::size_t max_bricks(const VolumeOptions& volume, std::size_t numbers, double there) {
     constexpr double kCells = kBrickCells * kBrickCells * kBrickCells;
     return there > 0 ? static_cast<std::size_t>(there / (kCells * bytes_of_probe(volume, numbers))) + 1
                      : std::size_t{1} << 24;
@@ -162,7 +162,7 @@ public:
         check_memory(plan_);
         const double there = available_memory(options_.memory.limit);
         check_room(volume_, static_cast<double>(volume_.probes), plan_.numbers(), there);
-        baked.grid = place_bricks(scene_, volume_, most_bricks(volume_, plan_.numbers(), there));
+        baked.grid = place_bricks(scene_, volume_, max_bricks(volume_, plan_.numbers(), there));
         baked.order = volume_.order;
         check_room(volume_, static_cast<double>(probes_of(baked.grid).size()), plan_.numbers(), there);
         ProbeTracer tracer = probe_tracer(progress.part(0, 0.2));
@@ -213,7 +213,7 @@ private:
         if (volume_.error > 0)
             grid = with_finer_levels(std::move(grid));
         ProbeStates states = measure_probes(task, grid, probes_of(grid), {}, progress.part(0, 0.4));
-        for (int round = 1; volume_.error > 0 && round <= kMostRefinements; ++round) {
+        for (int round = 1; volume_.error > 0 && round <= kMaxRefinements; ++round) {
             const VolumeGrid finer = refined(tracer, states, round);
             if (finer == grid)
                 break;
@@ -279,7 +279,7 @@ private:
                                          .seed = seed ^ (half << 40)};
             tracer.trace(task, {}, [&](std::size_t p, const PlaceSeen& seen) {
                 std::ranges::copy(seen.vectors, &points.vectors[half][p * points.stride]);
-                if (seen.backs > kMostBacks)
+                if (seen.backs > kMaxBackShare)
                     points.free[p] = 0;
             });
         }
@@ -330,7 +330,7 @@ private:
                       .seed = options_.seed + kSecondScramble + first},
                      {}, [&](std::size_t p, const PlaceSeen& seen) {
                          std::ranges::copy(seen.vectors, &values[p * stride]);
-                         kept[p] = seen.backs <= kMostBacks;
+                         kept[p] = seen.backs <= kMaxBackShare;
                      });
         std::vector<VolumeCorners> corners;
         for (std::size_t p = 0; p < places.size(); ++p) {

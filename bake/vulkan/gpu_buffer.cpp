@@ -29,10 +29,10 @@ std::uint32_t kind_of(const VulkanDevice& device, std::uint32_t kinds, GpuMemory
 GpuBuffer::GpuBuffer(const VulkanDevice& device, std::size_t bytes, GpuMemory memory, const char* what,
                      vk::BufferUsageFlags usage)
     : bytes_(std::max<std::size_t>(4, (bytes + 3) / 4 * 4)) {
-    if (bytes_ > device.traits().most_bytes)
+    if (bytes_ > device.traits().max_bytes)
         throw GpuMemoryError(fmt::format("{} take {:.0f} MB, and a buffer of \"{}\" holds {:.0f} MB", what,
                                          static_cast<double>(bytes_) / 1e6, device.traits().about.name,
-                                         static_cast<double>(device.traits().most_bytes) / 1e6));
+                                         static_cast<double>(device.traits().max_bytes) / 1e6));
     using Use = vk::BufferUsageFlagBits;
     usage |= Use::eStorageBuffer | Use::eTransferSrc | Use::eTransferDst;
     const bool addressed = static_cast<bool>(usage & Use::eShaderDeviceAddress);

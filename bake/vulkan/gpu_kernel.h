@@ -12,7 +12,7 @@
 namespace prt {
 
 /// Number of workgroups per dimension that every device supports.
-inline constexpr std::size_t kMostGroups = 65535;
+inline constexpr std::size_t kMaxGroups = 65535;
 
 /// Resources of a kernel by binding. The buffers must not move.
 struct GpuResources {

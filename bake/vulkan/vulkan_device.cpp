@@ -18,7 +18,7 @@ namespace prt {
 namespace {
 
 constexpr std::uint32_t kVersion = VK_API_VERSION_1_2;
-constexpr std::uint32_t kMostBuffers = 13; ///< storage buffers of a kernel
+constexpr std::uint32_t kMaxBuffers = 13; ///< storage buffers of a kernel
 constexpr const char* kValidation = "VK_LAYER_KHRONOS_validation";
 constexpr const char* kQueryExtensions[] = {VK_KHR_ACCELERATION_STRUCTURE_EXTENSION_NAME,
                                             VK_KHR_RAY_QUERY_EXTENSION_NAME,
@@ -61,8 +61,8 @@ std::string missing(const vk::raii::PhysicalDevice& device) {
         return "Vulkan 1.2";
     if (!compute_family(device))
         return "a queue that computes";
-    if (device.getProperties().limits.maxPerStageDescriptorStorageBuffers < kMostBuffers)
-        return fmt::format("{} buffers for a kernel", kMostBuffers);
+    if (device.getProperties().limits.maxPerStageDescriptorStorageBuffers < kMaxBuffers)
+        return fmt::format("{} buffers for a kernel", kMaxBuffers);
     const auto features =
         device.getFeatures2<vk::PhysicalDeviceFeatures2, vk::PhysicalDeviceVulkan12Features>();
     if (!features.get<vk::PhysicalDeviceVulkan12Features>().timelineSemaphore)
@@ -285,26 +285,26 @@ void VulkanDevice::make_device() {
         properties.get<vk::PhysicalDeviceProperties2>().properties.limits;
     const auto& eleven = properties.get<vk::PhysicalDeviceVulkan11Properties>();
     const auto& structures = properties.get<vk::PhysicalDeviceAccelerationStructurePropertiesKHR>();
-    traits_.most_bytes = std::min<std::size_t>(limits.maxStorageBufferRange,
-                                               static_cast<std::size_t>(eleven.maxMemoryAllocationSize));
-    traits_.least_subgroup = eleven.subgroupSize;
+    traits_.max_bytes = std::min<std::size_t>(limits.maxStorageBufferRange,
+                                              static_cast<std::size_t>(eleven.maxMemoryAllocationSize));
+    traits_.min_subgroup = eleven.subgroupSize;
     if (has_extension(physical_,
                       VK_EXT_SUBGROUP_SIZE_CONTROL_EXTENSION_NAME)) // some compilers choose the size per
                                                                     // kernel
-        traits_.least_subgroup = std::min(
-            traits_.least_subgroup, physical_
-                                        .getProperties2<vk::PhysicalDeviceProperties2,
-                                                        vk::PhysicalDeviceSubgroupSizeControlProperties>()
-                                        .get<vk::PhysicalDeviceSubgroupSizeControlProperties>()
-                                        .minSubgroupSize);
-    traits_.most_groups = limits.maxComputeWorkGroupCount[0];
+        traits_.min_subgroup = std::min(traits_.min_subgroup,
+                                        physical_
+                                            .getProperties2<vk::PhysicalDeviceProperties2,
+                                                            vk::PhysicalDeviceSubgroupSizeControlProperties>()
+                                            .get<vk::PhysicalDeviceSubgroupSizeControlProperties>()
+                                            .minSubgroupSize);
+    traits_.max_groups = limits.maxComputeWorkGroupCount[0];
     traits_.clock_bits = physical_.getQueueFamilyProperties()[family_].timestampValidBits;
     if (traits_.clock_bits > 0)
         traits_.clock_seconds = 1e-9 * static_cast<double>(limits.timestampPeriod);
     if (traits_.ray_queries) {
         traits_.scratch_alignment = structures.minAccelerationStructureScratchOffsetAlignment;
-        traits_.most_instances = structures.maxInstanceCount;
-        traits_.most_triangles = structures.maxPrimitiveCount;
+        traits_.max_instances = structures.maxInstanceCount;
+        traits_.max_triangles = structures.maxPrimitiveCount;
     }
 }
 

@@ -38,13 +38,13 @@ public:
     struct Traits {
         GpuDevice about;
         bool ray_queries = false;          ///< ray queries are used
-        std::size_t most_bytes = 0;        ///< maximum bytes of a buffer
-        std::uint32_t least_subgroup = 0;  ///< minimum number of threads of a subgroup
+        std::size_t max_bytes = 0;         ///< maximum bytes of a buffer
+        std::uint32_t min_subgroup = 0;    ///< minimum number of threads of a subgroup
         double clock_seconds = 0;          ///< seconds per tick of the device's clock; 0: it has no clock
         std::uint32_t clock_bits = 0;      ///< bits after which the clock wraps around
         std::size_t scratch_alignment = 1; ///< alignment of scratch memory for building hierarchies
-        std::uint32_t most_groups = 65535; ///< maximum workgroups of a dispatch in x
-        std::uint64_t most_instances = 0, most_triangles = 0; ///< limits of a hierarchy of the device
+        std::uint32_t max_groups = 65535;  ///< maximum workgroups of a dispatch in x
+        std::uint64_t max_instances = 0, max_triangles = 0; ///< limits of a hierarchy of the device
     };
     const Traits& traits() const { return traits_; }
     const vk::raii::Device& handle() const { return device_; }

@@ -111,7 +111,7 @@ private:
         constexpr int kTimes = 4;
         constexpr std::size_t kReceivers = 256;
         const int rays = s_.baked.record()->rays;
-        if (s_.baked.record()->method == BakeMethod::raster || rays > kMostRays / kTimes)
+        if (s_.baked.record()->method == BakeMethod::raster || rays > kMaxRays / kTimes)
             return std::nullopt;
         const Receivers receivers = vertex_receivers(s_.baked.scene);
         const std::vector<std::uint32_t> all = receivers_on_surfaces(receivers);
@@ -143,7 +143,7 @@ private:
         if (shipped.receivers.format != WeightFormat::packed)
             return std::nullopt;
         const int words = static_cast<int>(bytes_per_receiver(shipped) / 4) + 1;
-        if (words > kMostPackedWords)
+        if (words > kMaxPackedWords)
             return std::nullopt;
         CompressOptions options;
         options.coding = preset_u64();

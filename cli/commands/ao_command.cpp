@@ -96,9 +96,9 @@ void add_notices(Report& report, const std::vector<std::string>& notices) {
 
 /// Closed rooms are black, because every surface blocks at any distance.
 constexpr float kBlack = 0.01f;
-constexpr double kMostlyBlack = 0.5;
+constexpr double kNoticedBlackShare = 0.5;
 std::vector<std::string> notices_of_black(const AoArguments& a, double share) {
-    if (share < kMostlyBlack || !a.options.tracer.falloff.blocks_everywhere())
+    if (share < kNoticedBlackShare || !a.options.tracer.falloff.blocks_everywhere())
         return {};
     return {fmt::format(
         "{:.0f} % of the surface is black, as in a closed room: --falloff 1 lets surfaces block less "
@@ -315,7 +315,7 @@ void add_ao(CLI::App& app, Session& session) {
     command
         ->add_option("--rays", a.rays,
                      "rays per vertex or texel (1024 without this), or point of a volume (256)")
-        ->check(CLI::Range(1, kMostRays));
+        ->check(CLI::Range(1, kMaxRays));
     add_fit(
         command, a.options.fit,
         "of vertices: measured there; fitted to the surface between them; auto: as points between vertices "

@@ -31,8 +31,8 @@ struct BakeArguments {
     Path scene, output, json;
     std::vector<std::string> no_shadow; ///< names of materials
     struct Finer {
-        std::optional<double> refine;  ///< relative L2 over the surface to split triangles for
-        std::size_t most_vertices = 0; ///< maximum for a refined scene; 0: no limit except `refine`
+        std::optional<double> refine; ///< relative L2 over the surface to split triangles for
+        std::size_t max_vertices = 0; ///< maximum for a refined scene; 0: no limit except `refine`
     } finer;
     BackSides back_sides = BackSides::automatic;
     TexelArguments texels;  ///< if given: baked in place of vertices
@@ -57,10 +57,10 @@ int parse_bounces(const std::string& text) {
     if (text == "inf")
         return kEndlessBounces;
     const std::optional<int> bounces = whole_number(text);
-    if (!bounces || *bounces < 0 || *bounces > kMostBounces)
+    if (!bounces || *bounces < 0 || *bounces > kMaxBounces)
         throw CLI::ValidationError(
             "--bounces",
-            fmt::format("'{}' is neither a number of bounces in 0..{} nor inf", text, kMostBounces));
+            fmt::format("'{}' is neither a number of bounces in 0..{} nor inf", text, kMaxBounces));
     return *bounces;
 }
 
@@ -91,8 +91,8 @@ MediumChoice parse_medium(const std::string& text) {
     if (std::sscanf(medium.c_str(), "%lf,%lf,%lf,%lf,%lf,%lf%n", &s.x, &s.y, &s.z, &a.x, &a.y, &a.z, &used) !=
             6 ||
         static_cast<std::size_t>(used) != medium.size() ||
-        !all_in(s * kPerMillimetre, kLeastScattering, kMostCoefficient) ||
-        !all_in(a * kPerMillimetre, 0, kMostCoefficient))
+        !all_in(s * kPerMillimetre, kMinScattering, kMaxCoefficient) ||
+        !all_in(a * kPerMillimetre, 0, kMaxCoefficient))
         throw CLI::ValidationError("--subsurface",
                                    "'" + medium + "' is neither one of " + names +
                                        "nor six coefficients sr,sg,sb,ar,ag,ab in 1/mm, scattering "
@@ -170,7 +170,7 @@ void add_lamps(CLI::App* command, LampOptions& lamps) {
         ->check(real_in(0, 1e9));
     command->add_option("--lamp-rays", lamps.rays, "rays from a vertex to the lamps of a name with extent")
         ->capture_default_str()
-        ->check(CLI::Range(1, kMostRays));
+        ->check(CLI::Range(1, kMaxRays));
 }
 
 void add_method(CLI::App* command, BakeOptions& options) {
@@ -204,7 +204,7 @@ void add_refinement(CLI::App* command, BakeArguments& a) {
                          "Light is fitted to the surface then")
             ->check(above_zero());
     command
-        ->add_option("--most-vertices", a.finer.most_vertices,
+        ->add_option("--most-vertices", a.finer.max_vertices,
                      "vertices that --refine may reach, all nodes together; otherwise four times those of "
                      "the scene, or 20000 where that is more")
         ->check(CLI::PositiveNumber)
@@ -214,9 +214,8 @@ void add_refinement(CLI::App* command, BakeArguments& a) {
 /// Replaces document and scene by the refined ones.
 RefineStatistics refine(const BakeArguments& a, GltfDocument& document, Scene& scene, Session& session) {
     ProgressBar bar = session.progress_bar("refining");
-    const RefineResult result =
-        prt::refine(scene, a.options, {.target = *a.finer.refine, .most_vertices = a.finer.most_vertices},
-                    bar.progress());
+    const RefineResult result = prt::refine(
+        scene, a.options, {.target = *a.finer.refine, .max_vertices = a.finer.max_vertices}, bar.progress());
     if (result.statistics.rounds == 0)
         return result.statistics;
     document = refined(std::move(document), scene, result.refinement);
@@ -435,7 +434,7 @@ void add_bake(CLI::App& app, Session& session) {
     CLI::Option* rays =
         command->add_option("--rays", a.options.rays, "rays per receiver; directions where method is raster")
             ->capture_default_str()
-            ->check(CLI::Range(1, kMostRays));
+            ->check(CLI::Range(1, kMaxRays));
     command
         ->add_option(
             "--target-error", a.options.target_error,

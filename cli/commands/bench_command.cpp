@@ -82,16 +82,16 @@ void add_bench(CLI::App& app, Session& session) {
         ->check(CLI::Range(1, kMaxOrder));
     command->add_option("--from", a.options.fewest_rays, "fewest rays per receiver")
         ->capture_default_str()
-        ->check(CLI::Range(1, kMostRays));
-    command->add_option("--to", a.options.most_rays, "most rays per receiver")
+        ->check(CLI::Range(1, kMaxRays));
+    command->add_option("--to", a.options.max_rays, "most rays per receiver")
         ->capture_default_str()
-        ->check(CLI::Range(1, kMostRays / 64));
+        ->check(CLI::Range(1, kMaxRays / 64));
     command
         ->add_option("--raster-resolution", a.options.raster_resolution,
                      "texels along each side of a depth map")
         ->capture_default_str()
         ->check(CLI::Range(16, 16384));
-    command->add_option("--most-seconds", a.options.most_seconds, "leave runs out that would take longer")
+    command->add_option("--most-seconds", a.options.max_seconds, "leave runs out that would take longer")
         ->capture_default_str()
         ->check(real_in(0, 1e9));
     command->add_option("--seed", a.options.seed, "seed of the samples")

@@ -106,7 +106,7 @@ void add_sizes(CLI::App* command, SearchOptions& o) {
     command
         ->add_option("--bits", o.compress.coding.bits,
                      "bits of a vertex's weights together, where they are packed")
-        ->check(CLI::Range(0, kMostPackedBits));
+        ->check(CLI::Range(0, kMaxPackedBits));
     choice(command, "--weights", o.compress.coding.format, kWeights,
            "packed: bits by variance; float: not rounded, to find out what rounding costs", "packed");
     choice(
@@ -314,7 +314,7 @@ Bake load_bake(const Path& path, const GltfOptions& reading) {
 
 /// Number of probes per cluster, and minimum number of clusters: with more clusters, bases would need more
 /// bytes than weights.
-constexpr std::size_t kProbesOfCluster = 700, kLeastClusters = 8;
+constexpr std::size_t kProbesOfCluster = 700, kMinClusters = 8;
 
 std::optional<CompressedVolumeResult> compress_probes(const CompressArguments& a, const Bake& bake,
                                                       Session& session) {
@@ -326,7 +326,7 @@ std::optional<CompressedVolumeResult> compress_probes(const CompressArguments& a
     options.clusters = a.volume.clusters > 0
                            ? a.volume.clusters
                            : static_cast<int>(std::clamp<std::size_t>(
-                                 bake.volume->sights.size() / kProbesOfCluster, kLeastClusters, 256));
+                                 bake.volume->sights.size() / kProbesOfCluster, kMinClusters, 256));
     options.bases_count = true;
     options.seed = a.options.compress.seed;
     options.threads = a.options.compress.threads;
@@ -753,7 +753,7 @@ void add_compress(CLI::App& app, Session& session) {
         ->add_option("--seam-weight", a.options.compress.seam_price,
                      "what jumps of the error along mesh edges cost, 0: nothing")
         ->capture_default_str()
-        ->check(real_in(0, kMostPrice));
+        ->check(real_in(0, kMaxPrice));
     command->add_flag("--whole", a.writing.whole,
                       "direct and indirect light as one: smaller, for who does not light suns apart");
     command

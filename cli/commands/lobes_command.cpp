@@ -177,10 +177,10 @@ void run(LobesArguments a, Session& session) {
 void add_what(CLI::App* command, LobesArguments& a) {
     command->add_option("--lobes", a.fit.lobes, "lobes of a vertex, four bytes each")
         ->capture_default_str()
-        ->check(CLI::Range(std::size_t{1}, kMostLobes));
+        ->check(CLI::Range(std::size_t{1}, kMaxLobes));
     command->add_option("--order", a.bake.order, "bands of a lobe")
         ->capture_default_str()
-        ->check(CLI::Range(2, kMostLobeOrder));
+        ->check(CLI::Range(2, kMaxLobeOrder));
     command
         ->add_option("--poses", a.poses,
                      "poses to fit to beside that of the file, evenly over the animations")
@@ -194,10 +194,10 @@ void add_what(CLI::App* command, LobesArguments& a) {
         ->check(CLI::Range(0, 4096));
     command->add_option("--rays", a.bake.rays, "rays per vertex and pose")
         ->capture_default_str()
-        ->check(CLI::Range(1, kMostRays));
+        ->check(CLI::Range(1, kMaxRays));
     command->add_option("--bounces", a.bake.bounces, "bounces between the surfaces of the model")
         ->capture_default_str()
-        ->check(CLI::Range(0, kMostBounces));
+        ->check(CLI::Range(0, kMaxBounces));
 }
 
 } // namespace

@@ -268,7 +268,7 @@ void light_in_shader(const RenderArguments& a, const SceneFile& model, const Lig
     if (!a.drawn_lit() || !model.compressed || model.lightmap)
         return;
     const ClusteredBases& bases = model.compressed->transfer.bases;
-    if (bases.max_components() <= most_vertex_components(bases)) {
+    if (bases.max_components() <= max_vertex_components(bases)) {
         picture.in_shader.transfer = &model.compressed->transfer;
         picture.in_shader.lighting = &lighting;
     } else {
@@ -276,7 +276,7 @@ void light_in_shader(const RenderArguments& a, const SceneFile& model, const Lig
             a.model.string(),
             {fmt::format("has more than {} components, which do not fit the vertex attributes; exit "
                          "radiance is formed on the CPU",
-                         most_vertex_components(bases))});
+                         max_vertex_components(bases))});
     }
 }
 
@@ -513,7 +513,7 @@ void run(RenderArguments a, Session& session) {
     const std::unique_ptr<Shown> shown = show(a, model, lighting, light, picture);
     const bool draws = !a.traced() || a.error() == ErrorOf::traced;
     const std::unique_ptr<GlContext> context =
-        draws ? choose_backend(a.backend, suns && (picture.suns.size() > kMostShadowedSuns ||
+        draws ? choose_backend(a.backend, suns && (picture.suns.size() > kMaxShadowedSuns ||
                                                    has_unnamed_media(model, solid)))
               : nullptr;
     if (context)

@@ -102,7 +102,7 @@ void write_occluder_shader(const ShaderArguments& a, const SceneFile& model, Ses
         printable(a.output.string()),
         model.compressed_volume ? "light by the volume of the file"
                                 : "no light, as the file has no compressed volume",
-        kMostOccluders));
+        kMaxOccluders));
 }
 
 /// Writes lobe transfer that rotates with a skin, after the lookup of the volume that lights it.
@@ -120,7 +120,7 @@ void write_lobe_shader(const ShaderArguments& a, const SceneFile& model, Session
         "a uniform block of {} bytes{}\n",
         printable(a.output.string()),
         lobes.lobes == 1 ? "one attribute" : fmt::format("{} attributes", lobes.lobes),
-        kMostProfiles * sizeof(glm::vec4),
+        kMaxProfiles * sizeof(glm::vec4),
         model.compressed_volume ? ", light by the volume of the file" : ""));
 }
 

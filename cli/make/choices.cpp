@@ -27,10 +27,10 @@ CutChoice choose_cut(const CutErrors& errors, double allowed) {
 int choose_rays(double measured, int rays, double allowed) {
     // Squared noise of nets falls by n^-1.5 at vertices and by n^-1 to n^-1.2 where few samples share them.
     constexpr double kFall = 1.2;
-    constexpr int kFewest = 128, kMost = 1 << 14;
+    constexpr int kFewest = 128, kMax = 1 << 14;
     const double times = std::pow(measured / (kShareOfRays * allowed), 1 / kFall);
     int chosen = kFewest;
-    while (chosen < kMost && chosen < times * rays)
+    while (chosen < kMax && chosen < times * rays)
         chosen *= 2;
     return chosen;
 }

@@ -14,15 +14,15 @@ namespace prt::cli {
 inline constexpr double kShareOfLight = 0.4, kShareOfBounces = 0.05, kShareOfRays = 0.05;
 /// Meshes are refined if the error between vertices exceeds the first fraction of the allowed error; the
 /// second is the target.
-inline constexpr double kMostOfVertices = 0.3, kShareOfVertices = 0.15;
+inline constexpr double kMaxVertexShare = 0.3, kShareOfVertices = 0.15;
 /// Minimum number of rays per vertex, even if time is short.
 inline constexpr int kFewestRays = 64;
 /// Allowed uncertainty of points and paths, as a fraction of the allowed error.
 inline constexpr double kShareOfNoise = 0.1;
 /// Minimum of this uncertainty: the square of a third of a per cent, which is invisible.
-inline constexpr double kLeastNoise = 1e-5;
+inline constexpr double kMinNoise = 1e-5;
 /// Maximum fraction for light, vertices and rays together; a smaller rest would require too many bytes.
-inline constexpr double kMostBeforeBytes = 0.85;
+inline constexpr double kMaxUncompressedShare = 0.85;
 /// Default target: 3 %, or, if light and vertices have a larger error, that error times kAboveRest (squared),
 /// so that bytes get a third of it.
 inline constexpr double kUsualError = 0.03, kAboveRest = 1.5;

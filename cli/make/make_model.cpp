@@ -76,7 +76,7 @@ public:
         trace_paths();
         choose_bands();
         Pilot pilot = bake_pilot();
-        const bool coarse = pilot.budget.of(ErrorCause::vertices).value > kMostOfVertices * allowed();
+        const bool coarse = pilot.budget.of(ErrorCause::vertices).value > kMaxVertexShare * allowed();
         if (coarse && in_time(0.3) && refine_mesh(pilot)) {
             trace_paths();
             pilot = bake_pilot();
@@ -109,7 +109,7 @@ private:
         ProgressBar bar = session_.progress_bar("tracing paths");
         reference_ = std::make_unique<BudgetReference>(
             scene_, lights_,
-            BudgetEffort{.noise = std::max(kShareOfNoise * allowed(), kLeastNoise),
+            BudgetEffort{.noise = std::max(kShareOfNoise * allowed(), kMinNoise),
                          .seconds =
                              kShareOfTime * r_.goal.seconds.value_or(0) / static_cast<double>(lights_.size()),
                          .bad_textures = r_.reading.bad_textures,
@@ -154,7 +154,7 @@ private:
 
     /// Throws `Error` if the allowed error is used up before compression.
     void check_possible(double squared, const std::string& cause) const {
-        if (r_.goal.max_error && squared > kMostBeforeBytes * allowed() && !r_.goal.best_effort)
+        if (r_.goal.max_error && squared > kMaxUncompressedShare * allowed() && !r_.goal.best_effort)
             throw Error(
                 fmt::format("nothing keeps {} under these lights: {} is {} already (--best-effort makes the "
                             "nearest)",
@@ -336,7 +336,7 @@ private:
             *reference_,
             {.baked = transfer(), .repeated = pilot_, .shipped = nullptr, .bounces = plan_.cut.bounces},
             r_.threads);
-        const double left = std::max(allowed() - rest(uncompressed), (1 - kMostBeforeBytes) * allowed());
+        const double left = std::max(allowed() - rest(uncompressed), (1 - kMaxUncompressedShare) * allowed());
         AskedError asked(std::sqrt(left));
         std::optional<Compressed> best;
         for (int i = 0; i < kTries && asked.worth_trying() && (i == 0 || in_time(0.7)); ++i) {

@@ -73,7 +73,7 @@ struct Table {
     std::vector<Chart> charts = {};      ///< before the table, for HTML
     std::vector<Bars> bars = {};         ///< before the table, for HTML
     Audience audience = Audience::all;
-    std::size_t most_shown = 1000; ///< maximum number of rows shown to people
+    std::size_t max_shown = 1000; ///< maximum number of rows shown to people
 };
 
 struct ReportPicture {

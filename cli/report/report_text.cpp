@@ -112,7 +112,7 @@ std::vector<std::size_t> columns_for_people(const Table& table) {
 }
 
 std::size_t rows_for_people(const Table& table) {
-    return table.audience == Audience::files ? 0 : std::min(table.most_shown, table.rows.size());
+    return table.audience == Audience::files ? 0 : std::min(table.max_shown, table.rows.size());
 }
 
 std::string shown(const Json& value, const Column& column) {

@@ -117,7 +117,7 @@ void add_sweep(const Sweep& sweep, Report& report) {
         "Multiply-adds of a colour per vertex, on average. Clustered methods of the literature "
         "have {} clusters, or one for {} vertices where that is fewer; prtkit has any number that "
         "takes no more bytes than classic CPCA at the same operations.",
-        kSweepClusters, kLeastReceiversPerCluster);
+        kSweepClusters, kMinReceiversPerCluster);
     ops.charts = {chart(sweep.by_components, "multiply-adds per vertex", ops_of)};
     report.tables.push_back(std::move(bytes));
     report.tables.push_back(std::move(ops));

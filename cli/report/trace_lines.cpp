@@ -9,7 +9,7 @@ Json as_json(const ClustersSeeded& e) {
 }
 
 Json as_json(const ClusteringRound& e) {
-    return {{"event", "clustering_round"}, {"most_components", e.most_components}, {"cost", e.cost}};
+    return {{"event", "clustering_round"}, {"component_limit", e.component_limit}, {"cost", e.cost}};
 }
 
 Json as_json(const ClusterSplit& e) {

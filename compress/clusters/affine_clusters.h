@@ -20,11 +20,11 @@ struct AffineClusters {
     std::vector<int> components; ///< [clusters] number of used rows
 
     AffineClusters() = default;
-    AffineClusters(std::size_t clusters, std::size_t dimensions, std::size_t most_components,
+    AffineClusters(std::size_t clusters, std::size_t dimensions, std::size_t component_limit,
                    std::size_t guide_count = 0)
-        : dimension(dimensions), max_components(most_components), guides(guide_count),
+        : dimension(dimensions), max_components(component_limit), guides(guide_count),
           means(clusters * dimensions), slopes(clusters * guide_count * dimensions),
-          centers(clusters * guide_count), rows(clusters * most_components * dimensions),
+          centers(clusters * guide_count), rows(clusters * component_limit * dimensions),
           components(clusters, 0) {}
 
     std::size_t clusters() const { return components.size(); }

@@ -43,7 +43,7 @@ template <int Width>
                                               std::span<const std::uint32_t> candidates,
                                               std::uint32_t* nearest, float* errors) {
     const auto distance = [&](std::uint32_t k) __attribute__((always_inline)) {
-        typename Floats<Width>::Value left[kMostDimensions];
+        typename Floats<Width>::Value left[kMaxDimensions];
         known_subtracted<Width>(block, clusters.dimension, clusters.mean(k), clusters.center(k),
                                 clusters.slope(k, 0), clusters.guides, left);
         return squared_outside(left, clusters.dimension, clusters.row(k, 0), clusters.components_of(k)) +

@@ -14,9 +14,9 @@ namespace prt {
 struct PenalisedClusters : AffineClusters {
     std::vector<float> penalties; ///< [clusters] added to the squared distance of a point
 
-    PenalisedClusters(std::size_t clusters, std::size_t dimensions, std::size_t most_components,
+    PenalisedClusters(std::size_t clusters, std::size_t dimensions, std::size_t component_limit,
                       std::size_t guide_count = 0)
-        : AffineClusters(clusters, dimensions, most_components, guide_count), penalties(clusters, 0.0f) {}
+        : AffineClusters(clusters, dimensions, component_limit, guide_count), penalties(clusters, 0.0f) {}
 };
 
 struct Assignment {

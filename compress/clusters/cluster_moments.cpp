@@ -90,7 +90,7 @@ namespace {
 
 /// Maximum significance of an empty cluster. Rounding errors remain when points come and go. All receivers
 /// together have 1, with a rounding error of 2^-53 per addition.
-constexpr double kLeastSignificance = 1e-14;
+constexpr double kMinSignificance = 1e-14;
 
 struct Covariance {
     Eigen::VectorXd mean;
@@ -205,7 +205,7 @@ ClusterFit fit_cluster(const ClusterMoments::View& moments, const Spending& spen
     fit.center.assign(moments.guides, 0.0f);
     fit.slopes.assign(moments.guides * moments.dimension, 0.0f);
     fit.guide_variances.assign(moments.guides, 0.0);
-    if (!(moments.significance() > kLeastSignificance))
+    if (!(moments.significance() > kMinSignificance))
         return fit;
     fit.significance = moments.significance();
     if (moments.dimension == 0)
@@ -239,7 +239,7 @@ ClusterFit fit_cluster(const ClusterMoments::View& moments, const Spending& spen
 }
 
 double cluster_cost(const ClusterMoments::View& moments, const Spending& spending) {
-    if (!(moments.significance() > kLeastSignificance) || moments.dimension == 0)
+    if (!(moments.significance() > kMinSignificance) || moments.dimension == 0)
         return 0;
     const Covariance joint = joint_covariance(moments);
     const Spectrum spectrum =

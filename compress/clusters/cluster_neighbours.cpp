@@ -14,7 +14,7 @@ namespace {
 float squared_gap(const AffineClusters& clusters, std::span<const RowReach> reaches, std::size_t k,
                   std::size_t other) {
     const std::size_t dimension = clusters.dimension;
-    std::array<float, kMostDimensions> d;
+    std::array<float, kMaxDimensions> d;
     for (std::size_t i = 0; i < dimension; ++i)
         d[i] = clusters.mean(k)[i] - clusters.mean(other)[i];
     for (std::size_t j = 0; j < clusters.components_of(other); ++j) {
@@ -23,7 +23,7 @@ float squared_gap(const AffineClusters& clusters, std::span<const RowReach> reac
         float w = 0;
         for (std::size_t i = 0; i < dimension; ++i)
             w += row[i] * d[i];
-        w = std::clamp(w * reach.inverse_norm, -reach.most_weight, reach.most_weight);
+        w = std::clamp(w * reach.inverse_norm, -reach.max_weight, reach.max_weight);
         for (std::size_t i = 0; i < dimension; ++i)
             d[i] -= w * row[i];
     }

@@ -23,7 +23,7 @@ private:
 /// Extent of the points of a cluster along one of its rows.
 struct RowReach {
     float inverse_norm = 1; ///< 1 over the row's squared length
-    float most_weight = 1;
+    float max_weight = 1;
 };
 
 /// Returns for each cluster the `most` nearest, itself first. Among four times that number of clusters with

@@ -17,7 +17,7 @@ std::vector<RowReach> reaches_of(const std::vector<ClusterFit>& fits, std::size_
     std::vector<RowReach> reaches(fits.size() * max_components);
     for (std::size_t k = 0; k < fits.size(); ++k)
         for (std::size_t j = 0; j < fits[k].plan.bits.size(); ++j)
-            reaches[k * max_components + j].most_weight =
+            reaches[k * max_components + j].max_weight =
                 tuning::kReach * static_cast<float>(std::sqrt(fits[k].variances[j]));
     return reaches;
 }

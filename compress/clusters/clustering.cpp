@@ -17,7 +17,7 @@ double squared_error(const ClusterState& state) {
     double error = 0;
     for (std::size_t k = 0; k < state.fits.size(); ++k)
         error += cluster_cost(state.moments.view(k),
-                              {.most_components = static_cast<int>(state.fits[k].plan.bits.size())});
+                              {.component_limit = static_cast<int>(state.fits[k].plan.bits.size())});
     return error;
 }
 
@@ -30,13 +30,13 @@ bool any_has(const ClusterState& state, int components) {
 /// Adds components one at a time, with some rounds each.
 void grow_components(const ClusterRounds& rounds, Spending spending, const Progress& progress,
                      ClusterState& state) {
-    const int full = spending.most_components;
-    for (spending.most_components = 1; spending.most_components < full; ++spending.most_components) {
+    const int full = spending.component_limit;
+    for (spending.component_limit = 1; spending.component_limit < full; ++spending.component_limit) {
         for (int r = 0; r < tuning::kRoundsPerComponent; ++r) {
-            progress.update(static_cast<double>(spending.most_components) / full);
+            progress.update(static_cast<double>(spending.component_limit) / full);
             rounds.round(state, spending);
         }
-        if (!any_has(state, spending.most_components))
+        if (!any_has(state, spending.component_limit))
             break; // no cluster would use more components
     }
 }
@@ -46,10 +46,10 @@ void converge(const ClusterRounds& rounds, const ClusteringSchedule& schedule, c
               const Progress& progress, ClusterState& state, std::vector<double>* history) {
     ClusterState best = state;
     best.cost = std::numeric_limits<double>::infinity();
-    for (int r = 0; r < schedule.most_rounds; ++r) {
+    for (int r = 0; r < schedule.max_rounds; ++r) {
         progress.update(1 - std::pow(0.9, r)); // the number of rounds is unknown
         rounds.refit(state, spending);
-        rounds.tell(ClusteringRound{spending.most_components, state.cost});
+        rounds.tell(ClusteringRound{spending.component_limit, state.cost});
         const bool better = state.cost < best.cost;
         if (history && better)
             history->push_back(squared_error(state));
@@ -67,8 +67,8 @@ void converge(const ClusterRounds& rounds, const ClusteringSchedule& schedule, c
 void improve(const ClusterRounds& rounds, const ClusteringSchedule& schedule, const Spending& spending,
              const Progress& progress, ClusterState& state, std::vector<double>& history) {
     converge(rounds, schedule, spending, progress.part(0, tuning::kFirstRoundsAt), state, &history);
-    const double sweep = (tuning::kMovesAt - tuning::kFirstRoundsAt) / schedule.most_move_sweeps;
-    for (int m = 0; m < schedule.most_move_sweeps; ++m)
+    const double sweep = (tuning::kMovesAt - tuning::kFirstRoundsAt) / schedule.max_move_sweeps;
+    for (int m = 0; m < schedule.max_move_sweeps; ++m)
         if (!split_and_merge(
                 rounds, spending, schedule.tolerance,
                 progress.part(tuning::kFirstRoundsAt + sweep * m, tuning::kFirstRoundsAt + sweep * (m + 1)),
@@ -98,8 +98,8 @@ Clustering cluster_points(const PointBlocks& points, std::span<const float> sign
     // absorb the points of others.
     const bool limited = options.mean_components > 0;
     if (limited)
-        spending.most_components =
-            std::min(spending.most_components, std::max(1, static_cast<int>(options.mean_components)));
+        spending.component_limit =
+            std::min(spending.component_limit, std::max(1, static_cast<int>(options.mean_components)));
     if (!options.start.empty())
         resize(rounds, spending, options.clusters, state);
     else if (options.schedule.grow)
@@ -111,7 +111,7 @@ Clustering cluster_points(const PointBlocks& points, std::span<const float> sign
     improve(rounds, options.schedule, spending,
             progress.part(tuning::kComponentsGrownAt, tuning::kImprovedAt), state, result.history);
     if (limited) {
-        spending.most_components = options.spending.most_components;
+        spending.component_limit = options.spending.component_limit;
         spend_components(rounds, options.mean_components, progress.part(tuning::kImprovedAt, 1), spending,
                          state);
     }

@@ -22,14 +22,14 @@ struct Clustering {
 /// published schedule.
 struct ClusteringSchedule {
     bool grow = true; ///< components are added one at a time, with some rounds each
-    int most_rounds = tuning::kMostRounds;
+    int max_rounds = tuning::kMaxRounds;
     double tolerance = tuning::kRoundTolerance; ///< rounds end when the cost decreases by a smaller fraction
-    int most_move_sweeps = tuning::kMostMoveSweeps;
+    int max_move_sweeps = tuning::kMaxMoveSweeps;
 };
 
 /// Returns the schedule for an error that is known to a few hundredths.
 inline ClusteringSchedule draft_schedule() {
-    return {.tolerance = tuning::kDraftTolerance, .most_move_sweeps = tuning::kDraftMoveSweeps};
+    return {.tolerance = tuning::kDraftTolerance, .max_move_sweeps = tuning::kDraftMoveSweeps};
 }
 
 struct ClusteringOptions {

@@ -12,7 +12,7 @@ namespace {
 /// Returns the remaining fraction of a Gaussian variance after the optimal uniform quantiser of b bits (Max
 /// 1960, table II, up to 5 bits; beyond, each bit reduces it by another factor of 3.6 to 4).
 double left_after(int bits) {
-    static constexpr std::array<double, kMostBits + 1> kLeft = {
+    static constexpr std::array<double, kMaxWeightBits + 1> kLeft = {
         1,       0.3634,  0.1188,  0.03744, 0.01154, 0.003495, 0.001041, 3.04e-4, 8.77e-5,
         2.49e-5, 7.00e-6, 1.95e-6, 5.38e-7, 1.47e-7, 4.0e-8,   1.08e-8,  2.9e-9};
     return kLeft[static_cast<std::size_t>(bits)];
@@ -27,7 +27,7 @@ double tail(std::span<const double> variances, std::size_t components) {
 
 /// Returns the reduction of a variance quantised with `bits` bits by one more bit.
 double gain_of_bit(double variance, int bits) {
-    return bits < kMostBits ? variance * (left_after(bits) - left_after(bits + 1)) : 0;
+    return bits < kMaxWeightBits ? variance * (left_after(bits) - left_after(bits + 1)) : 0;
 }
 
 /// Distributes `bits` over the first `components` axes, one at a time. The plan ends at the last axis with
@@ -77,7 +77,7 @@ std::vector<double> errors_by_components(std::span<const double> variances, cons
     const auto rank = static_cast<std::size_t>(
         std::find_if(variances.begin(), variances.end(), [](double v) { return !(v > 0); }) -
         variances.begin());
-    const std::size_t most = std::min(rank, static_cast<std::size_t>(spending.most_components));
+    const std::size_t most = std::min(rank, static_cast<std::size_t>(spending.component_limit));
     std::vector<double> errors = {tail(variances, 0)};
     for (std::size_t m = 1; m <= most; ++m) {
         const std::vector<std::uint8_t> bits = bits_of(variances, m, spending);

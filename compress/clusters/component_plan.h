@@ -11,7 +11,7 @@ namespace prt {
 /// Limits and prices for weights and components. Prices are squared errors; the significance of all receivers
 /// together is 1.
 struct Spending {
-    int most_components = 8;
+    int component_limit = 8;
     int bits = 0; ///< total for a receiver's weights; 0: weights are floats and cost nothing
     /// Bits of each component, identical in all clusters; empty: every cluster distributes `bits` separately.
     std::vector<int> fixed_bits = {};
@@ -28,10 +28,10 @@ struct ComponentPlan {
 };
 
 /// Maximum bits of a weight.
-inline constexpr int kMostBits = 16;
+inline constexpr int kMaxWeightBits = 16;
 
 /// Returns the errors with 0, 1, 2 and more components, without prices: the tail of the variances, and
-/// rounding of weights. Limited by the bits and `Spending::most_components`.
+/// rounding of weights. Limited by the bits and `Spending::component_limit`.
 std::vector<double> errors_by_components(std::span<const double> variances, const Spending& spending);
 
 /// Returns the number of components with the minimum cost under the prices of `spending`, for such errors.

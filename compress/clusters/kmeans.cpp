@@ -80,8 +80,8 @@ PenalisedClusters vector_quantise(const PointBlocks& points, std::span<const flo
     PenalisedClusters found =
         seed_centers(points, significance, clusters, random, threads, progress.part(0, 0.5));
     double before = std::numeric_limits<double>::infinity();
-    for (int iteration = 0; iteration < tuning::kMostLloydIterations; ++iteration) {
-        progress.update(0.5 + 0.5 * iteration / tuning::kMostLloydIterations);
+    for (int iteration = 0; iteration < tuning::kMaxLloydIterations; ++iteration) {
+        progress.update(0.5 + 0.5 * iteration / tuning::kMaxLloydIterations);
         const Assignment assignment = assign(points, found, threads);
         const double error = total_error(significance, assignment.errors);
         if (error == 0 || error > before * (1 - tuning::kLloydTolerance))

@@ -15,7 +15,7 @@ namespace prt {
 
 namespace {
 
-constexpr float kLargestStep = 32767;
+constexpr float kMaxStep = 32767;
 
 PRT_TARGET_CLONES
 void multiply_steps(const std::int16_t* from, const float* steps, std::size_t width, float* to) {
@@ -62,18 +62,18 @@ void PointBlocks::project(const TransferView& transfer, const Frame& frame,
 }
 
 PointBlocks::PointBlocks(const TransferView& transfer, const Frame& frame,
-                         const GuideCoordinates& coordinates, int threads, double most_rounding)
+                         const GuideCoordinates& coordinates, int threads, double max_rounding)
     : count(transfer.receivers()), dimension(frame.dimension), guides(coordinates.count()) {
-    assert(dimension <= kMostDimensions); // size of the kernels' arrays
-    if (width() == 0)                     // all receivers are equal
+    assert(dimension <= kMaxDimensions); // size of the kernels' arrays
+    if (width() == 0)                    // all receivers are equal
         return;
     const std::size_t numbers = blocks() * width() * kLanes;
-    if (most_rounding > 0) {
+    if (max_rounding > 0) {
         rounded.resize(numbers);
         steps.resize((blocks() + kStepBlocks - 1) / kStepBlocks * width());
         project(transfer, frame, coordinates, threads,
                 [&](std::size_t first, std::span<const float> of) { round_blocks(first, of); });
-        if (rounding() <= most_rounding)
+        if (rounding() <= max_rounding)
             return;
         rounded = {};
         steps = {};
@@ -91,7 +91,7 @@ void PointBlocks::round_blocks(std::size_t first, std::span<const float> numbers
         largest = std::max(largest, std::abs(numbers[at]));
     }
     for (std::size_t i = 0; i < width(); ++i)
-        step[i] /= kLargestStep;
+        step[i] /= kMaxStep;
     std::int16_t* to = rounded.data() + first * width() * kLanes;
     for (std::size_t at = 0; at < numbers.size(); ++at) {
         const float of = step[at / kLanes % width()];

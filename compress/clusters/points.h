@@ -15,7 +15,7 @@ namespace prt {
 
 /// Number of points processed together: one per SIMD lane.
 inline constexpr std::size_t kLanes = kLaneCount;
-inline constexpr std::size_t kMostDimensions = kMostTransferNumbers;
+inline constexpr std::size_t kMaxDimensions = kMaxTransferNumbers;
 
 /// Weights of each point's errors along groups of axes: an error of light is relative to the local light
 /// (docs/math.md, eq. 29). Without groups all weights are equal.
@@ -51,9 +51,9 @@ struct PointBlocks {
     PointScales scales;
 
     PointBlocks() = default;
-    /// Rounds the points if the mean squared error of rounding is at most `most_rounding`.
+    /// Rounds the points if the mean squared error of rounding is at most `max_rounding`.
     PointBlocks(const TransferView& transfer, const Frame& frame, const GuideCoordinates& guides, int threads,
-                double most_rounding = 0);
+                double max_rounding = 0);
 
     /// Returns the mean squared error of rounding; 0 for floats.
     double rounding() const;

@@ -68,7 +68,7 @@ RowSteps basis_steps(const PointBlocks& points, std::span<const float> significa
     std::vector<double> dearest(groups, 0);
     for (std::size_t at = 0; at < costs.size(); ++at)
         dearest[at % groups] = std::max(dearest[at % groups], costs[at]);
-    constexpr double kMaxValue = (1 << (kMostRowBits - 1)) - 1, kMinStep = 1e-30;
+    constexpr double kMaxValue = (1 << (kMaxRowBits - 1)) - 1, kMinStep = 1e-30;
     std::vector<double> wanted(clusters.clusters() * groups, 0), smallest(wanted.size(), kMinStep);
     for (std::size_t k = 0; k < clusters.clusters(); ++k) {
         const std::vector<double> largest = largest_values(clusters, k);

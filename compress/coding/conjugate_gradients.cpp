@@ -12,7 +12,7 @@ std::vector<float> conjugate_gradients(const std::function<std::vector<float>(st
     std::vector<float>& residual = right;
     std::vector<float> x(residual.size(), 0.0f), direction(residual.size(), 0.0f);
     double before = 0, start = 0;
-    for (int step = 0; step < tuning::kMostSolverSteps; ++step) {
+    for (int step = 0; step < tuning::kMaxSolverSteps; ++step) {
         double norm = 0;
         for (std::size_t i = 0; i < residual.size(); ++i)
             norm += static_cast<double>(residual[i]) * static_cast<double>(residual[i]) *

@@ -13,7 +13,7 @@
 namespace prt {
 namespace {
 
-constexpr std::int32_t kLargestValue = (1 << (kMostRowBits - 1)) - 1;
+constexpr std::int32_t kMaxRowValue = (1 << (kMaxRowBits - 1)) - 1;
 
 /// Returns the rows of all clusters over the axes of the frame, in units of their steps.
 std::vector<std::int32_t> integer_rows(const QuantisedClusters& clusters, const RowSteps& steps,
@@ -168,7 +168,7 @@ void pack(const QuantisedClusters& clusters, const Codes& codes, const Encoding&
 
 } // namespace
 
-CodedBases code_frame(Frame& frame, const LightMetric& metric, double most_error) {
+CodedBases code_frame(Frame& frame, const LightMetric& metric, double error_limit) {
     const auto full = static_cast<Eigen::Index>(frame.full());
     const Eigen::MatrixXd moments =
         frame.scale * frame.scale * Eigen::Map<const Eigen::MatrixXd>(metric.moments.data(), full, full);
@@ -178,11 +178,11 @@ CodedBases code_frame(Frame& frame, const LightMetric& metric, double most_error
     const Eigen::ArrayXd units = units_of(frame.layout, moments);
     const double cost = (moments.diagonal().array() * units.square()).sum();
     double unit =
-        std::sqrt(12 * most_error / (static_cast<double>(std::max<std::size_t>(frame.dimension, 1)) * cost));
+        std::sqrt(12 * error_limit / (static_cast<double>(std::max<std::size_t>(frame.dimension, 1)) * cost));
     double largest = 0;
     for (std::size_t i = 0; i < frame.dimension; ++i)
         largest = std::max(largest, deviations_along(frame, i, units).abs().maxCoeff());
-    unit = std::max(unit, largest / kLargestValue);
+    unit = std::max(unit, largest / kMaxRowValue);
 
     CodedBases coded;
     for (double& v : frame.origin) {

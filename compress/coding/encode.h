@@ -16,9 +16,9 @@ struct Encoding {
 };
 
 /// Converts a frame to its form in a file: rounds its axes so that this adds a squared error of about
-/// `most_error` if coordinates did not compensate it. `frame` then has the rounded axes, and the matching
+/// `error_limit` if coordinates did not compensate it. `frame` then has the rounded axes, and the matching
 /// analysis.
-CodedBases code_frame(Frame& frame, const LightMetric& metric, double most_error);
+CodedBases code_frame(Frame& frame, const LightMetric& metric, double error_limit);
 
 /// Returns the transfer that `clusters` and `codes` represent in the space of `frame`. `coded_frame` is the
 /// result of code_frame, if there is a step; `guides` are scaled as the clusters use them.

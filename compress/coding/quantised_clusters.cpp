@@ -13,7 +13,7 @@ double best_length(std::span<const double> along, std::span<const double> signif
     for (const double a : along)
         largest = std::max(largest, std::abs(a));
     double best = largest, least = std::numeric_limits<double>::infinity();
-    for (int tenths = tuning::kMostLengthTenths; tenths >= tuning::kLeastLengthTenths; --tenths) {
+    for (int tenths = tuning::kMaxLengthTenths; tenths >= tuning::kMinLengthTenths; --tenths) {
         const double length = tenths / 10.0 * largest, h = static_cast<double>(steps);
         double error = 0;
         for (std::size_t p = 0; p < along.size(); ++p) {
@@ -94,7 +94,7 @@ std::vector<float> scale_guides(const Clustering& clustering, QuantisedClusters&
         double variance = 0;
         for (const ClusterFit& fit : clustering.fits)
             variance += fit.significance * fit.guide_variances[g];
-        scales.push_back(static_cast<float>(1 / std::sqrt(std::max(variance, tuning::kLeastGuideVariance))));
+        scales.push_back(static_cast<float>(1 / std::sqrt(std::max(variance, tuning::kMinGuideVariance))));
         for (std::size_t k = 0; k < clusters.clusters(); ++k) {
             const float center = scales.back() * clusters.center(k)[g], whole = std::round(center);
             clusters.center(k)[g] = whole;

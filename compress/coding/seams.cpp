@@ -146,7 +146,7 @@ private:
     }
     /// Computes code minus point.
     void error_of(std::size_t p, PointVector& error) const {
-        std::array<float, kMostDimensions> weights;
+        std::array<float, kMaxDimensions> weights;
         codes_.read(clusters_, p, weights.data());
         error.setZero(dimension_);
         add_combination(p, weights.data(), error);
@@ -382,7 +382,7 @@ bool SeamSmoother::find_better(std::size_t p, const Pull& pull, std::ptrdiff_t s
             continue;
         const PointVector e = code_in(p, k, left_of(p, k) + pull.vector, code) + pull.vector;
         const double cost = cost_at(p, pull, k, e);
-        if (cost < least * (1 - tuning::kLeastSeamGain)) {
+        if (cost < least * (1 - tuning::kMinSeamGain)) {
             least = cost;
             better = {k, code};
             found = true;
@@ -422,7 +422,7 @@ void SeamSmoother::reassign() {
     std::ptrdiff_t spare = spare_components();
     std::vector<std::uint32_t> all(points_.count);
     std::iota(all.begin(), all.end(), 0u);
-    for (int s = 0; s < tuning::kMostSeamSweeps; ++s)
+    for (int s = 0; s < tuning::kMaxSeamSweeps; ++s)
         if (sweep(all, spare) * tuning::kReceiversPerSeamChange < points_.count)
             break;
 }

@@ -48,7 +48,7 @@ template <int Width, bool Scaled, class Value = typename Floats<Width>::Value>
     const auto scale = [&](std::size_t i) __attribute__((always_inline)) {
         return floats_at<Width>(points.scales + points.group_of[i] * kLanes);
     };
-    Value d[kMostDimensions];
+    Value d[kMaxDimensions];
     known_subtracted<Width>(points.block, dimension, k.mean, k.center, k.slopes, k.guides, d);
     for (std::size_t i = 0; Scaled && i < dimension; ++i)
         d[i] *= scale(i);
@@ -190,9 +190,9 @@ void code_in_clusters(const PointBlocks& points, const QuantisedClusters& cluste
     codes.weights = CodeWeights(points.count, clusters);
     for_member_blocks(points, codes.clusters, threads, [&](const MemberBlock& members, const float* block) {
         const KernelCluster& cluster = kernel.clusters[members.cluster];
-        alignas(64) std::array<float, kMostDimensions * kLanes> weights;
+        alignas(64) std::array<float, kMaxDimensions * kLanes> weights;
         alignas(64) std::array<float, kLanes> errors{};
-        std::array<float, kMostDimensions> own;
+        std::array<float, kMaxDimensions> own;
         GatheredScales scales(points);
         weights_of_block(scales.of(members, block), cluster, weights.data(), errors.data());
         for (std::size_t lane = 0; lane < members.points.size(); ++lane) {

@@ -108,13 +108,13 @@ void square_roots(const LightMetric& metric, Matrix& root, Matrix& inverse) {
     inverse = solver.operatorInverseSqrt();
 }
 
-/// Drops axes from the end while they add at most `most_dropped`, are only `rounding`, or exceed the maximum
+/// Drops axes from the end while they add at most `max_dropped`, are only `rounding`, or exceed the maximum
 /// dimension of points.
-void drop_axes(Frame& frame, double most_dropped, double rounding) {
+void drop_axes(Frame& frame, double max_dropped, double rounding) {
     while (frame.dimension > 0) {
         const double variance = frame.variances[frame.dimension - 1];
-        if (frame.dropped + variance > most_dropped && variance > rounding &&
-            frame.dimension <= kMostTransferNumbers)
+        if (frame.dropped + variance > max_dropped && variance > rounding &&
+            frame.dimension <= kMaxTransferNumbers)
             break;
         frame.dropped += variance;
         --frame.dimension;
@@ -137,7 +137,7 @@ Matrix largest_axes(const Matrix& eigenvectors, std::size_t count) {
 } // namespace
 
 Frame fit_frame(const TransferView& transfer, std::span<const float> significance, const LightMetric& metric,
-                double most_dropped, int threads) {
+                double max_dropped, int threads) {
     Matrix root, inverse;
     square_roots(metric, root, inverse);
     const std::vector<float> usual = without_outliers(transfer, significance);
@@ -161,7 +161,7 @@ Frame fit_frame(const TransferView& transfer, std::span<const float> significanc
     if (outliers)
         drop_axes(frame, -1, -1);
     else
-        drop_axes(frame, most_dropped, 4 * 0x1p-48 * scale * scale * (root * origin).squaredNorm());
+        drop_axes(frame, max_dropped, 4 * 0x1p-48 * scale * scale * (root * origin).squaredNorm());
     const Matrix axes = largest_axes(solver.eigenvectors(), frame.dimension);
     const Matrix analysis = scale * root * axes,
                  synthesis = inverse * axes / scale; // [full][kept], column-major

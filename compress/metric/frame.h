@@ -28,9 +28,9 @@ struct Frame {
 };
 
 /// Returns the frame of `transfer` with the minimum number of axes for a squared error of at most
-/// `most_dropped`. `significance` [receivers] sums to 1.
+/// `max_dropped`. `significance` [receivers] sums to 1.
 Frame fit_frame(const TransferView& transfer, std::span<const float> significance, const LightMetric& metric,
-                double most_dropped, int threads);
+                double max_dropped, int threads);
 
 /// Returns the number of axes needed for a squared error of at most `most`.
 std::size_t axes_needed(const Frame& frame, double most);

@@ -139,7 +139,7 @@ void SeenLamps::add_axes_of(const Lamp& lamp, Frame& frame) const {
     const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(outer);
     for (Eigen::Index i = n; i-- > 0;) { // eigenvalues are in ascending order
         const double variance = std::max(solver.eigenvalues()[i], 0.0);
-        if (i < n - 1 && variance <= tuning::kLeastColor * solver.eigenvalues()[n - 1]) {
+        if (i < n - 1 && variance <= tuning::kMinColor * solver.eigenvalues()[n - 1]) {
             frame.dropped += variance;
             continue;
         }
@@ -155,7 +155,7 @@ void SeenLamps::add_axes_of(const Lamp& lamp, Frame& frame) const {
     }
 }
 
-Frame SeenLamps::frame(double most_dropped) const {
+Frame SeenLamps::frame(double max_dropped) const {
     const std::size_t full = transfer_.dimension();
     Frame frame{transfer_.layout(), 0, std::vector<double>(full, 0.0), {}, {}, {}, 0, 1};
     for (const Lamp& lamp : lamps_)
@@ -163,7 +163,7 @@ Frame SeenLamps::frame(double most_dropped) const {
             add_axes_of(lamp, frame);
     if (sky_) {
         std::ranges::copy(sky_->origin, frame.origin.begin());
-        for (std::size_t i = 0; i < sky_->dimension && frame.dimension < kMostTransferNumbers; ++i) {
+        for (std::size_t i = 0; i < sky_->dimension && frame.dimension < kMaxTransferNumbers; ++i) {
             frame.variances.push_back(sky_->variances[i]);
             frame.analysis.resize(frame.analysis.size() + full, 0.0);
             frame.synthesis.resize(frame.synthesis.size() + full, 0.0);
@@ -172,7 +172,7 @@ Frame SeenLamps::frame(double most_dropped) const {
             std::copy_n(&sky_->synthesis[i * sky], sky, &frame.synthesis[to]);
         }
     }
-    truncate(frame, axes_needed(frame, most_dropped));
+    truncate(frame, axes_needed(frame, max_dropped));
     return frame;
 }
 

@@ -31,8 +31,8 @@ public:
     /// Cost of errors in the logarithmic space; also of errors of light at receivers with Y + a = 1.
     const LightMetric& metric() const { return metric_; }
     /// Returns a frame whose axes belong either to one lamp or to the sky: first the lamps, then the sky. It
-    /// has the minimum number of axes for an added squared error of at most `most_dropped`.
-    Frame frame(double most_dropped) const;
+    /// has the minimum number of axes for an added squared error of at most `max_dropped`.
+    Frame frame(double max_dropped) const;
     /// Returns the scales of errors: along axes of lamps the root of 1 / (Y + a)² plus a fraction of 1 over
     /// the mean Y²; along the other axes the root of `sky_costs` [receivers].
     PointScales scales(const Frame& frame, std::span<const float> sky_costs) const;

@@ -26,7 +26,7 @@ double clusters_for(double factor, double exponent) {
 } // namespace
 
 Effort effort_of_preset(const CompressStatistics& too_large) {
-    return {.least_filled = tuning::kLeastFilledOfPreset,
+    return {.min_filled = tuning::kMinFilledOfPreset,
             .both_ways = tuning::kBothWaysOfPreset,
             .bytes_per_cluster =
                 static_cast<double>(too_large.basis_bytes) / static_cast<double>(too_large.clusters)};
@@ -34,7 +34,7 @@ Effort effort_of_preset(const CompressStatistics& too_large) {
 
 BudgetSearch::BudgetSearch(const SearchTask& task, const Effort& effort)
     : task_(task), budget_(task.options.budget), effort_(effort), trials_(task),
-      most_clusters_(most_clusters()) {
+      max_clusters_(max_clusters()) {
     if (effort.bytes_per_cluster)
         trials_.expect_bytes_per_cluster(*effort.bytes_per_cluster);
 }
@@ -67,28 +67,28 @@ bool BudgetSearch::affordable(GuideChoice guides) const {
     return !budget_.operations || task_.components_beside(guides) > 0;
 }
 
-int BudgetSearch::most_clusters() const {
+int BudgetSearch::max_clusters() const {
     if (!task_.options.choose_clusters)
         return task_.options.compress.clusters;
     const std::size_t receivers = task_.transfer.receivers(),
                       enough = std::max(tuning::kAlwaysClusters, receivers / tuning::kReceiversPerCluster),
                       most = trials_.saves_bytes() || budget_.bytes_per_vertex
                                  ? 65536
-                                 : tuning::kMostClustersOfOperations;
+                                 : tuning::kMaxClustersOfOperations;
     return static_cast<int>(std::clamp<std::size_t>(std::min(enough, receivers), 1, most));
 }
 
-int BudgetSearch::least_payload() const {
+int BudgetSearch::min_payload() const {
     const int given = task_.options.payload;
     return given > 0 ? given : task_.packed() ? 1 : 0;
 }
 
-int BudgetSearch::most_payload() const {
+int BudgetSearch::max_payload() const {
     if (task_.options.payload > 0)
         return task_.options.payload;
-    int most = task_.packed() ? kMostPackedWords : (task_.dimension() + 3) / 4;
+    int most = task_.packed() ? kMaxPackedWords : (task_.dimension() + 3) / 4;
     if (budget_.bytes_per_vertex)
-        while (most > least_payload() && task_.payload_bytes(most) > *budget_.bytes_per_vertex)
+        while (most > min_payload() && task_.payload_bytes(most) > *budget_.bytes_per_vertex)
             --most;
     else if (task_.packed() && budget_.operations && !trials_.saves_bytes())
         most = std::min(
@@ -97,9 +97,9 @@ int BudgetSearch::most_payload() const {
     return most;
 }
 
-double BudgetSearch::most_bytes(const Line& line) const {
+double BudgetSearch::max_bytes(const Line& line) const {
     return budget_.bytes_per_vertex.value_or((1 + tuning::kBasesOverWeights) *
-                                             task_.payload_bytes(std::max(line.payload, most_payload())));
+                                             task_.payload_bytes(std::max(line.payload, max_payload())));
 }
 
 /// Returns the start payload. Few components need few weight bits.
@@ -112,8 +112,8 @@ int BudgetSearch::first_payload() const {
                 *budget_.bytes_per_vertex;
     double payload = bytes / task_.payload_bytes(1);
     if (!trials_.saves_bytes() && !budget_.bytes_per_vertex)
-        payload = 0.5 * most_payload(); // each word costs a trial, and the last words save almost nothing
-    return std::clamp(static_cast<int>(std::lround(payload)), least_payload(), most_payload());
+        payload = 0.5 * max_payload(); // each word costs a trial, and the last words save almost nothing
+    return std::clamp(static_cast<int>(std::lround(payload)), min_payload(), max_payload());
 }
 
 /// Walks from the start in both directions until the cost increases twice in a row.
@@ -123,7 +123,7 @@ double BudgetSearch::walk(const Line& start) {
         double best = best_on(start);
         int worse = 0;
         for (int payload = start.payload + direction;
-             payload >= least_payload() && payload <= most_payload() && worse < tuning::kPatience;
+             payload >= min_payload() && payload <= max_payload() && worse < tuning::kPatience;
              payload += direction) {
             if (trials_.saves_bytes() && trials_.kept() &&
                 task_.payload_bytes(payload) >= trials_.best()->trial.bytes_per_vertex)
@@ -181,7 +181,7 @@ void BudgetSearch::vary_thoroughly() {
         return;
     for (const double factor : tuning::kOtherShares) {
         Line line = trials_.best()->line;
-        line.basis_share = std::min(factor * basis_share(task_.options.compress), tuning::kMostShare);
+        line.basis_share = std::min(factor * basis_share(task_.options.compress), tuning::kMaxShare);
         walk(line);
     }
 }
@@ -204,20 +204,20 @@ void BudgetSearch::finish() {
 void BudgetSearch::search_fewer_components() {
     const GuideChoice guides =
         task_.options.choose_guides ? GuideChoice::none : task_.options.compress.guides;
-    const int all = std::min(task_.packed() ? kMostPackedComponents : 4 * least_payload(), task_.dimension());
+    const int all = std::min(task_.packed() ? kMaxPackedComponents : 4 * min_payload(), task_.dimension());
     double best = kNothingFound;
     int worse = 0;
     for (int components = 0; components < std::max(all, 1) && worse < tuning::kPatience; ++components) {
         const bool kept = trials_.kept();
         const double found = walk(
-            {.payload = least_payload(), .most_components = components, .guides = guides, .finished = true});
+            {.payload = min_payload(), .component_limit = components, .guides = guides, .finished = true});
         worse = found < best || !kept ? 0 : worse + 1;
         best = std::min(best, found);
     }
 }
 
 double BudgetSearch::best_on(const Line& line) {
-    const auto [known, is_new] = least_cost_.try_emplace(line, kNothingFound);
+    const auto [known, is_new] = min_cost_.try_emplace(line, kNothingFound);
     if (!is_new)
         return known->second;
     double least = kNothingFound;
@@ -227,11 +227,11 @@ double BudgetSearch::best_on(const Line& line) {
         reach_error(line, least);
     else
         fill_bytes(line, least);
-    return least_cost_[line] = least;
+    return min_cost_[line] = least;
 }
 
 int BudgetSearch::clamped(double clusters) const {
-    return static_cast<int>(std::clamp(std::round(clusters), 1.0, static_cast<double>(most_clusters_)));
+    return static_cast<int>(std::clamp(std::round(clusters), 1.0, static_cast<double>(max_clusters_)));
 }
 
 /// Extrapolates the trial to the target error or size by typical exponents.
@@ -249,7 +249,7 @@ bool BudgetSearch::hopeless(const SearchTrial& t, const Line& line) const {
         return payload + clusters * (t.bytes_per_vertex - payload) >
                tuning::kHopeless * best.bytes_per_vertex;
     }
-    const double clusters = (most_bytes(line) - payload) / std::max(t.bytes_per_vertex - payload, 1e-9);
+    const double clusters = (max_bytes(line) - payload) / std::max(t.bytes_per_vertex - payload, 1e-9);
     return t.lit_rms * std::pow(clusters, -exponent(clusters > 1)) > tuning::kHopeless * best.lit_rms;
 }
 
@@ -264,12 +264,12 @@ double BudgetSearch::bytes_per_cluster(const Line& line) const {
                  rows = 1 + guide_rows_of(line.guides, task_.surface) + more * components;
     return std::max((best.bytes_per_vertex - best.payload_bytes) * task_.receivers() / best.clusters * rows /
                         (1 + best.operations),
-                    tuning::kLeastBytesPerCluster);
+                    tuning::kMinBytesPerCluster);
 }
 
 /// Returns one cluster if components were reduced because nothing else fits.
 double BudgetSearch::first_clusters_of_bytes(const Line& line, double aim) const {
-    if (line.most_components < kMostPackedComponents)
+    if (line.component_limit < kMaxPackedComponents)
         return 1;
     if (line.finished)
         return trials_.best()->trial.clusters;
@@ -291,11 +291,11 @@ void BudgetSearch::reduce_clusters(const Line& line, int clusters, double& least
 /// Searches the maximum number of clusters that fit the bytes, between a number that fits and one that does
 /// not; reduces it if the error grew with it.
 void BudgetSearch::fill_bytes(const Line& line, double& least) {
-    const double most = most_bytes(line), aim = 0.5 * (1 + effort_.least_filled) * most;
+    const double most = max_bytes(line), aim = 0.5 * (1 + effort_.min_filled) * most;
     KnownClusters fits{0, task_.payload_bytes(line.payload)},
-        too_many{static_cast<double>(most_clusters_) + 1, 0}, before;
+        too_many{static_cast<double>(max_clusters_) + 1, 0}, before;
     double next = first_clusters_of_bytes(line, aim);
-    int best = 0, most_kept = 0;
+    int best = 0, max_kept = 0;
     for (int i = 0; i < tuning::kBytesTries && fits.clusters + 1 < too_many.clusters; ++i) {
         const int clusters = clamped(std::clamp(next, fits.clusters + 1, too_many.clusters - 1));
         const SearchTrial& trial = trials_.attempt(clusters, line);
@@ -305,19 +305,19 @@ void BudgetSearch::fill_bytes(const Line& line, double& least) {
             best = clusters;
         }
         if (trials_.keeps(trial))
-            most_kept = std::max(most_kept, clusters);
+            max_kept = std::max(max_kept, clusters);
         if (before.clusters > 0)
             observed_exponent(before, {static_cast<double>(clusters), trial.lit_rms});
         before = {static_cast<double>(clusters), trial.lit_rms};
         (bytes <= most ? fits : too_many) = {static_cast<double>(clusters), bytes};
-        if ((bytes <= most && bytes > effort_.least_filled * most) || hopeless(trial, line))
+        if ((bytes <= most && bytes > effort_.min_filled * most) || hopeless(trial, line))
             break;
         if (too_many.value > 0)
             next = interpolated(fits, too_many, aim);
         else
             next = clusters + (aim - bytes) * task_.receivers() / trials_.bytes_per_cluster();
     }
-    if (best > 0 && best < most_kept)
+    if (best > 0 && best < max_kept)
         reduce_clusters(line, best, least);
 }
 
@@ -334,7 +334,7 @@ int BudgetSearch::first_clusters(const Line& line) const {
 /// Returns whether another word reaches the error in fewer bytes, if the current payload would need many more
 /// clusters.
 bool BudgetSearch::wants_payload(const SearchTrial& t, const Line& line, double exponent) const {
-    if (!task_.packed() || line.payload == most_payload() || task_.few_receivers())
+    if (!task_.packed() || line.payload == max_payload() || task_.few_receivers())
         return false;
     const double excess = trials_.excess_of_error(t), bases = t.bytes_per_vertex - t.payload_bytes;
     const double here = bases * clusters_for(1 / excess, exponent),
@@ -346,8 +346,8 @@ bool BudgetSearch::wants_payload(const SearchTrial& t, const Line& line, double 
 /// Returns the slope of log error over log clusters: on small meshes it is far steeper than usual.
 double BudgetSearch::observed_exponent(const KnownClusters& a, const KnownClusters& b) {
     const double ratio = std::log(b.clusters / a.clusters),
-                 exponent = std::clamp(-std::log(b.value / a.value) / ratio, tuning::kLeastErrorExponent,
-                                       tuning::kMostErrorExponent);
+                 exponent = std::clamp(-std::log(b.value / a.value) / ratio, tuning::kMinErrorExponent,
+                                       tuning::kMaxErrorExponent);
     if (std::abs(ratio) > tuning::kTellingRatio)
         steepest_ = std::max(steepest_, exponent);
     return exponent;
@@ -360,7 +360,7 @@ void BudgetSearch::reach_error(const Line& line, double& least) {
     const double near_enough =
         line.finished || !task_.has_drafts() ? tuning::kNearEnough : tuning::kNearEnoughOfDrafts;
     const double aim = 0.3 * near_enough + 0.7;
-    KnownClusters misses{0, 0}, reaches{static_cast<double>(most_clusters_) + 1, 0}, before;
+    KnownClusters misses{0, 0}, reaches{static_cast<double>(max_clusters_) + 1, 0}, before;
     double next = first_clusters(line), exponent = tuning::kErrorExponent;
     for (int i = 0; i < tuning::kErrorTries && misses.clusters + 1 < reaches.clusters; ++i) {
         const int clusters = clamped(std::clamp(next, misses.clusters + 1, reaches.clusters - 1));
@@ -385,7 +385,7 @@ void BudgetSearch::reach_error(const Line& line, double& least) {
         const double factor = clusters_for(std::clamp(aim / excess, std::exp(-2.0), std::exp(2.0)), exponent);
         if (!(reaches.value > 0) && factor > tuning::kHopelessFactor) // a larger payload is needed
             break;
-        next = clusters * std::clamp(factor, 1 / tuning::kHopelessFactor, tuning::kMostFactor);
+        next = clusters * std::clamp(factor, 1 / tuning::kHopelessFactor, tuning::kMaxGrowth);
         if (misses.value > 0 && reaches.value > 0 && !(next > misses.clusters && next < reaches.clusters))
             next = std::sqrt(misses.clusters * reaches.clusters);
     }

@@ -9,7 +9,7 @@ namespace prt {
 
 /// Effort of a search (tuning.h).
 struct Effort {
-    double least_filled = tuning::kLeastFilled;
+    double min_filled = tuning::kMinFilled;
     double both_ways = tuning::kBothWays;
     std::optional<double> bytes_per_cluster = {}; ///< size of the bases, if known before the first trial
 };
@@ -33,12 +33,12 @@ public:
 private:
     Line first_line() const;
     int first_payload() const;
-    int least_payload() const;
-    int most_payload() const;
-    int most_clusters() const;
+    int min_payload() const;
+    int max_payload() const;
+    int max_clusters() const;
     /// Returns the bytes per receiver that a line may fill: the budget's, or, without a limit on bytes, the
     /// maximum size of a preset.
-    double most_bytes(const Line& line) const;
+    double max_bytes(const Line& line) const;
     bool affordable(GuideChoice guides) const;
 
     /// Searches lines of all payloads around `line`'s. Returns the minimum cost.
@@ -67,9 +67,9 @@ private:
     const Budget& budget_;
     Effort effort_;
     Trials trials_;
-    int most_clusters_;
+    int max_clusters_;
     double steepest_ = tuning::kErrorExponent; ///< maximum over all observations
-    std::map<Line, double> least_cost_;
+    std::map<Line, double> min_cost_;
 };
 
 } // namespace prt

@@ -13,7 +13,7 @@ namespace prt {
 struct Line {
     int payload = 1; ///< 32-bit words per receiver, or groups of four floats
     bool bases_count = true;
-    int most_components = std::numeric_limits<int>::max(); ///< lowered if the budget is very small
+    int component_limit = std::numeric_limits<int>::max(); ///< lowered if the budget is very small
     GuideChoice guides = GuideChoice::normal;
     double basis_share = -1; ///< CompressOptions::basis_share; negative: the tuned value
     bool finished = false;   ///< with all rounds and seams; drafts only guide the search

@@ -104,16 +104,15 @@ SearchResult compress_preset(const TransferView& transfer, const ReceiverSurface
     const auto receivers = static_cast<double>(transfer.receivers());
     const int payload = payload_of(options.coding, transfer.dimension());
     const double bound = payload_bytes(options.coding.format, payload);
-    const double most_bases =
-        std::max(tuning::kBasesOverWeights * bound * receivers, tuning::kAlwaysForBases);
-    found.kept = static_cast<double>(s.basis_bytes) <= most_bases;
+    const double max_bases = std::max(tuning::kBasesOverWeights * bound * receivers, tuning::kAlwaysForBases);
+    found.kept = static_cast<double>(s.basis_bytes) <= max_bases;
     if (!found.kept) {
         SearchOptions fitting;
         fitting.compress = options;
         fitting.payload = payload;
         fitting.choose_components = options.coding.format == WeightFormat::packed;
         fitting.choose_guides = false;
-        fitting.budget.bytes_per_vertex = bound + most_bases / receivers;
+        fitting.budget.bytes_per_vertex = bound + max_bases / receivers;
         const Progress rest = progress.part(0.99, 1);
         const SearchTask task = task_of(transfer, surface, fitting, rest);
         found = BudgetSearch(task, effort_of_preset(s)).run();

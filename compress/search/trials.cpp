@@ -58,11 +58,11 @@ CompressOptions Trials::options_on(const Line& line, int clusters) const {
         o.bases_count = line.bases_count;
         coding.fixed_bits.clear();
         coding.bits =
-            std::min(32 * line.payload - coding.cluster_bits, kMostPackedBits); // words are bound as a whole
-        most = kMostPackedComponents;
+            std::min(32 * line.payload - coding.cluster_bits, kMaxPackedBits); // words are bound as a whole
+        most = kMaxPackedComponents;
     }
     if (task_.options.choose_components)
-        coding.components = std::min({most, task_.dimension(), line.most_components});
+        coding.components = std::min({most, task_.dimension(), line.component_limit});
     if (const std::optional<double> components = task_.components_beside(line.guides)) {
         o.mean_components = std::max(*components, 0.0);
         if (!(*components > 0)) // `compress` treats 0 as no limit
@@ -117,7 +117,7 @@ const SearchTrial& Trials::attempt(int clusters, const Line& line) {
                             .bytes_per_vertex = s.bytes_with_bases(task_.transfer.receivers()),
                             .operations = s.operations(),
                             .seconds = s.seconds};
-    bytes_per_cluster_ = std::max(tuning::kLeastBytesPerCluster,
+    bytes_per_cluster_ = std::max(tuning::kMinBytesPerCluster,
                                   static_cast<double>(s.basis_bytes) / static_cast<double>(s.clusters));
     if (task_.options.compress.trace)
         task_.options.compress.trace(trial);

@@ -50,9 +50,9 @@ float dot(std::span<const float> a, std::span<const float> b) {
 /// Returns the published schedule: all components at once, rounds until convergence or none, no moves.
 ClusteringSchedule classic_schedule(bool iterate) {
     return {.grow = false,
-            .most_rounds = iterate ? tuning::kMostRounds : 1,
+            .max_rounds = iterate ? tuning::kMaxRounds : 1,
             .tolerance = 1e-4,
-            .most_move_sweeps = 0};
+            .max_move_sweeps = 0};
 }
 
 /// Clusters in the space of transfer as float16, and weights before rounding.
@@ -129,7 +129,7 @@ BaselineResult classic_cpca(const Transfer& transfer, std::span<const float> are
     const Frame frame = fit_frame(transfer, significance, plain_metric(transfer.layout), 0, options.threads);
     std::mt19937_64 random(options.seed);
     const ClusteringOptions how{.clusters = static_cast<std::size_t>(options.clusters),
-                                .spending = {.most_components = options.components},
+                                .spending = {.component_limit = options.components},
                                 .schedule = classic_schedule(options.iterate),
                                 .trace = {},
                                 .threads = options.threads};

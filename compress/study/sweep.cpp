@@ -156,14 +156,14 @@ private:
 
     /// Returns the maximum number of clusters. With a cluster for every few receivers, a method has no error
     /// and compresses nothing.
-    int most_clusters() const {
-        const std::size_t most = transfer_.receivers() / kLeastReceiversPerCluster;
+    int max_clusters() const {
+        const std::size_t most = transfer_.receivers() / kMinReceiversPerCluster;
         return static_cast<int>(std::clamp<std::size_t>(most, 1, 1024));
     }
 
     void clustered() {
         double done = 0.07;
-        for (int clusters = std::min(4, most_clusters()); clusters <= most_clusters(); clusters *= 2) {
+        for (int clusters = std::min(4, max_clusters()); clusters <= max_clusters(); clusters *= 2) {
             std::set<int> components; // fewer components than fit are never better
             for (const double bytes : kSweepBytes)
                 components.insert(classic_components(clusters, bytes));
@@ -179,7 +179,7 @@ private:
                 sweep_.by_bytes.push_back(
                     classic("vector quantisation", clusters, 0, false, progress_.part(done, done)));
         }
-        const int clusters = std::min(kSweepClusters, most_clusters());
+        const int clusters = std::min(kSweepClusters, max_clusters());
         for (const int m : kSweepComponents) {
             if (static_cast<std::size_t>(m) > transfer_.dimension())
                 break;

@@ -40,13 +40,13 @@ struct CountedScene {
 
 constexpr CountedScene kCountedScenes[] = {{"forest", examples::forest, 2000},
                                            {"street", examples::street, 40}};
-constexpr int kMostCounted = 100'000;
+constexpr int kMaxCounted = 100'000;
 
 std::string_view bare_name(std::string_view argument) {
     return argument.substr(0, argument.find(':'));
 }
 
-/// Returns the number after the colon, 0 if it is not in 1 to kMostCounted; `usual` without a colon.
+/// Returns the number after the colon, 0 if it is not in 1 to kMaxCounted; `usual` without a colon.
 int count_of(std::string_view argument, int usual) {
     const std::size_t colon = argument.find(':');
     if (colon == std::string_view::npos)
@@ -54,7 +54,7 @@ int count_of(std::string_view argument, int usual) {
     int count = 0;
     const char* const end = argument.data() + argument.size();
     const auto [rest, error] = std::from_chars(argument.data() + colon + 1, end, count);
-    return error == std::errc() && rest == end && count >= 1 && count <= kMostCounted ? count : 0;
+    return error == std::errc() && rest == end && count >= 1 && count <= kMaxCounted ? count : 0;
 }
 
 struct NamedSky {

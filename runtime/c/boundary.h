@@ -77,7 +77,7 @@ bool within(float most, const float* values, std::size_t count);
 bool finite(const float* values, std::size_t count);
 
 /// Maximum magnitude of light coefficients and of constants.
-inline constexpr float kBrightest = 1e20f, kLargestConstant = 1e30f;
+inline constexpr float kBrightest = 1e20f, kMaxConstant = 1e30f;
 
 inline glm::vec3* colors(float* light) {
     return reinterpret_cast<glm::vec3*>(light); // vec3 is exactly three floats

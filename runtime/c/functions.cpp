@@ -19,7 +19,7 @@ namespace {
 using namespace prt::c;
 using prt::Error;
 
-constexpr std::size_t kMostCoefficients = prt::kMaxOrder * prt::kMaxOrder;
+constexpr std::size_t kMaxCoefficients = prt::kMaxOrder * prt::kMaxOrder;
 
 /// Checks the coefficients of an input or output function.
 void check_function(const float* function, std::size_t count) {
@@ -42,7 +42,7 @@ prt_status prt_sh_evaluate(int order, const float direction[3], float* basis, pr
     return guarded(message, [&] {
         check_pointers(direction, basis);
         const std::size_t count = count_of(order);
-        std::array<float, kMostCoefficients> values;
+        std::array<float, kMaxCoefficients> values;
         prt::evaluate_sh(order, direction_of(direction), std::span(values).first(count));
         check_function(values.data(), count);
         std::copy_n(values.begin(), count, basis);
@@ -55,7 +55,7 @@ prt_status prt_sh_multiply(int order, const float* a, const float* b, float* out
         const std::size_t count = count_of(order);
         check_function(a, count);
         check_function(b, count);
-        std::array<float, kMostCoefficients> product;
+        std::array<float, kMaxCoefficients> product;
         prt::sh_product(order, std::span(a, count), std::span(b, count), std::span(product).first(count));
         check_function(product.data(), count);
         std::copy_n(product.begin(), count, out);
@@ -68,7 +68,7 @@ prt_status prt_sh_rotate(int order, const float rotation[9], const float* in, fl
         check_pointers(rotation, in, out);
         const std::size_t count = count_of(order);
         check_function(in, count);
-        std::array<float, kMostCoefficients> turned;
+        std::array<float, kMaxCoefficients> turned;
         prt::ShRotation(order, glm::dmat3(glm::make_mat3(rotation)))
             .apply(std::span(in, count), std::span(turned).first(count));
         check_function(turned.data(), count);

@@ -77,7 +77,7 @@ prt_status prt_instances_get_info(const prt_model* model, prt_instances_info* ou
         out->constants = instances.former.size();
         out->worlds = glm::value_ptr(instances.worlds.front());
         out->tables = glm::value_ptr(instances.tables.front());
-        out->most_degrees = instances.former.most_degrees();
+        out->max_degrees = instances.former.max_degrees();
     });
 }
 
@@ -104,7 +104,7 @@ prt_status prt_instances_form_constants(const prt_model* model, int order, const
         if (suns)
             lighting.suns = prt::Light{order, {light.suns.begin(), light.suns.end()}};
         former.form(lighting, {reinterpret_cast<glm::vec4*>(constants), former.size()}, threads);
-        if (!within(kLargestConstant, constants, 4 * former.size()))
+        if (!within(kMaxConstant, constants, 4 * former.size()))
             throw Error("the light is too bright for the model: constants pass 1e30");
     });
 }

@@ -25,9 +25,9 @@ using prt::Light;
 
 /// Returns the number of pixels. Throws `Error` if an array cannot hold the image.
 std::size_t pixel_count(int width, int height) {
-    constexpr std::size_t kMost = std::numeric_limits<std::ptrdiff_t>::max() / sizeof(glm::vec3);
+    constexpr std::size_t kMax = std::numeric_limits<std::ptrdiff_t>::max() / sizeof(glm::vec3);
     const auto columns = static_cast<std::size_t>(width), rows = static_cast<std::size_t>(height);
-    if (rows > kMost / columns)
+    if (rows > kMax / columns)
         throw Error("an image of " + std::to_string(width) + " x " + std::to_string(height) +
                     " pixels is larger than memory can be");
     return columns * rows;

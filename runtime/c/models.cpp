@@ -153,7 +153,7 @@ prt_status prt_model_form_constants_apart(const prt_model* model, int order, con
         const std::size_t rows = model->former.rows();
         model->former.form(lighting_of({order, sky, suns, lamps}, model->former.layout().lamps()),
                            {reinterpret_cast<glm::vec4*>(constants), rows});
-        if (!within(kLargestConstant, constants, 4 * rows))
+        if (!within(kMaxConstant, constants, 4 * rows))
             throw Error("the light is too bright for the model: constants pass 1e30");
     });
 }
@@ -162,7 +162,7 @@ prt_status prt_model_evaluate(const prt_model* model, const float* constants, fl
                               prt_message* message) {
     return guarded(message, [&] {
         check_pointers(model, constants, radiance);
-        if (!within(kLargestConstant, constants, 4 * model->former.rows()))
+        if (!within(kMaxConstant, constants, 4 * model->former.rows()))
             throw Error("constants must be finite and at most 1e30");
         prt::evaluate(model->transfer, {reinterpret_cast<const glm::vec4*>(constants), model->former.rows()},
                       {colors(radiance), model->transfer.receivers.size()});

@@ -44,7 +44,7 @@ prt_volume* make_volume(const prt::GltfDocument& document, const std::string& na
 }
 
 std::span<const glm::vec4> checked_constants(const prt_volume& volume, const float* constants) {
-    if (!within(kLargestConstant, constants, 4 * volume.former.rows()))
+    if (!within(kMaxConstant, constants, 4 * volume.former.rows()))
         throw Error("constants must be finite and at most 1e30");
     return {reinterpret_cast<const glm::vec4*>(constants), volume.former.rows()};
 }
@@ -58,7 +58,7 @@ void mix(const prt_volume& volume, const float* incident, const prt_volume_place
     const prt::VolumeCorners corners =
         volume.lookup.find(glm::make_vec3(place.position), glm::make_vec3(place.normal));
     for (const std::uint32_t probe : corners.probes)
-        if (!within(kLargestConstant, incident + 3 * n * probe, 3 * n))
+        if (!within(kMaxConstant, incident + 3 * n * probe, 3 * n))
             throw Error("the light of probes must be finite and at most 1e30");
     prt::mix_incident(corners, light_colors(incident, n * volume.former.probes()), light);
 }
@@ -138,7 +138,7 @@ prt_status prt_volume_form_constants(const prt_volume* volume, const prt_lightin
             lighting_of({lighting->order, lighting->sky, lighting->suns, lighting->lamps},
                         volume->former.layout().lamps()),
             sun, {reinterpret_cast<glm::vec4*>(constants), rows});
-        if (!within(kLargestConstant, constants, 4 * rows))
+        if (!within(kMaxConstant, constants, 4 * rows))
             throw Error("the light is too bright for the volume: constants pass 1e30");
     });
 }
@@ -175,7 +175,7 @@ prt_status prt_volume_irradiance(const prt_volume* volume, const float* incident
                                  const prt_volume_place* place, float irradiance[3], prt_message* message) {
     return guarded(message, [&] {
         check_pointers(volume, incident, place, irradiance);
-        std::array<glm::vec3, prt::kMostIncidentOrder * prt::kMostIncidentOrder> mixed;
+        std::array<glm::vec3, prt::kMaxIncidentOrder * prt::kMaxIncidentOrder> mixed;
         const std::span<glm::vec3> light = std::span(mixed).first(volume->coefficients());
         mix(*volume, incident, *place, light);
         const double length = glm::length(glm::dvec3(glm::make_vec3(place->normal)));

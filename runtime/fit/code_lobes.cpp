@@ -11,7 +11,7 @@
 namespace prt {
 namespace {
 
-constexpr std::size_t kCoefficients = kMostLobeOrder * kMostLobeOrder;
+constexpr std::size_t kCoefficients = kMaxLobeOrder * kMaxLobeOrder;
 constexpr int kSweeps = 3;            ///< passes over the lobes of a vertex in each round
 constexpr int kAxisCodes = 255;       ///< per byte: 255 would be another code for 254
 constexpr double kSteps = 255;        ///< steps of a factor
@@ -29,7 +29,7 @@ public:
     AxisTable() : basis_(kAxisCodes * kAxisCodes) {
         for (int y = 0; y < kAxisCodes; ++y)
             for (int x = 0; x < kAxisCodes; ++x)
-                evaluate_sh(kMostLobeOrder,
+                evaluate_sh(kMaxLobeOrder,
                             decoded_axis(static_cast<std::uint8_t>(x), static_cast<std::uint8_t>(y)),
                             std::span(basis_[static_cast<std::size_t>(y * kAxisCodes + x)]));
     }
@@ -174,7 +174,7 @@ private:
                     continue;
                 const LobeWord axis = {static_cast<std::uint8_t>(x), static_cast<std::uint8_t>(y), 0, 0};
                 const Basis& basis = axes_.of(axis);
-                std::array<double, kMostLobeOrder> found{};
+                std::array<double, kMaxLobeOrder> found{};
                 for (int l = 0, i = 0; l < targets_.order; ++l) {
                     const auto band = static_cast<std::size_t>(l);
                     for (int m = -l; m <= l; ++m, ++i)
@@ -196,7 +196,7 @@ private:
 
     const LobeTargets& targets_;
     const AxisTable axes_;
-    std::array<double, kMostLobeOrder> costs_, band_costs_;
+    std::array<double, kMaxLobeOrder> costs_, band_costs_;
     std::vector<double> squares_; ///< squared norm of each profile, weighted by the band costs
     LobeModel& model_;
 };
@@ -214,7 +214,7 @@ std::vector<std::vector<std::uint32_t>> Coder::users_of_profiles() {
 void Coder::refit(std::size_t p, std::span<const std::uint32_t> users, std::span<Left> left) {
     const std::size_t c = targets_.coefficients();
     std::vector<Left> unit(users.size()); // per vertex, the sum of its lobes with this profile for gain 1
-    std::array<double, kMostLobeOrder> along{}, square{}, change{};
+    std::array<double, kMaxLobeOrder> along{}, square{}, change{};
     for (std::size_t u = 0; u < users.size(); ++u) {
         const std::size_t v = users[u];
         for (const LobeWord& word : words_of(v))
@@ -231,7 +231,7 @@ void Coder::refit(std::size_t p, std::span<const std::uint32_t> users, std::span
     for (std::size_t l = 0; l < change.size(); ++l)
         if (square[l] > 1e-12) {
             const auto before = static_cast<double>(profile[l]);
-            const auto most = static_cast<double>(kLargestGain);
+            const auto most = static_cast<double>(kMaxGain);
             profile[l] = static_cast<float>(std::clamp(before + along[l] / square[l], -most, most));
             change[l] = static_cast<double>(profile[l]) - before;
         }

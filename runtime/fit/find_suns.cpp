@@ -98,7 +98,7 @@ public:
     void add_paying() {
         double least = without_;
         std::vector<TakenSun> best;
-        for (int count = 1; count <= kMostPayingSuns && add(); ++count)
+        for (int count = 1; count <= kMaxAutoSuns && add(); ++count)
             if (const double cost = error() + kWorthwhile * count; cost < least) {
                 least = cost;
                 best = suns_;

@@ -20,7 +20,7 @@ namespace {
 
 /// Regularisation of gains relative to the band weight. Superfluous lobes get zero gain, instead of gains
 /// that cancel. At a ten-thousandth of a cosine lobe's amplitude it costs 1e-7 of the lobe.
-constexpr double kLeastCost = 1e-8;
+constexpr double kMinCost = 1e-8;
 
 /// Residuals: first the coefficients, then the gains. Parameters: an axis and the gains of each lobe in turn.
 class LobeCost : public ceres::CostFunction {
@@ -43,7 +43,7 @@ public:
         for (int k = 0; k < lobes_; ++k) {
             const double* axis = parameters[2 * k];
             const double* gains = parameters[2 * k + 1];
-            std::array<double, kMostLobeOrder * kMostLobeOrder> basis{};
+            std::array<double, kMaxLobeOrder * kMaxLobeOrder> basis{};
             const glm::dvec3 towards(axis[0], axis[1], axis[2]);
             evaluate_sh(order_, towards, std::span(basis).first(static_cast<std::size_t>(coefficients)));
             for (int i = 0; i < coefficients; ++i)
@@ -61,7 +61,7 @@ public:
 private:
     static int band_of(int i) { return i < 1 ? 0 : i < 4 ? 1 : i < 9 ? 2 : 3; }
     double weight_of(int i) const { return weights_[static_cast<std::size_t>(band_of(i))]; }
-    double cost_of_gain(int l) const { return std::sqrt(kLeastCost) * weights_[static_cast<std::size_t>(l)]; }
+    double cost_of_gain(int l) const { return std::sqrt(kMinCost) * weights_[static_cast<std::size_t>(l)]; }
     void write_axis(const glm::dvec3& towards, const double* gains, double* jacobian) const {
         std::fill_n(jacobian, 3 * num_residuals(), 0.0);
         const auto gradients = sh_gradients(towards);
@@ -81,7 +81,7 @@ private:
 
     int order_, lobes_;
     std::span<const double> target_;
-    std::array<double, kMostLobeOrder> weights_{};
+    std::array<double, kMaxLobeOrder> weights_{};
 };
 
 /// A lobe equals the lobe about the opposite axis with negated odd bands. Selects the axis that points
@@ -96,7 +96,7 @@ void face_forward(FreeLobe& lobe) {
 
 void fit_vertex(int order, std::span<const double> target, const LobeFitOptions& options,
                 std::span<Lobe> to) {
-    std::array<FreeLobe, kMostLobes> room;
+    std::array<FreeLobe, kMaxLobes> room;
     const std::span<FreeLobe> lobes = std::span(room).first(options.lobes);
     start_lobes(order, target, options, lobes);
     ceres::Problem problem;
@@ -124,8 +124,8 @@ void fit_vertex(int order, std::span<const double> target, const LobeFitOptions&
 }
 
 void check_targets(const LobeTargets& targets, const LobeFitOptions& options) {
-    if (targets.order < 2 || targets.order > kMostLobeOrder || options.lobes < 1 ||
-        options.lobes > kMostLobes || options.profiles < 1 || options.profiles > kMostProfiles)
+    if (targets.order < 2 || targets.order > kMaxLobeOrder || options.lobes < 1 ||
+        options.lobes > kMaxLobes || options.profiles < 1 || options.profiles > kMaxProfiles)
         throw Error("lobes are 1 to 3 of order 2 to 4, with 1 to 256 profiles");
     if (targets.vectors.size() != targets.areas.size() * targets.coefficients())
         throw Error("there are transfer vectors of another number of vertices than there are areas");

@@ -13,7 +13,7 @@
 namespace prt {
 namespace {
 
-using Shape = std::array<double, kMostLobeOrder>;
+using Shape = std::array<double, kMaxLobeOrder>;
 
 constexpr int kMeansRounds = 12; ///< assignments hardly change after this number
 
@@ -99,8 +99,8 @@ void move_shapes(std::span<const Sized> lobes, std::span<Shape> shapes) {
 
 } // namespace
 
-std::array<double, kMostLobeOrder> profile_costs(int order, const LobeFitOptions& options) {
-    std::array<double, kMostLobeOrder> costs{};
+std::array<double, kMaxLobeOrder> profile_costs(int order, const LobeFitOptions& options) {
+    std::array<double, kMaxLobeOrder> costs{};
     for (int l = 0; l < order; ++l)
         costs[static_cast<std::size_t>(l)] =
             options.band_costs[static_cast<std::size_t>(l)] * (2 * l + 1) / (4 * std::numbers::pi);

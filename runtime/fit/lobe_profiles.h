@@ -10,7 +10,7 @@
 namespace prt {
 
 /// Returns the cost per band of a squared error of a profile times its factor: cost_l (2l + 1) / 4π.
-std::array<double, kMostLobeOrder> profile_costs(int order, const LobeFitOptions& options);
+std::array<double, kMaxLobeOrder> profile_costs(int order, const LobeFitOptions& options);
 
 /// Returns at most options.profiles profiles. The first is the cosine lobe of an unoccluded vertex, which is
 /// thus represented exactly. `areas` is [lobes]. Each profile has the size of its largest lobe, so that

@@ -17,7 +17,7 @@ namespace {
 
 constexpr int kPursuitDirections = 96; ///< spaced about 20 degrees; the nonlinear fit refines them
 
-using Residual = std::array<double, kMostLobeOrder * kMostLobeOrder>;
+using Residual = std::array<double, kMaxLobeOrder * kMaxLobeOrder>;
 
 struct Direction {
     glm::dvec3 towards;
@@ -26,7 +26,7 @@ struct Direction {
 
 Direction direction_of(const glm::dvec3& towards) {
     Direction direction{towards};
-    evaluate_sh(kMostLobeOrder, towards, std::span(direction.basis));
+    evaluate_sh(kMaxLobeOrder, towards, std::span(direction.basis));
     return direction;
 }
 

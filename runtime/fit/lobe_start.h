@@ -11,7 +11,7 @@ namespace prt {
 /// A lobe in double precision.
 struct FreeLobe {
     glm::dvec3 axis{0, 0, 1};
-    std::array<double, kMostLobeOrder> profile{};
+    std::array<double, kMaxLobeOrder> profile{};
 };
 
 /// Writes start values to `lobes`, one lobe after another. Each removes the largest part of the residual of

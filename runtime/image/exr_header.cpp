@@ -70,11 +70,11 @@ public:
 
 private:
     [[noreturn]] void refuse(exr_result_t result) const {
-        constexpr std::size_t kMostReport = 200; // bytes: the message may quote arbitrary data of the file
+        constexpr std::size_t kMaxReport = 200; // bytes: the message may quote arbitrary data of the file
         throw Error("is a damaged or unsupported EXR: " +
                     printable(one_line(source_.trouble.empty() ? exr_get_default_error_message(result)
                                                                : source_.trouble),
-                              kMostReport));
+                              kMaxReport));
     }
     Source source_;
     exr_context_t context_ = nullptr;

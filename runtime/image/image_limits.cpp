@@ -11,9 +11,9 @@ void check_image_size(std::int64_t width, std::int64_t height, std::uint64_t byt
                       std::size_t file_bytes, std::uint64_t other_bytes) {
     if (width < 1 || height < 1)
         throw Error("has no pixels");
-    constexpr std::int64_t kMostPixels = std::int64_t{1} << 28;
+    constexpr std::int64_t kMaxPixels = std::int64_t{1} << 28;
     const std::string claim = "claims " + std::to_string(width) + " x " + std::to_string(height) + " pixels";
-    if (width > kMostPixels || height > kMostPixels || width * height > kMostPixels)
+    if (width > kMaxPixels || height > kMaxPixels || width * height > kMaxPixels)
         throw Error(claim + ", more than the 2^28 that are read");
     const std::uint64_t memory = static_cast<std::uint64_t>(width * height) * bytes_per_pixel + other_bytes;
     if (memory > kFreeImageMemory + kImageMemoryPerByte * file_bytes)

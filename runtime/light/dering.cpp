@@ -62,8 +62,8 @@ public:
         BandFactors factors = ones();
         multipliers_.clear();
         active_.clear();
-        constexpr int kMostSteps = 500; // about 20 are typical
-        for (int step = 0; step < kMostSteps; ++step) {
+        constexpr int kMaxSteps = 500; // about 20 are typical
+        for (int step = 0; step < kMaxSteps; ++step) {
             const std::size_t worst = lowest_row(factors);
             if (value_of(rows_[worst], factors, order_) >= -0.1 * kSlack ||
                 std::find(active_.begin(), active_.end(), worst) != active_.end())
@@ -223,8 +223,8 @@ BandFactors dering_factors(const Light& light) {
     LeastChange problem(light.order, weights_of(light));
     int rows = rows_for(light.order, kCoarseShare);
     double lower = 0;
-    constexpr int kMostRounds = 10; // three are typical
-    for (int round = 0; round < kMostRounds; ++round) {
+    constexpr int kMaxRounds = 10; // three are typical
+    for (int round = 0; round < kMaxRounds; ++round) {
         const GridRadiance grid = radiance_on_grid(with_band_factors(light, factors), rows);
         lower = grid.least - share_between(light.order, rows) * grid.range();
         if (lower >= 0)

@@ -94,11 +94,11 @@ void add_ray(const EllipticCone& cone, double t, double weight, const GaussLegen
 /// Integrates the cone about its axis. For an elongated cone the integrand changes within max(narrow, 1) /
 /// wide of t = pi/2; intervals are halved towards it until they resolve that width.
 Coefficients covered(const EllipticCone& cone) {
-    constexpr int kMostHalvings = 50; // smaller intervals contribute less than rounding
+    constexpr int kMaxHalvings = 50; // smaller intervals contribute less than rounding
     static const GaussLegendre nodes(16);
     const double width = std::max(cone.narrow, 1.0) / cone.wide;
     const int halvings =
-        width < 1 ? static_cast<int>(std::min<double>(std::ceil(-std::log2(width)), kMostHalvings)) : 0;
+        width < 1 ? static_cast<int>(std::min<double>(std::ceil(-std::log2(width)), kMaxHalvings)) : 0;
     Coefficients sum{};
     for (int interval = 0; interval <= halvings + 1; ++interval) {
         // distances from pi/2

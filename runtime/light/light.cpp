@@ -58,7 +58,7 @@ Light with_window(const Light& light, double (*window)(int, double)) {
 void check_light(const Light& light) {
     for (const glm::vec3& coefficient : light.coefficients)
         for (int c = 0; c < 3; ++c)
-            if (!(std::abs(coefficient[c]) <= kMostLight))
+            if (!(std::abs(coefficient[c]) <= kMaxLight))
                 throw Error("its light is brighter than what is computed with: a coefficient is beyond 1e18");
 }
 

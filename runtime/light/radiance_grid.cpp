@@ -78,12 +78,12 @@ Ring ring_at(double theta, int order, const std::vector<glm::vec3>& coefficients
 } // namespace
 
 double usable_mean(const Light& light, int c) {
-    constexpr double kLeastShare = 1e-6;
+    constexpr double kMinShare = 1e-6;
     const auto first = static_cast<double>(light.coefficients[0][c]);
     double largest = 0;
     for (const glm::vec3& v : light.coefficients)
         largest = std::max(largest, std::abs(static_cast<double>(v[c])));
-    return first > 0 && first >= kLeastShare * largest ? kY00 * first : 0;
+    return first > 0 && first >= kMinShare * largest ? kY00 * first : 0;
 }
 
 GridRadiance radiance_on_grid(const Light& light, int rows) {

@@ -112,7 +112,7 @@ private:
         return face == glm::dvec3(0) ? glm::vec3(0, 0, 1) : glm::vec3(face);
     }
 
-    void join_across_edges(double least_cosine) {
+    void join_across_edges(double min_cosine) {
         const std::vector<std::uint32_t> weld = welded(positions_);
         std::vector<Edge> edges;
         for (std::size_t corner = 0; corner < 3 * triangles_.size(); ++corner) {
@@ -126,7 +126,7 @@ private:
             for (std::size_t j = i + 1; j < std::min(i + kMaxNeighbours, edges.size()); ++j) {
                 if (edges[j].ends() != edges[i].ends())
                     break;
-                if (glm::dot(faces_[edges[i].low_corner / 3], faces_[edges[j].low_corner / 3]) < least_cosine)
+                if (glm::dot(faces_[edges[i].low_corner / 3], faces_[edges[j].low_corner / 3]) < min_cosine)
                     continue;
                 sets_.join(edges[i].low_corner, edges[j].low_corner);
                 sets_.join(edges[i].high_corner, edges[j].high_corner);

@@ -23,13 +23,13 @@ void check_order(int order) {
 namespace {
 
 /// Orders above this use the code of the maximum order.
-constexpr int kMostUsualOrder = 6;
+constexpr int kMaxUnrolledOrder = 6;
 
 PRT_TWO_CLONES
 void evaluate_one(int order, const glm::vec3& direction, float* basis) {
     with_order(
         order, [&]<int Order>() __attribute__((always_inline)) {
-            if constexpr (Order <= kMostUsualOrder || Order == kMaxOrder)
+            if constexpr (Order <= kMaxUnrolledOrder || Order == kMaxOrder)
                 sh_basis<Order>(direction.x, direction.y, direction.z, basis);
         });
 }
@@ -39,7 +39,7 @@ void evaluate_one(int order, const glm::vec3& direction, float* basis) {
 void evaluate_sh(int order, const glm::vec3& direction, std::span<float> basis) {
     const auto count = static_cast<std::size_t>(coefficient_count(order));
     assert(basis.size() >= count);
-    if (order <= kMostUsualOrder)
+    if (order <= kMaxUnrolledOrder)
         return evaluate_one(order, direction, basis.data());
     std::array<float, kMaxOrder * kMaxOrder> all;
     evaluate_one(kMaxOrder, direction, all.data());

@@ -12,7 +12,7 @@ std::string instance_defines(const ClusteredTransfer& transfer, ConstantSource c
     if (constants == ConstantSource::block)
         throw Error("constants of instances are more than a uniform block holds: use a buffer or a texture");
     if (transfer.receivers.format != WeightFormat::packed &&
-        std::ranges::max(transfer.bases.components) > kMostInstancedWeights)
+        std::ranges::max(transfer.bases.components) > kMaxInstancedWeights)
         throw Error("instances have attributes where those of more than 24 weights would be");
     return relight_defines(transfer, constants, language, seen_from) + "#define PRT_INSTANCES\n";
 }

@@ -9,8 +9,8 @@ namespace prt {
 std::string lobe_defines(const LobeModel& model, int light_order) {
     check_lobes(model);
     const int order = light_order == 0 ? model.order : light_order;
-    if (order < 2 || order > kMostLobeOrder)
-        throw Error("lobes are lit by light of 2 to " + std::to_string(kMostLobeOrder) + " bands, not " +
+    if (order < 2 || order > kMaxLobeOrder)
+        throw Error("lobes are lit by light of 2 to " + std::to_string(kMaxLobeOrder) + " bands, not " +
                     std::to_string(order));
     return define("PRT_LOBES", model.lobes) + define("PRT_LOBE_ORDER", static_cast<std::size_t>(order));
 }
@@ -22,9 +22,9 @@ std::string lobe_functions(const LobeModel& model, const std::string& behind) {
 }
 
 std::vector<glm::vec4> lobe_profile_block(const LobeModel& model) {
-    std::vector<glm::vec4> block(kMostProfiles, glm::vec4(0));
+    std::vector<glm::vec4> block(kMaxProfiles, glm::vec4(0));
     for (std::size_t p = 0; p < model.profiles.size(); ++p)
-        for (std::size_t l = 0; l < kMostLobeOrder; ++l)
+        for (std::size_t l = 0; l < kMaxLobeOrder; ++l)
             block[p][static_cast<int>(l)] = model.profiles[p][l];
     return block;
 }

@@ -14,7 +14,7 @@
 namespace prt {
 namespace {
 
-constexpr int kMostWeightVectors = 12, kMostWords = 8;
+constexpr int kMaxWeightVectors = 12, kMaxWords = 8;
 
 void append_file(const std::string& name, std::set<std::string>& included, std::string& source) {
     const auto found = embedded_files().find(name);
@@ -63,13 +63,13 @@ std::string guide_defines(const ClusteredBases& bases, const glm::dvec3& seen_fr
 std::string weight_defines(const ClusteredTransfer& transfer) {
     const ClusteredReceivers& receivers = transfer.receivers;
     if (receivers.format == WeightFormat::packed) {
-        if (receivers.words > kMostWords)
+        if (receivers.words > kMaxWords)
             throw Error(std::to_string(receivers.words) + " words of packed weights do not fit the " +
-                        std::to_string(kMostWords) + " of the vertex attributes");
+                        std::to_string(kMaxWords) + " of the vertex attributes");
         return define("PRT_PACKED_WORDS", static_cast<std::size_t>(receivers.words)) +
                define("PRT_CLUSTER_BITS", static_cast<std::size_t>(receivers.cluster_bits));
     }
-    const int most = most_vertex_components(transfer.bases),
+    const int most = max_vertex_components(transfer.bases),
               components = std::max(receivers.components, transfer.bases.max_components());
     if (components > most)
         throw Error(std::to_string(components) + " components do not fit the " + std::to_string(most) +
@@ -112,9 +112,9 @@ std::string shader_source(std::string_view name, std::string_view defines, Shade
     return version_lines(language) + shader_part(name, defines);
 }
 
-int most_vertex_components(const ClusteredBases& bases) {
-    return 4 * (bases.guides.empty() ? kMostWeightVectors : kMostWeightVectors - 1); // normals take the last
-                                                                                     // location
+int max_vertex_components(const ClusteredBases& bases) {
+    return 4 * (bases.guides.empty() ? kMaxWeightVectors : kMaxWeightVectors - 1); // normals take the last
+                                                                                   // location
 }
 
 std::string relight_defines(const ClusteredTransfer& transfer, ConstantSource constants,
@@ -132,8 +132,8 @@ std::string relight_defines(const ClusteredTransfer& transfer, ConstantSource co
         return text + "#define PRT_CONSTANTS_BUFFER\n";
     case ConstantSource::block:
         return text + "#define PRT_CONSTANTS_BLOCK\n" +
-               define("PRT_MOST_ROWS", constant_rows(transfer.bases)) +
-               define("PRT_MOST_CLUSTERS", transfer.bases.clusters());
+               define("PRT_MAX_ROWS", constant_rows(transfer.bases)) +
+               define("PRT_MAX_CLUSTERS", transfer.bases.clusters());
     case ConstantSource::texture:
         break;
     }
@@ -161,7 +161,7 @@ std::string part_defines(const TransferLayout& layout) {
         defines += define(channels[i], static_cast<std::size_t>(distant[i].channels));
     if (lamps.empty())
         return defines;
-    std::uint32_t colored[kMostLamps / 32] = {};
+    std::uint32_t colored[kMaxLamps / 32] = {};
     for (std::size_t k = 0; k < lamps.size(); ++k)
         if (lamps[k].channels == 3)
             colored[k / 32] |= 1u << (k % 32);

@@ -101,8 +101,8 @@ int open_unnamed(const Path& target) {
 /// Creates and locks a file with a unique hidden name in the folder of `target`; returns a negative value on
 /// failure.
 int open_hidden(const Path& target, Path& name) {
-    constexpr int kMostTries = 100;
-    for (int i = 0; i < kMostTries; ++i) {
+    constexpr int kMaxTries = 100;
+    for (int i = 0; i < kMaxTries; ++i) {
         name = hidden_name(target);
         const int descriptor = ::open(name.c_str(), O_CREAT | O_EXCL | O_RDWR | O_CLOEXEC, kMode);
         if (descriptor < 0 && errno != EEXIST)
@@ -140,9 +140,9 @@ int write_all(int descriptor, std::span<const std::byte> bytes) {
 } // namespace
 
 Path followed(Path path) {
-    constexpr int kMostLinks = 40; // the limit of Linux
+    constexpr int kMaxLinks = 40; // the limit of Linux
     std::error_code error;
-    for (int i = 0; i < kMostLinks && !is_descriptor(path) && std::filesystem::is_symlink(path, error); ++i) {
+    for (int i = 0; i < kMaxLinks && !is_descriptor(path) && std::filesystem::is_symlink(path, error); ++i) {
         const Path to = std::filesystem::read_symlink(path, error);
         if (error)
             break;

@@ -27,9 +27,9 @@ Character first_character(std::string_view text) {
             return {};
         code = code << 6 | (byte(i) & 0x3fu);
     }
-    constexpr std::uint32_t kLeast[] = {0, 0, 0x80, 0x800, 0x10000}; // minimum code point per number of bytes
+    constexpr std::uint32_t kMin[] = {0, 0, 0x80, 0x800, 0x10000}; // minimum code point per number of bytes
     const bool surrogate = code >= 0xd800 && code < 0xe000;
-    return code < kLeast[ones] || code > 0x10ffff || surrogate ? Character{} : Character{code, ones};
+    return code < kMin[ones] || code > 0x10ffff || surrogate ? Character{} : Character{code, ones};
 }
 
 /// Returns false for control characters and for characters that change the display of others.
@@ -51,10 +51,10 @@ std::string hexadecimal(std::uint32_t value, int digits) {
 
 } // namespace
 
-std::string printable(std::string_view text, std::size_t most_bytes) {
+std::string printable(std::string_view text, std::size_t max_bytes) {
     std::string result;
     while (!text.empty()) {
-        if (result.size() > most_bytes)
+        if (result.size() > max_bytes)
             return result + " ...";
         const Character character = first_character(text);
         const std::size_t bytes = std::max<std::size_t>(character.bytes, 1);

@@ -100,7 +100,7 @@ std::vector<ClusterLayout> cluster_layouts(const ClusteredBases& bases) {
         layout.components = static_cast<std::uint32_t>(bases.components[k]);
         if (bases.bits.empty())
             continue;
-        assert(bases.components[k] <= kMostPackedComponents);
+        assert(bases.components[k] <= kMaxPackedComponents);
         for (std::size_t j = 0; j < layout.components; ++j)
             layout.widths[j / 8] |=
                 static_cast<std::uint32_t>(bases.bits[first[k] - k * bases.fixed_rows() + j] - 1)

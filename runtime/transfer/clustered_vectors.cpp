@@ -11,7 +11,7 @@ namespace prt {
 void ClusteredVectors::read(std::size_t first, std::span<float> to) const {
     const ClusteredBases& bases = transfer_.bases;
     const std::size_t dimension = dimension_, guides = bases.guide_rows();
-    std::vector<float> weights(most_components_);
+    std::vector<float> weights(max_components_);
     for (std::size_t p = first; !to.empty(); ++p, to = to.subspan(dimension)) {
         const std::size_t k = transfer_.receivers.clusters[p];
         const ClusterLayout& layout = layouts_[k];

@@ -16,7 +16,7 @@ public:
     explicit ClusteredVectors(const ClusteredTransfer& transfer)
         : transfer_(transfer), layouts_(cluster_layouts(transfer.bases)),
           dimension_(transfer.bases.dimension()),
-          most_components_(static_cast<std::size_t>(transfer.bases.max_components())) {}
+          max_components_(static_cast<std::size_t>(transfer.bases.max_components())) {}
 
     /// Writes the vectors of receivers from `first` on to `to` [..][dimension], whose size sets their number.
     void read(std::size_t first, std::span<float> to) const;
@@ -24,7 +24,7 @@ public:
 private:
     const ClusteredTransfer& transfer_;
     std::vector<ClusterLayout> layouts_;
-    std::size_t dimension_, most_components_;
+    std::size_t dimension_, max_components_;
 };
 
 } // namespace prt

@@ -63,15 +63,15 @@ public:
     }
     /// Returns the number of bits of all rows; maximum value of size_t if a level exceeds 15.
     std::size_t total(std::span<const std::uint8_t> drops) const {
-        std::array<std::size_t, kMostRowBits + 1> rows_of_level{};
+        std::array<std::size_t, kMaxRowBits + 1> rows_of_level{};
         for (std::size_t r = 0; r < rows(); ++r) {
             const int level = level_of(row(r), drops);
-            if (level > kMostRowBits)
+            if (level > kMaxRowBits)
                 return ~std::size_t{0};
             ++rows_of_level[static_cast<std::size_t>(level)];
         }
         std::size_t bits = 0;
-        for (int level = 0; level <= kMostRowBits; ++level)
+        for (int level = 0; level <= kMaxRowBits; ++level)
             bits += rows_of_level[static_cast<std::size_t>(level)] *
                     static_cast<std::size_t>(row_bits(level, drops));
         return bits;
@@ -86,7 +86,7 @@ private:
 std::vector<std::uint8_t> shifted(std::span<const std::uint8_t> drops, std::size_t first, int by) {
     std::vector<std::uint8_t> result(drops.begin(), drops.end());
     for (std::size_t i = first; i < result.size(); ++i)
-        result[i] = static_cast<std::uint8_t>(std::clamp(result[i] + by, 0, kMostRowBits));
+        result[i] = static_cast<std::uint8_t>(std::clamp(result[i] + by, 0, kMaxRowBits));
     return result;
 }
 
@@ -99,7 +99,7 @@ std::vector<std::uint8_t> mean_drops(const Widths& widths, std::size_t columns) 
     const double widest = columns > 0 ? *std::max_element(means.begin(), means.end()) : 0;
     std::vector<std::uint8_t> drops;
     for (const double mean : means)
-        drops.push_back(static_cast<std::uint8_t>(std::clamp(widest - mean, 0.0, double{kMostRowBits})));
+        drops.push_back(static_cast<std::uint8_t>(std::clamp(widest - mean, 0.0, double{kMaxRowBits})));
     return drops;
 }
 
@@ -128,7 +128,7 @@ std::vector<std::uint8_t> best_drops_of(const Widths& widths, std::size_t column
         for (std::size_t i = 0; i < columns; i += step)
             for (const int by : {1, -1}) {
                 std::vector<std::uint8_t> one = drops;
-                one[i] = static_cast<std::uint8_t>(std::clamp(one[i] + by, 0, kMostRowBits));
+                one[i] = static_cast<std::uint8_t>(std::clamp(one[i] + by, 0, kMaxRowBits));
                 moved = better(std::move(one)) || moved;
                 moved = better(shifted(drops, i, by)) || moved;
             }
@@ -144,12 +144,12 @@ std::vector<std::uint8_t> best_drops(const Widths& widths, std::size_t columns) 
 /// Adaptive models for values that have room for `width` bits.
 struct ValueModels {
     BitModel zero;
-    std::array<BitModel, kMostRowBits> longer; ///< index i: whether the magnitude has more than i + 1 bits
-    std::array<BitModel, kMostRowBits> second; ///< the bit below the highest, indexed by the number of bits
-                                               ///< below the highest
+    std::array<BitModel, kMaxRowBits> longer; ///< index i: whether the magnitude has more than i + 1 bits
+    std::array<BitModel, kMaxRowBits> second; ///< the bit below the highest, indexed by the number of bits
+                                              ///< below the highest
 };
 
-using Models = std::array<ValueModels, kMostRowBits + 1>; ///< indexed by width
+using Models = std::array<ValueModels, kMaxRowBits + 1>; ///< indexed by width
 
 void write_value(std::int32_t value, int width, ValueModels& models, RangeEncoder& encoder) {
     encoder.write(value == 0, models.zero);
@@ -190,7 +190,7 @@ RowCode encode_rows(std::span<const std::int32_t> values, std::size_t columns) {
     Models models;
     for (std::size_t r = 0; r < widths.rows(); ++r) {
         const int level = level_of(widths.row(r), code.drops);
-        assert(level <= kMostRowBits);
+        assert(level <= kMaxRowBits);
         encoder.write_plain(static_cast<std::uint32_t>(level), kLevelBits);
         for (std::size_t i = 0; i < columns; ++i)
             if (const int width = level - code.drops[i]; width > 0)

@@ -54,7 +54,7 @@ struct WeightField {
 };
 
 struct ClusterFields {
-    std::array<WeightField, kMostPackedComponents> weights{};
+    std::array<WeightField, kMaxPackedComponents> weights{};
     std::size_t components = 0;
 };
 
@@ -74,7 +74,7 @@ std::vector<ClusterFields> cluster_fields(std::span<const ClusterLayout> cluster
 /// Clusters and weights of receivers, unpacked.
 struct Fields {
     std::vector<std::uint16_t> clusters;
-    std::vector<std::array<std::uint16_t, kMostPackedComponents>> weights;
+    std::vector<std::array<std::uint16_t, kMaxPackedComponents>> weights;
 
     explicit Fields(std::size_t receivers) : clusters(receivers), weights(receivers) {}
 };
@@ -420,7 +420,7 @@ Fields unpacked(const WordLayout& layout, std::span<const std::uint32_t> words) 
 std::vector<std::uint32_t> packed(const WordLayout& layout, const Fields& fields) {
     const auto stride = static_cast<std::size_t>(layout.words);
     std::vector<std::uint32_t> words(fields.clusters.size() * stride);
-    std::array<std::uint32_t, kMostPackedComponents> values{};
+    std::array<std::uint32_t, kMaxPackedComponents> values{};
     for (std::size_t v = 0; v < fields.clusters.size(); ++v) {
         std::ranges::copy(fields.weights[v], values.begin());
         pack_words(fields.clusters[v], layout.cluster_bits, layout.clusters[fields.clusters[v]], values,

@@ -119,9 +119,9 @@ void ConstantFormer::form(const LightingView& lighting, std::span<glm::vec4> con
 void ConstantFormer::form(const LightingView& lighting, std::span<glm::vec4> constants, std::size_t first,
                           std::size_t last) const {
     assert(constants.size() >= rows_);
-    std::array<glm::vec3, kMostLightColumns> columns;
+    std::array<glm::vec3, kMaxLightColumns> columns;
     write_light_columns(layout_, lighting, columns);
-    std::array<float, 3 * kMostLightColumns> separate;
+    std::array<float, 3 * kMaxLightColumns> separate;
     auto to = separate.begin();
     const glm::vec3* color = columns.data();
     for (const TransferPart& part : layout_.parts) {

@@ -17,7 +17,7 @@ using ColorInMemory [[gnu::vector_size(16), gnu::aligned(4), gnu::may_alias]] = 
     return *reinterpret_cast<const ColorInMemory*>(row);
 }
 
-constexpr std::size_t kMostOutputs = 16;
+constexpr std::size_t kMaxOutputs = 16;
 
 template <WeightFormat Format>
 [[gnu::always_inline]] inline Color sum_of_weights(const ClusteredReceivers& receivers,
@@ -85,7 +85,7 @@ void evaluate_outputs(const ClusteredReceivers& receivers, const ClusterLayout* 
         const ClusterLayout& layout = layouts[receivers.clusters[p]];
         const std::byte* const words = receivers.weights.data() + p * stride;
         const glm::vec4* row = constants + layout.first_row * outputs;
-        Color sums[kMostOutputs];
+        Color sums[kMaxOutputs];
         for (std::size_t o = 0; o < outputs; ++o)
             sums[o] = color_at(row + o);
         auto position = static_cast<std::size_t>(receivers.cluster_bits);

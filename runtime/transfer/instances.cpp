@@ -90,22 +90,22 @@ InstanceFactors factors_of(std::span<const float> numbers) {
 }
 
 CodedFactors coded(std::span<const InstanceFactors> factors) {
-    constexpr float kMost = 127;
+    constexpr float kMax = 127;
     const std::array<float, kInstanceNumbers> open = numbers_of(open_factors());
     CodedFactors result;
     for (const InstanceFactors& instance : factors) {
         const std::array<float, kInstanceNumbers> numbers = numbers_of(instance);
         for (std::size_t j = 0; j < kInstanceNumbers; ++j) {
-            if (!(std::abs(numbers[j]) <= kLargestFactor))
+            if (!(std::abs(numbers[j]) <= kMaxInstanceFactor))
                 throw Error("factors of instances are not finite, or beyond 60000");
-            result.scales[j] = std::max(result.scales[j], std::abs(numbers[j] - open[j]) / kMost);
+            result.scales[j] = std::max(result.scales[j], std::abs(numbers[j] - open[j]) / kMax);
         }
     }
     for (const InstanceFactors& instance : factors) {
         const std::array<float, kInstanceNumbers> numbers = numbers_of(instance);
         for (std::size_t j = 0; j < kInstanceNumbers; ++j) {
             const float steps = result.scales[j] > 0 ? (numbers[j] - open[j]) / result.scales[j] : 0.0f;
-            result.bytes.push_back(static_cast<std::int8_t>(std::lround(std::clamp(steps, -kMost, kMost))));
+            result.bytes.push_back(static_cast<std::int8_t>(std::lround(std::clamp(steps, -kMax, kMax))));
         }
     }
     return result;
@@ -172,7 +172,7 @@ InstanceTurns instance_turns(std::span<const glm::dmat3> rotations, int bins, do
             turn = same == turns.rotations.end() ? add(rotation)
                                                  : static_cast<std::uint32_t>(same - turns.rotations.begin());
         }
-        turns.most_degrees = std::max(turns.most_degrees, degrees_between(turns.rotations[turn], rotation));
+        turns.max_degrees = std::max(turns.max_degrees, degrees_between(turns.rotations[turn], rotation));
         turns.of.push_back(turn);
     }
     return turns;

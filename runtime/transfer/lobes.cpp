@@ -18,7 +18,7 @@ namespace prt {
 namespace {
 
 constexpr float kMiddle = 127; ///< byte value of an axis coordinate of 0
-constexpr std::size_t kMostCoefficients = kMostLobeOrder * kMostLobeOrder;
+constexpr std::size_t kMaxCoefficients = kMaxLobeOrder * kMaxLobeOrder;
 
 glm::vec2 with_signs_of(const glm::vec2& size, const glm::vec2& of) {
     return {of.x < 0 ? -size.x : size.x, of.y < 0 ? -size.y : size.y};
@@ -63,18 +63,18 @@ void LobeModel::decode(std::size_t vertex, std::span<Lobe> to) const {
 }
 
 void check_lobes(const LobeModel& model) {
-    if (model.order < 2 || model.order > kMostLobeOrder)
-        throw Error("lobes have order 2 to " + std::to_string(kMostLobeOrder) + ", not " +
+    if (model.order < 2 || model.order > kMaxLobeOrder)
+        throw Error("lobes have order 2 to " + std::to_string(kMaxLobeOrder) + ", not " +
                     std::to_string(model.order));
-    if (model.lobes < 1 || model.lobes > kMostLobes)
-        throw Error("a vertex has 1 to " + std::to_string(kMostLobes) + " lobes, not " +
+    if (model.lobes < 1 || model.lobes > kMaxLobes)
+        throw Error("a vertex has 1 to " + std::to_string(kMaxLobes) + " lobes, not " +
                     std::to_string(model.lobes));
-    if (model.profiles.empty() || model.profiles.size() > kMostProfiles)
-        throw Error("lobes have 1 to " + std::to_string(kMostProfiles) + " profiles, not " +
+    if (model.profiles.empty() || model.profiles.size() > kMaxProfiles)
+        throw Error("lobes have 1 to " + std::to_string(kMaxProfiles) + " profiles, not " +
                     std::to_string(model.profiles.size()));
     for (const LobeProfile& profile : model.profiles)
         for (const float gain : profile)
-            if (!(std::abs(gain) <= kLargestGain))
+            if (!(std::abs(gain) <= kMaxGain))
                 throw Error("a profile of lobes holds a number that is not finite or too large");
     for (const LobeWord& word : model.words)
         if (word[2] >= model.profiles.size())
@@ -94,9 +94,9 @@ glm::vec3 turned_axis(const glm::vec3& axis, const glm::mat3& turn) {
 }
 
 void lobe_transfer(std::span<const Lobe> lobes, int order, std::span<float> transfer) {
-    assert(order <= kMostLobeOrder && transfer.size() == static_cast<std::size_t>(order * order));
+    assert(order <= kMaxLobeOrder && transfer.size() == static_cast<std::size_t>(order * order));
     std::fill(transfer.begin(), transfer.end(), 0.0f);
-    std::array<float, kMostCoefficients> basis{};
+    std::array<float, kMaxCoefficients> basis{};
     for (const Lobe& lobe : lobes) {
         evaluate_sh(order, lobe.axis, std::span(basis).first(transfer.size()));
         for (int l = 0, i = 0; l < order; ++l)
@@ -107,8 +107,8 @@ void lobe_transfer(std::span<const Lobe> lobes, int order, std::span<float> tran
 }
 
 glm::vec3 lobe_radiance(std::span<const Lobe> lobes, std::span<const glm::vec3> light, int light_order) {
-    const int order = std::min(light_order, kMostLobeOrder);
-    std::array<float, kMostCoefficients> transfer{};
+    const int order = std::min(light_order, kMaxLobeOrder);
+    std::array<float, kMaxCoefficients> transfer{};
     const auto used = std::span(transfer).first(static_cast<std::size_t>(order * order));
     lobe_transfer(lobes, order, used);
     glm::vec3 sum(0);

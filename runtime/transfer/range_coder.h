@@ -17,13 +17,13 @@ public:
     void learn(bool bit) {
         const std::int32_t wrong = (bit ? 65536 : 0) - static_cast<std::int32_t>(one_);
         one_ = static_cast<std::uint32_t>(static_cast<std::int32_t>(one_) + wrong / (seen_ + 2));
-        one_ = one_ < kLeast ? kLeast : one_ > 65536 - kLeast ? 65536 - kLeast : one_;
-        seen_ += seen_ < kMostSeen ? 1 : 0;
+        one_ = one_ < kMin ? kMin : one_ > 65536 - kMin ? 65536 - kMin : one_;
+        seen_ += seen_ < kMaxSeen ? 1 : 0;
     }
 
 private:
-    static constexpr std::uint32_t kLeast = 64;
-    static constexpr std::int32_t kMostSeen = 62;
+    static constexpr std::uint32_t kMin = 64;
+    static constexpr std::int32_t kMaxSeen = 62;
     std::uint32_t one_ = 32768;
     std::int32_t seen_ = 0;
 };

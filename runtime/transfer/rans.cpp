@@ -8,7 +8,7 @@ namespace prt {
 std::vector<std::byte> encode_rans(std::span<const RansStep> steps) {
     std::vector<std::uint16_t> units; // in reverse order
     std::array<std::uint32_t, kRansStates> states;
-    states.fill(kLeastRansState);
+    states.fill(kMinRansState);
     for (std::size_t i = steps.size(); i-- > 0;) {
         const auto& [frequency, first, bits] = steps[i];
         std::uint32_t& state = states[i % kRansStates];

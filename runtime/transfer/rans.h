@@ -16,7 +16,7 @@ namespace prt {
 
 inline constexpr int kFrequencyBits = 10;
 inline constexpr std::uint32_t kFrequencyTotal = 1u << kFrequencyBits; ///< sum over the symbols of a model
-inline constexpr std::uint32_t kLeastRansState = 1u << 16;
+inline constexpr std::uint32_t kMinRansState = 1u << 16;
 inline constexpr std::size_t kRansStates = 4;
 
 /// A coded step: `frequency` of 2^bits slots, starting at `first`.
@@ -74,13 +74,13 @@ public:
     /// Returns whether all bytes were read and the states are those of a valid end.
     bool ends_well() const {
         return position_ == end_ &&
-               std::ranges::all_of(states_, [](std::uint32_t state) { return state == kLeastRansState; });
+               std::ranges::all_of(states_, [](std::uint32_t state) { return state == kMinRansState; });
     }
 
 private:
     /// Refills the state without a branch, because the branch would be unpredictable.
     [[gnu::always_inline]] void take_turns(std::uint32_t state) {
-        const std::uint32_t is_small = state < kLeastRansState ? 1 : 0;
+        const std::uint32_t is_small = state < kMinRansState ? 1 : 0;
         states_[turn_] = state << (16 * is_small) | (unit(position_) & (0u - is_small));
         position_ += 2 * is_small;
         turn_ = (turn_ + 1) % kRansStates;

@@ -56,10 +56,10 @@ namespace texel_formats {
 /// Packs EXT_texture_shared_exponent: the largest color, rounded to nine bits, determines the shared
 /// exponent.
 [[gnu::always_inline]] inline WordLanes shared_exponent(const RadianceLanes& radiance) {
-    constexpr float kMost = 65408;
+    constexpr float kMax = 65408;
     Lanes colors[3], largest = {};
     for (int c = 0; c < 3; ++c) {
-        colors[c] = within(radiance.colors[c], kMost);
+        colors[c] = within(radiance.colors[c], kMax);
         largest = colors[c] > largest ? colors[c] : largest;
     }
     const WordLanes exponent = ((bits_of(largest) + 0x4000) >> 23) - 127 + 16;

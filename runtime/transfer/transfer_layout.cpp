@@ -26,9 +26,9 @@ void check_strengths(std::span<const glm::vec3> lamps, const TransferLayout& lay
 }
 
 void check_lamps(const TransferLayout& layout) {
-    if (layout.lamps() > kMostLamps)
+    if (layout.lamps() > kMaxLamps)
         throw Error("the transfer has " + std::to_string(layout.lamps()) + " lamps, more than " +
-                    std::to_string(kMostLamps));
+                    std::to_string(kMaxLamps));
     constexpr const char* kNames = "lamps of transfer have names, and other parts have none";
     for (const TransferPart& part : layout.distant_parts()) {
         if (!part.name.empty())

@@ -97,12 +97,12 @@ void check_grid(const VolumeGrid& grid) {
     if (!(grid.spacing > 0) || !(grid.spacing < 1e18f) || !(glm::length(grid.origin) < 1e30f))
         throw Error("the spacing or the origin of a volume is no usable number");
     if (glm::any(glm::lessThan(grid.size, glm::ivec3(1))) ||
-        glm::any(glm::greaterThan(grid.size, glm::ivec3(kMostBricksAlong))))
-        throw Error("a volume is 1 to " + std::to_string(kMostBricksAlong) + " bricks long");
+        glm::any(glm::greaterThan(grid.size, glm::ivec3(kMaxBricksAlong))))
+        throw Error("a volume is 1 to " + std::to_string(kMaxBricksAlong) + " bricks long");
     if (grid.bricks.empty())
         throw Error("a volume has no bricks");
     for (const VolumeBrick& brick : grid.bricks)
-        if (brick.level < 0 || brick.level > kMostBrickLevel ||
+        if (brick.level < 0 || brick.level > kMaxBrickLevel ||
             glm::any(glm::lessThan(brick.place, glm::ivec3(0))) ||
             glm::any(glm::greaterThanEqual(brick.place, grid.size)) ||
             brick.place % (1 << brick.level) != glm::ivec3(0))
@@ -230,10 +230,10 @@ void mix_incident(const VolumeCorners& corners, std::span<const glm::vec3> incid
 
 glm::vec3 irradiance_of(std::span<const glm::vec3> incident, const glm::vec3& normal) {
     const int order = static_cast<int>(std::lround(std::sqrt(static_cast<double>(incident.size()))));
-    std::array<float, kMostIncidentOrder * kMostIncidentOrder> basis{};
+    std::array<float, kMaxIncidentOrder * kMaxIncidentOrder> basis{};
     evaluate_sh(order, normal, std::span(basis).first(incident.size()));
     // The clamped cosine over pi per band: 1, 2/3, 1/4, 0.
-    constexpr std::array<float, kMostIncidentOrder> kCosine = {1, 2.0f / 3, 0.25f, 0};
+    constexpr std::array<float, kMaxIncidentOrder> kCosine = {1, 2.0f / 3, 0.25f, 0};
     glm::vec3 sum(0);
     for (int l = 0; l < order; ++l)
         for (int i = l * l; i < (l + 1) * (l + 1); ++i)

@@ -26,9 +26,8 @@ using HalfLanes [[gnu::vector_size(2 * kLaneCount)]] = std::int16_t;
 }
 
 /// Maximum number of values of a probe in all planes, rounded up to whole lanes.
-constexpr std::size_t kMostNumbers = 64;
-static_assert(kMostNumbers >= 3 * kMostIncidentOrder * kMostIncidentOrder + 4 &&
-              kMostNumbers % kLaneCount == 0);
+constexpr std::size_t kMaxNumbers = 64;
+static_assert(kMaxNumbers >= 3 * kMaxIncidentOrder * kMaxIncidentOrder + 4 && kMaxNumbers % kLaneCount == 0);
 
 struct Probes {
     const ClusteredReceivers& receivers;
@@ -91,8 +90,8 @@ template <std::size_t Outputs>
 [[gnu::always_inline]] inline void form_range(const Probes& probes, const glm::vec4* constants,
                                               VolumeFormat format, std::size_t first, std::size_t last,
                                               const Planes& planes) {
-    alignas(64) float numbers[kMostNumbers] = {};
-    alignas(64) std::int16_t halves[kMostNumbers];
+    alignas(64) float numbers[kMaxNumbers] = {};
+    alignas(64) std::int16_t halves[kMaxNumbers];
     for (std::size_t p = first; p < last; ++p) {
         light_probe<Outputs>(probes, constants, p, numbers);
         if (format == VolumeFormat::rgba32) {

@@ -58,12 +58,12 @@ std::size_t VolumeAtlas::texel(std::size_t brick, std::size_t i) const {
 }
 
 VolumeAtlas atlas_of(const VolumeGrid& grid, int order) {
-    constexpr int kMostAlong = kGuaranteedTexels / kBrickSide;
+    constexpr int kMaxAlong = kGuaranteedTexels / kBrickSide;
     const auto count = static_cast<int>(grid.bricks.size());
     const auto divided = [](int n, int by) { return (n + by - 1) / by; };
     // Use the minimum number of layers, then the row count that leaves the fewest texels unused.
-    const int z = std::max(1, divided(count, kMostAlong * kMostAlong)),
-              y = std::max(1, divided(count, kMostAlong * z));
+    const int z = std::max(1, divided(count, kMaxAlong * kMaxAlong)),
+              y = std::max(1, divided(count, kMaxAlong * z));
     return {{std::max(1, divided(count, y * z)), y, z}, order};
 }
 

@@ -88,7 +88,7 @@ TEST(Bake, RefusesWhatItCannotDo) {
         EXPECT_THROW(bake(scene, options), Error);
     }
     options.rays = 16;
-    for (const int bounces : {-2, kMostBounces + 1, 2147483647}) { // the last would take years
+    for (const int bounces : {-2, kMaxBounces + 1, 2147483647}) { // the last would take years
         options.bounces = bounces;
         EXPECT_THROW(bake(scene, options), Error);
     }

@@ -26,7 +26,7 @@ def main():
     if not shared:
         sys.exit("compare.py: the files share no figure")
     speeds = {name: old["seconds"][name] / new["seconds"][name] for name in shared}
-    lost = [name for name, speed in speeds.items() if speed < 1 - arguments.most_loss]
+    lost = [name for name, speed in speeds.items() if speed < 1 - arguments.max_loss]
     for name, speed in sorted(speeds.items(), key=lambda entry: entry[1]):
         print(f"{speed:6.3f}  {name}{'  LOST' if name in lost else ''}")
     mean = math.exp(sum(map(math.log, speeds.values())) / len(speeds))

@@ -29,7 +29,7 @@ namespace {
 using Words = std::span<const std::uint32_t>;
 using Constants = std::map<std::uint32_t, std::uint32_t>;
 
-constexpr std::uint32_t kMostBinding = PRT_BINDING_SIGNED_SUMS;
+constexpr std::uint32_t kMaxBinding = PRT_BINDING_SIGNED_SUMS;
 
 struct Device {
     vk::raii::Context context;
@@ -64,7 +64,7 @@ Device open_device() {
 
 nlohmann::ordered_json cost(const Device& d, Words spirv, bool queries, const Constants& constants) {
     std::vector<vk::DescriptorSetLayoutBinding> bindings;
-    for (std::uint32_t b = 1; b <= kMostBinding; ++b)
+    for (std::uint32_t b = 1; b <= kMaxBinding; ++b)
         bindings.emplace_back(b,
                               queries && b == PRT_BINDING_NODES
                                   ? vk::DescriptorType::eAccelerationStructureKHR

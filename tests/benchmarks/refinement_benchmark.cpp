@@ -58,7 +58,7 @@ void run(int argc, char** argv) {
     options.fit = prt::FitMode::surface;
     options.lamps.mode = prt::LampMode::none;
     const prt::RefineResult result =
-        prt::refine(scene, options, {.target = number(2, 0.02), .most_vertices = 1'000'000});
+        prt::refine(scene, options, {.target = number(2, 0.02), .max_vertices = 1'000'000});
     const prt::RefineStatistics& s = result.statistics;
     const double reached = surface_error(prt::refined(scene, result.refinement), options);
     std::printf(

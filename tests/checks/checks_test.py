@@ -51,7 +51,7 @@ class Sizes(unittest.TestCase):
         return failures("sizes.py", {"bake/a.cpp": text, "bake/b.cpp": "int f() {\n    return 1;\n}\n" * 200})
 
     def test_allow_sixty_lines_twelve_members_seven_parameters(self):
-        members = "".join(f"    int m{i};\n" for i in range(12)) + "    static int shared;\n    static constexpr int kMost = 3;\n"
+        members = "".join(f"    int m{i};\n" for i in range(12)) + "    static int shared;\n    static constexpr int kMax = 3;\n"
         self.assertEqual(self.check("int f(int a, std::map<int, int> b, int c, int d, int e, int g, int h) {\n" + "    ++a;\n" * 58
                                     + "}\nstruct S {\n" + members + "};\n"), (0, []))
 

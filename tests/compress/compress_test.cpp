@@ -312,10 +312,10 @@ TEST(HardCase, ReceiversWithoutAreaDoNotCountButAreCoded) {
 /// Tests the longest possible vectors, without an axis to omit.
 TEST(Compress, TakesAllNumbersOfColoredPartsOfOrderTenAndAllLamps) {
     TransferLayout layout{10, {{PartKind::direct, 3}, {PartKind::indirect, 3}}};
-    for (std::size_t k = 0; k < kMostLamps; ++k)
+    for (std::size_t k = 0; k < kMaxLamps; ++k)
         layout.parts.push_back({PartKind::lamp, 3, "lamp " + std::to_string(k)});
     Transfer t = zero_transfer(layout, 840);
-    ASSERT_EQ(t.dimension(), kMostTransferNumbers);
+    ASSERT_EQ(t.dimension(), kMaxTransferNumbers);
     std::mt19937 random(21);
     std::normal_distribution<float> normal;
     for (float& v : t.vectors)
@@ -408,7 +408,7 @@ TEST(Compress, RefusesWhatItCannotDo) {
     refused([](CompressOptions& o) { o.mean_components = -2; });
     refused([](CompressOptions& o) { o.basis_share = 1; });
     refused([](CompressOptions& o) { o.metric = natural_metric(layout_of_one(4, 1)); });
-    refused([](CompressOptions& o) { o.seam_price = 2 * kMostPrice; });
+    refused([](CompressOptions& o) { o.seam_price = 2 * kMaxPrice; });
     refused([](CompressOptions& o) { o.mean_components = std::numeric_limits<double>::infinity(); });
     const CompressOptions options;
     EXPECT_THROW(compress(fine, {std::vector<float>(9, 1.0f)}, options), Error);
@@ -442,8 +442,8 @@ TEST(Compress, OfTheLargestTransferAndAreasIsFinite) {
     expect_finite(compress(t, {std::vector<float>(40, 3e38f)}, {}));
     expect_finite(compress(t, {std::vector<float>(40, 1e-45f)}, {}));
     expect_finite(compress(t, {std::vector<float>(40, 0.0f), std::vector{Edge{0, 1}}}, {}));
-    t.vectors[7] = kMostTransfer;
-    t.vectors[50] = -kMostTransfer;
+    t.vectors[7] = kMaxInputTransfer;
+    t.vectors[50] = -kMaxInputTransfer;
     expect_finite(compress(t, {std::vector<float>(40, 1.0f), std::vector{Edge{0, 1}}}, {}));
 }
 

@@ -128,11 +128,11 @@ void check_lobes_of(const GltfDocument& document, const Scene& scene) {
     if (!stored)
         return;
     expect(stored->model.vertices() == scene.receivers(), "lobes of other vertices");
-    const Light light = constant_light(kMostLobeOrder, glm::vec3(1));
-    std::array<Lobe, kMostLobes> lobes;
+    const Light light = constant_light(kMaxLobeOrder, glm::vec3(1));
+    std::array<Lobe, kMaxLobes> lobes;
     for (std::size_t v = 0; v < stored->model.vertices(); ++v) {
         stored->model.decode(v, lobes);
-        const glm::vec3 radiance = lobe_radiance(lobes, light.coefficients, kMostLobeOrder);
+        const glm::vec3 radiance = lobe_radiance(lobes, light.coefficients, kMaxLobeOrder);
         expect_finite(std::span(&radiance.x, 3), "light by lobes");
     }
 }
@@ -174,8 +174,8 @@ void expect_finite_light(const ClusteredTransfer& transfer) {
 }
 
 void expect_finite_light(const CompressedLightmap& lightmap) {
-    constexpr std::size_t kMostTexels = 100'000;
-    if (lightmap.layout.texels() > kMostTexels)
+    constexpr std::size_t kMaxTexels = 100'000;
+    if (lightmap.layout.texels() > kMaxTexels)
         return;
     expect_finite_light(lightmap.compressed.transfer);
     const ConstantFormer constants(lightmap.compressed.transfer);

@@ -128,7 +128,7 @@ MovingBasisCode code_moving_basis(const GridPoints& points, MovingBasisFit fit, 
     ComponentPlan plan;
     if (fit.basis.components > 0) // without bits the plan would have weights as floats
         plan = plan_components(energies_of(points, fit.grid, fit.basis), 1,
-                               {.most_components = static_cast<int>(fit.basis.components), .bits = bits});
+                               {.component_limit = static_cast<int>(fit.basis.components), .bits = bits});
     const RowPrices prices{tuning::kSmoothness, tuning::kRowRidge};
     const auto price = static_cast<float>(tuning::kWeightPrice *
                                           squared_error(points, values_of(points, fit.grid, fit.basis)));

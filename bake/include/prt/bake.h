@@ -32,8 +32,8 @@ enum class FitMode {
 /// Number of bounces that means all bounces, until no light is left.
 inline constexpr int kEndlessBounces = -1;
 /// Maximum of a finite number of bounces. Endless bounces through media stop there, too.
-inline constexpr int kMostBounces = 10000;
-inline constexpr int kMostRays = 1 << 24; ///< maximum number of rays per receiver
+inline constexpr int kMaxBounces = 10000;
+inline constexpr int kMaxRays = 1 << 24; ///< maximum number of rays per receiver
 
 /// Assigns a medium to the materials with a name, or to all materials if the name is empty.
 struct MediumChoice {

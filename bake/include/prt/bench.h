@@ -14,10 +14,10 @@ namespace prt {
 
 struct BenchOptions {
     int order = 6;
-    int fewest_rays = 64, most_rays = 4096; ///< rays per receiver, doubled from the minimum to the maximum
+    int fewest_rays = 64, max_rays = 4096; ///< rays per receiver, doubled from the minimum to the maximum
     int raster_resolution = 1024;
-    std::string gpu = {};     ///< TracerChoice::gpu
-    double most_seconds = 60; ///< maximum time of a run; longer runs are skipped
+    std::string gpu = {};    ///< TracerChoice::gpu
+    double max_seconds = 60; ///< maximum time of a run; longer runs are skipped
     int threads = 0;
     std::uint64_t seed = 0;
     BadTextures bad_textures = BadTextures::error;

@@ -14,7 +14,7 @@ struct RefineOptions {
                           ///< only
     /// Maximum number of vertices of the finer scene; 0: four times the number in the scene, but at least 20
     /// 000.
-    std::size_t most_vertices = 0;
+    std::size_t max_vertices = 0;
 };
 
 /// Reason why a refinement ended.

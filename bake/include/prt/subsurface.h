@@ -22,7 +22,7 @@ struct Medium {
 
 /// Valid range of the coefficients of a medium, in 1/m of the scene's unit: scattering from the minimum to
 /// the maximum, absorption from 0 to the maximum. The densest measured medium has 2e4.
-inline constexpr double kLeastScattering = 1e-9, kMostCoefficient = 1e9;
+inline constexpr double kMinScattering = 1e-9, kMaxCoefficient = 1e9;
 
 /// A measured medium of Jensen et al. 2001, figure 5: "marble", "skin1", "whole-milk" and others.
 struct NamedMedium {

@@ -47,7 +47,7 @@ struct BandCut {
 
 struct SurfaceRadianceOptions {
     int paths = 256; ///< minimum number of paths from each point in each half
-    int most_paths = 1 << 14;
+    int max_paths = 1 << 14;
     /// Paths are doubled until the standard error of the mean squared relative difference is below this.
     double noise = 5e-5;
     double seconds = 0; ///< time limit for doubling the number of paths, regardless of noise; 0: none

@@ -24,7 +24,7 @@ struct TexelOptions {
     AtlasMode atlases = AtlasMode::automatic;
 };
 
-inline constexpr int kMostTexels = 8192; ///< maximum number of texels per side
+inline constexpr int kMaxTexels = 8192; ///< maximum number of texels per side
 
 /// A texture over some primitives.
 struct Atlas {

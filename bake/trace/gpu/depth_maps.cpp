@@ -21,7 +21,7 @@ namespace {
 
 /// Maximum number of peeled layers of blended surfaces; surfaces behind more layers are practically
 /// invisible.
-constexpr int kMostLayers = 64;
+constexpr int kMaxLayers = 64;
 
 GlObject make_map(GLenum target) {
     GLuint name = 0;
@@ -45,7 +45,7 @@ DepthMaps::DepthMaps(const RasterScene& scene, const Bounds& bounds, int resolut
                     std::to_string(largest) + " of this GPU");
     maps_ = make_map(GL_TEXTURE_2D_ARRAY);
     glTextureStorage3D(maps_.name(), 1, GL_DEPTH_COMPONENT32F, resolution, resolution,
-                       static_cast<GLsizei>(blends ? 1 : kMost));
+                       static_cast<GLsizei>(blends ? 1 : kMax));
     check_gl("the depth maps");
     target_ = make_framebuffer();
     glNamedFramebufferDrawBuffer(target_.name(), GL_NONE);
@@ -84,7 +84,7 @@ GlObject DepthMaps::table(std::span<const glm::vec3> directions, int order) cons
     for (std::size_t i = 0; i < directions.size(); ++i) {
         table[i].towards_light = glm::vec4(directions[i], 0);
         table[i].map_from_world = to_unit * map_matrix(directions[i]);
-        std::array<double, PRT_MOST_COEFFICIENTS> basis{};
+        std::array<double, PRT_MAX_COEFFICIENTS> basis{};
         evaluate_sh(order, glm::normalize(glm::dvec3(directions[i])), std::span<double>(basis));
         std::copy(basis.begin(), basis.end(), table[i].basis);
     }
@@ -121,7 +121,7 @@ void DepthMaps::peel(const glm::vec3& direction, const std::function<void()>& lo
     glClearTexImage(layers_->depth[1].name(), 0, GL_DEPTH_COMPONENT, GL_FLOAT, &nothing);
     GLuint query = 0;
     glGenQueries(1, &query);
-    for (std::size_t layer = 0; layer < kMostLayers; ++layer) {
+    for (std::size_t layer = 0; layer < kMaxLayers; ++layer) {
         const GLuint now = layers_->depth[layer % 2].name(), last = layers_->depth[1 - layer % 2].name();
         glNamedFramebufferTexture(target, GL_DEPTH_ATTACHMENT, now, 0);
         glClearNamedFramebufferfv(target, GL_DEPTH, 0, &far);

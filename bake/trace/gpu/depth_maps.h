@@ -22,7 +22,7 @@ public:
     DepthMaps(const RasterScene& scene, const Bounds& bounds, int resolution, bool blends);
 
     /// Number of directions with maps at the same time; layers exist for one direction at a time.
-    std::size_t at_once() const { return layers_ ? 1 : kMost; }
+    std::size_t at_once() const { return layers_ ? 1 : kMax; }
     int resolution() const { return resolution_; }
     bool blends() const { return layers_.has_value(); }
     /// Returns the directions in the layout of the shaders.
@@ -36,7 +36,7 @@ public:
     void bind() const;
 
 private:
-    static constexpr std::size_t kMost = 8;
+    static constexpr std::size_t kMax = 8;
     struct Layers {
         std::array<GlObject, 2> depth; ///< depth of this layer and of the previous layer, alternating
         GlObject coverage, target, program;

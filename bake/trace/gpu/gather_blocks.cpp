@@ -47,12 +47,12 @@ std::size_t GatherBlocks::weights_per_entry() const {
 }
 
 void GatherBlocks::cut(std::size_t block_bytes) {
-    const std::size_t bytes = std::min(block_bytes, device_.traits().most_bytes),
-                      most_entries = bytes / (4 * weights_per_entry()), most_rows = bytes / 4 - 1;
+    const std::size_t bytes = std::min(block_bytes, device_.traits().max_bytes),
+                      max_entries = bytes / (4 * weights_per_entry()), max_rows = bytes / 4 - 1;
     const std::span<const GatherOperator::Row> rows = gather_.all_rows();
     for (std::size_t r = 0; r < rows.size(); ++r) {
-        if (blocks_.empty() || blocks_.back().entries + rows[r].count > most_entries ||
-            blocks_.back().rows == most_rows)
+        if (blocks_.empty() || blocks_.back().entries + rows[r].count > max_entries ||
+            blocks_.back().rows == max_rows)
             blocks_.push_back({.first = r});
         ++blocks_.back().rows;
         blocks_.back().entries += rows[r].count;

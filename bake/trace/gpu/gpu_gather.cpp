@@ -247,9 +247,8 @@ void GpuGather::gather(const Kernel& kernel, const Task& task, const Progress& p
         for (std::size_t row = std::max(first, block.first); row < block_end;) {
             progress.check();
             const auto in_time = static_cast<std::size_t>(work_per_second_ * kGatherSeconds / work_of_row);
-            const std::size_t count =
-                std::min({block_end - row, std::max<std::size_t>(in_time, rows_of_group),
-                          kMostGroups * rows_of_group});
+            const std::size_t count = std::min(
+                {block_end - row, std::max<std::size_t>(in_time, rows_of_group), kMaxGroups * rows_of_group});
             const gpu::GatherPush push{.first_row = static_cast<std::uint32_t>(row - block.first),
                                        .end_row = static_cast<std::uint32_t>(row - block.first + count),
                                        .first_gathered = static_cast<std::uint32_t>(block.first - first),
@@ -287,7 +286,7 @@ std::optional<BounceEnergy> GpuGather::bounce(Transfer& transfer, int bounces, c
             static_cast<std::uint32_t>(receivers * static_cast<std::size_t>(gather_.channels()));
         const auto measure = [&](std::size_t place, std::uint32_t bounce) {
             gpu::EnergyPush push{.first = 0, .end = vectors, .place = bounce};
-            constexpr std::uint32_t kAtOnce = kMostGroups * PRT_GATHER_THREADS;
+            constexpr std::uint32_t kAtOnce = kMaxGroups * PRT_GATHER_THREADS;
             for (; push.first < vectors; push.first += kAtOnce)
                 queue_.submit([&](const vk::raii::CommandBuffer& commands) {
                     v.energy.kernel.dispatch(

@@ -12,7 +12,7 @@ namespace {
 
 /// Minimum size of the stack. Private stacks of up to 32 groups stay in registers on some chips, which then
 /// run fewer threads.
-constexpr int kLeastStack = 64;
+constexpr int kMinStack = 64;
 
 template <class T>
 GpuBuffer to_device(const VulkanDevice& device, GpuQueue& queue, const std::vector<T>& values,
@@ -99,7 +99,7 @@ GpuResources GpuScene::resources() const {
 std::map<std::uint32_t, std::uint32_t> GpuScene::constants() const {
     return {{PRT_CONSTANT_ALPHA, has_alpha_},
             {PRT_CONSTANT_TEXTURED, textured_},
-            {PRT_CONSTANT_STACK, static_cast<std::uint32_t>(std::max(kLeastStack, levels_))},
+            {PRT_CONSTANT_STACK, static_cast<std::uint32_t>(std::max(kMinStack, levels_))},
             {PRT_CONSTANT_OPAQUE, opaque_}};
 }
 

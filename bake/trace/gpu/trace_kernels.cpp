@@ -14,10 +14,10 @@
 namespace prt {
 namespace {
 
-static_assert(PRT_MOST_ORDER == kMaxOrder);
+static_assert(PRT_MAX_ORDER == kMaxOrder);
 
 std::vector<glm::vec4> sh_factors() {
-    std::vector<glm::vec4> factors(PRT_MOST_COEFFICIENTS, glm::vec4(0));
+    std::vector<glm::vec4> factors(PRT_MAX_COEFFICIENTS, glm::vec4(0));
     const auto& k = detail::kLegendre;
     for (std::size_t m = 0; m < kMaxOrder; ++m) {
         factors[PRT_SH_FACTOR(m, m)].z = static_cast<float>(k.sectoral[m]);
@@ -67,7 +67,7 @@ TraceKernels::TraceKernels(const VulkanDevice& device, GpuQueue& queue, const Gp
                                    PRT_BINDING_HITS, PRT_BINDING_BLOCKED_RAYS},
                                   constants, resources));
     const std::uint32_t subgroups =
-        std::max(1u, PRT_BEAM / std::min<std::uint32_t>(PRT_BEAM, device.traits().least_subgroup));
+        std::max(1u, PRT_BEAM / std::min<std::uint32_t>(PRT_BEAM, device.traits().min_subgroup));
     accumulate_ = GpuKernel(
         device, kernel_source(bake_accumulate,
                               {PRT_BINDING_SAMPLES, PRT_BINDING_RECEIVERS, PRT_BINDING_SUMS,

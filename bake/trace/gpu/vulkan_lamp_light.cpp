@@ -97,12 +97,12 @@ public:
                            .first_triangle = ranges.first_triangle,
                            .end_triangle = ranges.end_triangle,
                            .scramble = seed_scramble(task_.seed + lamp),
-                           .most_rays = static_cast<std::uint32_t>(task_.options.rays),
+                           .max_rays = static_cast<std::uint32_t>(task_.options.rays),
                            .first_ray = 0,
                            .end_ray = 0,
                            .radius = static_cast<float>(task_.options.radius),
                            .nearest = static_cast<float>(kNearestToLight)};
-        const std::uint32_t rays = most_rays(ranges);
+        const std::uint32_t rays = max_rays(ranges);
         for (; push.first_ray < rays; push.first_ray += kLampRaysAtOnce) {
             const bool last = rays - push.first_ray <= kLampRaysAtOnce;
             push.end_ray =
@@ -124,7 +124,7 @@ private:
 
     /// Maximum number of rays from a receiver to a lamp: the rays of each light are rounded up. At least one,
     /// so that dark receivers are written, too.
-    std::uint32_t most_rays(const LampTables::Ranges& ranges) const {
+    std::uint32_t max_rays(const LampTables::Ranges& ranges) const {
         const auto spread = static_cast<std::uint32_t>(task_.options.rays);
         return std::max(
             {1u, ranges.triangles() > 0 ? spread : 0, ranges.lights() > 0 ? spread + ranges.lights() : 0});
@@ -142,7 +142,7 @@ private:
             push.first_receiver = static_cast<std::uint32_t>(begin);
             const Stopwatch watch;
             const std::size_t groups =
-                std::min<std::size_t>((size + PRT_LAMP_THREADS - 1) / PRT_LAMP_THREADS, kMostGroups);
+                std::min<std::size_t>((size + PRT_LAMP_THREADS - 1) / PRT_LAMP_THREADS, kMaxGroups);
             const std::size_t done = std::min(count_ - begin, groups * PRT_LAMP_THREADS);
             push.receivers = static_cast<std::uint32_t>(begin + done);
             const GpuQueue::Ticket ticket = queue_.submit([&](const vk::raii::CommandBuffer& commands) {

@@ -18,14 +18,14 @@ namespace {
 
 constexpr double kPieceSeconds =
     0.05; ///< time on the device: a desktop stays responsive, and its driver ends work that takes seconds
-constexpr std::size_t kMostReceivers = 1 << 17; ///< maximum per call; the caller stores their vectors
+constexpr std::size_t kMaxReceivers = 1 << 17; ///< maximum per call; the caller stores their vectors
 
 } // namespace
 
 VulkanTracer::VulkanTracer(const TraceScene& scene, const VulkanChoice& choice, std::size_t piece_bytes)
     : device_(choice), queue_(device_), scene_(scene),
       scene_on_gpu_(with_vulkan_errors([&] { return GpuScene(device_, queue_, scene); })),
-      piece_bytes_(std::min(piece_bytes, device_.traits().most_bytes)) {}
+      piece_bytes_(std::min(piece_bytes, device_.traits().max_bytes)) {}
 
 std::string VulkanTracer::device() const {
     return device_.traits().about.name + (device_.traits().ray_queries ? ", ray queries" : ", compute");
@@ -33,7 +33,7 @@ std::string VulkanTracer::device() const {
 
 std::size_t VulkanTracer::batch_size(const TraceOptions& options) const {
     const double in_two_seconds = rays_per_second_ * 2 / options.rays;
-    return static_cast<std::size_t>(std::clamp(in_two_seconds, 1.0, static_cast<double>(kMostReceivers)));
+    return static_cast<std::size_t>(std::clamp(in_two_seconds, 1.0, static_cast<double>(kMaxReceivers)));
 }
 
 TraceKernels& VulkanTracer::kernels(const TraceKernels::Kind& kind) {
@@ -56,7 +56,7 @@ TracePiece::Room VulkanTracer::room_for(const TraceJob& job) const {
     room.rows = std::clamp<std::size_t>(piece_bytes_ / row, 1, job.indices.size() * job.chunks());
     room.receivers = std::min({std::max<std::size_t>(1, room.rows / job.chunks()), job.indices.size(),
                                std::max<std::size_t>(1, piece_bytes_ / receiver),
-                               static_cast<std::size_t>(device_.traits().most_groups)});
+                               static_cast<std::size_t>(device_.traits().max_groups)});
     room.rows = std::min(room.rows, room.receivers * job.chunks());
     room.hits = room.rows * slots;
     if (job.hits && alpha)
@@ -96,7 +96,7 @@ gpu::TracePush VulkanTracer::next(const TraceJob& job, std::size_t receiver, std
     gpu::TracePush push{};
     push.receivers = static_cast<std::uint32_t>(receivers);
     push.first_chunk = static_cast<std::uint32_t>(chunk);
-    push.chunks = static_cast<std::uint32_t>(std::min({whole ? chunks : rows, chunks - chunk, kMostGroups}));
+    push.chunks = static_cast<std::uint32_t>(std::min({whole ? chunks : rows, chunks - chunk, kMaxGroups}));
     push.all_chunks = static_cast<std::uint32_t>(chunks);
     push.last_rays = static_cast<std::uint32_t>(job.last.rays);
     push.first_ray = job.options.first_ray;

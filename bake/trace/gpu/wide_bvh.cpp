@@ -21,7 +21,7 @@ namespace {
 
 using gpu::WideNode;
 
-constexpr unsigned kWidth = 8, kMostLeafTriangles = 3;
+constexpr unsigned kWidth = 8, kMaxLeafTriangles = 3;
 
 struct Box {
     glm::vec3 low, high;
@@ -31,7 +31,7 @@ struct Box {
 struct BuildNode {
     std::array<BuildNode*, kWidth> children{};
     std::array<Box, kWidth> boxes{};
-    std::array<std::uint32_t, kMostLeafTriangles> triangles{};
+    std::array<std::uint32_t, kMaxLeafTriangles> triangles{};
     unsigned child_count = 0, triangle_count = 0;
 };
 
@@ -205,7 +205,7 @@ WideBvh build_wide_bvh(const std::vector<glm::vec3>& positions, const std::vecto
     arguments.byteSize = sizeof arguments;
     arguments.buildQuality = RTC_BUILD_QUALITY_MEDIUM;
     arguments.maxBranchingFactor = kWidth;
-    arguments.maxLeafSize = kMostLeafTriangles;
+    arguments.maxLeafSize = kMaxLeafTriangles;
     arguments.bvh = memory.get();
     arguments.primitives = primitives.data();
     arguments.primitiveCount = primitives.size();

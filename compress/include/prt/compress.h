@@ -23,14 +23,14 @@ namespace prt {
 
 /// Maximum size of packed weights: eight 32-bit words per receiver, minus the cluster with up to 16 bits: 240
 /// bits, 30 bytes.
-inline constexpr int kMostPackedWords = 8;
-inline constexpr int kMostPackedBits = 32 * kMostPackedWords - 16;
+inline constexpr int kMaxPackedWords = 8;
+inline constexpr int kMaxPackedBits = 32 * kMaxPackedWords - 16;
 
 /// Maximum transfer coefficient that can be compressed. A real one is 1 if all light arrives, and a few
 /// hundred behind nearly black sheets. Squares of values up to this limit can be summed in floats.
-inline constexpr float kMostTransfer = 1e12f;
+inline constexpr float kMaxInputTransfer = 1e12f;
 /// Maximum price of seams.
-inline constexpr double kMostPrice = 1e6;
+inline constexpr double kMaxPrice = 1e6;
 
 /// Storage of a receiver's weights.
 struct WeightCoding {
@@ -41,7 +41,7 @@ struct WeightCoding {
 
     // Packed weights only:
 
-    /// Total bits of a receiver's weights, at most kMostPackedBits. Every cluster distributes them by
+    /// Total bits of a receiver's weights, at most kMaxPackedBits. Every cluster distributes them by
     /// variance.
     int bits = 24;
     /// Bits of each component, 1..16, identical in all clusters; replaces `bits`.
@@ -122,12 +122,11 @@ struct CompressResult {
 };
 
 /// Compresses `transfer` on `surface`. The result depends only on the seed, not on the number of threads.
-/// Thread-safe. Throws `Error` for options out of range, transfer above `kMostTransfer`, areas, normals and
-/// positions that are not finite and edges of receivers that do not exist; throws `Cancelled`.
-/// Memory in addition to the arguments, per receiver: two bytes for every coefficient and predictor
-/// coordinate that carries error (four bytes for fewer than 65 536 receivers), three times its code, and
-/// about a hundred bytes. Transfer is read block by block.
-/// Time: proportional to receivers × clusters × components.
+/// Thread-safe. Throws `Error` for options out of range, transfer above `kMaxInputTransfer`, areas, normals
+/// and positions that are not finite and edges of receivers that do not exist; throws `Cancelled`. Memory in
+/// addition to the arguments, per receiver: two bytes for every coefficient and predictor coordinate that
+/// carries error (four bytes for fewer than 65 536 receivers), three times its code, and about a hundred
+/// bytes. Transfer is read block by block. Time: proportional to receivers × clusters × components.
 CompressResult compress(const TransferView& transfer, const ReceiverSurface& surface,
                         const CompressOptions& options, const Progress& progress = {});
 

@@ -17,7 +17,7 @@ struct ClustersSeeded {
 /// A round of clustered PCA before weights are quantised. Costs are squared, weighted errors (docs/math.md,
 /// eq. 28c), including expected quantisation loss and prices.
 struct ClusteringRound {
-    int most_components;
+    int component_limit;
     double cost;
 };
 

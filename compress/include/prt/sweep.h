@@ -31,7 +31,7 @@ struct SweepPoint {
 struct Sweep {
     std::vector<SweepPoint> by_bytes; ///< every method at suitable sizes
     /// The clustered methods of the literature with `kSweepClusters` clusters, or one per
-    /// `kLeastReceiversPerCluster` receivers if that is fewer. prtkit with any number of clusters that needs
+    /// `kMinReceiversPerCluster` receivers if that is fewer. prtkit with any number of clusters that needs
     /// no more bytes than classic CPCA with the same number of components.
     std::vector<SweepPoint> by_components;
     std::vector<std::string> left_out; ///< missing points of prtkit, with reasons
@@ -39,7 +39,7 @@ struct Sweep {
 
 inline constexpr int kSweepClusters = 256; ///< fits one byte
 /// Minimum number of receivers per cluster for the methods of the literature. Chosen by hand.
-inline constexpr std::size_t kLeastReceiversPerCluster = 8;
+inline constexpr std::size_t kMinReceiversPerCluster = 8;
 /// Budgets of the sweep, bytes per receiver including bases: at most one, one, two and three words.
 inline constexpr double kSweepBytes[] = {5, 7, 9, 13};
 /// Components per receiver.

@@ -25,7 +25,7 @@ using Radiance = std::vector<glm::vec3>;
 /// for files and is enough for errors of a few percent; the interval of the total shows the remaining
 /// uncertainty.
 constexpr double kNoise = 2e-4;
-constexpr int kMostPaths = 1024;
+constexpr int kMaxPaths = 1024;
 
 /// Leaves one thread for drawing.
 int threads_beside_drawing() {
@@ -151,9 +151,8 @@ void find_budget(Channel& channel, const BudgetSubject& subject) {
         prt::surface_points(*model.trace, {.threads = threads}, {{}, progress.stop});
     if (points.size() == 0)
         throw prt::Error("the model has no surface that light reaches, so that there is no error to measure");
-    const prt::SurfaceRadiance reference(*model.trace, points, light,
-                                         {.most_paths = kMostPaths, .noise = kNoise, .threads = threads},
-                                         progress);
+    const prt::SurfaceRadiance reference(
+        *model.trace, points, light, {.max_paths = kMaxPaths, .noise = kNoise, .threads = threads}, progress);
 
     const prt::Light sky = prt::truncated(light.sky_bands, subject.light_order);
     const prt::BandFactors factors = window_factors(sky, subject.rig.settings().window);

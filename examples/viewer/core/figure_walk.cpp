@@ -15,7 +15,7 @@ constexpr float kTurnAround = std::numbers::pi_v<float>;
 /// Distance between two checks for obstacles ahead, metres.
 constexpr float kLook = 0.1f;
 /// Maximum distance per call, because a file may contain any speed.
-constexpr double kMostMetres = 1e4;
+constexpr double kMaxMetres = 1e4;
 /// Rotation per metre walked, radians.
 constexpr float kTurn = 1.6f;
 constexpr float kLookAhead = 1.5f; ///< metres
@@ -63,7 +63,7 @@ void FigureWalk::advance(double metres) {
         follow_path();
         return;
     }
-    for (double left = std::min(metres, kMostMetres); left > 0; left -= kLook)
+    for (double left = std::min(metres, kMaxMetres); left > 0; left -= kLook)
         wander(static_cast<float>(std::min<double>(left, kLook)));
 }
 

@@ -252,7 +252,7 @@ std::vector<prt::SunDisc> LightRig::strongest_first() const {
 
 LightApart LightRig::light_apart(int order) const {
     std::vector<prt::SunDisc> suns = strongest_first();
-    const auto most = std::min<std::size_t>(suns.size(), prt::kMostShadowedSuns);
+    const auto most = std::min<std::size_t>(suns.size(), prt::kMaxShadowedSuns);
     prt::Light sky = prt::constant_light(order, glm::vec3(0)), of_suns = sky;
     if (const LoadedEnvironment* environment = base())
         add(sky, prt::rotated_about_y(prt::truncated(environment->sky, order),

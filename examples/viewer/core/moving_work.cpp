@@ -26,9 +26,9 @@ struct VolumeStage {
 };
 constexpr VolumeStage kVolumeStages[] = {{32, 2}, {128, 3}, {512, kBakeOrder}};
 /// Limit for volumes that the viewer bakes itself: seconds on a few cores.
-constexpr std::size_t kMostProbes = 3000;
+constexpr std::size_t kMaxProbes = 3000;
 constexpr int kOccluderRays = 64;
-constexpr int kProbesOfCluster = 32, kMostClusters = 256;
+constexpr int kProbesOfCluster = 32, kMaxClusters = 256;
 
 bool is_animated(const std::filesystem::path& path) {
     return prt::has_animations(prt::load_gltf(path));
@@ -38,8 +38,7 @@ std::shared_ptr<const prt::CompressedVolume> compressed(Channel& channel, const 
     channel.enter(Stage::compressing, "compressing the volume");
     prt::CompressOptions options;
     options.coding = prt::preset_volume();
-    options.clusters =
-        std::clamp(static_cast<int>(volume.sights.size()) / kProbesOfCluster, 1, kMostClusters);
+    options.clusters = std::clamp(static_cast<int>(volume.sights.size()) / kProbesOfCluster, 1, kMaxClusters);
     return std::make_shared<const prt::CompressedVolume>(
         prt::compress_volume(volume, options, channel.progress()).volume);
 }
@@ -52,7 +51,7 @@ void bake_in_stages(Channel& channel, const std::shared_ptr<const Model>& model)
         options.rays = rays;
         options.bounces = kBakeBounces;
         options.repairs.bad_textures = prt::BadTextures::ignore;
-        const prt::VolumeOptions volume{.probes = kMostProbes};
+        const prt::VolumeOptions volume{.probes = kMaxProbes};
         const prt::VolumeBake bake = prt::bake_volume(model->scene, volume, options, channel.progress());
         channel.post(FoundVolume{model, compressed(channel, bake.volume), rays});
     }

@@ -81,7 +81,7 @@ void Reference::trace(const Subject& subject, const LightRig& rig, Shared& share
         const bool fine = options.width == subject.options.width;
         prt::PathTracer tracer(scene, light, options);
         const std::vector<bool> surfaces = tracer.surface_mask();
-        for (int pass = 0; pass < (fine ? kMostPasses : 4); ++pass) {
+        for (int pass = 0; pass < (fine ? kMaxPasses : 4); ++pass) {
             tracer.add_pass(threads, stop);
             const std::lock_guard lock(shared.mutex);
             shared.result = Result{tracer.image(), surfaces};

@@ -62,6 +62,6 @@ private:
 };
 
 /// Maximum number of passes; its noise is below the visible threshold.
-inline constexpr int kMostPasses = 4096;
+inline constexpr int kMaxPasses = 4096;
 
 } // namespace viewer

@@ -15,7 +15,7 @@
 namespace viewer {
 namespace {
 
-constexpr std::size_t kMostMessages = 6;
+constexpr std::size_t kMaxMessages = 6;
 constexpr float kFieldOfView = 0.61f;
 
 bool is_environment(const std::filesystem::path& path) {
@@ -53,7 +53,7 @@ void Viewer::message(const std::string& text) {
     if (!messages_.empty() && messages_.back() == text)
         return;
     messages_.push_back(text);
-    if (messages_.size() > kMostMessages)
+    if (messages_.size() > kMaxMessages)
         messages_.pop_front();
 }
 
@@ -180,7 +180,7 @@ std::unique_ptr<GpuModel> Viewer::uploaded(const LoadedModel& loaded) {
     if (loaded.lightmap.compressed)
         model->set_compressed(loaded.lightmap.compressed);
     else if (compressed &&
-             compressed->bases.max_components() <= prt::most_vertex_components(compressed->bases))
+             compressed->bases.max_components() <= prt::max_vertex_components(compressed->bases))
         model->set_compressed(*compressed);
     else if (compressed)
         message("the compressed transfer has more components than a vertex has attributes");

@@ -62,7 +62,7 @@ void ContactShadows::place(const FigurePose* pose, std::span<const Ball> balls) 
         box_.low = glm::min(box_.low, one.center() - one.reach());
         box_.high = glm::max(box_.high, one.center() + one.reach());
     }
-    for (const std::uint32_t i : prt::occluders_near(all, box_.low, box_.high, prt::kMostOccluders))
+    for (const std::uint32_t i : prt::occluders_near(all, box_.low, box_.high, prt::kMaxOccluders))
         placed_.push_back(all[i]);
 }
 

@@ -38,8 +38,8 @@ GLuint groups(int texels) {
 
 } // namespace
 
-RawLightmap::RawLightmap(std::shared_ptr<const prt::BakedLightmap> lightmap, std::size_t most_receivers)
-    : lightmap_(std::move(lightmap)), transfer_(lightmap_->baked.transfer, most_receivers),
+RawLightmap::RawLightmap(std::shared_ptr<const prt::BakedLightmap> lightmap, std::size_t max_receivers)
+    : lightmap_(std::move(lightmap)), transfer_(lightmap_->baked.transfer, max_receivers),
       program_(prt::make_compute_program("viewer_spread_texels.comp")), nearest_(nearest_of_maps(*lightmap_)),
       maps_(prt::make_lightmap_textures(lightmap_->layout)) {}
 

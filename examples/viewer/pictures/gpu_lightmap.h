@@ -15,8 +15,8 @@ namespace viewer {
 /// Raw lightmap transfer: one compute shader computes the radiance of receivers, another that of all texels.
 class RawLightmap {
 public:
-    /// `most_receivers`: see `RawTransfer`.
-    RawLightmap(std::shared_ptr<const prt::BakedLightmap> lightmap, std::size_t most_receivers);
+    /// `max_receivers`: see `RawTransfer`.
+    RawLightmap(std::shared_ptr<const prt::BakedLightmap> lightmap, std::size_t max_receivers);
 
     const prt::TransferLayout& layout() const { return transfer_.layout(); }
     void set_light(const prt::Lighting& lighting);

@@ -32,8 +32,8 @@ GpuModel::Source GpuModel::source_of(PictureKind kind) {
     return shows_numbers(kind) ? Source::numbers : Source::normals;
 }
 
-GpuModel::GpuModel(std::shared_ptr<const Model> model, std::size_t most_receivers)
-    : model_(std::move(model)), most_receivers_(most_receivers),
+GpuModel::GpuModel(std::shared_ptr<const Model> model, std::size_t max_receivers)
+    : model_(std::move(model)), max_receivers_(max_receivers),
       scene_(model_->scene, model_->trace->textures()), plain_{scene_.make_vertex_arrays(), {}} {
     numbers_.arrays = scene_.make_vertex_arrays();
     programs_.wires = prt::make_program("viewer_color.vert", "viewer_color.frag");
@@ -41,7 +41,7 @@ GpuModel::GpuModel(std::shared_ptr<const Model> model, std::size_t most_receiver
 
 void GpuModel::set_raw(const prt::Transfer& transfer) {
     drop_raw(); // memory may not suffice for two
-    RawTransfer raw(transfer, most_receivers_);
+    RawTransfer raw(transfer, max_receivers_);
     prt::GlVertexArrays arrays = scene_.make_vertex_arrays();
     scene_.attach_receivers(arrays, raw.radiance(), PRT_LOCATION_RADIANCE, 3);
     take_raw({std::move(raw), std::move(arrays), transfer.layout});
@@ -50,7 +50,7 @@ void GpuModel::set_raw(const prt::Transfer& transfer) {
 void GpuModel::set_raw(std::shared_ptr<const prt::BakedLightmap> lightmap) {
     drop_raw();
     const prt::TransferLayout layout = lightmap->baked.transfer.layout;
-    take_raw({RawLightmap(std::move(lightmap), most_receivers_), scene_.make_vertex_arrays(), layout});
+    take_raw({RawLightmap(std::move(lightmap), max_receivers_), scene_.make_vertex_arrays(), layout});
 }
 
 void GpuModel::set_compressed(const prt::ClusteredTransfer& transfer) {

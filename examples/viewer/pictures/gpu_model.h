@@ -33,8 +33,8 @@ struct GeometryPass {
 
 class GpuModel {
 public:
-    /// `most_receivers`: maximum number of raw receivers per dispatch, a multiple of 256.
-    explicit GpuModel(std::shared_ptr<const Model> model, std::size_t most_receivers = 1u << 21);
+    /// `max_receivers`: maximum number of raw receivers per dispatch, a multiple of 256.
+    explicit GpuModel(std::shared_ptr<const Model> model, std::size_t max_receivers = 1u << 21);
     const Model& model() const { return *model_; }
 
     void set_raw(const prt::Transfer& transfer);
@@ -142,7 +142,7 @@ private:
     GpuInstances* instances_of(PictureKind kind);
 
     std::shared_ptr<const Model> model_;
-    std::size_t most_receivers_;
+    std::size_t max_receivers_;
     prt::GlScene scene_;
     struct Plain {
         prt::GlVertexArrays arrays;

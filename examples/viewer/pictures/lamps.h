@@ -31,7 +31,7 @@ struct LampSettings {
 };
 
 /// Maximum strength; it keeps emission within the range of floats.
-inline constexpr float kMostLampStrength = 1e9f;
+inline constexpr float kMaxLampStrength = 1e9f;
 
 /// Returns the lamps of the layouts, each name once. Lamps in `known` keep their settings; new ones have the
 /// strength of the scene.

@@ -21,9 +21,9 @@ prt::GlObject make_program(const prt::Transfer& transfer) {
 
 } // namespace
 
-RawTransfer::RawTransfer(const prt::Transfer& transfer, std::size_t most_receivers)
+RawTransfer::RawTransfer(const prt::Transfer& transfer, std::size_t max_receivers)
     : layout_(transfer.layout), receivers_(transfer.receivers()),
-      stride_(transfer.dimension() * sizeof(float)), most_receivers_(most_receivers),
+      stride_(transfer.dimension() * sizeof(float)), max_receivers_(max_receivers),
       vectors_(prt::make_buffer(std::span<const float>(transfer.vectors))),
       light_(prt::make_buffer(std::span<const glm::vec4>(std::vector<glm::vec4>(layout_.columns())))),
       radiance_(prt::make_buffer(std::span<const glm::vec3>(std::vector<glm::vec3>(receivers_)))),
@@ -40,7 +40,7 @@ void RawTransfer::set_light(const prt::Lighting& lighting) {
     GLint64 most = 0;
     glGetInteger64v(GL_MAX_SHADER_STORAGE_BLOCK_SIZE, &most);
     const std::size_t piece = std::max<std::size_t>(
-        256, std::min<std::size_t>(static_cast<std::size_t>(most) / stride_, most_receivers_) / 256 * 256);
+        256, std::min<std::size_t>(static_cast<std::size_t>(most) / stride_, max_receivers_) / 256 * 256);
     glUseProgram(program_.name());
     glBindBufferBase(GL_SHADER_STORAGE_BUFFER, PRT_BINDING_LIGHT, light_.name());
     glBindBufferBase(GL_SHADER_STORAGE_BUFFER, PRT_BINDING_RAW_RADIANCE, radiance_.name());

@@ -15,7 +15,7 @@ namespace {
 
 float strength_of(const nlohmann::json& value, const std::string& name) {
     const float strength = value.is_number() ? value.get<float>() : -1;
-    if (!(strength >= 0 && strength <= kMostLampStrength))
+    if (!(strength >= 0 && strength <= kMaxLampStrength))
         throw prt::Error(fmt::format("the strength of '{}' is neither a number in 0..1e9 nor three of them",
                                      prt::printable(name)));
     return strength;

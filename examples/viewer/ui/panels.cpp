@@ -245,11 +245,11 @@ void transfer_lines(const TransferFigures& t, const char* receiver, std::size_t 
 }
 
 void lightmap_lines(const LightmapFigures& f) {
-    constexpr std::size_t kMostNamed = 2;
+    constexpr std::size_t kMaxNamed = 2;
     std::string maps = f.maps.size() == 1 ? "" : fmt::format("{}: ", f.maps.size());
-    for (std::size_t m = 0; m < std::min(f.maps.size(), kMostNamed); ++m)
+    for (std::size_t m = 0; m < std::min(f.maps.size(), kMaxNamed); ++m)
         maps += fmt::format("{}{} x {}", m == 0 ? "" : ", ", f.maps[m].width, f.maps[m].height);
-    line(f.maps.size() == 1 ? "lightmap" : "lightmaps", maps + (f.maps.size() > kMostNamed ? ", ..." : ""),
+    line(f.maps.size() == 1 ? "lightmap" : "lightmaps", maps + (f.maps.size() > kMaxNamed ? ", ..." : ""),
          "Texels along the sides.");
     if (f.receivers > 0)
         line("texels",

@@ -44,10 +44,10 @@ ${sunLoop}`;
 // Occluders of baked surfaces, in world space.
 const OCCLUDERS = `
 #ifdef PRT_OCCLUDERS
-#define PRT_MOST_OCCLUDERS ${MOST_OCCLUDERS}
+#define PRT_MAX_OCCLUDERS ${MOST_OCCLUDERS}
 #define PRT_OCCLUDER_ROWS prtOccluderRows
 #define PRT_OCCLUDER_COUNT prtOccluderCount
-uniform vec4 prtOccluderRows[ 5 * PRT_MOST_OCCLUDERS ];
+uniform vec4 prtOccluderRows[ 5 * PRT_MAX_OCCLUDERS ];
 uniform int prtOccluderCount;
 uniform vec4 prtOccluderReach; // a sphere, out of which none takes any
 ${occluders}

@@ -7,9 +7,9 @@
 namespace prt {
 
 /// Maximum magnitude of a coefficient. Sums of squares of such lights still fit a float.
-inline constexpr float kMostLight = 1e18f;
+inline constexpr float kMaxLight = 1e18f;
 
-/// Throws `Error` unless every coefficient is a number from -kMostLight to kMostLight.
+/// Throws `Error` unless every coefficient is a number from -kMaxLight to kMaxLight.
 void check_light(const Light& light);
 
 } // namespace prt

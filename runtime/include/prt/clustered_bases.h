@@ -109,7 +109,7 @@ struct ClusterLayout {
 /// The vertex shader then needs no table and no loop.
 bool clusters_are_alike(const ClusteredBases& bases);
 
-inline constexpr int kMostPackedComponents = 16;
+inline constexpr int kMaxPackedComponents = 16;
 
 /// Returns the constants and weight layout of each cluster, [clusters].
 std::vector<ClusterLayout> cluster_layouts(const ClusteredBases& bases);

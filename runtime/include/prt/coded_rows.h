@@ -18,7 +18,7 @@ struct RowCode {
     std::vector<std::byte> bits;     ///< all rows, concatenated
 };
 
-inline constexpr int kMostRowBits = 15; ///< widest value: -16384..16383
+inline constexpr int kMaxRowBits = 15; ///< widest value: -16384..16383
 
 /// Returns the shortest code found for `values` [rows][columns], each in -16384..16383.
 RowCode encode_rows(std::span<const std::int32_t> values, std::size_t columns);

@@ -48,7 +48,7 @@ public:
     /// Number of vectors in the constants of all instances: three per row.
     std::size_t size() const { return size_; }
     /// Maximum error of the rotation of an instance's lighting, in degrees.
-    double most_degrees() const { return turns_.most_degrees; }
+    double max_degrees() const { return turns_.max_degrees; }
     /// Returns the attributes of each instance, [instances][2]: the center of its box, and the inverse half
     /// widths. The two w hold the offset of its constants, 16 bits each.
     std::vector<glm::vec4> table() const;

@@ -40,7 +40,7 @@ inline constexpr std::size_t kInstanceModes = kPassingModes + kAddedModes;
 /// Number of floats in `InstanceFactors`.
 inline constexpr std::size_t kInstanceNumbers = 4 * kPassingModes + 3 * kAddedModes;
 /// Maximum magnitude of a factor in files.
-inline constexpr float kLargestFactor = 6e4f;
+inline constexpr float kMaxInstanceFactor = 6e4f;
 
 /// Effect of an instance's surroundings on the light, in axes of the world.
 struct InstanceFactors {
@@ -64,7 +64,7 @@ struct CodedFactors {
     std::vector<std::int8_t> bytes;               ///< [instances][kInstanceNumbers]
 };
 /// Rounds factors to the nearest code. Throws `Error` for factors that are not finite or exceed
-/// `kLargestFactor`.
+/// `kMaxInstanceFactor`.
 CodedFactors coded(std::span<const InstanceFactors> factors);
 std::vector<InstanceFactors> decoded(const CodedFactors& coded);
 
@@ -157,7 +157,7 @@ void expand_instance(const SharedTransfer& shared, const PlacedInstance& instanc
 struct InstanceTurns {
     std::vector<glm::dmat3> rotations; ///< from the mesh's frame to the world's
     std::vector<std::uint32_t> of;     ///< [instances] index into `rotations`
-    double most_degrees = 0;           ///< maximum angle between an instance's rotation and its assigned
+    double max_degrees = 0;            ///< maximum angle between an instance's rotation and its assigned
                                        ///< rotation
 };
 /// Groups rotations. Rotations about +Y are rounded to `bins` evenly spaced yaws. All others, and all if

@@ -6,7 +6,7 @@
 // here and by shaders/prt_lobes.glsl. Experimental.
 //
 //     const glm::mat3 turn = axis_turn(skin_matrix);               // of the vertex, in this frame
-//     std::array<Lobe, kMostLobes> lobes;
+//     std::array<Lobe, kMaxLobes> lobes;
 //     model.decode(vertex, lobes);
 //     for (Lobe& lobe : lobes)
 //         lobe.axis = turned_axis(lobe.axis, turn);
@@ -25,15 +25,15 @@
 
 namespace prt {
 
-inline constexpr std::size_t kMostLobes = 3, kMostProfiles = 256;
+inline constexpr std::size_t kMaxLobes = 3, kMaxProfiles = 256;
 /// Maximum number of bands of a lobe: a vec4 in shaders, and the maximum order of incident light of a volume.
-inline constexpr int kMostLobeOrder = 4;
+inline constexpr int kMaxLobeOrder = 4;
 /// Maximum magnitude of a profile coefficient in files; the sum of all bounces is a small number.
-inline constexpr float kLargestGain = 1e3f;
+inline constexpr float kMaxGain = 1e3f;
 
 /// Response of a lobe to the light of each band, 0 beyond the order. The cosine lobe of an unoccluded
 /// receiver has 1, 2/3, 1/4, 0.
-using LobeProfile = std::array<float, kMostLobeOrder>;
+using LobeProfile = std::array<float, kMaxLobeOrder>;
 
 /// Component of a transfer vector with rotational symmetry about an axis: T_lm = profile_l Y_lm(axis).
 struct Lobe {
@@ -53,8 +53,8 @@ glm::vec3 decoded_axis(std::uint8_t x, std::uint8_t y);
 
 /// The lobes of all vertices of a file.
 struct LobeModel {
-    int order = 0;         ///< 2..kMostLobeOrder
-    std::size_t lobes = 0; ///< per vertex, 1..kMostLobes
+    int order = 0;         ///< 2..kMaxLobeOrder
+    std::size_t lobes = 0; ///< per vertex, 1..kMaxLobes
     std::vector<LobeProfile> profiles;
     std::vector<LobeWord> words; ///< [vertices][lobes], axes in the frame of the vertex normals
 
@@ -79,7 +79,7 @@ glm::vec3 turned_axis(const glm::vec3& axis, const glm::mat3& turn);
 /// [light_order²]; bands of lobes above `light_order` are ignored.
 glm::vec3 lobe_radiance(std::span<const Lobe> lobes, std::span<const glm::vec3> light, int light_order);
 
-/// Computes the sum of the lobes as a transfer vector [order²]; order is at most kMostLobeOrder.
+/// Computes the sum of the lobes as a transfer vector [order²]; order is at most kMaxLobeOrder.
 void lobe_transfer(std::span<const Lobe> lobes, int order, std::span<float> transfer);
 
 } // namespace prt

@@ -24,7 +24,7 @@ inline constexpr float kOccluderFade = 0.6f;
 /// Half width of the soft border of a blocked cap for suns, as a fraction of the cap's radius.
 inline constexpr float kOccluderBorder = 0.4f;
 /// Default maximum number of objects in the list of a shader.
-inline constexpr std::size_t kMostOccluders = 32;
+inline constexpr std::size_t kMaxOccluders = 32;
 
 /// Blocked directions seen from a point, as a uniformly blocked spherical cap. It has the same blocked
 /// fraction of all directions, and the same mean direction, as the object.

@@ -15,7 +15,7 @@ namespace prt {
 
 /// Maximum magnitude of a transfer coefficient in files. Light after many bounces adds up to a small number;
 /// for much larger values the squares and sums of lit values would overflow a float.
-inline constexpr float kLargestTransfer = 1e6f;
+inline constexpr float kMaxTransfer = 1e6f;
 
 /// The transfer vectors of a list of receivers: exit radiance of a Lambertian receiver of albedo rho is R_c =
 /// rho_c · sum_i T[c][i] L_c[i] (docs/math.md, eq. 7).

@@ -37,7 +37,7 @@ struct TransferPart {
 };
 
 /// Maximum number of lamps of a layout; a group with any number of lights counts once.
-inline constexpr std::size_t kMostLamps = 64;
+inline constexpr std::size_t kMaxLamps = 64;
 
 /// A transfer vector is the concatenation of its parts, each [channels][columns_of(part)]. With several
 /// outputs, it is one such vector per output.
@@ -113,10 +113,10 @@ struct LightingView {
 
 /// Maximum number of coefficients of one output of a transfer vector that `check_layout` accepts, and maximum
 /// number of its light columns.
-inline constexpr std::size_t kMostTransferNumbers = // per output
-    6 * static_cast<std::size_t>(coefficient_count(kMaxOrder)) + 3 * kMostLamps;
-inline constexpr std::size_t kMostLightColumns =
-    2 * static_cast<std::size_t>(coefficient_count(kMaxOrder)) + kMostLamps;
+inline constexpr std::size_t kMaxTransferNumbers = // per output
+    6 * static_cast<std::size_t>(coefficient_count(kMaxOrder)) + 3 * kMaxLamps;
+inline constexpr std::size_t kMaxLightColumns =
+    2 * static_cast<std::size_t>(coefficient_count(kMaxOrder)) + kMaxLamps;
 
 /// Returns the colors that each part is multiplied with, part after part: [layout.columns()]. Throws `Error`
 /// if `lighting` has fewer bands than the layout, or another number of lamps.

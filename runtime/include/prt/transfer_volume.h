@@ -22,11 +22,11 @@ inline constexpr int kBrickCells = 4;
 inline constexpr int kBrickSide = kBrickCells + 1;
 inline constexpr std::size_t kBrickProbes = kBrickSide * kBrickSide * kBrickSide;
 /// Level of the coarsest bricks: their cells are 2^3 times as wide as the finest.
-inline constexpr int kMostBrickLevel = 3;
+inline constexpr int kMaxBrickLevel = 3;
 /// Maximum number of bricks of the finest level along a side of a volume.
-inline constexpr int kMostBricksAlong = 1024;
+inline constexpr int kMaxBricksAlong = 1024;
 /// Maximum number of bands of incident light; the minimum is 2.
-inline constexpr int kMostIncidentOrder = 4;
+inline constexpr int kMaxIncidentOrder = 4;
 
 struct VolumeBrick {
     glm::ivec3 place{0}; ///< minimum corner, in finest bricks; a multiple of 2^level

@@ -15,16 +15,16 @@
 namespace prt {
 namespace {
 
-static_assert(kOccluderSide == PRT_OCCLUDER_SIDE && kMostOccluders == PRT_MOST_OCCLUDERS &&
+static_assert(kOccluderSide == PRT_OCCLUDER_SIDE && kMaxOccluders == PRT_MAX_OCCLUDERS &&
               kOccluderFade == static_cast<float>(PRT_OCCLUDER_FADE) &&
               kOccluderBorder == static_cast<float>(PRT_OCCLUDER_BORDER));
 
 /// The block PrtOccluders of shaders/prt_occluders.glsl, std140.
 struct Block {
-    std::array<PlacedOccluder, kMostOccluders> objects;
+    std::array<PlacedOccluder, kMaxOccluders> objects;
     std::array<std::int32_t, 4> count;
 };
-static_assert(sizeof(Block) == sizeof(glm::vec4) * (5 * kMostOccluders + 1));
+static_assert(sizeof(Block) == sizeof(glm::vec4) * (5 * kMaxOccluders + 1));
 
 } // namespace
 
@@ -54,7 +54,7 @@ GlOccluders::GlOccluders(std::span<const OcclusionVolume> volumes)
 }
 
 void GlOccluders::use(std::span<const PlacedOccluder> objects) {
-    assert(objects.size() <= kMostOccluders);
+    assert(objects.size() <= kMaxOccluders);
     Block block{};
     std::ranges::copy(objects, block.objects.begin());
     block.count[0] = static_cast<std::int32_t>(objects.size());

@@ -157,8 +157,8 @@ std::vector<Slice> slices_of(const SeenScene& seen) {
     const double far = depths.high, tolerance = 1e-9 * std::max(std::abs(far), std::abs(depths.low));
     std::vector<Slice> slices;
     double to = far;
-    while (to > 0 && to > depths.low && slices.size() < PRT_MOST_SLICES) {
-        const bool last = slices.size() + 1 == PRT_MOST_SLICES;
+    while (to > 0 && to > depths.low && slices.size() < PRT_MAX_SLICES) {
+        const bool last = slices.size() + 1 == PRT_MAX_SLICES;
         Slice slice{last ? 0.0 : 0.25 * to, to, {}};
         slice.from = std::max(slice.from, depths.low > 0 ? depths.low : 0.0);
         std::vector<HalfSpace> piece = body;

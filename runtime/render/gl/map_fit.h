@@ -24,7 +24,7 @@ struct Slice {
                                      ///< empty: nothing visible
 };
 
-/// Returns at most PRT_MOST_SLICES slices, near ones first. Each ends at four times the end distance of the
+/// Returns at most PRT_MAX_SLICES slices, near ones first. Each ends at four times the end distance of the
 /// previous one.
 std::vector<Slice> slices_of(const SeenScene& seen);
 

@@ -17,8 +17,8 @@ namespace prt {
 namespace {
 
 /// Maximum number of texels of all maps: 256 MB of depths.
-constexpr std::size_t kMostTexels = std::size_t{1} << 26;
-constexpr int kSmallestMap = 256;
+constexpr std::size_t kMaxTexels = std::size_t{1} << 26;
+constexpr int kMinMap = 256;
 
 GlObject make_array(GLenum format, int size, int layers) {
     GLuint name = 0;
@@ -43,16 +43,16 @@ suns::SunLight light_of(const SunDisc& sun) {
 /// Returns a power of two that provides two texels per pixel, if the limits allow it.
 int size_of_maps(std::span<const SunDisc> discs, const std::vector<Slice>& slices, const SeenScene& seen,
                  int largest) {
-    double wanted = kSmallestMap;
+    double wanted = kMinMap;
     for (const SunDisc& sun : discs)
         for (const Slice& slice : slices)
             if (!slice.corners.empty())
                 wanted = std::max(wanted, texels_wanted(sun, slice, seen));
-    int size = kSmallestMap;
+    int size = kMinMap;
     const std::size_t maps = std::max<std::size_t>(1, discs.size() * slices.size());
     const auto fits = [&](int side) {
         return side <= largest &&
-               maps * static_cast<std::size_t>(side) * static_cast<std::size_t>(side) <= kMostTexels;
+               maps * static_cast<std::size_t>(side) * static_cast<std::size_t>(side) <= kMaxTexels;
     };
     while (size < wanted && fits(2 * size))
         size *= 2;
@@ -85,8 +85,8 @@ void SunShadows::resize(int size, int count) {
 }
 
 void SunShadows::draw(std::span<const SunDisc> discs, const View& view, const Moving& moving) {
-    if (discs.size() > kMostShadowedSuns)
-        throw Error("OpenGL casts shadows of at most " + std::to_string(kMostShadowedSuns) + " suns, not " +
+    if (discs.size() > kMaxShadowedSuns)
+        throw Error("OpenGL casts shadows of at most " + std::to_string(kMaxShadowedSuns) + " suns, not " +
                     std::to_string(discs.size()));
     if (size_ > 0 && view == drawn_.view && moving.version == drawn_.moved &&
         std::ranges::equal(discs, drawn_.suns, same))

@@ -16,8 +16,8 @@ using glm::vec2, glm::vec4;
 
 static_assert(sizeof(SunLight) == 32 && sizeof(SunMap) == 64 && offsetof(SunMap, texels_per_metre) == 48 &&
               offsetof(SunMap, depth) == 56);
-static_assert(offsetof(SunsSeen, maps) == 32 * PRT_MOST_SUNS &&
-              offsetof(SunsSeen, slice_ends) == (32 + 64 * PRT_MOST_SLICES) * PRT_MOST_SUNS &&
+static_assert(offsetof(SunsSeen, maps) == 32 * PRT_MAX_SUNS &&
+              offsetof(SunsSeen, slice_ends) == (32 + 64 * PRT_MAX_SLICES) * PRT_MAX_SUNS &&
               offsetof(SunsSeen, count) == offsetof(SunsSeen, slice_ends) + 48 &&
               sizeof(SunsSeen) == offsetof(SunsSeen, count) + 16);
 

@@ -119,7 +119,7 @@ void read_weights(const GltfContents& contents, const Json& attributes, std::siz
                               receivers.format, count);
         const std::vector<std::byte> elements = read_elements(contents.model, accessor);
         if (receivers.format == WeightFormat::float32)
-            check_magnitudes(read_floats(contents.model, accessor, 4), kLargestWeight, "the weights");
+            check_magnitudes(read_floats(contents.model, accessor, 4), kMaxFloatWeight, "the weights");
         for (std::size_t i = 0; i < count; ++i)
             std::memcpy(&receivers.weights[(first + i) * stride + group * size], &elements[i * size], size);
     }

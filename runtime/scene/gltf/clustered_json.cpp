@@ -65,12 +65,12 @@ Json write_bases(GltfContents& contents, const ClusteredBases& bases) {
 void read_bases(const GltfContents& contents, const Json& json, ClusteredBases& bases) {
     const std::size_t rows = bases.first_rows().back(), dimension = bases.dimension();
     if (!json.contains("values")) {
-        bases.rows = read_float_view(contents, json, rows * dimension, kLargestTransfer, "the bases");
+        bases.rows = read_float_view(contents, json, rows * dimension, kMaxTransfer, "the bases");
         return;
     }
     constexpr float kAnyFinite = std::numeric_limits<float>::max(); // small steps may have large scales
     CodedBases& coded = bases.coded;
-    coded.origin = read_float_view(contents, json.at("origin"), dimension, kLargestTransfer, "the origin");
+    coded.origin = read_float_view(contents, json.at("origin"), dimension, kMaxTransfer, "the origin");
     if (json.contains("units"))
         coded.units = read_float_view(contents, json["units"], dimension, kAnyFinite, "the units");
     coded.axes = read_row_code(contents, json.at("axes"));
@@ -80,7 +80,7 @@ void read_bases(const GltfContents& contents, const Json& json, ClusteredBases& 
     read_steps(contents, json, coded);
     check_rows(contents, rows, axes, dimension);
     bases.rows = decode_bases(coded, bases.components, bases.guide_rows());
-    check_magnitudes(bases.rows, kLargestTransfer, "the decoded bases");
+    check_magnitudes(bases.rows, kMaxTransfer, "the decoded bases");
 }
 
 Json write_packing(GltfContents& contents, const ClusteredTransfer& transfer) {
@@ -103,9 +103,9 @@ void read_packing(const GltfContents& contents, const Json& json, ClusteredTrans
     const std::size_t directions = bases.first_rows().back() - bases.clusters() * bases.fixed_rows();
     std::size_t most = 0;
     for (const int components : bases.components) {
-        if (components > kMostPackedComponents)
+        if (components > kMaxPackedComponents)
             throw Error("a cluster has " + std::to_string(components) + " packed components, of 0.." +
-                        std::to_string(kMostPackedComponents));
+                        std::to_string(kMaxPackedComponents));
         auto total = static_cast<std::size_t>(receivers.cluster_bits);
         for (int j = 0; j < components; ++j) {
             if (!reader.has(4))

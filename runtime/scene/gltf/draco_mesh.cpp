@@ -51,9 +51,9 @@ std::uint32_t claimed_triangles(std::span<const unsigned char> bytes) {
 void check_claims(std::span<const unsigned char> bytes) {
     constexpr std::size_t kAlwaysFits = std::size_t{1} << 20;
     // The maximum measured value is 194: a flat grid of 131 072, with corners at quantisation steps.
-    constexpr std::size_t kMostTrianglesPerByte = 1024;
+    constexpr std::size_t kMaxTrianglesPerByte = 1024;
     const std::size_t triangles = claimed_triangles(bytes);
-    if (triangles > std::max(kAlwaysFits, kMostTrianglesPerByte * bytes.size()))
+    if (triangles > std::max(kAlwaysFits, kMaxTrianglesPerByte * bytes.size()))
         throw Error("its Draco data claims " + std::to_string(triangles) + " triangles in " +
                     std::to_string(bytes.size()) + " bytes");
 }

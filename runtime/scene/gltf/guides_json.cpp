@@ -35,7 +35,7 @@ glm::dvec3 read_three(const Json& json, const std::string& name, double largest)
 
 Guide read_guide(const Json& json, const glm::dvec3& scene_origin) {
     Guide guide{read_guide_kind(json.at("kind"))};
-    guide.scale = glm::vec3(read_three(json.at("scale"), "scale", static_cast<double>(kLargestWeight)));
+    guide.scale = glm::vec3(read_three(json.at("scale"), "scale", static_cast<double>(kMaxFloatWeight)));
     for (int i = 0; i < 3; ++i)
         if (guide.scale[i] == 0)
             throw Error("scale of a guide is zero, or too small for a float");
@@ -100,7 +100,7 @@ std::vector<float> read_coordinates(const GltfContents& contents, const Scene& s
                   contents.file_bytes, "the coordinates of its guides");
     std::vector<float> coordinates = guide_coordinates(scene, bases.guides);
     for (std::size_t i = 0; i < coordinates.size(); ++i)
-        if (!(std::abs(coordinates[i] * bases.guide_scale(i % bases.guide_rows())) <= kLargestWeight))
+        if (!(std::abs(coordinates[i] * bases.guide_scale(i % bases.guide_rows())) <= kMaxFloatWeight))
             throw Error("a vertex is farther from the origin of a guide than its scale allows");
     return coordinates;
 }

@@ -17,7 +17,7 @@ namespace prt {
 namespace {
 
 /// Maximum number of instances. Accessors without data can claim any number.
-constexpr std::size_t kMostInstances = 1'000'000;
+constexpr std::size_t kMaxInstances = 1'000'000;
 /// Bytes of a node, in the JSON and in the model, and of each of its weights.
 constexpr double kNode = 1400, kWeight = 40;
 
@@ -67,9 +67,9 @@ std::vector<Attribute> read_attributes(const GltfContents& contents, const Json&
             throw Error("its instances have attributes of different length");
         count = contents.model.accessors[index].count;
     }
-    if (count > kMostInstances)
+    if (count > kMaxInstances)
         throw Error("has " + std::to_string(count) + " instances, and at most " +
-                    std::to_string(kMostInstances) + " can be");
+                    std::to_string(kMaxInstances) + " can be");
     for (Attribute& attribute : attributes)
         if (references.contains(attribute.name))
             attribute.values =
@@ -94,7 +94,7 @@ std::size_t expand(GltfContents& contents, std::size_t n, double& bytes) {
     const auto first =
         shared.empty() ? std::size_t{0}
                        : static_cast<std::size_t>(whole_number(shared.at("first"), "first of its instances",
-                                                               0, static_cast<int>(kMostInstances) - 1));
+                                                               0, static_cast<int>(kMaxInstances) - 1));
     for (const char* name : {kInstancingExtension, kInstancesExtension})
         nodes[n]["extensions"].erase(name);
     if (nodes[n]["extensions"].empty())
@@ -152,8 +152,8 @@ void expand_instances(GltfContents& contents) {
         } catch (const std::exception& error) { // errors of prtkit and of the JSON library
             throw Error("node " + std::to_string(n) + ": " + in_plain_words(error));
         }
-        if (instances > kMostInstances)
-            throw Error("has more than " + std::to_string(kMostInstances) + " instances of meshes");
+        if (instances > kMaxInstances)
+            throw Error("has more than " + std::to_string(kMaxInstances) + " instances of meshes");
     }
     if (!found)
         return;

@@ -16,7 +16,7 @@
 namespace prt {
 namespace {
 
-constexpr int kMostSharedInstances = 1'000'000;
+constexpr int kMaxSharedInstances = 1'000'000;
 
 Json three(const glm::vec3& v) {
     return {v.x, v.y, v.z};
@@ -37,14 +37,14 @@ InstanceBox read_box(const Json& json) {
 }
 
 CodedFactors read_factors(const GltfContents& contents, const Json& json, std::size_t count) {
-    constexpr float kMostScale = 500; // times 127, covers all factors that `coded` accepts
+    constexpr float kMaxScale = 500; // times 127, covers all factors that `coded` accepts
     CodedFactors coded;
     const Json& scales = json.at("scales");
     if (scales.size() != kInstanceNumbers)
         throw Error("the factors of its instances have no " + std::to_string(kInstanceNumbers) + " scales");
     for (std::size_t j = 0; j < kInstanceNumbers; ++j) {
         coded.scales[j] = scales[j].get<float>();
-        if (!(coded.scales[j] >= 0 && coded.scales[j] <= kMostScale))
+        if (!(coded.scales[j] >= 0 && coded.scales[j] <= kMaxScale))
             throw Error("a scale of the factors of its instances is none");
     }
     const std::span<const unsigned char> bytes =
@@ -59,7 +59,7 @@ CodedFactors read_factors(const GltfContents& contents, const Json& json, std::s
 StoredInstances read_stored(const GltfContents& contents) {
     const Json& extension = *find_extension(contents, kInstancesExtension, kInstancesVersion);
     const auto count = static_cast<std::size_t>(
-        whole_number(extension.at("count"), "count of instances", 1, kMostSharedInstances));
+        whole_number(extension.at("count"), "count of instances", 1, kMaxSharedInstances));
     StoredInstances stored{decoded(read_factors(contents, extension.at("factors"), count)), {}};
     if (extension.at("boxes").empty())
         throw Error("its instances have no boxes");

@@ -22,7 +22,7 @@ std::string place_of(std::string_view text, std::size_t byte) {
 
 /// Throws if objects and arrays are nested too deeply.
 void check_depth(std::string_view text) {
-    constexpr int kMostLevels = 256;
+    constexpr int kMaxLevels = 256;
     int level = 0;
     bool quoted = false;
     for (std::size_t i = 0; i < text.size(); ++i) {
@@ -35,8 +35,8 @@ void check_depth(std::string_view text) {
             ++level;
         else if (c == '}' || c == ']')
             --level;
-        if (level > kMostLevels)
-            throw Error("nests its JSON deeper than " + std::to_string(kMostLevels) + " levels at " +
+        if (level > kMaxLevels)
+            throw Error("nests its JSON deeper than " + std::to_string(kMaxLevels) + " levels at " +
                         place_of(text, i + 1));
     }
 }

@@ -39,8 +39,8 @@ Json& write_layout(GltfContents& contents, const Scene& scene, const LightmapLay
 }
 
 LightmapSize read_map(const Json& json) {
-    LightmapSize map{whole_number(json.at("width"), "the width of a map", 1, kMostLightmapTexels),
-                     whole_number(json.at("height"), "the height of a map", 1, kMostLightmapTexels)};
+    LightmapSize map{whole_number(json.at("width"), "the width of a map", 1, kMaxLightmapTexels),
+                     whole_number(json.at("height"), "the height of a map", 1, kMaxLightmapTexels)};
     map.repeats = json.value("repeats", false);
     return map;
 }

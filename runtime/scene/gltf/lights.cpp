@@ -45,7 +45,7 @@ glm::vec3 color_of(const Json& light) {
         return color;
     for (int c = 0; c < 3; ++c) {
         color[c] = light["color"].at(static_cast<std::size_t>(c)).get<float>();
-        if (!(color[c] >= 0 && color[c] <= kMostIntensity))
+        if (!(color[c] >= 0 && color[c] <= kMaxIntensity))
             throw Error("its color is not in 0..1e9");
     }
     return color;
@@ -85,7 +85,7 @@ PunctualLight read_light(const Json& light, LightDeviations& deviations) {
     PunctualLight result;
     result.name = light.value("name", "");
     result.kind = kind_of(light.at("type").get<std::string>());
-    result.intensity = color_of(light) * static_cast<float>(number(light, "intensity", 1, 0, kMostIntensity));
+    result.intensity = color_of(light) * static_cast<float>(number(light, "intensity", 1, 0, kMaxIntensity));
     result.range = read_range(light, deviations);
     if (result.kind == PunctualKind::spot)
         read_cone(light, result, deviations);

@@ -11,7 +11,7 @@
 namespace prt {
 
 /// Maximum intensity of a light or of emission, in any channel: above it, sums of squares overflow a float.
-inline constexpr double kMostIntensity = 1e9;
+inline constexpr double kMaxIntensity = 1e9;
 
 /// Adds an empty member "spot", which tinygltf requires, to spots without it. Returns whether there were any.
 bool complete_spots(Json& json);

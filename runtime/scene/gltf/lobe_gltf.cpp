@@ -64,17 +64,17 @@ Json profiles_json(GltfContents& contents, const LobeModel& model) {
 void read_profiles(const GltfContents& contents, const Json& json, LobeModel& model) {
     const auto order = static_cast<std::size_t>(model.order);
     model.profiles.resize(static_cast<std::size_t>(
-        whole_number(json.at("count"), "count of profiles", 1, static_cast<int>(kMostProfiles))));
+        whole_number(json.at("count"), "count of profiles", 1, static_cast<int>(kMaxProfiles))));
     const std::vector<float> gains =
-        read_float_view(contents, json, model.profiles.size() * order, kLargestGain, "the profiles of lobes");
+        read_float_view(contents, json, model.profiles.size() * order, kMaxGain, "the profiles of lobes");
     for (std::size_t p = 0; p < model.profiles.size(); ++p)
         std::copy_n(gains.begin() + static_cast<std::ptrdiff_t>(p * order), order, model.profiles[p].begin());
 }
 
 LobeRecord read_lobe_record(const Json& json) {
-    constexpr int kMost = std::numeric_limits<int>::max();
+    constexpr int kMax = std::numeric_limits<int>::max();
     const auto number = [&](const char* key) {
-        return json.contains(key) ? whole_number(json[key], key, 0, kMost) : 0;
+        return json.contains(key) ? whole_number(json[key], key, 0, kMax) : 0;
     };
     LobeRecord record{
         .poses = number("poses"), .rays = number("raysPerReceiver"), .bounces = number("bounces")};
@@ -119,9 +119,9 @@ std::optional<StoredLobes> read_lobes(const GltfDocument& document, const Scene&
             return std::nullopt;
         StoredLobes stored;
         LobeModel& model = stored.model;
-        model.order = whole_number(extension->at("order"), "order of lobes", 2, kMostLobeOrder);
+        model.order = whole_number(extension->at("order"), "order of lobes", 2, kMaxLobeOrder);
         model.lobes = static_cast<std::size_t>(
-            whole_number(extension->at("lobes"), "lobes", 1, static_cast<int>(kMostLobes)));
+            whole_number(extension->at("lobes"), "lobes", 1, static_cast<int>(kMaxLobes)));
         read_profiles(contents, extension->at("profiles"), model);
         stored.record = read_lobe_record(extension->value("bake", Json::object()));
         check_allowed(static_cast<double>(scene.receivers()) *

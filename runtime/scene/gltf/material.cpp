@@ -22,8 +22,8 @@ Wrap wrap_mode(int mode) {
 
 /// Returns a number of a transform, clamped to a range in which computations stay finite.
 float bounded(const tinygltf::Value& number) {
-    constexpr double kMost = 1e6;
-    return static_cast<float>(std::clamp(number.GetNumberAsDouble(), -kMost, kMost));
+    constexpr double kMax = 1e6;
+    return static_cast<float>(std::clamp(number.GetNumberAsDouble(), -kMax, kMax));
 }
 
 glm::vec2 vec2_member(const tinygltf::Value& object, const char* name, const glm::vec2& otherwise) {
@@ -174,7 +174,7 @@ private:
         if (emission.radiance == glm::vec3(0))
             return {};
         for (int c = 0; c < 3; ++c)
-            if (!(emission.radiance[c] >= 0 && emission.radiance[c] <= kMostIntensity))
+            if (!(emission.radiance[c] >= 0 && emission.radiance[c] <= kMaxIntensity))
                 throw Error("the emission of material '" + printable(file.name) + "' is not in 0..1e9");
         emission.texture = texture_use(file.emissiveTexture);
         return emission;

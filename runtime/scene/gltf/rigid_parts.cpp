@@ -257,8 +257,8 @@ std::vector<RigidPart> rigid_parts(const GltfDocument& document, const Scene& sc
             if (!worlds.contains(part.first))
                 throw Error("joint " + std::to_string(part.first) + " of a skin is not in the scene");
         const Bounds box = bounds(scene);
-        join_small(scene, carriers,
-                   options.least_share * static_cast<double>(glm::distance(box.low, box.high)), triangles);
+        join_small(scene, carriers, options.min_share * static_cast<double>(glm::distance(box.low, box.high)),
+                   triangles);
         std::vector<RigidPart> parts;
         for (const auto& [node, chosen] : triangles) {
             parts.push_back({node, name_of(model, node),

@@ -18,7 +18,7 @@ namespace prt {
 namespace {
 
 /// Maximum ratio of the area of all instances of a mesh to the mesh itself.
-constexpr double kLargestArea = 1e18;
+constexpr double kMaxArea = 1e18;
 
 /// Returns the sum of the area factors of a node's instances relative to the node.
 double area_of_instances(const GltfContents& contents, const Json& node) {
@@ -49,7 +49,7 @@ std::map<int, double> areas_of_meshes(const GltfContents& contents) {
                 of_stand_in[static_cast<int>(apart.stand_in)] +=
                     found->second * area_of_instances(contents, contents.json["nodes"][drawer]);
     for (const auto& [node, area] : of_stand_in)
-        if (!(area <= kLargestArea))
+        if (!(area <= kMaxArea))
             throw Error("instances of the mesh of node " + std::to_string(node) + " are scaled beyond 1e9");
     return of_stand_in;
 }

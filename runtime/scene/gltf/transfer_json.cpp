@@ -213,7 +213,7 @@ void read_float_view(const GltfContents& contents, const Json& object, std::span
     } else if (!to.empty()) {
         std::memcpy(to.data(), bytes.data(), to.size_bytes());
     }
-    check_magnitudes(to, kLargestTransfer, what);
+    check_magnitudes(to, kMaxTransfer, what);
 }
 
 void read_half_view(const GltfContents& contents, const Json& object, std::span<std::uint16_t> to,
@@ -224,7 +224,7 @@ void read_half_view(const GltfContents& contents, const Json& object, std::span<
     std::memcpy(to.data(), bytes.data(), to.size_bytes());
     for (const std::uint16_t half : to)
         if ((half & 0x7C00) == 0x7C00) // infinite or NaN
-            check_magnitudes(std::array{glm::unpackHalf1x16(half)}, kLargestTransfer, what);
+            check_magnitudes(std::array{glm::unpackHalf1x16(half)}, kMaxTransfer, what);
 }
 
 std::vector<float> read_float_view(const GltfContents& contents, const Json& object, std::size_t count,
@@ -264,7 +264,7 @@ RowCode read_row_code(const GltfContents& contents, const Json& json) {
 std::vector<std::uint8_t> read_drops(const Json& json) {
     std::vector<std::uint8_t> drops;
     for (const Json& drop : json.at("drops"))
-        drops.push_back(static_cast<std::uint8_t>(whole_number(drop, "a drop", 0, kMostRowBits)));
+        drops.push_back(static_cast<std::uint8_t>(whole_number(drop, "a drop", 0, kMaxRowBits)));
     return drops;
 }
 

@@ -50,8 +50,8 @@ private:
 /// Returns `value`, stored in the file as `name`, as an integer in `least`..`most`. Throws `Error` otherwise.
 int whole_number(const Json& value, const std::string& name, int least, int most);
 
-/// Maximum magnitude of a float weight, corresponding to `kLargestTransfer` for transfer.
-inline constexpr float kLargestWeight = 1e9f;
+/// Maximum magnitude of a float weight, corresponding to `kMaxTransfer` for transfer.
+inline constexpr float kMaxFloatWeight = 1e9f;
 
 /// Throws `Error` unless all values are finite with magnitudes of at most `largest`.
 void check_magnitudes(std::span<const float> values, float largest, const std::string& what);

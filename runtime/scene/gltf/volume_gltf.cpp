@@ -46,7 +46,7 @@ VolumeGrid read_grid(const GltfContents& contents, const Scene& scene, const Jso
         throw Error("the size of the volume is no list of three numbers");
     for (int a = 0; a < 3; ++a)
         grid.size[a] =
-            whole_number(size[static_cast<std::size_t>(a)], "the size of the volume", 1, kMostBricksAlong);
+            whole_number(size[static_cast<std::size_t>(a)], "the size of the volume", 1, kMaxBricksAlong);
     check_allowed(16.0 * grid.size.x * grid.size.y * grid.size.z, contents.file_bytes, "its volume");
     const std::vector<std::byte> bytes = bytes_of(contents, json.at("bricks"));
     if (bytes.size() % 8 != 0)
@@ -100,7 +100,7 @@ Json& write_common(GltfContents& contents, const Scene& scene, const Volume& vol
 template <class Volume>
 std::size_t read_common(const GltfContents& contents, const Scene& scene, const Json& extension,
                         Volume& volume) {
-    volume.order = whole_number(extension.at("incidentOrder"), "incidentOrder", 2, kMostIncidentOrder);
+    volume.order = whole_number(extension.at("incidentOrder"), "incidentOrder", 2, kMaxIncidentOrder);
     volume.grid = read_grid(contents, scene, extension);
     const std::size_t probes = probes_of(volume.grid).size();
     volume.sights = read_sights(contents, extension.at("sights"), probes);

@@ -66,7 +66,7 @@ double area(const Scene& scene) {
 }
 
 /// Returns the minimum angle of triangles with an area, radians.
-double least_angle(const Scene& scene) {
+double min_angle(const Scene& scene) {
     double least = std::numbers::pi;
     for (std::size_t p = 0; p < scene.primitives.size(); ++p)
         for (const glm::uvec3& t : scene.primitives[p].triangles) {
@@ -176,7 +176,7 @@ TEST(Bisection, KeepsAnglesHoweverOftenItIsDone) {
         finer = split_at(finer, {nearest});
     }
     // At least half of the original minimum (Rosenberg and Stenger 1975).
-    EXPECT_GE(least_angle(finer), 0.5 * least_angle(one) - 1e-4);
+    EXPECT_GE(min_angle(finer), 0.5 * min_angle(one) - 1e-4);
     EXPECT_NEAR(area(finer), area(one), 1e-6);
 }
 

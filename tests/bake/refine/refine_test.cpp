@@ -79,13 +79,13 @@ TEST(Refine, KeepsTheLimitAndSaysSo) {
     const Scene scene = floor_to_refine();
     for (const std::size_t most : {21u, 40u, 123u}) {
         const RefineResult result =
-            refine(scene, options_of_order(3), {.target = 0.01, .most_vertices = most});
+            refine(scene, options_of_order(3), {.target = 0.01, .max_vertices = most});
         EXPECT_EQ(result.statistics.end, RefineEnd::vertices);
         EXPECT_LE(result.statistics.after.vertices, most);
         EXPECT_GE(result.statistics.after.vertices + 12, most); // one more was too much, with its neighbours
         EXPECT_GT(result.statistics.after.error, 0.01);
     }
-    const RefineResult none = refine(scene, options_of_order(3), {.target = 0.01, .most_vertices = 1});
+    const RefineResult none = refine(scene, options_of_order(3), {.target = 0.01, .max_vertices = 1});
     EXPECT_EQ(none.statistics.end, RefineEnd::vertices);
     EXPECT_EQ(none.statistics.rounds, 0);
 }
@@ -119,12 +119,12 @@ TEST(Refine, TakesDarkAndDegenerateScenes) {
     builder.triangle({0, 0, 0}, {1, 0, 0}, {0, 0, 1}); // seen from below
     builder.triangle({0, 5, 0}, {0, 5, 0}, {0, 5, 0});
     builder.triangle({-1, 4, 0}, {1, 4, 1e-6f}, {1, 4, 0});
-    const RefineResult result = refine(builder.build(), options_of_order(2), {.most_vertices = 100});
+    const RefineResult result = refine(builder.build(), options_of_order(2), {.max_vertices = 100});
     EXPECT_LE(result.statistics.after.vertices, 100);
     // The inside of a closed box seen from outside only: all is dark.
     SceneBuilder sphere;
     sphere.sphere({0, 0, 0}, 2, 6).sphere({0, 0, 0}, 1, 6);
-    const RefineResult dark = refine(sphere.build(), options_of_order(2), {.most_vertices = 1000});
+    const RefineResult dark = refine(sphere.build(), options_of_order(2), {.max_vertices = 1000});
     EXPECT_LE(dark.statistics.after.vertices, 1000);
 }
 

@@ -342,17 +342,17 @@ TEST(RayStart, LiesAboveEveryFaceOfRandomFansWhateverTheNormal) {
             t.x = 0; // all share the first vertex
         vertices.normals[0] = normal;
         const glm::dvec3 start(ray_starts(scene, Side::front)[0]), back(ray_starts(scene, Side::back)[0]);
-        double least = 1, least_mean = 1, most_back = -1;
+        double least = 1, min_mean = 1, max_back = -1;
         for (const glm::dvec3& face : faces) {
             least = std::min(least, glm::dot(start, face));
-            least_mean = std::min(least_mean, glm::dot(mean, face));
-            most_back = std::max(most_back, glm::dot(back, face));
+            min_mean = std::min(min_mean, glm::dot(mean, face));
+            max_back = std::max(max_back, glm::dot(back, face));
             leaning += glm::dot(face, glm::dvec3(normal)) < 0.7;
         }
-        if (least_mean <= 0.1 * glm::length(mean) || glm::dot(mean, glm::dvec3(normal)) <= 0)
+        if (min_mean <= 0.1 * glm::length(mean) || glm::dot(mean, glm::dvec3(normal)) <= 0)
             continue; // then no point need be above all faces, or the normal points to the back of the fan
         EXPECT_GE(least, 0.45) << trial;
-        EXPECT_LE(most_back, -0.45) << trial;
+        EXPECT_LE(max_back, -0.45) << trial;
         EXPECT_LE(glm::length(start), 21) << trial;
     }
     EXPECT_GT(leaning, 1000);

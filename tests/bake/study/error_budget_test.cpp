@@ -56,7 +56,7 @@ struct Lit {
 
     Lit(Scene of, MeasuredLight lit_by, int paths = 64)
         : scene(std::move(of)), points(surface_points(traced, {.count = 1000})), light(std::move(lit_by)),
-          reference(traced, points, light, {.paths = paths, .most_paths = paths}) {}
+          reference(traced, points, light, {.paths = paths, .max_paths = paths}) {}
 };
 
 Scene open_floor() {
@@ -272,7 +272,7 @@ TEST(ErrorBudget, OfSplitTrianglesIsNothingWhereLightIsEven) {
     // an open floor under one sky.
     const Lit lit(open_floor(), uniform());
     const QuarterCorners quarters = quarter_corners(lit.traced, lit.points);
-    const SurfaceRadiance corners(lit.traced, quarters.corners, lit.light, {.paths = 64, .most_paths = 64});
+    const SurfaceRadiance corners(lit.traced, quarters.corners, lit.light, {.paths = 64, .max_paths = 64});
     EXPECT_NEAR(split_error(lit.points, lit.reference, quarters, corners, cut_of(2)).value, 0, 1e-4);
 }
 
@@ -281,8 +281,8 @@ TEST(SurfaceRadiance, IsTheSameForAnyNumberOfThreads) {
     const TraceScene traced(scene);
     const SurfacePoints points = surface_points(traced, {.count = 100});
     const MeasuredLight light = uniform();
-    const SurfaceRadiance one(traced, points, light, {.paths = 32, .most_paths = 64, .threads = 1}),
-        three(traced, points, light, {.paths = 32, .most_paths = 64, .threads = 3});
+    const SurfaceRadiance one(traced, points, light, {.paths = 32, .max_paths = 64, .threads = 1}),
+        three(traced, points, light, {.paths = 32, .max_paths = 64, .threads = 3});
     EXPECT_TRUE(std::ranges::equal(one.truth(1), three.truth(1)));
     EXPECT_EQ(one.under(cut_of(4), 0), three.under(cut_of(4), 0));
 }

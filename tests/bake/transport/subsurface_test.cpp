@@ -300,15 +300,15 @@ Transfer bake_medium(double scattering, double absorption) {
 }
 
 TEST(Subsurface, OfTheDensestAndThinnestMediaIsFinite) {
-    for (const double scattering : {kLeastScattering, kMostCoefficient})
-        for (const double absorption : {0.0, kLeastScattering, kMostCoefficient})
+    for (const double scattering : {kMinScattering, kMaxCoefficient})
+        for (const double absorption : {0.0, kMinScattering, kMaxCoefficient})
             for (const float v : bake_medium(scattering, absorption).vectors)
                 ASSERT_TRUE(std::isfinite(v)) << scattering << " " << absorption;
 }
 
 TEST(Subsurface, RefusesMediaThatCannotBe) {
     const double nan = std::nan(""), infinity = std::numeric_limits<double>::infinity();
-    for (const double bad : {-1.0, 2 * kMostCoefficient, 1e41, infinity, nan}) {
+    for (const double bad : {-1.0, 2 * kMaxCoefficient, 1e41, infinity, nan}) {
         EXPECT_THROW(bake_medium(bad, 1), Error) << bad;
         EXPECT_THROW(bake_medium(1, bad), Error) << bad;
     }

@@ -34,7 +34,7 @@ TEST(Alternation, NeverLosesWhatARoundHasFound) {
         ClusteringOptions how;
         // the number of members is at most the number of unknowns of least squares
         how.clusters = kReceivers / 9;
-        how.spending.most_components = 16;
+        how.spending.component_limit = 16;
         how.spending.bits = 33;
         std::mt19937_64 random(seed);
         const Clustering found = cluster_points(points, significance, how, random, {});

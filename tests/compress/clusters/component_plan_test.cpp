@@ -51,9 +51,9 @@ double best_quantiser_error(int bits) {
 }
 
 TEST(ComponentPlan, ExpectsWhatTheBestUniformQuantiserLeaves) {
-    for (int bits = 1; bits <= kMostBits; ++bits) {
+    for (int bits = 1; bits <= kMaxWeightBits; ++bits) {
         const ComponentPlan plan =
-            plan_components(std::vector<double>{1.0}, 1, {.most_components = 1, .bits = bits});
+            plan_components(std::vector<double>{1.0}, 1, {.component_limit = 1, .bits = bits});
         ASSERT_EQ(plan.bits, std::vector<std::uint8_t>{static_cast<std::uint8_t>(bits)});
         const double expected = best_quantiser_error(bits);
         EXPECT_NEAR(plan.error, expected, 0.03 * expected) << bits;

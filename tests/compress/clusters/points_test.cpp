@@ -30,8 +30,8 @@ struct Setting {
         frame = fit_frame(transfer, std::vector<float>(kReceivers, 1.0f / kReceivers),
                           plain_metric(transfer.layout), 0, 1);
     }
-    PointBlocks points(double most_rounding, int threads = 1) const {
-        return {transfer, frame, guides, threads, most_rounding};
+    PointBlocks points(double max_rounding, int threads = 1) const {
+        return {transfer, frame, guides, threads, max_rounding};
     }
 };
 
@@ -67,10 +67,10 @@ TEST(Points, StayFloatsWhereRoundingWouldAddMoreThanItMay) {
 
 TEST(Points, AreTheSameHoweverTheyAreRead) {
     const Setting setting;
-    for (const double most_rounding : {0.0, 1.0}) {
-        PointBlocks points = setting.points(most_rounding);
-        EXPECT_EQ(points.rounded, setting.points(most_rounding, 3).rounded);
-        EXPECT_EQ(points.values, setting.points(most_rounding, 3).values);
+    for (const double max_rounding : {0.0, 1.0}) {
+        PointBlocks points = setting.points(max_rounding);
+        EXPECT_EQ(points.rounded, setting.points(max_rounding, 3).rounded);
+        EXPECT_EQ(points.values, setting.points(max_rounding, 3).values);
         const std::vector<float> scales = {2, 3, 5};
         const float before = points.coordinate(77, points.dimension + 1);
         points.scale_guides(scales);

@@ -101,7 +101,7 @@ struct SmallMesh {
 
 /// Returns the minimum of eq. 28 over the weights, with the receivers' clusters fixed: a dense least-squares
 /// problem.
-double least_energy(const SmallMesh& mesh, double seam_price) {
+double min_energy(const SmallMesh& mesh, double seam_price) {
     const std::size_t components = mesh.clusters.max_components;
     const auto unknowns = static_cast<Eigen::Index>(mesh.points.count * components),
                rows = static_cast<Eigen::Index>(kDimension * (mesh.points.count + mesh.edges.size()));
@@ -133,7 +133,7 @@ TEST(SeamSolver, WeightsThatMayBeAnyReachTheLeastOfTheSum) {
     for (const std::size_t components : {1u, 2u}) {
         SmallMesh mesh(12, components, 100, WeightGrid::any());
         constexpr double kPrice = 50;
-        const double start = mesh.energy(mesh.codes, kPrice), least = least_energy(mesh, kPrice);
+        const double start = mesh.energy(mesh.codes, kPrice), least = min_energy(mesh, kPrice);
         ASSERT_LT(least, 0.9 * start);
         const std::vector<std::uint32_t> before = mesh.codes.clusters;
         smooth_seams(mesh.points, mesh.significance, mesh.edges, {}, mesh.clusters, {.seam_price = kPrice},

@@ -149,7 +149,7 @@ TEST(LightRig, DayFallsIntoABlueNightThatIsDarkerThanDusk) {
 }
 
 /// Returns the minimum radiance of any channel on a grid of two degrees, over the mean of the channel.
-float least_over_mean(const prt::Light& light) {
+float min_over_mean(const prt::Light& light) {
     std::vector<float> basis(static_cast<std::size_t>(prt::coefficient_count(light.order)));
     float least = std::numeric_limits<float>::infinity();
     for (int y = 0; y < 90; ++y)
@@ -175,10 +175,10 @@ TEST(LightRig, LightIsNowhereNegativeUnlessAWindowIsChosenThatLetsIt) {
         settings.window = prt::Window::automatic;
         rig.set(settings);
         for (const int order : {3, 6, 10})
-            EXPECT_GT(least_over_mean(rig.light(order)), -1e-4f) << order;
+            EXPECT_GT(min_over_mean(rig.light(order)), -1e-4f) << order;
         settings.window = prt::Window::none;
         rig.set(settings);
-        EXPECT_LT(least_over_mean(rig.light(6)), -0.1f);
+        EXPECT_LT(min_over_mean(rig.light(6)), -0.1f);
     }
     EXPECT_EQ(LightRig().settings().window, prt::Window::automatic);
 }

@@ -139,7 +139,7 @@ TEST(CodedRows, OfRandomBitsAreRowsOrRefused) {
             byte = static_cast<std::byte>(random());
         try {
             for (const std::int32_t value : decode_rows(code, random() % 9))
-                EXPECT_LE(std::abs(value), 1 << (kMostRowBits - 1));
+                EXPECT_LE(std::abs(value), 1 << (kMaxRowBits - 1));
         } catch (const Error&) { // refused
         }
     }

@@ -190,7 +190,7 @@ TEST(LobeFit, TakesVerticesThatNoLightReaches) {
     std::fill_n(targets.vectors.begin(), kCoefficients, 0.0);
     targets.areas[1] = 0;
     const LobeModel model = code_lobes(targets.view(), fit_lobes(targets.view(), {}), {});
-    std::array<Lobe, kMostLobes> lobes;
+    std::array<Lobe, kMaxLobes> lobes;
     model.decode(0, lobes);
     for (const Lobe& lobe : lobes)
         for (const float gain : lobe.profile)

@@ -155,9 +155,9 @@ TEST(ImageLimits, HoldToTheLastPixelAndByte) {
     EXPECT_THROW(check_image_size(kSide + 1, kSide, 0, 0), Error);
     EXPECT_NO_THROW(check_image_size(kSide * kSide, 1, 0, 0));
     EXPECT_THROW(check_image_size(1, kSide * kSide + 1, 0, 0), Error);
-    constexpr std::uint64_t kMost = kFreeImageMemory + 10 * kImageMemoryPerByte;
-    EXPECT_NO_THROW(check_image_size(2, 3, kMost / 6, 10, kMost % 6));
-    EXPECT_THROW(check_image_size(2, 3, kMost / 6, 10, kMost % 6 + 1), Error);
+    constexpr std::uint64_t kMax = kFreeImageMemory + 10 * kImageMemoryPerByte;
+    EXPECT_NO_THROW(check_image_size(2, 3, kMax / 6, 10, kMax % 6));
+    EXPECT_THROW(check_image_size(2, 3, kMax / 6, 10, kMax % 6 + 1), Error);
     EXPECT_THROW(check_image_size(0, 1, 1, 1), Error);
     EXPECT_THROW(check_image_size(1, 0, 1, 1), Error);
 }

@@ -19,7 +19,7 @@ namespace prt {
 namespace {
 
 /// Returns the minimum radiance of any channel over `directions`, relative to the channel's mean, in double.
-double least_share(const Light& light, const std::vector<glm::dvec3>& directions) {
+double min_share(const Light& light, const std::vector<glm::dvec3>& directions) {
     double least = 1e30;
     std::array<double, kMaxOrder * kMaxOrder> basis{};
     for (const glm::dvec3& w : directions) {
@@ -58,7 +58,7 @@ TEST(Dering, NoDirectionHasNegativeRadianceAtAnyOrder) {
         for (const float sky : {0.0f, 0.02f, 0.3f}) {
             const Light light = sunny(order, kTowards, glm::vec3(sky, sky, 2 * sky));
             const Light quiet = deringed(light);
-            EXPECT_GE(least_share(quiet, directions), -1e-6) << "order " << order << ", sky " << sky;
+            EXPECT_GE(min_share(quiet, directions), -1e-6) << "order " << order << ", sky " << sky;
             EXPECT_EQ(quiet.coefficients[0], light.coefficients[0]); // energy stays
         }
 }
@@ -124,7 +124,7 @@ TEST(Dering, KeepsMoreThanTheLeastDiffusionDoes) {
         double low = 0, high = 4;
         for (int step = 0; step < 20; ++step) {
             const double time = 0.5 * (low + high);
-            (least_share(with_band_factors(sun, diffused(time)), directions) < 0 ? low : high) = time;
+            (min_share(with_band_factors(sun, diffused(time)), directions) < 0 ? low : high) = time;
         }
         const BandFactors least = dering_factors(sun), diffusion = diffused(high);
         EXPECT_GT(least[1], diffusion[1]);

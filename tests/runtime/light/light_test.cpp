@@ -111,7 +111,7 @@ TEST(Light, WindowsLeaveTheMeanAndDampTheRest) {
     }
 }
 
-float least_radiance(const Light& light) {
+float min_radiance(const Light& light) {
     float least = std::numeric_limits<float>::infinity();
     for (const auto& point : test::sphere_quadrature(40))
         least = std::min(least, radiance(light, glm::vec3(point.direction)).r);
@@ -121,9 +121,9 @@ float least_radiance(const Light& light) {
 TEST(Light, AutomaticWindowMakesASunNonNegativeAndLeavesASkyAlone) {
     const glm::vec3 towards = glm::normalize(glm::vec3(1, 1, 1));
     const Light sun = directional_light(6, towards, glm::vec3(1));
-    EXPECT_LT(least_radiance(sun), -0.1f * radiance(sun, towards).r);
+    EXPECT_LT(min_radiance(sun), -0.1f * radiance(sun, towards).r);
     const Light quiet = windowed(sun, Window::automatic);
-    EXPECT_GT(least_radiance(quiet), -1e-3f * radiance(quiet, towards).r);
+    EXPECT_GT(min_radiance(quiet), -1e-3f * radiance(quiet, towards).r);
     EXPECT_GT(quiet.coefficients[2].r, 0.5f * sun.coefficients[2].r); // not more than is needed
 
     const Light sky = constant_light(6, glm::vec3(1));

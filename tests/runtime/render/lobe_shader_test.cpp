@@ -18,7 +18,7 @@ namespace prt::test {
 namespace lobe_shaders { // joined sources share one scope
 namespace {
 
-static_assert(kMostProfiles == PRT_MOST_PROFILES);
+static_assert(kMaxProfiles == PRT_MAX_PROFILES);
 
 constexpr std::size_t kLobes = 3;
 
@@ -40,7 +40,7 @@ LobeModel any_model(std::mt19937& random, int order) {
     model.order = order;
     model.lobes = kLobes;
     std::uniform_real_distribution<float> gain(-0.5f, 1);
-    for (std::size_t p = 0; p < kMostProfiles; ++p) {
+    for (std::size_t p = 0; p < kMaxProfiles; ++p) {
         LobeProfile& profile = model.profiles.emplace_back();
         for (std::size_t l = 0; l < static_cast<std::size_t>(order); ++l)
             profile[l] = gain(random);

@@ -72,7 +72,7 @@ std::vector<glm::vec2> found_by_cpp(const Objects& objects, const std::vector<Pl
 
 /// The rows and the count behind them, as the block has them. Calls of ES 3.0 alone.
 void bind_block(const Objects& objects, GLuint program) {
-    std::vector<glm::vec4> rows(5 * PRT_MOST_OCCLUDERS + 1);
+    std::vector<glm::vec4> rows(5 * PRT_MAX_OCCLUDERS + 1);
     static_assert(sizeof(PlacedOccluder) == 5 * sizeof(glm::vec4));
     std::memcpy(rows.data(), objects.where.data(), objects.where.size() * sizeof(PlacedOccluder));
     const auto count = static_cast<std::int32_t>(objects.where.size());

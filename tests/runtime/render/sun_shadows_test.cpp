@@ -329,7 +329,7 @@ TEST_F(SunShadowPictures, ShowThinSheetsLitFromBehindAndNoMediumAtAll) {
 
 TEST_F(SunShadowPictures, OfMoreSunsThanThereAreMapsAreRefused) {
     const Scene floor = test::SceneBuilder().floor({0, 0, 0}, 1, 1).build();
-    const std::vector<SunDisc> suns(kMostShadowedSuns + 1, {{0, 1, 0}, glm::vec3(1), 0});
+    const std::vector<SunDisc> suns(kMaxShadowedSuns + 1, {{0, 1, 0}, glm::vec3(1), 0});
     EXPECT_THROW(lit(floor, suns, {.position = {0, 1, 2}, .target = {0, 0, 0}}), Error);
 }
 

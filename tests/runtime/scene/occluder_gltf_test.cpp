@@ -26,7 +26,7 @@ GltfDocument parsed(const GlbFile& file) {
 
 std::vector<RigidPart> parts_of(const GlbFile& file, double least = 0) {
     const GltfDocument document = parsed(file);
-    return rigid_parts(document, extract_scene(document), {.least_share = least});
+    return rigid_parts(document, extract_scene(document), {.min_share = least});
 }
 
 /// A chain of three nodes with a triangle each, the root at the origin, each a metre above the one before.

@@ -19,7 +19,7 @@
 namespace prt {
 namespace instances_in_shaders {
 
-static_assert(kMostInstancedWeights == 4 * (PRT_LOCATION_INSTANCE_X - PRT_LOCATION_WEIGHTS));
+static_assert(kMaxInstancedWeights == 4 * (PRT_LOCATION_INSTANCE_X - PRT_LOCATION_WEIGHTS));
 
 constexpr int kOrder = 3;
 constexpr std::size_t kVertices = 300;

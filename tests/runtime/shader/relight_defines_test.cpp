@@ -108,7 +108,7 @@ TEST(RelightDefines, LeaveALoopWhereClustersDiffer) {
 }
 
 TEST(RelightDefines, LeaveTheLastAttributeToTheNormal) {
-    EXPECT_EQ(most_vertex_components(transfer_of(48, {}).bases), 48);
+    EXPECT_EQ(max_vertex_components(transfer_of(48, {}).bases), 48);
     EXPECT_NO_THROW(relight_defines(transfer_of(48, {})));
     EXPECT_NO_THROW(relight_defines(transfer_of(44, {GuideKind::normal})));
     EXPECT_THROW(relight_defines(transfer_of(45, {GuideKind::normal})), Error);

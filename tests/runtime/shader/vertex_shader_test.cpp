@@ -81,7 +81,7 @@ TEST_P(VertexShader, AgreesWithCppPerVertex) {
     for (const std::vector<GuideKind>& guides : test::sets_of_guides()) {
         ClusteredTransfer compressed = plain;
         test::add_guides(compressed, guides, random);
-        if (compressed.bases.max_components() > most_vertex_components(compressed.bases))
+        if (compressed.bases.max_components() > max_vertex_components(compressed.bases))
             continue;
         const float largest = largest_relative_difference(compressed, light, *context);
         RecordProperty("largest_relative_difference_1e9", std::to_string(1e9f * largest));

@@ -37,8 +37,8 @@ WordLayout random_layout(std::size_t clusters, std::size_t components, std::pair
 std::vector<std::uint32_t> random_words(const WordLayout& layout, std::size_t receivers, unsigned noise,
                                         std::mt19937& random) {
     const auto stride = static_cast<std::size_t>(layout.words);
-    std::vector<std::uint32_t> words(receivers * stride), values(kMostPackedComponents);
-    std::vector<std::uint32_t> last(kMostPackedComponents, 32768);
+    std::vector<std::uint32_t> words(receivers * stride), values(kMaxPackedComponents);
+    std::vector<std::uint32_t> last(kMaxPackedComponents, 32768);
     std::uint32_t cluster = 0;
     for (std::size_t v = 0; v < receivers; ++v) {
         if (random() % 4 == 0)

@@ -193,10 +193,10 @@ TEST(Instances, UprightOnesShareTheTurnsOfFewYaws) {
     rotations.push_back(glm::dmat3(glm::angleAxis(0.5, glm::dvec3(1, 0, 0))));
     const InstanceTurns turns = instance_turns(rotations, 16);
     EXPECT_EQ(turns.rotations.size(), 17u);
-    EXPECT_LE(turns.most_degrees, 11.26);
-    EXPECT_GT(turns.most_degrees, 8);
+    EXPECT_LE(turns.max_degrees, 11.26);
+    EXPECT_GT(turns.max_degrees, 8);
     const InstanceTurns exact = instance_turns(rotations, 0);
-    EXPECT_LT(exact.most_degrees, 0.011);
+    EXPECT_LT(exact.max_degrees, 0.011);
     for (std::size_t i = 0; i < rotations.size(); ++i)
         for (int c = 0; c < 3; ++c)
             EXPECT_LT(glm::distance(exact.rotations[exact.of[i]][c], rotations[i][c]), 3e-4);

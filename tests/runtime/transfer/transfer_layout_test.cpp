@@ -88,7 +88,7 @@ TEST(TransferLayout, OfLampsHasANumberForEachChannelOfEach) {
     std::swap(wrong.parts[1], wrong.parts[2]);
     EXPECT_THROW(check_layout(wrong), Error); // lamps must be last
     wrong = {4, {}};
-    for (std::size_t k = 0; k <= kMostLamps; ++k)
+    for (std::size_t k = 0; k <= kMaxLamps; ++k)
         wrong.parts.push_back({PartKind::lamp, 1, std::to_string(k)});
     EXPECT_THROW(check_layout(wrong), Error);
     wrong.parts.pop_back();

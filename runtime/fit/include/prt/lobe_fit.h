@@ -15,7 +15,7 @@ namespace prt {
 /// Target of the fit: grey transfer of vertices in the frames of their normals, as returned by
 /// `mean_of_poses` of prt/pose_bake.h.
 struct LobeTargets {
-    int order = 4;                   ///< 2..kMostLobeOrder
+    int order = 4;                   ///< 2..kMaxLobeOrder
     std::span<const double> vectors; ///< [vertices][order²]
     std::span<const float> areas;    ///< [vertices] m²: weight of a vertex in shared profiles
 
@@ -26,13 +26,13 @@ struct LobeTargets {
 };
 
 struct LobeFitOptions {
-    std::size_t lobes = 2; ///< per vertex, 1..kMostLobes
+    std::size_t lobes = 2; ///< per vertex, 1..kMaxLobes
     /// Weight of a squared error in each band: the mean square of the lighting there. Lobes rotate with the
     /// surface, so that only lighting without a preferred orientation is meaningful.
-    std::array<double, kMostLobeOrder> band_costs = {1, 1, 1, 1};
-    std::size_t profiles = kMostProfiles; ///< maximum number of shared profiles
-    int rounds = 4;                       ///< alternations between words and profiles
-    int threads = 0;                      ///< 0: all
+    std::array<double, kMaxLobeOrder> band_costs = {1, 1, 1, 1};
+    std::size_t profiles = kMaxProfiles; ///< maximum number of shared profiles
+    int rounds = 4;                      ///< alternations between words and profiles
+    int threads = 0;                     ///< 0: all
 };
 
 /// Fits lobes with free axes and an individual profile per lobe, by nonlinear least squares per vertex with

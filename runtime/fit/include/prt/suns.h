@@ -12,12 +12,12 @@
 namespace prt {
 
 /// Maximum number of suns that are chosen automatically; each costs the renderer a shadow map.
-inline constexpr int kMostPayingSuns = 4;
+inline constexpr int kMaxAutoSuns = 4;
 
 struct SunOptions {
     int order = 6; ///< order of the lighting for the remainder
     /// Number of suns to find, at least 0; fewer are found if the image has fewer. Without a value: suns are
-    /// added, up to kMostPayingSuns, if each lowers the error by at least a hundredth of the light
+    /// added, up to kMaxAutoSuns, if each lowers the error by at least a hundredth of the light
     /// (docs/math.md, "Suns in an image").
     std::optional<int> count = {};
     int threads = 0;
@@ -38,7 +38,7 @@ struct SunSplit {
 /// surrounding sky, and the difference becomes the light of the sun: in band 0 suns and remainder sum to the
 /// original. A disc of three texels or more is measured to a fraction of a texel (Ceres); a narrower one gets
 /// the size of its bright texels. Throws `Error` for an order outside 1..kMaxOrder, a negative count, an
-/// invalid image, pixels that are negative or not finite, and light above kMostLight.
+/// invalid image, pixels that are negative or not finite, and light above kMaxLight.
 SunSplit find_suns(const Environment& environment, const SunOptions& options = {});
 
 /// Returns the maximum half angle of a sun for `find_suns`, in radians: a quarter of pi / order, at most

@@ -12,7 +12,7 @@
 namespace prt {
 
 /// Maximum number of texels along a side of a map.
-inline constexpr int kMostLightmapTexels = 16384;
+inline constexpr int kMaxLightmapTexels = 16384;
 
 /// Writes raw transfer of texels into `document`, from which `scene` was extracted. Replaces existing
 /// transfer.

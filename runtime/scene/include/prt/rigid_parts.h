@@ -22,7 +22,7 @@ struct RigidPart {
 struct RigidPartsOptions {
     /// Minimum box diagonal of a part as a fraction of the full scene's. Smaller parts are merged into their
     /// parent part: a finger into its hand.
-    double least_share = 0.12;
+    double min_share = 0.12;
 };
 
 /// Returns the parts of `scene`, which was extracted from `document`, in the order of their nodes. A node

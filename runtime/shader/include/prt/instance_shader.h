@@ -8,7 +8,7 @@ namespace prt {
 
 /// Maximum number of weights of a vertex that are not packed: attributes of instances use the locations of
 /// further weights.
-inline constexpr int kMostInstancedWeights = 24;
+inline constexpr int kMaxInstancedWeights = 24;
 
 /// Returns the define lines for `prt_instances.glsl` for a model: those of `relight_defines` and one more.
 /// Throws `Error` for uniform blocks, and for weights that leave no attributes for instances.

@@ -22,7 +22,7 @@ std::string lobe_defines(const LobeModel& model, int light_order = 0);
 /// they then use.
 std::string lobe_functions(const LobeModel& model, const std::string& behind = {});
 
-/// Returns the content of the uniform block PrtLobeProfiles: PRT_MOST_PROFILES entries of four gains.
+/// Returns the content of the uniform block PrtLobeProfiles: PRT_MAX_PROFILES entries of four gains.
 std::vector<glm::vec4> lobe_profile_block(const LobeModel& model);
 
 } // namespace prt

@@ -34,7 +34,7 @@ std::string shader_source(std::string_view name, std::string_view defines,
 std::string shader_part(std::string_view name, std::string_view defines);
 
 /// Returns the maximum number of unpacked weight components in vertex attributes: 48, or 44 with predictors.
-int most_vertex_components(const ClusteredBases& bases);
+int max_vertex_components(const ClusteredBases& bases);
 
 /// Returns the define lines for `prt_exit_radiance.glsl` for a model. `seen_from` 0: the shader gets
 /// positions as in the Scene; `seen_from` = Scene::origin: positions in the file's world. Floats lose

@@ -16,7 +16,7 @@ public:
     /// depth.
     explicit GlOccluders(std::span<const OcclusionVolume> volumes);
 
-    /// Binds the texture, and a block with these objects, at most kMostOccluders, for subsequent draws.
+    /// Binds the texture, and a block with these objects, at most kMaxOccluders, for subsequent draws.
     void use(std::span<const PlacedOccluder> objects);
 
 private:

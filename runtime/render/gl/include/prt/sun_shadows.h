@@ -13,7 +13,7 @@
 namespace prt {
 
 /// Maximum number of suns with shadow maps in one picture.
-inline constexpr int kMostShadowedSuns = 4;
+inline constexpr int kMaxShadowedSuns = 4;
 
 /// Shadows of the suns of a picture. Every triangle of a material that casts shadows blocks light from both
 /// sides, according to its coverage: texture cut-outs, blending and glass block partially. Behind several
@@ -43,7 +43,7 @@ public:
     static void set_map(const GlObject& program, int map, int size);
 
     /// Draws the maps for the view frustum of `view` if suns, view or moving geometry have changed. Changes
-    /// the bound framebuffer, the viewport and the program. Throws `Error` for more than kMostShadowedSuns
+    /// the bound framebuffer, the viewport and the program. Throws `Error` for more than kMaxShadowedSuns
     /// suns and if memory runs out.
     void draw(std::span<const SunDisc> suns, const View& view, const Moving& moving);
     void draw(std::span<const SunDisc> suns, const View& view) { draw(suns, view, Moving()); }
