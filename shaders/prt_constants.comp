@@ -1,4 +1,4 @@
-// Computes the constants of all clusters for a lighting, instead of prt::ConstantFormer::form: one row per
+// Computes the constants of all clusters for a lighting, instead of prt::ClusterLighting::form: one row per
 // thread. Define PRT_ROWS and the definitions of parts that prt_parts.glsl needs. Dispatch (PRT_ROWS + 63) /
 // 64 groups.
 
@@ -6,7 +6,7 @@
 
 layout(local_size_x = 64) in;
 
-// Result of prt::ConstantFormer::matrix: [rows / 16][numbers of a transfer vector][16].
+// Result of prt::ClusterLighting::matrix: [rows / 16][numbers of a transfer vector][16].
 layout(std430, binding = PRT_BINDING_MATRIX) readonly buffer PrtMatrix {
     float prt_matrix[];
 };

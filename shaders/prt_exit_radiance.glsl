@@ -13,7 +13,7 @@
 // Data of the vertex that clusters use in addition to its weights, the predictors:
 //     PRT_GUIDE_NORMAL       the normal,
 //     PRT_GUIDE_POSITION     the position relative to PRT_GUIDE_ORIGIN, a vec3: numbers, or the name of a uniform.
-// Storage of the constants, which contain the data of prt::ConstantFormer and prt::cluster_layouts:
+// Storage of the constants, which contain the data of prt::ClusterLighting and prt::cluster_layouts:
 //     PRT_CONSTANTS_BUFFER   storage buffers (the default; OpenGL 4.3, Vulkan, Direct3D 11),
 //     PRT_CONSTANTS_BLOCK    uniform blocks, with PRT_MAX_ROWS and PRT_MAX_CLUSTERS, or
 //     PRT_CONSTANTS_TEXTURE  textures with PRT_TEXTURE_WIDTH texels per row, RGBA32F and RGBA32UI.

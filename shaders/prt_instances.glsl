@@ -1,12 +1,12 @@
 // Exit radiance of a vertex of an instance that shares the transfer of its mesh (docs/math.md, section 22),
 // for a receiver of albedo 1. Define PRT_INSTANCES in addition to the definitions for prt_exit_radiance.glsl.
-// The constants are those of prt::InstanceFormer; they do not fit into uniform blocks. Without PRT_INSTANCES
+// The constants are those of prt::InstanceRelighter; they do not fit into uniform blocks. Without PRT_INSTANCES
 // this file contains only prt_exit_radiance.
 
 #include "prt_exit_radiance.glsl"
 
 #ifdef PRT_INSTANCES
-// Computes exit radiance from the two rows of the instance in prt::InstanceFormer::table, which are instance
+// Computes exit radiance from the two rows of the instance in prt::InstanceRelighter::table, which are instance
 // attributes; `position` and `normal` are those of the mesh in its own frame.
 vec3 prt_instance_radiance(vec4 instance_0, vec4 instance_1, vec3 position, vec3 normal) {
     prt_first_row = uint(instance_0.w) + (uint(instance_1.w) << 16);

@@ -1,11 +1,11 @@
-// Computes the light of the probes of a volume for prt_volume.glsl, instead of prt::VolumeFormer::form: one
+// Computes the light of the probes of a volume for prt_volume.glsl, instead of prt::VolumeRelighter::form: one
 // texel per thread, once for every light. The number of groups is the size of the atlas in bricks along each
 // side.
 //
 // Define before including: the definitions of prt_exit_radiance.glsl for packed weights and constants, and
 //     PRT_VOLUME_ORDER n      order of incident light, 2..4
 //     PRT_VOLUME_FORMAT       format of the image: rgba16f (default) or rgba32f.
-// The constants are those of prt::VolumeFormer::form_constants.
+// The constants are those of prt::VolumeRelighter::update_constants.
 
 #ifndef PRT_VOLUME_FORMAT
 #define PRT_VOLUME_FORMAT rgba16f

@@ -23,7 +23,7 @@
 #define PRT_LOCATION_INSTANCE_X 10 // matrix of an instance, whose mesh has at most 24 weights
 #define PRT_LOCATION_INSTANCE_Y 11
 #define PRT_LOCATION_INSTANCE_Z 12
-#define PRT_LOCATION_INSTANCE_0 13 // its rows of prt::InstanceFormer::table
+#define PRT_LOCATION_INSTANCE_0 13 // its rows of prt::InstanceRelighter::table
 #define PRT_LOCATION_INSTANCE_1 14
 #define PRT_LOCATION_AO 4       // if there are no weights
 #define PRT_LOCATION_LIGHTMAP 4 // if there are no weights

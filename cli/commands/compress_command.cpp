@@ -627,7 +627,7 @@ void add_levels_and_instances(const Bake& bake, const TransferView& transfer, co
                               Report& report) {
     add_levels_compressed(transfer, result, report);
     if (!bake.instances.empty())
-        add_instance_constants(formed_instances(bake.instances, result.scene, result.transfer),
+        add_instance_constants(relit_instances(bake.instances, result.scene, result.transfer),
                                {{"count", bake.instances.size()}}, report);
 }
 

@@ -135,7 +135,7 @@ void add_instances(const InstancedModel& file, Report& report) {
         "{instances/bytes_per_instance} bytes of factors each; {instances/vertices_stored} "
         "vertices have transfer");
     if (file.compressed) {
-        add_instance_constants(formed_instances(file), std::move(figures), report);
+        add_instance_constants(relit_instances(file), std::move(figures), report);
         return;
     }
     add_figures(report, {{"instances", std::move(figures)}});

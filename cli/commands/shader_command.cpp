@@ -136,7 +136,7 @@ void write_instance_shader(const ShaderArguments& a, const SceneFile& model, Ses
     const ClusteredTransfer& transfer = model.instanced->compressed->transfer;
     session.write(a.output, instance_shader(transfer, constants, a.language, origin_of(model)));
     print(fmt::format("{}: {} instances; attributes from prt_instances.glsl, two of each instance from "
-                      "prt::InstanceFormer\n",
+                      "prt::InstanceRelighter\n",
                       printable(a.output.string()), model.instanced->instances.size()));
 }
 

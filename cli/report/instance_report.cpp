@@ -73,9 +73,9 @@ Report instance_report(const InstanceOutcome& outcome) {
     return report;
 }
 
-void add_instance_constants(const std::vector<FormedInstance>& instances, Json figures, Report& report) {
+void add_instance_constants(const std::vector<RelitInstance>& instances, Json figures, Report& report) {
     std::size_t rows = 0;
-    for (const FormedInstance& instance : instances)
+    for (const RelitInstance& instance : instances)
         rows += instance.rows.count;
     const std::size_t bytes = 3 * sizeof(glm::vec4) * rows;
     figures["bytes_constants"] = bytes;

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "instance_arguments.h"
-#include "prt/instance_former.h"
+#include "prt/instance_relighter.h"
 #include "report/report.h"
 
 #include <cstdint>
@@ -21,7 +21,7 @@ struct InstanceOutcome {
 Report instance_report(const InstanceOutcome& outcome);
 
 /// Adds `figures` of instances of compressed transfer, and the size of their constants.
-void add_instance_constants(const std::vector<FormedInstance>& instances, Json figures, Report& report);
+void add_instance_constants(const std::vector<RelitInstance>& instances, Json figures, Report& report);
 
 /// Returns {"median", "percentile_90", "percentile_99", "most"} of errors, which must not be empty.
 Json percentiles(std::vector<double> errors);

@@ -3,8 +3,8 @@
 // rotates once during the given number of frames; the last frame is written as a picture. The sun is separate
 // from the sky: the game draws it with its own shadow map, and transfer lights the rest.
 
+#include "prt/cluster_lighting.h"
 #include "prt/color.h"
-#include "prt/constant_former.h"
 #include "prt/dering.h"
 #include "prt/gl_context.h"
 #include "prt/gltf.h"
@@ -315,7 +315,7 @@ void play(const World& world, int frames) {
     set_camera(programs.picture, world);
     const std::vector<Mesh> meshes = upload_meshes(world);
     std::vector<glm::vec4> constants = make_tables(world.transfer);
-    const prt::ConstantFormer former(world.transfer);
+    const prt::ClusterLighting relighter(world.transfer);
     std::vector<glm::vec3> turned(world.sky.coefficients.size());
     for (int frame = 0; frame < frames; ++frame) {
         const double angle = glm::two_pi<double>() * (frame + 1) / frames;
@@ -324,7 +324,7 @@ void play(const World& world, int frames) {
         sun.towards = glm::vec3(glm::rotate(glm::dmat4(1), angle, glm::dvec3(0, 1, 0)) *
                                 glm::dvec4(glm::dvec3(world.sun.towards), 0));
         // The sun is part of the light after a bounce; the shader adds its direct light.
-        former.form({turned, prt::as_light(sun, world.sky.order).coefficients}, constants);
+        relighter.update({turned, prt::as_light(sun, world.sky.order).coefficients}, constants);
         const glm::mat4 sun_map = sun_view(world, sun.towards);
         glBindFramebuffer(GL_FRAMEBUFFER, shadow_map);
         draw_shadows(programs.shadow, meshes, sun_map);

@@ -49,16 +49,17 @@ prt_model* prt::c::make_instanced(const GltfDocument& document, const std::strin
     if (!model.compressed)
         throw Error(name + ": holds no compressed transfer; run prt compress first");
     sort_by_mesh(model.instances);
-    InstanceFormer former(model.compressed->transfer, formed_instances(model));
+    InstanceRelighter relighter(model.compressed->transfer, relit_instances(model));
     std::vector<glm::vec4> worlds;
     for (const FileInstance& instance : model.instances) {
         const glm::mat4 turned(glm::transpose(glm::translate(instance.world, model.stored.origin)));
         worlds.insert(worlds.end(), {turned[0], turned[1], turned[2]});
     }
-    std::vector<glm::vec4> tables = former.table();
-    prt_shared_instances instances{std::move(former), std::move(worlds), std::move(tables), ranges_of(model)};
+    std::vector<glm::vec4> tables = relighter.table();
+    prt_shared_instances instances{std::move(relighter), std::move(worlds), std::move(tables),
+                                   ranges_of(model)};
     ClusteredTransfer& transfer = model.compressed->transfer;
-    ConstantFormer constants(transfer);
+    ClusterLighting constants(transfer);
     auto layouts = cluster_layouts(transfer.bases);
     return new prt_model{std::move(model.stored), std::move(transfer), std::move(constants),
                          std::move(layouts), std::move(instances)};
@@ -74,10 +75,10 @@ prt_status prt_instances_get_info(const prt_model* model, prt_instances_info* ou
             return;
         const prt_shared_instances& instances = *model->instances;
         out->count = instances.tables.size() / 2;
-        out->constants = instances.former.size();
+        out->constants = instances.relighter.size();
         out->worlds = glm::value_ptr(instances.worlds.front());
         out->tables = glm::value_ptr(instances.tables.front());
-        out->max_degrees = instances.former.max_degrees();
+        out->max_degrees = instances.relighter.max_degrees();
     });
 }
 
@@ -93,18 +94,18 @@ prt_status prt_instances_of_mesh(const prt_model* model, size_t mesh, size_t* fi
     });
 }
 
-prt_status prt_instances_form_constants(const prt_model* model, int order, const float* sky,
-                                        const float* suns, int threads, float* constants,
-                                        prt_message* message) {
+prt_status prt_instances_update_constants(const prt_model* model, int order, const float* sky,
+                                          const float* suns, int threads, float* constants,
+                                          prt_message* message) {
     return guarded(message, [&] {
         check_pointers(model, sky, constants);
-        const prt::InstanceFormer& former = instances_of(*model).former;
+        const prt::InstanceRelighter& relighter = instances_of(*model).relighter;
         const prt::LightingView light = lighting_of({order, sky, suns, nullptr}, 0);
         prt::Lighting lighting{{order, {light.sky.begin(), light.sky.end()}}};
         if (suns)
             lighting.suns = prt::Light{order, {light.suns.begin(), light.suns.end()}};
-        former.form(lighting, {reinterpret_cast<glm::vec4*>(constants), former.size()}, threads);
-        if (!within(kMaxConstant, constants, 4 * former.size()))
+        relighter.update(lighting, {reinterpret_cast<glm::vec4*>(constants), relighter.size()}, threads);
+        if (!within(kMaxConstant, constants, 4 * relighter.size()))
             throw Error("the light is too bright for the model: constants pass 1e30");
     });
 }

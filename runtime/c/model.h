@@ -3,9 +3,9 @@
 // The model handle of the C interface.
 
 #include "boundary.h"
-#include "prt/constant_former.h"
+#include "prt/cluster_lighting.h"
 #include "prt/gltf.h"
-#include "prt/instance_former.h"
+#include "prt/instance_relighter.h"
 
 #include <optional>
 #include <string>
@@ -13,7 +13,7 @@
 
 /// Instances that share transfer, sorted by mesh.
 struct prt_shared_instances {
-    prt::InstanceFormer former;
+    prt::InstanceRelighter relighter;
     std::vector<glm::vec4> worlds, tables; ///< [instances][3], [instances][2]
     struct Range {
         std::size_t first = 0, count = 0;
@@ -24,7 +24,7 @@ struct prt_shared_instances {
 struct prt_model {
     prt::Scene scene;
     prt::ClusteredTransfer transfer;
-    prt::ConstantFormer former;
+    prt::ClusterLighting relighter;
     std::vector<prt::ClusterLayout> layouts;
     std::optional<prt_shared_instances> instances = {};
 };

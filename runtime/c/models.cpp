@@ -35,9 +35,9 @@ prt_model* make_model(const prt::GltfDocument& document, const std::string& name
     auto compressed = prt::read_clustered(document, scene);
     if (!compressed)
         throw Error(name + ": holds no compressed transfer; run prt compress first");
-    prt::ConstantFormer former(compressed->transfer);
+    prt::ClusterLighting relighter(compressed->transfer);
     auto layouts = prt::cluster_layouts(compressed->transfer.bases);
-    return new prt_model{std::move(scene), std::move(compressed->transfer), std::move(former),
+    return new prt_model{std::move(scene), std::move(compressed->transfer), std::move(relighter),
                          std::move(layouts)};
 }
 
@@ -71,12 +71,12 @@ prt_status prt_model_get_info(const prt_model* model, prt_model_info* out, prt_m
         check_pointers(model, out);
         const prt::ClusteredReceivers& receivers = model->transfer.receivers;
         *out = {};
-        out->order = model->former.order();
-        out->channels = model->former.layout().channels();
-        out->direct_apart = model->former.layout().has(prt::PartKind::direct);
+        out->order = model->relighter.order();
+        out->channels = model->relighter.layout().channels();
+        out->direct_apart = model->relighter.layout().has(prt::PartKind::direct);
         out->receivers = receivers.size();
         out->clusters = model->layouts.size();
-        out->rows = model->former.rows();
+        out->rows = model->relighter.rows();
         out->format = receivers.format == prt::WeightFormat::packed ? PRT_PACKED : PRT_FLOAT32;
         out->stride = receivers.stride();
         out->weights = receivers.weights.data();
@@ -105,14 +105,14 @@ prt_status prt_model_get_vertex_inputs(const prt_model* model, prt_vertex_inputs
 prt_status prt_model_count_lamps(const prt_model* model, size_t* lamps, prt_message* message) {
     return guarded(message, [&] {
         check_pointers(model, lamps);
-        *lamps = model->former.layout().lamps();
+        *lamps = model->relighter.layout().lamps();
     });
 }
 
 prt_status prt_model_lamp_name(const prt_model* model, size_t lamp, const char** name, prt_message* message) {
     return guarded(message, [&] {
         check_pointers(model, name);
-        const std::span<const prt::TransferPart> lamps = model->former.layout().lamp_parts();
+        const std::span<const prt::TransferPart> lamps = model->relighter.layout().lamp_parts();
         if (lamp >= lamps.size())
             throw Error("the model has " + std::to_string(lamps.size()) + " lamps");
         *name = lamps[lamp].name.c_str();
@@ -140,19 +140,19 @@ prt_status prt_model_get_mesh(const prt_model* model, size_t mesh, prt_mesh* out
     });
 }
 
-prt_status prt_model_form_constants(const prt_model* model, int order, const float* light, float* constants,
-                                    prt_message* message) {
-    return prt_model_form_constants_apart(model, order, light, nullptr, nullptr, constants, message);
+prt_status prt_model_update_constants(const prt_model* model, int order, const float* light, float* constants,
+                                      prt_message* message) {
+    return prt_model_update_constants_separate(model, order, light, nullptr, nullptr, constants, message);
 }
 
-prt_status prt_model_form_constants_apart(const prt_model* model, int order, const float* sky,
-                                          const float* suns, const float* lamps, float* constants,
-                                          prt_message* message) {
+prt_status prt_model_update_constants_separate(const prt_model* model, int order, const float* sky,
+                                               const float* suns, const float* lamps, float* constants,
+                                               prt_message* message) {
     return guarded(message, [&] {
         check_pointers(model, sky, constants);
-        const std::size_t rows = model->former.rows();
-        model->former.form(lighting_of({order, sky, suns, lamps}, model->former.layout().lamps()),
-                           {reinterpret_cast<glm::vec4*>(constants), rows});
+        const std::size_t rows = model->relighter.rows();
+        model->relighter.update(lighting_of({order, sky, suns, lamps}, model->relighter.layout().lamps()),
+                                {reinterpret_cast<glm::vec4*>(constants), rows});
         if (!within(kMaxConstant, constants, 4 * rows))
             throw Error("the light is too bright for the model: constants pass 1e30");
     });
@@ -162,9 +162,10 @@ prt_status prt_model_evaluate(const prt_model* model, const float* constants, fl
                               prt_message* message) {
     return guarded(message, [&] {
         check_pointers(model, constants, radiance);
-        if (!within(kMaxConstant, constants, 4 * model->former.rows()))
+        if (!within(kMaxConstant, constants, 4 * model->relighter.rows()))
             throw Error("constants must be finite and at most 1e30");
-        prt::evaluate(model->transfer, {reinterpret_cast<const glm::vec4*>(constants), model->former.rows()},
+        prt::evaluate(model->transfer,
+                      {reinterpret_cast<const glm::vec4*>(constants), model->relighter.rows()},
                       {colors(radiance), model->transfer.receivers.size()});
     });
 }

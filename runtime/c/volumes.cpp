@@ -2,8 +2,8 @@
 
 #include "boundary.h"
 #include "prt/gltf.h"
-#include "prt/volume_former.h"
 #include "prt/volume_gltf.h"
+#include "prt/volume_relighter.h"
 #include "prt/volume_shader.h"
 
 #include <glm/geometric.hpp>
@@ -19,15 +19,15 @@ struct prt_volume {
     glm::dvec3 origin;
     prt::CompressedVolume volume;
     prt::VolumeLookup lookup;
-    prt::VolumeFormer former; // refers to the volume
+    prt::VolumeRelighter relighter; // refers to the volume
     std::vector<std::uint32_t> sights, index;
 
     prt_volume(const glm::dvec3& of_scene, prt::CompressedVolume&& of_file)
-        : origin(of_scene), volume(std::move(of_file)), lookup(volume.grid, volume.sights), former(volume),
+        : origin(of_scene), volume(std::move(of_file)), lookup(volume.grid, volume.sights), relighter(volume),
           sights(prt::sight_texels(volume.grid, lookup.probes(), volume.sights)),
           index(prt::index_texels(volume.grid, lookup.index())) {}
 
-    std::size_t coefficients() const { return former.atlas().coefficients(); }
+    std::size_t coefficients() const { return relighter.atlas().coefficients(); }
 };
 
 namespace {
@@ -44,9 +44,9 @@ prt_volume* make_volume(const prt::GltfDocument& document, const std::string& na
 }
 
 std::span<const glm::vec4> checked_constants(const prt_volume& volume, const float* constants) {
-    if (!within(kMaxConstant, constants, 4 * volume.former.rows()))
+    if (!within(kMaxConstant, constants, 4 * volume.relighter.rows()))
         throw Error("constants must be finite and at most 1e30");
-    return {reinterpret_cast<const glm::vec4*>(constants), volume.former.rows()};
+    return {reinterpret_cast<const glm::vec4*>(constants), volume.relighter.rows()};
 }
 
 /// Interpolates the coefficients at `place`.
@@ -60,7 +60,7 @@ void mix(const prt_volume& volume, const float* incident, const prt_volume_place
     for (const std::uint32_t probe : corners.probes)
         if (!within(kMaxConstant, incident + 3 * n * probe, 3 * n))
             throw Error("the light of probes must be finite and at most 1e30");
-    prt::mix_incident(corners, light_colors(incident, n * volume.former.probes()), light);
+    prt::mix_incident(corners, light_colors(incident, n * volume.relighter.probes()), light);
 }
 
 } // namespace
@@ -91,12 +91,12 @@ void prt_volume_destroy(prt_volume* volume) {
 prt_status prt_volume_get_info(const prt_volume* volume, prt_volume_info* out, prt_message* message) {
     return guarded(message, [&] {
         check_pointers(volume, out);
-        const prt::TransferLayout& layout = volume->former.layout();
+        const prt::TransferLayout& layout = volume->relighter.layout();
         *out = {};
         out->order = layout.order;
         out->incident_order = volume->volume.order;
-        out->probes = volume->former.probes();
-        out->rows = volume->former.rows();
+        out->probes = volume->relighter.probes();
+        out->rows = volume->relighter.rows();
         out->lamps = layout.lamps();
         out->direct_apart = layout.has(prt::PartKind::direct);
         std::copy_n(glm::value_ptr(volume->volume.grid.origin), 3, out->corner);
@@ -109,19 +109,19 @@ prt_status prt_volume_get_textures(const prt_volume* volume, prt_volume_textures
     return guarded(message, [&] {
         check_pointers(volume, out);
         *out = {};
-        const prt::VolumeAtlas& atlas = volume->former.atlas();
+        const prt::VolumeAtlas& atlas = volume->relighter.atlas();
         const glm::ivec3 light = atlas.light_texels(), sights = atlas.sight_texels();
         std::copy_n(glm::value_ptr(light), 3, out->light);
         std::copy_n(glm::value_ptr(sights), 3, out->sights);
         std::copy_n(glm::value_ptr(volume->volume.grid.size), 3, out->index);
-        out->light_bytes = volume->former.bytes();
+        out->light_bytes = volume->relighter.bytes();
         out->sight_texels = volume->sights.data();
         out->index_texels = volume->index.data();
     });
 }
 
-prt_status prt_volume_form_constants(const prt_volume* volume, const prt_lighting* lighting, float* constants,
-                                     prt_message* message) {
+prt_status prt_volume_update_constants(const prt_volume* volume, const prt_lighting* lighting,
+                                       float* constants, prt_message* message) {
     return guarded(message, [&] {
         check_pointers(volume, lighting, constants);
         check_pointers(lighting->sky);
@@ -133,24 +133,24 @@ prt_status prt_volume_form_constants(const prt_volume* volume, const prt_lightin
                 throw Error("a sun needs a direction");
             sun = glm::vec3(towards / length);
         }
-        const std::size_t rows = volume->former.rows();
-        volume->former.form_constants(
+        const std::size_t rows = volume->relighter.rows();
+        volume->relighter.update_constants(
             lighting_of({lighting->order, lighting->sky, lighting->suns, lighting->lamps},
-                        volume->former.layout().lamps()),
+                        volume->relighter.layout().lamps()),
             sun, {reinterpret_cast<glm::vec4*>(constants), rows});
         if (!within(kMaxConstant, constants, 4 * rows))
             throw Error("the light is too bright for the volume: constants pass 1e30");
     });
 }
 
-prt_status prt_volume_form_light(const prt_volume* volume, const float* constants, size_t first, size_t last,
-                                 void* texels, prt_message* message) {
+prt_status prt_volume_update_light(const prt_volume* volume, const float* constants, size_t first,
+                                   size_t last, void* texels, prt_message* message) {
     return guarded(message, [&] {
         check_pointers(volume, constants, texels);
-        if (first > last || last > volume->former.probes())
-            throw Error("the volume has " + std::to_string(volume->former.probes()) + " probes");
-        volume->former.form_probes(checked_constants(*volume, constants), first, last,
-                                   {static_cast<std::byte*>(texels), volume->former.bytes()});
+        if (first > last || last > volume->relighter.probes())
+            throw Error("the volume has " + std::to_string(volume->relighter.probes()) + " probes");
+        volume->relighter.update_probes(checked_constants(*volume, constants), first, last,
+                                        {static_cast<std::byte*>(texels), volume->relighter.bytes()});
     });
 }
 
@@ -159,7 +159,7 @@ prt_status prt_volume_evaluate(const prt_volume* volume, const float* constants,
     return guarded(message, [&] {
         check_pointers(volume, constants, incident);
         prt::evaluate(volume->volume.compressed.transfer, checked_constants(*volume, constants),
-                      {colors(incident), volume->former.probes() * volume->coefficients()});
+                      {colors(incident), volume->relighter.probes() * volume->coefficients()});
     });
 }
 

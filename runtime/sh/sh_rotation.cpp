@@ -147,7 +147,7 @@ template <class Value>
 }
 
 template <class Value>
-[[gnu::always_inline]] inline void rotate_form(const glm::dmat3& r, Value* c) {
+[[gnu::always_inline]] inline void rotate_and_update(const glm::dmat3& r, Value* c) {
     constexpr double kThird = 0.57735026918962576451; // sqrt(1/3)
     const Value xy = c[4], yz = -c[5], xz = -c[7], part = kThird * c[6], xx = c[8] - part, yy = -c[8] - part,
                 zz = 2 * part;
@@ -188,7 +188,7 @@ void rotate(int order, const glm::dmat3& matrix, const Turns& turns, Channels* c
     if (order > 1)
         rotate_vector(matrix, c);
     if (order > 2)
-        rotate_form(matrix, c);
+        rotate_and_update(matrix, c);
     rotate_high_bands(order, turns, c);
 }
 
@@ -211,7 +211,7 @@ template <class Real>
 #pragma GCC unroll 8
         for (int i = 4; i < 9; ++i)
             c[i] = static_cast<double>(in[i]);
-        rotate_form(matrix, c);
+        rotate_and_update(matrix, c);
 #pragma GCC unroll 8
         for (int i = 4; i < 9; ++i)
             out[i] = static_cast<Real>(c[i]);

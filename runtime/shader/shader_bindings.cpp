@@ -85,7 +85,7 @@ void append_tables(const ClusteredTransfer& transfer, ConstantSource source, Sha
     constants.type += texture ? "" : "vec4[]";
     constants.content = std::to_string(constant_rows(transfer.bases)) +
                         (texture ? " texels RGBA32F" + rows_of_texels : " vec4") +
-                        " of ConstantFormer::form, new for each lighting";
+                        " of ClusterLighting::update, new for each lighting";
     bindings.push_back(constants);
     if (clusters_are_alike(transfer.bases))
         return;

@@ -1,7 +1,7 @@
 // Sizes of compressed transfer, and its exit radiance under a light.
 #include "prt/clustered_transfer.h"
 
-#include "prt/constant_former.h"
+#include "prt/cluster_lighting.h"
 #include "transfer/packed_weights.h"
 
 #include <algorithm>
@@ -41,9 +41,9 @@ std::size_t constant_rows(const ClusteredBases& bases) {
 
 std::vector<glm::vec3> exit_radiance(const ClusteredTransfer& transfer, const Lighting& lighting,
                                      int threads) {
-    const ConstantFormer former(transfer);
-    std::vector<glm::vec4> constants(former.rows());
-    former.form(lighting, constants);
+    const ClusterLighting relighter(transfer);
+    std::vector<glm::vec4> constants(relighter.rows());
+    relighter.update(lighting, constants);
     std::vector<glm::vec3> radiance(transfer.receivers.size());
     evaluate(transfer, constants, radiance, threads);
     return radiance;

@@ -2,7 +2,7 @@
 
 #include "prt/transfer_volume.h"
 
-#include "prt/constant_former.h"
+#include "prt/cluster_lighting.h"
 #include "prt/sh.h"
 #include "prt/support/error.h"
 #include "prt/volume_weights.h"
@@ -244,9 +244,9 @@ glm::vec3 irradiance_of(std::span<const glm::vec3> incident, const glm::vec3& no
 
 std::vector<glm::vec3> incident_light(const CompressedVolume& volume, const Lighting& lighting, int threads) {
     const ClusteredTransfer& transfer = volume.compressed.transfer;
-    const ConstantFormer former(transfer);
-    std::vector<glm::vec4> constants(former.rows());
-    former.form(lighting, constants);
+    const ClusterLighting relighter(transfer);
+    std::vector<glm::vec4> constants(relighter.rows());
+    relighter.update(lighting, constants);
     std::vector<glm::vec3> incident(transfer.receivers.size() * transfer.bases.layout.outputs);
     evaluate(transfer, constants, incident, threads);
     return incident;

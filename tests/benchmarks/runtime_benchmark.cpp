@@ -1,14 +1,14 @@
 // Measures the speed of the runtime library: runtime_benchmark [--benchmark_filter=REGEX]. Uses one thread
 // unless noted.
 
-#include "prt/constant_former.h"
+#include "prt/cluster_lighting.h"
 #include "prt/dering.h"
 #include "prt/environment.h"
-#include "prt/lightmap_former.h"
+#include "prt/lightmap_relighter.h"
 #include "prt/sh.h"
 #include "prt/sh_rotation.h"
 #include "prt/sh_vector.h"
-#include "prt/volume_former.h"
+#include "prt/volume_relighter.h"
 
 #include <benchmark/benchmark.h>
 #include <glm/geometric.hpp>
@@ -159,11 +159,11 @@ void constants(State& state) {
                                 : layout_of_one(kOrder, channels);
     for (int lamp = 0; lamp < state.range(1); ++lamp)
         layout.parts.push_back({PartKind::lamp, 3, std::to_string(lamp)});
-    const ConstantFormer former(clustered(256, 8, layout, 256, 1));
+    const ClusterLighting relighter(clustered(256, 8, layout, 256, 1));
     const auto light = random_light();
-    std::vector<glm::vec4> out(former.rows());
+    std::vector<glm::vec4> out(relighter.rows());
     for (auto _ : state) {
-        former.form(light, out);
+        relighter.update(light, out);
         benchmark::ClobberMemory();
     }
 }
@@ -174,10 +174,10 @@ constexpr std::size_t kVertices = 1'000'000;
 void evaluate_vertices(State& state) {
     const ClusteredTransfer transfer =
         clustered(256, 8, layout_of_one(kOrder, 1), kVertices, static_cast<std::size_t>(state.range(0)));
-    const ConstantFormer former(transfer);
+    const ClusterLighting relighter(transfer);
     const auto light = random_light();
-    std::vector<glm::vec4> out(former.rows());
-    former.form(light, out);
+    std::vector<glm::vec4> out(relighter.rows());
+    relighter.update(light, out);
     std::vector<glm::vec3> radiance(kVertices);
     for (auto _ : state) {
         evaluate(transfer, out, radiance, 1);
@@ -216,13 +216,13 @@ CompressedLightmap lightmap_of(int side) {
 /// All levels, from formed constants.
 void relight_lightmap(State& state) {
     const CompressedLightmap lightmap = lightmap_of(static_cast<int>(state.range(0)));
-    const ConstantFormer constants(lightmap.compressed.transfer);
-    std::vector<glm::vec4> formed(constants.rows());
-    constants.form(random_light(), formed);
-    const LightmapFormer former(lightmap, static_cast<LightmapFormat>(state.range(2)));
-    std::vector<std::byte> texels(former.bytes(0));
+    const ClusterLighting constants(lightmap.compressed.transfer);
+    std::vector<glm::vec4> computed(constants.rows());
+    constants.update(random_light(), computed);
+    const LightmapRelighter relighter(lightmap, static_cast<LightmapFormat>(state.range(2)));
+    std::vector<std::byte> texels(relighter.bytes(0));
     for (auto _ : state) {
-        former.form(0, formed, texels, static_cast<int>(state.range(1)));
+        relighter.update(0, computed, texels, static_cast<int>(state.range(1)));
         benchmark::ClobberMemory();
     }
 }
@@ -263,16 +263,16 @@ CompressedVolume volume_of() {
 /// Constants and all texels.
 void relight_volume(State& state) {
     const CompressedVolume volume = volume_of();
-    const VolumeFormer former(volume);
-    std::vector<glm::vec4> constants(former.rows());
-    std::vector<std::byte> texels(former.bytes());
+    const VolumeRelighter relighter(volume);
+    std::vector<glm::vec4> constants(relighter.rows());
+    std::vector<std::byte> texels(relighter.bytes());
     const auto light = random_light();
     const bool both = state.range(0) == 0;
     for (auto _ : state) {
         if (both || state.range(0) == 1)
-            former.form_constants(light, glm::vec3(0, 1, 0), constants);
+            relighter.update_constants(light, glm::vec3(0, 1, 0), constants);
         if (both || state.range(0) == 2)
-            former.form(constants, texels, static_cast<int>(state.range(1)));
+            relighter.update(constants, texels, static_cast<int>(state.range(1)));
         benchmark::ClobberMemory();
     }
 }

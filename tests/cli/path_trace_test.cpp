@@ -125,14 +125,14 @@ std::vector<DemoPicture> demo_pictures() {
     std::vector<DemoPicture> pictures;
     std::ifstream script(PRT_DEMO);
     const std::regex line_form(R"(^((?:\w+=\S+ )*)(road|made) (\w+)(.*)$)"),
-        sky_form(R"(sky=out/scenes/(\w+)\.exr)");
+        sky_update(R"(sky=out/scenes/(\w+)\.exr)");
     for (std::string line; std::getline(script, line);) {
         std::smatch parts;
         if (!std::regex_match(line, parts, line_form))
             continue;
         DemoPicture picture{.name = parts[3], .way = parts[2], .preset = {}, .camera = {}};
         const std::string variables = parts[1];
-        if (std::smatch sky; std::regex_search(variables, sky, sky_form))
+        if (std::smatch sky; std::regex_search(variables, sky, sky_update))
             picture.sky = sky[1];
         std::istringstream rest(parts[4].str());
         if (picture.way == "road")

@@ -1,8 +1,8 @@
 // Tests volumes through the program: baked, compressed, reported and evaluated; and rejected input.
 
 #include "prt/gltf.h"
-#include "prt/volume_former.h"
 #include "prt/volume_gltf.h"
+#include "prt/volume_relighter.h"
 #include "road.h"
 #include "support/glb_file.h"
 #include "support/random_volume.h"
@@ -120,11 +120,11 @@ void write_textures(const CompressedVolume& volume, const std::filesystem::path&
         sky.emplace_back(std::cos(3 * i + 1), std::cos(3 * i + 2), std::cos(3 * i + 3));
     for (const glm::vec3& value : sky)
         suns.push_back(0.5f * value);
-    const VolumeFormer former(volume);
-    std::vector<glm::vec4> constants(former.rows());
-    std::vector<std::byte> texels(former.bytes());
-    former.form_constants({sky, suns}, glm::vec3(0, 1, 0), constants);
-    former.form(constants, texels);
+    const VolumeRelighter relighter(volume);
+    std::vector<glm::vec4> constants(relighter.rows());
+    std::vector<std::byte> texels(relighter.bytes());
+    relighter.update_constants({sky, suns}, glm::vec3(0, 1, 0), constants);
+    relighter.update(constants, texels);
     const VolumeLookup lookup(volume.grid, volume.sights);
     std::ofstream file(path, std::ios::binary);
     for (const auto& words : {sight_texels(volume.grid, lookup.probes(), volume.sights),
@@ -137,14 +137,14 @@ void write_textures(const CompressedVolume& volume, const std::filesystem::path&
 TEST_F(Road, VolumesHaveTheSameTexturesInTheWeb) {
     if (std::string(PRT_NODE).empty())
         GTEST_SKIP() << "node is not installed";
-    const std::string script = (std::filesystem::path(PRT_DECODE).parent_path() / "form_web.mjs").string();
+    const std::string script = (std::filesystem::path(PRT_DECODE).parent_path() / "update_web.mjs").string();
     std::mt19937 random(9);
     for (const int order : {2, 3, 4}) {
         const CompressedVolume volume = random_volume(order, false, random);
         with_volume(triangle_file(), volume).write(folder / "v.glb");
         write_textures(volume, folder / "textures");
-        const Outcome formed = run(PRT_NODE, {script, at("v.glb"), at("textures")});
-        EXPECT_EQ(formed.status, 0) << "order " << order << ": " << formed.out << formed.err;
+        const Outcome computed = run(PRT_NODE, {script, at("v.glb"), at("textures")});
+        EXPECT_EQ(computed.status, 0) << "order " << order << ": " << computed.out << computed.err;
     }
 }
 

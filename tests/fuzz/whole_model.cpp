@@ -1,10 +1,10 @@
 // Reads a model as the program does and looks at everything that was read.
 #include "whole_model.h"
 
-#include "prt/constant_former.h"
+#include "prt/cluster_lighting.h"
 #include "prt/light.h"
-#include "prt/lightmap_former.h"
 #include "prt/lightmap_lookup.h"
+#include "prt/lightmap_relighter.h"
 #include "prt/lobe_gltf.h"
 #include "prt/occluder_gltf.h"
 #include "prt/rigid_parts.h"
@@ -178,13 +178,13 @@ void expect_finite_light(const CompressedLightmap& lightmap) {
     if (lightmap.layout.texels() > kMaxTexels)
         return;
     expect_finite_light(lightmap.compressed.transfer);
-    const ConstantFormer constants(lightmap.compressed.transfer);
-    std::vector<glm::vec4> formed(constants.rows());
-    constants.form(constant_light(constants.order(), glm::vec3(1)), formed);
-    const LightmapFormer former(lightmap, LightmapFormat::rgb9e5);
+    const ClusterLighting constants(lightmap.compressed.transfer);
+    std::vector<glm::vec4> computed(constants.rows());
+    constants.update(constant_light(constants.order(), glm::vec3(1)), computed);
+    const LightmapRelighter relighter(lightmap, LightmapFormat::rgb9e5);
     for (std::size_t m = 0; m < lightmap.layout.maps.size(); ++m) {
-        std::vector<std::byte> texels(former.bytes(m));
-        former.form(m, formed, texels, 1);
+        std::vector<std::byte> texels(relighter.bytes(m));
+        relighter.update(m, computed, texels, 1);
     }
 }
 

@@ -5,7 +5,7 @@
 #include "damage.h"
 #include "fuzz/target.h"
 #include "fuzz/whole_model.h"
-#include "prt/constant_former.h"
+#include "prt/cluster_lighting.h"
 #include "prt/prt.h"
 #include "prt/shader_source.h"
 #include "shipped_files.h"
@@ -63,7 +63,7 @@ bool use_in_c(std::span<const std::byte> bytes) {
     EXPECT_EQ(prt_model_get_info(model, &info, nullptr), PRT_OK);
     std::vector<float> light(3 * static_cast<std::size_t>(info.order * info.order), 0.5f);
     std::vector<float> constants(4 * info.rows), radiance(3 * info.receivers);
-    EXPECT_EQ(prt_model_form_constants(model, info.order, light.data(), constants.data(), &message), PRT_OK)
+    EXPECT_EQ(prt_model_update_constants(model, info.order, light.data(), constants.data(), &message), PRT_OK)
         << message.text;
     fuzz::expect_finite(std::span<const float>(constants), "constants in C");
     EXPECT_EQ(prt_model_evaluate(model, constants.data(), radiance.data(), &message), PRT_OK) << message.text;

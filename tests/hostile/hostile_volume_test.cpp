@@ -34,9 +34,9 @@ bool use(const std::string& file) {
     std::vector<std::byte> texels(textures.light_bytes);
     const float up[3] = {0, 1, 0};
     const prt_lighting lighting{info.order, light.data(), nullptr, nullptr, up};
-    EXPECT_EQ(prt_volume_form_constants(volume, &lighting, constants.data(), &message), PRT_OK)
+    EXPECT_EQ(prt_volume_update_constants(volume, &lighting, constants.data(), &message), PRT_OK)
         << message.text;
-    EXPECT_EQ(prt_volume_form_light(volume, constants.data(), 0, info.probes, texels.data(), &message),
+    EXPECT_EQ(prt_volume_update_light(volume, constants.data(), 0, info.probes, texels.data(), &message),
               PRT_OK);
     EXPECT_EQ(prt_volume_evaluate(volume, constants.data(), incident.data(), &message), PRT_OK);
     fuzz::expect_finite(std::span<const float>(incident), "incident light");

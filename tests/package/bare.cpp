@@ -1,6 +1,6 @@
 // The bare runtime: GLM and the standard library.
 
-#include "prt/constant_former.h"
+#include "prt/cluster_lighting.h"
 #include "prt/sh.h"
 #include "prt/sh_rotation.h"
 #include "prt/sky.h"
@@ -15,14 +15,14 @@ int main() {
     std::vector<double> lobe(16);
     prt::clamped_cosine_lobe(4, {0, 1, 0}, lobe);
     transfer.bases.rows.assign(lobe.begin(), lobe.end());
-    const prt::ConstantFormer former(transfer);
+    const prt::ClusterLighting relighter(transfer);
     const prt::Light light = prt::sky_light(4, prt::PreethamSky(3, {0, 1, 0}));
-    std::vector<glm::vec4> constants(former.rows());
-    former.form(light.coefficients, constants);
+    std::vector<glm::vec4> constants(relighter.rows());
+    relighter.update(light.coefficients, constants);
     const float before = constants[0].g;
     prt::Light turned = light;
     prt::ShRotation::about_y(4, 1).apply(turned.coefficients); // +Y does not notice
-    former.form(turned.coefficients, constants);
+    relighter.update(turned.coefficients, constants);
     std::printf("%g %g\n", static_cast<double>(before), static_cast<double>(constants[0].g));
     return before > 0 && std::abs(constants[0].g - before) < 1e-5f * before ? 0 : 1;
 }

@@ -15,8 +15,8 @@ namespace {
 void alternate(const GridPoints& points, MovingBasisFit& fit, const MovingBasisSchedule& schedule,
                int rounds) {
     MovingBasis& basis = fit.basis;
-    RowMatrix former;
-    double former_error = squared_error(points, values_of(points, fit.grid, basis));
+    RowMatrix relighter;
+    double relighter_error = squared_error(points, values_of(points, fit.grid, basis));
     int carried = 0; // rounds
     for (int round = 0; round < rounds; ++round) {
         if (round % tuning::kRoundsBetweenNorms == 0) {
@@ -26,12 +26,12 @@ void alternate(const GridPoints& points, MovingBasisFit& fit, const MovingBasisS
         improve_rows(points, fit.grid, basis, schedule.prices, tuning::kRowSteps);
         const RowMatrix rows = basis.rows;
         if (carried > 0)
-            basis.rows += static_cast<float>(carried) / static_cast<float>(carried + 3) * (rows - former);
-        former = rows;
-        solve_weights(points, fit.grid, basis, static_cast<float>(schedule.weight_price * former_error));
+            basis.rows += static_cast<float>(carried) / static_cast<float>(carried + 3) * (rows - relighter);
+        relighter = rows;
+        solve_weights(points, fit.grid, basis, static_cast<float>(schedule.weight_price * relighter_error));
         const double error = squared_error(points, values_of(points, fit.grid, basis));
-        carried = carried > 0 && error > former_error ? 0 : carried + 1;
-        former_error = error;
+        carried = carried > 0 && error > relighter_error ? 0 : carried + 1;
+        relighter_error = error;
     }
 }
 

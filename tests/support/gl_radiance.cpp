@@ -71,10 +71,10 @@ struct BoundConstants {
     GlObject constants, clusters;
 
     BoundConstants(const ClusteredTransfer& transfer, const Lighting& lighting) {
-        const ConstantFormer former(transfer);
-        std::vector<glm::vec4> formed(former.rows());
-        former.form(lighting, formed);
-        constants = make_buffer(std::span<const glm::vec4>(formed));
+        const ClusterLighting relighter(transfer);
+        std::vector<glm::vec4> computed(relighter.rows());
+        relighter.update(lighting, computed);
+        constants = make_buffer(std::span<const glm::vec4>(computed));
         clusters = make_buffer(std::span<const ClusterLayout>(cluster_layouts(transfer.bases)));
         bind_storage(PRT_BINDING_CONSTANTS, constants);
         bind_storage(PRT_BINDING_CLUSTERS, clusters);

@@ -3,7 +3,7 @@
 // prints the largest difference, over vertices and colours, between the exit radiance of SHIPPED, by the constants that
 // its shader reads, and that of the vectors in BAKED, under a light of arbitrary coefficients; over the largest radiance.
 import { readFileSync } from "node:fs";
-import { decodeClusters, formConstants, lightColumns, shaderRows } from "../../examples/web/src/clusteredPca.js";
+import { decodeClusters, updateConstants, lightColumns, shaderRows } from "../../examples/web/src/clusteredPca.js";
 
 function open(path) {
   const file = readFileSync(path);
@@ -24,7 +24,7 @@ const clusters = decodeClusters(shipped.json.extensions.PRTKIT_clustered_pca, sh
 const { order, parts, guides, firstRows, components, widths, clusterBits } = clusters;
 const sky = Array.from({ length: 3 * order * order }, (_, i) => Math.cos(i + 1));
 const columns = lightColumns(clusters, sky);
-const constants = formConstants(clusters, shaderRows(clusters), columns, new Float32Array(4 * clusters.rowCount));
+const constants = updateConstants(clusters, shaderRows(clusters), columns, new Float32Array(4 * clusters.rowCount));
 const raw = { order, parts, rowCount: 0 };
 
 const [primitive] = shipped.json.meshes[0].primitives;
@@ -35,7 +35,7 @@ const words = shipped.view(shipped.json.accessors[primitive.attributes._PRT_WEIG
 const vectors = baked.floats(baked.json.meshes[0].primitives[0].extensions.PRTKIT_transfer.vectors.bufferView);
 
 const count = positions.length / 3;
-const expected = formConstants({ ...raw, rowCount: count }, vectors, columns, new Float32Array(4 * count));
+const expected = updateConstants({ ...raw, rowCount: count }, vectors, columns, new Float32Array(4 * count));
 let difference = 0;
 let largest = 0;
 for (let v = 0; v < count; ++v) {

@@ -35,9 +35,9 @@ prt::InstanceBox box_of(const prt::Scene& scene, const std::vector<std::size_t>&
 }
 
 /// Returns a node that is drawn once, as an unoccluded instance.
-prt::FormedInstance drawn_once(const prt::InstancedModel& model, const prt::InstanceBox& box,
-                               const std::vector<std::size_t>& primitives) {
-    prt::FormedInstance one{{prt::open_factors(), glm::dmat3(1), box}, {}};
+prt::RelitInstance drawn_once(const prt::InstancedModel& model, const prt::InstanceBox& box,
+                              const std::vector<std::size_t>& primitives) {
+    prt::RelitInstance one{{prt::open_factors(), glm::dmat3(1), box}, {}};
     for (const std::size_t p : primitives) {
         const prt::VertexArray& vertices = model.stored.vertex_arrays[model.stored.primitives[p].vertices];
         one.rows = prt::joined(
@@ -67,19 +67,19 @@ glm::vec4 sphere_round(const prt::InstanceBox& box, const glm::dmat4& world) {
 GpuInstances::GpuInstances(std::shared_ptr<const prt::InstancedModel> model,
                            std::span<const prt::Texture> textures, const glm::dvec3& origin)
     : model_(std::move(model)), scene_(model_->stored, textures), arrays_(scene_.make_vertex_arrays()) {
-    const std::vector<prt::FormedInstance> formed = add_groups(origin);
+    const std::vector<prt::RelitInstance> computed = add_groups(origin);
     std::vector<MeshInstances> meshes;
     for (const Group& group : groups_)
         meshes.push_back({meshes.empty() ? 0 : meshes.back().first + meshes.back().count, group.rows.size(),
                           vertex_arrays_of(model_->stored, group.primitives)});
-    instances_ = formed.size();
-    radiance_.emplace(model_->compressed->transfer, scene_, formed, meshes);
+    instances_ = computed.size();
+    radiance_.emplace(model_->compressed->transfer, scene_, computed, meshes);
     rows_ = prt::make_buffer(std::span<const Row>(std::vector<Row>(instances_)));
     attach(arrays_);
 }
 
 /// Returns the instances that need constants, group by group.
-std::vector<prt::FormedInstance> GpuInstances::add_groups(const glm::dvec3& origin) {
+std::vector<prt::RelitInstance> GpuInstances::add_groups(const glm::dvec3& origin) {
     const prt::Scene& stored = model_->stored;
     for (std::size_t p = 0; p < stored.primitives.size(); ++p) {
         const int node = stored.primitives[p].node;
@@ -90,26 +90,26 @@ std::vector<prt::FormedInstance> GpuInstances::add_groups(const glm::dvec3& orig
         }
         group->primitives.push_back(p);
     }
-    const std::vector<prt::FormedInstance> formed = prt::formed_instances(*model_);
+    const std::vector<prt::RelitInstance> computed = prt::relit_instances(*model_);
     std::vector<std::vector<std::size_t>> of_groups(groups_.size());
     for (std::size_t i = 0; i < model_->instances.size(); ++i)
         for (std::size_t g = 0; g < groups_.size(); ++g)
             if (stored.primitives[groups_[g].primitives.front()].vertices ==
                 model_->instances[i].stored_arrays.front())
                 of_groups[g].push_back(i);
-    std::vector<prt::FormedInstance> result;
+    std::vector<prt::RelitInstance> result;
     const glm::dmat4 from_stored = glm::translate(glm::dmat4(1), stored.origin),
                      to_shown = glm::translate(glm::dmat4(1), -origin);
     for (std::size_t g = 0; g < groups_.size(); ++g) {
         Group& group = groups_[g];
-        const auto add = [&](const prt::FormedInstance& one, const glm::dmat4& world) {
+        const auto add = [&](const prt::RelitInstance& one, const glm::dmat4& world) {
             const glm::dmat4 matrix = to_shown * world * from_stored;
             group.rows.push_back({rows_of(matrix), static_cast<std::uint32_t>(group.rows.size())});
             group.spheres.push_back(sphere_round(one.placed.box, matrix));
             result.push_back(one);
         };
         for (const std::size_t i : of_groups[g])
-            add(formed[i], model_->instances[i].world);
+            add(computed[i], model_->instances[i].world);
         if (of_groups[g].empty())
             add(drawn_once(*model_, box_of(stored, group.primitives), group.primitives), glm::dmat4(1));
     }
@@ -142,7 +142,7 @@ InstanceFigures GpuInstances::figures() const {
             .bytes_in_file = prt::kInstanceNumbers,
             .bytes_of_constants = each(radiance_->bytes_of_constants()),
             .bytes_of_radiance = each(radiance_->bytes()),
-            .milliseconds_formed = 1e3 * radiance_->seconds_formed()};
+            .milliseconds_to_update = 1e3 * radiance_->seconds_to_update()};
 }
 
 void GpuInstances::look(const glm::mat4& view_projection, const glm::vec3& eye, bool culling) {

@@ -23,10 +23,10 @@ namespace viewer {
 /// Size and cost of an instanced scene.
 struct InstanceFigures {
     std::size_t instances = 0, meshes = 0;
-    std::size_t bytes_in_file = 0;  ///< factors of an instance in the file
-    double bytes_of_constants = 0;  ///< constants of an instance for a lighting, on average
-    double bytes_of_radiance = 0;   ///< exit radiance of the vertices of an instance, on average
-    double milliseconds_formed = 0; ///< time to compute all constants at the last change of light
+    std::size_t bytes_in_file = 0;     ///< factors of an instance in the file
+    double bytes_of_constants = 0;     ///< constants of an instance for a lighting, on average
+    double bytes_of_radiance = 0;      ///< exit radiance of the vertices of an instance, on average
+    double milliseconds_to_update = 0; ///< time to compute all constants at the last change of light
 };
 
 class GpuInstances {
@@ -61,7 +61,7 @@ private:
         std::vector<glm::vec4> spheres;   ///< [instances] bounding spheres: center and radius
         std::size_t first = 0, count = 0; ///< range of the selected instances
     };
-    std::vector<prt::FormedInstance> add_groups(const glm::dvec3& origin);
+    std::vector<prt::RelitInstance> add_groups(const glm::dvec3& origin);
     void attach(const prt::GlVertexArrays& arrays) const;
 
     std::shared_ptr<const prt::InstancedModel> model_;

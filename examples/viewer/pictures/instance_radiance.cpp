@@ -26,10 +26,10 @@ std::size_t InstanceRadiance::Place::bytes() const {
 }
 
 InstanceRadiance::InstanceRadiance(const prt::ClusteredTransfer& transfer, const prt::GlScene& scene,
-                                   std::span<const prt::FormedInstance> formed,
+                                   std::span<const prt::RelitInstance> computed,
                                    std::span<const MeshInstances> meshes)
-    : transfer_(transfer), former_(transfer, formed), arrays_(scene.make_vertex_arrays()),
-      table_(prt::make_buffer(std::span<const glm::vec4>(former_.table()))),
+    : transfer_(transfer), relighter_(transfer, computed), arrays_(scene.make_vertex_arrays()),
+      table_(prt::make_buffer(std::span<const glm::vec4>(relighter_.table()))),
       program_(prt::make_program("viewer_lit_instances.vert", "", prt::instance_defines(transfer))),
       framebuffer_(prt::make_framebuffer()) {
     std::size_t end = 0;
@@ -42,8 +42,8 @@ InstanceRadiance::InstanceRadiance(const prt::ClusteredTransfer& transfer, const
             end = (end + place.bytes() + kAlignment - 1) / kAlignment * kAlignment;
         }
     radiance_ = prt::make_buffer_of(end);
-    constants_.formed.resize(former_.size());
-    constants_.buffer = prt::make_buffer(std::span<const glm::vec4>(constants_.formed));
+    constants_.computed.resize(relighter_.size());
+    constants_.buffer = prt::make_buffer(std::span<const glm::vec4>(constants_.computed));
     attach_table(arrays_);
     glNamedFramebufferParameteri(framebuffer_.name(), GL_FRAMEBUFFER_DEFAULT_WIDTH, 1);
     glNamedFramebufferParameteri(framebuffer_.name(), GL_FRAMEBUFFER_DEFAULT_HEIGHT, 1);
@@ -64,11 +64,11 @@ void InstanceRadiance::attach_table(const prt::GlVertexArrays& arrays) const {
 
 void InstanceRadiance::set_light(const prt::Lighting& lighting) {
     const prt::Stopwatch stopwatch;
-    former_.form(lighting, constants_.formed);
+    relighter_.update(lighting, constants_.computed);
     constants_.seconds = stopwatch.seconds();
     glNamedBufferSubData(constants_.buffer.name(), 0,
-                         static_cast<GLsizeiptr>(constants_.formed.size() * sizeof(glm::vec4)),
-                         constants_.formed.data());
+                         static_cast<GLsizeiptr>(constants_.computed.size() * sizeof(glm::vec4)),
+                         constants_.computed.data());
     glUseProgram(program_.name());
     transfer_.use();
     prt::bind_storage(PRT_BINDING_CONSTANTS, constants_.buffer);
@@ -109,7 +109,7 @@ std::size_t InstanceRadiance::bytes() const {
 }
 
 std::size_t InstanceRadiance::bytes_of_constants() const {
-    return constants_.formed.size() * sizeof(glm::vec4);
+    return constants_.computed.size() * sizeof(glm::vec4);
 }
 
 } // namespace viewer

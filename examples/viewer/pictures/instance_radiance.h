@@ -5,7 +5,7 @@
 
 #include "prt/gl_scene.h"
 #include "prt/gl_transfer.h"
-#include "prt/instance_former.h"
+#include "prt/instance_relighter.h"
 
 #include <glm/vec4.hpp>
 
@@ -15,7 +15,7 @@
 
 namespace viewer {
 
-/// Consecutive instances of one mesh in the table of an InstanceFormer, and the vertex arrays of the mesh.
+/// Consecutive instances of one mesh in the table of an InstanceRelighter, and the vertex arrays of the mesh.
 struct MeshInstances {
     std::size_t first = 0, count = 0;
     std::vector<std::size_t> vertex_arrays;
@@ -23,10 +23,10 @@ struct MeshInstances {
 
 class InstanceRadiance {
 public:
-    /// `formed` are all instances, and `meshes` are ranges of them. Vertex arrays are those of `scene`, which
-    /// must outlive this object.
+    /// `computed` are all instances, and `meshes` are ranges of them. Vertex arrays are those of `scene`,
+    /// which must outlive this object.
     InstanceRadiance(const prt::ClusteredTransfer& transfer, const prt::GlScene& scene,
-                     std::span<const prt::FormedInstance> formed, std::span<const MeshInstances> meshes);
+                     std::span<const prt::RelitInstance> computed, std::span<const MeshInstances> meshes);
 
     void set_light(const prt::Lighting& lighting);
     /// Sets the location of the vertices of mesh `mesh` in its vertex array `vertex_array` for
@@ -36,7 +36,7 @@ public:
     std::size_t bytes() const;              ///< size of the exit radiance
     std::size_t bytes_of_constants() const; ///< size of the constants it is computed
                                             ///< from
-    double seconds_formed() const {
+    double seconds_to_update() const {
         return constants_.seconds;
     } ///< time to compute the constants at the
       ///< last change of light
@@ -53,12 +53,12 @@ private:
     void bind(const prt::GlObject& program, const Place& place) const;
 
     prt::GlTransfer transfer_; ///< weights and clusters
-    prt::InstanceFormer former_;
+    prt::InstanceRelighter relighter_;
     prt::GlVertexArrays arrays_;
     prt::GlObject table_, program_, framebuffer_, radiance_;
     std::vector<Place> places_;
     struct Constants {
-        std::vector<glm::vec4> formed;
+        std::vector<glm::vec4> computed;
         prt::GlObject buffer;
         double seconds = 0;
     };

@@ -110,14 +110,14 @@ void MovingStage::set_lighting(const prt::Lighting& lighting, std::span<const pr
 void MovingStage::light_volume() {
     if (!volume_.gpu || !lit_.lighting)
         return;
-    const prt::TransferLayout& layout = volume_.gpu->former().layout();
+    const prt::TransferLayout& layout = volume_.gpu->relighter().layout();
     if (lit_.lighting->sky.order >= layout.order)
         volume_.gpu->set_light(with_lamps(*lit_.lighting, lit_.lamps, layout));
 }
 
 /// Returns true if suns are added per pixel. A volume without a separate direct term has them in its sky.
 bool MovingStage::adds_suns() const {
-    return lit_.suns && (!has_volume() || volume_.gpu->former().layout().has(prt::PartKind::direct));
+    return lit_.suns && (!has_volume() || volume_.gpu->relighter().layout().has(prt::PartKind::direct));
 }
 
 std::optional<prt::Bounds> MovingStage::box() const {

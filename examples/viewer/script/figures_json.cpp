@@ -53,7 +53,7 @@ nlohmann::json figures_json(const Figures& f) {
                              {"bytes", f.instances->bytes_in_file},
                              {"bytes_of_constants", f.instances->bytes_of_constants},
                              {"bytes_of_radiance", f.instances->bytes_of_radiance},
-                             {"milliseconds_formed", f.instances->milliseconds_formed}};
+                             {"milliseconds_to_update", f.instances->milliseconds_to_update}};
     if (f.lightmap)
         json["lightmap"] = lightmap_json(*f.lightmap);
     return json;

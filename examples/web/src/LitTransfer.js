@@ -7,7 +7,7 @@ import { lightOfSuns } from "./lightFile.js";
 import { shownBy, turnForModel, turnIntoModel } from "./turns.js";
 import { warnOfUnusedLights } from "./unusedLights.js";
 
-/** Base class; derived classes implement `form(sky, suns)`, with coefficients in the space of the bake. */
+/** Base class; derived classes implement `update(sky, suns)`, with coefficients in the space of the bake. */
 export class LitTransfer {
   /** `clusters`: see clustersOf; `root`: the scene of the file, whose world rotation `setSky` uses. */
   constructor(clusters, root = null) {
@@ -39,7 +39,7 @@ export class LitTransfer {
     this.sky = null;
     this.suns = suns;
     this.areLightsChecked = false;
-    this.form(light.coefficients(angle), suns ? suns.coefficients(angle) : null);
+    this.update(light.coefficients(angle), suns ? suns.coefficients(angle) : null);
   }
 
   /**
@@ -70,7 +70,7 @@ export class LitTransfer {
     const turn = turnForModel(scene, this.root);
     const seen = (source) => source.rotated(turn).times(strength).coefficients();
     const ownLight = own && lightOfSuns(own, this.order).rotated(turnIntoModel(this.root)).coefficients();
-    this.form(seen(light), ownLight ?? (suns ? seen(suns) : null));
+    this.update(seen(light), ownLight ?? (suns ? seen(suns) : null));
   }
 
   /** Warns on the console of lights in `scene`, the one that is drawn, that do not light this; once after each change of light. */

@@ -3,7 +3,7 @@
 
 import { BufferGeometry, InstancedBufferAttribute, InstancedMesh, Matrix4 } from "three";
 import { bakedFrame } from "./bakedFrame.js";
-import { InstanceFormer, rowsOf } from "./InstanceFormer.js";
+import { InstanceRelighter, rowsOf } from "./InstanceRelighter.js";
 import { FACTORS } from "./instanceModes.js";
 import { evenRotation, factorsOf, movingNodes, placesOf } from "./instanceNodes.js";
 import { clustersTextureOf, constantsTextureOf, tablesOf, widthFor } from "./tables.js";
@@ -112,7 +112,7 @@ export class PrtkitInstances {
     expect(size <= MOST_TEXELS, `constants of ${all.length} instances would take ${Math.round((16 * size) / 1e6)} MB`, INSTANCES);
     /** Bytes of constants on the device, on average. */
     this.constantsBytesPerInstance = this.count > 0 ? (16 * size) / this.count : 0;
-    this.former = new InstanceFormer(clusters, rows, all);
+    this.relighter = new InstanceRelighter(clusters, rows, all);
     this.width = widthFor(size);
     this.constantsTexture = constantsTextureOf(size, this.width);
     this.clustersTextures = []; // each mesh has only the rows of its clusters
@@ -133,7 +133,7 @@ export class PrtkitInstances {
     this.clustersTextures.push(clustersTexture);
     const uniforms = { prt_constants: { value: this.constantsTexture }, prt_clusters: { value: clustersTexture } };
     const own = { ...tablesOf(this.width), PRT_INSTANCES: 1, ...originOf(clusters.guides) };
-    const table = this.former.table(first, instances.length).map((array) => new InstancedBufferAttribute(array, 4));
+    const table = this.relighter.table(first, instances.length).map((array) => new InstancedBufferAttribute(array, 4));
     let matrices = null; // shared by all primitives
     for (const { mesh, primitive } of primitives) {
       if (!mesh.isMesh) continue; // points and lines
@@ -162,8 +162,8 @@ export class PrtkitInstances {
   }
 
   /** The constants of all of them, for coefficients in the frame of the bake. */
-  form(sky, suns) {
-    this.former.form(sky, suns, this.constantsTexture.image.data);
+  update(sky, suns) {
+    this.relighter.update(sky, suns, this.constantsTexture.image.data);
     this.constantsTexture.needsUpdate = true;
   }
 

@@ -71,7 +71,7 @@ export class PrtkitLobes extends LitSurfaces {
     return { uniforms: {}, defines: this.defines };
   }
 
-  form(sky, suns) {
+  update(sky, suns) {
     this.uniforms.prtLobeLight.value.forEach((light, i) => light.fromArray(sky, 3 * i));
     this.uniforms.prtSunsApart.value = suns !== null;
   }

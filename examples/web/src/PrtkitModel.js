@@ -1,6 +1,6 @@
 // The compressed transfer of one file, shared by its meshes, and its light.
 
-import { formConstants, shaderRows } from "./clusteredPca.js";
+import { updateConstants, shaderRows } from "./clusteredPca.js";
 import { LitSurfaces } from "./LitSurfaces.js";
 import { clustersTextureOf, constantsTextureOf } from "./tables.js";
 
@@ -36,7 +36,7 @@ export class PrtkitModel extends LitSurfaces {
       this.followSky();
       this.checkLights(scene);
       this.followOccluders(renderer, object);
-      this.maps?.form(renderer, this.constantsTexture.version);
+      this.maps?.update(renderer, this.constantsTexture.version);
     };
   }
 
@@ -64,10 +64,10 @@ export class PrtkitModel extends LitSurfaces {
   }
 
   /** The constants of all clusters, for coefficients in the frame of the bake. */
-  form(sky, suns) {
-    formConstants(this.clusters, this.rows, this.columns(sky, suns), this.constantsTexture.image.data);
+  update(sky, suns) {
+    updateConstants(this.clusters, this.rows, this.columns(sky, suns), this.constantsTexture.image.data);
     this.constantsTexture.needsUpdate = true;
-    this.instances?.form(sky, suns);
+    this.instances?.update(sky, suns);
     this.uniforms.prtSunsApart.value = suns !== null && this.directApart;
   }
 

@@ -16,7 +16,7 @@ import {
 } from "three";
 import { LitTransfer } from "./LitTransfer.js";
 import { movingMaterial } from "./relitMaterial.js";
-import { VolumeFormer } from "./VolumeFormer.js";
+import { VolumeRelighter } from "./VolumeRelighter.js";
 import { placeOf, SIDE } from "./volumeGrid.js";
 import { atlasOf, indexTexels, sightTexels } from "./volumeTextures.js";
 
@@ -41,13 +41,13 @@ function directionOf(coefficients) {
 }
 
 /** Computes the requested light of the volume in steps of a few milliseconds. */
-function* forming(former, clusters, { columns, sun }, texels) {
+function* updating(relighter, clusters, { columns, sun }, texels) {
   const count = clusters.components.length;
   const rows = clusters.rowCount / count;
-  const atOnce = Math.max(1, Math.floor(PRODUCTS_AT_ONCE / (rows * (former.rows.length / clusters.rowCount))));
-  for (let k = 0; k < count; k += atOnce) yield former.formConstants(columns, sun, k, Math.min(k + atOnce, count));
-  for (let p = 0; p < former.probes; p += PROBES_AT_ONCE)
-    yield former.form(p, Math.min(p + PROBES_AT_ONCE, former.probes), texels);
+  const atOnce = Math.max(1, Math.floor(PRODUCTS_AT_ONCE / (rows * (relighter.rows.length / clusters.rowCount))));
+  for (let k = 0; k < count; k += atOnce) yield relighter.updateConstants(columns, sun, k, Math.min(k + atOnce, count));
+  for (let p = 0; p < relighter.probes; p += PROBES_AT_ONCE)
+    yield relighter.update(p, Math.min(p + PROBES_AT_ONCE, relighter.probes), texels);
 }
 
 export class PrtkitVolume extends LitTransfer {
@@ -64,7 +64,7 @@ export class PrtkitVolume extends LitTransfer {
     this.probes = grid.levels.length;
     this.bytesPerProbe = 4 * volume.stride + 6;
     this.atlas = atlasOf(grid, order);
-    this.former = new VolumeFormer(volume, this.atlas);
+    this.relighter = new VolumeRelighter(volume, this.atlas);
     const Texels = floats ? Float32Array : Uint16Array;
     this.spare = new Texels(4 * this.atlas.texels * this.atlas.planes);
     const [x, y, z] = this.atlas.bricks.map((bricks) => SIDE * bricks);
@@ -141,7 +141,7 @@ export class PrtkitVolume extends LitTransfer {
   /**
    * Requests light, as coefficients in the space of the bake: it is computed when an object is drawn with it.
    */
-  form(sky, suns) {
+  update(sky, suns) {
     const apart = suns !== null && this.directApart;
     const open = sky.map((value, i) => value + (suns && !apart ? suns[i] : 0));
     this.asked = { columns: this.columns(sky, suns), sun: apart ? directionOf(suns) : null, apart, open };
@@ -161,11 +161,11 @@ export class PrtkitVolume extends LitTransfer {
 
   step() {
     if (!this.steps) {
-      this.forming = this.asked;
+      this.updating = this.asked;
       this.asked = null;
-      this.steps = forming(this.former, this.clusters, this.forming, this.spare);
+      this.steps = updating(this.relighter, this.clusters, this.updating, this.spare);
     }
-    if (this.steps.next().done) this.show(this.forming);
+    if (this.steps.next().done) this.show(this.updating);
   }
 
   /** Replaces the shown light by the computed one. */

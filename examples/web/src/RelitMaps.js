@@ -21,7 +21,7 @@ export class RelitMaps {
     this.maps = maps;
     this.pass = pass;
     this.targets = new Map(); // by map and coordinates: a texture of three knows which coordinates look it up
-    this.formed = new Map(); // by renderer, the version of the constants that its textures are of
+    this.computed = new Map(); // by renderer, the version of the constants that its textures are of
   }
 
   /** The radiance of map `i`, looked up by the coordinates of that number. */
@@ -37,21 +37,21 @@ export class RelitMaps {
   }
 
   /** Draws all maps, unless `renderer` has drawn this version of the constants. */
-  form(renderer, version) {
-    if (this.formed.get(renderer) === version) return;
-    if (!this.formed.has(renderer)) this.forgetLost(renderer);
-    this.formed.set(renderer, version); // set first, because drawing may re-enter this function
+  update(renderer, version) {
+    if (this.computed.get(renderer) === version) return;
+    if (!this.computed.has(renderer)) this.forgetLost(renderer);
+    this.computed.set(renderer, version); // set first, because drawing may re-enter this function
     for (const { target, map } of this.targets.values()) this.pass.draw(renderer, target, map);
   }
 
   /** Forgets the maps of a lost device, so that they are drawn again when it returns. */
   forgetLost({ domElement }) {
-    domElement?.addEventListener?.("webglcontextrestored", () => this.formed.clear());
+    domElement?.addEventListener?.("webglcontextrestored", () => this.computed.clear());
   }
 
   /** Frees the maps on the device; a map that is still in use is created again. */
   dispose() {
-    this.formed.clear();
+    this.computed.clear();
     this.pass.dispose();
     for (const { target } of this.targets.values()) target.dispose();
     for (const { words } of this.maps) for (const texture of words) texture.dispose();

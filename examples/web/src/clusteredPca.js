@@ -204,7 +204,7 @@ export function lightColumns({ order, parts }, sky, suns = null, lamps = null) {
  * Writes for every row its product with the lighting, RGBA, to `constants` [rows][outputs][4]. `columns`: see
  * lightColumns.
  */
-export function formConstants(clusters, rows, columns, constants) {
+export function updateConstants(clusters, rows, columns, constants) {
   const { order, parts, rowCount, outputs = 1 } = clusters;
   let at = 0;
   for (let r = 0; r < rowCount * outputs; ++r) {

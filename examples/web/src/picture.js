@@ -146,7 +146,7 @@ export class Picture {
     if (!keepCamera) this.frame(camera);
     this.moving.enter(gltf, way);
     this.dance = gltf.userData.prtkit.lobes ? danceOf(gltf, clip) : null;
-    this.formLight();
+    this.updateLight();
   }
 
   /** Shows or hides "figure", "spheres" or "probes". */
@@ -204,7 +204,7 @@ export class Picture {
       : split.sky.plus(lightOfSuns(split.suns, split.sky.order));
     this.showSky(image ?? skyImage(split.sky.deringed()), image ? center : "z");
     this.setSuns(split);
-    this.formLight();
+    this.updateLight();
   }
 
   showSky(texture, center) {
@@ -246,7 +246,7 @@ export class Picture {
   /** Sets whether suns are separate, with sharp shadows, or part of the sky. */
   setSunsApart(apart) {
     this.sunsApart = apart;
-    this.formLight();
+    this.updateLight();
   }
 
   /** True if suns can be separate: the sky has suns, and the model has a separate direct term. */
@@ -258,11 +258,11 @@ export class Picture {
   /** Sets one of WINDOWS. */
   setWindow(name) {
     this.window = name;
-    this.formLight();
+    this.updateLight();
   }
 
   /** Computes the light, once for each sky and model: rotation does not change the effect of the window. */
-  formLight() {
+  updateLight() {
     const { order } = this.gltf?.userData.prtkit ?? {};
     if (this.light && order) {
       const apart = this.sunsApart && this.canSunsBeApart;

@@ -64,7 +64,7 @@ export function yawSeries({ order, parts, rowCount }, rows, sky, all, series) {
 }
 
 /** Writes constants [rows][4] of rows [first, end) at the yaw of `terms` (turnTerms). */
-export function formAtYaw(series, terms, first, end, constants) {
+export function updateAtYaw(series, terms, first, end, constants) {
   const count = terms.length;
   for (let row = first; row < end; ++row)
     for (let c = 0; c < 3; ++c) {

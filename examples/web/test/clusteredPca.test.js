@@ -2,7 +2,7 @@
 
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { clusterTable, decodeClusters, formConstants, lightColumns, shaderRows } from "../src/clusteredPca.js";
+import { clusterTable, decodeClusters, updateConstants, lightColumns, shaderRows } from "../src/clusteredPca.js";
 import { codedRows } from "../src/codedRows.js";
 import { viewsOf } from "../src/wholeExtension.js";
 import { encodedRows } from "./encodedRows.js";
@@ -44,7 +44,7 @@ test("plain bases are read as they are", () => {
 
 test("the shader's rows times integers are the rows times weights", () => {
   const clusters = decodeClusters(plain, (i) => plainViews[i]);
-  const constants = formConstants(clusters, shaderRows(clusters), [10, 20, 30], new Float32Array(16));
+  const constants = updateConstants(clusters, shaderRows(clusters), [10, 20, 30], new Float32Array(16));
   for (const [q0, q1] of [[0, 0], [7, 31], [3, 17]]) {
     const w0 = (2 * q0 - 7) / 7;
     const w1 = (2 * q1 - 31) / 31;
@@ -137,7 +137,7 @@ test("guides have rows behind the mean, and centers", () => {
 
 test("the shader's rows times coordinates are the rows times scaled ones less the center", () => {
   const clusters = decodeClusters(guided, (i) => guidedViews[i]);
-  const constants = formConstants(clusters, shaderRows(clusters), [1, 2, 3], new Float32Array(4 * 15));
+  const constants = updateConstants(clusters, shaderRows(clusters), [1, 2, 3], new Float32Array(4 * 15));
   const x = [0, 0.6, 0.8, 1, -2, 0.5];
   const scales = [2, 4, 8, 1, 0.5, 0.25];
   [[0, 1], [8, 0]].forEach(([first, directions], k) => {
@@ -231,7 +231,7 @@ test("guides that make no sense are refused", () => {
 
 test("three channels meet three colours", () => {
   const clusters = { order: 1, parts: [{ kind: "whole", channels: 3 }], rowCount: 1 };
-  assert.deepEqual([...formConstants(clusters, [1, 2, 3], [10, 20, 30], new Float32Array(4))], [10, 40, 90, 0]);
+  assert.deepEqual([...updateConstants(clusters, [1, 2, 3], [10, 20, 30], new Float32Array(4))], [10, 40, 90, 0]);
 });
 
 test("direct light is lit by the sky, the rest by sky and suns", () => {
@@ -240,7 +240,7 @@ test("direct light is lit by the sky, the rest by sky and suns", () => {
   const columns = lightColumns(clusters, [10, 20, 30, 99], [1, 2, 3]);
   assert.deepEqual([...columns], [10, 20, 30, 11, 22, 33]);
   const row = [5, 1, 2, 3];
-  assert.deepEqual([...formConstants(clusters, row, columns, new Float32Array(4))], [50 + 11, 100 + 44, 150 + 99, 0]);
+  assert.deepEqual([...updateConstants(clusters, row, columns, new Float32Array(4))], [50 + 11, 100 + 44, 150 + 99, 0]);
   const whole = { order: 1, parts: [{ kind: "whole", channels: 1 }] };
   assert.deepEqual([...lightColumns(whole, [10, 20, 30], [1, 2, 3])], [11, 22, 33]);
   assert.deepEqual([...lightColumns(clusters, [10, 20, 30])], [10, 20, 30, 10, 20, 30]);

@@ -653,9 +653,9 @@ await check("somebody walks through a model with a volume, and casts a shadow; o
     const [foot, ground] = [moving.parts.figure.position, moving.walk.at(moving.metres)];
     let lit = 0;
     moving.parts.figure.traverse(({ material, castShadow }) => (lit += material?._transfer?.model === moving.volume && castShadow ? 1 : 0));
-    return { apart: foot.distanceTo(ground), lit, formed: moving.volume.isFormed };
+    return { apart: foot.distanceTo(ground), lit, computed: moving.volume.isFormed };
   });
-  assert.ok(shown.apart < 1e-6 && shown.lit > 0 && shown.formed, JSON.stringify(shown));
+  assert.ok(shown.apart < 1e-6 && shown.lit > 0 && shown.computed, JSON.stringify(shown));
   if (screenshots) await page.screenshot({ path: join(screenshots, "figure.png") });
   // With and without the standing figure: part of the picture differs, and so does the ground in its shadow.
   const still = (figure) =>

@@ -225,8 +225,8 @@ test("an instance in the open has the light of its mesh", async () => {
   const { prtkit } = userData;
   prtkit.setLight(lightOf(2, 3), 0.3);
   const constants = prtkit.constantsTexture.image.data; // constants without rotation
-  const { instances: { constantsTexture, former } } = prtkit;
-  const { rows } = former.instances[0];
+  const { instances: { constantsTexture, relighter } } = prtkit;
+  const { rows } = relighter.instances[0];
   for (let row = 0; row < rows.length; ++row)
     for (let c = 0; c < 3; ++c) {
       const at = 4 * (3 * row + c);

@@ -14,8 +14,8 @@ class Recorded extends LitTransfer {
     super({ order: ORDER, parts: [{ kind: "direct", channels: 3 }] }, root);
   }
 
-  form(sky, suns) {
-    this.formed = { sky, suns };
+  update(sky, suns) {
+    this.computed = { sky, suns };
   }
 }
 
@@ -31,9 +31,9 @@ function sunIn(scene) {
 }
 
 /** A point light's coefficients are irradiance times the basis in its direction. */
-function near(formed, direction, irradiance) {
+function near(computed, direction, irradiance) {
   evaluateSh(ORDER, ...direction).forEach((value, i) =>
-    irradiance.forEach((e, c) => assert.ok(Math.abs(formed[3 * i + c] - e * value) < 1e-9, `coefficient ${i}, channel ${c}`)));
+    irradiance.forEach((e, c) => assert.ok(Math.abs(computed[3 * i + c] - e * value) < 1e-9, `coefficient ${i}, channel ${c}`)));
 }
 
 test("a DirectionalLight is a sun from its own direction, however the sky is turned", () => {
@@ -43,7 +43,7 @@ test("a DirectionalLight is a sun from its own direction, however the sky is tur
   scene.backgroundIntensity = 0.5;
   const model = new Recorded();
   model.setSky(dark, scene, { suns: [sun] });
-  near(model.formed.suns, [2 / 3, 2 / 3, 1 / 3], [3, 1.5, 0.75]);
+  near(model.computed.suns, [2 / 3, 2 / 3, 1 / 3], [3, 1.5, 0.75]);
 });
 
 test("a DirectionalLight is followed: its direction, its strength, whether it is visible, and how the model is turned", () => {
@@ -55,18 +55,18 @@ test("a DirectionalLight is followed: its direction, its strength, whether it is
   sun.position.set(-1, 0, 8);
   sun.intensity = 1;
   model.followSky();
-  near(model.formed.suns, [0, 0, 1], [1, 0.5, 0.25]);
+  near(model.computed.suns, [0, 0, 1], [1, 0.5, 0.25]);
   root.rotation.y = Math.PI / 2; // what was +X of the model looks at -Z
   root.updateMatrixWorld(true);
   model.followSky();
-  near(model.formed.suns, [-1, 0, 0], [1, 0.5, 0.25]);
+  near(model.computed.suns, [-1, 0, 0], [1, 0.5, 0.25]);
   sun.visible = false;
   model.followSky();
-  assert.ok(model.formed.suns.every((value) => value === 0));
+  assert.ok(model.computed.suns.every((value) => value === 0));
   sun.visible = true;
   scene.remove(sun);
   model.followSky();
-  assert.ok(model.formed.suns.every((value) => value === 0), "three does not draw by it");
+  assert.ok(model.computed.suns.every((value) => value === 0), "three does not draw by it");
 });
 
 test("suns that are no DirectionalLights are refused with words", () => {

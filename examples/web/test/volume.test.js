@@ -162,9 +162,9 @@ test("a volume goes beside the transfer of surfaces, and is lit with it", async 
   prtkit.setLight(light, 0.2, null, { Lantern: 0.5 });
   assert.deepEqual(prtkit.volume.strengths.get("Lantern").value.toArray(), [0.5, 0.5, 0.5]);
   // The model has order two, the volume three: an error of one leaves both unchanged.
-  const former = prtkit.constantsTexture.version;
+  const before = prtkit.constantsTexture.version;
   assert.throws(() => prtkit.setLight(ShLight.fromCoefficients(2, coefficients.slice(0, 12))), /the light has order 2, the model needs 3/);
-  assert.equal(prtkit.constantsTexture.version, former);
+  assert.equal(prtkit.constantsTexture.version, before);
 });
 
 test("a file may have a volume alone", async () => {

@@ -4,7 +4,7 @@
 // receiver.
 //
 // Each frame, or each time the lighting changes:
-//     former.form(light, constants);                       // M_k·L and B_kj·L: prt/constant_former.h
+//     relighter.update(light, constants);                       // M_k·L and B_kj·L: prt/cluster_lighting.h
 // Then per receiver, in a vertex shader (shaders/prt_exit_radiance.glsl) or on the CPU:
 //     R = C[first_k] + sum_i x_i C[first_k + 1 + i] + sum_j w_j C[first_k + 1 + g + j]
 // This is docs/math.md, eq. 29, with C the constants and x the g predictor coordinates relative to their

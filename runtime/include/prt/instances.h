@@ -11,7 +11,7 @@
 // Then per vertex:
 //     R = sum over modes of factor(instance, place) R_mode
 // R_mode is the vertex's exit radiance under the lighting of that mode, rotated into the frame of the
-// instance. prt/instance_former.h folds the factors into constants for shaders. Experimental.
+// instance. prt/instance_relighter.h folds the factors into constants for shaders. Experimental.
 
 #include "prt/sh_rotation.h"
 #include "prt/support/glm_layout.h"

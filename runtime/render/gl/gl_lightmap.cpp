@@ -53,13 +53,13 @@ void dispatch(const GlObject& map, const LightmapSize& size, std::span<const GlO
 } // namespace
 
 GlLightmap::GlLightmap(const CompressedLightmap& lightmap)
-    : layout_(lightmap.layout), former_(lightmap.compressed.transfer), formed_(former_.rows()),
+    : layout_(lightmap.layout), relighter_(lightmap.compressed.transfer), computed_(relighter_.rows()),
       program_(make_compute_program("prt_lightmap.comp", relight_defines(lightmap.compressed.transfer))) {
     const ClusteredTransfer& transfer = lightmap.compressed.transfer;
     const std::vector<ClusterLayout> clusters = cluster_layouts(transfer.bases);
     clusters_ = make_buffer(std::span<const ClusterLayout>(clusters));
-    constants_ = make_buffer(std::span<const glm::vec4>(formed_));
-    bytes_ = clusters.size() * sizeof(ClusterLayout) + formed_.size() * sizeof(glm::vec4);
+    constants_ = make_buffer(std::span<const glm::vec4>(computed_));
+    bytes_ = clusters.size() * sizeof(ClusterLayout) + computed_.size() * sizeof(glm::vec4);
     for (std::size_t m = 0; m < layout_.maps.size(); ++m) {
         const LightmapSize& size = layout_.maps[m];
         std::vector<GlObject>& words = words_.emplace_back();
@@ -71,9 +71,9 @@ GlLightmap::GlLightmap(const CompressedLightmap& lightmap)
 }
 
 void GlLightmap::set_light(const Lighting& lighting) {
-    former_.form(lighting, formed_);
-    glNamedBufferSubData(constants_.name(), 0, static_cast<GLsizeiptr>(formed_.size() * sizeof(glm::vec4)),
-                         formed_.data());
+    relighter_.update(lighting, computed_);
+    glNamedBufferSubData(constants_.name(), 0, static_cast<GLsizeiptr>(computed_.size() * sizeof(glm::vec4)),
+                         computed_.data());
     glUseProgram(program_.name());
     bind_storage(PRT_BINDING_CONSTANTS, constants_);
     bind_storage(PRT_BINDING_CLUSTERS, clusters_);

@@ -23,22 +23,22 @@ static_assert(sizeof(ClusterLayout) == sizeof(glm::uvec4) &&
 
 GlTransfer::GlTransfer(const ClusteredTransfer& transfer)
     : weight_vectors_(transfer.receivers.components / 4), words_(transfer.receivers.words),
-      defines_("#define PRT_COMPRESSED\n" + relight_defines(transfer)), former_(transfer) {
+      defines_("#define PRT_COMPRESSED\n" + relight_defines(transfer)), relighter_(transfer) {
     clusters_ = make_buffer(std::span<const std::uint16_t>(transfer.receivers.clusters));
     weights_ = make_buffer(std::span<const std::byte>(transfer.receivers.weights));
     const std::vector<ClusterLayout> layouts = cluster_layouts(transfer.bases);
     layouts_ = make_buffer(std::span<const ClusterLayout>(layouts));
-    formed_.resize(former_.rows());
-    constants_ = make_buffer(std::span<const glm::vec4>(formed_));
+    computed_.resize(relighter_.rows());
+    constants_ = make_buffer(std::span<const glm::vec4>(computed_));
     bytes_ = (words_ > 0 ? 0 : transfer.receivers.clusters.size() * sizeof(std::uint16_t)) +
              transfer.receivers.weights.size() + layouts.size() * sizeof(ClusterLayout) +
-             formed_.size() * sizeof(glm::vec4);
+             computed_.size() * sizeof(glm::vec4);
 }
 
 void GlTransfer::set_light(const Lighting& lighting) {
-    former_.form(lighting, formed_);
-    glNamedBufferSubData(constants_.name(), 0, static_cast<GLsizeiptr>(formed_.size() * sizeof(glm::vec4)),
-                         formed_.data());
+    relighter_.update(lighting, computed_);
+    glNamedBufferSubData(constants_.name(), 0, static_cast<GLsizeiptr>(computed_.size() * sizeof(glm::vec4)),
+                         computed_.data());
 }
 
 void GlTransfer::attach(std::uint32_t vertex_array, std::size_t first) const {

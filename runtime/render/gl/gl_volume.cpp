@@ -54,7 +54,7 @@ GlObject make_words(GLenum format, GLenum components, const glm::ivec3& size,
 } // namespace
 
 GlVolume::GlVolume(const CompressedVolume& volume, VolumeFormat format)
-    : format_(format), former_(volume, format), formed_(former_.rows()) {
+    : format_(format), relighter_(volume, format), computed_(relighter_.rows()) {
     const ClusteredTransfer& transfer = volume.compressed.transfer;
     const std::string defines = relight_defines(transfer) + "#define PRT_VOLUME_ORDER " +
                                 std::to_string(volume.order) + "\n#define PRT_VOLUME_FORMAT " +
@@ -62,40 +62,40 @@ GlVolume::GlVolume(const CompressedVolume& volume, VolumeFormat format)
     program_ = make_compute_program("prt_volume.comp", defines);
     const std::vector<ClusterLayout> clusters = cluster_layouts(transfer.bases);
     clusters_ = make_buffer(std::span<const ClusterLayout>(clusters));
-    constants_ = make_buffer(std::span<const glm::vec4>(formed_));
+    constants_ = make_buffer(std::span<const glm::vec4>(computed_));
     words_ = make_buffer(std::span<const std::byte>(transfer.receivers.weights));
     const VolumeLookup lookup(volume.grid, volume.sights);
     const auto& probes = lookup.probes().of_brick;
     probes_ = make_buffer(std::as_bytes(std::span(probes)));
-    const VolumeAtlas& atlas = former_.atlas();
+    const VolumeAtlas& atlas = relighter_.atlas();
     const std::vector<std::uint32_t> sights = sight_texels(volume.grid, lookup.probes(), volume.sights),
                                      index = index_texels(volume.grid, lookup.index());
     sights_ = make_words(GL_RG32UI, GL_RG_INTEGER, atlas.sight_texels(), sights);
     index_ = make_words(GL_R32UI, GL_RED_INTEGER, volume.grid.size, index);
     light_ = make_texture_3d(format_of(format), atlas.light_texels(),
                              format == VolumeFormat::rgba16 ? GL_LINEAR : GL_NEAREST);
-    bytes_ = clusters.size() * sizeof(ClusterLayout) + formed_.size() * sizeof(glm::vec4) +
+    bytes_ = clusters.size() * sizeof(ClusterLayout) + computed_.size() * sizeof(glm::vec4) +
              transfer.receivers.weights.size() + probes.size() * sizeof(probes[0]) +
-             4 * (sights.size() + index.size()) + former_.bytes();
+             4 * (sights.size() + index.size()) + relighter_.bytes();
 }
 
 void GlVolume::set_light(const Lighting& lighting, const std::optional<glm::vec3>& sun) {
-    former_.form_constants(lighting, sun, formed_);
-    glNamedBufferSubData(constants_.name(), 0, static_cast<GLsizeiptr>(formed_.size() * sizeof(glm::vec4)),
-                         formed_.data());
+    relighter_.update_constants(lighting, sun, computed_);
+    glNamedBufferSubData(constants_.name(), 0, static_cast<GLsizeiptr>(computed_.size() * sizeof(glm::vec4)),
+                         computed_.data());
     glUseProgram(program_.name());
     bind_storage(PRT_BINDING_CONSTANTS, constants_);
     bind_storage(PRT_BINDING_CLUSTERS, clusters_);
     bind_storage(PRT_BINDING_VOLUME_WORDS, words_);
     bind_storage(PRT_BINDING_VOLUME_PROBES, probes_);
     glBindImageTexture(PRT_IMAGE_VOLUME, light_.name(), 0, GL_TRUE, 0, GL_WRITE_ONLY, format_of(format_));
-    const glm::uvec3 groups(former_.atlas().bricks);
+    const glm::uvec3 groups(relighter_.atlas().bricks);
     glDispatchCompute(groups.x, groups.y, groups.z);
     glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT | GL_TEXTURE_UPDATE_BARRIER_BIT);
 }
 
 void GlVolume::upload(std::span<const std::byte> texels) {
-    const glm::ivec3 size = former_.atlas().light_texels();
+    const glm::ivec3 size = relighter_.atlas().light_texels();
     glPixelStorei(GL_UNPACK_ALIGNMENT, 4);
     glTextureSubImage3D(light_.name(), 0, 0, 0, 0, size.x, size.y, size.z, GL_RGBA,
                         format_ == VolumeFormat::rgba16 ? GL_HALF_FLOAT : GL_FLOAT, texels.data());
@@ -109,7 +109,7 @@ void GlVolume::bind() const {
 }
 
 std::vector<glm::vec4> GlVolume::read() const {
-    const VolumeAtlas& atlas = former_.atlas();
+    const VolumeAtlas& atlas = relighter_.atlas();
     std::vector<glm::vec4> texels(atlas.texels_of_plane() * static_cast<std::size_t>(atlas.planes()));
     glPixelStorei(GL_PACK_ALIGNMENT, 4);
     glGetTextureImage(light_.name(), 0, GL_RGBA, GL_FLOAT,

@@ -21,24 +21,24 @@ InstancedModel read_instanced(const GltfDocument& document, const Scene& scene,
     return model;
 }
 
-std::vector<FormedInstance> formed_instances(const InstancedModel& model) {
-    return formed_instances(model.instances, model.stored, model.compressed->transfer);
+std::vector<RelitInstance> relit_instances(const InstancedModel& model) {
+    return relit_instances(model.instances, model.stored, model.compressed->transfer);
 }
 
-std::vector<FormedInstance> formed_instances(std::span<const FileInstance> instances, const Scene& stored,
-                                             const ClusteredTransfer& transfer) {
+std::vector<RelitInstance> relit_instances(std::span<const FileInstance> instances, const Scene& stored,
+                                           const ClusteredTransfer& transfer) {
     std::vector<ConstantRows> of_arrays;
     for (const VertexArray& vertices : stored.vertex_arrays)
         of_arrays.push_back(rows_of(transfer, vertices.first_receiver, vertices.size()));
-    std::vector<FormedInstance> formed;
+    std::vector<RelitInstance> computed;
     for (const FileInstance& instance : instances) {
-        FormedInstance one{instance.placed, {}};
+        RelitInstance one{instance.placed, {}};
         one.placed.box.middle = glm::vec3(glm::dvec3(one.placed.box.middle) - stored.origin);
         for (const std::size_t array : instance.stored_arrays)
             one.rows = joined(one.rows, of_arrays[array]);
-        formed.push_back(one);
+        computed.push_back(one);
     }
-    return formed;
+    return computed;
 }
 
 } // namespace prt

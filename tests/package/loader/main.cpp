@@ -1,6 +1,6 @@
 // Loads a compressed model and relights it; links prt::gltf and prt::shader alone.
 
-#include "prt/constant_former.h"
+#include "prt/cluster_lighting.h"
 #include "prt/gltf.h"
 #include "prt/shader_source.h"
 

@@ -143,7 +143,7 @@ TEST(CModel, WritesFiniteNumbersOrRefuses) {
                                         std::vector<float> light(27, y);
                                         light[0] = x;
                                         return made(4 * info.rows, [&](float* to, prt_message* m) {
-                                            return prt_model_form_constants(model, 3, light.data(), to, m);
+                                            return prt_model_update_constants(model, 3, light.data(), to, m);
                                         });
                                     }});
     test::expect_finite_or_refused({"radiance", [&](int, float x, float y) {

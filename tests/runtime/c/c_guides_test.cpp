@@ -55,7 +55,7 @@ TEST_F(CGuides, EvaluateAsInCpp) {
     EXPECT_EQ(inputs.positions, 1);
     const Light light = directional_light(2, {0.6f, 0.8f, 0}, {1, 2, 3});
     std::vector<float> constants(4 * info.rows), radiance(3 * info.receivers);
-    ASSERT_EQ(prt_model_form_constants(model, 2, &light.coefficients[0].x, constants.data(), nullptr),
+    ASSERT_EQ(prt_model_update_constants(model, 2, &light.coefficients[0].x, constants.data(), nullptr),
               PRT_OK);
     ASSERT_EQ(prt_model_evaluate(model, constants.data(), radiance.data(), nullptr), PRT_OK);
     const std::vector<glm::vec3> expected = exit_radiance(decode(transfer), light);

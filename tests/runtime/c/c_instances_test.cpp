@@ -55,18 +55,18 @@ TEST_F(CInstances, HaveTheConstantsOfCpp) {
     for (glm::vec3& c : lighting.sky.coefficients)
         c += glm::vec3(normal(random), normal(random), normal(random));
     std::vector<float> constants(4 * info.constants);
-    ASSERT_EQ(prt_instances_form_constants(model, 3, &lighting.sky.coefficients[0].x,
-                                           &lighting.suns->coefficients[0].x, 1, constants.data(), nullptr),
+    ASSERT_EQ(prt_instances_update_constants(model, 3, &lighting.sky.coefficients[0].x,
+                                             &lighting.suns->coefficients[0].x, 1, constants.data(), nullptr),
               PRT_OK);
     const GltfDocument document = parse_gltf(std::as_bytes(std::span(encoded)), "scene.glb");
     const InstancedModel expected = read_instanced(document, extract_scene(document), "scene.glb");
-    const InstanceFormer former(expected.compressed->transfer, formed_instances(expected));
-    ASSERT_EQ(former.size(), info.constants);
-    std::vector<glm::vec4> formed(former.size());
-    former.form(lighting, formed);
-    for (std::size_t i = 0; i < formed.size(); ++i)
+    const InstanceRelighter relighter(expected.compressed->transfer, relit_instances(expected));
+    ASSERT_EQ(relighter.size(), info.constants);
+    std::vector<glm::vec4> computed(relighter.size());
+    relighter.update(lighting, computed);
+    for (std::size_t i = 0; i < computed.size(); ++i)
         for (int c = 0; c < 4; ++c)
-            EXPECT_EQ(constants[4 * i + static_cast<std::size_t>(c)], formed[i][c]);
+            EXPECT_EQ(constants[4 * i + static_cast<std::size_t>(c)], computed[i][c]);
 }
 
 TEST_F(CInstances, WriteTheirShader) {
@@ -87,10 +87,10 @@ TEST_F(CInstances, BadArgumentsAreRefused) {
     EXPECT_EQ(prt_instances_of_mesh(model, 2, &first, &count, nullptr), PRT_BAD_ARGUMENT);
     EXPECT_EQ(prt_instances_of_mesh(model, 0, nullptr, &count, nullptr), PRT_BAD_ARGUMENT);
     std::vector<float> light(3 * 9, 1e30f), constants(4 * info.constants);
-    EXPECT_EQ(prt_instances_form_constants(model, 3, light.data(), nullptr, 1, constants.data(), nullptr),
+    EXPECT_EQ(prt_instances_update_constants(model, 3, light.data(), nullptr, 1, constants.data(), nullptr),
               PRT_BAD_ARGUMENT);
     light.assign(3 * 4, 1);
-    EXPECT_EQ(prt_instances_form_constants(model, 2, light.data(), nullptr, 1, constants.data(), nullptr),
+    EXPECT_EQ(prt_instances_update_constants(model, 2, light.data(), nullptr, 1, constants.data(), nullptr),
               PRT_BAD_ARGUMENT);
 }
 

@@ -238,14 +238,14 @@ static void test_relighting(const prt_model* model, const prt_model_info* info) 
     float* constants = malloc(4 * sizeof(float) * info->rows);
     float* radiance = malloc(3 * sizeof(float) * info->receivers);
     EXPECT(prt_light_constant(info->order, white, light, NULL) == PRT_OK);
-    EXPECT(prt_model_form_constants(model, info->order, light, constants, NULL) == PRT_OK);
+    EXPECT(prt_model_update_constants(model, info->order, light, constants, NULL) == PRT_OK);
     EXPECT(prt_model_evaluate(model, constants, radiance, NULL) == PRT_OK);
     double mean = 0;
     for (size_t p = 0; p < info->receivers; ++p)
         mean += radiance[3 * p] / (double)info->receivers;
     EXPECT(mean > 0.1 && mean < 1.1);
     prt_message message;
-    EXPECT(prt_model_form_constants(model, info->order - 1, light, constants, &message) == PRT_BAD_ARGUMENT);
+    EXPECT(prt_model_update_constants(model, info->order - 1, light, constants, &message) == PRT_BAD_ARGUMENT);
     free(radiance);
     free(constants);
     free(light);
@@ -262,16 +262,16 @@ static void test_suns_apart(const prt_model* model, const prt_model_info* info) 
     EXPECT(info->direct_apart == 1);
     EXPECT(prt_light_constant(info->order, white, sky, NULL) == PRT_OK);
     EXPECT(prt_light_directional(info->order, up, white, sun, NULL) == PRT_OK);
-    EXPECT(prt_model_form_constants(model, info->order, sky, constants, NULL) == PRT_OK);
-    EXPECT(prt_model_form_constants_apart(model, info->order, sky, sun, NULL, apart, NULL) == PRT_OK);
+    EXPECT(prt_model_update_constants(model, info->order, sky, constants, NULL) == PRT_OK);
+    EXPECT(prt_model_update_constants_separate(model, info->order, sky, sun, NULL, apart, NULL) == PRT_OK);
     EXPECT(memcmp(constants, apart, 4 * sizeof(float) * info->rows) == 0);
-    EXPECT(prt_model_form_constants_apart(model, info->order, sky, NULL, NULL, apart, NULL) == PRT_OK);
+    EXPECT(prt_model_update_constants_separate(model, info->order, sky, NULL, NULL, apart, NULL) == PRT_OK);
     EXPECT(memcmp(constants, apart, 4 * sizeof(float) * info->rows) == 0);
     sun[0] = INFINITY;
     prt_message message;
-    EXPECT(prt_model_form_constants_apart(model, info->order, sky, sun, NULL, apart, &message) ==
+    EXPECT(prt_model_update_constants_separate(model, info->order, sky, sun, NULL, apart, &message) ==
            PRT_BAD_ARGUMENT);
-    EXPECT(prt_model_form_constants_apart(model, info->order, NULL, sky, NULL, apart, &message) ==
+    EXPECT(prt_model_update_constants_separate(model, info->order, NULL, sky, NULL, apart, &message) ==
            PRT_BAD_ARGUMENT);
     free(apart);
     free(constants);

@@ -28,7 +28,7 @@ std::vector<float> radiance_of(const prt_model* model, const float* light) {
     prt_model_info info;
     EXPECT_EQ(prt_model_get_info(model, &info, nullptr), PRT_OK);
     std::vector<float> constants(4 * info.rows), radiance(3 * info.receivers);
-    EXPECT_EQ(prt_model_form_constants(model, kOrder, light, constants.data(), nullptr), PRT_OK);
+    EXPECT_EQ(prt_model_update_constants(model, kOrder, light, constants.data(), nullptr), PRT_OK);
     EXPECT_EQ(prt_model_evaluate(model, constants.data(), radiance.data(), nullptr), PRT_OK);
     return radiance;
 }

@@ -3,7 +3,7 @@
 #include "prt/prt.h"
 
 #include "prt/gltf.h"
-#include "prt/volume_former.h"
+#include "prt/volume_relighter.h"
 #include "support/glb_file.h"
 #include "support/random_volume.h"
 #include "support/volume_model.h"
@@ -39,10 +39,10 @@ protected:
     }
     void TearDown() override { prt_volume_destroy(volume); }
     std::vector<float> constants() const {
-        std::vector<float> formed(4 * info.rows);
+        std::vector<float> computed(4 * info.rows);
         const prt_lighting lighting{3, &sky.coefficients[0].x, nullptr, nullptr, kSun};
-        EXPECT_EQ(prt_volume_form_constants(volume, &lighting, formed.data(), nullptr), PRT_OK);
-        return formed;
+        EXPECT_EQ(prt_volume_update_constants(volume, &lighting, computed.data(), nullptr), PRT_OK);
+        return computed;
     }
 
     static constexpr float kSun[3] = {2, 4, -1};
@@ -71,16 +71,17 @@ TEST_F(CVolume, SaysWhatItIs) {
 }
 
 TEST_F(CVolume, FormsTheTexturesOfCpp) {
-    const VolumeFormer former(expected);
+    const VolumeRelighter relighter(expected);
     const VolumeLookup lookup(expected.grid, expected.sights);
-    std::vector<glm::vec4> formed(former.rows());
-    std::vector<std::byte> light(former.bytes()), texels(textures.light_bytes);
-    former.form_constants(sky, glm::normalize(glm::make_vec3(kSun)), formed);
-    former.form(formed, light, 1);
+    std::vector<glm::vec4> computed(relighter.rows());
+    std::vector<std::byte> light(relighter.bytes()), texels(textures.light_bytes);
+    relighter.update_constants(sky, glm::normalize(glm::make_vec3(kSun)), computed);
+    relighter.update(computed, light, 1);
     const std::vector<float> by_c = constants();
     const std::size_t half = info.probes / 2;
-    EXPECT_EQ(prt_volume_form_light(volume, by_c.data(), 0, half, texels.data(), nullptr), PRT_OK);
-    EXPECT_EQ(prt_volume_form_light(volume, by_c.data(), half, info.probes, texels.data(), nullptr), PRT_OK);
+    EXPECT_EQ(prt_volume_update_light(volume, by_c.data(), 0, half, texels.data(), nullptr), PRT_OK);
+    EXPECT_EQ(prt_volume_update_light(volume, by_c.data(), half, info.probes, texels.data(), nullptr),
+              PRT_OK);
     EXPECT_EQ(texels, light);
     const std::vector<std::uint32_t> sights = sight_texels(expected.grid, lookup.probes(), expected.sights),
                                      index = index_texels(expected.grid, lookup.index());
@@ -89,9 +90,9 @@ TEST_F(CVolume, FormsTheTexturesOfCpp) {
 }
 
 TEST_F(CVolume, LightsAPlaceAsCppDoes) {
-    const std::vector<float> formed = constants();
+    const std::vector<float> computed = constants();
     std::vector<float> incident(3 * 9 * info.probes);
-    ASSERT_EQ(prt_volume_evaluate(volume, formed.data(), incident.data(), nullptr), PRT_OK);
+    ASSERT_EQ(prt_volume_evaluate(volume, computed.data(), incident.data(), nullptr), PRT_OK);
     const VolumeLookup lookup(expected.grid, expected.sights);
     const std::vector<glm::vec3> of_cpp = incident_light(expected, {sky});
     for (const glm::vec3 position : {glm::vec3(0, 1, 3), glm::vec3(2.2f, 1, 2.3f), glm::vec3(-9, 99, 0)}) {
@@ -125,15 +126,15 @@ TEST_F(CVolume, WritesItsShaders) {
 
 TEST_F(CVolume, RefusesWhatCannotBeComputed) {
     prt_message message;
-    std::vector<float> formed = constants(), incident(3 * 9 * info.probes, 1.0f), light(27);
-    const auto form = [&](const prt_lighting& lighting) {
-        return prt_volume_form_constants(volume, &lighting, formed.data(), &message);
+    std::vector<float> computed = constants(), incident(3 * 9 * info.probes, 1.0f), light(27);
+    const auto update = [&](const prt_lighting& lighting) {
+        return prt_volume_update_constants(volume, &lighting, computed.data(), &message);
     };
     const float none[3] = {}, nan = std::numeric_limits<float>::quiet_NaN();
-    EXPECT_EQ(form({3, nullptr, nullptr, nullptr, nullptr}), PRT_BAD_ARGUMENT);
-    EXPECT_EQ(form({2, &sky.coefficients[0].x, nullptr, nullptr, nullptr}), PRT_BAD_ARGUMENT);
-    EXPECT_EQ(form({3, &sky.coefficients[0].x, nullptr, nullptr, none}), PRT_BAD_ARGUMENT);
-    EXPECT_EQ(prt_volume_form_light(volume, formed.data(), 0, info.probes + 1, light.data(), &message),
+    EXPECT_EQ(update({3, nullptr, nullptr, nullptr, nullptr}), PRT_BAD_ARGUMENT);
+    EXPECT_EQ(update({2, &sky.coefficients[0].x, nullptr, nullptr, nullptr}), PRT_BAD_ARGUMENT);
+    EXPECT_EQ(update({3, &sky.coefficients[0].x, nullptr, nullptr, none}), PRT_BAD_ARGUMENT);
+    EXPECT_EQ(prt_volume_update_light(volume, computed.data(), 0, info.probes + 1, light.data(), &message),
               PRT_BAD_ARGUMENT);
     prt_volume_place place{{nan, 0, 0}, {0, 1, 0}};
     EXPECT_EQ(prt_volume_incident(volume, incident.data(), &place, light.data(), &message), PRT_BAD_ARGUMENT);

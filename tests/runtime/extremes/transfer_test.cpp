@@ -1,9 +1,9 @@
 // Tests transfer and its measures with invalid numbers. Measures reject them; forming and evaluating are
-// per-frame arithmetic, in which non-finite values propagate (prt/constant_former.h), and which must stay
+// per-frame arithmetic, in which non-finite values propagate (prt/cluster_lighting.h), and which must stay
 // within their arrays.
 
 #include "prt/adjacency.h"
-#include "prt/constant_former.h"
+#include "prt/cluster_lighting.h"
 #include "prt/error_measures.h"
 #include "support/extremes.h"
 
@@ -95,10 +95,10 @@ ClusteredTransfer clustered_of(int order, float value) {
 TEST(TransferArithmetic, EndsWithinItsArraysWhateverTheNumbers) {
     test::for_each_extreme([](int order, float x, float y) {
         const ClusteredTransfer transfer = clustered_of(order, x);
-        const ConstantFormer former(transfer);
+        const ClusterLighting relighter(transfer);
         const std::vector<glm::vec3> light(static_cast<std::size_t>(order * order), glm::vec3(y));
-        std::vector<glm::vec4> constants(former.rows());
-        former.form(light, constants);
+        std::vector<glm::vec4> constants(relighter.rows());
+        relighter.update(light, constants);
         blend_constants(constants, constants, y, constants);
         std::vector<glm::vec3> radiance(1);
         evaluate(transfer, constants, radiance, 1);

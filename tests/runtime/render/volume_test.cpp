@@ -30,11 +30,11 @@ Lighting lighting_of_probes() {
     return lighting;
 }
 
-std::vector<std::byte> formed_by_cpp(const VolumeFormer& former) {
-    std::vector<glm::vec4> constants(former.rows());
-    std::vector<std::byte> texels(former.bytes());
-    former.form_constants(lighting_of_probes(), kSun, constants);
-    former.form(constants, texels, 1);
+std::vector<std::byte> constants_by_cpp(const VolumeRelighter& relighter) {
+    std::vector<glm::vec4> constants(relighter.rows());
+    std::vector<std::byte> texels(relighter.bytes());
+    relighter.update_constants(lighting_of_probes(), kSun, constants);
+    relighter.update(constants, texels, 1);
     return texels;
 }
 
@@ -84,18 +84,18 @@ const glm::vec3 kFacing = glm::normalize(glm::vec3(0.3f, -0.8f, 0.45f));
 
 std::vector<Found> found_by_cpp(const CompressedVolume& volume, const std::vector<Place>& places) {
     const VolumeLookup lookup(volume.grid, volume.sights);
-    const VolumeFormer former(volume, VolumeFormat::rgba32);
-    const std::vector<std::byte> texels = formed_by_cpp(former);
-    const std::size_t n = former.atlas().coefficients();
+    const VolumeRelighter relighter(volume, VolumeFormat::rgba32);
+    const std::vector<std::byte> texels = constants_by_cpp(relighter);
+    const std::size_t n = relighter.atlas().coefficients();
     const std::vector<glm::vec3> incident = incident_light(volume, lighting_of_probes());
-    std::vector<float> suns(former.probes());
+    std::vector<float> suns(relighter.probes());
     for (std::size_t b = 0; b < volume.grid.bricks.size(); ++b)
         for (std::size_t i = 0; i < kBrickProbes; ++i)
-            std::memcpy(
-                &suns[lookup.probes().of_brick[b][i]],
-                &texels[4 * (4 * (3 * n / 4 * former.atlas().texels_of_plane() + former.atlas().texel(b, i)) +
-                             3 * n % 4)],
-                4);
+            std::memcpy(&suns[lookup.probes().of_brick[b][i]],
+                        &texels[4 * (4 * (3 * n / 4 * relighter.atlas().texels_of_plane() +
+                                          relighter.atlas().texel(b, i)) +
+                                     3 * n % 4)],
+                        4);
     std::vector<Found> all;
     for (const Place& place : places) {
         const VolumeCorners corners = lookup.find(place.position, place.normal);
@@ -239,12 +239,13 @@ void bind_texture_3d(GLuint unit, GLenum internal, GLenum format, GLenum type, c
 }
 
 void bind_textures_of(const CompressedVolume& volume, VolumeFormat format) {
-    const VolumeFormer former(volume, format);
+    const VolumeRelighter relighter(volume, format);
     const VolumeLookup lookup(volume.grid, volume.sights);
-    const VolumeAtlas& atlas = former.atlas();
+    const VolumeAtlas& atlas = relighter.atlas();
     const bool half = format == VolumeFormat::rgba16;
     bind_texture_3d(PRT_UNIT_VOLUME_LIGHT, half ? GL_RGBA16F : GL_RGBA32F, GL_RGBA,
-                    half ? GL_HALF_FLOAT : GL_FLOAT, atlas.light_texels(), formed_by_cpp(former).data());
+                    half ? GL_HALF_FLOAT : GL_FLOAT, atlas.light_texels(),
+                    constants_by_cpp(relighter).data());
     bind_texture_3d(PRT_UNIT_VOLUME_SIGHTS, GL_RG32UI, GL_RG_INTEGER, GL_UNSIGNED_INT, atlas.sight_texels(),
                     sight_texels(volume.grid, lookup.probes(), volume.sights).data());
     bind_texture_3d(PRT_UNIT_VOLUME_INDEX, GL_R32UI, GL_RED_INTEGER, GL_UNSIGNED_INT, volume.grid.size,
@@ -312,16 +313,16 @@ TEST_P(VolumePass, FormsWhatCppForms) {
     for (const VolumeFormat format : {VolumeFormat::rgba32, VolumeFormat::rgba16}) {
         GlVolume by_gpu(volume, format), by_cpp(volume, format);
         by_gpu.set_light(lighting_of_probes(), kSun);
-        by_cpp.upload(formed_by_cpp(by_cpp.former()));
-        const std::vector<glm::vec4> expected = by_cpp.read(), formed = by_gpu.read();
+        by_cpp.upload(constants_by_cpp(by_cpp.relighter()));
+        const std::vector<glm::vec4> expected = by_cpp.read(), computed = by_gpu.read();
         float largest = 0;
         for (std::size_t b = 0; b < volume.grid.bricks.size(); ++b)
             for (std::size_t i = 0; i < kBrickProbes; ++i)
-                for (int plane = 0; plane < by_gpu.former().atlas().planes(); ++plane) {
-                    const VolumeAtlas& atlas = by_gpu.former().atlas();
+                for (int plane = 0; plane < by_gpu.relighter().atlas().planes(); ++plane) {
+                    const VolumeAtlas& atlas = by_gpu.relighter().atlas();
                     const std::size_t t =
                         static_cast<std::size_t>(plane) * atlas.texels_of_plane() + atlas.texel(b, i);
-                    largest = std::max(largest, glm::distance(expected[t], formed[t]) /
+                    largest = std::max(largest, glm::distance(expected[t], computed[t]) /
                                                     std::max(1.0f, glm::length(expected[t])));
                 }
         EXPECT_LT(largest, format == VolumeFormat::rgba32 ? 1e-5f : 1e-3f);

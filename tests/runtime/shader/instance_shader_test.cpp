@@ -2,7 +2,7 @@
 
 #include "prt/compress.h"
 #include "prt/gl_renderer.h"
-#include "prt/instance_former.h"
+#include "prt/instance_relighter.h"
 #include "prt/instance_shader.h"
 #include "prt/support/error.h"
 
@@ -82,17 +82,17 @@ void expect_agreement(ShaderLanguage language, ConstantSource source) {
     std::mt19937 random(3);
     const ClusteredTransfer mesh = random_mesh(random);
     const Lighting lighting = random_lighting(random);
-    const std::vector<FormedInstance> instances = {
+    const std::vector<RelitInstance> instances = {
         {{random_factors(random), glm::dmat3(1), {glm::vec3(3, -1, 2), glm::vec3(2, 1, 3)}},
          rows_of(mesh, 0, kVertices)},
         {{random_factors(random),
           glm::dmat3(glm::angleAxis(1.1, glm::dvec3(0, 1, 0))),
           {glm::vec3(2, 0, 2), glm::vec3(1, 4, 2)}},
          rows_of(mesh, 0, kVertices)}};
-    const InstanceFormer former(mesh, instances, 0);
-    std::vector<glm::vec4> constants(former.size());
-    former.form(lighting, constants);
-    const std::vector<glm::vec4> table = former.table();
+    const InstanceRelighter relighter(mesh, instances, 0);
+    std::vector<glm::vec4> constants(relighter.size());
+    relighter.update(lighting, constants);
+    const std::vector<glm::vec4> table = relighter.table();
     const std::string shader = instance_shader(mesh, source, language, test::kSceneOrigin);
     for (std::size_t i = 0; i < instances.size(); ++i) {
         glVertexAttrib4f(PRT_LOCATION_INSTANCE_X, 1, 0, 0, 0);

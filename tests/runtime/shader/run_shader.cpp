@@ -2,7 +2,7 @@
 
 #include "run_shader.h"
 
-#include "prt/constant_former.h"
+#include "prt/cluster_lighting.h"
 #include "shared_layout.h"
 
 #include <gtest/gtest.h>
@@ -165,9 +165,9 @@ GLuint compiled(GLenum stage, const std::string& source) {
 
 std::vector<glm::vec3> radiance_of_shader(const ClusteredTransfer& transfer, const Lighting& lighting,
                                           ShaderLanguage language, ConstantSource source) {
-    const ConstantFormer former(transfer);
-    std::vector<glm::vec4> constants(former.rows());
-    former.form(lighting, constants);
+    const ClusterLighting relighter(transfer);
+    std::vector<glm::vec4> constants(relighter.rows());
+    relighter.update(lighting, constants);
     return radiance_of_vertices(transfer, relight_shader(transfer, source, language, kSceneOrigin), constants,
                                 language, source);
 }

@@ -1,8 +1,8 @@
 // Compares the vertex shader with C++, in every language and with every storage of the constants, run by the
 // driver.
 
+#include "prt/cluster_lighting.h"
 #include "prt/compress.h"
-#include "prt/constant_former.h"
 #include "prt/gl_context.h"
 #include "prt/gl_objects.h"
 #include "prt/shader_bindings.h"
@@ -277,13 +277,13 @@ TEST(ConstantsShader, FormsWhatCppForms) {
             bases.rows[i] = std::sin(static_cast<float>(i));
     }
     for (const ClusteredTransfer& transfer : transfers) {
-        const ConstantFormer former(transfer);
-        std::vector<glm::vec4> expected(former.rows()), measured(former.rows()), coefficients;
+        const ClusterLighting relighter(transfer);
+        std::vector<glm::vec4> expected(relighter.rows()), measured(relighter.rows()), coefficients;
         Lighting lighting{light, rotated_about_y(light, 1)};
-        for (std::size_t k = 0; k < former.layout().lamps(); ++k)
+        for (std::size_t k = 0; k < relighter.layout().lamps(); ++k)
             lighting.lamps.emplace_back(0.1f * static_cast<float>(k), 1, 2);
-        former.form(lighting, expected);
-        for (const glm::vec3& c : light_columns(former.layout(), lighting))
+        relighter.update(lighting, expected);
+        for (const glm::vec3& c : light_columns(relighter.layout(), lighting))
             coefficients.emplace_back(c, 0);
         const GLuint program = glCreateProgram();
         glAttachShader(program,
@@ -291,10 +291,10 @@ TEST(ConstantsShader, FormsWhatCppForms) {
         glLinkProgram(program);
         glUseProgram(program);
         bind_buffer(GL_SHADER_STORAGE_BUFFER, PRT_BINDING_MATRIX,
-                    std::vector<float>(former.matrix().begin(), former.matrix().end()));
+                    std::vector<float>(relighter.matrix().begin(), relighter.matrix().end()));
         bind_buffer(GL_SHADER_STORAGE_BUFFER, PRT_BINDING_LIGHT, coefficients);
         bind_buffer(GL_SHADER_STORAGE_BUFFER, PRT_BINDING_CONSTANTS, measured);
-        glDispatchCompute(static_cast<GLuint>((former.rows() + 63) / 64), 1, 1);
+        glDispatchCompute(static_cast<GLuint>((relighter.rows() + 63) / 64), 1, 1);
         glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
         glGetBufferSubData(GL_SHADER_STORAGE_BUFFER, 0,
                            static_cast<GLsizeiptr>(measured.size() * sizeof(glm::vec4)), measured.data());

@@ -1,11 +1,11 @@
 // Tests that per-frame functions do not allocate. A separate program, because it counts every allocation.
 
-#include "prt/constant_former.h"
-#include "prt/lightmap_former.h"
+#include "prt/cluster_lighting.h"
+#include "prt/lightmap_relighter.h"
 #include "prt/sh.h"
 #include "prt/sh_rotation.h"
 #include "prt/sh_vector.h"
-#include "prt/volume_former.h"
+#include "prt/volume_relighter.h"
 #include "support/random_lightmap.h"
 #include "support/random_volume.h"
 
@@ -43,8 +43,8 @@ TEST(Frame, AllocatesNothing) {
     transfer.bases.layout = layout_of_one(6, 1);
     transfer.bases.components.assign(40, 5);
     transfer.bases.rows.assign(40 * 6 * 36, 0.5f);
-    const ConstantFormer former(transfer);
-    std::vector<glm::vec4> constants(former.rows()), others(former.rows());
+    const ClusterLighting relighter(transfer);
+    std::vector<glm::vec4> constants(relighter.rows()), others(relighter.rows());
     const Light light = constant_light(6, {1, 2, 3});
     std::vector<glm::vec3> turned(36);
     std::array<float, 36> basis{}, product{};
@@ -52,8 +52,8 @@ TEST(Frame, AllocatesNothing) {
 
     const std::size_t before = allocations;
     ShRotation(6, glm::dmat3(1)).apply(light.coefficients, turned);
-    former.form(turned, constants);
-    former.form(turned, others, 0, 64);
+    relighter.update(turned, constants);
+    relighter.update(turned, others, 0, 64);
     blend_constants(constants, others, 0.5f, constants);
     evaluate_sh(6, glm::vec3(0, 0, 1), std::span<float>(basis));
     sh_product(6, basis, basis, product);
@@ -66,30 +66,30 @@ TEST(Frame, AllocatesNothing) {
 TEST(Lightmap, IsLitWithoutAllocation) {
     std::mt19937 random(1);
     const CompressedLightmap lightmap = test::random_lightmap({{70, 40}}, 2, false, random);
-    const ConstantFormer constants(lightmap.compressed.transfer);
-    std::vector<glm::vec4> formed(constants.rows());
+    const ClusterLighting constants(lightmap.compressed.transfer);
+    std::vector<glm::vec4> computed(constants.rows());
     const Light light = constant_light(3, {1, 2, 3});
-    const LightmapFormer former(lightmap, LightmapFormat::rgb9e5);
-    std::vector<std::byte> texels(former.bytes(0));
+    const LightmapRelighter relighter(lightmap, LightmapFormat::rgb9e5);
+    std::vector<std::byte> texels(relighter.bytes(0));
     const std::size_t before = allocations;
-    constants.form(light.coefficients, formed);
-    former.form(0, formed, texels, 1); // several threads have to be started
+    constants.update(light.coefficients, computed);
+    relighter.update(0, computed, texels, 1); // several threads have to be started
     EXPECT_EQ(allocations, before);
 }
 
 TEST(Volume, IsLitAndLookedUpWithoutAllocation) {
     std::mt19937 random(1);
     const CompressedVolume volume = test::random_volume(3, false, random);
-    const VolumeFormer former(volume);
+    const VolumeRelighter relighter(volume);
     const VolumeLookup lookup(volume.grid, volume.sights);
     const Light light = constant_light(3, {1, 2, 3});
-    std::vector<glm::vec4> constants(former.rows());
-    std::vector<std::byte> texels(former.bytes());
+    std::vector<glm::vec4> constants(relighter.rows());
+    std::vector<std::byte> texels(relighter.bytes());
     const std::vector<glm::vec3> incident = incident_light(volume, {light}, 1);
     std::array<glm::vec3, 9> mixed{};
     const std::size_t before = allocations;
-    former.form_constants(light, glm::vec3(0, 1, 0), constants);
-    former.form(constants, texels, 1); // several threads have to be started
+    relighter.update_constants(light, glm::vec3(0, 1, 0), constants);
+    relighter.update(constants, texels, 1); // several threads have to be started
     mix_incident(lookup.find({0, 1, 2}, {0, 1, 0}), incident, mixed);
     irradiance_of(mixed, {0, 1, 0});
     EXPECT_EQ(allocations, before);

@@ -3,7 +3,7 @@
 #include "prt/instances.h"
 
 #include "prt/error_measures.h"
-#include "prt/instance_former.h"
+#include "prt/instance_relighter.h"
 #include "prt/sh.h"
 #include "prt/support/error.h"
 #include "support/quadrature.h"
@@ -222,7 +222,7 @@ ClusteredTransfer clustered_mesh(Draw& draw) {
 }
 
 /// Returns the constants at a position: those of a lighting, for all clusters.
-std::vector<glm::vec4> constants_at(std::span<const glm::vec4> formed, const glm::vec4& table_0,
+std::vector<glm::vec4> constants_at(std::span<const glm::vec4> computed, const glm::vec4& table_0,
                                     const glm::vec4& table_1, const glm::vec3& position,
                                     const ConstantRows& rows) {
     const std::uint32_t offset =
@@ -231,7 +231,7 @@ std::vector<glm::vec4> constants_at(std::span<const glm::vec4> formed, const glm
     std::vector<glm::vec4> constants(rows.first + rows.count, glm::vec4(0));
     for (std::uint32_t row = rows.first; row < rows.first + rows.count; ++row)
         for (std::uint32_t c = 0; c < 3; ++c)
-            constants[row][static_cast<int>(c)] = glm::dot(formed[3 * (offset + row) + c], place);
+            constants[row][static_cast<int>(c)] = glm::dot(computed[3 * (offset + row) + c], place);
     return constants;
 }
 
@@ -239,7 +239,7 @@ TEST(Instances, ConstantsAtAPlaceAreThoseOfTheModesTimesItsFactors) {
     Draw draw;
     const ClusteredTransfer mesh = clustered_mesh(draw);
     const Lighting lighting{draw.light(), draw.light()};
-    std::vector<FormedInstance> instances;
+    std::vector<RelitInstance> instances;
     for (const std::size_t first : {0u, 4u, 8u, 0u}) // first receiver of a mesh with one cluster, or with all
         instances.push_back(
             {{draw.factors(), draw.rotation(), {draw.vector(), glm::abs(draw.vector()) + 0.1f}},
@@ -247,11 +247,11 @@ TEST(Instances, ConstantsAtAPlaceAreThoseOfTheModesTimesItsFactors) {
     EXPECT_EQ(instances[1].rows.first, 3u);
     EXPECT_EQ(instances[1].rows.count, 2u);
     EXPECT_EQ(joined(instances[0].rows, instances[2].rows).count, instances[3].rows.count);
-    const InstanceFormer former(mesh, instances, 0);
-    EXPECT_EQ(former.size(), 3u * (3 + 2 + 4 + 9));
-    std::vector<glm::vec4> formed(former.size());
-    former.form(lighting, formed);
-    const std::vector<glm::vec4> table = former.table();
+    const InstanceRelighter relighter(mesh, instances, 0);
+    EXPECT_EQ(relighter.size(), 3u * (3 + 2 + 4 + 9));
+    std::vector<glm::vec4> computed(relighter.size());
+    relighter.update(lighting, computed);
+    const std::vector<glm::vec4> table = relighter.table();
     const Transfer decoded = decode(mesh);
     for (std::size_t i = 0; i < instances.size(); ++i) {
         const PlacedInstance& placed = instances[i].placed;
@@ -262,7 +262,7 @@ TEST(Instances, ConstantsAtAPlaceAreThoseOfTheModesTimesItsFactors) {
         const std::vector<glm::vec3> expected = lit(decoded.layout, vectors, lighting);
         const std::size_t first = i == 3 ? 0 : 4 * i, count = i == 3 ? 12 : 4;
         std::vector<glm::vec4> constants =
-            constants_at(formed, table[2 * i], table[2 * i + 1], positions.front(), instances[i].rows);
+            constants_at(computed, table[2 * i], table[2 * i + 1], positions.front(), instances[i].rows);
         constants.resize(constant_rows(mesh.bases));
         std::vector<glm::vec3> measured(12);
         evaluate(mesh, constants, measured);
@@ -272,12 +272,12 @@ TEST(Instances, ConstantsAtAPlaceAreThoseOfTheModesTimesItsFactors) {
     }
 }
 
-TEST(Instances, FormersRefuseLamps) {
+TEST(Instances, RelightersRefuseLamps) {
     Draw draw;
     ClusteredTransfer mesh = clustered_mesh(draw);
     mesh.bases.layout.parts.push_back({PartKind::lamp, 1, "Lantern"});
     mesh.bases.rows.resize(constant_rows(mesh.bases) * mesh.bases.dimension());
-    EXPECT_THROW(InstanceFormer(mesh, {}), Error);
+    EXPECT_THROW(InstanceRelighter(mesh, {}), Error);
 }
 
 TEST(Instances, LampsAreRefused) {

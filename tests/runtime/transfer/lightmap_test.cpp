@@ -1,7 +1,7 @@
 // Lightmaps in memory: which texels filters read, and the pass that lights them.
 
-#include "prt/constant_former.h"
-#include "prt/lightmap_former.h"
+#include "prt/cluster_lighting.h"
+#include "prt/lightmap_relighter.h"
 #include "support/random_lightmap.h"
 #include "texel_formats.h"
 
@@ -117,9 +117,9 @@ struct Palette {
         }
     }
     std::vector<glm::vec3> stored(LightmapFormat format) const {
-        const LightmapFormer former(lightmap, format);
-        std::vector<std::byte> texels(former.bytes(0));
-        former.form(0, constants, texels, 1);
+        const LightmapRelighter relighter(lightmap, format);
+        std::vector<std::byte> texels(relighter.bytes(0));
+        relighter.update(0, constants, texels, 1);
         std::vector<glm::vec3> colors;
         for (std::size_t i = 0; i < constants.size(); ++i)
             colors.push_back(read_texel(format, &texels[i * bytes_per_texel(format)]));
@@ -160,18 +160,18 @@ TEST_P(Formats, HaveSmallerLevelsThatAreMeans) {
     std::mt19937 random(3);
     for (const LightmapSize& size : {LightmapSize{130, 66}, {1, 1}, {1, 9}, {5, 3}, {200, 1}}) {
         const CompressedLightmap lightmap = test::random_lightmap({size}, 1, false, random);
-        const ConstantFormer constants(lightmap.compressed.transfer);
-        std::vector<glm::vec4> formed(constants.rows());
-        for (glm::vec4& c : formed)
+        const ClusterLighting constants(lightmap.compressed.transfer);
+        std::vector<glm::vec4> computed(constants.rows());
+        for (glm::vec4& c : computed)
             c = glm::vec4(1 + static_cast<float>(random() % 100) / 1000, 1, 1, 0); // times any q
-        const LightmapFormer former(lightmap, GetParam());
-        std::vector<std::byte> texels(former.bytes(0));
-        former.form(0, formed, texels, 2);
+        const LightmapRelighter relighter(lightmap, GetParam());
+        std::vector<std::byte> texels(relighter.bytes(0));
+        relighter.update(0, computed, texels, 2);
         const auto at = [&](const LightmapLevel& level, int x, int y) {
             const auto index = static_cast<std::size_t>(y * level.width + x);
             return read_texel(GetParam(), &texels[level.first + index * bytes_per_texel(GetParam())]);
         };
-        const auto levels = former.levels(0);
+        const auto levels = relighter.levels(0);
         EXPECT_EQ(levels.back().width * levels.back().height, 1);
         for (std::size_t l = 1; l < levels.size(); ++l)
             for (int y = 0; y < levels[l].height; ++y)
@@ -190,20 +190,20 @@ TEST_P(Formats, HaveSmallerLevelsThatAreMeans) {
 TEST_P(Formats, AreWhatEvaluationGives) {
     std::mt19937 random(8);
     const CompressedLightmap lightmap = test::random_lightmap({{67, 5}, {9, 33}}, 2, false, random);
-    const ConstantFormer constants(lightmap.compressed.transfer);
-    std::vector<glm::vec4> formed(constants.rows());
+    const ClusterLighting constants(lightmap.compressed.transfer);
+    std::vector<glm::vec4> computed(constants.rows());
     Light light = constant_light(3, glm::vec3(2, 1, 0.5f));
-    constants.form(light, formed);
+    constants.update(light, computed);
     std::vector<glm::vec3> expected(lightmap.layout.texels());
-    evaluate(lightmap.compressed.transfer, formed, expected);
-    const LightmapFormer former(lightmap, GetParam());
+    evaluate(lightmap.compressed.transfer, computed, expected);
+    const LightmapRelighter relighter(lightmap, GetParam());
     for (std::size_t m = 0; m < 2; ++m) {
-        std::vector<std::byte> whole(former.bytes(m)), pieces = whole;
-        former.form(m, formed, whole);
+        std::vector<std::byte> whole(relighter.bytes(m)), pieces = whole;
+        relighter.update(m, computed, whole);
         const int height = lightmap.layout.maps[m].height;
         for (int y = 0; y < height; y += 2)
-            former.form_rows(m, formed, y, std::min(height, y + 2), pieces);
-        former.form_smaller_levels(m, pieces);
+            relighter.update_rows(m, computed, y, std::min(height, y + 2), pieces);
+        relighter.update_smaller_levels(m, pieces);
         EXPECT_EQ(whole, pieces);
         for (std::size_t t = 0; t < lightmap.layout.maps[m].texels(); ++t) {
             const glm::vec3 truth = glm::max(expected[lightmap.layout.first_texels()[m] + t], glm::vec3(0));

@@ -1,6 +1,6 @@
 // Tests volumes in memory: weights of probes in closed form, and incident light.
 
-#include "prt/constant_former.h"
+#include "prt/cluster_lighting.h"
 #include "prt/sh.h"
 #include "prt/transfer_volume.h"
 #include "prt/volume_weights.h"

@@ -86,7 +86,7 @@ typedef struct prt_sun {
  * return. `suns` may be null if the capacity is 0. */
 PRT_API prt_status prt_light_from_light_file(int order, const char* path, float* sky, prt_sun* suns,
                                              size_t* count, prt_message* message);
-/* Returns all suns as one light: `suns` of prt_model_form_constants_apart. */
+/* Returns all suns as one light: `suns` of prt_model_update_constants_separate. */
 PRT_API prt_status prt_light_suns(int order, const prt_sun* suns, size_t count, float* light,
                                   prt_message* message);
 /* Rotates all three channels by `rotation`, in column-major order, in place. For a rotated object, rotate its
@@ -157,16 +157,16 @@ PRT_API prt_status prt_model_get_mesh(const prt_model* model, size_t mesh, prt_m
 /* Writes the constants of all clusters, [rows][4]. Allocates nothing. Coefficients of the light are at most
  * 1e20, constants at most 1e30; if one is larger, PRT_BAD_ARGUMENT is returned, and `constants` may have been
  * written. */
-PRT_API prt_status prt_model_form_constants(const prt_model* model, int order, const float* light,
-                                            float* constants, prt_message* message);
+PRT_API prt_status prt_model_update_constants(const prt_model* model, int order, const float* light,
+                                              float* constants, prt_message* message);
 /* Writes the constants, [rows][4], for a sky and separate suns. The renderer adds the direct light of the
  * suns with sharp shadows; the model receives their light only after a bounce. `suns` may be null: no suns.
  * Only a model whose transfer stores direct light separately supports suns: info.direct_apart. `lamps`:
  * strengths of the lamps, [lamps][3], at most 1e20; null: 1, as in the scene and as in
- * prt_model_form_constants. */
-PRT_API prt_status prt_model_form_constants_apart(const prt_model* model, int order, const float* sky,
-                                                  const float* suns, const float* lamps, float* constants,
-                                                  prt_message* message);
+ * prt_model_update_constants. */
+PRT_API prt_status prt_model_update_constants_separate(const prt_model* model, int order, const float* sky,
+                                                       const float* suns, const float* lamps,
+                                                       float* constants, prt_message* message);
 /* Computes exit radiance for albedo 1, [receivers][3], as the vertex shader does. Constants are at most 1e30.
  * */
 PRT_API prt_status prt_model_evaluate(const prt_model* model, const float* constants, float* radiance,
@@ -204,10 +204,11 @@ PRT_API prt_status prt_instances_get_info(const prt_model* model, prt_instances_
 PRT_API prt_status prt_instances_of_mesh(const prt_model* model, size_t mesh, size_t* first, size_t* count,
                                          prt_message* message);
 /* Writes the constants of all instances, [constants][4], which replace the constants of the model when
- * instances are drawn. Lighting as in prt_model_form_constants_apart, without lamps. `threads` 0: all. */
-PRT_API prt_status prt_instances_form_constants(const prt_model* model, int order, const float* sky,
-                                                const float* suns, int threads, float* constants,
-                                                prt_message* message);
+ * instances are drawn. Lighting as in prt_model_update_constants_separate, without lamps. `threads` 0: all.
+ */
+PRT_API prt_status prt_instances_update_constants(const prt_model* model, int order, const float* sky,
+                                                  const float* suns, int threads, float* constants,
+                                                  prt_message* message);
 /* Writes the vertex shader of instances. Inputs in addition to those of prt_model_shader: worlds at locations
  * 10 to 12, tables at 13 and 14. Constants are in a buffer or a texture. *size as in prt_model_shader. */
 PRT_API prt_status prt_instances_shader(const prt_model* model, int language, int constants, char* source,
@@ -247,7 +248,7 @@ typedef struct prt_volume_textures {
 PRT_API prt_status prt_volume_get_textures(const prt_volume* volume, prt_volume_textures* out,
                                            prt_message* message);
 
-/* Lighting of a volume: coefficients as in prt_model_form_constants_apart. */
+/* Lighting of a volume: coefficients as in prt_model_update_constants_separate. */
 typedef struct prt_lighting {
     int order;
     const float* sky;
@@ -255,13 +256,13 @@ typedef struct prt_lighting {
     const float* lamps; /* may be null */
     const float* sun;   /* direction to the sun whose visibility is computed; may be null */
 } prt_lighting;
-/* Writes the constants, [rows][4]. Allocates nothing. Limits as in prt_model_form_constants. */
-PRT_API prt_status prt_volume_form_constants(const prt_volume* volume, const prt_lighting* lighting,
-                                             float* constants, prt_message* message);
+/* Writes the constants, [rows][4]. Allocates nothing. Limits as in prt_model_update_constants. */
+PRT_API prt_status prt_volume_update_constants(const prt_volume* volume, const prt_lighting* lighting,
+                                               float* constants, prt_message* message);
 /* Writes the texels of probes `first` to `last` - 1 of the light texture to `texels` [light_bytes]. Threads
  * may process different probes at once. Allocates nothing. */
-PRT_API prt_status prt_volume_form_light(const prt_volume* volume, const float* constants, size_t first,
-                                         size_t last, void* texels, prt_message* message);
+PRT_API prt_status prt_volume_update_light(const prt_volume* volume, const float* constants, size_t first,
+                                           size_t last, void* texels, prt_message* message);
 /* Writes the incident light of the probes, [probes][n*n][3], for use without textures. */
 PRT_API prt_status prt_volume_evaluate(const prt_volume* volume, const float* constants, float* incident,
                                        prt_message* message);

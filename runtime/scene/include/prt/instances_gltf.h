@@ -4,7 +4,7 @@
 // docs/format.md). Experimental.
 
 #include "prt/gltf.h"
-#include "prt/instance_former.h"
+#include "prt/instance_relighter.h"
 #include "prt/instances.h"
 
 #include <filesystem>
@@ -89,11 +89,12 @@ struct InstancedModel {
 InstancedModel read_instanced(const GltfDocument& document, const Scene& scene,
                               const std::filesystem::path& path);
 
-/// Returns the instances of a compressed model for InstanceFormer. Boxes refer to positions as in `stored`.
-std::vector<FormedInstance> formed_instances(const InstancedModel& model);
-/// Returns the instances for InstanceFormer, from the parts of an InstancedModel.
-std::vector<FormedInstance> formed_instances(std::span<const FileInstance> instances, const Scene& stored,
-                                             const ClusteredTransfer& transfer);
+/// Returns the instances of a compressed model for InstanceRelighter. Boxes refer to positions as in
+/// `stored`.
+std::vector<RelitInstance> relit_instances(const InstancedModel& model);
+/// Returns the instances for InstanceRelighter, from the parts of an InstancedModel.
+std::vector<RelitInstance> relit_instances(std::span<const FileInstance> instances, const Scene& stored,
+                                           const ClusteredTransfer& transfer);
 
 /// Returns areas of the receivers of `stored`, the scene of `document` with each mesh once. For meshes with
 /// instances, the areas are summed over all instances, with their scale.

@@ -3,7 +3,7 @@
 // The shaders of volumes as source text. Experimental.
 
 #include "prt/shader_source.h"
-#include "prt/volume_former.h"
+#include "prt/volume_relighter.h"
 
 #include <string>
 

@@ -2,7 +2,7 @@
 
 // Compressed lightmaps on the GPU.
 
-#include "prt/constant_former.h"
+#include "prt/cluster_lighting.h"
 #include "prt/gl_objects.h"
 #include "prt/lightmap.h"
 
@@ -35,8 +35,8 @@ public:
 
 private:
     const LightmapLayout& layout_;
-    ConstantFormer former_;
-    std::vector<glm::vec4> formed_;
+    ClusterLighting relighter_;
+    std::vector<glm::vec4> computed_;
     GlObject program_, clusters_, constants_;
     std::vector<std::vector<GlObject>> words_; ///< [maps][words] R32UI
     std::vector<GlObject> maps_;               ///< [maps] RGBA16F

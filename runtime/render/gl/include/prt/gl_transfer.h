@@ -2,7 +2,7 @@
 
 // Compressed transfer on the GPU.
 
-#include "prt/constant_former.h"
+#include "prt/cluster_lighting.h"
 #include "prt/gl_objects.h"
 #include "prt/support/glm_layout.h"
 
@@ -35,8 +35,8 @@ public:
 private:
     int weight_vectors_ = 0, words_ = 0;
     std::string defines_;
-    ConstantFormer former_;
-    std::vector<glm::vec4> formed_;
+    ClusterLighting relighter_;
+    std::vector<glm::vec4> computed_;
     GlObject clusters_, weights_, layouts_, constants_;
     std::size_t bytes_ = 0;
 };

@@ -3,7 +3,7 @@
 // Compressed volumes on the GPU.
 
 #include "prt/gl_objects.h"
-#include "prt/volume_former.h"
+#include "prt/volume_relighter.h"
 
 #include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
@@ -25,11 +25,11 @@ public:
 
     /// Computes the constants for `lighting` and the visibility of a sun, then the light of all probes.
     void set_light(const Lighting& lighting, const std::optional<glm::vec3>& sun = {});
-    /// Uploads the result of VolumeFormer instead: [bytes of the former].
+    /// Uploads the result of VolumeRelighter instead: [bytes of the former].
     void upload(std::span<const std::byte> texels);
     /// Binds the three textures to the units of shared_layout.h.
     void bind() const;
-    const VolumeFormer& former() const { return former_; }
+    const VolumeRelighter& relighter() const { return relighter_; }
     /// Reads back all planes: [texels of the texture].
     std::vector<glm::vec4> read() const;
     /// Size on the GPU in bytes.
@@ -37,8 +37,8 @@ public:
 
 private:
     VolumeFormat format_;
-    VolumeFormer former_;
-    std::vector<glm::vec4> formed_;
+    VolumeRelighter relighter_;
+    std::vector<glm::vec4> computed_;
     GlObject program_, clusters_, constants_, words_, probes_;
     GlObject light_, sights_, index_;
     std::size_t bytes_ = 0;

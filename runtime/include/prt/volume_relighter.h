@@ -2,15 +2,15 @@
 
 // The per-lighting work of a game with a volume: computes incident light of all probes as a texture.
 //
-//     VolumeFormer former(volume);                                  // once per model
-//     std::vector<glm::vec4> constants(former.rows());
-//     std::vector<std::byte> texels(former.bytes());
-//     former.form_constants(light, towards_sun, constants);         // when the lighting changes
-//     former.form(constants, texels);                               // then upload
+//     VolumeRelighter relighter(volume);                                  // once per model
+//     std::vector<glm::vec4> constants(relighter.rows());
+//     std::vector<std::byte> texels(relighter.bytes());
+//     relighter.update_constants(light, towards_sun, constants);         // when the lighting changes
+//     relighter.update(constants, texels);                               // then upload
 //
 // Experimental.
 
-#include "prt/constant_former.h"
+#include "prt/cluster_lighting.h"
 #include "prt/volume_textures.h"
 
 #include <cstddef>
@@ -26,38 +26,38 @@ enum class VolumeFormat {
     rgba32, ///< floats, which some GPUs cannot filter
 };
 
-/// Computes volume textures. Thread-safe. Allocates only in the constructor; `form` starts threads unless
+/// Computes volume textures. Thread-safe. Allocates only in the constructor; `update` starts threads unless
 /// `threads` is 1.
-class VolumeFormer {
+class VolumeRelighter {
 public:
     /// Keeps a reference to `volume`, whose weights must be packed.
-    explicit VolumeFormer(const CompressedVolume& volume, VolumeFormat format = VolumeFormat::rgba16);
+    explicit VolumeRelighter(const CompressedVolume& volume, VolumeFormat format = VolumeFormat::rgba16);
 
     const TransferLayout& layout() const { return constants_.layout(); }
     const VolumeAtlas& atlas() const { return atlas_; }
-    /// Number of constants, as for ConstantFormer.
+    /// Number of constants, as for ClusterLighting.
     std::size_t rows() const { return constants_.rows(); }
     std::size_t probes() const { return first_texels_.size() - 1; }
     /// Size of the light texture in bytes.
     std::size_t bytes() const;
 
-    /// Writes the constants of ConstantFormer to `constants` [rows]. Writes the visibility of a sun in unit
+    /// Writes the constants of ClusterLighting to `constants` [rows]. Writes the visibility of a sun in unit
     /// direction `sun` to `w` of output 0: 0 without a sun, or without a `direct` part, since the transfer
-    /// then includes suns. Throws `Error` as ConstantFormer.
-    void form_constants(const LightingView& lighting, const std::optional<glm::vec3>& sun,
-                        std::span<glm::vec4> constants) const;
+    /// then includes suns. Throws `Error` as ClusterLighting.
+    void update_constants(const LightingView& lighting, const std::optional<glm::vec3>& sun,
+                          std::span<glm::vec4> constants) const;
 
     /// Writes the texels of all probes to `texels` [bytes()]; texels outside bricks are not changed.
-    void form(std::span<const glm::vec4> constants, std::span<std::byte> texels, int threads = 0) const;
+    void update(std::span<const glm::vec4> constants, std::span<std::byte> texels, int threads = 0) const;
     /// Writes the texels of probes [first, last), to spread the work over threads or frames.
-    void form_probes(std::span<const glm::vec4> constants, std::size_t first, std::size_t last,
-                     std::span<std::byte> texels) const;
+    void update_probes(std::span<const glm::vec4> constants, std::size_t first, std::size_t last,
+                       std::span<std::byte> texels) const;
 
 private:
     const CompressedVolume& volume_;
     VolumeFormat format_;
     VolumeAtlas atlas_;
-    ConstantFormer constants_;
+    ClusterLighting constants_;
     std::vector<ClusterLayout> clusters_;
     std::vector<float> direct_;               ///< [rows / outputs][order²] of output 0
     std::vector<std::uint32_t> first_texels_; ///< [probes + 1] first entry of each probe in `texels_`

@@ -2,12 +2,13 @@
 
 // The per-frame work of a game: computes the constants of all clusters for a lighting.
 //
-//     ConstantFormer former(transfer);                       // once per model
-//     std::vector<glm::vec4> constants(former.rows());
-//     former.form(light, constants);                         // when the lighting changes
-//     former.form({sky.coefficients, suns.coefficients}, constants); // or: the renderer shadows suns itself
+//     ClusterLighting relighter(transfer);                       // once per model
+//     std::vector<glm::vec4> constants(relighter.rows());
+//     relighter.update(light, constants);                         // when the lighting changes
+//     relighter.update({sky.coefficients, suns.coefficients}, constants); // or: the renderer shadows suns
+//     itself
 //
-// Several models can share a lighting; each has its own former. For a rotated model the lighting must be
+// Several models can share a lighting; each has its own relighter. For a rotated model the lighting must be
 // rotated by the inverse: `ShRotation(order, inverse of the model's rotation).apply(light, rotated)`.
 // Constants are linear in the lighting: constants of two lightings can be blended instead of computed again.
 // Stable.
@@ -27,10 +28,10 @@ namespace prt {
 /// Means and basis directions of all clusters, stored for fast products with a lighting. The conversion of
 /// packed integers to weights is folded in, so that a shader multiplies the integers directly. Immutable,
 /// thread-safe.
-class ConstantFormer {
+class ClusterLighting {
 public:
     /// Copies the required data of `transfer`.
-    explicit ConstantFormer(const ClusteredTransfer& transfer);
+    explicit ClusterLighting(const ClusteredTransfer& transfer);
 
     int order() const { return layout_.order; }
     const TransferLayout& layout() const { return layout_; }
@@ -40,11 +41,11 @@ public:
 
     /// Writes (r, g, b, 0) for every row to `constants` [rows]. Allocates nothing. Throws `Error` if
     /// `lighting` has too few bands.
-    void form(const LightingView& lighting, std::span<glm::vec4> constants) const;
+    void update(const LightingView& lighting, std::span<glm::vec4> constants) const;
     /// Writes only the rows from `first` up to `last`, to spread the work over threads or frames. `first` is
     /// rounded down and `last` up to a multiple of 16.
-    void form(const LightingView& lighting, std::span<glm::vec4> constants, std::size_t first,
-              std::size_t last) const;
+    void update(const LightingView& lighting, std::span<glm::vec4> constants, std::size_t first,
+                std::size_t last) const;
 
     /// Matrix for the product on the GPU (shaders/prt_constants.comp): [rows / 16, rounded up]
     /// [dimension][16]; rows past the end are 0.

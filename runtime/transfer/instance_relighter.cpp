@@ -1,7 +1,7 @@
 // Computes constants of instances: constants of each mode in each rotation, times the factors of the
 // instances with that rotation.
 
-#include "prt/instance_former.h"
+#include "prt/instance_relighter.h"
 
 #include "prt/support/error.h"
 #include "prt/support/parallel.h"
@@ -13,9 +13,9 @@
 namespace prt {
 namespace {
 
-std::vector<glm::dmat3> rotations_of(std::span<const FormedInstance> instances) {
+std::vector<glm::dmat3> rotations_of(std::span<const RelitInstance> instances) {
     std::vector<glm::dmat3> rotations;
-    for (const FormedInstance& instance : instances)
+    for (const RelitInstance& instance : instances)
         rotations.push_back(instance.placed.rotation);
     return rotations;
 }
@@ -64,9 +64,9 @@ ConstantRows joined(const ConstantRows& a, const ConstantRows& b) {
     return {first, std::max(a.first + a.count, b.first + b.count) - first};
 }
 
-InstanceFormer::InstanceFormer(const ClusteredTransfer& transfer, std::span<const FormedInstance> instances,
-                               int yaws)
-    : former_(transfer), modes_(transfer.bases.layout.order),
+InstanceRelighter::InstanceRelighter(const ClusteredTransfer& transfer,
+                                     std::span<const RelitInstance> instances, int yaws)
+    : relighter_(transfer), modes_(transfer.bases.layout.order),
       turns_(instance_turns(rotations_of(instances), yaws)), instances_(instances.begin(), instances.end()),
       of_(turns_.rotations.size()) {
     if (transfer.bases.layout.outputs != 1 || transfer.bases.layout.lamps() > 0)
@@ -81,7 +81,7 @@ InstanceFormer::InstanceFormer(const ClusteredTransfer& transfer, std::span<cons
                     std::to_string(size_ * sizeof(glm::vec4) >> 20) + " MB: more than a buffer holds");
 }
 
-std::vector<glm::vec4> InstanceFormer::table() const {
+std::vector<glm::vec4> InstanceRelighter::table() const {
     std::vector<glm::vec4> rows;
     rows.reserve(2 * instances_.size());
     for (std::size_t i = 0; i < instances_.size(); ++i) {
@@ -93,19 +93,19 @@ std::vector<glm::vec4> InstanceFormer::table() const {
     return rows;
 }
 
-void InstanceFormer::form(const Lighting& lighting, std::span<glm::vec4> constants, int threads) const {
+void InstanceRelighter::update(const Lighting& lighting, std::span<glm::vec4> constants, int threads) const {
     assert(constants.size() >= size_);
     const std::array<Lighting, kInstanceModes> lightings = modes_.lightings(lighting);
     parallel_for(of_.size(), 1, threads, [&](std::size_t begin, std::size_t end) {
         ModeConstants modes;
-        modes.fill(std::vector<glm::vec4>(former_.rows()));
+        modes.fill(std::vector<glm::vec4>(relighter_.rows()));
         for (std::size_t turn = begin; turn < end; ++turn) {
             const auto turned = turned_into(turns_.rotations[turn], lightings);
             ConstantRows all;
             for (const std::uint32_t i : of_[turn])
                 all = joined(all, instances_[i].rows);
             for (std::size_t m = 0; m < kInstanceModes; ++m)
-                former_.form(turned[m], modes[m], all.first, all.first + all.count);
+                relighter_.update(turned[m], modes[m], all.first, all.first + all.count);
             for (const std::uint32_t i : of_[turn])
                 for (std::size_t row = 0; row < instances_[i].rows.count; ++row)
                     write_row(instances_[i].placed.factors, modes, instances_[i].rows.first + row,

@@ -1,6 +1,6 @@
 // Tests the constants of clusters under a light.
 
-#include "prt/constant_former.h"
+#include "prt/cluster_lighting.h"
 
 #include "prt/support/error.h"
 #include "support/guided.h"
@@ -59,10 +59,10 @@ TEST_P(Constants, AreDotProductsOfRowsAndLight) {
     const auto [order, channels, format] = GetParam();
     const ClusteredTransfer t = random_transfer(order, channels, format);
     const Light light = random_light(order);
-    const ConstantFormer former(t);
-    ASSERT_EQ(former.rows(), constant_rows(t.bases));
-    std::vector<glm::vec4> constants(former.rows());
-    former.form(light.coefficients, constants);
+    const ClusterLighting relighter(t);
+    ASSERT_EQ(relighter.rows(), constant_rows(t.bases));
+    std::vector<glm::vec4> constants(relighter.rows());
+    relighter.update(light.coefficients, constants);
     std::size_t row = 0, bit = 0;
     const auto product = [&](std::size_t r) {
         return exit_radiance({&t.bases.rows[r * t.bases.dimension()], t.bases.dimension()}, t.bases.layout,
@@ -92,10 +92,10 @@ TEST_P(Constants, HoldScalesAndCentersOfGuides) {
     std::mt19937 random(9);
     test::add_guides(t.bases, {GuideKind::normal, GuideKind::position}, random);
     const Light light = random_light(order);
-    const ConstantFormer former(t), without(plain);
-    std::vector<glm::vec4> constants(former.rows()), of_plain(without.rows());
-    former.form(light.coefficients, constants);
-    without.form(light.coefficients, of_plain);
+    const ClusterLighting relighter(t), without(plain);
+    std::vector<glm::vec4> constants(relighter.rows()), of_plain(without.rows());
+    relighter.update(light.coefficients, constants);
+    without.update(light.coefficients, of_plain);
     const std::vector<std::size_t> first = t.bases.first_rows(), first_plain = plain.bases.first_rows();
     for (std::size_t k = 0; k < t.bases.clusters(); ++k) {
         glm::vec3 mean(of_plain[first_plain[k]]);
@@ -119,10 +119,10 @@ TEST(ConstantsOfParts, AreTheSumOfEachUnderItsLight) {
         const TransferLayout layout{5, {{PartKind::direct, direct}, {PartKind::indirect, indirect}}};
         const ClusteredTransfer t = random_transfer(layout, WeightFormat::float32);
         const Light sky = random_light(6), suns = directional_light(5, {0, 1, 0}, {3, 2, 1});
-        const ConstantFormer former(t);
-        std::vector<glm::vec4> constants(former.rows());
-        former.form(Lighting{sky, suns}, constants);
-        for (std::size_t row = 0; row < former.rows(); ++row) {
+        const ClusterLighting relighter(t);
+        std::vector<glm::vec4> constants(relighter.rows());
+        relighter.update(Lighting{sky, suns}, constants);
+        for (std::size_t row = 0; row < relighter.rows(); ++row) {
             const float* of = &t.bases.rows[row * t.bases.dimension()];
             glm::dvec3 expected(0);
             for (int c = 0; c < 3; ++c)
@@ -151,11 +151,11 @@ TEST(ConstantsOfParts, AreLitByLampsBesideTheSkyAndAlone) {
         const ClusteredTransfer t = random_transfer(layout, WeightFormat::float32);
         Lighting lighting{random_light(4)};
         lighting.lamps = {{1, 2, 3}, {0, 5, 1}};
-        const ConstantFormer former(t);
-        std::vector<glm::vec4> constants(former.rows());
-        former.form(lighting, constants);
+        const ClusterLighting relighter(t);
+        std::vector<glm::vec4> constants(relighter.rows());
+        relighter.update(lighting, constants);
         const std::vector<glm::vec3> columns = light_columns(layout, lighting);
-        for (std::size_t row = 0; row < former.rows(); ++row) {
+        for (std::size_t row = 0; row < relighter.rows(); ++row) {
             const std::span<const float> of(&t.bases.rows[row * t.bases.dimension()], t.bases.dimension());
             EXPECT_LT(glm::distance(glm::vec3(constants[row]), exit_radiance(of, layout, columns)), 1e-4f);
         }
@@ -164,36 +164,37 @@ TEST(ConstantsOfParts, AreLitByLampsBesideTheSkyAndAlone) {
 
 TEST_P(Constants, FormedInPartsAreTheSame) {
     const auto [order, channels, format] = GetParam();
-    const ConstantFormer former(random_transfer(order, channels, format));
+    const ClusterLighting relighter(random_transfer(order, channels, format));
     const Light light = random_light(order);
-    std::vector<glm::vec4> whole(former.rows()), parts(former.rows(), glm::vec4(-7));
-    former.form(light.coefficients, whole);
-    former.form(light.coefficients, parts, 0, 16);
-    for (std::size_t row = 16; row < former.rows(); ++row) // a second thread may write there
+    std::vector<glm::vec4> whole(relighter.rows()), parts(relighter.rows(), glm::vec4(-7));
+    relighter.update(light.coefficients, whole);
+    relighter.update(light.coefficients, parts, 0, 16);
+    for (std::size_t row = 16; row < relighter.rows(); ++row) // a second thread may write there
         EXPECT_EQ(parts[row], glm::vec4(-7));
-    former.form(light.coefficients, parts, 16, former.rows());
+    relighter.update(light.coefficients, parts, 16, relighter.rows());
     EXPECT_EQ(whole, parts);
 }
 
 TEST(Constants, BlendAsTheLightsDo) {
     const ClusteredTransfer t = random_transfer(4, 1, WeightFormat::float32);
-    const ConstantFormer former(t);
+    const ClusterLighting relighter(t);
     const Light a = random_light(4), b = constant_light(4, {1, 2, 3});
-    std::vector<glm::vec4> of_a(former.rows()), of_b(former.rows()), of_blend(former.rows()),
-        blend(former.rows());
-    former.form(a.coefficients, of_a);
-    former.form(b.coefficients, of_b);
-    former.form(blended(a, b, 0.3f).coefficients, of_blend);
+    std::vector<glm::vec4> of_a(relighter.rows()), of_b(relighter.rows()), of_blend(relighter.rows()),
+        blend(relighter.rows());
+    relighter.update(a.coefficients, of_a);
+    relighter.update(b.coefficients, of_b);
+    relighter.update(blended(a, b, 0.3f).coefficients, of_blend);
     blend_constants(of_a, of_b, 0.3f, blend);
     for (std::size_t i = 0; i < blend.size(); ++i)
         EXPECT_LT(glm::distance(blend[i], of_blend[i]), 1e-4f);
 }
 
 TEST(Constants, LightOfFewerBandsIsRefused) {
-    const ConstantFormer former(random_transfer(4, 1, WeightFormat::float32));
-    std::vector<glm::vec4> constants(former.rows());
-    EXPECT_THROW(former.form(constant_light(3, {1, 1, 1}).coefficients, constants), Error);
-    EXPECT_NO_THROW(former.form(constant_light(5, {1, 1, 1}).coefficients, constants)); // more do no harm
+    const ClusterLighting relighter(random_transfer(4, 1, WeightFormat::float32));
+    std::vector<glm::vec4> constants(relighter.rows());
+    EXPECT_THROW(relighter.update(constant_light(3, {1, 1, 1}).coefficients, constants), Error);
+    EXPECT_NO_THROW(
+        relighter.update(constant_light(5, {1, 1, 1}).coefficients, constants)); // more do no harm
 }
 
 } // namespace

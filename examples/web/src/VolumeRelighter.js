@@ -1,7 +1,7 @@
 // Computes incident light of the probes of a volume for the lookup in shaders/prt_volume.glsl, as
-// prt::VolumeFormer does. Does not use three.js.
+// prt::VolumeRelighter does. Does not use three.js.
 
-import { formConstants, shaderRows } from "./clusteredPca.js";
+import { updateConstants, shaderRows } from "./clusteredPca.js";
 import { halvesOf } from "./halfFloat.js";
 import { evaluateSh } from "./sphericalHarmonics.js";
 import { BRICK_PROBES } from "./volumeGrid.js";
@@ -33,7 +33,7 @@ function directRows({ order, parts: [part], rowCount, outputs }, rows) {
   return direct;
 }
 
-export class VolumeFormer {
+export class VolumeRelighter {
   /** `volume`: see volumeOf (volumeTransfer.js); `atlas`: see atlasOf. */
   constructor({ grid, clusters, words, stride }, atlas) {
     this.clusters = clusters;
@@ -53,13 +53,13 @@ export class VolumeFormer {
    * Computes the constants of the rows of clusters [first, last), for `columns` of lightColumns. `sun`: a
    * unit direction, whose visible fraction is computed in addition to the light; null: no sun.
    */
-  formConstants(columns, sun, first, last) {
+  updateConstants(columns, sun, first, last) {
     const { clusters, rows, constants, direct, numbers } = this;
     const { order, outputs, firstRows, rowCount } = clusters;
     const [begin, end] = [first, last].map((k) => firstRows[k] ?? rowCount);
     const size = rows.length / rowCount;
     const part = { ...clusters, rowCount: end - begin };
-    const colors = formConstants(part, rows.subarray(begin * size, end * size), columns, new Float64Array(4 * (end - begin) * outputs));
+    const colors = updateConstants(part, rows.subarray(begin * size, end * size), columns, new Float64Array(4 * (end - begin) * outputs));
     const basis = sun && direct ? evaluateSh(order, ...sun) : [];
     for (let r = begin; r < end; ++r) {
       for (let o = 0; o < outputs; ++o)
@@ -99,7 +99,7 @@ export class VolumeFormer {
   }
 
   /** Writes probes [first, last) to `texels` [planes][texels][4]: floats, or bits of half floats. */
-  form(first, last, texels) {
+  update(first, last, texels) {
     const { atlas, numbers } = this;
     const sun = 3 * this.clusters.outputs;
     const sums = new Float64Array(numbers);

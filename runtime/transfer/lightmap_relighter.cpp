@@ -1,7 +1,7 @@
 // Computes radiance of texels tile by tile: two rows at a time stay in the cache until they and the row of
 // the next level are written.
 
-#include "prt/lightmap_former.h"
+#include "prt/lightmap_relighter.h"
 
 #include "prt/support/parallel.h"
 #include "transfer/evaluate_range.h"
@@ -57,19 +57,19 @@ std::size_t bytes_per_texel(LightmapFormat format) {
     return format == LightmapFormat::rgba16 ? 8 : 4;
 }
 
-LightmapFormer::LightmapFormer(const CompressedLightmap& lightmap, LightmapFormat format)
+LightmapRelighter::LightmapRelighter(const CompressedLightmap& lightmap, LightmapFormat format)
     : lightmap_(lightmap), format_(format), clusters_(cluster_layouts(lightmap.compressed.transfer.bases)),
       first_texels_(lightmap.layout.first_texels()) {
     for (const LightmapSize& map : lightmap.layout.maps)
         levels_.push_back(levels_of(map, bytes_per_texel(format)));
 }
 
-std::size_t LightmapFormer::bytes(std::size_t map) const {
+std::size_t LightmapRelighter::bytes(std::size_t map) const {
     return levels_[map].back().first + bytes_per_texel(format_);
 }
 
-void LightmapFormer::form_rows(std::size_t map, std::span<const glm::vec4> constants, int first, int last,
-                               std::span<std::byte> texels) const {
+void LightmapRelighter::update_rows(std::size_t map, std::span<const glm::vec4> constants, int first,
+                                    int last, std::span<std::byte> texels) const {
     assert(texels.size() >= bytes(map));
     const std::size_t size = bytes_per_texel(format_);
     const LightmapLevel& level = levels_[map][0];
@@ -102,7 +102,7 @@ void LightmapFormer::form_rows(std::size_t map, std::span<const glm::vec4> const
         }
 }
 
-void LightmapFormer::form_smaller_levels(std::size_t map, std::span<std::byte> texels) const {
+void LightmapRelighter::update_smaller_levels(std::size_t map, std::span<std::byte> texels) const {
     const std::size_t size = bytes_per_texel(format_);
     glm::vec3 rows[2][kTile] = {}, means[kTile] = {};
     for (std::size_t l = 2; l < levels_[map].size(); ++l) {
@@ -127,18 +127,18 @@ void LightmapFormer::form_smaller_levels(std::size_t map, std::span<std::byte> t
     }
 }
 
-void LightmapFormer::form(std::size_t map, std::span<const glm::vec4> constants, std::span<std::byte> texels,
-                          int threads) const {
+void LightmapRelighter::update(std::size_t map, std::span<const glm::vec4> constants,
+                               std::span<std::byte> texels, int threads) const {
     const int height = levels_[map][0].height;
     constexpr int kRowsAtOnce = 16;
     if (thread_count(threads) == 1)
-        form_rows(map, constants, 0, height, texels);
+        update_rows(map, constants, 0, height, texels);
     else
         parallel_for(static_cast<std::size_t>(height), kRowsAtOnce, threads,
                      [&](std::size_t begin, std::size_t end) {
-                         form_rows(map, constants, static_cast<int>(begin), static_cast<int>(end), texels);
+                         update_rows(map, constants, static_cast<int>(begin), static_cast<int>(end), texels);
                      });
-    form_smaller_levels(map, texels);
+    update_smaller_levels(map, texels);
 }
 
 } // namespace prt

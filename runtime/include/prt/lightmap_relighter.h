@@ -2,11 +2,11 @@
 
 // The per-lighting work of a game with lightmaps: computes the radiance of all texels in a texture format.
 //
-//     LightmapFormer former(lightmap, LightmapFormat::rgb9e5);         // once per model
-//     std::vector<std::byte> texels(former.bytes(map));
-//     constants.form(light, formed);                                   // prt/constant_former.h
-//     former.form(map, formed, texels);                                // when the lighting changes; then
-//     upload
+//     LightmapRelighter relighter(lightmap, LightmapFormat::rgb9e5);         // once per model
+//     std::vector<std::byte> texels(relighter.bytes(map));
+//     constants.form(light, formed);                                   // prt/cluster_lighting.h
+//     relighter.update(map, formed, texels);                                // when the lighting changes;
+//     then upload
 //
 // Bind the texture to the lightmap slot of an engine. It holds exit radiance for albedo 1, to be multiplied
 // with the albedo. Slots that expect irradiance need pi times the value. Experimental.
@@ -38,12 +38,12 @@ struct LightmapLevel {
     std::size_t first; ///< byte offset of the level
 };
 
-/// Computes lightmap textures. Thread-safe. Allocates only in the constructor; `form` starts threads unless
+/// Computes lightmap textures. Thread-safe. Allocates only in the constructor; `update` starts threads unless
 /// `threads` is 1.
-class LightmapFormer {
+class LightmapRelighter {
 public:
     /// Keeps a reference to `lightmap`, whose weights must be packed.
-    LightmapFormer(const CompressedLightmap& lightmap, LightmapFormat format);
+    LightmapRelighter(const CompressedLightmap& lightmap, LightmapFormat format);
 
     /// Mip levels from full size down to one texel.
     std::span<const LightmapLevel> levels(std::size_t map) const { return levels_[map]; }
@@ -52,16 +52,16 @@ public:
 
     /// Writes all levels, in order and row by row, to `texels` [bytes(map)]. Each texel of a level is the
     /// mean of two by two texels of the previous one; the last row or column of an odd size is left out.
-    /// `constants` are the result of `ConstantFormer::form`.
-    void form(std::size_t map, std::span<const glm::vec4> constants, std::span<std::byte> texels,
-              int threads = 0) const;
+    /// `constants` are the result of `ClusterLighting::update`.
+    void update(std::size_t map, std::span<const glm::vec4> constants, std::span<std::byte> texels,
+                int threads = 0) const;
 
     /// Writes part of the levels, to spread the work: rows [first, last) of the first level and the
     /// corresponding rows of the second. `first` must be even, `last` even or the height. Call
-    /// `form_smaller_levels` for the remaining levels when all rows are written.
-    void form_rows(std::size_t map, std::span<const glm::vec4> constants, int first, int last,
-                   std::span<std::byte> texels) const;
-    void form_smaller_levels(std::size_t map, std::span<std::byte> texels) const;
+    /// `update_smaller_levels` for the remaining levels when all rows are written.
+    void update_rows(std::size_t map, std::span<const glm::vec4> constants, int first, int last,
+                     std::span<std::byte> texels) const;
+    void update_smaller_levels(std::size_t map, std::span<std::byte> texels) const;
 
 private:
     const CompressedLightmap& lightmap_;

@@ -4,14 +4,14 @@
 // constants for each instance. The shader of the mesh reads these instead of the constants of the model
 // (shaders/prt_instances.glsl).
 //
-//     InstanceFormer former(transfer, instances); // once; `former.table()` into instance attributes
-//     std::vector<glm::vec4> constants(former.size());
-//     former.form(lighting, constants); // when the lighting changes
+//     InstanceRelighter relighter(transfer, instances); // once; `relighter.table()` into instance attributes
+//     std::vector<glm::vec4> constants(relighter.size());
+//     relighter.update(lighting, constants); // when the lighting changes
 //
 // Constants of an instance are linear in the position within the box of its mesh. A row therefore takes three
 // vectors instead of one. The number of weights per vertex does not change. Experimental.
 
-#include "prt/constant_former.h"
+#include "prt/cluster_lighting.h"
 #include "prt/instances.h"
 
 #include <cstddef>
@@ -31,19 +31,19 @@ ConstantRows rows_of(const ClusteredTransfer& transfer, std::size_t first, std::
 ConstantRows joined(const ConstantRows& a, const ConstantRows& b);
 
 /// An instance, and the rows that its mesh reads.
-struct FormedInstance {
+struct RelitInstance {
     PlacedInstance placed;
     ConstantRows rows;
 };
 
 /// Computes constants for instances. Immutable, thread-safe.
-class InstanceFormer {
+class InstanceRelighter {
 public:
     /// `yaws`: number of rotations about +Y for which the lighting is rotated; upright instances are rounded
     /// to the nearest one. 0: each distinct rotation is used exactly. Throws `Error` for transfer of lamps or
     /// of several outputs, and for constants of more than 4 GB.
-    InstanceFormer(const ClusteredTransfer& transfer, std::span<const FormedInstance> instances,
-                   int yaws = 64);
+    InstanceRelighter(const ClusteredTransfer& transfer, std::span<const RelitInstance> instances,
+                      int yaws = 64);
 
     /// Number of vectors in the constants of all instances: three per row.
     std::size_t size() const { return size_; }
@@ -54,13 +54,13 @@ public:
     std::vector<glm::vec4> table() const;
     /// Writes the constants of all instances, [size()]. Throws `Error` for lamps, and if the lighting has
     /// fewer bands than the transfer.
-    void form(const Lighting& lighting, std::span<glm::vec4> constants, int threads = 0) const;
+    void update(const Lighting& lighting, std::span<glm::vec4> constants, int threads = 0) const;
 
 private:
-    ConstantFormer former_;
+    ClusterLighting relighter_;
     InstanceModes modes_;
     InstanceTurns turns_;
-    std::vector<FormedInstance> instances_;
+    std::vector<RelitInstance> instances_;
     std::vector<std::size_t> begins_;            ///< [instances] index of their first constant
     std::vector<std::vector<std::uint32_t>> of_; ///< [turns] instances with each rotation
     std::size_t size_ = 0;

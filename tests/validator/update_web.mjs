@@ -1,5 +1,5 @@
 // Compares the textures of examples/web for a volume with those of the runtime:
-//   node form_web.mjs SHIPPED TEXTURES
+//   node update_web.mjs SHIPPED TEXTURES
 // TEXTURES contains words of visibility distances and of the index, and bits of half floats of light, one
 // after the other, under a sky of coefficients cos(1), cos(2), .. and suns half as strong towards +Y. Prints
 // the differences, and then exits with status 1. Half floats may differ by one step: the order of sums
@@ -7,7 +7,7 @@
 import { readFileSync } from "node:fs";
 import { lightColumns } from "../../examples/web/src/clusteredPca.js";
 import { halfFloat } from "../../examples/web/src/halfFloat.js";
-import { VolumeFormer } from "../../examples/web/src/VolumeFormer.js";
+import { VolumeRelighter } from "../../examples/web/src/VolumeRelighter.js";
 import { atlasOf, indexTexels, sightTexels } from "../../examples/web/src/volumeTextures.js";
 import { volumeOf } from "../../examples/web/src/volumeTransfer.js";
 
@@ -22,10 +22,10 @@ const volume = volumeOf(json.extensions.PRTKIT_transfer_volume, view);
 const { grid, sights, order, clusters } = volume;
 const atlas = atlasOf(grid, order);
 const sky = Array.from({ length: 3 * clusters.order ** 2 }, (_, i) => Math.cos(i + 1));
-const former = new VolumeFormer(volume, atlas);
-former.formConstants(lightColumns(clusters, sky, sky.map((value) => value / 2)), [0, 1, 0], 0, clusters.components.length);
+const relighter = new VolumeRelighter(volume, atlas);
+relighter.updateConstants(lightColumns(clusters, sky, sky.map((value) => value / 2)), [0, 1, 0], 0, clusters.components.length);
 const light = new Uint16Array(4 * atlas.texels * atlas.planes);
-former.form(0, former.probes, light);
+relighter.update(0, relighter.probes, light);
 
 const bytes = new Uint8Array(readFileSync(process.argv[3]));
 const expected = (Type, begin, count) => new Type(bytes.buffer.slice(begin, begin + count * Type.BYTES_PER_ELEMENT));

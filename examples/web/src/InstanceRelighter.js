@@ -1,11 +1,11 @@
 // Computes constants of instances that share the transfer of their mesh, which their shader reads in place of
-// those of the model (shaders/prt_instances.glsl), as prt::InstanceFormer does. They are linear in the
+// those of the model (shaders/prt_instances.glsl), as prt::InstanceRelighter does. They are linear in the
 // position within the box of the mesh, so that a row needs three vectors, not one. Does not use three.js.
 
-import { formConstants, lightColumns } from "./clusteredPca.js";
+import { updateConstants, lightColumns } from "./clusteredPca.js";
 import { ADDED_BANDS, ADDED_MODES, InstanceModes, instanceTurns, PASSING_MODES, responsesOf } from "./instanceModes.js";
 import { rotationMatrices, turnedBands } from "./sphericalHarmonics.js";
-import { formAtYaw, polarRows, termsOf, turnTerms, yawSeries } from "./yawHarmonics.js";
+import { updateAtYaw, polarRows, termsOf, turnTerms, yawSeries } from "./yawHarmonics.js";
 
 /** Number of rotations about +Y for which light is computed: at most 0.7 degrees off. */
 const YAWS = 256;
@@ -73,7 +73,7 @@ function addedBy(factors, onLevel) {
   return Float64Array.from({ length: 3 * ADDED_MODES }, (_, i) => factors[4 * PASSING_MODES + i] * onLevel[i % 3]);
 }
 
-export class InstanceFormer {
+export class InstanceRelighter {
   /**
    * `rows`: see shaderRows. `instances`: { factors, rotation, box, rows } of each: its factors as in files;
    * rotation from the space of the mesh to the world, [9] by columns; the box of the mesh; the list of
@@ -124,7 +124,7 @@ export class InstanceFormer {
    * Computes the constants of the transmitted modes under `skies` and, if there are any, `suns`, for the rows
    * that a rotation uses.
    */
-  formModes({ rotation, terms, instances }, skies, suns) {
+  updateModes({ rotation, terms, instances }, skies, suns) {
     const { clusters, rows } = this;
     let [first, end] = [Infinity, 0];
     for (const i of instances) {
@@ -134,13 +134,13 @@ export class InstanceFormer {
       end = Math.max(end, used[used.length - 1] + 1);
     }
     if (!(first < end)) return;
-    if (terms) return this.constantsOfModes.forEach((constants, m) => formAtYaw(this.series[m], terms, first, end, constants));
+    if (terms) return this.constantsOfModes.forEach((constants, m) => updateAtYaw(this.series[m], terms, first, end, constants));
     const matrices = rotationMatrices(clusters.order, rotation);
     const size = rows.length / clusters.rowCount;
     const part = { ...clusters, rowCount: end - first };
     this.constantsOfModes.forEach((constants, m) => {
       const columns = lightColumns(clusters, turnedBands(matrices, skies[m]), suns ? turnedBands(matrices, suns[m]) : null);
-      formConstants(part, rows.subarray(first * size, end * size), columns, constants.subarray(4 * first, 4 * end));
+      updateConstants(part, rows.subarray(first * size, end * size), columns, constants.subarray(4 * first, 4 * end));
     });
   }
 
@@ -148,14 +148,14 @@ export class InstanceFormer {
    * Writes the constants of all instances, [size][4], under coefficients [order²][3] in world axes; `suns`:
    * see lightColumns.
    */
-  form(sky, suns, constants) {
+  update(sky, suns, constants) {
     const skies = this.modes.passing(sky);
     const passed = suns ? this.modes.passing(suns) : null;
     const onLevel = this.modes.onLevel(suns ? sky.map((value, i) => value + suns[i]) : sky);
     const both = passed?.map((light, m) => light.map((value, i) => value + skies[m][i])) ?? skies;
     if (this.polarRows) this.series.forEach((series, m) => yawSeries(this.clusters, this.polarRows, skies[m], both[m], series));
     for (const turn of this.turns) {
-      this.formModes(turn, skies, passed);
+      this.updateModes(turn, skies, passed);
       for (const i of turn.instances) {
         const { factors, rows } = this.instances[i];
         const added = turnedBands(turn.bands, addedBy(factors, onLevel));

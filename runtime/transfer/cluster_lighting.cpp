@@ -1,5 +1,5 @@
 // Computes the constants of all clusters as the product of a matrix, blocked by 16 rows, with the lighting.
-#include "prt/constant_former.h"
+#include "prt/cluster_lighting.h"
 
 #include "prt/support/vector_lanes.h"
 
@@ -44,8 +44,8 @@ template <std::size_t Stored>
 
 /// Computes up to kNarrow rows. `light`: for each part [3][its columns]. `matrix`: coefficients of the first
 /// row.
-[[gnu::always_inline]] inline void form_some(const TransferLayout& layout, const float* matrix,
-                                             const float* light, std::size_t rows, glm::vec4* constants) {
+[[gnu::always_inline]] inline void update_some(const TransferLayout& layout, const float* matrix,
+                                               const float* light, std::size_t rows, glm::vec4* constants) {
     ColorSums sums = {};
     for (const TransferPart& part : layout.parts) {
         const std::size_t count = layout.columns_of(part);
@@ -62,12 +62,12 @@ template <std::size_t Stored>
 }
 
 PRT_TWO_CLONES
-void form_rows(const TransferLayout& layout, const float* matrix, const float* light, const Blocks& blocks,
-               std::size_t rows, glm::vec4* constants) {
+void update_rows(const TransferLayout& layout, const float* matrix, const float* light, const Blocks& blocks,
+                 std::size_t rows, glm::vec4* constants) {
     for (std::size_t block = blocks.first; block < blocks.last; ++block)
         for (std::size_t row = block * kLanes; row < std::min(rows, (block + 1) * kLanes); row += kNarrow)
-            form_some(layout, matrix + block * layout.dimension() * kLanes + row % kLanes, light, rows - row,
-                      constants + row);
+            update_some(layout, matrix + block * layout.dimension() * kLanes + row % kLanes, light,
+                        rows - row, constants + row);
 }
 
 /// Returns the rows by which predictor coordinates and stored weights are multiplied. A packed weight is w =
@@ -100,7 +100,7 @@ std::vector<float> rows_of_stored(const ClusteredTransfer& transfer) {
 
 } // namespace
 
-ConstantFormer::ConstantFormer(const ClusteredTransfer& transfer)
+ClusterLighting::ClusterLighting(const ClusteredTransfer& transfer)
     : layout_(transfer.bases.layout.of_one_output()),
       rows_(constant_rows(transfer.bases) * transfer.bases.layout.outputs) {
     check_layout(transfer.bases.layout);
@@ -112,12 +112,12 @@ ConstantFormer::ConstantFormer(const ClusteredTransfer& transfer)
             matrix_[(row / kLanes * dimension + i) * kLanes + row % kLanes] = rows[row * dimension + i];
 }
 
-void ConstantFormer::form(const LightingView& lighting, std::span<glm::vec4> constants) const {
-    form(lighting, constants, 0, rows_);
+void ClusterLighting::update(const LightingView& lighting, std::span<glm::vec4> constants) const {
+    update(lighting, constants, 0, rows_);
 }
 
-void ConstantFormer::form(const LightingView& lighting, std::span<glm::vec4> constants, std::size_t first,
-                          std::size_t last) const {
+void ClusterLighting::update(const LightingView& lighting, std::span<glm::vec4> constants, std::size_t first,
+                             std::size_t last) const {
     assert(constants.size() >= rows_);
     std::array<glm::vec3, kMaxLightColumns> columns;
     write_light_columns(layout_, lighting, columns);
@@ -131,8 +131,8 @@ void ConstantFormer::form(const LightingView& lighting, std::span<glm::vec4> con
                 *to++ = color[i][c];
         color += count;
     }
-    form_rows(layout_, matrix_.data(), separate.data(),
-              {first / kLanes, (std::min(last, rows_) + kLanes - 1) / kLanes}, rows_, constants.data());
+    update_rows(layout_, matrix_.data(), separate.data(),
+                {first / kLanes, (std::min(last, rows_) + kLanes - 1) / kLanes}, rows_, constants.data());
 }
 
 void blend_constants(std::span<const glm::vec4> a, std::span<const glm::vec4> b, float share,

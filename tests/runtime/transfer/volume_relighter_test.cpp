@@ -1,6 +1,6 @@
 // Textures of a volume against the light and the sights that they hold.
 
-#include "prt/volume_former.h"
+#include "prt/volume_relighter.h"
 
 #include "prt/sh.h"
 #include "support/random_volume.h"
@@ -27,17 +27,17 @@ struct Formed {
     std::vector<std::byte> texels;
 };
 
-Formed formed_by(const VolumeFormer& former, const std::optional<glm::vec3>& sun, int threads) {
-    Formed formed{std::vector<glm::vec4>(former.rows()), std::vector<std::byte>(former.bytes())};
-    former.form_constants(lighting_of_probes(), sun, formed.constants);
-    former.form(formed.constants, formed.texels, threads);
-    return formed;
+Formed updated_by(const VolumeRelighter& relighter, const std::optional<glm::vec3>& sun, int threads) {
+    Formed computed{std::vector<glm::vec4>(relighter.rows()), std::vector<std::byte>(relighter.bytes())};
+    relighter.update_constants(lighting_of_probes(), sun, computed.constants);
+    relighter.update(computed.constants, computed.texels, threads);
+    return computed;
 }
 
 /// Number `n` of a probe from its texel.
-float number_at(const VolumeFormer& former, VolumeFormat format, const std::vector<std::byte>& texels,
+float number_at(const VolumeRelighter& relighter, VolumeFormat format, const std::vector<std::byte>& texels,
                 std::size_t texel, std::size_t n) {
-    const std::size_t at = 4 * (n / 4 * former.atlas().texels_of_plane() + texel) + n % 4;
+    const std::size_t at = 4 * (n / 4 * relighter.atlas().texels_of_plane() + texel) + n % 4;
     if (format == VolumeFormat::rgba16) {
         std::uint16_t half = 0;
         std::memcpy(&half, &texels[2 * at], 2);
@@ -57,52 +57,53 @@ TEST_P(VolumeFormats, HoldTheLightOfEveryProbeInEveryBrick) {
     const auto [order, format] = GetParam();
     std::mt19937 random(7);
     const CompressedVolume volume = test::random_volume(order, false, random);
-    const VolumeFormer former(volume, format);
+    const VolumeRelighter relighter(volume, format);
     const VolumeProbes probes = probes_of(volume.grid);
     const std::vector<glm::vec3> incident = incident_light(volume, lighting_of_probes());
     const float most =
         format == VolumeFormat::rgba16 ? 0x1p-11f : 1e-6f; // half a step; sums have a different order
     for (const int threads : {1, 2}) {
-        const Formed formed = formed_by(former, std::nullopt, threads);
+        const Formed computed = updated_by(relighter, std::nullopt, threads);
         for (std::size_t b = 0; b < probes.of_brick.size(); ++b)
             for (std::size_t i = 0; i < kBrickProbes; ++i)
-                for (std::size_t n = 0; n < 3 * former.atlas().coefficients(); ++n) {
-                    const float expected = incident[probes.of_brick[b][i] * former.atlas().coefficients() +
+                for (std::size_t n = 0; n < 3 * relighter.atlas().coefficients(); ++n) {
+                    const float expected = incident[probes.of_brick[b][i] * relighter.atlas().coefficients() +
                                                     n / 3][static_cast<int>(n % 3)];
-                    ASSERT_NEAR(number_at(former, format, formed.texels, former.atlas().texel(b, i), n),
-                                expected, most * std::max(std::abs(expected), 1.0f));
+                    ASSERT_NEAR(
+                        number_at(relighter, format, computed.texels, relighter.atlas().texel(b, i), n),
+                        expected, most * std::max(std::abs(expected), 1.0f));
                 }
     }
 }
 
-TEST(VolumeFormer, TellsHowMuchOfASunIsSeen) {
+TEST(VolumeRelighter, TellsHowMuchOfASunIsSeen) {
     std::mt19937 random(8);
     const CompressedVolume volume = test::random_volume(3, true, random);
-    const VolumeFormer former(volume, VolumeFormat::rgba32);
+    const VolumeRelighter relighter(volume, VolumeFormat::rgba32);
     const glm::vec3 sun = glm::normalize(glm::vec3(1, 2, -0.5f));
     const Transfer transfer = decode(volume.compressed.transfer);
     const std::size_t size = transfer.dimension();
     std::array<float, 9> basis{};
     evaluate_sh(3, sun, std::span<float>(basis));
     const VolumeProbes probes = probes_of(volume.grid);
-    const Formed with = formed_by(former, sun, 1), without = formed_by(former, std::nullopt, 1);
+    const Formed with = updated_by(relighter, sun, 1), without = updated_by(relighter, std::nullopt, 1);
     int between = 0;
     for (std::size_t i = 0; i < kBrickProbes; ++i) {
         float seen = 0; // direct is the first part, coefficient 0 the first output
         for (std::size_t c = 0; c < 9; ++c)
             seen += transfer.vectors[probes.of_brick[1][i] * size + c] * basis[c] / 0.28209479f;
-        const std::size_t texel = former.atlas().texel(1, i);
+        const std::size_t texel = relighter.atlas().texel(1, i);
         between += seen > 0 && seen < 1;
-        EXPECT_NEAR(number_at(former, VolumeFormat::rgba32, with.texels, texel, 27),
+        EXPECT_NEAR(number_at(relighter, VolumeFormat::rgba32, with.texels, texel, 27),
                     std::clamp(seen, 0.0f, 1.0f), 1e-4f);
-        EXPECT_EQ(number_at(former, VolumeFormat::rgba32, without.texels, texel, 27), 0);
-        EXPECT_EQ(number_at(former, VolumeFormat::rgba32, with.texels, texel, 0),
-                  number_at(former, VolumeFormat::rgba32, without.texels, texel, 0));
+        EXPECT_EQ(number_at(relighter, VolumeFormat::rgba32, without.texels, texel, 27), 0);
+        EXPECT_EQ(number_at(relighter, VolumeFormat::rgba32, with.texels, texel, 0),
+                  number_at(relighter, VolumeFormat::rgba32, without.texels, texel, 0));
     }
     EXPECT_GT(between, 3);
 }
 
-TEST(VolumeFormer, GivesEachBrickTexelsOfItsOwn) {
+TEST(VolumeRelighter, GivesEachBrickTexelsOfItsOwn) {
     for (const int count : {1, 51, 52, 2601, 2602, 18000}) {
         VolumeGrid grid;
         grid.bricks.resize(static_cast<std::size_t>(count));

@@ -1,7 +1,7 @@
 // Computes incident light of probes, one at a time: coefficients are summed in registers, rounded once, and
 // written to every brick that contains the probe.
 
-#include "prt/volume_former.h"
+#include "prt/volume_relighter.h"
 
 #include "prt/sh.h"
 #include "prt/support/parallel.h"
@@ -87,9 +87,9 @@ template <std::size_t Texel>
 }
 
 template <std::size_t Outputs>
-[[gnu::always_inline]] inline void form_range(const Probes& probes, const glm::vec4* constants,
-                                              VolumeFormat format, std::size_t first, std::size_t last,
-                                              const Planes& planes) {
+[[gnu::always_inline]] inline void update_range(const Probes& probes, const glm::vec4* constants,
+                                                VolumeFormat format, std::size_t first, std::size_t last,
+                                                const Planes& planes) {
     alignas(64) float numbers[kMaxNumbers] = {};
     alignas(64) std::int16_t halves[kMaxNumbers];
     for (std::size_t p = first; p < last; ++p) {
@@ -104,34 +104,34 @@ template <std::size_t Outputs>
 }
 
 PRT_TARGET_CLONES
-void form_in_lanes(const Probes& probes, const glm::vec4* constants, int order, VolumeFormat format,
-                   std::size_t first, std::size_t last, const Planes& planes) {
+void update_in_lanes(const Probes& probes, const glm::vec4* constants, int order, VolumeFormat format,
+                     std::size_t first, std::size_t last, const Planes& planes) {
     switch (order) {
     case 2:
-        return form_range<4>(probes, constants, format, first, last, planes);
+        return update_range<4>(probes, constants, format, first, last, planes);
     case 3:
-        return form_range<9>(probes, constants, format, first, last, planes);
+        return update_range<9>(probes, constants, format, first, last, planes);
     default:
-        return form_range<16>(probes, constants, format, first, last, planes);
+        return update_range<16>(probes, constants, format, first, last, planes);
     }
 }
 
 /// Returns for every row of the first output the response of `direct` transfer to grey radiance coefficients,
 /// averaged over the channels; empty without a `direct` part.
-std::vector<float> direct_rows(const ConstantFormer& former, std::size_t outputs) {
-    const TransferLayout& layout = former.layout();
+std::vector<float> direct_rows(const ClusterLighting& relighter, std::size_t outputs) {
+    const TransferLayout& layout = relighter.layout();
     if (!layout.has(PartKind::direct))
         return {};
     const TransferPart& part = layout.parts.front();
     const std::size_t columns = layout.columns_of(part), dimension = layout.dimension();
     const auto channels = static_cast<std::size_t>(part.channels);
     std::vector<float> rows;
-    for (std::size_t row = 0; row < former.rows(); row += outputs)
+    for (std::size_t row = 0; row < relighter.rows(); row += outputs)
         for (std::size_t i = 0; i < columns; ++i) {
             float sum = 0;
             for (std::size_t c = 0; c < channels; ++c)
-                sum += former.matrix()[(row / kLaneCount * dimension + c * columns + i) * kLaneCount +
-                                       row % kLaneCount];
+                sum += relighter.matrix()[(row / kLaneCount * dimension + c * columns + i) * kLaneCount +
+                                          row % kLaneCount];
             rows.push_back(sum / static_cast<float>(channels));
         }
     return rows;
@@ -139,7 +139,7 @@ std::vector<float> direct_rows(const ConstantFormer& former, std::size_t outputs
 
 } // namespace
 
-VolumeFormer::VolumeFormer(const CompressedVolume& volume, VolumeFormat format)
+VolumeRelighter::VolumeRelighter(const CompressedVolume& volume, VolumeFormat format)
     : volume_(volume), format_(format), atlas_(atlas_of(volume.grid, volume.order)),
       constants_(volume.compressed.transfer), clusters_(cluster_layouts(volume.compressed.transfer.bases)),
       direct_(direct_rows(constants_, atlas_.coefficients())) {
@@ -157,14 +157,14 @@ VolumeFormer::VolumeFormer(const CompressedVolume& volume, VolumeFormat format)
             texels_[next[probes.of_brick[b][i]]++] = static_cast<std::uint32_t>(atlas_.texel(b, i));
 }
 
-std::size_t VolumeFormer::bytes() const {
+std::size_t VolumeRelighter::bytes() const {
     const std::size_t texel = format_ == VolumeFormat::rgba16 ? 8 : 16;
     return texel * atlas_.texels_of_plane() * static_cast<std::size_t>(atlas_.planes());
 }
 
-void VolumeFormer::form_constants(const LightingView& lighting, const std::optional<glm::vec3>& sun,
-                                  std::span<glm::vec4> constants) const {
-    constants_.form(lighting, constants);
+void VolumeRelighter::update_constants(const LightingView& lighting, const std::optional<glm::vec3>& sun,
+                                       std::span<glm::vec4> constants) const {
+    constants_.update(lighting, constants);
     if (!sun || direct_.empty())
         return;
     std::array<float, static_cast<std::size_t>(kMaxOrder) * kMaxOrder> values{};
@@ -179,23 +179,23 @@ void VolumeFormer::form_constants(const LightingView& lighting, const std::optio
             basis[0];
 }
 
-void VolumeFormer::form_probes(std::span<const glm::vec4> constants, std::size_t first, std::size_t last,
-                               std::span<std::byte> texels) const {
+void VolumeRelighter::update_probes(std::span<const glm::vec4> constants, std::size_t first, std::size_t last,
+                                    std::span<std::byte> texels) const {
     assert(constants.size() >= rows() && texels.size() >= bytes() && last <= probes());
     const auto planes = static_cast<std::size_t>(atlas_.planes());
     const Probes probes{volume_.compressed.transfer.receivers, clusters_.data(), first_texels_.data(),
                         texels_.data()};
-    form_in_lanes(probes, constants.data(), atlas_.order, format_, first, last,
-                  {texels.data(), bytes() / planes, planes});
+    update_in_lanes(probes, constants.data(), atlas_.order, format_, first, last,
+                    {texels.data(), bytes() / planes, planes});
 }
 
-void VolumeFormer::form(std::span<const glm::vec4> constants, std::span<std::byte> texels,
-                        int threads) const {
+void VolumeRelighter::update(std::span<const glm::vec4> constants, std::span<std::byte> texels,
+                             int threads) const {
     constexpr std::size_t kProbesAtOnce = 1024;
     if (thread_count(threads) == 1)
-        return form_probes(constants, 0, probes(), texels);
+        return update_probes(constants, 0, probes(), texels);
     parallel_for(probes(), kProbesAtOnce, threads,
-                 [&](std::size_t first, std::size_t last) { form_probes(constants, first, last, texels); });
+                 [&](std::size_t first, std::size_t last) { update_probes(constants, first, last, texels); });
 }
 
 } // namespace prt
