@@ -22,14 +22,14 @@ struct Task {
     const CompressOptions& options;
     const SeenLight& light;
     const std::vector<float>& significance; ///< [receivers] `SeenLight::weights`
-    GuideCoordinates guides;
+    PredictorCoordinates predictors;
     const Course& course;
 };
 
 /// Points in a frame, and the clusters found for them.
 struct FoundClusters {
     Frame frame;
-    GuideCoordinates guides;
+    PredictorCoordinates predictors;
     PointBlocks points;
     Clustering clustering;
 };
@@ -60,8 +60,8 @@ FoundClusters find_clusters(const Task& task, const Progress& progress) {
         FoundClusters found;
         found.frame = fit_frame(transfer, task.significance, metric, max_dropped, options.threads);
         if (found.frame.dimension > 0) // otherwise there is nothing to predict
-            found.guides = task.guides;
-        found.points = PointBlocks(transfer, found.frame, found.guides, options.threads,
+            found.predictors = task.predictors;
+        found.points = PointBlocks(transfer, found.frame, found.predictors, options.threads,
                                    rounding_allowed(task, tuning::kRoundingOverDropped * max_dropped));
         std::mt19937_64 random(options.seed);
         found.clustering =
@@ -80,20 +80,20 @@ FoundClusters find_clusters(const Task& task, const Progress& progress) {
 struct Coding {
     Frame frame;
     CodedBases coded_frame; ///< code of the frame, if bases are coded
-    GuideCoordinates guides;
+    PredictorCoordinates predictors;
     PointBlocks points;
     CodedClusters coded;
 };
 
 /// Computes the first codes in the clusters that were found, in the same frame.
 Coding first_codes(const Task& task, const AlternationOptions& how, FoundClusters&& found) {
-    Coding coding{std::move(found.frame), {}, std::move(found.guides), std::move(found.points), {}};
+    Coding coding{std::move(found.frame), {}, std::move(found.predictors), std::move(found.points), {}};
     coding.coded.clusters = quantised_clusters(coding.points, task.significance, found.clustering,
                                                task.options.coding.format, task.options.threads);
-    const std::vector<float> scales = scale_guides(found.clustering, coding.coded.clusters);
+    const std::vector<float> scales = scale_predictors(found.clustering, coding.coded.clusters);
     for (std::size_t g = 0; g < scales.size(); ++g)
-        coding.guides.scale(g) *= scales[g];
-    coding.points.scale_guides(scales);
+        coding.predictors.scale(g) *= scales[g];
+    coding.points.scale_predictors(scales);
     coding.coded.codes.clusters = std::move(found.clustering.clusters);
     encode_all(coding.points, how, coding.coded);
     return coding;
@@ -107,7 +107,7 @@ void round_frame(const Task& task, Coding& coding) {
     coding.coded_frame = code_frame(coding.frame, task.light.metric(), tuning::kAxisRoundingShare * error);
     coding.coded.clusters = truncated(coding.coded.clusters, coding.frame.dimension);
     coding.points = {}; // frees the old points before the new ones are allocated
-    coding.points = PointBlocks(task.transfer, coding.frame, coding.guides, task.options.threads,
+    coding.points = PointBlocks(task.transfer, coding.frame, coding.predictors, task.options.threads,
                                 rounding_allowed(task, tuning::kPointsRoundingShare * error));
     encode_in_place(coding.points, coding.coded.clusters, coding.coded.codes, task.options.threads);
 }
@@ -126,7 +126,7 @@ void leave_logarithms(const Task& task, Coding& coding, ClusterLists& candidates
         coding.coded_frame = code_frame(coding.frame, lamps.metric(), tuning::kAxisRoundingShare * error);
     coding.coded.clusters = without_rows(coding.coded.clusters, coding.frame.dimension);
     coding.points = {};
-    coding.points = PointBlocks(task.transfer, coding.frame, coding.guides, options.threads);
+    coding.points = PointBlocks(task.transfer, coding.frame, coding.predictors, options.threads);
     coding.points.scales = lamps.scales(coding.frame, task.light.sky_costs());
     for (int round = 0; round < tuning::kRoundsFromNothing; ++round)
         refit(coding.points, task.significance, coding.coded.codes, coding.coded.clusters, options.threads);
@@ -231,7 +231,7 @@ ClusteredTransfer code(const Task& task, const ReceiverSurface& surface, FoundCl
     put_in_order(coded);
     fill_up(options.coding.fixed_bits, coded.clusters, coded.codes);
     progress.update(1);
-    return encode(coding.frame, coding.coded_frame, coded.clusters, coded.codes, coding.guides,
+    return encode(coding.frame, coding.coded_frame, coded.clusters, coded.codes, coding.predictors,
                   {options.coding.format, options.coding.cluster_bits, coded.steps});
 }
 
@@ -259,8 +259,9 @@ CompressResult compress_from(const Course& course, const TransferView& transfer,
     const SeenLight& light =
         course.light ? *course.light
                      : own.emplace(transfer, areas, metric_of(options, transfer, areas), options.threads);
-    const Task task{transfer, options, light, light.weights(), guide_coordinates(surface, options.guides),
-                    course};
+    const Task task{
+        transfer, options, light, light.weights(), predictor_coordinates(surface, options.predictors),
+        course};
     CompressResult result;
     CompressStatistics& statistics = result.statistics;
     FoundClusters found = find_clusters(task, progress.part(0, tuning::kClustersFoundAt));
@@ -270,7 +271,7 @@ CompressResult compress_from(const Course& course, const TransferView& transfer,
                            progress.part(tuning::kClustersFoundAt, tuning::kClustersCodedAt));
     statistics.clusters = static_cast<int>(result.transfer.bases.clusters());
     statistics.mean_components = mean_components_of(result.transfer);
-    statistics.guide_rows = static_cast<int>(result.transfer.bases.guide_rows());
+    statistics.predictor_rows = static_cast<int>(result.transfer.bases.predictor_rows());
     statistics.bytes_per_receiver = bytes_per_receiver(result.transfer);
     statistics.bits_per_receiver = bits_per_receiver(result.transfer);
     statistics.basis_bytes = basis_bytes(result.transfer.bases);

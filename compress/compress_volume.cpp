@@ -55,7 +55,7 @@ CompressedVolumeResult compress_volume(const BakedVolume& volume, CompressOption
                                    : balanced(metric_of_family(LightFamily::outdoor, layout),
                                               volume.baked.transfer, of_coefficients, options.threads);
     options.metric = incident_metric(metric, volume.coefficients());
-    options.guides = GuideChoice::none;
+    options.predictors = PredictorChoice::none;
     options.seam_price = 0;
     CompressResult result = compress(probes, {.areas = of_probes}, options, progress);
     return {{volume.grid, volume.order, volume.sights, {std::move(result.transfer), volume.baked.record}},

@@ -99,10 +99,10 @@ inline constexpr double kMeanSquareWeight = 0.2;
 /// Variance of predictors (1 over all receivers) below which a cluster learns little from them. Below 1e-5,
 /// slopes of small clusters make the rounding of all rows coarse; above 1e-3, flat clusters learn nothing.
 /// Measured on five scenes. [preset]
-inline constexpr double kGuideRidge = 1e-4;
+inline constexpr double kPredictorRidge = 1e-4;
 /// Minimum variance of predictors within clusters for the choice of their unit, because they hardly vary
 /// there. By hand.
-inline constexpr double kMinGuideVariance = 1e-6;
+inline constexpr double kMinPredictorVariance = 1e-6;
 
 /// Lloyd's iteration for the start: maximum number of iterations, and the relative decrease of the error that
 /// ends it. By hand. [preset]

@@ -11,8 +11,8 @@
 // If the words are not vertex attributes but variables that the shader sets (prt_lightmap.frag):
 //     PRT_WORDS_OF_TEXEL     packed words only.
 // Data of the vertex that clusters use in addition to its weights, the predictors:
-//     PRT_GUIDE_NORMAL       the normal,
-//     PRT_GUIDE_POSITION     the position relative to PRT_GUIDE_ORIGIN, a vec3: numbers, or the name of a uniform.
+//     PRT_PREDICTOR_NORMAL       the normal,
+//     PRT_PREDICTOR_POSITION     the position relative to PRT_PREDICTOR_ORIGIN, a vec3: numbers, or the name of a uniform.
 // Storage of the constants, which contain the data of prt::ClusterLighting and prt::cluster_layouts:
 //     PRT_CONSTANTS_BUFFER   storage buffers (the default; OpenGL 4.3, Vulkan, Direct3D 11),
 //     PRT_CONSTANTS_BLOCK    uniform blocks, with PRT_MAX_ROWS and PRT_MAX_CLUSTERS, or
@@ -101,26 +101,26 @@ uvec4 prt_layout_of(uint cluster) {
 #endif
 
 // Rows relative to the first row of a cluster: of the position predictor, and of the first direction.
-#ifdef PRT_GUIDE_NORMAL
+#ifdef PRT_PREDICTOR_NORMAL
 #define PRT_POSITION_ROW 4u
 #else
 #define PRT_POSITION_ROW 1u
 #endif
-#ifdef PRT_GUIDE_POSITION
+#ifdef PRT_PREDICTOR_POSITION
 #define PRT_DIRECTION_ROW (PRT_POSITION_ROW + 3u)
 #else
 #define PRT_DIRECTION_ROW PRT_POSITION_ROW
 #endif
 
 // Mean of the cluster with first row `first`, plus the contribution of the predictors.
-PRT_COLOR prt_guided(uint first, vec3 position, vec3 normal) {
+PRT_COLOR prt_predicted(uint first, vec3 position, vec3 normal) {
     PRT_COLOR radiance = prt_constant(first);
-#ifdef PRT_GUIDE_NORMAL
+#ifdef PRT_PREDICTOR_NORMAL
     radiance +=
         normal.x * prt_constant(first + 1u) + normal.y * prt_constant(first + 2u) + normal.z * prt_constant(first + 3u);
 #endif
-#ifdef PRT_GUIDE_POSITION
-    vec3 place = position - PRT_GUIDE_ORIGIN;
+#ifdef PRT_PREDICTOR_POSITION
+    vec3 place = position - PRT_PREDICTOR_ORIGIN;
     radiance += place.x * prt_constant(first + PRT_POSITION_ROW) +
                 place.y * prt_constant(first + PRT_POSITION_ROW + 1u) +
                 place.z * prt_constant(first + PRT_POSITION_ROW + 2u);
@@ -219,7 +219,7 @@ uint prt_cluster_of_vertex() {
 
 vec3 prt_exit_radiance(vec3 position, vec3 normal) {
     uint first = prt_cluster_of_vertex() * uint(PRT_CLUSTER_ROWS);
-    PRT_COLOR radiance = prt_guided(first, position, normal);
+    PRT_COLOR radiance = prt_predicted(first, position, normal);
     PRT_SAME_WEIGHTS
     return prt_color(radiance);
 }
@@ -227,7 +227,7 @@ vec3 prt_exit_radiance(vec3 position, vec3 normal) {
 vec3 prt_exit_radiance(vec3 position, vec3 normal) {
     uvec4 cluster = prt_layout_of(prt_cluster_of_vertex());
     uint first = cluster[PRT_CLUSTER_FIRST_ROW];
-    PRT_COLOR radiance = prt_guided(first, position, normal);
+    PRT_COLOR radiance = prt_predicted(first, position, normal);
     uint bit = uint(PRT_CLUSTER_BITS);
     for (uint j = 0u; j < cluster[PRT_CLUSTER_COMPONENTS]; ++j) {
         uint width =
@@ -246,7 +246,7 @@ vec3 prt_exit_radiance(vec3 position, vec3 normal) {
 vec3 prt_exit_radiance(vec3 position, vec3 normal) {
     uvec4 cluster = prt_layout_of(prt_cluster_of_vertex());
     uint first = cluster[PRT_CLUSTER_FIRST_ROW], components = cluster[PRT_CLUSTER_COMPONENTS];
-    PRT_COLOR radiance = prt_guided(first, position, normal);
+    PRT_COLOR radiance = prt_predicted(first, position, normal);
     uint j = 0u;
 #if PRT_WEIGHT_VECTORS > 0
     PRT_ADD_FOUR(prt_weights_0)

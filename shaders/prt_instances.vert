@@ -4,7 +4,7 @@
 #include "prt_instances.glsl"
 
 layout(location = PRT_LOCATION_POSITION) in vec3 position;
-#ifdef PRT_GUIDE_NORMAL
+#ifdef PRT_PREDICTOR_NORMAL
 layout(location = PRT_LOCATION_NORMAL) in vec3 normal;
 #else
 const vec3 normal = vec3(0.0);

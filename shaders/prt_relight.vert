@@ -3,7 +3,7 @@
 #include "prt_exit_radiance.glsl"
 
 layout(location = PRT_LOCATION_POSITION) in vec3 position;
-#ifdef PRT_GUIDE_NORMAL
+#ifdef PRT_PREDICTOR_NORMAL
 layout(location = PRT_LOCATION_NORMAL) in vec3 normal;
 #else
 const vec3 normal = vec3(0.0);

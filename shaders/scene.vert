@@ -18,7 +18,7 @@ layout(location = PRT_LOCATION_RADIANCE) in vec3 vertex_radiance;
 layout(location = PRT_LOCATION_POSITION) in vec3 position;
 layout(location = PRT_LOCATION_TEXCOORD) in vec2 texcoord;
 layout(location = PRT_LOCATION_COLOR) in vec4 color;
-#ifdef PRT_GUIDE_NORMAL
+#ifdef PRT_PREDICTOR_NORMAL
 layout(location = PRT_LOCATION_NORMAL) in vec3 normal;
 #else
 const vec3 normal = vec3(0.0);

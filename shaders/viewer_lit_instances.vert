@@ -10,7 +10,7 @@ layout(std430, binding = PRT_BINDING_INSTANCE_RADIANCE) writeonly buffer Instanc
 };
 uniform uint instance_vertices;
 layout(location = PRT_LOCATION_POSITION) in vec3 position;
-#ifdef PRT_GUIDE_NORMAL
+#ifdef PRT_PREDICTOR_NORMAL
 layout(location = PRT_LOCATION_NORMAL) in vec3 normal;
 #else
 const vec3 normal = vec3(0.0);

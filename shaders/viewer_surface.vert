@@ -22,7 +22,7 @@ out vec3 occluded_place, occluded_normal;
 #include "lightmap_vertex.glsl"
 #elif defined(PRT_COMPRESSED)
 #include "prt_exit_radiance.glsl"
-#ifdef PRT_GUIDE_NORMAL
+#ifdef PRT_PREDICTOR_NORMAL
 layout(location = PRT_LOCATION_NORMAL) in vec3 vertex_normal;
 #else
 const vec3 vertex_normal = vec3(0.0);

@@ -3,7 +3,7 @@
 set(long_tests
     All/ShaderVariants.ComputeItWithout* Bake.ErrorFalls* Bake.NumbersOfRays* *BakesTheLampsOfAScene/courtyard
     BelowTheZenith.IsDimmedByAll* BlockedCap.TakesThe* ColorBleeding.* Comparison.* Compress.TakesAllNumbers*
-    All/DemoPictures.* CompressGuides.ShaderOperations* *CompressedVolumes.ErrAs* CompressedVolumes.EvaluateWhat*
+    All/DemoPictures.* CompressPredictors.ShaderOperations* *CompressedVolumes.ErrAs* CompressedVolumes.EvaluateWhat*
     *CompressedVolumes.OfFewDirections* Culling.NeverDrops* Diffusion.IsThatOf* Diffusion.OfAShadowsEdge*
     Diffusion.OfUniformLight* EndlessWall.* *ErrAsEstimated* ErrorBudget.OfBounces* *ErrsAsEstimated* FallbackRoad.*
     FigureTest.IsLitAs* FirstHour.SmallMeshes* FirstHour.UniformBlocks*

@@ -129,7 +129,7 @@ private:
     ClusteredTransfer compressed(const Transfer& baked, CompressOptions options) const {
         const Progress quiet{{}, progress_.stop};
         if (const std::optional<LightmapOfFile>& lightmap = s_.baked.lightmap) {
-            options.guides = GuideChoice::none;
+            options.predictors = PredictorChoice::none;
             return compress(baked, {.areas = lightmap->areas, .edges = lightmap->edges}, options, quiet)
                 .transfer;
         }

@@ -40,7 +40,7 @@ struct CompressArguments {
     } reports;
     SearchOptions options; ///< without a budget only `options.compress` is used
     MetricArguments metric;
-    bool components_given = false, guides_given = false;
+    bool components_given = false, predictors_given = false;
     bool preset = false; ///< `options.compress` is a preset, which is fitted to the mesh
     bool best_effort = false;
     struct Writing {
@@ -58,9 +58,10 @@ const std::map<std::string, WeightFormat> kWeights = {{"packed", WeightFormat::p
                                                       {"float", WeightFormat::float32}};
 const std::map<std::string, WeightCoding (*)()> kPresets = {
     {"u32", preset_u32}, {"u64", preset_u64}, {"u32x4", preset_u32x4}, {"u64x9", preset_u64x9}};
-const std::map<std::string, GuideChoice> kGuides = {{"none", GuideChoice::none},
-                                                    {"normal", GuideChoice::normal},
-                                                    {"position", GuideChoice::normal_and_position}};
+const std::map<std::string, PredictorChoice> kPredictors = {
+    {"none", PredictorChoice::none},
+    {"normal", PredictorChoice::normal},
+    {"position", PredictorChoice::normal_and_position}};
 
 struct CountRange {
     int low, high;
@@ -110,7 +111,7 @@ void add_sizes(CLI::App* command, SearchOptions& o) {
     choice(command, "--weights", o.compress.coding.format, kWeights,
            "packed: bits by variance; float: not rounded, to find out what rounding costs", "packed");
     choice(
-        command, "--guides", o.compress.guides, kGuides,
+        command, "--predictors", o.compress.predictors, kPredictors,
         "what the vertex shader tells clusters: its normal, also its position, or nothing; each costs three "
         "operations and three rows of every cluster",
         "normal, with a budget whatever serves it best");
@@ -140,8 +141,9 @@ void add_sizes(CLI::App* command, SearchOptions& o) {
                      "the best of at most this size: whole 32-bit words, as a game binds them, and bases")
         ->check(above_zero());
     command
-        ->add_option("--shader-ops", o.budget.operations,
-                     "rows that the vertex shader adds, components and those of guides, on average at most")
+        ->add_option(
+            "--shader-ops", o.budget.operations,
+            "rows that the vertex shader adds, components and those of predictors, on average at most")
         ->check(above_zero());
 }
 
@@ -166,12 +168,12 @@ void resolve(const CLI::App& command, CompressArguments& a) {
     if (preset && (sizes || o.budget.any()))
         throw CLI::ValidationError("--preset", "presets fix what other sizes and budgets would choose");
     a.components_given = given("--components");
-    a.guides_given = given("--guides");
+    a.predictors_given = given("--predictors");
     a.preset = preset || (!o.budget.any() && !sizes && !given("--preset"));
     if (o.budget.max_error && !given("--max-jump") && !o.budget.bytes_per_vertex && !o.budget.operations)
         o.budget.max_jump = kUnseenJump;
     if (o.budget.any()) {
-        o.choose_guides = !given("--guides");
+        o.choose_predictors = !given("--predictors");
         if (given("--bits"))
             throw CLI::ValidationError("--bits", "is what a budget chooses");
         o.choose_clusters = o.choose_clusters || !given("--clusters");
@@ -368,8 +370,8 @@ SceneSurface surface_of(const Bake& bake, const SearchOptions& options) {
         return surface;
     }
     SceneSurface surface = surface_of_vertices(bake);
-    const bool chooses = options.budget.any() && options.choose_guides;
-    if (!chooses && options.compress.guides != GuideChoice::normal_and_position)
+    const bool chooses = options.budget.any() && options.choose_predictors;
+    if (!chooses && options.compress.predictors != PredictorChoice::normal_and_position)
         surface.positions = {};
     return surface;
 }
@@ -503,8 +505,8 @@ Json trials_json(const std::vector<SearchTrial>& trials) {
 }
 
 /// "normal", "normal, position" or "none"
-std::string guides_in_words(const ClusteredBases& bases) {
-    return bases.guides.empty() ? "none" : fmt::format("{}", fmt::join(guide_names(bases), ", "));
+std::string predictors_in_words(const ClusteredBases& bases) {
+    return bases.predictors.empty() ? "none" : fmt::format("{}", fmt::join(predictor_names(bases), ", "));
 }
 
 /// Returns the figures of a result. Errors are those of the written file, against `transfer` in its order.
@@ -523,7 +525,7 @@ Json result_json(const CompressStatistics& s, const CompressOptions& options, co
         {"clusters", s.clusters},
         {"components_most", bases.max_components()},
         {"components_mean", s.mean_components},
-        {"guides", guides_in_words(bases)},
+        {"predictors", predictors_in_words(bases)},
         {"shader_operations", s.operations()},
         {"jump_across_clusters", ClusterJumps(transfer, {areas, edges}, *options.metric, options.threads)
                                      .percentile_99(written.transfer, written.transfer.receivers.clusters)},
@@ -571,7 +573,7 @@ void add_promises(const SearchOptions& options, const SearchTrial& best, const s
 
 std::vector<std::string> sentences(const CompressArguments& a, bool fitted) {
     std::vector<std::string> list = {
-        "{output}: {clusters} clusters x {components_mean:.2f} components, guides: {guides}"};
+        "{output}: {clusters} clusters x {components_mean:.2f} components, predictors: {predictors}"};
     if (fitted)
         list.push_back(
             fmt::format("the mesh is small: {} fitted to it, so that bases do not outweigh weights",
@@ -633,8 +635,8 @@ void add_levels_and_instances(const Bake& bake, const TransferView& transfer, co
 
 /// Checks the options for texels: a pass over a map has no normals, and its words are packed.
 void choose_for_texels(const CompressArguments& a, SearchOptions& options) {
-    if (a.guides_given && options.compress.guides != GuideChoice::none)
-        throw Error("--guides: texels know neither normals nor positions; leave it out, or say none");
+    if (a.predictors_given && options.compress.predictors != PredictorChoice::none)
+        throw Error("--predictors: texels know neither normals nor positions; leave it out, or say none");
     if (options.compress.coding.format != WeightFormat::packed)
         throw Error("--weights: those of texels are words of images; leave it out, or say packed");
     if (a.writing.reorder)
@@ -643,8 +645,8 @@ void choose_for_texels(const CompressArguments& a, SearchOptions& options) {
         throw Error(
             "--fallback writes colors of vertices, and the light of this file is in texels: leave it out, "
             "or bake at vertices");
-    options.compress.guides = GuideChoice::none;
-    options.choose_guides = false;
+    options.compress.predictors = PredictorChoice::none;
+    options.choose_predictors = false;
 }
 
 /// Returns the data for writing a file; the transfer is not moved.

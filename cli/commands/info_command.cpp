@@ -86,13 +86,13 @@ void add_baked(const BakedTransfer& baked, Report& report) {
 }
 
 /// Adds the predictors of clusters, which need no bytes per vertex, and their shader cost.
-void add_guides(const ClusteredBases& bases, const std::string& own, Report& report) {
-    if (bases.guides.empty())
+void add_predictors(const ClusteredBases& bases, const std::string& own, Report& report) {
+    if (bases.predictors.empty())
         return;
-    report.sentences.push_back(fmt::format(
-        "guides: {0}: {{{1}guide_rows}} rows in each cluster and no byte of a vertex; the shader adds "
-        "{{{1}guide_rows}} multiply-adds of a color",
-        fmt::join(guide_names(bases), " and "), own));
+    report.sentences.push_back(fmt::format("predictors: {0}: {{{1}predictor_rows}} rows in each cluster and "
+                                           "no byte of a vertex; the shader adds "
+                                           "{{{1}predictor_rows}} multiply-adds of a color",
+                                           fmt::join(predictor_names(bases), " and "), own));
 }
 
 void add_compressed(const CompressedTransfer& compressed, Report& report) {
@@ -108,8 +108,8 @@ void add_compressed(const CompressedTransfer& compressed, Report& report) {
                            {"weights", t.receivers.format == WeightFormat::packed ? "packed" : "float"},
                            {"bytes_bound_per_vertex", bytes_per_receiver(t)},
                            {"bits_used_per_vertex", bits_per_receiver(t)},
-                           {"guides", guide_names(t.bases)},
-                           {"guide_rows", t.bases.guide_rows()},
+                           {"predictors", predictor_names(t.bases)},
+                           {"predictor_rows", t.bases.predictor_rows()},
                            {"bytes_bases", basis_bytes(t.bases)},
                            {"bake", bake_record_json(compressed.record)}}}});
     const std::string own = "clustered_pca/";
@@ -120,7 +120,7 @@ void add_compressed(const CompressedTransfer& compressed, Report& report) {
     report.sentences.push_back(fmt::format(
         "{{{0}bytes_bound_per_vertex}} bytes per vertex to bind ({{{0}bits_used_per_vertex}} bits in use)",
         own));
-    add_guides(t.bases, own, report);
+    add_predictors(t.bases, own, report);
     report.sentences.push_back(fmt::format("{{{}bytes_bases}} bytes of bases, {} shader constants per frame",
                                            own, constant_rows(t.bases)));
     report.sentences.push_back(record_sentence(own + "bake", compressed.record));

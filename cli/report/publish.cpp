@@ -32,10 +32,10 @@ void publish(const Report& report, const ReportFiles& files, Session& session) {
     session.write(files.html, report_html(dated));
 }
 
-std::vector<std::string> guide_names(const ClusteredBases& bases) {
+std::vector<std::string> predictor_names(const ClusteredBases& bases) {
     std::vector<std::string> names;
-    for (const Guide& guide : bases.guides)
-        names.emplace_back(to_string(guide.kind));
+    for (const Predictor& predictor : bases.predictors)
+        names.emplace_back(to_string(predictor.kind));
     return names;
 }
 

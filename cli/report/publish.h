@@ -24,7 +24,7 @@ Json parts_figures(const TransferLayout& layout);
 std::string parts_in_words(const TransferLayout& layout);
 
 /// Returns the names of the predictors of clusters.
-std::vector<std::string> guide_names(const ClusteredBases& bases);
+std::vector<std::string> predictor_names(const ClusteredBases& bases);
 
 /// How a bake was made.
 Json bake_record_json(const BakeRecord& record);

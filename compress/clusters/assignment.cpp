@@ -45,7 +45,7 @@ template <int Width>
     const auto distance = [&](std::uint32_t k) __attribute__((always_inline)) {
         typename Floats<Width>::Value left[kMaxDimensions];
         known_subtracted<Width>(block, clusters.dimension, clusters.mean(k), clusters.center(k),
-                                clusters.slope(k, 0), clusters.guides, left);
+                                clusters.slope(k, 0), clusters.predictors, left);
         return squared_outside(left, clusters.dimension, clusters.row(k, 0), clusters.components_of(k)) +
                clusters.penalties[k];
     };

@@ -15,8 +15,8 @@ struct PenalisedClusters : AffineClusters {
     std::vector<float> penalties; ///< [clusters] added to the squared distance of a point
 
     PenalisedClusters(std::size_t clusters, std::size_t dimensions, std::size_t component_limit,
-                      std::size_t guide_count = 0)
-        : AffineClusters(clusters, dimensions, component_limit, guide_count), penalties(clusters, 0.0f) {}
+                      std::size_t predictor_count = 0)
+        : AffineClusters(clusters, dimensions, component_limit, predictor_count), penalties(clusters, 0.0f) {}
 };
 
 struct Assignment {
@@ -34,10 +34,10 @@ struct Assignment {
 template <int Width>
 [[gnu::always_inline]] inline void
 known_subtracted(const float* block, std::size_t dimension, const float* mean, const float* center,
-                 const float* slopes, std::size_t guides, typename Floats<Width>::Value* left) {
+                 const float* slopes, std::size_t predictors, typename Floats<Width>::Value* left) {
     for (std::size_t i = 0; i < dimension; ++i)
         left[i] = floats_at<Width>(block + i * kLanes) - mean[i];
-    for (std::size_t g = 0; g < guides; ++g) {
+    for (std::size_t g = 0; g < predictors; ++g) {
         const typename Floats<Width>::Value x =
             floats_at<Width>(block + (dimension + g) * kLanes) - center[g];
         for (std::size_t i = 0; i < dimension; ++i)

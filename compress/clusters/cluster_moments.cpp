@@ -44,9 +44,9 @@ struct Changes {
 
 } // namespace
 
-ClusterMoments::ClusterMoments(std::size_t clusters, std::size_t dimension, std::size_t guides)
-    : dimension_(dimension), guides_(guides),
-      stride_(1 + (dimension + guides) + (dimension + guides) * (dimension + guides + 1) / 2),
+ClusterMoments::ClusterMoments(std::size_t clusters, std::size_t dimension, std::size_t predictors)
+    : dimension_(dimension), predictors_(predictors),
+      stride_(1 + (dimension + predictors) + (dimension + predictors) * (dimension + predictors + 1) / 2),
       values_(clusters * stride_, 0) {}
 
 void ClusterMoments::add(std::span<const float> point, double significance, std::span<double> moments) {
@@ -76,7 +76,7 @@ void ClusterMoments::update(const PointBlocks& points, std::span<const float> si
     const std::size_t count = values_.size() / stride_;
     const Changes changes(significance, before, after, count);
     parallel_for(count, 1, threads, [&](std::size_t begin, std::size_t end) {
-        std::vector<float> point(dimension_ + guides_);
+        std::vector<float> point(dimension_ + predictors_);
         for (std::size_t k = begin; k < end; ++k)
             for (const std::uint32_t p : changes.of(k)) {
                 points.copy_point(p, point.data());
@@ -111,7 +111,7 @@ Covariance joint_covariance(const ClusterMoments::View& moments) {
 
 /// Regression of the coordinates on the predictors, and the residual.
 struct Regression {
-    Eigen::MatrixXd slopes;   ///< [guides][dimension]
+    Eigen::MatrixXd slopes;   ///< [predictors][dimension]
     Eigen::MatrixXd residual; ///< covariance, lower triangle
 };
 
@@ -119,13 +119,13 @@ struct Regression {
 /// learn nothing from them, and others lose nothing.
 Regression regression_of(const Covariance& joint, const ClusterMoments::View& moments) {
     const auto d = static_cast<Eigen::Index>(moments.dimension),
-               g = static_cast<Eigen::Index>(moments.guides);
+               g = static_cast<Eigen::Index>(moments.predictors);
     if (g == 0)
         return {Eigen::MatrixXd(0, d), joint.matrix};
     const Eigen::MatrixXd across = joint.matrix.bottomLeftCorner(g, d),
                           own = joint.matrix.bottomRightCorner(g, g).selfadjointView<Eigen::Lower>();
     const Eigen::MatrixXd ridged =
-        own * own + tuning::kGuideRidge * tuning::kGuideRidge * Eigen::MatrixXd::Identity(g, g);
+        own * own + tuning::kPredictorRidge * tuning::kPredictorRidge * Eigen::MatrixXd::Identity(g, g);
     Regression result{ridged.ldlt().solve(own * across), joint.matrix.topLeftCorner(d, d)};
     const Eigen::MatrixXd told = result.slopes.transpose() * (2 * across - own * result.slopes);
     result.residual.triangularView<Eigen::Lower>() -= told;
@@ -202,9 +202,9 @@ Spectrum spectrum_of(const Eigen::MatrixXd& covariance, double floor, bool with_
 ClusterFit fit_cluster(const ClusterMoments::View& moments, const Spending& spending) {
     ClusterFit fit;
     fit.mean.assign(moments.dimension, 0.0f);
-    fit.center.assign(moments.guides, 0.0f);
-    fit.slopes.assign(moments.guides * moments.dimension, 0.0f);
-    fit.guide_variances.assign(moments.guides, 0.0);
+    fit.center.assign(moments.predictors, 0.0f);
+    fit.slopes.assign(moments.predictors * moments.dimension, 0.0f);
+    fit.predictor_variances.assign(moments.predictors, 0.0);
     if (!(moments.significance() > kMinSignificance))
         return fit;
     fit.significance = moments.significance();
@@ -216,12 +216,12 @@ ClusterFit fit_cluster(const ClusterMoments::View& moments, const Spending& spen
     const auto d = static_cast<std::ptrdiff_t>(moments.dimension);
     std::transform(joint.mean.begin(), joint.mean.begin() + d, fit.mean.begin(), to_float);
     std::transform(joint.mean.begin() + d, joint.mean.end(), fit.center.begin(), to_float);
-    for (std::size_t g = 0; g < moments.guides; ++g) {
+    for (std::size_t g = 0; g < moments.predictors; ++g) {
         const auto row = static_cast<Eigen::Index>(g);
         for (std::size_t i = 0; i < moments.dimension; ++i)
             fit.slopes[g * moments.dimension + i] =
                 to_float(regression.slopes(row, static_cast<Eigen::Index>(i)));
-        fit.guide_variances[g] = std::max(0.0, joint.matrix(d + row, d + row));
+        fit.predictor_variances[g] = std::max(0.0, joint.matrix(d + row, d + row));
     }
     Spectrum spectrum = spectrum_of(regression.residual, rounding_floor(joint, moments.dimension), true);
     fit.variances = std::move(spectrum.variances);

@@ -12,7 +12,7 @@ namespace prt {
 /// changes.
 class ClusterMoments {
 public:
-    ClusterMoments(std::size_t clusters, std::size_t dimension, std::size_t guides = 0);
+    ClusterMoments(std::size_t clusters, std::size_t dimension, std::size_t predictors = 0);
 
     /// Computes the sums over all points from scratch.
     void build(const PointBlocks& points, std::span<const float> significance,
@@ -24,30 +24,30 @@ public:
     /// A cluster's moments: significance, sums [width], lower triangle of products by rows; first
     /// coordinates, then predictors.
     struct View {
-        std::size_t dimension, guides;
+        std::size_t dimension, predictors;
         std::span<const double> values;
-        std::size_t width() const { return dimension + guides; }
+        std::size_t width() const { return dimension + predictors; }
         double significance() const { return values[0]; }
     };
     View view(std::size_t k) const {
-        return {dimension_, guides_, std::span(values_).subspan(k * stride_, stride_)};
+        return {dimension_, predictors_, std::span(values_).subspan(k * stride_, stride_)};
     }
     std::size_t stride() const { return stride_; }
     static void add(std::span<const float> point, double significance, std::span<double> moments);
 
 private:
-    std::size_t dimension_, guides_, stride_;
+    std::size_t dimension_, predictors_, stride_;
     std::vector<double> values_; ///< [clusters][stride]
 };
 
 /// Mean, principal axes and plan of one set of points.
 struct ClusterFit {
     std::vector<float> mean;       ///< [dimension]
-    std::vector<float> center;     ///< [guides], mean of the predictors
-    std::vector<float> slopes;     ///< [guides][dimension]
+    std::vector<float> center;     ///< [predictors], mean of the predictors
+    std::vector<float> slopes;     ///< [predictors][dimension]
     std::vector<float> directions; ///< [components][dimension], orthonormal
     std::vector<double> variances; ///< [dimension] along all principal axes, descending, after prediction
-    std::vector<double> guide_variances; ///< [guides]
+    std::vector<double> predictor_variances; ///< [predictors]
     ComponentPlan plan;
     double significance = 0;
 

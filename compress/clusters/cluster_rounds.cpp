@@ -28,8 +28,8 @@ PenalisedClusters penalised_clusters(const std::vector<ClusterFit>& fits, std::s
     std::size_t most = 0;
     for (const ClusterFit& fit : fits)
         most = std::max(most, fit.plan.bits.size());
-    const std::size_t guides = fits.empty() ? 0 : fits.front().center.size();
-    PenalisedClusters result(fits.size(), dimension, most, guides);
+    const std::size_t predictors = fits.empty() ? 0 : fits.front().center.size();
+    PenalisedClusters result(fits.size(), dimension, most, predictors);
     for (std::size_t k = 0; k < fits.size(); ++k) {
         const ClusterFit& fit = fits[k];
         std::copy(fit.mean.begin(), fit.mean.end(), result.mean(k));
@@ -51,7 +51,7 @@ ClusterState ClusterRounds::start(const PenalisedClusters& centers) const {
 }
 
 ClusterState ClusterRounds::start(std::vector<std::uint32_t> clusters, std::size_t count) const {
-    ClusterState state{std::move(clusters), ClusterMoments(count, points.dimension, points.guides),
+    ClusterState state{std::move(clusters), ClusterMoments(count, points.dimension, points.predictors),
                        std::vector<ClusterFit>(count), 0};
     state.moments.build(points, significance, state.clusters, threads);
     return state;

@@ -43,7 +43,7 @@ public:
 private:
     double cost(std::size_t k) const { return state_.fits[k].cost(spending_); }
     double cost_of_moments(std::span<const double> moments) const {
-        return cluster_cost({points_.dimension, points_.guides, moments}, spending_);
+        return cluster_cost({points_.dimension, points_.predictors, moments}, spending_);
     }
     PossibleSplit split(std::size_t k, std::span<const std::uint32_t> members) const;
     PossibleMerge merge(std::size_t k, std::size_t other) const;

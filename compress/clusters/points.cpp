@@ -36,7 +36,7 @@ void PointScales::gather(std::span<const std::uint32_t> points, float* to) const
 
 template <class Take>
 void PointBlocks::project(const TransferView& transfer, const Frame& frame,
-                          const GuideCoordinates& coordinates, int threads, Take&& take) const {
+                          const PredictorCoordinates& coordinates, int threads, Take&& take) const {
     const auto full = static_cast<Eigen::Index>(frame.full()), kept = static_cast<Eigen::Index>(dimension),
                lanes = static_cast<Eigen::Index>(kLanes);
     const Eigen::Map<const Eigen::MatrixXd> analysis(frame.analysis.data(), full, kept);
@@ -49,7 +49,7 @@ void PointBlocks::project(const TransferView& transfer, const Frame& frame,
             const Eigen::MatrixXf read = columns_of(transfer, b * kLanes, std::min((b + 1) * kLanes, count));
             for (std::size_t lane = 0; lane < kLanes; ++lane) {
                 const std::size_t from = static_cast<Eigen::Index>(lane) < read.cols() ? lane : 0;
-                for (std::size_t g = 0; g < guides; ++g)
+                for (std::size_t g = 0; g < predictors; ++g)
                     to[(dimension + g) * kLanes + lane] = coordinates.scaled(b * kLanes + from, g);
                 vectors.col(static_cast<Eigen::Index>(lane)) =
                     read.col(static_cast<Eigen::Index>(from)).cast<double>() - origin;
@@ -62,8 +62,8 @@ void PointBlocks::project(const TransferView& transfer, const Frame& frame,
 }
 
 PointBlocks::PointBlocks(const TransferView& transfer, const Frame& frame,
-                         const GuideCoordinates& coordinates, int threads, double max_rounding)
-    : count(transfer.receivers()), dimension(frame.dimension), guides(coordinates.count()) {
+                         const PredictorCoordinates& coordinates, int threads, double max_rounding)
+    : count(transfer.receivers()), dimension(frame.dimension), predictors(coordinates.count()) {
     assert(dimension <= kMaxDimensions); // size of the kernels' arrays
     if (width() == 0)                    // all receivers are equal
         return;
@@ -131,7 +131,7 @@ void PointBlocks::gather(std::span<const std::uint32_t> points, float* to) const
     }
 }
 
-void PointBlocks::scale_guides(std::span<const float> factors) {
+void PointBlocks::scale_predictors(std::span<const float> factors) {
     if (!rounded.empty()) {
         for (std::size_t at = 0; at < steps.size(); ++at)
             if (const std::size_t i = at % width(); i >= dimension)
@@ -139,7 +139,7 @@ void PointBlocks::scale_guides(std::span<const float> factors) {
         return;
     }
     for (std::size_t b = 0; b < blocks(); ++b)
-        for (std::size_t g = 0; g < guides; ++g)
+        for (std::size_t g = 0; g < predictors; ++g)
             for (std::size_t lane = 0; lane < kLanes; ++lane)
                 values[(b * width() + dimension + g) * kLanes + lane] *= factors[g];
 }

@@ -2,7 +2,7 @@
 
 // Transfer vectors as points for clustering.
 
-#include "clusters/guide_coordinates.h"
+#include "clusters/predictor_coordinates.h"
 #include "metric/frame.h"
 #include "prt/support/vector_lanes.h"
 #include "prt/transfer_view.h"
@@ -44,7 +44,7 @@ struct PointScales {
 struct PointBlocks {
     static constexpr std::size_t kStepBlocks = 64;
 
-    std::size_t count = 0, dimension = 0, guides = 0;
+    std::size_t count = 0, dimension = 0, predictors = 0;
     std::vector<float> values;         ///< [blocks][width][kLanes]; empty if rounded
     std::vector<std::int16_t> rounded; ///< [blocks][width][kLanes] in units of their steps
     std::vector<float> steps;          ///< [blocks / kStepBlocks, rounded up][width]
@@ -52,13 +52,13 @@ struct PointBlocks {
 
     PointBlocks() = default;
     /// Rounds the points if the mean squared error of rounding is at most `max_rounding`.
-    PointBlocks(const TransferView& transfer, const Frame& frame, const GuideCoordinates& guides, int threads,
-                double max_rounding = 0);
+    PointBlocks(const TransferView& transfer, const Frame& frame, const PredictorCoordinates& predictors,
+                int threads, double max_rounding = 0);
 
     /// Returns the mean squared error of rounding; 0 for floats.
     double rounding() const;
     /// Number of values per point.
-    std::size_t width() const { return dimension + guides; }
+    std::size_t width() const { return dimension + predictors; }
     std::size_t blocks() const { return (count + kLanes - 1) / kLanes; }
     /// Returns block `b`, [width][kLanes]; uses the buffer `room` if it must be converted.
     const float* block(std::size_t b, float* room) const;
@@ -69,8 +69,8 @@ struct PointBlocks {
     /// Copies at least one and at most kLanes points to [width][kLanes]; the first point fills the remaining
     /// lanes.
     void gather(std::span<const std::uint32_t> points, float* to) const;
-    /// Multiplies the predictors by `factors` [guides].
-    void scale_guides(std::span<const float> factors);
+    /// Multiplies the predictors by `factors` [predictors].
+    void scale_predictors(std::span<const float> factors);
     /// Copies coordinates and predictors, [width].
     void copy_point(std::size_t point, float* to) const {
         for (std::size_t i = 0; i < width(); ++i)
@@ -82,7 +82,7 @@ private:
     /// Projects all blocks, kStepBlocks at a time: `take(first_block, numbers)`, with numbers in block
     /// layout.
     template <class Take>
-    void project(const TransferView& transfer, const Frame& frame, const GuideCoordinates& coordinates,
+    void project(const TransferView& transfer, const Frame& frame, const PredictorCoordinates& coordinates,
                  int threads, Take&& take) const;
     void round_blocks(std::size_t first, std::span<const float> numbers);
 };

@@ -61,7 +61,7 @@ RowSteps basis_steps(const PointBlocks& points, std::span<const float> significa
     const std::vector<double> costs = costs_of_groups(points, significance, coded.codes, clusters.clusters());
     double noise = 0; // noise of steps of 1 over the root of the costs
     for (const int m : clusters.components)
-        noise += (static_cast<double>(1 + clusters.guides) + 4 * tuning::kMeanSquareWeight * m) *
+        noise += (static_cast<double>(1 + clusters.predictors) + 4 * tuning::kMeanSquareWeight * m) *
                  static_cast<double>(clusters.dimension) / 12;
     const double error = total_error(significance, coded.codes.errors);
     const double step = noise > 0 ? std::sqrt(share * error / noise) : 0; // for errors of cost 1

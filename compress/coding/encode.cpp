@@ -91,13 +91,13 @@ std::size_t axes_left(std::span<const std::int32_t> values, std::size_t full) {
 }
 
 ClusteredBases make_bases(const Frame& frame, const QuantisedClusters& clusters,
-                          const CodedBases& coded_frame, const std::vector<Guide>& guides,
+                          const CodedBases& coded_frame, const std::vector<Predictor>& predictors,
                           const RowSteps& steps) {
     ClusteredBases bases;
     bases.layout = frame.layout;
     bases.components = clusters.components;
-    bases.guides = guides;
-    for (std::size_t c = 0; c < clusters.clusters() * clusters.guides; ++c)
+    bases.predictors = predictors;
+    for (std::size_t c = 0; c < clusters.clusters() * clusters.predictors; ++c)
         bases.centers.push_back(static_cast<std::int32_t>(std::lround(clusters.centers[c])));
     if (steps.least > 0) {
         const std::size_t axes = axes_in_use(clusters, steps);
@@ -108,7 +108,7 @@ ClusteredBases make_bases(const Frame& frame, const QuantisedClusters& clusters,
         const std::vector<std::int32_t> all = decode_rows(coded_frame.axes, coded_frame.scales.size());
         bases.coded.axes = encode_rows(std::span(all).first(axes * frame.full()), frame.full());
         bases.coded.values = encode_rows(integer_rows(clusters, steps, axes), axes);
-        bases.rows = decode_bases(bases.coded, bases.components, bases.guide_rows());
+        bases.rows = decode_bases(bases.coded, bases.components, bases.predictor_rows());
         return bases;
     }
     const auto full = static_cast<Eigen::Index>(frame.full()),
@@ -126,7 +126,7 @@ ClusteredBases make_bases(const Frame& frame, const QuantisedClusters& clusters,
     };
     for (std::size_t k = 0; k < clusters.clusters(); ++k) {
         put(clusters.mean(k), true);
-        for (std::size_t g = 0; g < clusters.guides; ++g)
+        for (std::size_t g = 0; g < clusters.predictors; ++g)
             put(clusters.slope(k, g), false);
         for (std::size_t j = 0; j < clusters.components_of(k); ++j)
             put(clusters.row(k, j), false);
@@ -213,13 +213,14 @@ CodedBases code_frame(Frame& frame, const LightMetric& metric, double error_limi
 }
 
 ClusteredTransfer encode(const Frame& frame, const CodedBases& coded_frame, const QuantisedClusters& clusters,
-                         const Codes& codes, const GuideCoordinates& guides, const Encoding& encoding) {
+                         const Codes& codes, const PredictorCoordinates& predictors,
+                         const Encoding& encoding) {
     ClusteredTransfer result;
-    result.bases = make_bases(frame, clusters, coded_frame, guides.guides, encoding.steps);
+    result.bases = make_bases(frame, clusters, coded_frame, predictors.predictors, encoding.steps);
     ClusteredReceivers& receivers = result.receivers;
-    receivers.guides.resize(codes.clusters.size() * guides.count());
-    for (std::size_t at = 0; at < receivers.guides.size(); ++at)
-        receivers.guides[at] = guides.value(at / guides.count(), at % guides.count());
+    receivers.predictors.resize(codes.clusters.size() * predictors.count());
+    for (std::size_t at = 0; at < receivers.predictors.size(); ++at)
+        receivers.predictors[at] = predictors.value(at / predictors.count(), at % predictors.count());
     receivers.format = encoding.format;
     receivers.clusters.assign(codes.clusters.begin(), codes.clusters.end());
     if (encoding.format == WeightFormat::packed) {

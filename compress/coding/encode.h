@@ -21,8 +21,9 @@ struct Encoding {
 CodedBases code_frame(Frame& frame, const LightMetric& metric, double error_limit);
 
 /// Returns the transfer that `clusters` and `codes` represent in the space of `frame`. `coded_frame` is the
-/// result of code_frame, if there is a step; `guides` are scaled as the clusters use them.
+/// result of code_frame, if there is a step; `predictors` are scaled as the clusters use them.
 ClusteredTransfer encode(const Frame& frame, const CodedBases& coded_frame, const QuantisedClusters& clusters,
-                         const Codes& codes, const GuideCoordinates& guides, const Encoding& encoding);
+                         const Codes& codes, const PredictorCoordinates& predictors,
+                         const Encoding& encoding);
 
 } // namespace prt

@@ -88,13 +88,14 @@ QuantisedClusters quantised_clusters(const PointBlocks& points, std::span<const 
     return result;
 }
 
-std::vector<float> scale_guides(const Clustering& clustering, QuantisedClusters& clusters) {
+std::vector<float> scale_predictors(const Clustering& clustering, QuantisedClusters& clusters) {
     std::vector<float> scales;
-    for (std::size_t g = 0; g < clusters.guides; ++g) {
+    for (std::size_t g = 0; g < clusters.predictors; ++g) {
         double variance = 0;
         for (const ClusterFit& fit : clustering.fits)
-            variance += fit.significance * fit.guide_variances[g];
-        scales.push_back(static_cast<float>(1 / std::sqrt(std::max(variance, tuning::kMinGuideVariance))));
+            variance += fit.significance * fit.predictor_variances[g];
+        scales.push_back(
+            static_cast<float>(1 / std::sqrt(std::max(variance, tuning::kMinPredictorVariance))));
         for (std::size_t k = 0; k < clusters.clusters(); ++k) {
             const float center = scales.back() * clusters.center(k)[g], whole = std::round(center);
             clusters.center(k)[g] = whole;
@@ -130,8 +131,8 @@ void copy_cluster(const QuantisedClusters& source, std::size_t from, QuantisedCl
                   std::size_t to) {
     const std::size_t d = source.dimension, most = source.max_components;
     std::copy_n(source.mean(from), d, clusters.mean(to));
-    std::copy_n(source.center(from), source.guides, clusters.center(to));
-    std::copy_n(source.slope(from, 0), source.guides * d, clusters.slope(to, 0));
+    std::copy_n(source.center(from), source.predictors, clusters.center(to));
+    std::copy_n(source.slope(from, 0), source.predictors * d, clusters.slope(to, 0));
     std::copy_n(source.row(from, 0), most * d, clusters.row(to, 0));
     std::copy_n(source.grids.begin() + static_cast<std::ptrdiff_t>(from * most), most,
                 clusters.grids.begin() + static_cast<std::ptrdiff_t>(to * most));
@@ -140,7 +141,7 @@ void copy_cluster(const QuantisedClusters& source, std::size_t from, QuantisedCl
 
 QuantisedClusters without_rows(const QuantisedClusters& clusters, std::size_t dimension) {
     QuantisedClusters result{
-        AffineClusters(clusters.clusters(), dimension, clusters.max_components, clusters.guides),
+        AffineClusters(clusters.clusters(), dimension, clusters.max_components, clusters.predictors),
         clusters.grids};
     result.components = clusters.components;
     result.centers = clusters.centers;

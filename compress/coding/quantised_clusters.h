@@ -25,7 +25,7 @@ QuantisedClusters quantised_clusters(const PointBlocks& points, std::span<const 
 
 /// Scales predictors to units of their mean deviation within a cluster, like weights, so that their rows need
 /// the same precision as means; centers become integers. Returns the factors for the predictors.
-std::vector<float> scale_guides(const Clustering& clustering, QuantisedClusters& clusters);
+std::vector<float> scale_predictors(const Clustering& clustering, QuantisedClusters& clusters);
 
 /// Steps of rounded rows: in each cluster and group of axes, `least` times a power of two.
 struct RowSteps {

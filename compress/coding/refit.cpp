@@ -11,7 +11,7 @@ namespace prt {
 namespace {
 
 /// Computes sum_p a_p z_p z_p^T, a_p with the scales of each group, and sum_p a_p z_p (y_p - decoded
-/// value)^T, z = (1, guides - center, w_1, ..., w_m).
+/// value)^T, z = (1, predictors - center, w_1, ..., w_m).
 struct NormalEquations {
     std::vector<Eigen::MatrixXd> left; ///< [groups]
     Eigen::MatrixXd right;
@@ -21,7 +21,7 @@ NormalEquations normal_equations(const PointBlocks& points, std::span<const floa
                                  const Codes& codes, const QuantisedClusters& clusters, std::size_t k,
                                  std::span<const std::uint32_t> members) {
     const auto d = static_cast<Eigen::Index>(clusters.dimension), m = Eigen::Index{clusters.components[k]},
-               known = 1 + static_cast<Eigen::Index>(clusters.guides), n = known + m;
+               known = 1 + static_cast<Eigen::Index>(clusters.predictors), n = known + m;
     const PointScales& scales = points.scales;
     NormalEquations equations{{std::max<std::size_t>(scales.groups, 1), Eigen::MatrixXd::Zero(n, n)},
                               Eigen::MatrixXd::Zero(n, d)};
@@ -35,7 +35,7 @@ NormalEquations normal_equations(const PointBlocks& points, std::span<const floa
         codes.read(clusters, p, w.data());
         subtract_known(clusters, k, point.data());
         residual = Eigen::Map<const Eigen::VectorXf>(point.data(), d).cast<double>();
-        for (std::size_t g = 0; g < clusters.guides; ++g)
+        for (std::size_t g = 0; g < clusters.predictors; ++g)
             z[1 + static_cast<Eigen::Index>(g)] =
                 static_cast<double>(point[clusters.dimension + g] - clusters.center(k)[g]);
         for (Eigen::Index j = 0; j < m; ++j) {
@@ -85,7 +85,7 @@ void refit(const PointBlocks& points, std::span<const float> significance, const
             };
             Eigen::Index from = 0;
             add(from++, clusters.mean(k));
-            for (std::size_t g = 0; g < clusters.guides; ++g)
+            for (std::size_t g = 0; g < clusters.predictors; ++g)
                 add(from++, clusters.slope(k, g));
             for (std::size_t j = 0; j < clusters.components_of(k); ++j)
                 add(from++, clusters.row(k, j));

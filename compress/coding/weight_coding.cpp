@@ -16,7 +16,7 @@ struct KernelCluster {
     const float* rows;
     const WeightGrid* grids;
     const RowReach* reaches;
-    std::size_t components, guides;
+    std::size_t components, predictors;
 };
 
 /// Rounds to the nearest integer by adding and subtracting 1.5 · 2^23, for much smaller values.
@@ -49,7 +49,7 @@ template <int Width, bool Scaled, class Value = typename Floats<Width>::Value>
         return floats_at<Width>(points.scales + points.group_of[i] * kLanes);
     };
     Value d[kMaxDimensions];
-    known_subtracted<Width>(points.block, dimension, k.mean, k.center, k.slopes, k.guides, d);
+    known_subtracted<Width>(points.block, dimension, k.mean, k.center, k.slopes, k.predictors, d);
     for (std::size_t i = 0; Scaled && i < dimension; ++i)
         d[i] *= scale(i);
     for (std::size_t j = 0; j < k.components; ++j) {
@@ -178,7 +178,7 @@ struct Kernel {
             const std::size_t first = k * of.max_components;
             clusters.push_back({of.mean(k), of.center(k), of.slope(k, 0), of.row(k, 0),
                                 of.grids.data() + first, reaches.data() + first, of.components_of(k),
-                                of.guides});
+                                of.predictors});
         }
     }
 };

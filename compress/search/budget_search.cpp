@@ -1,4 +1,4 @@
-// Searches clusters, bits, guides and precision for a budget (docs/math.md, section 4, "Budgets").
+// Searches clusters, bits, predictors and precision for a budget (docs/math.md, section 4, "Budgets").
 
 #include "search/budget_search.h"
 
@@ -57,14 +57,14 @@ SearchResult BudgetSearch::run() {
 Line BudgetSearch::first_line() const {
     Line line{.payload = first_payload(),
               .bases_count = !budget_.operations,
-              .guides = task_.options.compress.guides};
-    if (task_.options.choose_guides && !affordable(line.guides))
-        line.guides = GuideChoice::none;
+              .predictors = task_.options.compress.predictors};
+    if (task_.options.choose_predictors && !affordable(line.predictors))
+        line.predictors = PredictorChoice::none;
     return line;
 }
 
-bool BudgetSearch::affordable(GuideChoice guides) const {
-    return !budget_.operations || task_.components_beside(guides) > 0;
+bool BudgetSearch::affordable(PredictorChoice predictors) const {
+    return !budget_.operations || task_.components_beside(predictors) > 0;
 }
 
 int BudgetSearch::max_clusters() const {
@@ -153,13 +153,13 @@ void BudgetSearch::vary() {
         if (best_on(line) < found)
             walk(line);
     }
-    if (!task_.options.choose_guides)
+    if (!task_.options.choose_predictors)
         return;
-    for (const GuideChoice guides :
-         {GuideChoice::none, GuideChoice::normal, GuideChoice::normal_and_position}) {
+    for (const PredictorChoice predictors :
+         {PredictorChoice::none, PredictorChoice::normal, PredictorChoice::normal_and_position}) {
         Line line = trials_.best()->line;
-        line.guides = guides;
-        if (affordable(guides))
+        line.predictors = predictors;
+        if (affordable(predictors))
             best_on(line);
     }
 }
@@ -167,14 +167,14 @@ void BudgetSearch::vary() {
 /// Tries all combinations, and the payloads from each: for few receivers this takes little time.
 void BudgetSearch::vary_thoroughly() {
     const Line from = trials_.best()->line;
-    for (const GuideChoice guides :
-         {GuideChoice::none, GuideChoice::normal, GuideChoice::normal_and_position})
+    for (const PredictorChoice predictors :
+         {PredictorChoice::none, PredictorChoice::normal, PredictorChoice::normal_and_position})
         for (const bool bases_count : {true, false}) {
             Line line = from;
             line.bases_count = bases_count;
-            if (task_.options.choose_guides)
-                line.guides = guides;
-            if (affordable(line.guides))
+            if (task_.options.choose_predictors)
+                line.predictors = predictors;
+            if (affordable(line.predictors))
                 walk(line);
         }
     if (!bases_are_coded(task_.options.compress))
@@ -202,15 +202,17 @@ void BudgetSearch::finish() {
 /// from zero components and continues while the budget is met or the excess decreases. The mean of a single
 /// cluster is the minimum.
 void BudgetSearch::search_fewer_components() {
-    const GuideChoice guides =
-        task_.options.choose_guides ? GuideChoice::none : task_.options.compress.guides;
+    const PredictorChoice predictors =
+        task_.options.choose_predictors ? PredictorChoice::none : task_.options.compress.predictors;
     const int all = std::min(task_.packed() ? kMaxPackedComponents : 4 * min_payload(), task_.dimension());
     double best = kNothingFound;
     int worse = 0;
     for (int components = 0; components < std::max(all, 1) && worse < tuning::kPatience; ++components) {
         const bool kept = trials_.kept();
-        const double found = walk(
-            {.payload = min_payload(), .component_limit = components, .guides = guides, .finished = true});
+        const double found = walk({.payload = min_payload(),
+                                   .component_limit = components,
+                                   .predictors = predictors,
+                                   .finished = true});
         worse = found < best || !kept ? 0 : worse + 1;
         best = std::min(best, found);
     }
@@ -259,9 +261,9 @@ double BudgetSearch::bytes_per_cluster(const Line& line) const {
         return trials_.bytes_per_cluster();
     const SearchTrial& best = trials_.best()->trial;
     const Line& on = trials_.best()->line;
-    const double guides = guide_rows_of(on.guides, task_.surface), components = best.operations - guides,
-                 more = (1.0 + line.payload) / (1.0 + on.payload),
-                 rows = 1 + guide_rows_of(line.guides, task_.surface) + more * components;
+    const double predictors = predictor_rows_of(on.predictors, task_.surface),
+                 components = best.operations - predictors, more = (1.0 + line.payload) / (1.0 + on.payload),
+                 rows = 1 + predictor_rows_of(line.predictors, task_.surface) + more * components;
     return std::max((best.bytes_per_vertex - best.payload_bytes) * task_.receivers() / best.clusters * rows /
                         (1 + best.operations),
                     tuning::kMinBytesPerCluster);

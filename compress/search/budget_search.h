@@ -39,7 +39,7 @@ private:
     /// Returns the bytes per receiver that a line may fill: the budget's, or, without a limit on bytes, the
     /// maximum size of a preset.
     double max_bytes(const Line& line) const;
-    bool affordable(GuideChoice guides) const;
+    bool affordable(PredictorChoice predictors) const;
 
     /// Searches lines of all payloads around `line`'s. Returns the minimum cost.
     double walk(const Line& line);

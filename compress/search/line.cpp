@@ -20,14 +20,14 @@ int payload_of(const WeightCoding& preset, std::size_t dimension) {
     return (preset.cluster_bits + bits + 31) / 32;
 }
 
-int guide_rows_of(GuideChoice guides, const ReceiverSurface& surface) {
+int predictor_rows_of(PredictorChoice predictors, const ReceiverSurface& surface) {
     const int normal = surface.normals.empty() ? 0 : 3, position = surface.positions.empty() ? 0 : 3;
-    switch (guides) {
-    case GuideChoice::none:
+    switch (predictors) {
+    case PredictorChoice::none:
         return 0;
-    case GuideChoice::normal:
+    case PredictorChoice::normal:
         return normal;
-    case GuideChoice::normal_and_position:
+    case PredictorChoice::normal_and_position:
         break;
     }
     return normal + position;

@@ -14,9 +14,9 @@ struct Line {
     int payload = 1; ///< 32-bit words per receiver, or groups of four floats
     bool bases_count = true;
     int component_limit = std::numeric_limits<int>::max(); ///< lowered if the budget is very small
-    GuideChoice guides = GuideChoice::normal;
+    PredictorChoice predictors = PredictorChoice::normal;
     double basis_share = -1; ///< CompressOptions::basis_share; negative: the tuned value
-    bool finished = false;   ///< with all rounds and seams; drafts only guide the search
+    bool finished = false;   ///< with all rounds and seams; drafts only predictor the search
     friend auto operator<=>(const Line&, const Line&) = default;
 };
 
@@ -27,6 +27,6 @@ double payload_bytes(WeightFormat format, int payload);
 int payload_of(const WeightCoding& preset, std::size_t dimension);
 
 /// Returns the number of rows that predictors add to a mean, if the surface has the attributes.
-int guide_rows_of(GuideChoice guides, const ReceiverSurface& surface);
+int predictor_rows_of(PredictorChoice predictors, const ReceiverSurface& surface);
 
 } // namespace prt

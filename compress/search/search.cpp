@@ -30,9 +30,9 @@ void check_budget(const SearchOptions& o, const ReceiverSurface& surface) {
         throw Error("skies are given for a promise without an error");
     if (!o.budget.skies_of_jumps.empty() && !o.budget.max_jump)
         throw Error("skies are given for a limit on jumps without the limit");
-    const int rows = guide_rows_of(o.compress.guides, surface);
-    if (!o.choose_guides && o.budget.operations && rows > *o.budget.operations)
-        throw Error("the guides alone take " + std::to_string(rows) + " shader operations");
+    const int rows = predictor_rows_of(o.compress.predictors, surface);
+    if (!o.choose_predictors && o.budget.operations && rows > *o.budget.operations)
+        throw Error("the predictors alone take " + std::to_string(rows) + " shader operations");
 }
 
 /// Builds the task with its metric. The metric is expensive and shared by all trials.
@@ -111,7 +111,7 @@ SearchResult compress_preset(const TransferView& transfer, const ReceiverSurface
         fitting.compress = options;
         fitting.payload = payload;
         fitting.choose_components = options.coding.format == WeightFormat::packed;
-        fitting.choose_guides = false;
+        fitting.choose_predictors = false;
         fitting.budget.bytes_per_vertex = bound + max_bases / receivers;
         const Progress rest = progress.part(0.99, 1);
         const SearchTask task = task_of(transfer, surface, fitting, rest);

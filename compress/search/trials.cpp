@@ -14,10 +14,10 @@ constexpr double kNotKept = 1e6; ///< minimum cost of a result outside the budge
 
 } // namespace
 
-std::optional<double> SearchTask::components_beside(GuideChoice guides) const {
+std::optional<double> SearchTask::components_beside(PredictorChoice predictors) const {
     if (!options.budget.operations)
         return std::nullopt;
-    return *options.budget.operations - guide_rows_of(guides, surface);
+    return *options.budget.operations - predictor_rows_of(predictors, surface);
 }
 
 Trials::Trials(const SearchTask& task)
@@ -49,7 +49,7 @@ CompressOptions Trials::options_on(const Line& line, int clusters) const {
     CompressOptions o = task_.options.compress;
     WeightCoding& coding = o.coding;
     o.clusters = clusters;
-    o.guides = line.guides;
+    o.predictors = line.predictors;
     if (line.basis_share >= 0)
         o.basis_share = line.basis_share;
     int most = 4 * line.payload;
@@ -63,7 +63,7 @@ CompressOptions Trials::options_on(const Line& line, int clusters) const {
     }
     if (task_.options.choose_components)
         coding.components = std::min({most, task_.dimension(), line.component_limit});
-    if (const std::optional<double> components = task_.components_beside(line.guides)) {
+    if (const std::optional<double> components = task_.components_beside(line.predictors)) {
         o.mean_components = std::max(*components, 0.0);
         if (!(*components > 0)) // `compress` treats 0 as no limit
             coding.components = 0;

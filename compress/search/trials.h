@@ -31,7 +31,7 @@ struct SearchTask {
         return prt::payload_bytes(options.compress.coding.format, payload);
     }
     /// Returns the components that operations allow in addition to predictors; no value without a limit.
-    std::optional<double> components_beside(GuideChoice guides) const;
+    std::optional<double> components_beside(PredictorChoice predictors) const;
 };
 
 /// Trials of a search, each run once, starting from the clusters of a similar earlier trial. Keeps the best;

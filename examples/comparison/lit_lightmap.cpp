@@ -35,7 +35,7 @@ LitLightmap make_lightmap(const std::filesystem::path& scene, int size, int orde
     surface.edges = prt::lightmap_edges(baked.layout, baked.texels, baked.seams);
     surface.jumps = prt::seam_jumps(result.model->scene, baked.layout, baked.texels);
     prt::CompressOptions how{.coding = prt::preset_u64()};
-    how.guides = prt::GuideChoice::none; // texels have no normals
+    how.predictors = prt::PredictorChoice::none; // texels have no normals
     prt::CompressResult compressed = prt::compress_preset(baked.baked.transfer, surface.view(), how).result;
     result.bytes_per_texel = compressed.statistics.bytes_with_bases(baked.texels.size());
     result.lightmap = prt::spread_over_maps(baked, std::move(compressed.transfer));

@@ -90,13 +90,13 @@ prt_status prt_model_get_vertex_inputs(const prt_model* model, prt_vertex_inputs
     return guarded(message, [&] {
         check_pointers(model, out);
         *out = {};
-        for (const prt::Guide& guide : model->transfer.bases.guides) {
-            if (guide.kind == prt::GuideKind::normal) {
+        for (const prt::Predictor& predictor : model->transfer.bases.predictors) {
+            if (predictor.kind == prt::PredictorKind::normal) {
                 out->normals = 1;
                 continue;
             }
             out->positions = 1;
-            std::copy_n(glm::value_ptr(guide.origin), 3, out->guide_origin);
+            std::copy_n(glm::value_ptr(predictor.origin), 3, out->predictor_origin);
         }
         std::copy_n(glm::value_ptr(model->scene.origin), 3, out->origin);
     });

@@ -110,7 +110,7 @@ ClusteredReceivers room_for(std::size_t count, const ClusteredReceivers& like) {
                                  .words = like.words,
                                  .clusters = std::vector<std::uint16_t>(count),
                                  .weights = std::vector<std::byte>(count * like.stride()),
-                                 .guides = {}};
+                                 .predictors = {}};
     return receivers;
 }
 

@@ -45,8 +45,9 @@ void append_attributes(const ClusteredTransfer& transfer, std::vector<ShaderBind
                         .number = PRT_LOCATION_POSITION,
                         .content = "position" + vector});
     append_weights(transfer.receivers, bindings);
-    if (std::ranges::any_of(transfer.bases.guides,
-                            [](const Guide& guide) { return guide.kind == GuideKind::normal; }))
+    if (std::ranges::any_of(transfer.bases.predictors, [](const Predictor& predictor) {
+            return predictor.kind == PredictorKind::normal;
+        }))
         bindings.push_back({.kind = BindingKind::attribute,
                             .name = "normal",
                             .type = "vec3",

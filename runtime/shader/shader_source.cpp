@@ -46,15 +46,15 @@ const char* version_lines(ShaderLanguage language) {
     return "#version 450 core\n";
 }
 
-std::string guide_defines(const ClusteredBases& bases, const glm::dvec3& seen_from) {
+std::string predictor_defines(const ClusteredBases& bases, const glm::dvec3& seen_from) {
     std::string text;
-    for (const Guide& guide : bases.guides) {
-        if (guide.kind == GuideKind::normal) {
-            text += "#define PRT_GUIDE_NORMAL\n";
+    for (const Predictor& predictor : bases.predictors) {
+        if (predictor.kind == PredictorKind::normal) {
+            text += "#define PRT_PREDICTOR_NORMAL\n";
             continue;
         }
-        text += "#define PRT_GUIDE_POSITION\n" +
-                define("PRT_GUIDE_ORIGIN", glsl_vector(seen_from + glm::dvec3(guide.origin)));
+        text += "#define PRT_PREDICTOR_POSITION\n" +
+                define("PRT_PREDICTOR_ORIGIN", glsl_vector(seen_from + glm::dvec3(predictor.origin)));
     }
     return text;
 }
@@ -113,8 +113,8 @@ std::string shader_source(std::string_view name, std::string_view defines, Shade
 }
 
 int max_vertex_components(const ClusteredBases& bases) {
-    return 4 * (bases.guides.empty() ? kMaxWeightVectors : kMaxWeightVectors - 1); // normals take the last
-                                                                                   // location
+    return 4 * (bases.predictors.empty() ? kMaxWeightVectors : kMaxWeightVectors - 1); // normals take the
+                                                                                       // last location
 }
 
 std::string relight_defines(const ClusteredTransfer& transfer, ConstantSource constants,
@@ -122,7 +122,7 @@ std::string relight_defines(const ClusteredTransfer& transfer, ConstantSource co
     // In this order: the first call rejects transfer that the second cannot process.
     std::string text = weight_defines(transfer);
     text += same_weight_defines(transfer);
-    text += guide_defines(transfer.bases, seen_from);
+    text += predictor_defines(transfer.bases, seen_from);
     switch (constants) {
     case ConstantSource::buffer:
         if (language == ShaderLanguage::glsl330 || language == ShaderLanguage::essl300)

@@ -89,8 +89,8 @@ std::vector<float> rows_of_stored(const ClusteredTransfer& transfer) {
             }
             row += dimension;
         };
-        for (std::size_t g = 0; g < bases.guide_rows(); ++g)
-            fold(static_cast<float>(*center++), bases.guide_scale(g));
+        for (std::size_t g = 0; g < bases.predictor_rows(); ++g)
+            fold(static_cast<float>(*center++), bases.predictor_scale(g));
         for (int j = 0; j < components; ++j)
             fold(packed ? 1.0f : 0.0f, packed ? 2 / static_cast<float>((1u << *bits++) - 1) : 1.0f);
         mean = row;

@@ -9,8 +9,8 @@
 
 namespace prt {
 
-const char* to_string(GuideKind kind) {
-    return kind == GuideKind::normal ? "normal" : "position";
+const char* to_string(PredictorKind kind) {
+    return kind == PredictorKind::normal ? "normal" : "position";
 }
 
 int ClusteredBases::max_components() const {
@@ -59,14 +59,14 @@ std::vector<float> steps_of(const CodedBases& coded, std::size_t clusters) {
 } // namespace
 
 std::vector<float> decode_bases(const CodedBases& coded, const std::vector<int>& components,
-                                std::size_t guide_rows) {
+                                std::size_t predictor_rows) {
     const std::size_t axes = coded.scales.size(), dimension = coded.origin.size();
     if (coded.axes.drops.size() != dimension || coded.values.drops.size() != axes ||
         (!coded.units.empty() && coded.units.size() != dimension))
         throw Error("the code of the bases has columns of another number");
     std::size_t rows = 0;
     for (const int m : components)
-        rows += 1 + guide_rows + static_cast<std::size_t>(m);
+        rows += 1 + predictor_rows + static_cast<std::size_t>(m);
     const std::vector<std::int32_t> axis_values = decode_rows(coded.axes, axes),
                                     values = decode_rows(coded.values, rows);
     std::vector<float> result(rows * dimension, 0.0f);
@@ -74,9 +74,9 @@ std::vector<float> decode_bases(const CodedBases& coded, const std::vector<int>&
     std::size_t row = 0, cluster = 0;
     for (const int m : components) {
         const float* step = steps.data() + cluster++ * axes;
-        for (std::size_t j = 0; j <= guide_rows + static_cast<std::size_t>(m); ++j, ++row) {
+        for (std::size_t j = 0; j <= predictor_rows + static_cast<std::size_t>(m); ++j, ++row) {
             float* to = &result[row * dimension];
-            const float factor = j <= guide_rows ? 1.0f : 2.0f;
+            const float factor = j <= predictor_rows ? 1.0f : 2.0f;
             for (std::size_t i = 0; i < axes; ++i) {
                 const float y = factor * step[i] * static_cast<float>(values[row * axes + i]);
                 for (std::size_t a = 0; y != 0 && a < dimension; ++a)
@@ -121,11 +121,11 @@ bool clusters_are_alike(const ClusteredBases& bases) {
 std::size_t basis_bytes(const ClusteredBases& bases) {
     // One byte for each m_k, four bits for the width of each packed weight.
     const std::size_t layout = bases.clusters() + (bases.bits.size() + 1) / 2;
-    const std::size_t guides = bases.guides.empty()
-                                   ? 0
-                                   : bases.guides.size() * sizeof(Guide) +
-                                         coded_bytes(encode_rows(bases.centers, bases.guide_rows()));
-    return layout + guides +
+    const std::size_t predictors = bases.predictors.empty()
+                                       ? 0
+                                       : bases.predictors.size() * sizeof(Predictor) +
+                                             coded_bytes(encode_rows(bases.centers, bases.predictor_rows()));
+    return layout + predictors +
            (bases.is_coded() ? coded_bytes(bases.coded) : bases.rows.size() * sizeof(float));
 }
 

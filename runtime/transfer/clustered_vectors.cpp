@@ -10,7 +10,7 @@ namespace prt {
 
 void ClusteredVectors::read(std::size_t first, std::span<float> to) const {
     const ClusteredBases& bases = transfer_.bases;
-    const std::size_t dimension = dimension_, guides = bases.guide_rows();
+    const std::size_t dimension = dimension_, predictors = bases.predictor_rows();
     std::vector<float> weights(max_components_);
     for (std::size_t p = first; !to.empty(); ++p, to = to.subspan(dimension)) {
         const std::size_t k = transfer_.receivers.clusters[p];
@@ -24,9 +24,9 @@ void ClusteredVectors::read(std::size_t first, std::span<float> to) const {
             for (std::size_t i = 0; i < dimension; ++i)
                 out[i] += weight * row[i];
         };
-        for (std::size_t g = 0; g < guides; ++g)
-            add_row(bases.guide_scale(g) * transfer_.receivers.guides[p * guides + g] -
-                    static_cast<float>(bases.centers[k * guides + g]));
+        for (std::size_t g = 0; g < predictors; ++g)
+            add_row(bases.predictor_scale(g) * transfer_.receivers.predictors[p * predictors + g] -
+                    static_cast<float>(bases.centers[k * predictors + g]));
         for (std::size_t j = 0; j < layout.components; ++j)
             add_row(weights[j]);
     }

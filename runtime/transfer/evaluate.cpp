@@ -40,11 +40,11 @@ template <WeightFormat Format>
 }
 
 /// Returns the mean of a cluster plus the predictor term of a receiver.
-[[gnu::always_inline]] inline Color known_color(const glm::vec4* row, const float* guides,
+[[gnu::always_inline]] inline Color known_color(const glm::vec4* row, const float* predictors,
                                                 std::size_t count) {
     Color sum = color_at(row);
     for (std::size_t g = 0; g < count; ++g)
-        sum += guides[g] * color_at(row + 1 + g);
+        sum += predictors[g] * color_at(row + 1 + g);
     return sum;
 }
 
@@ -55,12 +55,13 @@ template <WeightFormat Format>
     const std::size_t stride = receivers.stride();
     const std::uint16_t* clusters = receivers.clusters.data();
     const std::byte* weights = receivers.weights.data();
-    const std::size_t guides = receivers.guides.size() / receivers.size();
+    const std::size_t predictors = receivers.predictors.size() / receivers.size();
     for (std::size_t p = begin; p < end; ++p) {
         const ClusterLayout& layout = layouts[clusters[p]];
         const glm::vec4* row = constants + layout.first_row;
-        const Color sum = known_color(row, receivers.guides.data() + p * guides, guides) +
-                          sum_of_weights<Format>(receivers, layout, weights + p * stride, row + 1 + guides);
+        const Color sum =
+            known_color(row, receivers.predictors.data() + p * predictors, predictors) +
+            sum_of_weights<Format>(receivers, layout, weights + p * stride, row + 1 + predictors);
         radiance[p - begin] = {sum[0], sum[1], sum[2]};
     }
 }

@@ -199,7 +199,7 @@ CompressedLightmap lightmap_of(int side) {
                    .words = 2,
                    .clusters = {},
                    .weights = {},
-                   .guides = {}};
+                   .predictors = {}};
     std::mt19937 random(1);
     std::vector<std::uint32_t> words;
     for (int i = 0; i < kSide * kSide; ++i) {
@@ -250,7 +250,7 @@ CompressedVolume volume_of() {
                    .words = 4,
                    .clusters = {},
                    .weights = {},
-                   .guides = {}};
+                   .predictors = {}};
     std::mt19937 random(1);
     for (std::size_t p = 0; p < volume.sights.size(); ++p)
         t.receivers.clusters.push_back(static_cast<std::uint16_t>(p * 256 / volume.sights.size()));

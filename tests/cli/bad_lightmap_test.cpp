@@ -224,11 +224,11 @@ std::vector<Damage> damages_to_clusters() {
         {"no_packing", [](GlbFile& f) { extension(f).erase("packing"); }, "packing", kRefuses},
         {"cluster_bits", [](GlbFile& f) { extension(f)["packing"]["clusterBits"] = 17; }, "clusterBits is 17",
          kRefuses},
-        {"guides",
+        {"predictors",
          [](GlbFile& f) {
-             extension(f)["guides"] = {{{"kind", "normal"}, {"scale", {1, 1, 1}}}};
+             extension(f)["predictors"] = {{{"kind", "normal"}, {"scale", {1, 1, 1}}}};
          },
-         "texels have no guides", kRefuses},
+         "texels have no predictors", kRefuses},
         {"raw_too",
          [](GlbFile& f) {
              extension(f)["raw"] = {{"texels", {{"bufferView", 0}}},
@@ -316,7 +316,7 @@ TEST_F(BadLightmaps, AreNotThoseThatAreRight) {
     triangle_file().write(folder / "t.glb"); // and transfer of vertices
     ASSERT_EQ(prt({"bake", at("t.glb"), "-o", at("vertices.glb"), "--rays", "16", "--bounces", "1"}).status,
               0);
-    ASSERT_EQ(prt({"compress", at("vertices.glb"), "-o", at("packed.glb"), "--clusters", "1", "--guides",
+    ASSERT_EQ(prt({"compress", at("vertices.glb"), "-o", at("packed.glb"), "--clusters", "1", "--predictors",
                    "position"})
                   .status,
               0);

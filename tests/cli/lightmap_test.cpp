@@ -200,7 +200,7 @@ TEST_F(Lightmaps, AreRefusedWhereTheyCannotBe) {
         arguments.insert(arguments.end(), options.begin(), options.end());
         return prt(arguments);
     };
-    expect_refused(compress({"--guides", "normal"}), "texels know neither");
+    expect_refused(compress({"--predictors", "normal"}), "texels know neither");
     expect_refused(compress({"--weights", "float"}), "packed");
     expect_refused(compress({"--reorder"}), "texels stay where they are");
     expect_refused(compress({"--fallback", at("sky.exr")}), "the light of this file is in texels");

@@ -362,7 +362,7 @@ TEST(Compress, KeepsFaintLightOfLampsFarBelowTheirBrightest) {
     CompressOptions options;
     options.clusters = 96;
     options.coding = preset_u32();
-    options.guides = GuideChoice::none;
+    options.predictors = PredictorChoice::none;
     const std::vector<float> areas(t.receivers(), 1.0f);
     const CompressResult result = compress(t, {areas}, options);
     const Transfer decoded = decode(result.transfer);

@@ -137,7 +137,7 @@ TEST(Search, FindsFewClustersWhereTransferHasFewDimensions) {
     const SearchResult found = scene.within({.bytes_per_vertex = 8});
     ASSERT_TRUE(found.kept);
     CompressOptions by_hand{
-        .clusters = 1, .coding = {.components = 3, .bits = 32}, .guides = GuideChoice::none};
+        .clusters = 1, .coding = {.components = 3, .bits = 32}, .predictors = PredictorChoice::none};
     EXPECT_LE(found.result.statistics.lit_rms,
               1.05 * compress(scene.transfer, {scene.areas}, by_hand).statistics.lit_rms);
 }
@@ -291,11 +291,11 @@ TEST(Search, LimitsJumpsAcrossClusters) {
     EXPECT_THROW(compress_within(transfer, surface, options), Error);
 }
 
-TEST(Search, RefusesGuidesThatTakeMoreOperationsThanThereMayBe) {
+TEST(Search, RefusesPredictorsThatTakeMoreOperationsThanThereMayBe) {
     const Tried scene(100, 1, 1);
     const std::vector<glm::vec3> normals = lattice(100);
     SearchOptions options;
-    options.choose_guides = false;
+    options.choose_predictors = false;
     options.budget.operations = 2;
     EXPECT_THROW(compress_within(scene.transfer, {.areas = scene.areas, .normals = normals}, options), Error);
     options.budget.operations = 3; // all of them used by predictors

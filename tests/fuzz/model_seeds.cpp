@@ -9,8 +9,8 @@
 #include "prt/occluder_gltf.h"
 #include "prt/support/file.h"
 #include "support/glb_file.h"
-#include "support/guided.h"
 #include "support/lightmap_model.h"
+#include "support/predicted.h"
 #include "support/random_lightmap.h"
 #include "support/scene_builder.h"
 
@@ -150,7 +150,7 @@ void write_with_fallback(const Path& folder) {
     save_glb(document, folder / "fallback.glb");
 }
 
-void write_guided(const Path& folder) {
+void write_predicted(const Path& folder) {
     GltfDocument document = document_of(floor_file(2));
     const Scene scene = extract_scene(document);
     const BakedTransfer baked = bake_of(scene, layout_of_one(2, 1));
@@ -158,9 +158,9 @@ void write_guided(const Path& folder) {
         compress(baked.transfer, {receiver_areas(scene), mesh_edges(scene)}, {.clusters = 3}).transfer,
         baked.record};
     std::mt19937 random(1);
-    test::add_guides(compressed.transfer.bases, {GuideKind::normal, GuideKind::position}, random);
+    test::add_predictors(compressed.transfer.bases, {PredictorKind::normal, PredictorKind::position}, random);
     write_clustered(document, scene, compressed);
-    save_glb(document, folder / "guided.glb");
+    save_glb(document, folder / "predicted.glb");
 }
 
 /// Raw, of words over plain bases, and of words over coded ones.
@@ -182,7 +182,7 @@ void write_lightmaps(const Path& folder) {
             .write(folder / ("lightmap.words" + std::to_string(words) + ".glb"));
     }
     const std::vector<Edge> edges = lightmap_edges(layout, baked.texels, baked.seams);
-    const CompressOptions options{.clusters = 3, .coding = preset_u64(), .guides = GuideChoice::none};
+    const CompressOptions options{.clusters = 3, .coding = preset_u64(), .predictors = PredictorChoice::none};
     const ClusteredTransfer coded = compress(baked.baked.transfer, {baked.areas, edges}, options).transfer;
     test::with_lightmap(scene, spread_over_maps(baked, coded)).write(folder / "lightmap.coded.glb");
 }
@@ -235,7 +235,7 @@ void write_model_seeds(const Path& to) {
     write_shipped(folder, "plain", {.clusters = 2, .coding = {.components = 3}, .basis_share = 0});
     write_shipped(folder, "u64", {.clusters = 4, .coding = preset_u64()});
     write_with_fallback(folder);
-    write_guided(folder);
+    write_predicted(folder);
     write_lightmaps(folder);
     write_occluder(folder);
     write_lobed(folder);

@@ -154,7 +154,7 @@ WholeModel read_whole(std::span<const std::byte> file, const std::filesystem::pa
     if (compressed) {
         expect(compressed->transfer.receivers.size() == scene.receivers(), "weights for other vertices");
         expect_finite(std::span<const float>(compressed->transfer.bases.rows), "bases");
-        expect_finite(std::span<const float>(compressed->transfer.receivers.guides), "guides");
+        expect_finite(std::span<const float>(compressed->transfer.receivers.predictors), "predictors");
     }
     auto baked_lightmap = read_lightmap(document, scene);
     auto lightmap = read_compressed_lightmap(document, scene);

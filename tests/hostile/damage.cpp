@@ -152,33 +152,33 @@ void change_maps(GlbFile& file, Random& random) {
     }
 }
 
-void change_guides(GlbFile& file, Random& random) {
+void change_predictors(GlbFile& file, Random& random) {
     if (extension(file).contains("maps"))
         return change_maps(file, random);
-    Json& guides = extension(file)["guides"];
-    if (!guides.is_array() || guides.empty()) {
-        guides = Json::array({{{"kind", "normal"}, {"scale", {1, 1, 1}}}});
+    Json& predictors = extension(file)["predictors"];
+    if (!predictors.is_array() || predictors.empty()) {
+        predictors = Json::array({{{"kind", "normal"}, {"scale", {1, 1, 1}}}});
         return;
     }
-    Json& guide = guides[below(guides.size(), random)];
+    Json& predictor = predictors[below(predictors.size(), random)];
     switch (random() % 6) {
     case 0:
-        guide["kind"] = strange_value(random);
+        predictor["kind"] = strange_value(random);
         break;
     case 1:
-        guides.push_back(guide);
+        predictors.push_back(predictor);
         break;
     case 2:
-        guide["scale"][below(4, random)] = strange_number(random);
+        predictor["scale"][below(4, random)] = strange_number(random);
         break;
     case 3:
-        guide["origin"] = {strange_number(random), 0, strange_number(random)};
+        predictor["origin"] = {strange_number(random), 0, strange_number(random)};
         break;
     case 4:
-        guides.erase(below(guides.size(), random));
+        predictors.erase(below(predictors.size(), random));
         break;
     default:
-        guide.erase("origin");
+        predictor.erase("origin");
     }
 }
 
@@ -349,10 +349,10 @@ void cut_binary(GlbFile& file, Random& random) {
 
 GlbFile damaged(GlbFile file, std::uint32_t seed) {
     using Change = void (*)(GlbFile&, Random&);
-    constexpr Change kChanges[] = {change_number,     change_number,     change_value,    remove_member,
-                                   lengthen_list,     change_guides,     change_guides,   change_own_bytes,
-                                   change_own_bytes,  change_own_floats, change_view,     change_accessor,
-                                   change_attributes, change_vertices,   change_vertices, change_node,
+    constexpr Change kChanges[] = {change_number,     change_number,     change_value,      remove_member,
+                                   lengthen_list,     change_predictors, change_predictors, change_own_bytes,
+                                   change_own_bytes,  change_own_floats, change_view,       change_accessor,
+                                   change_attributes, change_vertices,   change_vertices,   change_node,
                                    cut_binary};
     Random random(seed);
     for (std::size_t n = 1 + (random() % 4 == 0) + (random() % 16 == 0); n > 0; --n)

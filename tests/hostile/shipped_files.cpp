@@ -6,8 +6,8 @@
 #include "prt/compress_volume.h"
 #include "prt/fallback.h"
 #include "prt/gltf.h"
-#include "support/guided.h"
 #include "support/lightmap_model.h"
+#include "support/predicted.h"
 #include "support/random_lightmap.h"
 #include "support/random_volume.h"
 #include "support/scene_builder.h"
@@ -83,7 +83,7 @@ GlbFile made(const Recipe& recipe) {
         {.rays = 16, .receivers = receivers_id(scene)}};
     std::mt19937 random(4);
     if (recipe.position_alone)
-        add_guides(compressed.transfer.bases, {GuideKind::position}, random);
+        add_predictors(compressed.transfer.bases, {PredictorKind::position}, random);
     write_clustered(document, scene, compressed);
     save_glb(document, folder / "shipped.glb");
     if (recipe.has_fallback) {
@@ -102,7 +102,7 @@ std::vector<ShippedFile> lightmap_files() {
     std::mt19937 random(5);
     const BakedLightmap baked = made_up_lightmap(layout, kLamps, random);
     const std::vector<Edge> edges = lightmap_edges(layout, baked.texels, baked.seams);
-    const CompressOptions options{.clusters = 5, .coding = preset_u64(), .guides = GuideChoice::none};
+    const CompressOptions options{.clusters = 5, .coding = preset_u64(), .predictors = PredictorChoice::none};
     const ClusteredTransfer coded = compress(baked.baked.transfer, {baked.areas, edges}, options).transfer;
     CompressedLightmap plain = random_lightmap(layout.maps, 1, false, random);
     plain.layout = layout;
@@ -122,17 +122,19 @@ std::vector<Recipe> recipes() {
     const WeightCoding fixed = preset_u32x4(), free = preset_u64(),
                        floats{.format = WeightFormat::float32, .components = 5};
     return {
-        {"none_fixed", kSky, {.clusters = 6, .coding = fixed, .guides = GuideChoice::none}},
+        {"none_fixed", kSky, {.clusters = 6, .coding = fixed, .predictors = PredictorChoice::none}},
         {"normal_fixed", kSky, {.clusters = 6, .coding = fixed}},
         {"normal_free", kLamps, {.clusters = 5, .coding = free}},
-        {"both_free", kSky, {.clusters = 4, .coding = free, .guides = GuideChoice::normal_and_position}},
+        {"both_free",
+         kSky,
+         {.clusters = 4, .coding = free, .predictors = PredictorChoice::normal_and_position}},
         {"both_floats",
          kLamps,
-         {.clusters = 4, .coding = floats, .guides = GuideChoice::normal_and_position}},
-        {"position_plain", kSky, {.clusters = 4, .coding = fixed, .guides = GuideChoice::none}, true},
+         {.clusters = 4, .coding = floats, .predictors = PredictorChoice::normal_and_position}},
+        {"position_plain", kSky, {.clusters = 4, .coding = fixed, .predictors = PredictorChoice::none}, true},
         {"both_hard",
          kLamps,
-         {.clusters = 4, .coding = free, .guides = GuideChoice::normal_and_position},
+         {.clusters = 4, .coding = free, .predictors = PredictorChoice::normal_and_position},
          false,
          hard_scene(),
          true},

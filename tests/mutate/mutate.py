@@ -57,8 +57,8 @@ RAW_TEXELS = SCENE[:1] + SCENE[3:4] + PASS_ON + [COMPRESS, COMPRESS + ["--preset
 TEXELS = SCENE[:1] + SCENE[3:4] + PASS_ON + [["evaluate", "{baked}", "{file}"], ["shader", "{file}", "-o", "out.comp"],
                                   ["shader", "{file}", "-o", "out.frag", "--fragment"]] + SCENE[1:2]
 SHIPMENTS = [["--meshopt"], ["--preset", "custom", "--weights", "float", "--clusters", "2", "--components", "3"], ["--preset", "u64", "--reorder"],
-             ["--preset", "u32x4", "--guides", "position"],
-             ["--preset", "custom", "--weights", "float", "--clusters", "2", "--components", "3", "--guides", "position"]]
+             ["--preset", "u32x4", "--predictors", "position"],
+             ["--preset", "custom", "--weights", "float", "--clusters", "2", "--components", "3", "--predictors", "position"]]
 
 
 class Bases:

@@ -26,15 +26,16 @@ void attach_vectors(GLuint vertex_array, GLuint location, const GlObject& buffer
 }
 
 /// Attaches the attributes of predictors to a mesh, from the coordinates of all receivers.
-std::vector<GlObject> attach_guides(GLuint vertex_array, const ClusteredTransfer& transfer) {
+std::vector<GlObject> attach_predictors(GLuint vertex_array, const ClusteredTransfer& transfer) {
     std::vector<GlObject> buffers;
     const ClusteredBases& bases = transfer.bases;
-    for (std::size_t g = 0; g < bases.guides.size(); ++g) {
+    for (std::size_t g = 0; g < bases.predictors.size(); ++g) {
         std::vector<glm::vec3> vectors;
         for (std::size_t p = 0; p < transfer.receivers.size(); ++p)
-            vectors.push_back(glm::make_vec3(&transfer.receivers.guides[p * bases.guide_rows() + 3 * g]) +
-                              bases.guides[g].origin);
-        const bool normal = bases.guides[g].kind == GuideKind::normal;
+            vectors.push_back(
+                glm::make_vec3(&transfer.receivers.predictors[p * bases.predictor_rows() + 3 * g]) +
+                bases.predictors[g].origin);
+        const bool normal = bases.predictors[g].kind == PredictorKind::normal;
         attach_vectors(vertex_array, normal ? PRT_LOCATION_NORMAL : PRT_LOCATION_POSITION,
                        buffers.emplace_back(make_buffer(std::span<const glm::vec3>(vectors))));
     }
@@ -100,7 +101,7 @@ std::vector<glm::vec3> exit_radiance_gl(const ClusteredTransfer& transfer, const
     const GlObject program = make_program("scene.vert", "scene.frag", on_gpu.defines(), "radiance");
     const GlObject vertex_array = make_vertex_array();
     on_gpu.attach(vertex_array.name(), 0);
-    const std::vector<GlObject> guides = attach_guides(vertex_array.name(), transfer);
+    const std::vector<GlObject> predictors = attach_predictors(vertex_array.name(), transfer);
     std::vector<glm::vec3> radiance(transfer.receivers.size());
     const GlObject output = make_buffer(std::span<const glm::vec3>(radiance));
     // Nothing is drawn, but without a window there is no framebuffer unless the test creates one.

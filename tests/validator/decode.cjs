@@ -138,8 +138,8 @@ function codedRows(glb, code, rows) {
 /// Returns for each cluster its mean, the rows of its predictors and its directions.
 function clusterRows(glb, extension) {
   const dimension = dimensionOf(extension);
-  const guided = 3 * (extension.guides ?? []).length;
-  const count = extension.components.reduce((sum, m) => sum + 1 + guided + m, 0);
+  const predicted = 3 * (extension.predictors ?? []).length;
+  const count = extension.components.reduce((sum, m) => sum + 1 + predicted + m, 0);
   let rows;
   if ("values" in extension.bases) {
     const { origin, scales, step, axes, values, units } = extension.bases;
@@ -147,8 +147,8 @@ function clusterRows(glb, extension) {
     const start = glb.floats(origin);
     const scale = glb.floats(scales);
     const axis = codedRows(glb, axes, scale.length);
-    const isMean = extension.components.flatMap((m) => [true, ...Array(guided + m).fill(false)]);
-    const factor = extension.components.flatMap((m) => [...Array(1 + guided).fill(1), ...Array(m).fill(2)]);
+    const isMean = extension.components.flatMap((m) => [true, ...Array(predicted + m).fill(false)]);
+    const factor = extension.components.flatMap((m) => [...Array(1 + predicted).fill(1), ...Array(m).fill(2)]);
     rows = codedRows(glb, values, count).map((value, r) => {
       const row = isMean[r] ? [...start] : Array(dimension).fill(0);
       value.forEach((v, i) => {
@@ -161,16 +161,16 @@ function clusterRows(glb, extension) {
     rows = Array.from({ length: count }, (_, r) => floats.slice(r * dimension, (r + 1) * dimension));
   }
   let next = 0;
-  return extension.components.map((m) => rows.slice(next, (next += 1 + guided + m)));
+  return extension.components.map((m) => rows.slice(next, (next += 1 + predicted + m)));
 }
 
 /// Returns the coordinates of every vertex of a primitive in the predictors. The scene's nodes must not
 /// transform their meshes.
-function guideCoordinates(glb, extension, primitive) {
-  const guides = extension.guides ?? [];
+function predictorCoordinates(glb, extension, primitive) {
+  const predictors = extension.predictors ?? [];
   const normals = glb.accessor(primitive.attributes.NORMAL);
   return glb.accessor(primitive.attributes.POSITION).map((position, p) =>
-    guides.flatMap(({ kind, origin }) => {
+    predictors.flatMap(({ kind, origin }) => {
       if (kind === "position") return position.map((value, i) => value - origin[i]);
       const length = Math.hypot(...normals[p]);
       return normals[p].map((value) => (length > 0 ? value / length : 0));
@@ -231,12 +231,12 @@ function combined(rows, weights) {
 function decodedVectors(glb, primitive) {
   const extension = glb.json.extensions.PRTKIT_clustered_pca;
   const rows = clusterRows(glb, extension);
-  const coordinates = guideCoordinates(glb, extension, primitive);
-  const scales = (extension.guides ?? []).flatMap(({ scale }) => scale);
+  const coordinates = predictorCoordinates(glb, extension, primitive);
+  const scales = (extension.predictors ?? []).flatMap(({ scale }) => scale);
   const centers = extension.centers ? codedRows(glb, extension.centers, rows.length) : rows.map(() => []);
   return vertexCodes(glb, extension, primitive).map(({ cluster, weights }, p) => {
-    const guided = scales.map((scale, i) => scale * coordinates[p][i] - centers[cluster][i]);
-    return combined(rows[cluster], [...guided, ...weights]);
+    const predicted = scales.map((scale, i) => scale * coordinates[p][i] - centers[cluster][i]);
+    return combined(rows[cluster], [...predicted, ...weights]);
   });
 }
 

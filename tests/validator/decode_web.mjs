@@ -21,7 +21,7 @@ function open(path) {
 const baked = open(process.argv[2]);
 const shipped = open(process.argv[3]);
 const clusters = decodeClusters(shipped.json.extensions.PRTKIT_clustered_pca, shipped.view);
-const { order, parts, guides, firstRows, components, widths, clusterBits } = clusters;
+const { order, parts, predictors, firstRows, components, widths, clusterBits } = clusters;
 const sky = Array.from({ length: 3 * order * order }, (_, i) => Math.cos(i + 1));
 const columns = lightColumns(clusters, sky);
 const constants = updateConstants(clusters, shaderRows(clusters), columns, new Float32Array(4 * clusters.rowCount));
@@ -46,7 +46,7 @@ for (let v = 0; v < count; ++v) {
     return value;
   };
   const cluster = take(clusterBits);
-  const known = guides.flatMap(({ kind, origin }) =>
+  const known = predictors.flatMap(({ kind, origin }) =>
     [0, 1, 2].map((i) => (kind === "normal" ? normals[3 * v + i] : positions[3 * v + i] - origin[i])),
   );
   const factors = [1, ...known, ...Array.from({ length: components[cluster] }, (_, j) => take(widths[cluster][j]))];

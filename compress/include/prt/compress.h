@@ -62,7 +62,7 @@ WeightCoding preset_u64x9();
 
 /// Predictors (prt/clustered_bases.h), selected by the attributes that the renderer has. Each predictor costs
 /// three multiply-adds in the vertex shader, and three rows per cluster.
-enum class GuideChoice { none, normal, normal_and_position };
+enum class PredictorChoice { none, normal, normal_and_position };
 
 struct CompressOptions {
     int clusters = 256;
@@ -70,7 +70,7 @@ struct CompressOptions {
     /// Maximum mean number of components per receiver, if clusters may differ: the cost in the vertex shader
     /// in addition to predictors. 0: no limit.
     double mean_components = 0;
-    GuideChoice guides = GuideChoice::normal;
+    PredictorChoice predictors = PredictorChoice::normal;
     /// Squared error that rounding the bases may add, as a fraction of the existing error; 0: bases are
     /// float32. Without a value: 0.1. Ignored for float weights, whose bases are float32.
     std::optional<double> basis_share = {};
@@ -100,7 +100,7 @@ struct CompressStatistics {
     double sky_contrast = 0;
     int clusters = 0;           ///< number of clusters with receivers; empty ones are removed
     double mean_components = 0; ///< mean over all receivers
-    int guide_rows = 0;         ///< per cluster
+    int predictor_rows = 0;     ///< per cluster
     double seconds = 0;
     std::size_t bytes_per_receiver = 0; ///< size bound by a game: cluster and weights
     std::size_t bits_per_receiver = 0;  ///< number of used bits
@@ -109,7 +109,7 @@ struct CompressStatistics {
     /// The error that budgets limit.
     double error() const { return std::max({lit_rms, lamp_contrast, sky_contrast}); }
     /// Mean number of terms that the vertex shader adds to the cluster mean.
-    double operations() const { return mean_components + guide_rows; }
+    double operations() const { return mean_components + predictor_rows; }
     double bytes_with_bases(std::size_t receivers) const {
         return static_cast<double>(bytes_per_receiver) +
                static_cast<double>(basis_bytes) / static_cast<double>(receivers);

@@ -49,7 +49,7 @@ struct SearchOptions {
                                    ///< threads, format
     bool choose_clusters = true;   ///< false: uses compress.clusters
     bool choose_components = true; ///< false: compress.coding.components is the maximum, packed or not
-    bool choose_guides = true;     ///< false: uses compress.guides
+    bool choose_predictors = true; ///< false: uses compress.predictors
     /// 32-bit words per receiver, or groups of four unpacked weights; 0: the search chooses.
     int payload = 0;
     Budget budget;

@@ -40,11 +40,12 @@ glm::vec3 position_of(const prt::Scene& scene, std::uint32_t receiver) {
 std::vector<float> decoded(const prt::ClusteredTransfer& transfer, std::size_t receiver,
                            const std::vector<float>& weights) {
     const prt::ClusteredBases& bases = transfer.bases;
-    const std::size_t cluster = transfer.receivers.clusters[receiver], guides = bases.guide_rows();
+    const std::size_t cluster = transfer.receivers.clusters[receiver], predictors = bases.predictor_rows();
     std::vector<float> factors;
-    for (std::size_t g = 0; g < guides; ++g)
-        factors.push_back(bases.guide_scale(g) * transfer.receivers.guides[receiver * guides + g] -
-                          static_cast<float>(bases.centers[cluster * guides + g]));
+    for (std::size_t g = 0; g < predictors; ++g)
+        factors.push_back(bases.predictor_scale(g) *
+                              transfer.receivers.predictors[receiver * predictors + g] -
+                          static_cast<float>(bases.centers[cluster * predictors + g]));
     factors.insert(factors.end(), weights.begin(), weights.end());
     const float* row = &bases.rows[bases.first_rows()[cluster] * bases.dimension()];
     std::vector<float> vector(row, row + bases.dimension());

@@ -37,7 +37,7 @@ prt::CompressResult compressed_as(const CompressionSettings& how, const LoadedMo
     const prt::Transfer transfer = truncated(*loaded.raw, how.order);
     prt::CompressOptions options{.coding = prt::preset_u32x4()};
     if (loaded.of_texels()) // texels have no normals
-        options.guides = prt::GuideChoice::none;
+        options.predictors = prt::PredictorChoice::none;
     const prt::SceneSurface owner = surface_of(loaded);
     const prt::ReceiverSurface surface = owner.view();
     if (how.clusters == options.clusters && how.components == options.coding.components)

@@ -28,10 +28,10 @@ function* clustersOfVertices({ attributes: { position, prt_words_0: words, prt_c
 }
 
 /** Returns the defines for predictors in the shader of instances, which subtracts their origin itself. */
-function originOf(guides) {
-  const { origin } = guides.find(({ kind }) => kind === "position") ?? {};
+function originOf(predictors) {
+  const { origin } = predictors.find(({ kind }) => kind === "position") ?? {};
   const number = (value) => (Number.isInteger(value) ? value.toFixed(1) : String(value));
-  return origin ? { PRT_GUIDE_ORIGIN: `vec3(${origin.map((value) => number(Math.fround(value))).join(", ")})` } : {};
+  return origin ? { PRT_PREDICTOR_ORIGIN: `vec3(${origin.map((value) => number(Math.fround(value))).join(", ")})` } : {};
 }
 
 /** Groups the nodes that draw a mesh together: static nodes in one group, and each animated node separately. */
@@ -132,7 +132,7 @@ export class PrtkitInstances {
     const clustersTexture = clustersTextureOf({ ...clusters, firstRows: rows.begins }, this.width);
     this.clustersTextures.push(clustersTexture);
     const uniforms = { prt_constants: { value: this.constantsTexture }, prt_clusters: { value: clustersTexture } };
-    const own = { ...tablesOf(this.width), PRT_INSTANCES: 1, ...originOf(clusters.guides) };
+    const own = { ...tablesOf(this.width), PRT_INSTANCES: 1, ...originOf(clusters.predictors) };
     const table = this.relighter.table(first, instances.length).map((array) => new InstancedBufferAttribute(array, 4));
     let matrices = null; // shared by all primitives
     for (const { mesh, primitive } of primitives) {
@@ -151,7 +151,7 @@ export class PrtkitInstances {
       parser.associations.set(instanced, { meshes: number, primitives: primitive });
       this.meshes.push(instanced);
       if (!defines) continue;
-      const frame = bakedFrame(instanced, atOrigin(clusters.guides), IN_PLACE);
+      const frame = bakedFrame(instanced, atOrigin(clusters.predictors), IN_PLACE);
       this.transfers.set(instanced, { uniforms, defines: { ...defines, ...frame.defines, ...own } });
     }
   }
@@ -185,6 +185,6 @@ export class PrtkitInstances {
 }
 
 /** Returns predictors whose positions are relative to the origin of the mesh. */
-function atOrigin(guides) {
-  return guides.map((guide) => (guide.kind === "position" ? { ...guide, origin: [0, 0, 0] } : guide));
+function atOrigin(predictors) {
+  return predictors.map((predictor) => (predictor.kind === "position" ? { ...predictor, origin: [0, 0, 0] } : predictor));
 }

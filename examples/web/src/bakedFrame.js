@@ -104,7 +104,7 @@ function checkPlaces(mesh, toBake, { scale }) {
   const place = new Vector3();
   for (let v = 0; v < places.count; ++v) {
     const scaled = place.fromBufferAttribute(places, v).applyMatrix4(matrix).toArray().map((x, i) => Math.abs(x * scale[i]));
-    expect(scaled.every((x) => x <= LARGEST_WEIGHT), `vertex ${v} is farther from the origin of a guide than its scale allows`);
+    expect(scaled.every((x) => x <= LARGEST_WEIGHT), `vertex ${v} is farther from the origin of a predictor than its scale allows`);
   }
 }
 
@@ -116,20 +116,20 @@ function isFar({ geometry }, toBake) {
 }
 
 /**
- * Returns the shader inputs of `mesh` for `guides`: { defines, uniforms }. The world matrices of its scene
+ * Returns the shader inputs of `mesh` for `predictors`: { defines, uniforms }. The world matrices of its scene
  * must be those of the file. Skinned and morphed meshes, meshes without normals and small ones far from their
  * origin get separate attributes, in the pose of the file. `world`: transform from the mesh to the space of
  * the bake.
  */
-export function bakedFrame(mesh, guides, world = mesh.matrixWorld) {
-  if (guides.length === 0) return { defines: {}, uniforms: {} };
-  const hasNormals = guides[0].kind === "normal";
-  const position = guides.find(({ kind }) => kind === "position");
+export function bakedFrame(mesh, predictors, world = mesh.matrixWorld) {
+  if (predictors.length === 0) return { defines: {}, uniforms: {} };
+  const hasNormals = predictors[0].kind === "normal";
+  const position = predictors.find(({ kind }) => kind === "position");
   const origin = new Vector3(...(position?.origin ?? [0, 0, 0]));
   const defines = {};
-  if (hasNormals) defines.PRT_GUIDE_NORMAL = 1;
+  if (hasNormals) defines.PRT_PREDICTOR_NORMAL = 1;
   // The matrix, or the attribute, has taken it off already, in doubles.
-  if (position) Object.assign(defines, { PRT_GUIDE_POSITION: 1, PRT_GUIDE_ORIGIN: "vec3(0.0)" });
+  if (position) Object.assign(defines, { PRT_PREDICTOR_POSITION: 1, PRT_PREDICTOR_ORIGIN: "vec3(0.0)" });
   const toBake = new Matrix4().makeTranslation(origin.clone().negate()).multiply(world);
   const moves = mesh.isSkinnedMesh || mesh.morphTargetInfluences?.some((influence) => influence !== 0);
   if (moves || (hasNormals && lacksNormals(mesh.geometry)) || (position && isFar(mesh, toBake))) {

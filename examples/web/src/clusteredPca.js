@@ -58,18 +58,18 @@ export function decodeClusters(extension, view) {
  * `outputs`.
  */
 export function clustersOf(extension, view, outputs = 1) {
-  const { order, parts, components, guides = [], bases, packing } = extension;
-  const guideRows = 3 * guides.length;
+  const { order, parts, components, predictors = [], bases, packing } = extension;
+  const predictorRows = 3 * predictors.length;
   let centers = new Int16Array(0);
-  if (guideRows > 0) centers = codedRows(view(extension.centers.bufferView), extension.centers.drops, components.length);
+  if (predictorRows > 0) centers = codedRows(view(extension.centers.bufferView), extension.centers.drops, components.length);
   const dimension = dimensionOf({ order, parts, outputs });
   const firstRows = [];
   let rowCount = 0;
   for (const m of components) {
     firstRows.push(rowCount);
-    rowCount += 1 + guideRows + m;
+    rowCount += 1 + predictorRows + m;
   }
-  const clusters = { order, parts, outputs, components, guides, centers, firstRows, rowCount };
+  const clusters = { order, parts, outputs, components, predictors, centers, firstRows, rowCount };
   const rows = bases.values
     ? decodedRows(clusters, bases, view)
     : floats(view(bases.bufferView), rowCount * dimension, LARGEST_TRANSFER, "the bases");
@@ -106,7 +106,7 @@ function stepsOf({ step, steps }, clusterCount, axisCount, view) {
 }
 
 /** Returns the rows of coded bases. */
-function decodedRows({ order, parts, outputs, components, guides, firstRows, rowCount }, bases, view) {
+function decodedRows({ order, parts, outputs, components, predictors, firstRows, rowCount }, bases, view) {
   const dimension = dimensionOf({ order, parts, outputs });
   const axisCount = bases.values.drops.length;
   expect(bases.axes.drops.length === dimension, "the sizes of the coded bases do not fit together");
@@ -122,7 +122,7 @@ function decodedRows({ order, parts, outputs, components, guides, firstRows, row
   const rows = new Float32Array(rowCount * dimension);
   const row = new Float64Array(dimension);
   components.forEach((m, k) => {
-    const firstDirection = firstRows[k] + 1 + 3 * guides.length;
+    const firstDirection = firstRows[k] + 1 + 3 * predictors.length;
     for (let r = firstRows[k]; r < firstDirection + m; ++r) {
       const isMean = r === firstRows[k];
       for (let a = 0; a < dimension; ++a) row[a] = isMean ? origin[a] : 0;
@@ -146,8 +146,8 @@ function decodedRows({ order, parts, outputs, components, guides, firstRows, row
  * directions, and their sum is subtracted from the mean, so that the shader multiplies the integers q.
  */
 export function shaderRows(clusters) {
-  const { guides, centers, widths, components, firstRows, rows } = clusters;
-  const scales = guides.flatMap(({ scale }) => scale);
+  const { predictors, centers, widths, components, firstRows, rows } = clusters;
+  const scales = predictors.flatMap(({ scale }) => scale);
   if (!widths && scales.length === 0) return rows;
   const dimension = dimensionOf(clusters);
   const result = new Float32Array(rows);

@@ -36,24 +36,24 @@ function bitsOf(words) {
   };
 }
 
-const NO_GUIDES = { rows: 0, of: null };
+const NO_PREDICTORS = { rows: 0, of: null };
 
 /**
- * Returns the radiance of the packed `words()`. `guides`: { rows, of }: number of rows per cluster, and a
+ * Returns the radiance of the packed `words()`. `predictors`: { rows, of }: number of rows per cluster, and a
  * function that returns their contribution to the mean, given the cluster's first row.
  */
-export function radianceOfWords({ constantsTexture, clustersTexture }, words, clusterBits, guides = NO_GUIDES) {
+export function radianceOfWords({ constantsTexture, clustersTexture }, words, clusterBits, predictors = NO_PREDICTORS) {
   return Fn(() => {
     const bits = bitsOf(words());
     const cluster = entry(clustersTexture, bits(uint(0), uint(clusterBits))).toVar();
     const first = cluster.x;
     const radiance = vec3(entry(constantsTexture, first).rgb).toVar();
-    if (guides.of) radiance.addAssign(guides.of(first));
+    if (predictors.of) radiance.addAssign(predictors.of(first));
     const at = uint(clusterBits).toVar();
     Loop({ start: uint(0), end: cluster.y, type: "uint", condition: "<" }, ({ i }) => {
       const widths = i.lessThan(uint(8)).select(cluster.z, cluster.w);
       const width = widths.shiftRight(i.bitAnd(uint(7)).mul(uint(4))).bitAnd(uint(15)).add(uint(1)).toVar();
-      const row = first.add(uint(1 + guides.rows)).add(i);
+      const row = first.add(uint(1 + predictors.rows)).add(i);
       radiance.addAssign(entry(constantsTexture, row).rgb.mul(float(bits(at, width))));
       at.addAssign(width);
     });
@@ -62,16 +62,16 @@ export function radianceOfWords({ constantsTexture, clustersTexture }, words, cl
 }
 
 /** Returns the radiance for weights in vectors of four and a separate cluster. */
-function radianceOfWeights({ constantsTexture, clustersTexture }, vectors, guides) {
+function radianceOfWeights({ constantsTexture, clustersTexture }, vectors, predictors) {
   return Fn(() => {
     const cluster = entry(clustersTexture, attribute("prt_cluster", "uint")).toVar();
     const first = cluster.x;
     const radiance = vec3(entry(constantsTexture, first).rgb).toVar();
-    if (guides.of) radiance.addAssign(guides.of(first));
+    if (predictors.of) radiance.addAssign(predictors.of(first));
     for (let j = 0; j < 4 * vectors; ++j)
       If(uint(j).lessThan(cluster.y), () => {
         const weight = attribute(`prt_weights_${j >> 2}`, "vec4")["xyzw"[j & 3]];
-        radiance.addAssign(entry(constantsTexture, first.add(uint(1 + guides.rows + j))).rgb.mul(weight));
+        radiance.addAssign(entry(constantsTexture, first.add(uint(1 + predictors.rows + j))).rgb.mul(weight));
       });
     return radiance;
   })();
@@ -89,10 +89,10 @@ function bakedFrameOf(defines) {
   return { place: toBake.mul(positionGeometry).xyz, normal: turned.mul(turned.dot(turned).max(1e-30).inverseSqrt()) };
 }
 
-function guidesOf({ constantsTexture }, defines) {
+function predictorsOf({ constantsTexture }, defines) {
   const { place, normal } = bakedFrameOf(defines);
-  const vectors = [...(defines.PRT_GUIDE_NORMAL ? [normal] : []), ...(defines.PRT_GUIDE_POSITION ? [place] : [])];
-  if (vectors.length === 0) return NO_GUIDES;
+  const vectors = [...(defines.PRT_PREDICTOR_NORMAL ? [normal] : []), ...(defines.PRT_PREDICTOR_POSITION ? [place] : [])];
+  if (vectors.length === 0) return NO_PREDICTORS;
   const coordinates = vectors.flatMap((vector) => [vector.x, vector.y, vector.z]);
   const of = (first) =>
     coordinates
@@ -115,12 +115,12 @@ function wordsOfVertex(count) {
 
 /** Radiance of the vertices of a geometry with these `defines`, interpolated. */
 export function radianceOfVertices(model, defines) {
-  const guides = guidesOf(model, defines);
+  const predictors = predictorsOf(model, defines);
   const packed = defines.PRT_PACKED_WORDS;
   return varying(
     packed
-      ? radianceOfWords(model, () => wordsOfVertex(packed), defines.PRT_CLUSTER_BITS, guides)
-      : radianceOfWeights(model, defines.PRT_WEIGHT_VECTORS, guides),
+      ? radianceOfWords(model, () => wordsOfVertex(packed), defines.PRT_CLUSTER_BITS, predictors)
+      : radianceOfWeights(model, defines.PRT_WEIGHT_VECTORS, predictors),
     "prtRadiance",
   );
 }

@@ -53,7 +53,7 @@ vec3 prtBakedPlace() {
 vec3 prtBakedNormal() {
   return dot(normal, normal) > 0.0 ? normalize(normal) : vec3(0.0);
 }
-#elif !defined(PRT_GUIDE_NORMAL) && !defined(PRT_GUIDE_POSITION)
+#elif !defined(PRT_PREDICTOR_NORMAL) && !defined(PRT_PREDICTOR_POSITION)
 vec3 prtBakedPlace() {
   return vec3(0.0);
 }

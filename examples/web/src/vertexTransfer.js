@@ -32,7 +32,7 @@ export async function transferOfVertices(extension, views, root) {
     if (own) return own;
     const { geometry } = mesh;
     if (!definesOf(geometry)) return null;
-    const frame = bakedFrame(mesh, model.clusters.guides);
+    const frame = bakedFrame(mesh, model.clusters.predictors);
     return { uniforms: frame.uniforms, defines: { ...definesOf(geometry), ...frame.defines } };
   };
   return { model, of, definesOf };

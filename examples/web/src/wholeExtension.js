@@ -61,12 +61,12 @@ const KINDS = ["normal", "position"];
 const areThree = (v) => Array.isArray(v) && v.length === 3 && v.every((x) => Math.abs(x) <= LARGEST_WEIGHT && typeof x === "number");
 
 /** True if predictors contain each kind at most once, normals first. */
-function areGuides(guides) {
-  if (!Array.isArray(guides)) return false;
-  const kinds = guides.map((guide) => KINDS.indexOf(guide?.kind));
+function arePredictors(predictors) {
+  if (!Array.isArray(predictors)) return false;
+  const kinds = predictors.map((predictor) => KINDS.indexOf(predictor?.kind));
   return (
     kinds.every((kind, i) => kind >= 0 && (i === 0 || kind > kinds[i - 1])) &&
-    guides.every(
+    predictors.every(
       ({ kind, scale, origin }) =>
         areThree(scale) && scale.every((s) => Math.fround(s) !== 0) && (kind === "normal" || areThree(origin)),
     )
@@ -120,14 +120,14 @@ export function checkExtension(extension) {
 
 /** Validates the common members of vertices and texels. */
 function checkClusters(extension) {
-  const { order, parts, components, guides, centers } = extension;
+  const { order, parts, components, predictors, centers } = extension;
   expect(isWhole(order, 1, 10) && areParts(parts), "order or parts are wrong");
   expect(parts.every(({ towards }) => towards === undefined), 'a sun is among the lamps of the parts ("towards"), as older versions wrote it; bake the scene again');
   expect(Array.isArray(components) && isWhole(components.length, 1, 65536), "the components are no list of 1 to 65536");
   expect(components.every((m) => isWhole(m, 0, 600)), "the components of a cluster are wrong");
-  if (guides !== undefined) {
-    expect(areGuides(guides) && guides.length > 0, "the guides are wrong");
-    expect(areRows(centers) && centers.drops.length === 3 * guides.length, "the centers are not those of the guides");
+  if (predictors !== undefined) {
+    expect(arePredictors(predictors) && predictors.length > 0, "the predictors are wrong");
+    expect(areRows(centers) && centers.drops.length === 3 * predictors.length, "the centers are not those of the predictors");
   }
   checkBases(extension.bases);
   checkPacking(extension);
@@ -146,11 +146,11 @@ const isMap = (map) =>
 export function checkLightmap(extension, images) {
   const holds = (value, what) => expect(value, what, TEXELS);
   holds(isObject(extension), "the extension is no object");
-  const { version, raw, guides, packing, maps } = extension;
+  const { version, raw, predictors, packing, maps } = extension;
   holds(version === 1, `version ${version} is not known, only 1; compress the model again`);
   holds(raw === undefined, AS_BAKED);
   inNameOf(TEXELS, () => checkClusters(extension));
-  holds(guides === undefined, "texels have no guides");
+  holds(predictors === undefined, "texels have no predictors");
   holds(packing !== undefined, "the weights of texels are not packed");
   holds(Array.isArray(maps) && maps.length > 0 && maps.every(isMap), "the maps are wrong");
   holds(isWhole(maps[0].images.length, 1, 8), "a texel has no words, or more than 8");
@@ -167,14 +167,14 @@ const areNumbers = (v) => Array.isArray(v) && v.length === 3 && v.every((x) => N
 export function checkVolume(extension) {
   const holds = (value, what) => expect(value, what, PROBES);
   holds(isObject(extension), "the extension is no object");
-  const { version, raw, guides, packing, incidentOrder, origin, spacing, size, bricks, sights, words } = extension;
+  const { version, raw, predictors, packing, incidentOrder, origin, spacing, size, bricks, sights, words } = extension;
   holds(version === 1, `version ${version} is not known, only 1; compress the model again`);
   holds(raw === undefined, AS_BAKED);
   holds(isWhole(incidentOrder, 2, 4), "the order of incident light is not 2 to 4");
   holds(areNumbers(origin) && spacing > 0 && spacing < 1e18, "the spacing or the origin is no usable number");
   holds(Array.isArray(size) && size.length === 3 && size.every((n) => isWhole(n, 1, 1024)), "the size is not 1 to 1024 bricks along each axis");
   inNameOf(PROBES, () => checkClusters(extension));
-  holds(guides === undefined, "probes have no guides");
+  holds(predictors === undefined, "probes have no predictors");
   holds(packing !== undefined, "the weights of probes are not packed");
   holds([bricks, sights, words].every(isView), "bricks, sights or words are not there");
 }
@@ -226,9 +226,9 @@ export function checkLobes(extension) {
 }
 
 /** Returns the buffer views of a validated extension. */
-export function viewsOf({ packing, centers, guides, bases, bricks, sights, words }) {
+export function viewsOf({ packing, centers, predictors, bases, bricks, sights, words }) {
   const { origin, units, scales, steps, axes, values } = bases;
   const coded = values ? [origin, units, scales, steps, axes, values] : [bases];
-  const used = [packing, guides && centers, ...coded, bricks, sights, words];
+  const used = [packing, predictors && centers, ...coded, bricks, sights, words];
   return used.filter((part) => part !== undefined).map(({ bufferView }) => bufferView);
 }

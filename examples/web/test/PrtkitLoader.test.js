@@ -250,9 +250,9 @@ test("two models have each its own light", async () => {
   assert.ok(Math.abs(models[1] / models[0] - 3) < 1e-6);
 });
 
-test("guides are given the frame of the bake, by each mesh's node", async () => {
-  const guides = [{ kind: "normal", scale: [1, 2, 3] }, { kind: "position", origin: [1, 2, 3], scale: [1, 1, 1] }];
-  const extension = { ...packed, guides, centers: { bufferView: 2, drops: [0, 0, 0, 0, 0, 0] } };
+test("predictors are given the frame of the bake, by each mesh's node", async () => {
+  const predictors = [{ kind: "normal", scale: [1, 2, 3] }, { kind: "position", origin: [1, 2, 3], scale: [1, 1, 1] }];
+  const extension = { ...packed, predictors, centers: { bufferView: 2, drops: [0, 0, 0, 0, 0, 0] } };
   const { gltf, parser, mesh } = scene({ _prt_weights_0: new BufferAttribute(new Uint8Array(8), 4) }, extension);
   mesh.geometry.setAttribute("normal", new BufferAttribute(new Float32Array([0, 0, 1, 0, 1, 0]), 3));
   mesh.geometry.getAttribute("position").setXYZ(1, 1, 1, 1);
@@ -260,8 +260,8 @@ test("guides are given the frame of the bake, by each mesh's node", async () => 
   const views = [bytesOf(2, 1, 1, 1, 1, 1, 1, 0.5), new Uint8Array([7]).buffer, new Uint8Array(5).buffer];
   parser.getDependency = async (kind, i) => views[i];
   await new PrtkitPlugin(parser).afterRoot(gltf);
-  assert.equal(mesh.material.defines.PRT_GUIDE_NORMAL, 1);
-  assert.equal(mesh.material.defines.PRT_GUIDE_POSITION, 1);
+  assert.equal(mesh.material.defines.PRT_PREDICTOR_NORMAL, 1);
+  assert.equal(mesh.material.defines.PRT_PREDICTOR_POSITION, 1);
   const { uniforms } = compiled(mesh.material);
   assert.deepEqual(uniforms.prtToBake.value.elements.slice(12, 15), [4, 4, 4]);
   assert.deepEqual(uniforms.prtNormalToBake.value.elements, [1, 0, 0, 0, 1, 0, 0, 0, 1]);

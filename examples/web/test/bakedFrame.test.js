@@ -5,7 +5,7 @@ import { Bone, BufferAttribute, BufferGeometry, Group, Matrix4, Mesh, Quaternion
 import { bakedFrame } from "../src/bakedFrame.js";
 
 const ORIGIN = [1, -2, 3];
-const GUIDES = [{ kind: "normal", scale: [1, 1, 1] }, { kind: "position", origin: ORIGIN, scale: [1, 1, 1] }];
+const PREDICTORS = [{ kind: "normal", scale: [1, 1, 1] }, { kind: "position", origin: ORIGIN, scale: [1, 1, 1] }];
 
 const POSITIONS = [[0, 0, 0], [1, 0, 0], [0, 1, 0.5]];
 const NORMALS = [[0, 0, 1], [0.6, 0, 0.8], [0, 0.8, -0.6]];
@@ -40,7 +40,7 @@ function placed(mesh, matrix) {
 
 const turn = new Quaternion().setFromAxisAngle(new Vector3(0.6, 0.8, 0), 1.2);
 
-test("without guides the shader is given nothing", () => {
+test("without predictors the shader is given nothing", () => {
   assert.deepEqual(bakedFrame(new Mesh(geometryOf()), []), { defines: {}, uniforms: {} });
 });
 
@@ -48,7 +48,7 @@ test("places and normals are those of the file's world, also of nodes that mirro
   for (const scale of [[1, 1, 1], [2, 3, 0.5], [-1, 1, 1], [1e-6, 2e-6, 1e-6]]) {
     const matrix = new Matrix4().compose(new Vector3(5, 6, 7), turn, new Vector3(...scale));
     const mesh = placed(new Mesh(geometryOf()), matrix);
-    const frame = bakedFrame(mesh, GUIDES);
+    const frame = bakedFrame(mesh, PREDICTORS);
     // The squares stay within the range of floats, even for a very small node.
     assert.ok(Math.abs(Math.max(...frame.uniforms.prtNormalToBake.value.elements.map(Math.abs)) - 1) < 1e-12);
     for (let v = 0; v < 3; ++v) {
@@ -68,30 +68,30 @@ test("places and normals are those of the file's world, also of nodes that mirro
 
 test("what the program does with the model later changes nothing", () => {
   const mesh = placed(new Mesh(geometryOf()), new Matrix4().makeTranslation(1, 0, 0));
-  const frame = bakedFrame(mesh, GUIDES);
+  const frame = bakedFrame(mesh, PREDICTORS);
   const [before] = inShader(mesh, frame, 1);
   mesh.parent.position.set(100, 0, 0);
   mesh.parent.updateMatrixWorld(true);
   near(inShader(mesh, frame, 1)[0], before);
 });
 
-test("guides of one kind want no more than that", () => {
-  const defines = (guides) => bakedFrame(new Mesh(geometryOf()), guides).defines;
-  assert.deepEqual(defines([GUIDES[0]]), { PRT_GUIDE_NORMAL: 1 });
-  assert.deepEqual(defines([GUIDES[1]]), { PRT_GUIDE_POSITION: 1, PRT_GUIDE_ORIGIN: "vec3(0.0)" });
+test("predictors of one kind want no more than that", () => {
+  const defines = (predictors) => bakedFrame(new Mesh(geometryOf()), predictors).defines;
+  assert.deepEqual(defines([PREDICTORS[0]]), { PRT_PREDICTOR_NORMAL: 1 });
+  assert.deepEqual(defines([PREDICTORS[1]]), { PRT_PREDICTOR_POSITION: 1, PRT_PREDICTOR_ORIGIN: "vec3(0.0)" });
 });
 
 test("places far from the origin of their mesh keep their digits", () => {
   const far = new Vector3(1e6, -2e6, 5e5);
-  const guides = [{ kind: "position", origin: far.toArray(), scale: [1, 1, 1] }];
+  const predictors = [{ kind: "position", origin: far.toArray(), scale: [1, 1, 1] }];
   // The node contains the offset, and the matrix removes it.
   const byNode = placed(new Mesh(geometryOf()), new Matrix4().makeTranslation(far));
-  const frame = bakedFrame(byNode, guides);
+  const frame = bakedFrame(byNode, predictors);
   assert.ok(!frame.defines.PRT_BAKED_ATTRIBUTES);
   near(inShader(byNode, frame, 2)[0], new Vector3(...POSITIONS[2]));
   // By the attributes: a matrix of floats could not.
   const byAttributes = placed(new Mesh(geometryOf(POSITIONS.map((p) => p.map((x, i) => x + far.getComponent(i))))), new Matrix4());
-  const other = bakedFrame(byAttributes, guides);
+  const other = bakedFrame(byAttributes, predictors);
   assert.ok(other.defines.PRT_BAKED_ATTRIBUTES);
   near(inShader(byAttributes, other, 2)[0], new Vector3(...POSITIONS[2]));
 });
@@ -100,12 +100,12 @@ test("vertices without a normal take that of their triangles", () => {
   for (const mirror of [1, -1])
     for (const normals of [null, [[0, 0, 1], [0, 0, 0], [0, 0, 1]]]) {
       const mesh = placed(new Mesh(geometryOf(POSITIONS, normals)), new Matrix4().makeScale(mirror, 1, 1));
-      const frame = bakedFrame(mesh, GUIDES);
+      const frame = bakedFrame(mesh, PREDICTORS);
       near(inShader(mesh, frame, 1)[1], new Vector3(0, -0.5, 1).normalize());
       if (normals) near(inShader(mesh, frame, 0)[1], new Vector3(0, 0, 1));
     }
   const collapsed = placed(new Mesh(geometryOf([[0, 0, 0], [1, 0, 0], [2, 0, 0]], null)), new Matrix4());
-  near(inShader(collapsed, bakedFrame(collapsed, GUIDES), 1)[1], new Vector3());
+  near(inShader(collapsed, bakedFrame(collapsed, PREDICTORS), 1)[1], new Vector3());
 });
 
 test("normals that floats cannot make unit are made so before, or are the triangles'", () => {
@@ -113,7 +113,7 @@ test("normals that floats cannot make unit are made so before, or are the triang
   const huge = [0, 0, 1e30];
   for (const [third, expected] of [[tiny, [0, 1, 0]], [huge, [0, 0, 1]], [[NaN, 0, 0], null], [[0, Infinity, 0], null]]) {
     const mesh = placed(new Mesh(geometryOf(POSITIONS, [NORMALS[0], NORMALS[1], third])), new Matrix4());
-    const frame = bakedFrame(mesh, GUIDES);
+    const frame = bakedFrame(mesh, PREDICTORS);
     const triangles = new Vector3(0, -0.5, 1).normalize();
     near(inShader(mesh, frame, 2)[1], expected ? new Vector3(...expected) : triangles);
     near(inShader(mesh, frame, 1)[1], new Vector3(...NORMALS[1]));
@@ -123,7 +123,7 @@ test("normals that floats cannot make unit are made so before, or are the triang
 test("places that numbers do not hold are refused", () => {
   for (const wrong of [NaN, Infinity, 2e9]) {
     const far = [POSITIONS[0], POSITIONS[1], [0, wrong, 0]];
-    assert.throws(() => bakedFrame(placed(new Mesh(geometryOf(far)), new Matrix4()), GUIDES), /vertex 2 is farther/);
+    assert.throws(() => bakedFrame(placed(new Mesh(geometryOf(far)), new Matrix4()), PREDICTORS), /vertex 2 is farther/);
   }
 });
 
@@ -143,7 +143,7 @@ test("skinned meshes are taken in the pose of the file, morphed ones at its weig
   mesh.position.set(50, 0, 0); // does not move skinned meshes
   scene.updateMatrixWorld(true);
   mesh.bind(new Skeleton(bones, [new Matrix4(), new Matrix4()]), new Matrix4());
-  const frame = bakedFrame(mesh, GUIDES);
+  const frame = bakedFrame(mesh, PREDICTORS);
   const origin = new Vector3(...ORIGIN);
   near(inShader(mesh, frame, 0)[0], new Vector3(0, 3, 0).sub(origin));
   near(inShader(mesh, frame, 1)[0], new Vector3(-2, 1, 0).sub(origin)); // (1, 2, 0) rotated

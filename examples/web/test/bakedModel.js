@@ -26,11 +26,11 @@ function random(seed) {
  * Returns bases without predictors, or with predictors from the normal: bright means, and directions of about
  * a fifth of the mean.
  */
-function bases(guides) {
+function bases(predictors) {
   const next = random(7);
   const row = (most, mean) =>
     Array.from({ length: SIZE }, (_, a) => (mean && [0, 4, 8, 12].includes(a) ? 0.25 : 0) + most * (next() - 0.5));
-  return COMPONENTS.flatMap((m) => [...row(0.05, true), ...Array.from({ length: guides + m }, () => row(0.08, false)).flat()]);
+  return COMPONENTS.flatMap((m) => [...row(0.05, true), ...Array.from({ length: predictors + m }, () => row(0.08, false)).flat()]);
 }
 
 /** Returns the words at (u, v) of object `i`: its cluster, and smoothly varying weights. */
@@ -52,11 +52,11 @@ function packedWidths() {
   return Uint8Array.from({ length: Math.ceil(codes.length / 2) }, (_, i) => codes[2 * i] | ((codes[2 * i + 1] ?? 0) << 4));
 }
 
-const clusters = (binary, guides) => ({
+const clusters = (binary, predictors) => ({
   order: ORDER,
   parts: PARTS,
   components: COMPONENTS,
-  bases: { bufferView: binary.view(new Float32Array(bases(guides))), componentType: 5126 },
+  bases: { bufferView: binary.view(new Float32Array(bases(predictors))), componentType: 5126 },
   packing: { clusterBits: CLUSTER_BITS, bufferView: binary.view(packedWidths()) },
 });
 
@@ -130,7 +130,7 @@ function weightAttributes(binary, words) {
 
 const MAPPED = "texels";
 /** Predictors of vertices, for each way to store weights. */
-const GUIDES = {
+const PREDICTORS = {
   vertices: [{ kind: "normal", scale: [1, 1, 1] }],
   weights: [{ kind: "normal", scale: [1, 1, 1] }, { kind: "position", origin: [0.1, 0.2, -0.1], scale: [0.3, 0.3, 0.3] }],
 };
@@ -174,12 +174,12 @@ export function bakedModel(by, change = () => {}) {
     });
     json.extensions = { PRTKIT_lightmap: { version: 1, ...clusters(binary, 0), maps } };
   } else {
-    const guides = GUIDES[by];
-    const rows = 3 * guides.length;
+    const predictors = PREDICTORS[by];
+    const rows = 3 * predictors.length;
     const none = new Array(rows).fill(0);
     const centers = { bufferView: binary.view(encodedRows(none, COMPONENTS.map(() => [0, none]))), drops: none };
     const { packing, ...rest } = clusters(binary, rows);
-    json.extensions = { PRTKIT_clustered_pca: { version: 7, ...rest, ...(by === "weights" ? {} : { packing }), guides, centers } };
+    json.extensions = { PRTKIT_clustered_pca: { version: 7, ...rest, ...(by === "weights" ? {} : { packing }), predictors, centers } };
   }
   change(json, binary);
   return binary.file(json);

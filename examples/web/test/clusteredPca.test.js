@@ -98,12 +98,12 @@ test("coded bases are sums over axes", () => {
  * Two clusters of order 1 with predictors: a mean, six rows and one direction of two bits; a mean and six
  * rows.
  */
-const guided = {
+const predicted = {
   version: 7,
   order: 1,
   parts: [{ kind: "whole", channels: 1 }],
   components: [1, 0],
-  guides: [
+  predictors: [
     { kind: "normal", scale: [2, 4, 8] },
     { kind: "position", origin: [10, 20, 30], scale: [1, 0.5, 0.25] },
   ],
@@ -111,9 +111,9 @@ const guided = {
   bases: { bufferView: 0, componentType: 5126 },
   packing: { clusterBits: 1, bufferView: 1 },
 };
-const guidedRows = [2, 1, 10, 100, 1000, 10000, 100000, 0.5, 3, 6, 5, 4, 3, 2, 1];
-const guidedViews = [
-  bytesOf(...guidedRows),
+const predictedRows = [2, 1, 10, 100, 1000, 10000, 100000, 0.5, 3, 6, 5, 4, 3, 2, 1];
+const predictedViews = [
+  bytesOf(...predictedRows),
   bits([[1, 4]]),
   encodedRows([0, 0, 0, 1, 0, 0], [[3, [-1, 2, 0, 1, 3, -4]], [0, [0, 0, 0, 0, 0, 0]]]),
 ];
@@ -127,16 +127,16 @@ test("coded rows come back, whatever their size", () => {
   assert.equal(codedRows(new Uint8Array(0), [], 3).length, 0);
 });
 
-test("guides have rows behind the mean, and centers", () => {
-  const clusters = decodeClusters(guided, (i) => guidedViews[i]);
-  assert.deepEqual([...clusters.rows], guidedRows);
+test("predictors have rows behind the mean, and centers", () => {
+  const clusters = decodeClusters(predicted, (i) => predictedViews[i]);
+  assert.deepEqual([...clusters.rows], predictedRows);
   assert.deepEqual(clusters.firstRows, [0, 8]);
   assert.deepEqual([...clusters.centers], [-1, 2, 0, 1, 3, -4, 0, 0, 0, 0, 0, 0]);
   assert.deepEqual([...clusterTable(clusters)], [0, 1, 1, 0, 8, 0, 0, 0]);
 });
 
 test("the shader's rows times coordinates are the rows times scaled ones less the center", () => {
-  const clusters = decodeClusters(guided, (i) => guidedViews[i]);
+  const clusters = decodeClusters(predicted, (i) => predictedViews[i]);
   const constants = updateConstants(clusters, shaderRows(clusters), [1, 2, 3], new Float32Array(4 * 15));
   const x = [0, 0.6, 0.8, 1, -2, 0.5];
   const scales = [2, 4, 8, 1, 0.5, 0.25];
@@ -147,7 +147,7 @@ test("the shader's rows times coordinates are the rows times scaled ones less th
       factors.push((2 * 2 - 3) / 3);
       stored.push(2);
     }
-    const expected = factors.reduce((sum, factor, j) => sum + factor * guidedRows[first + j], 0);
+    const expected = factors.reduce((sum, factor, j) => sum + factor * predictedRows[first + j], 0);
     [1, 2, 3].forEach((light, c) => {
       const shader = stored.reduce((sum, value, j) => sum + value * constants[4 * (first + j) + c], 0);
       assert.ok(Math.abs(shader - light * expected) < 1e-6 * 400000 * light, `${shader}, not ${light * expected}`);
@@ -190,11 +190,11 @@ test("steps of coded bases are powers of two in each cluster and group of axes",
   );
 });
 
-test("rows of guides have the step of means in coded bases", () => {
+test("rows of predictors have the step of means in coded bases", () => {
   const extension = {
-    ...guided,
+    ...predicted,
     components: [1],
-    guides: [guided.guides[0]],
+    predictors: [predicted.predictors[0]],
     centers: { bufferView: 4, drops: [0, 0, 0] },
     bases: {
       origin: { bufferView: 0, componentType: 5126 },
@@ -216,17 +216,17 @@ test("rows of guides have the step of means in coded bases", () => {
   assert.deepEqual([...decodeClusters(extension, (i) => views[i]).rows], [105, 6, 7, 8, 18]);
 });
 
-test("guides that make no sense are refused", () => {
-  const [normal, position] = guided.guides;
+test("predictors that make no sense are refused", () => {
+  const [normal, position] = predicted.predictors;
   const wrong = [
     "normal", [{ ...normal, kind: "tangent" }], [normal, normal], [position, normal], [position, position], [null],
     [{ ...normal, scale: [1, 2] }], [{ ...normal, scale: [1, 0, 2] }], [{ ...normal, scale: [1, NaN, 2] }],
     [{ kind: "position", scale: [1, 1, 1] }], [{ ...position, origin: [1, 2, "3"] }],
   ];
-  for (const guides of wrong)
-    assert.throws(() => decodeClusters({ ...guided, guides }, (i) => guidedViews[i]), /guides/);
-  assert.throws(() => decodeClusters({ ...guided, guides: [normal] }, (i) => guidedViews[i]), /centers/);
-  assert.throws(() => decodeClusters(guided, (i) => (i === 2 ? new Uint8Array(0) : guidedViews[i])), /end too early/);
+  for (const predictors of wrong)
+    assert.throws(() => decodeClusters({ ...predicted, predictors }, (i) => predictedViews[i]), /predictors/);
+  assert.throws(() => decodeClusters({ ...predicted, predictors: [normal] }, (i) => predictedViews[i]), /centers/);
+  assert.throws(() => decodeClusters(predicted, (i) => (i === 2 ? new Uint8Array(0) : predictedViews[i])), /end too early/);
 });
 
 test("three channels meet three colours", () => {

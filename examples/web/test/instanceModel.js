@@ -55,10 +55,10 @@ export const PLACES = {
 export function instanceModel(by = "vertices", change = () => {}) {
   return bakedModel(by, (json, binary) => {
     const clusters = json.extensions.PRTKIT_clustered_pca;
-    const guides = 3 * clusters.guides.length;
+    const predictors = 3 * clusters.predictors.length;
     const next = random(7);
     const row = (most, mean) => Array.from({ length: SIZE }, (_, a) => (mean && a % 4 === 0 ? 0.25 : 0) + most * (next() - 0.5));
-    const rows = COMPONENTS.flatMap((m) => [...row(0.05, true), ...Array.from({ length: guides + m }, () => row(0.08, false)).flat()]);
+    const rows = COMPONENTS.flatMap((m) => [...row(0.05, true), ...Array.from({ length: predictors + m }, () => row(0.08, false)).flat()]);
     Object.assign(clusters, { parts: PARTS, bases: { bufferView: binary.view(Float32Array.from(rows)), componentType: 5126 } });
     json.materials = json.materials.map(({ normalTexture: _, ...material }) => ({ ...material, emissiveFactor: [0, 0, 0] }));
     delete json.images;

@@ -132,9 +132,9 @@ function shaded(prtkit, mesh, i, v) {
   const sum = constant(table[0]);
   let row = table[0] + 1;
   const add = (factor) => constant(row++).forEach((value, c) => (sum[c] += factor * value));
-  if (defines.PRT_GUIDE_NORMAL) normal.forEach(add);
-  if (defines.PRT_GUIDE_POSITION) {
-    const origin = defines.PRT_GUIDE_ORIGIN.match(/[-\d.]+(?=[,)])/g).map(Number);
+  if (defines.PRT_PREDICTOR_NORMAL) normal.forEach(add);
+  if (defines.PRT_PREDICTOR_POSITION) {
+    const origin = defines.PRT_PREDICTOR_ORIGIN.match(/[-\d.]+(?=[,)])/g).map(Number);
     position.forEach((x, a) => add(x - origin[a]));
   }
   let at = 4n;
@@ -153,7 +153,7 @@ function shaded(prtkit, mesh, i, v) {
  */
 function expectedOf(prtkit, mesh, v, modes, numbers, box) {
   const { clusters } = prtkit;
-  const { order, guides, components, firstRows, rows, widths } = clusters;
+  const { order, predictors, components, firstRows, rows, widths } = clusters;
   const { attributes } = mesh.geometry;
   const size = rows.length / clusters.rowCount;
   const position = new Vector3().fromBufferAttribute(attributes.position, v).toArray();
@@ -164,7 +164,7 @@ function expectedOf(prtkit, mesh, v, modes, numbers, box) {
   const row = (r) => rows.subarray((firstRows[cluster] + r) * size, (firstRows[cluster] + r + 1) * size);
   const vector = Float64Array.from(row(0));
   const add = (r, factor) => row(r).forEach((value, a) => (vector[a] += factor * value));
-  guides.forEach(({ kind, scale, origin }, g) =>
+  predictors.forEach(({ kind, scale, origin }, g) =>
     scale.forEach((s, a) => add(1 + 3 * g + a, s * (kind === "normal" ? normal[a] : position[a] - origin[a]))));
   let at = 4n;
   for (let j = 0; j < components[cluster]; ++j) {
@@ -174,7 +174,7 @@ function expectedOf(prtkit, mesh, v, modes, numbers, box) {
       weight = (2 * Number((bits >> at) & BigInt(most)) - most) / most;
       at += BigInt(widths[cluster][j]);
     }
-    add(1 + 3 * guides.length + j, weight);
+    add(1 + 3 * predictors.length + j, weight);
   }
   const place = [...position.map((x, a) => (x - box.middle[a]) / box.half[a]), 1];
   const count = order * order;
@@ -311,7 +311,7 @@ test("the shader is that of the runtime for instances, and others have none of i
   assert.match(vertexShader, /prtRadiance = prt_instance_radiance\(prt_instance_0, prt_instance_1, prtBakedPlace\(\), prtBakedNormal\(\)\);/);
   assert.equal(vertexShader.match(/vec3 prt_exit_radiance\(/g).length, 3); // once for each way that weights lie
   assert.equal(uniforms.prt_constants.value, userData.prtkit.instances.constantsTexture);
-  assert.equal(mesh.material.defines.PRT_GUIDE_ORIGIN, `vec3(${[0.1, 0.2, -0.1].map(Math.fround).join(", ")})`);
+  assert.equal(mesh.material.defines.PRT_PREDICTOR_ORIGIN, `vec3(${[0.1, 0.2, -0.1].map(Math.fround).join(", ")})`);
   const floor = scene.children.find(({ isMesh, isInstancedMesh }) => isMesh && !isInstancedMesh);
   assert.doesNotMatch(compiled(floor).vertexShader, /vec3 prt_instance_radiance/);
   assert.equal(compiled(floor).uniforms.prt_constants.value, userData.prtkit.constantsTexture);

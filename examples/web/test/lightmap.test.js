@@ -101,7 +101,7 @@ test("maps are drawn again when a device that was lost is there again", async ()
 const refusals = {
   "another version": [(json) => (extensionOf(json).version = 2), /version 2 is not known, only 1; compress the model again/],
   "a raw bake": [(json) => (extensionOf(json).raw = {}), /holds transfer as it was baked; make it one to ship: prt compress/],
-  "guides": [(json) => Object.assign(extensionOf(json), { guides: [{ kind: "normal", scale: [1, 1, 1] }], centers: { bufferView: 0, drops: [0, 0, 0] } }), /texels have no guides/],
+  "predictors": [(json) => Object.assign(extensionOf(json), { predictors: [{ kind: "normal", scale: [1, 1, 1] }], centers: { bufferView: 0, drops: [0, 0, 0] } }), /texels have no predictors/],
   "weights that are not packed": [(json) => delete extensionOf(json).packing, /not packed/],
   "no maps": [(json) => (extensionOf(json).maps = []), /the maps are wrong/],
   "a map without a size": [(json) => delete extensionOf(json).maps[0].width, /the maps are wrong/],

@@ -195,7 +195,7 @@ async function checkRenderers(by, what, options) {
 }
 
 for (const by of ["vertices", "texels"]) for (const [what, options] of Object.entries(cases)) await checkRenderers(by, what, options);
-await checkRenderers("weights", "guides of places, too", { suns: true });
+await checkRenderers("weights", "predictors of places, too", { suns: true });
 
 for (const by of ["vertices", "texels"])
   for (const api of ["webgl", "nodes"])

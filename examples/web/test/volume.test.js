@@ -291,7 +291,7 @@ const refusals = {
   "an origin that is no list": [(e) => (e.origin = 3), /the spacing or the origin is no usable number/],
   "too many bricks along": [(e) => (e.size = [1025, 1, 1]), /the size is not 1 to 1024 bricks/],
   "more than memory has": [(e) => (e.size = [1024, 1024, 1024]), /the volume would take 17180 MB/],
-  "guides": [(e) => Object.assign(e, { guides: [{ kind: "normal", scale: [1, 1, 1] }], centers: { ...e.words, drops: [0, 0, 0] } }), /probes have no guides/],
+  "predictors": [(e) => Object.assign(e, { predictors: [{ kind: "normal", scale: [1, 1, 1] }], centers: { ...e.words, drops: [0, 0, 0] } }), /probes have no predictors/],
   "weights that are not packed": [(e) => delete e.packing, /the weights of probes are not packed/],
   "no words": [(e) => delete e.words, /bricks, sights or words are not there/],
   "bricks that are no groups": [(e, binary) => (e.bricks = { bufferView: binary.view(new Uint8Array(9)) }), /no groups of eight bytes/],

@@ -40,7 +40,7 @@ const levels = [
   { name: "u128", title: "fine", options: ["--clusters", "64", "--components", "16", "--bits", "122"] }, // with the cluster four words
 ];
 /** Close to the bake: the maximum number of components of a shader, not rounded. */
-const asBaked = ["--weights", "float", "--clusters", "16", "--components", "48", "--guides", "none", "--seam-weight", "0"];
+const asBaked = ["--weights", "float", "--clusters", "16", "--components", "48", "--predictors", "none", "--seam-weight", "0"];
 const cameras = {
   room: { position: [1.2, 1.9, 4.2], target: [0, 1.8, -5], fieldOfView: 45 },
   tree: { position: [1.5, 1.7, 5.5], target: [0, 1.9, 0] },

@@ -16,18 +16,18 @@ namespace prt {
 
 /// Receiver attribute that the vertex shader already has: the unit normal, or the position in metres. Both
 /// are in the frame of the bake.
-enum class GuideKind { normal, position };
+enum class PredictorKind { normal, position };
 
-const char* to_string(GuideKind kind);
+const char* to_string(PredictorKind kind);
 
 /// Predictor: receiver coordinates that act as weights but are not stored. Each cluster is first predicted as
 /// a linear function of these coordinates; its basis directions then add the residual (docs/math.md, eq. 20).
-struct Guide {
-    GuideKind kind = GuideKind::normal;
+struct Predictor {
+    PredictorKind kind = PredictorKind::normal;
     glm::vec3 origin{0}; ///< 0 for normals; for positions, an offset relative to Scene::origin
     glm::vec3 scale{1};  ///< factor for each coordinate
 
-    bool operator==(const Guide&) const = default;
+    bool operator==(const Predictor&) const = default;
 };
 
 /// Exponents of two that scale the step of the bases per cluster and group of axes. They are needed because
@@ -59,23 +59,23 @@ std::size_t coded_bytes(const RowCode& code);
 /// Size of origin, units, scales, axes, exponents and values in bytes.
 std::size_t coded_bytes(const CodedBases& coded);
 
-/// Decodes the rows of `coded`, [rows][dimension]. Cluster k has one mean, `guide_rows` predictor rows and
-/// `components[k]` basis directions. Throws `Error` if a code is damaged.
+/// Decodes the rows of `coded`, [rows][dimension]. Cluster k has one mean, `predictor_rows` predictor rows
+/// and `components[k]` basis directions. Throws `Error` if a code is damaged.
 std::vector<float> decode_bases(const CodedBases& coded, const std::vector<int>& components,
-                                std::size_t guide_rows = 0);
+                                std::size_t predictor_rows = 0);
 
 /// Means, predictor rows and basis directions of all clusters. With x the predictor coordinates of a
-/// receiver, T = mean + sum_i (scale_i x_i - center_i) guide_i + sum_j w_j direction_j.
+/// receiver, T = mean + sum_i (scale_i x_i - center_i) predictor_i + sum_j w_j direction_j.
 struct ClusteredBases {
     TransferLayout layout;
-    std::vector<Guide> guides;   ///< empty, or each kind at most once, normals first; the same in all
-                                 ///< clusters
-    std::vector<int> components; ///< [clusters] number of basis directions m_k
+    std::vector<Predictor> predictors; ///< empty, or each kind at most once, normals first; the same in all
+                                       ///< clusters
+    std::vector<int> components;       ///< [clusters] number of basis directions m_k
     /// Per cluster: the mean, three rows per predictor, then m_k basis directions; each row has [dimension]
     /// numbers.
     std::vector<float> rows;
-    /// [clusters][guide_rows()]: predictor offset of each cluster, so that the mean row is the mean of its
-    /// receivers.
+    /// [clusters][predictor_rows()]: predictor offset of each cluster, so that the mean row is the mean of
+    /// its receivers.
     std::vector<std::int32_t> centers;
     /// Per cluster the bit widths of its m_k weights, 1..16; empty unless weights are packed.
     std::vector<std::uint8_t> bits;
@@ -86,11 +86,11 @@ struct ClusteredBases {
     std::size_t dimension() const { return layout.dimension(); }
     bool is_coded() const { return !coded.origin.empty(); }
     int max_components() const;
-    std::size_t guide_rows() const { return 3 * guides.size(); }
+    std::size_t predictor_rows() const { return 3 * predictors.size(); }
     /// Number of rows per cluster before its basis directions.
-    std::size_t fixed_rows() const { return 1 + guide_rows(); }
+    std::size_t fixed_rows() const { return 1 + predictor_rows(); }
     /// Factor of the i-th predictor coordinate.
-    float guide_scale(std::size_t i) const { return guides[i / 3].scale[static_cast<int>(i % 3)]; }
+    float predictor_scale(std::size_t i) const { return predictors[i / 3].scale[static_cast<int>(i % 3)]; }
     /// Index of the first row of each cluster in `rows`, [clusters + 1]. The bits of cluster k start at
     /// first_row(k) - k fixed_rows().
     std::vector<std::size_t> first_rows() const;

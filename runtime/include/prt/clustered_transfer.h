@@ -38,9 +38,9 @@ struct ClusteredReceivers {
     std::vector<std::uint16_t> clusters; ///< [receivers]; packed: copy of the clusters in the words, for use
                                          ///< on the CPU
     std::vector<std::byte> weights; ///< [receivers][components] floats, unused ones 0; or [receivers][words]
-    /// [receivers][guide rows]: predictor coordinates relative to their origins. A vertex shader gets them
-    /// from the mesh.
-    std::vector<float> guides;
+    /// [receivers][predictor rows]: predictor coordinates relative to their origins. A vertex shader gets
+    /// them from the mesh.
+    std::vector<float> predictors;
 
     std::size_t size() const { return clusters.size(); }
     /// Size of one receiver's entry in `weights` in bytes.

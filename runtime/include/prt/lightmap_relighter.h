@@ -4,7 +4,7 @@
 //
 //     LightmapRelighter relighter(lightmap, LightmapFormat::rgb9e5);         // once per model
 //     std::vector<std::byte> texels(relighter.bytes(map));
-//     constants.form(light, formed);                                   // prt/cluster_lighting.h
+//     constants.update(light, formed);                                   // prt/cluster_lighting.h
 //     relighter.update(map, formed, texels);                                // when the lighting changes;
 //     then upload
 //

@@ -7,8 +7,8 @@
 #include "gltf/changed_file.h"
 #include "gltf/clustered_json.h"
 #include "gltf/fallback.h"
-#include "gltf/guides_json.h"
 #include "gltf/own_attributes.h"
+#include "gltf/predictors_json.h"
 #include "gltf/transfer_json.h"
 #include "gltf/unshare.h"
 
@@ -149,7 +149,7 @@ void write_into(GltfContents& contents, const Scene& scene, const CompressedTran
                                                              {"order", bases.layout.order},
                                                              {"parts", parts_json(bases.layout)},
                                                              {"components", bases.components}};
-    write_guides(contents, scene, bases, extension);
+    write_predictors(contents, scene, bases, extension);
     extension["bases"] = write_bases(contents, bases);
     if (receivers.format == WeightFormat::packed)
         extension["packing"] = write_packing(contents, compressed.transfer);
@@ -208,7 +208,7 @@ std::optional<CompressedTransfer> read_clustered(const GltfDocument& document, c
         ClusteredReceivers& receivers = compressed.transfer.receivers;
         bases = read_clusters_of(*extension);
         compressed.record = read_record(extension->value("bake", Json::object()));
-        read_guides(contents, scene, *extension, bases);
+        read_predictors(contents, scene, *extension, bases);
         read_bases(contents, extension->at("bases"), bases);
         const bool packed = extension->contains("packing");
         if (packed)
@@ -216,7 +216,7 @@ std::optional<CompressedTransfer> read_clustered(const GltfDocument& document, c
         else
             receivers.components = (bases.max_components() + 3) / 4 * 4;
         receivers.clusters.resize(scene.receivers());
-        receivers.guides = read_coordinates(contents, scene, bases);
+        receivers.predictors = read_coordinates(contents, scene, bases);
         TransferOfVertices read;
         for (const Primitive& primitive : scene.primitives) {
             const Json& attributes = primitive_json(contents, primitive).at("attributes");

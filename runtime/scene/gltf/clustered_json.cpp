@@ -79,7 +79,7 @@ void read_bases(const GltfContents& contents, const Json& json, ClusteredBases& 
     coded.scales = read_float_view(contents, json.at("scales"), axes, kAnyFinite, "the scales");
     read_steps(contents, json, coded);
     check_rows(contents, rows, axes, dimension);
-    bases.rows = decode_bases(coded, bases.components, bases.guide_rows());
+    bases.rows = decode_bases(coded, bases.components, bases.predictor_rows());
     check_magnitudes(bases.rows, kMaxTransfer, "the decoded bases");
 }
 

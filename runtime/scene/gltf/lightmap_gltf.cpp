@@ -230,8 +230,8 @@ const Json* find_lightmap(const GltfContents& contents) {
                         ": transfer of texels or of vertices, not both");
     if (extension && extension->contains("raw") && extension->contains("components"))
         throw Error("has raw vectors or clusters, not both");
-    if (extension && extension->contains("guides"))
-        throw Error("texels have no guides");
+    if (extension && extension->contains("predictors"))
+        throw Error("texels have no predictors");
     return extension;
 }
 

@@ -129,13 +129,13 @@ std::vector<std::uint32_t> order_by_cluster(const Scene& scene, const ClusteredR
 ClusteredReceivers reordered(const ClusteredReceivers& receivers, std::span<const std::uint32_t> order) {
     ClusteredReceivers result = receivers;
     const std::size_t stride = receivers.stride(),
-                      guides = receivers.size() > 0 ? receivers.guides.size() / receivers.size() : 0;
+                      predictors = receivers.size() > 0 ? receivers.predictors.size() / receivers.size() : 0;
     for (std::size_t i = 0; i < order.size(); ++i) {
         result.clusters[i] = receivers.clusters[order[i]];
         if (stride > 0)
             std::memcpy(&result.weights[i * stride], &receivers.weights[order[i] * stride], stride);
-        std::copy_n(receivers.guides.begin() + static_cast<std::ptrdiff_t>(order[i] * guides), guides,
-                    result.guides.begin() + static_cast<std::ptrdiff_t>(i * guides));
+        std::copy_n(receivers.predictors.begin() + static_cast<std::ptrdiff_t>(order[i] * predictors),
+                    predictors, result.predictors.begin() + static_cast<std::ptrdiff_t>(i * predictors));
     }
     return result;
 }

@@ -15,7 +15,7 @@ constexpr std::size_t kReceivers = 5000;
 struct Setting {
     Transfer transfer = zero_transfer(3, 1, kReceivers);
     std::vector<glm::vec3> normals;
-    GuideCoordinates guides;
+    PredictorCoordinates predictors;
     Frame frame;
 
     Setting() {
@@ -26,12 +26,12 @@ struct Setting {
                 transfer.vector(p)[i] = normal(random) * std::pow(0.7f, static_cast<float>(i));
             normals.emplace_back(normal(random), normal(random), normal(random));
         }
-        guides = {{{GuideKind::normal, glm::vec3(0), glm::vec3(0.5f)}}, {normals}};
+        predictors = {{{PredictorKind::normal, glm::vec3(0), glm::vec3(0.5f)}}, {normals}};
         frame = fit_frame(transfer, std::vector<float>(kReceivers, 1.0f / kReceivers),
                           plain_metric(transfer.layout), 0, 1);
     }
     PointBlocks points(double max_rounding, int threads = 1) const {
-        return {transfer, frame, guides, threads, max_rounding};
+        return {transfer, frame, predictors, threads, max_rounding};
     }
 };
 
@@ -73,7 +73,7 @@ TEST(Points, AreTheSameHoweverTheyAreRead) {
         EXPECT_EQ(points.values, setting.points(max_rounding, 3).values);
         const std::vector<float> scales = {2, 3, 5};
         const float before = points.coordinate(77, points.dimension + 1);
-        points.scale_guides(scales);
+        points.scale_predictors(scales);
         EXPECT_FLOAT_EQ(points.coordinate(77, points.dimension + 1), 3 * before);
         const std::vector<std::uint32_t> some = {4999, 17, 1023, 1024, 0};
         std::vector<float> gathered(points.width() * kLanes), room(points.width() * kLanes),

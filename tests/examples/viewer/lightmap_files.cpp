@@ -71,7 +71,7 @@ void LightmapFiles::write_shipped(int size, const std::filesystem::path& path) c
     const prt::Scene scene = prt::extract_scene(document);
     const prt::BakedLightmap lightmap = *prt::read_lightmap(document, scene);
     const prt::CompressOptions options{
-        .clusters = 24, .coding = prt::preset_u64(), .guides = prt::GuideChoice::none};
+        .clusters = 24, .coding = prt::preset_u64(), .predictors = prt::PredictorChoice::none};
     const std::vector<prt::Edge> edges =
         prt::lightmap_edges(lightmap.layout, lightmap.texels, lightmap.seams);
     prt::write_lightmap(

@@ -3,12 +3,12 @@
 #include "prt/bake.h"
 #include "prt/compress.h"
 #include "prt/gl_renderer.h"
-#include "prt/guides.h"
 #include "prt/light_meter.h"
+#include "prt/predictors.h"
 #include "prt/ray_renderer.h"
 #include "prt/support/error.h"
 #include "prt/tone_map.h"
-#include "support/guided.h"
+#include "support/predicted.h"
 #include "support/scene_builder.h"
 
 #include <glm/common.hpp>
@@ -135,8 +135,8 @@ TEST_F(Pictures, OfCompressedTransferAgree) {
     options.coding.components = 6;
     ClusteredTransfer compressed = compress(transfer, {receiver_areas(objects.scene)}, options).transfer;
     std::mt19937 random(4);
-    test::add_guides(compressed.bases, {GuideKind::normal, GuideKind::position}, random);
-    compressed.receivers.guides = guide_coordinates(objects.scene, compressed.bases.guides);
+    test::add_predictors(compressed.bases, {PredictorKind::normal, PredictorKind::position}, random);
+    compressed.receivers.predictors = predictor_coordinates(objects.scene, compressed.bases.predictors);
     const Light light = overcast_sky(6, glm::vec3(1, 0.9f, 0.8f));
     const auto radiance = exit_radiance(compressed, light);
     picture.radiance = radiance;

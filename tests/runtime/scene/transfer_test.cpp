@@ -4,7 +4,7 @@
 
 #include "prt/support/error.h"
 #include "support/glb_file.h"
-#include "support/guided.h"
+#include "support/predicted.h"
 #include "support/temporary_folder.h"
 
 #include <glm/geometric.hpp>

@@ -8,7 +8,7 @@
 
 #include "run_shader.h"
 #include "shared_layout.h"
-#include "support/guided.h"
+#include "support/predicted.h"
 
 #include <glm/geometric.hpp>
 #include <glm/gtc/quaternion.hpp>
@@ -36,7 +36,7 @@ ClusteredTransfer random_mesh(std::mt19937& random) {
     options.coding.bits = 24;
     ClusteredTransfer compressed =
         compress(transfer, {std::vector<float>(kVertices, 1.0f)}, options).transfer;
-    test::add_guides(compressed, {GuideKind::normal, GuideKind::position}, random);
+    test::add_predictors(compressed, {PredictorKind::normal, PredictorKind::position}, random);
     return compressed;
 }
 
@@ -55,15 +55,15 @@ std::vector<glm::vec3> radiance_of(const ClusteredTransfer& mesh, const PlacedIn
     const auto lightings = turned_into(instance.rotation, InstanceModes(kOrder).lightings(lighting));
     for (std::size_t m = 0; m < kInstanceModes; ++m)
         of_modes[m] = exit_radiance(mesh, lightings[m]);
-    const std::size_t guide_rows = mesh.bases.guide_rows(), of_position = guide_rows - 3;
+    const std::size_t predictor_rows = mesh.bases.predictor_rows(), of_position = predictor_rows - 3;
     std::vector<glm::vec3> radiance;
     for (std::size_t v = 0; v < kVertices; ++v) {
         std::array<glm::vec3, kInstanceModes> of_vertex;
         for (std::size_t m = 0; m < kInstanceModes; ++m)
             of_vertex[m] = of_modes[m][v];
-        const float* x = &mesh.receivers.guides[v * guide_rows + of_position];
+        const float* x = &mesh.receivers.predictors[v * predictor_rows + of_position];
         const glm::vec3 position =
-            glm::vec3(x[0], x[1], x[2]) + mesh.bases.guides.back().origin + test::kSceneOrigin;
+            glm::vec3(x[0], x[1], x[2]) + mesh.bases.predictors.back().origin + test::kSceneOrigin;
         radiance.push_back(exit_radiance(instance.factors, instance.box.place_of(position), of_vertex));
     }
     return radiance;

@@ -31,7 +31,7 @@ compiles() {
 }
 
 packed=(PRT_COMPRESSED PRT_CONSTANTS_BUFFER "PRT_PACKED_WORDS 5" "PRT_CLUSTER_BITS 8")
-guides=(PRT_GUIDE_NORMAL PRT_GUIDE_POSITION "PRT_GUIDE_ORIGIN vec3(1.0, 2.0, 3.0)")
+predictors=(PRT_PREDICTOR_NORMAL PRT_PREDICTOR_POSITION "PRT_PREDICTOR_ORIGIN vec3(1.0, 2.0, 3.0)")
 volume=("PRT_VOLUME_ORDER 3" PRT_VOLUME_LINEAR "PRT_VOLUME_ORIGIN vec3(1.0)" "PRT_VOLUME_SPACING 0.5" "PRT_VOLUME_SIZE ivec3(2)"
     "PRT_VOLUME_FIRST ivec4(0)" "PRT_VOLUME_BRICKS ivec3(2)")
 alike=("PRT_CLUSTER_ROWS 3" "PRT_SAME_WEIGHTS PRT_ADD(0u, PRT_BITS(8u, 16u)) PRT_ADD(1u, PRT_BITS(24u, 9u))")
@@ -49,7 +49,7 @@ for file in *.vert *.frag *.comp; do
             compiles "$file" "${packed[@]}" "${alike[@]}" "PRT_LIGHTMAP_FORMAT r11f_g11f_b10f"
             ;;
         prt_instances.vert | viewer_lit_instances.vert)
-            compiles "$file" "${packed[@]}" "${guides[@]}" PRT_INSTANCES
+            compiles "$file" "${packed[@]}" "${predictors[@]}" PRT_INSTANCES
             compiles "$file" PRT_CONSTANTS_BUFFER "PRT_WEIGHT_VECTORS 2" PRT_INSTANCES
             ;;
         prt_volume.comp)
@@ -65,7 +65,7 @@ for file in *.vert *.frag *.comp; do
             ;;
         prt_relight.vert)
             compiles "$file" "${packed[@]}"
-            compiles "$file" "${packed[@]}" "${guides[@]}"
+            compiles "$file" "${packed[@]}" "${predictors[@]}"
             compiles "$file" "${packed[@]}" "${alike[@]}"
             ;;
         prt_lightmap.frag)
@@ -95,8 +95,8 @@ for file in *.vert *.frag *.comp; do
             compiles "$file" PRT_COMPRESSED "PRT_WEIGHT_VECTORS 8"
             compiles "$file" PRT_VERTEX_RADIANCE PRT_RADIANCE_GIVEN
             compiles "$file" "${packed[@]}" PRT_SUNS
-            compiles "$file" "${packed[@]}" "${guides[@]}" PRT_SUNS
-            compiles "$file" PRT_COMPRESSED "PRT_WEIGHT_VECTORS 11" PRT_GUIDE_NORMAL
+            compiles "$file" "${packed[@]}" "${predictors[@]}" PRT_SUNS
+            compiles "$file" PRT_COMPRESSED "PRT_WEIGHT_VECTORS 11" PRT_PREDICTOR_NORMAL
             compiles "$file" PRT_VERTEX_RADIANCE PRT_OCCLUDED
             compiles "$file" PRT_INSTANCED
             compiles "$file" PRT_VERTEX_RADIANCE PRT_INSTANCED PRT_SUNS

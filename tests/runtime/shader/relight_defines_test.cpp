@@ -3,7 +3,7 @@
 #include "prt/shader_source.h"
 
 #include "prt/support/error.h"
-#include "support/guided.h"
+#include "support/predicted.h"
 
 #include <glm/gtc/constants.hpp>
 #include <gtest/gtest.h>
@@ -14,20 +14,20 @@
 namespace prt {
 namespace {
 
-ClusteredTransfer transfer_of(int components, const std::vector<GuideKind>& guides) {
+ClusteredTransfer transfer_of(int components, const std::vector<PredictorKind>& predictors) {
     ClusteredTransfer t;
     t.bases.layout = layout_of_one(1, 1);
     t.bases.components = {components};
     t.bases.rows.resize(1 + static_cast<std::size_t>(components));
     t.receivers.components = (components + 3) / 4 * 4;
     std::mt19937 random(1);
-    test::add_guides(t, guides, random);
+    test::add_predictors(t, predictors, random);
     return t;
 }
 
-/// The three numbers of PRT_GUIDE_ORIGIN.
+/// The three numbers of PRT_PREDICTOR_ORIGIN.
 glm::vec3 origin_in(const std::string& defines) {
-    const std::string begin = "#define PRT_GUIDE_ORIGIN vec3(";
+    const std::string begin = "#define PRT_PREDICTOR_ORIGIN vec3(";
     const char* at = defines.c_str() + defines.find(begin) + begin.size();
     glm::vec3 origin(0);
     for (int i = 0; i < 3; ++i) {
@@ -38,22 +38,22 @@ glm::vec3 origin_in(const std::string& defines) {
     return origin;
 }
 
-TEST(RelightDefines, NameTheGuidesOfAModel) {
-    const auto defines = [](const std::vector<GuideKind>& guides) {
-        return relight_defines(transfer_of(4, guides));
+TEST(RelightDefines, NameThePredictorsOfAModel) {
+    const auto defines = [](const std::vector<PredictorKind>& predictors) {
+        return relight_defines(transfer_of(4, predictors));
     };
-    EXPECT_EQ(defines({}).find("GUIDE"), std::string::npos);
-    EXPECT_NE(defines({GuideKind::normal}).find("#define PRT_GUIDE_NORMAL\n"), std::string::npos);
-    EXPECT_EQ(defines({GuideKind::normal}).find("POSITION"), std::string::npos);
-    EXPECT_NE(defines({GuideKind::position}).find("#define PRT_GUIDE_POSITION\n"), std::string::npos);
-    EXPECT_EQ(defines({GuideKind::position}).find("NORMAL"), std::string::npos);
+    EXPECT_EQ(defines({}).find("PREDICTOR"), std::string::npos);
+    EXPECT_NE(defines({PredictorKind::normal}).find("#define PRT_PREDICTOR_NORMAL\n"), std::string::npos);
+    EXPECT_EQ(defines({PredictorKind::normal}).find("POSITION"), std::string::npos);
+    EXPECT_NE(defines({PredictorKind::position}).find("#define PRT_PREDICTOR_POSITION\n"), std::string::npos);
+    EXPECT_EQ(defines({PredictorKind::position}).find("NORMAL"), std::string::npos);
 }
 
 TEST(RelightDefines, SayTheOriginWithAllDigitsOfAFloat) {
-    ClusteredTransfer t = transfer_of(4, {GuideKind::position});
+    ClusteredTransfer t = transfer_of(4, {PredictorKind::position});
     for (const glm::vec3 origin : {glm::vec3(0), glm::vec3(1.0f / 3, -glm::pi<float>(), 1e-20f),
                                    glm::vec3(16777217, 0.1f, -123456.789f)}) {
-        t.bases.guides[0].origin = origin;
+        t.bases.predictors[0].origin = origin;
         EXPECT_EQ(origin_in(relight_defines(t)), origin);
         const glm::dvec3 from(1e6 + 0.25, -3, 1e-3);
         EXPECT_EQ(origin_in(relight_defines(t, ConstantSource::buffer, ShaderLanguage::glsl450, from)),
@@ -86,7 +86,7 @@ TEST(RelightDefines, SayWhereWeightsAreThatAllClustersDivideAlike) {
         text.find("#define PRT_SAME_WEIGHTS PRT_ADD(0u, PRT_BITS(5u, 1u)) PRT_ADD(1u, PRT_BITS(6u, 2u))\n"),
         std::string::npos)
         << text;
-    const std::string plain = relight_defines(transfer_of(5, {GuideKind::normal}));
+    const std::string plain = relight_defines(transfer_of(5, {PredictorKind::normal}));
     EXPECT_NE(plain.find("#define PRT_CLUSTER_ROWS 9\n"), std::string::npos) << plain;
     EXPECT_NE(plain.find(" PRT_ADD(3u, prt_weights_0[3]) PRT_ADD(4u, prt_weights_1[0])\n"), std::string::npos)
         << plain;
@@ -110,8 +110,8 @@ TEST(RelightDefines, LeaveALoopWhereClustersDiffer) {
 TEST(RelightDefines, LeaveTheLastAttributeToTheNormal) {
     EXPECT_EQ(max_vertex_components(transfer_of(48, {}).bases), 48);
     EXPECT_NO_THROW(relight_defines(transfer_of(48, {})));
-    EXPECT_NO_THROW(relight_defines(transfer_of(44, {GuideKind::normal})));
-    EXPECT_THROW(relight_defines(transfer_of(45, {GuideKind::normal})), Error);
+    EXPECT_NO_THROW(relight_defines(transfer_of(44, {PredictorKind::normal})));
+    EXPECT_THROW(relight_defines(transfer_of(45, {PredictorKind::normal})), Error);
     EXPECT_THROW(relight_defines(transfer_of(49, {})), Error);
 }
 

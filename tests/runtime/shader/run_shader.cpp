@@ -81,16 +81,16 @@ void bind_receivers(const ClusteredReceivers& receivers) {
 }
 
 /// Binds the attributes of predictors: normals, and positions in the file's world space.
-void bind_guides(const ClusteredTransfer& transfer, const glm::vec3& scene_origin) {
-    const std::size_t rows = transfer.bases.guide_rows();
-    for (std::size_t g = 0; g < transfer.bases.guides.size(); ++g) {
-        const Guide& guide = transfer.bases.guides[g];
-        const bool is_normal = guide.kind == GuideKind::normal;
+void bind_predictors(const ClusteredTransfer& transfer, const glm::vec3& scene_origin) {
+    const std::size_t rows = transfer.bases.predictor_rows();
+    for (std::size_t g = 0; g < transfer.bases.predictors.size(); ++g) {
+        const Predictor& predictor = transfer.bases.predictors[g];
+        const bool is_normal = predictor.kind == PredictorKind::normal;
         std::vector<glm::vec3> vectors;
         for (std::size_t p = 0; p < transfer.receivers.size(); ++p) {
-            const float* x = &transfer.receivers.guides[p * rows + 3 * g];
+            const float* x = &transfer.receivers.predictors[p * rows + 3 * g];
             vectors.push_back(glm::vec3(x[0], x[1], x[2]) +
-                              (is_normal ? glm::vec3(0) : guide.origin + scene_origin));
+                              (is_normal ? glm::vec3(0) : predictor.origin + scene_origin));
         }
         GLuint buffer = 0;
         glGenBuffers(1, &buffer);
@@ -203,7 +203,7 @@ std::vector<glm::vec3> radiance_of_vertices(const ClusteredTransfer& transfer,
     glGenVertexArrays(1, &vertex_array);
     glBindVertexArray(vertex_array);
     bind_receivers(transfer.receivers);
-    bind_guides(transfer, kSceneOrigin);
+    bind_predictors(transfer, kSceneOrigin);
     bind_constants(program, source, constants, cluster_layouts(transfer.bases));
     bind_small_framebuffer();
     const std::size_t count = transfer.receivers.size(), bytes = count * sizeof(glm::vec3);

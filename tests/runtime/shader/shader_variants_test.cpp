@@ -9,7 +9,7 @@
 #include "prt/shader_source.h"
 #include "run_shader.h"
 #include "shared_layout.h"
-#include "support/guided.h"
+#include "support/predicted.h"
 
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
@@ -85,17 +85,18 @@ protected:
     /// Compares with C++ for all sets of predictors.
     void agree_with_cpp(const ClusteredTransfer& plain, const Lighting& lighting) {
         const auto [language, constants] = GetParam();
-        for (const std::vector<GuideKind>& guides : sets_of_guides()) {
+        for (const std::vector<PredictorKind>& predictors : sets_of_predictors()) {
             ClusteredTransfer transfer = plain;
             std::mt19937 random(2);
-            add_guides(transfer, guides, random);
+            add_predictors(transfer, predictors, random);
             const auto expected = exit_radiance(transfer, lighting),
                        measured = radiance_of_shader(transfer, lighting, language, constants);
             float largest = 0;
             for (std::size_t p = 0; p < expected.size(); ++p)
                 largest = std::max(largest, glm::distance(expected[p], measured[p]) /
                                                 std::max(1.0f, glm::length(expected[p])));
-            EXPECT_LT(largest, 1e-5f) << static_cast<int>(transfer.receivers.format) << " " << guides.size();
+            EXPECT_LT(largest, 1e-5f)
+                << static_cast<int>(transfer.receivers.format) << " " << predictors.size();
         }
     }
 
@@ -235,10 +236,10 @@ TEST_P(ShaderVariants, HaveTheBindingsThatTheTableLists) {
     for (const Division division : {Division::of_their_own, Division::alike})
         for (const WeightFormat format : kFormats) {
             const ClusteredTransfer plain = compressed(format, division);
-            for (const std::vector<GuideKind>& guides : sets_of_guides()) {
+            for (const std::vector<PredictorKind>& predictors : sets_of_predictors()) {
                 ClusteredTransfer transfer = plain;
                 std::mt19937 random(2);
-                add_guides(transfer, guides, random);
+                add_predictors(transfer, predictors, random);
                 const GLuint program =
                     linked_program(relight_shader(transfer, constants, language), language);
                 EXPECT_EQ(inputs_of_driver(program, language),

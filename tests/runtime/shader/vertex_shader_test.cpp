@@ -6,7 +6,7 @@
 #include "prt/shader_source.h"
 
 #include "support/gl_radiance.h"
-#include "support/guided.h"
+#include "support/predicted.h"
 
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
@@ -78,14 +78,14 @@ TEST_P(VertexShader, AgreesWithCppPerVertex) {
     std::mt19937 random(9);
     const ClusteredTransfer plain = compressed_of(kind, random);
     const Light light = random_light(kind.order, random);
-    for (const std::vector<GuideKind>& guides : test::sets_of_guides()) {
+    for (const std::vector<PredictorKind>& predictors : test::sets_of_predictors()) {
         ClusteredTransfer compressed = plain;
-        test::add_guides(compressed, guides, random);
+        test::add_predictors(compressed, predictors, random);
         if (compressed.bases.max_components() > max_vertex_components(compressed.bases))
             continue;
         const float largest = largest_relative_difference(compressed, light, *context);
         RecordProperty("largest_relative_difference_1e9", std::to_string(1e9f * largest));
-        EXPECT_LT(largest, 1e-5f) << guides.size();
+        EXPECT_LT(largest, 1e-5f) << predictors.size();
     }
 }
 

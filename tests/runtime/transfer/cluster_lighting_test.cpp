@@ -3,7 +3,7 @@
 #include "prt/cluster_lighting.h"
 
 #include "prt/support/error.h"
-#include "support/guided.h"
+#include "support/predicted.h"
 
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
@@ -85,12 +85,12 @@ TEST_P(Constants, AreDotProductsOfRowsAndLight) {
     }
 }
 
-TEST_P(Constants, HoldScalesAndCentersOfGuides) {
+TEST_P(Constants, HoldScalesAndCentersOfPredictors) {
     const auto [order, channels, format] = GetParam();
     ClusteredTransfer t = random_transfer(order, channels, format);
     const ClusteredTransfer plain = t;
     std::mt19937 random(9);
-    test::add_guides(t.bases, {GuideKind::normal, GuideKind::position}, random);
+    test::add_predictors(t.bases, {PredictorKind::normal, PredictorKind::position}, random);
     const Light light = random_light(order);
     const ClusterLighting relighter(t), without(plain);
     std::vector<glm::vec4> constants(relighter.rows()), of_plain(without.rows());
@@ -103,7 +103,7 @@ TEST_P(Constants, HoldScalesAndCentersOfGuides) {
             const std::size_t r = first[k] + 1 + g;
             const glm::vec3 row = exit_radiance({&t.bases.rows[r * t.bases.dimension()], t.bases.dimension()},
                                                 t.bases.layout, light.coefficients);
-            EXPECT_LT(glm::distance(glm::vec3(constants[r]), t.bases.guide_scale(g) * row), 5e-5f);
+            EXPECT_LT(glm::distance(glm::vec3(constants[r]), t.bases.predictor_scale(g) * row), 5e-5f);
             mean -= static_cast<float>(t.bases.centers[6 * k + g]) * row;
         }
         EXPECT_LT(glm::distance(glm::vec3(constants[first[k]]), mean), 2e-4f);

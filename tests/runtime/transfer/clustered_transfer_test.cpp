@@ -3,7 +3,7 @@
 #include "prt/clustered_transfer.h"
 
 #include "prt/support/error.h"
-#include "support/guided.h"
+#include "support/predicted.h"
 
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
@@ -71,10 +71,10 @@ INSTANTIATE_TEST_SUITE_P(Shapes, Clustered,
                                          Shape{10, 3, WeightFormat::packed}));
 
 TEST_P(Clustered, RadianceThroughConstantsEqualsDecodedTransferTimesLight) {
-    for (const std::vector<GuideKind>& guides : test::sets_of_guides()) {
+    for (const std::vector<PredictorKind>& predictors : test::sets_of_predictors()) {
         std::mt19937 random(5);
         ClusteredTransfer transfer = random_transfer(GetParam(), random);
-        test::add_guides(transfer, guides, random);
+        test::add_predictors(transfer, predictors, random);
         Light light{GetParam().order, {}};
         std::normal_distribution<float> normal;
         for (int i = 0; i < coefficient_count(light.order); ++i)
@@ -88,10 +88,10 @@ TEST_P(Clustered, RadianceThroughConstantsEqualsDecodedTransferTimesLight) {
 }
 
 TEST_P(Clustered, TransferIsDecodedAsTheFormulaSays) {
-    for (const std::vector<GuideKind>& guides : test::sets_of_guides()) {
+    for (const std::vector<PredictorKind>& predictors : test::sets_of_predictors()) {
         std::mt19937 random(8);
         ClusteredTransfer transfer = random_transfer(GetParam(), random);
-        test::add_guides(transfer, guides, random);
+        test::add_predictors(transfer, predictors, random);
         const Transfer decoded = decode(transfer);
         for (std::size_t p = 0; p < decoded.receivers(); ++p) {
             const std::vector<double> expected = test::decoded_by_hand(transfer, p);
@@ -101,12 +101,12 @@ TEST_P(Clustered, TransferIsDecodedAsTheFormulaSays) {
     }
 }
 
-TEST(Guides, AddScaledCoordinatesLessTheCenterOfTheCluster) {
+TEST(Predictors, AddScaledCoordinatesLessTheCenterOfTheCluster) {
     ClusteredTransfer t;
     t.bases.layout = layout_of_one(1, 1);
     t.bases.components = {0, 1};
-    t.bases.guides = {{GuideKind::normal, glm::vec3(0), {2, 4, 8}},
-                      {GuideKind::position, {10, 20, 30}, {1, 0.5f, 0.25f}}};
+    t.bases.predictors = {{PredictorKind::normal, glm::vec3(0), {2, 4, 8}},
+                          {PredictorKind::position, {10, 20, 30}, {1, 0.5f, 0.25f}}};
     t.bases.centers = {0, 0, 0, 0, 0, 0, 1, 2, 3, 4, 5, 6};
     // A mean, six rows of predictors and no direction; a mean, six rows and one direction.
     t.bases.rows = {100, 1, 1, 1, 1, 1, 1, 7, 1, 10, 100, 1000, 10000, 100000, 0.5f};
@@ -115,7 +115,7 @@ TEST(Guides, AddScaledCoordinatesLessTheCenterOfTheCluster) {
     const std::vector<float> weights = {0, 0, 0, 0, 3, 0, 0, 0};
     t.receivers.weights.resize(weights.size() * sizeof(float));
     std::memcpy(t.receivers.weights.data(), weights.data(), t.receivers.weights.size());
-    t.receivers.guides = {0, 0, 1, 3, 4, 8, 1, 0, 0, 4, 8, 20};
+    t.receivers.predictors = {0, 0, 1, 3, 4, 8, 1, 0, 0, 4, 8, 20};
     EXPECT_EQ(
         decode(t).vectors,
         (std::vector<float>{100 + 8 + 3 + 2 + 2, 7 + (2 - 1) + 10 * (0 - 2) + 100 * (0 - 3) + 1000 * (4 - 4) +
@@ -186,8 +186,8 @@ TEST(Evaluate, RunsOfAClusterAreWhatTheirReceiversAre) {
     std::normal_distribution<float> normal;
     std::uniform_real_distribution<float> unit(-1, 1);
     for (const int components : {0, 1, 5, 8, 12}) {
-        const std::vector<GuideKind>& guides =
-            test::sets_of_guides()[static_cast<std::size_t>(components) % 4];
+        const std::vector<PredictorKind>& predictors =
+            test::sets_of_predictors()[static_cast<std::size_t>(components) % 4];
         ClusteredTransfer t;
         t.bases.layout = layout_of_one(1, 1);
         t.bases.components = {components, components > 2 ? components - 2 : 0};
@@ -201,7 +201,7 @@ TEST(Evaluate, RunsOfAClusterAreWhatTheirReceiversAre) {
             weight = unit(random);
         const auto bytes = std::as_bytes(std::span(stored));
         t.receivers.weights.assign(bytes.begin(), bytes.end());
-        test::add_guides(t, guides, random);
+        test::add_predictors(t, predictors, random);
         std::vector<glm::vec4> constants(constant_rows(t.bases));
         for (glm::vec4& c : constants)
             c = {normal(random), normal(random), normal(random), 0};
@@ -213,10 +213,10 @@ TEST(Evaluate, RunsOfAClusterAreWhatTheirReceiversAre) {
             decode_weights(t, layouts, p, weights);
             const ClusterLayout& layout = layouts[t.receivers.clusters[p]];
             glm::vec3 expected(constants[layout.first_row]);
-            const std::size_t known = t.bases.guide_rows();
+            const std::size_t known = t.bases.predictor_rows();
             for (std::size_t g = 0; g < known; ++g)
                 expected +=
-                    t.receivers.guides[p * known + g] * glm::vec3(constants[layout.first_row + 1 + g]);
+                    t.receivers.predictors[p * known + g] * glm::vec3(constants[layout.first_row + 1 + g]);
             for (std::size_t j = 0; j < layout.components; ++j)
                 expected += weights[j] * glm::vec3(constants[layout.first_row + 1 + known + j]);
             EXPECT_LT(glm::distance(radiance[p], expected), 1e-5f) << components << " " << p;

@@ -178,7 +178,7 @@ TEST(CodedBases, HaveStepsOfTheirOwnInEachClusterAndGroupOfAxes) {
     }
 }
 
-TEST(CodedBases, RowsOfGuidesHaveTheStepOfMeansAndNoOrigin) {
+TEST(CodedBases, RowsOfPredictorsHaveTheStepOfMeansAndNoOrigin) {
     // a cluster with one direction, then one without
     const std::vector<std::int32_t> values = {5, 6, 7, 8, 9, -5, -6, -7, -8};
     const CodedBases coded{

@@ -127,9 +127,9 @@ PRT_API prt_status prt_model_get_info(const prt_model* model, prt_model_info* ou
 
 /* Mesh attributes that prt_exit_radiance(position, normal) of the vertex shader reads. */
 typedef struct prt_vertex_inputs {
-    int normals, positions; /* 1 if read, else 0 */
-    float guide_origin[3];  /* metres: PRT_GUIDE_ORIGIN for positions as in prt_mesh */
-    double origin[3];       /* metres, in the file's world: origin of the positions in prt_mesh */
+    int normals, positions;    /* 1 if read, else 0 */
+    float predictor_origin[3]; /* metres: PRT_PREDICTOR_ORIGIN for positions as in prt_mesh */
+    double origin[3];          /* metres, in the file's world: origin of the positions in prt_mesh */
 } prt_vertex_inputs;
 PRT_API prt_status prt_model_get_vertex_inputs(const prt_model* model, prt_vertex_inputs* out,
                                                prt_message* message);

@@ -3,10 +3,10 @@
 #include "prt/prt.h"
 
 #include "prt/gltf.h"
-#include "prt/guides.h"
 #include "prt/light.h"
+#include "prt/predictors.h"
 #include "support/glb_file.h"
-#include "support/guided.h"
+#include "support/predicted.h"
 #include "support/temporary_folder.h"
 
 #include <gtest/gtest.h>
@@ -17,9 +17,9 @@ namespace prt {
 namespace {
 
 /// A triangle far away, of clusters without weights.
-class CGuides : public testing::Test {
+class CPredictors : public testing::Test {
 protected:
-    void make(const std::vector<GuideKind>& kinds) {
+    void make(const std::vector<PredictorKind>& kinds) {
         test::GlbFile file = test::triangle_file();
         file.json["nodes"][0]["translation"] = {1e6, 20, 3};
         file.write(folder / "t.glb");
@@ -29,9 +29,9 @@ protected:
         transfer.bases.components = {0, 0};
         transfer.bases.rows.assign(2 * transfer.bases.dimension(), 1);
         std::mt19937 random(3);
-        test::add_guides(transfer.bases, kinds, random);
+        test::add_predictors(transfer.bases, kinds, random);
         transfer.receivers.clusters = {0, 1, 1};
-        transfer.receivers.guides = guide_coordinates(scene, transfer.bases.guides);
+        transfer.receivers.predictors = predictor_coordinates(scene, transfer.bases.predictors);
         write_clustered(document, scene, {transfer, {}});
         save_glb(document, folder / "g.glb");
         ASSERT_EQ(prt_model_load((folder / "g.glb").string().c_str(), &model, nullptr), PRT_OK);
@@ -48,8 +48,8 @@ protected:
     prt_vertex_inputs inputs = {};
 };
 
-TEST_F(CGuides, EvaluateAsInCpp) {
-    make({GuideKind::normal, GuideKind::position});
+TEST_F(CPredictors, EvaluateAsInCpp) {
+    make({PredictorKind::normal, PredictorKind::position});
     EXPECT_EQ(info.rows, 14u);
     EXPECT_EQ(inputs.normals, 1);
     EXPECT_EQ(inputs.positions, 1);
@@ -64,11 +64,11 @@ TEST_F(CGuides, EvaluateAsInCpp) {
             EXPECT_NEAR(radiance[3 * p + static_cast<std::size_t>(c)], expected[p][c], 1e-5f);
 }
 
-TEST_F(CGuides, ShadersTakeThePositionsOfMeshes) {
-    make({GuideKind::position});
+TEST_F(CPredictors, ShadersTakeThePositionsOfMeshes) {
+    make({PredictorKind::position});
     EXPECT_EQ(inputs.normals, 0);
     EXPECT_EQ(inputs.positions, 1);
-    EXPECT_EQ(inputs.guide_origin[1], -2);
+    EXPECT_EQ(inputs.predictor_origin[1], -2);
     EXPECT_EQ(prt_model_get_vertex_inputs(model, nullptr, nullptr), PRT_BAD_ARGUMENT);
     EXPECT_EQ(inputs.origin[0], 1e6 + 0.5);
     EXPECT_EQ(inputs.origin[1], 20.5);
@@ -81,8 +81,8 @@ TEST_F(CGuides, ShadersTakeThePositionsOfMeshes) {
     std::string source(size, ' ');
     ASSERT_EQ(prt_model_shader(model, PRT_GLSL450, PRT_CONSTANTS_IN_BUFFER, source.data(), &size, nullptr),
               PRT_OK);
-    // Also contains the origin of the predictor, which test::add_guides sets.
-    EXPECT_NE(source.find("PRT_GUIDE_ORIGIN vec3(2.50000000e-01, -2.00000000e+00, 1.29999995e+00)"),
+    // Also contains the origin of the predictor, which test::add_predictors sets.
+    EXPECT_NE(source.find("PRT_PREDICTOR_ORIGIN vec3(2.50000000e-01, -2.00000000e+00, 1.29999995e+00)"),
               std::string::npos);
 }
 

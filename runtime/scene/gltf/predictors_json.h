@@ -8,11 +8,12 @@ namespace prt {
 
 /// Writes predictors and offsets into `extension`; nothing if `bases` has none. Origins of predictors are
 /// converted to the file's world.
-void write_guides(GltfContents& contents, const Scene& scene, const ClusteredBases& bases, Json& extension);
+void write_predictors(GltfContents& contents, const Scene& scene, const ClusteredBases& bases,
+                      Json& extension);
 
 /// Reads predictors, and offsets of the clusters of `bases`. Throws `Error` if they are invalid.
-void read_guides(const GltfContents& contents, const Scene& scene, const Json& extension,
-                 ClusteredBases& bases);
+void read_predictors(const GltfContents& contents, const Scene& scene, const Json& extension,
+                     ClusteredBases& bases);
 
 /// Returns the predictor coordinates of all receivers of `scene`. Throws `Error` if they need too much
 /// memory, or exceed the maximum weight.

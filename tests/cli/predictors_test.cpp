@@ -2,9 +2,9 @@
 
 #include "program.h"
 #include "prt/gltf.h"
-#include "prt/guides.h"
+#include "prt/predictors.h"
 #include "support/glb_file.h"
-#include "support/guided.h"
+#include "support/predicted.h"
 #include "support/scene_builder.h"
 #include "support/temporary_folder.h"
 
@@ -25,12 +25,12 @@ ClusteredBases coded_bases(std::mt19937& random) {
     bases.components = {2, 0, 3};
     bases.bits = {9, 16, 11, 8, 7};
     bases.rows.resize(8 * bases.dimension());
-    add_guides(bases, {GuideKind::normal, GuideKind::position}, random);
+    add_predictors(bases, {PredictorKind::normal, PredictorKind::position}, random);
     code_bases(bases, {0.02f, 0.016f, 0.012f, 0.008f, 0.004f}, random);
     return bases;
 }
 
-ClusteredTransfer guided_transfer(const Scene& scene) {
+ClusteredTransfer predicted_transfer(const Scene& scene) {
     std::mt19937 random(7);
     ClusteredTransfer t{coded_bases(random), {}};
     ClusteredReceivers& r = t.receivers;
@@ -49,20 +49,20 @@ ClusteredTransfer guided_transfer(const Scene& scene) {
         r.clusters.push_back(k);
         std::memcpy(&r.weights[4 * p], words.data(), 4);
     }
-    r.guides = guide_coordinates(scene, t.bases.guides);
+    r.predictors = predictor_coordinates(scene, t.bases.predictors);
     return t;
 }
 
 /// b.glb contains the vectors decoded from the clusters of c.glb.
-class Guided : public testing::Test {
+class Predicted : public testing::Test {
 protected:
     void SetUp() override {
         const Scene ball = SceneBuilder().sphere({2, -1, 0.5f}, 1.5f, 9).floor({3, 0, 0}, 4, 3).build();
         scene_file(ball).write(folder / "t.glb");
         GltfDocument document = load_gltf(folder / "t.glb");
         const Scene scene = extract_scene(document);
-        const ClusteredTransfer transfer = guided_transfer(scene);
-        origin = scene.world(transfer.bases.guides[1].origin);
+        const ClusteredTransfer transfer = predicted_transfer(scene);
+        origin = scene.world(transfer.bases.predictors[1].origin);
         const BakeRecord record{.receivers = receivers_id(scene)};
         write_transfer(document, scene, {decode(transfer), record});
         save_glb(document, folder / "b.glb");
@@ -81,7 +81,7 @@ protected:
     glm::dvec3 origin{0}; ///< origin of the position predictor
 };
 
-TEST_F(Guided, ModelsAreDecodedFromTheFormatPage) {
+TEST_F(Predicted, ModelsAreDecodedFromTheFormatPage) {
     if (std::string(PRT_NODE).empty())
         GTEST_SKIP() << "node is not installed";
     const Outcome decoder = run(PRT_NODE, {PRT_DECODE, at("b.glb"), at("c.glb")});
@@ -89,7 +89,7 @@ TEST_F(Guided, ModelsAreDecodedFromTheFormatPage) {
     EXPECT_LT(first_number(decoder.out), 1e-6);
 }
 
-TEST_F(Guided, ModelsAreLitByTheWebsDecoder) {
+TEST_F(Predicted, ModelsAreLitByTheWebsDecoder) {
     if (std::string(PRT_NODE).empty())
         GTEST_SKIP() << "node is not installed";
     const std::string script = (std::filesystem::path(PRT_DECODE).parent_path() / "decode_web.mjs").string();
@@ -98,24 +98,24 @@ TEST_F(Guided, ModelsAreLitByTheWebsDecoder) {
     EXPECT_LT(first_number(decoder.out), 1e-5);
 }
 
-TEST_F(Guided, ModelsSayWhatTheirGuidesCost) {
+TEST_F(Predicted, ModelsSayWhatTheirPredictorsCost) {
     const Outcome info = prt({"info", at("c.glb"), "--json", at("i.json")});
     ASSERT_EQ(info.status, 0) << info.err;
-    EXPECT_NE(info.out.find("guides: normal and position: 6 rows in each cluster"), std::string::npos)
+    EXPECT_NE(info.out.find("predictors: normal and position: 6 rows in each cluster"), std::string::npos)
         << info.out;
     const auto figures = nlohmann::json::parse(std::ifstream(folder / "i.json"))["clustered_pca"];
-    EXPECT_EQ(figures["guides"], (nlohmann::json{"normal", "position"}));
-    EXPECT_EQ(figures["guide_rows"], 6);
+    EXPECT_EQ(figures["predictors"], (nlohmann::json{"normal", "position"}));
+    EXPECT_EQ(figures["predictor_rows"], 6);
     EXPECT_EQ(figures["bytes_bound_per_vertex"], 4);
 }
 
-TEST_F(Guided, ModelsAreTheirVectorsToEveryCommand) {
+TEST_F(Predicted, ModelsAreTheirVectorsToEveryCommand) {
     const Outcome evaluate = prt({"evaluate", at("b.glb"), at("c.glb"), "--json", at("e.json")});
     ASSERT_EQ(evaluate.status, 0) << evaluate.err;
     EXPECT_LT(nlohmann::json::parse(std::ifstream(folder / "e.json"))["relative_l2"], 1e-6);
 }
 
-TEST_F(Guided, ShadersOfModelsCompileInEveryLanguage) {
+TEST_F(Predicted, ShadersOfModelsCompileInEveryLanguage) {
     if (std::string(PRT_GLSLANG).empty() || std::string(PRT_SPIRV_CROSS).empty())
         GTEST_SKIP() << "glslangValidator or spirv-cross is not installed";
     for (const std::string language : {"glsl450", "glsl330", "essl300", "vulkan"}) {
@@ -125,9 +125,9 @@ TEST_F(Guided, ShadersOfModelsCompileInEveryLanguage) {
         std::ifstream file(folder / "s.vert");
         const std::string text{std::istreambuf_iterator<char>(file), {}};
         float x = 0, y = 0, z = 0; // in the file's world
-        const std::size_t place = text.find("#define PRT_GUIDE_ORIGIN");
+        const std::size_t place = text.find("#define PRT_PREDICTOR_ORIGIN");
         ASSERT_NE(place, std::string::npos);
-        EXPECT_EQ(std::sscanf(&text[place], "#define PRT_GUIDE_ORIGIN vec3(%f, %f, %f)", &x, &y, &z), 3);
+        EXPECT_EQ(std::sscanf(&text[place], "#define PRT_PREDICTOR_ORIGIN vec3(%f, %f, %f)", &x, &y, &z), 3);
         EXPECT_EQ(glm::vec3(x, y, z), glm::vec3(origin));
         const bool vulkan = language == "vulkan";
         std::vector<std::string> arguments = {"-S", "vert", at("s.vert")};

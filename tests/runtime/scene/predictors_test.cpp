@@ -2,11 +2,11 @@
 
 #include "prt/coded_rows.h"
 #include "prt/gltf.h"
-#include "prt/guides.h"
+#include "prt/predictors.h"
 #include "prt/reorder.h"
 #include "prt/support/error.h"
 #include "support/glb_file.h"
-#include "support/guided.h"
+#include "support/predicted.h"
 #include "support/temporary_folder.h"
 
 #include <glm/geometric.hpp>
@@ -21,7 +21,7 @@ namespace {
 
 using test::GlbFile;
 
-const std::vector<GuideKind> kBoth = {GuideKind::normal, GuideKind::position};
+const std::vector<PredictorKind> kBoth = {PredictorKind::normal, PredictorKind::position};
 
 /// Returns quantised normals, a folded primitive without normals, and nodes that mirror, scale and rotate the
 /// mesh.
@@ -49,8 +49,8 @@ GlbFile hard_file(const glm::dvec3& place) {
 }
 
 /// Compressed transfer of random numbers for a scene.
-CompressedTransfer guided_transfer(const Scene& scene, const std::vector<GuideKind>& kinds,
-                                   WeightFormat format) {
+CompressedTransfer predicted_transfer(const Scene& scene, const std::vector<PredictorKind>& kinds,
+                                      WeightFormat format) {
     CompressedTransfer c;
     ClusteredTransfer& t = c.transfer;
     t.bases.layout = layout_of_one(2, 3);
@@ -59,7 +59,7 @@ CompressedTransfer guided_transfer(const Scene& scene, const std::vector<GuideKi
     std::normal_distribution<float> normal;
     for (std::size_t i = 0; i < 8 * t.bases.dimension(); ++i)
         t.bases.rows.push_back(normal(random));
-    test::add_guides(t.bases, kinds, random);
+    test::add_predictors(t.bases, kinds, random);
     ClusteredReceivers& r = t.receivers;
     r.format = format;
     const bool packed = format == WeightFormat::packed;
@@ -82,7 +82,7 @@ CompressedTransfer guided_transfer(const Scene& scene, const std::vector<GuideKi
             std::memcpy(&r.weights[16 * p], weights, sizeof weights);
         }
     }
-    r.guides = guide_coordinates(scene, t.bases.guides);
+    r.predictors = predictor_coordinates(scene, t.bases.predictors);
     return c;
 }
 
@@ -97,80 +97,83 @@ Model read(const std::filesystem::path& path) {
     return {std::move(document), std::move(scene)};
 }
 
-TEST(GuideCoordinates, AreNormalsAndPositionsSeenFromTheOrigin) {
+TEST(PredictorCoordinates, AreNormalsAndPositionsSeenFromTheOrigin) {
     const test::TemporaryFolder folder;
     test::triangle_file().write(folder / "t.glb");
     const Scene scene = read(folder / "t.glb").scene; // seen from the middle of the box
-    const std::vector<Guide> guides = {{GuideKind::normal}, {GuideKind::position, {0.5f, 0, -1}}};
-    EXPECT_EQ(guide_coordinates(scene, guides),
+    const std::vector<Predictor> predictors = {{PredictorKind::normal},
+                                               {PredictorKind::position, {0.5f, 0, -1}}};
+    EXPECT_EQ(predictor_coordinates(scene, predictors),
               (std::vector<float>{0, 0, 1, -1, -0.5f, 1, 0, 0, 1, 0, -0.5f, 1, 0, 0, 1, -1, 0.5f, 1}));
-    EXPECT_EQ(guide_coordinates(scene, std::vector<Guide>(1, guides[1])),
+    EXPECT_EQ(predictor_coordinates(scene, std::vector<Predictor>(1, predictors[1])),
               (std::vector<float>{-1, -0.5f, 1, 0, -0.5f, 1, -1, 0.5f, 1}));
-    EXPECT_TRUE(guide_coordinates(scene, {}).empty());
+    EXPECT_TRUE(predictor_coordinates(scene, {}).empty());
 }
 
-class GuidesInFiles : public testing::TestWithParam<WeightFormat> {};
-INSTANTIATE_TEST_SUITE_P(Formats, GuidesInFiles,
+class PredictorsInFiles : public testing::TestWithParam<WeightFormat> {};
+INSTANTIATE_TEST_SUITE_P(Formats, PredictorsInFiles,
                          testing::Values(WeightFormat::float32, WeightFormat::packed));
 
-TEST_P(GuidesInFiles, ComeBackAsTheyAre) {
+TEST_P(PredictorsInFiles, ComeBackAsTheyAre) {
     for (const glm::dvec3 place : {glm::dvec3(0), glm::dvec3(1e6, -2e6, 123456.75)})
-        for (const std::vector<GuideKind>& kinds : test::sets_of_guides()) {
+        for (const std::vector<PredictorKind>& kinds : test::sets_of_predictors()) {
             const test::TemporaryFolder folder;
             hard_file(place).write(folder / "hard.glb");
             Model model = read(folder / "hard.glb");
-            const CompressedTransfer c = guided_transfer(model.scene, kinds, GetParam());
+            const CompressedTransfer c = predicted_transfer(model.scene, kinds, GetParam());
             write_clustered(model.document, model.scene, c);
             save_glb(model.document, folder / "written.glb", BufferCompression::meshopt);
             const Model again = read(folder / "written.glb");
             const auto read_back = read_clustered(again.document, again.scene);
             ASSERT_TRUE(read_back);
             const ClusteredTransfer& t = read_back->transfer;
-            EXPECT_EQ(t.bases.guides, c.transfer.bases.guides);
+            EXPECT_EQ(t.bases.predictors, c.transfer.bases.predictors);
             EXPECT_EQ(t.bases.centers, c.transfer.bases.centers);
             EXPECT_EQ(t.bases.rows, c.transfer.bases.rows);
             EXPECT_EQ(t.bases.bits, c.transfer.bases.bits);
             EXPECT_EQ(t.receivers.weights, c.transfer.receivers.weights);
             // Predictors of flat normals are rounded a second time.
-            ASSERT_EQ(t.receivers.guides.size(), c.transfer.receivers.guides.size());
-            for (std::size_t i = 0; i < t.receivers.guides.size(); ++i)
-                EXPECT_NEAR(t.receivers.guides[i], c.transfer.receivers.guides[i], 1e-6f) << i;
+            ASSERT_EQ(t.receivers.predictors.size(), c.transfer.receivers.predictors.size());
+            for (std::size_t i = 0; i < t.receivers.predictors.size(); ++i)
+                EXPECT_NEAR(t.receivers.predictors[i], c.transfer.receivers.predictors[i], 1e-6f) << i;
             const Transfer before = decode(c.transfer), after = decode(t);
             for (std::size_t i = 0; i < before.vectors.size(); ++i)
                 EXPECT_NEAR(before.vectors[i], after.vectors[i], 1e-5f);
         }
 }
 
-TEST(GuidesInFile, OriginsArePlacesInItsWorld) {
+TEST(PredictorsInFile, OriginsArePlacesInItsWorld) {
     const test::TemporaryFolder folder;
     hard_file(glm::dvec3(1e6, 0, -3)).write(folder / "hard.glb");
     Model model = read(folder / "hard.glb");
-    const CompressedTransfer c = guided_transfer(model.scene, kBoth, WeightFormat::packed);
+    const CompressedTransfer c = predicted_transfer(model.scene, kBoth, WeightFormat::packed);
     write_clustered(model.document, model.scene, c);
     save_glb(model.document, folder / "written.glb");
     const auto json = test::read_glb(folder / "written.glb").json["extensions"]["PRTKIT_clustered_pca"];
     EXPECT_EQ(json["version"], 7);
-    EXPECT_FALSE(json["guides"][0].contains("origin"));
+    EXPECT_FALSE(json["predictors"][0].contains("origin"));
     for (std::size_t i = 0; i < 3; ++i) {
         const int axis = static_cast<int>(i);
-        EXPECT_EQ(json["guides"][1]["origin"][i].get<double>(),
-                  model.scene.origin[axis] + static_cast<double>(c.transfer.bases.guides[1].origin[axis]));
-        EXPECT_EQ(json["guides"][0]["scale"][i].get<float>(), c.transfer.bases.guides[0].scale[axis]);
+        EXPECT_EQ(json["predictors"][1]["origin"][i].get<double>(),
+                  model.scene.origin[axis] +
+                      static_cast<double>(c.transfer.bases.predictors[1].origin[axis]));
+        EXPECT_EQ(json["predictors"][0]["scale"][i].get<float>(), c.transfer.bases.predictors[0].scale[axis]);
     }
 }
 
-TEST(GuidesInFile, FollowVerticesThatMove) {
+TEST(PredictorsInFile, FollowVerticesThatMove) {
     const test::TemporaryFolder folder;
     test::triangle_file().write(folder / "t.glb");
     Model model = read(folder / "t.glb");
-    CompressedTransfer c = guided_transfer(model.scene, kBoth, WeightFormat::float32);
+    CompressedTransfer c = predicted_transfer(model.scene, kBoth, WeightFormat::float32);
     const std::vector<std::uint32_t> order = {2, 0, 1};
     const Transfer before = decode(c.transfer);
     c.transfer.receivers = reordered(c.transfer.receivers, order);
     reorder_vertices(model.document, model.scene, order);
     save_glb(model.document, folder / "moved.glb");
     Model moved = read(folder / "moved.glb");
-    EXPECT_EQ(c.transfer.receivers.guides, guide_coordinates(moved.scene, c.transfer.bases.guides));
+    EXPECT_EQ(c.transfer.receivers.predictors,
+              predictor_coordinates(moved.scene, c.transfer.bases.predictors));
     write_clustered(moved.document, moved.scene, c);
     save_glb(moved.document, folder / "written.glb");
     const Model again = read(folder / "written.glb");
@@ -180,13 +183,14 @@ TEST(GuidesInFile, FollowVerticesThatMove) {
             EXPECT_EQ(after.vector(p)[i], before.vector(order[p])[i]);
 }
 
-TEST(GuidesInFile, LeaveNothingBehind) {
+TEST(PredictorsInFile, LeaveNothingBehind) {
     const test::TemporaryFolder folder;
     test::triangle_file().write(folder / "t.glb");
     Model model = read(folder / "t.glb");
     discard_transfer(model.document);
     save_glb(model.document, folder / "before.glb");
-    write_clustered(model.document, model.scene, guided_transfer(model.scene, kBoth, WeightFormat::packed));
+    write_clustered(model.document, model.scene,
+                    predicted_transfer(model.scene, kBoth, WeightFormat::packed));
     save_glb(model.document, folder / "written.glb");
     Model again = read(folder / "written.glb");
     discard_transfer(again.document);
@@ -196,12 +200,12 @@ TEST(GuidesInFile, LeaveNothingBehind) {
 }
 
 /// The error of a file with predictors after `change` of its extension.
-class GuidedFile {
+class PredictedFile {
 public:
-    explicit GuidedFile(WeightFormat format) {
+    explicit PredictedFile(WeightFormat format) {
         test::triangle_file().write(folder_ / "t.glb");
         Model model = read(folder_ / "t.glb");
-        write_clustered(model.document, model.scene, guided_transfer(model.scene, kBoth, format));
+        write_clustered(model.document, model.scene, predicted_transfer(model.scene, kBoth, format));
         save_glb(model.document, folder_ / "good.glb");
         good_ = test::read_glb(folder_ / "good.glb");
         good_.json.erase("buffers");
@@ -224,68 +228,68 @@ private:
     GlbFile good_;
 };
 
-TEST(GuidesInFile, ThatMakeNoSenseAreRefusedInALine) {
+TEST(PredictorsInFile, ThatMakeNoSenseAreRefusedInALine) {
     using Json = nlohmann::ordered_json;
-    const GuidedFile guided_file(WeightFormat::packed);
-    EXPECT_EQ(guided_file.refusal([](Json&, GlbFile&) {}), "was read");
+    const PredictedFile predicted_file(WeightFormat::packed);
+    EXPECT_EQ(predicted_file.refusal([](Json&, GlbFile&) {}), "was read");
     const std::pair<const char*, std::function<void(Json&)>> changes[] = {
-        {"guides are no list", [](Json& e) { e["guides"] = "normal"; }},
-        {"guides are no list", [](Json& e) { e["guides"] = Json::array(); }},
-        {"guides are no list", [](Json& e) { e["guides"].push_back(e["guides"][0]); }},
-        {"of a kind that this program", [](Json& e) { e["guides"][0]["kind"] = "tangent"; }},
-        {"of a kind that this program", [](Json& e) { e["guides"][0]["kind"] = 1; }},
-        {"a normal and then a position", [](Json& e) { e["guides"][1] = e["guides"][0]; }},
-        {"a normal and then a position", [](Json& e) { e["guides"][0] = e["guides"][1]; }},
-        {"a normal and then a position", [](Json& e) { std::swap(e["guides"][0], e["guides"][1]); }},
-        {"is damaged glTF", [](Json& e) { e["guides"][0].erase("kind"); }},
-        {"is damaged glTF", [](Json& e) { e["guides"][0].erase("scale"); }},
-        {"is damaged glTF", [](Json& e) { e["guides"][1].erase("origin"); }},
+        {"predictors are no list", [](Json& e) { e["predictors"] = "normal"; }},
+        {"predictors are no list", [](Json& e) { e["predictors"] = Json::array(); }},
+        {"predictors are no list", [](Json& e) { e["predictors"].push_back(e["predictors"][0]); }},
+        {"of a kind that this program", [](Json& e) { e["predictors"][0]["kind"] = "tangent"; }},
+        {"of a kind that this program", [](Json& e) { e["predictors"][0]["kind"] = 1; }},
+        {"a normal and then a position", [](Json& e) { e["predictors"][1] = e["predictors"][0]; }},
+        {"a normal and then a position", [](Json& e) { e["predictors"][0] = e["predictors"][1]; }},
+        {"a normal and then a position", [](Json& e) { std::swap(e["predictors"][0], e["predictors"][1]); }},
+        {"is damaged glTF", [](Json& e) { e["predictors"][0].erase("kind"); }},
+        {"is damaged glTF", [](Json& e) { e["predictors"][0].erase("scale"); }},
+        {"is damaged glTF", [](Json& e) { e["predictors"][1].erase("origin"); }},
         {"is damaged glTF", [](Json& e) { e.erase("centers"); }},
-        {"scale of a guide is not three", [](Json& e) { e["guides"][0]["scale"] = 2; }},
-        {"scale of a guide is not three",
+        {"scale of a predictor is not three", [](Json& e) { e["predictors"][0]["scale"] = 2; }},
+        {"scale of a predictor is not three",
          [](Json& e) {
-             e["guides"][0]["scale"] = {1, 2};
+             e["predictors"][0]["scale"] = {1, 2};
          }},
-        {"scale of a guide is not three",
+        {"scale of a predictor is not three",
          [](Json& e) {
-             e["guides"][0]["scale"] = {1, 2, 3, 4};
+             e["predictors"][0]["scale"] = {1, 2, 3, 4};
          }},
-        {"scale of a guide is not three", [](Json& e) { e["guides"][0]["scale"][1] = "2"; }},
-        {"scale of a guide is not three", [](Json& e) { e["guides"][0]["scale"][1] = nullptr; }},
-        {"scale of a guide is not three", [](Json& e) { e["guides"][0]["scale"][1] = 1e300; }},
-        {"scale of a guide is zero", [](Json& e) { e["guides"][0]["scale"][2] = 0; }},
-        {"scale of a guide is zero", [](Json& e) { e["guides"][1]["scale"][2] = 1e-60; }},
-        {"origin of a guide is not three", [](Json& e) { e["guides"][1]["origin"][0] = 1e12; }},
-        {"origin of a guide is not three", [](Json& e) { e["guides"][1]["origin"].erase(0); }},
+        {"scale of a predictor is not three", [](Json& e) { e["predictors"][0]["scale"][1] = "2"; }},
+        {"scale of a predictor is not three", [](Json& e) { e["predictors"][0]["scale"][1] = nullptr; }},
+        {"scale of a predictor is not three", [](Json& e) { e["predictors"][0]["scale"][1] = 1e300; }},
+        {"scale of a predictor is zero", [](Json& e) { e["predictors"][0]["scale"][2] = 0; }},
+        {"scale of a predictor is zero", [](Json& e) { e["predictors"][1]["scale"][2] = 1e-60; }},
+        {"origin of a predictor is not three", [](Json& e) { e["predictors"][1]["origin"][0] = 1e12; }},
+        {"origin of a predictor is not three", [](Json& e) { e["predictors"][1]["origin"].erase(0); }},
         {"farther from the origin",
          [](Json& e) {
-             e["guides"][1]["origin"][0] = 1e9;
-             e["guides"][1]["scale"][0] = 1e3;
+             e["predictors"][1]["origin"][0] = 1e9;
+             e["predictors"][1]["scale"][0] = 1e3;
          }},
         {"centers have 5 columns for 6", [](Json& e) { e["centers"]["drops"].erase(0); }},
         {"a drop is 16", [](Json& e) { e["centers"]["drops"][0] = 16; }},
         {"buffer view 999 is not there", [](Json& e) { e["centers"]["bufferView"] = 999; }},
     };
     for (std::size_t i = 0; i < std::size(changes); ++i) {
-        const std::string said = guided_file.refusal([&](Json& e, GlbFile&) { changes[i].second(e); });
+        const std::string said = predicted_file.refusal([&](Json& e, GlbFile&) { changes[i].second(e); });
         EXPECT_NE(said.find(changes[i].first), std::string::npos) << i << ": " << said;
         EXPECT_EQ(said.find('\n'), std::string::npos);
     }
     const auto ends_early = [](Json& e, GlbFile& file) {
         e["centers"]["bufferView"] = file.view(std::vector<std::byte>(1, std::byte{0xff}));
     };
-    EXPECT_NE(guided_file.refusal(ends_early).find("the centers: "), std::string::npos);
+    EXPECT_NE(predicted_file.refusal(ends_early).find("the centers: "), std::string::npos);
     // The bases have rows for predictors, and the widths of weights have none.
-    EXPECT_NE(guided_file.refusal([](Json& e, GlbFile&) {
-        e["guides"].erase(1);
+    EXPECT_NE(predicted_file.refusal([](Json& e, GlbFile&) {
+        e["predictors"].erase(1);
         e["centers"]["drops"] = {0, 0, 0};
     }),
               "was read");
-    EXPECT_NE(guided_file.refusal([](Json& e, GlbFile&) { e.erase("guides"); }), "was read");
+    EXPECT_NE(predicted_file.refusal([](Json& e, GlbFile&) { e.erase("predictors"); }), "was read");
 }
 
-TEST(GuidesInFile, RowsOfZerosAreNotAllocatedForNothing) {
-    const GuidedFile guided_file(WeightFormat::float32);
+TEST(PredictorsInFile, RowsOfZerosAreNotAllocatedForNothing) {
+    const PredictedFile predicted_file(WeightFormat::float32);
     const auto many = [](nlohmann::ordered_json& e, GlbFile& file) {
         constexpr std::size_t kClusters = 65536, kDimension = 12, kAxes = 200;
         e["components"] = std::vector<int>(kClusters, 0);
@@ -304,8 +308,8 @@ TEST(GuidesInFile, RowsOfZerosAreNotAllocatedForNothing) {
         e["bases"]["values"] = zero_rows(7 * kClusters, kAxes);
     };
     // Seven rows per cluster need 433 MB for 0.3 + 0.02 MB of file, one row needs 62 MB.
-    EXPECT_NE(guided_file.refusal(many).find("its bases would take"), std::string::npos)
-        << guided_file.refusal(many);
+    EXPECT_NE(predicted_file.refusal(many).find("its bases would take"), std::string::npos)
+        << predicted_file.refusal(many);
 }
 
 } // namespace

@@ -1,6 +1,6 @@
 // Computes predictor coordinates: normals and positions, scaled by their standard deviation.
 
-#include "clusters/guide_coordinates.h"
+#include "clusters/predictor_coordinates.h"
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
@@ -25,20 +25,20 @@ double extent(std::span<const glm::vec3> values) {
 
 } // namespace
 
-GuideCoordinates guide_coordinates(const ReceiverSurface& surface, GuideChoice choice) {
-    GuideCoordinates result;
-    const auto add = [&](GuideKind kind, std::span<const glm::vec3> values) {
+PredictorCoordinates predictor_coordinates(const ReceiverSurface& surface, PredictorChoice choice) {
+    PredictorCoordinates result;
+    const auto add = [&](PredictorKind kind, std::span<const glm::vec3> values) {
         const double size = extent(values);
         const auto scale = static_cast<float>(1 / size);
         if (!(size > 0) || !std::isfinite(scale))
             return;
-        result.guides.push_back({kind, glm::vec3(0), glm::vec3(scale)});
+        result.predictors.push_back({kind, glm::vec3(0), glm::vec3(scale)});
         result.attributes.push_back(values);
     };
-    if (choice != GuideChoice::none)
-        add(GuideKind::normal, surface.normals);
-    if (choice == GuideChoice::normal_and_position)
-        add(GuideKind::position, surface.positions);
+    if (choice != PredictorChoice::none)
+        add(PredictorKind::normal, surface.normals);
+    if (choice == PredictorChoice::normal_and_position)
+        add(PredictorKind::position, surface.positions);
     return result;
 }
 
