@@ -7,9 +7,9 @@
 #include "exit_light.h"
 #include "measured_light.h"
 #include "memory.h"
-#include "parts.h"
 #include "prt/support/stopwatch.h"
 #include "scene/places_without_area.h"
+#include "transfer_terms.h"
 
 #include <algorithm>
 #include <memory>
@@ -95,7 +95,7 @@ BakeResult bake(const Scene& scene, const BakeOptions& options, const Progress& 
 
     const double traced_sky = plan.bounces != 0 ? 0.85 : 0.95;
     BakeStatistics asked;
-    Measured measured = measure(plan, *tracer, LastOfLamps::connected, asked, progress.part(0, traced_sky));
+    Measured measured = measure(plan, *tracer, LastOfLamps::connected, asked, progress.range(0, traced_sky));
     DirectLight& direct = measured.direct;
     const SealedIn& sealed = measured.sealed;
     direct.rays += measured.lamps.light.rays + asked.rays;
@@ -111,7 +111,7 @@ BakeResult bake(const Scene& scene, const BakeOptions& options, const Progress& 
                                        .product = product.get(),
                                        .fit = measured.fit ? &*measured.fit : nullptr};
     ExitLight exit = exit_light(plan, measured, operators, check ? check->gather() : nullptr,
-                                progress.part(traced_sky, 1));
+                                progress.range(traced_sky, 1));
     if (exit.noise.sky > 0)
         direct.sampling_error = exit.noise.sky;
     if (measured.shared)

@@ -5,7 +5,7 @@
 #include "exit_light.h"
 #include "lamps/lamp_light.h"
 #include "measured_light.h"
-#include "parts.h"
+#include "transfer_terms.h"
 
 #include <memory>
 
@@ -22,7 +22,7 @@ BouncedSources bounced_sources(const BakePlan& plan, Tracer& tracer, const Progr
     if (plan.bounces == 0)
         return sources;
     BakeStatistics asked;
-    Measured measured = measure(plan, tracer, LastOfLamps::as_others, asked, progress.part(0, 0.9));
+    Measured measured = measure(plan, tracer, LastOfLamps::as_others, asked, progress.range(0, 0.9));
     sources.rays = measured.direct.rays + measured.sealed.rays + measured.lamps.light.rays + asked.rays;
     if (!plan.lamps.empty())
         sources.connections.emplace(plan, measured.lamps.light.transfer);
@@ -36,7 +36,7 @@ BouncedSources bounced_sources(const BakePlan& plan, Tracer& tracer, const Progr
     const int before = plan.bounces == kEndlessBounces ? kEndlessBounces : plan.bounces - 1;
     Transfer sky = plan.channels == 3 ? in_color(measured.direct.transfer) : measured.direct.transfer;
     Propagated lit =
-        propagate(std::move(sky), operators, before, plan.options.threads, progress.part(0.9, 1));
+        propagate(std::move(sky), operators, before, plan.options.threads, progress.range(0.9, 1));
     sources.bounces = lit.bounces + 1;
     sources.sky = std::move(lit.transfer);
     if (!plan.lamps.empty())

@@ -85,12 +85,12 @@ DirectLight trace_direct(const BakePlan& plan, Tracer& tracer, const LampConnect
         direct.half.emplace(plan, rays_of);
     if (adaptive) {
         rays_of = trace_adaptively(plan, tracer, options, left, direct,
-                                   plan.bounces != 0 ? progress.part(0, 0.5) : progress);
+                                   plan.bounces != 0 ? progress.range(0, 0.5) : progress);
     } else {
         direct.transfer = zero_transfer(options.order, 1, receivers.size());
     }
     if (plan.bounces != 0) {
-        add_gather(plan, tracer, lamps, rays_of, direct, progress.part(adaptive ? 0.5 : 0, 1));
+        add_gather(plan, tracer, lamps, rays_of, direct, progress.range(adaptive ? 0.5 : 0, 1));
     } else if (!adaptive) {
         if (halves)
             trace_in_halves(tracer, receivers, indices, options, {direct.transfer, direct.half->direct},

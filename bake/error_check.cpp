@@ -279,15 +279,15 @@ ErrorCheck::Value ErrorCheck::interpolated(const Point& point, const Transfer& b
                columns = static_cast<std::size_t>(coefficient_count(plan_.options.order));
     Value value{std::vector<float>(channels * columns), std::vector<float>(channels * columns), {}, {}};
     std::size_t first = 0;
-    for (const TransferPart& part : baked.layout.parts) {
-        const std::size_t numbers = baked.layout.numbers_of(part);
+    for (const TransferTerm& term : baked.layout.terms) {
+        const std::size_t numbers = baked.layout.numbers_of(term);
         const std::span<const float> here = std::span(sum).subspan(first, numbers);
         first += numbers;
-        if (part.kind == PartKind::lamp) {
+        if (term.kind == TermKind::lamp) {
             const std::vector<float> wide = in_channels(here, lamp_channels, 1);
             value.lamps.insert(value.lamps.end(), wide.begin(), wide.end());
         } else {
-            (part.kind == PartKind::indirect ? value.indirect : value.direct) =
+            (term.kind == TermKind::indirect ? value.indirect : value.direct) =
                 in_channels(here, channels, columns);
         }
     }

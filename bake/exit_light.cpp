@@ -2,10 +2,10 @@
 
 #include "exit_light.h"
 
-#include "parts.h"
 #include "prt/sh_basis.h"
 #include "prt/support/error.h"
 #include "surface/fit_noise.h"
+#include "transfer_terms.h"
 
 #include <fmt/ranges.h>
 
@@ -91,12 +91,12 @@ Propagated in_color(const Propagated& red, const Propagated& green, const Propag
 /// Extracts one channel of light at samples.
 SampledLight one_channel(const SampledLight& light, std::size_t channels, std::size_t channel) {
     const auto slice = [&](const std::vector<float>& all, std::size_t stride) {
-        std::vector<float> part;
-        part.reserve(all.size() / channels);
+        std::vector<float> term;
+        term.reserve(all.size() / channels);
         for (std::size_t begin = channel * (stride / channels); begin < all.size(); begin += stride)
-            part.insert(part.end(), all.begin() + static_cast<std::ptrdiff_t>(begin),
+            term.insert(term.end(), all.begin() + static_cast<std::ptrdiff_t>(begin),
                         all.begin() + static_cast<std::ptrdiff_t>(begin + stride / channels));
-        return part;
+        return term;
     };
     return {.stride = light.stride / channels,
             .tests = light.tests / channels,
@@ -298,7 +298,7 @@ Propagated propagate_all(const BakePlan& plan, Measured& measured, const Transpo
         return exit;
     }
     leave_back_sides(plan, exit.transfer);
-    exit.transfer = in_parts(narrowed(std::move(unbounced)), exit.transfer);
+    exit.transfer = in_terms(narrowed(std::move(unbounced)), exit.transfer);
     return exit;
 }
 

@@ -19,7 +19,7 @@ struct Beside {
     BakeNoise* noise = nullptr;                  ///< receives the noise that is left
 };
 
-/// Computes exit transfer of the scene's receivers in its parts: direct light, and all bounces with
+/// Computes exit transfer of the scene's receivers in its terms: direct light, and all bounces with
 /// subsurface scattering. Moves the light out of `measured`. Propagated::beside holds the light at `points`.
 Propagated propagate_all(const BakePlan& plan, Measured& measured, const TransportOperators& operators,
                          const Beside& beside, const Progress& progress);

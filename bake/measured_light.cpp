@@ -55,9 +55,9 @@ FitChoice fit_choice(const BakePlan& plan, Tracer& tracer, BakeStatistics& stati
 
 Measured measure(const BakePlan& plan, Tracer& tracer, LastOfLamps last, BakeStatistics& statistics,
                  const Progress& progress) {
-    const FitChoice choice = fit_choice(plan, tracer, statistics, progress.part(0, 0.03));
+    const FitChoice choice = fit_choice(plan, tracer, statistics, progress.range(0, 0.03));
     if (choice.better) {
-        FittedLight fitted = trace_fitted(plan, tracer, last, choice.samples, progress.part(0.03, 1));
+        FittedLight fitted = trace_fitted(plan, tracer, last, choice.samples, progress.range(0.03, 1));
         return {.direct = std::move(fitted.direct),
                 .lamps = std::move(fitted.lamps),
                 .sealed = std::move(fitted.sealed),
@@ -65,13 +65,13 @@ Measured measure(const BakePlan& plan, Tracer& tracer, LastOfLamps last, BakeSta
                 .sky = std::move(fitted.sky)};
     }
     const double lit = plan.lamps.empty() ? 0.03 : 0.25;
-    MeasuredLamps lamps{
-        light_of_lamps(plan, tracer, plan.receivers(), {.seed = plan.options.seed}, progress.part(0.03, lit)),
-        {}};
+    MeasuredLamps lamps{light_of_lamps(plan, tracer, plan.receivers(), {.seed = plan.options.seed},
+                                       progress.range(0.03, lit)),
+                        {}};
     const std::optional<LampConnections> connections = connections_to(plan, last, lamps.light.transfer);
     SharedPlaces shared(plan.scene, *plan.transport);
     DirectLight direct = trace_direct(plan, tracer, connections ? &*connections : nullptr,
-                                      shared.left(plan.receivers().size()), progress.part(lit, 1));
+                                      shared.left(plan.receivers().size()), progress.range(lit, 1));
     Measured measured{.direct = std::move(direct),
                       .lamps = std::move(lamps),
                       .sealed = {},

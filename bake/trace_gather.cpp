@@ -89,20 +89,20 @@ TracedGather trace_gather(const BakePlan& plan, Tracer& tracer, const LampConnec
     for (const auto& [rays, members] : by_rays) {
         const TraceOptions options = gather_options(plan, rays);
         const std::size_t here = members.size() * rays;
-        const Progress part = progress.part(share(done), share(done + here));
+        const Progress term = progress.range(share(done), share(done + here));
         const auto set_rows = [&](std::uint32_t p, std::span<const Hit> hits) {
             traced.gather.set_row(p, hits, options.rays);
             if (lamps)
                 traced.lamps->set(p, lamps->join(plan.receivers(), p, hits, options), options.rays);
         };
         if (half && first_half(options.rays) > 0)
-            trace_in_halves(tracer, plan.receivers(), members, options, {transfer, half->direct}, part,
+            trace_in_halves(tracer, plan.receivers(), members, options, {transfer, half->direct}, term,
                             [&](std::uint32_t p, std::span<const Hit> hits, std::span<const Hit> first) {
                                 set_rows(p, hits);
                                 half->gather->set_row(p, first, first_half(options.rays));
                             });
         else
-            trace_receivers(tracer, plan.receivers(), members, options, transfer, part, set_rows);
+            trace_receivers(tracer, plan.receivers(), members, options, transfer, term, set_rows);
         done += here;
     }
     return traced;

@@ -322,8 +322,8 @@ private:
     const Transfer& reference() const { return baked_.baked->transfer; }
     /// Whether the renderer can shadow its suns.
     bool suns_apart(const SplitLight& light) const {
-        return !light.split.suns.empty() && reference().layout.has(PartKind::direct) &&
-               shipped_.transfer.layout.has(PartKind::direct);
+        return !light.split.suns.empty() && reference().layout.has(TermKind::direct) &&
+               shipped_.transfer.layout.has(TermKind::direct);
     }
     /// Returns the lighting of the verdict.
     Lighting judged(const SplitLight& light) const {
@@ -352,7 +352,7 @@ private:
             {.sky = constant_light(reference().layout.order, glm::vec3(0)), .lamps = std::move(strengths)});
     }
     void add_each_lamp(Evaluation& evaluation) const {
-        const std::span<const TransferPart> lamps = reference().layout.lamp_parts();
+        const std::span<const TransferTerm> lamps = reference().layout.lamp_terms();
         for (std::size_t k = 0; k < lamps.size(); ++k) {
             std::vector<glm::vec3> strengths(lamps.size(), glm::vec3(0));
             strengths[k] = glm::vec3(1);

@@ -47,7 +47,7 @@ std::vector<Lighting> as_used(const std::vector<Lighting>& lightings, const Tran
 /// Returns no lighting if the transfer has no distant light.
 std::vector<Lighting> skies_to_promise(const std::vector<Lighting>& given, std::optional<LightFamily> family,
                                        const TransferLayout& layout) {
-    if (layout.distant_parts().empty())
+    if (layout.distant_terms().empty())
         return {};
     std::vector<Lighting> skies =
         given.empty() && family ? as_used(members_of_family(*family, layout.order), layout) : given;
@@ -65,7 +65,7 @@ std::string name_of(MetricChoice choice) {
 }
 
 std::string coverage(const MetricArguments& arguments, const TransferLayout& layout, std::size_t promised) {
-    if (layout.distant_parts().empty())
+    if (layout.distant_terms().empty())
         return "promises hold for each lamp alone";
     if (!arguments.lights.empty())
         return fmt::format(
@@ -116,7 +116,7 @@ std::vector<NamedLighting> given_lights(const MetricArguments& arguments, const 
     std::vector<NamedLighting> lights;
     for (const Path& path : arguments.lights) {
         Lighting lighting =
-            layout.distant_parts().size() < 2
+            layout.distant_terms().size() < 2
                 ? Lighting{load_light(path, layout.order, arguments.light_options, threads).light}
                 : lighting_of(
                       load_split_light(path, layout.order, {std::nullopt}, arguments.light_options, threads));

@@ -37,7 +37,7 @@ glm::vec3 color_of(const Json& value, const std::string& name) {
 
 std::vector<std::string> names_of(const TransferLayout& layout) {
     std::vector<std::string> names;
-    for (const TransferPart& lamp : layout.lamp_parts())
+    for (const TransferTerm& lamp : layout.lamp_terms())
         names.push_back(lamp.name);
     return names;
 }
@@ -63,7 +63,7 @@ std::vector<glm::vec3> strengths_of(const Json& file, const TransferLayout& layo
 /// Whether each lamp of `layout` has a light of `scene` in it: [layout.lamps()].
 std::vector<bool> punctual_lamps(const Scene& scene, const TransferLayout& layout) {
     std::vector<bool> punctual;
-    for (const TransferPart& lamp : layout.lamp_parts())
+    for (const TransferTerm& lamp : layout.lamp_terms())
         punctual.push_back(std::ranges::any_of(
             scene.lights, [&](const PunctualLight& light) { return lamp.has_member(light.name); }));
     return punctual;

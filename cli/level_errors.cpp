@@ -53,7 +53,7 @@ std::vector<float> radiance_of(const Transfer& transfer, const Light& light, int
 class LevelMeter {
 public:
     LevelMeter(Transfer baked, Transfer shipped, const std::vector<SplitLight>& lights, int threads)
-        : baked_(as_whole(baked, threads)), shipped_(as_whole(shipped, threads)), threads_(threads) {
+        : baked_(as_combined(baked, threads)), shipped_(as_combined(shipped, threads)), threads_(threads) {
         for (const SplitLight& light : lights) {
             lit_baked_.push_back(radiance_of(baked_, light.whole, threads));
             lit_shipped_.push_back(radiance_of(shipped_, light.whole, threads));

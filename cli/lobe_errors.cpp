@@ -127,7 +127,7 @@ void add_lobe_errors(const LobeErrorRequest& request, const Progress& progress, 
         const ModelPose& pose = request.frames[f];
         const double from = static_cast<double>(f) / frames;
         const PoseTransfer truth =
-            bake_pose(request.model, pose, request.options, progress.part(from, from + 1 / frames));
+            bake_pose(request.model, pose, request.options, progress.range(from, from + 1 / frames));
         const LobeFrame frame(request, pose);
         ByMethod of_frame{};
         for (std::size_t m = 0; m < kMethods; ++m) {

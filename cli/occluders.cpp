@@ -55,7 +55,7 @@ BakedParts bake_parts(const std::vector<RigidPart>& parts, const OccluderOptions
         const RigidPart& part = parts[i];
         try {
             const OccluderBake one =
-                bake_occluder(part.scene, part.frame, options, progress.part(share(i), share(i + 1)));
+                bake_occluder(part.scene, part.frame, options, progress.range(share(i), share(i + 1)));
             all.occluders.push_back({part.node, one.volume});
             all.volumes.push_back(one.volume);
             all.frames.push_back(part.frame);
@@ -81,10 +81,10 @@ BakedParts bake_parts(const std::vector<RigidPart>& parts, const OccluderOptions
 Report bake_occluders(GltfDocument& document, const Scene& scene, const OccluderOptions& options,
                       const Progress& progress) {
     const std::vector<RigidPart> parts = rigid_parts(document, scene);
-    const BakedParts baked = bake_parts(parts, options, progress.part(0, 0.9));
+    const BakedParts baked = bake_parts(parts, options, progress.range(0, 0.9));
     write_occluders(document, baked.occluders);
     const FloorOcclusion floor =
-        floor_occlusion(scene, baked.volumes, baked.frames, options, progress.part(0.9, 1));
+        floor_occlusion(scene, baked.volumes, baked.frames, options, progress.range(0.9, 1));
     Report report;
     add_figures(report, {{"parts", baked.occluders.size()},
                          {"parts_left_out", baked.left_out},

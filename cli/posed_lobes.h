@@ -11,7 +11,7 @@ namespace prt::cli {
 void lobe_transfer_in_pose(const LobeModel& lobes, const VertexFrames& frames, std::size_t vertex, int order,
                            std::span<float> transfer);
 
-/// Returns the transfer of the lobes of `model`, which must have lobes, in the pose of the file: `whole`,
+/// Returns the transfer of the lobes of `model`, which must have lobes, in the pose of the file: `combined`,
 /// with one channel and the order of the lobes.
 BakedTransfer lobes_as_transfer(const SceneFile& model);
 

@@ -11,13 +11,13 @@ std::vector<LightingUse> uses_of(const Lighting& lighting, const TransferLayout&
     if (!lighting.suns)
         return {{lighting}};
     std::vector<LightingUse> uses = {{{sum(lighting.sky, *lighting.suns), {}, lighting.lamps}}};
-    if (layout.distant_parts().size() > 1)
+    if (layout.distant_terms().size() > 1)
         uses.push_back({lighting, true});
     return uses;
 }
 
 void add_sky_errors(const ErrorMoments& moments, const std::vector<NamedLighting>& skies, Report& report) {
-    if (moments.layout.distant_parts().empty())
+    if (moments.layout.distant_terms().empty())
         return;
     Table table{"skies",
                 "Errors under skies, turned about +Y",

@@ -27,7 +27,7 @@ SkyOcclusion::SkyOcclusion(const BakedVolume& volume, int threads) {
     const Lighting white{constant_light(volume.baked.transfer.layout.order, glm::vec3(1))};
     const std::vector<glm::vec3> incident = exit_radiance(volume.baked.transfer, white, threads);
     const std::size_t coefficients = volume.coefficients();
-    probes_.resize(volume.sights.size());
+    probes_.resize(volume.visibility.size());
     for (std::size_t p = 0; p < probes_.size(); ++p)
         for (std::size_t o = 0; o < 4; ++o)
             probes_[p][o] = luminance(incident[p * coefficients + o]);

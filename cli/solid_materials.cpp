@@ -31,11 +31,11 @@ std::vector<bool> without_direct_light(const Scene& scene, const Transfer& trans
 
 std::vector<bool> solid_materials(const SceneFile& model) {
     const Scene& scene = model.scene;
-    const bool direct = !model.record() || !layout_of(model).has(PartKind::indirect) ||
-                        layout_of(model).has(PartKind::direct);
+    const bool direct = !model.record() || !layout_of(model).has(TermKind::indirect) ||
+                        layout_of(model).has(TermKind::direct);
     std::vector<bool> solid(scene.materials.size(),
                             !direct); // all of it, where there is indirect light alone
-    if (direct && model.baked && !model.lightmap && model.baked->transfer.layout.has(PartKind::direct))
+    if (direct && model.baked && !model.lightmap && model.baked->transfer.layout.has(TermKind::direct))
         solid = without_direct_light(scene, model.baked->transfer);
     for (std::size_t m = 0; m < solid.size(); ++m)
         solid[m] = solid[m] || medium_of(scene.materials[m]);

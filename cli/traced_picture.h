@@ -16,7 +16,7 @@ namespace prt::cli {
 struct TracedLights {
     Path environment; ///< empty: the sky is dark
     LightOptions reading;
-    std::vector<TransferPart> lamps = {};
+    std::vector<TransferTerm> lamps = {};
     std::vector<glm::vec3> strengths = {}; ///< [lamps]
     int threads = 0;
 };

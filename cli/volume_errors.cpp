@@ -277,7 +277,7 @@ void add_volume_errors(BudgetRequest request, SceneFile& baked, Report& report, 
     const std::optional<CompressedVolume> small = shipped_volume(request, volume);
     BudgetLightOptions& options = request.lights;
     options.order = volume.baked.transfer.layout.order;
-    options.apart = volume.baked.transfer.layout.has(PartKind::direct);
+    options.apart = volume.baked.transfer.layout.has(TermKind::direct);
     ProgressBar bar = session.progress_bar("measuring the volume");
     const Progress progress = bar.progress();
     const TraceScene traced(
@@ -285,11 +285,11 @@ void add_volume_errors(BudgetRequest request, SceneFile& baked, Report& report, 
         about(request.baked, [&] { return load_textures(baked.scene, request.reading.bad_textures); }),
         {.threads = options.threads});
     const FreePlaces places = free_places_in(traced, volume.grid, kPlaces, 1);
-    const VolumeLookup lookup(volume.grid, volume.sights);
+    const VolumeLookup lookup(volume.grid, volume.visibility);
     const TransferLayout layout = volume.baked.transfer.layout.of_one_output();
     const std::vector<BudgetLight> skies = budget_lights(options);
     const BudgetLight night = dark();
-    const SceneLamps lamps(traced, layout.lamp_parts(), std::vector<glm::vec3>(layout.lamps(), glm::vec3(1)));
+    const SceneLamps lamps(traced, layout.lamp_terms(), std::vector<glm::vec3>(layout.lamps(), glm::vec3(1)));
     const std::vector<VolumeLight> lights = volume_lights(skies, night, layout, lamps);
     const SkyOcclusion occlusion(volume, options.threads);
     Table table = empty_table();
@@ -300,7 +300,7 @@ void add_volume_errors(BudgetRequest request, SceneFile& baked, Report& report, 
     for (std::size_t i = 0; i < lights.size(); ++i) {
         const auto truth = incident_reference(traced, places.positions, volume.order, lights[i].measured,
                                               {.lamps = lights[i].lamps, .threads = options.threads},
-                                              progress.part(share(i), share(i + 1)));
+                                              progress.range(share(i), share(i + 1)));
         const Lighting& lighting = lights[i].lighting;
         of_baked.push_back(errors_of(lookup, exit_radiance(volume.baked.transfer, lighting, options.threads),
                                      places, truth));

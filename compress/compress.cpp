@@ -65,7 +65,7 @@ FoundClusters find_clusters(const Task& task, const Progress& progress) {
                                    rounding_allowed(task, tuning::kRoundingOverDropped * max_dropped));
         std::mt19937_64 random(options.seed);
         found.clustering =
-            cluster_points(found.points, task.significance, how, random, progress.part(from, to));
+            cluster_points(found.points, task.significance, how, random, progress.range(from, to));
         const double cost = found.clustering.cost;
         const double lost = found.frame.dropped + found.points.rounding();
         if (!(lost > tuning::kTooMuchDropped * cost) || max_dropped == 0)
@@ -219,7 +219,7 @@ ClusteredTransfer code(const Task& task, const ReceiverSurface& surface, FoundCl
         round_frame(task, coding);
     }
     if (options.coding.format == WeightFormat::packed || task.light.lamps())
-        alternate(coding.points, task.significance, how, progress.part(0, tuning::kAlternatedAt), coded);
+        alternate(coding.points, task.significance, how, progress.range(0, tuning::kAlternatedAt), coded);
     progress.update(tuning::kAlternatedAt);
     if (options.seam_price > 0 && !surface.edges.empty() && !draft)
         smooth_seams(coding.points, task.significance, surface.edges, surface.jumps, coded.clusters,
@@ -264,11 +264,11 @@ CompressResult compress_from(const Course& course, const TransferView& transfer,
         course};
     CompressResult result;
     CompressStatistics& statistics = result.statistics;
-    FoundClusters found = find_clusters(task, progress.part(0, tuning::kClustersFoundAt));
+    FoundClusters found = find_clusters(task, progress.range(0, tuning::kClustersFoundAt));
     for (const double error : found.clustering.history)
         statistics.lit_rms_by_iteration.push_back(std::sqrt(error + found.frame.dropped));
     result.transfer = code(task, surface, std::move(found),
-                           progress.part(tuning::kClustersFoundAt, tuning::kClustersCodedAt));
+                           progress.range(tuning::kClustersFoundAt, tuning::kClustersCodedAt));
     statistics.clusters = static_cast<int>(result.transfer.bases.clusters());
     statistics.mean_components = mean_components_of(result.transfer);
     statistics.predictor_rows = static_cast<int>(result.transfer.bases.predictor_rows());

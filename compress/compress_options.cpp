@@ -93,7 +93,7 @@ void check_input(const TransferView& transfer, const ReceiverSurface& surface,
     check_options(options);
     const std::optional<LightMetric>& metric = options.metric;
     if (metric && metric->layout != transfer.layout())
-        throw Error("the metric has another order or other parts than the transfer");
+        throw Error("the metric has another order or other terms than the transfer");
     if (transfer.receivers() == 0)
         throw Error("there are no receivers to compress");
     if (surface.areas.size() != transfer.receivers())

@@ -1,5 +1,5 @@
 // Computes the constants of all clusters for a lighting, instead of prt::ClusterLighting::form: one row per
-// thread. Define PRT_ROWS and the definitions of parts that prt_parts.glsl needs. Dispatch (PRT_ROWS + 63) /
+// thread. Define PRT_ROWS and the definitions of terms that prt_terms.glsl needs. Dispatch (PRT_ROWS + 63) /
 // 64 groups.
 
 #include "shared_layout.h"
@@ -19,7 +19,7 @@ layout(std430, binding = PRT_BINDING_CONSTANTS) writeonly buffer PrtConstants {
 
 #define PRT_TRANSFER(at, i) prt_matrix[(at) + 16u * (i)]
 #define PRT_LIGHT(i) prt_light[i].rgb
-#include "prt_parts.glsl"
+#include "prt_terms.glsl"
 
 void main() {
     uint row = gl_GlobalInvocationID.x;

@@ -39,7 +39,7 @@
 
 // Textures as defined in prt/volume_textures.h.
 PRT_VOLUME_SAMPLER(PRT_UNIT_VOLUME_LIGHT) sampler3D prt_volume_light;
-PRT_VOLUME_SAMPLER(PRT_UNIT_VOLUME_SIGHTS) usampler3D prt_volume_sights;
+PRT_VOLUME_SAMPLER(PRT_UNIT_VOLUME_VISIBILITY) usampler3D prt_volume_visibility;
 PRT_VOLUME_SAMPLER(PRT_UNIT_VOLUME_INDEX) usampler3D prt_volume_index;
 
 struct PrtVolumeBrick {
@@ -69,14 +69,14 @@ PrtVolumeBrick prt_volume_brick(vec3 position, PrtVolumeBrick brick) {
 }
 
 // Weight of a probe with these visibility distances, for a position `from` relative to the probe, in cells.
-float prt_volume_sight(uvec2 sights, vec3 from) {
-    vec3 below = vec3(sights.x & 255u, sights.x >> 16 & 255u, sights.y & 255u),
-         above = vec3(sights.x >> 8 & 255u, sights.x >> 24, sights.y >> 8 & 255u);
+float prt_volume_probe_weight(uvec2 visibility, vec3 from) {
+    vec3 below = vec3(visibility.x & 255u, visibility.x >> 16 & 255u, visibility.y & 255u),
+         above = vec3(visibility.x >> 8 & 255u, visibility.x >> 24, visibility.y >> 8 & 255u);
     vec3 root = mix(below, above, greaterThan(from, vec3(0.0))) / 255.0;
-    vec3 distances = PRT_VOLUME_SIGHT_CELLS * float(1u << (sights.y >> 16 & 3u)) * root * root;
+    vec3 distances = PRT_VOLUME_VISIBILITY_CELLS * float(1u << (visibility.y >> 16 & 3u)) * root * root;
     vec3 along = abs(from) / max(distances, vec3(1e-18));
     float passed = max(along.x, max(along.y, along.z)); // 1: at the surface
-    float behind = clamp((passed - PRT_VOLUME_SIGHT_FULL) / (PRT_VOLUME_SIGHT_NONE - PRT_VOLUME_SIGHT_FULL), 0.0, 1.0);
+    float behind = clamp((passed - PRT_VOLUME_VISIBILITY_FULL) / (PRT_VOLUME_VISIBILITY_NONE - PRT_VOLUME_VISIBILITY_FULL), 0.0, 1.0);
     float beyond = clamp(passed, 1.0, 16.0), squared = beyond * beyond, fourth = squared * squared;
     return max(1.0 - behind * behind * (3.0 - 2.0 * behind), PRT_VOLUME_HIDDEN_WEIGHT / (fourth * fourth));
 }
@@ -89,8 +89,8 @@ PrtVolumePlace prt_volume_weighted(PrtVolumeBrick brick, vec3 at) {
     place.share = inside - vec3(low);
     place.texel =
         low + 5 * ivec3(brick.slot % bricks.x, brick.slot / bricks.x % bricks.y, brick.slot / (bricks.x * bricks.y));
-    uvec2 sights = texelFetch(prt_volume_sights, place.texel, 0).rg;
-    place.seen = sights.y >> 24 == 1u && at == inside;
+    uvec2 visibility = texelFetch(prt_volume_visibility, place.texel, 0).rg;
+    place.seen = visibility.y >> 24 == 1u && at == inside;
     vec3 over = place.share, under = 1.0 - over;
     vec4 face = vec4(under.x, over.x, under.x, over.x) * vec4(under.y, under.y, over.y, over.y);
     place.weights[0] = face * under.z;
@@ -99,8 +99,8 @@ PrtVolumePlace prt_volume_weighted(PrtVolumeBrick brick, vec3 at) {
         vec3 from = at - vec3(low);
         for (int i = 0; i < 8; ++i) {
             ivec3 corner = ivec3(i & 1, i >> 1 & 1, i >> 2);
-            sights = texelFetch(prt_volume_sights, place.texel + corner, 0).rg;
-            place.weights[i >> 2][i & 3] *= prt_volume_sight(sights, from - vec3(corner));
+            visibility = texelFetch(prt_volume_visibility, place.texel + corner, 0).rg;
+            place.weights[i >> 2][i & 3] *= prt_volume_probe_weight(visibility, from - vec3(corner));
         }
         float sum = dot(place.weights[0] + place.weights[1], vec4(1.0));
         place.weights[0] /= sum;

@@ -96,8 +96,8 @@ PRT_LAMP_FUNCTION vec3 direction_in(SeenTriangle t, vec2 u) {
     real la = length(t.a), lb = length(t.b), lc = length(t.c);
     vec3 a = t.a / la, b = t.b / lb, c = t.c / lc, ab = a + b;
     real volume = abs(t.volume) / (la * lb * lc);
-    real part = 0.5 * u.x * t.angle;
-    vec3 middle = (volume * cos(part) - dot(ab, c) * sin(part)) * a + (0.5 * dot(ab, ab) * sin(part)) * c;
+    real term = 0.5 * u.x * t.angle;
+    vec3 middle = (volume * cos(term) - dot(ab, c) * sin(term)) * a + (0.5 * dot(ab, ab) * sin(term)) * c;
     vec3 cut = 2.0 * dot(a, normalize(middle)) * normalize(middle) - a; // between a and c
     vec3 across = cut - dot(cut, b) * b;
     real depth = u.y * 0.5 * dot(b - cut, b - cut); // 1 minus the cosine to b

@@ -60,7 +60,7 @@
 #define PRT_UNIT_EMISSION 7
 #define PRT_UNIT_LIGHTMAP 14
 #define PRT_UNIT_VOLUME_LIGHT 15
-#define PRT_UNIT_VOLUME_SIGHTS 16
+#define PRT_UNIT_VOLUME_VISIBILITY 16
 #define PRT_UNIT_VOLUME_INDEX 17
 #define PRT_UNIT_OCCLUDERS 18
 
@@ -70,9 +70,9 @@
 
 // Weights of the probes of a volume, defined in prt/volume_weights.h.
 #define PRT_VOLUME_NORMAL_BIAS 0.25
-#define PRT_VOLUME_SIGHT_CELLS 4.0
-#define PRT_VOLUME_SIGHT_FULL 0.8
-#define PRT_VOLUME_SIGHT_NONE 1.03
+#define PRT_VOLUME_VISIBILITY_CELLS 4.0
+#define PRT_VOLUME_VISIBILITY_FULL 0.8
+#define PRT_VOLUME_VISIBILITY_NONE 1.03
 #define PRT_VOLUME_HIDDEN_WEIGHT 0.0001
 
 // Occlusion volumes of moving objects, defined in prt/occlusion_volume.h.

@@ -1,4 +1,4 @@
-// Exit radiance of every receiver from its raw transfer vector. Define the parts as prt_parts.glsl requires.
+// Exit radiance of every receiver from its raw transfer vector. Define the terms as prt_terms.glsl requires.
 
 #include "shared_layout.h"
 #include "shared_viewer.h"
@@ -20,7 +20,7 @@ uniform uint first;     // first receiver of the piece in `radiance`
 
 #define PRT_TRANSFER(at, i) transfer[(at) + (i)]
 #define PRT_LIGHT(i) light[i].rgb
-#include "prt_parts.glsl"
+#include "prt_terms.glsl"
 
 void main() {
     uint receiver = gl_GlobalInvocationID.x;

@@ -84,8 +84,10 @@ PoseTransfer bake_pose(const AnimatedScene& model, const ModelPose& pose, const 
     const Scene scene = model.posed(pose.nodes, glm::translate(glm::dmat4(1), -model.scene().origin));
     check_places(scene, pose);
     const BakeResult result = bake(scene, bake_options_of(options), progress);
-    PoseTransfer baked{
-        as_whole(result.baked.transfer, options.threads), receiver_areas(scene), {}, result.statistics.rays};
+    PoseTransfer baked{as_combined(result.baked.transfer, options.threads),
+                       receiver_areas(scene),
+                       {},
+                       result.statistics.rays};
     baked.sealed.resize(baked.areas.size());
     for (const std::uint32_t v : result.sealed) {
         baked.sealed[v] = true;
@@ -108,7 +110,8 @@ MeanTransfer mean_of_poses(const AnimatedScene& model, std::span<const ModelPose
     for (std::size_t p = 0; p < poses.size(); ++p) {
         PoseBakeOptions of_pose = options;
         of_pose.seed = options.seed + p; // noise of several poses averages out
-        const PoseTransfer baked = bake_pose(model, poses[p], of_pose, progress.part(share(p), share(p + 1)));
+        const PoseTransfer baked =
+            bake_pose(model, poses[p], of_pose, progress.range(share(p), share(p + 1)));
         add_pose(baked, VertexFrames(model, poses[p]), options.threads, weights, mean);
         for (std::size_t v = 0; v < vertices; ++v)
             mean.areas[v] += baked.areas[v] / static_cast<float>(poses.size());

@@ -68,12 +68,12 @@ public:
 
     InstanceBake run(const Progress& progress) {
         const Stopwatch watch;
-        bake_meshes(progress.part(0, 0.3));
+        bake_meshes(progress.range(0, 0.3));
         InstanceReceivers receivers = choose_receivers(scene_, plan_, meshes_, instances_.samples);
         const std::unique_ptr<Tracer> tracer = make_tracer(traced_, options_.tracer);
         InstanceLight light(plan_, *tracer, meshes_, std::move(receivers), instances_);
-        light.trace(progress.part(0.3, 0.9));
-        light.bounce(progress.part(0.9, 1));
+        light.trace(progress.range(0.3, 0.9));
+        light.bounce(progress.range(0.9, 1));
         result_.baked.transfer = assembled(light);
         record(*tracer, light);
         result_.instances.factors = light.factors();
@@ -91,7 +91,7 @@ private:
         for (std::size_t m = 0; m < scene_.meshes.size(); ++m) {
             meshes_.push_back(bake_shared_mesh(
                 scene_.stored, scene_.stand_ins[m], plan_.channels, options_,
-                progress.part(static_cast<double>(m) / count, static_cast<double>(m + 1) / count)));
+                progress.range(static_cast<double>(m) / count, static_cast<double>(m + 1) / count)));
             result_.statistics.receivers += receivers_on_surfaces(meshes_.back().receivers()).size();
             result_.statistics.rays += meshes_.back().rays;
         }

@@ -54,12 +54,12 @@ Eigen::MatrixXf radiance_columns(const TransferLayout& layout, std::span<const L
         const std::vector<glm::vec3> columns = light_columns(layout, skies[l]);
         Eigen::Index row = 0;
         std::size_t first = 0;
-        for (const TransferPart& part : layout.parts) {
-            const std::size_t count = layout.columns_of(part);
-            for (int c = 0; c < part.channels; ++c)
+        for (const TransferTerm& term : layout.terms) {
+            const std::size_t count = layout.columns_of(term);
+            for (int c = 0; c < term.channels; ++c)
                 for (std::size_t i = 0; i < count; ++i, ++row)
                     for (int color = 0; color < 3; ++color)
-                        if (part.channels == 1 || color == c)
+                        if (term.channels == 1 || color == c)
                             result(row, static_cast<Eigen::Index>(3 * l) + color) = columns[first + i][color];
             first += count;
         }
@@ -73,8 +73,8 @@ InstanceFit::InstanceFit(const SharedTransfer& shared, const InstanceSamples& sa
     : layout_(shared.layout()), samples_(samples) {
     const TransferLayout& layout = layout_;
     const auto count = static_cast<Eigen::Index>(shared.level().size());
-    added_ = layout.parts.back().kind != PartKind::direct;
-    channels_ = layout.parts.back().channels;
+    added_ = layout.terms.back().kind != TermKind::direct;
+    channels_ = layout.terms.back().channels;
     open_ = Eigen::VectorXd::Zero(kPassingUnknowns +
                                   (added_ ? static_cast<Eigen::Index>(kAddedModes) * channels_ : 0));
     open_ = unknowns_of(open_factors());

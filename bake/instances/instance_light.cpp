@@ -93,8 +93,8 @@ void InstanceLight::trace(const Progress& progress) {
     const auto own = static_cast<double>(receivers_.own.size()),
                samples = static_cast<double>(receivers_.sampled.size()) * options_.rays;
     const double share = own / std::max(1.0, own + samples);
-    trace_own(progress.part(0, share));
-    trace_samples(progress.part(share, 1));
+    trace_own(progress.range(0, share));
+    trace_samples(progress.range(share, 1));
     find_sealed_in(progress);
 }
 
@@ -123,8 +123,8 @@ void InstanceLight::trace_samples(const Progress& progress) {
     const int rays =
         std::max(kMinSampleRays, static_cast<int>(std::lround(options_.rays * plan_.options.rays)));
     constexpr double kOnce = static_cast<double>(kSamplesToOfNoise) / (kSamplesToOfNoise + 1);
-    trace_samples(receivers_.sampled, rays, false, progress.part(0, kOnce));
-    trace_samples(noisy, rays, true, progress.part(kOnce, 1));
+    trace_samples(receivers_.sampled, rays, false, progress.range(0, kOnce));
+    trace_samples(noisy, rays, true, progress.range(kOnce, 1));
 }
 
 void InstanceLight::trace_samples(std::span<const std::uint32_t> receivers, int rays, bool again,
@@ -382,9 +382,9 @@ double InstanceLight::error_of(const InstanceFit& fit, const SharedTransfer& sha
                       noisy = (first + kSamplesToOfNoise - 1) / kSamplesToOfNoise;
     std::vector<Lighting> lights = options_.lights;
     for (Lighting& light : lights) {
-        const auto turn = [&](Light& part) {
-            part = truncated(part, plan_.options.order);
-            samples_.into_mesh[instance].apply(std::span(part.coefficients));
+        const auto turn = [&](Light& term) {
+            term = truncated(term, plan_.options.order);
+            samples_.into_mesh[instance].apply(std::span(term.coefficients));
         };
         turn(light.sky);
         if (light.suns)
@@ -423,9 +423,9 @@ void InstanceLight::expand(const SharedTransfer& shared, std::span<const glm::ve
 
 Transfer InstanceLight::own_fronts(int direct_channels) const {
     const std::size_t all = plan_.receivers().size();
-    TransferLayout layout = layout_of_one(plan_.options.order, 1, PartKind::direct);
+    TransferLayout layout = layout_of_one(plan_.options.order, 1, TermKind::direct);
     if (bounce_.gather)
-        layout.parts.push_back({PartKind::indirect, plan_.channels});
+        layout.terms.push_back({TermKind::indirect, plan_.channels});
     const bool transmits = plan_.scene.surfaces().traits().transmission;
     Transfer own = zero_transfer(layout, transmits ? all : receivers_.own.size());
     for (std::size_t o = 0; o < receivers_.own.size(); ++o) {

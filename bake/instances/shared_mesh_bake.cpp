@@ -3,8 +3,8 @@
 #include "instances/shared_mesh_bake.h"
 
 #include "measured_light.h"
-#include "parts.h"
 #include "prt/sh_basis.h"
+#include "transfer_terms.h"
 #include "transport/light_transport.h"
 
 #include <algorithm>
@@ -40,7 +40,7 @@ Scene scene_of(const Scene& stored, int node) {
 Transfer beside(const Transfer& direct, const Transfer& all) {
     const int order = direct.layout.order, channels = all.layout.channels();
     Transfer both =
-        zero_transfer({order, {{PartKind::direct, 1}, {PartKind::indirect, channels}}}, direct.receivers());
+        zero_transfer({order, {{TermKind::direct, 1}, {TermKind::indirect, channels}}}, direct.receivers());
     const std::size_t count = direct.dimension();
     for (std::size_t r = 0; r < both.receivers(); ++r) {
         const std::span<float> to = both.vector(r);
@@ -103,7 +103,7 @@ SharedMeshBake bake_shared_mesh(const Scene& stored, int node, int channels, con
 
 Transfer of_fronts(const BakePlan& plan, const Transfer& both_sides, int direct_channels) {
     const std::size_t count = static_cast<std::size_t>(coefficient_count(both_sides.layout.order));
-    const auto part = [&](std::size_t first, PartKind kind, int stored, int channels) {
+    const auto part = [&](std::size_t first, TermKind kind, int stored, int channels) {
         Transfer one =
             zero_transfer(layout_of_one(both_sides.layout.order, channels, kind), both_sides.receivers());
         for (std::size_t r = 0; r < one.receivers(); ++r)
@@ -115,11 +115,11 @@ Transfer of_fronts(const BakePlan& plan, const Transfer& both_sides, int direct_
         one.vectors.resize(plan.transport->fronts * one.dimension());
         return one;
     };
-    Transfer direct = part(0, PartKind::direct, 1, direct_channels);
+    Transfer direct = part(0, TermKind::direct, 1, direct_channels);
     if (both_sides.layout.parts.size() == 1)
         return direct;
     const int channels = both_sides.layout.parts[1].channels;
-    const Transfer rest = part(count, PartKind::indirect, channels, channels);
+    const Transfer rest = part(count, TermKind::indirect, channels, channels);
     Transfer all = zero_transfer({direct.layout.order, {direct.layout.parts[0], rest.layout.parts[0]}},
                                  direct.receivers());
     for (std::size_t r = 0; r < all.receivers(); ++r)

@@ -18,9 +18,9 @@ UniformBound::UniformBound(const SharedTransfer& shared, std::span<const glm::ve
         modes_[r] = {};
         for (std::size_t m = 0; m < kPassingModes; ++m) {
             std::size_t first = 0;
-            for (const TransferPart& part : shared.layout().parts)
-                for (int c = 0; c < part.channels; ++c, first += count)
-                    for (int color = part.channels == 1 ? 0 : c; color <= (part.channels == 1 ? 2 : c);
+            for (const TransferTerm& term : shared.layout().terms)
+                for (int c = 0; c < term.channels; ++c, first += count)
+                    for (int color = term.channels == 1 ? 0 : c; color <= (term.channels == 1 ? 2 : c);
                          ++color)
                         modes_[r][m][color] += uniform * shared.passing(r, m)[first];
         }

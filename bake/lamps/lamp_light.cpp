@@ -25,7 +25,7 @@ int order_for(std::size_t lamps) {
 } // namespace
 
 LampLight no_lamp_light(const LampTask& task) {
-    return {zero_transfer(layout_of_one(order_for(task.lamps.size()), task.channels, PartKind::direct),
+    return {zero_transfer(layout_of_one(order_for(task.lamps.size()), task.channels, TermKind::direct),
                           task.receivers.size())};
 }
 

@@ -54,7 +54,7 @@ LevelBake bake_levels(const LeveledScene& scene, const Transfer& finest, const B
         const ScenePart part = with_level(scene, number);
         const double begin = static_cast<double>(number - 1) / static_cast<double>(deepest),
                      end = static_cast<double>(number) / static_cast<double>(deepest);
-        const BakeResult bake = prt::bake(part.scene, options, progress.part(begin, end));
+        const BakeResult bake = prt::bake(part.scene, options, progress.range(begin, end));
         if (!same_layout(bake.baked.transfer.layout, finest.layout))
             throw Error("level of detail " + std::to_string(number) +
                         " has light of other kinds or colors on its own than level 0: its transfer can only "

@@ -169,7 +169,7 @@ OccluderBake bake_occluder(const Scene& part, const glm::dmat4& to_scene, const 
     place_box(part, frame, options.margin, baked.volume);
     BakeOptions bake = bake_options(options);
     Seen seen =
-        look(part, points_in(baked.volume, frame, kFitPoints, options.seed), bake, progress.part(0, 0.8));
+        look(part, points_in(baked.volume, frame, kFitPoints, options.seed), bake, progress.range(0, 0.8));
     if (seen.points.empty())
         throw Error("all places around the object see backs of surfaces");
     baked.volume.reach = reach_of(baked.volume, seen, frame, options.least);
@@ -179,7 +179,7 @@ OccluderBake bake_occluder(const Scene& part, const glm::dmat4& to_scene, const 
     fit_texels(seen.points, baked.volume);
     bake.seed += kSecondScramble;
     judge(part, points_in(baked.volume, frame, kJudgePoints, bake.seed), bake,
-          placed(baked.volume, glm::mat4(to_scene), 0), progress.part(0.8, 1), baked);
+          placed(baked.volume, glm::mat4(to_scene), 0), progress.range(0.8, 1), baked);
     baked.rays = (kFitPoints + kJudgePoints) * static_cast<std::size_t>(options.rays);
     return baked;
 }

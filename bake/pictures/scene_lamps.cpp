@@ -22,7 +22,7 @@ namespace prt {
 namespace {
 
 /// Returns the strength of the lamp with this name; nothing if it is dark.
-std::optional<glm::vec3> strength_of_name(const std::string& name, std::span<const TransferPart> lamps,
+std::optional<glm::vec3> strength_of_name(const std::string& name, std::span<const TransferTerm> lamps,
                                           std::span<const glm::vec3> strengths) {
     for (std::size_t k = 0; k < lamps.size(); ++k)
         if (lamps[k].has_member(name) && strengths[k] != glm::vec3(0))
@@ -49,11 +49,11 @@ double brightness_of(const Surfaces& surfaces, std::uint32_t triangle, double ar
 
 } // namespace
 
-std::vector<TransferPart> lamps_of(const Scene& scene) {
-    std::vector<TransferPart> lamps;
+std::vector<TransferTerm> lamps_of(const Scene& scene) {
+    std::vector<TransferTerm> lamps;
     const auto add = [&](const std::string& name) {
-        if (std::ranges::none_of(lamps, [&](const TransferPart& lamp) { return lamp.name == name; }))
-            lamps.push_back({.kind = PartKind::lamp, .channels = 3, .name = name});
+        if (std::ranges::none_of(lamps, [&](const TransferTerm& lamp) { return lamp.name == name; }))
+            lamps.push_back({.kind = TermKind::lamp, .channels = 3, .name = name});
     };
     for (const PunctualLight& light : scene.lights)
         add(light.name);
@@ -63,7 +63,7 @@ std::vector<TransferPart> lamps_of(const Scene& scene) {
     return lamps;
 }
 
-SceneLamps::SceneLamps(const TraceScene& scene, std::span<const TransferPart> lamps,
+SceneLamps::SceneLamps(const TraceScene& scene, std::span<const TransferTerm> lamps,
                        std::span<const glm::vec3> strengths)
     : scene_(scene), strengths_(scene.scene().materials.size(), glm::vec3(0)) {
     if (strengths.size() != lamps.size())

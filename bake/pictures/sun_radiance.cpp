@@ -20,7 +20,7 @@ std::vector<glm::vec3> sun_radiance(const TraceScene& scene, std::span<const Sun
     const TransportReceivers all = through ? with_back_sides(std::move(fronts), scene.surfaces())
                                            : without_back_sides(std::move(fronts));
     // Radiance corresponds to transfer for a light with one coefficient.
-    Transfer lit = zero_transfer(layout_of_one(1, 3, PartKind::direct), all.receivers.size());
+    Transfer lit = zero_transfer(layout_of_one(1, 3, TermKind::direct), all.receivers.size());
     std::vector<DiscDirections> directions;
     for (const SunDisc& sun : suns)
         directions.emplace_back(sun.towards, sun.half_angle, options.rays);

@@ -39,7 +39,7 @@ public:
     /// Adds points until each triangle of `mesh` has enough.
     void spread(const LitMesh& mesh, const Progress& progress);
     /// Moves points to the parts that their triangles were split into.
-    void move(std::span<const Part> parts);
+    void move(std::span<const Part> terms);
 
     /// Requests more points in triangles with few points. Returns whether it found any.
     bool look_closer();

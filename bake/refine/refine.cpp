@@ -85,7 +85,7 @@ public:
 private:
     SurfaceError measure(const Progress& progress) {
         const LitMesh mesh(finer_);
-        points_.spread(mesh, progress.part(shown_, shown_ + 0.1 * (1 - shown_)));
+        points_.spread(mesh, progress.range(shown_, shown_ + 0.1 * (1 - shown_)));
         shown_ += 0.1 * (1 - shown_);
         SurfaceError error = surface_error(mesh, points_, options_.threads);
         const double now = error.relative_l2();

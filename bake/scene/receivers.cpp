@@ -38,7 +38,7 @@ std::vector<std::uint32_t> receivers_on_surfaces(const Receivers& receivers) {
 }
 
 Transfer unshadowed_transfer(const Scene& scene, int order) {
-    Transfer transfer{layout_of_one(order, 1, PartKind::direct), {}};
+    Transfer transfer{layout_of_one(order, 1, TermKind::direct), {}};
     std::array<double, kMaxOrder * kMaxOrder> lobe{};
     for (const VertexArray& vertices : scene.vertex_arrays)
         for (const glm::vec3& normal : vertices.normals) {

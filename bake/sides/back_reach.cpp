@@ -17,9 +17,9 @@ constexpr float kReflected = 0.5f; ///< share of light that a surface reflects, 
 
 /// All lamps at strength 1.
 SceneLamps lit(const TraceScene& scene, std::span<const Lamp> lamps) {
-    std::vector<TransferPart> parts;
+    std::vector<TransferTerm> parts;
     for (const Lamp& lamp : lamps)
-        parts.push_back({PartKind::lamp, 3, lamp.name, lamp.members});
+        parts.push_back({TermKind::lamp, 3, lamp.name, lamp.members});
     return {scene, parts, std::vector<glm::vec3>(parts.size(), glm::vec3(1))};
 }
 

@@ -52,9 +52,9 @@ public:
         result.triangles = scene_.triangles();
         result.order = options_.order;
         double begin = kShare;
-        make_reference(result, progress.part(0, begin));
+        make_reference(result, progress.range(0, begin));
         for (const Setup& setup : kSetups) {
-            result.series.push_back(measure(setup, progress.part(begin, begin + kShare)));
+            result.series.push_back(measure(setup, progress.range(begin, begin + kShare)));
             begin += kShare;
         }
         progress.update(1);
@@ -71,12 +71,12 @@ private:
             sample.push_back(indices_[i]);
         const TraceScene scene(scene_, textures_, {.threads = options_.threads});
         const std::unique_ptr<Tracer> tracer = make_tracer(scene, {.backend = Backend::cpu});
-        surface_.emplace(scene, SurfaceReferenceOptions{.order = options_.order}, progress.part(0, 0.3));
+        surface_.emplace(scene, SurfaceReferenceOptions{.order = options_.order}, progress.range(0, 0.3));
         result.surface_points = surface_->points();
         reference_ = empty_transfer();
         trace_receivers(*tracer, receivers_, sample,
                         {.order = options_.order, .rays = rays, .seed = kReferenceSeed}, reference_,
-                        progress.part(0.3, 1));
+                        progress.range(0.3, 1));
         areas_.assign(receivers_.size(), 0);
         for (const std::uint32_t p : sample)
             areas_[p] = receivers_.areas[p];
@@ -100,9 +100,9 @@ private:
             }
             const double share = static_cast<double>(rays) / options_.max_rays;
             try {
-                const Progress part = progress.part(share / 2, share);
-                series.runs.push_back(setup.fitted ? measure_fit(rays, series.device, part)
-                                                   : measure_run(setup, rays, series.device, part));
+                const Progress term = progress.range(share / 2, share);
+                series.runs.push_back(setup.fitted ? measure_fit(rays, series.device, term)
+                                                   : measure_run(setup, rays, series.device, term));
             } catch (const Cancelled&) {
                 throw;
             } catch (const Error& error) {
@@ -135,10 +135,10 @@ private:
         trace_receivers(*tracer, receivers_, indices_,
                         {.order = options_.order, .rays = rays, .seed = options_.seed}, transfer, progress);
         run.seconds = all.seconds();
-        run.parts = tracer->seconds();
-        run.parts.trace -= before.trace;
-        run.parts.accumulate -= before.accumulate;
-        run.parts.transfer -= before.transfer;
+        run.terms = tracer->seconds();
+        run.terms.trace -= before.trace;
+        run.terms.accumulate -= before.accumulate;
+        run.terms.transfer -= before.transfer;
         run.rays_per_second = static_cast<double>(indices_.size()) * rays / run.seconds;
         run.relative_l2 = relative_l2(reference_, transfer, areas_);
         run.contrast = transfer_contrast(reference_, transfer, areas_);
@@ -164,7 +164,7 @@ private:
         run.rays = rays;
         run.seconds = s.seconds.all;
         run.seconds_build = s.seconds.build;
-        run.parts = s.seconds.tracing;
+        run.terms = s.seconds.tracing;
         run.rays_per_second = s.rays_per_second();
         if (result.baked.transfer.layout.channels() != 1)
             throw Error("light that comes through colored sheets is not measured between vertices");

@@ -16,7 +16,7 @@ namespace {
 /// Relative L2 difference of two bakes with one layout in their first part.
 double difference_of_bakes(const Transfer& a, const Transfer& b, std::span<const float> areas) {
     double squared = 0, norm = 0;
-    const std::size_t numbers = b.layout.numbers_of(b.layout.parts.front());
+    const std::size_t numbers = b.layout.numbers_of(b.layout.terms.front());
     for (std::size_t p = 0; p < b.receivers(); ++p)
         for (std::size_t i = 0; i < numbers; ++i) {
             const double one = static_cast<double>(a.vector(p)[i]),
@@ -58,12 +58,12 @@ void check_repeats(const Transfer& baked, const Transfer& repeated, std::span<co
     // is the first part. In practice the estimate of this error deviates by less than another factor of two,
     // or by four for few rays with a fit. A scene that was baked differently differs by tens of per cent.
     constexpr double kNoise = 6, kRounding = 0.05;
-    const std::size_t parts = baked.layout.distant_parts().size();
-    if (parts == 0)
+    const std::size_t terms = baked.layout.distant_terms().size();
+    if (terms == 0)
         throw Error("a budget is of the light of a sky, and none of it reaches this scene");
-    bool same = parts == repeated.layout.parts.size() && baked.receivers() == repeated.receivers();
-    for (std::size_t i = 0; same && i < parts; ++i)
-        same = baked.layout.parts[i] == repeated.layout.parts[i];
+    bool same = terms == repeated.layout.terms.size() && baked.receivers() == repeated.receivers();
+    for (std::size_t i = 0; same && i < terms; ++i)
+        same = baked.layout.terms[i] == repeated.layout.terms[i];
     const double off = same ? difference_of_bakes(baked, repeated, areas) : 1;
     if (!(off <= kNoise * record.sampling_error + kRounding))
         throw Error(fmt::format(

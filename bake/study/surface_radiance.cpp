@@ -138,7 +138,7 @@ SurfaceRadiance::SurfaceRadiance(const TraceScene& scene, const SurfacePoints& p
     int done = 0;
     for (int next = options.paths; done < next;) {
         const auto most = static_cast<double>(std::max(options.paths, options.max_paths));
-        for_each_receiver(all, options.threads, progress.part(done / most, next / most),
+        for_each_receiver(all, options.threads, progress.range(done / most, next / most),
                           [&](std::uint32_t p) {
                               for (std::size_t h = 0; h < sums.size(); ++h)
                                   add_paths(paths, hits[p], light,

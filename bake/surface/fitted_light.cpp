@@ -74,7 +74,7 @@ private:
         const std::unique_ptr<VectorSums> on_device =
             tracer_.vector_sums(plan_.options.order, unknown_weights(equations_));
         for (std::size_t k = 0; k < samples_.layers; ++k)
-            trace_layer(k, direct, sums, on_device.get(), progress.part(share(k), share(k + 1)));
+            trace_layer(k, direct, sums, on_device.get(), progress.range(share(k), share(k + 1)));
         if (on_device)
             on_device->read(sums.b, sums.signed_b);
         return sums;
@@ -299,12 +299,12 @@ FittedLight trace_fitted(const BakePlan& plan, Tracer& tracer, LastOfLamps last,
     const double lit = plan.lamps.empty() ? 0 : 0.2;
     const LampLight lamps =
         light_of_lamps(plan, tracer, samples.receivers, {.divisor = layers, .seed = plan.options.seed},
-                       progress.part(0, lit));
+                       progress.range(0, lit));
     const std::optional<LampConnections> connections =
         connections_to(plan, last, smooth_lamps(plan, alone, lamps).transfer);
     SampleTracer traced(plan, tracer, samples, alone, connections ? &*connections : nullptr);
     DirectLight direct;
-    SampleSums sums = traced.trace(direct, progress.part(lit, 0.95));
+    SampleSums sums = traced.trace(direct, progress.range(lit, 0.95));
 
     const Sealed sealed = find_sealed(tracer, plan.scene, samples.receivers, std::move(sums.dark),
                                       plan.options.seed, progress.stop);

@@ -7,7 +7,6 @@
 #include "bake_options.h"
 #include "bounced_sources.h"
 #include "memory.h"
-#include "parts.h"
 #include "prt/error_measures.h"
 #include "prt/support/error.h"
 #include "prt/support/stopwatch.h"
@@ -20,6 +19,7 @@
 #include "texels/texel_areas.h"
 #include "texels/texel_filter.h"
 #include "texels/texel_light.h"
+#include "transfer_terms.h"
 
 #include <fmt/core.h>
 
@@ -130,7 +130,7 @@ public:
         const std::unique_ptr<Tracer> tracer = make_tracer(traced, options_.tracer);
         statistics().notices = plan.notices;
         const double share = plan.bounces != 0 || !plan.lamps.empty() ? 0.2 : 0;
-        BouncedSources sources = bounced_sources(plan, *tracer, progress.part(0, share));
+        BouncedSources sources = bounced_sources(plan, *tracer, progress.range(0, share));
         bounces_done_ = sources.bounces;
         statistics().rays += sources.rays;
         statistics().sources = plan.bounces != 0 ? plan.receivers().size() : 0;
@@ -138,7 +138,7 @@ public:
         TexelTransport transport(plan, std::move(sources), rows_at_once());
         const Casters casters{traced, finer_.reach};
         const TexelPlaces places(scene_, finer_.scene ? &casters : nullptr);
-        trace(plan, *tracer, places, transport, progress.part(share, 1));
+        trace(plan, *tracer, places, transport, progress.range(share, 1));
         finish(plan, *tracer, places, watch);
         progress.update(1);
         return std::move(result_);
@@ -156,14 +156,14 @@ private:
 
     void trace(const BakePlan& plan, Tracer& tracer, const TexelPlaces& places, TexelTransport& transport,
                const Progress& progress) {
-        light_.direct.layout = layout_of_one(options_.order, 1, PartKind::direct);
-        light_.rest.layout = layout_of_one(options_.order, plan.channels, PartKind::indirect);
+        light_.direct.layout = layout_of_one(options_.order, 1, TermKind::direct);
+        light_.rest.layout = layout_of_one(options_.order, plan.channels, TermKind::indirect);
         light_.lamps.layout = transport.lamp_layout();
         std::size_t first = 0;
         for (std::size_t a = 0; a < atlases_.size(); ++a) {
-            const Progress part =
-                progress.part(static_cast<double>(a) / static_cast<double>(atlases_.size()),
-                              static_cast<double>(a + 1) / static_cast<double>(atlases_.size()));
+            const Progress term =
+                progress.range(static_cast<double>(a) / static_cast<double>(atlases_.size()),
+                               static_cast<double>(a + 1) / static_cast<double>(atlases_.size()));
             const TexelSamples samples = sample_texels(charts_[a], atlases_[a]);
             const TexelTask task{
                 .tracer = tracer,
@@ -173,7 +173,7 @@ private:
                 .inside = options_.repairs.inside,
                 .transport = &transport,
                 .notes_noise = options_.repairs.denoise};
-            TexelLight light = trace_texels(task, atlases_[a], samples.samples, part);
+            TexelLight light = trace_texels(task, atlases_[a], samples.samples, term);
             statistics().rays += light.rays;
             if (options_.repairs.denoise)
                 filter(a, places, samples.samples, light);

@@ -79,8 +79,9 @@ OcclusionMapsStatistics occlusion_maps(const Scene& scene, const std::vector<Atl
     OcclusionMapsStatistics result;
     result.notices = traced.notices();
     for (std::size_t i = 0; i < atlases.size(); ++i) {
-        const Progress part = progress.part(static_cast<double>(i) / static_cast<double>(atlases.size()),
-                                            static_cast<double>(i + 1) / static_cast<double>(atlases.size()));
+        const Progress part =
+            progress.range(static_cast<double>(i) / static_cast<double>(atlases.size()),
+                           static_cast<double>(i + 1) / static_cast<double>(atlases.size()));
         const TexelSamples samples = sample_texels(chart_triangles(scene, atlases[i]), atlases[i]);
         const TexelTask task{.tracer = traced.tracer(),
                              .scene = traced.scene(),

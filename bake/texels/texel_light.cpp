@@ -64,8 +64,8 @@ public:
         std::vector<int> lit(groups.size());
         std::vector<Verdict> verdicts(groups.size(), Verdict::unknown);
         for (std::size_t k = 0; k < kSamplesOfTexel; ++k) {
-            const Progress part = progress.part(static_cast<double>(k) / kSamplesOfTexel,
-                                                static_cast<double>(k + 1) / kSamplesOfTexel);
+            const Progress part = progress.range(static_cast<double>(k) / kSamplesOfTexel,
+                                                 static_cast<double>(k + 1) / kSamplesOfTexel);
             trace_layer(groups, k, {lit, verdicts}, light, part);
         }
         for (std::size_t g = 0; g < groups.size(); ++g)
@@ -125,7 +125,7 @@ private:
                 task_.transport->set_row(g, layer.receivers, hits, options);
             };
         }
-        trace_receivers(task_.tracer, layer.receivers, layer.indices, options, traced, progress.part(0, 0.9),
+        trace_receivers(task_.tracer, layer.receivers, layer.indices, options, traced, progress.range(0, 0.9),
                         sink);
         light.rays += layer.indices.size() * static_cast<std::size_t>(options.rays);
         const std::vector<bool> sealed =
@@ -175,7 +175,7 @@ private:
             return;
         std::vector<float> direct(groups.size() * stride), bounced(direct.size());
         light.rays += task_.transport->light_of_lamps(task_.tracer, layer.receivers, lamp_seed(groups, k),
-                                                      direct, bounced, progress.part(0.9, 1));
+                                                      direct, bounced, progress.range(0.9, 1));
         add(direct, stride, light.lamps);
         add(bounced, stride, light.bounced_lamps);
         if (!task_.notes_noise)
@@ -278,7 +278,7 @@ TexelLight trace_texels(const TexelTask& task, const Atlas& atlas, std::span<con
             return static_cast<double>(done) / static_cast<double>(groups.size());
         };
         texels.trace(std::span(groups).subspan(first, count), light,
-                     progress.part(share(first), share(first + count)));
+                     progress.range(share(first), share(first + count)));
     }
     return light;
 }

@@ -4,9 +4,9 @@
 #include "texels/texel_transport.h"
 
 #include "lamps/lamp_light.h"
-#include "parts.h"
 #include "prt/sh_basis.h"
 #include "texels/texel_samples.h"
+#include "transfer_terms.h"
 
 #include <algorithm>
 

@@ -36,7 +36,7 @@ void in_batches(const Tracer& tracer, std::span<const std::uint32_t> indices, co
         progress.update(share(begin));
         const auto part =
             indices.subspan(begin, std::min(tracer.batch_size(options), indices.size() - begin));
-        work(part, progress.part(share(begin), share(begin + part.size())));
+        work(part, progress.range(share(begin), share(begin + part.size())));
         begin += part.size();
     }
     progress.update(1);
@@ -77,7 +77,7 @@ int first_half(int rays) {
 namespace {
 
 /// Returns the first half of the rays and then the others, in ranges that Tracer::trace supports.
-std::vector<TraceOptions> parts_of(const TraceOptions& options) {
+std::vector<TraceOptions> terms_of(const TraceOptions& options) {
     std::vector<TraceOptions> parts;
     for (int begin = 0; begin < options.rays;) {
         TraceOptions part = options;
@@ -95,7 +95,7 @@ void trace_in_halves(Tracer& tracer, const Receivers& receivers, std::span<const
                      const TraceOptions& options, const TracedHalves& to, const Progress& progress,
                      const HalvesSink& sink) {
     const auto dimension = static_cast<std::size_t>(coefficient_count(options.order));
-    const std::vector<TraceOptions> parts = parts_of(options);
+    const std::vector<TraceOptions> parts = terms_of(options);
     const auto trace = [&](std::span<const std::uint32_t> batch, const Progress& batch_progress) {
         std::vector<std::vector<Hit>> hits(sink ? batch.size() : 0);
         std::vector<std::size_t> of_half(hits.size());
@@ -112,7 +112,7 @@ void trace_in_halves(Tracer& tracer, const Receivers& receivers, std::span<const
                 return static_cast<double>(done) / static_cast<double>(parts.size());
             };
             tracer.trace(receivers, batch, parts[k], vectors, sink ? keep : HitSink(),
-                         batch_progress.part(share(k), share(k + 1)));
+                         batch_progress.range(share(k), share(k + 1)));
             const float weight = static_cast<float>(parts[k].rays) / static_cast<float>(options.rays);
             for (std::size_t i = 0; i < batch.size(); ++i)
                 for (std::size_t c = 0; c < dimension; ++c) {

@@ -196,7 +196,7 @@ struct FitColumns {
 
 } // namespace
 
-void fill_blind(const VolumeProbes& probes, const std::vector<bool>& blind, const ProbeVectors& vectors) {
+void fill_invalid(const VolumeProbes& probes, const std::vector<bool>& invalid, const ProbeVectors& vectors) {
     std::vector<std::vector<std::uint32_t>> beside(probes.size());
     for (const auto& brick : probes.of_brick)
         for (std::size_t i = 0; i < kBrickProbes; ++i)
@@ -206,7 +206,7 @@ void fill_blind(const VolumeProbes& probes, const std::vector<bool>& blind, cons
                     beside[brick[i]].push_back(brick[i + step]);
                     beside[brick[i + step]].push_back(brick[i]);
                 }
-    std::vector<bool> dark = blind;
+    std::vector<bool> dark = invalid;
     for (;;) {
         std::vector<std::uint32_t> filled;
         for (std::uint32_t p = 0; p < probes.size(); ++p) {

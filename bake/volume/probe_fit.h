@@ -23,7 +23,7 @@ struct ProbeVectors {
 
 /// Replaces the values of blind probes by the mean of their neighbours, ring by ring from the other probes
 /// on.
-void fill_blind(const VolumeProbes& probes, const std::vector<bool>& blind, const ProbeVectors& vectors);
+void fill_invalid(const VolumeProbes& probes, const std::vector<bool>& invalid, const ProbeVectors& vectors);
 
 /// Replaces the values of hanging probes by interpolated values of the coarse bricks next to them.
 void settle_hanging(const VolumeGrid& grid, const VolumeProbes& probes, const ProbeVectors& vectors);

@@ -28,7 +28,7 @@ ProbeStates unmeasured(const VolumeProbes& probes, std::size_t stride) {
     states.levels = probes.levels;
     states.values.resize(probes.size() * stride);
     states.distances.resize(probes.size());
-    states.blind.resize(probes.size());
+    states.invalid.resize(probes.size());
     states.moved.resize(probes.size());
     return states;
 }
@@ -48,7 +48,7 @@ std::vector<std::uint32_t> take_over(const ProbeStates& before, ProbeStates& sta
         const std::size_t from = found->second;
         std::copy_n(&before.values[from * states.stride], states.stride, &states.values[p * states.stride]);
         states.distances[p] = before.distances[from];
-        states.blind[p] = before.blind[from];
+        states.invalid[p] = before.invalid[from];
         states.moved[p] = before.moved[from];
     }
     return missing;
@@ -56,12 +56,12 @@ std::vector<std::uint32_t> take_over(const ProbeStates& before, ProbeStates& sta
 
 } // namespace
 
-std::vector<ProbeSight> ProbeStates::sights(const VolumeGrid& grid) const {
-    std::vector<ProbeSight> sights(size(), ProbeSight{});
+std::vector<ProbeVisibility> ProbeStates::visibility(const VolumeGrid& grid) const {
+    std::vector<ProbeVisibility> visibility(size(), ProbeVisibility{});
     for (std::size_t p = 0; p < size(); ++p)
-        if (!blind[p])
-            sights[p] = sight_of(distances[p], cell_of(grid, levels[p]));
-    return sights;
+        if (!invalid[p])
+            visibility[p] = visibility_of(distances[p], cell_of(grid, levels[p]));
+    return visibility;
 }
 
 ProbeStates measure_probes(const ProbeTask& task, const VolumeGrid& grid, const VolumeProbes& probes,
@@ -79,7 +79,7 @@ ProbeStates measure_probes(const ProbeTask& task, const VolumeGrid& grid, const 
                       [&](std::size_t i, const PlaceSeen& seen) {
                           const std::size_t p = missing[i];
                           std::ranges::copy(seen.vectors, &states.values[p * states.stride]);
-                          states.blind[p] = seen.backs > kMaxBackShare;
+                          states.invalid[p] = seen.backs > kMaxBackShare;
                           states.moved[p] = places[i] != cells[i].corner;
                           states.distances[p] = seen.distances;
                       });

@@ -23,12 +23,12 @@ struct ProbeStates {
     std::vector<std::uint8_t> levels;            ///< [probes]
     std::vector<float> values;                   ///< [probes][stride]
     std::vector<std::array<float, 6>> distances; ///< [probes] visibility distances from the corner, metres
-    std::vector<char> blind, moved;              ///< [probes]
+    std::vector<char> invalid, moved;            ///< [probes]
 
     std::size_t size() const { return corners.size(); }
     ProbeVectors vectors() { return {values, stride}; }
-    std::vector<ProbeSight> sights(const VolumeGrid& grid) const;
-    std::vector<bool> blind_ones() const { return {blind.begin(), blind.end()}; }
+    std::vector<ProbeVisibility> visibility(const VolumeGrid& grid) const;
+    std::vector<bool> invalid_mask() const { return {invalid.begin(), invalid.end()}; }
 };
 
 struct ProbeTask {

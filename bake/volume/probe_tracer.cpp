@@ -13,7 +13,7 @@
 #include "trace/chunk_kernels.h"
 #include "transport/gather.h"
 #include "volume/outer_sums.h"
-#include "volume/sight.h"
+#include "volume/visibility.h"
 
 #include <glm/geometric.hpp>
 
@@ -60,7 +60,7 @@ struct ProbeTracer::Space {
     /// Sums by direction, [coefficients][order²], of blocked rays and of all rays; and light from surfaces.
     OuterSums blocked, all, reflected;
     ChunkDirections directions;
-    SightVotes sight;
+    VisibilityVotes visibility;
     double shut = 0, backs = 0; ///< number of rays
     std::array<float, kMaxOrder * kMaxOrder> basis{};
     PlaceSeen seen;
@@ -70,9 +70,9 @@ ProbeTracer::ProbeTracer(const BakePlan& plan, Tracer& tracer, BouncedSources so
     : plan_(plan), tracer_(tracer), whole_(kChunk), last_(1),
       reflectance_(shared_reflectance(plan.scene.surfaces(), *plan.transport)) {
     layout_.order = order;
-    layout_.sky = layout_of_one(plan.options.order, 1, PartKind::direct);
+    layout_.sky = layout_of_one(plan.options.order, 1, TermKind::direct);
     if (plan.bounces != 0)
-        layout_.sky.parts.push_back({PartKind::indirect, plan.channels});
+        layout_.sky.terms.push_back({TermKind::indirect, plan.channels});
     if (!plan.lamps.empty())
         layout_.lamps = sources.lamps.layout;
     sky_ = std::move(sources.sky.vectors);
@@ -141,8 +141,8 @@ void ProbeTracer::see(const Task& task, std::size_t place, std::span<const std::
     const std::size_t coefficients = layout_.coefficients(), direct = layout_.direct(),
                       numbers = layout_.numbers();
     if (!task.cells.empty())
-        space.sight.begin(task.cells[place].corner - task.places[place],
-                          kReachCells * task.cells[place].width);
+        space.visibility.begin(task.cells[place].corner - task.places[place],
+                               kReachCells * task.cells[place].width);
     space.shut = space.backs = 0;
     space.blocked.begin(coefficients, direct);
     space.all.begin(coefficients, direct);
@@ -165,7 +165,7 @@ void ProbeTracer::see(const Task& task, std::size_t place, std::span<const std::
     }
     space.seen = {space.vectors, static_cast<float>(space.backs / rays)};
     if (!task.cells.empty())
-        space.seen.distances = space.sight.distances(rays, kSightCells * task.cells[place].width);
+        space.seen.distances = space.visibility.distances(rays, kVisibilityCells * task.cells[place].width);
 }
 
 float ProbeTracer::look(const glm::vec3& d, Space& space) const {
@@ -197,10 +197,10 @@ void ProbeTracer::add_hit(const Hit& hit, const Task& task, std::size_t place, S
     space.shut += static_cast<double>(hit.weight);
     add_direction(weight, space, space.blocked);
     if (!task.cells.empty())
-        space.sight.add_hit(way,
-                            glm::cross(positions[corners.y] - positions[corners.x],
-                                       positions[corners.z] - positions[corners.x]),
-                            hit.weight);
+        space.visibility.add_hit(way,
+                                 glm::cross(positions[corners.y] - positions[corners.x],
+                                            positions[corners.z] - positions[corners.x]),
+                                 hit.weight);
     if (hit.back && !plan_.scene.surfaces().two_sided(hit.triangle))
         space.backs += static_cast<double>(hit.weight);
     else if (!sky_.empty() || !lamps_.empty())

@@ -31,7 +31,7 @@ struct IncidentLayout {
     std::size_t coefficients() const { return static_cast<std::size_t>(coefficient_count(order)); }
     std::size_t direct() const { return static_cast<std::size_t>(coefficient_count(sky.order)); }
     /// Numbers per coefficient.
-    std::size_t numbers() const { return sky.dimension() + (lamps.parts.empty() ? 0 : lamps.dimension()); }
+    std::size_t numbers() const { return sky.dimension() + (lamps.terms.empty() ? 0 : lamps.dimension()); }
 };
 
 /// Light and visibility at a position.
@@ -39,7 +39,8 @@ struct PlaceSeen {
     /// [coefficients][numbers] incident light of the sky, and of lamps.
     std::span<const float> vectors;
     float backs = 0; ///< share of rays that end at back faces without light
-    /// [-x, +x, -y, ..] visibility distances from the corner of the cell, metres, up to kSightCells cells.
+    /// [-x, +x, -y, ..] visibility distances from the corner of the cell, metres, up to kVisibilityCells
+    /// cells.
     std::array<float, 6> distances{};
 };
 

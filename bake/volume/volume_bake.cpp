@@ -6,13 +6,13 @@
 #include "available_memory.h"
 #include "bake_options.h"
 #include "memory.h"
-#include "parts.h"
 #include "prt/error_measures.h"
 #include "prt/support/error.h"
 #include "prt/support/parallel.h"
 #include "prt/support/stopwatch.h"
 #include "record.h"
 #include "trace/scrambles.h"
+#include "transfer_terms.h"
 #include "volume/light_error.h"
 #include "volume/place_bricks.h"
 #include "volume/probe_fit.h"
@@ -130,9 +130,10 @@ PointsBetween points_between(const VolumeGrid& grid, const Bounds& bounds, doubl
 }
 
 /// Splits vectors [places][coefficients][numbers] into the parts of a file.
-Transfer in_parts_of(const IncidentLayout& layout, const BakePlan& plan, std::span<const float> vectors) {
+Transfer split_into_terms(const IncidentLayout& layout, const BakePlan& plan,
+                          std::span<const float> vectors) {
     const std::size_t numbers = layout.numbers(), rows = vectors.size() / numbers;
-    const auto part = [&](std::size_t first, TransferLayout of_part) {
+    const auto term = [&](std::size_t first, TransferLayout of_part) {
         Transfer transfer = zero_transfer(std::move(of_part), rows);
         const std::size_t count = transfer.dimension();
         for (std::size_t r = 0; r < rows; ++r)
@@ -140,12 +141,12 @@ Transfer in_parts_of(const IncidentLayout& layout, const BakePlan& plan, std::sp
         return transfer;
     };
     const int order = layout.sky.order;
-    Transfer all = part(0, layout_of_one(order, 1, PartKind::direct));
-    if (layout.sky.parts.size() > 1)
+    Transfer all = term(0, layout_of_one(order, 1, TermKind::direct));
+    if (layout.sky.terms.size() > 1)
         all = joined(
-            all, narrowed(part(layout.direct(), layout_of_one(order, plan.channels, PartKind::indirect))));
+            all, narrowed(term(layout.direct(), layout_of_one(order, plan.channels, TermKind::indirect))));
     if (!plan.lamps.empty())
-        all = with_lamps(all, part(layout.sky.dimension(), layout.lamps), plan.lamps);
+        all = with_lamps(all, term(layout.sky.dimension(), layout.lamps), plan.lamps);
     return all;
 }
 
@@ -165,32 +166,32 @@ public:
         baked.grid = place_bricks(scene_, volume_, max_bricks(volume_, plan_.numbers(), there));
         baked.order = volume_.order;
         check_room(volume_, static_cast<double>(probes_of(baked.grid).size()), plan_.numbers(), there);
-        ProbeTracer tracer = probe_tracer(progress.part(0, 0.2));
-        ProbeStates states = measured(tracer, there, progress.part(0.2, 0.5));
+        ProbeTracer tracer = probe_tracer(progress.range(0, 0.2));
+        ProbeStates states = measured(tracer, there, progress.range(0.2, 0.5));
         count_probes(states);
         const ProbeVectors vectors = states.vectors();
         const VolumeProbes probes = probes_of(baked.grid);
-        fill_blind(probes, states.blind_ones(), vectors);
+        fill_invalid(probes, states.invalid_mask(), vectors);
         settle_hanging(baked.grid, probes, vectors);
         if (is_fitted(volume_))
-            fit(tracer, vectors, progress.part(0.5, 1));
+            fit(tracer, vectors, progress.range(0.5, 1));
         finish(tracer, states.values);
         progress.update(1);
         return std::move(result_);
     }
 
     PlacedLight at(std::span<const glm::vec3> places, const Progress& progress) {
-        ProbeTracer tracer = probe_tracer(progress.part(0, 0.4));
+        ProbeTracer tracer = probe_tracer(progress.range(0, 0.4));
         const std::size_t stride = tracer.layout().coefficients() * tracer.layout().numbers();
         std::vector<float> values(places.size() * stride);
         PlacedLight light;
         light.backs.resize(places.size());
         const ProbeTracer::Task task{.places = places, .rays = options_.rays, .seed = options_.seed};
-        tracer.trace(task, progress.part(0.4, 1), [&](std::size_t p, const PlaceSeen& seen) {
+        tracer.trace(task, progress.range(0.4, 1), [&](std::size_t p, const PlaceSeen& seen) {
             std::ranges::copy(seen.vectors, &values[p * stride]);
             light.backs[p] = seen.backs;
         });
-        light.transfer = in_parts_of(tracer.layout(), plan_, values);
+        light.transfer = split_into_terms(tracer.layout(), plan_, values);
         return light;
     }
 
@@ -212,7 +213,7 @@ private:
                              options_.threads};
         if (volume_.error > 0)
             grid = with_finer_levels(std::move(grid));
-        ProbeStates states = measure_probes(task, grid, probes_of(grid), {}, progress.part(0, 0.4));
+        ProbeStates states = measure_probes(task, grid, probes_of(grid), {}, progress.range(0, 0.4));
         for (int round = 1; volume_.error > 0 && round <= kMaxRefinements; ++round) {
             const VolumeGrid finer = refined(tracer, states, round);
             if (finer == grid)
@@ -220,10 +221,10 @@ private:
             const VolumeProbes probes = probes_of(finer);
             check_room(volume_, static_cast<double>(probes.size()), plan_.numbers(), room);
             states = measure_probes(task, finer, probes, std::move(states),
-                                    progress.part(0.4 * round, 0.4 * round + 0.2));
+                                    progress.range(0.4 * round, 0.4 * round + 0.2));
             grid = finer;
         }
-        result_.volume.sights = states.sights(grid);
+        result_.volume.visibility = states.visibility(grid);
         grid = without_unused_levels(std::move(grid));
         return states;
     }
@@ -232,7 +233,7 @@ private:
     /// probes.
     VolumeGrid refined(ProbeTracer& tracer, const ProbeStates& states, int round) {
         const VolumeGrid& grid = result_.volume.grid;
-        const VolumeLookup lookup(grid, states.sights(grid));
+        const VolumeLookup lookup(grid, states.visibility(grid));
         const PointsBetween points = points_between(grid, volume_bounds(scene_, volume_), kSurveyed,
                                                     options_.seed + static_cast<std::uint64_t>(round));
         const LightError error_of(tracer.layout());
@@ -290,10 +291,10 @@ private:
         VolumeStatistics::Probes& counts = statistics().probes;
         counts.all = states.size();
         counts.moved = static_cast<std::size_t>(std::ranges::count(states.moved, 1));
-        counts.blind = static_cast<std::size_t>(std::ranges::count(states.blind, 1));
+        counts.invalid = static_cast<std::size_t>(std::ranges::count(states.invalid, 1));
         counts.hanging = probes_of(result_.volume.grid).hanging.size();
         counts.bricks = result_.volume.grid.bricks.size();
-        if (counts.blind == counts.all)
+        if (counts.invalid == counts.all)
             throw Error("no probe of the volume is in free space: all see backs of surfaces. Choose other "
                         "bounds, or let materials be double-sided");
         statistics().seconds.probes = watch_.seconds() - statistics().seconds.sources;
@@ -301,7 +302,7 @@ private:
 
     void fit(ProbeTracer& tracer, const ProbeVectors& vectors, const Progress& progress) {
         const VolumeGrid& grid = result_.volume.grid;
-        const VolumeLookup lookup(grid, result_.volume.sights);
+        const VolumeLookup lookup(grid, result_.volume.visibility);
         const std::vector<glm::vec3> places =
             points_between(grid, volume_bounds(scene_, volume_), *volume_.fit_points, options_.seed).places;
         ProbeFit probe_fit(grid, lookup.probes(), vectors.stride);
@@ -310,7 +311,7 @@ private:
             add_points(tracer, lookup, std::span(places).subspan(begin, count), begin, probe_fit);
             progress.update(0.7 * static_cast<double>(begin + count) / static_cast<double>(places.size()));
         }
-        const ProbeFit::Errors errors = probe_fit.solve(vectors, options_.threads, progress.part(0.7, 1));
+        const ProbeFit::Errors errors = probe_fit.solve(vectors, options_.threads, progress.range(0.7, 1));
         settle_hanging(grid, lookup.probes(), vectors);
         statistics().probes.fit_points = probe_fit.points();
         statistics().fit_before = errors.before;
@@ -345,7 +346,7 @@ private:
     void finish(const ProbeTracer& tracer, std::span<const float> values) {
         VolumeStatistics& s = statistics();
         BakedTransfer& baked = result_.volume.baked;
-        baked.transfer = in_parts_of(tracer.layout(), plan_, values);
+        baked.transfer = split_into_terms(tracer.layout(), plan_, values);
         const std::vector<float> areas(baked.transfer.receivers(), 1.0f);
         s.rounding_error = float16_rounding_error(baked.transfer, areas);
         baked.record = {.bounces = bounces_,

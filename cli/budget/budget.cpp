@@ -54,7 +54,7 @@ BudgetReference::BudgetReference(const Scene& scene, const std::vector<BudgetLig
                                    .seconds = effort.seconds,
                                    .seed = effort.seed,
                                    .threads = effort.threads},
-            progress.part(static_cast<double>(i) / count, static_cast<double>(i + 1) / count));
+            progress.range(static_cast<double>(i) / count, static_cast<double>(i + 1) / count));
     }
 }
 

@@ -34,15 +34,15 @@ std::vector<Sun> as_seen_by_rays(std::span<const SunDisc> discs) {
     constexpr int kParts = 16;
     std::vector<Sun> suns;
     for (const SunDisc& disc : discs) {
-        const int parts = disc.half_angle > 0 ? kParts : 1;
-        for (int i = 0; i < parts; ++i) { // on a spiral (docs/math.md, eq. 41)
-            const double radius = disc.half_angle * std::sqrt((i + 0.5) / parts),
+        const int terms = disc.half_angle > 0 ? kParts : 1;
+        for (int i = 0; i < terms; ++i) { // on a spiral (docs/math.md, eq. 41)
+            const double radius = disc.half_angle * std::sqrt((i + 0.5) / terms),
                          angle = i * std::numbers::pi * (3 - std::sqrt(5.0));
             const TangentFrame frame = tangent_frame(disc.towards);
             const glm::dvec3 to(disc.towards), off = glm::dvec3(frame.tangent) * std::cos(angle) +
                                                      glm::dvec3(frame.bitangent) * std::sin(angle);
-            suns.push_back({glm::vec3(parts == 1 ? to : to * std::cos(radius) + off * std::sin(radius)),
-                            disc.irradiance / static_cast<float>(parts)});
+            suns.push_back({glm::vec3(terms == 1 ? to : to * std::cos(radius) + off * std::sin(radius)),
+                            disc.irradiance / static_cast<float>(terms)});
         }
     }
     return suns;

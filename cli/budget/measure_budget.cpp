@@ -44,9 +44,9 @@ void measure(const BudgetRequest& request, const SceneFile& baked, const SceneFi
     ProgressBar bar = session.progress_bar("taking errors apart");
     const Progress progress = bar.progress();
     const std::vector<BudgetLight> lights = budget_lights(request.lights);
-    const Transfer repeated = repeat(baked, threads, progress.part(0, 0.4));
+    const Transfer repeated = repeat(baked, threads, progress.range(0, 0.4));
     const BudgetEffort effort{.bad_textures = request.reading.bad_textures, .threads = threads};
-    const BudgetReference reference(baked.scene, lights, effort, progress.part(0.4, 0.8));
+    const BudgetReference reference(baked.scene, lights, effort, progress.range(0.4, 0.8));
     std::optional<Transfer> coded;
     if (shipped)
         coded = decode(baked.lightmap ? picked_texels(shipped->compressed->transfer, baked.lightmap->texels)
@@ -62,7 +62,7 @@ void measure(const BudgetRequest& request, const SceneFile& baked, const SceneFi
     const ErrorBudget mean = mean_budget(all.relative), visible_mean = mean_budget(all.visible);
     const std::optional<Advice> what =
         advice({.reference = reference, .baked = baked, .shipped = shipped, .effort = effort}, mean,
-               progress.part(0.8, 1));
+               progress.range(0.8, 1));
     std::vector<Table> tables = budget_tables(lights, all);
     const std::string words = budget_in_words(mean, visible_mean, lights.size());
     Table& first = tables.front();
@@ -88,7 +88,7 @@ void add_budget(BudgetRequest request, SceneFile& baked, Report& report, Session
         throw Error(request.shipped.string() + ": is no compressed file: a budget is of one bake");
     const TransferLayout& layout = shipped ? layout_of(*shipped) : layout_of(baked);
     request.lights.order = baked.order();
-    request.lights.apart = layout.has(PartKind::direct);
+    request.lights.apart = layout.has(TermKind::direct);
     about(request.baked, [&] { measure(request, baked, shipped ? &*shipped : nullptr, report, session); });
 }
 

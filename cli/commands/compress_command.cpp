@@ -328,7 +328,7 @@ std::optional<CompressedVolumeResult> compress_probes(const CompressArguments& a
     options.clusters = a.volume.clusters > 0
                            ? a.volume.clusters
                            : static_cast<int>(std::clamp<std::size_t>(
-                                 bake.volume->sights.size() / kProbesOfCluster, kMinClusters, 256));
+                                 bake.volume->visibility.size() / kProbesOfCluster, kMinClusters, 256));
     options.bases_count = true;
     options.seed = a.options.compress.seed;
     options.threads = a.options.compress.threads;
@@ -520,7 +520,7 @@ Json result_json(const CompressStatistics& s, const CompressOptions& options, co
     return {
         {"order", transfer.layout().order},
         {"channels", transfer.layout().channels()},
-        {"parts", parts_figures(transfer.layout())},
+        {"terms", terms_figures(transfer.layout())},
         {"receivers", receivers},
         {"clusters", s.clusters},
         {"components_most", bases.max_components()},
@@ -683,7 +683,7 @@ void run(CompressArguments a, Session& session) {
     Bake bake = load_bake(a.baked, a.reading);
     TransferView transfer = bake.stored.transfer;
     if (a.writing.whole)
-        transfer = as_whole(std::move(transfer));
+        transfer = as_combined(std::move(transfer));
     SearchOptions options = a.options;
     if (bake.lightmap)
         choose_for_texels(a, options);
@@ -756,7 +756,7 @@ void add_compress(CLI::App& app, Session& session) {
                      "what jumps of the error along mesh edges cost, 0: nothing")
         ->capture_default_str()
         ->check(real_in(0, kMaxPrice));
-    command->add_flag("--whole", a.writing.whole,
+    command->add_flag("--combine-direct", a.writing.whole,
                       "direct and indirect light as one: smaller, for who does not light suns apart");
     command
         ->add_option(

@@ -75,13 +75,13 @@ void add_baked(const BakedTransfer& baked, Report& report) {
         {{"transfer",
           {{"order", t.layout.order},
            {"channels", t.layout.channels()},
-           {"parts", parts_figures(t.layout)},
+           {"terms", terms_figures(t.layout)},
            {"bytes_stored_per_vertex", t.dimension() * (half ? sizeof(std::uint16_t) : sizeof(float))},
            {"bake", bake_record_json(baked.record)}}}});
     report.sentences.push_back(
         fmt::format("raw transfer: order {{transfer/order}}, {}, {{transfer/bytes_stored_per_vertex}} bytes "
                     "per vertex as {}",
-                    parts_in_words(t.layout), half ? "float16" : "float32"));
+                    terms_in_words(t.layout), half ? "float16" : "float32"));
     report.sentences.push_back(record_sentence("transfer/bake", baked.record));
 }
 
@@ -101,7 +101,7 @@ void add_compressed(const CompressedTransfer& compressed, Report& report) {
     add_figures(report, {{"clustered_pca",
                           {{"order", t.bases.layout.order},
                            {"channels", t.bases.layout.channels()},
-                           {"parts", parts_figures(t.bases.layout)},
+                           {"terms", terms_figures(t.bases.layout)},
                            {"clusters", t.bases.clusters()},
                            {"components_least", *least},
                            {"components_most", *most},
@@ -116,7 +116,7 @@ void add_compressed(const CompressedTransfer& compressed, Report& report) {
     report.sentences.push_back(fmt::format(
         "clustered PCA: order {{{0}order}}, {1}, {2} x {{{0}components_least}} to "
         "{{{0}components_most}} components, {{{0}weights}} weights",
-        own, parts_in_words(t.bases.layout), counted(own + "clusters", t.bases.clusters(), "cluster")));
+        own, terms_in_words(t.bases.layout), counted(own + "clusters", t.bases.clusters(), "cluster")));
     report.sentences.push_back(fmt::format(
         "{{{0}bytes_bound_per_vertex}} bytes per vertex to bind ({{{0}bits_used_per_vertex}} bits in use)",
         own));
@@ -217,9 +217,9 @@ void run(InfoArguments a, Session& session) {
     if (model.compressed)
         add_compressed(*model.compressed, report);
     if (model.volume)
-        add_volume(model.volume->grid, model.volume->sights.size(), model.volume->order, report);
+        add_volume(model.volume->grid, model.volume->visibility.size(), model.volume->order, report);
     if (model.compressed_volume)
-        add_volume(model.compressed_volume->grid, model.compressed_volume->sights.size(),
+        add_volume(model.compressed_volume->grid, model.compressed_volume->visibility.size(),
                    model.compressed_volume->order, report);
     if (!model.occluders.empty()) {
         add_figures(report, {{"occlusion_volumes", model.occluders.size()}});

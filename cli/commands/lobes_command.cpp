@@ -86,8 +86,8 @@ Made make_lobes(const LobesArguments& a, const AnimatedScene& model, std::span<c
     const Stopwatch fitting;
     ProgressBar bar = session.progress_bar("fitting lobes");
     const LobeTargets targets{a.bake.order, made.mean.vectors, made.mean.areas};
-    const std::vector<Lobe> fitted = fit_lobes(targets, a.fit, bar.progress().part(0, 0.5));
-    made.lobes = code_lobes(targets, fitted, a.fit, bar.progress().part(0.5, 1));
+    const std::vector<Lobe> fitted = fit_lobes(targets, a.fit, bar.progress().range(0, 0.5));
+    made.lobes = code_lobes(targets, fitted, a.fit, bar.progress().range(0.5, 1));
     made.fit_seconds = fitting.seconds();
     made.fit_error = lobe_error(targets, fitted, a.fit);
     made.coded_error = lobe_error(targets, decoded(made.lobes), a.fit);

@@ -76,7 +76,7 @@ void add_suns(const TraceScene& scene, std::span<const SunDisc> suns, const SunR
 
 /// Whether suns can only be lit with the sky.
 bool is_together(const SceneFile& model) {
-    return layout_of(model).has(PartKind::whole);
+    return layout_of(model).has(TermKind::combined);
 }
 
 void check_model(const RelightArguments& a, const SceneFile& model) {
@@ -171,7 +171,7 @@ void run(RelightArguments a, Session& session) {
     });
     const std::vector<bool> solid = solid_materials(model);
     ProgressBar bar = session.progress_bar("relighting");
-    const bool suns_are_apart = !light.split.suns.empty() && layout_of(model).has(PartKind::direct);
+    const bool suns_are_apart = !light.split.suns.empty() && layout_of(model).has(TermKind::direct);
     const Lighting lighting{light.sky.light, light_of_suns(light), lamp_strengths(a.lamps, layout_of(model))};
     std::vector<glm::vec3> radiance = lit_by_transfer(lighting, a.threads, model);
     const TraceScene scene(model.scene, std::move(textures), {.solid = solid, .threads = a.threads});

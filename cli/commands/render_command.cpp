@@ -105,7 +105,7 @@ bool has_unnamed_media(const SceneFile& model, const std::vector<bool>& solid) {
 /// Returns the reason why suns cannot be separate from the sky, with advice; empty if they can. A model
 /// without transfer has only direct light.
 std::string why_together(const RenderArguments& a, const SceneFile& model, const std::vector<bool>& solid) {
-    if (model.record() && layout_of(model).has(PartKind::whole))
+    if (model.record() && layout_of(model).has(TermKind::combined))
         return a.model.string() + ": " + kNotApart;
     if (a.backend == Backend::gpu && has_unnamed_media(model, solid))
         return "--backend gpu does not know media of --subsurface, which suns light through transfer alone; "
@@ -134,7 +134,7 @@ SplitLight load_lit(const RenderArguments& a, const SceneFile& model, const std:
 
 /// Returns the layout of the transfer; for a model without transfer one without lamps.
 TransferLayout layout_of_any(const SceneFile& model) {
-    return model.record() ? layout_of(model) : layout_of_one(kUnshadowedOrder, 1, PartKind::direct);
+    return model.record() ? layout_of(model) : layout_of_one(kUnshadowedOrder, 1, TermKind::direct);
 }
 
 Lighting lighting_of(const RenderArguments& a, const SceneFile& model, const SplitLight& light) {
@@ -428,9 +428,9 @@ TracedLights traced_lights(const RenderArguments& a, const SceneFile& model, con
     lights.reading.window = Window::none;
     TransferLayout layout = layout_of_any(model);
     if (!model.record())
-        for (TransferPart& lamp : lamps_of(model.scene))
-            layout.parts.push_back(std::move(lamp));
-    lights.lamps.assign(layout.lamp_parts().begin(), layout.lamp_parts().end());
+        for (TransferTerm& lamp : lamps_of(model.scene))
+            layout.terms.push_back(std::move(lamp));
+    lights.lamps.assign(layout.lamp_terms().begin(), layout.lamp_terms().end());
     lights.strengths = lighting.lamps;
     if (!model.record()) {
         lights.strengths = lamp_strengths(a.lights.lamps, layout);

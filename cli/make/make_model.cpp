@@ -212,13 +212,13 @@ private:
         const Progress progress = bar.progress();
         // Assumes that the error under these lights and the error of direct transfer between vertices
         // decrease in proportion.
-        const double now = refine(scene_, options, {.target = kLook}, progress.part(0, 0.1))
+        const double now = refine(scene_, options, {.target = kLook}, progress.range(0, 0.1))
                                .statistics.before.error,
                      vertices = pilot.budget.of(ErrorCause::vertices).value;
         const double target = now * std::sqrt(kShareOfVertices * allowed() / vertices);
         if (!(target > 0))
             return false;
-        const RefineResult result = refine(scene_, options, {.target = target}, progress.part(0.1, 1));
+        const RefineResult result = refine(scene_, options, {.target = target}, progress.range(0.1, 1));
         tried_.push_back(
             fmt::format("prt bake --refine {:.3g}: {} vertices", target, result.statistics.after.vertices));
         if (result.statistics.rounds == 0)

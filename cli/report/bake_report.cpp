@@ -215,7 +215,7 @@ void add_sentences(const BakeOutcome& baked, const Json& statistics, Report& rep
     const auto say = [&](std::string sentence) { report.sentences.push_back(std::move(sentence)); };
     say(fmt::format("{{output}}: {{receivers}} receivers, {{triangles}} triangles, order {{order}}, "
                     "{}, {{bake/rays_per_receiver}} {} each, {{bake/bounces}} bounces",
-                    parts_in_words(result.baked.transfer.layout), raster ? "directions" : "rays"));
+                    terms_in_words(result.baked.transfer.layout), raster ? "directions" : "rays"));
     say(fmt::format("{} on the {}: {{device}}", raster ? "depth maps" : "rays",
                     result.baked.record.backend == Backend::cpu ? "CPU" : "GPU"));
     if (s.receivers.all > s.receivers.traced)
@@ -258,7 +258,7 @@ Report bake_report(const BakeOutcome& baked) {
     add_figures(report, {{"output", baked.output},
                          {"order", baked.options.order},
                          {"channels", result.baked.transfer.layout.channels()},
-                         {"parts", parts_figures(result.baked.transfer.layout)},
+                         {"terms", terms_figures(result.baked.transfer.layout)},
                          {"storage", to_string(result.baked.storage)},
                          {"bake", bake_record_json(result.baked.record)}});
     if (baked.options.target_error)

@@ -27,7 +27,7 @@ Report instance_report(const InstanceOutcome& outcome) {
     add_figures(report, {{"output", outcome.output},
                          {"order", transfer.transfer.layout.order},
                          {"channels", transfer.transfer.layout.channels()},
-                         {"parts", parts_figures(transfer.transfer.layout)},
+                         {"terms", terms_figures(transfer.transfer.layout)},
                          {"storage", to_string(transfer.storage)},
                          {"bake", bake_record_json(transfer.record)},
                          {"triangles", outcome.scene.triangles()},
@@ -57,7 +57,7 @@ Report instance_report(const InstanceOutcome& outcome) {
         fmt::format("{{output}}: {{receivers}} vertices of {{triangles}} triangles by transfer of "
                     "{{receivers_stored}}, order {{order}}, {}, {{bake/rays_per_receiver}} rays each, "
                     "{{bake/bounces}} bounces",
-                    parts_in_words(transfer.transfer.layout)),
+                    terms_in_words(transfer.transfer.layout)),
         "{instances/shared} instances share that of {instances/meshes} meshes; {instances/baked_alone} would "
         "err by "
         "more than {instances/error_allowed_relative_l2:.1f%} and are baked alone",

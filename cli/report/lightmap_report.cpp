@@ -59,7 +59,7 @@ Report lightmap_report(const LightmapOutcome& baked) {
     add_figures(report, {{"output", baked.output},
                          {"order", lightmap.baked.transfer.layout.order},
                          {"channels", lightmap.baked.transfer.layout.channels()},
-                         {"parts", parts_figures(lightmap.baked.transfer.layout)},
+                         {"terms", terms_figures(lightmap.baked.transfer.layout)},
                          {"maps", maps_figures(lightmap.layout)},
                          {"storage", to_string(lightmap.baked.storage)},
                          {"bake", bake_record_json(lightmap.baked.record)},
@@ -72,7 +72,7 @@ Report lightmap_report(const LightmapOutcome& baked) {
     report.sentences = {
         fmt::format("{{output}}: {}, {{texels_measured}} texels on {{triangles}} triangles, order {{order}}, "
                     "{}, {{bake/rays_per_receiver}} rays each, {{bake/bounces}} bounces",
-                    maps_in_words(lightmap.layout), parts_in_words(lightmap.baked.transfer.layout)),
+                    maps_in_words(lightmap.layout), terms_in_words(lightmap.baked.transfer.layout)),
         fmt::format("rays on the {}: {{device}}",
                     lightmap.baked.record.backend == Backend::cpu ? "CPU" : "GPU")};
     for (std::size_t i = 0; i < s.notices.size(); ++i)

@@ -39,25 +39,25 @@ std::vector<std::string> predictor_names(const ClusteredBases& bases) {
     return names;
 }
 
-Json parts_figures(const TransferLayout& layout) {
-    Json parts = Json::array();
-    for (const TransferPart& part : layout.parts) {
-        parts.push_back({{"kind", to_string(part.kind)}, {"channels", part.channels}});
-        if (!part.name.empty())
-            parts.back()["name"] = part.name;
-        if (!part.members.empty())
-            parts.back()["members"] = part.members;
+Json terms_figures(const TransferLayout& layout) {
+    Json terms = Json::array();
+    for (const TransferTerm& term : layout.terms) {
+        terms.push_back({{"kind", to_string(term.kind)}, {"channels", term.channels}});
+        if (!term.name.empty())
+            terms.back()["name"] = term.name;
+        if (!term.members.empty())
+            terms.back()["members"] = term.members;
     }
-    return parts;
+    return terms;
 }
 
-std::string parts_in_words(const TransferLayout& layout) {
+std::string terms_in_words(const TransferLayout& layout) {
     std::vector<std::string> words;
-    for (const TransferPart& part : layout.distant_parts())
+    for (const TransferTerm& term : layout.distant_terms())
         words.push_back(words.empty()
-                            ? fmt::format("{} of {} light", part.channels == 1 ? "1 channel" : "3 channels",
-                                          to_string(part.kind))
-                            : fmt::format("{} of {}", part.channels, to_string(part.kind)));
+                            ? fmt::format("{} of {} light", term.channels == 1 ? "1 channel" : "3 channels",
+                                          to_string(term.kind))
+                            : fmt::format("{} of {}", term.channels, to_string(term.kind)));
     if (const std::size_t lamps = layout.lamps(); lamps > 0)
         words.push_back(fmt::format("{} lamp{}", lamps, lamps == 1 ? "" : "s"));
     return fmt::format("{}", fmt::join(words, ", "));

@@ -18,10 +18,10 @@ struct ReportFiles {
 /// Prints a report and writes it to `files`, with the program version; the page also contains the date.
 void publish(const Report& report, const ReportFiles& files, Session& session);
 
-/// The parts of a transfer vector: [{"kind": "direct", "channels": 1}, ...], and "1 channel of direct light,
+/// The terms of a transfer vector: [{"kind": "direct", "channels": 1}, ...], and "1 channel of direct light,
 /// 3 of indirect".
-Json parts_figures(const TransferLayout& layout);
-std::string parts_in_words(const TransferLayout& layout);
+Json terms_figures(const TransferLayout& layout);
+std::string terms_in_words(const TransferLayout& layout);
 
 /// Returns the names of the predictors of clusters.
 std::vector<std::string> predictor_names(const ClusteredBases& bases);

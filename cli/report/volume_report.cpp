@@ -25,7 +25,7 @@ void add_volume_bake(const VolumeBake& bake, Report& report) {
     const VolumeStatistics& s = bake.statistics;
     Json figures = grid_figures(bake.volume.grid, s.probes.all, bake.volume.order);
     figures.update(Json{{"probes_moved", s.probes.moved},
-                        {"probes_inside", s.probes.blind},
+                        {"probes_inside", s.probes.invalid},
                         {"probes_between_bricks", s.probes.hanging},
                         {"fit_points", s.probes.fit_points},
                         {"error_between_probes_before", s.fit_before},
@@ -55,13 +55,13 @@ void add_volume_bake(const VolumeBake& bake, Report& report) {
 
 void add_volume_compression(const CompressStatistics& statistics, const CompressedVolume& volume,
                             Report& report) {
-    const std::size_t probes = volume.sights.size();
+    const std::size_t probes = volume.visibility.size();
     Json figures = grid_figures(volume.grid, probes, volume.order);
     figures.update(Json{{"clusters", statistics.clusters},
                         {"components_mean", statistics.mean_components},
                         {"bytes_bound_per_probe", statistics.bytes_per_receiver},
                         {"bytes_per_probe_with_bases", statistics.bytes_with_bases(probes)},
-                        {"bytes_of_sight_per_probe", sizeof(ProbeSight)},
+                        {"bytes_of_visibility_per_probe", sizeof(ProbeVisibility)},
                         {"expected_error", statistics.lit_rms},
                         {"seconds", statistics.seconds}});
     add_figures(report, {{"volume", figures}});
@@ -70,7 +70,7 @@ void add_volume_compression(const CompressStatistics& statistics, const Compress
         "  {volume/clusters} clusters x {volume/components_mean:.2f} components, "
         "{volume/bytes_bound_per_probe} "
         "bytes per probe, {volume/bytes_per_probe_with_bases:.2f} with the bases, and "
-        "{volume/bytes_of_sight_per_probe} of what it sees; expected error of incident light "
+        "{volume/bytes_of_visibility_per_probe} of what it sees; expected error of incident light "
         "{volume/expected_error:.2f%}; {volume/seconds:.2f} s");
 }
 

@@ -66,15 +66,15 @@ void converge(const ClusterRounds& rounds, const ClusteringSchedule& schedule, c
 /// Performs rounds, then moves while they pay off, then rounds again.
 void improve(const ClusterRounds& rounds, const ClusteringSchedule& schedule, const Spending& spending,
              const Progress& progress, ClusterState& state, std::vector<double>& history) {
-    converge(rounds, schedule, spending, progress.part(0, tuning::kFirstRoundsAt), state, &history);
+    converge(rounds, schedule, spending, progress.range(0, tuning::kFirstRoundsAt), state, &history);
     const double sweep = (tuning::kMovesAt - tuning::kFirstRoundsAt) / schedule.max_move_sweeps;
     for (int m = 0; m < schedule.max_move_sweeps; ++m)
         if (!split_and_merge(
                 rounds, spending, schedule.tolerance,
-                progress.part(tuning::kFirstRoundsAt + sweep * m, tuning::kFirstRoundsAt + sweep * (m + 1)),
+                progress.range(tuning::kFirstRoundsAt + sweep * m, tuning::kFirstRoundsAt + sweep * (m + 1)),
                 state))
             break;
-    converge(rounds, schedule, spending, progress.part(tuning::kMovesAt, 1), state, nullptr);
+    converge(rounds, schedule, spending, progress.range(tuning::kMovesAt, 1), state, nullptr);
 }
 
 std::size_t clusters_in(std::span<const std::uint32_t> numbers) {
@@ -90,7 +90,7 @@ Clustering cluster_points(const PointBlocks& points, std::span<const float> sign
     ClusterState state =
         options.start.empty()
             ? rounds.start(vector_quantise(points, significance, options.clusters, random, options.threads,
-                                           progress.part(0, tuning::kSeedsAt)))
+                                           progress.range(0, tuning::kSeedsAt)))
             : rounds.start(options.start, clusters_in(options.start));
     rounds.tell(ClustersSeeded{state.fits.size(), points.dimension});
     Spending spending = options.spending;
@@ -103,16 +103,17 @@ Clustering cluster_points(const PointBlocks& points, std::span<const float> sign
     if (!options.start.empty())
         resize(rounds, spending, options.clusters, state);
     else if (options.schedule.grow)
-        grow_components(rounds, spending, progress.part(tuning::kSeedsAt, tuning::kComponentsGrownAt), state);
+        grow_components(rounds, spending, progress.range(tuning::kSeedsAt, tuning::kComponentsGrownAt),
+                        state);
     rounds.refit(state, spending);
     if (options.rows_cost)
         spending.row_price = row_price(state);
     Clustering result;
     improve(rounds, options.schedule, spending,
-            progress.part(tuning::kComponentsGrownAt, tuning::kImprovedAt), state, result.history);
+            progress.range(tuning::kComponentsGrownAt, tuning::kImprovedAt), state, result.history);
     if (limited) {
         spending.component_limit = options.spending.component_limit;
-        spend_components(rounds, options.mean_components, progress.part(tuning::kImprovedAt, 1), spending,
+        spend_components(rounds, options.mean_components, progress.range(tuning::kImprovedAt, 1), spending,
                          state);
     }
     // Points that came and went have left rounding errors in the moments, outliers the largest.

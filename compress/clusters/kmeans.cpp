@@ -78,7 +78,7 @@ PenalisedClusters vector_quantise(const PointBlocks& points, std::span<const flo
                                   std::size_t clusters, std::mt19937_64& random, int threads,
                                   const Progress& progress) {
     PenalisedClusters found =
-        seed_centers(points, significance, clusters, random, threads, progress.part(0, 0.5));
+        seed_centers(points, significance, clusters, random, threads, progress.range(0, 0.5));
     double before = std::numeric_limits<double>::infinity();
     for (int iteration = 0; iteration < tuning::kMaxLloydIterations; ++iteration) {
         progress.update(0.5 + 0.5 * iteration / tuning::kMaxLloydIterations);

@@ -15,12 +15,12 @@ namespace prt {
 inline std::vector<std::size_t> numbers_of_color(const TransferLayout& layout, int c) {
     std::vector<std::size_t> numbers;
     std::size_t begin = 0;
-    for (const TransferPart& part : layout.parts) {
+    for (const TransferTerm& term : layout.terms) {
         const std::size_t first =
-            begin + static_cast<std::size_t>(std::min(c, part.channels - 1)) * layout.columns_of(part);
-        for (std::size_t i = 0; i < layout.columns_of(part); ++i)
+            begin + static_cast<std::size_t>(std::min(c, term.channels - 1)) * layout.columns_of(term);
+        for (std::size_t i = 0; i < layout.columns_of(term); ++i)
             numbers.push_back(first + i);
-        begin += layout.numbers_of(part);
+        begin += layout.numbers_of(term);
     }
     return numbers;
 }

@@ -107,28 +107,28 @@ double mean_square_over_rotations(const ErrorMoments& moments, const Lighting& l
     const auto n = static_cast<Eigen::Index>(layout.dimension());
     const Eigen::Map<const Matrix> references(moments.references.data(), n, n);
     const std::vector<glm::vec3> columns = light_columns(layout, lighting);
-    const std::size_t parts = layout.distant_parts().size();
+    const std::size_t terms = layout.distant_terms().size();
     const Eigen::Index size = coefficient_count(layout.order);
     double sum = 0;
     for (int c = 0; c < 3; ++c) {
         const std::vector<std::size_t> numbers = numbers_of_color(layout, c);
         Eigen::VectorXd constant = Eigen::VectorXd::Zero(n); // band 0, and lamps
-        std::vector<Eigen::VectorXd> lights(parts, Eigen::VectorXd::Zero(size));
+        std::vector<Eigen::VectorXd> lights(terms, Eigen::VectorXd::Zero(size));
         for (std::size_t k = 0; k < columns.size(); ++k) {
             const auto value = static_cast<double>(columns[k][c]);
-            const std::size_t part = k / static_cast<std::size_t>(size),
+            const std::size_t term = k / static_cast<std::size_t>(size),
                               i = k % static_cast<std::size_t>(size);
-            if (part < parts)
-                lights[part][static_cast<Eigen::Index>(i)] = value;
-            if (part >= parts || i == 0)
+            if (term < terms)
+                lights[term][static_cast<Eigen::Index>(i)] = value;
+            if (term >= terms || i == 0)
                 constant[static_cast<Eigen::Index>(numbers[k])] = value;
         }
         sum += constant.dot(references * constant);
-        const auto first = [&](std::size_t part) {
-            return static_cast<Eigen::Index>(numbers[part * static_cast<std::size_t>(size)]);
+        const auto first = [&](std::size_t term) {
+            return static_cast<Eigen::Index>(numbers[term * static_cast<std::size_t>(size)]);
         };
-        for (std::size_t a = 0; a < parts; ++a)
-            for (std::size_t b = 0; b < parts; ++b)
+        for (std::size_t a = 0; a < terms; ++a)
+            for (std::size_t b = 0; b < terms; ++b)
                 sum += rotated_mean(lights[a], lights[b], references.block(first(a), first(b), size, size));
     }
     return sum;
@@ -215,7 +215,7 @@ std::vector<double> second_moments(const TransferView& transfer, std::span<const
 ErrorMoments error_moments(const TransferView& reference, const TransferView& approximation,
                            std::span<const float> areas, std::vector<double> references, int threads) {
     if (reference.layout() != approximation.layout() || reference.receivers() != approximation.receivers())
-        throw Error("the transfers have different orders, parts or numbers of receivers");
+        throw Error("the transfers have different orders, terms or numbers of receivers");
     return {reference.layout(),
             sums_of_squares(reference.dimension(), areas, threads,
                             [&](std::size_t begin, std::size_t end) -> Matrix {

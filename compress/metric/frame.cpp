@@ -30,10 +30,10 @@ Moments moments_about(const Vector& shift, const TransferView& transfer, std::sp
     const auto n = static_cast<Eigen::Index>(transfer.dimension());
     // At most 64 partial sums for any number of receivers.
     const std::size_t grain = std::max<std::size_t>(1024, (transfer.receivers() + 63) / 64);
-    std::vector<Moments> parts((transfer.receivers() + grain - 1) / grain);
+    std::vector<Moments> terms((transfer.receivers() + grain - 1) / grain);
     parallel_for(transfer.receivers(), grain, threads, [&](std::size_t begin, std::size_t end) {
-        Moments& part = parts[begin / grain];
-        part = {Vector::Zero(n), Matrix::Zero(n, n)};
+        Moments& term = terms[begin / grain];
+        term = {Vector::Zero(n), Matrix::Zero(n, n)};
         constexpr std::size_t kRows = 256;
         Matrix rows(n, static_cast<Eigen::Index>(kRows));
         for (std::size_t first = begin; first < end; first += kRows) {
@@ -43,16 +43,16 @@ Moments moments_about(const Vector& shift, const TransferView& transfer, std::sp
                 const auto vector = vectors.col(static_cast<Eigen::Index>(r));
                 const double root = std::sqrt(static_cast<double>(significance[first + r]));
                 rows.col(static_cast<Eigen::Index>(r)) = (vector.cast<double>() - shift) * root;
-                part.sum += rows.col(static_cast<Eigen::Index>(r)) * root;
+                term.sum += rows.col(static_cast<Eigen::Index>(r)) * root;
             }
-            part.outer.selfadjointView<Eigen::Lower>().rankUpdate(
+            term.outer.selfadjointView<Eigen::Lower>().rankUpdate(
                 rows.leftCols(static_cast<Eigen::Index>(count)));
         }
     });
     Moments total{Vector::Zero(n), Matrix::Zero(n, n)};
-    for (const Moments& part : parts) {
-        total.sum += part.sum;
-        total.outer += part.outer;
+    for (const Moments& term : terms) {
+        total.sum += term.sum;
+        total.outer += term.outer;
     }
     total.outer = Matrix(total.outer.selfadjointView<Eigen::Lower>());
     return total;

@@ -93,7 +93,7 @@ ClusterJumps::ClusterJumps(const TransferView& reference, const ReceiverSurface&
                            const LightMetric& metric, int threads)
     : reference_(reference), surface_(surface), threads_(threads) {
     if (reference.layout() != metric.layout)
-        throw Error("the metric has another order or other parts than the transfer");
+        throw Error("the metric has another order or other terms than the transfer");
     const Eigen::MatrixXd factor = factor_of(metric);
     Lights lights{factor.cast<float>(), factor.rows(), {}};
     lights.adapt_to(reference, surface.areas, threads);
@@ -115,7 +115,7 @@ double ClusterJumps::percentile_99(const TransferView& approximation,
     const TransferView& reference = reference_;
     if (reference.layout() != approximation.layout() || reference.receivers() != approximation.receivers() ||
         clusters.size() != reference.receivers() || surface_.areas.size() != reference.receivers())
-        throw Error("the transfers have different orders, parts or numbers of receivers");
+        throw Error("the transfers have different orders, terms or numbers of receivers");
     const std::vector<Edge> across = edges_across(surface_.edges, clusters);
     const auto groups = static_cast<std::size_t>(lights_->groups());
     std::vector<std::vector<double>> jumps(groups, std::vector<double>(across.size()));

@@ -69,7 +69,7 @@ public:
         sums_ += scale / turns * pairs * pairs.transpose();
     }
 
-    /// Adds texture, which lights all parts.
+    /// Adds texture, which lights all terms.
     void add_texture(const std::vector<double>& powers, double scale) {
         for (int l = 0; l < order_; ++l)
             for (Eigen::Index i = l * l; i < (l + 1) * (l + 1); ++i)
@@ -93,7 +93,7 @@ private:
     Matrix sums_;
 };
 
-/// Adds draws of one use of a member: `direct` lights direct transfer, and `all` lights the other parts.
+/// Adds draws of one use of a member: `direct` lights direct transfer, and `all` lights the other terms.
 void add_draws(const Light& direct, const Light& all, double weight, const std::vector<double>& texture,
                PairMoments& moments) {
     const double scale = weight / open_square(direct, texture);
@@ -123,13 +123,13 @@ void spread(const PairMoments& moments, LightMetric& metric) {
     const std::size_t size = static_cast<std::size_t>(coefficient_count(layout.order)),
                       dimension = layout.dimension();
     const auto place_in_pair = [&](std::size_t column) {
-        const bool direct = layout.parts[column / size].kind == PartKind::direct;
+        const bool direct = layout.terms[column / size].kind == TermKind::direct;
         return static_cast<Eigen::Index>((direct ? 0 : size) + column % size);
     };
 
-    // If no part has color, the metric is the mean over the three colors.
+    // If no term has color, the metric is the mean over the three colors.
     const double share = layout.channels() == 3 ? 1 : 1.0 / 3;
-    const std::size_t columns = layout.distant_parts().size() * size;
+    const std::size_t columns = layout.distant_terms().size() * size;
     for (int c = 0; c < 3; ++c) {
         const std::vector<std::size_t> numbers = numbers_of_color(layout, c);
         for (std::size_t i = 0; i < columns; ++i)
@@ -191,13 +191,13 @@ LightMetric metric_of_family(LightFamily family, const TransferLayout& layout) {
         return natural_metric(layout);
     check_layout(layout);
     LightMetric metric{layout, std::vector<double>(layout.dimension() * layout.dimension(), 0.0)};
-    if (layout.distant_parts().empty())
+    if (layout.distant_terms().empty())
         return natural_metric(layout);
     const FamilyModel model = family_model(family, layout.order);
     PairMoments moments(layout.order);
     double weights = 0;
     for (const FamilyMember& member : model.members) {
-        add_member(member, model.texture, layout.has(PartKind::direct), moments);
+        add_member(member, model.texture, layout.has(TermKind::direct), moments);
         weights += member.weight;
     }
     spread(moments, metric);

@@ -11,7 +11,7 @@ namespace prt {
 /// A lighting of a family with its weight.
 struct FamilyMember {
     Lighting lighting; ///< with separate suns
-    /// Weight of the draws. If direct transfer is a separate part, half of the draws light it by the sky
+    /// Weight of the draws. If direct transfer is a separate term, half of the draws light it by the sky
     /// alone.
     double weight = 1;
 };

@@ -44,24 +44,24 @@ LightMetric zero_metric(const TransferLayout& layout) {
     return {layout, std::vector<double>(layout.dimension() * layout.dimension(), 0.0)};
 }
 
-/// Returns the weight of one of three colors: if no part has color, the metric is the mean over them.
+/// Returns the weight of one of three colors: if no term has color, the metric is the mean over them.
 double color_share(const TransferLayout& layout) {
     return layout.channels() == 3 ? 1 : 1.0 / 3;
 }
 
-/// Returns the start of each part's coefficients for color `c`: [parts].
+/// Returns the start of each term's coefficients for color `c`: [terms].
 std::vector<Eigen::Index> blocks_of_color(const TransferLayout& layout, int c) {
     const std::vector<std::size_t> numbers = numbers_of_color(layout, c);
     std::vector<Eigen::Index> begins;
     std::size_t column = 0;
-    for (const TransferPart& part : layout.parts) {
+    for (const TransferTerm& term : layout.terms) {
         begins.push_back(static_cast<Eigen::Index>(numbers[column]));
-        column += layout.columns_of(part);
+        column += layout.columns_of(term);
     }
     return begins;
 }
 
-/// Returns a metric of independent bands: two parts of distant light have `power(l, kind, other kind)` in
+/// Returns a metric of independent bands: two terms of distant light have `power(l, kind, other kind)` in
 /// band l. Lamps have strength 1, independent of each other.
 template <class Power>
 LightMetric banded_metric(const TransferLayout& layout, Power&& power) {
@@ -69,7 +69,7 @@ LightMetric banded_metric(const TransferLayout& layout, Power&& power) {
     Eigen::Map<Matrix> moments = matrix_of(metric);
     for (int c = 0; c < 3; ++c) {
         const std::vector<Eigen::Index> begins = blocks_of_color(layout, c);
-        const std::size_t skies = layout.distant_parts().size();
+        const std::size_t skies = layout.distant_terms().size();
         for (std::size_t a = skies; a < begins.size(); ++a)
             moments(begins[a], begins[a]) += color_share(layout);
         for (std::size_t a = 0; a < skies; ++a)
@@ -77,7 +77,7 @@ LightMetric banded_metric(const TransferLayout& layout, Power&& power) {
                 for (int l = 0; l < layout.order; ++l)
                     for (Eigen::Index i = l * l; i < (l + 1) * (l + 1); ++i)
                         moments(begins[a] + i, begins[b] + i) +=
-                            color_share(layout) * power(l, layout.parts[a].kind, layout.parts[b].kind);
+                            color_share(layout) * power(l, layout.terms[a].kind, layout.terms[b].kind);
     }
     return metric;
 }
@@ -96,9 +96,9 @@ void add_outer_product(const Lighting& lighting, double scale, LightMetric& metr
         const std::vector<Eigen::Index> begins = blocks_of_color(layout, c);
         Eigen::VectorXd light = Eigen::VectorXd::Zero(dimension_of(layout));
         const glm::vec3* color = columns.data();
-        for (std::size_t part = 0; part < layout.distant_parts().size(); ++part)
-            for (std::size_t i = 0; i < layout.columns_of(layout.parts[part]); ++i)
-                light[begins[part] + static_cast<Eigen::Index>(i)] = static_cast<double>((*color++)[c]);
+        for (std::size_t term = 0; term < layout.distant_terms().size(); ++term)
+            for (std::size_t i = 0; i < layout.columns_of(layout.terms[term]); ++i)
+                light[begins[term] + static_cast<Eigen::Index>(i)] = static_cast<double>((*color++)[c]);
         matrix_of(metric) += color_share(layout) * scale * light * light.transpose();
     }
 }
@@ -124,7 +124,7 @@ Lighting changed(const Lighting& lighting, auto&& change) {
 
 /// Returns the cost of the full transfer without approximation: of all distant light together, then of each
 /// lamp.
-std::vector<double> costs_of_parts(LightMetric& metric, const TransferView& transfer,
+std::vector<double> costs_of_terms(LightMetric& metric, const TransferView& transfer,
                                    std::span<const float> areas, int threads) {
     const TransferLayout& layout = metric.layout;
     const Eigen::Index of_sky = of_sky_in(layout);
@@ -140,14 +140,14 @@ std::vector<double> costs_of_parts(LightMetric& metric, const TransferView& tran
         for (Eigen::Index p = 0; p < count; ++p) {
             const auto area = static_cast<double>(areas[begin + static_cast<std::size_t>(p)]);
             const auto cost = [&](Eigen::Index first, Eigen::Index size) {
-                const auto part = t.col(p).segment(first, size);
-                return area * part.dot(moments.block(first, first, size, size) * part);
+                const auto term = t.col(p).segment(first, size);
+                return area * term.dot(moments.block(first, first, size, size) * term);
             };
             sums[0] += cost(0, of_sky);
             Eigen::Index first = of_sky, lamp = 1;
-            for (const TransferPart& part : layout.lamp_parts()) {
-                sums[lamp++] += cost(first, part.channels);
-                first += part.channels;
+            for (const TransferTerm& term : layout.lamp_terms()) {
+                sums[lamp++] += cost(first, term.channels);
+                first += term.channels;
             }
         }
     });
@@ -163,9 +163,9 @@ std::vector<double> costs_of_parts(LightMetric& metric, const TransferView& tran
 LightMetric plain_metric(const TransferLayout& layout) {
     LightMetric metric = zero_metric(layout);
     Eigen::Index at = 0;
-    for (const TransferPart& part : layout.parts)
-        for (std::size_t i = 0; i < layout.numbers_of(part); ++i, ++at)
-            matrix_of(metric)(at, at) = static_cast<double>(layout.channels()) / part.channels;
+    for (const TransferTerm& term : layout.terms)
+        for (std::size_t i = 0; i < layout.numbers_of(term); ++i, ++at)
+            matrix_of(metric)(at, at) = static_cast<double>(layout.channels()) / term.channels;
     return metric;
 }
 
@@ -173,14 +173,14 @@ LightMetric natural_metric(const TransferLayout& layout) {
     const auto falling = [](double power, double fall, int l) {
         return l == 0 ? 1.0 : power * std::pow(l, -fall);
     };
-    if (layout.distant_parts().size() == 1)
-        return banded_metric(layout, [&](int l, PartKind, PartKind) {
+    if (layout.distant_terms().size() == 1)
+        return banded_metric(layout, [&](int l, TermKind, TermKind) {
             return falling(tuning::kWholePower, tuning::kWholeFall, l);
         });
     // The direct term is lit by suns in half of the assumed cases (no shadow maps); all other terms always
     // are.
-    return banded_metric(layout, [&](int l, PartKind a, PartKind b) {
-        const bool direct = a == PartKind::direct || b == PartKind::direct;
+    return banded_metric(layout, [&](int l, TermKind a, TermKind b) {
+        const bool direct = a == TermKind::direct || b == TermKind::direct;
         return falling(tuning::kSkyPower, tuning::kSkyFall, l) + tuning::kSunPower * (direct ? 0.5 : 1);
     });
 }
@@ -221,13 +221,13 @@ LightMetric metric_of_lights(std::span<const Light> lights, const TransferLayout
 
 LightMetric balanced(LightMetric metric, const TransferView& transfer, std::span<const float> areas,
                      int threads) {
-    const std::vector<double> costs = costs_of_parts(metric, transfer, areas, threads);
+    const std::vector<double> costs = costs_of_terms(metric, transfer, areas, threads);
     const std::span<const double> of_lamps = std::span(costs).subspan(1);
     const auto shining = std::ranges::count_if(of_lamps, [](double cost) { return cost > 0; });
     const double sky = costs[0], all = sky > 0 ? sky : std::reduce(of_lamps.begin(), of_lamps.end());
     Eigen::Index begin = of_sky_in(metric.layout);
     auto cost = of_lamps.begin();
-    for (const TransferPart& lamp : metric.layout.lamp_parts()) {
+    for (const TransferTerm& lamp : metric.layout.lamp_terms()) {
         const Eigen::Index size = lamp.channels;
         if (*cost > 0)
             matrix_of(metric).block(begin, begin, size, size) *= all / (*cost * static_cast<double>(shining));
@@ -241,7 +241,7 @@ double expected_lit_rms(const TransferView& reference, const TransferView& appro
                         std::span<const float> areas, const LightMetric& metric, int threads) {
     if (reference.layout() != approximation.layout() || metric.layout != reference.layout() ||
         reference.receivers() != approximation.receivers())
-        throw Error("the transfers or the metric have different orders, parts or numbers of receivers");
+        throw Error("the transfers or the metric have different orders, terms or numbers of receivers");
     const Eigen::Map<const Matrix> moments = matrix_of(metric);
     constexpr std::size_t kGrain = 1024;
     const std::size_t blocks = (reference.receivers() + kGrain - 1) / kGrain;

@@ -19,10 +19,10 @@ double luminance_share(std::size_t channel, std::size_t channels) {
     return channels == 3 ? kLuminance[static_cast<glm::length_t>(channel)] : 1;
 }
 
-/// Returns the part of `transfer` that the sky lights: the first coefficients of each vector.
+/// Returns the term of `transfer` that the sky lights: the first coefficients of each vector.
 TransferView sky_of(const TransferView& transfer) {
     TransferLayout layout = transfer.layout();
-    layout.parts.assign(transfer.layout().distant_parts().begin(), transfer.layout().distant_parts().end());
+    layout.terms.assign(transfer.layout().distant_terms().begin(), transfer.layout().distant_terms().end());
     const std::size_t kept = layout.dimension();
     return {layout, transfer.receivers(), [&transfer, kept](std::size_t first, std::span<float> to) {
                 const std::size_t count = to.size() / kept, full = transfer.dimension();
@@ -53,8 +53,8 @@ SeenLamps::SeenLamps(const TransferView& transfer, std::span<const float> signif
     const TransferLayout& layout = transfer.layout();
     const std::size_t full = layout.dimension(), sky = layout.distant_numbers();
     std::size_t first = sky;
-    for (const TransferPart& part : layout.lamp_parts()) {
-        lamps_.push_back({first, static_cast<std::size_t>(part.channels)});
+    for (const TransferTerm& term : layout.lamp_terms()) {
+        lamps_.push_back({first, static_cast<std::size_t>(term.channels)});
         first += lamps_.back().channels;
     }
     measure_lamps();

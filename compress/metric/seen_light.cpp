@@ -24,7 +24,7 @@ SeenLight::SeenLight(const TransferView& transfer, std::span<const float> areas,
                      int threads)
     : significance_(significance_of(areas)), metric_(metric), sky_costs_(significance_.size(), 1.0f) {
     const TransferLayout& layout = transfer.layout();
-    if (layout.outputs == 1 && !layout.distant_parts().empty())
+    if (layout.outputs == 1 && !layout.distant_terms().empty())
         sky_costs_ = sky_.emplace(transfer, significance_, metric_, threads).costs();
     if (layout.outputs == 1 && layout.lamps() > 0)
         lamps_.emplace(transfer, significance_, metric_, threads);

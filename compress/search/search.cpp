@@ -50,7 +50,7 @@ SearchResult within(const SearchTask& task) {
     const Budget& budget = task.options.budget;
     if (!budget.operations || !(budget.max_error || budget.bytes_per_vertex))
         return BudgetSearch(task).run();
-    const Progress first = task.progress.part(0, 0.5), second = task.progress.part(0.5, 1);
+    const Progress first = task.progress.range(0, 0.5), second = task.progress.range(0.5, 1);
     SearchTask free{task.transfer, task.surface, task.options, first};
     free.options.budget.operations.reset();
     SearchResult of_free = BudgetSearch(free).run();
@@ -99,7 +99,7 @@ SearchResult compress_preset(const TransferView& transfer, const ReceiverSurface
     // The search that may follow only applies to small meshes and takes little time.
     CompressOptions whole = options;
     whole.bases_count = options.coding.fixed_bits.empty();
-    found.result = compress(transfer, surface, whole, progress.part(0, 0.99));
+    found.result = compress(transfer, surface, whole, progress.range(0, 0.99));
     const CompressStatistics& s = found.result.statistics;
     const auto receivers = static_cast<double>(transfer.receivers());
     const int payload = payload_of(options.coding, transfer.dimension());
@@ -113,7 +113,7 @@ SearchResult compress_preset(const TransferView& transfer, const ReceiverSurface
         fitting.choose_components = options.coding.format == WeightFormat::packed;
         fitting.choose_predictors = false;
         fitting.budget.bytes_per_vertex = bound + max_bases / receivers;
-        const Progress rest = progress.part(0.99, 1);
+        const Progress rest = progress.range(0.99, 1);
         const SearchTask task = task_of(transfer, surface, fitting, rest);
         found = BudgetSearch(task, effort_of_preset(s)).run();
         found.result.statistics.seconds = stopwatch.seconds();

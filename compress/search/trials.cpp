@@ -102,7 +102,7 @@ const SearchTrial& Trials::attempt(int clusters, const Line& line) {
     const bool draft = !line.finished && task_.has_drafts();
     CompressResult result =
         compress_from({start_for(clusters), draft, &light_}, task_.transfer, task_.surface,
-                      options_on(line, clusters), task_.progress.part(done, done + 0.1 * (1 - done)));
+                      options_on(line, clusters), task_.progress.range(done, done + 0.1 * (1 - done)));
     const CompressStatistics& s = result.statistics;
     const Verdict verdict = judge_(result);
     const double finished = draft ? tuning::kFinishedOverDraft : 1;

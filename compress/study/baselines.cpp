@@ -100,10 +100,10 @@ BaselineResult truncated_sh(const Transfer& transfer, int bands) {
     result.decoded = zero_transfer(transfer.layout, transfer.receivers());
     std::vector<bool> keeps;
     std::size_t columns = 0; // number of kept columns
-    for (const TransferPart& part : transfer.layout.parts) {
-        const std::size_t count = transfer.layout.columns_of(part),
+    for (const TransferTerm& term : transfer.layout.terms) {
+        const std::size_t count = transfer.layout.columns_of(term),
                           kept = std::min(count, static_cast<std::size_t>(coefficient_count(bands)));
-        for (std::size_t i = 0; i < transfer.layout.numbers_of(part); ++i)
+        for (std::size_t i = 0; i < transfer.layout.numbers_of(term); ++i)
             keeps.push_back(i % count < kept);
         columns += kept;
     }

@@ -113,7 +113,7 @@ private:
             if (static_cast<std::size_t>(components) > transfer_.dimension())
                 break;
             const SweepPoint point =
-                classic("plain PCA", 1, components, true, progress_.part(done, done + 0.002));
+                classic("plain PCA", 1, components, true, progress_.range(done, done + 0.002));
             done += 0.002;
             sweep_.by_bytes.push_back(point);
             sweep_.by_components.push_back(point);
@@ -124,7 +124,7 @@ private:
         double done = 0.025;
         for (const SweepCandidate& other : others) {
             const double end = done + 0.045 / static_cast<double>(others.size());
-            const Progress progress = progress_.part(done, end);
+            const Progress progress = progress_.range(done, end);
             done = end;
             progress.update(0);
             const Stopwatch stopwatch;
@@ -172,23 +172,23 @@ private:
                 if (m < 1)
                     continue;
                 sweep_.by_bytes.push_back(
-                    classic("static CPCA", clusters, m, false, progress_.part(done, done)));
-                sweep_.by_bytes.push_back(classic(kClassic, clusters, m, true, progress_.part(done, done)));
+                    classic("static CPCA", clusters, m, false, progress_.range(done, done)));
+                sweep_.by_bytes.push_back(classic(kClassic, clusters, m, true, progress_.range(done, done)));
             }
             if (*components.rbegin() >= 0)
                 sweep_.by_bytes.push_back(
-                    classic("vector quantisation", clusters, 0, false, progress_.part(done, done)));
+                    classic("vector quantisation", clusters, 0, false, progress_.range(done, done)));
         }
         const int clusters = std::min(kSweepClusters, max_clusters());
         for (const int m : kSweepComponents) {
             if (static_cast<std::size_t>(m) > transfer_.dimension())
                 break;
             sweep_.by_components.push_back(
-                classic("static CPCA", clusters, m, false, progress_.part(0.5, 0.5)));
-            sweep_.by_components.push_back(classic(kClassic, clusters, m, true, progress_.part(0.5, 0.5)));
+                classic("static CPCA", clusters, m, false, progress_.range(0.5, 0.5)));
+            sweep_.by_components.push_back(classic(kClassic, clusters, m, true, progress_.range(0.5, 0.5)));
         }
         sweep_.by_components.push_back(
-            classic("vector quantisation", clusters, 0, false, progress_.part(0.5, 0.5)));
+            classic("vector quantisation", clusters, 0, false, progress_.range(0.5, 0.5)));
     }
 
     void ours() {
@@ -196,7 +196,7 @@ private:
         for (const double bytes : kSweepBytes) {
             Budget budget;
             budget.bytes_per_vertex = bytes;
-            within(budget, short_number(bytes) + " bytes", progress_.part(done, done + 0.07),
+            within(budget, short_number(bytes) + " bytes", progress_.range(done, done + 0.07),
                    sweep_.by_bytes);
             done += 0.07;
         }
@@ -216,7 +216,7 @@ private:
             within(budget,
                    short_number(reference.mean_components) + " operations and " +
                        short_number(reference.bytes()) + " bytes",
-                   progress_.part(done, done + 0.01), sweep_.by_components);
+                   progress_.range(done, done + 0.01), sweep_.by_components);
             done += 0.01;
         }
     }

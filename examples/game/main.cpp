@@ -61,7 +61,7 @@ World load(const char* model, const char* sky) {
     if (!compressed)
         throw std::runtime_error("the model is not compressed");
     const prt::TransferLayout& layout = compressed->transfer.bases.layout;
-    const int suns = layout.has(prt::PartKind::direct) ? 1 : 0;
+    const int suns = layout.has(prt::TermKind::direct) ? 1 : 0;
     const prt::SunSplit split =
         prt::find_suns(prt::load_environment(sky).environment, {.order = layout.order, .count = suns});
     const prt::Light light = prt::deringed(prt::project(split.remainder, layout.order)); // nowhere negative

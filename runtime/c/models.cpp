@@ -73,7 +73,7 @@ prt_status prt_model_get_info(const prt_model* model, prt_model_info* out, prt_m
         *out = {};
         out->order = model->relighter.order();
         out->channels = model->relighter.layout().channels();
-        out->direct_apart = model->relighter.layout().has(prt::PartKind::direct);
+        out->direct_apart = model->relighter.layout().has(prt::TermKind::direct);
         out->receivers = receivers.size();
         out->clusters = model->layouts.size();
         out->rows = model->relighter.rows();
@@ -112,7 +112,7 @@ prt_status prt_model_count_lamps(const prt_model* model, size_t* lamps, prt_mess
 prt_status prt_model_lamp_name(const prt_model* model, size_t lamp, const char** name, prt_message* message) {
     return guarded(message, [&] {
         check_pointers(model, name);
-        const std::span<const prt::TransferPart> lamps = model->relighter.layout().lamp_parts();
+        const std::span<const prt::TransferTerm> lamps = model->relighter.layout().lamp_terms();
         if (lamp >= lamps.size())
             throw Error("the model has " + std::to_string(lamps.size()) + " lamps");
         *name = lamps[lamp].name.c_str();

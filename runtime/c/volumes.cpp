@@ -20,11 +20,12 @@ struct prt_volume {
     prt::CompressedVolume volume;
     prt::VolumeLookup lookup;
     prt::VolumeRelighter relighter; // refers to the volume
-    std::vector<std::uint32_t> sights, index;
+    std::vector<std::uint32_t> visibility, index;
 
     prt_volume(const glm::dvec3& of_scene, prt::CompressedVolume&& of_file)
-        : origin(of_scene), volume(std::move(of_file)), lookup(volume.grid, volume.sights), relighter(volume),
-          sights(prt::sight_texels(volume.grid, lookup.probes(), volume.sights)),
+        : origin(of_scene), volume(std::move(of_file)), lookup(volume.grid, volume.visibility),
+          relighter(volume),
+          visibility(prt::visibility_texels(volume.grid, lookup.probes(), volume.visibility)),
           index(prt::index_texels(volume.grid, lookup.index())) {}
 
     std::size_t coefficients() const { return relighter.atlas().coefficients(); }
@@ -98,7 +99,7 @@ prt_status prt_volume_get_info(const prt_volume* volume, prt_volume_info* out, p
         out->probes = volume->relighter.probes();
         out->rows = volume->relighter.rows();
         out->lamps = layout.lamps();
-        out->direct_apart = layout.has(prt::PartKind::direct);
+        out->direct_apart = layout.has(prt::TermKind::direct);
         std::copy_n(glm::value_ptr(volume->volume.grid.origin), 3, out->corner);
         out->spacing = volume->volume.grid.spacing;
         std::copy_n(glm::value_ptr(volume->origin), 3, out->origin);
@@ -110,12 +111,12 @@ prt_status prt_volume_get_textures(const prt_volume* volume, prt_volume_textures
         check_pointers(volume, out);
         *out = {};
         const prt::VolumeAtlas& atlas = volume->relighter.atlas();
-        const glm::ivec3 light = atlas.light_texels(), sights = atlas.sight_texels();
+        const glm::ivec3 light = atlas.light_texels(), visibility = atlas.visibility_texels();
         std::copy_n(glm::value_ptr(light), 3, out->light);
-        std::copy_n(glm::value_ptr(sights), 3, out->sights);
+        std::copy_n(glm::value_ptr(visibility), 3, out->visibility);
         std::copy_n(glm::value_ptr(volume->volume.grid.size), 3, out->index);
         out->light_bytes = volume->relighter.bytes();
-        out->sight_texels = volume->sights.data();
+        out->visibility_texels = volume->visibility.data();
         out->index_texels = volume->index.data();
     });
 }

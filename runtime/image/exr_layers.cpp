@@ -24,8 +24,8 @@ char color_of(std::string_view name) {
 
 /// Returns the layer of a part with this prefix; creates it if it does not exist.
 ExrLayer& layer_of(std::vector<ExrLayer>& layers, std::size_t first, int part, const std::string& prefix,
-                   const std::string& part_name) {
-    const std::string name = prefix.empty() ? part_name : prefix;
+                   const std::string& term_name) {
+    const std::string name = prefix.empty() ? term_name : prefix;
     for (std::size_t i = first; i < layers.size(); ++i)
         if (layers[i].name == name && layers[i].plain == prefix.empty())
             return layers[i];
@@ -53,7 +53,7 @@ std::vector<ExrLayer> color_layers(std::span<const Imf::Header> parts) {
     std::vector<ExrLayer> layers;
     for (std::size_t part = 0; part < parts.size(); ++part) {
         const std::size_t first = layers.size();
-        const std::string part_name = parts[part].hasName() ? parts[part].name() : "";
+        const std::string term_name = parts[part].hasName() ? parts[part].name() : "";
         const Imf::ChannelList& channels = parts[part].channels();
         for (auto channel = channels.begin(); channel != channels.end(); ++channel) {
             const std::string name = channel.name();
@@ -61,7 +61,7 @@ std::vector<ExrLayer> color_layers(std::span<const Imf::Header> parts) {
             if (color == '\0')
                 continue;
             const std::string prefix = name.size() > 1 ? name.substr(0, name.size() - 2) : "";
-            ExrLayer& layer = layer_of(layers, first, static_cast<int>(part), prefix, part_name);
+            ExrLayer& layer = layer_of(layers, first, static_cast<int>(part), prefix, term_name);
             if (color == 'Y')
                 set_name(layer.grey, name);
             else

@@ -77,7 +77,7 @@ namespace {
 
 /// Adds the products of `Functions` functions with a part.
 template <std::size_t Functions>
-[[gnu::always_inline]] inline void multiply_part(const std::size_t* index, std::size_t stride,
+[[gnu::always_inline]] inline void multiply_term(const std::size_t* index, std::size_t stride,
                                                  const float* texels, const float* part, LaneSums& sums) {
     HalfLanes sum[Functions][3];
 #pragma GCC unroll 4
@@ -112,9 +112,9 @@ void multiply_parts(const BySigns& functions, std::size_t stride, const float* t
         const float* part = parts + 3 * stride * p;
         std::size_t f = functions.first[p];
         for (; f + 4 <= functions.first[p + 1]; f += 4)
-            multiply_part<4>(&functions.index[f], stride, texels, part, sums);
+            multiply_term<4>(&functions.index[f], stride, texels, part, sums);
         for (; f < functions.first[p + 1]; ++f)
-            multiply_part<1>(&functions.index[f], stride, texels, part, sums);
+            multiply_term<1>(&functions.index[f], stride, texels, part, sums);
     }
 }
 
@@ -122,7 +122,7 @@ PRT_TWO_CLONES
 void multiply_all(const BySigns& functions, std::size_t stride, const float* texels, const float* part,
                   LaneSums& sums) {
     for (std::size_t f = 0; f < functions.first[4]; ++f)
-        multiply_part<1>(&functions.index[f], stride, texels, part, sums);
+        multiply_term<1>(&functions.index[f], stride, texels, part, sums);
 }
 
 void add_lanes(std::size_t functions, const LaneSums& sums, ProjectedColors& result) {

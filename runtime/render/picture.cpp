@@ -23,7 +23,7 @@ std::vector<glm::vec3> emission_strengths(const Scene& scene, const TransferLayo
     for (std::size_t m = 0; m < strengths.size(); ++m) {
         const std::string name = lamp_name(scene, m);
         auto strength = lamps.begin();
-        for (const TransferPart& lamp : layout.lamp_parts()) {
+        for (const TransferTerm& lamp : layout.lamp_terms()) {
             if (lamp.has_member(name))
                 strengths[m] = *strength;
             ++strength;

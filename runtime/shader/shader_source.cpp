@@ -150,13 +150,13 @@ std::string relight_shader(const ClusteredTransfer& transfer, ConstantSource con
                          language);
 }
 
-std::string part_defines(const TransferLayout& layout) {
+std::string term_defines(const TransferLayout& layout) {
     check_layout(layout);
     std::string defines =
         define("PRT_NUMBERS", layout.dimension()) +
         define("PRT_COEFFICIENTS", static_cast<std::size_t>(coefficient_count(layout.order)));
     const char* const channels[] = {"PRT_FIRST_CHANNELS", "PRT_SECOND_CHANNELS"};
-    const std::span<const TransferPart> distant = layout.distant_parts(), lamps = layout.lamp_parts();
+    const std::span<const TransferTerm> distant = layout.distant_terms(), lamps = layout.lamp_terms();
     for (std::size_t i = 0; i < distant.size(); ++i)
         defines += define(channels[i], static_cast<std::size_t>(distant[i].channels));
     if (lamps.empty())
@@ -176,7 +176,7 @@ std::string constants_shader(const ClusteredTransfer& transfer, ShaderLanguage l
         throw Error("OpenGL 3.3 and OpenGL ES 3.0 have no compute shaders: form the constants on the CPU");
     return shader_source(
         "prt_constants.comp",
-        define("PRT_ROWS", constant_rows(transfer.bases)) + part_defines(transfer.bases.layout), language);
+        define("PRT_ROWS", constant_rows(transfer.bases)) + term_defines(transfer.bases.layout), language);
 }
 
 std::string lightmap_shader(const ClusteredTransfer& transfer, LightmapPass pass, ConstantSource constants,

@@ -24,9 +24,9 @@ struct ColorSums {
     Narrow even[3], odd[3];
 };
 
-/// Adds the products of a part, [Stored][count][kLanes], with its light, [3][count].
+/// Adds the products of a term, [Stored][count][kLanes], with its light, [3][count].
 template <std::size_t Stored>
-[[gnu::always_inline]] inline void add_part(const float* from, const float* light, std::size_t count,
+[[gnu::always_inline]] inline void add_term(const float* from, const float* light, std::size_t count,
                                             ColorSums& sums) {
     const auto product = [&](std::size_t c, std::size_t i) __attribute__((always_inline)) {
         return floats_at<kNarrow>(from + ((Stored == 1 ? 0 : c) * count + i) * kLanes) * light[c * count + i];
@@ -42,18 +42,18 @@ template <std::size_t Stored>
             sums.even[c] += product(c, i);
 }
 
-/// Computes up to kNarrow rows. `light`: for each part [3][its columns]. `matrix`: coefficients of the first
+/// Computes up to kNarrow rows. `light`: for each term [3][its columns]. `matrix`: coefficients of the first
 /// row.
 [[gnu::always_inline]] inline void update_some(const TransferLayout& layout, const float* matrix,
                                                const float* light, std::size_t rows, glm::vec4* constants) {
     ColorSums sums = {};
-    for (const TransferPart& part : layout.parts) {
-        const std::size_t count = layout.columns_of(part);
-        if (part.channels == 1)
-            add_part<1>(matrix, light, count, sums);
+    for (const TransferTerm& term : layout.terms) {
+        const std::size_t count = layout.columns_of(term);
+        if (term.channels == 1)
+            add_term<1>(matrix, light, count, sums);
         else
-            add_part<3>(matrix, light, count, sums);
-        matrix += layout.numbers_of(part) * kLanes;
+            add_term<3>(matrix, light, count, sums);
+        matrix += layout.numbers_of(term) * kLanes;
         light += 3 * count;
     }
     for (std::size_t lane = 0; lane < std::min<std::size_t>(kNarrow, rows); ++lane)
@@ -124,8 +124,8 @@ void ClusterLighting::update(const LightingView& lighting, std::span<glm::vec4> 
     std::array<float, 3 * kMaxLightColumns> separate;
     auto to = separate.begin();
     const glm::vec3* color = columns.data();
-    for (const TransferPart& part : layout_.parts) {
-        const std::size_t count = layout_.columns_of(part);
+    for (const TransferTerm& term : layout_.terms) {
+        const std::size_t count = layout_.columns_of(term);
         for (int c = 0; c < 3; ++c)
             for (std::size_t i = 0; i < count; ++i)
                 *to++ = color[i][c];

@@ -32,11 +32,11 @@ void check_finite(std::span<const float> numbers, const char* what) {
         throw Error(std::string(what) + " are not finite, so that no error can be told");
 }
 
-/// Returns whether the parts have the same kinds and names; the number of channels may differ.
-bool same_parts(const TransferLayout& a, const TransferLayout& b) {
+/// Returns whether the terms have the same kinds and names; the number of channels may differ.
+bool same_terms(const TransferLayout& a, const TransferLayout& b) {
     return std::equal(
-        a.parts.begin(), a.parts.end(), b.parts.begin(), b.parts.end(),
-        [](const TransferPart& p, const TransferPart& q) { return p.kind == q.kind && p.name == q.name; });
+        a.terms.begin(), a.terms.end(), b.terms.begin(), b.terms.end(),
+        [](const TransferTerm& p, const TransferTerm& q) { return p.kind == q.kind && p.name == q.name; });
 }
 
 /// Throws `Error` if an input of a measure of exit radiance is not finite.
@@ -56,9 +56,9 @@ VectorSquares squares_of(const float* reference, const TransferLayout& layout, c
                          const TransferLayout& other) {
     VectorSquares squares;
     const int channels = std::max(layout.channels(), other.channels());
-    for (std::size_t part = 0; part < layout.parts.size(); ++part) {
-        const int stored = layout.parts[part].channels, stored_other = other.parts[part].channels;
-        const std::size_t count = layout.columns_of(layout.parts[part]);
+    for (std::size_t term = 0; term < layout.terms.size(); ++term) {
+        const int stored = layout.terms[term].channels, stored_other = other.terms[term].channels;
+        const std::size_t count = layout.columns_of(layout.terms[term]);
         for (int c = 0; c < channels; ++c) {
             const float* t = reference + count * static_cast<std::size_t>(std::min(c, stored - 1));
             const float* a = approximation + count * static_cast<std::size_t>(std::min(c, stored_other - 1));
@@ -85,10 +85,10 @@ void for_squares(const TransferView& reference, const TransferView& approximatio
     const TransferLayout &layout = reference.layout(), &other = approximation.layout();
     if (layout.order != other.order || reference.receivers() != approximation.receivers())
         throw Error("the transfers have different orders or numbers of receivers");
-    if (!same_parts(layout, other)) {
-        if (!same_parts(as_whole(layout), as_whole(other)))
+    if (!same_terms(layout, other)) {
+        if (!same_terms(as_combined(layout), as_combined(other)))
             throw Error("the transfers have different lamps");
-        return for_squares(as_whole(reference), as_whole(approximation), areas, see);
+        return for_squares(as_combined(reference), as_combined(approximation), areas, see);
     }
     check_finite(areas, "areas of receivers");
     constexpr std::size_t kBlock = 256;

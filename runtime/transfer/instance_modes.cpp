@@ -156,11 +156,11 @@ SharedTransfer::SharedTransfer(const Transfer& transfer, const glm::dvec3& up, i
                             *to += modes_.matrix(m)[i * count + j] * from[first + j];
             responses_[r] = {};
             std::size_t first = 0;
-            for (const TransferPart& part : layout_.parts)
-                for (int c = 0; c < part.channels; ++c, first += count) {
+            for (const TransferTerm& term : layout_.terms)
+                for (int c = 0; c < term.channels; ++c, first += count) {
                     const auto answers = response(from.subspan(first, count));
                     for (std::size_t k = 0; k < kAddedModes; ++k)
-                        for (int color = part.channels == 1 ? 0 : c; color <= (part.channels == 1 ? 2 : c);
+                        for (int color = term.channels == 1 ? 0 : c; color <= (term.channels == 1 ? 2 : c);
                              ++color)
                             responses_[r][k][color] += answers[k];
                 }
@@ -174,8 +174,8 @@ void SharedTransfer::sum(std::size_t receiver, std::span<const glm::vec3> factor
     for (std::size_t m = 0; m < kPassingModes; ++m)
         passing[m] = factors[m].x;
     sum_modes(passing, &passing_[receiver * kPassingModes * vector.size()], vector.size(), vector.data());
-    const TransferPart& last = layout_.parts.back();
-    if (last.kind == PartKind::direct)
+    const TransferTerm& last = layout_.terms.back();
+    if (last.kind == TermKind::direct)
         return;
     const std::size_t count = level().size(), channels = static_cast<std::size_t>(last.channels);
     for (std::size_t c = 0; c < channels; ++c) {

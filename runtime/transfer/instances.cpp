@@ -36,18 +36,18 @@ glm::dmat3 yaw_matrix(double yaw) {
             glm::dvec3(std::sin(yaw), 0, std::cos(yaw))};
 }
 
-/// Rotates the first modes, which are SH coefficients of functions of direction; each has `parts` components.
+/// Rotates the first modes, which are SH coefficients of functions of direction; each has `terms` components.
 template <class Modes>
-void turn_modes(const ShRotation& turn, int parts, Modes& modes) {
+void turn_modes(const ShRotation& turn, int terms, Modes& modes) {
     const auto count = static_cast<std::size_t>(turn.order()) * static_cast<std::size_t>(turn.order());
     std::array<float, kPassingModes> coefficients;
-    for (int part = 0; part < parts; ++part) {
+    for (int term = 0; term < terms; ++term) {
         for (std::size_t i = 0; i < count; ++i)
-            coefficients[i] = modes[i][part];
+            coefficients[i] = modes[i][term];
         const std::span<float> function(coefficients.data(), count);
         turn.apply(std::span<const float>(function), function);
         for (std::size_t i = 0; i < count; ++i)
-            modes[i][part] = coefficients[i];
+            modes[i][term] = coefficients[i];
     }
 }
 

@@ -1,4 +1,4 @@
-// Layouts of transfer vectors, and the light of each part.
+// Layouts of transfer vectors, and the light of each term.
 #include "prt/transfer_layout.h"
 
 #include "prt/sh.h"
@@ -29,108 +29,108 @@ void check_lamps(const TransferLayout& layout) {
     if (layout.lamps() > kMaxLamps)
         throw Error("the transfer has " + std::to_string(layout.lamps()) + " lamps, more than " +
                     std::to_string(kMaxLamps));
-    constexpr const char* kNames = "lamps of transfer have names, and other parts have none";
-    for (const TransferPart& part : layout.distant_parts()) {
-        if (!part.name.empty())
+    constexpr const char* kNames = "lamps of transfer have names, and other terms have none";
+    for (const TransferTerm& term : layout.distant_terms()) {
+        if (!term.name.empty())
             throw Error(kNames);
-        if (!part.members.empty())
-            throw Error("a part of transfer that is no lamp has members");
+        if (!term.members.empty())
+            throw Error("a term of transfer that is no lamp has members");
     }
     std::set<std::string> names;
-    for (const TransferPart& part : layout.lamp_parts()) {
-        if (part.name.empty())
+    for (const TransferTerm& term : layout.lamp_terms()) {
+        if (term.name.empty())
             throw Error(kNames);
-        if (!names.insert(part.name).second)
-            throw Error("two lamps of the transfer are called '" + printable(part.name) + "'");
+        if (!names.insert(term.name).second)
+            throw Error("two lamps of the transfer are called '" + printable(term.name) + "'");
     }
 }
 
 } // namespace
 
-bool TransferPart::has_member(const std::string& member) const {
+bool TransferTerm::has_member(const std::string& member) const {
     return members.empty() ? name == member : std::ranges::find(members, member) != members.end();
 }
 
-const char* to_string(PartKind kind) {
+const char* to_string(TermKind kind) {
     switch (kind) {
-    case PartKind::direct:
+    case TermKind::direct:
         return "direct";
-    case PartKind::indirect:
+    case TermKind::indirect:
         return "indirect";
-    case PartKind::lamp:
+    case TermKind::lamp:
         return "lamp";
-    case PartKind::whole:
+    case TermKind::combined:
         break;
     }
-    return "whole";
+    return "combined";
 }
 
 int TransferLayout::channels() const {
-    return std::any_of(parts.begin(), parts.end(),
-                       [](const TransferPart& part) { return part.channels == 3; })
+    return std::any_of(terms.begin(), terms.end(),
+                       [](const TransferTerm& term) { return term.channels == 3; })
                ? 3
                : 1;
 }
 
-bool TransferLayout::has(PartKind kind) const {
-    return std::any_of(parts.begin(), parts.end(),
-                       [&](const TransferPart& part) { return part.kind == kind; });
+bool TransferLayout::has(TermKind kind) const {
+    return std::any_of(terms.begin(), terms.end(),
+                       [&](const TransferTerm& term) { return term.kind == kind; });
 }
 
 std::size_t TransferLayout::dimension() const {
     std::size_t numbers = 0;
-    for (const TransferPart& part : parts)
-        numbers += numbers_of(part);
+    for (const TransferTerm& term : terms)
+        numbers += numbers_of(term);
     return outputs * numbers;
 }
 
 std::size_t TransferLayout::columns() const {
     std::size_t columns = 0;
-    for (const TransferPart& part : parts)
-        columns += columns_of(part);
+    for (const TransferTerm& term : terms)
+        columns += columns_of(term);
     return columns;
 }
 
-std::span<const TransferPart> TransferLayout::distant_parts() const {
-    return std::span(parts).first(parts.size() - lamps());
+std::span<const TransferTerm> TransferLayout::distant_terms() const {
+    return std::span(terms).first(terms.size() - lamps());
 }
 
 std::size_t TransferLayout::distant_numbers() const {
     std::size_t numbers = 0;
-    for (const TransferPart& part : distant_parts())
-        numbers += numbers_of(part);
+    for (const TransferTerm& term : distant_terms())
+        numbers += numbers_of(term);
     return numbers;
 }
 
-std::span<const TransferPart> TransferLayout::lamp_parts() const {
-    const auto first = std::find_if(parts.begin(), parts.end(),
-                                    [](const TransferPart& part) { return part.kind == PartKind::lamp; });
-    return {first, parts.end()};
+std::span<const TransferTerm> TransferLayout::lamp_terms() const {
+    const auto first = std::find_if(terms.begin(), terms.end(),
+                                    [](const TransferTerm& term) { return term.kind == TermKind::lamp; });
+    return {first, terms.end()};
 }
 
-TransferLayout layout_of_one(int order, int channels, PartKind kind) {
+TransferLayout layout_of_one(int order, int channels, TermKind kind) {
     return {order, {{kind, channels}}};
 }
 
 void check_layout(const TransferLayout& layout) {
     check_order(layout.order);
-    if (layout.parts.empty())
-        throw Error("the transfer has no parts");
+    if (layout.terms.empty())
+        throw Error("the transfer has no terms");
     if (layout.outputs != 1 && layout.outputs != 4 && layout.outputs != 9 && layout.outputs != 16)
         throw Error("transfer has " + std::to_string(layout.outputs) +
                     " outputs, only 1, 4, 9 or 16 make sense");
-    for (std::size_t i = 0; i < layout.parts.size(); ++i) {
-        const TransferPart& part = layout.parts[i];
-        if (part.channels != 1 && part.channels != 3)
-            throw Error(std::string("part '") + to_string(part.kind) + "' has " +
-                        std::to_string(part.channels) + " channels, only 1 or 3 make sense");
-        if (part.kind == PartKind::lamp)
+    for (std::size_t i = 0; i < layout.terms.size(); ++i) {
+        const TransferTerm& term = layout.terms[i];
+        if (term.channels != 1 && term.channels != 3)
+            throw Error(std::string("term '") + to_string(term.kind) + "' has " +
+                        std::to_string(term.channels) + " channels, only 1 or 3 make sense");
+        if (term.kind == TermKind::lamp)
             continue;
-        if (i > 0 && !(layout.parts[i - 1].kind < part.kind))
-            throw Error(std::string("part '") + to_string(part.kind) + "' stands behind part '" +
-                        to_string(layout.parts[i - 1].kind) + "'");
-        if (part.kind == PartKind::whole && i > 0)
-            throw Error("part 'whole' stands beside other parts of the same light");
+        if (i > 0 && !(layout.terms[i - 1].kind < term.kind))
+            throw Error(std::string("term '") + to_string(term.kind) + "' stands behind term '" +
+                        to_string(layout.terms[i - 1].kind) + "'");
+        if (term.kind == TermKind::combined && i > 0)
+            throw Error("term 'combined' stands beside other terms of the same light");
     }
     check_lamps(layout);
 }
@@ -144,10 +144,10 @@ void write_light_columns(const TransferLayout& layout, const LightingView& light
     check_strengths(lamps, layout);
     assert(columns.size() >= layout.columns());
     auto to = columns.begin();
-    for (const TransferPart& part : layout.distant_parts())
-        for (std::size_t i = 0; i < layout.columns_of(part); ++i) {
+    for (const TransferTerm& term : layout.distant_terms())
+        for (std::size_t i = 0; i < layout.columns_of(term); ++i) {
             *to = sky[i];
-            if (!suns.empty() && part.kind != PartKind::direct)
+            if (!suns.empty() && term.kind != TermKind::direct)
                 *to += suns[i];
             ++to;
         }

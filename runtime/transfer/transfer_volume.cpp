@@ -142,19 +142,19 @@ VolumeProbes probes_of(const VolumeGrid& grid) {
     return probes;
 }
 
-ProbeSight sight_of(const std::array<float, 6>& distances, float cell) {
-    ProbeSight sight{};
+ProbeVisibility visibility_of(const std::array<float, 6>& distances, float cell) {
+    ProbeVisibility visibility{};
     for (std::size_t a = 0; a < 6; ++a)
-        sight[a] = static_cast<std::uint8_t>(
-            std::lround(255 * std::sqrt(std::clamp(distances[a] / (kSightCells * cell), 0.0f, 1.0f))));
-    return sight;
+        visibility[a] = static_cast<std::uint8_t>(
+            std::lround(255 * std::sqrt(std::clamp(distances[a] / (kVisibilityCells * cell), 0.0f, 1.0f))));
+    return visibility;
 }
 
-std::array<float, 6> distances_of(const ProbeSight& sight, float cell) {
+std::array<float, 6> distances_of(const ProbeVisibility& visibility, float cell) {
     std::array<float, 6> distances{};
     for (std::size_t a = 0; a < 6; ++a) {
-        const float root = static_cast<float>(sight[a]) / 255;
-        distances[a] = kSightCells * cell * root * root;
+        const float root = static_cast<float>(visibility[a]) / 255;
+        distances[a] = kVisibilityCells * cell * root * root;
     }
     return distances;
 }
@@ -178,15 +178,15 @@ VolumeCorners corners_in(const VolumeGrid& grid, const VolumeProbes& probes, std
     return corners;
 }
 
-VolumeLookup::VolumeLookup(const VolumeGrid& grid, std::span<const ProbeSight> sights)
+VolumeLookup::VolumeLookup(const VolumeGrid& grid, std::span<const ProbeVisibility> visibility)
     : grid_(grid), probes_(probes_of(grid)), index_(index_of(grid)) {
-    if (sights.size() != probes_.size())
+    if (visibility.size() != probes_.size())
         throw Error("a volume of " + std::to_string(probes_.size()) + " probes has " +
-                    std::to_string(sights.size()) + " sights");
-    for (std::size_t p = 0; p < sights.size(); ++p) {
+                    std::to_string(visibility.size()) + " visibility distances");
+    for (std::size_t p = 0; p < visibility.size(); ++p) {
         auto& nearness = nearness_.emplace_back();
         const auto distances =
-            distances_of(sights[p], grid.spacing * static_cast<float>(1 << probes_.levels[p]));
+            distances_of(visibility[p], grid.spacing * static_cast<float>(1 << probes_.levels[p]));
         for (std::size_t a = 0; a < 6; ++a)
             nearness[a] = distances[a] > 0 ? 1 / distances[a] : kBlindNearness;
     }
@@ -212,7 +212,7 @@ VolumeCorners VolumeLookup::find(const glm::vec3& position, const glm::vec3& nor
     for (std::size_t i = 0; i < 8; ++i) {
         const std::uint32_t p = corners.probes[i];
         const glm::vec3 from = seen - position_of(grid_, probes_.corners[p]);
-        corners.weights[i] *= sight_weight(nearness_[p], from);
+        corners.weights[i] *= visibility_weight(nearness_[p], from);
         sum += corners.weights[i];
     }
     for (float& weight : corners.weights)

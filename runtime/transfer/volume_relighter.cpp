@@ -117,14 +117,14 @@ void update_in_lanes(const Probes& probes, const glm::vec4* constants, int order
 }
 
 /// Returns for every row of the first output the response of `direct` transfer to grey radiance coefficients,
-/// averaged over the channels; empty without a `direct` part.
+/// averaged over the channels; empty without a `direct` term.
 std::vector<float> direct_rows(const ClusterLighting& relighter, std::size_t outputs) {
     const TransferLayout& layout = relighter.layout();
-    if (!layout.has(PartKind::direct))
+    if (!layout.has(TermKind::direct))
         return {};
-    const TransferPart& part = layout.parts.front();
-    const std::size_t columns = layout.columns_of(part), dimension = layout.dimension();
-    const auto channels = static_cast<std::size_t>(part.channels);
+    const TransferTerm& term = layout.terms.front();
+    const std::size_t columns = layout.columns_of(term), dimension = layout.dimension();
+    const auto channels = static_cast<std::size_t>(term.channels);
     std::vector<float> rows;
     for (std::size_t row = 0; row < relighter.rows(); row += outputs)
         for (std::size_t i = 0; i < columns; ++i) {

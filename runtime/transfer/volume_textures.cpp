@@ -17,11 +17,11 @@ bool sees_cell(const std::array<float, 6>& distances, const glm::ivec3& step) {
         const float distance = distances[static_cast<std::size_t>(2 * a + (step[a] == 0 ? 1 : 0))];
         passed = std::max(passed, distance > 0 ? 1 / distance : kBlindNearness);
     }
-    return passed <= kSightFull - kRoom;
+    return passed <= kVisibilityFull - kRoom;
 }
 
 /// Distances of the probes of a brick, in cells of the brick.
-struct BrickSights {
+struct BrickVisibility {
     std::array<std::array<float, 6>, kBrickProbes> distances;
 
     bool cell_is_seen(const glm::ivec3& low) const {
@@ -43,7 +43,7 @@ glm::ivec3 corner_of(std::size_t i) {
 } // namespace
 
 std::size_t VolumeAtlas::texels_of_plane() const {
-    const glm::ivec3 texels = sight_texels();
+    const glm::ivec3 texels = visibility_texels();
     return static_cast<std::size_t>(texels.x) * static_cast<std::size_t>(texels.y) *
            static_cast<std::size_t>(texels.z);
 }
@@ -67,20 +67,20 @@ VolumeAtlas atlas_of(const VolumeGrid& grid, int order) {
     return {{std::max(1, divided(count, y * z)), y, z}, order};
 }
 
-std::vector<std::uint32_t> sight_texels(const VolumeGrid& grid, const VolumeProbes& probes,
-                                        std::span<const ProbeSight> sights) {
+std::vector<std::uint32_t> visibility_texels(const VolumeGrid& grid, const VolumeProbes& probes,
+                                             std::span<const ProbeVisibility> visibility) {
     const VolumeAtlas atlas = atlas_of(grid, 2); // the size does not depend on the order
     std::vector<std::uint32_t> texels(2 * atlas.texels_of_plane());
     for (std::size_t b = 0; b < grid.bricks.size(); ++b) {
         const auto& of_brick = probes.of_brick[b];
-        BrickSights seen;
+        BrickVisibility seen;
         std::array<std::uint32_t, kBrickProbes> coarser;
         for (std::size_t i = 0; i < kBrickProbes; ++i) {
             coarser[i] = static_cast<std::uint32_t>(probes.levels[of_brick[i]] - grid.bricks[b].level);
-            seen.distances[i] = distances_of(sights[of_brick[i]], static_cast<float>(1u << coarser[i]));
+            seen.distances[i] = distances_of(visibility[of_brick[i]], static_cast<float>(1u << coarser[i]));
         }
         for (std::size_t i = 0; i < kBrickProbes; ++i) {
-            const ProbeSight& s = sights[of_brick[i]];
+            const ProbeVisibility& s = visibility[of_brick[i]];
             const glm::ivec3 low = corner_of(i);
             const bool is_cell = std::max({low.x, low.y, low.z}) < kBrickCells;
             std::uint32_t* const texel = &texels[2 * atlas.texel(b, i)];

@@ -268,9 +268,9 @@ TEST(Lamps, FillAClosedRoomByAllBounces) {
     BakeOptions options = lamp_options(kEndlessBounces);
     options.rays = options.lamps.rays = 1024;
     const Transfer transfer = bake(ball, options).baked.transfer;
-    ASSERT_EQ(transfer.layout.parts.size(), 1u); // no sky light enters
-    EXPECT_EQ(transfer.layout.parts[0].kind, PartKind::lamp);
-    EXPECT_EQ(transfer.layout.parts[0].channels, 1);
+    ASSERT_EQ(transfer.layout.terms.size(), 1u); // no sky light enters
+    EXPECT_EQ(transfer.layout.terms[0].kind, TermKind::lamp);
+    EXPECT_EQ(transfer.layout.terms[0].channels, 1);
     const auto lit = exit_radiance(transfer, constant_light(2, glm::vec3(1)));
     const std::vector<float> areas = receiver_areas(ball);
     // Faces tilt by up to 5.3 degrees from the plane of a vertex, and no light comes from the gap: the
@@ -296,8 +296,8 @@ TEST(Lamps, OfAGroupAreTheirSum) {
     options.lamps.groups = {{"lamps", "Lamp.*"}};
     const Transfer grouped = bake(scene, options).baked.transfer;
     ASSERT_EQ(grouped.layout.lamps(), 2u);
-    EXPECT_EQ((grouped.layout.parts.end() - 2)->name, "lamps");
-    EXPECT_EQ((grouped.layout.parts.end() - 1)->name, "Torch");
+    EXPECT_EQ((grouped.layout.terms.end() - 2)->name, "lamps");
+    EXPECT_EQ((grouped.layout.terms.end() - 1)->name, "Torch");
     Lighting both{constant_light(2, glm::vec3(0))}, group = both;
     both.lamps = {glm::vec3(2, 1, 0.5f), glm::vec3(0), glm::vec3(2, 1, 0.5f)};
     group.lamps = {glm::vec3(2, 1, 0.5f), glm::vec3(0)};

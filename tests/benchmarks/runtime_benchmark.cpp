@@ -155,10 +155,10 @@ ClusteredTransfer clustered(int clusters, int components, const TransferLayout& 
 void constants(State& state) {
     const auto channels = static_cast<int>(state.range(0));
     TransferLayout layout = channels == 4
-                                ? TransferLayout{kOrder, {{PartKind::direct, 1}, {PartKind::indirect, 3}}}
+                                ? TransferLayout{kOrder, {{TermKind::direct, 1}, {TermKind::indirect, 3}}}
                                 : layout_of_one(kOrder, channels);
     for (int lamp = 0; lamp < state.range(1); ++lamp)
-        layout.parts.push_back({PartKind::lamp, 3, std::to_string(lamp)});
+        layout.parts.push_back({TermKind::lamp, 3, std::to_string(lamp)});
     const ClusterLighting relighter(clustered(256, 8, layout, 256, 1));
     const auto light = random_light();
     std::vector<glm::vec4> out(relighter.rows());
@@ -238,9 +238,9 @@ CompressedVolume volume_of() {
     CompressedVolume volume{{.spacing = 1, .size = {7, 7, 6}, .bricks = {}}, 3, {}, {}};
     for (int i = 0; i < 7 * 7 * 6; ++i)
         volume.grid.bricks.push_back({{i % 7, i / 7 % 7, i / 49}, 0});
-    volume.sights.resize(probes_of(volume.grid).size());
+    volume.visibility.resize(probes_of(volume.grid).size());
     ClusteredTransfer& t = volume.compressed.transfer;
-    t.bases.layout = {kOrder, {{PartKind::direct, 1}, {PartKind::indirect, 3}}, 9};
+    t.bases.layout = {kOrder, {{TermKind::direct, 1}, {TermKind::indirect, 3}}, 9};
     t.bases.components.assign(256, 12);
     t.bases.bits.assign(256u * 12, 10);
     t.bases.rows = random_values(256u * 13 * t.bases.dimension());
@@ -252,9 +252,9 @@ CompressedVolume volume_of() {
                    .weights = {},
                    .predictors = {}};
     std::mt19937 random(1);
-    for (std::size_t p = 0; p < volume.sights.size(); ++p)
-        t.receivers.clusters.push_back(static_cast<std::uint16_t>(p * 256 / volume.sights.size()));
-    t.receivers.weights.resize(16 * volume.sights.size());
+    for (std::size_t p = 0; p < volume.visibility.size(); ++p)
+        t.receivers.clusters.push_back(static_cast<std::uint16_t>(p * 256 / volume.visibility.size()));
+    t.receivers.weights.resize(16 * volume.visibility.size());
     for (std::byte& b : t.receivers.weights)
         b = static_cast<std::byte>(random());
     return volume;
@@ -285,8 +285,8 @@ BENCHMARK(relight_volume)
 /// Looks up positions distributed over the volume, one by one.
 void look_up_volume(State& state) {
     const CompressedVolume volume = volume_of();
-    const VolumeLookup lookup(volume.grid, volume.sights);
-    const std::vector<glm::vec3> incident(9 * volume.sights.size(), glm::vec3(1));
+    const VolumeLookup lookup(volume.grid, volume.visibility);
+    const std::vector<glm::vec3> incident(9 * volume.visibility.size(), glm::vec3(1));
     const auto directions = random_directions(1024);
     std::array<glm::vec3, 9> light{};
     for (auto _ : state)

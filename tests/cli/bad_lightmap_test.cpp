@@ -76,7 +76,7 @@ constexpr LightmapSize kFirst{8, 6}, kSecond{5, 4};
 GlbFile raw_file() {
     std::mt19937 random(5);
     const TransferLayout transfer{
-        2, {{PartKind::direct, 1}, {PartKind::indirect, 3}, {PartKind::lamp, 3, "lamp"}}};
+        2, {{TermKind::direct, 1}, {TermKind::indirect, 3}, {TermKind::lamp, 3, "lamp"}}};
     BakedLightmap lightmap = made_up_lightmap(layout_of_floor(kFirst, kSecond), transfer, random);
     return with_lightmap(mapped_floor(2), lightmap);
 }
@@ -92,9 +92,9 @@ GlbFile shipped_file(bool alike = false) {
 std::vector<Damage> damages_to_maps() {
     constexpr Schema kRefuses = Schema::refuses;
     return {
-        {"version", [](GlbFile& f) { extension(f)["version"] = 2; }, "has version 2", kRefuses},
+        {"version", [](GlbFile& f) { extension(f)["version"] = 9; }, "has version 9", kRefuses},
         {"order", [](GlbFile& f) { extension(f)["order"] = 11; }, "order is 11", kRefuses},
-        {"no_parts", [](GlbFile& f) { extension(f)["parts"] = Json::array(); }, "part", kRefuses},
+        {"no_terms", [](GlbFile& f) { extension(f)["terms"] = Json::array(); }, "part", kRefuses},
         {"no_maps", [](GlbFile& f) { extension(f).erase("maps"); }, "maps", kRefuses},
         {"empty_maps", [](GlbFile& f) { extension(f)["maps"] = Json::array(); },
          "the maps are no list, or none", kRefuses},
@@ -130,7 +130,7 @@ std::vector<Damage> damages_to_maps() {
          "mesh 0 primitive 0 has no PRTKIT_lightmap"},
         {"vertices_too",
          [](GlbFile& f) {
-             f.json["extensions"]["PRTKIT_clustered_pca"] = {{"version", 7}};
+             f.json["extensions"]["PRTKIT_clustered_pca"] = {{"version", 8}};
          },
          "", kRefuses},
     };

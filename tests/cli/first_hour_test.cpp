@@ -207,9 +207,9 @@ TEST_F(FirstHour, AnEvaluationBeginsWithAVerdictAndEveryFileHoldsItsFigures) {
     EXPECT_EQ(json["verdict"], verdict);
     EXPECT_EQ(json["bytes_bound_per_vertex"], 4);
     const std::string page = text("e.html"), csv = text("e.csv");
-    for (const char* part :
+    for (const char* term :
          {"b.glb", "c.glb", "prt evaluate", "prefers-color-scheme", "UTC", "Before", "After"})
-        EXPECT_NE(page.find(part), std::string::npos) << part;
+        EXPECT_NE(page.find(term), std::string::npos) << term;
     EXPECT_NE(page.find(verdict), std::string::npos);
     EXPECT_EQ(page.find("{{"), std::string::npos);
     const std::vector<std::map<std::string, std::string>> rows = rows_of_csv(csv);

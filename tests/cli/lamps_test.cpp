@@ -58,9 +58,9 @@ protected:
         const auto info = nlohmann::json::parse(std::ifstream(folder / "i.json"));
         const auto& transfer = info.contains("transfer") ? info["transfer"] : info["clustered_pca"];
         std::vector<std::string> names;
-        for (const auto& part : transfer["parts"])
-            if (part["kind"] == "lamp")
-                names.push_back(part["name"]);
+        for (const auto& term : transfer["terms"])
+            if (term["kind"] == "lamp")
+                names.push_back(term["name"]);
         return names;
     }
     /// Returns the lit vertices, without a sky.
@@ -80,10 +80,10 @@ TEST_F(LampsOnTheRoad, AreScaledInTheFileToo) {
     ASSERT_EQ(after.lights.size(), 2u);
     for (std::size_t i = 0; i < 2; ++i)
         EXPECT_EQ(after.lights[i].intensity, 0.25f * before.lights[i].intensity);
-    const VertexArray whole = lit("b.glb", "on"), part = lit("scaled.glb", "on");
+    const VertexArray whole = lit("b.glb", "on"), term = lit("scaled.glb", "on");
     for (std::size_t v = 0; v < whole.size(); ++v)
         for (int c = 0; c < 3; ++c)
-            EXPECT_NEAR(part.colors[v][c], 0.25f * whole.colors[v][c], 1e-3f);
+            EXPECT_NEAR(term.colors[v][c], 0.25f * whole.colors[v][c], 1e-3f);
     EXPECT_EQ(prt({"bake", at("s.glb"), "-o", at("n.glb"), "--lamp-scale", "-1"}).status, 2);
 }
 
@@ -236,7 +236,7 @@ TEST_F(LampsOnTheRoad, AloneLightAPicture) {
 /// An older version wrote these lamps, without light of their suns.
 TEST_F(LampsOnTheRoad, ThatAreSunsOfAnOlderVersionAreRefused) {
     GlbFile file = read_glb(folder / "b.glb");
-    file.json["extensions"]["PRTKIT_transfer"]["parts"].back()["towards"] = {0, 1, 0};
+    file.json["extensions"]["PRTKIT_transfer"]["terms"].back()["towards"] = {0, 1, 0};
     file.write(folder / "old.glb");
     const Outcome outcome = prt({"info", at("old.glb")});
     EXPECT_EQ(outcome.status, 1);

@@ -127,14 +127,14 @@ std::vector<DemoPicture> demo_pictures() {
     const std::regex line_form(R"(^((?:\w+=\S+ )*)(road|made) (\w+)(.*)$)"),
         sky_update(R"(sky=out/scenes/(\w+)\.exr)");
     for (std::string line; std::getline(script, line);) {
-        std::smatch parts;
-        if (!std::regex_match(line, parts, line_form))
+        std::smatch terms;
+        if (!std::regex_match(line, terms, line_form))
             continue;
-        DemoPicture picture{.name = parts[3], .way = parts[2], .preset = {}, .camera = {}};
-        const std::string variables = parts[1];
+        DemoPicture picture{.name = terms[3], .way = terms[2], .preset = {}, .camera = {}};
+        const std::string variables = terms[1];
         if (std::smatch sky; std::regex_search(variables, sky, sky_update))
             picture.sky = sky[1];
-        std::istringstream rest(parts[4].str());
+        std::istringstream rest(terms[4].str());
         if (picture.way == "road")
             rest >> picture.bounces >> picture.preset;
         for (std::string word; rest >> word;)

@@ -21,7 +21,7 @@ namespace {
 /// Returns coded bases of three clusters with rows for both predictors.
 ClusteredBases coded_bases(std::mt19937& random) {
     ClusteredBases bases;
-    bases.layout = {3, {{PartKind::direct, 1}, {PartKind::indirect, 3}}};
+    bases.layout = {3, {{TermKind::direct, 1}, {TermKind::indirect, 3}}};
     bases.components = {2, 0, 3};
     bases.bits = {9, 16, 11, 8, 7};
     bases.rows.resize(8 * bases.dimension());

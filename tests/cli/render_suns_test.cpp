@@ -26,7 +26,7 @@ protected:
             .write(folder / "s.glb");
         prt_once("b.glb", {"bake", at("s.glb"), "--rays", "256", "--order", "4"}, folder / "b.glb");
         prt_once("c.glb", {"compress", at("b.glb")}, folder / "c.glb");
-        prt_once("w.glb", {"compress", at("b.glb"), "--whole"}, folder / "w.glb");
+        prt_once("w.glb", {"compress", at("b.glb"), "--combine-direct"}, folder / "w.glb");
         // Black except for a green sun overhead of irradiance 0.4 pi.
         nlohmann::json light = {{"prtkit_light", 1}, {"order", 6}};
         for (const char* channel : {"red", "green", "blue"})

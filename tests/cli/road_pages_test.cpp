@@ -9,9 +9,9 @@
 namespace prt::test {
 namespace {
 
-std::size_t count(const std::string& text, std::string_view part) {
+std::size_t count(const std::string& text, std::string_view term) {
     std::size_t found = 0;
-    for (std::size_t at = text.find(part); at != std::string::npos; at = text.find(part, at + 1))
+    for (std::size_t at = text.find(term); at != std::string::npos; at = text.find(term, at + 1))
         ++found;
     return found;
 }

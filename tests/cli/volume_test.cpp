@@ -58,8 +58,8 @@ TEST_F(Volumes, GoAllTheRoad) {
     ASSERT_TRUE(baked && shipped);
     EXPECT_FALSE(read_volume(shipped_file, scene) || read_compressed_volume(baked_file, scene));
     EXPECT_EQ(baked->grid, shipped->grid);
-    EXPECT_EQ(baked->sights, shipped->sights);
-    EXPECT_EQ(baked->sights.size(), baked_figures["probes"]);
+    EXPECT_EQ(baked->visibility, shipped->visibility);
+    EXPECT_EQ(baked->visibility.size(), baked_figures["probes"]);
 
     const Outcome info = prt({"info", at("shipped.glb")});
     EXPECT_EQ(info.status, 0);
@@ -125,9 +125,9 @@ void write_textures(const CompressedVolume& volume, const std::filesystem::path&
     std::vector<std::byte> texels(relighter.bytes());
     relighter.update_constants({sky, suns}, glm::vec3(0, 1, 0), constants);
     relighter.update(constants, texels);
-    const VolumeLookup lookup(volume.grid, volume.sights);
+    const VolumeLookup lookup(volume.grid, volume.visibility);
     std::ofstream file(path, std::ios::binary);
-    for (const auto& words : {sight_texels(volume.grid, lookup.probes(), volume.sights),
+    for (const auto& words : {visibility_texels(volume.grid, lookup.probes(), volume.visibility),
                               index_texels(volume.grid, lookup.index())})
         file.write(reinterpret_cast<const char*>(words.data()),
                    static_cast<std::streamsize>(words.size() * sizeof(std::uint32_t)));

@@ -311,9 +311,9 @@ TEST(HardCase, ReceiversWithoutAreaDoNotCountButAreCoded) {
 
 /// Tests the longest possible vectors, without an axis to omit.
 TEST(Compress, TakesAllNumbersOfColoredPartsOfOrderTenAndAllLamps) {
-    TransferLayout layout{10, {{PartKind::direct, 3}, {PartKind::indirect, 3}}};
+    TransferLayout layout{10, {{TermKind::direct, 3}, {TermKind::indirect, 3}}};
     for (std::size_t k = 0; k < kMaxLamps; ++k)
-        layout.parts.push_back({PartKind::lamp, 3, "lamp " + std::to_string(k)});
+        layout.terms.push_back({TermKind::lamp, 3, "lamp " + std::to_string(k)});
     Transfer t = zero_transfer(layout, 840);
     ASSERT_EQ(t.dimension(), kMaxTransferNumbers);
     std::mt19937 random(21);
@@ -335,9 +335,9 @@ TEST(Compress, TakesAllNumbersOfColoredPartsOfOrderTenAndAllLamps) {
 /// Returns a floor under three lamps, the first 0.1 m above it: light falls from 1 to 1e-5 of the maximum, as
 /// (h / r)^3. The sky is nearly uniform.
 Transfer lit_floor(std::size_t side) {
-    TransferLayout layout{2, {{PartKind::whole, 1}}};
+    TransferLayout layout{2, {{TermKind::combined, 1}}};
     for (const char* name : {"near", "far", "red"})
-        layout.parts.push_back({PartKind::lamp, name == std::string("red") ? 3 : 1, name});
+        layout.terms.push_back({TermKind::lamp, name == std::string("red") ? 3 : 1, name});
     Transfer t = zero_transfer(layout, side * side);
     for (std::size_t p = 0; p < t.receivers(); ++p) {
         const float x = 4 * static_cast<float>(p % side) / static_cast<float>(side),

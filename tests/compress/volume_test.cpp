@@ -19,9 +19,9 @@ BakedVolume smooth_volume(int order, float noise) {
     volume.order = order;
     volume.grid = {{0, 0, 0}, 0.5f, {2, 1, 1}, {{{0, 0, 0}, 0}, {{1, 0, 0}, 0}}};
     const VolumeProbes probes = probes_of(volume.grid);
-    volume.sights.assign(probes.size(), ProbeSight{200, 200, 200, 200, 200, 200});
+    volume.visibility.assign(probes.size(), ProbeVisibility{200, 200, 200, 200, 200, 200});
     Transfer& t = volume.baked.transfer;
-    t.layout = {3, {{PartKind::direct, 1}, {PartKind::indirect, 3}}};
+    t.layout = {3, {{TermKind::direct, 1}, {TermKind::indirect, 3}}};
     const std::size_t numbers = volume.coefficients() * t.dimension();
     std::mt19937 random(2);
     std::normal_distribution<float> normal;

@@ -115,11 +115,11 @@ GltfDocument document_of(const GlbFile& file) {
 }
 
 void write_bakes(const Path& folder) {
-    const TransferLayout both{2, {{PartKind::direct, 1}, {PartKind::indirect, 3}}};
+    const TransferLayout both{2, {{TermKind::direct, 1}, {TermKind::indirect, 3}}};
     const TransferLayout lamps{
-        2, {{PartKind::indirect, 1}, {PartKind::lamp, 3, "lanterns", {"a", "b"}}, {PartKind::lamp, 1, "c"}}};
+        2, {{TermKind::indirect, 1}, {TermKind::lamp, 3, "lanterns", {"a", "b"}}, {TermKind::lamp, 1, "c"}}};
     for (const auto& [name, layout] :
-         {std::pair("1", layout_of_one(2, 1)), std::pair("3", layout_of_one(2, 3)), std::pair("parts", both),
+         {std::pair("1", layout_of_one(2, 1)), std::pair("3", layout_of_one(2, 3)), std::pair("terms", both),
           std::pair("lamps", lamps)})
         for (const TransferStorage storage : {TransferStorage::float32, TransferStorage::float16}) {
             GltfDocument document = document_of(floor_file(1));
@@ -135,7 +135,7 @@ void write_shipped(const Path& folder, const std::string& name, const CompressOp
     GltfDocument document = document_of(floor_file(2));
     const Scene scene = extract_scene(document);
     const BakedTransfer baked =
-        bake_of(scene, {3, {{PartKind::direct, 1}, {PartKind::indirect, 1}, {PartKind::lamp, 3, "lamp"}}});
+        bake_of(scene, {3, {{TermKind::direct, 1}, {TermKind::indirect, 1}, {TermKind::lamp, 3, "lamp"}}});
     const CompressResult result =
         compress(baked.transfer, {receiver_areas(scene), mesh_edges(scene)}, options);
     write_clustered(document, scene, {result.transfer, baked.record});
@@ -169,7 +169,7 @@ void write_lightmaps(const Path& folder) {
     const LightmapLayout layout = test::layout_of_floor({6, 5}, {4, 3});
     std::mt19937 random(2);
     BakedLightmap baked = test::made_up_lightmap(
-        layout, {2, {{PartKind::direct, 1}, {PartKind::indirect, 3}, {PartKind::lamp, 1, "lamp"}}}, random);
+        layout, {2, {{TermKind::direct, 1}, {TermKind::indirect, 3}, {TermKind::lamp, 1, "lamp"}}}, random);
     for (const TransferStorage storage : {TransferStorage::float32, TransferStorage::float16}) {
         baked.baked.storage = storage;
         test::with_lightmap(scene, baked)

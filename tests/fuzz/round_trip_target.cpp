@@ -33,7 +33,7 @@ Transfer transfer_of(std::span<const std::uint8_t> head, std::span<const std::ui
                      std::size_t receivers) {
     TransferLayout layout = layout_of_one(1 + head[0] % 4, head[1] % 2 == 0 ? 1 : 3);
     if (head[1] & 4)
-        layout.parts = {{PartKind::direct, layout.channels()}, {PartKind::indirect, head[1] & 8 ? 1 : 3}};
+        layout.terms = {{TermKind::direct, layout.channels()}, {TermKind::indirect, head[1] & 8 ? 1 : 3}};
     Transfer transfer{layout, {}};
     transfer.vectors.resize(receivers * transfer.dimension());
     const bool raw = head[1] & 2;

@@ -117,8 +117,8 @@ void check_occluders(const GltfDocument& document, const Scene& scene) {
         }
     }
     std::size_t triangles = 0;
-    for (const RigidPart& part : rigid_parts(document, scene))
-        triangles += part.scene.triangles();
+    for (const RigidPart& term : rigid_parts(document, scene))
+        triangles += term.scene.triangles();
     expect(triangles == scene.triangles(), "parts have other triangles");
 }
 

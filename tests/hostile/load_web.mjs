@@ -25,7 +25,7 @@ function wrongVolume(volume) {
   const floats = new PrtkitVolume(volume.source, volume.root, volume.plugin, { floats: true });
   floats.setLight(white.deringed(), 0.3);
   floats.settle();
-  const words = [volume.texture, ...["sights", "index"].map((name) => volume.uniforms[`prt_volume_${name}`].value)];
+  const words = [volume.texture, ...["visibility", "index"].map((name) => volume.uniforms[`prt_volume_${name}`].value)];
   if (words.some(({ image: { data, width, height, depth } }) => data.length < width * height * depth)) return "a texture is too short";
   return floats.texture.image.data.every(Number.isFinite) ? null : "the light of probes is not finite";
 }

@@ -23,9 +23,9 @@
 namespace prt::test {
 namespace {
 
-const TransferLayout kSky{3, {{PartKind::direct, 1}, {PartKind::indirect, 3}}};
+const TransferLayout kSky{3, {{TermKind::direct, 1}, {TermKind::indirect, 3}}};
 const TransferLayout kLamps{
-    2, {{PartKind::whole, 1}, {PartKind::lamp, 3, "lantern"}, {PartKind::lamp, 1, "window"}}};
+    2, {{TermKind::combined, 1}, {TermKind::lamp, 3, "lantern"}, {TermKind::lamp, 1, "window"}}};
 
 /// How a file is made.
 struct Recipe {
@@ -112,7 +112,7 @@ std::vector<ShippedFile> lightmap_files() {
 
 CompressedVolume coded_volume(std::mt19937& random) {
     const CompressedVolume plain = random_volume(3, false, random);
-    BakedVolume baked{plain.grid, plain.order, plain.sights, {}};
+    BakedVolume baked{plain.grid, plain.order, plain.visibility, {}};
     baked.baked.transfer = decode(plain.compressed.transfer);
     baked.baked.transfer.layout.outputs = 1;
     return compress_volume(baked, {.clusters = 5, .coding = preset_volume()}).volume;

@@ -152,7 +152,7 @@ std::ostream& operator<<(std::ostream& out, Varying varying) {
 BounceError bounce_off_triangle(Varying varying, Backend backend) {
     const Scene scene = scene_of(varying, seen_from_behind(varying));
     const Transfer direct = baked(scene_of(varying, false), Backend::cpu, 0), none = baked(scene, backend, 0),
-                   once = as_whole(baked(scene, backend, 1));
+                   once = as_combined(baked(scene, backend, 1));
     Vector bounce{};
     for (std::size_t i = 0; i < bounce.size(); ++i)
         bounce[i] = static_cast<double>(once.vector(0)[once.layout.channels() == 1 ? i % kCoefficients : i]) -

@@ -31,7 +31,7 @@ GlbFile instanced_triangles() {
     std::mt19937 random(5);
     std::normal_distribution<float> normal;
     ClusteredTransfer transfer;
-    transfer.bases.layout = {3, {{PartKind::direct, 1}, {PartKind::indirect, 3}}};
+    transfer.bases.layout = {3, {{TermKind::direct, 1}, {TermKind::indirect, 3}}};
     transfer.bases.components = {1, 2};
     for (std::size_t i = 0; i < 5 * transfer.bases.dimension(); ++i)
         transfer.bases.rows.push_back(normal(random));

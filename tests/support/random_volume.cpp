@@ -49,29 +49,29 @@ ClusteredReceivers random_receivers(const ClusteredBases& bases, std::size_t cou
 
 } // namespace
 
-TransferLayout parts_of_volume(int order) {
-    return {order, {{PartKind::direct, 1}, {PartKind::indirect, 3}, {PartKind::lamp, 3, "lantern"}}};
+TransferLayout terms_of_volume(int order) {
+    return {order, {{TermKind::direct, 1}, {TermKind::indirect, 3}, {TermKind::lamp, 3, "lantern"}}};
 }
 
 CompressedVolume random_volume(const VolumeGrid& grid, int order, bool alike, std::mt19937& random,
-                               std::size_t blind) {
+                               std::size_t invalid) {
     CompressedVolume volume{grid, order, {}, {}};
     const std::size_t probes = probes_of(grid).size();
-    TransferLayout layout = parts_of_volume(3);
+    TransferLayout layout = terms_of_volume(3);
     layout.outputs = static_cast<std::size_t>(coefficient_count(order));
     volume.compressed.transfer.bases = random_bases(layout, alike, random);
     volume.compressed.transfer.receivers = random_receivers(volume.compressed.transfer.bases, probes, random);
     // Surfaces nearer than a fifth of a cell would amplify the rounding of positions.
-    std::uniform_int_distribution<int> sight(60, 400);
+    std::uniform_int_distribution<int> visibility(60, 400);
     for (std::size_t p = 0; p < probes; ++p) {
-        ProbeSight& s = volume.sights.emplace_back();
+        ProbeVisibility& s = volume.visibility.emplace_back();
         for (std::uint8_t& each : s)
-            each = p % blind == 0 ? 0 : static_cast<std::uint8_t>(std::min(255, sight(random)));
+            each = p % invalid == 0 ? 0 : static_cast<std::uint8_t>(std::min(255, visibility(random)));
     }
     return volume;
 }
 
-CompressedVolume random_volume(int order, bool alike, std::mt19937& random, std::size_t blind) {
+CompressedVolume random_volume(int order, bool alike, std::mt19937& random, std::size_t invalid) {
     const VolumeGrid grid{.origin = {-1.5f, 0.25f, 2},
                           .spacing = 0.5f,
                           .size = {5, 3, 2},
@@ -83,7 +83,7 @@ CompressedVolume random_volume(int order, bool alike, std::mt19937& random, std:
                                      {{3, 1, 1}, 0},
                                      {{0, 2, 0}, 1},
                                      {{2, 2, 0}, 0}}}; // {0, 2, 0} reaches out of the box
-    return random_volume(grid, order, alike, random, blind);
+    return random_volume(grid, order, alike, random, invalid);
 }
 
 } // namespace prt::test

@@ -21,11 +21,11 @@ function open(path) {
 const baked = open(process.argv[2]);
 const shipped = open(process.argv[3]);
 const clusters = decodeClusters(shipped.json.extensions.PRTKIT_clustered_pca, shipped.view);
-const { order, parts, predictors, firstRows, components, widths, clusterBits } = clusters;
+const { order, terms, predictors, firstRows, components, widths, clusterBits } = clusters;
 const sky = Array.from({ length: 3 * order * order }, (_, i) => Math.cos(i + 1));
 const columns = lightColumns(clusters, sky);
 const constants = updateConstants(clusters, shaderRows(clusters), columns, new Float32Array(4 * clusters.rowCount));
-const raw = { order, parts, rowCount: 0 };
+const raw = { order, terms, rowCount: 0 };
 
 const [primitive] = shipped.json.meshes[0].primitives;
 const attribute = (name) => shipped.floats(shipped.json.accessors[primitive.attributes[name]].bufferView);

@@ -8,7 +8,7 @@ import { readFileSync } from "node:fs";
 import { lightColumns } from "../../examples/web/src/clusteredPca.js";
 import { halfFloat } from "../../examples/web/src/halfFloat.js";
 import { VolumeRelighter } from "../../examples/web/src/VolumeRelighter.js";
-import { atlasOf, indexTexels, sightTexels } from "../../examples/web/src/volumeTextures.js";
+import { atlasOf, indexTexels, visibilityTexels } from "../../examples/web/src/volumeTextures.js";
 import { volumeOf } from "../../examples/web/src/volumeTransfer.js";
 
 const file = readFileSync(process.argv[2]);
@@ -19,7 +19,7 @@ const view = (i) => {
   return new Uint8Array(file.subarray(28 + length + byteOffset, 28 + length + byteOffset + byteLength));
 };
 const volume = volumeOf(json.extensions.PRTKIT_transfer_volume, view);
-const { grid, sights, order, clusters } = volume;
+const { grid, visibility, order, clusters } = volume;
 const atlas = atlasOf(grid, order);
 const sky = Array.from({ length: 3 * clusters.order ** 2 }, (_, i) => Math.cos(i + 1));
 const relighter = new VolumeRelighter(volume, atlas);
@@ -31,7 +31,7 @@ const bytes = new Uint8Array(readFileSync(process.argv[3]));
 const expected = (Type, begin, count) => new Type(bytes.buffer.slice(begin, begin + count * Type.BYTES_PER_ELEMENT));
 let wrong = 0;
 let begin = 0;
-for (const [name, words] of [["sights", sightTexels(grid, sights, atlas)], ["index", indexTexels(grid)]]) {
+for (const [name, words] of [["visibility", visibilityTexels(grid, visibility, atlas)], ["index", indexTexels(grid)]]) {
   const own = expected(Uint32Array, begin, words.length);
   const i = words.findIndex((word, j) => word !== own[j]);
   if (i >= 0) console.log(`${name} ${i}: ${words[i]}, not ${own[i]}`, ++wrong);

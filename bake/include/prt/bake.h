@@ -215,7 +215,7 @@ BakeResult bake(const Scene& scene, const BakeOptions& options, const Progress& 
                 MeasureErrors errors = MeasureErrors::no);
 
 /// Estimates the peak memory of a bake in bytes, without the operator of its bounces, whose size is known
-/// only after some receivers are traced. `numbers`: length of a transfer vector, all parts together.
+/// only after some receivers are traced. `numbers`: length of a transfer vector, all terms together.
 double estimate_memory(const BakeOptions& options, std::size_t receivers, std::size_t triangles,
                        std::size_t numbers);
 

@@ -45,7 +45,7 @@ struct PoseBakeOptions {
 
 /// Self-transfer of one pose: the model alone, lit from all directions.
 struct PoseTransfer {
-    Transfer transfer;        ///< `whole` transfer with one channel or three, in world space
+    Transfer transfer;        ///< `combined` transfer with one channel or three, in world space
     std::vector<float> areas; ///< m²; 0 for vertices that are sealed in, which nobody sees
     std::vector<bool> sealed;
     std::size_t rays = 0;
@@ -93,7 +93,7 @@ struct MeanTransfer {
 MeanTransfer mean_of_poses(const AnimatedScene& model, std::span<const ModelPose> poses,
                            const PoseBakeOptions& options, const Progress& progress = {});
 
-/// Writes the mean over the channels of a `whole` vector to `grey`.
+/// Writes the mean over the channels of a `combined` vector to `grey`.
 void grey_vector(const Transfer& transfer, std::size_t receiver, std::span<double> grey);
 
 } // namespace prt

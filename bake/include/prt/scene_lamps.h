@@ -15,7 +15,7 @@
 namespace prt {
 
 /// Returns a part for each lamp of a scene without transfer: lights and emissive materials, by name.
-std::vector<TransferPart> lamps_of(const Scene& scene);
+std::vector<TransferTerm> lamps_of(const Scene& scene);
 
 /// Samples the lamps of a scene. Thread-safe.
 class SceneLamps {
@@ -23,7 +23,7 @@ public:
     /// Uses the lamps of the scene that are in `lamps`, by their name or as members, each multiplied by its
     /// strength, [lamps]. Other lamps are dark. Keeps a reference to `scene`. Throws `Error` if the number of
     /// strengths differs from the number of lamps.
-    SceneLamps(const TraceScene& scene, std::span<const TransferPart> lamps,
+    SceneLamps(const TraceScene& scene, std::span<const TransferTerm> lamps,
                std::span<const glm::vec3> strengths);
 
     bool has_lights() const { return !lights_.empty(); }

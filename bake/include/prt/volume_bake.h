@@ -35,7 +35,7 @@ struct VolumeOptions {
 struct VolumeStatistics {
     struct Probes {
         std::size_t all = 0, moved = 0, hanging = 0;
-        std::size_t blind = 0; ///< probes inside geometry
+        std::size_t invalid = 0; ///< probes inside geometry
         std::size_t bricks = 0, fit_points = 0;
     };
     Probes probes;

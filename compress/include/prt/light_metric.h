@@ -23,7 +23,7 @@ struct LightMetric {
 LightMetric plain_metric(const TransferLayout& layout);
 
 /// Returns the metric of average lighting, indoors and outdoors, with all 3D rotations equally likely: the
-/// band powers of docs/math.md, section 4. If direct light is a separate part, half of it is lit by the sky
+/// band powers of docs/math.md, section 4. If direct light is a separate term, half of it is lit by the sky
 /// without suns.
 LightMetric natural_metric(const TransferLayout& layout);
 
@@ -37,7 +37,7 @@ enum class LightFamily {
 };
 
 /// Returns the mean over a family, each lighting scaled to the same mean square over open receivers. If
-/// direct light is a separate part, suns are separate in half of the cases. A hundredth of the power is
+/// direct light is a separate term, suns are separate in half of the cases. A hundredth of the power is
 /// `natural_metric`. Takes 0.1 to 0.3 s, because analytic skies are integrated.
 LightMetric metric_of_family(LightFamily family, const TransferLayout& layout);
 

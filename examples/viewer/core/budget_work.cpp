@@ -142,7 +142,7 @@ void find_budget(Channel& channel, const BudgetSubject& subject) {
     const int order = loaded.compressed ? loaded.compressed->bases.layout.order : loaded.raw->layout.order;
     const auto again = repeated(channel, subject);
     channel.enter(Stage::measuring, "following paths from the surface");
-    const bool apart = subject.version.suns_apart && loaded.raw->layout.has(prt::PartKind::direct);
+    const bool apart = subject.version.suns_apart && loaded.raw->layout.has(prt::TermKind::direct);
     const prt::MeasuredLight light =
         apart ? subject.rig.measured_light_apart() : subject.rig.measured_light();
     const int threads = threads_beside_drawing();

@@ -24,7 +24,7 @@ glm::vec3 normal_of(const prt::Scene& scene, std::uint32_t receiver) {
 /// Returns the unshadowed exit radiance of the receivers for albedo 1.
 std::vector<glm::vec3> unshadowed(const prt::Scene& scene, const prt::Light& light, Indices receivers) {
     const prt::Light bands = prt::truncated(light, 3);
-    const prt::TransferLayout layout = prt::layout_of_one(3, 1, prt::PartKind::direct);
+    const prt::TransferLayout layout = prt::layout_of_one(3, 1, prt::TermKind::direct);
     std::vector<glm::vec3> radiance;
     std::vector<float> lobe(9);
     for (const std::uint32_t receiver : receivers) {

@@ -57,7 +57,7 @@ std::vector<float> decoded(const prt::ClusteredTransfer& transfer, std::size_t r
 
 /// Returns the combined transfer terms of the first channel.
 std::vector<float> first_channel(std::span<const float> vector, const prt::TransferLayout& layout) {
-    std::vector<float> whole = prt::as_whole(vector, layout);
+    std::vector<float> whole = prt::as_combined(vector, layout);
     whole.resize(static_cast<std::size_t>(prt::coefficient_count(layout.order)));
     return whole;
 }

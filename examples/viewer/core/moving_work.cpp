@@ -38,7 +38,8 @@ std::shared_ptr<const prt::CompressedVolume> compressed(Channel& channel, const 
     channel.enter(Stage::compressing, "compressing the volume");
     prt::CompressOptions options;
     options.coding = prt::preset_volume();
-    options.clusters = std::clamp(static_cast<int>(volume.sights.size()) / kProbesOfCluster, 1, kMaxClusters);
+    options.clusters =
+        std::clamp(static_cast<int>(volume.visibility.size()) / kProbesOfCluster, 1, kMaxClusters);
     return std::make_shared<const prt::CompressedVolume>(
         prt::compress_volume(volume, options, channel.progress()).volume);
 }

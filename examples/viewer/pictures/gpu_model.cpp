@@ -198,13 +198,13 @@ const prt::TransferLayout* GpuModel::layout_shown(PictureKind kind) const {
 
 bool GpuModel::shows_suns(PictureKind kind) const {
     const prt::TransferLayout* layout = layout_shown(kind);
-    const bool apart = !layout || layout->has(prt::PartKind::direct);
+    const bool apart = !layout || layout->has(prt::TermKind::direct);
     return !lit_.suns.empty() && !shows_numbers(kind) && apart;
 }
 
 bool GpuModel::takes_suns_as_sky(PictureKind kind) const {
     const prt::TransferLayout* layout = layout_shown(kind);
-    return !lit_.suns.empty() && layout && !layout->has(prt::PartKind::direct);
+    return !lit_.suns.empty() && layout && !layout->has(prt::TermKind::direct);
 }
 
 void GpuModel::draw_shadows(PictureKind kind, const prt::SunShadows::View& view,

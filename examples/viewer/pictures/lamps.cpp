@@ -18,7 +18,7 @@ std::vector<Lamp> lamps_of(std::span<const prt::TransferLayout* const> layouts,
                            const std::vector<Lamp>& known) {
     std::vector<Lamp> lamps;
     for (const prt::TransferLayout* layout : layouts)
-        for (const prt::TransferPart& part : layout->lamp_parts()) {
+        for (const prt::TransferTerm& part : layout->lamp_terms()) {
             if (std::ranges::count(lamps, part.name, &Lamp::name) > 0)
                 continue;
             const auto before = std::ranges::find(known, part.name, &Lamp::name);
@@ -29,7 +29,7 @@ std::vector<Lamp> lamps_of(std::span<const prt::TransferLayout* const> layouts,
 
 std::vector<glm::vec3> strengths_of(const LampSettings& settings, const prt::TransferLayout& layout) {
     std::vector<glm::vec3> strengths;
-    for (const prt::TransferPart& part : layout.lamp_parts()) {
+    for (const prt::TransferTerm& part : layout.lamp_terms()) {
         const auto known = std::ranges::find(settings.each, part.name, &Lamp::name);
         strengths.push_back(strength_of(settings, known == settings.each.end() ? Lamp{} : *known));
     }

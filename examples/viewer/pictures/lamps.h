@@ -12,7 +12,7 @@
 
 namespace viewer {
 
-/// A lamp of the model (`TransferPart`), identified by its name.
+/// A lamp of the model (`TransferTerm`), identified by its name.
 struct Lamp {
     std::string name;
     bool on = true;

@@ -155,13 +155,13 @@ std::vector<float> ambient_occlusion(const Model& model, const prt::Progress& pr
 prt::Transfer truncated(const prt::Transfer& transfer, int order) {
     if (order >= transfer.layout.order)
         return transfer;
-    prt::Transfer result = prt::zero_transfer({order, transfer.layout.parts}, transfer.receivers());
+    prt::Transfer result = prt::zero_transfer({order, transfer.layout.terms}, transfer.receivers());
     for (std::size_t p = 0; p < transfer.receivers(); ++p) {
         const float* from = transfer.vector(p).data();
         float* to = result.vector(p).data();
-        for (const prt::TransferPart& part : transfer.layout.parts)
-            for (int c = 0; c < part.channels; ++c, from += transfer.layout.columns_of(part))
-                to = std::copy_n(from, result.layout.columns_of(part), to);
+        for (const prt::TransferTerm& term : transfer.layout.terms)
+            for (int c = 0; c < term.channels; ++c, from += transfer.layout.columns_of(term))
+                to = std::copy_n(from, result.layout.columns_of(term), to);
     }
     return result;
 }

@@ -25,8 +25,8 @@ constexpr int kOrderOfSky = 3;
 /// Radius of a probe's sphere, in finest cells.
 constexpr float kProbeRadius = 0.1f;
 
-bool sees_nothing(const prt::ProbeSight& sight) {
-    return std::ranges::all_of(sight, [](std::uint8_t distance) { return distance == 0; });
+bool sees_nothing(const prt::ProbeVisibility& visibility) {
+    return std::ranges::all_of(visibility, [](std::uint8_t distance) { return distance == 0; });
 }
 
 std::vector<glm::vec4> places_of_probes(const prt::CompressedVolume& volume) {
@@ -35,7 +35,7 @@ std::vector<glm::vec4> places_of_probes(const prt::CompressedVolume& volume) {
     for (std::size_t p = 0; p < probes.size(); ++p) {
         const float radius = kProbeRadius * volume.grid.spacing * static_cast<float>(1 << probes.levels[p]);
         places.emplace_back(prt::position_of(volume.grid, probes.corners[p]),
-                            sees_nothing(volume.sights[p]) ? -radius : radius);
+                            sees_nothing(volume.visibility[p]) ? -radius : radius);
     }
     return places;
 }
@@ -117,7 +117,7 @@ void MovingStage::light_volume() {
 
 /// Returns true if suns are added per pixel. A volume without a separate direct term has them in its sky.
 bool MovingStage::adds_suns() const {
-    return lit_.suns && (!has_volume() || volume_.gpu->relighter().layout().has(prt::PartKind::direct));
+    return lit_.suns && (!has_volume() || volume_.gpu->relighter().layout().has(prt::TermKind::direct));
 }
 
 std::optional<prt::Bounds> MovingStage::box() const {

@@ -16,7 +16,7 @@ namespace viewer {
 namespace {
 
 prt::GlObject make_program(const prt::Transfer& transfer) {
-    return prt::make_compute_program("viewer_exit_radiance.comp", prt::part_defines(transfer.layout));
+    return prt::make_compute_program("viewer_exit_radiance.comp", prt::term_defines(transfer.layout));
 }
 
 } // namespace

@@ -298,7 +298,7 @@ std::string volume_words(const Viewer& viewer) {
     const FoundVolume& found = viewer.document().moving.volume();
     if (!found.volume)
         return "none yet";
-    const std::string probes = fmt::format("{} probes", found.volume->sights.size());
+    const std::string probes = fmt::format("{} probes", found.volume->visibility.size());
     return found.rays > 0 ? fmt::format("{}, {} rays", probes, found.rays) : probes;
 }
 

@@ -137,10 +137,10 @@ export class InstanceRelighter {
     if (terms) return this.constantsOfModes.forEach((constants, m) => updateAtYaw(this.series[m], terms, first, end, constants));
     const matrices = rotationMatrices(clusters.order, rotation);
     const size = rows.length / clusters.rowCount;
-    const part = { ...clusters, rowCount: end - first };
+    const term = { ...clusters, rowCount: end - first };
     this.constantsOfModes.forEach((constants, m) => {
       const columns = lightColumns(clusters, turnedBands(matrices, skies[m]), suns ? turnedBands(matrices, suns[m]) : null);
-      updateConstants(part, rows.subarray(first * size, end * size), columns, constants.subarray(4 * first, 4 * end));
+      updateConstants(term, rows.subarray(first * size, end * size), columns, constants.subarray(4 * first, 4 * end));
     });
   }
 

@@ -14,10 +14,10 @@ export class LitTransfer {
     this.root = root;
     this.clusters = clusters;
     this.order = clusters.order;
-    this.channels = Math.max(...clusters.parts.map((part) => part.channels));
-    this.directApart = clusters.parts[0].kind === "direct";
+    this.channels = Math.max(...clusters.terms.map((term) => term.channels));
+    this.directApart = clusters.terms[0].kind === "direct";
     /** Names of the lamps that can be dimmed. */
-    this.lamps = clusters.parts.filter(({ kind }) => kind === "lamp").map(({ name }) => name);
+    this.lamps = clusters.terms.filter(({ kind }) => kind === "lamp").map(({ name }) => name);
     /** Strength of each lamp, as uniforms of emissive materials. */
     this.strengths = new Map(this.lamps.map((name) => [name, { value: new Vector3() }]));
     this.setStrengths({});
@@ -94,7 +94,7 @@ export class LitTransfer {
 
   /** Returns the factor on the emission of a material of this name. */
   strengthOf(material) {
-    const lamp = this.clusters.parts.find(({ kind, name, members = [name] }) => kind === "lamp" && members.includes(material));
+    const lamp = this.clusters.terms.find(({ kind, name, members = [name] }) => kind === "lamp" && members.includes(material));
     return lamp ? this.strengths.get(lamp.name) : { value: new Vector3(1, 1, 1) };
   }
 

@@ -77,8 +77,8 @@ export class PrtkitPlugin {
     expect(!lobes || !(vertices || texels), "the file has transfer that does not turn with a skin, too", LOBES);
     const name = [vertices && VERTICES, texels && TEXELS, probes && PROBES, lobes && LOBES].find(Boolean);
     expect(!name || gltf.scene, "the file has no scene", name);
-    const parts = await occludersOf(this.parser, gltf, (list) => this.viewsOf(list, OCCLUDERS));
-    if (parts.length > 0) gltf.userData.prtkitOccluders = new PrtkitOccluders(parts);
+    const terms = await occludersOf(this.parser, gltf, (list) => this.viewsOf(list, OCCLUDERS));
+    if (terms.length > 0) gltf.userData.prtkitOccluders = new PrtkitOccluders(terms);
     const volume = probes ? await this.volume(probes, gltf.scene) : null;
     if (vertices || texels) gltf.userData.prtkit = Object.assign(await this.surfaces(vertices, texels, gltf), { volume });
     else if (lobes) gltf.userData.prtkit = Object.assign(await this.turning(lobes, gltf), { volume });

@@ -38,7 +38,7 @@ export class PrtkitLobes extends LitSurfaces {
     const { order, lobes } = extension;
     // The renderer's shadow maps handle separate suns. Axes are rotated to world space, and so is the light
     // of skies.
-    super({ order, parts: [{ kind: "direct", channels: 3 }] }, new Object3D());
+    super({ order, terms: [{ kind: "direct", channels: 3 }] }, new Object3D());
     this.extension = extension;
     /** Lobes of a vertex. */
     this.lobes = lobes;

@@ -18,7 +18,7 @@ import { LitTransfer } from "./LitTransfer.js";
 import { movingMaterial } from "./relitMaterial.js";
 import { VolumeRelighter } from "./VolumeRelighter.js";
 import { placeOf, SIDE } from "./volumeGrid.js";
-import { atlasOf, indexTexels, sightTexels } from "./volumeTextures.js";
+import { atlasOf, indexTexels, visibilityTexels } from "./volumeTextures.js";
 
 /** Products with the light that are formed in a frame, and probes: some 4 ms each. */
 const PRODUCTS_AT_ONCE = 3e6;
@@ -59,7 +59,7 @@ export class PrtkitVolume extends LitTransfer {
     super(volume.clusters, root);
     this.source = volume;
     this.plugin = plugin;
-    const { grid, order, sights } = volume;
+    const { grid, order, visibility } = volume;
     this.incidentOrder = order;
     this.probes = grid.levels.length;
     this.bytesPerProbe = 4 * volume.stride + 6;
@@ -70,12 +70,12 @@ export class PrtkitVolume extends LitTransfer {
     const [x, y, z] = this.atlas.bricks.map((bricks) => SIDE * bricks);
     this.texture = texture3d(this.spare.slice(), [x, y, z * this.atlas.planes], RGBAFormat, floats ? FloatType : HalfFloatType);
     if (!floats) this.texture.minFilter = this.texture.magFilter = LinearFilter;
-    const sightsTexture = texture3d(sightTexels(grid, sights, this.atlas), [x, y, z], RGIntegerFormat, UnsignedIntType);
+    const visibilityTexture = texture3d(visibilityTexels(grid, visibility, this.atlas), [x, y, z], RGIntegerFormat, UnsignedIntType);
     const indexTexture = texture3d(indexTexels(grid), grid.size, RedIntegerFormat, UnsignedIntType);
     this.defines = { PRT_VOLUME: 1, PRT_VOLUME_ORDER: order, ...(floats ? {} : { PRT_VOLUME_LINEAR: 1 }) };
     this.uniforms = {
       prt_volume_light: { value: this.texture },
-      prt_volume_sights: { value: sightsTexture },
+      prt_volume_visibility: { value: visibilityTexture },
       prt_volume_index: { value: indexTexture },
       prtVolumeSpacing: { value: grid.spacing },
       prtVolumeSize: { value: grid.size },
@@ -130,7 +130,7 @@ export class PrtkitVolume extends LitTransfer {
 
   /** True if a probe is inside geometry, and gives no light. */
   isSealed(probe) {
-    return this.source.sights.subarray(6 * probe, 6 * probe + 6).every((sight) => sight === 0);
+    return this.source.visibility.subarray(6 * probe, 6 * probe + 6).every((visibility) => visibility === 0);
   }
 
   /** Returns the entries of `lamps` that the volume has. */
@@ -210,7 +210,7 @@ export class PrtkitVolume extends LitTransfer {
   /** Frees the textures on the device. */
   dispose() {
     this.sky = null;
-    for (const name of ["prt_volume_light", "prt_volume_sights", "prt_volume_index"]) this.uniforms[name].value.dispose();
+    for (const name of ["prt_volume_light", "prt_volume_visibility", "prt_volume_index"]) this.uniforms[name].value.dispose();
     for (const { texture } of this.tables ?? []) texture.dispose();
   }
 }

@@ -22,14 +22,14 @@ function texelsOfProbes({ ofBrick, levels }, atlas) {
  * Returns the `direct` transfer of output 0 for light without color, [rowCount][order²]; null without a
  * direct term.
  */
-function directRows({ order, parts: [part], rowCount, outputs }, rows) {
-  if (part.kind !== "direct") return null;
+function directRows({ order, terms: [term], rowCount, outputs }, rows) {
+  if (term.kind !== "direct") return null;
   const columns = order * order;
   const size = rows.length / (rowCount * outputs);
   const direct = new Float64Array(rowCount * columns);
   for (let r = 0; r < rowCount; ++r)
-    for (let c = 0; c < part.channels; ++c)
-      for (let i = 0; i < columns; ++i) direct[r * columns + i] += rows[r * outputs * size + c * columns + i] / part.channels;
+    for (let c = 0; c < term.channels; ++c)
+      for (let i = 0; i < columns; ++i) direct[r * columns + i] += rows[r * outputs * size + c * columns + i] / term.channels;
   return direct;
 }
 
@@ -58,8 +58,8 @@ export class VolumeRelighter {
     const { order, outputs, firstRows, rowCount } = clusters;
     const [begin, end] = [first, last].map((k) => firstRows[k] ?? rowCount);
     const size = rows.length / rowCount;
-    const part = { ...clusters, rowCount: end - begin };
-    const colors = updateConstants(part, rows.subarray(begin * size, end * size), columns, new Float64Array(4 * (end - begin) * outputs));
+    const term = { ...clusters, rowCount: end - begin };
+    const colors = updateConstants(term, rows.subarray(begin * size, end * size), columns, new Float64Array(4 * (end - begin) * outputs));
     const basis = sun && direct ? evaluateSh(order, ...sun) : [];
     for (let r = begin; r < end; ++r) {
       for (let o = 0; o < outputs; ++o)

@@ -36,12 +36,12 @@ function checkMagnitudes(values, largest, what) {
   expect(values.every((value) => Math.abs(value) <= largest), `${what} are not finite, or beyond ${largest}`);
 }
 
-/** Colours that light a part: the coefficients of a sky, or the one strength of a lamp. */
+/** Colours that light a term: the coefficients of a sky, or the one strength of a lamp. */
 const columnsOf = (order, { kind }) => (kind === "lamp" ? 1 : order * order);
 
-/** Numbers of a row: for each output a transfer vector, its parts one behind the other, each [channels][columns]. */
-const dimensionOf = ({ order, parts, outputs = 1 }) =>
-  outputs * parts.reduce((sum, part) => sum + part.channels * columnsOf(order, part), 0);
+/** Numbers of a row: for each output a transfer vector, its terms one behind the other, each [channels][columns]. */
+const dimensionOf = ({ order, terms, outputs = 1 }) =>
+  outputs * terms.reduce((sum, term) => sum + term.channels * columnsOf(order, term), 0);
 
 /**
  * Decodes the clusters of a file.
@@ -58,18 +58,18 @@ export function decodeClusters(extension, view) {
  * `outputs`.
  */
 export function clustersOf(extension, view, outputs = 1) {
-  const { order, parts, components, predictors = [], bases, packing } = extension;
+  const { order, terms, components, predictors = [], bases, packing } = extension;
   const predictorRows = 3 * predictors.length;
   let centers = new Int16Array(0);
   if (predictorRows > 0) centers = codedRows(view(extension.centers.bufferView), extension.centers.drops, components.length);
-  const dimension = dimensionOf({ order, parts, outputs });
+  const dimension = dimensionOf({ order, terms, outputs });
   const firstRows = [];
   let rowCount = 0;
   for (const m of components) {
     firstRows.push(rowCount);
     rowCount += 1 + predictorRows + m;
   }
-  const clusters = { order, parts, outputs, components, predictors, centers, firstRows, rowCount };
+  const clusters = { order, terms, outputs, components, predictors, centers, firstRows, rowCount };
   const rows = bases.values
     ? decodedRows(clusters, bases, view)
     : floats(view(bases.bufferView), rowCount * dimension, LARGEST_TRANSFER, "the bases");
@@ -106,11 +106,11 @@ function stepsOf({ step, steps }, clusterCount, axisCount, view) {
 }
 
 /** Returns the rows of coded bases. */
-function decodedRows({ order, parts, outputs, components, predictors, firstRows, rowCount }, bases, view) {
-  const dimension = dimensionOf({ order, parts, outputs });
+function decodedRows({ order, terms, outputs, components, predictors, firstRows, rowCount }, bases, view) {
+  const dimension = dimensionOf({ order, terms, outputs });
   const axisCount = bases.values.drops.length;
   expect(bases.axes.drops.length === dimension, "the sizes of the coded bases do not fit together");
-  const numbers = (part, count, largest, what) => floats(view(bases[part].bufferView), count, largest, what);
+  const numbers = (term, count, largest, what) => floats(view(bases[term].bufferView), count, largest, what);
   const origin = numbers("origin", dimension, LARGEST_TRANSFER, "the numbers of the origin");
   const scales = numbers("scales", axisCount, Number.MAX_VALUE, "the scales");
   const units = bases.units ? numbers("units", dimension, Number.MAX_VALUE, "the units") : new Float32Array(dimension).fill(1);
@@ -188,11 +188,11 @@ export function clusterTable(clusters) {
  * direct light, plus `suns` for the other terms (null: all light is in the sky), and `lamps` [lamps][3], the
  * factor of each lamp (null: the strength of the scene).
  */
-export function lightColumns({ order, parts }, sky, suns = null, lamps = null) {
-  const columns = new Float64Array(3 * parts.reduce((sum, part) => sum + columnsOf(order, part), 0));
+export function lightColumns({ order, terms }, sky, suns = null, lamps = null) {
+  const columns = new Float64Array(3 * terms.reduce((sum, term) => sum + columnsOf(order, term), 0));
   let at = 0;
   let lamp = 0;
-  for (const { kind } of parts)
+  for (const { kind } of terms)
     if (kind === "lamp") {
       for (let c = 0; c < 3; ++c) columns[at++] = lamps ? lamps[3 * lamp + c] : 1;
       ++lamp;
@@ -205,16 +205,16 @@ export function lightColumns({ order, parts }, sky, suns = null, lamps = null) {
  * lightColumns.
  */
 export function updateConstants(clusters, rows, columns, constants) {
-  const { order, parts, rowCount, outputs = 1 } = clusters;
+  const { order, terms, rowCount, outputs = 1 } = clusters;
   let at = 0;
   for (let r = 0; r < rowCount * outputs; ++r) {
     let red = 0;
     let green = 0;
     let blue = 0;
     let light = 0;
-    for (const part of parts) {
-      const { channels } = part;
-      const count = columnsOf(order, part);
+    for (const term of terms) {
+      const { channels } = term;
+      const count = columnsOf(order, term);
       const [g, b] = channels === 1 ? [at, at] : [at + count, at + 2 * count];
       for (let i = 0; i < count; ++i, light += 3) {
         red += rows[at + i] * columns[light];

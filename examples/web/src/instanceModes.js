@@ -67,12 +67,12 @@ export class InstanceModes {
 }
 
 /** Returns the response of rows to the light of the reflected modes in their space, [rows][ADDED_MODES][3]. */
-export function responsesOf({ order, parts, rowCount }, rows) {
+export function responsesOf({ order, terms, rowCount }, rows) {
   const count = order * order;
   const responses = new Float64Array(3 * ADDED_MODES * rowCount);
   let at = 0;
   for (let r = 0; r < rowCount; ++r)
-    for (const { channels } of parts) {
+    for (const { channels } of terms) {
       for (let k = 0; k < Math.min(ADDED_MODES, count); ++k)
         for (let c = 0; c < 3; ++c)
           responses[3 * (ADDED_MODES * r + k) + c] += SCALE * rows[at + (channels === 3 ? c * count : 0) + k];

@@ -142,8 +142,8 @@ const lit = (Base) =>
      */
     customProgramCacheKey() {
       const { model, defines, traits, lightMap } = this._transfer;
-      const parts = [(model.constantsTexture ?? model.texture).id, JSON.stringify(defines), traits?.lit, traits?.transmission.w > 0, lightMap?.channel];
-      return `${super.customProgramCacheKey()}:prtkit:${parts.join(":")}`;
+      const terms = [(model.constantsTexture ?? model.texture).id, JSON.stringify(defines), traits?.lit, traits?.transmission.w > 0, lightMap?.channel];
+      return `${super.customProgramCacheKey()}:prtkit:${terms.join(":")}`;
     }
 
     setupEnvironment(builder) {

@@ -59,11 +59,11 @@ const texel = (texture, at) => new TexelNode(texture, at).setSampler(false);
 /** Numbers and textures of a volume. */
 function tablesOf(volume) {
   const { uniforms, source, atlas } = volume;
-  volume.tables ??= [uniforms.prt_volume_sights.value, uniforms.prt_volume_index.value].map(tableOf);
-  const [sights, index] = volume.tables.map(({ entry }) => entry);
+  volume.tables ??= [uniforms.prt_volume_visibility.value, uniforms.prt_volume_index.value].map(tableOf);
+  const [visibility, index] = volume.tables.map(({ entry }) => entry);
   return {
     light: uniforms.prt_volume_light.value,
-    sights,
+    visibility,
     index,
     spacing: source.grid.spacing,
     size: source.grid.size,
@@ -92,14 +92,14 @@ function findBrick({ index, spacing, size }, position, brick) {
  * Returns the weight of a probe with these visibility distances, for a position `from` relative to it, in
  * cells.
  */
-function sightOf(sights, from) {
+function visibilityOf(visibility, from) {
   const byte = (word, shift) => float(word.shiftRight(uint(shift)).bitAnd(uint(255)));
-  const pairs = [[byte(sights.x, 0), byte(sights.x, 8)], [byte(sights.x, 16), byte(sights.x, 24)], [byte(sights.y, 0), byte(sights.y, 8)]];
-  const cells = float(uint(4).shiftLeft(sights.y.shiftRight(uint(16)).bitAnd(uint(3))));
+  const pairs = [[byte(visibility.x, 0), byte(visibility.x, 8)], [byte(visibility.x, 16), byte(visibility.x, 24)], [byte(visibility.y, 0), byte(visibility.y, 8)]];
+  const cells = float(uint(4).shiftLeft(visibility.y.shiftRight(uint(16)).bitAnd(uint(3))));
   const passed = AXES.map((axis, a) => {
     const root = from[axis].greaterThan(0).select(pairs[a][1], pairs[a][0]).div(255);
     return from[axis].abs().div(cells.mul(root).mul(root).max(1e-18));
-  }).reduce((largest, part) => largest.max(part)).toVar();
+  }).reduce((largest, term) => largest.max(term)).toVar();
   const behind = passed.sub(0.8).div(1.03 - 0.8).clamp(0, 1).toVar();
   return behind.mul(behind).mul(behind.mul(-2).add(3)).oneMinus().max(float(1e-4).div(passed.clamp(1, 16).pow(8)));
 }
@@ -122,9 +122,9 @@ function findPlace(tables, position, normal) {
   const slots = ivec3(brick.slot.mod(int(bricks[0])), brick.slot.div(int(bricks[0])).mod(int(bricks[1])), brick.slot.div(int(bricks[0] * bricks[1])));
   const least = low.add(slots.mul(SIDE)).toVar();
   const weights = CORNERS.map((corner) => {
-    const trilinear = AXES.map((axis, a) => (corner[a] ? over[axis] : over[axis].oneMinus())).reduce((product, part) => product.mul(part));
-    const sights = uvec2(tables.sights(least.add(ivec3(...corner))).xy).toVar();
-    return trilinear.mul(sightOf(sights, from.sub(vec3(...corner)))).toVar();
+    const trilinear = AXES.map((axis, a) => (corner[a] ? over[axis] : over[axis].oneMinus())).reduce((product, term) => product.mul(term));
+    const visibility = uvec2(tables.visibility(least.add(ivec3(...corner))).xy).toVar();
+    return trilinear.mul(visibilityOf(visibility, from.sub(vec3(...corner)))).toVar();
   });
   const sum = weights.reduce((total, weight) => total.add(weight)).toVar();
   return { least, weights: weights.map((weight) => weight.div(sum).toVar()) };
@@ -136,7 +136,7 @@ function incidentOf(tables, position, normal) {
   const { light, bricks, coefficients } = tables;
   const numbers = Array.from({ length: Math.ceil((3 * coefficients) / 4) }, (_, plane) =>
     CORNERS.map(([x, y, z], i) => texel(light, least.add(ivec3(x, y, z + SIDE * bricks[2] * plane))).mul(weights[i]))
-      .reduce((sum, part) => sum.add(part))
+      .reduce((sum, term) => sum.add(term))
       .toVar(),
   );
   const number = (n) => numbers[n >> 2]["xyzw"[n & 3]];
@@ -162,9 +162,9 @@ function incidentSum(light, n, bands) {
     ],
   ];
   const sums = basis.slice(0, Math.sqrt(light.length)).map((values, l) =>
-    values.map((value, m) => light[l * l + m].mul(value)).reduce((sum, part) => sum.add(part)).mul(bands[l]),
+    values.map((value, m) => light[l * l + m].mul(value)).reduce((sum, term) => sum.add(term)).mul(bands[l]),
   );
-  return sums.reduce((sum, part) => sum.add(part)).max(0);
+  return sums.reduce((sum, term) => sum.add(term)).max(0);
 }
 
 /** Returns factors of the bands for mirrored light at this roughness. */

@@ -8,8 +8,8 @@ const GUARANTEED_TEXELS = 256; // along a side of a 3D texture
  * Equal to the values in shared_layout.h: maximum visibility distance in cells, and the fraction of it where
  * the weight starts to decrease.
  */
-const SIGHT_CELLS = 4;
-const SIGHT_FULL = 0.8;
+const VISIBILITY_CELLS = 4;
+const VISIBILITY_FULL = 0.8;
 const ROOM = 1e-3; // for rounding
 const BLIND = 1e18;
 
@@ -35,36 +35,36 @@ export function texelOf({ bricks: [x, y] }, b, i) {
 }
 
 /**
- * True if a probe with `sights`, as corner `step` (bits of x, y and z) of a cell, sees the whole cell.
+ * True if a probe with `visibility`, as corner `step` (bits of x, y and z) of a cell, sees the whole cell.
  * `width`: the cell's width in cells of the probe.
  */
-function seesCell(sights, probe, step, width) {
+function seesCell(visibility, probe, step, width) {
   let passed = 0; // at the opposite corner; a surface is at 1
   for (let axis = 0; axis < 3; ++axis) {
-    const sight = sights[6 * probe + 2 * axis + ((step >> axis) & 1 ? 0 : 1)] / 255;
-    passed = Math.max(passed, sight > 0 ? 1 / (SIGHT_CELLS * width * sight ** 2) : BLIND);
+    const visibility = visibility[6 * probe + 2 * axis + ((step >> axis) & 1 ? 0 : 1)] / 255;
+    passed = Math.max(passed, visibility > 0 ? 1 / (VISIBILITY_CELLS * width * visibility ** 2) : BLIND);
   }
-  return passed <= SIGHT_FULL - ROOM;
+  return passed <= VISIBILITY_FULL - ROOM;
 }
 
 /**
  * Returns [texels][2]: bytes -x, +x, -y, +y, then -z, +z, the level of the probe minus that of the brick, and
  * 1 if all eight corners of the cell see the whole cell: weights are then trilinear.
  */
-export function sightTexels({ bricks, ofBrick, levels }, sights, atlas) {
+export function visibilityTexels({ bricks, ofBrick, levels }, visibility, atlas) {
   const texels = new Uint32Array(2 * atlas.texels);
   const coarser = (b, i) => levels[ofBrick[BRICK_PROBES * b + i]] - bricks[4 * b + 3];
   const corner = (low, step) => low + (step & 1) + SIDE * ((step >> 1) & 1) + SIDE ** 2 * (step >> 2);
   const isSeen = (b, low) => {
     for (let step = 0; step < 8; ++step) {
       const i = corner(low, step);
-      if (!seesCell(sights, ofBrick[BRICK_PROBES * b + i], step, 2 ** coarser(b, i))) return false;
+      if (!seesCell(visibility, ofBrick[BRICK_PROBES * b + i], step, 2 ** coarser(b, i))) return false;
     }
     return true;
   };
   for (let b = 0; b < bricks.length / 4; ++b)
     for (let i = 0; i < BRICK_PROBES; ++i) {
-      const s = sights.subarray(6 * ofBrick[BRICK_PROBES * b + i]);
+      const s = visibility.subarray(6 * ofBrick[BRICK_PROBES * b + i]);
       const isCell = [i % SIDE, Math.floor(i / SIDE) % SIDE, Math.floor(i / SIDE ** 2)].every((step) => step < SIDE - 1);
       const at = 2 * texelOf(atlas, b, i);
       texels[at] = (s[0] | (s[1] << 8) | (s[2] << 16) | (s[3] << 24)) >>> 0;

@@ -17,7 +17,7 @@ function checkWords(words, stride, { clusterBits, components }) {
 }
 
 /**
- * Decodes the volume of a file with `extension`: { grid, order, clusters, sights, words, stride }, with
+ * Decodes the volume of a file with `extension`: { grid, order, clusters, visibility, words, stride }, with
  * `order` that of incident light, `words` [probes][stride]. `view(i)`: the bytes of buffer view i. Throws an
  * Error with the reason for a damaged file.
  */
@@ -26,8 +26,8 @@ export function volumeOf(extension, view) {
   const bytes = viewsOf(extension).reduce((sum, i) => sum + view(i).byteLength, 0);
   const grid = gridOf(extension, view(extension.bricks.bufferView), bytes);
   const probes = grid.levels.length;
-  const sights = view(extension.sights.bufferView);
-  holds(sights.byteLength === 6 * probes, `there are ${probes} probes, and sights for ${sights.byteLength / 6}`);
+  const visibility = view(extension.visibility.bufferView);
+  holds(visibility.byteLength === 6 * probes, `there are ${probes} probes, and visibility for ${visibility.byteLength / 6}`);
   const order = extension.incidentOrder;
   const clusters = inNameOf(PROBES, () => clustersOf(extension, view, order * order));
   const stride = wordsOf(clusters);
@@ -36,5 +36,5 @@ export function volumeOf(extension, view) {
   holds(packed.byteLength === 4 * stride * probes, `the words are not those of ${probes} probes`);
   const words = viewed(Uint32Array, packed);
   checkWords(words, stride, clusters);
-  return { grid, order, clusters, sights: viewed(Uint8Array, sights), words, stride };
+  return { grid, order, clusters, visibility: viewed(Uint8Array, visibility), words, stride };
 }

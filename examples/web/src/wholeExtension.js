@@ -38,19 +38,19 @@ const areFloats = (v) => isView(v) && (v.componentType ?? 5126) === 5126;
 const areDrops = (v) => Array.isArray(v) && v.every((drop) => isWhole(drop, 0, 15));
 const areRows = (v) => isView(v) && areDrops(v.drops);
 
-const LAYOUTS = [[], ["direct"], ["indirect"], ["whole"], ["direct", "indirect"]];
+const LAYOUTS = [[], ["direct"], ["indirect"], ["combined"], ["direct", "indirect"]];
 
-function areParts(parts) {
-  if (!Array.isArray(parts) || parts.length > 66) return false;
-  if (!parts.every((part) => part?.channels === 1 || part?.channels === 3)) return false;
-  const skies = parts.filter(({ kind }) => kind !== "lamp");
-  const lamps = parts.slice(skies.length);
+function areTerms(terms) {
+  if (!Array.isArray(terms) || terms.length > 66) return false;
+  if (!terms.every((term) => term?.channels === 1 || term?.channels === 3)) return false;
+  const skies = terms.filter(({ kind }) => kind !== "lamp");
+  const lamps = terms.slice(skies.length);
   const names = lamps.map(({ name }) => name);
   return (
-    parts.length > 0 &&
+    terms.length > 0 &&
     names.every((name) => typeof name === "string" && name !== "") &&
     new Set(names).size === names.length &&
-    parts.every(({ members }) => members === undefined || (Array.isArray(members) && members.every((m) => typeof m === "string"))) &&
+    terms.every(({ members }) => members === undefined || (Array.isArray(members) && members.every((m) => typeof m === "string"))) &&
     lamps.every(({ kind }) => kind === "lamp") &&
     LAYOUTS.some((kinds) => kinds.length === skies.length && kinds.every((kind, i) => kind === skies[i].kind))
   );
@@ -114,15 +114,15 @@ function checkPacking({ packing, components }) {
 export function checkExtension(extension) {
   expect(isObject(extension), "the extension is no object");
   const { version } = extension;
-  expect(version === 7, `version ${version} is not known, only 7; compress the model again`);
+  expect(version === 8, `version ${version} is not known, only 8; compress the model again`);
   checkClusters(extension);
 }
 
 /** Validates the common members of vertices and texels. */
 function checkClusters(extension) {
-  const { order, parts, components, predictors, centers } = extension;
-  expect(isWhole(order, 1, 10) && areParts(parts), "order or parts are wrong");
-  expect(parts.every(({ towards }) => towards === undefined), 'a sun is among the lamps of the parts ("towards"), as older versions wrote it; bake the scene again');
+  const { order, terms, components, predictors, centers } = extension;
+  expect(isWhole(order, 1, 10) && areTerms(terms), "order or parts are wrong");
+  expect(terms.every(({ towards }) => towards === undefined), 'a sun is among the lamps of the terms ("towards"), as older versions wrote it; bake the scene again');
   expect(Array.isArray(components) && isWhole(components.length, 1, 65536), "the components are no list of 1 to 65536");
   expect(components.every((m) => isWhole(m, 0, 600)), "the components of a cluster are wrong");
   if (predictors !== undefined) {
@@ -147,7 +147,7 @@ export function checkLightmap(extension, images) {
   const holds = (value, what) => expect(value, what, TEXELS);
   holds(isObject(extension), "the extension is no object");
   const { version, raw, predictors, packing, maps } = extension;
-  holds(version === 1, `version ${version} is not known, only 1; compress the model again`);
+  holds(version === 2, `version ${version} is not known, only 2; compress the model again`);
   holds(raw === undefined, AS_BAKED);
   inNameOf(TEXELS, () => checkClusters(extension));
   holds(predictors === undefined, "texels have no predictors");
@@ -167,8 +167,8 @@ const areNumbers = (v) => Array.isArray(v) && v.length === 3 && v.every((x) => N
 export function checkVolume(extension) {
   const holds = (value, what) => expect(value, what, PROBES);
   holds(isObject(extension), "the extension is no object");
-  const { version, raw, predictors, packing, incidentOrder, origin, spacing, size, bricks, sights, words } = extension;
-  holds(version === 1, `version ${version} is not known, only 1; compress the model again`);
+  const { version, raw, predictors, packing, incidentOrder, origin, spacing, size, bricks, visibility, words } = extension;
+  holds(version === 2, `version ${version} is not known, only 2; compress the model again`);
   holds(raw === undefined, AS_BAKED);
   holds(isWhole(incidentOrder, 2, 4), "the order of incident light is not 2 to 4");
   holds(areNumbers(origin) && spacing > 0 && spacing < 1e18, "the spacing or the origin is no usable number");
@@ -176,7 +176,7 @@ export function checkVolume(extension) {
   inNameOf(PROBES, () => checkClusters(extension));
   holds(predictors === undefined, "probes have no predictors");
   holds(packing !== undefined, "the weights of probes are not packed");
-  holds([bricks, sights, words].every(isView), "bricks, sights or words are not there");
+  holds([bricks, visibility, words].every(isView), "bricks, visibility or words are not there");
 }
 
 /** Validates PRTKIT_occlusion_volume of a node. */
@@ -226,9 +226,9 @@ export function checkLobes(extension) {
 }
 
 /** Returns the buffer views of a validated extension. */
-export function viewsOf({ packing, centers, predictors, bases, bricks, sights, words }) {
+export function viewsOf({ packing, centers, predictors, bases, bricks, visibility, words }) {
   const { origin, units, scales, steps, axes, values } = bases;
   const coded = values ? [origin, units, scales, steps, axes, values] : [bases];
-  const used = [packing, predictors && centers, ...coded, bricks, sights, words];
-  return used.filter((part) => part !== undefined).map(({ bufferView }) => bufferView);
+  const used = [packing, predictors && centers, ...coded, bricks, visibility, words];
+  return used.filter((term) => term !== undefined).map(({ bufferView }) => bufferView);
 }

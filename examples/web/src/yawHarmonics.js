@@ -5,11 +5,11 @@
 import { polarMatrices, ShLight } from "./sphericalHarmonics.js";
 
 /** Rows [rowCount] of parts, about the polar axis +Y. */
-export function polarRows({ order, parts }, rows) {
+export function polarRows({ order, terms }, rows) {
   const matrices = polarMatrices(order);
   const count = order * order;
   const result = new Float64Array(rows.length);
-  const channels = parts.reduce((sum, part) => sum + part.channels, 0);
+  const channels = terms.reduce((sum, term) => sum + term.channels, 0);
   for (let first = 0; first < rows.length; first += count * channels)
     for (let block = first; block < first + count * channels; block += count)
       matrices.forEach((matrix, l) => {
@@ -35,14 +35,14 @@ export function turnTerms(order, yaw) {
  * `rows` of polarRows; coefficients [order²][3] of `sky`, for direct terms, and of all light, for the other
  * terms.
  */
-export function yawSeries({ order, parts, rowCount }, rows, sky, all, series) {
+export function yawSeries({ order, terms, rowCount }, rows, sky, all, series) {
   const [direct, rest] = [sky, all].map((light) => ShLight.fromCoefficients(order, light).polar);
   const count = order * order;
   const terms = termsOf(order);
   series.fill(0);
   let at = 0;
   for (let r = 0; r < rowCount; ++r)
-    for (const { kind, channels } of parts) {
+    for (const { kind, channels } of terms) {
       const light = kind === "direct" ? direct : rest;
       for (let c = 0; c < 3; ++c) {
         const own = at + (channels === 3 ? c * count : 0);

@@ -45,9 +45,9 @@ function scene(attributes, extension, material = {}) {
 }
 
 const packed = {
-  version: 7,
+  version: 8,
   order: 1,
-  parts: [{ kind: "whole", channels: 1 }],
+  terms: [{ kind: "combined", channels: 1 }],
   components: [1],
   bases: { bufferView: 0, componentType: 5126 },
   packing: { clusterBits: 0, bufferView: 1 }, // one weight of 8 bits
@@ -272,7 +272,7 @@ test("predictors are given the frame of the bake, by each mesh's node", async ()
   [1.5, 1, 2, 3, 1, 1, 1, 1 / 255].forEach((row, r) => assert.ok(Math.abs(constants[4 * r] - row * l0) < 1e-5, `${r}`));
 });
 
-const apart = { ...packed, parts: [{ kind: "direct", channels: 1 }] };
+const apart = { ...packed, terms: [{ kind: "direct", channels: 1 }] };
 
 test("suns of three's light what keeps direct light apart, while they are apart", async () => {
   const light = white();
@@ -298,9 +298,9 @@ test("suns of three's light what keeps direct light apart, while they are apart"
 });
 
 const WITH_LAMPS = {
-  version: 7,
+  version: 8,
   order: 1,
-  parts: [{ kind: "direct", channels: 1 }, { kind: "lamp", channels: 1, name: "Lantern" }, { kind: "lamp", channels: 3, name: "Sign" }],
+  terms: [{ kind: "direct", channels: 1 }, { kind: "lamp", channels: 1, name: "Lantern" }, { kind: "lamp", channels: 3, name: "Sign" }],
   components: [0],
   bases: { bufferView: 0, componentType: 5126 },
 };
@@ -337,11 +337,11 @@ test("lamps are dimmed and coloured by name, and so is what shines", async () =>
 });
 
 test("what shines is dimmed with the group that it is a member of", async () => {
-  const [sky, lantern, sign] = WITH_LAMPS.parts;
-  const parts = [sky, lantern, { ...sign, name: "Street", members: ["Tube", "material 0"] }];
+  const [sky, lantern, sign] = WITH_LAMPS.terms;
+  const terms = [sky, lantern, { ...sign, name: "Street", members: ["Tube", "material 0"] }];
   for (const [material, expected] of [["Tube", 0.5], ["", 0.5], ["Street", 1], ["Lantern", 2]]) {
     const attributes = { _prt_cluster: new BufferAttribute(new Uint8Array(2), 1) };
-    const { gltf, parser, mesh } = scene(attributes, { ...WITH_LAMPS, parts }, { name: material });
+    const { gltf, parser, mesh } = scene(attributes, { ...WITH_LAMPS, terms }, { name: material });
     parser.getDependency = async () => bytesOf(2, 3, 5, 7, 11);
     await new PrtkitPlugin(parser).afterRoot(gltf);
     gltf.userData.prtkit.setLight(white(), 0, null, { Street: 0.5, Lantern: 2 });

@@ -54,7 +54,7 @@ function packedWidths() {
 
 const clusters = (binary, predictors) => ({
   order: ORDER,
-  parts: PARTS,
+  terms: PARTS,
   components: COMPONENTS,
   bases: { bufferView: binary.view(new Float32Array(bases(predictors))), componentType: 5126 },
   packing: { clusterBits: CLUSTER_BITS, bufferView: binary.view(packedWidths()) },
@@ -172,14 +172,14 @@ export function bakedModel(by, change = () => {}) {
       json.images.push(...images(binary, map.width, map.height, (x, y) => texelWords(i, x, y)));
       return { ...map, images: [first, first + 1] };
     });
-    json.extensions = { PRTKIT_lightmap: { version: 1, ...clusters(binary, 0), maps } };
+    json.extensions = { PRTKIT_lightmap: { version: 2, ...clusters(binary, 0), maps } };
   } else {
     const predictors = PREDICTORS[by];
     const rows = 3 * predictors.length;
     const none = new Array(rows).fill(0);
     const centers = { bufferView: binary.view(encodedRows(none, COMPONENTS.map(() => [0, none]))), drops: none };
     const { packing, ...rest } = clusters(binary, rows);
-    json.extensions = { PRTKIT_clustered_pca: { version: 7, ...rest, ...(by === "weights" ? {} : { packing }), predictors, centers } };
+    json.extensions = { PRTKIT_clustered_pca: { version: 8, ...rest, ...(by === "weights" ? {} : { packing }), predictors, centers } };
   }
   change(json, binary);
   return binary.file(json);

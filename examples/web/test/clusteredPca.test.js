@@ -25,9 +25,9 @@ const bytesOf = (...values) => new Uint8Array(new Float32Array(values).buffer);
  * Widths 3 and 5.
  */
 const plain = {
-  version: 7,
+  version: 8,
   order: 1,
-  parts: [{ kind: "whole", channels: 1 }],
+  terms: [{ kind: "combined", channels: 1 }],
   components: [2, 0],
   bases: { bufferView: 0, componentType: 5126 },
   packing: { clusterBits: 1, bufferView: 1 },
@@ -59,9 +59,9 @@ test("the shader's rows times integers are the rows times weights", () => {
 test("coded bases are sums over axes", () => {
   // One axis (3, -1) of three channels and order 1 would be dimension 3; here dimension 3, two axes.
   const extension = {
-    version: 7,
+    version: 8,
     order: 1,
-    parts: [{ kind: "direct", channels: 3 }],
+    terms: [{ kind: "direct", channels: 3 }],
     components: [1],
     bases: {
       origin: { bufferView: 0, componentType: 5126 },
@@ -99,9 +99,9 @@ test("coded bases are sums over axes", () => {
  * rows.
  */
 const predicted = {
-  version: 7,
+  version: 8,
   order: 1,
-  parts: [{ kind: "whole", channels: 1 }],
+  terms: [{ kind: "combined", channels: 1 }],
   components: [1, 0],
   predictors: [
     { kind: "normal", scale: [2, 4, 8] },
@@ -157,9 +157,9 @@ test("the shader's rows times coordinates are the rows times scaled ones less th
 
 test("steps of coded bases are powers of two in each cluster and group of axes", () => {
   const extension = {
-    version: 7,
+    version: 8,
     order: 1,
-    parts: [{ kind: "direct", channels: 3 }],
+    terms: [{ kind: "direct", channels: 3 }],
     components: [0, 0],
     bases: {
       origin: { bufferView: 0, componentType: 5126 },
@@ -230,29 +230,29 @@ test("predictors that make no sense are refused", () => {
 });
 
 test("three channels meet three colours", () => {
-  const clusters = { order: 1, parts: [{ kind: "whole", channels: 3 }], rowCount: 1 };
+  const clusters = { order: 1, terms: [{ kind: "combined", channels: 3 }], rowCount: 1 };
   assert.deepEqual([...updateConstants(clusters, [1, 2, 3], [10, 20, 30], new Float32Array(4))], [10, 40, 90, 0]);
 });
 
 test("direct light is lit by the sky, the rest by sky and suns", () => {
-  const parts = [{ kind: "direct", channels: 1 }, { kind: "indirect", channels: 3 }];
-  const clusters = { order: 1, parts, rowCount: 1 };
+  const terms = [{ kind: "direct", channels: 1 }, { kind: "indirect", channels: 3 }];
+  const clusters = { order: 1, terms, rowCount: 1 };
   const columns = lightColumns(clusters, [10, 20, 30, 99], [1, 2, 3]);
   assert.deepEqual([...columns], [10, 20, 30, 11, 22, 33]);
   const row = [5, 1, 2, 3];
   assert.deepEqual([...updateConstants(clusters, row, columns, new Float32Array(4))], [50 + 11, 100 + 44, 150 + 99, 0]);
-  const whole = { order: 1, parts: [{ kind: "whole", channels: 1 }] };
+  const whole = { order: 1, terms: [{ kind: "combined", channels: 1 }] };
   assert.deepEqual([...lightColumns(whole, [10, 20, 30], [1, 2, 3])], [11, 22, 33]);
   assert.deepEqual([...lightColumns(clusters, [10, 20, 30])], [10, 20, 30, 10, 20, 30]);
 });
 
 test("parts that make no sense are refused", () => {
   const of = (...kinds) => kinds.map((kind) => ({ kind, channels: 1 }));
-  for (const parts of [undefined, [], of("lamp"), of("indirect", "direct"), of("direct", "whole"), of("direct", "direct"), of("direct,indirect")])
-    assert.throws(() => decodeClusters({ ...plain, parts }, (i) => plainViews[i]), /parts/);
+  for (const terms of [undefined, [], of("lamp"), of("indirect", "direct"), of("direct", "combined"), of("direct", "direct"), of("direct,indirect")])
+    assert.throws(() => decodeClusters({ ...plain, terms }, (i) => plainViews[i]), /terms/);
   const sun = { kind: "lamp", channels: 1, name: "sun 12:00", towards: [0, 1, 0] };
-  assert.throws(() => decodeClusters({ ...plain, parts: [...of("whole"), sun] }, (i) => plainViews[i]), /bake the scene again/);
-  assert.throws(() => decodeClusters({ ...plain, parts: [{ kind: "whole", channels: 2 }] }, (i) => plainViews[i]), /parts/);
+  assert.throws(() => decodeClusters({ ...plain, terms: [...of("combined"), sun] }, (i) => plainViews[i]), /bake the scene again/);
+  assert.throws(() => decodeClusters({ ...plain, terms: [{ kind: "combined", channels: 2 }] }, (i) => plainViews[i]), /terms/);
 });
 
 test("files that are damaged or of another version are refused with a reason", () => {
@@ -286,9 +286,9 @@ test("rows of zeros take no more memory than a file may", () => {
 
 test("a row has a value for each coefficient of each channel", () => {
   const extension = {
-    version: 7,
+    version: 8,
     order: 2,
-    parts: [{ kind: "whole", channels: 3 }],
+    terms: [{ kind: "combined", channels: 3 }],
     components: [0],
     bases: { bufferView: 0, componentType: 5126 },
   };

@@ -877,8 +877,8 @@ await check("lightmaps of prt: the picture is that of prt render", async (page, 
 });
 
 for (const [name, extensions] of Object.entries({
-  PRTKIT_transfer: { PRTKIT_transfer: { version: 4 } },
-  PRTKIT_lightmap: { PRTKIT_lightmap: { version: 1, raw: {} } },
+  PRTKIT_transfer: { PRTKIT_transfer: { version: 5 } },
+  PRTKIT_lightmap: { PRTKIT_lightmap: { version: 2, raw: {} } },
 }))
   await check(`a raw bake with ${name} gives the command that ships it`, async (page) => {
     const raw = join(work, "raw.glb");

@@ -59,7 +59,7 @@ export function instanceModel(by = "vertices", change = () => {}) {
     const next = random(7);
     const row = (most, mean) => Array.from({ length: SIZE }, (_, a) => (mean && a % 4 === 0 ? 0.25 : 0) + most * (next() - 0.5));
     const rows = COMPONENTS.flatMap((m) => [...row(0.05, true), ...Array.from({ length: predictors + m }, () => row(0.08, false)).flat()]);
-    Object.assign(clusters, { parts: PARTS, bases: { bufferView: binary.view(Float32Array.from(rows)), componentType: 5126 } });
+    Object.assign(clusters, { terms: PARTS, bases: { bufferView: binary.view(Float32Array.from(rows)), componentType: 5126 } });
     json.materials = json.materials.map(({ normalTexture: _, ...material }) => ({ ...material, emissiveFactor: [0, 0, 0] }));
     delete json.images;
     delete json.textures;

@@ -378,7 +378,7 @@ for (const [what, change, message] of [
   ["an accessor that is not there", (json) => (gpuOf(json).SCALE = 999), /node 1 draws no instances, or more/],
   ["instances without end", (json) => (json.accessors = undefined, gpuOf(json).SCALE = -1), /node 1 draws no instances, or more/],
   ["a lamp", (json) => {
-    json.extensions.PRTKIT_clustered_pca.parts = [{ kind: "indirect", channels: 3 }, ...[0, 1, 2, 3].map((i) => ({ kind: "lamp", channels: 1, name: `lamp ${i}` }))];
+    json.extensions.PRTKIT_clustered_pca.terms = [{ kind: "indirect", channels: 3 }, ...[0, 1, 2, 3].map((i) => ({ kind: "lamp", channels: 1, name: `lamp ${i}` }))];
   }, /transfer of lamps is not shared/],
 ])
   test(`${what}: refused with a reason`, async () => {

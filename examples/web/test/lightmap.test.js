@@ -58,7 +58,7 @@ test("images of words are decoded without conversion", async () => {
 
 test("images beside the file are read, too", async () => {
   const { userData } = await load((json, binary) => {
-    const bytes = binary.parts[2 * json.images[1].bufferView];
+    const bytes = binary.terms[2 * json.images[1].bufferView];
     json.images[1] = { uri: `data:image/png;base64,${bytes.toString("base64")}` };
   });
   assert.equal(userData.prtkit.maps.maps[0].words.length, 2);

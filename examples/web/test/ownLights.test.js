@@ -11,7 +11,7 @@ const ORDER = 3;
 
 class Recorded extends LitTransfer {
   constructor(root = new Group()) {
-    super({ order: ORDER, parts: [{ kind: "direct", channels: 3 }] }, root);
+    super({ order: ORDER, terms: [{ kind: "direct", channels: 3 }] }, root);
   }
 
   update(sky, suns) {

@@ -34,7 +34,7 @@ const allNear = (actual, expected, tolerance, what) => expected.forEach((value, 
  */
 function modelTowardsX(root) {
   const values = [0.25, 0, 0, -0.3];
-  const extension = { version: 7, order: 2, parts: [{ kind: "whole", channels: 1 }], components: [0], bases: { bufferView: 0 } };
+  const extension = { version: 8, order: 2, terms: [{ kind: "combined", channels: 1 }], components: [0], bases: { bufferView: 0 } };
   return new PrtkitModel(decodeClusters(extension, () => new Uint8Array(new Float32Array(values).buffer)), root);
 }
 

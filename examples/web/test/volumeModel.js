@@ -55,11 +55,11 @@ function randomWords() {
 }
 
 /** Probes that see all around, some less far, and some that are inside of something. */
-function sightsOf(open) {
+function visibilityOf(open) {
   const next = random(3);
   return Uint8Array.from({ length: 6 * PROBES }, (_, i) => {
-    const sight = 110 + Math.floor(145 * next());
-    return open ? 255 : Math.floor(i / 6) % 17 === 3 ? 0 : Math.floor(i / 6) % 3 === 0 ? sight : 255;
+    const visibility = 110 + Math.floor(145 * next());
+    return open ? 255 : Math.floor(i / 6) % 17 === 3 ? 0 : Math.floor(i / 6) % 3 === 0 ? visibility : 255;
   });
 }
 
@@ -68,13 +68,13 @@ export function volumeExtension(binary, { incidentOrder = 3, open = false } = {}
   const outputs = incidentOrder ** 2;
   const view = (array) => ({ bufferView: binary.view(array) });
   return {
-    version: 1,
+    version: 2,
     order: ORDER,
     incidentOrder,
-    parts: PARTS,
+    terms: PARTS,
     ...GRID,
     bricks: view(Uint16Array.from(BRICKS)),
-    sights: view(sightsOf(open)),
+    visibility: view(visibilityOf(open)),
     components: COMPONENTS,
     bases: { ...view(Float32Array.from(rowsOf(outputs, open))), componentType: 5126 },
     packing: { clusterBits: CLUSTER_BITS, ...view(packedWidths()) },
@@ -98,9 +98,9 @@ export function incidentAt({ clusters, words, stride }, probe, columns) {
   const { rowCount, outputs, rows } = clusters;
   const size = rows.length / (rowCount * outputs);
   return Array.from({ length: outputs }, (_, o) => {
-    const part = new Float32Array(rowCount * size);
-    for (let r = 0; r < rowCount; ++r) part.set(rows.subarray((r * outputs + o) * size, (r * outputs + o + 1) * size), r * size);
-    return radianceOfWords({ ...clusters, rows: part }, columns, own);
+    const term = new Float32Array(rowCount * size);
+    for (let r = 0; r < rowCount; ++r) term.set(rows.subarray((r * outputs + o) * size, (r * outputs + o + 1) * size), r * size);
+    return radianceOfWords({ ...clusters, rows: term }, columns, own);
   });
 }
 
@@ -117,7 +117,7 @@ function brickAt({ origin, spacing, size, bricks }, place) {
 }
 
 /** Returns [probe, weight] of the eight probes around a position, as defined in docs/format.md. */
-export function weightsAt({ grid, sights }, position, normal) {
+export function weightsAt({ grid, visibility }, position, normal) {
   const { origin, spacing, size, bricks, ofBrick, corners, levels } = grid;
   const most = origin.map((x, a) => x + 4 * spacing * size[a]);
   const inside = position.map((x, a) => clamp(x, origin[a], most[a]));
@@ -135,8 +135,8 @@ export function weightsAt({ grid, sights }, position, normal) {
     const trilinear = step.reduce((product, s, a) => product * (s ? at[a] - low[a] : 1 - at[a] + low[a]), 1);
     const passed = biased.reduce((sum, x, a) => {
       const from = x - (origin[a] + spacing * corners[3 * probe + a]);
-      const sight = sights[6 * probe + 2 * a + (from > 0 ? 1 : 0)];
-      return sum + Math.abs(from) / Math.max(4 * spacing * 2 ** levels[probe] * (sight / 255) ** 2, 1e-18);
+      const visibility = visibility[6 * probe + 2 * a + (from > 0 ? 1 : 0)];
+      return sum + Math.abs(from) / Math.max(4 * spacing * 2 ** levels[probe] * (visibility / 255) ** 2, 1e-18);
     }, 0);
     const t = clamp((passed - 0.9) / 0.3, 0, 1);
     return [probe, trilinear * Math.max(1 - t * t * (3 - 2 * t), 1e-4)];

@@ -2,11 +2,11 @@
 // shaders.
 
 /** Red, green and blue of the texel with `words` under the colours `columns` (lightColumns) that light the parts. */
-export function radianceOfWords({ parts, order, components, firstRows, rows, widths, clusterBits }, columns, words) {
+export function radianceOfWords({ terms, order, components, firstRows, rows, widths, clusterBits }, columns, words) {
   const bits = words.reduce((sum, word, j) => sum | (BigInt(word) << BigInt(32 * j)), 0n);
   const take = (at, width) => Number((bits >> BigInt(at)) & ((1n << BigInt(width)) - 1n));
   const cluster = take(0, clusterBits);
-  const size = parts.reduce((sum, { kind, channels }) => sum + channels * (kind === "lamp" ? 1 : order * order), 0);
+  const size = terms.reduce((sum, { kind, channels }) => sum + channels * (kind === "lamp" ? 1 : order * order), 0);
   const row = (r) => rows.subarray((firstRows[cluster] + r) * size, (firstRows[cluster] + r + 1) * size);
   const vector = Float64Array.from(row(0));
   let at = clusterBits;
@@ -18,7 +18,7 @@ export function radianceOfWords({ parts, order, components, firstRows, rows, wid
   }
   let [i, light] = [0, 0];
   const radiance = [0, 0, 0];
-  for (const { kind, channels } of parts) {
+  for (const { kind, channels } of terms) {
     const count = kind === "lamp" ? 1 : order * order;
     for (let c = 0; c < 3; ++c)
       for (let k = 0; k < count; ++k) radiance[c] += vector[i + (channels === 3 ? c : 0) * count + k] * columns[light + 3 * k + c];

@@ -14,8 +14,8 @@
 namespace prt {
 
 /// Returns sqrt( sum_p a_p |T_p - T'_p|² / sum_p a_p |T_p|² ); 0 when both sums are zero. A grey transfer is
-/// compared with a colored one as three equal channels. Transfers with different parts are compared after
-/// `as_whole`. Throws `Error` if receivers, orders or lamps differ.
+/// compared with a colored one as three equal channels. Transfers with different terms are compared after
+/// `as_combined`. Throws `Error` if receivers, orders or lamps differ.
 double relative_l2(const TransferView& reference, const TransferView& approximation,
                    std::span<const float> areas);
 

@@ -38,13 +38,13 @@ inline Transfer zero_transfer(TransferLayout layout, std::size_t receivers) {
     transfer.vectors.resize(receivers * transfer.dimension());
     return transfer;
 }
-/// Returns zero transfer with a single part.
+/// Returns zero transfer with a single term.
 inline Transfer zero_transfer(int order, int channels, std::size_t receivers) {
     return zero_transfer(layout_of_one(order, channels), receivers);
 }
 
-/// Returns the sum over all parts of one transfer vector [layout.dimension()], lit by `columns`, the result
-/// of `light_columns`. The single channel of a grey part is used for all colors.
+/// Returns the sum over all terms of one transfer vector [layout.dimension()], lit by `columns`, the result
+/// of `light_columns`. The single channel of a grey term is used for all colors.
 glm::vec3 exit_radiance(std::span<const float> transfer, const TransferLayout& layout,
                         std::span<const glm::vec3> columns);
 
@@ -54,14 +54,14 @@ std::vector<glm::vec3> exit_radiance(const Transfer& transfer, const Lighting& l
 /// Computes exit radiance with all light in one sky, [receivers].
 std::vector<glm::vec3> exit_radiance(const Transfer& transfer, const Light& light, int threads = 0);
 
-/// Merges all parts of distant light into one, with three channels if any part has color. Sky and suns then
-/// light the same part. Lamps are unchanged.
-TransferLayout as_whole(const TransferLayout& layout);
-Transfer as_whole(const Transfer& transfer, int threads = 0);
-/// Merges the parts of one vector [layout.dimension()].
-std::vector<float> as_whole(std::span<const float> transfer, const TransferLayout& layout);
+/// Merges all terms of distant light into one, with three channels if any term has color. Sky and suns then
+/// light the same term. Lamps are unchanged.
+TransferLayout as_combined(const TransferLayout& layout);
+Transfer as_combined(const Transfer& transfer, int threads = 0);
+/// Merges the terms of one vector [layout.dimension()].
+std::vector<float> as_combined(std::span<const float> transfer, const TransferLayout& layout);
 
-/// Returns the area-weighted mean of T_0 / Y_00, summed over all parts except lamps and averaged over the
+/// Returns the area-weighted mean of T_0 / Y_00, summed over all terms except lamps and averaged over the
 /// channels: the fraction of a uniform sky's light that arrives.
 double mean_visibility(const Transfer& transfer, std::span<const float> areas);
 

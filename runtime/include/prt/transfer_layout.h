@@ -1,6 +1,6 @@
 #pragma once
 
-// Layout of a transfer vector: parts that respond to different light, stored one after another. Experimental.
+// Layout of a transfer vector: terms that respond to different light, stored one after another. Experimental.
 
 #include "prt/light.h"
 #include "prt/sh_basis.h"
@@ -13,19 +13,19 @@
 
 namespace prt {
 
-/// Type of light that a part of transfer carries. It determines the lighting of the part.
-enum class PartKind {
+/// Type of light that a term of transfer carries. It determines the lighting of the term.
+enum class TermKind {
     direct,   ///< distant light without a bounce: the renderer can shadow suns itself
     indirect, ///< distant light after one bounce or more, and through participating media
-    whole,    ///< direct and indirect combined
+    combined, ///< direct and indirect combined
     lamp,     ///< light of a group of scene lamps that share one strength
 };
 
-/// Returns the identifier used in files and reports: "direct", "indirect", "whole", "lamp".
-const char* to_string(PartKind kind);
+/// Returns the identifier used in files and reports: "direct", "indirect", "combined", "lamp".
+const char* to_string(TermKind kind);
 
-struct TransferPart {
-    PartKind kind = PartKind::whole;
+struct TransferTerm {
+    TermKind kind = TermKind::combined;
     int channels = 1;      ///< 1: grey, the same for red, green and blue; else 3
     std::string name = {}; ///< name of a lamp, to set its strength; empty for all other kinds
     /// Names of the lights and materials of the scene in this group; empty: `name` is the only member.
@@ -33,58 +33,58 @@ struct TransferPart {
 
     /// Returns whether a light or material of that name belongs to the lamp.
     bool has_member(const std::string& member) const;
-    friend bool operator==(const TransferPart&, const TransferPart&) = default;
+    friend bool operator==(const TransferTerm&, const TransferTerm&) = default;
 };
 
 /// Maximum number of lamps of a layout; a group with any number of lights counts once.
 inline constexpr std::size_t kMaxLamps = 64;
 
-/// A transfer vector is the concatenation of its parts, each [channels][columns_of(part)]. With several
+/// A transfer vector is the concatenation of its terms, each [channels][columns_of(term)]. With several
 /// outputs, it is one such vector per output.
 struct TransferLayout {
     int order = 0;
-    std::vector<TransferPart> parts = {}; ///< at most one of each kind except lamps, in the order of
-                                          ///< `PartKind`
+    std::vector<TransferTerm> terms = {}; ///< at most one of each kind except lamps, in the order of
+                                          ///< `TermKind`
     /// Number of colors that a receiver computes from a lighting: 1 for exit radiance; 4, 9 or 16 for the
     /// coefficients of incident light at a probe.
     std::size_t outputs = 1;
 
-    /// Returns 3 if any part has color, else 1.
+    /// Returns 3 if any term has color, else 1.
     int channels() const;
-    /// Returns whether a part of that kind exists. With `direct`, suns can be lit separately from the sky.
-    bool has(PartKind kind) const;
-    /// Number of colors that light a part: order² coefficients of a sky, or the one strength of a lamp.
-    std::size_t columns_of(const TransferPart& part) const {
-        return part.kind == PartKind::lamp ? 1 : static_cast<std::size_t>(coefficient_count(order));
+    /// Returns whether a term of that kind exists. With `direct`, suns can be lit separately from the sky.
+    bool has(TermKind kind) const;
+    /// Number of colors that light a term: order² coefficients of a sky, or the one strength of a lamp.
+    std::size_t columns_of(const TransferTerm& term) const {
+        return term.kind == TermKind::lamp ? 1 : static_cast<std::size_t>(coefficient_count(order));
     }
-    /// Number of coefficients of a part.
-    std::size_t numbers_of(const TransferPart& part) const {
-        return static_cast<std::size_t>(part.channels) * columns_of(part);
+    /// Number of coefficients of a term.
+    std::size_t numbers_of(const TransferTerm& term) const {
+        return static_cast<std::size_t>(term.channels) * columns_of(term);
     }
     /// Number of coefficients of a transfer vector, over all outputs.
     std::size_t dimension() const;
     /// Returns the layout of the vector of one output.
-    TransferLayout of_one_output() const { return {order, parts}; }
+    TransferLayout of_one_output() const { return {order, terms}; }
     /// Number of light colors that a transfer vector is multiplied with.
     std::size_t columns() const;
-    /// Return the parts of distant light, and the lamps, which follow them.
-    std::span<const TransferPart> distant_parts() const;
-    std::span<const TransferPart> lamp_parts() const;
-    std::size_t lamps() const { return lamp_parts().size(); }
+    /// Return the terms of distant light, and the lamps, which follow them.
+    std::span<const TransferTerm> distant_terms() const;
+    std::span<const TransferTerm> lamp_terms() const;
+    std::size_t lamps() const { return lamp_terms().size(); }
     /// Number of coefficients that distant light is multiplied with; they are the first of each output.
     std::size_t distant_numbers() const;
 
     friend bool operator==(const TransferLayout&, const TransferLayout&) = default;
 };
 
-/// Returns the layout of a single part.
-TransferLayout layout_of_one(int order, int channels, PartKind kind = PartKind::whole);
+/// Returns the layout of a single term.
+TransferLayout layout_of_one(int order, int channels, TermKind kind = TermKind::combined);
 
-/// Throws `Error` unless the order is valid and the parts satisfy the conditions documented in `TransferPart`
+/// Throws `Error` unless the order is valid and the terms satisfy the conditions documented in `TransferTerm`
 /// and `TransferLayout`.
 void check_layout(const TransferLayout& layout);
 
-/// The lighting of a frame. `sky` lights `direct` transfer; `sky` and `suns` light all other distant parts.
+/// The lighting of a frame. `sky` lights `direct` transfer; `sky` and `suns` light all other distant terms.
 struct Lighting {
     Light sky;
     /// Suns that the renderer adds to direct light with sharp shadows, as the sum of their `as_light`.
@@ -118,7 +118,7 @@ inline constexpr std::size_t kMaxTransferNumbers = // per output
 inline constexpr std::size_t kMaxLightColumns =
     2 * static_cast<std::size_t>(coefficient_count(kMaxOrder)) + kMaxLamps;
 
-/// Returns the colors that each part is multiplied with, part after part: [layout.columns()]. Throws `Error`
+/// Returns the colors that each term is multiplied with, term after term: [layout.columns()]. Throws `Error`
 /// if `lighting` has fewer bands than the layout, or another number of lamps.
 std::vector<glm::vec3> light_columns(const TransferLayout& layout, const LightingView& lighting);
 /// Writes the colors of `light_columns` to `columns` [layout.columns()]; allocates nothing.

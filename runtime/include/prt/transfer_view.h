@@ -46,8 +46,8 @@ private:
     Read read_;
 };
 
-/// Applies `as_whole` of prt/transfer.h to each vector.
-TransferView as_whole(TransferView transfer);
+/// Applies `as_combined` of prt/transfer.h to each vector.
+TransferView as_combined(TransferView transfer);
 /// Reorders receivers: receiver order[p] becomes receiver p. Keeps `order` [receivers].
 TransferView in_order(TransferView transfer, std::vector<std::uint32_t> order);
 

@@ -72,20 +72,20 @@ inline glm::vec3 position_of(const VolumeGrid& grid, const glm::ivec3& corner) {
     return grid.origin + grid.spacing * glm::vec3(corner);
 }
 
-/// Visibility distance of a probe along -x, +x, -y, +y, -z, +z: 255 · sqrt(distance / (kSightCells cells)),
-/// with cells of the probe's level. 0: the probe is inside geometry. A point at offset d from the probe is
-/// hidden if |d_a| / distance_a exceeds 1 on any axis (docs/math.md, section 19).
-using ProbeSight = std::array<std::uint8_t, 6>;
-inline constexpr float kSightCells = 4;
+/// Visibility distance of a probe along -x, +x, -y, +y, -z, +z: 255 · sqrt(distance / (kVisibilityCells
+/// cells)), with cells of the probe's level. 0: the probe is inside geometry. A point at offset d from the
+/// probe is hidden if |d_a| / distance_a exceeds 1 on any axis (docs/math.md, section 19).
+using ProbeVisibility = std::array<std::uint8_t, 6>;
+inline constexpr float kVisibilityCells = 4;
 
-ProbeSight sight_of(const std::array<float, 6>& distances, float cell);
-std::array<float, 6> distances_of(const ProbeSight& sight, float cell);
+ProbeVisibility visibility_of(const std::array<float, 6>& distances, float cell);
+std::array<float, 6> distances_of(const ProbeVisibility& visibility, float cell);
 
 /// Volume as produced by a bake.
 struct BakedVolume {
     VolumeGrid grid;
-    int order = 3;                  ///< order of incident light
-    std::vector<ProbeSight> sights; ///< [probes]
+    int order = 3;                           ///< order of incident light
+    std::vector<ProbeVisibility> visibility; ///< [probes]
     /// Receivers are coefficients of incident light, probe by probe: [probes][order²].
     BakedTransfer baked;
 
@@ -96,7 +96,7 @@ struct BakedVolume {
 struct CompressedVolume {
     VolumeGrid grid;
     int order = 3;
-    std::vector<ProbeSight> sights;
+    std::vector<ProbeVisibility> visibility;
     CompressedTransfer compressed;
 };
 
@@ -114,7 +114,7 @@ struct VolumeCorners {
 /// Finds the probes around a position and excludes those behind surfaces. Copies its input; thread-safe.
 class VolumeLookup {
 public:
-    VolumeLookup(const VolumeGrid& grid, std::span<const ProbeSight> sights);
+    VolumeLookup(const VolumeGrid& grid, std::span<const ProbeVisibility> visibility);
 
     const VolumeProbes& probes() const { return probes_; }
     /// Returns the probes for `position` in metres, clamped to the volume. `normal` is the normal of the lit

@@ -42,7 +42,7 @@ public:
     std::size_t bytes() const;
 
     /// Writes the constants of ClusterLighting to `constants` [rows]. Writes the visibility of a sun in unit
-    /// direction `sun` to `w` of output 0: 0 without a sun, or without a `direct` part, since the transfer
+    /// direction `sun` to `w` of output 0: 0 without a sun, or without a `direct` term, since the transfer
     /// then includes suns. Throws `Error` as ClusterLighting.
     void update_constants(const LightingView& lighting, const std::optional<glm::vec3>& sun,
                           std::span<glm::vec4> constants) const;

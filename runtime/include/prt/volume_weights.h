@@ -16,7 +16,7 @@ namespace prt {
 /// Offset of the lookup along the normal of a lit surface, in cells.
 inline constexpr float kNormalBias = 0.25f;
 /// The weight of a probe falls from 1 to its minimum between these multiples of the visibility distance.
-inline constexpr float kSightFull = 0.8f, kSightNone = 1.03f;
+inline constexpr float kVisibilityFull = 0.8f, kVisibilityNone = 1.03f;
 /// Minimum weight of a hidden probe at the visibility distance, decreasing with distance, so that weights
 /// never sum to zero. If all probes are hidden, the least hidden ones dominate.
 inline constexpr float kHiddenWeight = 1e-4f;
@@ -25,12 +25,13 @@ inline constexpr float kBlindNearness = 1e18f;
 
 /// Returns the visibility weight of a probe for a point at offset `from`. `nearness` is 1 / visibility
 /// distance along -x, +x, -y, ..
-inline float sight_weight(const std::array<float, 6>& nearness, const glm::vec3& from) {
+inline float visibility_weight(const std::array<float, 6>& nearness, const glm::vec3& from) {
     float passed = 0; // 1: at the distance of the surface
     for (int a = 0; a < 3; ++a)
         passed = std::max(passed, std::abs(from[a]) *
                                       nearness[static_cast<std::size_t>(2 * a + (from[a] > 0 ? 1 : 0))]);
-    const float behind = std::clamp((passed - kSightFull) / (kSightNone - kSightFull), 0.0f, 1.0f);
+    const float behind =
+        std::clamp((passed - kVisibilityFull) / (kVisibilityNone - kVisibilityFull), 0.0f, 1.0f);
     const float open = 1 - behind * behind * (3 - 2 * behind);
     const float beyond = std::clamp(passed, 1.0f, 16.0f), squared = beyond * beyond,
                 fourth = squared * squared;

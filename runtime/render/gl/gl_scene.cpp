@@ -234,7 +234,7 @@ Blocking GlScene::blocking(const Primitive& primitive) const {
         return Blocking::nothing;
     const bool varies = texture_of(material.base_color_texture, vertices) || vertices.colors.name() != 0;
     const bool blended = material.alpha_mode == AlphaMode::blend && (varies || material.base_color.a < 1);
-    return blended || material.glass.factor > 0 ? Blocking::part : Blocking::all;
+    return blended || material.glass.factor > 0 ? Blocking::term : Blocking::all;
 }
 
 void GlScene::draw_caster(const GlObject& program, const GlVertexArrays& arrays, std::size_t index) const {

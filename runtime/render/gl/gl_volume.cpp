@@ -14,9 +14,9 @@ namespace prt {
 namespace {
 
 static_assert(kNormalBias == static_cast<float>(PRT_VOLUME_NORMAL_BIAS) &&
-              kSightCells == static_cast<float>(PRT_VOLUME_SIGHT_CELLS) &&
-              kSightFull == static_cast<float>(PRT_VOLUME_SIGHT_FULL) &&
-              kSightNone == static_cast<float>(PRT_VOLUME_SIGHT_NONE) &&
+              kVisibilityCells == static_cast<float>(PRT_VOLUME_VISIBILITY_CELLS) &&
+              kVisibilityFull == static_cast<float>(PRT_VOLUME_VISIBILITY_FULL) &&
+              kVisibilityNone == static_cast<float>(PRT_VOLUME_VISIBILITY_NONE) &&
               kHiddenWeight == static_cast<float>(PRT_VOLUME_HIDDEN_WEIGHT));
 
 GLenum format_of(VolumeFormat format) {
@@ -64,19 +64,20 @@ GlVolume::GlVolume(const CompressedVolume& volume, VolumeFormat format)
     clusters_ = make_buffer(std::span<const ClusterLayout>(clusters));
     constants_ = make_buffer(std::span<const glm::vec4>(computed_));
     words_ = make_buffer(std::span<const std::byte>(transfer.receivers.weights));
-    const VolumeLookup lookup(volume.grid, volume.sights);
+    const VolumeLookup lookup(volume.grid, volume.visibility);
     const auto& probes = lookup.probes().of_brick;
     probes_ = make_buffer(std::as_bytes(std::span(probes)));
     const VolumeAtlas& atlas = relighter_.atlas();
-    const std::vector<std::uint32_t> sights = sight_texels(volume.grid, lookup.probes(), volume.sights),
+    const std::vector<std::uint32_t> visibility =
+                                         visibility_texels(volume.grid, lookup.probes(), volume.visibility),
                                      index = index_texels(volume.grid, lookup.index());
-    sights_ = make_words(GL_RG32UI, GL_RG_INTEGER, atlas.sight_texels(), sights);
+    visibility_ = make_words(GL_RG32UI, GL_RG_INTEGER, atlas.visibility_texels(), visibility);
     index_ = make_words(GL_R32UI, GL_RED_INTEGER, volume.grid.size, index);
     light_ = make_texture_3d(format_of(format), atlas.light_texels(),
                              format == VolumeFormat::rgba16 ? GL_LINEAR : GL_NEAREST);
     bytes_ = clusters.size() * sizeof(ClusterLayout) + computed_.size() * sizeof(glm::vec4) +
              transfer.receivers.weights.size() + probes.size() * sizeof(probes[0]) +
-             4 * (sights.size() + index.size()) + relighter_.bytes();
+             4 * (visibility.size() + index.size()) + relighter_.bytes();
 }
 
 void GlVolume::set_light(const Lighting& lighting, const std::optional<glm::vec3>& sun) {
@@ -104,7 +105,7 @@ void GlVolume::upload(std::span<const std::byte> texels) {
 
 void GlVolume::bind() const {
     glBindTextureUnit(PRT_UNIT_VOLUME_LIGHT, light_.name());
-    glBindTextureUnit(PRT_UNIT_VOLUME_SIGHTS, sights_.name());
+    glBindTextureUnit(PRT_UNIT_VOLUME_VISIBILITY, visibility_.name());
     glBindTextureUnit(PRT_UNIT_VOLUME_INDEX, index_.name());
 }
 

@@ -65,7 +65,7 @@ SunShadows::SunShadows(const GlScene& scene, int largest_map)
     : scene_(scene), box_(bounds(scene.scene())), largest_map_(largest_map),
       casters_(scene.make_vertex_arrays()), blocking_(make_program("sun_caster.vert", "sun_caster.frag")) {
     for (const Primitive& primitive : scene.scene().primitives)
-        layered_ |= scene.blocking(primitive) == Blocking::part;
+        layered_ |= scene.blocking(primitive) == Blocking::term;
     if (layered_)
         partly_ = make_program("sun_caster.vert", "sun_caster.frag", "#define PRT_PARTLY\n");
     suns_ = make_buffer(std::span<const suns::SunsSeen>(std::vector<suns::SunsSeen>(1)));
@@ -154,7 +154,7 @@ void SunShadows::set_map(const GlObject& program, int map, int size) {
 
 /// Draws the casters that belong to `program`.
 void SunShadows::draw_blocking(const GlObject& program, int map) const {
-    const Blocking drawn = &program == &blocking_ ? Blocking::all : Blocking::part;
+    const Blocking drawn = &program == &blocking_ ? Blocking::all : Blocking::term;
     glUseProgram(program.name());
     bind_storage(PRT_BINDING_SUNS, suns_);
     set_map(program, map, size_);

@@ -147,7 +147,7 @@ void write_into(GltfContents& contents, const Scene& scene, const CompressedTran
     Json& extension =
         extensions_of(contents.json)[kClusteredExtension] = {{"version", kClusteredVersion},
                                                              {"order", bases.layout.order},
-                                                             {"parts", parts_json(bases.layout)},
+                                                             {"terms", terms_json(bases.layout)},
                                                              {"components", bases.components}};
     write_predictors(contents, scene, bases, extension);
     extension["bases"] = write_bases(contents, bases);

@@ -7,9 +7,9 @@
 
 namespace prt {
 
-inline constexpr int kClusteredVersion = 7;
+inline constexpr int kClusteredVersion = 8;
 
-/// Reads order, parts and components of an extension. Throws `Error` if they are invalid.
+/// Reads order, terms and components of an extension. Throws `Error` if they are invalid.
 ClusteredBases read_clusters_of(const Json& extension, std::size_t outputs = 1);
 
 Json write_bases(GltfContents& contents, const ClusteredBases& bases);

@@ -14,7 +14,7 @@
 namespace prt {
 namespace {
 
-constexpr int kLightmapVersion = 1;
+constexpr int kLightmapVersion = 2;
 
 Json maps_json(const LightmapLayout& layout) {
     Json maps = Json::array();
@@ -34,7 +34,7 @@ Json& write_layout(GltfContents& contents, const Scene& scene, const LightmapLay
     contents.use_extension(kLightmapExtension);
     return extensions_of(contents.json)[kLightmapExtension] = {{"version", kLightmapVersion},
                                                                {"order", transfer.order},
-                                                               {"parts", parts_json(transfer)},
+                                                               {"terms", terms_json(transfer)},
                                                                {"maps", maps_json(layout)}};
 }
 

@@ -11,7 +11,7 @@
 namespace prt {
 namespace {
 
-constexpr int kTransferVersion = 4;
+constexpr int kTransferVersion = 5;
 
 void write_into(GltfContents& contents, const Scene& scene, const BakedTransfer& baked) {
     const std::vector<Json*> primitives = unshare(contents, scene);
@@ -28,7 +28,7 @@ void write_into(GltfContents& contents, const Scene& scene, const BakedTransfer&
             {"vectors", views[scene.primitives[i].vertices]}};
     extensions_of(contents.json)[kTransferExtension] = {{"version", kTransferVersion},
                                                         {"order", transfer.layout.order},
-                                                        {"parts", parts_json(transfer.layout)},
+                                                        {"terms", terms_json(transfer.layout)},
                                                         {"bake", record_json(baked.record)}};
     contents.use_extension(kTransferExtension);
 }

@@ -27,21 +27,21 @@ Enum one_of(const Json& json, const char* key, std::initializer_list<Enum> value
     throw Error(std::string(key) + " of the bake is a word that this program does not know");
 }
 
-PartKind read_kind(const std::string& word) {
-    for (const PartKind kind : {PartKind::direct, PartKind::indirect, PartKind::whole, PartKind::lamp})
+TermKind read_kind(const std::string& word) {
+    for (const TermKind kind : {TermKind::direct, TermKind::indirect, TermKind::combined, TermKind::lamp})
         if (word == to_string(kind))
             return kind;
-    throw Error("the transfer has a part of a kind that this program does not know");
+    throw Error("the transfer has a term of a kind that this program does not know");
 }
 
-TransferPart read_part(const Json& part) {
-    if (part.contains("towards"))
+TransferTerm read_term(const Json& term) {
+    if (term.contains("towards"))
         throw Error(
             "the transfer has a sun among its lamps (\"towards\"), which only older versions of prt know; "
             "bake the scene again");
-    return {read_kind(part.at("kind").get<std::string>()),
-            whole_number(part.at("channels"), "channels", 1, 3), part.value("name", ""),
-            part.value("members", std::vector<std::string>())};
+    return {read_kind(term.at("kind").get<std::string>()),
+            whole_number(term.at("channels"), "channels", 1, 3), term.value("name", ""),
+            term.value("members", std::vector<std::string>())};
 }
 
 /// Returns the member `key`, a non-negative integer; 0 if it is missing.
@@ -136,25 +136,25 @@ void check_one_to_one(const GltfContents& contents) {
                     ", and the file does not say what they share");
 }
 
-Json parts_json(const TransferLayout& layout) {
-    Json parts = Json::array();
-    for (const TransferPart& part : layout.parts) {
-        parts.push_back({{"kind", to_string(part.kind)}, {"channels", part.channels}});
-        if (!part.name.empty())
-            parts.back()["name"] = part.name;
-        if (!part.members.empty())
-            parts.back()["members"] = part.members;
+Json terms_json(const TransferLayout& layout) {
+    Json terms = Json::array();
+    for (const TransferTerm& term : layout.terms) {
+        terms.push_back({{"kind", to_string(term.kind)}, {"channels", term.channels}});
+        if (!term.name.empty())
+            terms.back()["name"] = term.name;
+        if (!term.members.empty())
+            terms.back()["members"] = term.members;
     }
-    return parts;
+    return terms;
 }
 
 TransferLayout read_layout(const Json& extension) {
     TransferLayout layout{whole_number(extension.at("order"), "order", 1, kMaxOrder), {}};
-    const Json& parts = extension.at("parts");
-    if (!parts.is_array())
-        throw Error("parts of the transfer are no list");
-    for (const Json& part : parts)
-        layout.parts.push_back(read_part(part));
+    const Json& terms = extension.at("terms");
+    if (!terms.is_array())
+        throw Error("terms of the transfer are no list");
+    for (const Json& term : terms)
+        layout.terms.push_back(read_term(term));
     check_layout(layout);
     return layout;
 }

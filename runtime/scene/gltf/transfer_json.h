@@ -28,8 +28,8 @@ const Json* find_extension(const GltfContents& contents, const char* name, int e
 void check_one_to_one(const GltfContents& contents);
 
 /// Returns [{"kind": "direct", "channels": 1}, ...].
-Json parts_json(const TransferLayout& layout);
-/// Reads order and parts of an extension. Throws `Error` if they are invalid.
+Json terms_json(const TransferLayout& layout);
+/// Reads order and terms of an extension. Throws `Error` if they are invalid.
 TransferLayout read_layout(const Json& extension);
 
 /// Returns the JSON of a scene primitive, in a file that holds the scene one to one.

@@ -13,7 +13,7 @@
 namespace prt {
 namespace {
 
-constexpr int kVolumeVersion = 1;
+constexpr int kVolumeVersion = 2;
 
 /// Writes four uint16 per brick.
 Json write_bricks(GltfContents& contents, const VolumeGrid& grid) {
@@ -62,19 +62,20 @@ VolumeGrid read_grid(const GltfContents& contents, const Scene& scene, const Jso
     return grid;
 }
 
-Json write_sights(GltfContents& contents, const std::vector<ProbeSight>& sights) {
-    return {{"bufferView", contents.add_buffer_view(std::as_bytes(std::span(sights)))}};
+Json write_visibility(GltfContents& contents, const std::vector<ProbeVisibility>& visibility) {
+    return {{"bufferView", contents.add_buffer_view(std::as_bytes(std::span(visibility)))}};
 }
 
-std::vector<ProbeSight> read_sights(const GltfContents& contents, const Json& json, std::size_t probes) {
+std::vector<ProbeVisibility> read_visibility(const GltfContents& contents, const Json& json,
+                                             std::size_t probes) {
     const std::vector<std::byte> bytes = bytes_of(contents, json);
-    std::vector<ProbeSight> sights(probes);
-    if (bytes.size() != probes * sizeof(ProbeSight))
-        throw Error("the volume has " + std::to_string(probes) + " probes, and sights for " +
-                    std::to_string(bytes.size() / sizeof(ProbeSight)));
+    std::vector<ProbeVisibility> visibility(probes);
+    if (bytes.size() != probes * sizeof(ProbeVisibility))
+        throw Error("the volume has " + std::to_string(probes) + " probes, and visibility distances for " +
+                    std::to_string(bytes.size() / sizeof(ProbeVisibility)));
     if (!bytes.empty())
-        std::memcpy(sights.data(), bytes.data(), bytes.size());
-    return sights;
+        std::memcpy(visibility.data(), bytes.data(), bytes.size());
+    return visibility;
 }
 
 /// Writes the common part of the extension. `transfer` is the layout of one coefficient of incident light.
@@ -87,23 +88,23 @@ Json& write_common(GltfContents& contents, const Scene& scene, const Volume& vol
     Json extension = {{"version", kVolumeVersion},
                       {"order", transfer.order},
                       {"incidentOrder", volume.order},
-                      {"parts", parts_json(transfer)},
+                      {"terms", terms_json(transfer)},
                       {"origin", {origin.x, origin.y, origin.z}},
                       {"spacing", volume.grid.spacing},
                       {"size", {volume.grid.size.x, volume.grid.size.y, volume.grid.size.z}},
                       {"bricks", write_bricks(contents, volume.grid)},
-                      {"sights", write_sights(contents, volume.sights)}};
+                      {"visibility", write_visibility(contents, volume.visibility)}};
     return extensions_of(contents.json)[kVolumeExtension] = std::move(extension);
 }
 
-/// Reads grid, order and sights. Returns the number of probes.
+/// Reads grid, order and visibility. Returns the number of probes.
 template <class Volume>
 std::size_t read_common(const GltfContents& contents, const Scene& scene, const Json& extension,
                         Volume& volume) {
     volume.order = whole_number(extension.at("incidentOrder"), "incidentOrder", 2, kMaxIncidentOrder);
     volume.grid = read_grid(contents, scene, extension);
     const std::size_t probes = probes_of(volume.grid).size();
-    volume.sights = read_sights(contents, extension.at("sights"), probes);
+    volume.visibility = read_visibility(contents, extension.at("visibility"), probes);
     return probes;
 }
 

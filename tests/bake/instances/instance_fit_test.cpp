@@ -61,7 +61,7 @@ protected:
     }
 
     Draw draw;
-    Transfer mesh = zero_transfer({kOrder, {{PartKind::direct, 1}, {PartKind::indirect, 3}}}, kSamples);
+    Transfer mesh = zero_transfer({kOrder, {{TermKind::direct, 1}, {TermKind::indirect, 3}}}, kSamples);
     InstanceSamples samples;
     std::optional<SharedTransfer> shared;
     std::vector<bool> all = std::vector<bool>(kSamples, false);
@@ -111,10 +111,10 @@ TEST_F(InstanceFits, ASampleOfTwiceTheAreaIsTwoSamples) {
         twice.places.push_back(samples.places[s]);
         twice.areas.push_back(1);
         const auto copy = [&](std::vector<float>& to) {
-            const std::vector<float> part(to.begin() + static_cast<std::ptrdiff_t>(s * mesh.dimension()),
+            const std::vector<float> term(to.begin() + static_cast<std::ptrdiff_t>(s * mesh.dimension()),
                                           to.begin() +
                                               static_cast<std::ptrdiff_t>((s + 1) * mesh.dimension()));
-            to.insert(to.end(), part.begin(), part.end());
+            to.insert(to.end(), term.begin(), term.end());
         };
         copy(longer.vectors);
         copy(longer_light);

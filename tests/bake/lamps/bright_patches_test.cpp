@@ -114,10 +114,10 @@ Scene small_panel(bool sheet_between) {
                         z = -0.5f * kSize + cell * static_cast<float>(j);
             panel.quad({x, 2, z}, {x + cell, 2, z}, {x + cell, 2, z + cell}, {x, 2, z + cell});
         }
-    std::vector<Scene> parts{panel.build(), SceneBuilder().floor({0, 0, 0}, 0.5f, 4).build()};
+    std::vector<Scene> terms{panel.build(), SceneBuilder().floor({0, 0, 0}, 0.5f, 4).build()};
     if (sheet_between)
-        parts.push_back(SceneBuilder().floor({0, 1, 0}, 5).build());
-    Scene scene = test::painted(test::join(parts), glm::vec3(0.6f));
+        terms.push_back(SceneBuilder().floor({0, 1, 0}, 5).build());
+    Scene scene = test::painted(test::join(terms), glm::vec3(0.6f));
     PunctualLight spot = test::lamp_at({0, 1.85f, 0});
     spot.kind = PunctualKind::spot;
     spot.direction = {0, 1, 0};

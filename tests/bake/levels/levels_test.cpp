@@ -37,7 +37,7 @@ LeveledScene leveled(const Scene& finest, const Scene& coarser, const std::vecto
 }
 
 Transfer zeros(const Scene& scene, int order = 2) {
-    return zero_transfer(layout_of_one(order, 1, PartKind::direct), scene.receivers());
+    return zero_transfer(layout_of_one(order, 1, TermKind::direct), scene.receivers());
 }
 
 /// Transfer as a function of positions and normals.

@@ -37,10 +37,10 @@ PunctualLight point_light(const std::string& name, const glm::vec3& position, co
     return light;
 }
 
-std::vector<TransferPart> lamps_called(std::initializer_list<const char*> names) {
-    std::vector<TransferPart> lamps;
+std::vector<TransferTerm> lamps_called(std::initializer_list<const char*> names) {
+    std::vector<TransferTerm> lamps;
     for (const char* name : names)
-        lamps.push_back({.kind = PartKind::lamp, .channels = 3, .name = name});
+        lamps.push_back({.kind = TermKind::lamp, .channels = 3, .name = name});
     return lamps;
 }
 
@@ -195,7 +195,7 @@ TEST(SceneLamps, TheBakersLampsAreThoseOfTheReference) {
     const Transfer baked = bake_places(scene, places, 3, options).transfer;
     const std::vector<glm::vec3> lit = exit_radiance(baked, constant_light(2, glm::vec3(0)));
     const TraceScene traced(scene);
-    const std::span<const TransferPart> parts = baked.layout.lamp_parts();
+    const std::span<const TransferTerm> parts = baked.layout.lamp_terms();
     const SceneLamps lamps(traced, parts, std::vector(parts.size(), glm::vec3(1)));
     const Light black = constant_light(kMaxOrder, glm::vec3(0));
     const auto truth = incident_reference(traced, places, 3, {DistantLight({}), {}, {}, black, black},

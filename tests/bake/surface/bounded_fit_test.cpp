@@ -192,7 +192,7 @@ TEST(BoundedFit, LampsGiveNoLessThanNothing) {
     for (const int bounces : {0, 1, 4, kEndlessBounces}) {
         const Transfer transfer = bake(scene, options_of(bounces, FitMode::surface, 64)).baked.transfer;
         const std::size_t sky = transfer.layout.dimension() - 1; // the lamp is white, and the last
-        ASSERT_EQ(transfer.layout.lamp_parts().size(), 1u);
+        ASSERT_EQ(transfer.layout.lamp_terms().size(), 1u);
         for (std::size_t p = 0; p < transfer.receivers(); ++p) {
             EXPECT_GE(transfer.vector(p)[sky], -1e-6f) << bounces;
             EXPECT_LE(transfer.vector(p)[sky], 1.0f) << bounces; // 1/pi plus the reflected part

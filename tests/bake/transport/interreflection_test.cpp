@@ -135,7 +135,7 @@ TEST(SphericalBowl, EveryBandIsGatheredAlike) {
     // From the first bounce on the transfer is equal everywhere: the mean of the direct one.
     const Bowl bowl = make_bowl(1);
     const Transfer direct = bake_bounces(bowl.scene, 0, 4096).baked.transfer;
-    const Transfer once = as_whole(bake_bounces(bowl.scene, 1, 4096).baked.transfer);
+    const Transfer once = as_combined(bake_bounces(bowl.scene, 1, 4096).baked.transfer);
     const std::vector<float> areas = receiver_areas(bowl.scene);
     std::array<double, 9> mean{};
     double area = 0;

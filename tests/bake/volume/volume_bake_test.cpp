@@ -63,8 +63,8 @@ TEST(VolumeBake, IsTheIdentityInTheOpen) {
     for (std::size_t r = 0; r < t.receivers(); ++r)
         for (std::size_t i = 0; i < 16; ++i)
             EXPECT_EQ(t.vector(r)[i], i == r % 9 ? 1.0f : 0.0f);
-    for (const ProbeSight& sight : bake.volume.sights)
-        for (const std::uint8_t s : sight)
+    for (const ProbeVisibility& visibility : bake.volume.visibility)
+        for (const std::uint8_t s : visibility)
             EXPECT_GT(s, 180); // beyond two cells
 }
 
@@ -127,7 +127,7 @@ TEST(VolumeBake, LightDoesNotComeThroughAThinWall) {
         const VolumeBake bake = bake_volume(scene, volume, rays(6 * 64, 3));
         const std::vector<glm::vec3> at_probes =
             exit_radiance(bake.volume.baked.transfer, constant_light(4, glm::vec3(1)));
-        const VolumeLookup lookup(bake.volume.grid, bake.volume.sights);
+        const VolumeLookup lookup(bake.volume.grid, bake.volume.visibility);
         std::mt19937 random(3);
         std::uniform_real_distribution<float> unit(-0.97f, 0.97f);
         double of_lit = 0, of_dark = 0;
@@ -159,7 +159,7 @@ TEST(VolumeBake, AFitErrsLessBetweenProbes) {
         VolumeOptions volume = probes(0.7, {{-2, -1, -1}, {2, 1, 1}});
         volume.fit_points = fit;
         const VolumeBake bake = bake_volume(scene, volume, rays(6 * 1024, 2)); // noise is not tested
-        const VolumeLookup lookup(bake.volume.grid, bake.volume.sights);
+        const VolumeLookup lookup(bake.volume.grid, bake.volume.visibility);
         const Transfer& t = bake.volume.baked.transfer;
         double sum = 0;
         for (std::size_t p = 0; p < places.size(); ++p) {
@@ -209,7 +209,7 @@ TEST(VolumeBake, DoesNotDependOnThreads) {
     options.threads = 3;
     const VolumeBake three = bake_volume(scene, volume, options);
     EXPECT_EQ(one.volume.grid, three.volume.grid);
-    EXPECT_EQ(one.volume.sights, three.volume.sights);
+    EXPECT_EQ(one.volume.visibility, three.volume.visibility);
     EXPECT_EQ(one.volume.baked.transfer.vectors, three.volume.baked.transfer.vectors);
 }
 
@@ -232,7 +232,7 @@ TEST(VolumeBake, TakesNoMoreProbesThanAsked) {
     for (const std::size_t most : {125u, 1000u, 5000u}) {
         const VolumeOptions volume{
             .probes = most, .bounds = Bounds{{-4, -1, -4}, {4, 3, 4}}, .fit_points = 0};
-        const std::size_t got = bake_volume(scene, volume, rays(8)).volume.sights.size();
+        const std::size_t got = bake_volume(scene, volume, rays(8)).volume.visibility.size();
         EXPECT_LE(got, most);
         EXPECT_GE(got, most / 4);
     }

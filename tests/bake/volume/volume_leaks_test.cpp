@@ -4,7 +4,7 @@
 #include "prt/transfer.h"
 #include "prt/volume_bake.h"
 #include "support/scene_builder.h"
-#include "volume/sight.h"
+#include "volume/visibility.h"
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
@@ -61,7 +61,7 @@ Leak leak_into_room(float wall, float spacing, bool double_sided, const glm::vec
                                         options);
     const std::vector<glm::vec3> at_probes =
         exit_radiance(bake.volume.baked.transfer, constant_light(2, glm::vec3(1)));
-    const VolumeLookup lookup(bake.volume.grid, bake.volume.sights);
+    const VolumeLookup lookup(bake.volume.grid, bake.volume.visibility);
     std::mt19937 random(3);
     std::uniform_real_distribution<float> unit(0.005f, 0.995f);
     Leak leak;
@@ -81,7 +81,7 @@ Leak leak_into_room(float wall, float spacing, bool double_sided, const glm::vec
 /// offset. `limit` is the extent of the plane from its middle.
 std::array<float, 6> distances_before(const glm::vec3& normal, float offset, float limit) {
     constexpr int kRays = 20000;
-    SightVotes votes;
+    VisibilityVotes votes;
     votes.begin(glm::vec3(0), 1);
     for (int i = 0; i < kRays; ++i) {
         const double y = 1 - (2 * i + 1.0) / kRays, turn = 2 * std::numbers::pi * i / std::numbers::phi,
@@ -94,7 +94,7 @@ std::array<float, 6> distances_before(const glm::vec3& normal, float offset, flo
     return votes.distances(kRays, 4);
 }
 
-TEST(SightVotes, StopAtWallsAlongTheAxes) {
+TEST(VisibilityVotes, StopAtWallsAlongTheAxes) {
     for (int axis = 0; axis < 3; ++axis)
         for (const float sign : {-1.0f, 1.0f})
             for (const float offset : {0.1f, 0.6f, 0.95f}) {
@@ -108,7 +108,7 @@ TEST(SightVotes, StopAtWallsAlongTheAxes) {
             }
 }
 
-TEST(SightVotes, EndBeforeSlantedWalls) {
+TEST(VisibilityVotes, EndBeforeSlantedWalls) {
     // The corner of the box lies before the wall, or a little behind.
     for (const glm::vec3& towards : {glm::vec3(1, 1, 0), glm::vec3(-2, 1, 0), glm::vec3(1, 1, 1)}) {
         const glm::vec3 normal = glm::normalize(towards);
@@ -125,7 +125,7 @@ TEST(SightVotes, EndBeforeSlantedWalls) {
     }
 }
 
-TEST(SightVotes, PassPoles) {
+TEST(VisibilityVotes, PassPoles) {
     EXPECT_EQ(distances_before({1, 0, 0}, 0.5f, 0.1f)[1], 4); // 5 % of the axis
     EXPECT_NEAR(distances_before({1, 0, 0}, 0.5f, 0.4f)[1], 0.5f, 1e-5f);
 }

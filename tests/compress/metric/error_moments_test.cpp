@@ -19,14 +19,14 @@ namespace {
 constexpr std::size_t kOfMoments = 4300; // more than one block of each stretch
 
 TransferLayout with_lamps() {
-    return {3, {{PartKind::whole, 1}, {PartKind::lamp, 1, "white"}, {PartKind::lamp, 3, "red"}}};
+    return {3, {{TermKind::combined, 1}, {TermKind::lamp, 1, "white"}, {TermKind::lamp, 3, "red"}}};
 }
 
 const TransferLayout kLayouts[] = {
     layout_of_one(5, 1),
     layout_of_one(3, 3),
-    {4, {{PartKind::direct, 1}, {PartKind::indirect, 3}}},
-    {2, {{PartKind::direct, 3}, {PartKind::indirect, 1}}},
+    {4, {{TermKind::direct, 1}, {TermKind::indirect, 3}}},
+    {2, {{TermKind::direct, 3}, {TermKind::indirect, 1}}},
     with_lamps(),
 };
 
@@ -54,7 +54,7 @@ struct Case {
     Lighting lighting() {
         const TransferLayout& layout = reference.layout;
         Lighting result{light(layout.order)};
-        if (layout.has(PartKind::direct))
+        if (layout.has(TermKind::direct))
             result.suns = light(layout.order + 1);
         for (std::size_t k = 0; k < layout.lamps(); ++k)
             result.lamps.emplace_back(normal(random), normal(random), normal(random));

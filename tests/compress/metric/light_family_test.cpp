@@ -24,8 +24,8 @@ namespace {
 
 using std::numbers::pi;
 
-TransferLayout of_two_parts(int order) {
-    return {order, {{PartKind::direct, 1}, {PartKind::indirect, 3}}};
+TransferLayout of_two_terms(int order) {
+    return {order, {{TermKind::direct, 1}, {TermKind::indirect, 3}}};
 }
 
 Eigen::MatrixXd matrix_of(const LightMetric& metric) {
@@ -65,7 +65,7 @@ INSTANTIATE_TEST_SUITE_P(All, UprightFamily,
                          testing::Values(LightFamily::outdoor, LightFamily::indoor, LightFamily::day));
 
 TEST_P(Family, CostsTheSameWhicheverWayASceneLooks) {
-    const TransferLayout layout = of_two_parts(5);
+    const TransferLayout layout = of_two_terms(5);
     const LightMetric metric = metric_of_family(GetParam(), layout);
     const std::vector<double> error = random_vector(layout);
     const double straight = cost(metric, error, glm::dmat3(1));
@@ -74,7 +74,7 @@ TEST_P(Family, CostsTheSameWhicheverWayASceneLooks) {
 }
 
 TEST(NaturalFamily, CostsTheSameWhicheverWayIsUp) {
-    const TransferLayout layout = of_two_parts(5);
+    const TransferLayout layout = of_two_terms(5);
     const LightMetric metric = metric_of_family(LightFamily::natural, layout);
     const std::vector<double> error = random_vector(layout);
     const double straight = cost(metric, error, glm::dmat3(1));
@@ -94,7 +94,7 @@ TEST_P(UprightFamily, IsBrighterAbove) {
 
 TEST_P(Family, LeavesNoErrorFreeAtAnyOrder) {
     for (int order = 1; order <= kMaxOrder; ++order)
-        for (const TransferLayout& layout : {layout_of_one(order, 1), of_two_parts(order)}) {
+        for (const TransferLayout& layout : {layout_of_one(order, 1), of_two_terms(order)}) {
             const Eigen::MatrixXd moments = matrix_of(metric_of_family(GetParam(), layout));
             EXPECT_LT((moments - moments.transpose()).norm(), 1e-12 * moments.norm());
             EXPECT_EQ(Eigen::LLT<Eigen::MatrixXd>(moments).info(), Eigen::Success) << order;
@@ -116,7 +116,7 @@ TEST_P(UprightFamily, HasAMeanSquareOfOneOnOpenReceivers) {
 TEST_P(UprightFamily, HasAMeanSquareOfOneOnOpenReceiversInDirectLight) {
     const int order = 6;
     const Eigen::MatrixXd moments =
-        matrix_of(metric_of_family(GetParam(), {order, {{PartKind::direct, 1}, {PartKind::indirect, 1}}}));
+        matrix_of(metric_of_family(GetParam(), {order, {{TermKind::direct, 1}, {TermKind::indirect, 1}}}));
     double sum = 0;
     for (int l = 0; l < order; ++l)
         sum += std::pow(clamped_cosine_factor(l), 2) * moments.diagonal().segment(l * l, 2 * l + 1).sum();
@@ -129,7 +129,7 @@ TEST(OutdoorFamily, DiffersBetweenPartsByItsSuns) {
     const int order = 5;
     const Eigen::Index size = coefficient_count(order);
     const Eigen::MatrixXd c = matrix_of(
-        metric_of_family(LightFamily::outdoor, {order, {{PartKind::direct, 1}, {PartKind::indirect, 1}}}));
+        metric_of_family(LightFamily::outdoor, {order, {{TermKind::direct, 1}, {TermKind::indirect, 1}}}));
     const Eigen::VectorXd suns =
         (c.topLeftCorner(size, size) + c.bottomRightCorner(size, size) - 2 * c.topRightCorner(size, size))
             .diagonal();
@@ -185,7 +185,7 @@ private:
 };
 
 TEST_P(UprightFamily, ExpectsTheErrorThatItsDrawsHaveOnAverage) {
-    const TransferLayout layout = of_two_parts(4);
+    const TransferLayout layout = of_two_terms(4);
     constexpr std::size_t kCount = 30;
     Transfer a = zero_transfer(layout, kCount), b = a;
     std::mt19937 random(2);

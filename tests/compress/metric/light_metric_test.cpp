@@ -97,8 +97,8 @@ TEST_P(Metric, NaturalLightIsTheMeanOverRandomLightOfThatPower) {
 
 /// Skies of steeper bands, and suns anywhere of one power in every band, which direct light is lit by half of
 /// the time.
-TEST(MetricOfParts, OfTwoPartsIsTheMeanOverRandomSkiesWithSuns) {
-    const TransferLayout layout{3, {{PartKind::direct, 1}, {PartKind::indirect, 3}}};
+TEST(MetricOfTerms, OfTwoPartsIsTheMeanOverRandomSkiesWithSuns) {
+    const TransferLayout layout{3, {{TermKind::direct, 1}, {TermKind::indirect, 3}}};
     std::mt19937 random(11);
     const Transfer a = random_transfer(30, layout, 11), b = random_transfer(30, layout, 111);
     LitSums sums;
@@ -118,8 +118,8 @@ TEST(MetricOfParts, OfTwoPartsIsTheMeanOverRandomSkiesWithSuns) {
     EXPECT_NEAR(found, sums.rms(), 0.02 * found); // 4000 lights: 1 to 2 %
 }
 
-TEST(MetricOfParts, OfLightsWithSunsIsTheMeanOfWhatEachTurnOfEachCosts) {
-    const TransferLayout layout{4, {{PartKind::direct, 1}, {PartKind::indirect, 3}}};
+TEST(MetricOfTerms, OfLightsWithSunsIsTheMeanOfWhatEachTurnOfEachCosts) {
+    const TransferLayout layout{4, {{TermKind::direct, 1}, {TermKind::indirect, 3}}};
     std::mt19937 random(12);
     const Lighting lighting{random_light(4, random), random_light(5, random)};
     const Transfer a = random_transfer(20, layout, 12), b = random_transfer(20, layout, 112);
@@ -135,9 +135,9 @@ TEST(MetricOfParts, OfLightsWithSunsIsTheMeanOfWhatEachTurnOfEachCosts) {
 }
 
 /// Each lamp shines separately, in addition to any sky.
-TEST(MetricOfParts, OfLampsIsTheMeanOverTheirStrengths) {
+TEST(MetricOfTerms, OfLampsIsTheMeanOverTheirStrengths) {
     const TransferLayout layout{
-        2, {{PartKind::whole, 1}, {PartKind::lamp, 1, "white"}, {PartKind::lamp, 3, "red"}}};
+        2, {{TermKind::combined, 1}, {TermKind::lamp, 1, "white"}, {TermKind::lamp, 3, "red"}}};
     std::mt19937 random(14);
     const Transfer a = random_transfer(30, layout, 14), b = random_transfer(30, layout, 114);
     std::normal_distribution<float> normal;
@@ -156,10 +156,10 @@ TEST(MetricOfParts, OfLampsIsTheMeanOverTheirStrengths) {
 
 /// However bright lamps are: to lose them all is half of all there is, to lose the sky is, too, and each lamp
 /// counts as much as the other, unless it is dark.
-TEST(MetricOfParts, BalancedCountsLampsTogetherAsMuchAsTheSky) {
+TEST(MetricOfTerms, BalancedCountsLampsTogetherAsMuchAsTheSky) {
     const TransferLayout layout{
         3,
-        {{PartKind::direct, 1}, {PartKind::indirect, 3}, {PartKind::lamp, 1, "a"}, {PartKind::lamp, 3, "b"}}};
+        {{TermKind::direct, 1}, {TermKind::indirect, 3}, {TermKind::lamp, 1, "a"}, {TermKind::lamp, 3, "b"}}};
     const std::size_t of_sky = 36, of_a = 1;
     const std::vector<float> areas = {1, 2, 0, 4, 5};
     for (const float bright : {1e-3f, 1.0f, 1e3f}) {
@@ -182,8 +182,8 @@ TEST(MetricOfParts, BalancedCountsLampsTogetherAsMuchAsTheSky) {
     }
 }
 
-TEST(MetricOfParts, PlainCountsAGreyPartForEachColor) {
-    const TransferLayout layout{2, {{PartKind::direct, 1}, {PartKind::indirect, 3}}};
+TEST(MetricOfTerms, PlainCountsAGreyPartForEachColor) {
+    const TransferLayout layout{2, {{TermKind::direct, 1}, {TermKind::indirect, 3}}};
     Transfer a = zero_transfer(layout, 5), b = a;
     for (std::size_t i = 0; i < a.vectors.size(); ++i) {
         a.vectors[i] = static_cast<float>(i % 7);

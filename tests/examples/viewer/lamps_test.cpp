@@ -36,9 +36,9 @@ float largest(const glm::vec3& v) {
 }
 
 prt::TransferLayout layout_with(const std::vector<std::string>& names) {
-    prt::TransferLayout layout{2, {{prt::PartKind::whole, 1}}};
+    prt::TransferLayout layout{2, {{prt::TermKind::combined, 1}}};
     for (const std::string& name : names)
-        layout.parts.push_back({prt::PartKind::lamp, 1, name});
+        layout.parts.push_back({prt::TermKind::lamp, 1, name});
     return layout;
 }
 

@@ -283,7 +283,7 @@ TEST_F(LightmapPictures, HaveLobesOfTheTexelUnderThePointer) {
     EXPECT_NEAR(found->position.y, -0.5f, 1e-4f);
     const auto receiver = receiver_of(loaded.lightmap.baked->texels, found->receiver);
     ASSERT_TRUE(receiver);
-    const std::vector<float> whole = prt::as_whole(loaded.raw->vector(*receiver), loaded.raw->layout);
+    const std::vector<float> whole = prt::as_combined(loaded.raw->vector(*receiver), loaded.raw->layout);
     ASSERT_EQ(found->vector.size(), 16u);
     for (std::size_t i = 0; i < 16; ++i)
         EXPECT_EQ(found->vector[i], whole[i]);

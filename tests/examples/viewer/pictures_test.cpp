@@ -174,7 +174,7 @@ TEST_F(ViewerPictures, OfColoredTransferAreThoseOfCpp) {
 }
 
 TEST_F(ViewerPictures, OfTransferOfOneChannelAreThoseOfCpp) {
-    const prt::Transfer colored = prt::as_whole(baked());
+    const prt::Transfer colored = prt::as_combined(baked());
     prt::Transfer white = prt::zero_transfer(colored.layout.order, 1, colored.receivers());
     for (std::size_t p = 0; p < white.receivers(); ++p)
         std::copy_n(colored.vector(p).begin(), white.dimension(), white.vector(p).begin());
@@ -521,7 +521,7 @@ TEST_F(ViewerPictures, AddTheSameSunsToEveryWayToLightTheSky) {
 TEST_F(ViewerPictures, OfTransferInOnePartTakeSunsAsSky) {
     const SunApart light_apart;
     const prt::Transfer transfer = baked();
-    const prt::Transfer whole = prt::as_whole(transfer);
+    const prt::Transfer whole = prt::as_combined(transfer);
     gpu->set_raw(whole);
     gpu->set_lighting(light_apart.lighting, light_apart.suns);
     EXPECT_TRUE(gpu->takes_suns_as_sky(PictureKind::prt));

@@ -245,7 +245,7 @@ TEST_F(ViewerTest, SaysWhereTransferKeepsNoDirectLightApart) {
     prt::BakeOptions options;
     options.rays = 64;
     prt::BakedTransfer bake = prt::bake(scene, options).baked;
-    bake.transfer = prt::as_whole(bake.transfer);
+    bake.transfer = prt::as_combined(bake.transfer);
     prt::write_transfer(document, scene, bake);
     prt::save_glb(document, folder / "whole.glb");
     open({folder / "whole.glb"});

@@ -58,7 +58,7 @@ protected:
 TEST_F(CVolume, SaysWhatItIs) {
     EXPECT_EQ(info.order, 3);
     EXPECT_EQ(info.incident_order, 3);
-    EXPECT_EQ(info.probes, expected.sights.size());
+    EXPECT_EQ(info.probes, expected.visibility.size());
     EXPECT_EQ(info.lamps, 1u);
     EXPECT_EQ(info.direct_apart, 1);
     EXPECT_EQ(info.spacing, 0.5f);
@@ -66,13 +66,13 @@ TEST_F(CVolume, SaysWhatItIs) {
         EXPECT_NEAR(info.corner[a], expected.grid.origin[a], 1e-6f);
         EXPECT_EQ(info.origin[a], scene.origin[a]);
         EXPECT_EQ(textures.index[a], expected.grid.size[a]);
-        EXPECT_EQ(textures.light[a], textures.sights[a] * (a == 2 ? 7 : 1));
+        EXPECT_EQ(textures.light[a], textures.visibility[a] * (a == 2 ? 7 : 1));
     }
 }
 
 TEST_F(CVolume, FormsTheTexturesOfCpp) {
     const VolumeRelighter relighter(expected);
-    const VolumeLookup lookup(expected.grid, expected.sights);
+    const VolumeLookup lookup(expected.grid, expected.visibility);
     std::vector<glm::vec4> computed(relighter.rows());
     std::vector<std::byte> light(relighter.bytes()), texels(textures.light_bytes);
     relighter.update_constants(sky, glm::normalize(glm::make_vec3(kSun)), computed);
@@ -83,9 +83,10 @@ TEST_F(CVolume, FormsTheTexturesOfCpp) {
     EXPECT_EQ(prt_volume_update_light(volume, by_c.data(), half, info.probes, texels.data(), nullptr),
               PRT_OK);
     EXPECT_EQ(texels, light);
-    const std::vector<std::uint32_t> sights = sight_texels(expected.grid, lookup.probes(), expected.sights),
+    const std::vector<std::uint32_t> visibility = visibility_texels(expected.grid, lookup.probes(),
+                                                                    expected.visibility),
                                      index = index_texels(expected.grid, lookup.index());
-    EXPECT_EQ(std::memcmp(textures.sight_texels, sights.data(), 4 * sights.size()), 0);
+    EXPECT_EQ(std::memcmp(textures.visibility_texels, visibility.data(), 4 * visibility.size()), 0);
     EXPECT_EQ(std::memcmp(textures.index_texels, index.data(), 4 * index.size()), 0);
 }
 
@@ -93,7 +94,7 @@ TEST_F(CVolume, LightsAPlaceAsCppDoes) {
     const std::vector<float> computed = constants();
     std::vector<float> incident(3 * 9 * info.probes);
     ASSERT_EQ(prt_volume_evaluate(volume, computed.data(), incident.data(), nullptr), PRT_OK);
-    const VolumeLookup lookup(expected.grid, expected.sights);
+    const VolumeLookup lookup(expected.grid, expected.visibility);
     const std::vector<glm::vec3> of_cpp = incident_light(expected, {sky});
     for (const glm::vec3 position : {glm::vec3(0, 1, 3), glm::vec3(2.2f, 1, 2.3f), glm::vec3(-9, 99, 0)}) {
         const glm::vec3 normal(0, 0.6f, -0.8f);

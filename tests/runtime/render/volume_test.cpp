@@ -83,7 +83,7 @@ glm::vec3 radiance_of(std::span<const glm::vec3> incident, const glm::vec3& towa
 const glm::vec3 kFacing = glm::normalize(glm::vec3(0.3f, -0.8f, 0.45f));
 
 std::vector<Found> found_by_cpp(const CompressedVolume& volume, const std::vector<Place>& places) {
-    const VolumeLookup lookup(volume.grid, volume.sights);
+    const VolumeLookup lookup(volume.grid, volume.visibility);
     const VolumeRelighter relighter(volume, VolumeFormat::rgba32);
     const std::vector<std::byte> texels = constants_by_cpp(relighter);
     const std::size_t n = relighter.atlas().coefficients();
@@ -150,7 +150,7 @@ void main() {
     glLinkProgram(program);
     glUseProgram(program);
     glUniform1i(glGetUniformLocation(program, "prt_volume_light"), PRT_UNIT_VOLUME_LIGHT);
-    glUniform1i(glGetUniformLocation(program, "prt_volume_sights"), PRT_UNIT_VOLUME_SIGHTS);
+    glUniform1i(glGetUniformLocation(program, "prt_volume_visibility"), PRT_UNIT_VOLUME_VISIBILITY);
     glUniform1i(glGetUniformLocation(program, "prt_volume_index"), PRT_UNIT_VOLUME_INDEX);
     return program;
 }
@@ -240,14 +240,15 @@ void bind_texture_3d(GLuint unit, GLenum internal, GLenum format, GLenum type, c
 
 void bind_textures_of(const CompressedVolume& volume, VolumeFormat format) {
     const VolumeRelighter relighter(volume, format);
-    const VolumeLookup lookup(volume.grid, volume.sights);
+    const VolumeLookup lookup(volume.grid, volume.visibility);
     const VolumeAtlas& atlas = relighter.atlas();
     const bool half = format == VolumeFormat::rgba16;
     bind_texture_3d(PRT_UNIT_VOLUME_LIGHT, half ? GL_RGBA16F : GL_RGBA32F, GL_RGBA,
                     half ? GL_HALF_FLOAT : GL_FLOAT, atlas.light_texels(),
                     constants_by_cpp(relighter).data());
-    bind_texture_3d(PRT_UNIT_VOLUME_SIGHTS, GL_RG32UI, GL_RG_INTEGER, GL_UNSIGNED_INT, atlas.sight_texels(),
-                    sight_texels(volume.grid, lookup.probes(), volume.sights).data());
+    bind_texture_3d(PRT_UNIT_VOLUME_VISIBILITY, GL_RG32UI, GL_RG_INTEGER, GL_UNSIGNED_INT,
+                    atlas.visibility_texels(),
+                    visibility_texels(volume.grid, lookup.probes(), volume.visibility).data());
     bind_texture_3d(PRT_UNIT_VOLUME_INDEX, GL_R32UI, GL_RED_INTEGER, GL_UNSIGNED_INT, volume.grid.size,
                     index_texels(volume.grid, lookup.index()).data());
 }
@@ -293,7 +294,7 @@ TEST_P(VolumeLanguages, FindWhatCppFinds) {
 TEST_P(VolumeLanguages, FilterCellsThatAllProbesSee) {
     std::mt19937 random(12);
     CompressedVolume volume = random_volume(3, true, random);
-    std::ranges::fill(volume.sights, ProbeSight{255, 255, 255, 255, 255, 255});
+    std::ranges::fill(volume.visibility, ProbeVisibility{255, 255, 255, 255, 255, 255});
     const std::vector<Place> places = places_in(volume.grid, random);
     bind_textures_of(volume, VolumeFormat::rgba16);
     EXPECT_LT(largest_difference(found_by_cpp(volume, places),

@@ -24,7 +24,7 @@ GltfDocument parsed(const GlbFile& file) {
     return parse_gltf(std::as_bytes(std::span(bytes)), "memory.glb");
 }
 
-std::vector<RigidPart> parts_of(const GlbFile& file, double least = 0) {
+std::vector<RigidPart> terms_of(const GlbFile& file, double least = 0) {
     const GltfDocument document = parsed(file);
     return rigid_parts(document, extract_scene(document), {.min_share = least});
 }
@@ -60,8 +60,8 @@ std::vector<std::string> names_of(const std::vector<RigidPart>& parts) {
 }
 
 TEST(RigidParts, OfWhatNothingMovesAreTheRoots) {
-    EXPECT_EQ(names_of(parts_of(chain())), (std::vector<std::string>{"root"}));
-    EXPECT_EQ(parts_of(chain())[0].scene.triangles(), 3u);
+    EXPECT_EQ(names_of(terms_of(chain())), (std::vector<std::string>{"root"}));
+    EXPECT_EQ(terms_of(chain())[0].scene.triangles(), 3u);
 }
 
 /// Each of them once: 12 500 parts of 12 500 materials took 22 GB.
@@ -82,7 +82,7 @@ TEST(RigidParts, HoldTheMaterialsAndImagesThatTheyUse) {
         file.json["nodes"].push_back({{"mesh", i}});
     }
     file.json["scenes"] = Json::array({{{"nodes", {0, 1, 2}}}});
-    const std::vector<RigidPart> parts = parts_of(file);
+    const std::vector<RigidPart> parts = terms_of(file);
     ASSERT_EQ(parts.size(), 3u);
     for (std::size_t i = 0; i < parts.size(); ++i) {
         const Scene& scene = parts[i].scene;
@@ -99,7 +99,7 @@ TEST(RigidParts, HoldTheMaterialsAndImagesThatTheyUse) {
 TEST(RigidParts, BeginAtNodesThatMove) {
     GlbFile file = chain();
     turn(file, 1);
-    const std::vector<RigidPart> parts = parts_of(file);
+    const std::vector<RigidPart> parts = terms_of(file);
     ASSERT_EQ(names_of(parts), (std::vector<std::string>{"root", "arm"}));
     EXPECT_EQ(parts[0].scene.triangles(), 1u);
     EXPECT_EQ(parts[1].scene.triangles(), 2u);
@@ -108,7 +108,7 @@ TEST(RigidParts, BeginAtNodesThatMove) {
 TEST(RigidParts, AreInTheFrameOfTheirNode) {
     GlbFile file = chain();
     turn(file, 1);
-    const RigidPart arm = parts_of(file)[1];
+    const RigidPart arm = terms_of(file)[1];
     const glm::dmat4 back = glm::inverse(arm.frame);
     float least = 1e9f;
     for (const VertexArray& vertices : arm.scene.vertex_arrays)
@@ -121,10 +121,10 @@ TEST(RigidParts, ThatAreSmallGoWithWhatCarriesThem) {
     GlbFile file = chain();
     turn(file, 1);
     turn(file, 2);
-    EXPECT_EQ(parts_of(file).size(), 3u);
+    EXPECT_EQ(terms_of(file).size(), 3u);
     // Every triangle has a diagonal of 1.41, two of 2.24, the whole one of 3.16.
-    EXPECT_EQ(names_of(parts_of(file, 0.5)), (std::vector<std::string>{"root", "arm"}));
-    EXPECT_EQ(names_of(parts_of(file, 0.8)), (std::vector<std::string>{"root"}));
+    EXPECT_EQ(names_of(terms_of(file, 0.5)), (std::vector<std::string>{"root", "arm"}));
+    EXPECT_EQ(names_of(terms_of(file, 0.8)), (std::vector<std::string>{"root"}));
 }
 
 /// Returns two triangles, each skinned to a separate joint; one of the joints is a metre up.
@@ -160,7 +160,7 @@ GlbFile skinned() {
 }
 
 TEST(RigidParts, OfSkinsAreWhatJointsMoveMost) {
-    const std::vector<RigidPart> parts = parts_of(skinned());
+    const std::vector<RigidPart> parts = terms_of(skinned());
     ASSERT_EQ(names_of(parts), (std::vector<std::string>{"hip", "head"}));
     EXPECT_EQ(parts[0].scene.triangles(), 1u);
     EXPECT_EQ(parts[1].scene.triangles(), 1u);

@@ -150,7 +150,7 @@ TEST(PredictorsInFile, OriginsArePlacesInItsWorld) {
     write_clustered(model.document, model.scene, c);
     save_glb(model.document, folder / "written.glb");
     const auto json = test::read_glb(folder / "written.glb").json["extensions"]["PRTKIT_clustered_pca"];
-    EXPECT_EQ(json["version"], 7);
+    EXPECT_EQ(json["version"], 8);
     EXPECT_FALSE(json["predictors"][0].contains("origin"));
     for (std::size_t i = 0; i < 3; ++i) {
         const int axis = static_cast<int>(i);

@@ -156,10 +156,10 @@ TEST(TransferInGltf, PartsComeBackAsTheyAre) {
     GltfDocument document = load_gltf(files.source);
     const Scene scene = extract_scene(document);
     const TransferLayout layout{3,
-                                {{PartKind::direct, 1},
-                                 {PartKind::indirect, 3},
-                                 {PartKind::lamp, 3, "lanterns", {"Lantern.1", "glass"}},
-                                 {PartKind::lamp, 1, "sign"}}};
+                                {{TermKind::direct, 1},
+                                 {TermKind::indirect, 3},
+                                 {TermKind::lamp, 3, "lanterns", {"Lantern.1", "glass"}},
+                                 {TermKind::lamp, 1, "sign"}}};
     const BakedTransfer baked = random_bake(scene, layout);
     write_transfer(document, scene, baked);
     save_glb(document, files.written);
@@ -350,7 +350,7 @@ TEST(TransferInGltf, DamagedTransferIsRefused) {
     EXPECT_NO_THROW(read_changed([](auto&) {}));
     EXPECT_THROW(read_changed([&](auto& j) { extension(j)["version"] = 99; }), Error);
     EXPECT_THROW(read_changed([&](auto& j) { extension(j)["order"] = 11; }), Error);
-    EXPECT_THROW(read_changed([&](auto& j) { extension(j)["parts"][0]["channels"] = 2; }), Error);
+    EXPECT_THROW(read_changed([&](auto& j) { extension(j)["terms"][0]["channels"] = 2; }), Error);
     EXPECT_THROW(read_changed([&](auto& j) { extension(j)["bake"]["method"] = "guess"; }), Error);
     EXPECT_NO_THROW(read_changed([&](auto& j) { extension(j)["bake"].erase("method"); }));
     EXPECT_THROW(read_changed([&](auto& j) { extension(j)["components"] = {100}; }), Error);
@@ -445,15 +445,15 @@ TEST(TransferInGltf, EverythingThatTheSchemaForbidsIsRefused) {
     const std::function<void(nlohmann::ordered_json&)> changes[] = {
         [&](auto& j) { extension(j)["version"] = 2.5; },
         [&](auto& j) { extension(j)["order"] = 3.5; },
-        [&](auto& j) { extension(j)["parts"][0]["channels"] = 3.5; },
-        [&](auto& j) { extension(j)["parts"][0]["kind"] = "lamp"; },
-        [&](auto& j) { extension(j)["parts"][0]["kind"] = 1; },
-        [&](auto& j) { extension(j)["parts"][0].erase("channels"); },
-        [&](auto& j) { extension(j)["parts"].push_back(extension(j)["parts"][0]); },
-        [&](auto& j) { extension(j)["parts"] = nlohmann::ordered_json::array(); },
-        [&](auto& j) { extension(j)["parts"] = "whole"; },
+        [&](auto& j) { extension(j)["terms"][0]["channels"] = 3.5; },
+        [&](auto& j) { extension(j)["terms"][0]["kind"] = "lamp"; },
+        [&](auto& j) { extension(j)["terms"][0]["kind"] = 1; },
+        [&](auto& j) { extension(j)["terms"][0].erase("channels"); },
+        [&](auto& j) { extension(j)["terms"].push_back(extension(j)["terms"][0]); },
+        [&](auto& j) { extension(j)["terms"] = nlohmann::ordered_json::array(); },
+        [&](auto& j) { extension(j)["terms"] = "combined"; },
         [&](auto& j) {
-            extension(j)["parts"][0]["towards"] = {0, 1, 0};
+            extension(j)["terms"][0]["towards"] = {0, 1, 0};
         },
         [&](auto& j) { extension(j)["components"][1] = 1.5; },
         [&](auto& j) { extension(j)["components"][1] = (1LL << 33) + 1; },

@@ -26,7 +26,7 @@ constexpr std::size_t kVertices = 300;
 
 ClusteredTransfer random_mesh(std::mt19937& random) {
     std::normal_distribution<float> normal;
-    Transfer transfer = zero_transfer({kOrder, {{PartKind::direct, 1}, {PartKind::indirect, 3}}}, kVertices);
+    Transfer transfer = zero_transfer({kOrder, {{TermKind::direct, 1}, {TermKind::indirect, 3}}}, kVertices);
     for (float& value : transfer.vectors)
         value = normal(random);
     CompressOptions options;

@@ -25,12 +25,12 @@ namespace prt::test {
 namespace {
 
 /// Returns a layout with separate sky and suns, and lamps.
-TransferLayout several_parts() {
+TransferLayout several_terms() {
     return {4,
-            {{PartKind::direct, 1},
-             {PartKind::indirect, 3},
-             {PartKind::lamp, 3, "lantern"},
-             {PartKind::lamp, 1, "window"}}};
+            {{TermKind::direct, 1},
+             {TermKind::indirect, 3},
+             {TermKind::lamp, 3, "lantern"},
+             {TermKind::lamp, 1, "window"}}};
 }
 
 /// Bits per component: different for each cluster, or equal in all.
@@ -225,7 +225,7 @@ TEST_P(ShaderVariants, ComputeItWithoutALoopWhereClustersAreAlike) {
     Lighting lighting{random_light(), rotated_about_y(random_light(), 1)};
     lighting.lamps = {glm::vec3(0.5f, 1, 2), glm::vec3(3)};
     for (const WeightFormat format : kFormats) {
-        const ClusteredTransfer transfer = compressed(format, Division::alike, several_parts());
+        const ClusteredTransfer transfer = compressed(format, Division::alike, several_terms());
         EXPECT_TRUE(clusters_are_alike(transfer.bases));
         agree_with_cpp(transfer, lighting);
     }
@@ -259,7 +259,7 @@ TEST(ConstantsShader, FormsWhatCppForms) {
          {std::pair(1, 3), std::pair(3, 1)}) { // rows of four channels, as with several terms
         transfers.push_back(transfers[1]);
         ClusteredBases& bases = transfers.back().bases;
-        bases.layout.parts = {{PartKind::direct, first}, {PartKind::indirect, second}};
+        bases.layout.terms = {{TermKind::direct, first}, {TermKind::indirect, second}};
         bases.rows.resize(constant_rows(bases) * bases.dimension());
         for (std::size_t i = 0; i < bases.rows.size(); ++i)
             bases.rows[i] = std::sin(static_cast<float>(i));
@@ -268,11 +268,11 @@ TEST(ConstantsShader, FormsWhatCppForms) {
     for (const bool sky : {true, false}) {
         transfers.push_back(transfers[1]);
         ClusteredBases& bases = transfers.back().bases;
-        bases.layout.parts.clear();
+        bases.layout.terms.clear();
         if (sky)
-            bases.layout.parts = {{PartKind::direct, 1}, {PartKind::indirect, 3}};
+            bases.layout.terms = {{TermKind::direct, 1}, {TermKind::indirect, 3}};
         for (int k = 0; k < 40; ++k)
-            bases.layout.parts.push_back({PartKind::lamp, k % 3 == 0 ? 3 : 1, "lamp " + std::to_string(k)});
+            bases.layout.terms.push_back({TermKind::lamp, k % 3 == 0 ? 3 : 1, "lamp " + std::to_string(k)});
         bases.rows.resize(constant_rows(bases) * bases.dimension());
         for (std::size_t i = 0; i < bases.rows.size(); ++i)
             bases.rows[i] = std::sin(static_cast<float>(i));

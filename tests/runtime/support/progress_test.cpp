@@ -12,22 +12,22 @@ namespace {
 TEST(Progress, PartsOfPartsFillTheirShareOfTheWhole) {
     std::vector<double> reported;
     const Progress whole{[&](double share) { reported.push_back(share); }, {}};
-    const Progress part = whole.part(0.5, 1).part(0, 0.5); // outlives the part that it is of
-    part.update(0);
-    part.update(0.5);
-    part.update(1);
+    const Progress range = whole.range(0.5, 1).range(0, 0.5); // outlives the range that it is of
+    range.update(0);
+    range.update(0.5);
+    range.update(1);
     EXPECT_EQ(reported, (std::vector<double>{0.5, 0.625, 0.75}));
-    EXPECT_FALSE(Progress{}.part(0, 0.5).report);
+    EXPECT_FALSE(Progress{}.range(0, 0.5).report);
 }
 
 TEST(Progress, StopsThePartsAndReportsNothingMore) {
     std::stop_source source;
     bool reported = false;
-    const Progress part = Progress{[&](double) { reported = true; }, source.get_token()}.part(0, 0.5);
-    part.check();
+    const Progress range = Progress{[&](double) { reported = true; }, source.get_token()}.range(0, 0.5);
+    range.check();
     source.request_stop();
-    EXPECT_THROW(part.check(), Cancelled);
-    EXPECT_THROW(part.update(1), Cancelled);
+    EXPECT_THROW(range.check(), Cancelled);
+    EXPECT_THROW(range.update(1), Cancelled);
     EXPECT_FALSE(reported);
 }
 

@@ -81,7 +81,7 @@ TEST(Volume, IsLitAndLookedUpWithoutAllocation) {
     std::mt19937 random(1);
     const CompressedVolume volume = test::random_volume(3, false, random);
     const VolumeRelighter relighter(volume);
-    const VolumeLookup lookup(volume.grid, volume.sights);
+    const VolumeLookup lookup(volume.grid, volume.visibility);
     const Light light = constant_light(3, {1, 2, 3});
     std::vector<glm::vec4> constants(relighter.rows());
     std::vector<std::byte> texels(relighter.bytes());

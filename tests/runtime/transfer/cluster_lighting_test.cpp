@@ -113,10 +113,10 @@ TEST_P(Constants, HoldScalesAndCentersOfPredictors) {
 }
 
 /// By hand, from the rows of each part and the light on it.
-TEST(ConstantsOfParts, AreTheSumOfEachUnderItsLight) {
+TEST(ConstantsOfTerms, AreTheSumOfEachUnderItsLight) {
     for (const auto& [direct, indirect] :
          {std::pair(1, 1), std::pair(1, 3), std::pair(3, 1), std::pair(3, 3)}) {
-        const TransferLayout layout{5, {{PartKind::direct, direct}, {PartKind::indirect, indirect}}};
+        const TransferLayout layout{5, {{TermKind::direct, direct}, {TermKind::indirect, indirect}}};
         const ClusteredTransfer t = random_transfer(layout, WeightFormat::float32);
         const Light sky = random_light(6), suns = directional_light(5, {0, 1, 0}, {3, 2, 1});
         const ClusterLighting relighter(t);
@@ -141,13 +141,13 @@ TEST(ConstantsOfParts, AreTheSumOfEachUnderItsLight) {
 }
 
 /// Compares with `exit_radiance` of the rows.
-TEST(ConstantsOfParts, AreLitByLampsBesideTheSkyAndAlone) {
+TEST(ConstantsOfTerms, AreLitByLampsBesideTheSkyAndAlone) {
     for (const bool has_sky : {true, false}) {
         TransferLayout layout{4, {}};
         if (has_sky)
-            layout.parts = {{PartKind::whole, 3}};
-        layout.parts.push_back({PartKind::lamp, 1, "white"});
-        layout.parts.push_back({PartKind::lamp, 3, "red"});
+            layout.terms = {{TermKind::combined, 3}};
+        layout.terms.push_back({TermKind::lamp, 1, "white"});
+        layout.terms.push_back({TermKind::lamp, 3, "red"});
         const ClusteredTransfer t = random_transfer(layout, WeightFormat::float32);
         Lighting lighting{random_light(4)};
         lighting.lamps = {{1, 2, 3}, {0, 5, 1}};
@@ -166,13 +166,13 @@ TEST_P(Constants, FormedInPartsAreTheSame) {
     const auto [order, channels, format] = GetParam();
     const ClusterLighting relighter(random_transfer(order, channels, format));
     const Light light = random_light(order);
-    std::vector<glm::vec4> whole(relighter.rows()), parts(relighter.rows(), glm::vec4(-7));
+    std::vector<glm::vec4> whole(relighter.rows()), terms(relighter.rows(), glm::vec4(-7));
     relighter.update(light.coefficients, whole);
-    relighter.update(light.coefficients, parts, 0, 16);
+    relighter.update(light.coefficients, terms, 0, 16);
     for (std::size_t row = 16; row < relighter.rows(); ++row) // a second thread may write there
-        EXPECT_EQ(parts[row], glm::vec4(-7));
-    relighter.update(light.coefficients, parts, 16, relighter.rows());
-    EXPECT_EQ(whole, parts);
+        EXPECT_EQ(terms[row], glm::vec4(-7));
+    relighter.update(light.coefficients, terms, 16, relighter.rows());
+    EXPECT_EQ(whole, terms);
 }
 
 TEST(Constants, BlendAsTheLightsDo) {

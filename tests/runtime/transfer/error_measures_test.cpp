@@ -43,8 +43,8 @@ TEST(RelativeL2, DifferentShapesAreRefused) {
 }
 
 TEST(RelativeL2, ComparesOtherPartsAsAWhole) {
-    const Transfer both{{1, {{PartKind::direct, 1}, {PartKind::indirect, 3}}}, {1, 1, 2, 3}};
-    const Transfer direct{layout_of_one(1, 1, PartKind::direct), {2}}, whole{layout_of_one(1, 3), {2, 3, 5}};
+    const Transfer both{{1, {{TermKind::direct, 1}, {TermKind::indirect, 3}}}, {1, 1, 2, 3}};
+    const Transfer direct{layout_of_one(1, 1, TermKind::direct), {2}}, whole{layout_of_one(1, 3), {2, 3, 5}};
     EXPECT_NEAR(relative_l2(both, whole, std::vector<float>{1}), std::sqrt(1.0 / (4 + 9 + 16)), 1e-7);
     EXPECT_NEAR(relative_l2(both, direct, std::vector<float>{1}), std::sqrt((1.0 + 4) / (4 + 9 + 16)), 1e-7);
 }

@@ -38,7 +38,7 @@ struct Draw {
     }
     Transfer transfer(std::size_t receivers) {
         Transfer result =
-            zero_transfer({kOrder, {{PartKind::direct, 1}, {PartKind::indirect, 3}}}, receivers);
+            zero_transfer({kOrder, {{TermKind::direct, 1}, {TermKind::indirect, 3}}}, receivers);
         for (float& value : result.vectors)
             value = number();
         return result;
@@ -205,7 +205,7 @@ TEST(Instances, UprightOnesShareTheTurnsOfFewYaws) {
 /// Returns random weights: three clusters of four receivers each, the last with three components.
 ClusteredTransfer clustered_mesh(Draw& draw) {
     ClusteredTransfer mesh;
-    mesh.bases.layout = {kOrder, {{PartKind::direct, 1}, {PartKind::indirect, 3}}};
+    mesh.bases.layout = {kOrder, {{TermKind::direct, 1}, {TermKind::indirect, 3}}};
     mesh.bases.components = {2, 1, 3};
     for (std::size_t i = 0; i < (3 + 6) * mesh.bases.dimension(); ++i)
         mesh.bases.rows.push_back(draw.number());
@@ -275,14 +275,14 @@ TEST(Instances, ConstantsAtAPlaceAreThoseOfTheModesTimesItsFactors) {
 TEST(Instances, RelightersRefuseLamps) {
     Draw draw;
     ClusteredTransfer mesh = clustered_mesh(draw);
-    mesh.bases.layout.parts.push_back({PartKind::lamp, 1, "Lantern"});
+    mesh.bases.layout.terms.push_back({TermKind::lamp, 1, "Lantern"});
     mesh.bases.rows.resize(constant_rows(mesh.bases) * mesh.bases.dimension());
     EXPECT_THROW(InstanceRelighter(mesh, {}), Error);
 }
 
 TEST(Instances, LampsAreRefused) {
     TransferLayout layout = layout_of_one(3, 1);
-    layout.parts.push_back({PartKind::lamp, 1, "Lantern"});
+    layout.terms.push_back({TermKind::lamp, 1, "Lantern"});
     EXPECT_THROW(SharedTransfer(zero_transfer(layout, 1), {0, 1, 0}), Error);
     EXPECT_THROW(InstanceModes(3).lightings({constant_light(2, glm::vec3(1))}), Error);
     EXPECT_THROW(InstanceModes(0), Error);

@@ -16,7 +16,7 @@ namespace prt {
 namespace {
 
 TransferLayout direct_and_indirect(int order, int direct, int indirect) {
-    return {order, {{PartKind::direct, direct}, {PartKind::indirect, indirect}}};
+    return {order, {{TermKind::direct, direct}, {TermKind::indirect, indirect}}};
 }
 
 Light light_of(int order, unsigned seed) {
@@ -42,33 +42,33 @@ TEST(TransferLayout, CountsWhatItsPartsHold) {
     EXPECT_EQ(layout.channels(), 3);
     EXPECT_EQ(layout.dimension(), 64u);
     EXPECT_EQ(layout.columns(), 32u);
-    EXPECT_TRUE(layout.has(PartKind::direct));
-    EXPECT_FALSE(layout.has(PartKind::whole));
+    EXPECT_TRUE(layout.has(TermKind::direct));
+    EXPECT_FALSE(layout.has(TermKind::combined));
     EXPECT_EQ(layout_of_one(3, 1).dimension(), 9u);
 }
 
 TEST(TransferLayout, ThatMakesNoSenseIsRefused) {
     EXPECT_NO_THROW(check_layout(direct_and_indirect(10, 3, 3)));
-    EXPECT_NO_THROW(check_layout(layout_of_one(1, 1, PartKind::indirect)));
+    EXPECT_NO_THROW(check_layout(layout_of_one(1, 1, TermKind::indirect)));
     for (const TransferLayout& layout :
          {TransferLayout{4, {}}, direct_and_indirect(0, 1, 1), direct_and_indirect(11, 1, 1),
           direct_and_indirect(4, 2, 1), direct_and_indirect(4, 1, 0),
-          TransferLayout{4, {{PartKind::indirect, 1}, {PartKind::direct, 1}}},
-          TransferLayout{4, {{PartKind::direct, 1}, {PartKind::direct, 1}}},
-          TransferLayout{4, {{PartKind::direct, 1}, {PartKind::whole, 1}}}})
+          TransferLayout{4, {{TermKind::indirect, 1}, {TermKind::direct, 1}}},
+          TransferLayout{4, {{TermKind::direct, 1}, {TermKind::direct, 1}}},
+          TransferLayout{4, {{TermKind::direct, 1}, {TermKind::combined, 1}}}})
         EXPECT_THROW(check_layout(layout), Error);
 }
 
 /// A sky in two parts, a white lamp and a coloured one.
 TransferLayout with_two_lamps(int order) {
     TransferLayout layout = direct_and_indirect(order, 1, 3);
-    layout.parts.push_back({PartKind::lamp, 1, "white"});
-    layout.parts.push_back({PartKind::lamp, 3, "red"});
+    layout.terms.push_back({TermKind::lamp, 1, "white"});
+    layout.terms.push_back({TermKind::lamp, 3, "red"});
     return layout;
 }
 
 TEST(TransferLayout, OfLampsHasANumberForEachChannelOfEach) {
-    const TransferLayout layout = with_two_lamps(4), lamps{4, {layout.parts.end() - 2, layout.parts.end()}};
+    const TransferLayout layout = with_two_lamps(4), lamps{4, {layout.terms.end() - 2, layout.terms.end()}};
     EXPECT_NO_THROW(check_layout(layout));
     EXPECT_NO_THROW(check_layout(lamps)); // no sky light enters
     EXPECT_EQ(layout.lamps(), 2u);
@@ -77,21 +77,21 @@ TEST(TransferLayout, OfLampsHasANumberForEachChannelOfEach) {
     EXPECT_EQ(lamps.dimension(), 4u);
     EXPECT_EQ(lamps.columns(), 2u);
     TransferLayout wrong = layout;
-    wrong.parts[3].name = "white";
+    wrong.terms[3].name = "white";
     EXPECT_THROW(check_layout(wrong), Error); // which of them?
-    wrong.parts[3].name = "";
+    wrong.terms[3].name = "";
     EXPECT_THROW(check_layout(wrong), Error);
     wrong = layout;
-    wrong.parts[0].name = "sun";
+    wrong.terms[0].name = "sun";
     EXPECT_THROW(check_layout(wrong), Error);
     wrong = layout;
-    std::swap(wrong.parts[1], wrong.parts[2]);
+    std::swap(wrong.terms[1], wrong.terms[2]);
     EXPECT_THROW(check_layout(wrong), Error); // lamps must be last
     wrong = {4, {}};
     for (std::size_t k = 0; k <= kMaxLamps; ++k)
-        wrong.parts.push_back({PartKind::lamp, 1, std::to_string(k)});
+        wrong.terms.push_back({TermKind::lamp, 1, std::to_string(k)});
     EXPECT_THROW(check_layout(wrong), Error);
-    wrong.parts.pop_back();
+    wrong.terms.pop_back();
     EXPECT_NO_THROW(check_layout(wrong));
 }
 
@@ -127,19 +127,19 @@ TEST(ExitRadiance, OfLampsIsTheirLightTimesTheirStrength) {
 }
 
 TEST(AsWhole, LeavesLampsAsTheyAre) {
-    const Transfer parts = transfer_of(with_two_lamps(3), 20, 9), whole = as_whole(parts);
-    EXPECT_EQ(whole.layout.parts.size(), 3u);
-    EXPECT_EQ(whole.layout.parts[0], (TransferPart{PartKind::whole, 3}));
-    EXPECT_EQ(whole.layout.parts[2], parts.layout.parts[3]);
+    const Transfer terms = transfer_of(with_two_lamps(3), 20, 9), whole = as_combined(terms);
+    EXPECT_EQ(whole.layout.terms.size(), 3u);
+    EXPECT_EQ(whole.layout.terms[0], (TransferTerm{TermKind::combined, 3}));
+    EXPECT_EQ(whole.layout.terms[2], terms.layout.terms[3]);
     Lighting lighting{light_of(3, 2)};
     lighting.lamps = {{1, 0.5f, 2}, {2, 1, 0}};
-    const auto expected = exit_radiance(parts, lighting), lit = exit_radiance(whole, lighting);
+    const auto expected = exit_radiance(terms, lighting), lit = exit_radiance(whole, lighting);
     for (std::size_t p = 0; p < 20; ++p)
         EXPECT_LT(glm::distance(lit[p], expected[p]), 1e-4f);
-    EXPECT_LT(relative_l2(whole, parts, std::vector<float>(20, 1.0f)), 1e-6);
-    Transfer other = parts;
-    other.layout.parts[3].name = "green";
-    EXPECT_THROW(relative_l2(parts, other, std::vector<float>(20, 1.0f)), Error);
+    EXPECT_LT(relative_l2(whole, terms, std::vector<float>(20, 1.0f)), 1e-6);
+    Transfer other = terms;
+    other.layout.terms[3].name = "green";
+    EXPECT_THROW(relative_l2(terms, other, std::vector<float>(20, 1.0f)), Error);
 }
 
 TEST(MeanVisibility, CountsNoLamps) {
@@ -151,16 +151,16 @@ TEST(MeanVisibility, CountsNoLamps) {
 TEST(LightColumns, AreTheSkyForDirectLightAndTheSkyWithItsSunsForTheRest) {
     const Light sky = light_of(4, 1), suns = light_of(3, 2);
     for (const TransferLayout& layout :
-         {direct_and_indirect(3, 1, 3), layout_of_one(3, 1, PartKind::direct),
-          layout_of_one(3, 3, PartKind::indirect), layout_of_one(3, 1, PartKind::whole)}) {
+         {direct_and_indirect(3, 1, 3), layout_of_one(3, 1, TermKind::direct),
+          layout_of_one(3, 3, TermKind::indirect), layout_of_one(3, 1, TermKind::combined)}) {
         const std::vector<glm::vec3> columns = light_columns(layout, Lighting{sky, suns});
-        ASSERT_EQ(columns.size(), 9 * layout.parts.size());
-        for (std::size_t part = 0; part < layout.parts.size(); ++part)
+        ASSERT_EQ(columns.size(), 9 * layout.terms.size());
+        for (std::size_t term = 0; term < layout.terms.size(); ++term)
             for (std::size_t i = 0; i < 9; ++i)
-                EXPECT_EQ(columns[9 * part + i], layout.parts[part].kind == PartKind::direct
+                EXPECT_EQ(columns[9 * term + i], layout.terms[term].kind == TermKind::direct
                                                      ? sky.coefficients[i]
                                                      : sky.coefficients[i] + suns.coefficients[i]);
-        for (std::size_t i = 0; i < 9 * layout.parts.size(); ++i)
+        for (std::size_t i = 0; i < 9 * layout.terms.size(); ++i)
             EXPECT_EQ(light_columns(layout, {sky})[i], sky.coefficients[i % 9]);
     }
     EXPECT_THROW(light_columns(direct_and_indirect(4, 1, 1), Lighting{sky, suns}), Error);
@@ -189,10 +189,10 @@ TEST(AsWhole, IsLitByOneSkyAsThePartsAre) {
     const Light sky = light_of(5, 6);
     for (const auto& [direct, indirect] :
          {std::pair(1, 1), std::pair(1, 3), std::pair(3, 1), std::pair(3, 3)}) {
-        const Transfer parts = transfer_of(direct_and_indirect(5, direct, indirect), 40, 7);
-        const Transfer whole = as_whole(parts);
+        const Transfer terms = transfer_of(direct_and_indirect(5, direct, indirect), 40, 7);
+        const Transfer whole = as_combined(terms);
         EXPECT_EQ(whole.layout, layout_of_one(5, std::max(direct, indirect)));
-        const auto expected = exit_radiance(parts, sky), lit = exit_radiance(whole, sky);
+        const auto expected = exit_radiance(terms, sky), lit = exit_radiance(whole, sky);
         for (std::size_t p = 0; p < 40; ++p)
             EXPECT_LT(glm::distance(lit[p], expected[p]), 1e-4f);
     }

@@ -29,7 +29,7 @@ Transfer random_transfer(const TransferLayout& layout, std::size_t receivers) {
     return transfer;
 }
 
-const TransferLayout kTwoParts{3, {{PartKind::direct, 1}, {PartKind::indirect, 3}}};
+const TransferLayout kTwoTerms{3, {{TermKind::direct, 1}, {TermKind::indirect, 3}}};
 
 TEST(TransferView, ReadsEveryFiniteHalfExactly) {
     StoredTransfer stored{layout_of_one(1, 1), {}, {}};
@@ -45,8 +45,8 @@ TEST(TransferView, ReadsEveryFiniteHalfExactly) {
 }
 
 TEST(TransferView, ReadsFloatsHoweverTheyAreHeld) {
-    const Transfer transfer = random_transfer(kTwoParts, 31);
-    const StoredTransfer stored{kTwoParts, transfer.vectors, {}};
+    const Transfer transfer = random_transfer(kTwoTerms, 31);
+    const StoredTransfer stored{kTwoTerms, transfer.vectors, {}};
     for (const std::size_t block : {1u, 7u, 31u}) {
         EXPECT_EQ(read_in_blocks(transfer, block).vectors, transfer.vectors);
         EXPECT_EQ(read_in_blocks(stored, block).vectors, transfer.vectors);
@@ -54,15 +54,15 @@ TEST(TransferView, ReadsFloatsHoweverTheyAreHeld) {
 }
 
 TEST(TransferView, ReadsPartsAsAWhole) {
-    const Transfer transfer = random_transfer(kTwoParts, 31);
-    const TransferView view = as_whole(TransferView(transfer));
-    EXPECT_EQ(view.layout(), as_whole(kTwoParts));
+    const Transfer transfer = random_transfer(kTwoTerms, 31);
+    const TransferView view = as_combined(TransferView(transfer));
+    EXPECT_EQ(view.layout(), as_combined(kTwoTerms));
     for (const std::size_t block : {1u, 7u, 31u})
-        EXPECT_EQ(read_in_blocks(view, block).vectors, as_whole(transfer).vectors);
+        EXPECT_EQ(read_in_blocks(view, block).vectors, as_combined(transfer).vectors);
 }
 
 TEST(TransferView, ReadsInAnotherOrder) {
-    const Transfer transfer = random_transfer(kTwoParts, 4);
+    const Transfer transfer = random_transfer(kTwoTerms, 4);
     const std::vector<std::uint32_t> order = {2, 0, 3, 1};
     const TransferView view = in_order(transfer, std::vector(order)); // which is gone when it is read
     const Transfer read = read_in_blocks(view, 3);

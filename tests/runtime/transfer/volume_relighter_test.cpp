@@ -1,4 +1,4 @@
-// Textures of a volume against the light and the sights that they hold.
+// Textures of a volume against the light and the visibility that they hold.
 
 #include "prt/volume_relighter.h"
 
@@ -125,17 +125,17 @@ TEST(VolumeRelighter, GivesEachBrickTexelsOfItsOwn) {
     EXPECT_LT(texels.back(), atlas.texels_of_plane());
 }
 
-TEST(SightTexels, SayWhichCellsAreSeenWhole) {
+TEST(VisibilityTexels, SayWhichCellsAreSeenWhole) {
     const VolumeGrid grid{
         .origin = glm::vec3(0), .spacing = 1, .size = {1, 1, 1}, .bricks = {{{0, 0, 0}, 0}}};
     const VolumeProbes probes = probes_of(grid);
-    std::vector<ProbeSight> sights(kBrickProbes, {255, 255, 255, 255, 255, 255});
+    std::vector<ProbeVisibility> visibility(kBrickProbes, {255, 255, 255, 255, 255, 255});
     const auto seen_whole = [&](std::size_t i) {
-        return sight_texels(grid, probes, sights)[2 * atlas_of(grid, 2).texel(0, i) + 1] >> 24;
+        return visibility_texels(grid, probes, visibility)[2 * atlas_of(grid, 2).texel(0, i) + 1] >> 24;
     };
     EXPECT_EQ(seen_whole(0), 1u);
     EXPECT_EQ(seen_whole(4), 0u); // no cell is above the last corner
-    sights[1][1] = 100;           // 0.6 cells along +x from (1, 0, 0)
+    visibility[1][1] = 100;       // 0.6 cells along +x from (1, 0, 0)
     EXPECT_EQ(seen_whole(0), 1u); // which is away from the first cell
     EXPECT_EQ(seen_whole(1), 0u);
 }

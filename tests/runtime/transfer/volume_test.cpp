@@ -19,7 +19,7 @@ namespace prt {
 namespace {
 
 constexpr std::uint8_t kFar = 255;
-constexpr ProbeSight kAllAround = {kFar, kFar, kFar, kFar, kFar, kFar};
+constexpr ProbeVisibility kAllAround = {kFar, kFar, kFar, kFar, kFar, kFar};
 
 /// A coarse brick, and fine ones on its side.
 VolumeGrid two_levels() {
@@ -44,7 +44,7 @@ float sum(const VolumeCorners& corners) {
 TEST(VolumeWeights, SumToOneWhateverProbesSee) {
     std::mt19937 random(1);
     const CompressedVolume volume = test::random_volume(2, false, random, 2);
-    const VolumeLookup lookup(volume.grid, volume.sights);
+    const VolumeLookup lookup(volume.grid, volume.visibility);
     for (int i = 0; i < 2000; ++i) {
         const VolumeCorners corners = lookup.find(random_place(volume.grid, random, 0.5f),
                                                   glm::normalize(glm::vec3(1, i % 3 - 1, 0.5f)));
@@ -56,12 +56,13 @@ TEST(VolumeWeights, SumToOneWhateverProbesSee) {
 TEST(VolumeWeights, AreThoseOfTheOpenWhereAllAreHidden) {
     const VolumeGrid grid{
         .origin = glm::vec3(0), .spacing = 1, .size = {1, 1, 1}, .bricks = {{{0, 0, 0}, 0}}};
-    const std::vector<ProbeSight> open(kBrickProbes, kAllAround), blind(kBrickProbes, ProbeSight{});
+    const std::vector<ProbeVisibility> open(kBrickProbes, kAllAround),
+        invalid(kBrickProbes, ProbeVisibility{});
     std::mt19937 random(2);
     for (int i = 0; i < 100; ++i) {
         const glm::vec3 place = random_place(grid, random);
         const VolumeCorners seen = VolumeLookup(grid, open).find(place),
-                            hidden = VolumeLookup(grid, blind).find(place);
+                            hidden = VolumeLookup(grid, invalid).find(place);
         for (std::size_t c = 0; c < 8; ++c)
             EXPECT_NEAR(seen.weights[c], hidden.weights[c], 1e-5f);
     }
@@ -69,8 +70,8 @@ TEST(VolumeWeights, AreThoseOfTheOpenWhereAllAreHidden) {
 
 TEST(VolumeWeights, AreExactForLinearLightWhereNothingHides) {
     const VolumeGrid grid = two_levels();
-    const std::vector<ProbeSight> sights(probes_of(grid).size(), kAllAround);
-    const VolumeLookup lookup(grid, sights);
+    const std::vector<ProbeVisibility> visibility(probes_of(grid).size(), kAllAround);
+    const VolumeLookup lookup(grid, visibility);
     const auto linear = [](const glm::vec3& p) { return 3 + 2 * p.x - p.y + 0.5f * p.z; };
     std::mt19937 random(3);
     for (int i = 0; i < 2000; ++i) {
@@ -89,8 +90,8 @@ TEST(VolumeWeights, AreExactForLinearLightWhereNothingHides) {
 
 TEST(VolumeWeights, OfASurfaceAreThoseOfAQuarterOfACellOffIt) {
     const VolumeGrid grid = two_levels();
-    const std::vector<ProbeSight> sights(probes_of(grid).size(), kAllAround);
-    const VolumeLookup lookup(grid, sights);
+    const std::vector<ProbeVisibility> visibility(probes_of(grid).size(), kAllAround);
+    const VolumeLookup lookup(grid, visibility);
     const glm::vec3 coarse(-0.5f, 2.5f, 1), fine(1.25f, 2.25f, 1), normal(0, 0.6f, -0.8f);
     for (const auto& [place, cell] : {std::pair(coarse, 0.5f), std::pair(fine, 0.25f)}) {
         const VolumeCorners surface = lookup.find(place, normal),
@@ -104,8 +105,8 @@ TEST(VolumeWeights, OfASurfaceAreThoseOfAQuarterOfACellOffIt) {
 TEST(VolumeWeights, OfPlacesOutsideAreThoseOfTheNearestInside) {
     const VolumeGrid grid{
         .origin = {1, 2, 3}, .spacing = 0.5f, .size = {2, 1, 1}, .bricks = {{{0, 0, 0}, 0}, {{1, 0, 0}, 0}}};
-    const std::vector<ProbeSight> sights(probes_of(grid).size(), kAllAround);
-    const VolumeLookup lookup(grid, sights);
+    const std::vector<ProbeVisibility> visibility(probes_of(grid).size(), kAllAround);
+    const VolumeLookup lookup(grid, visibility);
     const VolumeCorners outside = lookup.find({9, 3, -20}), inside = lookup.find({5, 3, 3});
     EXPECT_EQ(outside.probes, inside.probes);
     EXPECT_EQ(outside.weights, inside.weights);
@@ -158,7 +159,7 @@ std::array<float, 6> distances_to_plane(const glm::vec3& n, float offset, const 
     return distances;
 }
 
-TEST(SightWeight, HidesExactlyWhatIsOutsideTheBox) {
+TEST(VisibilityWeight, HidesExactlyWhatIsOutsideTheBox) {
     std::mt19937 random(5);
     std::uniform_real_distribution<float> distance(0.2f, 3), share(-1, 1);
     for (int i = 0; i < 1000; ++i) {
@@ -174,9 +175,9 @@ TEST(SightWeight, HidesExactlyWhatIsOutsideTheBox) {
             const float s = a != face ? share(random) : i % 2 == 0 ? 1.0f : -1.0f;
             d[a] = s * distances[static_cast<std::size_t>(2 * a + (s > 0 ? 1 : 0))];
         }
-        EXPECT_EQ(sight_weight(nearness, d * (kSightFull - 0.01f)), 1);
-        EXPECT_LE(sight_weight(nearness, d * (kSightNone + 0.01f)), kHiddenWeight);
-        EXPECT_NEAR(sight_weight(nearness, d * (kSightFull + kSightNone) / 2.0f), 0.5f, 1e-4f);
+        EXPECT_EQ(visibility_weight(nearness, d * (kVisibilityFull - 0.01f)), 1);
+        EXPECT_LE(visibility_weight(nearness, d * (kVisibilityNone + 0.01f)), kHiddenWeight);
+        EXPECT_NEAR(visibility_weight(nearness, d * (kVisibilityFull + kVisibilityNone) / 2.0f), 0.5f, 1e-4f);
     }
 }
 
@@ -185,10 +186,11 @@ TEST(VolumeWeights, LeaveOutProbesBehindAWall) {
         .origin = glm::vec3(0), .spacing = 1, .size = {1, 1, 1}, .bricks = {{{0, 0, 0}, 0}}};
     const VolumeProbes probes = probes_of(grid);
     constexpr float kWall = 1.5f;
-    std::vector<ProbeSight> sights;
+    std::vector<ProbeVisibility> visibility;
     for (const glm::ivec3& corner : probes.corners)
-        sights.push_back(sight_of(distances_to_plane({1, 0, 0}, kWall, glm::vec3(corner)), grid.spacing));
-    const VolumeLookup lookup(grid, sights);
+        visibility.push_back(
+            visibility_of(distances_to_plane({1, 0, 0}, kWall, glm::vec3(corner)), grid.spacing));
+    const VolumeLookup lookup(grid, visibility);
     for (const float x : {1.0f, 1.3f, 1.7f, 1.95f}) {
         const VolumeCorners corners = lookup.find({x, 1.25f, 2.5f});
         float leaked = 0;
@@ -199,20 +201,20 @@ TEST(VolumeWeights, LeaveOutProbesBehindAWall) {
     }
 }
 
-TEST(ProbeSight, TellsDistancesToHalfAStep) {
+TEST(ProbeVisibility, TellsDistancesToHalfAStep) {
     for (const float cell : {0.25f, 3.0f})
         for (float share = 0; share <= 1; share += 0.01f) {
-            const float distance = kSightCells * cell * share;
+            const float distance = kVisibilityCells * cell * share;
             std::array<float, 6> distances;
             distances.fill(distance);
-            const std::array<float, 6> again = distances_of(sight_of(distances, cell), cell);
+            const std::array<float, 6> again = distances_of(visibility_of(distances, cell), cell);
             for (const float d : again)
-                EXPECT_NEAR(std::sqrt(d / (kSightCells * cell)), std::sqrt(share), 0.5001f / 255);
-            EXPECT_EQ(sight_of(again, cell), sight_of(distances, cell));
+                EXPECT_NEAR(std::sqrt(d / (kVisibilityCells * cell)), std::sqrt(share), 0.5001f / 255);
+            EXPECT_EQ(visibility_of(again, cell), visibility_of(distances, cell));
         }
     std::array<float, 6> far;
     far.fill(1e9f);
-    EXPECT_EQ(sight_of(far, 1), kAllAround);
+    EXPECT_EQ(visibility_of(far, 1), kAllAround);
 }
 
 TEST(IncidentLight, IsThatOfTheTransferWhichWeightsStandFor) {
@@ -231,14 +233,14 @@ TEST(IncidentLight, IsThatOfTheTransferWhichWeightsStandFor) {
             glm::vec3 expected(0);
             const float* numbers = &transfer.vectors[i * size];
             const glm::vec3* color = columns.data();
-            for (const TransferPart& part : of_one.parts) {
-                const std::size_t count = of_one.columns_of(part);
+            for (const TransferTerm& term : of_one.terms) {
+                const std::size_t count = of_one.columns_of(term);
                 for (int c = 0; c < 3; ++c)
                     for (std::size_t n = 0; n < count; ++n)
                         expected[c] +=
-                            numbers[(part.channels == 1 ? 0 : static_cast<std::size_t>(c)) * count + n] *
+                            numbers[(term.channels == 1 ? 0 : static_cast<std::size_t>(c)) * count + n] *
                             color[n][c];
-                numbers += of_one.numbers_of(part);
+                numbers += of_one.numbers_of(term);
                 color += count;
             }
             EXPECT_LT(glm::distance(incident[i], expected), 1e-4f * std::max(1.0f, glm::length(expected)));

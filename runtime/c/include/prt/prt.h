@@ -240,10 +240,10 @@ PRT_API prt_status prt_volume_get_info(const prt_volume* volume, prt_volume_info
  * textures do not depend on the lighting and are not filtered. Pointers are valid as long as the volume
  * exists. */
 typedef struct prt_volume_textures {
-    int light[3], sights[3], index[3];
+    int light[3], visibility[3], index[3];
     size_t light_bytes;
-    const uint32_t* sight_texels; /* RG32UI */
-    const uint32_t* index_texels; /* R32UI */
+    const uint32_t* visibility_texels; /* RG32UI */
+    const uint32_t* index_texels;      /* R32UI */
 } prt_volume_textures;
 PRT_API prt_status prt_volume_get_textures(const prt_volume* volume, prt_volume_textures* out,
                                            prt_message* message);

@@ -27,11 +27,11 @@ struct Progress {
             report(fraction);
     }
     /// Returns the progress of a step of the work that covers the fractions `from` .. `to` of the total.
-    Progress part(double from, double to) const {
-        Progress part{{}, stop};
+    Progress range(double from, double to) const {
+        Progress range{{}, stop};
         if (report)
-            part.report = [whole = report, from, to](double share) { whole(from + (to - from) * share); };
-        return part;
+            range.report = [whole = report, from, to](double share) { whole(from + (to - from) * share); };
+        return range;
     }
 };
 

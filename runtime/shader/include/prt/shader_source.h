@@ -51,8 +51,8 @@ std::string relight_defines(const ClusteredTransfer& transfer,
 std::string relight_shader(const ClusteredTransfer& transfer, ConstantSource constants,
                            ShaderLanguage language, const glm::dvec3& seen_from = glm::dvec3(0));
 
-/// Returns the define lines for prt_parts.glsl for a layout. Throws `Error` for an invalid layout.
-std::string part_defines(const TransferLayout& layout);
+/// Returns the define lines for prt_terms.glsl for a layout. Throws `Error` for an invalid layout.
+std::string term_defines(const TransferLayout& layout);
 
 /// Returns a complete compute shader for the constants (shaders/prt_constants.comp), for GLSL 4.5 and Vulkan.
 std::string constants_shader(const ClusteredTransfer& transfer, ShaderLanguage language);

@@ -21,7 +21,7 @@ struct TriangleRange {
 };
 
 /// Fraction of incident light that a surface blocks.
-enum class Blocking { nothing, all, part };
+enum class Blocking { nothing, all, term };
 
 /// Geometry, textures and materials of a scene on the GPU, for any program whose fragment shader includes
 /// `shaders/surface.glsl` (and `sun_light.glsl` for suns, `emission.glsl` for emission). A context must be

@@ -18,7 +18,7 @@ namespace prt {
 /// A volume on the GPU, lit by `shaders/prt_volume.comp`, for shaders that include `shaders/prt_volume.glsl`.
 class GlVolume {
 public:
-    /// Uploads words, clusters, sights and index. Keeps a reference to `volume`. Throws `Error` if memory
+    /// Uploads words, clusters, visibility and index. Keeps a reference to `volume`. Throws `Error` if memory
     /// runs out, if the device does not support 3D textures of this size, or if a probe has more words than
     /// shaders support.
     explicit GlVolume(const CompressedVolume& volume, VolumeFormat format = VolumeFormat::rgba16);
@@ -40,7 +40,7 @@ private:
     VolumeRelighter relighter_;
     std::vector<glm::vec4> computed_;
     GlObject program_, clusters_, constants_, words_, probes_;
-    GlObject light_, sights_, index_;
+    GlObject light_, visibility_, index_;
     std::size_t bytes_ = 0;
 };
 

@@ -1,7 +1,7 @@
-// Separates direct light from bounced light: suns can then be lit with sharp shadows, and each part has only
+// Separates direct light from bounced light: suns can then be lit with sharp shadows, and each term has only
 // the channels that it needs.
 
-#include "parts.h"
+#include "transfer_terms.h"
 
 #include "prt/sh_basis.h"
 #include "prt/support/error.h"
@@ -19,8 +19,8 @@ std::size_t channel_size(const Transfer& transfer) {
     return static_cast<std::size_t>(coefficient_count(transfer.layout.order));
 }
 
-PartKind kind_of(const Transfer& transfer) {
-    return transfer.layout.parts.front().kind;
+TermKind kind_of(const Transfer& transfer) {
+    return transfer.layout.terms.front().kind;
 }
 
 bool is_zero(const Transfer& transfer) {
@@ -30,7 +30,7 @@ bool is_zero(const Transfer& transfer) {
 /// Returns `all` minus `direct`.
 Transfer rest_of(const Transfer& direct, const Transfer& all) {
     Transfer rest = all;
-    rest.layout.parts.front().kind = PartKind::indirect;
+    rest.layout.terms.front().kind = TermKind::indirect;
     const std::size_t stored = direct.dimension();
     for (std::size_t p = 0; p < rest.receivers(); ++p) {
         const std::span<float> to = rest.vector(p);
@@ -58,7 +58,7 @@ bool are_grey(const Transfer& transfer, std::size_t first, std::size_t count) {
 
 Transfer exit_without_bounces(const BakePlan& plan, Transfer incident, const Refill& refill) {
     const std::size_t size = incident.dimension();
-    incident.layout.parts.front().kind = PartKind::direct;
+    incident.layout.terms.front().kind = TermKind::direct;
     refill.apply(std::span(incident.vectors), size);
     for (const DiffusionOperator& body : plan.diffusion)
         for (const std::uint32_t p : body.members())
@@ -66,7 +66,7 @@ Transfer exit_without_bounces(const BakePlan& plan, Transfer incident, const Ref
     return incident;
 }
 
-Transfer in_parts(const Transfer& direct, const Transfer& all) {
+Transfer in_terms(const Transfer& direct, const Transfer& all) {
     return joined(direct, narrowed(rest_of(direct, all)));
 }
 
@@ -76,7 +76,7 @@ Transfer joined(const Transfer& direct, const Transfer& rest) {
     if (is_zero(direct))
         return rest;
     Transfer both = zero_transfer(
-        {direct.layout.order, {direct.layout.parts.front(), rest.layout.parts.front()}}, direct.receivers());
+        {direct.layout.order, {direct.layout.terms.front(), rest.layout.terms.front()}}, direct.receivers());
     for (std::size_t p = 0; p < both.receivers(); ++p) {
         const auto behind =
             std::copy(direct.vector(p).begin(), direct.vector(p).end(), both.vector(p).begin());
@@ -89,17 +89,17 @@ Transfer with_lamps(const Transfer& sky, const Transfer& light, const std::vecto
     const std::size_t stride = channel_size(light);
     TransferLayout layout = sky.layout;
     if (is_zero(sky)) // no light of the sky arrives
-        layout.parts.clear();
+        layout.terms.clear();
     const std::size_t of_sky = layout.dimension();
     for (std::size_t k = 0; k < lamps.size(); ++k)
-        layout.parts.push_back(
-            {PartKind::lamp, are_grey(light, k, 1) ? 1 : 3, lamps[k].name, lamps[k].members});
-    const std::span<const TransferPart> parts = layout.lamp_parts();
+        layout.terms.push_back(
+            {TermKind::lamp, are_grey(light, k, 1) ? 1 : 3, lamps[k].name, lamps[k].members});
+    const std::span<const TransferTerm> terms = layout.lamp_terms();
     Transfer all = zero_transfer(layout, sky.receivers());
     for (std::size_t p = 0; p < all.receivers(); ++p) {
         auto to = std::copy_n(sky.vector(p).begin(), of_sky, all.vector(p).begin());
         for (std::size_t k = 0; k < lamps.size(); ++k)
-            for (int c = 0; c < parts[k].channels; ++c) {
+            for (int c = 0; c < terms[k].channels; ++c) {
                 *to = light.vector(p)[static_cast<std::size_t>(c) * stride + k];
                 if (!(std::abs(*to++) <= kMaxTransfer))
                     throw Error(fmt::format("lamp '{}' lights a vertex with a radiance above 1e6, more than "

@@ -14,7 +14,7 @@ namespace prt {
 /// surfaces. Each hit counts for the axis along which the plane of its surface is nearest. A distance is the
 /// one that a fifth of the axis's rays do not exceed, so that a thin pole or a leaf does not hide everything
 /// behind it.
-class SightVotes {
+class VisibilityVotes {
 public:
     /// Removes all hits. Distances are measured from a corner, which has the offset `off` from the origin of
     /// the rays. All lengths in metres.

@@ -18,7 +18,7 @@ Scene ball_over(const glm::vec3& floor) {
          test::painted(test::SceneBuilder().sphere({0, 0.8f, 0}, 0.5f, 10).build(), glm::vec3(1))});
 }
 
-Transfer parts_of(const Scene& scene, int bounces, const SubsurfaceOptions& media = {}, bool denoise = true) {
+Transfer terms_of(const Scene& scene, int bounces, const SubsurfaceOptions& media = {}, bool denoise = true) {
     BakeOptions options;
     options.order = 3;
     options.rays = 256;
@@ -30,26 +30,26 @@ Transfer parts_of(const Scene& scene, int bounces, const SubsurfaceOptions& medi
     return bake(scene, options).baked.transfer;
 }
 
-std::vector<PartKind> kinds_of(const Transfer& transfer) {
-    std::vector<PartKind> kinds;
-    for (const TransferPart& part : transfer.layout.parts)
-        kinds.push_back(part.kind);
+std::vector<TermKind> kinds_of(const Transfer& transfer) {
+    std::vector<TermKind> kinds;
+    for (const TransferTerm& term : transfer.layout.terms)
+        kinds.push_back(term.kind);
     return kinds;
 }
 
-const std::vector<PartKind> kDirectAlone = {PartKind::direct}, kBoth = {PartKind::direct, PartKind::indirect};
+const std::vector<TermKind> kDirectAlone = {TermKind::direct}, kBoth = {TermKind::direct, TermKind::indirect};
 
 TEST(BakedParts, AreThoseThatTheSceneNeeds) {
     const Scene grey = ball_over(glm::vec3(0.5f)), red = ball_over({0.9f, 0.2f, 0.1f});
-    EXPECT_EQ(kinds_of(parts_of(grey, 0)), kDirectAlone);
-    const Transfer bounced = parts_of(grey, 1), colored = parts_of(red, 1);
+    EXPECT_EQ(kinds_of(terms_of(grey, 0)), kDirectAlone);
+    const Transfer bounced = terms_of(grey, 1), colored = terms_of(red, 1);
     EXPECT_EQ(kinds_of(bounced), kBoth);
     EXPECT_EQ(bounced.layout.dimension(), 18u);
     EXPECT_EQ(kinds_of(colored), kBoth);
-    EXPECT_EQ(colored.layout.parts[0].channels, 1);
-    EXPECT_EQ(colored.layout.parts[1].channels, 3);
+    EXPECT_EQ(colored.layout.terms[0].channels, 1);
+    EXPECT_EQ(colored.layout.terms[1].channels, 3);
     // There is no other surface for light to bounce off.
-    EXPECT_EQ(kinds_of(parts_of(test::SceneBuilder().floor({0, 0, 0}, 2, 4).build(), 2)), kDirectAlone);
+    EXPECT_EQ(kinds_of(terms_of(test::SceneBuilder().floor({0, 0, 0}, 2, 4).build(), 2)), kDirectAlone);
 }
 
 /// Bounces follow one ray in four, while direct light uses all rays: they are equal to those of a bake
@@ -57,9 +57,9 @@ TEST(BakedParts, AreThoseThatTheSceneNeeds) {
 TEST(BakedParts, DirectLightIsThatOfABakeWithoutBounces) {
     const Scene scene = ball_over({0.9f, 0.2f, 0.1f});
     // The filter looks at all light.
-    const Transfer direct = parts_of(scene, 0, {}, false);
+    const Transfer direct = terms_of(scene, 0, {}, false);
     for (const int bounces : {1, kEndlessBounces}) {
-        const Transfer both = parts_of(scene, bounces, {}, false);
+        const Transfer both = terms_of(scene, bounces, {}, false);
         ASSERT_EQ(kinds_of(both), kBoth);
         float largest = 0;
         for (std::size_t p = 0; p < direct.receivers(); ++p)
@@ -71,7 +71,7 @@ TEST(BakedParts, DirectLightIsThatOfABakeWithoutBounces) {
 
 /// A closed white box with a hole: all incoming light spreads until R is 1, independent of the first hit.
 TEST(BakedParts, OfAFurnaceAddUpToTheSky) {
-    const Transfer both = parts_of(
+    const Transfer both = terms_of(
         test::painted(test::SceneBuilder().bowl({0, 0, 0}, 1, 12, 3).build(), glm::vec3(1)), kEndlessBounces);
     ASSERT_EQ(kinds_of(both), kBoth);
     const Light white = constant_light(3, glm::vec3(1)), black = constant_light(3, glm::vec3(0));
@@ -96,7 +96,7 @@ TEST(BakedParts, DirectLightHasTheColorOfTheSheetThatItComesThrough) {
     Scene leaf = test::painted(test::SceneBuilder().floor({0, 0, 0}, 1, 2).build(), {0.8f, 0.4f, 0.2f}, true);
     leaf.materials[0].transmission.factor = 0.5f;
     leaf.materials[0].transmission.color = {0.5f, 1, 1};
-    const Transfer direct = parts_of(leaf, 0);
+    const Transfer direct = terms_of(leaf, 0);
     EXPECT_EQ(kinds_of(direct), kDirectAlone);
     ASSERT_EQ(direct.layout.channels(), 3);
     // (1 - f) T_front + f c / rho T_back under uniform light: both sides are open.
@@ -114,11 +114,11 @@ TEST(BakedParts, LightThroughMediaIsIndirect) {
                     test::painted(test::SceneBuilder().sphere({0, 0.8f, 0}, 0.5f, 10).build(), glm::vec3(1));
     Scene scene = test::join({floor, ball});
     scene.materials[1].name = "milk";
-    const Transfer both = parts_of(scene, 0, {.media = {{"milk", measured_media()[0].medium}}});
+    const Transfer both = terms_of(scene, 0, {.media = {{"milk", measured_media()[0].medium}}});
     ASSERT_EQ(kinds_of(both), kBoth);
     const std::size_t of_floor = floor.receivers();
-    const auto is_dark = [](std::span<const float> part) {
-        return std::all_of(part.begin(), part.end(), [](float v) { return v == 0; });
+    const auto is_dark = [](std::span<const float> term) {
+        return std::all_of(term.begin(), term.end(), [](float v) { return v == 0; });
     };
     const std::vector<float> areas = receiver_areas(scene);
     for (std::size_t p = 0; p < both.receivers(); ++p) {
@@ -130,8 +130,8 @@ TEST(BakedParts, LightThroughMediaIsIndirect) {
     // A body alone has no direct light at all, and no part for it.
     Scene alone = ball;
     alone.materials[0].name = "milk";
-    EXPECT_EQ(kinds_of(parts_of(alone, 0, {.media = {{"milk", measured_media()[0].medium}}})),
-              std::vector<PartKind>{PartKind::indirect});
+    EXPECT_EQ(kinds_of(terms_of(alone, 0, {.media = {{"milk", measured_media()[0].medium}}})),
+              std::vector<TermKind>{TermKind::indirect});
 }
 
 } // namespace

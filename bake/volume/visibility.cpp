@@ -1,6 +1,6 @@
 // Finds visibility distances of probes from the hits of their rays.
 
-#include "volume/sight.h"
+#include "volume/visibility.h"
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
@@ -21,14 +21,14 @@ std::size_t largest_axis(const glm::vec3& v) {
 
 } // namespace
 
-void SightVotes::begin(const glm::vec3& off, float reach) {
+void VisibilityVotes::begin(const glm::vec3& off, float reach) {
     off_ = off;
     reach_ = reach;
     for (auto& votes : votes_)
         votes.clear();
 }
 
-void SightVotes::add_hit(const glm::vec3& way, const glm::vec3& face, float weight) {
+void VisibilityVotes::add_hit(const glm::vec3& way, const glm::vec3& face, float weight) {
     const glm::vec3 away = glm::dot(face, way) < 0 ? -face : face, hit = way - off_;
     // The plane is where away·x = away·hit; it is assigned to the axis that contributes the largest term.
     const glm::vec3 part = away * hit;
@@ -40,7 +40,7 @@ void SightVotes::add_hit(const glm::vec3& way, const glm::vec3& face, float weig
         votes_[2 * axis + (away[static_cast<int>(axis)] > 0 ? 1 : 0)].push_back({distance, weight});
 }
 
-std::array<float, 6> SightVotes::distances(double rays, float open) {
+std::array<float, 6> VisibilityVotes::distances(double rays, float open) {
     std::array<float, 6> distances;
     for (std::size_t a = 0; a < 6; ++a) {
         std::ranges::sort(votes_[a], {}, &Vote::distance);

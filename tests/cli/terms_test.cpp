@@ -37,13 +37,13 @@ protected:
     TemporaryFolder folder;
     const nlohmann::json both = {{{"kind", "direct"}, {"channels", 1}},
                                  {{"kind", "indirect"}, {"channels", 1}}},
-                         whole = {{{"kind", "whole"}, {"channels", 1}}};
+                         whole = {{{"kind", "combined"}, {"channels", 1}}};
 };
 
 TEST_F(Parts, OfABakeWithBouncesAreKeptByTheCompressor) {
-    EXPECT_EQ(figures_of({"info", at("b.glb")})["transfer"]["parts"], both);
-    EXPECT_EQ(figures_of({"compress", at("b.glb"), "-o", at("c.glb")})["parts"], both);
-    EXPECT_EQ(figures_of({"info", at("c.glb")})["clustered_pca"]["parts"], both);
+    EXPECT_EQ(figures_of({"info", at("b.glb")})["transfer"]["terms"], both);
+    EXPECT_EQ(figures_of({"compress", at("b.glb"), "-o", at("c.glb")})["terms"], both);
+    EXPECT_EQ(figures_of({"info", at("c.glb")})["clustered_pca"]["terms"], both);
 }
 
 /// A model compressed for a light with its suns has a smaller error under it than one compressed for natural
@@ -76,8 +76,8 @@ TEST_F(Parts, AreCompressedForLightsWithTheirSunsApartToo) {
 }
 
 TEST_F(Parts, AreMadeOneWhereTheUserAsksForIt) {
-    EXPECT_EQ(figures_of({"compress", at("b.glb"), "-o", at("c.glb"), "--whole"})["parts"], whole);
-    EXPECT_EQ(figures_of({"info", at("c.glb")})["clustered_pca"]["parts"], whole);
+    EXPECT_EQ(figures_of({"compress", at("b.glb"), "-o", at("c.glb"), "--combine-direct"})["terms"], whole);
+    EXPECT_EQ(figures_of({"info", at("c.glb")})["clustered_pca"]["terms"], whole);
     // The bake represents equal light in other terms: all errors come from coding.
     const auto errors = figures_of({"evaluate", at("b.glb"), at("c.glb")});
     EXPECT_LT(errors["relative_l2"], 0.05);

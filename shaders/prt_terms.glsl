@@ -1,5 +1,5 @@
-// Computes the light of a transfer vector. Define the lines of prt::part_defines: PRT_NUMBERS of a vector,
-// PRT_COEFFICIENTS (order²); PRT_FIRST_CHANNELS and PRT_SECOND_CHANNELS, the channels, 1 or 3, of the parts
+// Computes the light of a transfer vector. Define the lines of prt::term_defines: PRT_NUMBERS of a vector,
+// PRT_COEFFICIENTS (order²); PRT_FIRST_CHANNELS and PRT_SECOND_CHANNELS, the channels, 1 or 3, of the terms
 // of distant light that exist; and PRT_LAMPS with a bit for each colored lamp, the first 32 in
 // PRT_COLORED_LAMPS. Define PRT_TRANSFER(at, i), number i of the vector at `at`, and PRT_LIGHT(i), color i of
 // prt::light_columns.
@@ -14,15 +14,15 @@
 #define PRT_LAMPS 0
 #endif
 
-// Light of a grey part, or of a colored part, whose numbers begin at `number` and whose colors begin at
+// Light of a grey term, or of a colored term, whose numbers begin at `number` and whose colors begin at
 // `color`.
-vec3 prt_grey_part(uint at, uint number, uint color) {
+vec3 prt_grey_term(uint at, uint number, uint color) {
     vec3 sum = vec3(0.0);
     for (uint i = 0u; i < uint(PRT_COEFFICIENTS); ++i)
         sum += PRT_TRANSFER(at, number + i) * PRT_LIGHT(color + i);
     return sum;
 }
-vec3 prt_colored_part(uint at, uint number, uint color) {
+vec3 prt_colored_term(uint at, uint number, uint color) {
     vec3 sum = vec3(0.0);
     for (uint i = 0u; i < uint(PRT_COEFFICIENTS); ++i)
         sum += vec3(PRT_TRANSFER(at, number + i), PRT_TRANSFER(at, number + i + uint(PRT_COEFFICIENTS)),
@@ -49,14 +49,14 @@ vec3 prt_lamps(uint at, uint number, uint color) {
 vec3 prt_lit_vector(uint at) {
     vec3 sum = vec3(0.0);
 #if PRT_FIRST_CHANNELS == 1
-    sum += prt_grey_part(at, 0u, 0u);
+    sum += prt_grey_term(at, 0u, 0u);
 #elif PRT_FIRST_CHANNELS == 3
-    sum += prt_colored_part(at, 0u, 0u);
+    sum += prt_colored_term(at, 0u, 0u);
 #endif
 #if PRT_SECOND_CHANNELS == 1
-    sum += prt_grey_part(at, uint(PRT_FIRST_CHANNELS * PRT_COEFFICIENTS), uint(PRT_COEFFICIENTS));
+    sum += prt_grey_term(at, uint(PRT_FIRST_CHANNELS * PRT_COEFFICIENTS), uint(PRT_COEFFICIENTS));
 #elif PRT_SECOND_CHANNELS == 3
-    sum += prt_colored_part(at, uint(PRT_FIRST_CHANNELS * PRT_COEFFICIENTS), uint(PRT_COEFFICIENTS));
+    sum += prt_colored_term(at, uint(PRT_FIRST_CHANNELS * PRT_COEFFICIENTS), uint(PRT_COEFFICIENTS));
 #endif
 #if PRT_LAMPS > 0
     const uint kParts = uint(PRT_FIRST_CHANNELS > 0) + uint(PRT_SECOND_CHANNELS > 0);
