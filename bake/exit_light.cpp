@@ -64,7 +64,7 @@ void check_converged(const BakePlan& plan, const Propagated& lit, int bounces) {
 }
 
 /// Whether bounces process the color channels of lamps separately, one after the other.
-bool colors_apart(const BakePlan& plan, const Transfer& light) {
+bool separate_colors(const BakePlan& plan, const Transfer& light) {
     return plan.channels == 1 && light.layout.channels() == 3;
 }
 
@@ -203,7 +203,7 @@ SharpTransfer lit_by_lamps(const BakePlan& plan, Measured& measured, const Trans
     } else {
         const GatherOperator* last = rows ? &rows->all : nullptr;
         const TransportOperators with_points = with_rows(operators, {beside.points});
-        lit = colors_apart(plan, light)
+        lit = separate_colors(plan, light)
                   ? sharp_lamps_in_color(plan, light, sampled, last, with_points, progress)
                   : sharp_lamps(plan, std::move(light), sampled, last, with_points, progress);
         check_converged(plan, lit.exit, plan.bounces);
@@ -307,7 +307,7 @@ Propagated propagate_lamps_on_both_sides(const BakePlan& plan, Transfer light,
                                          const Progress& progress) {
     const int threads = plan.options.threads;
     Propagated all;
-    if (colors_apart(plan, light)) {
+    if (separate_colors(plan, light)) {
         const auto color = [&](int c) {
             return propagate(one_channel(light, c), operators, bounces, threads, progress);
         };

@@ -89,8 +89,8 @@ std::string place_of(const SceneFile& baked, std::uint32_t receiver) {
 }
 
 std::string about_lights(const Evaluation& evaluation) {
-    const bool apart = std::any_of(evaluation.named.begin(), evaluation.named.end(),
-                                   [](const NamedError& e) { return e.suns > 0; });
+    const bool separate = std::any_of(evaluation.named.begin(), evaluation.named.end(),
+                                      [](const NamedError& e) { return e.suns > 0; });
     const bool lamps = std::any_of(evaluation.standard.begin(), evaluation.standard.end(),
                                    [](const NamedError& e) { return e.judged; });
     return "lit_rms: relative L2 of exit radiance for albedo 1. lit_max and 99.9 %: the largest error of a "
@@ -104,9 +104,10 @@ std::string about_lights(const Evaluation& evaluation) {
            "error is largest; errors under it are over the radiance of all 64, since one that lights nothing "
            "leaves nothing to divide by. It stands " +
            evaluation.worst_sun + ". Random white: every coefficient alike; over the root mean square of R." +
-           (apart ? " Suns apart: transfer without the direct light of suns, which renderers add with sharp "
-                    "shadows; over the radiance under the whole light. The verdict goes by these."
-                  : "") +
+           (separate
+                ? " Suns apart: transfer without the direct light of suns, which renderers add with sharp "
+                  "shadows; over the radiance under the whole light. The verdict goes by these."
+                : "") +
            (lamps
                 ? " Lamps: all of the scene as bright as they are there, without a sky; under skies they are "
                   "off. Below, each lamp alone."
@@ -134,7 +135,7 @@ Table lights_table(const Evaluation& evaluation, const SceneFile& baked) {
                      {"mean_radiance", "mean radiance"}};
     for (const char* key :
          {"crossing_edges", "crossing_rms", "seam_place_metres", "inner_edges", "inner_rms", "inner_max",
-          "suns_apart", "judged", "visible_mean", "visible_percentile_99", "visible_above_5_percent"})
+          "separate_suns", "judged", "visible_mean", "visible_percentile_99", "visible_above_5_percent"})
         table.columns.push_back({key});
     for (const auto* lights : {&evaluation.named, &evaluation.standard})
         for (const auto& [name, e, suns, judged] : *lights)
@@ -248,13 +249,13 @@ public:
     Verdict verdict(const Evaluation& evaluation) const {
         Verdict v;
         std::size_t lights = 0;
-        bool apart = false;
+        bool separate = false;
         for (const auto* rows : {&evaluation.named, &evaluation.standard})
             for (const auto& [name, error, suns, judged] : *rows) {
                 if (!judged)
                     continue;
                 ++lights;
-                apart = apart || suns > 0;
+                separate = separate || suns > 0;
                 v.under = name;
                 v.lit_rms = std::max(v.lit_rms, error.rms);
                 if (v.visible_under.empty() || error.visible.percentile_95 > v.visible) {
@@ -273,7 +274,7 @@ public:
                 }
             }
         if (lights > 1)
-            v.under = fmt::format("these {} lights{}", lights, apart ? ", suns apart" : "");
+            v.under = fmt::format("these {} lights{}", lights, separate ? ", suns apart" : "");
         if (model_.compressed)
             v.bytes_per_vertex = bytes_per_receiver(model_.compressed->transfer);
         return v;
@@ -293,7 +294,7 @@ public:
         Lighting drawn = lighting;
         drawn.sky = deringed(drawn.sky);
         const std::span<const SunDisc> suns =
-            suns_apart(light) ? light.split.suns : std::span<const SunDisc>();
+            separate_suns(light) ? light.split.suns : std::span<const SunDisc>();
         const auto before = wanted_under(drawn);
         const float exposure =
             exposure_of(before, sun_radiance(scene, suns, {.rays = 16, .threads = a_.threads}));
@@ -321,13 +322,13 @@ private:
 
     const Transfer& reference() const { return baked_.baked->transfer; }
     /// Whether the renderer can shadow its suns.
-    bool suns_apart(const SplitLight& light) const {
+    bool separate_suns(const SplitLight& light) const {
         return !light.split.suns.empty() && reference().layout.has(TermKind::direct) &&
                shipped_.transfer.layout.has(TermKind::direct);
     }
     /// Returns the lighting of the verdict.
     Lighting judged(const SplitLight& light) const {
-        return suns_apart(light) ? lighting_of(light) : Lighting{light.whole};
+        return separate_suns(light) ? lighting_of(light) : Lighting{light.whole};
     }
     /// Turns lamps off, unless the lighting contains their strengths.
     Lighting with_lamps(Lighting lighting) const {
@@ -374,10 +375,10 @@ private:
     /// Adds errors under a named light. With separate suns, errors are relative to the radiance under the
     /// whole light, because suns are in the picture.
     void add_named(const SplitLight& light, Evaluation& evaluation) const {
-        const bool apart = suns_apart(light);
+        const bool separate = separate_suns(light);
         const Lighting whole{light.whole};
-        evaluation.named.push_back({light.sky.name, error_under(whole), 0, !apart});
-        if (apart) {
+        evaluation.named.push_back({light.sky.name, error_under(whole), 0, !separate});
+        if (separate) {
             std::vector<glm::vec3> shown = wanted_under(whole);
             LitScale scale = lit_scale(shown, areas_);
             scale.shown = std::move(shown);
@@ -389,7 +390,7 @@ private:
             evaluation.named.push_back(
                 {light.sky.name + " with lamps",
                  error_under({.sky = light.whole, .lamps = std::vector<glm::vec3>(lamps, glm::vec3(1))}), 0,
-                 !apart});
+                 !separate});
     }
 
     /// Adds the worst of suns with one strength: errors are relative to the mean over all suns (docs/math.md,

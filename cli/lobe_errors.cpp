@@ -23,7 +23,7 @@ using ByMethod = std::array<double, kMethods>;
 
 struct SkyLight {
     std::string name;
-    bool suns_apart;
+    bool separate_suns;
     Light light;
 };
 
@@ -99,7 +99,7 @@ Table table_by_sky() {
         "Root mean square over the frames of lit_rms against a bake of each, of vertices that are not "
         "inside geometry. Best of all that turn: the mean over the poses of the fit, all its numbers, "
         "turned with the skin; no transfer of a vertex that is one in all poses does better.";
-    table.columns = {{"sky", "sky"}, {"suns_apart", "suns apart"}};
+    table.columns = {{"sky", "sky"}, {"separate_suns", "suns apart"}};
     for (Column& column : method_columns())
         table.columns.push_back(std::move(column));
     return table;
@@ -144,7 +144,7 @@ void add_lobe_errors(const LobeErrorRequest& request, const Progress& progress, 
         add_row({pose.animation, pose.seconds}, of_frame, skies, frame_table);
     }
     for (std::size_t i = 0; i < lights.size(); ++i)
-        add_row({lights[i].name, lights[i].suns_apart}, by_sky[i], frames, sky_table);
+        add_row({lights[i].name, lights[i].separate_suns}, by_sky[i], frames, sky_table);
     const std::vector<Column> columns = method_columns();
     for (std::size_t m = 0; m < columns.size(); ++m)
         add_figures(report, {{columns[m].key, std::sqrt(all[m])}});

@@ -23,7 +23,7 @@ void add_sky_errors(const ErrorMoments& moments, const std::vector<NamedLighting
                 "Errors under skies, turned about +Y",
                 "",
                 {{"name", "sky"},
-                 {"suns_apart", "suns apart"},
+                 {"separate_suns", "suns apart"},
                  {"lit_rms_mean", "mean of all turns", Unit::percent},
                  {"lit_rms_worst", "worst turn", Unit::percent},
                  {"worst_turn_degrees", "its angle"}},
@@ -36,9 +36,9 @@ void add_sky_errors(const ErrorMoments& moments, const std::vector<NamedLighting
             const LitRmsOverTurns error = lit_rms_over_turns(moments, use.lighting);
             sentence += fmt::format("{1}{{skies/{0}/lit_rms_mean:.3f%}}, at the worst turn "
                                     "{{skies/{0}/lit_rms_worst:.3f%}}",
-                                    table.rows.size(), use.suns_apart ? "; its sun apart " : "");
+                                    table.rows.size(), use.separate_suns ? "; its sun apart " : "");
             table.rows.push_back(
-                {sky.name, use.suns_apart, error.mean, error.worst, glm::degrees(error.worst_angle)});
+                {sky.name, use.separate_suns, error.mean, error.worst, glm::degrees(error.worst_angle)});
         }
         report.sentences.push_back(sentence);
     }

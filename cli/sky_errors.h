@@ -12,7 +12,7 @@ namespace prt::cli {
 /// direct term.
 struct LightingUse {
     Lighting lighting;
-    bool suns_apart = false;
+    bool separate_suns = false;
 };
 std::vector<LightingUse> uses_of(const Lighting& lighting, const TransferLayout& layout);
 

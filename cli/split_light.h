@@ -34,8 +34,9 @@ Light light_of_suns(const SplitLight& light);
 Lighting lighting_of(const SplitLight& light);
 
 /// Error message: transfer without a separate direct term cannot be lit by separate suns, with advice.
-inline constexpr const char* kNotApart = "keeps no direct light apart, so that suns cannot be lit apart from "
-                                         "the sky; lobes never do, other transfer without --combine-direct";
+inline constexpr const char* kNoDirectTerm =
+    "keeps no direct light apart, so that suns cannot be lit apart from "
+    "the sky; lobes never do, other transfer without --combine-direct";
 
 /// Returns a sky without light.
 SplitLight dark_sky(int order);

@@ -277,7 +277,7 @@ void add_volume_errors(BudgetRequest request, SceneFile& baked, Report& report, 
     const std::optional<CompressedVolume> small = shipped_volume(request, volume);
     BudgetLightOptions& options = request.lights;
     options.order = volume.baked.transfer.layout.order;
-    options.apart = volume.baked.transfer.layout.has(TermKind::direct);
+    options.separate = volume.baked.transfer.layout.has(TermKind::direct);
     ProgressBar bar = session.progress_bar("measuring the volume");
     const Progress progress = bar.progress();
     const TraceScene traced(

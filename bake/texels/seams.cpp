@@ -159,13 +159,13 @@ private:
 } // namespace
 
 std::vector<SeamPoint> seam_points(const Scene& scene, const Atlas& atlas) {
-    constexpr double kApart = 1e-3, kPointsPerTexel = 2; // texels
+    constexpr double kSeparate = 1e-3, kPointsPerTexel = 2; // texels
     std::vector<SeamPoint> points;
     for (const auto& [corners, sides] : sides_of_edges(scene, atlas))
         for (std::size_t s = 1; s < sides.size(); ++s) {
             const SeamSide &here = sides[0], &there = sides[s];
-            if (glm::distance(here.first, there.first) < kApart &&
-                glm::distance(here.second, there.second) < kApart)
+            if (glm::distance(here.first, there.first) < kSeparate &&
+                glm::distance(here.second, there.second) < kSeparate)
                 continue; // the chart goes on
             const double longest =
                 std::max(glm::distance(here.first, here.second), glm::distance(there.first, there.second));

@@ -19,7 +19,7 @@
 namespace prt {
 namespace {
 
-constexpr int kApart = 2; ///< texels on every side of a chart
+constexpr int kSeparate = 2; ///< texels on every side of a chart
 
 struct FlatBox {
     glm::dvec2 low, size; ///< metres
@@ -53,7 +53,7 @@ std::optional<Packed> pack(std::span<const FlatBox> boxes, int side, double dens
     std::vector<glm::ivec2> sizes;
     double texels = 0;
     for (const FlatBox& box : boxes) {
-        const glm::dvec2 size = glm::ceil(box.size * density) + 1.0 + 2.0 * kApart;
+        const glm::dvec2 size = glm::ceil(box.size * density) + 1.0 + 2.0 * kSeparate;
         if (!(size.x <= side && size.y <= side))
             return std::nullopt;
         texels += size.x * size.y;
@@ -74,12 +74,13 @@ double area_of(std::span<const FlatBox> boxes) {
 
 /// Returns how many of the smallest charts fit a texture.
 std::size_t max_charts(int side) {
-    constexpr std::size_t kMinTexels = (1 + 2 * kApart) * (1 + 2 * kApart);
+    constexpr std::size_t kMinTexels = (1 + 2 * kSeparate) * (1 + 2 * kSeparate);
     return static_cast<std::size_t>(side) * static_cast<std::size_t>(side) / kMinTexels;
 }
 
 [[noreturn]] void refuse_size(std::size_t charts, int side) {
-    constexpr double kTexels = 2 * (2 + 2 * kApart) * (2 + 2 * kApart); // half of a texture may stay free
+    constexpr double kTexels =
+        2 * (2 + 2 * kSeparate) * (2 + 2 * kSeparate); // half of a texture may stay free
     int wanted = 1;
     while (wanted < kMaxTexels &&
            static_cast<double>(wanted) * wanted < kTexels * static_cast<double>(charts))
@@ -136,7 +137,7 @@ public:
                                                      glm::dvec2(0), box.size) *
                                           packed.density;
                     split.source.push_back(t[i]);
-                    split.uv.emplace_back((glm::dvec2(corner) + 0.5 + static_cast<double>(kApart) + at) /
+                    split.uv.emplace_back((glm::dvec2(corner) + 0.5 + static_cast<double>(kSeparate) + at) /
                                           static_cast<double>(packed.side));
                 }
                 split.triangles[face.triangle][i] = found->second;

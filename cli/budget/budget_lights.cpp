@@ -88,15 +88,15 @@ MeasuredLight of_image(const SplitLight& light, const BudgetLightOptions& option
 }
 
 /// From coefficients of kMaxOrder and suns.
-MeasuredLight of_coefficients(const SplitLight& light, bool apart) {
+MeasuredLight of_coefficients(const SplitLight& light, bool separate) {
     const std::vector<Sun> suns = as_seen_by_rays(light.split.suns);
     const Image sky = drawn(light.sky.light);
     MeasuredLight measured{.all = DistantLight(sky, suns),
                            .sky = {},
                            .suns = {},
-                           .sky_bands = apart ? light.sky.light : light.whole,
+                           .sky_bands = separate ? light.sky.light : light.whole,
                            .sun_bands = constant_light(kMaxOrder, glm::vec3(0))};
-    if (apart && !suns.empty()) {
+    if (separate && !suns.empty()) {
         measured.sky.emplace(sky);
         measured.suns = light.split.suns;
         measured.sun_bands = as_light(light.split.suns, kMaxOrder);
@@ -131,7 +131,7 @@ Lighting BudgetLight::lighting(int order) const {
 
 std::vector<BudgetLight> budget_lights(const BudgetLightOptions& options) {
     std::vector<BudgetLight> lights;
-    const SunCount suns = options.apart ? options.suns : SunCount{0};
+    const SunCount suns = options.separate ? options.suns : SunCount{0};
     for (const Path& path : options.files) {
         LightOptions unturned = options.reading;
         unturned.rotation_degrees = 0;
@@ -141,11 +141,11 @@ std::vector<BudgetLight> budget_lights(const BudgetLightOptions& options) {
             continue;
         }
         lights.push_back(
-            {light.sky.name, of_coefficients(all_bands(path, options), options.apart && suns.count != 0)});
+            {light.sky.name, of_coefficients(all_bands(path, options), options.separate && suns.count != 0)});
     }
     if (lights.empty())
         for (const SplitLight& light : default_lights(kMaxOrder))
-            lights.push_back({light.sky.name, of_coefficients(light, options.apart)});
+            lights.push_back({light.sky.name, of_coefficients(light, options.separate)});
     return lights;
 }
 

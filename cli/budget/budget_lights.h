@@ -25,8 +25,8 @@ struct BudgetLightOptions {
     std::vector<Path> files; ///< empty: the default lights of `evaluate`
     SunCount suns = {std::nullopt};
     LightOptions reading;
-    int order = 6;     ///< order of the transfer; suns are searched for with it
-    bool apart = true; ///< suns may be separate, because the transfer has a separate direct term
+    int order = 6;        ///< order of the transfer; suns are searched for with it
+    bool separate = true; ///< suns may be separate, because the transfer has a separate direct term
     int threads = 0;
 };
 

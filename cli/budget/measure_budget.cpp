@@ -88,7 +88,7 @@ void add_budget(BudgetRequest request, SceneFile& baked, Report& report, Session
         throw Error(request.shipped.string() + ": is no compressed file: a budget is of one bake");
     const TransferLayout& layout = shipped ? layout_of(*shipped) : layout_of(baked);
     request.lights.order = baked.order();
-    request.lights.apart = layout.has(TermKind::direct);
+    request.lights.separate = layout.has(TermKind::direct);
     about(request.baked, [&] { measure(request, baked, shipped ? &*shipped : nullptr, report, session); });
 }
 

@@ -300,7 +300,7 @@ std::vector<FileInstance> instances_of(const Path& path, const GltfOptions& read
 
 Bake load_bake(const Path& path, const GltfOptions& reading) {
     GltfOptions options = reading;
-    options.instancing = Instancing::apart; // each mesh once, as its transfer is stored
+    options.instancing = Instancing::separate; // each mesh once, as its transfer is stored
     GltfDocument document = load_gltf(path, options);
     const Scene scene = extract_scene(document);
     std::vector<FileInstance> instances;
@@ -472,7 +472,7 @@ Written written(const CompressArguments& a, std::vector<std::byte> file, const B
     const std::optional<BakedLightmap>& lightmap = bake.lightmap;
     GltfDocument document = readable(a, [&] {
         return parse_gltf(file, a.output,
-                          {.instancing = Instancing::apart, .scene_limit = a.reading.scene_limit});
+                          {.instancing = Instancing::separate, .scene_limit = a.reading.scene_limit});
     });
     const std::uintmax_t bytes = session.write(a.output, file);
     file = {};

@@ -108,7 +108,7 @@ BudgetRequest budget_request(const EvaluateArguments& a) {
                        .suns = a.suns,
                        .reading = a.light_options,
                        .order = {},
-                       .apart = {},
+                       .separate = {},
                        .threads = a.threads},
             .no_shadow = a.no_shadow};
 }

@@ -82,8 +82,8 @@ void report_suns(const SunSplit& split, Report& report) {
 void run(const ProjectArguments& a, Session& session) {
     // A light file is known by its name.
     check_outputs({{a.output, "--output", {".json"}, true}, {a.json, "--json", {".json"}}}, {a.environment});
-    const bool apart = a.suns.count != 0;
-    if (apart && suffix_of(a.environment) == ".json")
+    const bool separate = a.suns.count != 0;
+    if (separate && suffix_of(a.environment) == ".json")
         throw Error(a.environment.string() + ": is a light file, and suns are found in images");
     const Stopwatch stopwatch;
     const SplitLight light = load_split_light(a.environment, a.order, a.suns, a.light_options, a.threads);
@@ -91,7 +91,7 @@ void run(const ProjectArguments& a, Session& session) {
     const SunSplit& split = light.split;
     const double seconds = stopwatch.seconds();
     Json file = light_json(loaded.light);
-    if (apart)
+    if (separate)
         file["suns"] = suns_json(split.suns);
     session.write(a.output, json_text(file));
 
@@ -103,7 +103,7 @@ void run(const ProjectArguments& a, Session& session) {
                          {"seconds", seconds}});
     report.sentences = {"{output}: order {order}, mean radiance {mean_radiance/0:.4g} {mean_radiance/1:.4g} "
                         "{mean_radiance/2:.4g}"};
-    if (apart)
+    if (separate)
         report_suns(split, report);
     if (loaded.environment) {
         add_figures(report, {{"layout", layout_name(loaded.environment->layout)},

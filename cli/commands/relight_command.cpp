@@ -87,7 +87,7 @@ void check_model(const RelightArguments& a, const SceneFile& model) {
         throw Error(a.model.string() + ": has no lamps, and without --env nothing lights it");
     if (is_together(model)) {
         if (a.suns.count.value_or(0) > 0)
-            throw Error(a.model.string() + ": " + kNotApart + ", or light it with --suns 0");
+            throw Error(a.model.string() + ": " + kNoDirectTerm + ", or light it with --suns 0");
         print_notices(a.model.string(), {"keeps no direct light apart: suns are lit with the sky, and no "
                                          "shadow is sharp"});
     }
@@ -171,11 +171,11 @@ void run(RelightArguments a, Session& session) {
     });
     const std::vector<bool> solid = solid_materials(model);
     ProgressBar bar = session.progress_bar("relighting");
-    const bool suns_are_apart = !light.split.suns.empty() && layout_of(model).has(TermKind::direct);
+    const bool suns_are_separate = !light.split.suns.empty() && layout_of(model).has(TermKind::direct);
     const Lighting lighting{light.sky.light, light_of_suns(light), lamp_strengths(a.lamps, layout_of(model))};
     std::vector<glm::vec3> radiance = lit_by_transfer(lighting, a.threads, model);
     const TraceScene scene(model.scene, std::move(textures), {.solid = solid, .threads = a.threads});
-    if (suns_are_apart)
+    if (suns_are_separate)
         add_suns(scene, light.split.suns, {.rays = a.rays, .threads = a.threads}, bar.progress(), radiance);
     if (a.albedo) {
         const std::vector<glm::vec3> colors = base_colors(scene.surfaces());

@@ -106,7 +106,7 @@ bool has_unnamed_media(const SceneFile& model, const std::vector<bool>& solid) {
 /// without transfer has only direct light.
 std::string why_together(const RenderArguments& a, const SceneFile& model, const std::vector<bool>& solid) {
     if (model.record() && layout_of(model).has(TermKind::combined))
-        return a.model.string() + ": " + kNotApart;
+        return a.model.string() + ": " + kNoDirectTerm;
     if (a.backend == Backend::gpu && has_unnamed_media(model, solid))
         return "--backend gpu does not know media of --subsurface, which suns light through transfer alone; "
                "draw with --backend cpu";

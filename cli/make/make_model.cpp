@@ -465,7 +465,7 @@ void make_model(const MakeRequest& request, Report& report, Session& session) {
                                                      .suns = {std::nullopt},
                                                      .reading = request.reading_lights,
                                                      .order = 6,
-                                                     .apart = true,
+                                                     .separate = true,
                                                      .threads = request.threads});
     check_shine(request, lights);
     about(request.scene, [&] { Maker(request, session, std::move(lights)).run(report); });

@@ -37,11 +37,11 @@ public:
                     see(q);
     }
 
-    /// Returns the border cost of p: for each receiver that does not share its cluster, `apart(q)`.
-    template <class Apart>
-    double borders(std::size_t p, Apart&& apart) const {
+    /// Returns the border cost of p: for each receiver that does not share its cluster, `separate(q)`.
+    template <class Separate>
+    double borders(std::size_t p, Separate&& separate) const {
         double cost = 0;
-        see_partners(p, [&](std::uint32_t q) { cost += apart(q) ? prices_.border : 0; });
+        see_partners(p, [&](std::uint32_t q) { cost += separate(q) ? prices_.border : 0; });
         return cost;
     }
 

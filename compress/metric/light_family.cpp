@@ -101,8 +101,8 @@ void add_draws(const Light& direct, const Light& all, double weight, const std::
     moments.add_texture(texture, scale);
 }
 
-/// Adds a member. If `apart`, half of the draws exclude suns from direct light.
-void add_member(const FamilyMember& member, const std::vector<double>& texture, bool apart,
+/// Adds a member. If `separate`, half of the draws exclude suns from direct light.
+void add_member(const FamilyMember& member, const std::vector<double>& texture, bool separate,
                 PairMoments& moments) {
     const Light& sky = member.lighting.sky;
     const auto of_band_0 = static_cast<double>(sky.coefficients[0].x);
@@ -112,9 +112,9 @@ void add_member(const FamilyMember& member, const std::vector<double>& texture, 
     if (!member.lighting.suns)
         return add_draws(sky, sky, member.weight, powers, moments);
     const Light all = sum(sky, *member.lighting.suns);
-    if (apart)
+    if (separate)
         add_draws(sky, all, member.weight / 2, powers, moments);
-    add_draws(all, all, apart ? member.weight / 2 : member.weight, powers, moments);
+    add_draws(all, all, separate ? member.weight / 2 : member.weight, powers, moments);
 }
 
 /// Adds the moments for each color of distant light.

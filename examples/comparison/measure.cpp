@@ -60,7 +60,7 @@ public:
         gpu_.set_occlusion(viewer::ambient_occlusion(*model_, {}));
         add_row("baked AO", PictureKind::baked_ao, 1); // eight bits
         const prt::Transfer split = add_transfer();
-        add_suns_apart(split);
+        add_separate_suns(split);
         add_lightmap();
         return std::move(result_);
     }
@@ -211,7 +211,7 @@ private:
         result_.rows.push_back(std::move(row));
     }
 
-    void add_suns_apart(const prt::Transfer& split) {
+    void add_separate_suns(const prt::Transfer& split) {
         add_sun_row("PRT, order 6, sun by rays", static_cast<double>(split.dimension()) * 2, split,
                     Shadows::rays);
         prt::SearchOptions search;
@@ -231,18 +231,18 @@ private:
                   .bytes_per_vertex = lit.bytes_per_texel,
                   .errors = {},
                   .picture = {}};
-        Row apart = whole;
-        apart.method = "lightmap, 8 bytes, sun by rays";
+        Row separate = whole;
+        separate.method = "lightmap, 8 bytes, sun by rays";
         for (std::size_t i = 0; i < skies_.size(); ++i) {
             const Sky& sky = skies_[i];
             const prt::ClusteredTransfer& transfer = lit.lightmap.compressed.transfer;
             const prt::Light all = prt::truncated(sky.light, sky.rest.order);
             add_picture(i, drawn_by(lit, prt::exit_radiance(transfer, all), {}), whole);
             const prt::Lighting rest{sky.rest, prt::as_light(sky.suns, sky.rest.order)};
-            add_picture(i, drawn_by(lit, prt::exit_radiance(transfer, rest), sky.suns), apart);
+            add_picture(i, drawn_by(lit, prt::exit_radiance(transfer, rest), sky.suns), separate);
         }
         result_.rows.push_back(std::move(whole));
-        result_.rows.push_back(std::move(apart));
+        result_.rows.push_back(std::move(separate));
     }
 
     /// `radiance` [texels], and suns at each pixel.

@@ -73,7 +73,7 @@ prt_status prt_model_get_info(const prt_model* model, prt_model_info* out, prt_m
         *out = {};
         out->order = model->relighter.order();
         out->channels = model->relighter.layout().channels();
-        out->direct_apart = model->relighter.layout().has(prt::TermKind::direct);
+        out->has_direct_term = model->relighter.layout().has(prt::TermKind::direct);
         out->receivers = receivers.size();
         out->clusters = model->layouts.size();
         out->rows = model->relighter.rows();

@@ -99,7 +99,7 @@ prt_status prt_volume_get_info(const prt_volume* volume, prt_volume_info* out, p
         out->probes = volume->relighter.probes();
         out->rows = volume->relighter.rows();
         out->lamps = layout.lamps();
-        out->direct_apart = layout.has(prt::TermKind::direct);
+        out->has_direct_term = layout.has(prt::TermKind::direct);
         std::copy_n(glm::value_ptr(volume->volume.grid.origin), 3, out->corner);
         out->spacing = volume->volume.grid.spacing;
         std::copy_n(glm::value_ptr(volume->origin), 3, out->origin);

@@ -93,7 +93,7 @@ std::vector<std::size_t> candidates(const SkyMap& map) {
     for (std::size_t c = 0; c < cells.size(); ++c)
         if (cells[c].most > 0)
             sorted.push_back(c);
-    const double apart = std::max(0.05, 2 * map.texels().spacing()); // a cell and its neighbors
+    const double separate = std::max(0.05, 2 * map.texels().spacing()); // a cell and its neighbors
     std::vector<std::size_t> found;
     const auto take = [&](auto key) {
         std::stable_sort(sorted.begin(), sorted.end(),
@@ -102,7 +102,7 @@ std::vector<std::size_t> candidates(const SkyMap& map) {
         for (std::size_t i = 0; i < sorted.size() && taken.size() < kCandidates; ++i) {
             const SkyCell& cell = cells[sorted[i]];
             if (std::ranges::any_of(taken, [&](const glm::dvec3& other) {
-                    return glm::distance(other, cell.direction) < apart;
+                    return glm::distance(other, cell.direction) < separate;
                 }))
                 continue;
             taken.push_back(cell.direction);

@@ -291,8 +291,8 @@ TEST(Lamps, OfAGroupAreTheirSum) {
     scene.lights = {point("Lamp.left", {-1, 1, 0}, {1, 0.5f, 0}), point("Torch", {0, 1, 1}),
                     point("Lamp.right", {1, 1.5f, 0})};
     BakeOptions options = lamp_options(0); // how bounces are sampled depends on the lamps
-    const Transfer apart = bake(scene, options).baked.transfer;
-    ASSERT_EQ(apart.layout.lamps(), 3u);
+    const Transfer separate = bake(scene, options).baked.transfer;
+    ASSERT_EQ(separate.layout.lamps(), 3u);
     options.lamps.groups = {{"lamps", "Lamp.*"}};
     const Transfer grouped = bake(scene, options).baked.transfer;
     ASSERT_EQ(grouped.layout.lamps(), 2u);
@@ -301,7 +301,7 @@ TEST(Lamps, OfAGroupAreTheirSum) {
     Lighting both{constant_light(2, glm::vec3(0))}, group = both;
     both.lamps = {glm::vec3(2, 1, 0.5f), glm::vec3(0), glm::vec3(2, 1, 0.5f)};
     group.lamps = {glm::vec3(2, 1, 0.5f), glm::vec3(0)};
-    const auto a = exit_radiance(apart, both), b = exit_radiance(grouped, group);
+    const auto a = exit_radiance(separate, both), b = exit_radiance(grouped, group);
     for (std::size_t p = 0; p < a.size(); ++p)
         EXPECT_LT(glm::distance(a[p], b[p]), 1e-5f * (1 + glm::length(a[p])));
 }

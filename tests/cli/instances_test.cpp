@@ -74,8 +74,8 @@ protected:
     }
     std::vector<FileInstance> instances_of(const char* name) const {
         const GltfDocument document = load_gltf(folder / name),
-                           apart = load_gltf(folder / name, {.instancing = Instancing::apart});
-        return read_instances(document, extract_scene(document), extract_scene(apart));
+                           separate = load_gltf(folder / name, {.instancing = Instancing::separate});
+        return read_instances(document, extract_scene(document), extract_scene(separate));
     }
 };
 
@@ -174,10 +174,10 @@ TEST_F(SharedInstances, WhiteNeighboursGiveBackAtMostWhatComes) {
                   .status,
               0);
     const GltfDocument document = load_gltf(folder / "shared.glb"),
-                       apart = load_gltf(folder / "shared.glb", {.instancing = Instancing::apart});
-    const Scene scene = extract_scene(document), stored = extract_scene(apart);
+                       separate = load_gltf(folder / "shared.glb", {.instancing = Instancing::separate});
+    const Scene scene = extract_scene(document), stored = extract_scene(separate);
     EXPECT_EQ(stored.receivers(), 24u);
-    const Transfer transfer = expanded(document, scene, stored, read_transfer(apart, stored)->transfer);
+    const Transfer transfer = expanded(document, scene, stored, read_transfer(separate, stored)->transfer);
     double sum = 0;
     for (const glm::vec3& radiance : exit_radiance(transfer, constant_light(3, glm::vec3(1)))) {
         EXPECT_LT(radiance.x, 1.001f); // rounding of a mesh's transfer to float16

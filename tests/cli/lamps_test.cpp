@@ -219,9 +219,9 @@ TEST_F(LampsOnTheRoad, AreGroupedOrLeftOut) {
     EXPECT_EQ(lamps_of("g.glb"), std::vector<std::string>{"all of them"});
     bake("n.glb", {"--lamps", "none"});
     EXPECT_TRUE(lamps_of("n.glb").empty());
-    const VertexArray together = lit("g.glb", "on"), apart = lit("b.glb", "on");
-    for (std::size_t p = 0; p < apart.size(); ++p)
-        EXPECT_LT(glm::distance(together.colors[p], apart.colors[p]), 1e-5f);
+    const VertexArray together = lit("g.glb", "on"), separate = lit("b.glb", "on");
+    for (std::size_t p = 0; p < separate.size(); ++p)
+        EXPECT_LT(glm::distance(together.colors[p], separate.colors[p]), 1e-5f);
 }
 
 TEST_F(LampsOnTheRoad, AloneLightAPicture) {

@@ -113,13 +113,13 @@ TEST_F(Relight, FindsSunsInImages) {
     Image sky{64, 32, std::vector<glm::vec3>(64 * 32, glm::vec3(0.2f))};
     sky.at(20, 3) = glm::vec3(400);
     write_exr(folder / "sky.exr", sky, EnvironmentLayout::lat_long);
-    const auto apart = relit({at("b.glb"), "--env", at("sky.exr"), "--suns", "1"}),
+    const auto separate = relit({at("b.glb"), "--env", at("sky.exr"), "--suns", "1"}),
                together = relit({at("b.glb"), "--env", at("sky.exr"), "--suns", "0"});
     // The cosine's own bands beyond 4 are 1 % of it.
-    for (std::size_t p = 0; p < apart.size(); ++p)
-        EXPECT_NEAR(apart[p].x / together[p].x, 1, 0.03f);
-    EXPECT_GT(apart[0].x, 0.3f);
-    EXPECT_LT(apart[0].x, 0.9f); // colors that are read end at 1
+    for (std::size_t p = 0; p < separate.size(); ++p)
+        EXPECT_NEAR(separate[p].x / together[p].x, 1, 0.03f);
+    EXPECT_GT(separate[0].x, 0.3f);
+    EXPECT_LT(separate[0].x, 0.9f); // colors that are read end at 1
 }
 
 TEST_F(Relight, SaysWhatItCannotDo) {

@@ -84,9 +84,9 @@ TEST_F(RenderSuns, ShadowsThemSharplyByRaysAndByMaps) {
 }
 
 TEST_F(RenderSuns, LightsWithTheSkyWhatIsNotApart) {
-    const Image apart = rendered({at("b.glb"), "--env", at("sun.json")}),
+    const Image separate = rendered({at("b.glb"), "--env", at("sun.json")}),
                 together = rendered({at("b.glb"), "--env", at("sun.json"), "--suns", "0"});
-    EXPECT_LT(apart.at(44, 16).g, 1e-6f);
+    EXPECT_LT(separate.at(44, 16).g, 1e-6f);
     EXPECT_GT(together.at(44, 16).g, 0.005f); // order 4 blurs the shadow's edge
     for (const char* sky : {"sun.json", "sunny.exr"}) {
         const Outcome outcome = render({at("w.glb"), "--env", at(sky), "-o", at("w.exr")});
@@ -106,11 +106,11 @@ TEST_F(RenderSuns, LightsMediaThroughTransfer) {
                   .status,
               0);
     // Both without a window, because a window filters only the sky and not separate suns.
-    const Image apart = rendered({at("m.glb"), "--env", at("sun.json"), "--window", "none"}),
+    const Image separate = rendered({at("m.glb"), "--env", at("sun.json"), "--window", "none"}),
                 together =
                     rendered({at("m.glb"), "--env", at("sun.json"), "--suns", "0", "--window", "none"});
-    for (std::size_t i = 0; i < apart.pixels.size(); ++i)
-        ASSERT_LT(glm::distance(apart.pixels[i], together.pixels[i]), 1e-4f);
+    for (std::size_t i = 0; i < separate.pixels.size(); ++i)
+        ASSERT_LT(glm::distance(separate.pixels[i], together.pixels[i]), 1e-4f);
 }
 
 /// A sky without suns is lit as it was before there were any.
@@ -154,7 +154,7 @@ TEST_F(RenderSuns, AreApartInTheVerdict) {
     EXPECT_GT(sun["sun.json"]["lit_rms"], 0);
     EXPECT_FALSE(sun["sun.json"]["judged"]);
     EXPECT_EQ(sun["sun.json, suns apart"]["lit_rms"], 0);
-    EXPECT_EQ(sun["sun.json, suns apart"]["suns_apart"], 1);
+    EXPECT_EQ(sun["sun.json, suns apart"]["separate_suns"], 1);
     EXPECT_TRUE(sun["sun.json, suns apart"]["judged"]);
     EXPECT_NE(sun["verdict"].get<std::string>().find("0.00 % under sun.json, suns apart"), std::string::npos)
         << sun["verdict"];

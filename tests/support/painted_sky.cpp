@@ -33,11 +33,11 @@ glm::dvec3 direction_at(const Environment& e, double x, double y) {
 
 /// How much of the pixel a disc covers.
 double covered(const Environment& e, int x, int y, const PaintedDisc& disc, double reach) {
-    const double apart = glm::distance(direction_at(e, x + 0.5, y + 0.5), disc.towards),
+    const double separate = glm::distance(direction_at(e, x + 0.5, y + 0.5), disc.towards),
                  radius = 2 * std::sin(0.5 * disc.half_angle);
-    if (apart > radius + reach)
+    if (separate > radius + reach)
         return 0;
-    if (apart < radius - reach)
+    if (separate < radius - reach)
         return 1;
     constexpr int kSteps = 32;
     // Each pixel has its own offsets, so that edges along a row are no coarser than others.

@@ -142,9 +142,9 @@ void find_budget(Channel& channel, const BudgetSubject& subject) {
     const int order = loaded.compressed ? loaded.compressed->bases.layout.order : loaded.raw->layout.order;
     const auto again = repeated(channel, subject);
     channel.enter(Stage::measuring, "following paths from the surface");
-    const bool apart = subject.version.suns_apart && loaded.raw->layout.has(prt::TermKind::direct);
+    const bool separate = subject.version.separate_suns && loaded.raw->layout.has(prt::TermKind::direct);
     const prt::MeasuredLight light =
-        apart ? subject.rig.measured_light_apart() : subject.rig.measured_light();
+        separate ? subject.rig.separate_measured_light() : subject.rig.measured_light();
     const int threads = threads_beside_drawing();
     const prt::Progress progress = channel.progress();
     const prt::SurfacePoints points =

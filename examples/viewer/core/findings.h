@@ -69,7 +69,7 @@ struct NumberPictures {
 /// Identifies a state of the light on the model.
 struct RadianceVersion {
     std::uint64_t transfer = 0, light = 0, lamps = 0;
-    bool suns_apart = false;
+    bool separate_suns = false;
 
     friend bool operator==(const RadianceVersion&, const RadianceVersion&) = default;
 };

@@ -250,7 +250,7 @@ std::vector<prt::SunDisc> LightRig::strongest_first() const {
     return suns;
 }
 
-LightApart LightRig::light_apart(int order) const {
+SeparateLight LightRig::separate_light(int order) const {
     std::vector<prt::SunDisc> suns = strongest_first();
     const auto most = std::min<std::size_t>(suns.size(), prt::kMaxShadowedSuns);
     prt::Light sky = prt::constant_light(order, glm::vec3(0)), of_suns = sky;
@@ -313,24 +313,24 @@ prt::MeasuredLight LightRig::measured_light() const {
             .sun_bands = prt::constant_light(prt::kMaxOrder, glm::vec3(0))};
 }
 
-prt::MeasuredLight LightRig::measured_light_apart() const {
+prt::MeasuredLight LightRig::separate_measured_light() const {
     LightRig rig = *this;
     rig.settings_.window = prt::Window::none;
-    LightApart apart = rig.light_apart(prt::kMaxOrder);
-    if (apart.suns.empty())
+    SeparateLight separate = rig.separate_light(prt::kMaxOrder);
+    if (separate.suns.empty())
         return measured_light();
     const LoadedEnvironment* environment = base();
     const bool has_suns = environment && !environment->sky_lat_long.pixels.empty();
     std::vector<prt::SunDisc> others = strongest_first();
-    others.erase(others.begin(), others.begin() + static_cast<std::ptrdiff_t>(apart.suns.size()));
+    others.erase(others.begin(), others.begin() + static_cast<std::ptrdiff_t>(separate.suns.size()));
     return {.all = distant_light(),
             .sky = distant_light(has_suns      ? &environment->sky_lat_long
                                  : environment ? &environment->lat_long
                                                : nullptr,
                                  others),
-            .suns = std::move(apart.suns),
-            .sky_bands = std::move(apart.lighting.sky),
-            .sun_bands = std::move(*apart.lighting.suns)};
+            .suns = std::move(separate.suns),
+            .sky_bands = std::move(separate.lighting.sky),
+            .sun_bands = std::move(*separate.lighting.suns)};
 }
 
 const prt::Image* LightRig::background() const {

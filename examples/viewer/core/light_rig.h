@@ -91,7 +91,7 @@ struct LoadedEnvironment {
 LoadedEnvironment load_environment(const std::string& path);
 
 /// Light split into the lighting of the transfer and suns that are shadowed per pixel.
-struct LightApart {
+struct SeparateLight {
     prt::Lighting lighting;
     std::vector<prt::SunDisc> suns;
 };
@@ -111,13 +111,13 @@ public:
     prt::Light light(int order) const;
     /// Returns the light with its strongest suns separate: those of the environment, of the day and the added
     /// ones. The window filters the rest only.
-    LightApart light_apart(int order) const;
+    SeparateLight separate_light(int order) const;
     /// Returns the light for path tracing. Suns stay suns; everything else is part of its environment.
     prt::DistantLight distant_light() const;
     /// Returns the light for an error budget, without a window. The suns are part of the sky, or separate as
-    /// in `light_apart`.
+    /// in `separate_light`.
     prt::MeasuredLight measured_light() const;
-    prt::MeasuredLight measured_light_apart() const;
+    prt::MeasuredLight separate_measured_light() const;
 
     /// Returns the fraction of night, 0..1; 0 for an environment map.
     float darkness() const;

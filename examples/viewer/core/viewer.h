@@ -145,7 +145,7 @@ private:
     void follow_lamps();
     RadianceVersion version() const {
         return {document_.transfer_version, lighting_.rig.version(), lighting_.lamps_version(),
-                settings.lit.suns_apart};
+                settings.lit.separate_suns};
     }
     /// Returns the version that a budget depends on: without lamps.
     RadianceVersion lampless() const {
@@ -153,8 +153,8 @@ private:
         lampless.lamps = 0;
         return lampless;
     }
-    const LightApart& light() {
-        return lighting_.light_for_pictures(document_.light_order(), settings.lit.suns_apart);
+    const SeparateLight& light() {
+        return lighting_.light_for_pictures(document_.light_order(), settings.lit.separate_suns);
     }
     bool wants(PictureKind kind) const { return settings.left == kind || settings.right == kind; }
 

@@ -22,18 +22,18 @@ public:
     /// Returns the rig's light; computes it once per version.
     const prt::Light& light(int order);
     /// Returns the rig's light with its suns separate, or with all light in its sky.
-    const LightApart& light_for_pictures(int order, bool suns_apart);
+    const SeparateLight& light_for_pictures(int order, bool separate_suns);
 
 private:
     LampSettings lamps_;
     std::uint64_t lamps_version_ = 1;
     prt::Light light_;
     std::uint64_t version_ = 0; ///< version of the rig
-    LightApart apart_;
+    SeparateLight separate_;
     struct {
         std::uint64_t rig = 0;
-        bool suns_apart = false;
-    } apart_version_;
+        bool separate_suns = false;
+    } separate_version_;
 };
 
 inline void ViewerLight::set_lamps(const LampSettings& lamps) {
@@ -50,12 +50,12 @@ inline const prt::Light& ViewerLight::light(int order) {
     return light_;
 }
 
-inline const LightApart& ViewerLight::light_for_pictures(int order, bool suns_apart) {
-    if (apart_version_.rig != rig.version() || apart_version_.suns_apart != suns_apart ||
-        apart_.lighting.sky.order != order)
-        apart_ = suns_apart ? rig.light_apart(order) : LightApart{{light(order)}, {}};
-    apart_version_ = {rig.version(), suns_apart};
-    return apart_;
+inline const SeparateLight& ViewerLight::light_for_pictures(int order, bool separate_suns) {
+    if (separate_version_.rig != rig.version() || separate_version_.separate_suns != separate_suns ||
+        separate_.lighting.sky.order != order)
+        separate_ = separate_suns ? rig.separate_light(order) : SeparateLight{{light(order)}, {}};
+    separate_version_ = {rig.version(), separate_suns};
+    return separate_;
 }
 
 } // namespace viewer

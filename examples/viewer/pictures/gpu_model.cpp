@@ -198,8 +198,8 @@ const prt::TransferLayout* GpuModel::layout_shown(PictureKind kind) const {
 
 bool GpuModel::shows_suns(PictureKind kind) const {
     const prt::TransferLayout* layout = layout_shown(kind);
-    const bool apart = !layout || layout->has(prt::TermKind::direct);
-    return !lit_.suns.empty() && !shows_numbers(kind) && apart;
+    const bool separate = !layout || layout->has(prt::TermKind::direct);
+    return !lit_.suns.empty() && !shows_numbers(kind) && separate;
 }
 
 bool GpuModel::takes_suns_as_sky(PictureKind kind) const {

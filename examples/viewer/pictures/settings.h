@@ -53,7 +53,7 @@ struct DrawSettings {
 
 /// Settings of the light on the model.
 struct LitBy {
-    bool suns_apart = true; ///< suns are separate from the sky and shadowed per pixel
+    bool separate_suns = true; ///< suns are separate from the sky and shadowed per pixel
     LampSettings lamps;
 
     friend bool operator==(const LitBy&, const LitBy&) = default;

@@ -63,11 +63,11 @@ constexpr Command kCommands[] = {
      place<kDrawing, &DrawSettings::background>},
     {"textured", 'T', "base colour", "base colour", "Textures and colours; off shows light alone. Key T.",
      place<kDrawing, &DrawSettings::textured>},
-    {"suns_apart", 'U', "suns apart from the sky, with sharp shadows", "suns apart",
+    {"separate_suns", 'U', "suns apart from the sky, with sharp shadows", "suns apart",
      "Suns are taken out of the sky and shadowed at each pixel; off, all light is in bands. Not the "
      "reference, which "
      "has neither. Key U.",
-     place<kLit, &LitBy::suns_apart>},
+     place<kLit, &LitBy::separate_suns>},
     {"lamps", 'O', "lamps of the model, on or off", "on", "All lamps of the model. Key O.",
      place<kLit, kLamps, &LampSettings::on>},
     {"", 'N', "day instead of the environment", "", "", nullptr,

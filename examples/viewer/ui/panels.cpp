@@ -152,7 +152,7 @@ void light_panel(Viewer& viewer) {
         tip("Turbidity of the air: 2 clear, 10 hazy.");
         control(viewer.settings, *std::ranges::find(commands(), ' ', &Command::key));
     }
-    control(viewer.settings, setting("suns_apart"));
+    control(viewer.settings, setting("separate_suns"));
     choose_window(l.window);
     ImGui::SliderAngle("turned", &l.rotation, -180, 180);
     tip("The sky about the vertical. Drag the picture with the right button.");

@@ -15,7 +15,7 @@ export class LitTransfer {
     this.clusters = clusters;
     this.order = clusters.order;
     this.channels = Math.max(...clusters.terms.map((term) => term.channels));
-    this.directApart = clusters.terms[0].kind === "direct";
+    this.hasDirectTerm = clusters.terms[0].kind === "direct";
     /** Names of the lamps that can be dimmed. */
     this.lamps = clusters.terms.filter(({ kind }) => kind === "lamp").map(({ name }) => name);
     /** Strength of each lamp, as uniforms of emissive materials. */

@@ -48,12 +48,12 @@ export class LitTransfer {
   readonly order: number;
   readonly channels: 1 | 3;
   /** True if the transfer has a separate direct term, so that suns can have sharp shadows. */
-  readonly directApart: boolean;
+  readonly hasDirectTerm: boolean;
   /** Names of the lamps that can be dimmed: lights and emissive materials of the scene, and groups of them. */
   readonly lamps: string[];
   /**
    * Lights the whole file by `light`, with or without its suns. `suns`: light that the scene's directional
-   * lights add with their shadows; it is used here only after a bounce. Without `suns`, and if `directApart`
+   * lights add with their shadows; it is used here only after a bounce. Without `suns`, and if `hasDirectTerm`
    * is false, three's lights add nothing. Lamps that `lamps` does not name keep the strength of the scene.
    * Throws a RangeError for a light of fewer bands than `order`, for unknown lamps, and for strengths below
    * zero. In the next frame, console.warn names each light of the scene that has no effect, once.

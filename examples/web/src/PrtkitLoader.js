@@ -167,7 +167,7 @@ export class PrtkitPlugin {
         if (!transfer) return;
         const number = primitive?.material;
         const gltfMaterial = json.materials?.[number];
-        const traits = model.directApart ? sunTraits(gltfMaterial) : null;
+        const traits = model.hasDirectTerm ? sunTraits(gltfMaterial) : null;
         const strength = model.strengthOf(gltfMaterial?.name || `material ${number}`);
         object.material = this.materialOf(object.material, {
           ...transfer,

@@ -51,7 +51,7 @@ export class PrtkitLobes extends LitSurfaces {
     this.uniforms = {
       prt_lobe_profiles: { value: this.profilesTexture },
       prtLobeLight: { value: Array.from({ length: order * order }, () => new Vector3()) },
-      prtSunsApart: { value: false },
+      prtSeparateSuns: { value: false },
     };
     this.defines = { PRT_LOBES: lobes, PRT_LOBE_ORDER: order };
     this.converted = new Set(); // geometries: nodes may share one
@@ -73,7 +73,7 @@ export class PrtkitLobes extends LitSurfaces {
 
   update(sky, suns) {
     this.uniforms.prtLobeLight.value.forEach((light, i) => light.fromArray(sky, 3 * i));
-    this.uniforms.prtSunsApart.value = suns !== null;
+    this.uniforms.prtSeparateSuns.value = suns !== null;
   }
 
   /** Frees the table on the device. */

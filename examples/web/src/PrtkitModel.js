@@ -14,7 +14,7 @@ export class PrtkitModel extends LitSurfaces {
     this.uniforms = {
       prt_constants: { value: this.constantsTexture },
       prt_clusters: { value: this.clustersTexture },
-      prtSunsApart: { value: false },
+      prtSeparateSuns: { value: false },
     };
     this.vertices = 0;
     this.bytesPerVertex = 0;
@@ -68,7 +68,7 @@ export class PrtkitModel extends LitSurfaces {
     updateConstants(this.clusters, this.rows, this.columns(sky, suns), this.constantsTexture.image.data);
     this.constantsTexture.needsUpdate = true;
     this.instances?.update(sky, suns);
-    this.uniforms.prtSunsApart.value = suns !== null && this.directApart;
+    this.uniforms.prtSeparateSuns.value = suns !== null && this.hasDirectTerm;
   }
 
   /** Frees the tables. Materials and geometries are disposed of as three's are. */

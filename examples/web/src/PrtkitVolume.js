@@ -83,7 +83,7 @@ export class PrtkitVolume extends LitTransfer {
       prtVolumeBricks: { value: this.atlas.bricks },
       prtToVolume: { value: new Matrix4() },
       prtSkyLight: { value: Array.from({ length: order * order }, () => new Vector3()) },
-      prtSunsApart: { value: false },
+      prtSeparateSuns: { value: false },
     };
     this.asked = null; // light that is to be formed
     this.steps = null; // steps of the light being computed
@@ -142,9 +142,9 @@ export class PrtkitVolume extends LitTransfer {
    * Requests light, as coefficients in the space of the bake: it is computed when an object is drawn with it.
    */
   update(sky, suns) {
-    const apart = suns !== null && this.directApart;
-    const open = sky.map((value, i) => value + (suns && !apart ? suns[i] : 0));
-    this.asked = { columns: this.columns(sky, suns), sun: apart ? directionOf(suns) : null, apart, open };
+    const separate = suns !== null && this.hasDirectTerm;
+    const open = sky.map((value, i) => value + (suns && !separate ? suns[i] : 0));
+    this.asked = { columns: this.columns(sky, suns), sun: separate ? directionOf(suns) : null, separate, open };
   }
 
   /** True if the light set last is the one drawn: a change takes a few frames. */
@@ -169,12 +169,12 @@ export class PrtkitVolume extends LitTransfer {
   }
 
   /** Replaces the shown light by the computed one. */
-  show({ apart, open }) {
+  show({ separate, open }) {
     this.steps = null;
     this.isFormed = true;
     [this.spare, this.texture.image.data] = [this.texture.image.data, this.spare];
     this.texture.needsUpdate = true;
-    this.uniforms.prtSunsApart.value = apart;
+    this.uniforms.prtSeparateSuns.value = separate;
     this.uniforms.prtSkyLight.value.forEach((light, i) => light.fromArray(open, 3 * i));
   }
 

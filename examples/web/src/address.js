@@ -17,7 +17,7 @@ export function addressOf(picture, { model, quality, sky, comparing, panel }) {
   const settings = {
     ...(model === undefined ? {} : { model, quality }),
     ...(sky === undefined ? {} : { sky }),
-    suns: Number(picture.sunsApart),
+    suns: Number(picture.separateSuns),
     window: picture.window,
     angle: Number((degrees - 360 * Math.round(degrees / 360)).toFixed(2)),
     exposure: picture.stops,

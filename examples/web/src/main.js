@@ -216,7 +216,7 @@ async function start() {
 
   /** Enables the switch of separate suns if they are possible. */
   function showSuns() {
-    element("suns").disabled = !picture.canSunsBeApart;
+    element("suns").disabled = !picture.canSeparateSuns;
   }
 
   const fillModels = (chosen) => fill(element("model"), models.map((m) => m.title), chosen);
@@ -298,7 +298,7 @@ async function start() {
   const windows = Object.keys(WINDOWS);
   fill(element("window"), Object.values(WINDOWS).map((w) => w.title), windows.indexOf(asked.get("window")));
   picture.window = windows[element("window").selectedIndex];
-  element("suns").checked = picture.sunsApart = asked.get("suns") !== "0";
+  element("suns").checked = picture.separateSuns = asked.get("suns") !== "0";
   picture.setShine((element("shine").checked = asked.get("shine") === "1"));
   picture.setExposure(Number((element("exposure").value = asked.get("exposure") ?? 0)));
   picture.still = matchMedia("(prefers-reduced-motion: reduce)").matches;
@@ -317,7 +317,7 @@ async function start() {
   element("quality").onchange = guarded(() => showModel(true));
   element("sky").onchange = guarded(showSky);
   element("window").onchange = linked(() => picture.setWindow(windows[element("window").selectedIndex]));
-  element("suns").onchange = linked(() => picture.setSunsApart(element("suns").checked));
+  element("suns").onchange = linked(() => picture.setSeparateSuns(element("suns").checked));
   element("shine").onchange = linked(() => picture.setShine(element("shine").checked));
   for (const part of ["spheres", "probes"]) element(part).onchange = linked(() => picture.setMoving(part, element(part).checked));
   element("figure").onchange = guarded(() => {

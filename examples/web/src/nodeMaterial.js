@@ -23,7 +23,7 @@ import { lightOfVolume } from "./volumeNodes.js";
 
 // Uniforms of the material being drawn.
 const strength = uniform(new Vector3()).onObjectUpdate(({ material }) => material._transfer.uniforms.prtStrength.value);
-const sunsApart = uniform(0).onObjectUpdate(({ material }) => Number(material._transfer.uniforms.prtSunsApart.value));
+const separateSuns = uniform(0).onObjectUpdate(({ material }) => Number(material._transfer.uniforms.prtSeparateSuns.value));
 const transmission = uniform(new Vector4()).onObjectUpdate(({ material }) => material._transfer.traits.transmission);
 const emission = materialEmissive.mul(strength); // one node for all, so that they share programs
 const baseColor = property("vec3", "prtBaseColor");
@@ -49,7 +49,7 @@ function sunLight(lighting, thin) {
   return (data, builder) => {
     const { lightDirection, reflectedLight } = data;
     const cosine = normalView.dot(lightDirection);
-    const arrives = cosine.mul(normalFlat.dot(lightDirection)).greaterThan(0).select(sunsApart, 0);
+    const arrives = cosine.mul(normalFlat.dot(lightDirection)).greaterThan(0).select(separateSuns, 0);
     const lightColor = data.lightColor.mul(arrives).toVar();
     if (!thin) return direct.call(lighting, { ...data, lightColor }, builder);
     const directDiffuse = vec3(0).toVar();

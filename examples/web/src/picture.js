@@ -119,7 +119,7 @@ export class Picture {
     this.sunny = null; // the sky without its suns, and the suns, if there is a light file
     this.sunLights = null;
     this.shadowMapSize = shadowMapSize;
-    this.sunsApart = true; // if there are suns, and the model supports separate ones
+    this.separateSuns = true; // if there are suns, and the model supports separate ones
     this.window = "auto";
     // light of the model: { sky, suns }, with the model's order, the sky filtered by the window
     this.lit = null;
@@ -244,15 +244,15 @@ export class Picture {
   }
 
   /** Sets whether suns are separate, with sharp shadows, or part of the sky. */
-  setSunsApart(apart) {
-    this.sunsApart = apart;
+  setSeparateSuns(separate) {
+    this.separateSuns = separate;
     this.updateLight();
   }
 
   /** True if suns can be separate: the sky has suns, and the model has a separate direct term. */
-  get canSunsBeApart() {
+  get canSeparateSuns() {
     const model = this.gltf?.userData.prtkit;
-    return Boolean(this.sunny && model?.directApart && this.sunny.sky.order >= model.order);
+    return Boolean(this.sunny && model?.hasDirectTerm && this.sunny.sky.order >= model.order);
   }
 
   /** Sets one of WINDOWS. */
@@ -265,11 +265,11 @@ export class Picture {
   updateLight() {
     const { order } = this.gltf?.userData.prtkit ?? {};
     if (this.light && order) {
-      const apart = this.sunsApart && this.canSunsBeApart;
-      const sky = WINDOWS[this.window].apply(truncated(apart ? this.sunny.sky : this.light, order));
-      this.lit = { sky, suns: apart ? lightOfSuns(this.sunny.suns, order) : null };
-      if (this.sunLights) this.sunLights.visible = apart;
-      if (apart) this.sunLights.fit(this.gltf.scene);
+      const separate = this.separateSuns && this.canSeparateSuns;
+      const sky = WINDOWS[this.window].apply(truncated(separate ? this.sunny.sky : this.light, order));
+      this.lit = { sky, suns: separate ? lightOfSuns(this.sunny.suns, order) : null };
+      if (this.sunLights) this.sunLights.visible = separate;
+      if (separate) this.sunLights.fit(this.gltf.scene);
     }
     this.relight();
   }

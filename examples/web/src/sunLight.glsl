@@ -2,7 +2,7 @@
 // fragment shader of three's materials, before main; sunLoop.glsl shades by it. Names without prt are three's own.
 // Define PRT_PACKED_SHADOW_MAPS where three packs depths into colors.
 
-uniform bool prtSunsApart;
+uniform bool prtSeparateSuns;
 uniform vec4 prtTransmission; // color of transmitted light through a thin sheet, and its fraction
 
 #if NUM_DIR_LIGHTS > 0

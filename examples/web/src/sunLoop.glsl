@@ -3,7 +3,7 @@
 // unit normal of the triangle, on the side that shows.
 #if defined(PRT_SUNS) && NUM_DIR_LIGHTS > 0
 
-if (prtSunsApart) {
+if (prtSeparateSuns) {
   vec3 worldFace = prtFace * mat3(viewMatrix);
   vec3 prtDirect;
   float prtCosine, towardsSun;

@@ -272,28 +272,28 @@ test("predictors are given the frame of the bake, by each mesh's node", async ()
   [1.5, 1, 2, 3, 1, 1, 1, 1 / 255].forEach((row, r) => assert.ok(Math.abs(constants[4 * r] - row * l0) < 1e-5, `${r}`));
 });
 
-const apart = { ...packed, terms: [{ kind: "direct", channels: 1 }] };
+const separate = { ...packed, terms: [{ kind: "direct", channels: 1 }] };
 
 test("suns of three's light what keeps direct light apart, while they are apart", async () => {
   const light = white();
   const weights = () => ({ _prt_weights_0: new BufferAttribute(new Uint8Array(8), 4) });
-  for (const [extension, lit] of [[apart, true], [packed, false]]) {
+  for (const [extension, lit] of [[separate, true], [packed, false]]) {
     const { gltf, parser, mesh } = scene(weights(), extension);
     await new PrtkitPlugin(parser).afterRoot(gltf);
     const model = gltf.userData.prtkit;
-    assert.equal(model.directApart, lit);
+    assert.equal(model.hasDirectTerm, lit);
     assert.equal(Boolean(mesh.material.defines.PRT_SUNS), lit);
     assert.equal(mesh.receiveShadow && mesh.castShadow, lit);
-    const { prtSunsApart } = compiled(mesh.material).uniforms;
+    const { prtSeparateSuns } = compiled(mesh.material).uniforms;
     model.setLight(light);
-    assert.equal(prtSunsApart.value, false);
+    assert.equal(prtSeparateSuns.value, false);
     model.setLight(light, 0, light);
-    assert.equal(prtSunsApart.value, lit);
+    assert.equal(prtSeparateSuns.value, lit);
     // Direct transfer does not include the suns, combined transfer does.
     const l0 = Math.sqrt(4 * Math.PI);
     assert.ok(Math.abs(model.constantsTexture.image.data[0] - (lit ? 1 : 2) * 1.5 * l0) < 1e-5);
     model.setLight(light);
-    assert.equal(prtSunsApart.value, false);
+    assert.equal(prtSeparateSuns.value, false);
   }
 });
 
@@ -360,7 +360,7 @@ test("suns go through thin sheets, not into media, and past glass", async () => 
     [{ extensions: glass }, true, false, [1, 1, 1, 0]],
     [{ alphaMode: "BLEND" }, true, false, [1, 1, 1, 0]],
   ]) {
-    const { gltf, parser, mesh } = scene({ _prt_weights_0: new BufferAttribute(new Uint8Array(8), 4) }, apart, material);
+    const { gltf, parser, mesh } = scene({ _prt_weights_0: new BufferAttribute(new Uint8Array(8), 4) }, separate, material);
     await new PrtkitPlugin(parser).afterRoot(gltf);
     assert.equal(Boolean(mesh.material.defines.PRT_SUNS), lit);
     assert.equal(mesh.castShadow, casts);

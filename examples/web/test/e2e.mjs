@@ -247,7 +247,7 @@ for (const [i, model] of poseless.filter(({ shares }) => !shares).entries())
       const { file } = normal(model);
       await page.goto(url({ model: model.name, quality: 1, angle, ...query(view), suns: 1 }));
       await picture(page);
-      assert.equal(await page.evaluate(() => globalThis.prtkitPicture.canSunsBeApart), true);
+      assert.equal(await page.evaluate(() => globalThis.prtkitPicture.canSeparateSuns), true);
       await matte(page);
       const lit = join(work, "lit.glb");
       execFileSync(prt, ["relight", join(distFolder, file), "--env", join(distFolder, skies[0].light), "-o", lit, "--albedo",
@@ -280,7 +280,7 @@ for (const [i, model] of poseless.entries())
     });
 
 for (const [i, model] of poseless.entries())
-  await check(`${model.name}: with suns apart the picture is that of prt render by rays`, async (page, errors) => {
+  await check(`${model.name}: with suns separate the picture is that of prt render by rays`, async (page, errors) => {
     const view = viewOf(model);
     const angle = 15 + 50 * i;
     await page.goto(url({ model: model.name, quality: 1, angle, ...query(view), suns: 1 }));
@@ -565,7 +565,7 @@ await check("suns go back into the sky, and come out of it", async (page, errors
   const view = { ...query(standardCamera), model: "knot", angle: 70 };
   await page.goto(url({ ...view, suns: 1 }));
   await picture(page);
-  const apart = await canvas(page);
+  const separate = await canvas(page);
   let count = await drawn(page);
   await page.evaluate(() => document.querySelector("#suns").click());
   await picture(page, count);
@@ -573,8 +573,8 @@ await check("suns go back into the sky, and come out of it", async (page, errors
   count = await drawn(page);
   await page.evaluate(() => document.querySelector("#suns").click());
   await picture(page, count);
-  assert.ok((await difference(page, apart, await canvas(page))).mean < 0.01);
-  assert.ok((await difference(page, apart, together)).mean > 1);
+  assert.ok((await difference(page, separate, await canvas(page))).mean < 0.01);
+  assert.ok((await difference(page, separate, together)).mean > 1);
   await page.goto(url({ ...view, suns: 0 }));
   await picture(page);
   assert.ok((await difference(page, together, await canvas(page))).mean < 0.01);
@@ -653,9 +653,9 @@ await check("somebody walks through a model with a volume, and casts a shadow; o
     const [foot, ground] = [moving.parts.figure.position, moving.walk.at(moving.metres)];
     let lit = 0;
     moving.parts.figure.traverse(({ material, castShadow }) => (lit += material?._transfer?.model === moving.volume && castShadow ? 1 : 0));
-    return { apart: foot.distanceTo(ground), lit, computed: moving.volume.isFormed };
+    return { separate: foot.distanceTo(ground), lit, computed: moving.volume.isFormed };
   });
-  assert.ok(shown.apart < 1e-6 && shown.lit > 0 && shown.computed, JSON.stringify(shown));
+  assert.ok(shown.separate < 1e-6 && shown.lit > 0 && shown.computed, JSON.stringify(shown));
   if (screenshots) await page.screenshot({ path: join(screenshots, "figure.png") });
   // With and without the standing figure: part of the picture differs, and so does the ground in its shadow.
   const still = (figure) =>
@@ -757,11 +757,11 @@ await check("before and after compression lie side by side", async (page, errors
   assert.ok((await difference(page, after, await shownAt({ split: 0 }))).mean < 0.01);
   const before = await shownAt({ split: 1 });
   if (screenshots) await page.screenshot({ path: join(screenshots, "compare.png") });
-  const apart = (await difference(page, after, before)).mean;
+  const separate = (await difference(page, after, before)).mean;
   const d = await difference(page, before, await render(page, models[0].before.file, 30, standardCamera));
   const half = await difference(page, before, await shownAt({ split: 0.5 }));
-  console.log(`  before and after ${apart.toFixed(3)} of 255 apart, half of each ${half.mean.toFixed(3)}`);
-  assert.ok(apart > 0.05 && half.mean > 0.2 * apart && half.mean < 0.8 * apart, `${half.mean} of ${apart}`);
+  console.log(`  before and after ${separate.toFixed(3)} of 255 separate, half of each ${half.mean.toFixed(3)}`);
+  assert.ok(separate > 0.05 && half.mean > 0.2 * separate && half.mean < 0.8 * separate, `${half.mean} of ${separate}`);
   assert.ok(d.mean < MEAN_TOLERANCE, `mean difference ${d.mean}`);
   assert.deepEqual(errors, []);
 });

@@ -197,9 +197,9 @@ for (const by of ["vertices", "weights"])
     assert.deepEqual(meshes.map(({ count }) => count), [4, 2]);
     const [sky, suns] = [lightOf(2, 3), lightOf(2, 5)];
     const numbers = factors();
-    for (const apart of [null, suns]) {
-      prtkit.setLight(sky, 0.3, apart);
-      const lights = [sky.coefficients(0.3), apart?.coefficients(0.3) ?? null];
+    for (const separate of [null, suns]) {
+      prtkit.setLight(sky, 0.3, separate);
+      const lights = [sky.coefficients(0.3), separate?.coefficients(0.3) ?? null];
       let number = 0;
       for (const [m, mesh] of meshes.entries())
         for (let i = 0; i < mesh.count; ++i, ++number) {

@@ -33,7 +33,7 @@ test("materials have a light map that is drawn, looked up by the coordinates tha
   const { prtkit } = userData;
   assert.equal(prtkit.texels, MAPS[0].width * MAPS[0].height + MAPS[1].width * MAPS[1].height);
   assert.equal(prtkit.bytesPerTexel, 8);
-  assert.deepEqual([prtkit.vertices, prtkit.lamps, prtkit.directApart], [0, ["Lantern"], true]);
+  assert.deepEqual([prtkit.vertices, prtkit.lamps, prtkit.hasDirectTerm], [0, ["Lantern"], true]);
   const materials = scene.children.map(({ material }) => material);
   assert.deepEqual(materials.map(({ lightMap }) => lightMap.channel), [1, 1, 0]);
   assert.equal(new Set(materials.map(({ lightMap }) => lightMap)).size, 3);

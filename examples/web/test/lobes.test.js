@@ -38,13 +38,13 @@ test("light is that of the world, however the model is turned; suns that are apa
   const isNear = (expected) => given().forEach((value, i) => assert.ok(Math.abs(value - expected[i]) < 1e-9));
   prtkit.setLight(light, 0.3);
   isNear([...light.coefficients(0.3)]);
-  assert.equal(prtkit.uniforms.prtSunsApart.value, false);
+  assert.equal(prtkit.uniforms.prtSeparateSuns.value, false);
   const scene = new Scene().add(gltf.scene);
   gltf.scene.rotation.set(0.3, 0.5, 0.1);
   scene.updateMatrixWorld(true);
   prtkit.setSky(light, scene, { suns: light });
   isNear([...light.coefficients()]);
-  assert.equal(prtkit.uniforms.prtSunsApart.value, true);
+  assert.equal(prtkit.uniforms.prtSeparateSuns.value, true);
   scene.backgroundRotation.copy(new Euler(0, 0.4, 0));
   prtkit.beforeRender();
   isNear([...light.coefficients(0.4)]);

@@ -102,11 +102,11 @@ test("a probe in the open has the light as it is, and sees the sun", () => {
     light.coefficients().forEach((expected, n) => assert.ok(Math.abs(numbers[n] - expected) < 1e-6));
     assert.ok(Math.abs(numbers[27] - 1) < 1e-6, `${numbers[27]} of the sun`);
   }
-  assert.equal(volume.uniforms.prtSunsApart.value, true);
+  assert.equal(volume.uniforms.prtSeparateSuns.value, true);
   volume.setLight(light);
   volume.settle();
   assert.equal(numbersAt(volume, 3)[27], 0);
-  assert.equal(volume.uniforms.prtSunsApart.value, false);
+  assert.equal(volume.uniforms.prtSeparateSuns.value, false);
 });
 
 test("how much of the sun probes see is their direct transfer to it", () => {

@@ -352,13 +352,13 @@ void GltfContents::remove_transfer() {
         primitive["attributes"] = std::move(kept);
     });
     take_extensions(json);
-    if (apart.empty()) // otherwise the written data belongs to it
+    if (separate.empty()) // otherwise the written data belongs to it
         take_instances(json, take_view);
     remove_images(*this, std::move(of_lightmaps), views);
     remove_unused(std::move(accessors), std::move(views));
     for (const char* name : kOwnExtensions)
         drop_extension(name);
-    if (apart.empty())
+    if (separate.empty())
         drop_extension(kInstancesExtension);
 }
 

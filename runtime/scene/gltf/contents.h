@@ -25,7 +25,7 @@ struct ExpandedNode {
 
 /// A mesh that node `stand_in` draws in its own frame while the document is in memory; in the file, `drawers`
 /// draw it.
-struct MeshApart {
+struct DeduplicatedMesh {
     std::size_t stand_in;
     std::vector<std::size_t> drawers;
 };
@@ -41,7 +41,7 @@ struct GltfContents {
     std::size_t file_bytes = 0;                 ///< size of the file and its external buffers
     double scene_limit = 0;                     ///< GltfOptions::scene_limit
     std::vector<ExpandedNode> expanded;
-    std::vector<MeshApart> apart;
+    std::vector<DeduplicatedMesh> separate;
 
     /// The single buffer for all views of `json` and of `model`.
     std::vector<unsigned char>& binary() { return model.buffers.front().data; }

@@ -7,13 +7,13 @@
 #include "gltf/check_shape.h"
 #include "gltf/coded_vertices.h"
 #include "gltf/contents.h"
+#include "gltf/deduplicated_meshes.h"
 #include "gltf/draco_primitives.h"
 #include "gltf/fallback.h"
 #include "gltf/glb.h"
 #include "gltf/instances.h"
 #include "gltf/json_text.h"
 #include "gltf/lights.h"
-#include "gltf/meshes_apart.h"
 #include "gltf/meshopt_views.h"
 #include "gltf/repair_vertices.h"
 #include "gltf/reread.h"
@@ -288,7 +288,7 @@ void embed_images(GltfContents& contents) {
 
 /// Returns the complete file for these views.
 std::vector<std::byte> glb_bytes(const GltfContents& contents, Json json, std::span<const std::byte> binary) {
-    put_meshes_back(contents.apart, json);
+    put_meshes_back(contents.separate, json);
     if (!binary.empty() && !json.contains("buffers"))
         json["buffers"] = Json::array({Json{{"byteLength", binary.size()}}});
     return make_glb(json.dump(-1, ' ', false, Json::error_handler_t::replace), binary);
@@ -366,8 +366,8 @@ GltfDocument parse_gltf(std::span<const std::byte> whole_file, const std::filesy
         decode_vertices(*contents);
         repair_vertices(*contents);
         set_fallback_aside(*contents);
-        if (options.instancing == Instancing::apart)
-            set_meshes_apart(*contents);
+        if (options.instancing == Instancing::separate)
+            deduplicate_meshes(*contents);
         scale_lights(contents->json, options.lamp_scale);
         expand_instances(*contents);
         embed_images(*contents);

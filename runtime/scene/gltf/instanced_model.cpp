@@ -8,13 +8,13 @@ namespace prt {
 
 InstancedModel read_instanced(const GltfDocument& document, const Scene& scene,
                               const std::filesystem::path& path) {
-    const GltfDocument apart =
+    const GltfDocument separate =
         parse_gltf(encode_glb(document), path,
-                   {.instancing = Instancing::apart, .scene_limit = document.contents().scene_limit});
+                   {.instancing = Instancing::separate, .scene_limit = document.contents().scene_limit});
     InstancedModel model;
-    model.stored = extract_scene(apart);
-    model.baked = read_transfer(apart, model.stored);
-    model.compressed = read_clustered(apart, model.stored);
+    model.stored = extract_scene(separate);
+    model.baked = read_transfer(separate, model.stored);
+    model.compressed = read_clustered(separate, model.stored);
     if (!model.baked && !model.compressed)
         throw Error(path.string() + ": its instances share transfer that it does not hold");
     model.instances = read_instances(document, scene, model.stored);

@@ -142,7 +142,7 @@ void expand_instances(GltfContents& contents) {
     for (std::size_t n = 0; n < before; ++n) {
         if (!extension_of(contents.json["nodes"][n], kInstancingExtension))
             continue;
-        if (!contents.apart.empty() && extension_of(contents.json["nodes"][n], kInstancesExtension)) {
+        if (!contents.separate.empty() && extension_of(contents.json["nodes"][n], kInstancesExtension)) {
             kept = true;
             continue;
         }

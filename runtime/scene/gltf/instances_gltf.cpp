@@ -213,7 +213,7 @@ bool holds_instances(const GltfDocument& document) {
 }
 
 bool shares_instances(const GltfDocument& document) {
-    return document.contents().apart.empty() && holds_instances(document);
+    return document.contents().separate.empty() && holds_instances(document);
 }
 
 std::vector<FileInstance> read_instances(const GltfDocument& document, const Scene& scene,

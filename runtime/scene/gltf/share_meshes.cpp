@@ -122,16 +122,16 @@ SharedDocument with_shared_meshes(const GltfDocument& document, const std::vecto
     copy.remove_transfer();
     const std::vector<int> node_of = MeshSharing(copy, meshes).share(meshes.size());
     const GltfDocument written(std::make_unique<GltfContents>(std::move(copy)));
-    GltfDocument apart = parse_gltf(encode_glb(written), from.path,
-                                    {.instancing = Instancing::apart, .scene_limit = from.scene_limit});
-    apart.contents().notices = from.notices;
+    GltfDocument separate = parse_gltf(encode_glb(written), from.path,
+                                       {.instancing = Instancing::separate, .scene_limit = from.scene_limit});
+    separate.contents().notices = from.notices;
     std::vector<int> stand_ins(meshes.size(), -1);
-    for (const MeshApart& mesh : apart.contents().apart) {
-        const Json& drawer = apart.contents().json["nodes"][mesh.drawers.front()];
+    for (const DeduplicatedMesh& mesh : separate.contents().separate) {
+        const Json& drawer = separate.contents().json["nodes"][mesh.drawers.front()];
         stand_ins[drawer["extensions"][kInstancesExtension]["box"].get<std::size_t>()] =
             static_cast<int>(mesh.stand_in);
     }
-    return {std::move(apart), std::move(stand_ins), node_of};
+    return {std::move(separate), std::move(stand_ins), node_of};
 }
 
 } // namespace prt

@@ -43,10 +43,10 @@ std::map<int, double> areas_of_meshes(const GltfContents& contents) {
     std::map<int, double> of_node, of_stand_in;
     for (const NodeTransform& transform : world_transforms(contents.model))
         of_node[transform.node] = std::pow(std::abs(glm::determinant(glm::dmat3(transform.world))), 2.0 / 3);
-    for (const MeshApart& apart : contents.apart)
-        for (const std::size_t drawer : apart.drawers)
+    for (const DeduplicatedMesh& separate : contents.separate)
+        for (const std::size_t drawer : separate.drawers)
             if (const auto found = of_node.find(static_cast<int>(drawer)); found != of_node.end())
-                of_stand_in[static_cast<int>(apart.stand_in)] +=
+                of_stand_in[static_cast<int>(separate.stand_in)] +=
                     found->second * area_of_instances(contents, contents.json["nodes"][drawer]);
     for (const auto& [node, area] : of_stand_in)
         if (!(area <= kMaxArea))

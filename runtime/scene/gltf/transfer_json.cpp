@@ -125,9 +125,9 @@ const Json* find_extension(const GltfContents& contents, const char* name, int e
 
 void check_one_to_one(const GltfContents& contents) {
     const bool told = extension_of(contents.json, kInstancesExtension) != nullptr;
-    if (contents.apart.empty() && told)
+    if (contents.separate.empty() && told)
         throw Error("its instances share their transfer, which this reader does not expand");
-    bool drawn = !contents.apart.empty();
+    bool drawn = !contents.separate.empty();
     if (contents.json.contains("nodes"))
         for (const Json& node : contents.json["nodes"])
             drawn = drawn || extension_of(node, kInstancesExtension);

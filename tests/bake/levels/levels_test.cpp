@@ -227,9 +227,9 @@ TEST(Levels, LookAsIfTheyWereBakedOnTheirOwn) {
     EXPECT_EQ(carried.transfer.vectors, again.transfer.vectors);
     const std::vector<float> areas = areas_of_level(levels, 1);
     const prt::Light sky = overcast_sky(4, glm::vec3(1));
-    const double apart =
+    const double separate =
         lit_rms(exit_radiance(own.transfer, sky), exit_radiance(carried.transfer, sky), areas);
-    EXPECT_LT(apart, 0.03);
+    EXPECT_LT(separate, 0.03);
     EXPECT_LT(carried.levels[0].squares.relative_l2(), own.levels[0].squares.relative_l2());
 }
 

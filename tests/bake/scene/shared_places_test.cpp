@@ -51,9 +51,9 @@ TEST(SharedPlaces, HaveOneValue) {
 TEST(SharedPlaces, HaveTheNoiseOfAllTheirRays) {
     const Scene scene = floor_under_lid();
     // Corners of different triangles get different positions; 0.1 mm does not change their light.
-    Scene apart = scene;
-    for (std::size_t v = 0; v < apart.vertex_arrays[0].size(); ++v) {
-        glm::vec3& at = apart.vertex_arrays[0].positions[v];
+    Scene separate = scene;
+    for (std::size_t v = 0; v < separate.vertex_arrays[0].size(); ++v) {
+        glm::vec3& at = separate.vertex_arrays[0].positions[v];
         at.x += 1e-5f * static_cast<float>(v % 7);
         at.z += 1e-5f * static_cast<float>(v % 11);
     }
@@ -69,7 +69,7 @@ TEST(SharedPlaces, HaveTheNoiseOfAllTheirRays) {
         }
         return std::sqrt(sum);
     };
-    EXPECT_NEAR(noise(scene) / noise(apart), 1 / std::sqrt(6), 0.1);
+    EXPECT_NEAR(noise(scene) / noise(separate), 1 / std::sqrt(6), 0.1);
 }
 
 /// A sheet is on the edges in the middle of a floor.

@@ -85,9 +85,9 @@ TEST(OppositeTriangles, AreSingleSidedAndOfOneMesh) {
                            .triangle({1, 0, 0}, {0, 1, 0}, {0, 0, 0})
                            .build();
     EXPECT_TRUE(OppositeTriangles(same).empty());
-    const Scene apart = test::join({SceneBuilder().triangle({0, 0, 0}, {1, 0, 0}, {0, 1, 0}).build(),
-                                    SceneBuilder().triangle({0, 0, 0}, {0, 1, 0}, {1, 0, 0}).build()});
-    EXPECT_TRUE(OppositeTriangles(apart).empty());
+    const Scene separate = test::join({SceneBuilder().triangle({0, 0, 0}, {1, 0, 0}, {0, 1, 0}).build(),
+                                       SceneBuilder().triangle({0, 0, 0}, {0, 1, 0}, {1, 0, 0}).build()});
+    EXPECT_TRUE(OppositeTriangles(separate).empty());
 }
 
 TEST(OppositeTriangles, GoInPairs) {

@@ -24,16 +24,16 @@ struct SmallMesh {
     QuantisedClusters clusters;
     Codes codes;
 
-    /// Creates clusters with a distance of `apart` between means; rows of one cluster are orthogonal, and
+    /// Creates clusters with a distance of `separate` between means; rows of one cluster are orthogonal, and
     /// oblique to those of the others.
-    SmallMesh(std::size_t count, std::size_t components, float apart, const WeightGrid& grid)
+    SmallMesh(std::size_t count, std::size_t components, float separate, const WeightGrid& grid)
         : clusters{AffineClusters(kClusters, kDimension, components), {}} {
         std::mt19937 random(3);
         std::uniform_real_distribution<float> unit(-1, 1);
         clusters.grids.assign(kClusters * components, grid);
         for (std::size_t k = 0; k < kClusters; ++k) {
             clusters.components[k] = static_cast<int>(components);
-            clusters.mean(k)[kDimension - 1] = apart * static_cast<float>(k);
+            clusters.mean(k)[kDimension - 1] = separate * static_cast<float>(k);
             const float lean = 0.6f * unit(random);
             const float rows[2][2] = {{std::cos(lean), std::sin(lean)}, {-std::sin(lean), std::cos(lean)}};
             for (std::size_t j = 0; j < components; ++j)

@@ -72,8 +72,8 @@ TEST(SurfaceErrorColors, ReachWhatHasNoPointsAlongEdgesAndLeaveTheRestBlue) {
     const glm::vec3 error = prt::heat_color(0.1 / kWhiteSurfaceError);
     for (const std::size_t joined : {0, 1, 2, 5})
         EXPECT_NEAR(colors[joined].r, error.r, 1e-4f);
-    for (const std::size_t apart : {3, 4})
-        EXPECT_GT(colors[apart].b, colors[apart].r);
+    for (const std::size_t separate : {3, 4})
+        EXPECT_GT(colors[separate].b, colors[separate].r);
 }
 
 } // namespace

@@ -114,9 +114,9 @@ TEST(LightRig, LetsTheSunRiseInTheEastAndStandInTheSouthAtNoon) {
 
 TEST(LightRig, TheSunOfTheDayIsHalfADegreeAcross) {
     LightRig rig;
-    const LightApart apart = rig.light_apart(kOrder);
-    ASSERT_EQ(apart.suns.size(), 1U);
-    EXPECT_NEAR(apart.suns[0].half_angle, 0.265 * std::numbers::pi / 180, 1e-12);
+    const SeparateLight separate = rig.separate_light(kOrder);
+    ASSERT_EQ(separate.suns.size(), 1U);
+    EXPECT_NEAR(separate.suns[0].half_angle, 0.265 * std::numbers::pi / 180, 1e-12);
 }
 
 TEST(LightRig, DayFallsIntoABlueNightThatIsDarkerThanDusk) {
@@ -183,8 +183,8 @@ TEST(LightRig, LightIsNowhereNegativeUnlessAWindowIsChosenThatLetsIt) {
     EXPECT_EQ(LightRig().settings().window, prt::Window::automatic);
 }
 
-prt::Light together(const LightApart& apart) {
-    return prt::sum(apart.lighting.sky, *apart.lighting.suns);
+prt::Light together(const SeparateLight& separate) {
+    return prt::sum(separate.lighting.sky, *separate.lighting.suns);
 }
 
 TEST(LightRig, TakenApartIsTheSameLight) {
@@ -195,17 +195,17 @@ TEST(LightRig, TakenApartIsTheSameLight) {
     settings.lights = {make_light(LightKind::cone), make_light(LightKind::sun)};
     settings.lights[1].direction = {1, 0, 0};
     rig.set(settings);
-    const LightApart apart = rig.light_apart(kOrder);
-    ASSERT_EQ(apart.suns.size(), 2U);
-    EXPECT_LT(relative_difference(together(apart), rig.light(kOrder)), 1e-6);
+    const SeparateLight separate = rig.separate_light(kOrder);
+    ASSERT_EQ(separate.suns.size(), 2U);
+    EXPECT_LT(relative_difference(together(separate), rig.light(kOrder)), 1e-6);
     const auto rays = rig.distant_light().suns();
     for (const prt::Sun& sun : rays) // path tracing uses the same suns
-        EXPECT_TRUE(std::ranges::any_of(apart.suns, [&](const prt::SunDisc& disc) {
+        EXPECT_TRUE(std::ranges::any_of(separate.suns, [&](const prt::SunDisc& disc) {
             return disc.towards == sun.towards && disc.irradiance == sun.irradiance;
         }));
     settings.lights[1].on = false;
     rig.set(settings);
-    EXPECT_EQ(rig.light_apart(kOrder).suns.size(), 1U);
+    EXPECT_EQ(rig.separate_light(kOrder).suns.size(), 1U);
 }
 
 TEST(LightRig, KeepsTheStrongestSunsApartAndTheOthersInTheSky) {
@@ -219,11 +219,11 @@ TEST(LightRig, KeepsTheStrongestSunsApartAndTheOthersInTheSky) {
         settings.lights.back().color = glm::vec3(1);
     }
     rig.set(settings);
-    const LightApart apart = rig.light_apart(kOrder);
-    ASSERT_EQ(apart.suns.size(), 4U);
-    EXPECT_NEAR(apart.suns.front().irradiance.r, 5 * std::numbers::pi_v<float>, 1e-4f);
-    EXPECT_NEAR(apart.suns.back().irradiance.r, 2 * std::numbers::pi_v<float>, 1e-4f);
-    EXPECT_LT(relative_difference(together(apart), rig.light(kOrder)), 1e-6);
+    const SeparateLight separate = rig.separate_light(kOrder);
+    ASSERT_EQ(separate.suns.size(), 4U);
+    EXPECT_NEAR(separate.suns.front().irradiance.r, 5 * std::numbers::pi_v<float>, 1e-4f);
+    EXPECT_NEAR(separate.suns.back().irradiance.r, 2 * std::numbers::pi_v<float>, 1e-4f);
+    EXPECT_LT(relative_difference(together(separate), rig.light(kOrder)), 1e-6);
 }
 
 TEST(LightRig, FindsTheSunsOfAnEnvironmentAndTurnsThemWithIt) {
@@ -237,19 +237,19 @@ TEST(LightRig, FindsTheSunsOfAnEnvironmentAndTurnsThemWithIt) {
     LightSettings settings = rig.settings();
     settings.window = prt::Window::none;
     rig.set(settings);
-    const LightApart apart = rig.light_apart(kOrder);
-    ASSERT_EQ(apart.suns.size(), 1U);
-    EXPECT_GT(glm::dot(glm::dvec3(apart.suns[0].towards), at), std::cos(0.01)); // a texel is 0.025 wide
-    EXPECT_NEAR(together(apart).coefficients[0].g / rig.light(kOrder).coefficients[0].g, 1, 1e-3);
-    EXPECT_LT(relative_difference(apart.lighting.sky, prt::constant_light(kOrder, glm::vec3(1))), 0.01);
+    const SeparateLight separate = rig.separate_light(kOrder);
+    ASSERT_EQ(separate.suns.size(), 1U);
+    EXPECT_GT(glm::dot(glm::dvec3(separate.suns[0].towards), at), std::cos(0.01)); // a texel is 0.025 wide
+    EXPECT_NEAR(together(separate).coefficients[0].g / rig.light(kOrder).coefficients[0].g, 1, 1e-3);
+    EXPECT_LT(relative_difference(separate.lighting.sky, prt::constant_light(kOrder, glm::vec3(1))), 0.01);
     EXPECT_TRUE(rig.distant_light().suns().empty()); // rays meet it in the image
-    const prt::MeasuredLight measured = rig.measured_light_apart();
+    const prt::MeasuredLight measured = rig.separate_measured_light();
     EXPECT_LT(relative_difference(projected(*measured.sky), prt::constant_light(kOrder, glm::vec3(1))), 0.01);
     settings.rotation = 1;
     rig.set(settings);
-    EXPECT_LT(glm::distance(rig.light_apart(kOrder).suns[0].towards,
+    EXPECT_LT(glm::distance(rig.separate_light(kOrder).suns[0].towards,
                             glm::vec3(glm::rotate(glm::dmat4(1), 1.0, glm::dvec3(0, 1, 0)) *
-                                      glm::dvec4(glm::dvec3(apart.suns[0].towards), 0))),
+                                      glm::dvec4(glm::dvec3(separate.suns[0].towards), 0))),
               1e-5f);
 }
 
@@ -264,19 +264,19 @@ TEST(LightRig, MeasuresBandsAndRaysOfTheSameLight) {
         settings.lights[i].direction = glm::normalize(glm::vec3(std::cos(i), 0.5f, std::sin(i)));
     rig.set(settings);
     const auto bands = [](const prt::Light& light) { return prt::truncated(light, kOrder); };
-    const prt::MeasuredLight together = rig.measured_light(), apart = rig.measured_light_apart();
+    const prt::MeasuredLight together = rig.measured_light(), separate = rig.separate_measured_light();
     // The day's image of 128 x 64 is rotated in one of 1024 x 512 with interpolation; its sun has an extent
     // that rays do not hit.
     constexpr double kTurned = 0.01;
     EXPECT_FALSE(together.sky);
     EXPECT_LT(relative_difference(bands(together.sky_bands), projected(together.all)), kTurned);
-    ASSERT_TRUE(apart.sky);
-    EXPECT_EQ(apart.suns.size(), 4U);
-    EXPECT_EQ(apart.sky->suns().size(), 3U);
-    EXPECT_LT(relative_difference(bands(apart.sky_bands), projected(*apart.sky)), kTurned);
-    EXPECT_LT(
-        relative_difference(prt::sum(bands(apart.sky_bands), bands(apart.sun_bands)), projected(apart.all)),
-        kTurned);
+    ASSERT_TRUE(separate.sky);
+    EXPECT_EQ(separate.suns.size(), 4U);
+    EXPECT_EQ(separate.sky->suns().size(), 3U);
+    EXPECT_LT(relative_difference(bands(separate.sky_bands), projected(*separate.sky)), kTurned);
+    EXPECT_LT(relative_difference(prt::sum(bands(separate.sky_bands), bands(separate.sun_bands)),
+                                  projected(separate.all)),
+              kTurned);
 }
 
 TEST(LightRig, CountsItsChanges) {

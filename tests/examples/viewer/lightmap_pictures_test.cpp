@@ -29,7 +29,7 @@ namespace {
 constexpr glm::ivec2 kShot(160, 120);
 
 /// A sky with a separate sun.
-struct LitApart {
+struct LitSeparately {
     std::vector<prt::SunDisc> suns{{glm::normalize(glm::vec3(0.6f, 1, 0.4f)), {3, 2.5f, 2}, 0.01}};
     prt::Lighting lighting{prt::overcast_sky(4, {0.3f, 0.4f, 0.6f}), prt::as_light(suns[0], 4)};
 };
@@ -105,7 +105,7 @@ protected:
     }
 
     LightmapFiles files;
-    LitApart lit;
+    LitSeparately lit;
     std::unique_ptr<prt::GlContext> context;
     std::unique_ptr<FrameRenderer> renderer;
     LoadedModel loaded;

@@ -144,7 +144,7 @@ protected:
 };
 
 /// A sky with a separate sun.
-struct SunApart {
+struct SeparateSun {
     std::vector<prt::SunDisc> suns{{glm::normalize(glm::vec3(0.6f, 1, 0.4f)), {3, 2.5f, 2}, 0.01}};
     prt::Lighting lighting{prt::overcast_sky(6, {0.3f, 0.4f, 0.6f}), prt::as_light(suns[0], 6)};
 };
@@ -482,35 +482,35 @@ TEST_F(ViewerPictures, OfWiresAreDarkWhereTrianglesMeet) {
 }
 
 TEST_F(ViewerPictures, OfSunsApartAreThoseOfTheRenderer) {
-    const SunApart light_apart;
+    const SeparateSun separate_light;
     const prt::Transfer transfer = baked();
     const prt::ClusteredTransfer small = compressed(transfer);
     gpu->set_raw(transfer);
     gpu->set_compressed(small);
-    gpu->set_lighting(light_apart.lighting, light_apart.suns);
+    gpu->set_lighting(separate_light.lighting, separate_light.suns);
     const auto rendered = [&](const std::vector<glm::vec3>& radiance) {
         prt::Picture picture = picture_of(radiance);
-        picture.suns = light_apart.suns;
+        picture.suns = separate_light.suns;
         return prt::render_gl(picture, *context);
     };
-    const prt::Image raw = rendered(prt::exit_radiance(transfer, light_apart.lighting));
+    const prt::Image raw = rendered(prt::exit_radiance(transfer, separate_light.lighting));
     EXPECT_LT(mean_difference(drawn(PictureKind::prt), raw), kSame);
     EXPECT_LT(mean_difference(drawn(PictureKind::prt_compressed),
-                              rendered(prt::exit_radiance(small, light_apart.lighting))),
+                              rendered(prt::exit_radiance(small, separate_light.lighting))),
               kSame);
     settings.drawing.deferred = true;
     EXPECT_LT(mean_difference(drawn(PictureKind::prt), raw), kSame);
 }
 
 TEST_F(ViewerPictures, AddTheSameSunsToEveryWayToLightTheSky) {
-    const SunApart light_apart;
-    prt::Lighting black = light_apart.lighting;
+    const SeparateSun separate_light;
+    prt::Lighting black = separate_light.lighting;
     for (glm::vec3& c : black.sky.coefficients)
         c = glm::vec3(0);
-    gpu->set_lighting(black, light_apart.suns);
+    gpu->set_lighting(black, separate_light.suns);
     const std::vector<glm::vec3> none(model->scene.receivers(), glm::vec3(0));
     prt::Picture picture = picture_of(none);
-    picture.suns = light_apart.suns;
+    picture.suns = separate_light.suns;
     const prt::Image expected = prt::render_gl(picture, *context);
     for (const PictureKind kind : {PictureKind::unshadowed, PictureKind::ssao, PictureKind::ssao_normals})
         EXPECT_LT(mean_difference(drawn(kind), expected), kSame) << name_of(kind).id;
@@ -519,15 +519,16 @@ TEST_F(ViewerPictures, AddTheSameSunsToEveryWayToLightTheSky) {
 }
 
 TEST_F(ViewerPictures, OfTransferInOnePartTakeSunsAsSky) {
-    const SunApart light_apart;
+    const SeparateSun separate_light;
     const prt::Transfer transfer = baked();
     const prt::Transfer whole = prt::as_combined(transfer);
     gpu->set_raw(whole);
-    gpu->set_lighting(light_apart.lighting, light_apart.suns);
+    gpu->set_lighting(separate_light.lighting, separate_light.suns);
     EXPECT_TRUE(gpu->takes_suns_as_sky(PictureKind::prt));
     EXPECT_FALSE(gpu->takes_suns_as_sky(PictureKind::unshadowed));
-    EXPECT_LT(mean_difference(drawn(PictureKind::prt), rays(prt::exit_radiance(whole, light_apart.lighting))),
-              kSame);
+    EXPECT_LT(
+        mean_difference(drawn(PictureKind::prt), rays(prt::exit_radiance(whole, separate_light.lighting))),
+        kSame);
     gpu->set_raw(transfer);
     EXPECT_FALSE(gpu->takes_suns_as_sky(PictureKind::prt));
 }

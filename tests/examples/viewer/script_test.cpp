@@ -190,7 +190,7 @@ TEST_F(Script, MeasuresWhereTheErrorOverTheSurfaceComesFrom) {
         {"set": {"right": "surface_error"}}, {"screenshot": "even.png"},
         {"light": {"kind": "sun", "direction": [0.5, 1, 0], "strength": 3}}, {"draw": 1}, {"wait": "budget"},
         {"screenshot": "sun.png"}, {"budget": "apart.json"},
-        {"set": {"suns_apart": false}}, {"draw": 1}, {"budget": "bands.json"}, {"lose_context": []}, {"draw": 2}
+        {"set": {"separate_suns": false}}, {"draw": 1}, {"budget": "bands.json"}, {"lose_context": []}, {"draw": 2}
     ])",
         with_transfer());
     for (const char* name : {"even.json", "apart.json", "bands.json"}) {

@@ -220,22 +220,22 @@ TEST_F(ViewerTest, LightsSunsApartUnlessToldOtherwise) {
         frame();
         return viewer->renderer().read(1);
     };
-    const prt::Image apart = picture();
+    const prt::Image separate = picture();
     const float stops = viewer->lighting().meter.stops();
-    viewer->settings.lit.suns_apart = false;
+    viewer->settings.lit.separate_suns = false;
     const prt::Image together = picture();
     double difference = 0, sum = 0;
-    for (std::size_t i = 0; i < apart.pixels.size(); ++i) {
-        difference += static_cast<double>(glm::distance(apart.pixels[i], together.pixels[i]));
+    for (std::size_t i = 0; i < separate.pixels.size(); ++i) {
+        difference += static_cast<double>(glm::distance(separate.pixels[i], together.pixels[i]));
         sum += static_cast<double>(glm::length(together.pixels[i]));
     }
     EXPECT_GT(difference, 0.02 * sum);
     EXPECT_EQ(viewer->lighting().meter.stops(), stops); // unchanged, so that both can be compared
-    viewer->settings.lit.suns_apart = true;
-    EXPECT_EQ(picture().pixels, apart.pixels);
+    viewer->settings.lit.separate_suns = true;
+    EXPECT_EQ(picture().pixels, separate.pixels);
     viewer->lights.time.hour = 0; // no sun, no difference
     const prt::Image night = picture();
-    viewer->settings.lit.suns_apart = false;
+    viewer->settings.lit.separate_suns = false;
     EXPECT_EQ(picture().pixels, night.pixels);
 }
 
@@ -252,7 +252,7 @@ TEST_F(ViewerTest, SaysWhereTransferKeepsNoDirectLightApart) {
     EXPECT_EQ(viewer->shown(PictureKind::prt).kind, PictureKind::prt);
     EXPECT_NE(viewer->shown(PictureKind::prt).note.find("no direct light is kept apart"), std::string::npos);
     EXPECT_TRUE(viewer->shown(PictureKind::unshadowed).note.empty());
-    viewer->settings.lit.suns_apart = false;
+    viewer->settings.lit.separate_suns = false;
     frame();
     EXPECT_TRUE(viewer->shown(PictureKind::prt).note.empty());
 }

@@ -252,28 +252,28 @@ static void test_relighting(const prt_model* model, const prt_model_info* info) 
 }
 
 /* A bake without bounces is lit by the sky alone: its suns are the renderer's. */
-static void test_suns_apart(const prt_model* model, const prt_model_info* info) {
+static void test_separate_suns(const prt_model* model, const prt_model_info* info) {
     const float white[3] = {1, 1, 1}, up[3] = {0, 1, 0};
     const size_t count = 3 * (size_t)(info->order * info->order);
     float* sky = malloc(count * sizeof(float));
     float* sun = malloc(count * sizeof(float));
     float* constants = malloc(4 * sizeof(float) * info->rows);
-    float* apart = malloc(4 * sizeof(float) * info->rows);
-    EXPECT(info->direct_apart == 1);
+    float* separate = malloc(4 * sizeof(float) * info->rows);
+    EXPECT(info->has_direct_term == 1);
     EXPECT(prt_light_constant(info->order, white, sky, NULL) == PRT_OK);
     EXPECT(prt_light_directional(info->order, up, white, sun, NULL) == PRT_OK);
     EXPECT(prt_model_update_constants(model, info->order, sky, constants, NULL) == PRT_OK);
-    EXPECT(prt_model_update_constants_separate(model, info->order, sky, sun, NULL, apart, NULL) == PRT_OK);
-    EXPECT(memcmp(constants, apart, 4 * sizeof(float) * info->rows) == 0);
-    EXPECT(prt_model_update_constants_separate(model, info->order, sky, NULL, NULL, apart, NULL) == PRT_OK);
-    EXPECT(memcmp(constants, apart, 4 * sizeof(float) * info->rows) == 0);
+    EXPECT(prt_model_update_constants_separate(model, info->order, sky, sun, NULL, separate, NULL) == PRT_OK);
+    EXPECT(memcmp(constants, separate, 4 * sizeof(float) * info->rows) == 0);
+    EXPECT(prt_model_update_constants_separate(model, info->order, sky, NULL, NULL, separate, NULL) == PRT_OK);
+    EXPECT(memcmp(constants, separate, 4 * sizeof(float) * info->rows) == 0);
     sun[0] = INFINITY;
     prt_message message;
-    EXPECT(prt_model_update_constants_separate(model, info->order, sky, sun, NULL, apart, &message) ==
+    EXPECT(prt_model_update_constants_separate(model, info->order, sky, sun, NULL, separate, &message) ==
            PRT_BAD_ARGUMENT);
-    EXPECT(prt_model_update_constants_separate(model, info->order, NULL, sky, NULL, apart, &message) ==
+    EXPECT(prt_model_update_constants_separate(model, info->order, NULL, sky, NULL, separate, &message) ==
            PRT_BAD_ARGUMENT);
-    free(apart);
+    free(separate);
     free(constants);
     free(sun);
     free(sky);
@@ -311,7 +311,7 @@ static void test_model(const char* path) {
     test_loading(model, path);
     test_meshes(model, &info);
     test_relighting(model, &info);
-    test_suns_apart(model, &info);
+    test_separate_suns(model, &info);
     test_lamps(model);
     test_shader(model);
     prt_model_destroy(model);

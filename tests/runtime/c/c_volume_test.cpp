@@ -60,7 +60,7 @@ TEST_F(CVolume, SaysWhatItIs) {
     EXPECT_EQ(info.incident_order, 3);
     EXPECT_EQ(info.probes, expected.visibility.size());
     EXPECT_EQ(info.lamps, 1u);
-    EXPECT_EQ(info.direct_apart, 1);
+    EXPECT_EQ(info.has_direct_term, 1);
     EXPECT_EQ(info.spacing, 0.5f);
     for (int a = 0; a < 3; ++a) {
         EXPECT_NEAR(info.corner[a], expected.grid.origin[a], 1e-6f);

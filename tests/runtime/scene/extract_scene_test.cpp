@@ -337,10 +337,10 @@ TEST(VertexArrays, AreSharedByPrimitivesThatShareAccessors) {
 
     const auto texcoord = file.accessor(std::vector<float>{0, 0, 1, 0, 0, 1}, test::kFloat, "VEC2", 2);
     file.json["meshes"][0]["primitives"][1]["attributes"]["TEXCOORD_0"] = texcoord;
-    const Scene apart = scene_of(file); // other texture coordinates are other vertices
-    ASSERT_EQ(apart.vertex_arrays.size(), 2u);
-    EXPECT_TRUE(apart.vertex_arrays[0].texcoords.empty());
-    EXPECT_EQ(apart.vertex_arrays[1].texcoords.size(), 1u);
+    const Scene separate = scene_of(file); // other texture coordinates are other vertices
+    ASSERT_EQ(separate.vertex_arrays.size(), 2u);
+    EXPECT_TRUE(separate.vertex_arrays[0].texcoords.empty());
+    EXPECT_EQ(separate.vertex_arrays[1].texcoords.size(), 1u);
 }
 
 TEST(RealFiles, AreRead) {

@@ -136,8 +136,8 @@ TEST(LevelsInFiles, OtherNamesSayNothing) {
         EXPECT_FALSE(has_levels(document)) << names[0];
         EXPECT_EQ(extract_scene(document).primitives.size(), 2u);
     }
-    const GlbFile apart = file_of({{{"name", "a_LOD0"}}, {{"children", {2}}}, {{"name", "a_LOD1"}}}, 2);
-    EXPECT_FALSE(has_levels(loaded(apart))); // no siblings
+    const GlbFile separate = file_of({{{"name", "a_LOD0"}}, {{"children", {2}}}, {{"name", "a_LOD1"}}}, 2);
+    EXPECT_FALSE(has_levels(loaded(separate))); // no siblings
 }
 
 TEST(LevelsInFiles, CopiesOfOneNameArePairedInOrderOrNotAtAll) {

@@ -120,7 +120,7 @@ TEST(SmoothNormals, ThatAreThereStay) {
     const GlbFile file = test::triangle_file();
     const Scene scene = smoothed(file, 30);
     EXPECT_TRUE(scene.notices.empty());
-    for (const Instancing instancing : {Instancing::nodes, Instancing::apart})
+    for (const Instancing instancing : {Instancing::nodes, Instancing::separate})
         EXPECT_EQ(smoothed(file, 30, instancing).vertex_arrays[0].size(), 3u);
 }
 

@@ -120,7 +120,7 @@ typedef struct prt_model_info {
     const uint16_t* cluster_of;    /* [receivers], for prt_cluster; packed weights include it */
     const uint32_t* cluster_table; /* [clusters][4], for prt_clusters */
     size_t meshes;
-    int direct_apart; /* 1 if suns can be lit separately from the sky, else 0 */
+    int has_direct_term; /* 1 if suns can be lit separately from the sky, else 0 */
 } prt_model_info;
 /* Returns the properties of a model. Pointers are valid as long as the model exists. */
 PRT_API prt_status prt_model_get_info(const prt_model* model, prt_model_info* out, prt_message* message);
@@ -161,7 +161,7 @@ PRT_API prt_status prt_model_update_constants(const prt_model* model, int order,
                                               float* constants, prt_message* message);
 /* Writes the constants, [rows][4], for a sky and separate suns. The renderer adds the direct light of the
  * suns with sharp shadows; the model receives their light only after a bounce. `suns` may be null: no suns.
- * Only a model whose transfer stores direct light separately supports suns: info.direct_apart. `lamps`:
+ * Only a model whose transfer stores direct light separately supports suns: info.has_direct_term. `lamps`:
  * strengths of the lamps, [lamps][3], at most 1e20; null: 1, as in the scene and as in
  * prt_model_update_constants. */
 PRT_API prt_status prt_model_update_constants_separate(const prt_model* model, int order, const float* sky,
@@ -227,12 +227,12 @@ typedef struct prt_volume_info {
     int order;          /* order of the lighting */
     int incident_order; /* n = 2..4: a probe has n*n coefficients of incident light */
     size_t probes;
-    size_t rows;      /* number of constants, 4 floats each */
-    size_t lamps;     /* number of lamps with strengths */
-    int direct_apart; /* 1 if suns can be lit separately from the sky, else 0 */
-    float corner[3];  /* metres: minimum corner, relative to `origin` like all positions */
-    float spacing;    /* metres, distance of the finest probes */
-    double origin[3]; /* metres, in the file's world; see prt_vertex_inputs.origin */
+    size_t rows;         /* number of constants, 4 floats each */
+    size_t lamps;        /* number of lamps with strengths */
+    int has_direct_term; /* 1 if suns can be lit separately from the sky, else 0 */
+    float corner[3];     /* metres: minimum corner, relative to `origin` like all positions */
+    float spacing;       /* metres, distance of the finest probes */
+    double origin[3];    /* metres, in the file's world; see prt_vertex_inputs.origin */
 } prt_volume_info;
 PRT_API prt_status prt_volume_get_info(const prt_volume* volume, prt_volume_info* out, prt_message* message);
 

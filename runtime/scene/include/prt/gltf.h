@@ -33,8 +33,8 @@ private:
 
 /// Representation of meshes whose instances share their transfer (PRTKIT_instances).
 enum class Instancing {
-    nodes, ///< each instance is a node
-    apart, ///< each mesh occurs once, in its own frame, as its transfer is stored
+    nodes,    ///< each instance is a node
+    separate, ///< each mesh occurs once, in its own frame, as its transfer is stored
 };
 
 struct GltfOptions {
@@ -76,7 +76,7 @@ void write_transfer(GltfDocument& document, const Scene& scene, const BakedTrans
 void write_clustered(GltfDocument& document, const Scene& scene, const CompressedTransfer& compressed);
 
 /// Return the transfer in the file; empty if absent. Throw `Error` if it is damaged, or if its
-/// instances share transfer and it was not read with `Instancing::apart` (prt/instances_gltf.h).
+/// instances share transfer and it was not read with `Instancing::separate` (prt/instances_gltf.h).
 std::optional<BakedTransfer> read_transfer(const GltfDocument& document, const Scene& scene);
 std::optional<CompressedTransfer> read_clustered(const GltfDocument& document, const Scene& scene);
 

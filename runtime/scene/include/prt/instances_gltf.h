@@ -38,7 +38,7 @@ SharedMeshes shared_meshes(const GltfDocument& document, const Scene& scene);
 
 /// A document for writing in which shared meshes occur once.
 struct SharedDocument {
-    GltfDocument document;      ///< must be read with `Instancing::apart`
+    GltfDocument document;      ///< must be read with `Instancing::separate`
     std::vector<int> stand_ins; ///< [meshes] the node in `document` that draws the mesh in its own frame
     std::vector<int> node_of;   ///< [nodes of the flat document] node in `document`; -1 for an instance
 };
@@ -72,8 +72,8 @@ struct FileInstance {
     glm::dmat4 world{1}; ///< matrix of the node
 };
 /// Reads the instances. `document` and `scene` are read with `Instancing::nodes`; `stored` is the scene of
-/// the same file read with `Instancing::apart`. Throws `Error` if the extension is damaged, or if the matrix
-/// of a node does not fit its instance.
+/// the same file read with `Instancing::separate`. Throws `Error` if the extension is damaged, or if the
+/// matrix of a node does not fit its instance.
 std::vector<FileInstance> read_instances(const GltfDocument& document, const Scene& scene,
                                          const Scene& stored);
 

@@ -1,5 +1,5 @@
 // Moves meshes whose instances share transfer to stand-in nodes, and back.
-#include "gltf/meshes_apart.h"
+#include "gltf/deduplicated_meshes.h"
 
 #include "prt/support/error.h"
 
@@ -22,43 +22,44 @@ void add_root(GltfContents& contents, std::size_t node) {
 
 } // namespace
 
-void set_meshes_apart(GltfContents& contents) {
+void deduplicate_meshes(GltfContents& contents) {
     if (!contents.json.contains("nodes"))
         return;
     Json& nodes = contents.json["nodes"];
-    std::map<std::size_t, std::size_t> of_mesh; // index in `apart`
+    std::map<std::size_t, std::size_t> of_mesh; // index in `separate`
     for (std::size_t n = 0; n < nodes.size(); ++n) {
         if (!extension_of(nodes[n], kInstancesExtension))
             continue;
         if (!nodes[n].contains("mesh"))
             throw Error("node " + std::to_string(n) + " has " + kInstancesExtension + " and no mesh");
         const auto mesh = nodes[n]["mesh"].get<std::size_t>();
-        const auto [found, is_new] = of_mesh.try_emplace(mesh, contents.apart.size());
+        const auto [found, is_new] = of_mesh.try_emplace(mesh, contents.separate.size());
         if (is_new)
-            contents.apart.push_back({mesh, {}}); // holds the mesh until the stand-in has an index
-        contents.apart[found->second].drawers.push_back(n);
+            contents.separate.push_back({mesh, {}}); // holds the mesh until the stand-in has an index
+        contents.separate[found->second].drawers.push_back(n);
         nodes[n].erase("mesh");
         contents.model.nodes[n].mesh = -1;
     }
-    for (MeshApart& apart : contents.apart) {
-        const std::size_t mesh = std::exchange(apart.stand_in, nodes.size());
+    for (DeduplicatedMesh& separate : contents.separate) {
+        const std::size_t mesh = std::exchange(separate.stand_in, nodes.size());
         nodes.push_back({{"mesh", mesh}});
         contents.model.nodes.emplace_back().mesh = static_cast<int>(mesh);
-        add_root(contents, apart.stand_in);
+        add_root(contents, separate.stand_in);
     }
 }
 
-void put_meshes_back(const std::vector<MeshApart>& apart, Json& json) {
-    for (auto mesh_apart = apart.rbegin(); mesh_apart != apart.rend(); ++mesh_apart) {
-        const Json mesh = json["nodes"][mesh_apart->stand_in]["mesh"];
-        for (const std::size_t drawer : mesh_apart->drawers)
+void put_meshes_back(const std::vector<DeduplicatedMesh>& separate, Json& json) {
+    for (auto deduplicated_mesh = separate.rbegin(); deduplicated_mesh != separate.rend();
+         ++deduplicated_mesh) {
+        const Json mesh = json["nodes"][deduplicated_mesh->stand_in]["mesh"];
+        for (const std::size_t drawer : deduplicated_mesh->drawers)
             json["nodes"][drawer]["mesh"] = mesh;
-        json["nodes"].erase(mesh_apart->stand_in); // the last node
+        json["nodes"].erase(deduplicated_mesh->stand_in); // the last node
         if (!json.contains("scenes"))
             continue;
         for (Json& scene : json["scenes"])
             if (scene.contains("nodes") && !scene["nodes"].empty() &&
-                scene["nodes"].back() == mesh_apart->stand_in)
+                scene["nodes"].back() == deduplicated_mesh->stand_in)
                 scene["nodes"].erase(scene["nodes"].size() - 1);
     }
 }

@@ -10,9 +10,9 @@ namespace prt {
 /// Moves the meshes with PRTKIT_instances from their nodes to one new root node each, in the JSON and the
 /// model of `contents`, while the document is in memory. Throws `Error` if a node with the extension has no
 /// mesh.
-void set_meshes_apart(GltfContents& contents);
+void deduplicate_meshes(GltfContents& contents);
 
-/// Undoes `set_meshes_apart` in `json`, for writing.
-void put_meshes_back(const std::vector<MeshApart>& apart, Json& json);
+/// Undoes `deduplicate_meshes` in `json`, for writing.
+void put_meshes_back(const std::vector<DeduplicatedMesh>& separate, Json& json);
 
 } // namespace prt
