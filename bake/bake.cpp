@@ -8,7 +8,7 @@
 #include "measured_light.h"
 #include "memory.h"
 #include "prt/support/stopwatch.h"
-#include "scene/places_without_area.h"
+#include "scene/positions_without_area.h"
 #include "transfer_terms.h"
 
 #include <algorithm>

@@ -88,13 +88,13 @@ SurfaceSamples ErrorCheck::look(Tracer& tracer, const Transfer& sky, const Surfa
     std::vector<double> squares(many.size());
     double sum = 0;
     for (std::size_t s = 0; s < many.size(); ++s) {
-        const SamplePlace& place = many.places[s];
+        const SurfacePoint& position = many.positions[s];
         const glm::uvec3 corners =
-            corner_receivers(plan_.scene.surfaces(), *plan_.transport, place.triangle, false);
+            corner_receivers(plan_.scene.surfaces(), *plan_.transport, position.triangle, false);
         double off = -static_cast<double>(seen.vector(s)[0]);
         for (int i = 0; i < 3; ++i)
             if (corners[i] != kNoReceiver)
-                off += static_cast<double>(place.shares()[static_cast<std::size_t>(i)] *
+                off += static_cast<double>(position.shares()[static_cast<std::size_t>(i)] *
                                            sky.vector(corners[i])[0]);
         squares[s] = static_cast<double>(many.receivers.areas[s]) * off * off;
         sum += squares[s];
@@ -131,15 +131,15 @@ void ErrorCheck::choose_points(Tracer& tracer, const Measured& measured, const s
         for (const std::uint32_t p : body.members())
             in_medium[p] = true;
     for (std::size_t s = 0; s < some.size(); ++s) {
-        const SamplePlace& place = some.places[s];
-        const glm::uvec3 corners = corner_receivers(surfaces, *plan_.transport, place.triangle, false);
+        const SurfacePoint& position = some.positions[s];
+        const glm::uvec3 corners = corner_receivers(surfaces, *plan_.transport, position.triangle, false);
         bool known = true;
         for (int i = 0; i < 3; ++i)
             known = known && corners[i] != kNoReceiver && !in_medium[corners[i]];
-        const float seen = surfaces.coverage({place.triangle, place.uv, 0});
+        const float seen = surfaces.coverage({position.triangle, position.uv, 0});
         if (!known || !(seen > 0))
             continue;
-        points_.push_back({.place = place,
+        points_.push_back({.position = position,
                            .area = static_cast<double>(seen * some.receivers.areas[s]),
                            .front = static_cast<std::uint32_t>(rows_.size()),
                            .back = {}});
@@ -153,9 +153,9 @@ void ErrorCheck::add_backs() {
     std::vector<Point*> two_sided;
     std::vector<std::uint32_t> triangles;
     for (Point& point : points_)
-        if (plan_.scene.surfaces().two_sided(point.place.triangle)) {
+        if (plan_.scene.surfaces().two_sided(point.position.triangle)) {
             two_sided.push_back(&point);
-            triangles.push_back(point.place.triangle);
+            triangles.push_back(point.position.triangle);
         }
     if (two_sided.empty())
         return;
@@ -168,7 +168,7 @@ void ErrorCheck::add_backs() {
     for (Point* const point : two_sided) {
         const int node = node_of(*point);
         const bool reached = of_nodes[node] > kMinReach * areas[node];
-        if (!reached && !plan_.scene.surfaces().transmits(point->place.triangle))
+        if (!reached && !plan_.scene.surfaces().transmits(point->position.triangle))
             continue;
         point->back = static_cast<std::uint32_t>(rows_.size());
         rows_.positions.push_back(rows_.positions[point->front]);
@@ -238,9 +238,9 @@ ErrorCheck::Light ErrorCheck::light(const Point& point, bool back, std::size_t h
     };
     Light here = of_side(back ? *point.back : point.front);
     const Surfaces& surfaces = plan_.scene.surfaces();
-    if (surfaces.transmits(point.place.triangle) && point.back) {
+    if (surfaces.transmits(point.position.triangle) && point.back) {
         const Light there = of_side(back ? point.front : *point.back);
-        const SurfacePoint at{point.place.triangle, point.place.uv, static_cast<float>(point.area)};
+        const SurfacePoint at{point.position.triangle, point.position.uv, static_cast<float>(point.area)};
         mix_sides(surfaces, at, channels, here.unbounced, there.unbounced);
         mix_sides(surfaces, at, channels, here.all, there.all);
     }
@@ -256,7 +256,7 @@ ErrorCheck::Halves ErrorCheck::halves(const Point& point, bool back, const std::
 }
 
 int ErrorCheck::node_of(const Point& point) const {
-    return plan_.scene.scene().primitives[plan_.scene.surfaces().primitive(point.place.triangle)].node;
+    return plan_.scene.scene().primitives[plan_.scene.surfaces().primitive(point.position.triangle)].node;
 }
 
 double ErrorCheck::sampling_error() const {
@@ -273,7 +273,7 @@ double ErrorCheck::sampling_error() const {
 
 ErrorCheck::Value ErrorCheck::interpolated(const Point& point, const Transfer& baked) const {
     const std::vector<float> sum =
-        prt::interpolated(baked, plan_.scene.surfaces().corners(point.place.triangle), point.place);
+        prt::interpolated(baked, plan_.scene.surfaces().corners(point.position.triangle), point.position);
     const auto channels = static_cast<std::size_t>(plan_.channels),
                lamp_channels = static_cast<std::size_t>(plan_.lamp_channels()),
                columns = static_cast<std::size_t>(coefficient_count(plan_.options.order));

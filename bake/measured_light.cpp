@@ -69,7 +69,7 @@ Measured measure(const BakePlan& plan, Tracer& tracer, LastOfLamps last, BakeSta
                                        progress.range(0.03, lit)),
                         {}};
     const std::optional<LampConnections> connections = connections_to(plan, last, lamps.light.transfer);
-    SharedPlaces shared(plan.scene, *plan.transport);
+    SharedPositions shared(plan.scene, *plan.transport);
     DirectLight direct = trace_direct(plan, tracer, connections ? &*connections : nullptr,
                                       shared.left(plan.receivers().size()), progress.range(lit, 1));
     Measured measured{.direct = std::move(direct),

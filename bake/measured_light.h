@@ -4,7 +4,7 @@
 
 #include "direct.h"
 #include "record.h"
-#include "scene/shared_places.h"
+#include "scene/shared_positions.h"
 #include "surface/fitted_light.h"
 
 #include <optional>
@@ -18,7 +18,7 @@ struct Measured {
     SealedIn sealed;
     std::optional<SurfaceFit> fit; ///< empty: light is measured at receivers
     SampledLight sky;              ///< direct light at the fit's samples
-    std::optional<SharedPlaces> shared =
+    std::optional<SharedPositions> shared =
         {}; ///< groups of receivers to average at the end; empty: a fit replaces them
 };
 

@@ -67,7 +67,7 @@ struct Evaluation {
 };
 
 /// Returns the texel and its map.
-std::string place_of(const LightmapOfFile& lightmap, std::uint32_t receiver) {
+std::string position_of(const LightmapOfFile& lightmap, std::uint32_t receiver) {
     const std::vector<std::size_t> first = lightmap.layout.first_texels();
     const std::size_t texel = lightmap.texels[receiver];
     const auto map = static_cast<std::size_t>(std::ranges::upper_bound(first, texel) - first.begin()) - 1;
@@ -76,9 +76,9 @@ std::string place_of(const LightmapOfFile& lightmap, std::uint32_t receiver) {
 }
 
 /// Returns the position of a receiver in the world, metres.
-std::string place_of(const SceneFile& baked, std::uint32_t receiver) {
+std::string position_of(const SceneFile& baked, std::uint32_t receiver) {
     if (baked.lightmap)
-        return place_of(*baked.lightmap, receiver);
+        return position_of(*baked.lightmap, receiver);
     const Scene& scene = baked.scene;
     for (const VertexArray& vertices : scene.vertex_arrays)
         if (receiver >= vertices.first_receiver && receiver < vertices.first_receiver + vertices.size()) {
@@ -134,7 +134,7 @@ Table lights_table(const Evaluation& evaluation, const SceneFile& baked) {
                      {"inner_percentile_99", "inner, 99 %", share, 2},
                      {"mean_radiance", "mean radiance"}};
     for (const char* key :
-         {"crossing_edges", "crossing_rms", "seam_place_metres", "inner_edges", "inner_rms", "inner_max",
+         {"crossing_edges", "crossing_rms", "seam_position_metres", "inner_edges", "inner_rms", "inner_max",
           "separate_suns", "judged", "visible_mean", "visible_percentile_99", "visible_above_5_percent"})
         table.columns.push_back({key});
     for (const auto* lights : {&evaluation.named, &evaluation.standard})
@@ -153,7 +153,7 @@ Table lights_table(const Evaluation& evaluation, const SceneFile& baked) {
                  e.mean,
                  e.crossing.edges,
                  e.crossing.rms,
-                 e.crossing.edges > 0 ? Json(place_of(baked, e.crossing.worst.first)) : Json(),
+                 e.crossing.edges > 0 ? Json(position_of(baked, e.crossing.worst.first)) : Json(),
                  e.inner.edges,
                  e.inner.rms,
                  e.inner.max,
@@ -270,7 +270,7 @@ public:
                 v.seam_99 = std::max(v.seam_99, seams.percentile_99);
                 if (seams.edges > 0 && seams.max > v.seam.value_or(-1)) {
                     v.seam = seams.max;
-                    v.seam_at = place_of(baked_, seams.worst.first);
+                    v.seam_at = position_of(baked_, seams.worst.first);
                 }
             }
         if (lights > 1)

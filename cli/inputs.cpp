@@ -35,10 +35,10 @@ void check_belong_together(const SceneFile& baked, const Path& baked_path, const
     for (const auto& [model, path] : {std::pair(&baked, &baked_path), std::pair(&shipped, &shipped_path)})
         if (!model->record())
             throw Error(path->string() + ": holds no transfer; run prt bake first");
-    const bool same_places = baked.lightmap && shipped.lightmap
-                                 ? baked.lightmap->layout == shipped.lightmap->layout
-                                 : !baked.lightmap && !shipped.lightmap;
-    if (!same_places || baked.record()->receivers != shipped.record()->receivers ||
+    const bool same_positions = baked.lightmap && shipped.lightmap
+                                    ? baked.lightmap->layout == shipped.lightmap->layout
+                                    : !baked.lightmap && !shipped.lightmap;
+    if (!same_positions || baked.record()->receivers != shipped.record()->receivers ||
         baked.scene.receivers() != shipped.scene.receivers())
         throw Error(shipped_path.string() + ": does not belong to " + baked_path.string() +
                     ": their receivers differ");

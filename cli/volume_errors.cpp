@@ -22,7 +22,7 @@
 namespace prt::cli {
 namespace {
 
-constexpr std::size_t kPlaces = 1000;
+constexpr std::size_t kPositions = 1000;
 /// Upper limits of the distance classes, metres.
 constexpr std::array<float, 4> kDistances = {0.05f, 0.2f, 0.5f, HUGE_VALF};
 
@@ -62,16 +62,16 @@ glm::dvec3 unclamped_irradiance(std::span<const glm::vec3> light, std::span<cons
     return sum;
 }
 
-/// Returns the error of the irradiance `found(place, normal)`.
-ErrorSum irradiance_error(const FreePlaces& places, const std::array<std::vector<glm::vec3>, 2>& truth,
+/// Returns the error of the irradiance `found(position, normal)`.
+ErrorSum irradiance_error(const FreePositions& points, const std::array<std::vector<glm::vec3>, 2>& truth,
                           const std::function<glm::vec3(std::size_t, const glm::vec3&)>& found) {
-    const std::size_t coefficients = truth[0].size() / places.positions.size();
+    const std::size_t coefficients = truth[0].size() / points.positions.size();
     const int order = static_cast<int>(std::lround(std::sqrt(static_cast<double>(coefficients))));
     std::vector<float> basis(coefficients);
     ErrorSum sum;
     for (const glm::vec3& normal : normals_all_round()) {
         evaluate_sh(order, normal, basis);
-        for (std::size_t p = 0; p < places.positions.size(); ++p) {
+        for (std::size_t p = 0; p < points.positions.size(); ++p) {
             const auto half = [&](std::size_t h) {
                 return unclamped_irradiance(std::span(truth[h]).subspan(p * coefficients, coefficients),
                                             basis);
@@ -86,12 +86,12 @@ ErrorSum irradiance_error(const FreePlaces& places, const std::array<std::vector
 
 /// Returns the errors of incident light at probes: [probes][coefficients].
 VolumeErrors errors_of(const VolumeLookup& lookup, std::span<const glm::vec3> incident,
-                       const FreePlaces& places, const std::array<std::vector<glm::vec3>, 2>& truth) {
-    const std::size_t coefficients = truth[0].size() / places.positions.size();
+                       const FreePositions& points, const std::array<std::vector<glm::vec3>, 2>& truth) {
+    const std::size_t coefficients = truth[0].size() / points.positions.size();
     std::vector<glm::vec3> light(coefficients);
     VolumeErrors errors;
-    for (std::size_t p = 0; p < places.positions.size(); ++p) {
-        mix_incident(lookup.find(places.positions[p]), incident, light);
+    for (std::size_t p = 0; p < points.positions.size(); ++p) {
+        mix_incident(lookup.find(points.positions[p]), incident, light);
         ErrorSum here;
         for (std::size_t o = 0; o < coefficients; ++o) {
             const glm::dvec3 a(truth[0][p * coefficients + o]), b(truth[1][p * coefficients + o]),
@@ -99,15 +99,15 @@ VolumeErrors errors_of(const VolumeLookup& lookup, std::span<const glm::vec3> in
             here.error += glm::dot(a - x, b - x);
             here.norm += glm::dot(a, b);
         }
-        const auto bin = static_cast<std::size_t>(std::ranges::upper_bound(kDistances, places.distances[p]) -
+        const auto bin = static_cast<std::size_t>(std::ranges::upper_bound(kDistances, points.distances[p]) -
                                                   kDistances.begin());
         for (ErrorSum* sum : {&errors.all, &errors.by_distance[std::min(bin, kDistances.size() - 1)]}) {
             sum->error += here.error;
             sum->norm += here.norm;
         }
     }
-    errors.irradiance = irradiance_error(places, truth, [&](std::size_t p, const glm::vec3& normal) {
-        mix_incident(lookup.find(places.positions[p]), incident, light);
+    errors.irradiance = irradiance_error(points, truth, [&](std::size_t p, const glm::vec3& normal) {
+        mix_incident(lookup.find(points.positions[p]), incident, light);
         return irradiance_of(light, normal);
     });
     return errors;
@@ -129,7 +129,7 @@ Table empty_table() {
         "skies, and shine as in the scene without one. The last column is of surfaces that face "
         "anywhere, over all places; sky occlusion is what other engines keep at the same probes: how "
         "much of a grey sky arrives, times the sky's own irradiance.",
-        kPlaces);
+        kPositions);
     table.columns = {{"light", "light"}, {"volume", "volume"}, {"error", "error", Unit::percent, 2}};
     for (std::size_t i = 0; i < kDistances.size(); ++i)
         table.columns.push_back({fmt::format("error_{}", i), distance_title(i), Unit::percent, 2});
@@ -178,14 +178,14 @@ std::optional<CompressedVolume> shipped_volume(const BudgetRequest& request, con
 }
 
 /// Returns the sky light at positions that no sky light reaches: leaks through walls.
-Table leak_table(const BakedVolume& volume, const VolumeLookup& lookup, const FreePlaces& places) {
+Table leak_table(const BakedVolume& volume, const VolumeLookup& lookup, const FreePositions& points) {
     const std::size_t coefficients = volume.coefficients();
     double sum = 0, largest = 0;
     std::size_t shut = 0;
-    for (std::size_t p = 0; p < places.positions.size(); ++p) {
-        if (!places.shut[p])
+    for (std::size_t p = 0; p < points.positions.size(); ++p) {
+        if (!points.shut[p])
             continue;
-        const VolumeCorners corners = lookup.find(places.positions[p]);
+        const VolumeCorners corners = lookup.find(points.positions[p]);
         double sky = 0; // light of a uniform sky of radiance 1, without bounces
         for (std::size_t i = 0; i < corners.probes.size(); ++i)
             sky += static_cast<double>(corners.weights[i] *
@@ -199,7 +199,7 @@ Table leak_table(const BakedVolume& volume, const VolumeLookup& lookup, const Fr
         fmt::format("Direct light of a uniform sky that the volume has at places which no ray to the "
                     "sky leaves, among the {} places in free space: 0 where nothing leaks, 1 is "
                     "what comes in under the open sky.",
-                    places.positions.size());
+                    points.positions.size());
     table.columns = {
         {"places", "places without sky"}, {"mean", "mean", Unit::plain, 4}, {"max", "max", Unit::plain, 3}};
     table.rows = {
@@ -236,14 +236,14 @@ std::vector<VolumeLight> volume_lights(std::span<const BudgetLight> skies, const
 
 /// Adds rows for the same light from probe data of other engines; they contain irradiance only.
 void add_sky_occlusion(const VolumeLight& light, const SkyOcclusion& occlusion, const VolumeLookup& lookup,
-                       const FreePlaces& places, const std::array<std::vector<glm::vec3>, 2>& truth,
+                       const FreePositions& points, const std::array<std::vector<glm::vec3>, 2>& truth,
                        Table& table) {
     using Kind = SkyOcclusionKind;
     for (const auto& row_kind : {std::pair(Kind::number, "sky occlusion, 1 number"),
                                  std::pair(Kind::linear, "sky occlusion, 4 numbers"),
                                  std::pair(Kind::directed, "the same and a direction")}) {
-        const ErrorSum sum = irradiance_error(places, truth, [&](std::size_t p, const glm::vec3& normal) {
-            return occlusion.irradiance(lookup.find(places.positions[p]), normal, light.lighting.sky,
+        const ErrorSum sum = irradiance_error(points, truth, [&](std::size_t p, const glm::vec3& normal) {
+            return occlusion.irradiance(lookup.find(points.positions[p]), normal, light.lighting.sky,
                                         row_kind.first);
         });
         std::vector<Json> row(table.columns.size());
@@ -284,7 +284,7 @@ void add_volume_errors(BudgetRequest request, SceneFile& baked, Report& report, 
         baked.scene,
         about(request.baked, [&] { return load_textures(baked.scene, request.reading.bad_textures); }),
         {.threads = options.threads});
-    const FreePlaces places = free_places_in(traced, volume.grid, kPlaces, 1);
+    const FreePositions points = free_positions_in(traced, volume.grid, kPositions, 1);
     const VolumeLookup lookup(volume.grid, volume.visibility);
     const TransferLayout layout = volume.baked.transfer.layout.of_one_output();
     const std::vector<BudgetLight> skies = budget_lights(options);
@@ -298,23 +298,23 @@ void add_volume_errors(BudgetRequest request, SceneFile& baked, Report& report, 
         return static_cast<double>(i) / static_cast<double>(lights.size());
     };
     for (std::size_t i = 0; i < lights.size(); ++i) {
-        const auto truth = incident_reference(traced, places.positions, volume.order, lights[i].measured,
+        const auto truth = incident_reference(traced, points.positions, volume.order, lights[i].measured,
                                               {.lamps = lights[i].lamps, .threads = options.threads},
                                               progress.range(share(i), share(i + 1)));
         const Lighting& lighting = lights[i].lighting;
         of_baked.push_back(errors_of(lookup, exit_radiance(volume.baked.transfer, lighting, options.threads),
-                                     places, truth));
+                                     points, truth));
         table.rows.push_back(row_of(lights[i].name, "baked", of_baked.back()));
         if (!lights[i].lamps && layout.order >= 3)
-            add_sky_occlusion(lights[i], occlusion, lookup, places, truth, table);
+            add_sky_occlusion(lights[i], occlusion, lookup, points, truth, table);
         if (!small)
             continue;
         of_small.push_back(
-            errors_of(lookup, incident_light(*small, lighting, options.threads), places, truth));
+            errors_of(lookup, incident_light(*small, lighting, options.threads), points, truth));
         table.rows.push_back(row_of(lights[i].name, "shipped", of_small.back()));
     }
     add_means(of_baked, of_small, table);
-    report.tables.insert(report.tables.begin(), {std::move(table), leak_table(volume, lookup, places)});
+    report.tables.insert(report.tables.begin(), {std::move(table), leak_table(volume, lookup, points)});
 }
 
 } // namespace prt::cli

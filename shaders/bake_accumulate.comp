@@ -119,9 +119,9 @@ void add_to_sums(uint receiver, uint k, float coefficient) {
     for (uint i = 0u; i < 3u; ++i)
         if (row.sums[i] != PRT_NO_SUM) {
             int value = fixed_point(row.shares[i] * coefficient);
-            uint place = row.sums[i] * uint(kCoefficients) + k;
-            atomicAdd(fixed_sums[place], value);
-            atomicAdd(signed_sums[place], row.sign < 0.0 ? -value : value);
+            uint position = row.sums[i] * uint(kCoefficients) + k;
+            atomicAdd(fixed_sums[position], value);
+            atomicAdd(signed_sums[position], row.sign < 0.0 ? -value : value);
         }
     if (k < kFirst)
         sums[receiver * kFirst + k] += coefficient;

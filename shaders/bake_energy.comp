@@ -29,5 +29,5 @@ void main() {
         float value = gathered[vector * kOrder * kOrder + k];
         sum += value * value;
     }
-    atomicMax(energy[push.place], floatBitsToUint(sum));
+    atomicMax(energy[push.position], floatBitsToUint(sum));
 }

@@ -63,12 +63,12 @@ void main() {
                 kShared ? weights[e] * reflectance[source * kChannels + channel] : weights[e * kChannels + channel];
             sum += weight * exit_transfer[source * kColumns + k];
         }
-        uint place = (push.first_gathered + row) * kColumns + k;
+        uint position = (push.first_gathered + row) * kColumns + k;
         if (kSummed)
             add_to_sums(push.first_sum_row + row, kColumns, k, sum);
         else
-            gathered[place] = sum;
+            gathered[position] = sum;
         if (push.add != 0u)
-            total[place] += sum;
+            total[position] += sum;
     }
 }

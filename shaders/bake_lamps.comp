@@ -133,12 +133,12 @@ SeenTriangle see_shining(ShiningTriangle t, LampReceiver receiver) {
 // Irradiance from a sample of a triangle, as if there were no other triangles.
 vec3 irradiance_along(LampReceiver receiver, ShiningTriangle t, SeenTriangle seen, vec2 u) {
     TrianglePoint point = point_of(seen, u);
-    float cosine = dot(receiver.normal.xyz, normalize(point.place));
+    float cosine = dot(receiver.normal.xyz, normalize(point.position));
     vec3 result = vec3(0.0);
     if (cosine > 0.0) {
         // The ray ends on the visible side, not on the triangle itself.
         vec3 outward = normalize(seen.volume > 0.0 ? -seen.normal : seen.normal);
-        vec3 way = point.place + (t.offset + PRT_LENGTH_OFFSET * length(point.place)) * outward;
+        vec3 way = point.position + (t.offset + PRT_LENGTH_OFFSET * length(point.position)) * outward;
         float distance = length(way);
         float share = passing(receiver.origin.xyz, way / distance, distance) * cosine * point.angle / seen.angle;
         if (kAlpha)

@@ -45,9 +45,9 @@ float bias_of(float cosine) {
 }
 
 // Share of light that surfaces in front of `depth` transmit, bilinear over four texels.
-float open_share(vec3 place, float cosine, int layer) {
-    vec2 size = vec2(textureSize(opaque_depth, 0).xy), at = place.xy * size - 0.5, low = floor(at), f = at - low;
-    float limit = place.z - bias_of(cosine);
+float open_share(vec3 position, float cosine, int layer) {
+    vec2 size = vec2(textureSize(opaque_depth, 0).xy), at = position.xy * size - 0.5, low = floor(at), f = at - low;
+    float limit = position.z - bias_of(cosine);
     float shares[4];
     for (int i = 0; i < 4; ++i) {
         ivec2 texel = clamp(ivec2(low) + ivec2(i & 1, i >> 1), ivec2(0), ivec2(size) - 1);

@@ -60,10 +60,10 @@ uint trace_some_hits(Chunk c, uint lane) {
 // Follows rays through surfaces that transmit a share of them. A thread stops if there is no space for a hit,
 // and continues in the next dispatch.
 uint trace_through(Chunk c, uint lane) {
-    uint place = c.row * uint(PRT_BEAM) + lane;
-    ThreadProgress at = threads[place];
+    uint position = c.row * uint(PRT_BEAM) + lane;
+    ThreadProgress at = threads[position];
     bool begun = at.ray > 0u;
-    uint mask = begun ? blocked[place] : 0u, i = begun ? at.ray - 1u : lane;
+    uint mask = begun ? blocked[position] : 0u, i = begun ? at.ray - 1u : lane;
     float left = begun ? at.left : 1.0, t = begun ? at.t : 0.0;
     bool running = i < c.count;
     while (running) {
@@ -96,7 +96,7 @@ uint trace_through(Chunk c, uint lane) {
         }
     }
     cut_short = cut_short || running;
-    threads[place] = ThreadProgress(i + 1u, t, left);
+    threads[position] = ThreadProgress(i + 1u, t, left);
     return mask;
 }
 

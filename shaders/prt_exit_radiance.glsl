@@ -54,7 +54,7 @@ vec4 prt_constant_at(uint at) {
 #ifdef PRT_INSTANCES
 #define PRT_COLOR mat3x4
 uint prt_first_row; // first row of the instance, and position of the vertex in the mesh's box: prt_instances.glsl
-vec4 prt_place;
+vec4 prt_position;
 
 mat3x4 prt_constant(uint row) {
     uint at = 3u * (prt_first_row + row);
@@ -62,7 +62,7 @@ mat3x4 prt_constant(uint row) {
 }
 
 vec3 prt_color(mat3x4 color) {
-    return prt_place * color;
+    return prt_position * color;
 }
 #else
 #define PRT_COLOR vec3
@@ -120,10 +120,10 @@ PRT_COLOR prt_predicted(uint first, vec3 position, vec3 normal) {
         normal.x * prt_constant(first + 1u) + normal.y * prt_constant(first + 2u) + normal.z * prt_constant(first + 3u);
 #endif
 #ifdef PRT_PREDICTOR_POSITION
-    vec3 place = position - PRT_PREDICTOR_ORIGIN;
-    radiance += place.x * prt_constant(first + PRT_POSITION_ROW) +
-                place.y * prt_constant(first + PRT_POSITION_ROW + 1u) +
-                place.z * prt_constant(first + PRT_POSITION_ROW + 2u);
+    vec3 point = position - PRT_PREDICTOR_ORIGIN;
+    radiance += point.x * prt_constant(first + PRT_POSITION_ROW) +
+                point.y * prt_constant(first + PRT_POSITION_ROW + 1u) +
+                point.z * prt_constant(first + PRT_POSITION_ROW + 2u);
 #endif
     return radiance;
 }

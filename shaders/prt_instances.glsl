@@ -10,7 +10,7 @@
 // attributes; `position` and `normal` are those of the mesh in its own frame.
 vec3 prt_instance_radiance(vec4 instance_0, vec4 instance_1, vec3 position, vec3 normal) {
     prt_first_row = uint(instance_0.w) + (uint(instance_1.w) << 16);
-    prt_place = vec4((position - instance_0.xyz) * instance_1.xyz, 1.0);
+    prt_position = vec4((position - instance_0.xyz) * instance_1.xyz, 1.0);
     return prt_exit_radiance(position, normal);
 }
 #endif

@@ -27,6 +27,6 @@ out vec3 radiance;
 
 void main() {
     radiance = prt_instance_radiance(instance_0, instance_1, position, normal);
-    vec4 place = vec4(position, 1.0);
-    gl_Position = view_projection * vec4(dot(world_x, place), dot(world_y, place), dot(world_z, place), 1.0);
+    vec4 point = vec4(position, 1.0);
+    gl_Position = view_projection * vec4(dot(world_x, point), dot(world_y, point), dot(world_z, point), 1.0);
 }

@@ -47,10 +47,10 @@ struct PrtBlockedCap {
 };
 
 PrtBlockedCap prt_blocked_cap(int i, vec3 position) {
-    vec4 place = vec4(position, 1.0), half_reach = PRT_OCCLUDER_ROWS[5 * i + 3];
+    vec4 point = vec4(position, 1.0), half_reach = PRT_OCCLUDER_ROWS[5 * i + 3];
     vec3 x = PRT_OCCLUDER_ROWS[5 * i].xyz, y = PRT_OCCLUDER_ROWS[5 * i + 1].xyz, z = PRT_OCCLUDER_ROWS[5 * i + 2].xyz;
-    vec3 q = vec3(dot(PRT_OCCLUDER_ROWS[5 * i], place), dot(PRT_OCCLUDER_ROWS[5 * i + 1], place),
-                  dot(PRT_OCCLUDER_ROWS[5 * i + 2], place));
+    vec3 q = vec3(dot(PRT_OCCLUDER_ROWS[5 * i], point), dot(PRT_OCCLUDER_ROWS[5 * i + 1], point),
+                  dot(PRT_OCCLUDER_ROWS[5 * i + 2], point));
     float far = length(q);
     PrtBlockedCap cap = PrtBlockedCap(vec3(0.0, 1.0, 0.0), 0.0, 0.0);
     if (far < half_reach.w) {

@@ -43,12 +43,12 @@ PRT_VOLUME_SAMPLER(PRT_UNIT_VOLUME_VISIBILITY) usampler3D prt_volume_visibility;
 PRT_VOLUME_SAMPLER(PRT_UNIT_VOLUME_INDEX) usampler3D prt_volume_index;
 
 struct PrtVolumeBrick {
-    ivec3 place; // in bricks of level 0
+    ivec3 point; // in bricks of level 0
     int level, slot;
 };
 
 // A position between eight probes.
-struct PrtVolumePlace {
+struct PrtVolumePosition {
     ivec3 texel; // texel of the minimum corner
     vec3 share;  // position in the cell, along each axis
     bool seen;   // visible from all probes: weights are trilinear
@@ -58,12 +58,12 @@ struct PrtVolumePlace {
 // Returns the brick that contains a position inside the volume; `brick` if there is none.
 PrtVolumeBrick prt_volume_brick(vec3 position, PrtVolumeBrick brick) {
     vec3 bricks = (position - PRT_VOLUME_ORIGIN) / (4.0 * PRT_VOLUME_SPACING);
-    ivec3 place = clamp(ivec3(floor(bricks)), ivec3(0), PRT_VOLUME_SIZE - 1);
-    uint entry = texelFetch(prt_volume_index, place, 0).r;
+    ivec3 point = clamp(ivec3(floor(bricks)), ivec3(0), PRT_VOLUME_SIZE - 1);
+    uint entry = texelFetch(prt_volume_index, point, 0).r;
     if (entry != 0xFFFFFFFFu) {
         brick.level = int(entry & 3u);
         brick.slot = int(entry >> 2);
-        brick.place = (place >> brick.level) << brick.level;
+        brick.position = (point >> brick.level) << brick.level;
     }
     return brick;
 }
@@ -82,34 +82,34 @@ float prt_volume_probe_weight(uvec2 visibility, vec3 from) {
 }
 
 // `at`: position in cells of a brick from its minimum corner, not necessarily inside the brick.
-PrtVolumePlace prt_volume_weighted(PrtVolumeBrick brick, vec3 at) {
+PrtVolumePosition prt_volume_weighted(PrtVolumeBrick brick, vec3 at) {
     vec3 inside = clamp(at, vec3(0.0), vec3(4.0));
     ivec3 low = min(ivec3(inside), ivec3(3)), bricks = PRT_VOLUME_BRICKS;
-    PrtVolumePlace place;
-    place.share = inside - vec3(low);
-    place.texel =
+    PrtVolumePosition point;
+    point.share = inside - vec3(low);
+    point.texel =
         low + 5 * ivec3(brick.slot % bricks.x, brick.slot / bricks.x % bricks.y, brick.slot / (bricks.x * bricks.y));
-    uvec2 visibility = texelFetch(prt_volume_visibility, place.texel, 0).rg;
-    place.seen = visibility.y >> 24 == 1u && at == inside;
-    vec3 over = place.share, under = 1.0 - over;
+    uvec2 visibility = texelFetch(prt_volume_visibility, point.texel, 0).rg;
+    point.seen = visibility.y >> 24 == 1u && at == inside;
+    vec3 over = point.share, under = 1.0 - over;
     vec4 face = vec4(under.x, over.x, under.x, over.x) * vec4(under.y, under.y, over.y, over.y);
-    place.weights[0] = face * under.z;
-    place.weights[1] = face * over.z;
-    if (!place.seen) {
+    point.weights[0] = face * under.z;
+    point.weights[1] = face * over.z;
+    if (!point.seen) {
         vec3 from = at - vec3(low);
         for (int i = 0; i < 8; ++i) {
             ivec3 corner = ivec3(i & 1, i >> 1 & 1, i >> 2);
-            visibility = texelFetch(prt_volume_visibility, place.texel + corner, 0).rg;
-            place.weights[i >> 2][i & 3] *= prt_volume_probe_weight(visibility, from - vec3(corner));
+            visibility = texelFetch(prt_volume_visibility, point.texel + corner, 0).rg;
+            point.weights[i >> 2][i & 3] *= prt_volume_probe_weight(visibility, from - vec3(corner));
         }
-        float sum = dot(place.weights[0] + place.weights[1], vec4(1.0));
-        place.weights[0] /= sum;
-        place.weights[1] /= sum;
+        float sum = dot(point.weights[0] + point.weights[1], vec4(1.0));
+        point.weights[0] /= sum;
+        point.weights[1] /= sum;
     }
-    return place;
+    return point;
 }
 
-PrtVolumePlace prt_volume_find(vec3 position, vec3 normal) {
+PrtVolumePosition prt_volume_find(vec3 position, vec3 normal) {
     vec3 least = PRT_VOLUME_ORIGIN, most = least + 4.0 * PRT_VOLUME_SPACING * vec3(PRT_VOLUME_SIZE);
     vec3 inside = clamp(position, least, most);
     ivec4 first = PRT_VOLUME_FIRST;
@@ -118,30 +118,30 @@ PrtVolumePlace prt_volume_find(vec3 position, vec3 normal) {
     vec3 seen = clamp(inside + PRT_VOLUME_NORMAL_BIAS * cell * normal, least, most);
     brick = prt_volume_brick(seen, brick);
     cell = PRT_VOLUME_SPACING * float(1 << brick.level);
-    return prt_volume_weighted(brick, (seen - (least + PRT_VOLUME_SPACING * vec3(4 * brick.place))) / cell);
+    return prt_volume_weighted(brick, (seen - (least + PRT_VOLUME_SPACING * vec3(4 * brick.position))) / cell);
 }
 
 // Four numbers at a position.
-vec4 prt_volume_plane(PrtVolumePlace place, int plane) {
-    ivec3 texel = place.texel + ivec3(0, 0, 5 * PRT_VOLUME_BRICKS.z * plane);
+vec4 prt_volume_plane(PrtVolumePosition point, int plane) {
+    ivec3 texel = point.texel + ivec3(0, 0, 5 * PRT_VOLUME_BRICKS.z * plane);
 #ifdef PRT_VOLUME_LINEAR
-    if (place.seen) {
-        vec3 at = vec3(texel) + place.share + 0.5;
+    if (point.seen) {
+        vec3 at = vec3(texel) + point.share + 0.5;
         return textureLod(prt_volume_light, at / vec3(textureSize(prt_volume_light, 0)), 0.0);
     }
 #endif
     vec4 sum = vec4(0.0);
     for (int i = 0; i < 8; ++i)
-        sum += place.weights[i >> 2][i & 3] * texelFetch(prt_volume_light, texel + ivec3(i & 1, i >> 1 & 1, i >> 2), 0);
+        sum += point.weights[i >> 2][i & 3] * texelFetch(prt_volume_light, texel + ivec3(i & 1, i >> 1 & 1, i >> 2), 0);
     return sum;
 }
 
 void prt_volume_incident(vec3 position, vec3 normal, out vec3 light[PRT_VOLUME_COEFFICIENTS]) {
     const int kPlanes = (3 * PRT_VOLUME_COEFFICIENTS + 3) / 4;
-    PrtVolumePlace place = prt_volume_find(position, normal);
+    PrtVolumePosition point = prt_volume_find(position, normal);
     vec4 numbers[kPlanes];
     for (int i = 0; i < kPlanes; ++i)
-        numbers[i] = prt_volume_plane(place, i);
+        numbers[i] = prt_volume_plane(point, i);
     for (int i = 0; i < PRT_VOLUME_COEFFICIENTS; ++i) {
         int n = 3 * i;
         light[i] = vec3(numbers[n >> 2][n & 3], numbers[(n + 1) >> 2][(n + 1) & 3], numbers[(n + 2) >> 2][(n + 2) & 3]);

@@ -106,7 +106,7 @@ PRT_LAMP_FUNCTION vec3 direction_in(SeenTriangle t, vec2 u) {
 
 // A sampled point of an emissive triangle.
 struct TrianglePoint {
-    vec3 place;
+    vec3 position;
     vec2 uv;    // barycentric coordinates of b and c
     real angle; // solid angle that the point represents
 };
@@ -118,14 +118,14 @@ PRT_LAMP_FUNCTION TrianglePoint point_of(SeenTriangle t, vec2 u) {
     if (t.angle < 1e-3) {
         real root = sqrt(u.x);
         p.uv = vec2(root * (1.0 - u.y), root * u.y);
-        p.place = t.a + p.uv.x * t.ab + p.uv.y * t.ac;
-        real distance = length(p.place);
+        p.position = t.a + p.uv.x * t.ab + p.uv.y * t.ac;
+        real distance = length(p.position);
         p.angle = 0.5 * abs(t.volume) / (distance * distance * distance);
         return p;
     }
     vec3 direction = direction_in(t, u);
-    p.place = t.volume / dot(direction, t.normal) * direction;
-    vec3 inside = p.place - t.a;
+    p.position = t.volume / dot(direction, t.normal) * direction;
+    vec3 inside = p.position - t.a;
     real square = dot(t.normal, t.normal);
     p.uv = clamp(vec2(dot(cross(inside, t.ac), t.normal), dot(cross(t.ab, inside), t.normal)) / square, vec2(0.0),
                  vec2(1.0));

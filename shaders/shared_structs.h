@@ -40,7 +40,7 @@ struct GatherPush {
 };
 struct EnergyPush {
     uint first, end; // vectors
-    uint place;      // index of the energy
+    uint position;   // index of the energy
 };
 
 // A receiver that is lit by lamps.

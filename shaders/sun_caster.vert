@@ -28,7 +28,7 @@ void main() {
 #else
     vec3 caster = position;
 #endif
-    vec3 place = place_in_map(suns_seen.maps[map], caster - suns_seen.eye.xyz);
-    depth = place.z;
-    gl_Position = vec4(2.0 * vec3(place.xy / map_size, place.z / suns_seen.maps[map].depth) - 1.0, 1.0);
+    vec3 point = position_in_map(suns_seen.maps[map], caster - suns_seen.eye.xyz);
+    depth = point.z;
+    gl_Position = vec4(2.0 * vec3(point.xy / map_size, point.z / suns_seen.maps[map].depth) - 1.0, 1.0);
 }

@@ -16,7 +16,7 @@ const float kSteepest = 50.0;
 // A plane in a map: a point on it, and its depth change in metres per texel.
 struct MapPlane {
     int layer;
-    vec3 place;
+    vec3 position;
     vec2 slope;
     float bias; // metres
 };
@@ -30,17 +30,17 @@ MapPlane plane_in_map(int layer, vec3 seen, vec3 face) {
     // Move two texels off the surface: a roof whose edge is above the end of a wall then still covers the
     // whole filter. Blockers are separated from the surface at half this distance.
     vec2 aside = (n.z < 0.0 ? 2.0 : -2.0) * map.texel * n.xy;
-    vec3 place = place_in_map(map, seen) + vec3(aside * map.texels_per_metre, dot(aside, slope));
+    vec3 position = position_in_map(map, seen) + vec3(aside * map.texels_per_metre, dot(aside, slope));
     float bias = map.texel * length(vec3(slope, 1.0)) + 2e-6 * map.depth; // including float rounding
-    return MapPlane(layer, place, slope / map.texels_per_metre, bias);
+    return MapPlane(layer, position, slope / map.texels_per_metre, bias);
 }
 
 // Vector from the plane's point to the center of a texel, in texels.
-vec2 from_place(MapPlane plane, ivec2 texel) {
-    return vec2(texel) + 0.5 - plane.place.xy;
+vec2 from_position(MapPlane plane, ivec2 texel) {
+    return vec2(texel) + 0.5 - plane.position.xy;
 }
 float plane_depth(MapPlane plane, ivec2 texel) {
-    return plane.place.z + dot(plane.slope, from_place(plane, texel)) - plane.bias;
+    return plane.position.z + dot(plane.slope, from_position(plane, texel)) - plane.bias;
 }
 
 // Point i of `count`, evenly over the unit disc (H. Vogel 1979).
@@ -50,7 +50,7 @@ vec2 disc_point(int i, int count, float turn) {
 }
 
 ivec2 texel_at(MapPlane plane, vec2 offset) {
-    return clamp(ivec2(floor(plane.place.xy + offset)), ivec2(0), textureSize(sun_depth, 0).xy - 1);
+    return clamp(ivec2(floor(plane.position.xy + offset)), ivec2(0), textureSize(sun_depth, 0).xy - 1);
 }
 
 // Depth of the blocker in a texel. An empty texel has the depth of the far plane, which is behind all visible
@@ -72,7 +72,7 @@ float passed_layers(ivec3 at, float depth) {
 // Mean distance from the point to its blockers in metres; negative: there are none.
 float mean_blocker_distance(MapPlane plane, float tangent, float turn) {
     SunMap map = suns_seen.maps[plane.layer];
-    float reach = tangent * plane.place.z; // at the near plane
+    float reach = tangent * plane.position.z; // at the near plane
     vec2 radius = reach * map.texels_per_metre + 1.5;
     float sum = 0.0, found = 0.0;
     for (int i = 0; i < kSunSearch; ++i) {
@@ -82,9 +82,9 @@ float mean_blocker_distance(MapPlane plane, float tangent, float turn) {
         float limit = plane_depth(plane, texel), depth = blocker_depth(plane, texel);
         if (suns_seen.layered != 0)
             depth = min(depth, texelFetch(sun_layers, ivec3(texel, plane.layer), 0).r);
-        float away = plane.place.z - depth;
+        float away = plane.position.z - depth;
         bool in_cone =
-            length(from_place(plane, texel) / map.texels_per_metre) <= tangent * max(away, 0.0) + 1.5 * map.texel;
+            length(from_position(plane, texel) / map.texels_per_metre) <= tangent * max(away, 0.0) + 1.5 * map.texel;
         if (depth < limit && in_cone) {
             sum += max(away, 0.0);
             found += 1.0;

@@ -16,7 +16,7 @@ uniform int first_vertex; // first vertex of the vertex array
 uniform vec3 sky_sh[PRT_LOBE_COEFFICIENTS];
 #endif
 
-vec3 radiance_of_lobes(mat3 matrix, vec3 place, vec3 normal) {
+vec3 radiance_of_lobes(mat3 matrix, vec3 position, vec3 normal) {
     PrtLobe lobes[PRT_LOBES];
     mat3 turn = prt_lobe_turn(matrix);
     for (int k = 0; k < PRT_LOBES; ++k) {
@@ -25,7 +25,7 @@ vec3 radiance_of_lobes(mat3 matrix, vec3 place, vec3 normal) {
         lobes[k] = prt_turned_lobe(prt_lobe(bytes), turn);
     }
 #ifdef PRT_VOLUME
-    return prt_lobes_in_volume(lobes, place, normal);
+    return prt_lobes_in_volume(lobes, position, normal);
 #else
     return prt_lobes_radiance(lobes, sky_sh);
 #endif

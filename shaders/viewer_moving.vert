@@ -22,21 +22,21 @@ uniform mat4 view_projection;
 
 out vec2 surface_texcoord;
 out vec4 surface_color;
-out vec3 place, normal;
+out vec3 point, normal;
 
 void main() {
     mat4 matrix = vertex_matrix();
-    place = (matrix * vec4(position, 1.0)).xyz;
+    point = (matrix * vec4(position, 1.0)).xyz;
     normal = moved_normal(matrix, vertex_normal);
 #ifdef PRT_LOBED
-    lobed_radiance = radiance_of_lobes(mat3(matrix), place, normal);
+    lobed_radiance = radiance_of_lobes(mat3(matrix), point, normal);
 #endif
 #ifdef PRT_SUNS
-    take_for_suns(place);
+    take_for_suns(point);
     sun_normal = normal; // the normal after the motion
 #endif
     take_for_emission();
     surface_texcoord = texcoord;
     surface_color = color;
-    gl_Position = view_projection * vec4(place, 1.0);
+    gl_Position = view_projection * vec4(point, 1.0);
 }

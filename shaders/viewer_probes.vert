@@ -2,8 +2,8 @@
 
 #include "shared_viewer.h"
 
-layout(std430, binding = PRT_BINDING_PROBE_PLACES) readonly buffer ProbePlaces {
-    vec4 probe_places[]; // w: radius, negative if the probe is blind
+layout(std430, binding = PRT_BINDING_PROBE_POSITIONS) readonly buffer ProbePositions {
+    vec4 probe_positions[]; // w: radius, negative if the probe is blind
 };
 
 uniform mat4 view_projection;
@@ -20,7 +20,7 @@ void main() {
     float longitude = 6.2831853 * float(at.x) / float(PRT_PROBE_COLUMNS);
     float latitude = 3.14159265 * float(at.y) / float(PRT_PROBE_ROWS);
     normal = vec3(sin(latitude) * sin(longitude), cos(latitude), sin(latitude) * cos(longitude));
-    vec4 probe = probe_places[gl_InstanceID];
+    vec4 probe = probe_positions[gl_InstanceID];
     middle = probe.xyz;
     sealed = probe.w < 0.0 ? 1 : 0;
     gl_Position = view_projection * vec4(middle + abs(probe.w) * normal, 1.0);

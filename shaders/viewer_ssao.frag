@@ -15,7 +15,7 @@ uniform bool use_normals;
 
 out float result;
 
-vec3 place(vec2 uv, float depth) {
+vec3 position(vec2 uv, float depth) {
     vec4 p = inverse_view_projection * vec4(vec3(uv, depth) * 2.0 - 1.0, 1.0);
     return p.xyz / p.w;
 }
@@ -37,7 +37,7 @@ float hidden(vec3 point, float center_depth) {
     ivec2 size = textureSize(gbuffer_depth, 0);
     vec2 at = inside ? uv : vec2(0.5);
     float depth = texelFetch(gbuffer_depth, ivec2(at * vec2(size)), 0).r;
-    float surface = dot(place(at, depth) - eye, forward);
+    float surface = dot(position(at, depth) - eye, forward);
     float behind = dot(point - eye, forward) - surface;
     // Surfaces far in front hide nothing: they would cause halos.
     float near = smoothstep(0.0, 1.0, radius / max(abs(center_depth - surface), 1e-6 * radius));
@@ -52,7 +52,7 @@ void main() {
         result = 1.0;
         return;
     }
-    vec3 p = place((vec2(pixel) + 0.5) / size, depth);
+    vec3 p = position((vec2(pixel) + 0.5) / size, depth);
     float center_depth = dot(p - eye, forward);
     vec3 n = gbuffer_normal_at(pixel);
     // Mirrors the kernel differently for each pixel of 4 x 4; the blur averages them.

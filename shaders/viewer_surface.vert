@@ -4,7 +4,7 @@
 // near moving objects. PRT_INSTANCED: for instances. Emission is added in all cases.
 
 #include "shared_layout.h"
-#include "instance_place.glsl"
+#include "instance_position.glsl"
 #include "vertex_normals.glsl"
 
 layout(location = PRT_LOCATION_POSITION) in vec3 position;
@@ -16,7 +16,7 @@ layout(location = PRT_LOCATION_COLOR) in vec4 color;
 #include "sun_vertex.glsl"
 #endif
 #ifdef PRT_OCCLUDED
-out vec3 occluded_place, occluded_normal;
+out vec3 occluded_position, occluded_normal;
 #endif
 #if defined(PRT_LIGHTMAP)
 #include "lightmap_vertex.glsl"
@@ -52,7 +52,7 @@ out vec2 surface_texcoord;
 out vec4 surface_color;
 
 void main() {
-    vec3 place = place_in_scene(position);
+    vec3 point = position_in_scene(position);
 #if defined(PRT_LIGHTMAP)
     take_for_lightmap();
 #elif defined(PRT_COMPRESSED)
@@ -64,15 +64,15 @@ void main() {
     ao = vertex_ao;
 #endif
 #ifdef PRT_SUNS
-    take_for_suns(place);
+    take_for_suns(point);
     sun_normal = normal_in_scene(sun_normal);
 #endif
 #ifdef PRT_OCCLUDED
-    occluded_place = place;
+    occluded_position = point;
     occluded_normal = normal_in_scene(normal_of_vertex());
 #endif
     take_for_emission();
     surface_texcoord = texcoord;
     surface_color = color;
-    gl_Position = view_projection * vec4(place, 1.0);
+    gl_Position = view_projection * vec4(point, 1.0);
 }

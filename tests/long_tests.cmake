@@ -9,7 +9,7 @@ set(long_tests
     FigureTest.IsLitAs* FirstHour.SmallMeshes* FirstHour.UniformBlocks*
     FittedBake.BouncesAre* GpuRaster.Converges* GpuRaster.Peels* GpuSums.AreThose* GpuTrace.GivesTheSame*
     GpuTrace.HasCopies* IncidentReference.* Lamps.ThatAreSpheres* *LeadsFromSceneToPictures/1
-    *LeadsFromSceneToPictures/2 *LeadsFromSceneToPictures/3 Levels.NearestPlaces* LevelsOfDetail.AreBaked*
+    *LeadsFromSceneToPictures/2 *LeadsFromSceneToPictures/3 Levels.NearestPoints* LevelsOfDetail.AreBaked*
     Light.ConeAgrees* LightmapBake.BouncesAs* LightmapBake.ComesTo* LightmapScript.* LightmapViewer.BakesVertices*
     LightmapViewer.HasNumbers* LightmapViewer.PutsABake* LightmapViewer.ShowsVertices* Lightmaps.AreDecoded*
     LobesCommand.GivesTheSame* Make.Keeps* Make.SaysWhat* Make.TellsBounces* ManyReceivers.*

@@ -34,7 +34,7 @@ BakeOptions bake_options_of(const PoseBakeOptions& options) {
 
 /// Throws `Error` for vertices that are too far away: animations have finite values, but the resulting
 /// positions can be arbitrary.
-void check_places(const Scene& scene, const ModelPose& pose) {
+void check_positions(const Scene& scene, const ModelPose& pose) {
     for (const VertexArray& vertices : scene.vertex_arrays)
         for (const glm::vec3& p : vertices.positions)
             if (!(std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)}) <=
@@ -82,7 +82,7 @@ PoseTransfer bake_pose(const AnimatedScene& model, const ModelPose& pose, const 
                        const Progress& progress) {
     // Relative to the model's origin, floats are precise enough.
     const Scene scene = model.posed(pose.nodes, glm::translate(glm::dmat4(1), -model.scene().origin));
-    check_places(scene, pose);
+    check_positions(scene, pose);
     const BakeResult result = bake(scene, bake_options_of(options), progress);
     PoseTransfer baked{as_combined(result.baked.transfer, options.threads),
                        receiver_areas(scene),

@@ -113,12 +113,12 @@ InstanceFit::InstanceFit(const SharedTransfer& shared, const InstanceSamples& sa
 /// Contribution of each unknown to a sample, [dimension][unknowns].
 Eigen::MatrixXf InstanceFit::columns_of(const SharedTransfer& shared, std::size_t sample) const {
     const std::size_t receiver = samples_.receivers[sample];
-    const glm::vec4 place(samples_.places[sample], 1);
+    const glm::vec4 position(samples_.positions[sample], 1);
     Eigen::MatrixXf columns = Eigen::MatrixXf::Zero(dimension(), open_.size());
     for (std::size_t m = 0; m < kPassingModes; ++m) {
         const Eigen::Map<const Eigen::VectorXf> mode(shared.passing(receiver, m).data(), dimension());
         for (int a = 0; a < 4; ++a)
-            columns.col(static_cast<Eigen::Index>(4 * m) + a) = place[a] * mode;
+            columns.col(static_cast<Eigen::Index>(4 * m) + a) = position[a] * mode;
     }
     const auto count = static_cast<Eigen::Index>(shared.level().size());
     const Eigen::Map<const Eigen::VectorXf> level(shared.level().data(), count);
@@ -168,10 +168,10 @@ InstanceFactors InstanceFit::fit(const Targets& targets, const UniformBound* bou
         const auto sample = static_cast<Eigen::Index>(s);
         const Eigen::Map<const Eigen::VectorXf> light(&targets.light[s * size], dimension());
         const Eigen::VectorXf passing = modes_.middleCols(sample * kModes, kModes).transpose() * light;
-        const glm::vec4 place(samples_.places[s], 1);
+        const glm::vec4 position(samples_.positions[s], 1);
         for (Eigen::Index m = 0; m < kModes; ++m)
             for (int a = 0; a < 4; ++a)
-                right[4 * m + a] += static_cast<double>(place[a] * passing[m]);
+                right[4 * m + a] += static_cast<double>(position[a] * passing[m]);
         if (!added_)
             continue;
         const Eigen::VectorXf added = samples_.areas[s] * (level_.transpose() * light);
@@ -214,7 +214,7 @@ double InstanceFit::error(const SharedTransfer& shared, const Targets& targets, 
     for (std::size_t s = 0; s < samples_.receivers.size(); ++s) {
         if (targets.left_out[s])
             continue;
-        shared.sum(samples_.receivers[s], mode_factors(factors, samples_.places[s]), modelled);
+        shared.sum(samples_.receivers[s], mode_factors(factors, samples_.positions[s]), modelled);
         const Eigen::VectorXf light =
             Eigen::Map<const Eigen::VectorXf>(&targets.light[s * size], dimension());
         add(wrong, s, light - Eigen::Map<const Eigen::VectorXf>(modelled.data(), dimension()));

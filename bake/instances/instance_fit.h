@@ -18,7 +18,7 @@ namespace prt {
 /// mean 1.
 struct InstanceSamples {
     std::vector<std::uint32_t> receivers;
-    std::vector<glm::vec3> places;
+    std::vector<glm::vec3> positions;
     std::vector<float> areas;
 };
 

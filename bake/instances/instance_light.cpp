@@ -295,10 +295,10 @@ void InstanceLight::fit(std::size_t step, bool gives) {
     for (const Group& group : groups_) {
         const SharedTransfer shared(meshes_[group.mesh].after[step], group.up, plan_.options.threads);
         const InstanceFit fit(shared, receivers_.samples[group.mesh], group.up);
-        std::vector<glm::vec3> places;
+        std::vector<glm::vec3> positions;
         for (std::size_t r = 0; r < shared.receivers(); ++r)
-            places.push_back(meshes_[group.mesh].place_of(r));
-        UniformBound& bound = bounds.emplace_back(shared, places);
+            positions.push_back(meshes_[group.mesh].position_of(r));
+        UniformBound& bound = bounds.emplace_back(shared, positions);
         parallel_for(group.instances.size(), kExpandedAtOnce, plan_.options.threads,
                      [&](std::size_t begin, std::size_t end) {
                          const std::span some = std::span(group.instances).subspan(begin, end - begin);
@@ -309,7 +309,7 @@ void InstanceLight::fit(std::size_t step, bool gives) {
                                      result_.errors[i] = error_of(fit, shared, i);
                              }
                          for (std::size_t first = 0; gives && first < some.size(); first += kExpandedAtOnce)
-                             expand(shared, places,
+                             expand(shared, positions,
                                     some.subspan(first, std::min(kExpandedAtOnce, some.size() - first)));
                      });
         if (gives) {
@@ -397,7 +397,7 @@ double InstanceLight::error_of(const InstanceFit& fit, const SharedTransfer& sha
 }
 
 /// Writes the exit light of some instances of a mesh for all their receivers.
-void InstanceLight::expand(const SharedTransfer& shared, std::span<const glm::vec3> places,
+void InstanceLight::expand(const SharedTransfer& shared, std::span<const glm::vec3> positions,
                            std::span<const std::size_t> instances) {
     std::vector<InstanceFactors> factors;
     std::vector<ShRotation> turns;
@@ -407,12 +407,12 @@ void InstanceLight::expand(const SharedTransfer& shared, std::span<const glm::ve
         turns.emplace_back(plan_.options.order, rotation);
     }
     std::vector<float> vector(sizes_.dimension);
-    for (std::size_t p = 0; p < places.size(); ++p)
+    for (std::size_t p = 0; p < positions.size(); ++p)
         for (std::size_t i = 0; i < instances.size(); ++i) {
             const std::uint32_t receiver = receivers_.instances[instances[i]].receivers[p];
             if (receiver == kNoReceiver)
                 continue;
-            shared.sum(p, mode_factors(factors[i], places[p]), vector);
+            shared.sum(p, mode_factors(factors[i], positions[p]), vector);
             for (std::size_t first = sizes_.count; first < sizes_.dimension; first += sizes_.count)
                 for (std::size_t k = 0; k < sizes_.count; ++k)
                     vector[first + k] += vector[k];

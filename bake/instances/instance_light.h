@@ -59,7 +59,7 @@ private:
     double error_of(const InstanceFit& fit, const SharedTransfer& shared, std::size_t instance) const;
     InstanceFit::Targets targets_of(std::size_t instance, const std::vector<bool>& left_out) const;
     std::vector<bool> left_out_of(std::size_t instance) const;
-    void expand(const SharedTransfer& shared, std::span<const glm::vec3> places,
+    void expand(const SharedTransfer& shared, std::span<const glm::vec3> positions,
                 std::span<const std::size_t> instances);
     std::span<float> exit_of(std::size_t receiver) {
         return std::span(bounce_.exit).subspan(receiver * sizes_.stride, sizes_.stride);

@@ -33,7 +33,7 @@ InstanceSamples choose_samples(const SharedMeshBake& mesh, int most) {
             for (stands_for = 0; next < passed; next += step)
                 stands_for += step;
         samples.receivers.push_back(r);
-        samples.places.push_back(mesh.place_of(r));
+        samples.positions.push_back(mesh.position_of(r));
         samples.areas.push_back(static_cast<float>(stands_for));
     }
     float sum = 0;

@@ -53,8 +53,8 @@ Transfer beside(const Transfer& direct, const Transfer& all) {
 
 } // namespace
 
-glm::vec3 SharedMeshBake::place_of(std::size_t receiver) const {
-    return box.place_of(glm::vec3(scene->world(receivers().positions[receiver])));
+glm::vec3 SharedMeshBake::position_of(std::size_t receiver) const {
+    return box.position_of(glm::vec3(scene->world(receivers().positions[receiver])));
 }
 
 SharedMeshBake bake_shared_mesh(const Scene& stored, int node, int channels, const BakeOptions& options,

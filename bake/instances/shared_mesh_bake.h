@@ -24,7 +24,7 @@ struct SharedMeshBake {
 
     const Receivers& receivers() const { return plan->receivers(); }
     /// Position of a receiver in the mesh's box.
-    glm::vec3 place_of(std::size_t receiver) const;
+    glm::vec3 position_of(std::size_t receiver) const;
 };
 
 /// Bakes the primitives of `stored` that `node` draws. `channels`: channels of bounced light in the whole

@@ -9,8 +9,8 @@
 
 namespace prt {
 
-UniformBound::UniformBound(const SharedTransfer& shared, std::span<const glm::vec3> places)
-    : modes_(shared.receivers()), places_(places.begin(), places.end()) {
+UniformBound::UniformBound(const SharedTransfer& shared, std::span<const glm::vec3> positions)
+    : modes_(shared.receivers()), positions_(positions.begin(), positions.end()) {
     const auto uniform = static_cast<float>(std::sqrt(4 * std::numbers::pi)); // its only coefficient
     const float on_level = uniform * shared.level()[0];
     const std::size_t count = shared.level().size();
@@ -33,7 +33,7 @@ UniformBound::UniformBound(const SharedTransfer& shared, std::span<const glm::ve
 float UniformBound::share(const InstanceFactors& factors) const {
     float most = bound_;
     for (std::size_t r = 0; r < modes_.size(); ++r) {
-        const glm::vec3 radiance = exit_radiance(factors, places_[r], modes_[r]);
+        const glm::vec3 radiance = exit_radiance(factors, positions_[r], modes_[r]);
         most = std::max({most, radiance.x, radiance.y, radiance.z});
     }
     return bound_ / most;
@@ -42,7 +42,7 @@ float UniformBound::share(const InstanceFactors& factors) const {
 InstanceFactors UniformBound::row_of(std::size_t receiver, int channel) const {
     InstanceFactors row;
     for (std::size_t m = 0; m < kPassingModes; ++m)
-        row.passing[m] = glm::vec4(places_[receiver], 1) * modes_[receiver][m][channel];
+        row.passing[m] = glm::vec4(positions_[receiver], 1) * modes_[receiver][m][channel];
     for (std::size_t k = 0; k < kAddedModes; ++k)
         row.added[k][channel] = modes_[receiver][kPassingModes + k][channel];
     return row;
@@ -56,7 +56,7 @@ std::vector<InstanceFactors> UniformBound::exceeding(const InstanceFactors& fact
     };
     std::vector<Excess> all;
     for (std::size_t r = 0; r < modes_.size(); ++r) {
-        const glm::vec3 radiance = exit_radiance(factors, places_[r], modes_[r]);
+        const glm::vec3 radiance = exit_radiance(factors, positions_[r], modes_[r]);
         const int channel = radiance.x >= radiance.y && radiance.x >= radiance.z ? 0
                             : radiance.y >= radiance.z                           ? 1
                                                                                  : 2;
@@ -75,17 +75,17 @@ void UniformBound::keep_near(std::span<const InstanceFactors> factors) {
     std::size_t kept = 0;
     for (std::size_t r = 0; r < modes_.size(); ++r) {
         const bool near = std::ranges::any_of(factors, [&](const InstanceFactors& f) {
-            const glm::vec3 radiance = exit_radiance(f, places_[r], modes_[r]);
+            const glm::vec3 radiance = exit_radiance(f, positions_[r], modes_[r]);
             return std::max({radiance.x, radiance.y, radiance.z}) > kNear * bound_;
         });
         if (!near)
             continue;
         modes_[kept] = modes_[r];
-        places_[kept++] = places_[r];
+        positions_[kept++] = positions_[r];
     }
     modes_.resize(kept);
     modes_.shrink_to_fit();
-    places_.resize(kept);
+    positions_.resize(kept);
 }
 
 InstanceFactors scaled(InstanceFactors factors, float share) {

@@ -15,8 +15,8 @@ namespace prt {
 /// are thread-safe.
 class UniformBound {
 public:
-    /// `places` [receivers]: positions in the box of the mesh.
-    UniformBound(const SharedTransfer& shared, std::span<const glm::vec3> places);
+    /// `positions` [receivers]: positions in the box of the mesh.
+    UniformBound(const SharedTransfer& shared, std::span<const glm::vec3> positions);
 
     /// Maximum exit radiance of a receiver: 1, or the maximum in the open.
     float bound() const { return bound_; }
@@ -34,7 +34,7 @@ private:
     InstanceFactors row_of(std::size_t receiver, int channel) const;
 
     std::vector<std::array<glm::vec3, kInstanceModes>> modes_; ///< [receivers]
-    std::vector<glm::vec3> places_;
+    std::vector<glm::vec3> positions_;
     float bound_ = 1;
 };
 

@@ -230,7 +230,7 @@ std::uint32_t BrightPatches::split(std::uint32_t begin, std::uint32_t end, const
 }
 
 double BrightPatches::importance(const Node& node, const Receiver& receiver) {
-    const glm::dvec3 to = node.center - receiver.place;
+    const glm::dvec3 to = node.center - receiver.position;
     const double squared = glm::dot(to, to), radius = node.radius, distance = std::sqrt(squared);
     // Height of the box above the receiver's plane. Patches in that plane do not light the receiver.
     const double height = glm::dot(receiver.normal, to) + glm::dot(glm::abs(receiver.normal), node.half);

@@ -26,12 +26,12 @@ public:
     bool empty() const { return patches_.empty(); }
 
     struct Receiver {
-        glm::dvec3 place, normal; ///< unit normal
+        glm::dvec3 position, normal; ///< unit normal
     };
     struct Point {
         std::uint32_t triangle;
         bool back; ///< back of the triangle
-        glm::dvec3 place;
+        glm::dvec3 position;
         double density; ///< probability density, per m²
     };
     /// Picks a triangle by `choice` in [0, 1), and a point on it with barycentric coordinates `uv` of corners

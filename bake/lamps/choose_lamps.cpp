@@ -28,7 +28,7 @@ public:
                 name = groups_[g].name;
                 break;
             }
-        const auto [at, is_new] = places_.try_emplace(name, lamps_.size());
+        const auto [at, is_new] = positions_.try_emplace(name, lamps_.size());
         if (is_new)
             lamps_.push_back({.name = name});
         Lamp& lamp = lamps_[at->second];
@@ -56,7 +56,7 @@ public:
 private:
     std::vector<LampGroup> groups_;
     std::vector<bool> used_;
-    std::map<std::string, std::size_t> places_;
+    std::map<std::string, std::size_t> positions_;
     std::vector<Lamp> lamps_;
 };
 

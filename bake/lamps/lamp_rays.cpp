@@ -135,20 +135,20 @@ ShiningTriangles::Sample ShiningTriangles::sample(const LampReceiver& receiver, 
                                                   const lamp_geometry::SeenTriangle& seen,
                                                   const glm::dvec2& u) const {
     const lamp_geometry::TrianglePoint point = lamp_geometry::point_of(seen, u);
-    const glm::dvec3 towards = glm::normalize(point.place);
+    const glm::dvec3 towards = glm::normalize(point.position);
     if (!(glm::dot(glm::dvec3(receiver.normal), towards) > 0))
         return {};
     // The ray ends on the visible side, not on the triangle itself.
     const glm::dvec3 outward = glm::normalize(seen.volume > 0 ? -seen.normal : seen.normal);
     const auto off = static_cast<double>(
-        scene_.rays().triangle_offset(t.triangle, static_cast<float>(glm::length(point.place))));
-    const glm::vec3 way(point.place + off * outward);
+        scene_.rays().triangle_offset(t.triangle, static_cast<float>(glm::length(point.position))));
+    const glm::vec3 way(point.position + off * outward);
     const float open = transmittance(scene_.rays(), scene_.surfaces(), receiver.origin, way, 1);
     if (open <= 0)
         return {};
-    const SurfacePoint place{t.triangle, glm::vec2(point.uv), 0};
-    const glm::dvec3 radiance = glm::dvec3(scene_.surfaces().emission(place)) *
-                                static_cast<double>(scene_.surfaces().coverage(place));
+    const SurfacePoint surface_point{t.triangle, glm::vec2(point.uv), 0};
+    const glm::dvec3 radiance = glm::dvec3(scene_.surfaces().emission(surface_point)) *
+                                static_cast<double>(scene_.surfaces().coverage(surface_point));
     return {towards, radiance * (static_cast<double>(open) * point.angle / seen.angle)};
 }
 

@@ -61,7 +61,7 @@ std::vector<Hit> LampConnections::connect(const Sampled& sampled, const Start& s
         if (!point)
             continue;
         const glm::dvec3 there = normal(point->triangle, point->back),
-                         way = point->place - glm::dvec3(start.origin);
+                         way = point->position - glm::dvec3(start.origin);
         const double factor = form_factor(way, sampled.receiver.normal, there);
         if (!(factor > 0))
             continue;
@@ -87,8 +87,9 @@ float LampConnections::share_of_rays(const Sampled& sampled, const Start& start,
     if (!(of_connections > 0))
         return 1;
     const auto [a, b, c] = patches_.corners(hit.triangle);
-    const glm::dvec3 place = a + static_cast<double>(hit.u) * (b - a) + static_cast<double>(hit.v) * (c - a);
-    const double factor = form_factor(place - glm::dvec3(start.origin), sampled.receiver.normal,
+    const glm::dvec3 position =
+        a + static_cast<double>(hit.u) * (b - a) + static_cast<double>(hit.v) * (c - a);
+    const double factor = form_factor(position - glm::dvec3(start.origin), sampled.receiver.normal,
                                       normal(hit.triangle, hit.back));
     return static_cast<float>(sampled.rays * factor / sampled.density(factor, of_connections));
 }

@@ -55,17 +55,17 @@ private:
     /// Initialises vertices with the light of the nearest point of level 0; the fit then corrects it.
     void begin_at_nearest(const PartSurface& surface, const FinestSurface& finest,
                           const FitEquations& equations) {
-        const std::vector<NearestPlace> places =
+        const std::vector<NearestPoint> nearest =
             finest.find(surface.points().positions, surface.points().normals, progress_);
-        for (std::size_t p = 0; p < places.size(); ++p) {
-            if (equations.unknown_of[p] == kNoReceiver || places[p].triangle == kNoTriangle)
+        for (std::size_t p = 0; p < nearest.size(); ++p) {
+            if (equations.unknown_of[p] == kNoReceiver || nearest[p].triangle == kNoTriangle)
                 continue;
-            const std::array<std::uint32_t, 3> corners = finest.corners(places[p].triangle);
+            const std::array<std::uint32_t, 3> corners = finest.corners(nearest[p].triangle);
             const std::span<float> to = vector(surface.term.receivers[p]);
             for (std::size_t c = 0; c < stride_; ++c) {
                 double sum = 0;
                 for (std::size_t i = 0; i < 3; ++i)
-                    sum += places[p].shares[i] * static_cast<double>(vector(corners[i])[c]);
+                    sum += nearest[p].shares[i] * static_cast<double>(vector(corners[i])[c]);
                 to[c] = static_cast<float>(sum);
             }
         }

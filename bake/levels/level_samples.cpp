@@ -46,17 +46,17 @@ PartSurface::PartSurface(const Scene& scene, std::span<const std::size_t> primit
     : part(part_that_is_met(scene, primitives)), traced(part.scene, {}, {.threads = threads}),
       receivers(without_back_sides(vertex_receivers(part.scene))) {}
 
-std::vector<NearestPlace> FinestSurface::find(std::span<const glm::vec3> positions,
+std::vector<NearestPoint> FinestSurface::find(std::span<const glm::vec3> positions,
                                               std::span<const glm::vec3> normals,
                                               const Progress& progress) const {
     constexpr std::size_t kBlock = 256;
-    std::vector<NearestPlace> places(positions.size());
-    parallel_for(places.size(), kBlock, threads_, [&](std::size_t begin, std::size_t end) {
+    std::vector<NearestPoint> nearest(positions.size());
+    parallel_for(nearest.size(), kBlock, threads_, [&](std::size_t begin, std::size_t end) {
         progress.check();
         for (std::size_t i = begin; i < end; ++i)
-            places[i] = places_.find(positions[i], normals[i]);
+            nearest[i] = positions_.find(positions[i], normals[i]);
     });
-    return places;
+    return nearest;
 }
 
 std::array<std::uint32_t, 3> FinestSurface::corners(std::uint32_t triangle) const {
@@ -72,26 +72,26 @@ SurfaceSamples samples_of(const PartSurface& level, std::size_t finest_receivers
 
 LevelSamples match_samples(const SurfaceSamples& samples, const PartSurface& level,
                            const FinestSurface& finest, const Progress& progress) {
-    const std::vector<NearestPlace> places =
+    const std::vector<NearestPoint> nearest =
         finest.find(samples.receivers.positions, samples.receivers.normals, progress);
     LevelSamples result;
     result.diagonal = finest.diagonal();
     double squares = 0, area = 0;
     for (std::size_t s = 0; s < samples.size(); ++s) {
-        const glm::uvec3& c = level.traced.surfaces().corners(samples.places[s].triangle);
+        const glm::uvec3& c = level.traced.surfaces().corners(samples.positions[s].triangle);
         LevelSample sample{{level.part.receivers[c.x], level.part.receivers[c.y], level.part.receivers[c.z]},
                            {},
-                           samples.places[s].shares(),
+                           samples.positions[s].shares(),
                            {},
                            samples.receivers.areas[s]};
         sample.from = sample.at; // shows nothing: its shares are zero
-        if (const NearestPlace& place = places[s]; place.triangle != kNoTriangle) {
-            sample.from = finest.corners(place.triangle);
+        if (const NearestPoint& position = nearest[s]; position.triangle != kNoTriangle) {
+            sample.from = finest.corners(position.triangle);
             for (std::size_t i = 0; i < 3; ++i)
-                sample.from_shares[i] = static_cast<float>(place.shares[i]);
-            squares += static_cast<double>(sample.area) * place.distance * place.distance;
+                sample.from_shares[i] = static_cast<float>(position.shares[i]);
+            squares += static_cast<double>(sample.area) * position.distance * position.distance;
             area += static_cast<double>(sample.area);
-            result.largest_distance = std::max(result.largest_distance, place.distance);
+            result.largest_distance = std::max(result.largest_distance, position.distance);
         }
         result.samples.push_back(sample);
     }

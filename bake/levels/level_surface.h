@@ -2,7 +2,7 @@
 
 // The surface of a coarser level, its samples, and the level 0 that it replaces.
 
-#include "levels/nearest_places.h"
+#include "levels/nearest_points.h"
 #include "levels/scene_part.h"
 #include "prt/level_bake.h"
 #include "surface/surface_samples.h"
@@ -26,19 +26,19 @@ struct PartSurface {
 class FinestSurface {
 public:
     FinestSurface(const LeveledScene& scene, const LeveledNode& node, int threads)
-        : surface_(scene.scene, node.finest, threads), places_(surface_.traced, surface_.points()),
+        : surface_(scene.scene, node.finest, threads), positions_(surface_.traced, surface_.points()),
           threads_(threads) {}
 
     /// Returns the nearest point for each position, [positions], in parallel.
-    std::vector<NearestPlace> find(std::span<const glm::vec3> positions, std::span<const glm::vec3> normals,
+    std::vector<NearestPoint> find(std::span<const glm::vec3> positions, std::span<const glm::vec3> normals,
                                    const Progress& progress) const;
     /// Corners of a triangle as receivers of the scene with all levels.
     std::array<std::uint32_t, 3> corners(std::uint32_t triangle) const;
-    double diagonal() const { return places_.diagonal(); }
+    double diagonal() const { return positions_.diagonal(); }
 
 private:
     PartSurface surface_;
-    NearestPlaces places_;
+    NearestPoints positions_;
     int threads_;
 };
 

@@ -25,7 +25,7 @@ BakeOptions bake_options(const OccluderOptions& options) {
     return bake;
 }
 
-std::vector<std::optional<float>> blocked_by_rays(const Scene& scene, std::span<const glm::vec3> places,
+std::vector<std::optional<float>> blocked_by_rays(const Scene& scene, std::span<const glm::vec3> positions,
                                                   std::span<const glm::vec3> normals,
                                                   const BakeOptions& options, const Progress& progress) {
     // Bands of the cosine over pi (Ramamoorthi and Hanrahan 2001); the next one that is not 0 is 1/64.
@@ -33,10 +33,10 @@ std::vector<std::optional<float>> blocked_by_rays(const Scene& scene, std::span<
     constexpr int kOrder = static_cast<int>(kCosine.size());
     BakeOptions finer = options;
     finer.order = kOrder;
-    const PlacedLight light = bake_places(scene, places, 2, finer, progress);
-    std::vector<std::optional<float>> blocked(places.size());
+    const PlacedLight light = bake_positions(scene, positions, 2, finer, progress);
+    std::vector<std::optional<float>> blocked(positions.size());
     std::array<float, kCosine.size() * kCosine.size()> basis{};
-    for (std::size_t p = 0; p < places.size(); ++p) {
+    for (std::size_t p = 0; p < positions.size(); ++p) {
         if (light.backs[p] > kMaxOccluderBackShare)
             continue;
         evaluate_sh(kOrder, normals[p], basis);

@@ -20,7 +20,7 @@ BakeOptions bake_options(const OccluderOptions& options);
 
 /// Returns the blocked share of the light of receivers from a uniform environment, with the cosine law;
 /// nothing for receivers inside `scene`.
-std::vector<std::optional<float>> blocked_by_rays(const Scene& scene, std::span<const glm::vec3> places,
+std::vector<std::optional<float>> blocked_by_rays(const Scene& scene, std::span<const glm::vec3> positions,
                                                   std::span<const glm::vec3> normals,
                                                   const BakeOptions& options, const Progress& progress);
 

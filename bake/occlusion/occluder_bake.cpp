@@ -90,7 +90,7 @@ struct Seen {
 };
 
 Seen look(const Scene& part, const Points& points, const BakeOptions& options, const Progress& progress) {
-    const PlacedLight light = bake_places(part, points.in_scene, 2, options, progress);
+    const PlacedLight light = bake_positions(part, points.in_scene, 2, options, progress);
     // The first row is that of Y00: its columns are Y00 times the integrals of the basis over unoccluded
     // directions.
     const auto linear = static_cast<float>(kY00 * 4 * std::numbers::pi * 0.48860251190291992);

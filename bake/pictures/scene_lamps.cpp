@@ -99,7 +99,7 @@ glm::vec3 SceneLamps::strength_of(std::uint32_t triangle) const {
     return strengths_[scene_.scene().primitives[surfaces.primitive(triangle)].material];
 }
 
-SceneLamps::Sample SceneLamps::of_light(const Light& light, const glm::vec3& place) const {
+SceneLamps::Sample SceneLamps::of_light(const Light& light, const glm::vec3& receiver) const {
     const PunctualLight& l = scene_.scene().lights[light.index];
     Sample sample;
     sample.irradiance = light.strength * l.intensity;
@@ -109,7 +109,7 @@ SceneLamps::Sample SceneLamps::of_light(const Light& light, const glm::vec3& pla
         sample.reach = std::numeric_limits<float>::infinity();
         return sample;
     }
-    sample.way = l.position - place;
+    sample.way = l.position - receiver;
     const double distance = glm::length(glm::dvec3(sample.way));
     sample.towards = distance > 0 ? glm::vec3(glm::dvec3(sample.way) / distance) : -l.direction;
     const double near = std::max(distance, kNearestToLight);
@@ -118,11 +118,11 @@ SceneLamps::Sample SceneLamps::of_light(const Light& light, const glm::vec3& pla
     return sample;
 }
 
-SceneLamps::Sample SceneLamps::sample_light(const glm::vec3& place, float u) const {
+SceneLamps::Sample SceneLamps::sample_light(const glm::vec3& receiver, float u) const {
     // A part of the probability is uniform, so that a hidden light does not take more than its share.
     double all = 0;
     const auto weight = [&](const Light& light) {
-        return luminance(glm::dvec3(of_light(light, place).irradiance));
+        return luminance(glm::dvec3(of_light(light, receiver).irradiance));
     };
     for (const Light& light : lights_)
         all += weight(light);
@@ -132,7 +132,7 @@ SceneLamps::Sample SceneLamps::sample_light(const glm::vec3& place, float u) con
     for (const Light& light : lights_) {
         const double share = 0.8 * weight(light) / all + 0.2 / static_cast<double>(lights_.size());
         if (target < share || &light == &lights_.back()) {
-            Sample sample = of_light(light, place);
+            Sample sample = of_light(light, receiver);
             sample.irradiance /= static_cast<float>(share);
             return sample;
         }
@@ -141,7 +141,7 @@ SceneLamps::Sample SceneLamps::sample_light(const glm::vec3& place, float u) con
     return {};
 }
 
-SceneLamps::Sample SceneLamps::sample_surface(const glm::vec3& place, const glm::vec2& u) const {
+SceneLamps::Sample SceneLamps::sample_surface(const glm::vec3& receiver, const glm::vec2& u) const {
     const double target = static_cast<double>(u.x) * shining_.back().until;
     const auto found = std::upper_bound(shining_.begin(), shining_.end() - 1, target,
                                         [](double x, const Shining& s) { return x < s.until; });
@@ -150,7 +150,7 @@ SceneLamps::Sample SceneLamps::sample_surface(const glm::vec3& place, const glm:
     const double root = std::sqrt(rest), v = static_cast<double>(u.y);
     const glm::dvec2 uv(root * (1 - v), root * v);
     const auto [a, b, c] = corners_of(scene_.surfaces(), found->triangle);
-    const glm::dvec3 to = a + uv.x * (b - a) + uv.y * (c - a) - glm::dvec3(place);
+    const glm::dvec3 to = a + uv.x * (b - a) + uv.y * (c - a) - glm::dvec3(receiver);
     const double distance = glm::length(to);
     const glm::dvec3 face = glm::normalize(glm::cross(b - a, c - a));
     Sample sample;
@@ -171,8 +171,8 @@ SceneLamps::Sample SceneLamps::sample_surface(const glm::vec3& place, const glm:
     return sample;
 }
 
-float SceneLamps::open(const glm::vec3& place, const Sample& sample) const {
-    return transmittance(scene_.rays(), scene_.surfaces(), place, sample.way, sample.reach);
+float SceneLamps::open(const glm::vec3& receiver, const Sample& sample) const {
+    return transmittance(scene_.rays(), scene_.surfaces(), receiver, sample.way, sample.reach);
 }
 
 glm::vec3 SceneLamps::radiance(const SurfacePoint& point, bool back) const {

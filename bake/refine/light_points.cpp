@@ -85,9 +85,9 @@ void LightPoints::add(const LitMesh& mesh, std::uint32_t triangle, Counts counts
     for (std::size_t i = 0; i < count; ++i) {
         const std::size_t fold = counts[0] == counts[1] ? (hash + i) % 2 : counts[1] < counts[0] ? 1 : 0;
         ++counts[fold];
-        const SamplePlace place{triangle, false, even_point(hash, i)};
-        append_sample(added, mesh.surfaces, mesh.receivers, place, 0);
-        points_.push_back({place, static_cast<std::uint8_t>(fold), false});
+        const SurfacePoint position{triangle, false, even_point(hash, i)};
+        append_sample(added, mesh.surfaces, mesh.receivers, position, 0);
+        points_.push_back({position, static_cast<std::uint8_t>(fold), false});
     }
 }
 
@@ -99,7 +99,7 @@ void LightPoints::spread(const LitMesh& mesh, const Progress& progress) {
     }
     std::vector<Counts> counts(mesh.areas.size());
     for (const Point& point : points_)
-        ++counts[point.place.triangle][point.fold];
+        ++counts[point.position.triangle][point.fold];
     const std::size_t before = size();
     SurfaceSamples added;
     for (std::uint32_t t = 0; t < counts.size(); ++t)
@@ -181,14 +181,14 @@ void LightPoints::move(std::span<const Part> terms) {
     least_ = std::move(least);
     for (Point& point : points_) {
         Found best{-1e30, {}};
-        const std::uint32_t whole = point.place.triangle;
+        const std::uint32_t whole = point.position.triangle;
         for (std::uint32_t i = first[whole]; i < first[whole + 1]; ++i)
-            if (const Found here = find(terms[i].corners, glm::dvec2(point.place.uv));
+            if (const Found here = find(terms[i].corners, glm::dvec2(point.position.uv));
                 here.depth > best.depth) {
                 best = here;
-                point.place.triangle = i;
+                point.position.triangle = i;
             }
-        point.place.uv = clamped(best.uv);
+        point.position.uv = clamped(best.uv);
     }
 }
 

@@ -26,12 +26,12 @@ public:
         : mesh_(mesh), points_(points), threads_(threads), stride_(points.stride()) {
         std::vector<std::array<std::size_t, 2>> counts(mesh.areas.size());
         for (std::size_t p = 0; p < points.size(); ++p)
-            ++counts[points.place(p).triangle][points.fold(p)];
+            ++counts[points.position(p).triangle][points.fold(p)];
         for (std::size_t p = 0; p < points.size(); ++p) {
             const std::size_t fold = points.fold(p);
-            const std::uint32_t triangle = points.place(p).triangle;
+            const std::uint32_t triangle = points.position(p).triangle;
             folds_[fold].of.push_back(p);
-            folds_[fold].samples.places.push_back(points.place(p));
+            folds_[fold].samples.positions.push_back(points.position(p));
             folds_[fold].samples.receivers.areas.push_back(
                 static_cast<float>(mesh.areas[triangle] / static_cast<double>(counts[triangle][fold])));
         }
@@ -77,7 +77,7 @@ private:
             }
             // Each of two folds tests once.
             const double weight = 0.5 * static_cast<double>(row.area);
-            result_.of_triangles[judges.samples.places[s].triangle] += weight * of_both(rest);
+            result_.of_triangles[judges.samples.positions[s].triangle] += weight * of_both(rest);
             result_.norm += weight * of_both(light);
         }
     }

@@ -11,7 +11,7 @@ namespace prt {
 namespace {
 
 /// Returns an index for each receiver, equal for equal positions, in the order of positions.
-std::vector<std::uint32_t> places_of(const Scene& scene) {
+std::vector<std::uint32_t> positions_of(const Scene& scene) {
     struct Welded {
         glm::vec3 at;
         std::uint32_t receiver;
@@ -25,13 +25,13 @@ std::vector<std::uint32_t> places_of(const Scene& scene) {
     std::sort(all.begin(), all.end(), [](const Welded& a, const Welded& b) {
         return a.key() != b.key() ? a.key() < b.key() : a.receiver < b.receiver;
     });
-    std::vector<std::uint32_t> places(all.size());
+    std::vector<std::uint32_t> points(all.size());
     std::uint32_t number = 0;
     for (std::size_t i = 0; i < all.size(); ++i) {
         number += i > 0 && all[i].key() != all[i - 1].key() ? 1 : 0;
-        places[all[i].receiver] = number;
+        points[all[i].receiver] = number;
     }
-    return places;
+    return points;
 }
 
 /// An edge of a triangle from one corner to the next.
@@ -46,7 +46,7 @@ struct Corner {
 };
 
 std::vector<Corner> corners_of(const Scene& scene) {
-    const std::vector<std::uint32_t> places = places_of(scene);
+    const std::vector<std::uint32_t> points = positions_of(scene);
     std::vector<Corner> corners;
     corners.reserve(3 * scene.triangles());
     for (const Primitive& primitive : scene.primitives) {
@@ -54,8 +54,8 @@ std::vector<Corner> corners_of(const Scene& scene) {
         for (const glm::uvec3& t : primitive.triangles)
             for (int i = 0; i < 3; ++i) {
                 const auto [first, second] = std::minmax(t[i], t[(i + 1) % 3]);
-                const auto [low, high] = std::minmax(places[vertices.first_receiver + first],
-                                                     places[vertices.first_receiver + second]);
+                const auto [low, high] = std::minmax(points[vertices.first_receiver + first],
+                                                     points[vertices.first_receiver + second]);
                 corners.push_back({{static_cast<std::uint32_t>(primitive.vertices), first, second, kNoEdge},
                                    low,
                                    high,

@@ -20,7 +20,7 @@ constexpr float kSameNormal = 1e-4f;
 /// differ by 1e-16.
 constexpr float kSamePosition = 1e-7f;
 
-struct Place {
+struct Position {
     std::tuple<int, bool, float, float, float> key; ///< node, side and position
     std::uint32_t receiver;
 };
@@ -50,21 +50,21 @@ std::vector<std::uint32_t> alike_receivers(const Surfaces& surfaces, const Recei
     for (const glm::vec3& at : receivers.positions)
         largest = std::max({largest, std::abs(at.x), std::abs(at.y), std::abs(at.z)});
     const float cell = std::max(kSamePosition * largest, std::numeric_limits<float>::min());
-    std::vector<Place> places;
+    std::vector<Position> points;
     std::vector<std::uint32_t> first(receivers.size());
     std::iota(first.begin(), first.end(), 0u);
     for (std::uint32_t p = 0; p < receivers.size(); ++p)
         if (nodes[p] >= 0) {
             const glm::vec3 at = glm::round(receivers.positions[p] / cell);
-            places.push_back({{nodes[p], p >= fronts, at.x, at.y, at.z}, p});
+            points.push_back({{nodes[p], p >= fronts, at.x, at.y, at.z}, p});
         }
-    std::ranges::sort(places, [](const Place& a, const Place& b) {
+    std::ranges::sort(points, [](const Position& a, const Position& b) {
         return a.key != b.key ? a.key < b.key : a.receiver < b.receiver;
     });
     std::vector<std::uint32_t> here; // first receiver of each normal at one position
-    for (std::size_t i = 0; i < places.size(); ++i) {
-        const std::uint32_t p = places[i].receiver;
-        if (i == 0 || places[i].key != places[i - 1].key)
+    for (std::size_t i = 0; i < points.size(); ++i) {
+        const std::uint32_t p = points[i].receiver;
+        if (i == 0 || points[i].key != points[i - 1].key)
             here.clear();
         const auto found = std::ranges::find_if(here, [&](std::uint32_t q) {
             return glm::distance(receivers.normals[p], receivers.normals[q]) <= kSameNormal;

@@ -21,11 +21,13 @@ public:
     /// [receivers] is not empty, finds only the neighbours of the marked receivers and of their duplicates.
     MeshNeighbours(const Surfaces& surfaces, const Receivers& receivers, std::size_t fronts,
                    const std::vector<bool>& asked = {});
-    std::span<const std::uint32_t> of(std::size_t receiver) const { return adjacency_.of(place_[receiver]); }
+    std::span<const std::uint32_t> of(std::size_t receiver) const {
+        return adjacency_.of(position_[receiver]);
+    }
 
 private:
-    std::vector<std::uint32_t> place_; ///< [receivers] first receiver at the same position
-    Adjacency adjacency_;              ///< edges between first receivers
+    std::vector<std::uint32_t> position_; ///< [receivers] first receiver at the same position
+    Adjacency adjacency_;                 ///< edges between first receivers
 };
 
 } // namespace prt

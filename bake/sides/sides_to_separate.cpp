@@ -50,9 +50,9 @@ public:
                 corners.push_back({{array, at.x, at.y, at.z}, c[corner]});
             }
         }
-        std::ranges::sort(corners, {}, &Corner::place);
+        std::ranges::sort(corners, {}, &Corner::position);
         for (std::size_t i = 1; i < corners.size(); ++i)
-            if (corners[i].place == corners[i - 1].place)
+            if (corners[i].position == corners[i - 1].position)
                 join(corners[i].receiver, corners[i - 1].receiver);
     }
 
@@ -65,7 +65,7 @@ public:
 
 private:
     struct Corner {
-        std::tuple<std::size_t, float, float, float> place; ///< vertex array and position
+        std::tuple<std::size_t, float, float, float> position; ///< vertex array and position
         std::uint32_t receiver;
     };
     void join(std::uint32_t a, std::uint32_t b) { first_[piece_of(a)] = piece_of(b); }

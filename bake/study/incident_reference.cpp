@@ -46,19 +46,19 @@ struct IncidentSum {
     }
 };
 
-/// Adds direct light of lamps at `place`. Lamps that rays can also hit are weighted by the share of their
+/// Adds direct light of lamps at `position`. Lamps that rays can also hit are weighted by the share of their
 /// samples.
-void add_lamps(const SceneLamps& lamps, const glm::vec3& place, PathSamples& samples, float weight,
+void add_lamps(const SceneLamps& lamps, const glm::vec3& position, PathSamples& samples, float weight,
                IncidentSum& sum) {
     const auto add = [&](const SceneLamps::Sample& sample) {
         if (sample.irradiance != glm::vec3(0))
             sum.add(sample.towards,
-                    weight * sample.balance(kEven) * lamps.open(place, sample) * sample.irradiance);
+                    weight * sample.balance(kEven) * lamps.open(position, sample) * sample.irradiance);
     };
     if (lamps.has_lights())
-        add(lamps.sample_light(place, samples.next().x));
+        add(lamps.sample_light(position, samples.next().x));
     if (lamps.has_surfaces())
-        add(lamps.sample_surface(place, samples.next()));
+        add(lamps.sample_surface(position, samples.next()));
 }
 
 struct Surroundings {
@@ -66,8 +66,8 @@ struct Surroundings {
     bool shut = true;                                        ///< no light of the sky arrives
 };
 
-/// Returns nothing if `place` is inside geometry.
-std::optional<Surroundings> surroundings_of(const TraceScene& scene, const glm::vec3& place) {
+/// Returns nothing if `position` is inside geometry.
+std::optional<Surroundings> surroundings_of(const TraceScene& scene, const glm::vec3& position) {
     constexpr int kDirections = 256;
     Surroundings around;
     int backs = 0;
@@ -75,8 +75,8 @@ std::optional<Surroundings> surroundings_of(const TraceScene& scene, const glm::
         const float turn = 0.6180339887f * static_cast<float>(i);
         const glm::vec3 d =
             direction_of({(static_cast<float>(i) + 0.5f) / kDirections, turn - std::floor(turn)});
-        const auto hit = scene.rays().nearest({place, d});
-        around.shut = around.shut && transmittance(scene.rays(), scene.surfaces(), place, d) <= 0;
+        const auto hit = scene.rays().nearest({position, d});
+        around.shut = around.shut && transmittance(scene.rays(), scene.surfaces(), position, d) <= 0;
         if (!hit)
             continue;
         const MetSurface met = met_surface(scene.scene(), scene.rays(), {hit->triangle, hit->uv, 0}, d);
@@ -90,31 +90,31 @@ std::optional<Surroundings> surroundings_of(const TraceScene& scene, const glm::
 
 } // namespace
 
-FreePlaces free_places_in(const TraceScene& scene, const VolumeGrid& grid, std::size_t count,
-                          std::uint64_t seed) {
+FreePositions free_positions_in(const TraceScene& scene, const VolumeGrid& grid, std::size_t count,
+                                std::uint64_t seed) {
     std::mt19937_64 random(seed);
     std::uniform_real_distribution<float> unit(0, 1);
     const glm::vec3 extent = grid.spacing * static_cast<float>(kBrickCells) * glm::vec3(grid.size);
     auto [low, high] = bounds(scene.scene());
     low = glm::max(low, grid.origin);
     high = glm::min(high, grid.origin + extent);
-    FreePlaces places;
-    for (std::size_t tries = 0; places.positions.size() < count; ++tries) {
+    FreePositions points;
+    for (std::size_t tries = 0; points.positions.size() < count; ++tries) {
         if (tries > 20 * count)
             throw Error("there is next to no free space in the volume to measure light in");
         const float x = unit(random), y = unit(random), z = unit(random);
-        const glm::vec3 place = low + (high - low) * glm::vec3(x, y, z);
-        if (const auto around = surroundings_of(scene, place)) {
-            places.positions.push_back(place);
-            places.distances.push_back(around->distance);
-            places.shut.push_back(around->shut);
+        const glm::vec3 position = low + (high - low) * glm::vec3(x, y, z);
+        if (const auto around = surroundings_of(scene, position)) {
+            points.positions.push_back(position);
+            points.distances.push_back(around->distance);
+            points.shut.push_back(around->shut);
         }
     }
-    return places;
+    return points;
 }
 
 std::array<std::vector<glm::vec3>, 2>
-incident_reference(const TraceScene& scene, const std::vector<glm::vec3>& places, int order,
+incident_reference(const TraceScene& scene, const std::vector<glm::vec3>& points, int order,
                    const MeasuredLight& light, const IncidentOptions& options, const Progress& progress) {
     // A visible surface is lit by all light; only at the position itself the renderer adds a part of the
     // light.
@@ -123,8 +123,8 @@ incident_reference(const TraceScene& scene, const std::vector<glm::vec3>& places
     const float weight = 4 * std::numbers::pi_v<float> / static_cast<float>(options.paths);
     std::array<std::vector<glm::vec3>, 2> halves;
     for (auto& half : halves)
-        half.resize(places.size() * coefficients);
-    std::vector<std::uint32_t> all(places.size());
+        half.resize(points.size() * coefficients);
+    std::vector<std::uint32_t> all(points.size());
     std::iota(all.begin(), all.end(), 0u);
     for_each_receiver(all, options.threads, progress, [&](std::uint32_t p) {
         for (std::size_t h = 0; h < halves.size(); ++h) {
@@ -134,8 +134,8 @@ incident_reference(const TraceScene& scene, const std::vector<glm::vec3>& places
                                     static_cast<std::uint32_t>(i));
                 const glm::vec3 d = direction_of(samples.next());
                 if (options.lamps)
-                    add_lamps(*options.lamps, places[p], samples, 1 / static_cast<float>(options.paths), sum);
-                LightPath path{.ray = {places[p], d}, .density = kEven};
+                    add_lamps(*options.lamps, points[p], samples, 1 / static_cast<float>(options.paths), sum);
+                LightPath path{.ray = {points[p], d}, .density = kEven};
                 const bool open = paths.follow(path, samples) && path.vertices == 0;
                 const glm::vec3 radiance = open ? light.seen().radiance(d) : path.radiance;
                 sum.add(d, weight * radiance);

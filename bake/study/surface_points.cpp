@@ -32,15 +32,15 @@ SurfacePoints points_by_area(const TraceScene& scene, const SurfacePointOptions&
     const auto area = [&](std::size_t s) { return static_cast<double>(dense.receivers.areas[s]); };
     SurfacePoints points;
     for (const Picked& picked : pick(dense.size(), options.count, area)) {
-        const SamplePlace& place = dense.places[picked.index];
-        const glm::uvec3 corners = corner_receivers(scene.surfaces(), receivers, place.triangle, false);
-        const float seen = scene.surfaces().coverage({place.triangle, place.uv, 0});
+        const SurfacePoint& point = dense.positions[picked.index];
+        const glm::uvec3 corners = corner_receivers(scene.surfaces(), receivers, point.triangle, false);
+        const float seen = scene.surfaces().coverage({point.triangle, point.uv, 0});
         if (glm::any(glm::equal(corners, glm::uvec3(kNoReceiver))) || !(seen > 0))
             continue;
         points.receivers.append(dense.receivers, picked.index);
         points.receivers.areas.back() = seen * static_cast<float>(picked.stands_for * area(picked.index));
-        points.triangles.push_back(place.triangle);
-        points.uv.push_back(place.uv);
+        points.triangles.push_back(point.triangle);
+        points.uv.push_back(point.uv);
         points.corners.push_back(corners);
     }
     return points;

@@ -36,9 +36,9 @@ public:
         const Receivers& vertices = plan_.receivers();
         std::vector<std::uint32_t> corners, all(samples_.size());
         std::iota(all.begin(), all.end(), 0u);
-        for (const SamplePlace& place : samples_.places)
+        for (const SurfacePoint& position : samples_.positions)
             for (int i = 0; i < 3; ++i)
-                if (const std::uint32_t p = corners_of(place)[i]; p != kNoReceiver)
+                if (const std::uint32_t p = corners_of(position)[i]; p != kNoReceiver)
                     corners.push_back(p);
         std::sort(corners.begin(), corners.end());
         corners.erase(std::unique(corners.begin(), corners.end()), corners.end());
@@ -47,7 +47,7 @@ public:
                                 sealed_vertices = sealed(vertices, corners, at_vertices);
         double bends = 0, noise = 0, norm = 0;
         for (std::uint32_t s = 0; s < samples_.size(); ++s) {
-            const glm::uvec3 c = corners_of(samples_.places[s]);
+            const glm::uvec3 c = corners_of(samples_.positions[s]);
             bool tells = !sealed_points[s];
             for (int i = 0; i < 3; ++i)
                 tells = tells && c[i] != kNoReceiver && !sealed_vertices[c[i]];
@@ -91,8 +91,8 @@ private:
                              {.count = count, .seed = plan_.options.seed + 1});
     }
 
-    glm::uvec3 corners_of(const SamplePlace& place) const {
-        return corner_receivers(plan_.scene.surfaces(), *plan_.transport, place.triangle, place.back);
+    glm::uvec3 corners_of(const SurfacePoint& position) const {
+        return corner_receivers(plan_.scene.surfaces(), *plan_.transport, position.triangle, position.back);
     }
 
     int rays_of_half() const { return std::clamp(plan_.options.rays / 2, 1, kMaxHalfRays); }
@@ -125,7 +125,7 @@ private:
     /// Difference between the interpolation of vertices `c` and the light `here` at point `s`.
     std::vector<float> missing(const Transfer& vertices, const glm::uvec3& c, std::uint32_t s,
                                std::span<const float> here) const {
-        std::vector<float> difference = interpolated(vertices, c, samples_.places[s]);
+        std::vector<float> difference = interpolated(vertices, c, samples_.positions[s]);
         for (std::size_t k = 0; k < here.size(); ++k)
             difference[k] -= here[k];
         return difference;

@@ -29,7 +29,7 @@ SurfaceSamples samples_at_receivers(const BakePlan& plan, const std::vector<bool
             if (p == kNoReceiver || done[p])
                 continue;
             done[p] = true;
-            samples.places.push_back(
+            samples.positions.push_back(
                 {side.triangle, side.back, {i == 1 ? 1.0f : 0.0f, i == 2 ? 1.0f : 0.0f}});
             samples.receivers.areas.push_back(plan.receivers().areas[p]);
             receivers.push_back(p);
@@ -53,16 +53,16 @@ void leave_out_sheets(const BakePlan& plan, std::vector<bool>& left_out) {
 
 } // namespace
 
-NoiseFilter::NoiseFilter(FitEquations equations, std::vector<std::uint32_t> places, int threads)
-    : equations_(std::move(equations)), places_(std::move(places)), weights_(unknown_weights(equations_)),
-      threads_(threads) {
+NoiseFilter::NoiseFilter(FitEquations equations, std::vector<std::uint32_t> positions, int threads)
+    : equations_(std::move(equations)), positions_(std::move(positions)),
+      weights_(unknown_weights(equations_)), threads_(threads) {
     // An unknown without samples is 0 and would darken its neighbours.
     std::erase_if(equations_.bends, [&](const Bend& bend) {
         return std::ranges::any_of(bend.unknowns, [&](std::uint32_t u) { return !(weights_[u] > 0); });
     });
 }
 
-NoiseFilter vertex_filter(const BakePlan& plan, const SharedPlaces& shared,
+NoiseFilter vertex_filter(const BakePlan& plan, const SharedPositions& shared,
                           const std::vector<bool>& left_out) {
     std::vector<bool> out = left_out;
     leave_out_sheets(plan, out);
@@ -76,9 +76,9 @@ NoiseFilter vertex_filter(const BakePlan& plan, const SharedPlaces& shared,
 std::vector<float> NoiseFilter::sums(const TellingColumns& columns, const Values& values) const {
     const std::size_t count = columns.size();
     std::vector<float> sums(equations_.unknowns * count), row(count);
-    for (std::size_t s = 0; s < places_.size(); ++s) {
+    for (std::size_t s = 0; s < positions_.size(); ++s) {
         for (std::size_t i = 0; i < count; ++i)
-            row[i] = columns.factors[i] * values(places_[s], columns.columns[i]);
+            row[i] = columns.factors[i] * values(positions_[s], columns.columns[i]);
         add_samples(equations_, s, std::span<const float>(row), count, std::span(sums));
     }
     return sums;
@@ -86,9 +86,9 @@ std::vector<float> NoiseFilter::sums(const TellingColumns& columns, const Values
 
 TellingColumns NoiseFilter::brightest(const Values& light, std::size_t columns) const {
     std::vector<double> squares(columns);
-    for (std::size_t s = 0; s < places_.size(); ++s)
+    for (std::size_t s = 0; s < positions_.size(); ++s)
         for (std::size_t c = 0; c < columns; ++c) {
-            const auto value = static_cast<double>(light(places_[s], c));
+            const auto value = static_cast<double>(light(positions_[s], c));
             squares[c] += static_cast<double>(equations_.rows[s].area) * value * value;
         }
     return brightest_columns(squares);
@@ -135,10 +135,10 @@ void NoiseFilter::apply_to(const FitSolver& solver, const TellingColumns& column
     smooth(weights_, std::span(means), count);
     solver.solve(x, count, 1, FitSolver::kRough);
     limit(means, count, x);
-    for (const std::uint32_t place : places_) {
-        const std::uint32_t u = equations_.unknown_of[place];
+    for (const std::uint32_t position : positions_) {
+        const std::uint32_t u = equations_.unknown_of[position];
         for (std::size_t i = 0; i < count && weights_[u] > 0; ++i)
-            write(place, columns.columns[i], x[u * count + i]);
+            write(position, columns.columns[i], x[u * count + i]);
     }
 }
 

@@ -3,7 +3,7 @@
 // Removes the noise of rays from light.
 
 #include "plan.h"
-#include "scene/shared_places.h"
+#include "scene/shared_positions.h"
 #include "surface/fit_noise.h"
 
 #include <cstdint>
@@ -18,12 +18,12 @@ namespace prt {
 /// filter is linear, and its rows sum to 1.
 class NoiseFilter {
 public:
-    /// `places` [samples of `equations`]: indices that values are requested by; FitEquations::unknown_of uses
-    /// the same indices.
-    NoiseFilter(FitEquations equations, std::vector<std::uint32_t> places, int threads);
+    /// `positions` [samples of `equations`]: indices that values are requested by; FitEquations::unknown_of
+    /// uses the same indices.
+    NoiseFilter(FitEquations equations, std::vector<std::uint32_t> positions, int threads);
 
-    using Values = std::function<float(std::uint32_t place, std::size_t column)>;
-    using Write = std::function<void(std::uint32_t place, std::size_t column, float value)>;
+    using Values = std::function<float(std::uint32_t position, std::size_t column)>;
+    using Write = std::function<void(std::uint32_t position, std::size_t column, float value)>;
 
     /// Chooses smoothness weights for all columns of `light` from some of them. `noise`: an estimate of the
     /// noise with random sign.
@@ -50,14 +50,14 @@ private:
     void limit(std::span<const float> means, std::size_t columns, std::span<float> x) const;
 
     FitEquations equations_;
-    std::vector<std::uint32_t> places_; ///< [samples]
-    std::vector<float> weights_;        ///< [unknowns]
+    std::vector<std::uint32_t> positions_; ///< [samples]
+    std::vector<float> weights_;           ///< [unknowns]
     int threads_;
 };
 
 /// Creates a filter for the receivers of `plan`. Receivers that `shared` averages share one unknown.
 /// `left_out` [receivers]: receivers whose light is not gathered by their own rays.
-NoiseFilter vertex_filter(const BakePlan& plan, const SharedPlaces& shared,
+NoiseFilter vertex_filter(const BakePlan& plan, const SharedPositions& shared,
                           const std::vector<bool>& left_out);
 
 } // namespace prt

@@ -61,9 +61,9 @@ public:
     Separation(const ValueRanges& ranges, std::size_t tests, const FitEquations& equations, int rays)
         : ranges_(ranges), tests_(tests), equations_(equations), step_(rays) {}
 
-    void separate(std::span<std::uint32_t> place, std::vector<std::uint32_t>& alike) const {
+    void separate(std::span<std::uint32_t> position, std::vector<std::uint32_t>& alike) const {
         for (std::size_t t = 0; t < tests_; ++t) {
-            const std::vector<Member> members = members_of(place, t);
+            const std::vector<Member> members = members_of(position, t);
             if (members.size() < 2)
                 return;
             const std::size_t below = step_.find(members);
@@ -73,10 +73,10 @@ public:
                 return std::any_of(members.begin() + static_cast<std::ptrdiff_t>(below), members.end(),
                                    [&](const Member& m) { return m.receiver == p; });
             };
-            const auto middle = std::stable_partition(place.begin(), place.end(),
+            const auto middle = std::stable_partition(position.begin(), position.end(),
                                                       [&](std::uint32_t p) { return !is_above(p); });
-            const auto first = static_cast<std::size_t>(middle - place.begin());
-            for (const std::span<std::uint32_t> side : {place.first(first), place.subspan(first)}) {
+            const auto first = static_cast<std::size_t>(middle - position.begin());
+            for (const std::span<std::uint32_t> side : {position.first(first), position.subspan(first)}) {
                 for (const std::uint32_t p : side)
                     alike[p] = side[0];
                 separate(side, alike);
@@ -87,9 +87,9 @@ public:
 
 private:
     /// Receivers with samples, sorted by value.
-    std::vector<Member> members_of(std::span<const std::uint32_t> place, std::size_t test) const {
+    std::vector<Member> members_of(std::span<const std::uint32_t> position, std::size_t test) const {
         std::vector<Member> members;
-        for (const std::uint32_t p : place) {
+        for (const std::uint32_t p : position) {
             const std::size_t i = equations_.unknown_of[p] * tests_ + test;
             if (ranges_.low[i] <= ranges_.high[i])
                 members.push_back({p, ranges_.low[i], ranges_.high[i]});

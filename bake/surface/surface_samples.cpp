@@ -20,7 +20,7 @@ glm::dvec3 doubled_area(const Receivers& receivers, const glm::uvec3& c) {
 }
 
 struct Sample {
-    SamplePlace place;
+    SurfacePoint position;
     TriangleSide side;
     float area;
     std::uint32_t near; ///< receiver at the nearest corner
@@ -46,10 +46,10 @@ std::vector<Sample> spread_samples(const Surfaces& surfaces, const TransportRece
         const std::uint32_t hash = side_hash(side, spread.seed);
         const glm::uvec3 corners = corner_receivers(surfaces, receivers, side.triangle, side.back);
         for (std::size_t i = 0; i < n; ++i) {
-            const SamplePlace place{side.triangle, side.back, even_point(hash, i)};
-            const std::array<float, 3> shares = place.shares();
+            const SurfacePoint position{side.triangle, side.back, even_point(hash, i)};
+            const std::array<float, 3> shares = position.shares();
             const auto nearest = std::max_element(shares.begin(), shares.end()) - shares.begin();
-            samples.push_back({place, side, static_cast<float>(side.area / static_cast<double>(n)),
+            samples.push_back({position, side, static_cast<float>(side.area / static_cast<double>(n)),
                                corners[static_cast<int>(nearest)]});
         }
     }
@@ -57,10 +57,10 @@ std::vector<Sample> spread_samples(const Surfaces& surfaces, const TransportRece
 }
 
 /// Returns the interpolated normal, or the normal of the plane if the corners' normals cancel.
-glm::vec3 normal_at(const Receivers& receivers, const glm::uvec3& corners, const SamplePlace& place,
+glm::vec3 normal_at(const Receivers& receivers, const glm::uvec3& corners, const SurfacePoint& position,
                     const glm::vec3& of_plane) {
     glm::vec3 sum(0);
-    const std::array<float, 3> shares = place.shares();
+    const std::array<float, 3> shares = position.shares();
     for (int i = 0; i < 3; ++i)
         if (corners[i] != kNoReceiver)
             sum += shares[static_cast<std::size_t>(i)] * receivers.normals[corners[i]];
@@ -117,8 +117,8 @@ glm::uvec3 corner_receivers(const Surfaces& surfaces, const TransportReceivers& 
 }
 
 std::vector<float> interpolated(const Transfer& transfer, const glm::uvec3& corners,
-                                const SamplePlace& place) {
-    const std::array<float, 3> shares = place.shares();
+                                const SurfacePoint& position) {
+    const std::array<float, 3> shares = position.shares();
     std::vector<float> sum(transfer.dimension());
     for (std::size_t k = 0; k < sum.size(); ++k)
         sum[k] = shares[0] * transfer.vector(corners.x)[k] + shares[1] * transfer.vector(corners.y)[k] +
@@ -134,16 +134,16 @@ Receivers SurfaceSamples::layer(std::size_t k) const {
 }
 
 void append_sample(SurfaceSamples& samples, const Surfaces& surfaces, const TransportReceivers& receivers,
-                   const SamplePlace& place, float area) {
+                   const SurfacePoint& position, float area) {
     const Receivers& all = receivers.receivers;
-    const glm::uvec3& c = surfaces.corners(place.triangle);
+    const glm::uvec3& c = surfaces.corners(position.triangle);
     const glm::dvec3 normal = doubled_area(all, c);
-    const glm::vec3 of_plane((place.back ? -normal : normal) / glm::length(normal));
-    samples.places.push_back(place);
+    const glm::vec3 of_plane((position.back ? -normal : normal) / glm::length(normal));
+    samples.positions.push_back(position);
     Receivers& r = samples.receivers;
-    r.positions.push_back(interpolated(all.positions, c, place.uv));
-    r.normals.push_back(
-        normal_at(all, corner_receivers(surfaces, receivers, place.triangle, place.back), place, of_plane));
+    r.positions.push_back(interpolated(all.positions, c, position.uv));
+    r.normals.push_back(normal_at(
+        all, corner_receivers(surfaces, receivers, position.triangle, position.back), position, of_plane));
     r.areas.push_back(area);
     r.starts.push_back(of_plane);
 }
@@ -156,7 +156,7 @@ SurfaceSamples sample_surfaces(const Surfaces& surfaces, const TransportReceiver
     SurfaceSamples samples;
     samples.layers = spread.layers;
     for (const Sample& sample : all)
-        append_sample(samples, surfaces, receivers, sample.place, sample.area);
+        append_sample(samples, surfaces, receivers, sample.position, sample.area);
     return samples;
 }
 

@@ -12,7 +12,7 @@
 namespace prt {
 
 /// Position of a sample: barycentric coordinates on one side of a triangle.
-struct SamplePlace {
+struct SurfacePoint {
     std::uint32_t triangle; ///< index in the order of the scene's primitives and their triangles
     bool back;              ///< back of the triangle
     glm::vec2 uv;           ///< barycentric coordinates of corners 1 and 2
@@ -25,10 +25,10 @@ struct SamplePlace {
 /// layers + k is receiver g of layer k.
 struct SurfaceSamples {
     Receivers receivers;
-    std::vector<SamplePlace> places;
+    std::vector<SurfacePoint> positions;
     std::size_t layers = 1;
 
-    std::size_t size() const { return places.size(); }
+    std::size_t size() const { return positions.size(); }
     Receivers layer(std::size_t k) const;
 };
 
@@ -37,9 +37,9 @@ struct SurfaceSamples {
 glm::uvec3 corner_receivers(const Surfaces& surfaces, const TransportReceivers& receivers,
                             std::uint32_t triangle, bool back);
 
-/// Interpolates the vectors of `corners` at `place`; none of them is kNoReceiver.
+/// Interpolates the vectors of `corners` at `position`; none of them is kNoReceiver.
 std::vector<float> interpolated(const Transfer& transfer, const glm::uvec3& corners,
-                                const SamplePlace& place);
+                                const SurfacePoint& position);
 
 /// One side of a triangle with receivers.
 struct TriangleSide {
@@ -57,9 +57,9 @@ std::uint32_t side_hash(const TriangleSide& side, std::uint64_t seed);
 /// any number of points: the sequence R2 of M. Roberts, 2018, folded. `hash` shifts it.
 glm::vec2 even_point(std::uint32_t hash, std::size_t i);
 
-/// Appends a sample at `place`, on a triangle with an area, that represents `area`.
+/// Appends a sample at `position`, on a triangle with an area, that represents `area`.
 void append_sample(SurfaceSamples& samples, const Surfaces& surfaces, const TransportReceivers& receivers,
-                   const SamplePlace& place, float area);
+                   const SurfacePoint& position, float area);
 
 /// Options of sample_surfaces.
 struct SampleSpread {

@@ -95,7 +95,7 @@ SurfaceSamples sample_varied(const Surfaces& surfaces, const TransportReceivers&
 SurfaceSamples pick_samples(const SurfaceSamples& many, std::span<const double> likely, std::size_t count) {
     SurfaceSamples some;
     for (const Picked& picked : pick(many.size(), count, [&](std::size_t s) { return likely[s]; })) {
-        some.places.push_back(many.places[picked.index]);
+        some.positions.push_back(many.positions[picked.index]);
         some.receivers.append(many.receivers, picked.index);
         some.receivers.areas.back() *= static_cast<float>(picked.stands_for);
     }

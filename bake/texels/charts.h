@@ -36,7 +36,7 @@ InTriangle in_triangle(const ChartTriangle& triangle, const glm::dvec2& point);
 /// The point of the triangle that is nearest to `point`: barycentric coordinates of corners 1 and 2.
 glm::dvec2 nearest_in_triangle(const ChartTriangle& triangle, const glm::dvec2& point);
 
-inline glm::dvec2 place_of(const ChartTriangle& t, const glm::dvec2& uv) {
+inline glm::dvec2 position_of(const ChartTriangle& t, const glm::dvec2& uv) {
     return t.corners[0] * (1 - uv.x - uv.y) + t.corners[1] * uv.x + t.corners[2] * uv.y;
 }
 

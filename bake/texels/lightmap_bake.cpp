@@ -42,11 +42,11 @@ constexpr double kTexelsBetweenSources = 8;
 constexpr double kBytesOfRows = 1e9; ///< for the rows of one gather; lamps need additional memory
 
 /// A side of a texel, metres, in the mean of all.
-double texel_size(const TexelPlaces& places, const std::vector<std::vector<ChartTriangle>>& charts) {
+double texel_size(const TexelPositions& positions, const std::vector<std::vector<ChartTriangle>>& charts) {
     double surface = 0, texels = 0;
     for (const auto& of_atlas : charts)
         for (const ChartTriangle& t : of_atlas) {
-            surface += places.area(t.triangle);
+            surface += positions.area(t.triangle);
             texels += area_in_texels(t);
         }
     return texels > 0 ? std::sqrt(surface / texels) : 0;
@@ -119,7 +119,7 @@ public:
 
     LightmapBake run(const Progress& progress) {
         const Stopwatch watch;
-        const TexelPlaces plain(scene_, nullptr);
+        const TexelPositions plain(scene_, nullptr);
         const double spacing =
             options_.bounces != 0 ? kTexelsBetweenSources * texel_size(plain, charts_) : HUGE_VAL;
         const Scene even = with_short_edges(traced_scene(), spacing);
@@ -137,9 +137,9 @@ public:
         statistics().seconds.sources = watch.seconds();
         TexelTransport transport(plan, std::move(sources), rows_at_once());
         const Casters casters{traced, finer_.reach};
-        const TexelPlaces places(scene_, finer_.scene ? &casters : nullptr);
-        trace(plan, *tracer, places, transport, progress.range(share, 1));
-        finish(plan, *tracer, places, watch);
+        const TexelPositions positions(scene_, finer_.scene ? &casters : nullptr);
+        trace(plan, *tracer, positions, transport, progress.range(share, 1));
+        finish(plan, *tracer, positions, watch);
         progress.update(1);
         return std::move(result_);
     }
@@ -154,8 +154,8 @@ private:
             std::clamp(kBytesOfRows / (rays * GatherOperator::kMaxBytesPerRay), 256.0, 65536.0));
     }
 
-    void trace(const BakePlan& plan, Tracer& tracer, const TexelPlaces& places, TexelTransport& transport,
-               const Progress& progress) {
+    void trace(const BakePlan& plan, Tracer& tracer, const TexelPositions& positions,
+               TexelTransport& transport, const Progress& progress) {
         light_.direct.layout = layout_of_one(options_.order, 1, TermKind::direct);
         light_.rest.layout = layout_of_one(options_.order, plan.channels, TermKind::indirect);
         light_.lamps.layout = transport.lamp_layout();
@@ -168,7 +168,7 @@ private:
             const TexelTask task{
                 .tracer = tracer,
                 .scene = plan.scene,
-                .places = places,
+                .positions = positions,
                 .options = {.order = options_.order, .rays = options_.rays, .seed = options_.seed + a},
                 .inside = options_.repairs.inside,
                 .transport = &transport,
@@ -176,17 +176,17 @@ private:
             TexelLight light = trace_texels(task, atlases_[a], samples.samples, term);
             statistics().rays += light.rays;
             if (options_.repairs.denoise)
-                filter(a, places, samples.samples, light);
+                filter(a, positions, samples.samples, light);
             for (std::size_t i = 0; i < light.lamps.size(); ++i)
                 light.lamps[i] += light.bounced_lamps[i];
-            take(a, first, places, samples.samples, std::move(light), transport);
+            take(a, first, positions, samples.samples, std::move(light), transport);
             first += atlases_[a].texels();
         }
     }
 
-    void filter(std::size_t a, const TexelPlaces& places, std::span<const TexelSample> samples,
+    void filter(std::size_t a, const TexelPositions& positions, std::span<const TexelSample> samples,
                 TexelLight& light) {
-        const TexelNet net(scene_, atlases_[a], charts_[a], samples, places, light.lit);
+        const TexelNet net(scene_, atlases_[a], charts_[a], samples, positions, light.lit);
         const double noise = filter_texels(net, options_.threads, light);
         const auto measured = static_cast<double>(light.measured);
         noise_.squares += measured * noise * noise;
@@ -194,7 +194,7 @@ private:
     }
 
     /// Fills the gutters of a map, closes its seams, and keeps the texels that filters read.
-    void take(std::size_t a, std::size_t first, const TexelPlaces& places,
+    void take(std::size_t a, std::size_t first, const TexelPositions& positions,
               std::span<const TexelSample> samples, TexelLight light, const TexelTransport& transport) {
         const Atlas& atlas = atlases_[a];
         statistics().texels.measured += light.measured;
@@ -216,7 +216,7 @@ private:
         close(light.sky, transport.sky_stride());
         close(light.lamps, transport.lamp_stride());
 
-        const TexelAreas areas = texel_areas(atlas, charts_[a], places, samples);
+        const TexelAreas areas = texel_areas(atlas, charts_[a], positions, samples);
         BakedLightmap& map = result_.lightmap;
         const std::size_t begin = map.texels.size();
         for (const std::uint32_t texel : areas.texels) {
@@ -232,9 +232,9 @@ private:
         }
         map.areas.insert(map.areas.end(), areas.areas.begin(), areas.areas.end());
         for (const SeamPoint& point : seams) {
-            const auto receiver_at = [&](const glm::dvec2& place) {
+            const auto receiver_at = [&](const glm::dvec2& position) {
                 const auto found =
-                    std::ranges::lower_bound(areas.texels, max_read(bilinear_at(atlas, place)));
+                    std::ranges::lower_bound(areas.texels, max_read(bilinear_at(atlas, position)));
                 return static_cast<std::uint32_t>(begin +
                                                   static_cast<std::size_t>(found - areas.texels.begin()));
             };
@@ -243,14 +243,14 @@ private:
     }
 
     /// Estimates the sampling error of direct light at single positions, with the rays of a texel.
-    void estimate_error(Tracer& tracer, const TexelPlaces& places) {
-        constexpr std::size_t kPlaces = 2048;
+    void estimate_error(Tracer& tracer, const TexelPositions& positions) {
+        constexpr std::size_t kPositions = 2048;
         Receivers receivers;
         for (std::size_t a = 0; a < atlases_.size(); ++a) {
             const std::vector<TexelSample> samples = sample_texels(charts_[a], atlases_[a]).samples;
-            const std::size_t step = std::max<std::size_t>(1, samples.size() * atlases_.size() / kPlaces);
+            const std::size_t step = std::max<std::size_t>(1, samples.size() * atlases_.size() / kPositions);
             for (std::size_t s = 0; s < samples.size(); s += step)
-                places.append(samples[s], 1, receivers);
+                positions.append(samples[s], 1, receivers);
         }
         const TraceOptions options{.order = options_.order, .rays = options_.rays, .seed = options_.seed};
         Transfer traced = zero_transfer(options.order, 1, receivers.size());
@@ -261,24 +261,25 @@ private:
         statistics().rays += error.rays + indices.size() * static_cast<std::size_t>(options.rays);
     }
 
-    void finish(const BakePlan& plan, Tracer& tracer, const TexelPlaces& places, const Stopwatch& watch) {
+    void finish(const BakePlan& plan, Tracer& tracer, const TexelPositions& positions,
+                const Stopwatch& watch) {
         LightmapStatistics& s = statistics();
         BakedLightmap& map = result_.lightmap;
         map.seams = unique_edges(std::move(map.seams));
-        map.layout.places.resize(scene_.primitives.size());
+        map.layout.positions.resize(scene_.primitives.size());
         for (std::size_t a = 0; a < atlases_.size(); ++a) {
             map.layout.maps.push_back(size_of(atlases_[a]));
             for (const std::size_t p : atlases_[a].primitives)
-                map.layout.places[p] = {a, atlases_[a].uv_set};
+                map.layout.positions[p] = {a, atlases_[a].uv_set};
         }
-        if (std::optional<std::string> notice = places.check_casters())
+        if (std::optional<std::string> notice = positions.check_casters())
             s.notices.push_back(std::move(*notice));
         s.mean_visibility = mean_visibility(light_.direct, map.areas);
         s.denoised = options_.repairs.denoise;
         if (noise_.texels > 0)
             s.sampling_error = std::sqrt(noise_.squares / noise_.texels);
         else
-            estimate_error(tracer, places);
+            estimate_error(tracer, positions);
         BakedTransfer& baked = map.baked;
         baked.transfer = plan.bounces != 0 ? joined(light_.direct, narrowed(std::move(light_.rest)))
                                            : std::move(light_.direct);

@@ -75,7 +75,7 @@ OcclusionMapsStatistics occlusion_maps(const Scene& scene, const std::vector<Atl
     const Stopwatch watch;
     const OcclusionScene traced(finer.scene ? *finer.scene : scene, options);
     const Casters casters{traced.scene(), finer.reach};
-    const TexelPlaces places(scene, finer.scene ? &casters : nullptr);
+    const TexelPositions positions(scene, finer.scene ? &casters : nullptr);
     OcclusionMapsStatistics result;
     result.notices = traced.notices();
     for (std::size_t i = 0; i < atlases.size(); ++i) {
@@ -85,14 +85,14 @@ OcclusionMapsStatistics occlusion_maps(const Scene& scene, const std::vector<Atl
         const TexelSamples samples = sample_texels(chart_triangles(scene, atlases[i]), atlases[i]);
         const TexelTask task{.tracer = traced.tracer(),
                              .scene = traced.scene(),
-                             .places = places,
+                             .positions = positions,
                              .options = {.order = 2, .rays = options.rays, .seed = options.seed + i},
                              .inside = options.repairs.inside};
         TexelLight light = trace_texels(task, atlases[i], samples.samples, part);
         result.rays += light.rays;
         take(map_of(atlases[i], std::move(light), scene));
     }
-    if (std::optional<std::string> notice = places.check_casters())
+    if (std::optional<std::string> notice = positions.check_casters())
         result.notices.push_back(std::move(*notice));
     result.device = traced.tracer().device();
     result.seconds = watch.seconds();

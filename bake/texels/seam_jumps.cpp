@@ -17,10 +17,10 @@ std::vector<Atlas> atlases_of(const LightmapLayout& layout) {
         atlases[a].height = map.height;
         atlases[a].repeats = map.repeats;
     }
-    for (std::size_t p = 0; p < layout.places.size(); ++p) {
-        Atlas& atlas = atlases[layout.places[p].map];
+    for (std::size_t p = 0; p < layout.positions.size(); ++p) {
+        Atlas& atlas = atlases[layout.positions[p].map];
         atlas.primitives.push_back(p);
-        atlas.uv_set = layout.places[p].texcoord;
+        atlas.uv_set = layout.positions[p].texcoord;
     }
     return atlases;
 }
@@ -37,8 +37,8 @@ std::vector<SeamJump> seam_jumps(const Scene& scene, const LightmapLayout& layou
             SeamJump jump;
             std::size_t i = 0;
             bool there = true; // a file may lack texels that its seams read: these jumps are ignored
-            for (const auto& [place, sign] : {std::pair(point.here, 1.0), std::pair(point.there, -1.0)}) {
-                const BilinearTexels filter = bilinear_at(atlases[a], place);
+            for (const auto& [position, sign] : {std::pair(point.here, 1.0), std::pair(point.there, -1.0)}) {
+                const BilinearTexels filter = bilinear_at(atlases[a], position);
                 for (std::size_t k = 0; k < 4; ++k, ++i) {
                     const std::size_t texel = first[a] + filter.texels[k];
                     const auto found = std::ranges::lower_bound(texels, texel);

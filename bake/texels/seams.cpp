@@ -188,8 +188,8 @@ void stitch_seams(const Atlas& atlas, std::span<const SeamPoint> seams, const st
 double jump_at(const Atlas& atlas, const SeamPoint& point, std::span<const float> values,
                std::size_t stride) {
     double jump = 0;
-    for (const auto& [place, sign] : {std::pair(point.here, 1.0), std::pair(point.there, -1.0)}) {
-        const BilinearTexels filter = bilinear_at(atlas, place);
+    for (const auto& [position, sign] : {std::pair(point.here, 1.0), std::pair(point.there, -1.0)}) {
+        const BilinearTexels filter = bilinear_at(atlas, position);
         for (std::size_t i = 0; i < 4; ++i)
             jump += sign * filter.weights[i] * static_cast<double>(values[filter.texels[i] * stride]);
     }

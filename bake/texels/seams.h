@@ -26,8 +26,8 @@ void stitch_seams(const Atlas& atlas, std::span<const SeamPoint> seams, const st
                   std::span<float> values, std::size_t stride);
 
 /// Returns the texels that a bilinear filter reads at a position, and their weights.
-inline BilinearTexels bilinear_at(const Atlas& atlas, const glm::dvec2& place) {
-    return bilinear_texels(size_of(atlas), place.x, place.y);
+inline BilinearTexels bilinear_at(const Atlas& atlas, const glm::dvec2& position) {
+    return bilinear_texels(size_of(atlas), position.x, position.y);
 }
 
 /// By how much the first number of `values` [texels][stride] jumps across a seam.

@@ -28,13 +28,13 @@ double area_in_texels(const ChartTriangle& t) {
     return std::abs(a.x * b.y - a.y * b.x) / 2;
 }
 
-TexelAreas texel_areas(const Atlas& atlas, std::span<const ChartTriangle> charts, const TexelPlaces& places,
-                       std::span<const TexelSample> samples) {
+TexelAreas texel_areas(const Atlas& atlas, std::span<const ChartTriangle> charts,
+                       const TexelPositions& positions, std::span<const TexelSample> samples) {
     std::unordered_map<std::uint32_t, const ChartTriangle*> chart_of;
     double surface = 0, read = 0;
     for (const ChartTriangle& t : charts) {
         chart_of.emplace(t.triangle, &t);
-        surface += places.area(t.triangle);
+        surface += positions.area(t.triangle);
     }
     std::vector<double> areas(atlas.texels());
     std::vector<bool> marked(atlas.texels());
@@ -43,9 +43,9 @@ TexelAreas texel_areas(const Atlas& atlas, std::span<const ChartTriangle> charts
         const ChartTriangle& chart = *chart_of.at(sample.triangle);
         // A sample represents its share of a texel, with the area of the texel on the surface there.
         const double covered = std::max(area_in_texels(chart), 1.0 / kSamplesOfTexel),
-                     area = places.area(sample.triangle) / (kSamplesOfTexel * covered);
+                     area = positions.area(sample.triangle) / (kSamplesOfTexel * covered);
         read += area;
-        const BilinearTexels filter = bilinear_at(atlas, place_of(chart, glm::dvec2(sample.uv)));
+        const BilinearTexels filter = bilinear_at(atlas, position_of(chart, glm::dvec2(sample.uv)));
         for (std::size_t i = 0; i < 4; ++i) {
             areas[filter.texels[i]] += filter.weights[i] * area;
             marked[filter.texels[i]] = true;

@@ -2,7 +2,7 @@
 
 // Areas of the surface that filters read from texels.
 
-#include "texels/texel_places.h"
+#include "texels/texel_positions.h"
 
 #include <span>
 #include <vector>
@@ -20,7 +20,7 @@ struct TexelAreas {
 /// Texels squared that a chart's triangle covers.
 double area_in_texels(const ChartTriangle& triangle);
 
-TexelAreas texel_areas(const Atlas& atlas, std::span<const ChartTriangle> charts, const TexelPlaces& places,
-                       std::span<const TexelSample> samples);
+TexelAreas texel_areas(const Atlas& atlas, std::span<const ChartTriangle> charts,
+                       const TexelPositions& positions, std::span<const TexelSample> samples);
 
 } // namespace prt

@@ -85,31 +85,31 @@ std::vector<std::uint32_t> connected_triangles(const Scene& scene, int uv_set) {
 } // namespace
 
 TexelNet::TexelNet(const Scene& scene, const Atlas& atlas, std::span<const ChartTriangle> charts,
-                   std::span<const TexelSample> samples, const TexelPlaces& places,
+                   std::span<const TexelSample> samples, const TexelPositions& points,
                    const std::vector<bool>& lit)
     : width_(static_cast<std::uint32_t>(atlas.width)), height_(static_cast<std::uint32_t>(atlas.height)),
-      places_(atlas.texels()), normals_(atlas.texels()), charts_(atlas.texels(), kNoReceiver),
+      positions_(atlas.texels()), normals_(atlas.texels()), charts_(atlas.texels(), kNoReceiver),
       sizes_(atlas.texels()) {
     const std::vector<std::uint32_t> connected = connected_triangles(scene, atlas.uv_set);
     std::vector<float> size_of(connected.size(), 1.0f); // where coordinates are one point: any
     for (const ChartTriangle& t : charts) {
         const glm::dvec2 ab = t.corners[1] - t.corners[0], ac = t.corners[2] - t.corners[0];
         const double texels = 0.5 * std::abs(ab.x * ac.y - ab.y * ac.x);
-        if (texels > 0 && places.area(t.triangle) > 0)
-            size_of[t.triangle] = static_cast<float>(std::sqrt(places.area(t.triangle) / texels));
+        if (texels > 0 && points.area(t.triangle) > 0)
+            size_of[t.triangle] = static_cast<float>(std::sqrt(points.area(t.triangle) / texels));
     }
     Receivers receivers;
     for (std::size_t begin = 0, end = 0; begin < samples.size(); begin = end) {
         const std::uint32_t texel = samples[begin].texel;
         glm::dvec3 sum(0), normal(0);
         while (end < samples.size() && samples[end].texel == texel) {
-            places.append(samples[end++], 1, receivers);
+            points.append(samples[end++], 1, receivers);
             sum += glm::dvec3(receivers.positions.back());
             normal += glm::dvec3(receivers.normals.back());
         }
         if (!lit[texel])
             continue;
-        places_[texel] = sum / static_cast<double>(end - begin);
+        positions_[texel] = sum / static_cast<double>(end - begin);
         normals_[texel] = glm::length(normal) > 0 ? glm::normalize(normal) : normal;
         charts_[texel] = connected[samples[begin].triangle];
         sizes_[texel] = size_of[samples[begin].triangle];
@@ -120,13 +120,13 @@ TexelNet::TexelNet(const Scene& scene, const Atlas& atlas, std::span<const Chart
 bool TexelNet::together(std::uint32_t a, std::uint32_t b) const {
     return charts_[a] != kNoReceiver && charts_[a] == charts_[b] &&
            glm::dot(normals_[a], normals_[b]) > kMinCosine &&
-           glm::distance(places_[a], places_[b]) <
+           glm::distance(positions_[a], positions_[b]) <
                kFarthest * static_cast<double>(std::max(sizes_[a], sizes_[b]));
 }
 
 FitEquations TexelNet::equations(std::uint32_t first, std::uint32_t last) const {
     FitEquations equations;
-    equations.unknown_of.assign(places_.size(), kNoReceiver);
+    equations.unknown_of.assign(positions_.size(), kNoReceiver);
     for (std::uint32_t texel = first * width_; texel < last * width_; ++texel)
         if (charts_[texel] != kNoReceiver) {
             const auto unknown = static_cast<std::uint32_t>(equations.unknowns++);
@@ -138,7 +138,7 @@ FitEquations TexelNet::equations(std::uint32_t first, std::uint32_t last) const 
     const auto add = [&](std::uint32_t a, std::uint32_t b, std::uint32_t c) {
         if (together(a, b) && together(b, c) && together(c, a))
             triangles.push_back({{equations.unknown_of[a], equations.unknown_of[b], equations.unknown_of[c]},
-                                 {places_[a], places_[b], places_[c]}});
+                                 {positions_[a], positions_[b], positions_[c]}});
     };
     for (std::uint32_t y = first; y + 1 < last; ++y)
         for (std::uint32_t x = 0; x + 1 < width_; ++x) {
@@ -216,14 +216,14 @@ private:
             return direct(t, c % columns) + (stride > 0 ? sky_[t * stride + c] : 0.0f);
         };
         // Only the selected columns have noise.
-        std::vector<std::size_t> place_of(columns);
+        std::vector<std::size_t> position_of(columns);
         for (std::size_t i = 0; i < count; ++i)
-            place_of[light_.noise.telling.columns[i]] = i;
+            position_of[light_.noise.telling.columns[i]] = i;
         const auto middle_of_all = [&](std::uint32_t t, std::size_t c) { return all(t, middle + c); };
         // Shadow edges within a texel are not noise: the noise of a net falls as n^-0.75.
         const auto most = static_cast<float>(0.5 * std::pow(light_.noise.rays, -0.75));
         const auto noise = [&](std::uint32_t t, std::size_t c) {
-            return std::clamp(kNoiseOfSamples * light_.noise.sky[t * count + place_of[c]], -most, most);
+            return std::clamp(kNoiseOfSamples * light_.noise.sky[t * count + position_of[c]], -most, most);
         };
         const FitSolver solver = filter.fit(middle_of_all, light_.noise.telling, noise);
         noise_ = std::hypot(noise_, filter.norm(solver, light_.noise.telling, noise));

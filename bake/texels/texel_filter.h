@@ -16,7 +16,8 @@ class TexelNet {
 public:
     /// `lit` [texels]: those that are filtered.
     TexelNet(const Scene& scene, const Atlas& atlas, std::span<const ChartTriangle> charts,
-             std::span<const TexelSample> samples, const TexelPlaces& places, const std::vector<bool>& lit);
+             std::span<const TexelSample> samples, const TexelPositions& positions,
+             const std::vector<bool>& lit);
 
     /// Equations of rows [first, last) of the atlas.
     FitEquations equations(std::uint32_t first, std::uint32_t last) const;
@@ -27,9 +28,9 @@ private:
     bool together(std::uint32_t a, std::uint32_t b) const;
 
     std::uint32_t width_, height_;
-    std::vector<glm::dvec3> places_, normals_; ///< [texels] means of their samples
-    std::vector<std::uint32_t> charts_;        ///< [texels], kNoReceiver where there is no light
-    std::vector<float> sizes_;                 ///< [texels] of a texel, m
+    std::vector<glm::dvec3> positions_, normals_; ///< [texels] means of their samples
+    std::vector<std::uint32_t> charts_;           ///< [texels], kNoReceiver where there is no light
+    std::vector<float> sizes_;                    ///< [texels] of a texel, m
 };
 
 /// Filters direct and bounced light of a sky by one filter, and bounces of lamps, as TexelLight::noise asks.

@@ -99,7 +99,7 @@ private:
         Layer layer;
         for (const TexelGroup& group : groups) {
             const bool there = k < group.samples.size();
-            task_.places.append(group.samples[there ? k : 0], there ? 1.0f : 0.0f, layer.receivers);
+            task_.positions.append(group.samples[there ? k : 0], there ? 1.0f : 0.0f, layer.receivers);
         }
         layer.indices = receivers_on_surfaces(layer.receivers);
         return layer;

@@ -5,7 +5,7 @@
 #include "prt/bake.h"
 #include "prt/tracer.h"
 #include "surface/fit_noise.h"
-#include "texels/texel_places.h"
+#include "texels/texel_positions.h"
 #include "texels/texel_transport.h"
 
 #include <span>
@@ -16,7 +16,7 @@ namespace prt {
 struct TexelTask {
     Tracer& tracer;
     const TraceScene& scene; ///< scene that is traced
-    const TexelPlaces& places;
+    const TexelPositions& positions;
     TraceOptions options;
     Inside inside = Inside::refill;
     TexelTransport* transport = nullptr; ///< null: direct light alone

@@ -94,7 +94,7 @@ std::vector<TexelSample> touched(std::span<const ChartTriangle> triangles, const
             if (std::ranges::any_of(own, [](std::uint32_t o) { return o != kNobody; }))
                 return;
             const glm::dvec2 middle = corner + 0.5, uv = nearest_in_triangle(t, middle),
-                             way = place_of(t, uv) - middle;
+                             way = position_of(t, uv) - middle;
             if (std::max(std::abs(way.x), std::abs(way.y)) > 0.5)
                 return;
             const auto number = static_cast<std::uint32_t>(texel);
@@ -104,8 +104,8 @@ std::vector<TexelSample> touched(std::span<const ChartTriangle> triangles, const
                 found->second = here;
         });
     std::vector<TexelSample> samples;
-    for (const auto& [texel, place] : nearest)
-        samples.push_back(place.second);
+    for (const auto& [texel, position] : nearest)
+        samples.push_back(position.second);
     return samples;
 }
 

@@ -34,7 +34,7 @@ int steepest_direction(const glm::dvec3& normal) {
     return best;
 }
 
-using Place = std::array<float, 3>;
+using Position = std::array<float, 3>;
 
 /// Faces that share an edge which is not sharp: [faces].
 std::vector<std::vector<std::uint32_t>> neighbours(const Scene& scene, std::span<const ChartFace> faces) {
@@ -42,20 +42,20 @@ std::vector<std::vector<std::uint32_t>> neighbours(const Scene& scene, std::span
         std::uint32_t face;
         glm::vec3 first, second; // normals
     };
-    std::map<std::pair<std::size_t, std::pair<Place, Place>>, std::vector<EdgeSide>> edges;
+    std::map<std::pair<std::size_t, std::pair<Position, Position>>, std::vector<EdgeSide>> edges;
     for (std::uint32_t f = 0; f < faces.size(); ++f) {
         const Primitive& primitive = scene.primitives[faces[f].primitive];
         const VertexArray& vertices = scene.vertex_arrays[primitive.vertices];
         const glm::uvec3& t = primitive.triangles[faces[f].triangle];
         for (int i = 0; i < 3; ++i) {
-            const auto place = [&](std::uint32_t v) {
+            const auto point = [&](std::uint32_t v) {
                 const glm::vec3& p = vertices.positions[v];
-                return Place{p.x, p.y, p.z};
+                return Position{p.x, p.y, p.z};
             };
             std::uint32_t a = t[i], b = t[(i + 1) % 3];
-            if (place(b) < place(a))
+            if (point(b) < point(a))
                 std::swap(a, b);
-            edges[{faces[f].primitive, {place(a), place(b)}}].push_back(
+            edges[{faces[f].primitive, {point(a), point(b)}}].push_back(
                 {f, vertices.normals[a], vertices.normals[b]});
         }
     }
@@ -173,16 +173,16 @@ void join_flat(std::span<const ChartFace> faces, std::span<const std::uint32_t> 
             charts.push_back({0, {flat.begin(), flat.end()}});
         return;
     }
-    const auto place = [](const glm::dvec3& corner) { return std::array{corner.x, corner.y, corner.z}; };
+    const auto point = [](const glm::dvec3& corner) { return std::array{corner.x, corner.y, corner.z}; };
     std::map<std::array<double, 3>, std::size_t> chart_at;
     for (std::size_t c = 0; c < charts.size(); ++c)
         for (const std::uint32_t f : charts[c].faces)
             for (const glm::dvec3& corner : faces[f].corners)
-                chart_at.try_emplace(place(corner), c);
+                chart_at.try_emplace(point(corner), c);
     for (const std::uint32_t f : flat) {
         std::size_t to = 0;
         for (const glm::dvec3& corner : faces[f].corners)
-            if (const auto found = chart_at.find(place(corner)); found != chart_at.end())
+            if (const auto found = chart_at.find(point(corner)); found != chart_at.end())
                 to = found->second;
         charts[to].faces.push_back(f);
     }

@@ -71,7 +71,7 @@ public:
 
 private:
     void add(const VolumeBrick& brick, const std::vector<PlacedTriangle>& triangles) {
-        if (glm::any(glm::greaterThanEqual(brick.place, grid_.size)) || grid_.bricks.size() > most_)
+        if (glm::any(glm::greaterThanEqual(brick.position, grid_.size)) || grid_.bricks.size() > most_)
             return;
         if (brick.level == 0) {
             grid_.bricks.push_back(brick);
@@ -79,19 +79,19 @@ private:
         }
         const float half = 0.5f * grid_.spacing * static_cast<float>(kBrickCells << brick.level),
                     cell = grid_.spacing * static_cast<float>(1 << brick.level);
-        const glm::vec3 middle = position_of(grid_, kBrickCells * brick.place) + half;
+        const glm::vec3 middle = position_of(grid_, kBrickCells * brick.position) + half;
         std::vector<PlacedTriangle> here;
         for (const PlacedTriangle& t : triangles)
             if (comes_into(t, middle, half + 0.5f * cell))
                 here.push_back(t);
-        const glm::ivec3 end = brick.place + (1 << brick.level);
+        const glm::ivec3 end = brick.position + (1 << brick.level);
         if (here.empty() && !glm::any(glm::greaterThan(end, grid_.size))) {
             grid_.bricks.push_back(brick);
             return;
         }
         const int step = 1 << (brick.level - 1);
         for (int i = 0; i < 8; ++i)
-            add({brick.place + step * glm::ivec3(i & 1, i >> 1 & 1, i >> 2), brick.level - 1}, here);
+            add({brick.position + step * glm::ivec3(i & 1, i >> 1 & 1, i >> 2), brick.level - 1}, here);
     }
 
     VolumeGrid grid_;

@@ -2,7 +2,7 @@
 
 #include "volume/probe_states.h"
 
-#include "volume/probe_places.h"
+#include "volume/probe_positions.h"
 
 #include <algorithm>
 #include <map>
@@ -74,13 +74,13 @@ ProbeStates measure_probes(const ProbeTask& task, const VolumeGrid& grid, const 
     for (const std::uint32_t p : missing) {
         cells.push_back({position_of(grid, probes.corners[p]), cell_of(grid, probes.levels[p])});
     }
-    const std::vector<glm::vec3> places = free_places(task.scene, cells, task.threads);
-    task.tracer.trace({places, cells, task.rays, task.seed}, progress,
-                      [&](std::size_t i, const PlaceSeen& seen) {
+    const std::vector<glm::vec3> positions = free_positions(task.scene, cells, task.threads);
+    task.tracer.trace({positions, cells, task.rays, task.seed}, progress,
+                      [&](std::size_t i, const ProbeView& seen) {
                           const std::size_t p = missing[i];
                           std::ranges::copy(seen.vectors, &states.values[p * states.stride]);
                           states.invalid[p] = seen.backs > kMaxBackShare;
-                          states.moved[p] = places[i] != cells[i].corner;
+                          states.moved[p] = positions[i] != cells[i].corner;
                           states.distances[p] = seen.distances;
                       });
     return states;

@@ -26,7 +26,7 @@ namespace prt {
 namespace {
 
 /// Number of positions at once, so that the data of hit surfaces stay in a cache.
-constexpr std::size_t kPlacesAtOnce = 128;
+constexpr std::size_t kPositionsAtOnce = 128;
 constexpr int kSides = 6;
 /// Surfaces farther than this from the corner of a cell do not hide objects in the cell.
 constexpr float kReachCells = 1.0f;
@@ -63,7 +63,7 @@ struct ProbeTracer::Space {
     VisibilityVotes visibility;
     double shut = 0, backs = 0; ///< number of rays
     std::array<float, kMaxOrder * kMaxOrder> basis{};
-    PlaceSeen seen;
+    ProbeView seen;
 };
 
 ProbeTracer::ProbeTracer(const BakePlan& plan, Tracer& tracer, BouncedSources sources, int order)
@@ -90,26 +90,26 @@ ProbeTracer::ProbeTracer(const BakePlan& plan, Tracer& tracer, BouncedSources so
 }
 
 void ProbeTracer::trace(const Task& task, const Progress& progress,
-                        const std::function<void(std::size_t, const PlaceSeen&)>& take) {
+                        const std::function<void(std::size_t, const ProbeView&)>& take) {
     rays_along_ = std::max(1, (task.rays + kSides - 1) / kSides);
     last_ = SobolChunk((rays_along_ - 1) % kChunk + 1);
-    for (std::size_t begin = 0; begin < task.places.size(); begin += kPlacesAtOnce) {
+    for (std::size_t begin = 0; begin < task.positions.size(); begin += kPositionsAtOnce) {
         progress.check();
-        trace_batch(task, begin, std::min(begin + kPlacesAtOnce, task.places.size()), take);
-        progress.update(static_cast<double>(std::min(begin + kPlacesAtOnce, task.places.size())) /
-                        static_cast<double>(task.places.size()));
+        trace_batch(task, begin, std::min(begin + kPositionsAtOnce, task.positions.size()), take);
+        progress.update(static_cast<double>(std::min(begin + kPositionsAtOnce, task.positions.size())) /
+                        static_cast<double>(task.positions.size()));
     }
 }
 
 void ProbeTracer::trace_batch(const Task& task, std::size_t begin, std::size_t end,
-                              const std::function<void(std::size_t, const PlaceSeen&)>& take) {
+                              const std::function<void(std::size_t, const ProbeView&)>& take) {
     const std::size_t count = end - begin;
     Receivers receivers;
     std::vector<std::uint32_t> indices;
     for (std::size_t p = begin; p < end; ++p)
         for (int s = 0; s < kSides; ++s) {
             indices.push_back(static_cast<std::uint32_t>(receivers.size()));
-            receivers.positions.push_back(task.places[p]);
+            receivers.positions.push_back(task.positions[p]);
             receivers.normals.push_back(side(s));
             receivers.areas.push_back(1);
             receivers.starts.emplace_back(0);
@@ -124,7 +124,7 @@ void ProbeTracer::trace_batch(const Task& task, std::size_t begin, std::size_t e
     parallel_for(count, 16, plan_.options.threads, [&](std::size_t first, std::size_t last) {
         Space space;
         for (std::size_t i = first; i < last; ++i) {
-            see({.places = task.places.subspan(begin, count),
+            see({.positions = task.positions.subspan(begin, count),
                  .cells = task.cells.empty() ? task.cells : task.cells.subspan(begin, count),
                  .seed = options.seed},
                 i, std::span(hits).subspan(i * kSides, kSides), space);
@@ -136,24 +136,24 @@ void ProbeTracer::trace_batch(const Task& task, std::size_t begin, std::size_t e
     rays_ += count * kSides * static_cast<std::size_t>(rays_along_) + of_lamps;
 }
 
-void ProbeTracer::see(const Task& task, std::size_t place, std::span<const std::vector<Hit>> hits,
+void ProbeTracer::see(const Task& task, std::size_t position, std::span<const std::vector<Hit>> hits,
                       Space& space) const {
     const std::size_t coefficients = layout_.coefficients(), direct = layout_.direct(),
                       numbers = layout_.numbers();
     if (!task.cells.empty())
-        space.visibility.begin(task.cells[place].corner - task.places[place],
-                               kReachCells * task.cells[place].width);
+        space.visibility.begin(task.cells[position].corner - task.positions[position],
+                               kReachCells * task.cells[position].width);
     space.shut = space.backs = 0;
     space.blocked.begin(coefficients, direct);
     space.all.begin(coefficients, direct);
     space.reflected.begin(coefficients, numbers - direct);
     for (const std::vector<Hit>& of_side : hits)
         for (const Hit& hit : of_side)
-            add_hit(hit, task, place, space);
+            add_hit(hit, task, position, space);
     // All directions: the unit matrix, or if most directions are blocked the sum over the same rays.
     const double rays = kSides * rays_along_;
     const bool mostly_open = 2 * space.shut <= rays;
-    add_rays(task, place, mostly_open, space);
+    add_rays(task, position, mostly_open, space);
     space.vectors.assign(coefficients * numbers, 0.0f);
     for (std::size_t o = 0; o < coefficients; ++o) {
         const std::span<const float> blocked = space.blocked.row(o), all = space.all.row(o);
@@ -165,7 +165,8 @@ void ProbeTracer::see(const Task& task, std::size_t place, std::span<const std::
     }
     space.seen = {space.vectors, static_cast<float>(space.backs / rays)};
     if (!task.cells.empty())
-        space.seen.distances = space.visibility.distances(rays, kVisibilityCells * task.cells[place].width);
+        space.seen.distances =
+            space.visibility.distances(rays, kVisibilityCells * task.cells[position].width);
 }
 
 float ProbeTracer::look(const glm::vec3& d, Space& space) const {
@@ -183,8 +184,8 @@ void ProbeTracer::add_direction(float weight, const Space& space, OuterSums& sum
     std::copy_n(space.basis.begin(), layout_.direct(), room.values.begin());
 }
 
-void ProbeTracer::add_hit(const Hit& hit, const Task& task, std::size_t place, Space& space) const {
-    const glm::vec3& from = task.places[place];
+void ProbeTracer::add_hit(const Hit& hit, const Task& task, std::size_t position, Space& space) const {
+    const glm::vec3& from = task.positions[position];
     const std::vector<glm::vec3>& positions = plan_.receivers().positions;
     const glm::uvec3& corners = plan_.scene.surfaces().corners(hit.triangle);
     const glm::vec3 way = (1 - hit.u - hit.v) * (positions[corners.x] - from) +
@@ -208,7 +209,7 @@ void ProbeTracer::add_hit(const Hit& hit, const Task& task, std::size_t place, S
 }
 
 /// Adds all rays, independent of their hits. If most directions are open the sum is not needed.
-void ProbeTracer::add_rays(const Task& task, std::size_t place, bool mostly_open, Space& space) const {
+void ProbeTracer::add_rays(const Task& task, std::size_t position, bool mostly_open, Space& space) const {
     if (mostly_open)
         return;
     for (int s = 0; s < kSides; ++s)
@@ -216,7 +217,7 @@ void ProbeTracer::add_rays(const Task& task, std::size_t place, bool mostly_open
             const int rays = std::min(kChunk, rays_along_ - first);
             generate_directions(
                 rays == kChunk ? whole_ : last_, sobol_offset(static_cast<std::uint32_t>(first)),
-                receiver_seed(static_cast<std::uint32_t>(place) * kSides + static_cast<std::uint32_t>(s),
+                receiver_seed(static_cast<std::uint32_t>(position) * kSides + static_cast<std::uint32_t>(s),
                               task.seed),
                 tangent_frame(side(s)), space.directions);
             for (std::size_t r = 0; r < static_cast<std::size_t>(rays); ++r) {
@@ -282,7 +283,7 @@ void ProbeTracer::add_reflected(const Hit& hit, float weight, Space& space) cons
     }
 }
 
-std::size_t ProbeTracer::add_lamps(const Task& task, std::size_t place, Space& space) const {
+std::size_t ProbeTracer::add_lamps(const Task& task, std::size_t position, Space& space) const {
     const std::size_t numbers = layout_.numbers(), first = layout_.sky.dimension(),
                       channels = static_cast<std::size_t>(layout_.lamps.channels()),
                       stride = layout_.lamps.dimension() / channels;
@@ -299,8 +300,8 @@ std::size_t ProbeTracer::add_lamps(const Task& task, std::size_t place, Space& s
                     space.vectors[o * numbers + first + c * stride + k] +=
                         static_cast<float>(basis[o] * irradiance[static_cast<int>(c)]);
         };
-        LampReceiver receiver{task.places[place], glm::vec3(0, 0, 1), task.places[place],
-                              receiver_seed(static_cast<std::uint32_t>(place), task.seed + k)};
+        LampReceiver receiver{task.positions[position], glm::vec3(0, 0, 1), task.positions[position],
+                              receiver_seed(static_cast<std::uint32_t>(position), task.seed + k)};
         rays += take_lights(plan_.scene, lamp, receiver, plan_.options.lamps.radius, plan_.options.lamps.rays,
                             take);
         if (shining_[k].all().empty())

@@ -35,7 +35,7 @@ struct IncidentLayout {
 };
 
 /// Light and visibility at a position.
-struct PlaceSeen {
+struct ProbeView {
     /// [coefficients][numbers] incident light of the sky, and of lamps.
     std::span<const float> vectors;
     float backs = 0; ///< share of rays that end at back faces without light
@@ -60,7 +60,7 @@ public:
     std::size_t rays() const { return rays_; }
 
     struct Task {
-        std::span<const glm::vec3> places;
+        std::span<const glm::vec3> positions;
         /// [places] cells of probes, for visibility distances; empty: they are not needed.
         std::span<const ProbeCell> cells = {};
         int rays = 1024; ///< approximate number of rays per position
@@ -68,21 +68,22 @@ public:
     };
     /// Calls `take` for each position, from several threads.
     void trace(const Task& task, const Progress& progress,
-               const std::function<void(std::size_t place, const PlaceSeen& seen)>& take);
+               const std::function<void(std::size_t position, const ProbeView& seen)>& take);
 
 private:
     struct Space;
     void trace_batch(const Task& task, std::size_t begin, std::size_t end,
-                     const std::function<void(std::size_t, const PlaceSeen&)>& take);
-    void see(const Task& task, std::size_t place, std::span<const std::vector<Hit>> hits, Space& space) const;
+                     const std::function<void(std::size_t, const ProbeView&)>& take);
+    void see(const Task& task, std::size_t position, std::span<const std::vector<Hit>> hits,
+             Space& space) const;
     /// Evaluates the basis in unit direction `d`; returns the solid angle that a ray represents.
     float look(const glm::vec3& d, Space& space) const;
     void add_direction(float weight, const Space& space, OuterSums& sums) const;
-    void add_hit(const Hit& hit, const Task& task, std::size_t place, Space& space) const;
-    void add_rays(const Task& task, std::size_t place, bool mostly_open, Space& space) const;
+    void add_hit(const Hit& hit, const Task& task, std::size_t position, Space& space) const;
+    void add_rays(const Task& task, std::size_t position, bool mostly_open, Space& space) const;
     void add_reflected(const Hit& hit, float weight, Space& space) const;
     void mix_reflected(const Hit& hit, std::span<float> to) const;
-    std::size_t add_lamps(const Task& task, std::size_t place, Space& space) const;
+    std::size_t add_lamps(const Task& task, std::size_t position, Space& space) const;
 
     const BakePlan& plan_;
     Tracer& tracer_;

@@ -17,7 +17,7 @@ VolumeGrid with_levels_raised(VolumeGrid grid, int levels) {
     grid.spacing /= static_cast<float>(1 << levels);
     grid.size *= 1 << levels;
     for (VolumeBrick& brick : grid.bricks) {
-        brick.place *= 1 << levels;
+        brick.position *= 1 << levels;
         brick.level += levels;
     }
     return grid;
@@ -46,7 +46,7 @@ VolumeGrid without_unused_levels(VolumeGrid grid) {
     grid.spacing *= static_cast<float>(1 << levels);
     grid.size /= 1 << levels;
     for (VolumeBrick& brick : grid.bricks) {
-        brick.place /= 1 << levels;
+        brick.position /= 1 << levels;
         brick.level -= levels;
     }
     return grid;
@@ -64,7 +64,7 @@ VolumeGrid with_split_bricks(const VolumeGrid& grid, const std::vector<bool>& sp
         const int step = 1 << (brick.level - 1);
         for (int i = 0; i < 8; ++i)
             finer.bricks.push_back(
-                {brick.place + step * glm::ivec3(i & 1, i >> 1 & 1, i >> 2), brick.level - 1});
+                {brick.position + step * glm::ivec3(i & 1, i >> 1 & 1, i >> 2), brick.level - 1});
     }
     return finer;
 }

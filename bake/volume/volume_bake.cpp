@@ -102,7 +102,7 @@ std::size_t max_bricks(const VolumeOptions& volume, std::size_t numbers, double 
 /// Points spread over the cells of a volume, with an equal number in each brick; points outside of its bounds
 /// are omitted.
 struct PointsBetween {
-    std::vector<glm::vec3> places;
+    std::vector<glm::vec3> positions;
     std::vector<std::uint32_t> bricks; ///< brick of each point, in ascending order
 };
 
@@ -116,12 +116,12 @@ PointsBetween points_between(const VolumeGrid& grid, const Bounds& bounds, doubl
         const VolumeBrick& brick = grid.bricks[b];
         owed += each * kBrickCells * kBrickCells * kBrickCells;
         const float side = grid.spacing * static_cast<float>(kBrickCells << brick.level);
-        const glm::vec3 least = position_of(grid, kBrickCells * brick.place);
+        const glm::vec3 least = position_of(grid, kBrickCells * brick.position);
         for (; owed >= 1; owed -= 1) {
             const float x = unit(random), y = unit(random), z = unit(random);
             const glm::vec3 point = least + side * glm::vec3(x, y, z);
             if (glm::clamp(point, bounds.low, bounds.high) == point) {
-                points.places.push_back(point);
+                points.positions.push_back(point);
                 points.bricks.push_back(b);
             }
         }
@@ -180,14 +180,14 @@ public:
         return std::move(result_);
     }
 
-    PlacedLight at(std::span<const glm::vec3> places, const Progress& progress) {
+    PlacedLight at(std::span<const glm::vec3> positions, const Progress& progress) {
         ProbeTracer tracer = probe_tracer(progress.range(0, 0.4));
         const std::size_t stride = tracer.layout().coefficients() * tracer.layout().numbers();
-        std::vector<float> values(places.size() * stride);
+        std::vector<float> values(positions.size() * stride);
         PlacedLight light;
-        light.backs.resize(places.size());
-        const ProbeTracer::Task task{.places = places, .rays = options_.rays, .seed = options_.seed};
-        tracer.trace(task, progress.range(0.4, 1), [&](std::size_t p, const PlaceSeen& seen) {
+        light.backs.resize(positions.size());
+        const ProbeTracer::Task task{.positions = positions, .rays = options_.rays, .seed = options_.seed};
+        tracer.trace(task, progress.range(0.4, 1), [&](std::size_t p, const ProbeView& seen) {
             std::ranges::copy(seen.vectors, &values[p * stride]);
             light.backs[p] = seen.backs;
         });
@@ -237,17 +237,17 @@ private:
         const PointsBetween points = points_between(grid, volume_bounds(scene_, volume_), kSurveyed,
                                                     options_.seed + static_cast<std::uint64_t>(round));
         const LightError error_of(tracer.layout());
-        std::vector<BrickError> of_points(points.places.size());
-        for (std::size_t begin = 0; begin < points.places.size(); begin += kPointsAtOnce) {
-            const std::size_t count = std::min(kPointsAtOnce, points.places.size() - begin);
+        std::vector<BrickError> of_points(points.positions.size());
+        for (std::size_t begin = 0; begin < points.positions.size(); begin += kPointsAtOnce) {
+            const std::size_t count = std::min(kPointsAtOnce, points.positions.size() - begin);
             const PointsSeen seen =
-                see_twice(tracer, std::span(points.places).subspan(begin, count),
+                see_twice(tracer, std::span(points.positions).subspan(begin, count),
                           options_.seed + static_cast<std::uint64_t>(round) * kSecondScramble + begin);
             parallel_for(count, 16, options_.threads, [&](std::size_t first, std::size_t last) {
                 for (std::size_t p = first; p < last; ++p)
                     if (seen.free[p])
                         of_points[begin + p] =
-                            error_of(lookup.find(points.places[begin + p]), states, seen.of(p));
+                            error_of(lookup.find(points.positions[begin + p]), states, seen.of(p));
             });
         }
         std::vector<BrickError> errors(grid.bricks.size());
@@ -270,15 +270,15 @@ private:
         }
     };
 
-    PointsSeen see_twice(ProbeTracer& tracer, std::span<const glm::vec3> places, std::uint64_t seed) {
+    PointsSeen see_twice(ProbeTracer& tracer, std::span<const glm::vec3> positions, std::uint64_t seed) {
         PointsSeen points{tracer.layout().coefficients() * tracer.layout().numbers(), {}, {}};
-        points.free.assign(places.size(), 1);
+        points.free.assign(positions.size(), 1);
         for (std::size_t half = 0; half < 2; ++half) {
-            points.vectors[half].resize(places.size() * points.stride);
-            const ProbeTracer::Task task{.places = places,
+            points.vectors[half].resize(positions.size() * points.stride);
+            const ProbeTracer::Task task{.positions = positions,
                                          .rays = (rays_of_probe(volume_, options_) + 1) / 2,
                                          .seed = seed ^ (half << 40)};
-            tracer.trace(task, {}, [&](std::size_t p, const PlaceSeen& seen) {
+            tracer.trace(task, {}, [&](std::size_t p, const ProbeView& seen) {
                 std::ranges::copy(seen.vectors, &points.vectors[half][p * points.stride]);
                 if (seen.backs > kMaxBackShare)
                     points.free[p] = 0;
@@ -303,13 +303,14 @@ private:
     void fit(ProbeTracer& tracer, const ProbeVectors& vectors, const Progress& progress) {
         const VolumeGrid& grid = result_.volume.grid;
         const VolumeLookup lookup(grid, result_.volume.visibility);
-        const std::vector<glm::vec3> places =
-            points_between(grid, volume_bounds(scene_, volume_), *volume_.fit_points, options_.seed).places;
+        const std::vector<glm::vec3> positions =
+            points_between(grid, volume_bounds(scene_, volume_), *volume_.fit_points, options_.seed)
+                .positions;
         ProbeFit probe_fit(grid, lookup.probes(), vectors.stride);
-        for (std::size_t begin = 0; begin < places.size(); begin += kPointsAtOnce) {
-            const std::size_t count = std::min(kPointsAtOnce, places.size() - begin);
-            add_points(tracer, lookup, std::span(places).subspan(begin, count), begin, probe_fit);
-            progress.update(0.7 * static_cast<double>(begin + count) / static_cast<double>(places.size()));
+        for (std::size_t begin = 0; begin < positions.size(); begin += kPointsAtOnce) {
+            const std::size_t count = std::min(kPointsAtOnce, positions.size() - begin);
+            add_points(tracer, lookup, std::span(positions).subspan(begin, count), begin, probe_fit);
+            progress.update(0.7 * static_cast<double>(begin + count) / static_cast<double>(positions.size()));
         }
         const ProbeFit::Errors errors = probe_fit.solve(vectors, options_.threads, progress.range(0.7, 1));
         settle_hanging(grid, lookup.probes(), vectors);
@@ -321,24 +322,24 @@ private:
     }
 
     /// Measures points; `first` is the index of the first one.
-    void add_points(ProbeTracer& tracer, const VolumeLookup& lookup, std::span<const glm::vec3> places,
+    void add_points(ProbeTracer& tracer, const VolumeLookup& lookup, std::span<const glm::vec3> positions,
                     std::size_t first, ProbeFit& probe_fit) {
         const std::size_t stride = tracer.layout().coefficients() * tracer.layout().numbers();
-        std::vector<float> values(places.size() * stride);
-        std::vector<char> kept(places.size());
-        tracer.trace({.places = places,
+        std::vector<float> values(positions.size() * stride);
+        std::vector<char> kept(positions.size());
+        tracer.trace({.positions = positions,
                       .rays = rays_of_point(volume_, options_),
                       .seed = options_.seed + kSecondScramble + first},
-                     {}, [&](std::size_t p, const PlaceSeen& seen) {
+                     {}, [&](std::size_t p, const ProbeView& seen) {
                          std::ranges::copy(seen.vectors, &values[p * stride]);
                          kept[p] = seen.backs <= kMaxBackShare;
                      });
         std::vector<VolumeCorners> corners;
-        for (std::size_t p = 0; p < places.size(); ++p) {
+        for (std::size_t p = 0; p < positions.size(); ++p) {
             if (!kept[p])
                 continue;
             std::copy_n(&values[p * stride], stride, &values[corners.size() * stride]);
-            corners.push_back(lookup.find(places[p]));
+            corners.push_back(lookup.find(positions[p]));
         }
         probe_fit.add(corners, std::span(values).first(corners.size() * stride), options_.threads);
     }
@@ -384,11 +385,11 @@ VolumeBake bake_volume(const Scene& scene, const VolumeOptions& volume, const Ba
     return VolumeBaker(scene, volume, options).run(progress);
 }
 
-PlacedLight bake_places(const Scene& scene, std::span<const glm::vec3> places, int order,
-                        const BakeOptions& options, const Progress& progress) {
+PlacedLight bake_positions(const Scene& scene, std::span<const glm::vec3> positions, int order,
+                           const BakeOptions& options, const Progress& progress) {
     const VolumeOptions volume{.order = order};
     check_volume_options(volume, options);
-    return VolumeBaker(scene, volume, options).at(places, progress);
+    return VolumeBaker(scene, volume, options).at(positions, progress);
 }
 
 } // namespace prt

@@ -39,9 +39,9 @@ GpuQueue::Ticket GpuQueue::submit(const std::function<void(const vk::raii::Comma
     const Ticket ticket = last_ + 1;
     if (ticket > kAtOnce)
         wait(ticket - kAtOnce);
-    const std::size_t place = ticket % kAtOnce;
-    const vk::raii::CommandBuffer& commands = commands_[place];
-    const auto first_clock = static_cast<std::uint32_t>(2 * place);
+    const std::size_t position = ticket % kAtOnce;
+    const vk::raii::CommandBuffer& commands = commands_[position];
+    const auto first_clock = static_cast<std::uint32_t>(2 * position);
     const bool clocked = device_.traits().clock_seconds > 0;
     commands.begin({vk::CommandBufferUsageFlagBits::eOneTimeSubmit});
     if (clocked) {

@@ -261,7 +261,7 @@ void run(AoArguments a, Session& session) {
     publish(report, a.json, session);
 }
 
-void add_places(CLI::App* command, AoArguments& a) {
+void add_positions(CLI::App* command, AoArguments& a) {
     const TexelSizeOptions in = add_texels(command, a.textures, "into textures instead of vertices");
     command
         ->add_option(
@@ -310,7 +310,7 @@ void add_ao(CLI::App& app, Session& session) {
         arguments_for<AoArguments>(command, [&session](const AoArguments& given) { run(given, session); });
     command->add_option("scene", a.scene, "glTF 2.0 scene, .gltf or .glb")->required()->check(named);
     add_output(command, a.output, "model to write, .glb");
-    add_places(command, a);
+    add_positions(command, a);
     add_falloff(command, a.options.tracer.falloff);
     command
         ->add_option("--rays", a.rays,

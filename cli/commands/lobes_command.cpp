@@ -45,15 +45,15 @@ void check_weights(const AnimatedScene& model) {
 
 /// Whether some vertex lies elsewhere in some pose than in the first.
 bool moves(const AnimatedScene& model, std::span<const ModelPose> poses) {
-    const auto places = [&](const ModelPose& pose) {
+    const auto points = [&](const ModelPose& pose) {
         std::vector<std::vector<glm::vec3>> arrays;
         for (VertexArray& vertices : model.posed(pose.nodes, glm::dmat4(1)).vertex_arrays)
             arrays.push_back(std::move(vertices.positions));
         return arrays;
     };
-    const auto first = places(poses.front());
+    const auto first = points(poses.front());
     return std::ranges::any_of(poses.subspan(1),
-                               [&](const ModelPose& pose) { return places(pose) != first; });
+                               [&](const ModelPose& pose) { return points(pose) != first; });
 }
 
 /// Returns the mean square of lighting in each band, over all orientations.

@@ -21,16 +21,16 @@ public:
 
     std::size_t size() const { return blocks_.size(); }
     MemberBlock operator[](std::size_t b) const {
-        const Place& place = blocks_[b];
-        return {place.cluster, std::span(points_).subspan(place.first, place.count)};
+        const Position& position = blocks_[b];
+        return {position.cluster, std::span(points_).subspan(position.first, position.count)};
     }
 
 private:
-    struct Place {
+    struct Position {
         std::uint32_t cluster, first, count;
     };
     std::vector<std::uint32_t> points_; ///< sorted by cluster, then ascending
-    std::vector<Place> blocks_;
+    std::vector<Position> blocks_;
 };
 
 /// Calls `visit(member_block, block)` for all points, grouped by cluster; `block` is [width][kLanes], as in

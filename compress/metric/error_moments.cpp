@@ -180,7 +180,7 @@ private:
 
 /// Returns the position of the maximum of `f` in [low, high] by golden section search; of a local one if
 /// there are several.
-double place_of_maximum(auto&& f, double low, double high) {
+double position_of_maximum(auto&& f, double low, double high) {
     constexpr double kGolden = 0.6180339887498949;
     double a = high - kGolden * (high - low), b = low + kGolden * (high - low);
     double at_a = f(a), at_b = f(b);
@@ -265,7 +265,7 @@ LitRmsOverTurns lit_rms_over_turns(const ErrorMoments& moments, const Lighting& 
     for (int k = 1; k < 32 * order; ++k)
         if (at(k * step) > at(best * step))
             best = k;
-    result.worst_angle = place_of_maximum(at, (best - 1) * step, (best + 1) * step);
+    result.worst_angle = position_of_maximum(at, (best - 1) * step, (best + 1) * step);
     result.worst = at(result.worst_angle);
     return result;
 }

@@ -80,8 +80,8 @@ ExampleScene forest(int trees) {
     Chance chance(1789);
     const float width = kPitch * static_cast<float>(columns), depth = kPitch * static_cast<float>(rows);
     for (int i = 0; i < trees; ++i) {
-        const auto jittered = [&](int place) {
-            return kPitch * (static_cast<float>(place) + 0.5f + chance.between(-0.28f, 0.28f));
+        const auto jittered = [&](int position) {
+            return kPitch * (static_cast<float>(position) + 0.5f + chance.between(-0.28f, 0.28f));
         };
         const float x = jittered(i % columns) - 0.5f * width, z = jittered(i / columns) - 0.5f * depth;
         const auto kind = static_cast<std::size_t>(chance.between(0, 2.999f));

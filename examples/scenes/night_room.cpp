@@ -21,14 +21,14 @@ constexpr glm::vec3 kWarm(1, 0.72f, 0.42f);
 constexpr glm::vec3 kBulb(0);
 
 /// A bell of sheet metal under a cord, open below; the bulb looks out of it.
-void add_ceiling_lamp(Fixtures& to, const glm::vec3& place) {
-    append(to.brass, bar(place + glm::vec3(0, 0.3f, 0), place + glm::vec3(0, 1.3f, 0), 0.012f));
-    append(to.brass, lathe(place, {{0.36f, 0}, {0.3f, 0.12f}, {0.14f, 0.24f}, {0.03f, 0.3f}}, 32));
+void add_ceiling_lamp(Fixtures& to, const glm::vec3& position) {
+    append(to.brass, bar(position + glm::vec3(0, 0.3f, 0), position + glm::vec3(0, 1.3f, 0), 0.012f));
+    append(to.brass, lathe(position, {{0.36f, 0}, {0.3f, 0.12f}, {0.14f, 0.24f}, {0.03f, 0.3f}}, 32));
     append(to.brass,
-           lathe(place, {{0.02f, 0.29f}, {0.13f, 0.225f}, {0.29f, 0.11f}, {0.355f, 0}}, 32)); // its inside
-    append(to.bulbs, sphere(place + glm::vec3(0, 0.1f, 0), 0.07f, 20));
+           lathe(position, {{0.02f, 0.29f}, {0.13f, 0.225f}, {0.29f, 0.11f}, {0.355f, 0}}, 32)); // its inside
+    append(to.bulbs, sphere(position + glm::vec3(0, 0.1f, 0), 0.07f, 20));
     to.lamps.push_back(
-        {"LampCeiling", place + glm::vec3(0, 0.02f, 0), kWarm, 16, 12, {0, -1, 0}, 0.6f, 1.15f});
+        {"LampCeiling", position + glm::vec3(0, 0.02f, 0), kWarm, 16, 12, {0, -1, 0}, 0.6f, 1.15f});
 }
 
 /// Adds an emissive cloth shade on a turned foot, on a round table.

@@ -87,9 +87,9 @@ ExampleScene street(int houses) {
     const int along = (houses + 1) / 2;
     for (int i = 0; i < houses; ++i) {
         const auto kind = static_cast<std::size_t>(chance.between(0, 4.999f));
-        const int place = i / 2; // on either side
+        const int position = i / 2; // on either side
         const float gap = chance.between(1.5f, 4),
-                    x = (static_cast<float>(place) - 0.5f * static_cast<float>(along - 1)) *
+                    x = (static_cast<float>(position) - 0.5f * static_cast<float>(along - 1)) *
                             (kHouseWidth + 2.9f) +
                         0.2f * gap;
         const float z =

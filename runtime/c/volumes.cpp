@@ -50,14 +50,14 @@ std::span<const glm::vec4> checked_constants(const prt_volume& volume, const flo
     return {reinterpret_cast<const glm::vec4*>(constants), volume.relighter.rows()};
 }
 
-/// Interpolates the coefficients at `place`.
-void mix(const prt_volume& volume, const float* incident, const prt_volume_place& place,
+/// Interpolates the coefficients at `point`.
+void mix(const prt_volume& volume, const float* incident, const prt_volume_position& point,
          std::span<glm::vec3> light) {
-    if (!finite(place.position, 3) || !finite(place.normal, 3))
+    if (!finite(point.position, 3) || !finite(point.normal, 3))
         throw Error("a position and a normal must be finite");
     const std::size_t n = volume.coefficients();
     const prt::VolumeCorners corners =
-        volume.lookup.find(glm::make_vec3(place.position), glm::make_vec3(place.normal));
+        volume.lookup.find(glm::make_vec3(point.position), glm::make_vec3(point.normal));
     for (const std::uint32_t probe : corners.probes)
         if (!within(kMaxConstant, incident + 3 * n * probe, 3 * n))
             throw Error("the light of probes must be finite and at most 1e30");
@@ -164,25 +164,26 @@ prt_status prt_volume_evaluate(const prt_volume* volume, const float* constants,
     });
 }
 
-prt_status prt_volume_incident(const prt_volume* volume, const float* incident, const prt_volume_place* place,
-                               float* light, prt_message* message) {
+prt_status prt_volume_incident(const prt_volume* volume, const float* incident,
+                               const prt_volume_position* point, float* light, prt_message* message) {
     return guarded(message, [&] {
-        check_pointers(volume, incident, place, light);
-        mix(*volume, incident, *place, {colors(light), volume->coefficients()});
+        check_pointers(volume, incident, point, light);
+        mix(*volume, incident, *point, {colors(light), volume->coefficients()});
     });
 }
 
 prt_status prt_volume_irradiance(const prt_volume* volume, const float* incident,
-                                 const prt_volume_place* place, float irradiance[3], prt_message* message) {
+                                 const prt_volume_position* point, float irradiance[3],
+                                 prt_message* message) {
     return guarded(message, [&] {
-        check_pointers(volume, incident, place, irradiance);
+        check_pointers(volume, incident, point, irradiance);
         std::array<glm::vec3, prt::kMaxIncidentOrder * prt::kMaxIncidentOrder> mixed;
         const std::span<glm::vec3> light = std::span(mixed).first(volume->coefficients());
-        mix(*volume, incident, *place, light);
-        const double length = glm::length(glm::dvec3(glm::make_vec3(place->normal)));
+        mix(*volume, incident, *point, light);
+        const double length = glm::length(glm::dvec3(glm::make_vec3(point->normal)));
         if (!(length > 0.99 && length < 1.01))
             throw Error("irradiance is that of a surface: its normal must be of length 1");
-        const glm::vec3 found = prt::irradiance_of(light, glm::make_vec3(place->normal));
+        const glm::vec3 found = prt::irradiance_of(light, glm::make_vec3(point->normal));
         std::copy_n(glm::value_ptr(found), 3, irradiance);
     });
 }

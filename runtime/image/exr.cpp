@@ -131,7 +131,7 @@ void convert_primaries(Image& image, const Imf::Chromaticities& from) {
 
 /// Places pixels that are a crop of a 2:1 picture, or extend beyond it, at their position in the picture; the
 /// rest is black.
-void place_in_display(ExrFile& file, const Imf::Header& header, std::size_t file_bytes) {
+void position_in_display(ExrFile& file, const Imf::Header& header, std::size_t file_bytes) {
     const Imath::Box2i &data = header.dataWindow(), &display = header.displayWindow();
     const std::int64_t width = std::int64_t{display.max.x} - display.min.x + 1,
                        height = std::int64_t{display.max.y} - display.min.y + 1;
@@ -167,7 +167,7 @@ void apply_header(ExrFile& result, const Imf::Header& header, std::size_t file_b
             throw Error("its attribute envmap has the unknown value " + std::to_string(envmap));
         result.layout = envmap == Imf::ENVMAP_CUBE ? EnvironmentLayout::cube : EnvironmentLayout::lat_long;
     }
-    place_in_display(result, header, file_bytes);
+    position_in_display(result, header, file_bytes);
 }
 
 ExrFile read_parts(std::span<const std::byte> bytes, const std::string& wanted) {

@@ -36,13 +36,13 @@ BilinearTexels LightmapLookup::filter(std::uint32_t triangle, const glm::vec2& b
                                             first_triangles_.begin()) -
                    1;
     const Primitive& primitive = scene_.primitives[p];
-    const LightmapPlace& place = layout_.places[p];
+    const LightmapPlacement& position = layout_.positions[p];
     const std::vector<glm::vec2>& uv =
-        scene_.vertex_arrays[primitive.vertices].texcoords[static_cast<std::size_t>(place.texcoord)];
+        scene_.vertex_arrays[primitive.vertices].texcoords[static_cast<std::size_t>(position.texcoord)];
     const glm::uvec3& t = primitive.triangles[triangle - first_triangles_[p]];
     const glm::vec2 at =
         uv[t.x] * (1 - barycentrics.x - barycentrics.y) + uv[t.y] * barycentrics.x + uv[t.z] * barycentrics.y;
-    return filter_at(layout_.maps[place.map], first_texels_[place.map], at);
+    return filter_at(layout_.maps[position.map], first_texels_[position.map], at);
 }
 
 glm::vec3 LightmapLookup::look_up(std::uint32_t triangle, const glm::vec2& barycentrics,
@@ -55,12 +55,12 @@ std::vector<glm::vec3> at_vertices(const Scene& scene, const LightmapLayout& lay
     std::vector<glm::vec3> result(scene.receivers());
     const std::vector<std::size_t> first = layout.first_texels();
     for (std::size_t p = 0; p < scene.primitives.size(); ++p) {
-        const LightmapPlace& place = layout.places[p];
+        const LightmapPlacement& position = layout.positions[p];
         const VertexArray& vertices = scene.vertex_arrays[scene.primitives[p].vertices];
-        const auto& uv = vertices.texcoords[static_cast<std::size_t>(place.texcoord)];
+        const auto& uv = vertices.texcoords[static_cast<std::size_t>(position.texcoord)];
         for (std::size_t v = 0; v < vertices.size(); ++v)
             result[vertices.first_receiver + v] =
-                mean(filter_at(layout.maps[place.map], first[place.map], uv[v]), values);
+                mean(filter_at(layout.maps[position.map], first[position.map], uv[v]), values);
     }
     return result;
 }

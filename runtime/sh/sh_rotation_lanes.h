@@ -23,7 +23,7 @@ struct Sides {
     Bands at[2][kDegrees];
 };
 
-constexpr std::size_t place_in_band(std::size_t l, bool minus, std::size_t k) {
+constexpr std::size_t row_in_band(std::size_t l, bool minus, std::size_t k) {
     return minus ? k : 2 * l - k;
 }
 
@@ -33,7 +33,7 @@ constexpr double lane_factor(std::size_t l, bool to_minus, std::size_t to, bool 
                              std::size_t from) {
     if (to > l || from > l || (to_minus && to == l) || (from_minus && from == l))
         return 0;
-    const std::size_t row = place_in_band(l, to_minus, to), column = place_in_band(l, from_minus, from);
+    const std::size_t row = row_in_band(l, to_minus, to), column = row_in_band(l, from_minus, from);
     return Inverse ? kQuarterTurn.at(l, column, row) : kQuarterTurn.at(l, row, column);
 }
 
@@ -78,7 +78,7 @@ template <class Real>
 #pragma GCC unroll 6
     for (std::size_t k = 0; k < kDegrees; ++k) {
         const auto from = [&](std::size_t l, bool minus) __attribute__((always_inline)) {
-            return k <= l ? in[l * l + place_in_band(l, minus, k)] : Real(0);
+            return k <= l ? in[l * l + row_in_band(l, minus, k)] : Real(0);
         };
         c.at[0][k] = __builtin_convertvector(
             (Four{from(2, false), from(3, false), from(4, false), from(5, false)}), Bands);
@@ -100,9 +100,9 @@ template <class Real>
         for (std::size_t lane = 0; lane < kLanes; ++lane) {
             const std::size_t l = kFirstLane + lane;
             if (k < l)
-                out[l * l + place_in_band(l, true, k)] = minus[lane];
+                out[l * l + row_in_band(l, true, k)] = minus[lane];
             if (k <= l)
-                out[l * l + place_in_band(l, false, k)] = plus[lane];
+                out[l * l + row_in_band(l, false, k)] = plus[lane];
         }
     }
 }

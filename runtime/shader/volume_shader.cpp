@@ -15,7 +15,7 @@ std::string volume_defines(const CompressedVolume& volume, VolumeFormat format, 
            define("PRT_VOLUME_SPACING", glsl_number(static_cast<double>(grid.spacing))) +
            define("PRT_VOLUME_SIZE", glsl_vector(grid.size)) +
            define("PRT_VOLUME_FIRST",
-                  "ivec4(" + glsl_vector(first.place) + ", " + std::to_string(first.level) + ")") +
+                  "ivec4(" + glsl_vector(first.position) + ", " + std::to_string(first.level) + ")") +
            define("PRT_VOLUME_BRICKS", glsl_vector(atlas_of(grid, volume.order).bricks));
 }
 

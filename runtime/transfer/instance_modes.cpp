@@ -196,7 +196,7 @@ void expand_instance(const SharedTransfer& shared, const PlacedInstance& instanc
     const ShRotation turn(shared.layout().order, instance.rotation);
     for (std::size_t r = 0; r < shared.receivers(); ++r) {
         const std::span<float> vector = vectors.subspan(r * dimension, dimension);
-        shared.sum(r, mode_factors(factors, instance.box.place_of(positions[r])), vector);
+        shared.sum(r, mode_factors(factors, instance.box.position_of(positions[r])), vector);
         for (std::size_t first = 0; first < dimension; first += count)
             turn.apply(vector.subspan(first, count), vector.subspan(first, count));
     }

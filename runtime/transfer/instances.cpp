@@ -134,10 +134,10 @@ InstanceBox box_round(std::span<const glm::vec3> positions) {
     return {0.5f * (low + high), glm::max(half, glm::vec3(1e-3f * widest))}; // minimum size for flat meshes
 }
 
-std::array<glm::vec3, kInstanceModes> mode_factors(const InstanceFactors& factors, const glm::vec3& place) {
+std::array<glm::vec3, kInstanceModes> mode_factors(const InstanceFactors& factors, const glm::vec3& point) {
     std::array<glm::vec3, kInstanceModes> result;
     for (std::size_t m = 0; m < kPassingModes; ++m)
-        result[m] = glm::vec3(glm::dot(factors.passing[m], glm::vec4(place, 1)));
+        result[m] = glm::vec3(glm::dot(factors.passing[m], glm::vec4(point, 1)));
     std::ranges::copy(factors.added, result.begin() + kPassingModes);
     return result;
 }
@@ -178,9 +178,9 @@ InstanceTurns instance_turns(std::span<const glm::dmat3> rotations, int bins, do
     return turns;
 }
 
-glm::vec3 exit_radiance(const InstanceFactors& factors, const glm::vec3& place,
+glm::vec3 exit_radiance(const InstanceFactors& factors, const glm::vec3& point,
                         std::span<const glm::vec3, kInstanceModes> of_modes) {
-    const std::array<glm::vec3, kInstanceModes> weights = mode_factors(factors, place);
+    const std::array<glm::vec3, kInstanceModes> weights = mode_factors(factors, point);
     glm::vec3 radiance(0);
     for (std::size_t m = 0; m < kInstanceModes; ++m)
         radiance += weights[m] * of_modes[m];

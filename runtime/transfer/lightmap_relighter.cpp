@@ -74,7 +74,7 @@ void LightmapRelighter::update_rows(std::size_t map, std::span<const glm::vec4> 
     const std::size_t size = bytes_per_texel(format_);
     const LightmapLevel& level = levels_[map][0];
     const LightmapLevel* const half = levels_[map].size() > 1 ? &levels_[map][1] : nullptr;
-    const auto place = [&](const LightmapLevel& in, int x, int y) {
+    const auto position = [&](const LightmapLevel& in, int x, int y) {
         return texels.data() + in.first +
                (static_cast<std::size_t>(y) * static_cast<std::size_t>(in.width) +
                 static_cast<std::size_t>(x)) *
@@ -91,14 +91,14 @@ void LightmapRelighter::update_rows(std::size_t map, std::span<const glm::vec4> 
                     static_cast<std::size_t>(x);
                 evaluate_range(lightmap_.compressed.transfer.receivers, clusters_.data(), constants.data(),
                                begin, begin + static_cast<std::size_t>(count), rows[r]);
-                write_row(format_, rows[r], count, place(level, x, y + r));
+                write_row(format_, rows[r], count, position(level, x, y + r));
             }
             const bool is_there = half && y / 2 < half->height && (x == 0 || x / 2 < half->width);
             if (!is_there)
                 continue;
             halve(rows[0], rows[height - 1], count, means);
             write_row(format_, means, std::min(std::max(1, count / 2), half->width - x / 2),
-                      place(*half, x / 2, y / 2));
+                      position(*half, x / 2, y / 2));
         }
 }
 

@@ -120,9 +120,9 @@ PlacedOccluder placed(const OcclusionVolume& volume, const glm::mat4& to_world, 
 }
 
 BlockedCap blocked_at(const OcclusionVolume& volume, const PlacedOccluder& where, const glm::vec3& position) {
-    const glm::vec4 place(position, 1);
-    const glm::vec3 q(glm::dot(where.to_box[0], place), glm::dot(where.to_box[1], place),
-                      glm::dot(where.to_box[2], place));
+    const glm::vec4 point(position, 1);
+    const glm::vec3 q(glm::dot(where.to_box[0], point), glm::dot(where.to_box[1], point),
+                      glm::dot(where.to_box[2], point));
     const float distance = glm::length(q);
     if (!(distance < where.half.w))
         return {};

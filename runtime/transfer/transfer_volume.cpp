@@ -19,20 +19,20 @@
 namespace prt {
 namespace {
 
-std::size_t entry_of(const VolumeGrid& grid, const glm::ivec3& place) {
-    return (static_cast<std::size_t>(place.z) * static_cast<std::size_t>(grid.size.y) +
-            static_cast<std::size_t>(place.y)) *
+std::size_t entry_of(const VolumeGrid& grid, const glm::ivec3& point) {
+    return (static_cast<std::size_t>(point.z) * static_cast<std::size_t>(grid.size.y) +
+            static_cast<std::size_t>(point.y)) *
                static_cast<std::size_t>(grid.size.x) +
-           static_cast<std::size_t>(place.x);
+           static_cast<std::size_t>(point.x);
 }
 
 /// Calls `visit` with the index of every finest brick that `brick` covers inside the box.
 template <class Visit>
 void for_each_entry(const VolumeGrid& grid, const VolumeBrick& brick, Visit&& visit) {
-    const glm::ivec3 end = glm::min(brick.place + (1 << brick.level), grid.size);
-    for (int z = brick.place.z; z < end.z; ++z)
-        for (int y = brick.place.y; y < end.y; ++y)
-            for (int x = brick.place.x; x < end.x; ++x)
+    const glm::ivec3 end = glm::min(brick.position + (1 << brick.level), grid.size);
+    for (int z = brick.position.z; z < end.z; ++z)
+        for (int y = brick.position.y; y < end.y; ++y)
+            for (int x = brick.position.x; x < end.x; ++x)
                 visit(entry_of(grid, {x, y, z}));
 }
 
@@ -53,9 +53,9 @@ std::vector<std::uint32_t> index_of(const VolumeGrid& grid) {
 /// Returns corner `i` of a brick, in finest cells.
 glm::ivec3 corner_of(const VolumeBrick& brick, std::size_t i) {
     const auto n = static_cast<int>(i);
-    return kBrickCells * brick.place + (1 << brick.level) * glm::ivec3(n % kBrickSide,
-                                                                       n / kBrickSide % kBrickSide,
-                                                                       n / (kBrickSide * kBrickSide));
+    return kBrickCells * brick.position + (1 << brick.level) * glm::ivec3(n % kBrickSide,
+                                                                          n / kBrickSide % kBrickSide,
+                                                                          n / (kBrickSide * kBrickSide));
 }
 
 struct LessCorner {
@@ -77,10 +77,10 @@ Coarsest coarsest_around(const VolumeGrid& grid, std::span<const std::uint32_t> 
         const glm::ivec3 inside = corner - glm::ivec3(i & 1, i >> 1 & 1, i >> 2); // an adjacent cell
         if (glm::any(glm::lessThan(inside, glm::ivec3(0))))
             continue;
-        const glm::ivec3 place = inside / kBrickCells;
-        if (glm::any(glm::greaterThanEqual(place, grid.size)))
+        const glm::ivec3 point = inside / kBrickCells;
+        if (glm::any(glm::greaterThanEqual(point, grid.size)))
             continue;
-        const std::uint32_t b = index[entry_of(grid, place)];
+        const std::uint32_t b = index[entry_of(grid, point)];
         if (b != VolumeLookup::kNoBrick && grid.bricks[b].level > found.level)
             found = {b, grid.bricks[b].level};
     }
@@ -88,7 +88,7 @@ Coarsest coarsest_around(const VolumeGrid& grid, std::span<const std::uint32_t> 
 }
 
 bool has_corner(const VolumeBrick& brick, const glm::ivec3& corner) {
-    return (corner - kBrickCells * brick.place) % (1 << brick.level) == glm::ivec3(0);
+    return (corner - kBrickCells * brick.position) % (1 << brick.level) == glm::ivec3(0);
 }
 
 } // namespace
@@ -103,9 +103,9 @@ void check_grid(const VolumeGrid& grid) {
         throw Error("a volume has no bricks");
     for (const VolumeBrick& brick : grid.bricks)
         if (brick.level < 0 || brick.level > kMaxBrickLevel ||
-            glm::any(glm::lessThan(brick.place, glm::ivec3(0))) ||
-            glm::any(glm::greaterThanEqual(brick.place, grid.size)) ||
-            brick.place % (1 << brick.level) != glm::ivec3(0))
+            glm::any(glm::lessThan(brick.position, glm::ivec3(0))) ||
+            glm::any(glm::greaterThanEqual(brick.position, grid.size)) ||
+            brick.position % (1 << brick.level) != glm::ivec3(0))
             throw Error("a brick lies where its volume has none");
     index_of(grid);
 }
@@ -163,7 +163,7 @@ VolumeCorners corners_in(const VolumeGrid& grid, const VolumeProbes& probes, std
                          const glm::vec3& position) {
     const VolumeBrick& in = grid.bricks[brick];
     const float cell = grid.spacing * static_cast<float>(1 << in.level);
-    const glm::vec3 least = position_of(grid, kBrickCells * in.place);
+    const glm::vec3 least = position_of(grid, kBrickCells * in.position);
     const glm::vec3 at = glm::clamp((position - least) / cell, glm::vec3(0), glm::vec3(kBrickCells));
     const glm::ivec3 low = glm::min(glm::ivec3(at), glm::ivec3(kBrickCells - 1));
     const glm::vec3 share = at - glm::vec3(low);
@@ -194,18 +194,18 @@ VolumeLookup::VolumeLookup(const VolumeGrid& grid, std::span<const ProbeVisibili
 
 VolumeCorners VolumeLookup::find(const glm::vec3& position, const glm::vec3& normal) const {
     const glm::vec3 extent = grid_.spacing * static_cast<float>(kBrickCells) * glm::vec3(grid_.size);
-    const auto place_of = [&](const glm::vec3& at) {
+    const auto position_of = [&](const glm::vec3& at) {
         const glm::vec3 bricks = (at - grid_.origin) / (grid_.spacing * static_cast<float>(kBrickCells));
         return glm::clamp(glm::ivec3(glm::floor(bricks)), glm::ivec3(0), grid_.size - 1);
     };
     const glm::vec3 inside = glm::clamp(position, grid_.origin, grid_.origin + extent);
-    std::uint32_t brick = index_[entry_of(grid_, place_of(inside))];
+    std::uint32_t brick = index_[entry_of(grid_, position_of(inside))];
     if (brick == kNoBrick)
         brick = 0;
     const float cell = grid_.spacing * static_cast<float>(1 << grid_.bricks[brick].level);
     const glm::vec3 seen =
         glm::clamp(inside + kNormalBias * cell * normal, grid_.origin, grid_.origin + extent);
-    if (const std::uint32_t there = index_[entry_of(grid_, place_of(seen))]; there != kNoBrick)
+    if (const std::uint32_t there = index_[entry_of(grid_, position_of(seen))]; there != kNoBrick)
         brick = there;
     VolumeCorners corners = corners_in(grid_, probes_, brick, seen);
     float sum = 0;

@@ -51,10 +51,10 @@ std::size_t VolumeAtlas::texels_of_plane() const {
 std::size_t VolumeAtlas::texel(std::size_t brick, std::size_t i) const {
     const auto x = static_cast<std::size_t>(bricks.x), y = static_cast<std::size_t>(bricks.y);
     const glm::ivec3 corner = corner_of(i);
-    const std::size_t place[3] = {kBrickSide * (brick % x) + static_cast<std::size_t>(corner.x),
-                                  kBrickSide * (brick / x % y) + static_cast<std::size_t>(corner.y),
-                                  kBrickSide * (brick / (x * y)) + static_cast<std::size_t>(corner.z)};
-    return (place[2] * kBrickSide * y + place[1]) * kBrickSide * x + place[0];
+    const std::size_t position[3] = {kBrickSide * (brick % x) + static_cast<std::size_t>(corner.x),
+                                     kBrickSide * (brick / x % y) + static_cast<std::size_t>(corner.y),
+                                     kBrickSide * (brick / (x * y)) + static_cast<std::size_t>(corner.z)};
+    return (position[2] * kBrickSide * y + position[1]) * kBrickSide * x + position[0];
 }
 
 VolumeAtlas atlas_of(const VolumeGrid& grid, int order) {

@@ -320,15 +320,15 @@ protected:
         EXPECT_NE(outcome.err.find(wrong), std::string::npos) << outcome.err;
         EXPECT_EQ(outcome.err.find("json.exception"), std::string::npos) << outcome.err;
     }
-    /// Expects an error if `place` in the JSON is replaced by `value`; null removes the member.
-    void refuse_at(const std::string& place, const nlohmann::json& value, const std::string& wrong) {
+    /// Expects an error if `position` in the JSON is replaced by `value`; null removes the member.
+    void refuse_at(const std::string& position, const nlohmann::json& value, const std::string& wrong) {
         nlohmann::json changed = light;
-        const nlohmann::json::json_pointer at(place);
+        const nlohmann::json::json_pointer at(position);
         if (value.is_null())
             changed[at.parent_pointer()].erase(at.back());
         else
             changed[at] = value;
-        SCOPED_TRACE(place);
+        SCOPED_TRACE(position);
         refuse(changed.dump(), wrong);
     }
 };
@@ -373,9 +373,9 @@ TEST_F(BadLightFile, SunsAreFoundInImagesAlone) {
 
 TEST_F(BadInput, PlacesThatCannotBeWritten) {
     const std::string scene = good().string();
-    for (const std::string& place : {std::string("/no/such/folder/out.glb"), folder.path().string(),
-                                     (folder / (std::string(252, 'n') + ".glb")).string()})
-        expect_refused(prt({"bake", scene, "-o", place, "--rays", "4"}), place);
+    for (const std::string& position : {std::string("/no/such/folder/out.glb"), folder.path().string(),
+                                        (folder / (std::string(252, 'n') + ".glb")).string()})
+        expect_refused(prt({"bake", scene, "-o", position, "--rays", "4"}), position);
     if (std::filesystem::exists("/proc/self"))
         expect_refused(prt({"bake", scene, "-o", "/proc/out.glb", "--rays", "4"}), "/proc/out.glb");
 }

@@ -36,7 +36,7 @@ Json& extension(GlbFile& file) {
 Json& map(GlbFile& file) {
     return extension(file)["maps"][0];
 }
-Json& place(GlbFile& file) {
+Json& position(GlbFile& file) {
     return file.json["meshes"][0]["primitives"][0]["extensions"]["PRTKIT_lightmap"];
 }
 
@@ -120,13 +120,13 @@ std::vector<Damage> damages_to_maps() {
              }
          },
          "lightmaps would take"},
-        {"map_out_of_range", [](GlbFile& f) { place(f)["map"] = 2; }, "the map is 2"},
-        {"map_negative", [](GlbFile& f) { place(f)["map"] = -1; }, "the map is -1", kRefuses},
-        {"no_map", [](GlbFile& f) { place(f).erase("map"); }, "map", kRefuses},
-        {"no_texcoord", [](GlbFile& f) { place(f).erase("texCoord"); }, "texCoord", kRefuses},
-        {"texcoord_negative", [](GlbFile& f) { place(f)["texCoord"] = -1; }, "texCoord is -1", kRefuses},
-        {"texcoord_that_is_not_there", [](GlbFile& f) { place(f)["texCoord"] = 3; }, "has no TEXCOORD_3"},
-        {"no_place", [](GlbFile& f) { f.json["meshes"][0]["primitives"][0].erase("extensions"); },
+        {"map_out_of_range", [](GlbFile& f) { position(f)["map"] = 2; }, "the map is 2"},
+        {"map_negative", [](GlbFile& f) { position(f)["map"] = -1; }, "the map is -1", kRefuses},
+        {"no_map", [](GlbFile& f) { position(f).erase("map"); }, "map", kRefuses},
+        {"no_texcoord", [](GlbFile& f) { position(f).erase("texCoord"); }, "texCoord", kRefuses},
+        {"texcoord_negative", [](GlbFile& f) { position(f)["texCoord"] = -1; }, "texCoord is -1", kRefuses},
+        {"texcoord_that_is_not_there", [](GlbFile& f) { position(f)["texCoord"] = 3; }, "has no TEXCOORD_3"},
+        {"no_position", [](GlbFile& f) { f.json["meshes"][0]["primitives"][0].erase("extensions"); },
          "mesh 0 primitive 0 has no PRTKIT_lightmap"},
         {"vertices_too",
          [](GlbFile& f) {

@@ -31,8 +31,8 @@ protected:
             arguments.insert(arguments.end(), {"--rays", "32"});
         return prt(arguments);
     }
-    /// Returns boxes without ground, with middles at `places`. Sides are a metre long.
-    GlbFile boxes(const std::vector<float>& places) const {
+    /// Returns boxes without ground, with middles at `points`. Sides are a metre long.
+    GlbFile boxes(const std::vector<float>& points) const {
         GlbFile file;
         std::vector<float> positions, normals;
         std::vector<unsigned> indices;
@@ -57,7 +57,7 @@ protected:
         const std::size_t position = file.accessor(positions, kFloat, "VEC3", 3),
                           normal = file.accessor(normals, kFloat, "VEC3", 3),
                           index = file.accessor(indices, kUnsignedInt, "SCALAR", 1),
-                          translation = file.accessor(places, kFloat, "VEC3", 3);
+                          translation = file.accessor(points, kFloat, "VEC3", 3);
         file.json["accessors"][position]["min"] = {-0.5, -0.5, -0.5};
         file.json["accessors"][position]["max"] = {0.5, 0.5, 0.5};
         file.json["meshes"] = {

@@ -28,10 +28,10 @@ GlbFile floor_with_lamps() {
     file.json["extensionsUsed"].push_back("KHR_lights_punctual");
     file.json["extensions"]["KHR_lights_punctual"]["lights"] = {
         {{"type", "point"}, {"intensity", 2}}, {{"type", "point"}, {"intensity", 1}, {"color", {1, 0, 0}}}};
-    const auto add = [&](const char* name, int light, const std::vector<float>& place) {
+    const auto add = [&](const char* name, int light, const std::vector<float>& position) {
         file.json["scenes"][0]["nodes"].push_back(file.json["nodes"].size());
         file.json["nodes"].push_back({{"name", name},
-                                      {"translation", place},
+                                      {"translation", position},
                                       {"extensions", {{"KHR_lights_punctual", {{"light", light}}}}}});
     };
     add("Lamp.white", 0, {0, kHeight, 0});

@@ -125,9 +125,9 @@ TEST_F(Predicted, ShadersOfModelsCompileInEveryLanguage) {
         std::ifstream file(folder / "s.vert");
         const std::string text{std::istreambuf_iterator<char>(file), {}};
         float x = 0, y = 0, z = 0; // in the file's world
-        const std::size_t place = text.find("#define PRT_PREDICTOR_ORIGIN");
-        ASSERT_NE(place, std::string::npos);
-        EXPECT_EQ(std::sscanf(&text[place], "#define PRT_PREDICTOR_ORIGIN vec3(%f, %f, %f)", &x, &y, &z), 3);
+        const std::size_t point = text.find("#define PRT_PREDICTOR_ORIGIN");
+        ASSERT_NE(point, std::string::npos);
+        EXPECT_EQ(std::sscanf(&text[point], "#define PRT_PREDICTOR_ORIGIN vec3(%f, %f, %f)", &x, &y, &z), 3);
         EXPECT_EQ(glm::vec3(x, y, z), glm::vec3(origin));
         const bool vulkan = language == "vulkan";
         std::vector<std::string> arguments = {"-S", "vert", at("s.vert")};

@@ -59,16 +59,17 @@ Transfer prop_transfer() {
     constexpr int kOrder = 6, kDirections = 600;
     const glm::vec3 centers[4] = {{0, 0, 0}, {1.6f, 0.4f, 0}, {0.3f, 1.5f, 0.8f}, {-0.7f, 0.2f, -1.3f}};
     const float radii[4] = {1, 0.6f, 0.7f, 0.4f};
-    const std::vector<glm::vec3> directions = lattice(kDirections), places = lattice(58);
-    Transfer t = zero_transfer(kOrder, 1, 4 * places.size());
+    const std::vector<glm::vec3> directions = lattice(kDirections), positions = lattice(58);
+    Transfer t = zero_transfer(kOrder, 1, 4 * positions.size());
     std::vector<float> basis(static_cast<std::size_t>(coefficient_count(kOrder)));
     for (std::size_t p = 0; p < t.receivers(); ++p) {
-        const std::size_t ball = p / places.size();
-        const glm::vec3 normal = places[p % places.size()], place = centers[ball] + radii[ball] * normal;
+        const std::size_t ball = p / positions.size();
+        const glm::vec3 normal = positions[p % positions.size()],
+                        position = centers[ball] + radii[ball] * normal;
         for (const glm::vec3& w : directions) {
             bool open = glm::dot(normal, w) > 0;
             for (std::size_t other = 0; other < 4; ++other) {
-                const glm::vec3 to = centers[other] - place;
+                const glm::vec3 to = centers[other] - position;
                 const float along = glm::dot(to, w);
                 open &= other == ball || along <= 0 ||
                         glm::dot(to, to) - along * along > radii[other] * radii[other];

@@ -287,9 +287,9 @@ TEST(GltfCorpus, NormalsWithoutDataAreThoseOfTriangles) {
 
 TEST(GltfCorpus, OctaneInstancesBeyondTheLimit) {
     GlbFile file = test::triangle_file();
-    const std::vector<float> places(3 * 100);
+    const std::vector<float> points(3 * 100);
     file.json["nodes"][0]["extensions"]["EXT_mesh_gpu_instancing"]["attributes"]["TRANSLATION"] =
-        file.accessor(places, test::kFloat, "VEC3", 3);
+        file.accessor(points, test::kFloat, "VEC3", 3);
     file.json["extensionsUsed"] = {"EXT_mesh_gpu_instancing"};
     const std::string bytes = file.bytes();
     const auto read = [&](double limit) {

@@ -68,13 +68,13 @@ void check_scene(const Scene& scene) {
 }
 
 void check_layout(const Scene& scene, const LightmapLayout& layout) {
-    expect(layout.places.size() == scene.primitives.size(), "texels for other primitives");
+    expect(layout.positions.size() == scene.primitives.size(), "texels for other primitives");
     const std::size_t texels = layout.texels();
     const LightmapLookup lookup(scene, layout);
-    const glm::vec2 places[] = {{0, 0}, {1, 0}, {0, 1}, {0.3f, 0.3f}};
+    const glm::vec2 points[] = {{0, 0}, {1, 0}, {0, 1}, {0.3f, 0.3f}};
     for (std::uint32_t triangle = 0; triangle < scene.triangles(); ++triangle)
-        for (const glm::vec2& place : places) {
-            const BilinearTexels filter = lookup.filter(triangle, place);
+        for (const glm::vec2& position : points) {
+            const BilinearTexels filter = lookup.filter(triangle, position);
             for (const std::uint32_t texel : filter.texels)
                 expect(texel < texels, "a filter reads outside of the maps");
             expect_finite(std::span<const double>(filter.weights), "weights of a filter");
@@ -110,9 +110,9 @@ void check_occluders(const GltfDocument& document, const Scene& scene) {
     for (const NodeOccluder& occluder : read_occluders(document)) {
         const PlacedOccluder where = placed(occluder.volume, glm::mat4(1), 0);
         for (const float at : {0.0f, 0.3f, 1.0f, 1.7f, 40.0f}) {
-            const glm::vec3 place =
+            const glm::vec3 position =
                 glm::mix(occluder.volume.low, occluder.volume.high, glm::vec3(at, 0.5f, 0.1f));
-            const float blocked = blocked_cosine(blocked_at(occluder.volume, where, place), {0, 1, 0});
+            const float blocked = blocked_cosine(blocked_at(occluder.volume, where, position), {0, 1, 0});
             expect(blocked >= 0 && blocked <= 1, "an occluder blocks more than there is");
         }
     }

@@ -41,10 +41,10 @@ bool use(const std::string& file) {
     EXPECT_EQ(prt_volume_evaluate(volume, constants.data(), incident.data(), &message), PRT_OK);
     fuzz::expect_finite(std::span<const float>(incident), "incident light");
     for (int i = 0; i < 27; ++i) {
-        prt_volume_place place{{0, 0, 0}, {0, 1, 0}};
+        prt_volume_position point{{0, 0, 0}, {0, 1, 0}};
         for (int a = 0; a < 3; ++a)
-            place.position[a] = info.corner[a] + 7.5f * info.spacing * static_cast<float>((i + a) % 4 - 1);
-        if (prt_volume_incident(volume, incident.data(), &place, found.data(), &message) == PRT_OK)
+            point.position[a] = info.corner[a] + 7.5f * info.spacing * static_cast<float>((i + a) % 4 - 1);
+        if (prt_volume_incident(volume, incident.data(), &point, found.data(), &message) == PRT_OK)
             fuzz::expect_finite(std::span<const float>(found), "light of a place");
     }
     prt_volume_destroy(volume);

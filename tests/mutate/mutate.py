@@ -28,7 +28,7 @@ ENVIRONMENT = dict(os.environ, UBSAN_OPTIONS="print_stacktrace=1",
                    ASAN_OPTIONS="detect_leaks=0:quarantine_size_mb=16:hard_rss_limit_mb=1024:max_allocation_size_mb=512")
 INNER = re.compile(r"std::|vector::|basic_string|\[json\.exception|terminate called|Assertion|Sanitizer|runtime error")
 NO_NUMBER = re.compile(r"(?<![\w./-])-?(nan|inf)(?![\w./-])")
-NULLS = {"seam_place_metres", "relative_l2", "standard_error"}  # null if there is no seam, or no light to compare with
+NULLS = {"seam_position_metres", "relative_l2", "standard_error"}  # null if there is no seam, or no light to compare with
 LIGHT = {"prtkit_light": 1, "order": 3, "coefficients": {channel: [3] + [0.1] * 8 for channel in ("red", "green", "blue")}}  # that bakes want
 
 # Commands for each kind of file: {file} is the changed one, {baked} and {shipped} are the original files.

@@ -118,7 +118,7 @@ double round_rows(MovingBasis& basis, float step) {
 
 /// Returns the bytes of node positions: two bytes for every node of the box, or a hash table with entries of
 /// four bytes, half of them used.
-double bytes_of_places(const SparseGrid& grid) {
+double bytes_of_positions(const SparseGrid& grid) {
     return static_cast<double>(std::min(2 * grid.nodes_of_box, 8 * grid.nodes.size()));
 }
 
@@ -140,7 +140,7 @@ MovingBasisCode code_moving_basis(const GridPoints& points, MovingBasisFit fit, 
     MovingBasisCode code;
     code.components = plan.bits.size();
     code.error = squared_error(points, values_of(points, fit.grid, fit.basis));
-    code.table_bytes = bytes_of_places(fit.grid) + static_cast<double>(plan.bits.size() * sizeof(float));
+    code.table_bytes = bytes_of_positions(fit.grid) + static_cast<double>(plan.bits.size() * sizeof(float));
     const float step = step_of_rows(points, fit, row_share * code.error);
     if (step > 0) {
         code.table_bytes += round_rows(fit.basis, step);

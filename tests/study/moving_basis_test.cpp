@@ -17,7 +17,7 @@ namespace {
 using Index = Eigen::Index;
 
 /// Spread over a box of 2 x 1 x 1.
-std::vector<glm::vec3> places(std::size_t count) {
+std::vector<glm::vec3> sample_positions(std::size_t count) {
     std::mt19937 random(7);
     std::uniform_real_distribution<float> uniform(0, 1);
     std::vector<glm::vec3> positions = {{0, 0, 0}, {2, 1, 1}};
@@ -58,15 +58,15 @@ constexpr MovingBasisSchedule exactly(int rounds) {
 }
 
 TEST(SparseGrid, InterpolatesWhatIsLinearAndHasTheNodesThatAreNeeded) {
-    const std::vector<glm::vec3> positions = places(300);
+    const std::vector<glm::vec3> positions = sample_positions(300);
     const SparseGrid grid = sparse_grid(positions, 0.3);
     EXPECT_EQ(grid.nodes_of_box, 8u * 5 * 5);
     for (const SparseGrid::Cell& cell : grid.cells)
         for (std::size_t i = cell.begin; i < cell.end; ++i) {
-            glm::vec3 place(0);
+            glm::vec3 position(0);
             for (std::size_t corner = 0; corner < kCorners; ++corner)
-                place += grid.share[i][corner] * 0.3f * glm::vec3(grid.nodes[cell.nodes[corner]]);
-            EXPECT_LT(glm::distance(place, positions[grid.receivers[i]]), 1e-5f);
+                position += grid.share[i][corner] * 0.3f * glm::vec3(grid.nodes[cell.nodes[corner]]);
+            EXPECT_LT(glm::distance(position, positions[grid.receivers[i]]), 1e-5f);
         }
     // Points on the edge of a box lie between two nodes each: one cell of 2, and one beyond an empty one.
     const std::vector<glm::vec3> edge = {{0, 0, 0}, {0.5f, 0, 0}, {2.5f, 0, 0}};
@@ -75,7 +75,7 @@ TEST(SparseGrid, InterpolatesWhatIsLinearAndHasTheNodesThatAreNeeded) {
 }
 
 TEST(SparseGrid, AFinerGridTakesTheValuesOver) {
-    const std::vector<glm::vec3> positions = places(400);
+    const std::vector<glm::vec3> positions = sample_positions(400);
     const SparseGrid coarse = sparse_grid(positions, 1), fine = sparse_grid(positions, 0.5);
     const GridPoints points = points_on(coarse, positions, 0);
     MovingBasisFit fit = fit_moving_basis(points, 1, 0, exactly(20));
@@ -85,7 +85,7 @@ TEST(SparseGrid, AFinerGridTakesTheValuesOver) {
 }
 
 TEST(MovingBasis, FindsAMovingBasis) {
-    const std::vector<glm::vec3> positions = places(600);
+    const std::vector<glm::vec3> positions = sample_positions(600);
     const SparseGrid grid = sparse_grid(positions, 1);
     for (const std::size_t components : {0u, 1u, 2u}) {
         const GridPoints points = points_on(grid, positions, components);
@@ -99,7 +99,7 @@ TEST(MovingBasis, FindsAMovingBasis) {
 }
 
 TEST(MovingBasis, WhatIsLinearInSpaceNeedsNoWeights) {
-    const std::vector<glm::vec3> positions = places(200);
+    const std::vector<glm::vec3> positions = sample_positions(200);
     GridPoints points = points_of(positions, 3);
     for (Index p = 0; p < points.values.rows(); ++p) {
         const glm::vec3& x = positions[static_cast<std::size_t>(p)];
@@ -111,7 +111,7 @@ TEST(MovingBasis, WhatIsLinearInSpaceNeedsNoWeights) {
 }
 
 TEST(MovingBasis, NormalisingChangesNoValue) {
-    const std::vector<glm::vec3> positions = places(500);
+    const std::vector<glm::vec3> positions = sample_positions(500);
     const SparseGrid grid = sparse_grid(positions, 1);
     const GridPoints points = points_on(grid, positions, 3);
     MovingBasisFit fit = fit_moving_basis(points, 1, 3, {.prices = {0, 0.1f}, .rounds = 5});
@@ -146,7 +146,7 @@ TEST(MovingBasis, CountsBitsOfRowsByWhatTheyReach) {
 }
 
 TEST(MovingBasis, KeepsToItsBytesAndNodes) {
-    const std::vector<glm::vec3> positions = places(800);
+    const std::vector<glm::vec3> positions = sample_positions(800);
     Transfer transfer = zero_transfer(2, 1, 800);
     for (std::size_t p = 0; p < 800; ++p) {
         const glm::vec3 x = positions[p];
@@ -185,7 +185,7 @@ TEST(MovingBasis, KeepsToItsBytesAndNodes) {
 }
 
 TEST(MovingBasis, IsTheSameWhateverTheNumberOfThreads) {
-    const std::vector<glm::vec3> positions = places(3000);
+    const std::vector<glm::vec3> positions = sample_positions(3000);
     Transfer transfer = zero_transfer(3, 1, 3000);
     std::mt19937 random(1);
     std::normal_distribution<float> normal;
@@ -212,7 +212,7 @@ TEST(MovingBasis, TakesDegenerateTransfer) {
         constant.vector(p)[0] = 0.75f;
     Transfer single = zero_transfer(2, 1, 1);
     single.vector(0)[1] = 0.5f;
-    const std::vector<glm::vec3> spread = places(50), same(50, glm::vec3(3));
+    const std::vector<glm::vec3> spread = sample_positions(50), same(50, glm::vec3(3));
     const auto error_of = [](const Transfer& transfer, std::span<const glm::vec3> positions, int bits) {
         const std::vector<float> areas(transfer.receivers(), 1.0f);
         const auto found = moving_basis(
@@ -229,7 +229,7 @@ TEST(MovingBasis, TakesDegenerateTransfer) {
 }
 
 TEST(MovingBasis, IsInTheTablesOfTheSweep) {
-    const std::vector<glm::vec3> positions = places(500);
+    const std::vector<glm::vec3> positions = sample_positions(500);
     Transfer transfer = zero_transfer(2, 1, 500);
     for (std::size_t p = 0; p < 500; ++p) {
         transfer.vector(p)[0] = 1 + 0.4f * std::sin(4 * positions[p].x);

@@ -31,39 +31,39 @@ glm::ivec3 corner_offset(std::size_t corner) {
     return {static_cast<int>(corner & 1), static_cast<int>(corner >> 1 & 1), static_cast<int>(corner >> 2)};
 }
 
-/// Returns the interpolation weights at `place`, in edges from the minimum corner of a cell.
-std::array<float, kCorners> shares_of(const glm::dvec3& place) {
+/// Returns the interpolation weights at `point`, in edges from the minimum corner of a cell.
+std::array<float, kCorners> shares_of(const glm::dvec3& point) {
     std::array<float, kCorners> shares{};
     for (std::size_t corner = 0; corner < kCorners; ++corner) {
-        const glm::dvec3 at(corner_offset(corner)), s = 1.0 - glm::abs(place - at);
+        const glm::dvec3 at(corner_offset(corner)), s = 1.0 - glm::abs(point - at);
         shares[corner] = static_cast<float>(s.x * s.y * s.z);
     }
     return shares;
 }
 
-std::array<int, 3> key_of(const glm::ivec3& place) {
-    return {place.z, place.y, place.x};
+std::array<int, 3> key_of(const glm::ivec3& point) {
+    return {point.z, point.y, point.x};
 }
 
 /// Numbers positions in the order in which they are requested.
 class NodeNumbers {
 public:
-    explicit NodeNumbers(std::vector<glm::ivec3>& places) : places_(places) {}
-    std::uint32_t operator()(const glm::ivec3& place) {
+    explicit NodeNumbers(std::vector<glm::ivec3>& points) : positions_(points) {}
+    std::uint32_t operator()(const glm::ivec3& point) {
         const auto [at, is_new] =
-            numbers_.try_emplace(key_of(place), static_cast<std::uint32_t>(places_.size()));
+            numbers_.try_emplace(key_of(point), static_cast<std::uint32_t>(positions_.size()));
         if (is_new)
-            places_.push_back(place);
+            positions_.push_back(point);
         return at->second;
     }
 
 private:
-    std::vector<glm::ivec3>& places_;
+    std::vector<glm::ivec3>& positions_;
     std::map<std::array<int, 3>, std::uint32_t> numbers_;
 };
 
 /// Numbers the nodes of `cell` that have a share in any of its receivers.
-void number_nodes(const SparseGrid& grid, const glm::ivec3& place, SparseGrid::Cell& cell,
+void number_nodes(const SparseGrid& grid, const glm::ivec3& point, SparseGrid::Cell& cell,
                   NodeNumbers& number_of) {
     std::array<bool, kCorners> needed{};
     for (std::size_t i = cell.begin; i < cell.end; ++i)
@@ -72,7 +72,7 @@ void number_nodes(const SparseGrid& grid, const glm::ivec3& place, SparseGrid::C
     const auto first =
         static_cast<std::size_t>(std::find(needed.begin(), needed.end(), true) - needed.begin());
     for (std::size_t corner = 0; corner < kCorners; ++corner)
-        cell.nodes[corner] = number_of(place + corner_offset(needed[corner] ? corner : first));
+        cell.nodes[corner] = number_of(point + corner_offset(needed[corner] ? corner : first));
 }
 
 } // namespace
@@ -99,11 +99,11 @@ SparseGrid sparse_grid(std::span<const glm::vec3> positions, double size) {
         grid.share.push_back(shares_of((glm::dvec3(positions[p]) - box.least) / size - glm::dvec3(cells[p])));
     NodeNumbers number_of(grid.nodes);
     for (std::size_t begin = 0; begin < positions.size(); begin = grid.cells.back().end) {
-        const glm::ivec3 place = cells[grid.receivers[begin]];
+        const glm::ivec3 point = cells[grid.receivers[begin]];
         SparseGrid::Cell cell{{}, begin, begin};
-        while (cell.end < positions.size() && cells[grid.receivers[cell.end]] == place)
+        while (cell.end < positions.size() && cells[grid.receivers[cell.end]] == point)
             ++cell.end;
-        number_nodes(grid, place, cell, number_of);
+        number_nodes(grid, point, cell, number_of);
         grid.cells.push_back(cell);
     }
     grid.nodes_of_box = static_cast<std::size_t>(last.x + 2) * static_cast<std::size_t>(last.y + 2) *
@@ -116,9 +116,9 @@ std::vector<CoarseCorners> corners_in(const SparseGrid& coarse, const SparseGrid
     for (std::size_t n = 0; n < coarse.nodes.size(); ++n)
         numbers[key_of(coarse.nodes[n])] = static_cast<std::uint32_t>(n);
     std::vector<CoarseCorners> result;
-    for (const glm::ivec3& place : fine.nodes) {
-        const glm::ivec3 cell = place / 2;
-        CoarseCorners corners{{}, shares_of(glm::dvec3(place) / 2.0 - glm::dvec3(cell))};
+    for (const glm::ivec3& point : fine.nodes) {
+        const glm::ivec3 cell = point / 2;
+        CoarseCorners corners{{}, shares_of(glm::dvec3(point) / 2.0 - glm::dvec3(cell))};
         for (std::size_t corner = 0; corner < kCorners; ++corner) {
             if (const auto at = numbers.find(key_of(cell + corner_offset(corner))); at != numbers.end())
                 corners.nodes[corner] = at->second;

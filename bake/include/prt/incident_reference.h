@@ -16,7 +16,7 @@
 namespace prt {
 
 /// Positions in free space where objects can be.
-struct FreePlaces {
+struct FreePositions {
     std::vector<glm::vec3> positions;
     std::vector<float> distances; ///< distance to the nearest surface, metres
     std::vector<bool> shut;       ///< true if none of 256 rays reaches the sky
@@ -25,8 +25,8 @@ struct FreePlaces {
 /// Returns `count` random positions in the box of `grid`, clipped to the bounding box of the scene. Positions
 /// where more than a quarter of all directions end at back faces are rejected. Throws `Error` if there is
 /// almost no free space.
-FreePlaces free_places_in(const TraceScene& scene, const VolumeGrid& grid, std::size_t count,
-                          std::uint64_t seed);
+FreePositions free_positions_in(const TraceScene& scene, const VolumeGrid& grid, std::size_t count,
+                                std::uint64_t seed);
 
 struct IncidentOptions {
     int paths = 512; ///< paths per position in each half
@@ -41,7 +41,7 @@ struct IncidentOptions {
 /// direct light of suns that the renderer adds, and the light of lamps, including direct light. Surfaces
 /// scatter as in `PathTracer`. Throws `Cancelled` when asked to stop.
 std::array<std::vector<glm::vec3>, 2>
-incident_reference(const TraceScene& scene, const std::vector<glm::vec3>& places, int order,
+incident_reference(const TraceScene& scene, const std::vector<glm::vec3>& positions, int order,
                    const MeasuredLight& light, const IncidentOptions& options, const Progress& progress = {});
 
 } // namespace prt

@@ -43,14 +43,14 @@ public:
         /// Weight by the balance heuristic, if directions of density `other` find this light too.
         float balance(float other) const { return density > 0 ? density / (density + other) : 1.0f; }
     };
-    /// Samples one of the punctual lights, mostly in proportion to their irradiance at `place`. The lights
+    /// Samples one of the punctual lights, mostly in proportion to their irradiance at `position`. The lights
     /// have no extent.
-    Sample sample_light(const glm::vec3& place, float u) const;
-    /// Samples a point on emissive surfaces in proportion to their power; the sample is black if `place` is
-    /// behind a single-sided surface.
-    Sample sample_surface(const glm::vec3& place, const glm::vec2& u) const;
-    /// Share of the light of a sample that reaches `place` along the shadow ray.
-    float open(const glm::vec3& place, const Sample& sample) const;
+    Sample sample_light(const glm::vec3& position, float u) const;
+    /// Samples a point on emissive surfaces in proportion to their power; the sample is black if `position`
+    /// is behind a single-sided surface.
+    Sample sample_surface(const glm::vec3& position, const glm::vec2& u) const;
+    /// Share of the light of a sample that reaches `position` along the shadow ray.
+    float open(const glm::vec3& position, const Sample& sample) const;
 
     /// Radiance that a point of a triangle emits towards the viewer, on its front or back.
     glm::vec3 radiance(const SurfacePoint& point, bool back) const;
@@ -69,7 +69,7 @@ private:
     };
 
     glm::vec3 strength_of(std::uint32_t triangle) const;
-    Sample of_light(const Light& light, const glm::vec3& place) const;
+    Sample of_light(const Light& light, const glm::vec3& position) const;
 
     const TraceScene& scene_;
     std::vector<Light> lights_;

@@ -67,8 +67,8 @@ struct PlacedLight {
     Transfer transfer;        ///< receivers are coefficients: [places][order²]
     std::vector<float> backs; ///< [places] share of rays that end at back faces
 };
-/// Measures incident light at `places`, up to `order`. Light bounces as in `bake_volume`.
-PlacedLight bake_places(const Scene& scene, std::span<const glm::vec3> places, int order,
-                        const BakeOptions& options, const Progress& progress = {});
+/// Measures incident light at `positions`, up to `order`. Light bounces as in `bake_volume`.
+PlacedLight bake_positions(const Scene& scene, std::span<const glm::vec3> positions, int order,
+                           const BakeOptions& options, const Progress& progress = {});
 
 } // namespace prt

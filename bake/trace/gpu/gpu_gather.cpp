@@ -50,8 +50,8 @@ public:
         const VulkanDevice& device = owner.device_;
         const std::size_t receivers = owner.gather_.receivers(),
                           most = std::max(receivers, std::min(kRowsAtOnce, owner.gather_.rows()));
-        for (GpuBuffer& place : transfer)
-            place = {device, most * columns * sizeof(float), GpuMemory::device, kTransfer};
+        for (GpuBuffer& position : transfer)
+            position = {device, most * columns * sizeof(float), GpuMemory::device, kTransfer};
         total = {device, with_total ? receivers * columns * sizeof(float) : 0, GpuMemory::device, kTransfer};
         sent = {device, transfer[0].bytes(), GpuMemory::upload, kTransfer};
         received = {device, transfer[0].bytes(), GpuMemory::download, kTransfer};
@@ -121,13 +121,13 @@ private:
         GpuKernel::Source source{.spirv = bake_energy,
                                  .push_bytes = sizeof(gpu::EnergyPush),
                                  .constants = {{PRT_CONSTANT_ORDER, static_cast<std::uint32_t>(order)}}};
-        const auto of = [&](std::size_t place) -> GpuResources {
-            return {{{PRT_BINDING_GATHERED, &transfer[place]}, {PRT_BINDING_ENERGY, &energy.largest}}};
+        const auto of = [&](std::size_t position) -> GpuResources {
+            return {{{PRT_BINDING_GATHERED, &transfer[position]}, {PRT_BINDING_ENERGY, &energy.largest}}};
         };
         source.take_bindings(of(0));
         energy.kernel = GpuKernel(device, source);
-        for (const std::size_t place : {0u, 1u})
-            energy.bindings[place] = {device, energy.kernel, of(place)};
+        for (const std::size_t position : {0u, 1u})
+            energy.bindings[position] = {device, energy.kernel, of(position)};
     }
 
     const GpuGather& owner_;
@@ -284,13 +284,13 @@ std::optional<BounceEnergy> GpuGather::bounce(Transfer& transfer, int bounces, c
         });
         const auto vectors =
             static_cast<std::uint32_t>(receivers * static_cast<std::size_t>(gather_.channels()));
-        const auto measure = [&](std::size_t place, std::uint32_t bounce) {
-            gpu::EnergyPush push{.first = 0, .end = vectors, .place = bounce};
+        const auto measure = [&](std::size_t position, std::uint32_t bounce) {
+            gpu::EnergyPush push{.first = 0, .end = vectors, .position = bounce};
             constexpr std::uint32_t kAtOnce = kMaxGroups * PRT_GATHER_THREADS;
             for (; push.first < vectors; push.first += kAtOnce)
                 queue_.submit([&](const vk::raii::CommandBuffer& commands) {
                     v.energy.kernel.dispatch(
-                        commands, v.energy.bindings[place].handle(), push,
+                        commands, v.energy.bindings[position].handle(), push,
                         (std::min(kAtOnce, vectors - push.first) + PRT_GATHER_THREADS - 1) /
                             PRT_GATHER_THREADS);
                 });

@@ -36,7 +36,7 @@ TraceResults::TraceResults(const TraceJob& job, const TraceScene& scene, std::sp
     std::ranges::fill(vectors, 0.0f);
 }
 
-void TraceResults::add_hits(Place at, const TracePiece& piece, std::span<const gpu::HitRecord> records) {
+void TraceResults::add_hits(Position at, const TracePiece& piece, std::span<const gpu::HitRecord> records) {
     if (scene_.surfaces().traits().alpha)
         for (const gpu::HitRecord& r : records)
             add(at.receiver + r.row / piece.push().chunks, r, r.weight);
@@ -44,7 +44,7 @@ void TraceResults::add_hits(Place at, const TracePiece& piece, std::span<const g
         add_followed(at, piece, records);
 }
 
-void TraceResults::add_sums(Place at, const TracePiece& piece, int threads) {
+void TraceResults::add_sums(Position at, const TracePiece& piece, int threads) {
     const gpu::TracePush& push = piece.push();
     const std::size_t numbers = coefficients_ + (control_.empty() ? 0 : 1);
     if (!std::ranges::all_of(piece.sums().first(push.receivers * numbers),
@@ -69,7 +69,8 @@ void TraceResults::add(std::size_t i, const gpu::HitRecord& r, float weight) {
 }
 
 /// Adds hits of followed rays; the hits of a chunk represent all its blocked rays.
-void TraceResults::add_followed(Place at, const TracePiece& piece, std::span<const gpu::HitRecord> records) {
+void TraceResults::add_followed(Position at, const TracePiece& piece,
+                                std::span<const gpu::HitRecord> records) {
     const std::size_t slots = piece.push().whole_followed + 1;
     for (std::size_t row = 0; row * slots < records.size(); ++row) {
         const std::span<const gpu::HitRecord> slots_of_row = records.subspan(row * slots, slots);

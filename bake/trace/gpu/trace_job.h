@@ -43,16 +43,16 @@ public:
     TraceResults(const TraceJob& job, const TraceScene& scene, std::span<float> vectors, const HitSink& sink);
 
     /// Start of a piece in the job.
-    struct Place {
+    struct Position {
         std::size_t receiver = 0, chunk = 0;
     };
-    void add_hits(Place at, const TracePiece& piece, std::span<const gpu::HitRecord> records);
+    void add_hits(Position at, const TracePiece& piece, std::span<const gpu::HitRecord> records);
     /// Adds the sums of a piece. After the last chunk of a receiver all its hits are known.
-    void add_sums(Place at, const TracePiece& piece, int threads);
+    void add_sums(Position at, const TracePiece& piece, int threads);
 
 private:
     void add(std::size_t i, const gpu::HitRecord& r, float weight);
-    void add_followed(Place at, const TracePiece& piece, std::span<const gpu::HitRecord> records);
+    void add_followed(Position at, const TracePiece& piece, std::span<const gpu::HitRecord> records);
     void finish(std::size_t i);
 
     const TraceJob& job_;

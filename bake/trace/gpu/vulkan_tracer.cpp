@@ -131,7 +131,7 @@ void VulkanTracer::run(const TraceJob& job, const Pieces& pieces, TraceResults& 
                        const Progress& progress) {
     struct UnderWay {
         TracePiece* piece = nullptr;
-        TraceResults::Place at;
+        TraceResults::Position at;
         Stopwatch watch = {};
     };
     std::array<UnderWay, 2> under_way;
@@ -156,7 +156,7 @@ void VulkanTracer::run(const TraceJob& job, const Pieces& pieces, TraceResults& 
         progress.update(static_cast<double>(work.at.receiver) / static_cast<double>(job.indices.size()));
     };
     try {
-        TraceResults::Place at;
+        TraceResults::Position at;
         std::size_t n = 0;
         for (; at.receiver < job.indices.size(); ++n) {
             UnderWay& work = under_way[n % 2];

@@ -111,10 +111,10 @@ void add_pillar(Mesh& stone, const glm::vec2& low, const glm::vec2& high) {
 }
 
 /// A wall of a gallery from x = 0 to `length`, facing +z: glazed tiles, a band of stone, plaster above.
-void add_gallery_wall(Courtyard& to, float length, const glm::mat4& place) {
+void add_gallery_wall(Courtyard& to, float length, const glm::mat4& position) {
     constexpr float kDado = 1.3f;
-    append(to.building.glazed_tiles, placed(wall_with_openings({0, kStep}, {length, kDado}, {}), place));
-    append(to.building.plaster, placed(wall_with_openings({0, kDado}, {length, kCeiling}, {}), place));
+    append(to.building.glazed_tiles, placed(wall_with_openings({0, kStep}, {length, kDado}, {}), position));
+    append(to.building.plaster, placed(wall_with_openings({0, kDado}, {length, kCeiling}, {}), position));
     append(to.building.stone, placed(moulding({{0, kDado - 0.05f},
                                                {0.04f, kDado - 0.04f},
                                                {0.04f, kDado - 0.04f},
@@ -122,37 +122,38 @@ void add_gallery_wall(Courtyard& to, float length, const glm::mat4& place) {
                                                {0.04f, kDado + 0.03f},
                                                {0, kDado + 0.05f}},
                                               straight_way({0, 0, 0}, {length, 0, 0})),
-                                     place));
+                                     position));
 }
 
 /// A double door in a frame of stone, before the wall z = 0.
-void add_door(Courtyard& to, float x, const glm::mat4& place) {
+void add_door(Courtyard& to, float x, const glm::mat4& position) {
     constexpr float kWidth = 1.5f, kTop = 2.6f, kFrame = 0.16f;
     const float left = x - kWidth / 2, right = x + kWidth / 2;
-    append(to.building.stone, placed(box({left - kFrame, kStep, 0}, {left, kTop + kFrame, 0.1f}), place));
-    append(to.building.stone, placed(box({right, kStep, 0}, {right + kFrame, kTop + kFrame, 0.1f}), place));
-    append(to.building.stone, placed(box({left, kTop, 0}, {right, kTop + kFrame, 0.1f}), place));
+    append(to.building.stone, placed(box({left - kFrame, kStep, 0}, {left, kTop + kFrame, 0.1f}), position));
+    append(to.building.stone,
+           placed(box({right, kStep, 0}, {right + kFrame, kTop + kFrame, 0.1f}), position));
+    append(to.building.stone, placed(box({left, kTop, 0}, {right, kTop + kFrame, 0.1f}), position));
     for (const float half : {left, x + 0.01f}) {
         const float end = half + kWidth / 2 - 0.01f;
-        append(to.building.painted_wood, placed(box({half, kStep, 0}, {end, kTop, 0.04f}), place));
+        append(to.building.painted_wood, placed(box({half, kStep, 0}, {end, kTop, 0.04f}), position));
         for (int panel = 0; panel < 3; ++panel) {
             const float low = kStep + 0.14f + 0.79f * static_cast<float>(panel);
             append(to.building.painted_wood,
-                   placed(box({half + 0.12f, low, 0.04f}, {end - 0.12f, low + 0.6f, 0.065f}), place));
+                   placed(box({half + 0.12f, low, 0.04f}, {end - 0.12f, low + 0.6f, 0.065f}), position));
         }
     }
 }
 
 /// A ceiling of boards on beams, which lie across.
-void add_ceiling(Courtyard& to, float length, float depth, const glm::mat4& place) {
+void add_ceiling(Courtyard& to, float length, float depth, const glm::mat4& position) {
     append(to.building.wood,
-           placed(rectangle({0, kCeiling, -depth}, {length, 0, 0}, {0, 0, depth}, kShapeSpacing), place));
+           placed(rectangle({0, kCeiling, -depth}, {length, 0, 0}, {0, 0, depth}, kShapeSpacing), position));
     const int beams = static_cast<int>(length / 0.73f);
     for (int i = 0; i <= beams; ++i) {
         const float x = length * static_cast<float>(i) / static_cast<float>(beams);
         append(to.building.wood,
                placed(box({x - 0.07f, kCeiling - 0.2f, -depth}, {x + 0.07f, kCeiling - 0.005f, 0}, 0.3f),
-                      place));
+                      position));
     }
 }
 

@@ -67,9 +67,9 @@ Mesh awning_rods(const Awning& a) {
     return mesh;
 }
 
-void add_awning(Mesh& cloth, Mesh& iron, const Awning& a, const glm::mat4& place) {
-    append(cloth, placed(both_faces(awning_cloth(a)), place));
-    append(iron, placed(awning_rods(a), place));
+void add_awning(Mesh& cloth, Mesh& iron, const Awning& a, const glm::mat4& position) {
+    append(cloth, placed(both_faces(awning_cloth(a)), position));
+    append(iron, placed(awning_rods(a), position));
 }
 
 /// A rope that hangs between two points.

@@ -42,20 +42,21 @@ void add_bougainvillea(Courtyard& to) {
 }
 
 /// Adds a clay pot with soil and a plant with long leaves.
-void add_pot(Courtyard& to, const glm::vec3& place, float size, bool flowering, unsigned seed) {
+void add_pot(Courtyard& to, const glm::vec3& position, float size, bool flowering, unsigned seed) {
     Outline outline = {{0.15f, 0},      {0.17f, 0.02f}, {0.21f, 0.2f},  {0.235f, 0.36f},
                        {0.235f, 0.36f}, {0.26f, 0.37f}, {0.27f, 0.41f}, {0.26f, 0.44f},
                        {0.26f, 0.44f},  {0.22f, 0.44f}, {0.22f, 0.44f}, {0.215f, 0.38f}};
     for (glm::vec2& point : outline)
         point *= size;
-    append(to.garden.clay, lathe(place, outline, 20));
-    append(to.garden.soil,
-           lathe(place, {{0.22f * size, 0.39f * size}, {0.1f * size, 0.4f * size}, {0, 0.41f * size}}, 20));
+    append(to.garden.clay, lathe(position, outline, 20));
+    append(
+        to.garden.soil,
+        lathe(position, {{0.22f * size, 0.39f * size}, {0.1f * size, 0.4f * size}, {0, 0.41f * size}}, 20));
     Chance chance(seed);
     for (int i = 0; i < 70; ++i) {
         const glm::vec3 out = chance.direction() * glm::vec3(1, 0, 1);
         const glm::vec3 base =
-            place + glm::vec3(0, 0.4f * size + chance.between(0, 0.3f) * size, 0) + 0.12f * size * out;
+            position + glm::vec3(0, 0.4f * size + chance.between(0, 0.3f) * size, 0) + 0.12f * size * out;
         const bool blooms = flowering && i % 3 == 0;
         const glm::vec3 head = blooms ? base + size * (0.2f * out + glm::vec3(0, 0.28f, 0)) : base;
         add_blade(blooms ? to.garden.flowers : to.garden.vine_leaves, chance, head,

@@ -135,7 +135,7 @@ void add_outer_walls(Courtyard& to) {
     append(walls, placed(wall_with_openings({0, 0}, {2 * kHalf + kOuterWall + kWing, top}, {}, kTall),
                          placement({kHalf + kOuterWall, 0, -kDeep - kWing}, 180)));
     // Ends of the wings: from the storey (the left one) or the ground up to the slope of the roof.
-    const auto add_end = [&](float from, float spacing, const glm::mat4& place) {
+    const auto add_end = [&](float from, float spacing, const glm::mat4& position) {
         const int rows = static_cast<int>((kEaves - from) / spacing),
                   columns = static_cast<int>(kWing / spacing);
         append(walls, placed(parametric_surface(
@@ -144,7 +144,7 @@ void add_outer_walls(Courtyard& to) {
                                      return glm::vec3(u * kWing,
                                                       std::lerp(from, kEaves + kRoofSlope * u * kWing, v), 0);
                                  }),
-                             place));
+                             position));
     };
     add_end(0, kTall, placement({kHalf + kOuterWall, 0, -kDeep}, 90));
     const int rows = 22, columns = 22;

@@ -35,7 +35,7 @@ void raise_arm(Pose& pose, Side side, float lift, float across) {
 }
 
 /// `kick`: how far the leg is up.
-FootPlace foot_at(float kick) {
+FootPosition foot_at(float kick) {
     return {kAnkleHeight + kKickHeight * kick, kKickAhead * kick, -0.9f * kick, 0};
 }
 

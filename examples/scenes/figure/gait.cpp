@@ -43,33 +43,33 @@ float stance_pitch(float phase) {
 
 /// Returns the position of the foot on the ground: it rolls over its heel, then about the toe joint, while
 /// the toes rest.
-FootPlace stance(float phase) {
+FootPosition stance(float phase) {
     const float pitch = stance_pitch(phase);
     const glm::vec2 pivot = pitch > 0 ? glm::vec2(0, -kHeelBehind) : glm::vec2(kBallHeight, kBallAhead);
     const glm::vec2 ankle = glm::vec2(kAnkleHeight, 0) - pivot; // (height, ahead)
     const glm::vec2 rolled(std::cos(pitch) * ankle.x + std::sin(pitch) * ankle.y,
                            std::cos(pitch) * ankle.y - std::sin(pitch) * ankle.x);
-    const glm::vec2 place = pivot + rolled + glm::vec2(0, kStepAhead - kStride * phase);
-    return {place.x, place.y, pitch, std::max(-pitch, 0.0f)};
+    const glm::vec2 point = pivot + rolled + glm::vec2(0, kStepAhead - kStride * phase);
+    return {point.x, point.y, pitch, std::max(-pitch, 0.0f)};
 }
 
 /// Returns the position of the foot in the air: it continues its motion at toe off, and comes down slightly
 /// slower than the ground passes.
-FootPlace swing(float phase) {
+FootPosition swing(float phase) {
     constexpr float kStep = 1e-3f, kRetraction = 0.3f;
     const float length = 1 - kStance, t = (phase - kStance) / length;
-    const FootPlace before = stance(kStance - kStep), off = stance(kStance), strike = stance(0),
-                    after = stance(kStep);
-    const auto between = [&](float FootPlace::*value, float slower) {
+    const FootPosition before = stance(kStance - kStep), off = stance(kStance), strike = stance(0),
+                       after = stance(kStep);
+    const auto between = [&](float FootPosition::*value, float slower) {
         return hermite(off.*value, length * (off.*value - before.*value) / kStep, strike.*value,
                        slower * length * (after.*value - strike.*value) / kStep, t);
     };
     const float lifted = 6.75f * kLift * t * (1 - t) * (1 - t); // maximum at a third of the swing
-    return {between(&FootPlace::height, 1) + lifted, between(&FootPlace::ahead, kRetraction),
-            between(&FootPlace::pitch, 1), between(&FootPlace::toe_bend, 1)};
+    return {between(&FootPosition::height, 1) + lifted, between(&FootPosition::ahead, kRetraction),
+            between(&FootPosition::pitch, 1), between(&FootPosition::toe_bend, 1)};
 }
 
-FootPlace foot_place(float phase) {
+FootPosition foot_position(float phase) {
     phase -= std::floor(phase);
     return phase <= kStance ? stance(phase) : swing(phase);
 }
@@ -98,7 +98,7 @@ Pose walking(float phase) {
     for (const Side side : kSides) {
         const float arm = wave(phase + (side == Side::left ? 0.5f : 0.0f));
         place_arm(pose, side, glm::radians(3.0f + 23 * arm), glm::radians(24.0f + 12 * arm));
-        place_foot(pose, side, foot_place(phase + (side == Side::left ? 0.0f : 0.5f)), kFootAside);
+        place_foot(pose, side, foot_position(phase + (side == Side::left ? 0.0f : 0.5f)), kFootAside);
     }
     return pose;
 }

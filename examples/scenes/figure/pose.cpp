@@ -41,12 +41,12 @@ glm::quat turn(float angle, const glm::vec3& axis) {
     return glm::angleAxis(angle, axis);
 }
 
-void place_foot(Pose& pose, Side side, const FootPlace& place, float aside) {
+void place_foot(Pose& pose, Side side, const FootPosition& point, float aside) {
     const std::vector<Joint> rest = joints();
     const auto first = static_cast<std::size_t>(thigh(side));
     const glm::quat& pelvis = pose.rotations[hips];
     const glm::vec3 hip = pose.hips_position + pelvis * (rest[first].position - rest[hips].position);
-    const glm::vec3 ankle(sign_of(side) * aside, place.height, place.ahead);
+    const glm::vec3 ankle(sign_of(side) * aside, point.height, point.ahead);
     const glm::vec3 down = glm::normalize(ankle - hip);
     const glm::vec3 sideways = glm::normalize(kSideways - glm::dot(kSideways, down) * down);
     const glm::vec3 knee = knee_between(hip, ankle, sideways);
@@ -54,8 +54,8 @@ void place_foot(Pose& pose, Side side, const FootPlace& place, float aside) {
     const glm::quat lower = bone_turn(glm::normalize(ankle - knee), sideways);
     pose.rotations[first] = glm::conjugate(pelvis) * upper;
     pose.rotations[first + 1] = glm::conjugate(upper) * lower;
-    pose.rotations[first + 2] = glm::conjugate(lower) * turn(-place.pitch, kSideways);
-    pose.rotations[first + 3] = turn(-place.toe_bend, kSideways);
+    pose.rotations[first + 2] = glm::conjugate(lower) * turn(-point.pitch, kSideways);
+    pose.rotations[first + 3] = turn(-point.toe_bend, kSideways);
 }
 
 } // namespace examples::anatomy

@@ -17,7 +17,7 @@ private:
 };
 
 /// Position of a foot's ankle, metres, and rotations of the foot and its toes, radians.
-struct FootPlace {
+struct FootPosition {
     float height, ahead; ///< position of the ankle
     float pitch;         ///< toes up
     float toe_bend;      ///< rotation of the toes relative to the foot, up
@@ -26,8 +26,8 @@ struct FootPlace {
 /// Returns the rotation about an axis by an angle in radians.
 glm::quat turn(float angle, const glm::vec3& axis);
 
-/// Rotates thigh, shin, foot and toes of a side so that the foot is at `place`, `aside` metres from the
+/// Rotates thigh, shin, foot and toes of a side so that the foot is at `position`, `aside` metres from the
 /// middle. The hips must be set before. Throws std::logic_error if the leg is too short.
-void place_foot(Pose& pose, Side side, const FootPlace& place, float aside);
+void place_foot(Pose& pose, Side side, const FootPosition& position, float aside);
 
 } // namespace examples::anatomy

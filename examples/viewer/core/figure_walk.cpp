@@ -78,9 +78,9 @@ void FigureWalk::follow_path() {
         at -= glm::distance(level(path_[i]), level(next()));
     const glm::vec3 way = level(next() - path_[i]);
     const float share = glm::length(way) > 0 ? static_cast<float>(at) / glm::length(way) : 0;
-    const glm::vec3 place = glm::mix(path_[i], next(), std::min(share, 1.0f));
+    const glm::vec3 point = glm::mix(path_[i], next(), std::min(share, 1.0f));
     position_ =
-        Ground(*model_, walker_).below(place + glm::vec3(0, 0.5f * walker_.height, 0)).value_or(place);
+        Ground(*model_, walker_).below(point + glm::vec3(0, 0.5f * walker_.height, 0)).value_or(point);
     if (glm::length(way) > 0)
         heading_ = std::atan2(way.x, way.z);
 }
@@ -94,8 +94,8 @@ void FigureWalk::wander(float metres) {
         heading_ += std::clamp(wanted - heading_, -most, most);
     }
     const float walked = std::min(metres, std::max(0.0f, way - 0.5f * walker_.width));
-    const glm::vec3 place = position_ + walked * ahead(heading_);
-    if (const auto floor = ground.below(place + glm::vec3(0, 2 * walker_.step, 0));
+    const glm::vec3 point = position_ + walked * ahead(heading_);
+    if (const auto floor = ground.below(point + glm::vec3(0, 2 * walker_.step, 0));
         floor && std::abs(floor->y - position_.y) <= 2 * walker_.step)
         position_ = *floor;
 }

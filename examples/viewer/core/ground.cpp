@@ -30,8 +30,8 @@ std::optional<prt::RayHit> Ground::hit(const glm::vec3& from, const glm::vec3& t
     return model_.trace->rays().nearest({from, towards, 0, reach});
 }
 
-std::optional<glm::vec3> Ground::below(const glm::vec3& place) const {
-    const auto floor = hit(place, kDown, std::numeric_limits<float>::infinity());
+std::optional<glm::vec3> Ground::below(const glm::vec3& position) const {
+    const auto floor = hit(position, kDown, std::numeric_limits<float>::infinity());
     if (!floor)
         return {};
     const prt::RayScene::Triangle at = model_.trace->rays().triangle(floor->triangle);
@@ -41,7 +41,7 @@ std::optional<glm::vec3> Ground::below(const glm::vec3& place) const {
     const glm::vec3 normal = glm::cross(p[t.y] - p[t.x], p[t.z] - p[t.x]);
     if (normal.y < kSteepestGround * glm::length(normal))
         return {};
-    const glm::vec3 stand = place + floor->distance * kDown;
+    const glm::vec3 stand = position + floor->distance * kDown;
     const float knee = 0.2f * walker_.height; // above objects on the floor
     if (hit(stand - knee * kDown, -kDown, walker_.height - knee))
         return {};
@@ -96,9 +96,9 @@ std::optional<glm::vec3> Ground::widest() const {
     for (const float height : {0.5f * (box.low.y + box.high.y), top}) {
         for (int i = 0; i < kCandidates * kCandidates; ++i) {
             const auto share = [](int k) { return (static_cast<float>(k) + 0.5f) / kCandidates; };
-            const glm::vec3 place(std::lerp(box.low.x, box.high.x, share(i % kCandidates)), height,
-                                  std::lerp(box.low.z, box.high.z, share(i / kCandidates)));
-            const auto floor = below(place);
+            const glm::vec3 position(std::lerp(box.low.x, box.high.x, share(i % kCandidates)), height,
+                                     std::lerp(box.low.z, box.high.z, share(i / kCandidates)));
+            const auto floor = below(position);
             const float room = floor ? room_about(*floor) : 0;
             if (room > most) {
                 most = room;

@@ -21,9 +21,9 @@ public:
     /// Keeps a reference to `model`.
     Ground(const Model& model, const Walker& walker) : model_(model), walker_(walker) {}
 
-    /// Returns the floor below `place` if a figure fits there: the floor is not too steep and the headroom
+    /// Returns the floor below `position` if a figure fits there: the floor is not too steep and the headroom
     /// suffices.
-    std::optional<glm::vec3> below(const glm::vec3& place) const;
+    std::optional<glm::vec3> below(const glm::vec3& position) const;
     /// Returns the free distance from the position `floor` along the horizontal unit direction `towards`, at
     /// most `reach`: up to an obstacle for legs, body or shoulders, or to the end of the floor.
     float free_way(const glm::vec3& floor, const glm::vec3& towards, float reach) const;

@@ -75,16 +75,16 @@ void Moving::choose(const FigureChoice& choice, const std::shared_ptr<const Mode
     if (file_.figure && !animation())
         throw prt::Error(file_.path.string() + ": has no animation called '" + choice.animation + "'");
     seconds_ = 0;
-    place(model);
+    place_figures(model);
 }
 
 void Moving::enter(const std::shared_ptr<const Model>& model) {
     volume_ = {};
     volume_asked_ = false;
-    place(model);
+    place_figures(model);
 }
 
-void Moving::place(const std::shared_ptr<const Model>& model) {
+void Moving::place_figures(const std::shared_ptr<const Model>& model) {
     std::vector<glm::vec3> path;
     for (const glm::dvec3& point : choice_.path)
         path.emplace_back(point - model->scene.origin);

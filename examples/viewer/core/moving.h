@@ -59,7 +59,7 @@ public:
 
 private:
     const prt::Animation* animation() const;
-    void place(const std::shared_ptr<const Model>& model);
+    void place_figures(const std::shared_ptr<const Model>& model);
     void take_pose();
 
     FigureFile file_;

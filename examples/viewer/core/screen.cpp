@@ -15,9 +15,9 @@ glm::vec3 direction_through(const Screen& screen, const glm::vec2& pixel) {
                                            static_cast<double>(pixel.x), static_cast<double>(pixel.y))));
 }
 
-std::optional<glm::vec2> pixel_of(const Screen& screen, const glm::vec3& place) {
+std::optional<glm::vec2> pixel_of(const Screen& screen, const glm::vec3& point) {
     const prt::CameraFrame frame = prt::camera_frame(screen.camera);
-    const glm::dvec3 v(place - screen.camera.position);
+    const glm::dvec3 v(point - screen.camera.position);
     const double depth = glm::dot(v, frame.forward);
     if (depth <= 0)
         return std::nullopt;

@@ -18,8 +18,8 @@ struct Screen {
 
 /// Returns the unit direction from the camera through `pixel`.
 glm::vec3 direction_through(const Screen& screen, const glm::vec2& pixel);
-/// Returns the pixel of the position `place`; empty if it is behind the camera.
-std::optional<glm::vec2> pixel_of(const Screen& screen, const glm::vec3& place);
+/// Returns the pixel of the position `position`; empty if it is behind the camera.
+std::optional<glm::vec2> pixel_of(const Screen& screen, const glm::vec3& position);
 
 /// Returns the unit direction from `center` to the intersection of the ray through `pixel` with the sphere of
 /// that radius: its near side, or its far side if `far_side`. A ray that misses returns the nearest point of

@@ -21,7 +21,7 @@ constexpr std::size_t kAlignment = 256; ///< maximum alignment of storage buffer
 
 } // namespace
 
-std::size_t InstanceRadiance::Place::bytes() const {
+std::size_t InstanceRadiance::Position::bytes() const {
     return instances * vertices * kVertexBytes;
 }
 
@@ -37,9 +37,9 @@ InstanceRadiance::InstanceRadiance(const prt::ClusteredTransfer& transfer, const
         for (const std::size_t array : meshes[m].vertex_arrays) {
             const prt::VertexArray& vertices = scene.scene().vertex_arrays[array];
             transfer_.attach(arrays_[array].name(), vertices.first_receiver);
-            const Place& place =
-                places_.emplace_back(Place{m, array, vertices.size(), meshes[m].first, meshes[m].count, end});
-            end = (end + place.bytes() + kAlignment - 1) / kAlignment * kAlignment;
+            const Position& position = positions_.emplace_back(
+                Position{m, array, vertices.size(), meshes[m].first, meshes[m].count, end});
+            end = (end + position.bytes() + kAlignment - 1) / kAlignment * kAlignment;
         }
     radiance_ = prt::make_buffer_of(end);
     constants_.computed.resize(relighter_.size());
@@ -76,16 +76,16 @@ void InstanceRadiance::set_light(const prt::Lighting& lighting) {
                                                             // is drawn
     glEnable(GL_RASTERIZER_DISCARD);
     constexpr GLsizei kRowBytes = 2 * sizeof(glm::vec4); // row of the table
-    for (const Place& place : places_) {
-        if (place.bytes() == 0)
+    for (const Position& position : positions_) {
+        if (position.bytes() == 0)
             continue;
-        const GLuint array = arrays_[place.vertex_array].name();
+        const GLuint array = arrays_[position.vertex_array].name();
         glVertexArrayVertexBuffer(array, kTableBinding, table_.name(),
-                                  static_cast<GLintptr>(place.first_instance) * kRowBytes, kRowBytes);
+                                  static_cast<GLintptr>(position.first_instance) * kRowBytes, kRowBytes);
         glBindVertexArray(array);
-        bind(program_, place);
-        glDrawArraysInstanced(GL_POINTS, 0, static_cast<GLsizei>(place.vertices),
-                              static_cast<GLsizei>(place.instances));
+        bind(program_, position);
+        glDrawArraysInstanced(GL_POINTS, 0, static_cast<GLsizei>(position.vertices),
+                              static_cast<GLsizei>(position.instances));
     }
     glDisable(GL_RASTERIZER_DISCARD);
     glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
@@ -93,19 +93,19 @@ void InstanceRadiance::set_light(const prt::Lighting& lighting) {
 }
 
 void InstanceRadiance::use(const prt::GlObject& program, std::size_t mesh, std::size_t vertex_array) const {
-    const auto place = std::ranges::find_if(
-        places_, [&](const Place& p) { return p.mesh == mesh && p.vertex_array == vertex_array; });
-    bind(program, *place);
+    const auto position = std::ranges::find_if(
+        positions_, [&](const Position& p) { return p.mesh == mesh && p.vertex_array == vertex_array; });
+    bind(program, *position);
 }
 
-void InstanceRadiance::bind(const prt::GlObject& program, const Place& place) const {
-    prt::set_uniform(program, "instance_vertices", static_cast<std::uint32_t>(place.vertices));
+void InstanceRadiance::bind(const prt::GlObject& program, const Position& position) const {
+    prt::set_uniform(program, "instance_vertices", static_cast<std::uint32_t>(position.vertices));
     glBindBufferRange(GL_SHADER_STORAGE_BUFFER, PRT_BINDING_INSTANCE_RADIANCE, radiance_.name(),
-                      static_cast<GLintptr>(place.begin), static_cast<GLsizeiptr>(place.bytes()));
+                      static_cast<GLintptr>(position.begin), static_cast<GLsizeiptr>(position.bytes()));
 }
 
 std::size_t InstanceRadiance::bytes() const {
-    return places_.empty() ? 0 : places_.back().begin + places_.back().bytes();
+    return positions_.empty() ? 0 : positions_.back().begin + positions_.back().bytes();
 }
 
 std::size_t InstanceRadiance::bytes_of_constants() const {

@@ -29,15 +29,15 @@ bool sees_nothing(const prt::ProbeVisibility& visibility) {
     return std::ranges::all_of(visibility, [](std::uint8_t distance) { return distance == 0; });
 }
 
-std::vector<glm::vec4> places_of_probes(const prt::CompressedVolume& volume) {
+std::vector<glm::vec4> positions_of_probes(const prt::CompressedVolume& volume) {
     const prt::VolumeProbes probes = prt::probes_of(volume.grid);
-    std::vector<glm::vec4> places;
+    std::vector<glm::vec4> positions;
     for (std::size_t p = 0; p < probes.size(); ++p) {
         const float radius = kProbeRadius * volume.grid.spacing * static_cast<float>(1 << probes.levels[p]);
-        places.emplace_back(prt::position_of(volume.grid, probes.corners[p]),
-                            sees_nothing(volume.visibility[p]) ? -radius : radius);
+        positions.emplace_back(prt::position_of(volume.grid, probes.corners[p]),
+                               sees_nothing(volume.visibility[p]) ? -radius : radius);
     }
-    return places;
+    return positions;
 }
 
 } // namespace
@@ -71,9 +71,9 @@ void MovingStage::set_volume(std::shared_ptr<const prt::CompressedVolume> volume
     volume_.transfer = std::move(volume);
     volume_.gpu = std::make_unique<prt::GlVolume>(*volume_.transfer);
     volume_.defines = "#define PRT_VOLUME\n" + prt::volume_defines(*volume_.transfer);
-    const std::vector<glm::vec4> places = places_of_probes(*volume_.transfer);
-    volume_.probe_places = prt::make_buffer(std::span<const glm::vec4>(places));
-    volume_.probes = static_cast<int>(places.size());
+    const std::vector<glm::vec4> positions = positions_of_probes(*volume_.transfer);
+    volume_.probe_positions = prt::make_buffer(std::span<const glm::vec4>(positions));
+    volume_.probes = static_cast<int>(positions.size());
     light_volume();
 }
 
@@ -218,7 +218,7 @@ void MovingStage::draw_probes(const MovingPass& pass) {
     glUniformMatrix4fv(prt::uniform(programs_.probes, "view_projection"), 1, GL_FALSE,
                        glm::value_ptr(pass.view_projection));
     prt::set_uniform(programs_.probes, "exposure", pass.exposure);
-    prt::bind_storage(PRT_BINDING_PROBE_PLACES, volume_.probe_places);
+    prt::bind_storage(PRT_BINDING_PROBE_POSITIONS, volume_.probe_positions);
     glBindVertexArray(no_vertices_.name());
     glEnable(GL_CULL_FACE);
     glDrawArraysInstanced(GL_TRIANGLES, 0, 6 * PRT_PROBE_COLUMNS * PRT_PROBE_ROWS, volume_.probes);

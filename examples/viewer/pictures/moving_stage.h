@@ -67,7 +67,7 @@ private:
         std::shared_ptr<const prt::CompressedVolume> transfer;
         std::unique_ptr<prt::GlVolume> gpu;
         std::string defines;
-        prt::GlObject probe_places;
+        prt::GlObject probe_positions;
         int probes = 0;
     };
     struct Lit {

@@ -68,15 +68,15 @@ void take_number(const Json& json, const Command& command, float& value) {
 
 /// Changes the setting of `command` to the value in `json`.
 void take(const Json& json, const Command& command, Settings& settings) {
-    const Place place = command.place(settings);
-    if (PictureKind* const* kind = std::get_if<PictureKind*>(&place))
+    const SettingPointer pointer = command.setting(settings);
+    if (PictureKind* const* kind = std::get_if<PictureKind*>(&pointer))
         **kind = named(kPictures, json, "picture").kind;
-    else if (bool* const* on = std::get_if<bool*>(&place))
+    else if (bool* const* on = std::get_if<bool*>(&pointer))
         **on = json.get<bool>();
-    else if (int* const* number = std::get_if<int*>(&place))
+    else if (int* const* number = std::get_if<int*>(&pointer))
         **number = json.get<int>();
     else
-        take_number(json, command, *std::get<float*>(place));
+        take_number(json, command, *std::get<float*>(pointer));
 }
 
 RigLight light_of(const Json& json) {
@@ -190,7 +190,7 @@ void wait(Player& player, const Json& json) {
 
 void set(Player& player, const Json& json) {
     for (const Command& command : commands())
-        if (command.place && *command.id != 0 && json.contains(command.id))
+        if (command.setting && *command.id != 0 && json.contains(command.id))
             take(json.at(command.id), command, player.viewer->settings);
 }
 
@@ -199,14 +199,14 @@ void set_camera(Player& player, const Json& json) {
     prt::Camera camera = player.viewer->camera.camera();
     const Model* model = player.viewer->document().model();
     const glm::dvec3 origin = model ? model->scene.origin : glm::dvec3(0);
-    const auto place = [&](const Json& at) {
+    const auto position = [&](const Json& at) {
         const auto v = at.get<std::array<double, 3>>();
         return glm::vec3(glm::dvec3(v[0], v[1], v[2]) - origin);
     };
     if (json.contains("position"))
-        camera.position = place(json.at("position"));
+        camera.position = position(json.at("position"));
     if (json.contains("target"))
-        camera.target = place(json.at("target"));
+        camera.target = position(json.at("target"));
     player.viewer->camera = OrbitCamera(camera);
 }
 

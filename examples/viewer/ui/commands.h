@@ -13,7 +13,7 @@ namespace viewer {
 class Controls;
 
 /// Pointer to a setting, by its type.
-using Place = std::variant<PictureKind*, bool*, int*, float*>;
+using SettingPointer = std::variant<PictureKind*, bool*, int*, float*>;
 
 /// Range of a slider.
 struct Range {
@@ -24,13 +24,13 @@ struct Range {
 };
 
 struct Command {
-    const char* id = "";                 ///< id of a setting in scripts; empty: scripts press the key
-    char key = 0;                        ///< 0: none
-    const char* help = "";               ///< help of the key; empty: another entry describes it
-    const char* label = "";              ///< label in the panel
-    const char* tip = "";                ///< tooltip in the panel
-    Place (*place)(Settings&) = nullptr; ///< returns the setting; null: the command has none
-    void (*press)(Controls&) = nullptr;  ///< null: its key selects the next value of the setting
+    const char* id = "";    ///< id of a setting in scripts; empty: scripts press the key
+    char key = 0;           ///< 0: none
+    const char* help = "";  ///< help of the key; empty: another entry describes it
+    const char* label = ""; ///< label in the panel
+    const char* tip = "";   ///< tooltip in the panel
+    SettingPointer (*setting)(Settings&) = nullptr; ///< returns the setting; null: the command has none
+    void (*press)(Controls&) = nullptr;             ///< null: its key selects the next value of the setting
     Range range{};
 };
 
@@ -40,6 +40,6 @@ std::span<const Command> commands();
 const Command& setting(std::string_view id);
 
 /// Selects the next value of a switch or a picture.
-void switch_setting(const Place& place);
+void switch_setting(const SettingPointer& setting);
 
 } // namespace viewer

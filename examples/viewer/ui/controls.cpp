@@ -23,7 +23,7 @@ float handle_radius(const Viewer& viewer, const RigLight& light) {
 
 } // namespace
 
-glm::vec3 handle_place(const Viewer& viewer, const RigLight& light) {
+glm::vec3 handle_position(const Viewer& viewer, const RigLight& light) {
     return viewer.document().model()->center + handle_radius(viewer, light) * light.direction;
 }
 
@@ -31,7 +31,7 @@ int Controls::light_at(const glm::vec2& pixel) const {
     if (!viewer_.document().model())
         return -1;
     for (std::size_t i = 0; i < viewer_.lights.lights.size(); ++i) {
-        const auto at = pixel_of(viewer_.screen(), handle_place(viewer_, viewer_.lights.lights[i]));
+        const auto at = pixel_of(viewer_.screen(), handle_position(viewer_, viewer_.lights.lights[i]));
         if (viewer_.lights.lights[i].on && at && glm::distance(*at, pixel) < kGrab)
             return static_cast<int>(i);
     }
@@ -99,7 +99,7 @@ bool Controls::key(char key) {
     if (found->press)
         found->press(*this);
     else
-        switch_setting(found->place(viewer_.settings));
+        switch_setting(found->setting(viewer_.settings));
     return true;
 }
 

@@ -37,6 +37,6 @@ private:
 };
 
 /// Returns the position of a light's handle in the scene.
-glm::vec3 handle_place(const Viewer& viewer, const RigLight& light);
+glm::vec3 handle_position(const Viewer& viewer, const RigLight& light);
 
 } // namespace viewer

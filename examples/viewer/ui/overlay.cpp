@@ -29,7 +29,7 @@ ImVec2 to_interface(const glm::vec2& pixel) {
 
 void draw_handles(const Viewer& viewer, ImDrawList& list) {
     for (const RigLight& light : viewer.lights.lights) {
-        const auto pixel = pixel_of(viewer.screen(), handle_place(viewer, light));
+        const auto pixel = pixel_of(viewer.screen(), handle_position(viewer, light));
         if (!light.on || !pixel)
             continue;
         const ImVec2 at = to_interface(*pixel);

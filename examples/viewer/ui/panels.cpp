@@ -23,7 +23,7 @@ namespace {
 void choose_side(Viewer& viewer, const char* id, const char* lightmap,
                  SidePicture (*picture)(const Settings&)) {
     const Receivers receivers = picture(viewer.settings).receivers;
-    choose_picture(setting(id), *std::get<PictureKind*>(setting(id).place(viewer.settings)),
+    choose_picture(setting(id), *std::get<PictureKind*>(setting(id).setting(viewer.settings)),
                    [&](PictureKind kind) {
                        return viewer.never_shown({kind, receivers});
                    });

@@ -52,18 +52,18 @@ void check(const char* label, bool& value, const char* what) {
 }
 
 void control(Settings& settings, const Command& command) {
-    const Place place = command.place(settings);
+    const SettingPointer pointer = command.setting(settings);
     const Range& range = command.range;
     const ImGuiSliderFlags flags = (range.logarithmic ? ImGuiSliderFlags_Logarithmic : 0) |
                                    (range.strict ? ImGuiSliderFlags_AlwaysClamp : 0);
-    if (PictureKind* const* kind = std::get_if<PictureKind*>(&place))
+    if (PictureKind* const* kind = std::get_if<PictureKind*>(&pointer))
         return choose_picture(command, **kind, [](PictureKind) { return std::string(); });
-    if (bool* const* value = std::get_if<bool*>(&place))
+    if (bool* const* value = std::get_if<bool*>(&pointer))
         ImGui::Checkbox(command.label, *value);
-    else if (int* const* number = std::get_if<int*>(&place))
+    else if (int* const* number = std::get_if<int*>(&pointer))
         ImGui::SliderInt(command.label, *number, static_cast<int>(range.low), static_cast<int>(range.high));
     else
-        ImGui::SliderFloat(command.label, std::get<float*>(place), range.low, range.high, range.format,
+        ImGui::SliderFloat(command.label, std::get<float*>(pointer), range.low, range.high, range.format,
                            flags);
     tip(command.tip);
 }

@@ -152,7 +152,7 @@ export class PrtkitVolume extends LitTransfer {
   /** Completes the computation now. */
   settle(): this;
   /** Return the position of a probe in the world of the file, and whether it is inside geometry. */
-  placeOfProbe(probe: number): Vector3;
+  positionOfProbe(probe: number): Vector3;
   isSealed(probe: number): boolean;
   /** Inputs of custom shaders: the uniforms that `volumeShader` reads, and its defines. */
   readonly uniforms: Record<string, IUniform>;

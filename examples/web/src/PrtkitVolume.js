@@ -17,7 +17,7 @@ import {
 import { LitTransfer } from "./LitTransfer.js";
 import { movingMaterial } from "./relitMaterial.js";
 import { VolumeRelighter } from "./VolumeRelighter.js";
-import { placeOf, SIDE } from "./volumeGrid.js";
+import { positionOf, SIDE } from "./volumeGrid.js";
 import { atlasOf, indexTexels, visibilityTexels } from "./volumeTextures.js";
 
 /** Products with the light that are formed in a frame, and probes: some 4 ms each. */
@@ -95,7 +95,7 @@ export class PrtkitVolume extends LitTransfer {
       this.checkLights(scene);
       this.advance(renderer);
     };
-    this.place();
+    this.updateTransform();
   }
 
   /** Returns this volume: files have it in addition to transfer of surfaces, or alone. */
@@ -124,8 +124,8 @@ export class PrtkitVolume extends LitTransfer {
   }
 
   /** Returns the position of a probe in the world of the file. */
-  placeOfProbe(probe) {
-    return new Vector3(...placeOf(this.source.grid, probe));
+  positionOfProbe(probe) {
+    return new Vector3(...positionOf(this.source.grid, probe));
   }
 
   /** True if a probe is inside geometry, and gives no light. */
@@ -179,7 +179,7 @@ export class PrtkitVolume extends LitTransfer {
   }
 
   /** Updates the transform of the file's scene. */
-  place() {
+  updateTransform() {
     const origin = new Matrix4().makeTranslation(...this.source.grid.origin.map((value) => -value));
     this.uniforms.prtToVolume.value.copy(this.root.matrixWorld).invert().premultiply(origin);
   }
@@ -201,7 +201,7 @@ export class PrtkitVolume extends LitTransfer {
     if ((frame ?? calls) === this.frame) return;
     this.frame = frame ?? calls;
     this.checkSize(renderer);
-    this.place();
+    this.updateTransform();
     this.followSky();
     if (!this.isFormed) this.settle();
     else if (!this.isSettled) this.step();

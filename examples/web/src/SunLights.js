@@ -33,7 +33,7 @@ export class SunLights extends Group {
     this.box = new Box3(new Vector3(-1, -1, -1), new Vector3(1, 1, 1));
     this.lights = suns.map((sun) => lightOf(sun, mapSize));
     for (const light of this.lights) this.add(light, light.target);
-    this.place();
+    this.updateTransform();
   }
 
   /**
@@ -44,7 +44,7 @@ export class SunLights extends Group {
     const box = object.isBox3 ? object.clone() : new Box3().setFromObject(object);
     if (box.isEmpty()) throw new RangeError("there is nothing to fit shadow maps to");
     this.box = box;
-    this.place();
+    this.updateTransform();
     return this;
   }
 
@@ -53,7 +53,7 @@ export class SunLights extends Group {
     const [c, s] = [Math.cos(angle), Math.sin(angle)];
     this.scene = null;
     this.rotated = [c, 0, -s, 0, 1, 0, s, 0, c];
-    this.place();
+    this.updateTransform();
     return this;
   }
 
@@ -75,7 +75,7 @@ export class SunLights extends Group {
     this.shown = now;
     this.rotated = environmentTurn(euler);
     this.dim(strength);
-    this.place();
+    this.updateTransform();
   }
 
   /** Three calls this before it draws shadow maps. */
@@ -90,7 +90,7 @@ export class SunLights extends Group {
     return this;
   }
 
-  place() {
+  updateTransform() {
     const centre = this.box.getCenter(new Vector3());
     const radius = Math.max(this.box.getSize(new Vector3()).length() / 2, 1e-6);
     this.lights.forEach((light, i) => {

@@ -44,13 +44,13 @@ function morphed({ geometry, morphTargetInfluences }, name, v) {
 }
 
 /** Returns the sums of the triangles' normals at each vertex, for vertices without normals. */
-function normalsOfTriangles({ index }, places) {
-  const sums = places.map(() => new Vector3());
+function normalsOfTriangles({ index }, points) {
+  const sums = points.map(() => new Vector3());
   const corner = (i) => (index ? index.getX(i) : i);
-  const count = index ? index.count : places.length;
+  const count = index ? index.count : points.length;
   for (let t = 0; t + 2 < count; t += 3) {
     const [a, b, c] = [corner(t), corner(t + 1), corner(t + 2)];
-    const normal = places[b].clone().sub(places[a]).cross(places[c].clone().sub(places[a]));
+    const normal = points[b].clone().sub(points[a]).cross(points[c].clone().sub(points[a]));
     for (const v of [a, b, c]) sums[v].add(normal);
   }
   return sums;
@@ -81,16 +81,16 @@ function bakedAttributes(mesh, world, origin) {
   const { geometry } = mesh;
   const vertices = Array.from({ length: geometry.getAttribute("position").count }, (_, v) => v);
   const matrices = vertices.map((v) => (mesh.isSkinnedMesh ? skinMatrix(mesh, v) : world));
-  const places = vertices.map((v) => morphed(mesh, "position", v).applyMatrix4(matrices[v]).sub(origin));
+  const points = vertices.map((v) => morphed(mesh, "position", v).applyMatrix4(matrices[v]).sub(origin));
   const normals = vertices.map((v) => unitOrZero(morphed(mesh, "normal", v).applyMatrix3(normalMatrix(matrices[v]))));
   if (normals.some((normal) => normal.lengthSq() === 0)) {
     // A mirroring node reverses the winding of triangles.
     const side = !mesh.isSkinnedMesh && world.determinant() < 0 ? -1 : 1;
-    const sums = normalsOfTriangles(geometry, places);
+    const sums = normalsOfTriangles(geometry, points);
     normals.forEach((normal, v) => normal.lengthSq() === 0 && unitOrZero(normal.copy(sums[v]).multiplyScalar(side)));
   }
   const attribute = (vectors) => new BufferAttribute(Float32Array.from(vectors.flatMap((vector) => vector.toArray())), 3);
-  geometry.setAttribute("prt_baked_place", attribute(places));
+  geometry.setAttribute("prt_baked_position", attribute(points));
   geometry.setAttribute("prt_baked_normal", attribute(normals));
 }
 
@@ -98,12 +98,12 @@ function bakedAttributes(mesh, world, origin) {
  * Throws if a position is farther from the origin of its predictor than the predictor's `scale` allows, or
  * NaN.
  */
-function checkPlaces(mesh, toBake, { scale }) {
-  const { prt_baked_place: baked, position } = mesh.geometry.attributes;
-  const [places, matrix] = baked ? [baked, new Matrix4()] : [position, toBake];
-  const place = new Vector3();
-  for (let v = 0; v < places.count; ++v) {
-    const scaled = place.fromBufferAttribute(places, v).applyMatrix4(matrix).toArray().map((x, i) => Math.abs(x * scale[i]));
+function checkPositions(mesh, toBake, { scale }) {
+  const { prt_baked_position: baked, position } = mesh.geometry.attributes;
+  const [points, matrix] = baked ? [baked, new Matrix4()] : [position, toBake];
+  const point = new Vector3();
+  for (let v = 0; v < points.count; ++v) {
+    const scaled = point.fromBufferAttribute(points, v).applyMatrix4(matrix).toArray().map((x, i) => Math.abs(x * scale[i]));
     expect(scaled.every((x) => x <= LARGEST_WEIGHT), `vertex ${v} is farther from the origin of a predictor than its scale allows`);
   }
 }
@@ -136,7 +136,7 @@ export function bakedFrame(mesh, predictors, world = mesh.matrixWorld) {
     bakedAttributes(mesh, world, origin);
     defines.PRT_BAKED_ATTRIBUTES = 1;
   }
-  if (position || defines.PRT_BAKED_ATTRIBUTES) checkPlaces(mesh, toBake, position ?? { scale: [1, 1, 1] });
+  if (position || defines.PRT_BAKED_ATTRIBUTES) checkPositions(mesh, toBake, position ?? { scale: [1, 1, 1] });
   return {
     defines,
     uniforms: { prtToBake: { value: toBake }, prtNormalToBake: { value: normalMatrix(world) } },

@@ -30,7 +30,7 @@ function ball(color, metalness, roughness) {
 function spheresAt(volume, probes, material) {
   const size = PROBE_SHARE * volume.source.grid.spacing;
   const spheres = new InstancedMesh(new IcosahedronGeometry(size, 2), material, probes.length);
-  probes.forEach((probe, i) => spheres.setMatrixAt(i, new Matrix4().setPosition(volume.placeOfProbe(probe))));
+  probes.forEach((probe, i) => spheres.setMatrixAt(i, new Matrix4().setPosition(volume.positionOfProbe(probe))));
   return spheres;
 }
 

@@ -84,14 +84,14 @@ const normalToBake = ofMaterial(new Matrix3(), "prtNormalToBake");
 
 /** Returns position and normal of a vertex in the space of the bake, as in transferVertex.glsl. */
 function bakedFrameOf(defines) {
-  if (defines.PRT_BAKED_ATTRIBUTES) return { place: attribute("prt_place", "vec3"), normal: attribute("prt_normal", "vec3") };
+  if (defines.PRT_BAKED_ATTRIBUTES) return { point: attribute("prt_position", "vec3"), normal: attribute("prt_normal", "vec3") };
   const turned = normalToBake.mul(normalGeometry);
-  return { place: toBake.mul(positionGeometry).xyz, normal: turned.mul(turned.dot(turned).max(1e-30).inverseSqrt()) };
+  return { point: toBake.mul(positionGeometry).xyz, normal: turned.mul(turned.dot(turned).max(1e-30).inverseSqrt()) };
 }
 
 function predictorsOf({ constantsTexture }, defines) {
-  const { place, normal } = bakedFrameOf(defines);
-  const vectors = [...(defines.PRT_PREDICTOR_NORMAL ? [normal] : []), ...(defines.PRT_PREDICTOR_POSITION ? [place] : [])];
+  const { point, normal } = bakedFrameOf(defines);
+  const vectors = [...(defines.PRT_PREDICTOR_NORMAL ? [normal] : []), ...(defines.PRT_PREDICTOR_POSITION ? [point] : [])];
   if (vectors.length === 0) return NO_PREDICTORS;
   const coordinates = vectors.flatMap((vector) => [vector.x, vector.y, vector.z]);
   const of = (first) =>

@@ -31,8 +31,8 @@ float prtMapDepth(sampler2D map, ivec2 texel) {
 }
 
 // Returns the depth of the plane at the center of a texel; `slope`: depth per texel.
-float prtPlaneDepth(vec3 place, vec2 slope, ivec2 texel) {
-  return place.z + dot(slope, vec2(texel) + 0.5 - place.xy);
+float prtPlaneDepth(vec3 point, vec2 slope, ivec2 texel) {
+  return point.z + dot(slope, vec2(texel) + 0.5 - point.xy);
 }
 
 // Point i on a spiral (H. Vogel 1979).
@@ -44,16 +44,16 @@ vec2 prtSpiral(int i, float turn) {
 // Returns the mean distance of blockers over the disc of the sun, as a fraction of the map's depth; negative:
 // there are none. `spread`: radius of the sun in texels per unit of depth. Each doubling of the radius has an
 // equal number of taps: blockers next to the surface are found near the center, distant ones anywhere.
-float prtBlockerDistance(sampler2D map, vec3 place, vec2 slope, float spread, float turn) {
+float prtBlockerDistance(sampler2D map, vec3 point, vec2 slope, float spread, float turn) {
   float away = 0.0, found = 0.0;
-  float steps = log2(spread * place.z + 1.5) + 1.0; // from half a texel
+  float steps = log2(spread * point.z + 1.5) + 1.0; // from half a texel
   for (int i = 0; i < kPrtSearch; ++i) {
     float radius = exp2(steps * (float(i) + 0.5) / float(kPrtSearch) - 1.0);
-    ivec2 texelAt = ivec2(floor(place.xy + radius * prtSpiral(i, turn)));
+    ivec2 texelAt = ivec2(floor(point.xy + radius * prtSpiral(i, turn)));
     float depth = prtMapDepth(map, texelAt);
-    float between = max(place.z - depth, 0.0);
+    float between = max(point.z - depth, 0.0);
     float share = radius / (spread * between + 1.5); // relative to the sun's radius there
-    if (share <= 1.0 && depth < prtPlaneDepth(place, slope, texelAt)) {
+    if (share <= 1.0 && depth < prtPlaneDepth(point, slope, texelAt)) {
       away += share * share * between;
       found += share * share;
     }
@@ -71,11 +71,11 @@ float prtVisibility(sampler2D map, mat4 toMap, DirectionalLightShadow sun, vec3 
   vec3 squares = vec3(dot(axes[0], axes[0]), dot(axes[1], axes[1]), dot(axes[2], axes[2]));
   // One texel off the surface: in a corner, a position nearer than a texel does not see the other wall in the
   // map.
-  vec3 place = (toMap * vec4(at + face * inversesqrt(squares.x), 1.0)).xyz;
-  place.z += sun.shadowBias;
-  if (any(lessThan(place, vec3(0.0))) || any(greaterThan(place, vec3(1.0))))
+  vec3 point = (toMap * vec4(at + face * inversesqrt(squares.x), 1.0)).xyz;
+  point.z += sun.shadowBias;
+  if (any(lessThan(point, vec3(0.0))) || any(greaterThan(point, vec3(1.0))))
     return 1.0;
-  place.xy *= sun.shadowMapSize;
+  point.xy *= sun.shadowMapSize;
   vec3 n = face * axes / squares;
   vec2 slope = -n.xy / (n.z < 0.0 ? min(n.z, -1e-12) : max(n.z, 1e-12));
   slope *= min(1.0, kPrtSteepest * sqrt(squares.z / squares.x) / max(length(slope), 1e-12));
@@ -83,15 +83,15 @@ float prtVisibility(sampler2D map, mat4 toMap, DirectionalLightShadow sun, vec3 
   // Patterns of neighbouring pixels are rotated relative to each other (J. Jimenez, SIGGRAPH 2014 course).
   float turn = 6.2831853 * fract(52.9829189 * fract(dot(gl_FragCoord.xy, vec2(0.06711056, 0.00583715))));
   float spread = sun.shadowRadius / kPrtRadiusAt; // texels for each depth between
-  float away = prtBlockerDistance(map, place, slope, spread, turn);
+  float away = prtBlockerDistance(map, point, slope, spread, turn);
   if (away < 0.0)
     return 1.0;
   float width = spread * away, radius = max(width, 1.0);
   float open = 0.0;
   for (int i = 0; i < kPrtTaps; ++i) {
     float share = sqrt((float(i) + 0.5) / float(kPrtTaps)); // even over the disc
-    ivec2 texelAt = ivec2(floor(place.xy + radius * share * prtSpiral(i, turn)));
-    open += step(prtPlaneDepth(place, slope, texelAt), prtMapDepth(map, texelAt));
+    ivec2 texelAt = ivec2(floor(point.xy + radius * share * prtSpiral(i, turn)));
+    open += step(prtPlaneDepth(point, slope, texelAt), prtMapDepth(map, texelAt));
   }
   open /= float(kPrtTaps);
   // A penumbra within a texel is not resolved. In a corner half of the taps are beyond the other wall: half
@@ -101,7 +101,7 @@ float prtVisibility(sampler2D map, mat4 toMap, DirectionalLightShadow sun, vec3 
 }
 
 #define PRT_VISIBILITY(i)                                                                                              \
-  prtVisibility(directionalShadowMap[i], directionalShadowMatrix[i], directionalLightShadows[i], prtPlace,             \
+  prtVisibility(directionalShadowMap[i], directionalShadowMatrix[i], directionalLightShadows[i], prtPosition,             \
                 towardsSun* worldFace)
 
 #else
@@ -119,7 +119,7 @@ float prtNormalBias(mat4 toMap, DirectionalLightShadow sun) {
             directionalLightShadows[i].shadowIntensity, directionalLightShadows[i].shadowBias,                         \
             directionalLightShadows[i].shadowRadius,                                                                   \
             directionalShadowMatrix[i] *                                                                               \
-                vec4(prtPlace + prtNormalBias(directionalShadowMatrix[i], directionalLightShadows[i]) * towardsSun *   \
+                vec4(prtPosition + prtNormalBias(directionalShadowMatrix[i], directionalLightShadows[i]) * towardsSun *   \
                                     worldFace,                                                                         \
                      1.0))
 

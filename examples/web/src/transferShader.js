@@ -69,7 +69,7 @@ ${volume}`;
 // the light.
 const INCIDENT = `
   vec3 prtIncident[ PRT_VOLUME_COEFFICIENTS ];
-  prt_volume_incident( prtVolumePlace, prtTowards( nonPerturbedNormal ), prtIncident );
+  prt_volume_incident( prtVolumePosition, prtTowards( nonPerturbedNormal ), prtIncident );
 #ifndef PRT_LOBES
   vec3 prtRadiance = prt_incident_irradiance( prtIncident, prtTowards( normal ) );
 #endif
@@ -91,8 +91,8 @@ const TRANSFER = `
 #endif
   vec3 prtDiffuse = max( prtRadiance, vec3( 0.0 ) );
 #ifdef PRT_OCCLUDERS
-  if ( distance( prtPlace, prtOccluderReach.xyz ) < prtOccluderReach.w )
-    prtDiffuse *= prt_occluders_openness( prtPlace, inverseTransformDirection( nonPerturbedNormal, viewMatrix ) );
+  if ( distance( prtPosition, prtOccluderReach.xyz ) < prtOccluderReach.w )
+    prtDiffuse *= prt_occluders_openness( prtPosition, inverseTransformDirection( nonPerturbedNormal, viewMatrix ) );
 #endif
 #if defined( STANDARD ) && ( defined( USE_ENVMAP ) || defined( PRT_VOLUME ) )
   iblIrradiance = PI * prtDiffuse;
@@ -119,7 +119,7 @@ function addLight(shader, { vertex, fragment, lights }) {
   const addFragment = (name, text) => add("fragmentShader", name, text);
   add("vertexShader", "common", `${include("common")}\n${vertex}\n${transferVertex}`);
   add("vertexShader", "project_vertex", `${include("project_vertex")}\nprtLight( transformed );`);
-  addFragment("common", `${include("common")}\n${fragment}\nuniform vec3 prtStrength;\ncentroid in vec3 prtPlace;`);
+  addFragment("common", `${include("common")}\n${fragment}\nuniform vec3 prtStrength;\ncentroid in vec3 prtPosition;`);
   addFragment("shadowmap_pars_fragment", `${include("shadowmap_pars_fragment")}\n#ifdef PRT_SUNS\n${sunLight}\n#endif`);
   addFragment("normal_fragment_begin", `${include("normal_fragment_begin")}${FACE_NORMAL}`);
   addFragment("lights_fragment_begin", `${LIGHTS}${NO_IRRADIANCE}`);
@@ -149,7 +149,7 @@ const LOBE_TURN = `
   prtMoved = prtMoved * mat3( skinMatrix );
 #endif
 #ifdef PRT_VOLUME
-  prtRadiance = prtLobeRadiance( prt_lobe_turn( mat3( prtToVolume ) * prtMoved ), prtVolumePlace );
+  prtRadiance = prtLobeRadiance( prt_lobe_turn( mat3( prtToVolume ) * prtMoved ), prtVolumePosition );
 #else
   prtRadiance = prtLobeRadiance( prt_lobe_turn( prtMoved ), vec3( 0.0 ) );
 #endif`;

@@ -18,8 +18,8 @@ uniform vec3 prtLobeLight[PRT_LOBE_COEFFICIENTS];
 out vec3 prtRadiance;
 
 // `turn`: rotation of prt_lobe_turn, from the mesh to the space of the light: the world, or a volume, which
-// contains `place`.
-vec3 prtLobeRadiance(mat3 turn, vec3 place) {
+// contains `point`.
+vec3 prtLobeRadiance(mat3 turn, vec3 point) {
   PrtLobe lobes[PRT_LOBES];
   lobes[0] = prt_turned_lobe(prt_lobe(prt_lobe_0), turn);
 #if PRT_LOBES > 1
@@ -31,30 +31,30 @@ vec3 prtLobeRadiance(mat3 turn, vec3 place) {
 #ifdef PRT_VOLUME
   vec3 turned = turn * normal;
   float size = length(turned);
-  return prt_lobes_in_volume(lobes, place, size > 0.0 ? turned / size : vec3(0.0, 1.0, 0.0));
+  return prt_lobes_in_volume(lobes, point, size > 0.0 ? turned / size : vec3(0.0, 1.0, 0.0));
 #else
   return prt_lobes_radiance(lobes, prtLobeLight);
 #endif
 }
 #elif !defined(PRT_LIGHTMAP) && !defined(PRT_VOLUME)
 #if defined(PRT_BAKED_ATTRIBUTES)
-in vec3 prt_baked_place, prt_baked_normal;
-vec3 prtBakedPlace() {
-  return prt_baked_place;
+in vec3 prt_baked_position, prt_baked_normal;
+vec3 prtBakedPosition() {
+  return prt_baked_position;
 }
 vec3 prtBakedNormal() {
   return prt_baked_normal;
 }
 #elif defined(PRT_INSTANCES)
 // Its own frame is that of the bake of a mesh that instances share.
-vec3 prtBakedPlace() {
+vec3 prtBakedPosition() {
   return position;
 }
 vec3 prtBakedNormal() {
   return dot(normal, normal) > 0.0 ? normalize(normal) : vec3(0.0);
 }
 #elif !defined(PRT_PREDICTOR_NORMAL) && !defined(PRT_PREDICTOR_POSITION)
-vec3 prtBakedPlace() {
+vec3 prtBakedPosition() {
   return vec3(0.0);
 }
 vec3 prtBakedNormal() {
@@ -63,7 +63,7 @@ vec3 prtBakedNormal() {
 #else
 uniform mat4 prtToBake;
 uniform mat3 prtNormalToBake;
-vec3 prtBakedPlace() {
+vec3 prtBakedPosition() {
   return (prtToBake * vec4(position, 1.0)).xyz;
 }
 vec3 prtBakedNormal() {
@@ -80,31 +80,31 @@ out vec3 prtRadiance; // for a receiver of albedo 1
 #endif
 
 // Position in the world, within the covered part of a pixel: its center may be beyond a wall.
-centroid out vec3 prtPlace;
+centroid out vec3 prtPosition;
 #ifdef PRT_VOLUME
 uniform mat4 prtToVolume;
-centroid out vec3 prtVolumePlace; // from the origin of the volume
+centroid out vec3 prtVolumePosition; // from the origin of the volume
 #endif
 
 // `transformed`: the vertex as its skin and its morph targets have moved it.
 void prtLight(vec3 transformed) {
 #if !defined(PRT_LIGHTMAP) && !defined(PRT_VOLUME) && !defined(PRT_LOBES)
 #ifdef PRT_INSTANCES
-  prtRadiance = prt_instance_radiance(prt_instance_0, prt_instance_1, prtBakedPlace(), prtBakedNormal());
+  prtRadiance = prt_instance_radiance(prt_instance_0, prt_instance_1, prtBakedPosition(), prtBakedNormal());
 #else
-  prtRadiance = prt_exit_radiance(prtBakedPlace(), prtBakedNormal());
+  prtRadiance = prt_exit_radiance(prtBakedPosition(), prtBakedNormal());
 #endif
 #endif
-  vec4 place = vec4(transformed, 1.0);
+  vec4 point = vec4(transformed, 1.0);
 #ifdef USE_BATCHING
-  place = batchingMatrix * place;
+  point = batchingMatrix * point;
 #endif
 #ifdef USE_INSTANCING
-  place = instanceMatrix * place;
+  point = instanceMatrix * point;
 #endif
-  place = modelMatrix * place;
-  prtPlace = place.xyz;
+  point = modelMatrix * point;
+  prtPosition = point.xyz;
 #ifdef PRT_VOLUME
-  prtVolumePlace = (prtToVolume * place).xyz;
+  prtVolumePosition = (prtToVolume * point).xyz;
 #endif
 }

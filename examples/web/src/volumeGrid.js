@@ -83,6 +83,6 @@ export function gridOf({ origin, spacing, size }, numbers, bytes) {
 }
 
 /** Metres, in the world of the file. */
-export function placeOf({ origin, spacing, corners }, probe) {
+export function positionOf({ origin, spacing, corners }, probe) {
   return origin.map((least, axis) => least + spacing * corners[3 * probe + axis]);
 }

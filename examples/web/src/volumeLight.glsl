@@ -3,7 +3,7 @@
 
 uniform mat4 prtToVolume;                          // from the world, with the volume's origin taken off
 uniform vec3 prtSkyLight[PRT_VOLUME_COEFFICIENTS]; // light of the sky only, without occlusion
-centroid in vec3 prtVolumePlace;
+centroid in vec3 prtVolumePosition;
 
 // A direction of the camera's space in the frame of the volume.
 vec3 prtTowards(vec3 direction) {

@@ -28,9 +28,9 @@ export function atlasOf({ bricks }, order) {
 
 /** Texel of corner `i` of brick `b` in a plane. */
 export function texelOf({ bricks: [x, y] }, b, i) {
-  const place = [b % x, Math.floor(b / x) % y, Math.floor(b / (x * y))];
+  const point = [b % x, Math.floor(b / x) % y, Math.floor(b / (x * y))];
   const step = [i % SIDE, Math.floor(i / SIDE) % SIDE, Math.floor(i / SIDE ** 2)];
-  const [u, v, w] = place.map((n, axis) => SIDE * n + step[axis]);
+  const [u, v, w] = point.map((n, axis) => SIDE * n + step[axis]);
   return (w * SIDE * y + v) * SIDE * x + u;
 }
 

@@ -22,22 +22,22 @@ export class Walk {
     const curve = new CatmullRomCurve3(way.points.map(([x, z]) => new Vector3(x, way.from, z)), true);
     this.length = curve.getLength();
     const ray = new Raycaster();
-    this.places = curve.getSpacedPoints(Math.ceil(this.length / STEP)).slice(0, -1);
+    this.points = curve.getSpacedPoints(Math.ceil(this.length / STEP)).slice(0, -1);
     let height = null;
-    for (const place of this.places) {
-      ray.set(place, DOWN);
+    for (const point of this.points) {
+      ray.set(point, DOWN);
       const hit = ray.intersectObject(ground)[0];
       height = hit ? hit.point.y : height; // over a hole the height is unchanged
-      place.y = height ?? 0;
+      point.y = height ?? 0;
     }
   }
 
   /** Returns the position after a distance in metres. */
   at(metres) {
-    const count = this.places.length;
+    const count = this.points.length;
     const steps = (((metres / this.length) % 1) + 1) * count;
     const first = Math.floor(steps);
-    return this.places[first % count].clone().lerp(this.places[(first + 1) % count], steps - first);
+    return this.points[first % count].clone().lerp(this.points[(first + 1) % count], steps - first);
   }
 
   /** Returns the walking direction there, as a rotation about +Y from +Z. */

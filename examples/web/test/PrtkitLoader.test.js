@@ -186,7 +186,7 @@ test("the shader is that of the runtime, and the material three's", async () => 
   await new PrtkitPlugin(parser).afterRoot(gltf);
   const shader = compiled(mesh.material);
   assert.match(shader.vertexShader, /vec3 prt_exit_radiance\(vec3 position, vec3 normal\)/);
-  assert.match(shader.vertexShader, /prtRadiance = prt_exit_radiance\(prtBakedPlace\(\), prtBakedNormal\(\)\);/);
+  assert.match(shader.vertexShader, /prtRadiance = prt_exit_radiance\(prtBakedPosition\(\), prtBakedNormal\(\)\);/);
   assert.doesNotMatch(shader.vertexShader, /#include "/);
   // Behind skins and morph targets, which move where a pixel is looked for in a shadow map.
   assert.match(shader.vertexShader, /#include <skinning_vertex>[^]*prtLight\( transformed \);/);

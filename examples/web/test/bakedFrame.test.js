@@ -21,10 +21,10 @@ function geometryOf(positions = POSITIONS, normals = NORMALS) {
 function inShader(mesh, { defines, uniforms }, v) {
   const { attributes } = mesh.geometry;
   if (defines.PRT_BAKED_ATTRIBUTES)
-    return [attributes.prt_baked_place, attributes.prt_baked_normal].map((a) => new Vector3().fromBufferAttribute(a, v));
-  const place = new Vector3().fromBufferAttribute(attributes.position, v).applyMatrix4(uniforms.prtToBake.value);
+    return [attributes.prt_baked_position, attributes.prt_baked_normal].map((a) => new Vector3().fromBufferAttribute(a, v));
+  const point = new Vector3().fromBufferAttribute(attributes.position, v).applyMatrix4(uniforms.prtToBake.value);
   const normal = new Vector3().fromBufferAttribute(attributes.normal, v).applyMatrix3(uniforms.prtNormalToBake.value);
-  return [place, normal.normalize()];
+  return [point, normal.normalize()];
 }
 
 const near = (vector, expected, most = 1e-6) =>
@@ -52,8 +52,8 @@ test("places and normals are those of the file's world, also of nodes that mirro
     // The squares stay within the range of floats, even for a very small node.
     assert.ok(Math.abs(Math.max(...frame.uniforms.prtNormalToBake.value.elements.map(Math.abs)) - 1) < 1e-12);
     for (let v = 0; v < 3; ++v) {
-      const [place, normal] = inShader(mesh, frame, v);
-      near(place, new Vector3(...POSITIONS[v]).applyMatrix4(matrix).sub(new Vector3(...ORIGIN)));
+      const [point, normal] = inShader(mesh, frame, v);
+      near(point, new Vector3(...POSITIONS[v]).applyMatrix4(matrix).sub(new Vector3(...ORIGIN)));
       // A normal stays perpendicular to tangents that rotate with the surface, and on its side.
       const along = new Vector3(...NORMALS[v]);
       for (const tangent of [new Vector3(1, 0, 0).cross(along), new Vector3(0, 1, 0).cross(along)]) {

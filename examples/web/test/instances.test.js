@@ -117,13 +117,13 @@ function shaded(prtkit, mesh, i, v) {
   const [low, high] = [four(attributes.prt_instance_0, i), four(attributes.prt_instance_1, i)];
   const position = new Vector3().fromBufferAttribute(attributes.position, v).toArray();
   const normal = new Vector3().fromBufferAttribute(attributes.normal, v).normalize().toArray();
-  const place = [...position.map((x, a) => (x - low[a]) * high[a]), 1];
+  const point = [...position.map((x, a) => (x - low[a]) * high[a]), 1];
   const first = (low[3] + high[3] * 65536) >>> 0;
   const { uniforms, defines } = prtkit.instances.transferOf(mesh);
   const { data } = uniforms.prt_constants.value.image;
   const constant = (row) => {
     const at = 3 * ((first + row) >>> 0);
-    return [0, 1, 2].map((c) => place.reduce((sum, x, k) => sum + x * data[4 * (at + c) + k], 0));
+    return [0, 1, 2].map((c) => point.reduce((sum, x, k) => sum + x * data[4 * (at + c) + k], 0));
   };
   const word = (n) => attributes.prt_words_0.getComponent(v, n);
   const bits = defines.PRT_PACKED_WORDS ? (BigInt(word(1)) << 32n) | BigInt(word(0)) : 0n;
@@ -176,12 +176,12 @@ function expectedOf(prtkit, mesh, v, modes, numbers, box) {
     }
     add(1 + 3 * predictors.length + j, weight);
   }
-  const place = [...position.map((x, a) => (x - box.middle[a]) / box.half[a]), 1];
+  const point = [...position.map((x, a) => (x - box.middle[a]) / box.half[a]), 1];
   const count = order * order;
   const result = [0, 0, 0];
   modes.forEach(([sky, both], m) => {
     for (let c = 0; c < 3; ++c) {
-      const factor = m < 10 ? place.reduce((sum, x, k) => sum + x * numbers[4 * m + k], 0) : numbers[40 + 3 * (m - 10) + c];
+      const factor = m < 10 ? point.reduce((sum, x, k) => sum + x * numbers[4 * m + k], 0) : numbers[40 + 3 * (m - 10) + c];
       for (let i = 0; i < count; ++i)
         result[c] += factor * (vector[i] * sky[3 * i + c] + vector[count * (1 + c) + i] * both[3 * i + c]);
     }
@@ -244,16 +244,16 @@ test("each primitive is drawn at once, where its nodes are", async () => {
   assert.deepEqual(drawn.slice(1), instances.meshes);
   assert.deepEqual([instances.count, instances.bytesPerInstance], [COUNT, 52]);
   assert.ok(instances.constantsBytesPerInstance > 0 && instances.constantsBytesPerInstance % 48 === 0);
-  const places = instances.meshes.flatMap((mesh) =>
+  const points = instances.meshes.flatMap((mesh) =>
     Array.from({ length: mesh.count }, (_, i) => {
       const matrix = new Matrix4();
       mesh.getMatrixAt(i, matrix);
       return new Vector3().setFromMatrixPosition(matrix);
     }));
-  for (let i = 0; i < 4; ++i) assert.ok(places[i].distanceTo(new Vector3(...PLACES.TRANSLATION.slice(3 * i))) < 1e-6);
+  for (let i = 0; i < 4; ++i) assert.ok(points[i].distanceTo(new Vector3(...PLACES.TRANSLATION.slice(3 * i))) < 1e-6);
   // The hill rotates +X to -Z, and +Z to +X.
-  assert.ok(places[4].distanceTo(new Vector3(0.5, 0.1, -0.8)) < 1e-6, places[4].toArray());
-  assert.ok(places[5].distanceTo(new Vector3(1.5, 0.1, 0.5)) < 1e-6, places[5].toArray());
+  assert.ok(points[4].distanceTo(new Vector3(0.5, 0.1, -0.8)) < 1e-6, points[4].toArray());
+  assert.ok(points[5].distanceTo(new Vector3(1.5, 0.1, 0.5)) < 1e-6, points[5].toArray());
   // Culled by all of them together.
   const [balls] = instances.meshes;
   balls.computeBoundingSphere();
@@ -308,7 +308,7 @@ test("the shader is that of the runtime for instances, and others have none of i
   const [mesh] = userData.prtkit.instances.meshes;
   const { vertexShader, uniforms } = compiled(mesh);
   assert.match(vertexShader, /vec3 prt_instance_radiance\(vec4 instance_0, vec4 instance_1, vec3 position, vec3 normal\)/);
-  assert.match(vertexShader, /prtRadiance = prt_instance_radiance\(prt_instance_0, prt_instance_1, prtBakedPlace\(\), prtBakedNormal\(\)\);/);
+  assert.match(vertexShader, /prtRadiance = prt_instance_radiance\(prt_instance_0, prt_instance_1, prtBakedPosition\(\), prtBakedNormal\(\)\);/);
   assert.equal(vertexShader.match(/vec3 prt_exit_radiance\(/g).length, 3); // once for each way that weights lie
   assert.equal(uniforms.prt_constants.value, userData.prtkit.instances.constantsTexture);
   assert.equal(mesh.material.defines.PRT_PREDICTOR_ORIGIN, `vec3(${[0.1, 0.2, -0.1].map(Math.fround).join(", ")})`);

@@ -24,7 +24,7 @@ export function profiles(order) {
 export function squares() {
   const next = random(5);
   return Array.from({ length: ACROSS * DOWN }, (_, i) => ({
-    place: [(((i % ACROSS) + 0.5) / ACROSS - 0.5) * 1.8, ((Math.floor(i / ACROSS) + 0.5) / DOWN - 0.5) * 1.6, 0],
+    point: [(((i % ACROSS) + 0.5) / ACROSS - 0.5) * 1.8, ((Math.floor(i / ACROSS) + 0.5) / DOWN - 0.5) * 1.6, 0],
     normal: new Vector3(next() - 0.5, next() - 0.5, 1).normalize().toArray(),
     share: Math.round(4 * next()) / 4,
     lobes: Array.from({ length: LOBES }, () => [255 * next(), 255 * next(), PROFILES * next(), 120 + 135 * next()].map(Math.floor)),
@@ -35,7 +35,7 @@ export function lobeModel(order = 4, change = () => {}) {
   const binary = new Binary();
   const all = squares();
   const four = (of) => all.flatMap((square) => [0, 1, 2, 3].flatMap((corner) => of(square, corner)));
-  const position = ({ place: [x, y, z] }, corner) => [x + (corner & 1 ? SIZE : -SIZE), y + (corner & 2 ? SIZE : -SIZE), z];
+  const position = ({ point: [x, y, z] }, corner) => [x + (corner & 1 ? SIZE : -SIZE), y + (corner & 2 ? SIZE : -SIZE), z];
   const attributes = {
     POSITION: binary.accessor(new Float32Array(four(position)), "VEC3", { min: [-1, -1, 0], max: [1, 1, 0] }),
     NORMAL: binary.accessor(new Float32Array(four(({ normal }) => normal)), "VEC3"),
@@ -87,14 +87,14 @@ const skinOf = (share, bones) => {
 const turnOf = (skin) => new Matrix3().setFromMatrix4(skin).invert().transpose();
 
 /** Returns the positions of the ends of a square's diagonal, and its normal there. */
-export function cornersOf({ place: [x, y, z], normal, share }, bones) {
+export function cornersOf({ point: [x, y, z], normal, share }, bones) {
   const skin = skinOf(share, bones);
   const turned = new Vector3(...normal).applyMatrix3(turnOf(skin)).normalize().toArray();
-  return [1, -1].map((side) => ({ place: new Vector3(x + side * SIZE, y - side * SIZE, z).applyMatrix4(skin).toArray(), normal: turned }));
+  return [1, -1].map((side) => ({ point: new Vector3(x + side * SIZE, y - side * SIZE, z).applyMatrix4(skin).toArray(), normal: turned }));
 }
 
 /** Returns the position of a square, and its radiance for albedo 1 under coefficients [order²][3]. */
-export function radianceOf({ place, share, lobes }, bones, order, light) {
+export function radianceOf({ point, share, lobes }, bones, order, light) {
   const skin = skinOf(share, bones);
   const turn = turnOf(skin);
   const gains = profiles(order);
@@ -106,5 +106,5 @@ export function radianceOf({ place, share, lobes }, bones, order, light) {
       sum.forEach((_, c) => (sum[c] += gain * value * light[3 * i + c]));
     });
   }
-  return { place: new Vector3(...place).applyMatrix4(skin), radiance: sum.map((value) => Math.max(value, 0)) };
+  return { point: new Vector3(...point).applyMatrix4(skin), radiance: sum.map((value) => Math.max(value, 0)) };
 }

@@ -36,12 +36,12 @@ const clamp = (x, low, high) => Math.min(Math.max(x, low), high);
 
 /** The four numbers between texels, [-1, 1] along each axis. */
 function filtered(texels, at) {
-  const place = at.map((x) => clamp(((x + 1) / 2) * (SIDE - 1), 0, SIDE - 1));
-  const low = place.map((x) => Math.min(Math.floor(x), SIDE - 2));
+  const point = at.map((x) => clamp(((x + 1) / 2) * (SIDE - 1), 0, SIDE - 1));
+  const low = point.map((x) => Math.min(Math.floor(x), SIDE - 2));
   const sum = [0, 0, 0, 0];
   for (let i = 0; i < 8; ++i) {
     const step = [i & 1, (i >> 1) & 1, i >> 2];
-    const weight = step.reduce((product, s, a) => product * (s ? place[a] - low[a] : 1 - place[a] + low[a]), 1);
+    const weight = step.reduce((product, s, a) => product * (s ? point[a] - low[a] : 1 - point[a] + low[a]), 1);
     const [x, y, z] = step.map((s, a) => low[a] + s);
     for (let c = 0; c < 4; ++c) sum[c] += (weight * Math.max(texels[4 * ((z * SIDE + y) * SIDE + x) + c], -127)) / 127;
   }

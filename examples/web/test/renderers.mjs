@@ -216,11 +216,11 @@ await check("texels: without an environment, the picture is that of three's own 
 const [across, down] = [48, 40];
 const volumeLight = Array.from({ length: 27 }, (_, i) => Math.cos(3 * i + 1) + (i < 3 ? 3 : 0));
 /** Through both bricks and between probes, beyond the box, and where there is no brick. */
-const places = [
-  { place: [-0.53, 0.61, -0.37], turn: [0.3, 0.5, 0.1] },
-  { place: [0.31, 0.13, -0.91], turn: [-1.2, 0.2, 2.1] },
-  { place: [-1.77, -0.41, -1.23], turn: [0.4, 2.6, -0.3] },
-  { place: [0.07, 1.23, 0.29], turn: [1.1, -0.7, 0.9] },
+const points = [
+  { point: [-0.53, 0.61, -0.37], turn: [0.3, 0.5, 0.1] },
+  { point: [0.31, 0.13, -0.91], turn: [-1.2, 0.2, 2.1] },
+  { point: [-1.77, -0.41, -1.23], turn: [0.4, 2.6, -0.3] },
+  { point: [0.07, 1.23, 0.29], turn: [1.1, -0.7, 0.9] },
 ];
 
 /**
@@ -239,7 +239,7 @@ async function offPlain(askThere, asked, expected) {
     for (let x = 0; x < across; ++x) {
       const row = asked.api === "webgpu" ? down - 1 - y : y;
       const at = new Vector3((2 * (x + 0.5)) / across - 1, (2 * (y + 0.5)) / down - 1, 0).applyEuler(turned);
-      const incident = incidentAround(volume, asked.place.map((value, a) => value + at.toArray()[a]), normal, columns);
+      const incident = incidentAround(volume, asked.point.map((value, a) => value + at.toArray()[a]), normal, columns);
       // Nodes of three compute one view position, also for orthographic cameras.
       const towards = asked.api === "webgl" ? normal : new Vector3(0, 0, 2).applyEuler(turned).sub(at).normalize().toArray();
       const cosine = normal.reduce((sum, value, a) => sum + value * towards[a], 0);
@@ -254,10 +254,10 @@ async function offPlain(askThere, asked, expected) {
 
 for (const [api, askThere] of [["webgl", ask], ["nodes", ask], ["webgpu", onWebgpu.ask]]) {
   const matte = { api, model: "volume.glb", material: "matte", kind: "plain" };
-  await check(`${api}: what a volume lights has the light of its place, as plain numbers have it`, async () => {
+  await check(`${api}: what a volume lights has the light of its point, as plain numbers have it`, async () => {
     const found = [];
     for (const floats of [true, false])
-      for (const place of places) found.push(await offPlain(askThere, { ...matte, floats, ...place }, (incident, normal) => sumOf(incident, normal)));
+      for (const point of points) found.push(await offPlain(askThere, { ...matte, floats, ...point }, (incident, normal) => sumOf(incident, normal)));
     // Filters of half floats use fractions of a cell in 256ths, and neighbours differ by as much as all
     // light.
     assert.ok(Math.max(...found.slice(0, 4)) < 1e-5 && Math.max(...found.slice(4)) < 2 ** -8, found.join());
@@ -265,14 +265,14 @@ for (const [api, askThere] of [["webgl", ask], ["nodes", ask], ["webgpu", onWebg
   });
   await check(`${api}: skins, morphs, instances and a scene that is moved are lit where they are`, async () => {
     for (const kind of ["skinned", "morphed", "instances"]) {
-      const off = await offPlain(askThere, { ...matte, floats: true, kind, ...places[0] }, (incident, normal) => sumOf(incident, normal));
+      const off = await offPlain(askThere, { ...matte, floats: true, kind, ...points[0] }, (incident, normal) => sumOf(incident, normal));
       assert.ok(off < 1e-5, `${kind}: ${off}`);
     }
-    const off = await offPlain(askThere, { ...matte, floats: true, moved: { place: [0.5, -0.25, 2], turn: [0.4, 1.3, -0.6] }, ...places[1] }, (incident, normal) => sumOf(incident, normal));
+    const off = await offPlain(askThere, { ...matte, floats: true, moved: { point: [0.5, -0.25, 2], turn: [0.4, 1.3, -0.6] }, ...points[1] }, (incident, normal) => sumOf(incident, normal));
     assert.ok(off < 1e-5, `moved: ${off}`);
   });
   await check(`${api}: chrome mirrors what comes in from there`, async () => {
-    const off = await offPlain(askThere, { ...matte, material: "chrome", floats: true, ...places[1] }, (incident, normal, mirrored) =>
+    const off = await offPlain(askThere, { ...matte, material: "chrome", floats: true, ...points[1] }, (incident, normal, mirrored) =>
       sumOf(incident, mirrored, [1, 1, 1, 1]));
     assert.ok(off < 0.02, `${off}`); // error of three's fit for multiple scattering
     return `${off.toExponential(1)} off`;
@@ -281,11 +281,11 @@ for (const [api, askThere] of [["webgl", ask], ["nodes", ask], ["webgpu", onWebg
 
 await check("what passes over baked surfaces takes as much of their light as plain numbers say", async () => {
   const moved = [
-    { place: [0.2, 0.7, -0.3], turn: [0.3, 1.1, -0.2], scale: 1 },
-    { place: [-0.6, 0.3, 0.5], turn: [0, -0.4, 0], scale: 1.5 },
+    { point: [0.2, 0.7, -0.3], turn: [0.3, 1.1, -0.2], scale: 1 },
+    { point: [-0.6, 0.3, 0.5], turn: [0, -0.4, 0], scale: 1.5 },
   ];
-  const matrices = moved.map(({ place, turn, scale }) =>
-    new Matrix4().compose(new Vector3(...place), new Quaternion().setFromEuler(new Euler(...turn)), new Vector3(scale, scale, scale)).toArray());
+  const matrices = moved.map(({ point, turn, scale }) =>
+    new Matrix4().compose(new Vector3(...point), new Quaternion().setFromEuler(new Euler(...turn)), new Vector3(scale, scale, scale)).toArray());
   const size = [16, 12];
   const [open, occluded, after] = await ask("occluded", { model: "vertices.glb", passer: "passer.glb", moved, centre: [0, 0], size, light });
   assert.deepEqual(after, open);
@@ -313,8 +313,8 @@ await check("lobes turn with the skin, and have the light of the world, as plain
       const all = new Matrix4().makeRotationFromEuler(new Euler(...turn));
       const bones = boneMatrices(pose).map((bone) => bone.premultiply(all));
       for (const square of squares()) {
-        const { place, radiance } = radianceOf(square, bones, order, sky);
-        const [x, y] = [place.x, place.y].map((value) => Math.floor(48 * (value + 1)));
+        const { point, radiance } = radianceOf(square, bones, order, sky);
+        const [x, y] = [point.x, point.y].map((value) => Math.floor(48 * (value + 1)));
         const at = 4 * (size[0] * y + x);
         if (!(pixels[at + 3] > 0)) continue; // out of the picture
         ++seen;
@@ -335,13 +335,13 @@ await check("lobes have the light of the volume where they are, as plain numbers
   const pixels = await ask("posed", { model: "lobes_4.glb", volume: "volume.glb", pose, turn: [0, 0, 0], light: volumeLight, size });
   let [most, brightest, seen] = [0, 0, 0];
   for (const square of squares()) {
-    const { place } = radianceOf(square, bones, 4, new Float64Array(48));
-    const [x, y] = [place.x, place.y].map((value) => Math.floor(240 * (value + 1)));
+    const { point } = radianceOf(square, bones, 4, new Float64Array(48));
+    const [x, y] = [point.x, point.y].map((value) => Math.floor(240 * (value + 1)));
     const at = 4 * (size[0] * y + x);
     if (!(pixels[at + 3] > 0)) continue;
     ++seen;
     // The middle of a square lies between two corners of it, at which light is looked up.
-    const corners = cornersOf(square, bones).map(({ place: corner, normal }) => {
+    const corners = cornersOf(square, bones).map(({ point: corner, normal }) => {
       const incident = incidentAround(volume, corner, normal, columns);
       return radianceOf(square, bones, 4, [...incident.flat(), ...new Array(21).fill(0)]).radiance;
     });

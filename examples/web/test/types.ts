@@ -51,7 +51,7 @@ export async function show(scene: Scene): Promise<number> {
     volume.settle().setLight(light, 1);
     const own = new ShaderMaterial({ uniforms: volume.uniforms, defines: volume.defines, fragmentShader: volumeShader });
     scene.add(character, new Mesh(undefined, own));
-    if (!volume.isSettled && volume.isSealed(0)) scene.position.copy(volume.placeOfProbe(0));
+    if (!volume.isSettled && volume.isSealed(0)) scene.position.copy(volume.positionOfProbe(0));
   }
   const nodes: Model = (await new GLTFLoader().register((parser) => new NodePlugin(parser)).loadAsync("model.glb")).userData.prtkit;
   return model.bytesPerVertex * model.vertices + nodes.bytesPerTexel * nodes.texels;

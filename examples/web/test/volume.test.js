@@ -17,7 +17,7 @@ import { lightColumns } from "../src/clusteredPca.js";
 import { halfFloat, halvesOf } from "../src/halfFloat.js";
 import { lightOfSuns, PrtkitPlugin, PrtkitVolume, ShLight } from "../src/PrtkitLoader.js";
 import { evaluateSh } from "../src/sphericalHarmonics.js";
-import { placeOf } from "../src/volumeGrid.js";
+import { positionOf } from "../src/volumeGrid.js";
 import { atlasOf, texelOf } from "../src/volumeTextures.js";
 import { volumeOf } from "../src/volumeTransfer.js";
 import { bakedModel } from "./bakedModel.js";
@@ -67,7 +67,7 @@ test("probes are the corners of all bricks, shared ones once, in their order", (
     if (!seen.has(corner.join())) seen.set(corner.join(), seen.size);
     assert.equal(probe, seen.get(corner.join()));
     assert.deepEqual([...grid.corners.subarray(3 * probe, 3 * probe + 3)], corner);
-    assert.deepEqual(placeOf(grid, probe), corner.map((n, a) => GRID.origin[a] + GRID.spacing * n));
+    assert.deepEqual(positionOf(grid, probe), corner.map((n, a) => GRID.origin[a] + GRID.spacing * n));
     assert.equal(grid.levels[probe], corner[0] <= 8 ? (corner.every((n) => n % 2 === 0) ? 1 : 0) : 0);
   });
 });
@@ -194,7 +194,7 @@ test("materials of what moves are copies that keep their own shader, and so do t
     assert.deepEqual(material.defines.PRT_VOLUME_ORDER, 3);
     const shader = { uniforms: {}, vertexShader: ShaderLib.physical.vertexShader, fragmentShader: ShaderLib.physical.fragmentShader };
     material.onBeforeCompile(shader, null);
-    assert.match(shader.fragmentShader, /prt_volume_incident\( prtVolumePlace/);
+    assert.match(shader.fragmentShader, /prt_volume_incident\( prtVolumePosition/);
     assert.match(shader.fragmentShader, /#include <aomap_fragment>/); // its own occlusion is its own
     assert.equal(shader.uniforms.prt_volume_light.value, volume.texture);
   }

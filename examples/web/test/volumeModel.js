@@ -107,8 +107,8 @@ export function incidentAt({ clusters, words, stride }, probe, columns) {
 const clamp = (x, low, high) => Math.min(Math.max(x, low), high);
 
 /** Returns the brick of `bricks` [n][4] that contains a position; -1 if there is none. */
-function brickAt({ origin, spacing, size, bricks }, place) {
-  const at = place.map((x, a) => clamp(Math.floor((x - origin[a]) / (4 * spacing)), 0, size[a] - 1));
+function brickAt({ origin, spacing, size, bricks }, point) {
+  const at = point.map((x, a) => clamp(Math.floor((x - origin[a]) / (4 * spacing)), 0, size[a] - 1));
   for (let b = 0; b < bricks.length / 4; ++b) {
     const width = 2 ** bricks[4 * b + 3];
     if (at.every((n, a) => n >= bricks[4 * b + a] && n < bricks[4 * b + a] + width)) return b;

@@ -73,14 +73,14 @@ struct InstanceBox {
     glm::vec3 middle{0}, half{1}; ///< no component of `half` is zero
 
     /// Returns the relative position of `position` in the box, -1 to 1 per axis.
-    glm::vec3 place_of(const glm::vec3& position) const { return (position - middle) / half; }
+    glm::vec3 position_of(const glm::vec3& position) const { return (position - middle) / half; }
     friend bool operator==(const InstanceBox&, const InstanceBox&) = default;
 };
 /// Returns the bounding box of `positions`, which must not be empty.
 InstanceBox box_round(std::span<const glm::vec3> positions);
 
 /// Returns the factor of each mode at a relative position in the box.
-std::array<glm::vec3, kInstanceModes> mode_factors(const InstanceFactors& factors, const glm::vec3& place);
+std::array<glm::vec3, kInstanceModes> mode_factors(const InstanceFactors& factors, const glm::vec3& position);
 
 /// The modes of lighting as linear operators on its coefficients. Immutable, thread-safe.
 class InstanceModes {
@@ -169,7 +169,7 @@ std::array<Lighting, kInstanceModes> turned_into(const glm::dmat3& rotation,
                                                  std::array<Lighting, kInstanceModes> lightings);
 
 /// Computes the exit radiance of a vertex for albedo 1; `of_modes` is its radiance under each mode.
-glm::vec3 exit_radiance(const InstanceFactors& factors, const glm::vec3& place,
+glm::vec3 exit_radiance(const InstanceFactors& factors, const glm::vec3& position,
                         std::span<const glm::vec3, kInstanceModes> of_modes);
 
 } // namespace prt

@@ -23,17 +23,17 @@ struct LightmapSize {
 };
 
 /// Lightmap and UV set of a primitive.
-struct LightmapPlace {
+struct LightmapPlacement {
     std::size_t map = 0;
     int texcoord = 1; ///< TEXCOORD_n
 
-    friend bool operator==(const LightmapPlace&, const LightmapPlace&) = default;
+    friend bool operator==(const LightmapPlacement&, const LightmapPlacement&) = default;
 };
 
 /// Layout of all lightmaps; texels are numbered map by map.
 struct LightmapLayout {
     std::vector<LightmapSize> maps;
-    std::vector<LightmapPlace> places; ///< [primitives of the scene]
+    std::vector<LightmapPlacement> positions; ///< [primitives of the scene]
 
     std::size_t texels() const;
     /// Returns the number of the first texel of each map, and the total number of texels: [maps + 1].

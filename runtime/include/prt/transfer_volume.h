@@ -29,8 +29,8 @@ inline constexpr int kMaxBricksAlong = 1024;
 inline constexpr int kMaxIncidentOrder = 4;
 
 struct VolumeBrick {
-    glm::ivec3 place{0}; ///< minimum corner, in finest bricks; a multiple of 2^level
-    int level = 0;       ///< its cells are 2^level times as wide as the finest
+    glm::ivec3 position{0}; ///< minimum corner, in finest bricks; a multiple of 2^level
+    int level = 0;          ///< its cells are 2^level times as wide as the finest
 
     friend bool operator==(const VolumeBrick&, const VolumeBrick&) = default;
 };

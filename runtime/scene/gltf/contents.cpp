@@ -106,27 +106,27 @@ public:
         ranges_ = std::move(merged);
         std::size_t to = 0;
         for (const ByteRange& range : ranges_) {
-            places_.push_back(to);
+            positions_.push_back(to);
             to += range.end - range.begin;
         }
     }
     /// Returns the new position of a kept byte; the result is arbitrary for others.
-    std::size_t place(std::size_t offset) const {
+    std::size_t position(std::size_t offset) const {
         const auto after =
             std::upper_bound(ranges_.begin(), ranges_.end(), offset,
                              [](std::size_t o, const ByteRange& range) { return o < range.begin; });
         if (after == ranges_.begin())
             return 0;
         const auto at = static_cast<std::size_t>(after - ranges_.begin()) - 1;
-        return places_[at] + std::min(offset, ranges_[at].end) - ranges_[at].begin;
+        return positions_[at] + std::min(offset, ranges_[at].end) - ranges_[at].begin;
     }
     void move_bytes(std::vector<unsigned char>& bytes) const {
         std::size_t size = 0;
         for (std::size_t r = 0; r < ranges_.size(); ++r) { // always towards the front
             std::copy(bytes.begin() + static_cast<std::ptrdiff_t>(ranges_[r].begin),
                       bytes.begin() + static_cast<std::ptrdiff_t>(ranges_[r].end),
-                      bytes.begin() + static_cast<std::ptrdiff_t>(places_[r]));
-            size = places_[r] + ranges_[r].end - ranges_[r].begin;
+                      bytes.begin() + static_cast<std::ptrdiff_t>(positions_[r]));
+            size = positions_[r] + ranges_[r].end - ranges_[r].begin;
         }
         bytes.resize(size);
         bytes.shrink_to_fit();
@@ -134,7 +134,7 @@ public:
 
 private:
     std::vector<ByteRange> ranges_;
-    std::vector<std::size_t> places_;
+    std::vector<std::size_t> positions_;
 };
 
 /// Removes bytes from the buffer that no view, or only removed views, reference.
@@ -146,9 +146,9 @@ void cut_bytes(GltfContents& contents, const std::set<std::size_t>& removed) {
             kept.add(range_of(views[i]));
     kept.finish(contents.binary().size());
     for (Json& view : views)
-        view["byteOffset"] = kept.place(range_of(view).begin);
+        view["byteOffset"] = kept.position(range_of(view).begin);
     for (tinygltf::BufferView& view : contents.model.bufferViews)
-        view.byteOffset = kept.place(view.byteOffset);
+        view.byteOffset = kept.position(view.byteOffset);
     kept.move_bytes(contents.binary());
 }
 

@@ -17,7 +17,7 @@ namespace {
 constexpr int kIndices = -1; ///< used instead of an attribute's id
 
 /// One compressed primitive, in the JSON and in tinygltf's model.
-struct Place {
+struct Position {
     Json& json;
     tinygltf::Primitive& model;
     Json attributes; ///< names and ids in the compressed mesh
@@ -45,18 +45,18 @@ class Decompressor {
 public:
     explicit Decompressor(GltfContents& contents) : contents_(contents) {}
 
-    /// Decodes `view` once for all `places` that use it.
-    void decompress(std::size_t view, std::vector<Place>& places) {
-        std::string name = places.front().name;
+    /// Decodes `view` once for all `positions` that use it.
+    void decompress(std::size_t view, std::vector<Position>& positions) {
+        std::string name = positions.front().name;
         try {
             const auto mesh = decode_draco(buffer_view_bytes(contents_.model, static_cast<int>(view)));
             const bool small = mesh->num_points() <= 65535; // the last index means a restart
             index_type_ =
                 small ? TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT : TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT;
             set_view(view, draco_indices(*mesh, index_type_), 0);
-            for (Place& place : places) {
-                name = place.name;
-                decompress(view, *mesh, place);
+            for (Position& position : positions) {
+                name = position.name;
+                decompress(view, *mesh, position);
             }
         } catch (const std::exception& error) { // errors of prtkit and of the JSON library, and bad_alloc
             throw Error(name + ": " + error.what());
@@ -64,8 +64,8 @@ public:
     }
 
 private:
-    void decompress(std::size_t view, const draco::Mesh& mesh, Place& place) {
-        Json indices = place.json.value("indices", Json());
+    void decompress(std::size_t view, const draco::Mesh& mesh, Position& position) {
+        Json indices = position.json.value("indices", Json());
         set_accessor(indices, {view, kIndices}, [&](Json& accessor) {
             accessor["bufferView"] = view;
             accessor["componentType"] = index_type_;
@@ -74,17 +74,17 @@ private:
             accessor.erase("min");
             accessor.erase("max");
         });
-        place.json["indices"] = indices;
-        place.model.indices = indices.get<int>();
-        place.json.erase("mode"); // strips are decoded as triangles
-        place.model.mode = TINYGLTF_MODE_TRIANGLES;
-        for (const auto& item : place.attributes.items()) {
-            Json& reference = place.json.at("attributes").at(item.key());
+        position.json["indices"] = indices;
+        position.model.indices = indices.get<int>();
+        position.json.erase("mode"); // strips are decoded as triangles
+        position.model.mode = TINYGLTF_MODE_TRIANGLES;
+        for (const auto& item : position.attributes.items()) {
+            Json& reference = position.json.at("attributes").at(item.key());
             const int id = item.value().get<int>();
             set_accessor(reference, {view, id}, [&](Json& accessor) { fill(accessor, mesh, id); });
-            place.model.attributes[item.key()] = reference.get<int>();
+            position.model.attributes[item.key()] = reference.get<int>();
         }
-        check_counts(mesh.num_points(), place);
+        check_counts(mesh.num_points(), position);
     }
 
     void fill(Json& accessor, const draco::Mesh& mesh, int id) {
@@ -156,7 +156,7 @@ private:
 
     /// Throws if uncompressed attributes, which refer to the original vertices, have another number of
     /// elements.
-    void check_counts(std::size_t points, const Place& place) const {
+    void check_counts(std::size_t points, const Position& position) const {
         const auto check = [&](const Json& attributes) {
             for (const auto& item : attributes.items()) {
                 const std::size_t count = contents_.model.accessors.at(item.value().get<std::size_t>()).count;
@@ -165,8 +165,8 @@ private:
                                 item.key() + " beside it " + std::to_string(count));
             }
         };
-        check(place.json.at("attributes"));
-        for (const Json& target : place.json.value("targets", Json::array()))
+        check(position.json.at("attributes"));
+        for (const Json& target : position.json.value("targets", Json::array()))
             check(target);
     }
 
@@ -197,7 +197,7 @@ Json without_draco_indices(Json json) {
 void decompress_primitives(GltfContents& contents) {
     const Json required = contents.json.value("extensionsRequired", Json::array());
     const bool is_required = std::find(required.begin(), required.end(), kDracoExtension) != required.end();
-    std::map<std::size_t, std::vector<Place>> places; // by compressed view
+    std::map<std::size_t, std::vector<Position>> positions; // by compressed view
     for (std::size_t m = 0; m < contents.model.meshes.size(); ++m)
         for (std::size_t p = 0; p < contents.model.meshes[m].primitives.size(); ++p) {
             Json& primitive = contents.json.at("meshes").at(m).at("primitives").at(p);
@@ -205,13 +205,13 @@ void decompress_primitives(GltfContents& contents) {
             if (!extension)
                 continue;
             if (is_required || !has_plain_data(contents, primitive))
-                places[extension->at("bufferView").get<std::size_t>()].push_back(
+                positions[extension->at("bufferView").get<std::size_t>()].push_back(
                     {primitive, contents.model.meshes[m].primitives[p], extension->at("attributes"),
                      "mesh " + std::to_string(m) + " primitive " + std::to_string(p)});
             erase_draco_extension(primitive);
         }
     Decompressor decompressor(contents);
-    for (auto& [view, users] : places)
+    for (auto& [view, users] : positions)
         decompressor.decompress(view, users);
     contents.drop_extension(kDracoExtension);
 }

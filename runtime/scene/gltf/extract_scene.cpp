@@ -72,9 +72,9 @@ void read_colors(const tinygltf::Model& model, const tinygltf::Primitive& primit
     check_count(vertices.colors.size(), vertices.size(), "COLOR_0");
 }
 
-void check_place(const glm::dvec3& place, std::size_t vertex) {
+void check_position(const glm::dvec3& point, std::size_t vertex) {
     for (int axis = 0; axis < 3; ++axis)
-        if (!(std::abs(place[axis]) <= kFarthestVertex))
+        if (!(std::abs(point[axis]) <= kFarthestVertex))
             throw Error("the position of vertex " + std::to_string(vertex) +
                         " is not finite, or farther than 1e9 m from the world's origin");
 }
@@ -280,21 +280,21 @@ private:
             palette = joint_palette(skin, world_);
             read_influences(model_, file, skin.joints.size(), vertices.size(), moving);
         }
-        std::vector<glm::dvec3> places;
-        places.reserve(vertices.size());
+        std::vector<glm::dvec3> points;
+        points.reserve(vertices.size());
         if (keep_ == Keep::moving)
             moving.positions = vertices.positions, moving.normals = vertices.normals;
         for (std::size_t i = 0; i < vertices.size(); ++i) {
             const glm::dmat4 matrix =
                 node.skin < 0 ? node_transform.world : vertex_matrix(palette, moving, i);
-            places.emplace_back(matrix * glm::dvec4(vertices.positions[i], 1));
-            check_place(places[i], i);
+            points.emplace_back(matrix * glm::dvec4(vertices.positions[i], 1));
+            check_position(points[i], i);
             if (!vertices.normals.empty())
                 vertices.normals[i] = transformed_normal(vertices.normals[i], matrix);
         }
         if (keep_ == Keep::moving)
             moving_.push_back(std::move(moving));
-        places_.push_back(std::move(places));
+        positions_.push_back(std::move(points));
         scene_.vertex_arrays.push_back(std::move(vertices));
     }
 
@@ -305,15 +305,15 @@ private:
         for (const Primitive& primitive : std::span(scene_.primitives).first(finest))
             for (const glm::uvec3& t : primitive.triangles)
                 for (int corner = 0; corner < 3; ++corner) {
-                    low = glm::min(low, places_[primitive.vertices][t[corner]]);
-                    high = glm::max(high, places_[primitive.vertices][t[corner]]);
+                    low = glm::min(low, positions_[primitive.vertices][t[corner]]);
+                    high = glm::max(high, positions_[primitive.vertices][t[corner]]);
                 }
         scene_.origin = low + 0.5 * (high - low);
-        for (std::size_t array = 0; array < places_.size(); ++array)
-            std::transform(places_[array].begin(), places_[array].end(),
+        for (std::size_t array = 0; array < positions_.size(); ++array)
+            std::transform(positions_[array].begin(), positions_[array].end(),
                            scene_.vertex_arrays[array].positions.begin(),
-                           [&](const glm::dvec3& place) { return glm::vec3(place - scene_.origin); });
-        places_.clear();
+                           [&](const glm::dvec3& point) { return glm::vec3(point - scene_.origin); });
+        positions_.clear();
     }
 
     void make_flat_normals() {
@@ -378,7 +378,7 @@ private:
     const tinygltf::Model& model_;
     Keep keep_;
     Scene scene_;
-    std::vector<std::vector<glm::dvec3>> places_; ///< [vertex arrays][vertices] in the world
+    std::vector<std::vector<glm::dvec3>> positions_; ///< [vertex arrays][vertices] in the world
     SharedVertices shared_;
     std::map<int, Skin> skins_;
     std::vector<glm::dmat4> world_; ///< [nodes]

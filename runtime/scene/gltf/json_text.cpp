@@ -12,7 +12,7 @@ namespace prt {
 namespace {
 
 /// Returns line and column of a byte of the file, both counted from 1.
-std::string place_of(std::string_view text, std::size_t byte) {
+std::string position_of(std::string_view text, std::size_t byte) {
     const std::string_view before = text.substr(0, std::min(byte, text.size()));
     const auto line = 1 + std::count(before.begin(), before.end(), '\n');
     const std::size_t start = before.find_last_of('\n');
@@ -37,7 +37,7 @@ void check_depth(std::string_view text) {
             --level;
         if (level > kMaxLevels)
             throw Error("nests its JSON deeper than " + std::to_string(kMaxLevels) + " levels at " +
-                        place_of(text, i + 1));
+                        position_of(text, i + 1));
     }
 }
 
@@ -54,7 +54,7 @@ Json parse_json(std::string_view text) {
             throw Error("is glTF of version '" + version + "', only 2 is supported");
         return json;
     } catch (const nlohmann::json::parse_error& error) {
-        throw Error("is damaged: its JSON cannot be read at " + place_of(text, error.byte));
+        throw Error("is damaged: its JSON cannot be read at " + position_of(text, error.byte));
     }
 }
 

@@ -25,9 +25,9 @@ public:
     LevelFinder(const GltfContents& contents, const NodeTree& tree)
         : contents_(contents), model_(contents.model), tree_(tree), parent_(model_.nodes.size(), -1),
           in_scene_(model_.nodes.size(), false), level_of_(model_.nodes.size(), -1) {
-        for (const NodeTree::Place& place : tree.order) {
-            parent_[at(place.node)] = place.parent;
-            in_scene_[at(place.node)] = true;
+        for (const NodeTree::Position& position : tree.order) {
+            parent_[at(position.node)] = position.parent;
+            in_scene_[at(position.node)] = true;
         }
     }
 
@@ -90,9 +90,9 @@ private:
 
     void find_named() {
         Named named;
-        for (const NodeTree::Place& place : tree_.order)
-            if (const auto name = level_name(model_.nodes[at(place.node)].name))
-                named[{place.parent, name->stem}][name->level].push_back(place.node);
+        for (const NodeTree::Position& position : tree_.order)
+            if (const auto name = level_name(model_.nodes[at(position.node)].name))
+                named[{position.parent, name->stem}][name->level].push_back(position.node);
         std::vector<FoundLevels> pairs;
         for (const auto& [key, levels] : named)
             add_named(levels, pairs);
@@ -151,8 +151,8 @@ public:
             for (const int level : levels.coarser)
                 coarser_[at(level)] = true;
         result_.world.assign(model_.nodes.size(), glm::dmat4(1));
-        for (const NodeTree::Place& place : tree.order)
-            parent_[at(place.node)] = place.parent, seen_[at(place.node)] = true;
+        for (const NodeTree::Position& position : tree.order)
+            parent_[at(position.node)] = position.parent, seen_[at(position.node)] = true;
     }
 
     LevelNodes place(std::span<const FoundLevels> found) {
@@ -195,7 +195,7 @@ private:
         for (std::size_t i = 0; i < nodes.size(); ++i) {
             const int node = nodes[i].node;
             if (!in_scene)
-                place_out_of_scene(node);
+                position_out_of_scene(node);
             nodes[i].world = result_.world[at(node)];
             const bool visible = nodes[i].visible;
             for (const int child : model_.nodes[at(node)].children) {
@@ -213,7 +213,7 @@ private:
         return nodes;
     }
 
-    void place_out_of_scene(int node) {
+    void position_out_of_scene(int node) {
         if (seen_[at(node)])
             throw Error("node " + std::to_string(node) + " has two parents or is its own ancestor");
         seen_[at(node)] = true;

@@ -29,8 +29,8 @@ Json& write_layout(GltfContents& contents, const Scene& scene, const LightmapLay
     const std::vector<Json*> primitives = unshare(contents, scene);
     contents.remove_transfer();
     for (std::size_t p = 0; p < primitives.size(); ++p)
-        extensions_of(*primitives[p])[kLightmapExtension] = {{"map", layout.places[p].map},
-                                                             {"texCoord", layout.places[p].texcoord}};
+        extensions_of(*primitives[p])[kLightmapExtension] = {{"map", layout.positions[p].map},
+                                                             {"texCoord", layout.positions[p].texcoord}};
     contents.use_extension(kLightmapExtension);
     return extensions_of(contents.json)[kLightmapExtension] = {{"version", kLightmapVersion},
                                                                {"order", transfer.order},
@@ -45,14 +45,14 @@ LightmapSize read_map(const Json& json) {
     return map;
 }
 
-LightmapPlace read_place(const Json& json, const VertexArray& vertices, std::size_t maps) {
-    const LightmapPlace place{
+LightmapPlacement read_position(const Json& json, const VertexArray& vertices, std::size_t maps) {
+    const LightmapPlacement position{
         static_cast<std::size_t>(whole_number(json.at("map"), "the map", 0, static_cast<int>(maps) - 1)),
         whole_number(json.at("texCoord"), "texCoord", 0, 1000)};
-    const auto set = static_cast<std::size_t>(place.texcoord);
+    const auto set = static_cast<std::size_t>(position.texcoord);
     if (set >= vertices.texcoords.size() || vertices.texcoords[set].empty())
-        throw Error("it has no TEXCOORD_" + std::to_string(place.texcoord) + ", which its lightmap uses");
-    return place;
+        throw Error("it has no TEXCOORD_" + std::to_string(position.texcoord) + ", which its lightmap uses");
+    return position;
 }
 
 LightmapLayout read_layout_of_maps(const GltfContents& contents, const Scene& scene, const Json& extension) {
@@ -68,8 +68,8 @@ LightmapLayout read_layout_of_maps(const GltfContents& contents, const Scene& sc
         if (!of_primitive)
             throw Error(primitive_name(primitive) + " has no " + kLightmapExtension);
         try {
-            layout.places.push_back(
-                read_place(*of_primitive, scene.vertex_arrays[primitive.vertices], layout.maps.size()));
+            layout.positions.push_back(
+                read_position(*of_primitive, scene.vertex_arrays[primitive.vertices], layout.maps.size()));
         } catch (const std::exception& error) {
             throw Error(primitive_name(primitive) + ": " + in_plain_words(error));
         }

@@ -161,17 +161,18 @@ std::vector<PunctualLight> read_lights(const GltfContents& contents, const std::
             light.name = node.value("name", "").empty() ? light.name : node.value("name", "");
             if (light.name.empty())
                 light.name = numbered;
-            const glm::dvec3 along = -glm::dvec3(transform.world[2]), place = glm::dvec3(transform.world[3]);
+            const glm::dvec3 along = -glm::dvec3(transform.world[2]),
+                             world_position = glm::dvec3(transform.world[3]);
             const double length = glm::length(along);
             const bool aimed = light.kind != PunctualKind::point;
             if (aimed && !(length > 0 && std::isfinite(length)))
                 throw Error("its node has no direction");
             for (int axis = 0; axis < 3; ++axis)
-                if (!(std::abs(place[axis]) <= kFarthestVertex))
+                if (!(std::abs(world_position[axis]) <= kFarthestVertex))
                     throw Error("lies farther than 1e9 m from the world's origin");
             if (aimed)
                 light.direction = glm::vec3(along / length);
-            light.position = glm::vec3(place - origin);
+            light.position = glm::vec3(world_position - origin);
             lights.push_back(std::move(light));
         } catch (const Error& error) {
             throw Error(numbered + ": " + error.what());

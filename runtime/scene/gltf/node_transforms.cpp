@@ -85,10 +85,10 @@ NodeTree node_tree(const tinygltf::Model& model) {
 
 std::vector<glm::dmat4> world_matrices(const NodeTree& tree, std::span<const LocalPose> poses) {
     std::vector<glm::dmat4> world(poses.size(), glm::dmat4(1));
-    for (const NodeTree::Place& place : tree.order) {
-        const auto node = static_cast<std::size_t>(place.node);
+    for (const NodeTree::Position& position : tree.order) {
+        const auto node = static_cast<std::size_t>(position.node);
         const glm::dmat4 local = poses[node].transform();
-        world[node] = place.parent < 0 ? local : world[static_cast<std::size_t>(place.parent)] * local;
+        world[node] = position.parent < 0 ? local : world[static_cast<std::size_t>(position.parent)] * local;
     }
     return world;
 }
@@ -98,11 +98,11 @@ std::vector<NodeTransform> world_transforms(const tinygltf::Model& model) {
     const std::vector<glm::dmat4> world = world_matrices(tree, tree.poses);
     std::vector<bool> visible(model.nodes.size(), true);
     std::vector<NodeTransform> result;
-    for (const NodeTree::Place& place : tree.order) {
-        const auto node = static_cast<std::size_t>(place.node);
-        visible[node] = (place.parent < 0 || visible[static_cast<std::size_t>(place.parent)]) &&
+    for (const NodeTree::Position& position : tree.order) {
+        const auto node = static_cast<std::size_t>(position.node);
+        visible[node] = (position.parent < 0 || visible[static_cast<std::size_t>(position.parent)]) &&
                         is_visible(model.nodes[node]);
-        result.push_back({place.node, world[node], visible[node]});
+        result.push_back({position.node, world[node], visible[node]});
     }
     return result;
 }

@@ -79,11 +79,11 @@ void reorder(GltfContents& contents, const Scene& scene, std::span<const std::ui
         Json& primitive = *primitives[i];
         const std::size_t array = scene.primitives[i].vertices;
         const VertexArray& vertices = scene.vertex_arrays[array];
-        std::vector<std::uint32_t> source(vertices.size()), place(vertices.size());
+        std::vector<std::uint32_t> source(vertices.size()), position(vertices.size());
         for (std::uint32_t v = 0; v < source.size(); ++v) {
             source[v] =
                 order[vertices.first_receiver + v] - static_cast<std::uint32_t>(vertices.first_receiver);
-            place[source[v]] = v;
+            position[source[v]] = v;
         }
         const auto move_all = [&](Json& attributes) {
             for (Json& accessor : attributes) {
@@ -106,7 +106,7 @@ void reorder(GltfContents& contents, const Scene& scene, std::span<const std::ui
             replaced.insert(primitive["indices"].get<std::size_t>());
         }
         for (std::uint32_t& index : indices)
-            index = place.at(index);
+            index = position.at(index);
         primitive["indices"] = add_index_accessor(contents, indices);
     }
     contents.remove_unused(std::move(replaced));

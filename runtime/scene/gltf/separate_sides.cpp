@@ -81,7 +81,7 @@ public:
         for (const Primitive& primitive : scene.primitives) {
             std::vector<glm::uvec3>& own = separated_.emplace_back();
             std::vector<glm::uvec3>& rest = rest_.emplace_back();
-            const bool can = always_double_sided(json(place(separated_.size() - 1)));
+            const bool can = always_double_sided(json(position(separated_.size() - 1)));
             for (const glm::uvec3& corners : primitive.triangles)
                 (triangles[t++] && can ? own : rest).push_back(corners);
         }
@@ -95,7 +95,7 @@ public:
                 backs_[scene_.primitives[p].vertices].add(corners);
         for (BackVertices& backs : backs_)
             backs.number();
-        std::vector<JsonPlace> added;
+        std::vector<JsonLocation> added;
         for (std::size_t p = 0; p < separated_.size(); ++p) {
             write_vertices(p);
             if (!separated_[p].empty())
@@ -106,18 +106,18 @@ public:
     }
 
 private:
-    struct JsonPlace {
+    struct JsonLocation {
         std::size_t mesh, primitive;
     };
     using Moved = std::map<std::pair<int, bool>, std::size_t>; ///< new accessors by old ones and whether they
                                                                ///< are negated
 
-    JsonPlace place(std::size_t p) const {
+    JsonLocation position(std::size_t p) const {
         const Primitive& primitive = scene_.primitives[p];
         return {contents_.json["nodes"][static_cast<std::size_t>(primitive.node)]["mesh"].get<std::size_t>(),
                 static_cast<std::size_t>(primitive.primitive)};
     }
-    Json& json(const JsonPlace& at) const {
+    Json& json(const JsonLocation& at) const {
         return contents_.json["meshes"][at.mesh]["primitives"][at.primitive];
     }
 
@@ -144,7 +144,7 @@ private:
         const BackVertices& backs = backs_[scene_.primitives[p].vertices];
         if (backs.empty())
             return;
-        Json& primitive = json(place(p));
+        Json& primitive = json(position(p));
         Moved& moved = moved_[scene_.primitives[p].vertices];
         const auto move = [&](Json& attributes) {
             for (auto it = attributes.begin(); it != attributes.end(); ++it)
@@ -172,8 +172,8 @@ private:
     }
 
     /// Moves separated triangles to a new primitive, unless all are separated.
-    JsonPlace write_triangles(std::size_t p) {
-        JsonPlace at = place(p);
+    JsonLocation write_triangles(std::size_t p) {
+        JsonLocation at = position(p);
         const bool mirrored = scene_.primitives[p].mirrored;
         if (!rest_[p].empty()) {
             Json copy = json(at);
@@ -190,7 +190,7 @@ private:
     }
 
     /// Makes the materials of these primitives single-sided; copies materials that others use too.
-    void single_sided(const std::vector<JsonPlace>& primitives) {
+    void single_sided(const std::vector<JsonLocation>& primitives) {
         std::map<std::size_t, std::size_t> users;
         for_each_primitive(contents_.json, [&](Json& primitive) {
             for_each_choice(primitive, [&](const Json& choice) {
@@ -199,7 +199,7 @@ private:
             });
         });
         std::map<std::size_t, std::vector<Json*>> ours;
-        for (const JsonPlace& at : primitives)
+        for (const JsonLocation& at : primitives)
             for_each_choice(json(at), [&](Json& choice) {
                 if (choice.contains("material"))
                     ours[choice["material"].get<std::size_t>()].push_back(&choice);

@@ -108,7 +108,7 @@ tinygltf::FsCallbacks SideFiles::callbacks() {
     return {exists, expand, read, nullptr, this};
 }
 
-fs::path SideFiles::place_of(const std::string& name) {
+fs::path SideFiles::position_of(const std::string& name) {
     if (name.find('\0') != std::string::npos)
         throw Error("is no name of a file");
     std::error_code error;
@@ -149,7 +149,7 @@ void SideFiles::check_outputs() const {
 }
 
 std::vector<unsigned char> SideFiles::read(const std::string& name) {
-    const fs::path path = place_of(name);
+    const fs::path path = position_of(name);
     std::error_code error;
     const std::uint64_t size = fs::file_size(path, error);
     bytes_read_ += size;

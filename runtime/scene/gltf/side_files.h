@@ -34,7 +34,7 @@ public:
     void check_outputs() const;
 
 private:
-    std::filesystem::path place_of(const std::string& name);
+    std::filesystem::path position_of(const std::string& name);
     std::vector<unsigned char> read(const std::string& name);
     std::filesystem::path folder_;
     const GltfOptions& options_;

@@ -19,7 +19,7 @@ constexpr int kVolumeVersion = 2;
 Json write_bricks(GltfContents& contents, const VolumeGrid& grid) {
     std::vector<std::uint16_t> numbers;
     for (const VolumeBrick& brick : grid.bricks)
-        for (const int n : {brick.place.x, brick.place.y, brick.place.z, brick.level})
+        for (const int n : {brick.position.x, brick.position.y, brick.position.z, brick.level})
             numbers.push_back(static_cast<std::uint16_t>(n));
     return {{"bufferView", contents.add_buffer_view(std::as_bytes(std::span(numbers)))}};
 }

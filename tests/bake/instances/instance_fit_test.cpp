@@ -37,7 +37,7 @@ protected:
             value = draw.number();
         for (std::uint32_t s = 0; s < kSamples; ++s) {
             samples.receivers.push_back(s);
-            samples.places.push_back(
+            samples.positions.push_back(
                 glm::vec3{std::tanh(draw.number()), std::tanh(draw.number()), std::tanh(draw.number())});
             samples.areas.push_back(1);
         }
@@ -47,7 +47,7 @@ protected:
     std::vector<float> light_of(const InstanceFactors& factors) const {
         std::vector<float> light(mesh.vectors.size());
         for (std::size_t s = 0; s < kSamples; ++s)
-            shared->sum(s, mode_factors(factors, samples.places[s]),
+            shared->sum(s, mode_factors(factors, samples.positions[s]),
                         std::span(light).subspan(s * mesh.dimension(), mesh.dimension()));
         return light;
     }
@@ -108,7 +108,7 @@ TEST_F(InstanceFits, ASampleOfTwiceTheAreaIsTwoSamples) {
     for (std::size_t s = 0; s < kSamples; s += 3) {
         samples.areas[s] = 2;
         twice.receivers.push_back(static_cast<std::uint32_t>(longer.receivers()));
-        twice.places.push_back(samples.places[s]);
+        twice.positions.push_back(samples.positions[s]);
         twice.areas.push_back(1);
         const auto copy = [&](std::vector<float>& to) {
             const std::vector<float> term(to.begin() + static_cast<std::ptrdiff_t>(s * mesh.dimension()),

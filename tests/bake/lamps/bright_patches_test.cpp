@@ -61,11 +61,11 @@ public:
 /// Probabilities of all patches add up to 1, and `pick` follows them.
 TEST(BrightPatches, PicksByItsDensity) {
     const Patches all(room());
-    for (const auto& [place, normal] :
+    for (const auto& [position, normal] :
          {std::pair(glm::dvec3(0, 0.001, 0), glm::dvec3(0, 1, 0)),
           std::pair(glm::dvec3(1, 2, 0), glm::dvec3(0, -1, 0)),
           std::pair(glm::dvec3(-1.9, 0.5, 0.3), glm::normalize(glm::dvec3(1, 0.3, 0.1)))}) {
-        const BrightPatches::Receiver receiver{place, normal};
+        const BrightPatches::Receiver receiver{position, normal};
         double sum = 0;
         for (std::uint32_t t = 0; t < all.triangles(); ++t) {
             sum += all.patches->density(receiver, t, false) * all.area(t);
@@ -148,13 +148,14 @@ std::vector<float> on_floor(const Scene& scene, std::uint64_t seed, FitMode fit)
 }
 
 /// By the form factors of small squares of the panel.
-double expected_at(const glm::dvec3& place) {
+double expected_at(const glm::dvec3& position) {
     constexpr int kSquares = 200;
     double sum = 0;
     for (int i = 0; i < kSquares; ++i)
         for (int j = 0; j < kSquares; ++j) {
             const glm::dvec3 at(0.2 * ((i + 0.5) / kSquares - 0.5), 2, 0.2 * ((j + 0.5) / kSquares - 0.5));
-            const glm::dvec3 to_lamp = glm::dvec3(0, static_cast<double>(1.85f), 0) - at, down = place - at;
+            const glm::dvec3 to_lamp = glm::dvec3(0, static_cast<double>(1.85f), 0) - at,
+                             down = position - at;
             const double d = glm::length(to_lamp), r = glm::length(down),
                          irradiance = -to_lamp.y / (d * d * d), cosine = -down.y / r;
             sum += 0.6 * irradiance / pi * cosine * cosine / (pi * r * r);

@@ -1,7 +1,7 @@
 // Tests light of level 0 on coarser levels: nearest points, exactness, closed forms, and comparison with a
 // separate bake of a level.
 
-#include "levels/nearest_places.h"
+#include "levels/nearest_points.h"
 #include "prt/error_measures.h"
 #include "prt/level_bake.h"
 #include "prt/light.h"
@@ -154,7 +154,7 @@ TEST(Levels, NearestPlacesAreThoseOfBruteForce) {
         {SceneBuilder().sphere({0, 0, 0}, 1, 7).build(), box({0.4f, 0.05f, 2}), box({2, 0.3f, 0.2f}, 0.5f)});
     const TraceScene traced(scene);
     const Receivers receivers = vertex_receivers(scene);
-    const NearestPlaces places(traced, receivers);
+    const NearestPoints points(traced, receivers);
     const auto at = [&](const std::vector<glm::vec3>& values, std::uint32_t t) {
         const glm::uvec3& c = traced.surfaces().corners(t);
         return std::array<glm::dvec3, 3>{glm::dvec3(values[c.x]), glm::dvec3(values[c.y]),
@@ -165,7 +165,7 @@ TEST(Levels, NearestPlacesAreThoseOfBruteForce) {
     for (int i = 0; i < 300; ++i) {
         const glm::vec3 position(number(draw), number(draw), number(draw)),
             normal = glm::normalize(glm::vec3(number(draw), number(draw), number(draw)));
-        NearestRule rule(places.diagonal());
+        NearestRule rule(points.diagonal());
         rule.begin(position, normal);
         double any = 1e9;
         for (std::uint32_t t = 0; t < traced.surfaces().triangles(); ++t) {
@@ -180,11 +180,11 @@ TEST(Levels, NearestPlacesAreThoseOfBruteForce) {
                                                  corners[0] + (corners[1] - corners[0]) * (u * 1.0 / kSteps) +
                                                      (corners[2] - corners[0]) * (v * 1.0 / kSteps)));
         }
-        const NearestPlace expected = rule.result(), found = places.find(position, normal);
+        const NearestPoint expected = rule.result(), found = points.find(position, normal);
         EXPECT_EQ(found.triangle, expected.triangle);
         EXPECT_EQ(found.distance, expected.distance);
         // A twentieth of the diagonal is the weight of a better normal, and points have a distance of 4 / 24.
-        EXPECT_LE(found.distance, any + 0.051 * places.diagonal());
+        EXPECT_LE(found.distance, any + 0.051 * points.diagonal());
         EXPECT_GE(found.distance, any - 0.2);
     }
 }

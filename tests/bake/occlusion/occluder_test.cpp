@@ -87,11 +87,12 @@ TEST(Occluder, OfATurnedAndScaledFrameIsTheSameInTheScene) {
     std::mt19937 random(3);
     double mean = 0;
     for (int i = 0; i < 1000; ++i) {
-        const glm::vec3 place = glm::vec3(0, 0.5f, 0.2f) + 1.2f * any_direction(random),
+        const glm::vec3 position = glm::vec3(0, 0.5f, 0.2f) + 1.2f * any_direction(random),
                         normal = any_direction(random);
-        mean += std::abs(static_cast<double>(blocked_cosine(blocked_at(plain.volume, a, place), normal) -
-                                             blocked_cosine(blocked_at(framed.volume, b, place), normal))) /
-                1000;
+        mean +=
+            std::abs(static_cast<double>(blocked_cosine(blocked_at(plain.volume, a, position), normal) -
+                                         blocked_cosine(blocked_at(framed.volume, b, position), normal))) /
+            1000;
     }
     EXPECT_LT(mean, 0.01);
 }

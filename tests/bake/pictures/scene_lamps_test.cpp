@@ -69,11 +69,11 @@ struct Night {
     }
 
     /// Returns coefficients of order 3 at a position, the mean of both halves.
-    std::vector<glm::vec3> incident(const glm::vec3& place, int paths) const {
+    std::vector<glm::vec3> incident(const glm::vec3& point, int paths) const {
         const Light black = constant_light(kMaxOrder, glm::vec3(0));
         const MeasuredLight light{DistantLight({}), {}, {}, black, black};
         const auto halves =
-            incident_reference(traced, {place}, 3, light, {.paths = paths, .lamps = &lamps, .threads = 1});
+            incident_reference(traced, {point}, 3, light, {.paths = paths, .lamps = &lamps, .threads = 1});
         std::vector<glm::vec3> mean;
         for (std::size_t o = 0; o < 9; ++o)
             mean.push_back(0.5f * (halves[0][o] + halves[1][o]));
@@ -191,14 +191,14 @@ TEST(SceneLamps, TheBakersLampsAreThoseOfTheReference) {
     options.bounces = 3;
     options.lamps.rays = 1024;
     options.tracer.backend = Backend::cpu;
-    const std::vector<glm::vec3> places = {{0, 0.4f, 0}, {0.5f, 1.5f, -0.6f}, {-1.5f, 0.2f, 0.5f}};
-    const Transfer baked = bake_places(scene, places, 3, options).transfer;
+    const std::vector<glm::vec3> positions = {{0, 0.4f, 0}, {0.5f, 1.5f, -0.6f}, {-1.5f, 0.2f, 0.5f}};
+    const Transfer baked = bake_positions(scene, positions, 3, options).transfer;
     const std::vector<glm::vec3> lit = exit_radiance(baked, constant_light(2, glm::vec3(0)));
     const TraceScene traced(scene);
     const std::span<const TransferTerm> parts = baked.layout.lamp_terms();
     const SceneLamps lamps(traced, parts, std::vector(parts.size(), glm::vec3(1)));
     const Light black = constant_light(kMaxOrder, glm::vec3(0));
-    const auto truth = incident_reference(traced, places, 3, {DistantLight({}), {}, {}, black, black},
+    const auto truth = incident_reference(traced, positions, 3, {DistantLight({}), {}, {}, black, black},
                                           {.paths = 1 << 14, .lamps = &lamps, .threads = 1});
     double error = 0, norm = 0;
     for (std::size_t i = 0; i < lit.size(); ++i) {

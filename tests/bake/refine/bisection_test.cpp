@@ -48,7 +48,7 @@ std::map<Ends, int> edge_uses(const Scene& scene) {
     return uses;
 }
 
-std::size_t places(const Scene& scene) {
+std::size_t points(const Scene& scene) {
     std::set<glm::vec3, Less> all;
     for (const VertexArray& vertices : scene.vertex_arrays)
         all.insert(vertices.positions.begin(), vertices.positions.end());
@@ -121,7 +121,7 @@ TEST(Bisection, KeepsAClosedMeshClosed) {
         const auto c = corners(finer, 0, t);
         faces += c[0] != c[1] && c[1] != c[2] && c[2] != c[0] ? 1 : 0;
     }
-    EXPECT_EQ(static_cast<int>(places(finer)) - static_cast<int>(uses.size()) + static_cast<int>(faces), 2);
+    EXPECT_EQ(static_cast<int>(points(finer)) - static_cast<int>(uses.size()) + static_cast<int>(faces), 2);
     EXPECT_NEAR(area(finer), area(sphere), 1e-5 * area(sphere));
 }
 

@@ -57,9 +57,9 @@ TEST(SurfaceSamples, StandForTheWholeSurfaceAndLieOnIt) {
         const glm::vec3& p = floor.samples.receivers.positions[s];
         area += static_cast<double>(floor.samples.receivers.areas[s]);
         EXPECT_FLOAT_EQ(p.y, p.x > 3 ? 1.0f : 0.0f);
-        for (const float share : floor.samples.places[s].shares())
+        for (const float share : floor.samples.positions[s].shares())
             EXPECT_TRUE(share >= 0 && share <= 1);
-        ++of_triangle[floor.samples.places[s].triangle];
+        ++of_triangle[floor.samples.positions[s].triangle];
     }
     EXPECT_NEAR(area, 4 + 0.0004, 1e-5);
     for (const int count : of_triangle)
@@ -162,8 +162,8 @@ double squared_error(const Fitted& floor, std::span<const float> values,
     double sum = 0;
     for (std::size_t s = 0; s < points.size(); ++s) {
         const glm::uvec3 c =
-            corner_receivers(floor.traced.surfaces(), floor.receivers, points.places[s].triangle, false);
-        const std::array<float, 3> shares = points.places[s].shares();
+            corner_receivers(floor.traced.surfaces(), floor.receivers, points.positions[s].triangle, false);
+        const std::array<float, 3> shares = points.positions[s].shares();
         double here = -f(points.receivers.positions[s]);
         for (int i = 0; i < 3; ++i)
             here += static_cast<double>(shares[static_cast<std::size_t>(i)] * values[c[i]]);

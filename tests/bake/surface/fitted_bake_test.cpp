@@ -69,8 +69,8 @@ TEST(FittedBake, ErrsLessBetweenVerticesThanOneAtVertices) {
         double sum = 0;
         for (std::uint32_t s = 0; s < points.size(); ++s) {
             const glm::uvec3 c =
-                corner_receivers(traced.surfaces(), receivers, points.places[s].triangle, false);
-            const std::array<float, 3> shares = points.places[s].shares();
+                corner_receivers(traced.surfaces(), receivers, points.positions[s].triangle, false);
+            const std::array<float, 3> shares = points.positions[s].shares();
             for (std::size_t k = 0; k < truth.dimension(); ++k) {
                 const float d = shares[0] * transfer.vector(c.x)[k] + shares[1] * transfer.vector(c.y)[k] +
                                 shares[2] * transfer.vector(c.z)[k] - truth.vector(s)[k];

@@ -106,26 +106,26 @@ LookupErrors lookup_errors(int size, int rays) {
             seen[i].push_back(map.baked.transfer.vector(t)[0] / 0.28209479f);
         }
     }
-    constexpr int kPlaces = 4; // along a texel
-    double sums[2] = {}, places[2] = {};
-    for (int y = 0; y < kPlaces * size; ++y)
-        for (int x = 0; x < kPlaces * size; ++x) {
-            const glm::dvec2 place = (glm::dvec2(x, y) + 0.5) / static_cast<double>(kPlaces);
-            const BilinearTexels filter = bilinear_texels({size, size}, place.x, place.y);
+    constexpr int kPositions = 4; // along a texel
+    double sums[2] = {}, points[2] = {};
+    for (int y = 0; y < kPositions * size; ++y)
+        for (int x = 0; x < kPositions * size; ++x) {
+            const glm::dvec2 point = (glm::dvec2(x, y) + 0.5) / static_cast<double>(kPositions);
+            const BilinearTexels filter = bilinear_texels({size, size}, point.x, point.y);
             double product = 1;
             for (const std::vector<float>& values : seen) {
-                double error = -WalledFloor::visibility(place.x * 2 / size);
+                double error = -WalledFloor::visibility(point.x * 2 / size);
                 for (std::size_t k = 0; k < 4; ++k)
                     error += filter.weights[k] * static_cast<double>(values[filter.texels[k]]);
                 product *= error;
             }
-            const bool inside = std::min(place.x, place.y) > 0.5 && std::max(place.x, place.y) < size - 0.5;
+            const bool inside = std::min(point.x, point.y) > 0.5 && std::max(point.x, point.y) < size - 0.5;
             for (int i = 0; i <= (inside ? 1 : 0); ++i) {
                 sums[i] += product;
-                places[i] += 1;
+                points[i] += 1;
             }
         }
-    return {std::sqrt(std::abs(sums[0] / places[0])), std::sqrt(std::abs(sums[1] / places[1]))};
+    return {std::sqrt(std::abs(sums[0] / points[0])), std::sqrt(std::abs(sums[1] / points[1]))};
 }
 
 TEST(LightmapBake, ComesToTheClosedFormAsTexelsGetFiner) {
@@ -153,8 +153,8 @@ TEST(LightmapBake, OfALampFallsWithTheSquareOfTheDistance) {
     for (std::size_t t = 0; t < baked.lightmap.texels.size(); ++t) {
         const std::uint32_t texel = baked.lightmap.texels[t];
         const std::uint32_t row = texel / 32;
-        const glm::dvec3 place((texel % 32 + 0.5) / 16 - 1, 0, (row + 0.5) / 16 - 1);
-        const glm::dvec3 way = glm::dvec3(0.3, 0.7, -0.2) - place;
+        const glm::dvec3 point((texel % 32 + 0.5) / 16 - 1, 0, (row + 0.5) / 16 - 1);
+        const glm::dvec3 way = glm::dvec3(0.3, 0.7, -0.2) - point;
         const double squared = glm::dot(way, way);
         const double radiance = 3 * way.y / (squared * std::sqrt(squared)) / std::numbers::pi;
         // The mean over a texel of a sixteenth of a metre differs from its middle by its curvature.

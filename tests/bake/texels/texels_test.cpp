@@ -23,12 +23,12 @@ namespace {
 
 using test::SceneBuilder;
 
-/// Returns `scene` with coordinates `place(position)`.
-Scene mapped(Scene scene, const std::function<glm::vec2(const glm::vec3&)>& place) {
+/// Returns `scene` with coordinates `position(position)`.
+Scene mapped(Scene scene, const std::function<glm::vec2(const glm::vec3&)>& position) {
     for (VertexArray& vertices : scene.vertex_arrays) {
         vertices.texcoords.assign(1, {});
         for (const glm::vec3& p : vertices.positions)
-            vertices.texcoords[0].push_back(place(p));
+            vertices.texcoords[0].push_back(position(p));
     }
     return scene;
 }
@@ -57,7 +57,7 @@ std::vector<TexelSample> samples_of(const Scene& scene, const Atlas& atlas) {
 }
 
 /// Position of a sample.
-glm::vec3 place_of_sample(const Scene& scene, const TexelSample& sample) {
+glm::vec3 position_of_sample(const Scene& scene, const TexelSample& sample) {
     const glm::uvec3& t = scene.primitives[0].triangles[sample.triangle];
     const auto& p = scene.vertex_arrays[0].positions;
     return p[t.x] * (1 - sample.uv.x - sample.uv.y) + p[t.y] * sample.uv.x + p[t.z] * sample.uv.y;
@@ -69,7 +69,7 @@ TEST(Texels, LieWhereTheirCoordinatesSay) {
     const std::vector<TexelSample> samples = samples_of(scene, atlas);
     EXPECT_EQ(samples.size(), 8 * 8 * kSamplesOfTexel);
     for (const TexelSample& sample : samples) {
-        const glm::vec3 p = place_of_sample(scene, sample);
+        const glm::vec3 p = position_of_sample(scene, sample);
         EXPECT_EQ(static_cast<int>((p.x + 1) / 2 * 8), static_cast<int>(sample.texel % 8));
         EXPECT_EQ(static_cast<int>((p.z + 1) / 2 * 8), static_cast<int>(sample.texel / 8));
     }
@@ -94,7 +94,7 @@ TEST(Texels, ThatAChartTouchesHaveAPlaceOnIt) {
         std::set<std::uint32_t> texels;
         for (const TexelSample& sample : samples_of(scene, atlas)) {
             texels.insert(sample.texel);
-            const glm::vec3 p = place_of_sample(scene, sample);
+            const glm::vec3 p = position_of_sample(scene, sample);
             EXPECT_LE(std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)}), 1.0001f);
         }
         EXPECT_EQ(texels.size(), c.texels) << c.corner.x << " " << c.size.x;
@@ -235,8 +235,8 @@ Scene cut_floor() {
 
 double jump(const Atlas& atlas, const SeamPoint& point, std::span<const float> values) {
     double sum = 0;
-    for (const auto& [place, sign] : {std::pair(point.here, 1.0), std::pair(point.there, -1.0)}) {
-        const BilinearTexels filter = bilinear_at(atlas, place);
+    for (const auto& [position, sign] : {std::pair(point.here, 1.0), std::pair(point.there, -1.0)}) {
+        const BilinearTexels filter = bilinear_at(atlas, position);
         for (std::size_t i = 0; i < 4; ++i)
             sum += sign * filter.weights[i] * static_cast<double>(values[filter.texels[i]]);
     }
@@ -251,7 +251,7 @@ TEST(Seams, AreClosedAndNothingElseChanges) {
     std::vector<bool> measured(atlas.texels());
     std::vector<float> values(atlas.texels());
     for (const TexelSample& sample : samples_of(scene, atlas)) {
-        const glm::vec3 p = place_of_sample(scene, sample);
+        const glm::vec3 p = position_of_sample(scene, sample);
         measured[sample.texel] = true;
         values[sample.texel] = 0.5f + 0.3f * std::sin(7 * p.x) * std::cos(5 * p.z) + (p.x > 0 ? 0.1f : 0.0f);
     }
@@ -293,7 +293,7 @@ TEST(Seams, AreNotClosedWhereThatWouldFlattenCharts) {
     std::vector<float> truth(atlas.texels());
     for (const TexelSample& sample : samples_of(scene, atlas)) {
         measured[sample.texel] = true;
-        truth[sample.texel] = 0.5f + 0.5f * place_of_sample(scene, sample).y;
+        truth[sample.texel] = 0.5f + 0.5f * position_of_sample(scene, sample).y;
     }
     std::vector<float> values = truth;
     fill_gutters(atlas, measured, values, 1);

@@ -284,12 +284,12 @@ TEST(GpuLamps, OfManyRaysAreTheCpus) {
 TEST(GpuLamps, FarFromTheMiddleAndTinyAreTheCpus) {
     for (const auto& [size, offset] : {std::pair{1e-4f, 0.0f}, {1e3f, 0.0f}, {1.0f, 1e3f}}) {
         Scene scene = all_kinds(material(AlphaMode::opaque));
-        const auto place = [s = size, o = offset](const glm::vec3& p) { return s * p + glm::vec3(o, 0, o); };
+        const auto point = [s = size, o = offset](const glm::vec3& p) { return s * p + glm::vec3(o, 0, o); };
         for (VertexArray& v : scene.vertex_arrays)
             for (glm::vec3& p : v.positions)
-                p = place(p);
+                p = point(p);
         for (PunctualLight& light : scene.lights) {
-            light.position = place(light.position);
+            light.position = point(light.position);
             light.range *= size;
             if (light.kind != PunctualKind::directional)
                 light.intensity *= size * size;

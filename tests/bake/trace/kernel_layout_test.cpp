@@ -86,15 +86,15 @@ TEST(GpuStructs, LieInMemoryAsKernelsReadThem) {
                                                         {"SumRow.sign", offsetof(gpu::SumRow, sign)}};
     const std::map<std::string, std::uint32_t> accumulate = layout_of(bake_accumulate),
                                                gather = layout_of(bake_gather);
-    for (const auto& [what, place] : in_sums) {
-        EXPECT_EQ(accumulate.at(what), place) << what;
-        EXPECT_EQ(gather.at(what), place) << what;
+    for (const auto& [what, point] : in_sums) {
+        EXPECT_EQ(accumulate.at(what), point) << what;
+        EXPECT_EQ(gather.at(what), point) << what;
     }
     EXPECT_EQ(gather.at("GatherPush.largest"), offsetof(gpu::GatherPush, largest));
-    for (const auto& [what, place] : in_trace)
-        EXPECT_EQ(trace.at(what), place) << what;
-    for (const auto& [what, place] : in_lamps)
-        EXPECT_EQ(lamps.at(what), place) << what;
+    for (const auto& [what, point] : in_trace)
+        EXPECT_EQ(trace.at(what), point) << what;
+    for (const auto& [what, point] : in_lamps)
+        EXPECT_EQ(lamps.at(what), point) << what;
 }
 
 } // namespace

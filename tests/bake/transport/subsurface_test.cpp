@@ -226,9 +226,9 @@ TEST(Diffusion, FromAfarIsTheSumOverTrianglesByTheirArea) {
         }
         scattered.triangles.emplace_back(first, first + 1, first + 2);
     };
-    constexpr float kLegs[] = {0.01f, 0.02f, 0.04f}, kPlaces[] = {0, 2, 2.02f}, kLight[] = {0, 5, 1};
+    constexpr float kLegs[] = {0.01f, 0.02f, 0.04f}, kPositions[] = {0, 2, 2.02f}, kLight[] = {0, 5, 1};
     for (std::size_t t = 0; t < 3; ++t)
-        add(kPlaces[t], kLegs[t]);
+        add(kPositions[t], kLegs[t]);
     std::vector<float> values;
     for (const float light : kLight)
         values.insert(values.end(), 3, light);
@@ -237,7 +237,7 @@ TEST(Diffusion, FromAfarIsTheSumOverTrianglesByTheirArea) {
     double expected = 0;
     for (std::size_t t = 1; t < 3; ++t)
         expected += static_cast<double>(kLight[t] * kLegs[t] * kLegs[t] / 2) *
-                    dipole.reflectance(static_cast<double>(kPlaces[t] + kLegs[t] / 3)) / dipole.total();
+                    dipole.reflectance(static_cast<double>(kPositions[t] + kLegs[t] / 3)) / dipole.total();
     EXPECT_NEAR(static_cast<double>(values[0]), expected, 0.02 * expected);
 }
 

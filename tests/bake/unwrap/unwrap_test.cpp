@@ -76,9 +76,9 @@ TEST(Unwrap, FacesWithoutAreaHaveNoChartsOfTheirOwn) {
     const TexelOptions options{.size = 64};
     Scene scene = floor;
     VertexArray& vertices = scene.vertex_arrays[0];
-    for (const glm::vec3& place : {vertices.positions[0], glm::vec3(7, 8, 9)})
+    for (const glm::vec3& position : {vertices.positions[0], glm::vec3(7, 8, 9)})
         for (int i = 0; i < 3; ++i) {
-            vertices.positions.push_back(place + (i == 2 ? glm::vec3(100, 0, 0) : glm::vec3(0)));
+            vertices.positions.push_back(position + (i == 2 ? glm::vec3(100, 0, 0) : glm::vec3(0)));
             vertices.normals.emplace_back(0);
         }
     const auto last = static_cast<unsigned>(vertices.size());
@@ -137,7 +137,7 @@ protected:
 };
 INSTANTIATE_TEST_SUITE_P(Scenes, Unwrapped, testing::Range(0, 6));
 
-TEST_P(Unwrapped, SurfacesHavePlacesOfTheirOwn) {
+TEST_P(Unwrapped, SurfacesHavePositionsOfTheirOwn) {
     const Scene before = scene();
     constexpr int kSize = 512;
     const Unwrapping unwrapping = unwrap(before, {.size = kSize});

@@ -88,8 +88,8 @@ TEST(VolumeBake, OverABlackFloorIsHalfOfTheIdentity) {
     // size. Processors round them differently, which was 12 % of a direction a centimetre above 10 km of
     // floor.
     const Scene scene = test::painted(SceneBuilder().floor({0, 0, 0}, 1e3f).build(), glm::vec3(0));
-    const std::vector<glm::vec3> places = {{0, 0.5f, 0}, {1, 0.01f, 2}, {-3, 2, 1}};
-    const PlacedLight light = bake_places(scene, places, 3, rays(6 * 4096));
+    const std::vector<glm::vec3> positions = {{0, 0.5f, 0}, {1, 0.01f, 2}, {-3, 2, 1}};
+    const PlacedLight light = bake_positions(scene, positions, 3, rays(6 * 4096));
     for (std::size_t r = 0; r < 27; ++r)
         for (std::size_t i = 0; i < 16; ++i)
             EXPECT_NEAR(light.transfer.vector(r)[i], half_product(r % 9, i), 4e-3) << r << " " << i;
@@ -133,10 +133,10 @@ TEST(VolumeBake, LightDoesNotComeThroughAThinWall) {
         double of_lit = 0, of_dark = 0;
         std::array<glm::vec3, 9> light;
         for (int i = 0; i < 2000; ++i) {
-            const glm::vec3 place(1 + unit(random), unit(random), unit(random));
-            mix_incident(lookup.find(place), at_probes, light);
+            const glm::vec3 point(1 + unit(random), unit(random), unit(random));
+            mix_incident(lookup.find(point), at_probes, light);
             of_dark += static_cast<double>(glm::length(light[0]));
-            mix_incident(lookup.find(place - glm::vec3(2, 0, 0)), at_probes, light);
+            mix_incident(lookup.find(point - glm::vec3(2, 0, 0)), at_probes, light);
             of_lit += static_cast<double>(glm::length(light[0]));
         }
         EXPECT_GT(of_lit / 2000, 1);
@@ -149,12 +149,12 @@ TEST(VolumeBake, AFitErrsLessBetweenProbes) {
     add_box(box, {-2, -1, -1}, {2, 1, 1}, 8, 0);
     const Scene scene = test::painted(box.build(), glm::vec3(0.6f));
     std::mt19937 random(9);
-    std::vector<glm::vec3> places;
+    std::vector<glm::vec3> positions;
     for (int i = 0; i < 300; ++i)
-        places.emplace_back(1.9f * (2 * static_cast<float>(random()) * 0x1p-32f - 1),
-                            0.9f * (2 * static_cast<float>(random()) * 0x1p-32f - 1),
-                            0.9f * (2 * static_cast<float>(random()) * 0x1p-32f - 1));
-    const PlacedLight truth = bake_places(scene, places, 3, rays(6 * 512, 2));
+        positions.emplace_back(1.9f * (2 * static_cast<float>(random()) * 0x1p-32f - 1),
+                               0.9f * (2 * static_cast<float>(random()) * 0x1p-32f - 1),
+                               0.9f * (2 * static_cast<float>(random()) * 0x1p-32f - 1));
+    const PlacedLight truth = bake_positions(scene, positions, 3, rays(6 * 512, 2));
     const auto error = [&](double fit) {
         VolumeOptions volume = probes(0.7, {{-2, -1, -1}, {2, 1, 1}});
         volume.fit_points = fit;
@@ -162,8 +162,8 @@ TEST(VolumeBake, AFitErrsLessBetweenProbes) {
         const VolumeLookup lookup(bake.volume.grid, bake.volume.visibility);
         const Transfer& t = bake.volume.baked.transfer;
         double sum = 0;
-        for (std::size_t p = 0; p < places.size(); ++p) {
-            const VolumeCorners corners = lookup.find(places[p]);
+        for (std::size_t p = 0; p < positions.size(); ++p) {
+            const VolumeCorners corners = lookup.find(positions[p]);
             for (std::size_t o = 0; o < 9; ++o)
                 for (std::size_t i = 0; i < t.dimension(); ++i) {
                     float mixed = 0;
@@ -181,10 +181,10 @@ TEST(VolumeBake, AFitErrsLessBetweenProbes) {
 TEST(VolumeBake, PointLampsShineFromWhereTheyAre) {
     Scene scene = SceneBuilder().floor({0, -50, 0}, 1).build();
     scene.lights.push_back({.name = "lamp", .intensity = {4, 2, 1}, .position = {3, 0, 0}});
-    const std::vector<glm::vec3> places = {{1, 0, 0}, {3, 2, 0}, {0, 0, 4}};
-    const PlacedLight light = bake_places(scene, places, 3, rays(32));
-    for (std::size_t p = 0; p < places.size(); ++p) {
-        const glm::vec3 way = glm::vec3(3, 0, 0) - places[p];
+    const std::vector<glm::vec3> positions = {{1, 0, 0}, {3, 2, 0}, {0, 0, 4}};
+    const PlacedLight light = bake_positions(scene, positions, 3, rays(32));
+    for (std::size_t p = 0; p < positions.size(); ++p) {
+        const glm::vec3 way = glm::vec3(3, 0, 0) - positions[p];
         const float d2 = glm::dot(way, way);
         std::array<float, 9> basis{};
         evaluate_sh(3, glm::normalize(way), basis);
@@ -258,9 +258,9 @@ TEST(IncidentReference, IsWhatABakeOfManyRaysFinds) {
     SceneBuilder box;
     add_box(box, {-1, -1, -1}, {1, 1, 1}, 8, 3);
     const Scene scene = test::painted(box.build(), {0.7f, 0.5f, 0.3f});
-    const std::vector<glm::vec3> places = {{0, 0, 0}, {0.5f, -0.5f, 0.2f}, {-0.7f, 0.6f, -0.6f}};
+    const std::vector<glm::vec3> positions = {{0, 0, 0}, {0.5f, -0.5f, 0.2f}, {-0.7f, 0.6f, -0.6f}};
     const Light sky = constant_light(4, glm::vec3(1));
-    const PlacedLight baked = bake_places(scene, places, 3, rays(6 * 2048, kEndlessBounces));
+    const PlacedLight baked = bake_positions(scene, positions, 3, rays(6 * 2048, kEndlessBounces));
     const std::vector<glm::vec3> expected = exit_radiance(baked.transfer, sky);
     const Image white{8, 4, std::vector<glm::vec3>(32, glm::vec3(1))};
     const MeasuredLight light{.all = DistantLight(white),
@@ -269,7 +269,7 @@ TEST(IncidentReference, IsWhatABakeOfManyRaysFinds) {
                               .sky_bands = constant_light(kMaxOrder, glm::vec3(1)),
                               .sun_bands = constant_light(kMaxOrder, glm::vec3(0))};
     const TraceScene traced(scene);
-    const auto halves = incident_reference(traced, places, 3, light, {.paths = 1 << 14});
+    const auto halves = incident_reference(traced, positions, 3, light, {.paths = 1 << 14});
     for (std::size_t r = 0; r < expected.size(); ++r)
         for (int c = 0; c < 3; ++c)
             EXPECT_NEAR(0.5f * (halves[0][r][c] + halves[1][r][c]), expected[r][c], 0.04f) << r << " " << c;

@@ -66,12 +66,12 @@ Leak leak_into_room(float wall, float spacing, bool double_sided, const glm::vec
     std::uniform_real_distribution<float> unit(0.005f, 0.995f);
     Leak leak;
     std::array<glm::vec3, 9> light;
-    constexpr int kPlaces = 1000;
-    for (int i = 0; i < kPlaces; ++i) {
+    constexpr int kPositions = 1000;
+    for (int i = 0; i < kPositions; ++i) {
         const float x = unit(random), y = unit(random), z = unit(random);
         mix_incident(lookup.find(low + (high - low) * glm::vec3(x, y, z)), at_probes, light);
         const double share = static_cast<double>(light[0].x) / std::sqrt(4 * std::numbers::pi);
-        leak.mean += std::abs(share) / kPlaces;
+        leak.mean += std::abs(share) / kPositions;
         leak.largest = std::max(leak.largest, std::abs(share));
     }
     return leak;

@@ -29,17 +29,17 @@ const Animation& walk_of(const AnimatedScene& scene) {
 }
 
 /// All vertices at a time of a movement.
-std::vector<glm::vec3> places_of(const AnimatedScene& scene, const Animation& movement, double seconds) {
+std::vector<glm::vec3> positions_of(const AnimatedScene& scene, const Animation& movement, double seconds) {
     const Scene posed =
         scene.posed(scene.pose(movement, std::fmod(seconds, movement.duration)), glm::dmat4(1));
-    std::vector<glm::vec3> places;
+    std::vector<glm::vec3> points;
     for (const VertexArray& vertices : posed.vertex_arrays)
-        places.insert(places.end(), vertices.positions.begin(), vertices.positions.end());
-    return places;
+        points.insert(points.end(), vertices.positions.begin(), vertices.positions.end());
+    return points;
 }
 
-std::vector<glm::vec3> places_at(const AnimatedScene& scene, double seconds) {
-    return places_of(scene, walk_of(scene), seconds);
+std::vector<glm::vec3> positions_at(const AnimatedScene& scene, double seconds) {
+    return positions_of(scene, walk_of(scene), seconds);
 }
 
 TEST(ExampleFigure, IsSomebodyOfOrdinarySize) {
@@ -60,9 +60,9 @@ TEST(ExampleFigure, ItsFeetDoNotSlideAndItsWalkLoops) {
     ASSERT_GT(walk.speed, 1);
     constexpr int kSteps = 220;
     const double step = walk.duration / kSteps;
-    std::vector<glm::vec3> before = places_at(scene, 0);
+    std::vector<glm::vec3> before = positions_at(scene, 0);
     for (int i = 1; i <= kSteps; ++i) {
-        const std::vector<glm::vec3> now = places_at(scene, i * step);
+        const std::vector<glm::vec3> now = positions_at(scene, i * step);
         std::size_t bearing = 0;
         double lowest = 1;
         for (std::size_t v = 0; v < now.size(); ++v) {
@@ -78,7 +78,7 @@ TEST(ExampleFigure, ItsFeetDoNotSlideAndItsWalkLoops) {
         EXPECT_GT(lowest, -4 * kOnGround) << i; // soles are of a mesh, and bend at the toes
         before = now;
     }
-    const auto first = places_at(scene, 0), last = places_at(scene, walk.duration - 1e-9);
+    const auto first = positions_at(scene, 0), last = positions_at(scene, walk.duration - 1e-9);
     for (std::size_t v = 0; v < first.size(); ++v)
         ASSERT_LT(glm::distance(first[v], last[v]), 1e-5f);
 }
@@ -88,10 +88,10 @@ TEST(ExampleFigure, ItsDanceLoopsOnTheGround) {
     const auto dance = std::ranges::find(scene.animations(), "dance", &Animation::name);
     ASSERT_NE(dance, scene.animations().end());
     EXPECT_DOUBLE_EQ(dance->duration, 2); // 60 frames at 30 in a second
-    const std::vector<glm::vec3> first = places_of(scene, *dance, 0);
+    const std::vector<glm::vec3> first = positions_of(scene, *dance, 0);
     float moved = 0;
     for (int i = 0; i < 20; ++i) {
-        const std::vector<glm::vec3> now = places_of(scene, *dance, 0.1 * i);
+        const std::vector<glm::vec3> now = positions_of(scene, *dance, 0.1 * i);
         float lowest = 1;
         for (std::size_t v = 0; v < now.size(); ++v) {
             lowest = std::min(lowest, now[v].y);
@@ -100,7 +100,7 @@ TEST(ExampleFigure, ItsDanceLoopsOnTheGround) {
         EXPECT_NEAR(lowest, 0, 0.01f) << i; // a foot is on the ground at all times
     }
     EXPECT_GT(moved, 0.8f); // hands go from the thighs to above the head
-    const std::vector<glm::vec3> last = places_of(scene, *dance, dance->duration - 1e-6);
+    const std::vector<glm::vec3> last = positions_of(scene, *dance, dance->duration - 1e-6);
     for (std::size_t v = 0; v < first.size(); ++v)
         ASSERT_LT(glm::distance(first[v], last[v]), 1e-4f);
 }

@@ -20,8 +20,8 @@ const Screen kScreen{{{1, 2, 5}, {0, 0.5f, 0}, {0, 1, 0}, 0.7f}, {640, 360}};
 
 TEST(Screen, PixelsAndDirectionsAreInverse) {
     for (const glm::vec2 pixel : {glm::vec2(0, 0), {320, 180}, {77, 300}, {639, 12}}) {
-        const glm::vec3 place = kScreen.camera.position + 3.0f * direction_through(kScreen, pixel);
-        const auto back = pixel_of(kScreen, place);
+        const glm::vec3 point = kScreen.camera.position + 3.0f * direction_through(kScreen, pixel);
+        const auto back = pixel_of(kScreen, point);
         ASSERT_TRUE(back);
         EXPECT_NEAR(back->x, pixel.x, 0.01f);
         EXPECT_NEAR(back->y, pixel.y, 0.01f);
@@ -99,7 +99,7 @@ TEST(Commands, HaveEachKeyAndEachNameOnce) {
     for (const Command& command : commands()) {
         EXPECT_TRUE(*command.id == 0 || ids.insert(command.id).second) << command.id;
         EXPECT_TRUE(command.key == 0 || keys.insert(command.key).second) << command.key;
-        EXPECT_TRUE(command.place || command.press);
+        EXPECT_TRUE(command.position || command.press);
         if (*command.id != 0) {
             EXPECT_EQ(&setting(command.id), &command);
         }

@@ -181,8 +181,8 @@ TEST_F(FigureTest, FollowsThePathOfAScriptAtItsSpeed) {
     viewer->settings.drawing.moving.walks = false;
     viewer->choose_figure({.animation = "walk", .path = {{-1, 0, -1}, {2, 0, -1}, {2, 0, 1}}});
     const glm::dvec3 origin = viewer->document().model()->scene.origin;
-    const auto expect_at = [&](const glm::dvec3& place) {
-        EXPECT_LT(glm::distance(glm::dvec3(middle()) + origin, place + glm::dvec3(0, kBallRadius, 0)), 1e-4);
+    const auto expect_at = [&](const glm::dvec3& point) {
+        EXPECT_LT(glm::distance(glm::dvec3(middle()) + origin, point + glm::dvec3(0, kBallRadius, 0)), 1e-4);
     };
     expect_at({-1, 0, -1});
     viewer->walk_figure(1); // 1.5 m

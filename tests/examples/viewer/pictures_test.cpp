@@ -315,9 +315,9 @@ protected:
         return values[static_cast<std::size_t>((kHeight - 1 - static_cast<int>(pixel.y)) * kWidth +
                                                static_cast<int>(pixel.x))];
     }
-    float at_place(const std::vector<float>& values, const glm::vec3& place) const {
+    float at_position(const std::vector<float>& values, const glm::vec3& point) const {
         const glm::vec4 clip = prt::view_projection(view.camera, model->box, float{kWidth} / float{kHeight}) *
-                               glm::vec4(place, 1);
+                               glm::vec4(point, 1);
         return at(values,
                   {(clip.x / clip.w * 0.5f + 0.5f) * kWidth, (0.5f - clip.y / clip.w * 0.5f) * kHeight});
     }
@@ -342,18 +342,18 @@ TEST_P(Ssao, DarkensACornerAndNothingFarFromIt) {
     view.camera = {{0, 3, 9}, {0, 1, 0}, {0, 1, 0}, 0.6f};
     settings.drawing.ssao.radius = 0.6f / model->radius;
     const auto values = occlusion();
-    const float at_corner = at_place(values, {0, 0.05f, 0}), near = at_place(values, {0, 0, 0.3f}),
-                far = at_place(values, {0, 0, 2}), wall = at_place(values, {0, 2, 0});
+    const float at_corner = at_position(values, {0, 0.05f, 0}), near = at_position(values, {0, 0, 0.3f}),
+                far = at_position(values, {0, 0, 2}), wall = at_position(values, {0, 2, 0});
     EXPECT_LT(at_corner, 0.85f);
     EXPECT_LT(at_corner, near + 0.03f);
     EXPECT_GT(far, 0.97f);
     EXPECT_GT(wall, 0.97f);
     settings.drawing.ssao.intensity = 2;
     const auto stronger = occlusion();
-    EXPECT_NEAR(at_place(stronger, {0, 0.05f, 0}), at_corner * at_corner, 0.04f);
+    EXPECT_NEAR(at_position(stronger, {0, 0.05f, 0}), at_corner * at_corner, 0.04f);
     settings.drawing.ssao.intensity = 1;
     settings.drawing.ssao.radius *= 3; // reaches farther
-    EXPECT_LT(at_place(occlusion(), {0, 0, 0.7f}), at_place(values, {0, 0, 0.7f}) - 0.02f);
+    EXPECT_LT(at_position(occlusion(), {0, 0, 0.7f}), at_position(values, {0, 0, 0.7f}) - 0.02f);
 }
 
 TEST_P(Ssao, MakesNoHaloesAboutWhatIsFarInFront) {
@@ -366,7 +366,7 @@ TEST_P(Ssao, MakesNoHaloesAboutWhatIsFarInFront) {
     settings.drawing.ssao.radius = 0.4f / model->radius;
     const auto values = occlusion();
     for (float x = 0.1f; x < 2; x += 0.1f) // next to the board's edge, as seen from the camera
-        EXPECT_GT(at_place(values, {1.5f * x, 0, 0}), 0.9f) << x;
+        EXPECT_GT(at_position(values, {1.5f * x, 0, 0}), 0.9f) << x;
 }
 
 TEST_P(Ssao, IsMultipliedIntoTheIrradianceAndNothingElse) {

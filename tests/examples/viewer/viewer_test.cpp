@@ -414,16 +414,16 @@ TEST_F(ViewerTest, ShowsTheReceiverUnderThePointer) {
     open({baked(), shipped()});
     viewer->settings.lobe = true;
     const Model& model = *viewer->document().model();
-    const glm::vec3 place = model.scene.vertex_arrays[0].positions[60];
+    const glm::vec3 point = model.scene.vertex_arrays[0].positions[60];
     viewer->camera =
-        OrbitCamera({place + 2.0f * model.scene.vertex_arrays[0].normals[60] + glm::vec3(0.01f, 0, 0.3f),
-                     place,
+        OrbitCamera({point + 2.0f * model.scene.vertex_arrays[0].normals[60] + glm::vec3(0.01f, 0, 0.3f),
+                     point,
                      {0, 1, 0},
                      0.6f});
     viewer->hover(glm::vec2(kWidth / 2, kHeight / 2));
     frame();
     ASSERT_TRUE(viewer->hovered());
-    EXPECT_EQ(viewer->hovered()->position, place);
+    EXPECT_EQ(viewer->hovered()->position, point);
     EXPECT_GE(viewer->hovered()->cluster, 0);
     EXPECT_EQ(viewer->hovered()->vector.size(), 16u);
     for (const float weight : viewer->hovered()->weights) {
@@ -441,12 +441,12 @@ TEST_F(ViewerTest, LightsAreGrabbedAndMoved) {
     Controls controls(*viewer);
     viewer->lights.lights = {make_light(LightKind::sun)};
     frame();
-    const auto at = pixel_of(viewer->screen(), handle_place(*viewer, viewer->lights.lights[0]));
+    const auto at = pixel_of(viewer->screen(), handle_position(*viewer, viewer->lights.lights[0]));
     ASSERT_TRUE(at);
     EXPECT_EQ(controls.light_at(*at), 0);
     controls.press(Button::left, *at);
     controls.move(*at + glm::vec2(-12, 5));
-    const auto moved = pixel_of(viewer->screen(), handle_place(*viewer, viewer->lights.lights[0]));
+    const auto moved = pixel_of(viewer->screen(), handle_position(*viewer, viewer->lights.lights[0]));
     EXPECT_LT(glm::distance(*moved, *at + glm::vec2(-12, 5)), 2);
     controls.release();
     controls.move({0, 0});

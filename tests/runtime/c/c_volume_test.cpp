@@ -90,7 +90,7 @@ TEST_F(CVolume, FormsTheTexturesOfCpp) {
     EXPECT_EQ(std::memcmp(textures.index_texels, index.data(), 4 * index.size()), 0);
 }
 
-TEST_F(CVolume, LightsAPlaceAsCppDoes) {
+TEST_F(CVolume, LightsAPositionAsCppDoes) {
     const std::vector<float> computed = constants();
     std::vector<float> incident(3 * 9 * info.probes);
     ASSERT_EQ(prt_volume_evaluate(volume, computed.data(), incident.data(), nullptr), PRT_OK);
@@ -98,10 +98,10 @@ TEST_F(CVolume, LightsAPlaceAsCppDoes) {
     const std::vector<glm::vec3> of_cpp = incident_light(expected, {sky});
     for (const glm::vec3 position : {glm::vec3(0, 1, 3), glm::vec3(2.2f, 1, 2.3f), glm::vec3(-9, 99, 0)}) {
         const glm::vec3 normal(0, 0.6f, -0.8f);
-        const prt_volume_place place{{position.x, position.y, position.z}, {normal.x, normal.y, normal.z}};
+        const prt_volume_position point{{position.x, position.y, position.z}, {normal.x, normal.y, normal.z}};
         float light[27], irradiance[3];
-        ASSERT_EQ(prt_volume_incident(volume, incident.data(), &place, light, nullptr), PRT_OK);
-        ASSERT_EQ(prt_volume_irradiance(volume, incident.data(), &place, irradiance, nullptr), PRT_OK);
+        ASSERT_EQ(prt_volume_incident(volume, incident.data(), &point, light, nullptr), PRT_OK);
+        ASSERT_EQ(prt_volume_irradiance(volume, incident.data(), &point, irradiance, nullptr), PRT_OK);
         std::vector<glm::vec3> mixed(9);
         mix_incident(lookup.find(position, normal), of_cpp, mixed);
         for (int i = 0; i < 27; ++i)
@@ -137,15 +137,15 @@ TEST_F(CVolume, RefusesWhatCannotBeComputed) {
     EXPECT_EQ(update({3, &sky.coefficients[0].x, nullptr, nullptr, none}), PRT_BAD_ARGUMENT);
     EXPECT_EQ(prt_volume_update_light(volume, computed.data(), 0, info.probes + 1, light.data(), &message),
               PRT_BAD_ARGUMENT);
-    prt_volume_place place{{nan, 0, 0}, {0, 1, 0}};
-    EXPECT_EQ(prt_volume_incident(volume, incident.data(), &place, light.data(), &message), PRT_BAD_ARGUMENT);
-    place = {{0, 0, 0}, {0, 0, 0}};
-    EXPECT_EQ(prt_volume_incident(volume, incident.data(), &place, light.data(), &message), PRT_OK);
-    EXPECT_EQ(prt_volume_irradiance(volume, incident.data(), &place, light.data(), &message),
+    prt_volume_position point{{nan, 0, 0}, {0, 1, 0}};
+    EXPECT_EQ(prt_volume_incident(volume, incident.data(), &point, light.data(), &message), PRT_BAD_ARGUMENT);
+    point = {{0, 0, 0}, {0, 0, 0}};
+    EXPECT_EQ(prt_volume_incident(volume, incident.data(), &point, light.data(), &message), PRT_OK);
+    EXPECT_EQ(prt_volume_irradiance(volume, incident.data(), &point, light.data(), &message),
               PRT_BAD_ARGUMENT);
-    place.normal[1] = 1;
+    point.normal[1] = 1;
     std::fill(incident.begin(), incident.end(), nan);
-    EXPECT_EQ(prt_volume_incident(volume, incident.data(), &place, light.data(), &message), PRT_BAD_ARGUMENT);
+    EXPECT_EQ(prt_volume_incident(volume, incident.data(), &point, light.data(), &message), PRT_BAD_ARGUMENT);
     const std::string triangle = test::triangle_file().bytes();
     prt_volume* other = nullptr;
     EXPECT_EQ(prt_volume_load_memory(triangle.data(), triangle.size(), &other, &message), PRT_BAD_FILE);

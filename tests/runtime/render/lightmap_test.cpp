@@ -87,10 +87,10 @@ TEST(LightmapLookup, FindsWhatTexelsOfAPlaceHold) {
     const LightmapLookup lookup(scene, layout);
     const auto& t = scene.primitives[0].triangles[0];
     const auto& uv = scene.vertex_arrays[0].texcoords[0];
-    const glm::vec2 place = 16.0f * (uv[t.x] * 0.5f + uv[t.y] * 0.3f + uv[t.z] * 0.2f);
+    const glm::vec2 position = 16.0f * (uv[t.x] * 0.5f + uv[t.y] * 0.3f + uv[t.z] * 0.2f);
     const glm::vec3 found = lookup.look_up(0, {0.3f, 0.2f}, values);
-    EXPECT_NEAR(found.x, place.x, 1e-4f);
-    EXPECT_NEAR(found.y, place.y, 1e-4f);
+    EXPECT_NEAR(found.x, position.x, 1e-4f);
+    EXPECT_NEAR(found.y, position.y, 1e-4f);
 }
 
 } // namespace

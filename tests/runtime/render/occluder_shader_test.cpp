@@ -22,7 +22,7 @@ namespace {
 constexpr float kHalfAngle = 0.05f;
 const glm::vec3 kSun = glm::normalize(glm::vec3(1, 2, -0.5f));
 
-struct Place {
+struct Position {
     glm::vec3 position, normal;
 };
 
@@ -58,13 +58,13 @@ Objects any_objects(std::mt19937& random) {
 }
 
 /// Returns ambient visibility and visible fraction of the sun.
-std::vector<glm::vec2> found_by_cpp(const Objects& objects, const std::vector<Place>& places) {
+std::vector<glm::vec2> found_by_cpp(const Objects& objects, const std::vector<Position>& positions) {
     std::vector<glm::vec2> all;
-    for (const Place& place : places) {
+    for (const Position& point : positions) {
         glm::vec2& left = all.emplace_back(1, 1);
         for (std::size_t i = 0; i < objects.volumes.size(); ++i) {
-            const BlockedCap cap = blocked_at(objects.volumes[i], objects.where[i], place.position);
-            left *= 1.0f - glm::vec2(blocked_cosine(cap, place.normal), blocked_sun(cap, kSun, kHalfAngle));
+            const BlockedCap cap = blocked_at(objects.volumes[i], objects.where[i], point.position);
+            left *= 1.0f - glm::vec2(blocked_cosine(cap, point.normal), blocked_sun(cap, kSun, kHalfAngle));
         }
     }
     return all;
@@ -136,7 +136,7 @@ void main() {
 }
 
 std::vector<glm::vec2> found_by_shader(const Objects& objects, ShaderLanguage language,
-                                       const std::vector<Place>& places) {
+                                       const std::vector<Position>& positions) {
     bind_small_framebuffer();
     bind_block(objects, occluder_program(language));
     GLuint array = 0, vertices = 0, results = 0;
@@ -144,23 +144,23 @@ std::vector<glm::vec2> found_by_shader(const Objects& objects, ShaderLanguage la
     glBindVertexArray(array);
     glGenBuffers(1, &vertices);
     glBindBuffer(GL_ARRAY_BUFFER, vertices);
-    glBufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(places.size() * sizeof(Place)), places.data(),
-                 GL_STATIC_DRAW);
+    glBufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(positions.size() * sizeof(Position)),
+                 positions.data(), GL_STATIC_DRAW);
     for (const GLuint a : {0u, 1u}) {
         glEnableVertexAttribArray(a);
-        glVertexAttribPointer(a, 3, GL_FLOAT, GL_FALSE, sizeof(Place),
+        glVertexAttribPointer(a, 3, GL_FLOAT, GL_FALSE, sizeof(Position),
                               reinterpret_cast<const void*>(a * sizeof(glm::vec3)));
     }
-    const auto bytes = static_cast<GLsizeiptr>(places.size() * sizeof(glm::vec2));
+    const auto bytes = static_cast<GLsizeiptr>(positions.size() * sizeof(glm::vec2));
     glGenBuffers(1, &results);
     glBindBufferBase(GL_TRANSFORM_FEEDBACK_BUFFER, 0, results);
     glBufferData(GL_TRANSFORM_FEEDBACK_BUFFER, bytes, nullptr, GL_STATIC_READ);
     glEnable(GL_RASTERIZER_DISCARD);
     glBeginTransformFeedback(GL_POINTS);
-    glDrawArrays(GL_POINTS, 0, static_cast<GLsizei>(places.size()));
+    glDrawArrays(GL_POINTS, 0, static_cast<GLsizei>(positions.size()));
     glEndTransformFeedback();
     glDisable(GL_RASTERIZER_DISCARD);
-    std::vector<glm::vec2> found(places.size());
+    std::vector<glm::vec2> found(positions.size());
     const void* values = glMapBufferRange(GL_TRANSFORM_FEEDBACK_BUFFER, 0, bytes, GL_MAP_READ_BIT);
     EXPECT_EQ(glGetError(), static_cast<GLenum>(GL_NO_ERROR));
     if (values)
@@ -190,22 +190,22 @@ INSTANTIATE_TEST_SUITE_P(All, OccluderLanguages,
 TEST_P(OccluderLanguages, BlockWhatCppBlocks) {
     std::mt19937 random(5);
     const Objects objects = any_objects(random);
-    std::vector<Place> places;
+    std::vector<Position> positions;
     for (int i = 0; i < 3000; ++i)
-        places.push_back({1.5f * any_vector(random), glm::normalize(any_vector(random))});
-    const std::vector<glm::vec2> expected = found_by_cpp(objects, places);
+        positions.push_back({1.5f * any_vector(random), glm::normalize(any_vector(random))});
+    const std::vector<glm::vec2> expected = found_by_cpp(objects, positions);
     for (const Texels kind : {Texels::floats, Texels::bytes}) {
         // ES filters no floats.
         if (kind == Texels::floats && GetParam() == ShaderLanguage::essl300)
             continue;
         bind_texels(objects, kind);
-        const std::vector<glm::vec2> found = found_by_shader(objects, GetParam(), places);
+        const std::vector<glm::vec2> found = found_by_shader(objects, GetParam(), positions);
         float largest = 0;
         double mean = 0;
-        for (std::size_t i = 0; i < places.size(); ++i) {
+        for (std::size_t i = 0; i < positions.size(); ++i) {
             largest = std::max(largest, glm::distance(expected[i], found[i]));
             mean += static_cast<double>(glm::distance(expected[i], found[i])) /
-                    static_cast<double>(places.size());
+                    static_cast<double>(positions.size());
         }
         RecordProperty(kind == Texels::floats ? "floats" : "bytes", std::to_string(1e9f * largest));
         // Filters of bytes may have eight bits for shares of a texel, between neighbours that differ by all

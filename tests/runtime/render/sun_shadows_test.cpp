@@ -56,13 +56,13 @@ protected:
 };
 
 /// The point of a scene that a pixel shows.
-struct Place {
+struct Position {
     glm::vec3 position, face; ///< unit, towards the camera
     unsigned triangle;
 };
 
-std::optional<Place> seen_at(const RayScene& rays, const Scene& scene, const Camera& camera, double x,
-                             double y) {
+std::optional<Position> seen_at(const RayScene& rays, const Scene& scene, const Camera& camera, double x,
+                                double y) {
     const glm::vec3 along(view_direction(camera_frame(camera), kAcross, kDown, x, y));
     const auto face = [&](unsigned id) {
         const RayScene::Triangle at = rays.triangle(id);
@@ -79,13 +79,13 @@ std::optional<Place> seen_at(const RayScene& rays, const Scene& scene, const Cam
     if (!hit)
         return std::nullopt;
     const glm::vec3 normal = face(hit->triangle);
-    return Place{camera.position + along * hit->distance, glm::dot(normal, along) > 0 ? -normal : normal,
-                 hit->triangle};
+    return Position{camera.position + along * hit->distance, glm::dot(normal, along) > 0 ? -normal : normal,
+                    hit->triangle};
 }
 
 /// Returns the unoccluded fraction of rays over the disc of `sun`; opaque surfaces only.
-double visibility(const RayScene& rays, const Place& place, const SunDisc& sun) {
-    const glm::vec3 origin = place.position + place.face * (4 * rays.triangle_offset(place.triangle));
+double visibility(const RayScene& rays, const Position& point, const SunDisc& sun) {
+    const glm::vec3 origin = point.position + point.face * (4 * rays.triangle_offset(point.triangle));
     const glm::vec3 side = glm::normalize(glm::cross(sun.towards, glm::vec3(0.3f, 0.2f, 0.93f))),
                     up = glm::cross(side, sun.towards);
     constexpr int kRays = 64;
@@ -148,16 +148,16 @@ Agreement agreement(const Image& image, const Scene& scene, const SunDisc& sun, 
     for (int y = 0; y < kDown; ++y)
         for (int x = 0; x < kAcross; ++x) {
             double least = 1, most = 0;
-            std::optional<Place> middle;
+            std::optional<Position> middle;
             bool inside = true;
             for (const glm::dvec2 d : {glm::dvec2(0.5), {0, 0}, {1, 0}, {0, 1}, {1, 1}}) {
-                const auto place = seen_at(rays, scene, camera, x + d.x, y + d.y);
-                inside = inside && place && glm::dot(place->face, sun.towards) > 0.05f &&
-                         (!middle || place->triangle == middle->triangle);
+                const auto point = seen_at(rays, scene, camera, x + d.x, y + d.y);
+                inside = inside && point && glm::dot(point->face, sun.towards) > 0.05f &&
+                         (!middle || point->triangle == middle->triangle);
                 if (!inside)
                     break;
-                middle = middle ? middle : place;
-                const double v = visibility(rays, *place, sun);
+                middle = middle ? middle : point;
+                const double v = visibility(rays, *point, sun);
                 least = std::min(least, v);
                 most = std::max(most, v);
             }

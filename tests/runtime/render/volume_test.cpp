@@ -38,15 +38,15 @@ std::vector<std::byte> constants_by_cpp(const VolumeRelighter& relighter) {
     return texels;
 }
 
-struct Place {
+struct Position {
     glm::vec3 position, normal;
 };
 
 /// Returns positions inside, outside, and on faces between bricks; their coordinates are exact in floats, so
 /// that rounding moves none across a face.
-std::vector<Place> places_in(const VolumeGrid& grid, std::mt19937& random) {
+std::vector<Position> positions_in(const VolumeGrid& grid, std::mt19937& random) {
     std::uniform_int_distribution<int> along(-1024, 6 * 1024), axis(0, 6);
-    std::vector<Place> places;
+    std::vector<Position> positions;
     for (int i = 0; i < 3000; ++i) {
         glm::vec3 bricks(along(random), along(random), along(random));
         bricks /= 1024.0f;
@@ -56,9 +56,9 @@ std::vector<Place> places_in(const VolumeGrid& grid, std::mt19937& random) {
         glm::vec3 normal(0);
         if (a < 6)
             normal[a / 2] = a % 2 ? 1.0f : -1.0f;
-        places.push_back({grid.origin + grid.spacing * static_cast<float>(kBrickCells) * bricks, normal});
+        positions.push_back({grid.origin + grid.spacing * static_cast<float>(kBrickCells) * bricks, normal});
     }
-    return places;
+    return positions;
 }
 
 /// Result of a shader at a position: [coefficients] of incident light; irradiance and radiance from the
@@ -82,7 +82,7 @@ glm::vec3 radiance_of(std::span<const glm::vec3> incident, const glm::vec3& towa
 /// A unit vector that is not an axis: every function of the basis has a different value there.
 const glm::vec3 kFacing = glm::normalize(glm::vec3(0.3f, -0.8f, 0.45f));
 
-std::vector<Found> found_by_cpp(const CompressedVolume& volume, const std::vector<Place>& places) {
+std::vector<Found> found_by_cpp(const CompressedVolume& volume, const std::vector<Position>& positions) {
     const VolumeLookup lookup(volume.grid, volume.visibility);
     const VolumeRelighter relighter(volume, VolumeFormat::rgba32);
     const std::vector<std::byte> texels = constants_by_cpp(relighter);
@@ -97,12 +97,12 @@ std::vector<Found> found_by_cpp(const CompressedVolume& volume, const std::vecto
                                      3 * n % 4)],
                         4);
     std::vector<Found> all;
-    for (const Place& place : places) {
-        const VolumeCorners corners = lookup.find(place.position, place.normal);
+    for (const Position& point : positions) {
+        const VolumeCorners corners = lookup.find(point.position, point.normal);
         Found& found =
             all.emplace_back(Found{std::vector<glm::vec3>(n), glm::vec3(0), glm::vec3(0), glm::vec3(0), 0});
         mix_incident(corners, incident, found.light);
-        const glm::vec3 facing = place.normal == glm::vec3(0) ? kFacing : place.normal;
+        const glm::vec3 facing = point.normal == glm::vec3(0) ? kFacing : point.normal;
         found.irradiance = irradiance_of(found.light, facing);
         found.radiance = radiance_of(found.light, facing, volume.order);
         // Y_1 = 0.488603 (-y, z, -x)
@@ -157,7 +157,7 @@ void main() {
 
 /// With the textures that are bound, in the context that is current; calls of ES 3.0 alone.
 std::vector<Found> found_by_shader(const CompressedVolume& volume, VolumeFormat format,
-                                   ShaderLanguage language, const std::vector<Place>& places) {
+                                   ShaderLanguage language, const std::vector<Position>& positions) {
     bind_small_framebuffer();
     lookup_program(volume_functions(volume, format), language);
     GLuint array = 0, vertices = 0, results = 0;
@@ -165,22 +165,22 @@ std::vector<Found> found_by_shader(const CompressedVolume& volume, VolumeFormat 
     glBindVertexArray(array);
     glGenBuffers(1, &vertices);
     glBindBuffer(GL_ARRAY_BUFFER, vertices);
-    glBufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(places.size() * sizeof(Place)), places.data(),
-                 GL_STATIC_DRAW);
+    glBufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(positions.size() * sizeof(Position)),
+                 positions.data(), GL_STATIC_DRAW);
     for (const GLuint a : {0u, 1u}) {
         glEnableVertexAttribArray(a);
-        glVertexAttribPointer(a, 3, GL_FLOAT, GL_FALSE, sizeof(Place),
+        glVertexAttribPointer(a, 3, GL_FLOAT, GL_FALSE, sizeof(Position),
                               reinterpret_cast<const void*>(a * sizeof(glm::vec3)));
     }
     const auto n = static_cast<std::size_t>(coefficient_count(volume.order));
     const std::size_t numbers = 3 * n + 10;
-    const auto bytes = static_cast<GLsizeiptr>(numbers * places.size() * sizeof(float));
+    const auto bytes = static_cast<GLsizeiptr>(numbers * positions.size() * sizeof(float));
     glGenBuffers(1, &results);
     glBindBufferBase(GL_TRANSFORM_FEEDBACK_BUFFER, 0, results);
     glBufferData(GL_TRANSFORM_FEEDBACK_BUFFER, bytes, nullptr, GL_STATIC_READ);
     glEnable(GL_RASTERIZER_DISCARD);
     glBeginTransformFeedback(GL_POINTS);
-    glDrawArrays(GL_POINTS, 0, static_cast<GLsizei>(places.size()));
+    glDrawArrays(GL_POINTS, 0, static_cast<GLsizei>(positions.size()));
     glEndTransformFeedback();
     glDisable(GL_RASTERIZER_DISCARD);
     const auto* values =
@@ -189,7 +189,7 @@ std::vector<Found> found_by_shader(const CompressedVolume& volume, VolumeFormat 
     if (!values)
         return {};
     std::vector<Found> all;
-    for (std::size_t i = 0; i < places.size(); ++i) {
+    for (std::size_t i = 0; i < positions.size(); ++i) {
         Found found;
         const float* v = values + i * numbers;
         for (std::size_t o = 0; o < n; ++o)
@@ -275,12 +275,12 @@ TEST_P(VolumeLanguages, FindWhatCppFinds) {
     std::mt19937 random(11);
     for (const int order : {2, 3, 4}) {
         const CompressedVolume volume = random_volume(order, false, random);
-        const std::vector<Place> places = places_in(volume.grid, random);
-        const std::vector<Found> expected = found_by_cpp(volume, places);
+        const std::vector<Position> positions = positions_in(volume.grid, random);
+        const std::vector<Found> expected = found_by_cpp(volume, positions);
         for (const VolumeFormat format : {VolumeFormat::rgba32, VolumeFormat::rgba16}) {
             bind_textures_of(volume, format);
             const float largest =
-                largest_difference(expected, found_by_shader(volume, format, GetParam(), places));
+                largest_difference(expected, found_by_shader(volume, format, GetParam(), positions));
             RecordProperty((format == VolumeFormat::rgba32 ? "floats_" : "halves_") + std::to_string(order),
                            std::to_string(1e9f * largest));
             // Half floats, and filters whose weights may have eight bits.
@@ -295,10 +295,10 @@ TEST_P(VolumeLanguages, FilterCellsThatAllProbesSee) {
     std::mt19937 random(12);
     CompressedVolume volume = random_volume(3, true, random);
     std::ranges::fill(volume.visibility, ProbeVisibility{255, 255, 255, 255, 255, 255});
-    const std::vector<Place> places = places_in(volume.grid, random);
+    const std::vector<Position> positions = positions_in(volume.grid, random);
     bind_textures_of(volume, VolumeFormat::rgba16);
-    EXPECT_LT(largest_difference(found_by_cpp(volume, places),
-                                 found_by_shader(volume, VolumeFormat::rgba16, GetParam(), places)),
+    EXPECT_LT(largest_difference(found_by_cpp(volume, positions),
+                                 found_by_shader(volume, VolumeFormat::rgba16, GetParam(), positions)),
               test::filter_tolerance());
 }
 
@@ -330,9 +330,9 @@ TEST_P(VolumePass, FormsWhatCppForms) {
         if (format != VolumeFormat::rgba32)
             continue;
         by_gpu.bind();
-        const std::vector<Place> places = places_in(volume.grid, random);
-        EXPECT_LT(largest_difference(found_by_cpp(volume, places),
-                                     found_by_shader(volume, format, ShaderLanguage::glsl450, places)),
+        const std::vector<Position> positions = positions_in(volume.grid, random);
+        EXPECT_LT(largest_difference(found_by_cpp(volume, positions),
+                                     found_by_shader(volume, format, ShaderLanguage::glsl450, positions)),
                   test::rounding_tolerance());
     }
 }

@@ -87,7 +87,7 @@ GlbFile skinned_file() {
     return file;
 }
 
-glm::dvec3 place(const glm::dmat4& matrix) {
+glm::dvec3 position(const glm::dmat4& matrix) {
     return glm::dvec3(matrix[3]);
 }
 
@@ -125,10 +125,10 @@ TEST(Animation, StepsHoldAndLinesGoStraight) {
     animate(file, {"translation", "STEP", {0, 1, 2}, {0, 0, 0, 4, 0, 0, 0, 8, 0}});
     animate(file, {"scale", "LINEAR", {0, 2}, {1, 1, 1, 3, 5, 1}});
     const AnimatedScene scene = animated(file);
-    expect_near(place(scene.pose(scene.animations()[0], 0.999)[0]), {0, 0, 0});
-    expect_near(place(scene.pose(scene.animations()[0], 1)[0]), {4, 0, 0});
-    expect_near(place(scene.pose(scene.animations()[0], 1.7)[0]), {4, 0, 0});
-    expect_near(place(scene.pose(scene.animations()[0], 2)[0]), {0, 8, 0});
+    expect_near(position(scene.pose(scene.animations()[0], 0.999)[0]), {0, 0, 0});
+    expect_near(position(scene.pose(scene.animations()[0], 1)[0]), {4, 0, 0});
+    expect_near(position(scene.pose(scene.animations()[0], 1.7)[0]), {4, 0, 0});
+    expect_near(position(scene.pose(scene.animations()[0], 2)[0]), {0, 8, 0});
     const glm::dmat4 scaled = scene.pose(scene.animations()[1], 0.5)[0];
     expect_near({scaled[0][0], scaled[1][1], scaled[2][2]}, {1.5, 2, 1});
 }
@@ -146,7 +146,7 @@ TEST(Animation, SplinesAreTheCubicsOfTheirTangents) {
     animate(file, {"translation", "CUBICSPLINE", times, values});
     const AnimatedScene scene = animated(file);
     for (double t = 0.5; t <= 4; t += 0.25) {
-        const glm::dvec3 found = place(scene.pose(scene.animations()[0], t)[0]);
+        const glm::dvec3 found = position(scene.pose(scene.animations()[0], t)[0]);
         EXPECT_NEAR(found.x, x(t), 1e-5 * (1 + std::abs(x(t)))) << t; // keys are floats of up to 80
         EXPECT_NEAR(found.z, 7 * x(t), 7e-5 * (1 + std::abs(x(t)))) << t;
     }
@@ -172,8 +172,8 @@ TEST(Animation, ChildrenGoWithTheirParentsAndOthersStay) {
     animate(file, {"rotation", "LINEAR", {0, 1}, joined({turn(0), turn(90)})});
     const AnimatedScene scene = animated(file);
     const auto nodes = scene.pose(scene.animations()[0], 1);
-    expect_near(place(nodes[1]), {-2, 0, 0});
-    expect_near(place(nodes[2]), {3, 0, 0});
+    expect_near(position(nodes[1]), {-2, 0, 0});
+    expect_near(position(nodes[2]), {3, 0, 0});
 }
 
 TEST(Skins, AJointTurnedByARightAngleTakesItsVerticesWithIt) {
@@ -273,7 +273,7 @@ TEST(Animation, WhatMovesNoNodeIsLeftOut) {
     EXPECT_EQ(scene.pose(scene.animations()[0], 1), scene.rest());
 }
 
-TEST(BadAnimation, IsRefusedWithItsPlace) {
+TEST(BadAnimation, IsRefusedWithItsPosition) {
     const auto refused = [](const Keys& keys, int node = 0) {
         GlbFile file = test::triangle_file();
         animate(file, keys, node);
@@ -310,7 +310,7 @@ TEST(BadAnimation, OfWhatIsNotThereIsRefused) {
     EXPECT_NE(refusal(matrix).find("node 0, which has a matrix"), std::string::npos) << refusal(matrix);
 }
 
-TEST(BadSkin, IsRefusedWithItsPlace) {
+TEST(BadSkin, IsRefusedWithItsPosition) {
     GlbFile joint = skinned_file(), index = skinned_file(), skin = skinned_file(), bind = skinned_file();
     joint.json["skins"][0]["joints"] = {1, 44};
     EXPECT_NE(refusal(joint).find("joint 1 of skin 0 is node 44, which is not there"), std::string::npos)

@@ -322,9 +322,10 @@ TEST(HostileGltf, ZerosAndInstancesAreBounded) {
 /// Returns a file whose node 0 has `count` instances of the mesh, at the origin.
 GlbFile instanced_file(std::size_t count) {
     GlbFile file = test::triangle_file();
-    const std::size_t places = file.json["accessors"].size();
+    const std::size_t positions = file.json["accessors"].size();
     file.json["accessors"].push_back({{"componentType", test::kFloat}, {"count", count}, {"type", "VEC3"}});
-    file.json["nodes"][0]["extensions"]["EXT_mesh_gpu_instancing"]["attributes"] = {{"TRANSLATION", places}};
+    file.json["nodes"][0]["extensions"]["EXT_mesh_gpu_instancing"]["attributes"] = {
+        {"TRANSLATION", positions}};
     return file;
 }
 

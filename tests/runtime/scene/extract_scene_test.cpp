@@ -60,7 +60,7 @@ glm::vec3 world(const Scene& scene, const VertexArray& vertices, std::size_t i) 
     return glm::vec3(scene.world(vertices.positions[i]));
 }
 
-glm::vec3 first_place(const GlbFile& file, std::size_t i) {
+glm::vec3 first_position(const GlbFile& file, std::size_t i) {
     const Scene scene = scene_of(file);
     return world(scene, scene.vertex_arrays[0], i);
 }
@@ -175,10 +175,10 @@ TEST(Accessors, SparseSubstitutionsAreMade) {
     sparse["count"] = 1;
     sparse["indices"] = {{"bufferView", indices}, {"componentType", test::kUnsignedByte}};
     sparse["values"]["bufferView"] = values;
-    EXPECT_EQ(first_place(file, 2), glm::vec3(0, 7, 0));
+    EXPECT_EQ(first_position(file, 2), glm::vec3(0, 7, 0));
     // Without a buffer view the rest is zero.
     file.json["accessors"][0].erase("bufferView");
-    EXPECT_EQ(first_place(file, 1), glm::vec3(0));
+    EXPECT_EQ(first_position(file, 1), glm::vec3(0));
 }
 
 TEST(Accessors, QuantisedAndInterleavedAttributesAreRead) {
@@ -296,11 +296,11 @@ TEST(Morphs, TakeTheWeightsOfTheFile) {
     primitive(file)["targets"] = {{{"POSITION", file.accessor(std::vector<float>{0, 0, 2, 0, 0, 0, 0, 0, 0},
                                                               test::kFloat, "VEC3", 3)}}};
     file.json["meshes"][0]["weights"] = {0.5};
-    EXPECT_EQ(first_place(file, 0), glm::vec3(0, 0, 1));
+    EXPECT_EQ(first_position(file, 0), glm::vec3(0, 0, 1));
     file.json["nodes"][0]["weights"] = {0.0};
-    EXPECT_EQ(first_place(file, 0), glm::vec3(0));
+    EXPECT_EQ(first_position(file, 0), glm::vec3(0));
     file.json["nodes"][0]["weights"] = {0.25, 7.0, 7.0}; // two targets do not exist
-    EXPECT_EQ(first_place(file, 0), glm::vec3(0, 0, 0.5f));
+    EXPECT_EQ(first_position(file, 0), glm::vec3(0, 0, 0.5f));
 }
 
 TEST(Nodes, AreThoseOfTheDefaultSceneElseOfTheFirst) {

@@ -55,7 +55,7 @@ std::string error_of(const GlbFile& file) {
     return line;
 }
 
-glm::vec3 place_of(const LeveledScene& levels, std::size_t primitive) {
+glm::vec3 position_of(const LeveledScene& levels, std::size_t primitive) {
     const VertexArray& vertices = levels.scene.vertex_arrays[levels.scene.primitives[primitive].vertices];
     return glm::vec3(levels.scene.world(vertices.positions[0]));
 }
@@ -87,8 +87,8 @@ TEST(LevelsInFiles, OutOfTheSceneStandBesideTheirNode) {
     ASSERT_EQ(levels.nodes[0].coarser.size(), 2u);
     EXPECT_EQ(levels.nodes[0].coarser[1].level, 2);
     EXPECT_EQ(levels.deepest(), 2u);
-    EXPECT_EQ(place_of(levels, levels.nodes[0].coarser[0].primitives.at(0)), glm::vec3(11, 0, 0));
-    EXPECT_EQ(place_of(levels, levels.nodes[0].coarser[1].primitives.at(0)), glm::vec3(10, 2, 0));
+    EXPECT_EQ(position_of(levels, levels.nodes[0].coarser[0].primitives.at(0)), glm::vec3(11, 0, 0));
+    EXPECT_EQ(position_of(levels, levels.nodes[0].coarser[1].primitives.at(0)), glm::vec3(10, 2, 0));
     EXPECT_EQ(levels.finest_primitives, 1u);
     EXPECT_EQ(levels.finest_receivers, 3u);
     EXPECT_EQ(levels.scene.receivers(), 9u);

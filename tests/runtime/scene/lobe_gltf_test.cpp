@@ -69,7 +69,7 @@ GltfDocument read_again(const GltfDocument& document) {
     return parse_gltf(encode_glb(document), "memory.glb");
 }
 
-TEST(LobesOfFiles, TakeThePlaceOfOtherTransferAndGoForIt) {
+TEST(LobesOfFiles, ReplaceOtherTransferAndAreRemovedForIt) {
     GltfDocument document = parsed(with_lobes());
     Scene scene = extract_scene(document);
     write_transfer(document, scene, {zero_transfer(2, 1, scene.receivers()), {}});

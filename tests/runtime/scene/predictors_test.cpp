@@ -25,7 +25,7 @@ const std::vector<PredictorKind> kBoth = {PredictorKind::normal, PredictorKind::
 
 /// Returns quantised normals, a folded primitive without normals, and nodes that mirror, scale and rotate the
 /// mesh.
-GlbFile hard_file(const glm::dvec3& place) {
+GlbFile hard_file(const glm::dvec3& point) {
     GlbFile file = test::triangle_file();
     file.json["extensionsUsed"] = {"KHR_mesh_quantization"};
     file.json["extensionsRequired"] = {"KHR_mesh_quantization"};
@@ -41,7 +41,7 @@ GlbFile hard_file(const glm::dvec3& place) {
         file.accessor(std::vector<std::uint8_t>{0, 1, 2, 0, 2, 3}, test::kUnsignedByte, "SCALAR", 1);
     primitives.push_back({{"attributes", {{"POSITION", position}}}, {"indices", indices}});
     file.json["nodes"] = {
-        {{"children", {1, 2, 3}}, {"translation", {place.x, place.y, place.z}}},
+        {{"children", {1, 2, 3}}, {"translation", {point.x, point.y, point.z}}},
         {{"mesh", 0}},
         {{"mesh", 0}, {"scale", {-1, 1, 1}}},
         {{"mesh", 0}, {"scale", {3, 0.5, 1.25}}, {"rotation", {0, 0.6, 0, 0.8}}, {"translation", {4, 1, 2}}}};
@@ -115,10 +115,10 @@ INSTANTIATE_TEST_SUITE_P(Formats, PredictorsInFiles,
                          testing::Values(WeightFormat::float32, WeightFormat::packed));
 
 TEST_P(PredictorsInFiles, ComeBackAsTheyAre) {
-    for (const glm::dvec3 place : {glm::dvec3(0), glm::dvec3(1e6, -2e6, 123456.75)})
+    for (const glm::dvec3 point : {glm::dvec3(0), glm::dvec3(1e6, -2e6, 123456.75)})
         for (const std::vector<PredictorKind>& kinds : test::sets_of_predictors()) {
             const test::TemporaryFolder folder;
-            hard_file(place).write(folder / "hard.glb");
+            hard_file(point).write(folder / "hard.glb");
             Model model = read(folder / "hard.glb");
             const CompressedTransfer c = predicted_transfer(model.scene, kinds, GetParam());
             write_clustered(model.document, model.scene, c);
@@ -142,7 +142,7 @@ TEST_P(PredictorsInFiles, ComeBackAsTheyAre) {
         }
 }
 
-TEST(PredictorsInFile, OriginsArePlacesInItsWorld) {
+TEST(PredictorsInFile, OriginsArePositionsInItsWorld) {
     const test::TemporaryFolder folder;
     hard_file(glm::dvec3(1e6, 0, -3)).write(folder / "hard.glb");
     Model model = read(folder / "hard.glb");

@@ -130,14 +130,14 @@ TEST(Reorder, ScenesOfTheSameNodesInAnotherOrderMatch) {
         first += vertices.size();
     }
     const std::vector<std::uint32_t> match = matching_receivers(scene, other);
-    const auto place_of = [](const Scene& of, std::size_t receiver) {
+    const auto position_of = [](const Scene& of, std::size_t receiver) {
         for (const VertexArray& vertices : of.vertex_arrays)
             if (receiver < vertices.first_receiver + vertices.size())
                 return vertices.positions[receiver - vertices.first_receiver];
         return glm::vec3(0);
     };
     for (std::size_t r = 0; r < scene.receivers(); ++r)
-        EXPECT_EQ(place_of(scene, r), place_of(other, match[r])) << r;
+        EXPECT_EQ(position_of(scene, r), position_of(other, match[r])) << r;
 }
 
 TEST(VertexReuse, OfAStripOfTrianglesIsOneVertexEach) {

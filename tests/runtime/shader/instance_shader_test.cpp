@@ -64,7 +64,7 @@ std::vector<glm::vec3> radiance_of(const ClusteredTransfer& mesh, const PlacedIn
         const float* x = &mesh.receivers.predictors[v * predictor_rows + of_position];
         const glm::vec3 position =
             glm::vec3(x[0], x[1], x[2]) + mesh.bases.predictors.back().origin + test::kSceneOrigin;
-        radiance.push_back(exit_radiance(instance.factors, instance.box.place_of(position), of_vertex));
+        radiance.push_back(exit_radiance(instance.factors, instance.box.position_of(position), of_vertex));
     }
     return radiance;
 }

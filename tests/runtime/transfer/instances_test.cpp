@@ -118,7 +118,7 @@ TEST(Instances, ModesOfLightDoWhatModesOfTransferDo) {
         std::array<glm::vec3, kInstanceModes> of_receiver;
         for (std::size_t m = 0; m < kInstanceModes; ++m)
             of_receiver[m] = of_modes[m][r];
-        by_light.push_back(exit_radiance(placed.factors, placed.box.place_of(positions[r]), of_receiver));
+        by_light.push_back(exit_radiance(placed.factors, placed.box.position_of(positions[r]), of_receiver));
     }
     expect_near(by_transfer, by_light, 2e-4f);
 }
@@ -227,11 +227,11 @@ std::vector<glm::vec4> constants_at(std::span<const glm::vec4> computed, const g
                                     const ConstantRows& rows) {
     const std::uint32_t offset =
         static_cast<std::uint32_t>(table_0.w) + (static_cast<std::uint32_t>(table_1.w) << 16);
-    const glm::vec4 place((position - glm::vec3(table_0)) * glm::vec3(table_1), 1);
+    const glm::vec4 point((position - glm::vec3(table_0)) * glm::vec3(table_1), 1);
     std::vector<glm::vec4> constants(rows.first + rows.count, glm::vec4(0));
     for (std::uint32_t row = rows.first; row < rows.first + rows.count; ++row)
         for (std::uint32_t c = 0; c < 3; ++c)
-            constants[row][static_cast<int>(c)] = glm::dot(computed[3 * (offset + row) + c], place);
+            constants[row][static_cast<int>(c)] = glm::dot(computed[3 * (offset + row) + c], point);
     return constants;
 }
 
@@ -293,7 +293,7 @@ TEST(Instances, ABoxOfAFlatMeshHasNoZeroWidth) {
     const InstanceBox box = box_round(flat);
     EXPECT_EQ(box.middle, glm::vec3(1, 1, 2));
     EXPECT_GT(box.half.y, 0);
-    EXPECT_EQ(box.place_of({2, 1, 4}), glm::vec3(1, 0, 1));
+    EXPECT_EQ(box.position_of({2, 1, 4}), glm::vec3(1, 0, 1));
 }
 
 } // namespace of_instances

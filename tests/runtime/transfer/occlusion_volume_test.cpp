@@ -34,10 +34,10 @@ OcclusionVolume ball(float radius) {
     volume.reach = 12 * radius;
     for (int i = 0; i < static_cast<int>(kOccluderTexels); ++i) {
         const glm::vec3 at(i % 8, i / 8 % 8, i / 64);
-        const glm::vec3 place = volume.low + at / 7.0f * (volume.high - volume.low);
-        const float ratio = std::min(radius / glm::length(place), 1.0f);
+        const glm::vec3 position = volume.low + at / 7.0f * (volume.high - volume.low);
+        const float ratio = std::min(radius / glm::length(position), 1.0f);
         volume.texels[static_cast<std::size_t>(i)] =
-            occluder_texel(0.5f * (1 - std::sqrt(1 - ratio * ratio)), -glm::normalize(place));
+            occluder_texel(0.5f * (1 - std::sqrt(1 - ratio * ratio)), -glm::normalize(position));
     }
     return volume;
 }
@@ -162,10 +162,11 @@ TEST(OcclusionVolume, TurnsMovesAndScalesWithItsObject) {
     EXPECT_NEAR(glm::distance(away.center(), glm::vec3(moved * glm::vec4(0.5f, -0.25f, 0.1f, 1))), 0, 1e-3);
     EXPECT_NEAR(away.reach(), 100 * volume.reach, 1e-2);
     for (int i = 0; i < 200; ++i) {
-        const glm::vec3 place = 3.0f * any_direction(random), normal = any_direction(random);
-        const float home = blocked_cosine(blocked_at(volume, at_home, place), normal);
-        const float there = blocked_cosine(blocked_at(volume, away, glm::vec3(moved * glm::vec4(place, 1))),
-                                           glm::vec3(turn * glm::vec4(normal, 0)));
+        const glm::vec3 position = 3.0f * any_direction(random), normal = any_direction(random);
+        const float home = blocked_cosine(blocked_at(volume, at_home, position), normal);
+        const float there =
+            blocked_cosine(blocked_at(volume, away, glm::vec3(moved * glm::vec4(position, 1))),
+                           glm::vec3(turn * glm::vec4(normal, 0)));
         EXPECT_NEAR(home, there, 1e-4);
     }
 }

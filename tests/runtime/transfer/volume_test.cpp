@@ -31,7 +31,7 @@ VolumeGrid two_levels() {
             {{0, 0, 0}, 1}, {{2, 0, 0}, 0}, {{2, 1, 0}, 0}, {{2, 0, 1}, 0}, {{2, 1, 1}, 0}, {{3, 0, 0}, 0}}};
 }
 
-glm::vec3 random_place(const VolumeGrid& grid, std::mt19937& random, float beyond = 0) {
+glm::vec3 random_position(const VolumeGrid& grid, std::mt19937& random, float beyond = 0) {
     const glm::vec3 extent = grid.spacing * static_cast<float>(kBrickCells) * glm::vec3(grid.size);
     std::uniform_real_distribution<float> share(-beyond, 1 + beyond);
     return grid.origin + extent * glm::vec3(share(random), share(random), share(random));
@@ -46,7 +46,7 @@ TEST(VolumeWeights, SumToOneWhateverProbesSee) {
     const CompressedVolume volume = test::random_volume(2, false, random, 2);
     const VolumeLookup lookup(volume.grid, volume.visibility);
     for (int i = 0; i < 2000; ++i) {
-        const VolumeCorners corners = lookup.find(random_place(volume.grid, random, 0.5f),
+        const VolumeCorners corners = lookup.find(random_position(volume.grid, random, 0.5f),
                                                   glm::normalize(glm::vec3(1, i % 3 - 1, 0.5f)));
         EXPECT_NEAR(sum(corners), 1, 1e-5f);
         EXPECT_GE(std::ranges::min(corners.weights), 0);
@@ -60,9 +60,9 @@ TEST(VolumeWeights, AreThoseOfTheOpenWhereAllAreHidden) {
         invalid(kBrickProbes, ProbeVisibility{});
     std::mt19937 random(2);
     for (int i = 0; i < 100; ++i) {
-        const glm::vec3 place = random_place(grid, random);
-        const VolumeCorners seen = VolumeLookup(grid, open).find(place),
-                            hidden = VolumeLookup(grid, invalid).find(place);
+        const glm::vec3 position = random_position(grid, random);
+        const VolumeCorners seen = VolumeLookup(grid, open).find(position),
+                            hidden = VolumeLookup(grid, invalid).find(position);
         for (std::size_t c = 0; c < 8; ++c)
             EXPECT_NEAR(seen.weights[c], hidden.weights[c], 1e-5f);
     }
@@ -75,16 +75,16 @@ TEST(VolumeWeights, AreExactForLinearLightWhereNothingHides) {
     const auto linear = [](const glm::vec3& p) { return 3 + 2 * p.x - p.y + 0.5f * p.z; };
     std::mt19937 random(3);
     for (int i = 0; i < 2000; ++i) {
-        const glm::vec3 place = random_place(grid, random);
-        const glm::vec3 bricks = (place - grid.origin) / (grid.spacing * static_cast<float>(kBrickCells));
+        const glm::vec3 position = random_position(grid, random);
+        const glm::vec3 bricks = (position - grid.origin) / (grid.spacing * static_cast<float>(kBrickCells));
         if (bricks.x > 3 && (bricks.y > 1 || bricks.z > 1))
             continue; // in no brick
-        const VolumeCorners corners = lookup.find(place);
+        const VolumeCorners corners = lookup.find(position);
         float light = 0;
         for (std::size_t c = 0; c < 8; ++c)
             light +=
                 corners.weights[c] * linear(position_of(grid, lookup.probes().corners[corners.probes[c]]));
-        EXPECT_NEAR(light, linear(place), 2e-5f);
+        EXPECT_NEAR(light, linear(position), 2e-5f);
     }
 }
 
@@ -93,9 +93,9 @@ TEST(VolumeWeights, OfASurfaceAreThoseOfAQuarterOfACellOffIt) {
     const std::vector<ProbeVisibility> visibility(probes_of(grid).size(), kAllAround);
     const VolumeLookup lookup(grid, visibility);
     const glm::vec3 coarse(-0.5f, 2.5f, 1), fine(1.25f, 2.25f, 1), normal(0, 0.6f, -0.8f);
-    for (const auto& [place, cell] : {std::pair(coarse, 0.5f), std::pair(fine, 0.25f)}) {
-        const VolumeCorners surface = lookup.find(place, normal),
-                            off = lookup.find(place + 0.25f * cell * normal);
+    for (const auto& [position, cell] : {std::pair(coarse, 0.5f), std::pair(fine, 0.25f)}) {
+        const VolumeCorners surface = lookup.find(position, normal),
+                            off = lookup.find(position + 0.25f * cell * normal);
         EXPECT_EQ(surface.probes, off.probes);
         for (std::size_t c = 0; c < 8; ++c)
             EXPECT_NEAR(surface.weights[c], off.weights[c], 1e-6f);
@@ -133,8 +133,8 @@ TEST(VolumeWeights, AreContinuousBetweenBricksOfDifferentLevels) {
         v = value(random);
     interpolate_hanging(grid, probes, values);
     EXPECT_FALSE(probes.hanging.empty());
-    const auto light = [&](std::size_t brick, const glm::vec3& place) {
-        const VolumeCorners corners = corners_in(grid, probes, brick, place);
+    const auto light = [&](std::size_t brick, const glm::vec3& position) {
+        const VolumeCorners corners = corners_in(grid, probes, brick, position);
         float mixed = 0;
         for (std::size_t c = 0; c < 8; ++c)
             mixed += corners.weights[c] * values[corners.probes[c]];
@@ -142,9 +142,9 @@ TEST(VolumeWeights, AreContinuousBetweenBricksOfDifferentLevels) {
     };
     const float face = grid.origin.x + 8 * grid.spacing;
     for (int i = 0; i < 500; ++i) {
-        const glm::vec3 place(face, grid.origin.y + 4 * grid.spacing * value(random),
-                              grid.origin.z + 4 * grid.spacing * value(random));
-        EXPECT_NEAR(light(0, place), light(1, place), 1e-5f); // the coarse brick and {2, 0, 0}
+        const glm::vec3 position(face, grid.origin.y + 4 * grid.spacing * value(random),
+                                 grid.origin.z + 4 * grid.spacing * value(random));
+        EXPECT_NEAR(light(0, position), light(1, position), 1e-5f); // the coarse brick and {2, 0, 0}
     }
 }
 

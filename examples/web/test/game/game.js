@@ -129,7 +129,7 @@ async function copies({ model }) {
   const { prtkit } = gltf.userData;
   const suns = [{ towards: [0.48, 0.6, 0.64], irradiance: [3, 2.5, 2], halfAngle: 0.005 }];
   const sky = await projectInWorker(skyTexture(), prtkit.order);
-  const places = [-1.3, 1.3].map((x) => new Matrix4().makeTranslation(x, 0, 0));
+  const points = [-1.3, 1.3].map((x) => new Matrix4().makeTranslation(x, 0, 0));
   const camera = cameraAt([0, 3, 7], [0, 0, 0]);
   const show = (...objects) => {
     const scene = new Scene().add(...objects);
@@ -142,14 +142,14 @@ async function copies({ model }) {
   gltf.scene.updateMatrixWorld(true);
   gltf.scene.traverse((mesh) => {
     if (!mesh.isMesh) return;
-    const copy = new InstancedMesh(mesh.geometry, mesh.material, places.length);
-    places.forEach((place, i) => copy.setMatrixAt(i, place.clone().multiply(mesh.matrixWorld)));
+    const copy = new InstancedMesh(mesh.geometry, mesh.material, points.length);
+    points.forEach((point, i) => copy.setMatrixAt(i, point.clone().multiply(mesh.matrixWorld)));
     Object.assign(copy, { castShadow: mesh.castShadow, receiveShadow: mesh.receiveShadow });
     instanced.push(copy);
   });
-  const clones = places.map((place) => {
+  const clones = points.map((point) => {
     const clone = gltf.scene.clone();
-    clone.applyMatrix4(place);
+    clone.applyMatrix4(point);
     clone.traverse((object) => object.isMesh && (object.material = object.material.clone()));
     return clone;
   });

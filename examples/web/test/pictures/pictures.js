@@ -157,16 +157,16 @@ function instancesOf(root) {
   root.traverse((mesh) => {
     if (!mesh.isMesh) return;
     const copy = new InstancedMesh(mesh.geometry, mesh.material, PLACES.length);
-    PLACES.forEach((place, i) => copy.setMatrixAt(i, new Matrix4().makeTranslation(...place).multiply(mesh.matrixWorld)));
+    PLACES.forEach((point, i) => copy.setMatrixAt(i, new Matrix4().makeTranslation(...point).multiply(mesh.matrixWorld)));
     instances.push(Object.assign(copy, { castShadow: mesh.castShadow, receiveShadow: mesh.receiveShadow }));
   });
   return instances;
 }
 
 const clonesOf = (root) =>
-  PLACES.map((place) => {
+  PLACES.map((point) => {
     const clone = root.clone();
-    clone.position.set(...place);
+    clone.position.set(...point);
     clone.traverse((object) => object.isMesh && (object.material = object.material.clone()));
     return clone;
   });
@@ -324,10 +324,10 @@ const MATERIALS = {
 
 /**
  * Returns the radiance of a square lit by a volume: floats from the bottom row up, red, green, blue and
- * alpha, without a tone curve. The square is a `kind` of mesh, 2 metres wide, at position `place` with
+ * alpha, without a tone curve. The square is a `kind` of mesh, 2 metres wide, at position `point` with
  * rotation `turn` (Euler angles); the camera looks at it along its normal.
  */
-async function lit({ api = "webgl", model, floats, kind, material, place, turn, light, lamps, moved, size: [width, height] }) {
+async function lit({ api = "webgl", model, floats, kind, material, point, turn, light, lamps, moved, size: [width, height] }) {
   const drawing = await rendererOf(api);
   const gltf = await load(model, api === "webgl" ? PrtkitPlugin : NodePlugin);
   let { volume } = gltf.userData.prtkit;
@@ -335,7 +335,7 @@ async function lit({ api = "webgl", model, floats, kind, material, place, turn, 
   volume.setLight(ShLight.fromCoefficients(volume.order, light), 0, null, lamps);
   const holder = new Group();
   holder.add(squares(kind, MATERIALS[material]()));
-  holder.position.fromArray(place);
+  holder.position.fromArray(point);
   holder.rotation.fromArray(turn);
   const seen = new OrthographicCamera(-1, 1, 1, -1, 0.1, 10);
   seen.position.z = 2;
@@ -343,7 +343,7 @@ async function lit({ api = "webgl", model, floats, kind, material, place, turn, 
   const around = new Group().add(holder);
   const scene = new Scene().add(gltf.scene, around);
   for (const root of moved ? [gltf.scene, around] : []) {
-    root.position.fromArray(moved.place); // with all that is in it
+    root.position.fromArray(moved.point); // with all that is in it
     root.rotation.fromArray(moved.turn);
   }
   volume.light(holder);
@@ -367,7 +367,7 @@ async function occluded({ model, passer, moved, centre, size: [width, height], l
   prtkit.setLight(ShLight.fromCoefficients(prtkit.order, light));
   const floor = gltf.scene.children[0];
   passing.scene.children.forEach((child, i) => {
-    child.position.fromArray(moved[i].place);
+    child.position.fromArray(moved[i].point);
     child.rotation.fromArray(moved[i].turn);
     child.scale.setScalar(moved[i].scale);
   });

@@ -268,17 +268,19 @@ PRT_API prt_status prt_volume_evaluate(const prt_volume* volume, const float* co
                                        prt_message* message);
 
 /* A lit position. `normal` is the unit normal of its surface, or zero. */
-typedef struct prt_volume_place {
+typedef struct prt_volume_position {
     float position[3], normal[3];
-} prt_volume_place;
+} prt_volume_position;
 /* Interpolates the light of the probes around a position, [n*n][3]; probes behind surfaces are excluded.
  * Allocates nothing. */
 PRT_API prt_status prt_volume_incident(const prt_volume* volume, const float* incident,
-                                       const prt_volume_place* place, float* light, prt_message* message);
-/* Returns irradiance over pi of a surface with the normal of `place`; times the albedo this is exit radiance.
+                                       const prt_volume_position* position, float* light,
+                                       prt_message* message);
+/* Returns irradiance over pi of a surface with the normal of `position`; times the albedo this is exit
+ * radiance.
  * */
 PRT_API prt_status prt_volume_irradiance(const prt_volume* volume, const float* incident,
-                                         const prt_volume_place* place, float irradiance[3],
+                                         const prt_volume_position* position, float irradiance[3],
                                          prt_message* message);
 
 /* Writes the functions that look up a volume. Insert them after the version line of a shader in any language;

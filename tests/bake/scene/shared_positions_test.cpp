@@ -32,7 +32,7 @@ Scene floor_under_lid() {
                          glm::vec3(0.5f));
 }
 
-TEST(SharedPlaces, HaveOneValue) {
+TEST(SharedPositions, HaveOneValue) {
     const Scene scene = floor_under_lid();
     const Transfer transfer = baked(scene, 64);
     std::map<std::tuple<float, float, float>, std::size_t> first;
@@ -48,7 +48,7 @@ TEST(SharedPlaces, HaveOneValue) {
 }
 
 /// Six triangles meet at a vertex inside the floor: the mean of six sets of rays has less noise than one.
-TEST(SharedPlaces, HaveTheNoiseOfAllTheirRays) {
+TEST(SharedPositions, HaveTheNoiseOfAllTheirRays) {
     const Scene scene = floor_under_lid();
     // Corners of different triangles get different positions; 0.1 mm does not change their light.
     Scene separate = scene;
@@ -73,7 +73,7 @@ TEST(SharedPlaces, HaveTheNoiseOfAllTheirRays) {
 }
 
 /// A sheet is on the edges in the middle of a floor.
-TEST(SharedPlaces, AreNoneAcrossAWall) {
+TEST(SharedPositions, AreNoneAcrossAWall) {
     const Scene scene =
         test::painted(test::join({SceneBuilder().floor({0, 0, 0}, 2, 4).build(),
                                   SceneBuilder().quad({0, 0, 3}, {0, 0, -3}, {0, 5, -3}, {0, 5, 3}).build()}),

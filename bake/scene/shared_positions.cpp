@@ -1,6 +1,6 @@
 // Groups front receivers at one position that see each other.
 
-#include "scene/shared_places.h"
+#include "scene/shared_positions.h"
 
 #include "prt/support/parallel.h"
 #include "scene/alike_receivers.h"
@@ -29,10 +29,10 @@ bool see_each_other(const RayScene& rays, const Receivers& receivers, std::uint3
 }
 
 /// Splits receivers at one position into groups that see each other.
-void split(const RayScene& rays, const Receivers& receivers, std::span<const std::uint32_t> place,
+void split(const RayScene& rays, const Receivers& receivers, std::span<const std::uint32_t> position,
            std::vector<std::vector<std::uint32_t>>& groups) {
     std::vector<std::vector<std::uint32_t>> here;
-    for (const std::uint32_t p : place) {
+    for (const std::uint32_t p : position) {
         const auto seen = std::ranges::find_if(
             here, [&](const auto& group) { return see_each_other(rays, receivers, group.front(), p); });
         if (seen == here.end())
@@ -47,7 +47,7 @@ void split(const RayScene& rays, const Receivers& receivers, std::span<const std
 
 } // namespace
 
-SharedPlaces::SharedPlaces(const TraceScene& scene, const TransportReceivers& receivers) {
+SharedPositions::SharedPositions(const TraceScene& scene, const TransportReceivers& receivers) {
     const std::vector<bool> plain = on_plain_surfaces(scene.surfaces(), receivers.fronts);
     const std::vector<std::uint32_t> alike = alike_receivers(scene.surfaces(), receivers);
     std::vector<std::uint32_t> order;
@@ -55,24 +55,24 @@ SharedPlaces::SharedPlaces(const TraceScene& scene, const TransportReceivers& re
         if (plain[p] && receivers.receivers.areas[p] > 0 && receivers.receivers.normals[p] != glm::vec3(0))
             order.push_back(p);
     std::ranges::stable_sort(order, {}, [&](std::uint32_t p) { return alike[p]; });
-    std::vector<std::span<const std::uint32_t>> places;
+    std::vector<std::span<const std::uint32_t>> positions;
     for (std::size_t begin = 0, end = 0; begin < order.size(); begin = end) {
         while (end < order.size() && alike[order[end]] == alike[order[begin]])
             ++end;
         if (end > begin + 1)
-            places.emplace_back(std::span(order).subspan(begin, end - begin));
+            positions.emplace_back(std::span(order).subspan(begin, end - begin));
     }
-    std::vector<std::vector<std::vector<std::uint32_t>>> groups(places.size());
-    parallel_for(places.size(), 64, scene.threads(), [&](std::size_t begin, std::size_t end) {
+    std::vector<std::vector<std::vector<std::uint32_t>>> groups(positions.size());
+    parallel_for(positions.size(), 64, scene.threads(), [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i)
-            split(scene.rays(), receivers.receivers, places[i], groups[i]);
+            split(scene.rays(), receivers.receivers, positions[i], groups[i]);
     });
-    for (auto& of_place : groups)
-        for (std::vector<std::uint32_t>& group : of_place)
+    for (auto& of_position : groups)
+        for (std::vector<std::uint32_t>& group : of_position)
             groups_.push_back(std::move(group));
 }
 
-std::vector<float> SharedPlaces::left(std::size_t receivers) const {
+std::vector<float> SharedPositions::left(std::size_t receivers) const {
     std::vector<float> left(receivers, 1.0f);
     for (const std::vector<std::uint32_t>& group : groups_)
         for (const std::uint32_t p : group)
@@ -80,7 +80,7 @@ std::vector<float> SharedPlaces::left(std::size_t receivers) const {
     return left;
 }
 
-std::vector<std::uint32_t> SharedPlaces::first_of_each(std::size_t receivers) const {
+std::vector<std::uint32_t> SharedPositions::first_of_each(std::size_t receivers) const {
     std::vector<std::uint32_t> first(receivers);
     std::iota(first.begin(), first.end(), 0u);
     for (const std::vector<std::uint32_t>& group : groups_)
@@ -89,7 +89,7 @@ std::vector<std::uint32_t> SharedPlaces::first_of_each(std::size_t receivers) co
     return first;
 }
 
-void SharedPlaces::average(Transfer& transfer) const {
+void SharedPositions::average(Transfer& transfer) const {
     std::vector<double> sum(transfer.dimension());
     for (const std::vector<std::uint32_t>& group : groups_) {
         std::ranges::fill(sum, 0.0);

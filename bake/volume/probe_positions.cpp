@@ -1,6 +1,6 @@
 // Moves probes off the surfaces that they are too near to.
 
-#include "volume/probe_places.h"
+#include "volume/probe_positions.h"
 
 #include "pictures/lit_side.h"
 #include "prt/support/parallel.h"
@@ -40,11 +40,11 @@ struct Around {
     int far = 0; ///< directions in which a surface is farther than a cell
 };
 
-Around look_around(const TraceScene& scene, const glm::vec3& place, float cell) {
+Around look_around(const TraceScene& scene, const glm::vec3& position, float cell) {
     static const std::array<glm::vec3, 26> directions = directions_around();
     Around around;
     for (const glm::vec3& d : directions) {
-        const auto hit = scene.rays().nearest({place, d});
+        const auto hit = scene.rays().nearest({position, d});
         if (!hit)
             continue;
         around.far += hit->distance > cell ? 1 : 0;
@@ -59,14 +59,14 @@ Around look_around(const TraceScene& scene, const glm::vec3& place, float cell) 
     return around;
 }
 
-/// Whether `place`, and not `other` on the other side of a wall, is inside a room: there are surfaces on all
-/// sides, and it is neither outdoors nor between the two faces of a wall.
-bool is_inside(const TraceScene& scene, const glm::vec3& place, const glm::vec3& other, float cell) {
-    const Around around = look_around(scene, place, cell);
+/// Whether `position`, and not `other` on the other side of a wall, is inside a room: there are surfaces on
+/// all sides, and it is neither outdoors nor between the two faces of a wall.
+bool is_inside(const TraceScene& scene, const glm::vec3& position, const glm::vec3& other, float cell) {
+    const Around around = look_around(scene, position, cell);
     return !around.is_near(cell) && around.far > look_around(scene, other, cell).far;
 }
 
-glm::vec3 free_place(const TraceScene& scene, const ProbeCell& cell) {
+glm::vec3 free_position(const TraceScene& scene, const ProbeCell& cell) {
     glm::vec3 moved = cell.corner;
     for (int i = 0; i < kTries; ++i) {
         const Around around = look_around(scene, moved, cell.width);
@@ -80,11 +80,12 @@ glm::vec3 free_place(const TraceScene& scene, const ProbeCell& cell) {
 
 } // namespace
 
-std::vector<glm::vec3> free_places(const TraceScene& scene, std::span<const ProbeCell> cells, int threads) {
+std::vector<glm::vec3> free_positions(const TraceScene& scene, std::span<const ProbeCell> cells,
+                                      int threads) {
     std::vector<glm::vec3> moved(cells.size());
     parallel_for(cells.size(), 64, threads, [&](std::size_t begin, std::size_t end) {
         for (std::size_t p = begin; p < end; ++p)
-            moved[p] = free_place(scene, cells[p]);
+            moved[p] = free_position(scene, cells[p]);
     });
     return moved;
 }

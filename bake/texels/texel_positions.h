@@ -23,10 +23,10 @@ struct Casters {
 
 /// Positions of samples as receivers: on the surface, or on the surface of `casters` if it is within reach
 /// above or below and faces the same direction.
-class TexelPlaces {
+class TexelPositions {
 public:
     /// Keeps references. `casters`: null where the scene casts itself.
-    TexelPlaces(const Scene& scene, const Casters* casters);
+    TexelPositions(const Scene& scene, const Casters* casters);
     /// Appends a receiver of that area.
     void append(const TexelSample& sample, float area, Receivers& receivers) const;
     /// Returns a notice if many samples so far found no surface of casters, nothing otherwise. Throws `Error`
@@ -36,10 +36,10 @@ public:
     double area(std::uint32_t triangle) const;
 
 private:
-    struct Place {
+    struct Position {
         glm::vec3 position, normal, plane;
     };
-    void move_to_casters(Place& place) const;
+    void move_to_casters(Position& position) const;
 
     std::vector<glm::uvec3> corners_; ///< [triangles]
     Receivers vertices_, of_casters_;

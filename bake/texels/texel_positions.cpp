@@ -1,6 +1,6 @@
 // Computes the positions of samples of texels, on the scene or on a finer model.
 
-#include "texels/texel_places.h"
+#include "texels/texel_positions.h"
 
 #include "prt/support/error.h"
 
@@ -10,7 +10,7 @@
 namespace prt {
 namespace {
 
-glm::vec3 at_place(const std::vector<glm::vec3>& values, const glm::uvec3& c, const glm::vec2& uv) {
+glm::vec3 at_position(const std::vector<glm::vec3>& values, const glm::uvec3& c, const glm::vec2& uv) {
     return values[c.x] * (1 - uv.x - uv.y) + values[c.y] * uv.x + values[c.z] * uv.y;
 }
 
@@ -29,7 +29,7 @@ glm::vec3 unit_or(const glm::vec3& v, const glm::vec3& otherwise) {
 
 } // namespace
 
-TexelPlaces::TexelPlaces(const Scene& scene, const Casters* casters)
+TexelPositions::TexelPositions(const Scene& scene, const Casters* casters)
     : vertices_(vertex_receivers(scene)), casters_(casters) {
     for (const Primitive& primitive : scene.primitives) {
         const auto first = static_cast<std::uint32_t>(scene.vertex_arrays[primitive.vertices].first_receiver);
@@ -42,27 +42,27 @@ TexelPlaces::TexelPlaces(const Scene& scene, const Casters* casters)
     }
 }
 
-void TexelPlaces::move_to_casters(Place& place) const {
+void TexelPositions::move_to_casters(Position& point) const {
     const auto reach = static_cast<float>(casters_->reach);
-    const glm::vec3 here = place.position + from_scene_;
-    place.position = here;
+    const glm::vec3 here = point.position + from_scene_;
+    point.position = here;
     const Surfaces& surfaces = casters_->scene.surfaces();
     const auto faces_alike = [&](unsigned triangle) {
-        return glm::dot(plane_of(of_casters_.positions, surfaces.corners(triangle)), place.normal) > 0;
+        return glm::dot(plane_of(of_casters_.positions, surfaces.corners(triangle)), point.normal) > 0;
     };
-    const Ray ray{here + reach * place.normal, -place.normal, 0, 2 * reach};
+    const Ray ray{here + reach * point.normal, -point.normal, 0, 2 * reach};
     const std::optional<RayHit> hit = casters_->scene.rays().nearest(ray, faces_alike);
     ++asked_;
     if (!hit)
         return;
     ++found_;
     const glm::uvec3& c = surfaces.corners(hit->triangle);
-    place.position = at_place(of_casters_.positions, c, hit->uv);
-    place.plane = plane_of(of_casters_.positions, c);
-    place.normal = unit_or(at_place(of_casters_.normals, c, hit->uv), place.plane);
+    point.position = at_position(of_casters_.positions, c, hit->uv);
+    point.plane = plane_of(of_casters_.positions, c);
+    point.normal = unit_or(at_position(of_casters_.normals, c, hit->uv), point.plane);
 }
 
-std::optional<std::string> TexelPlaces::check_casters() const {
+std::optional<std::string> TexelPositions::check_casters() const {
     constexpr double kMany = 0.02;
     const std::size_t asked = asked_, found = found_;
     if (asked > 0 && found == 0)
@@ -79,24 +79,24 @@ std::optional<std::string> TexelPlaces::check_casters() const {
         100 * missing, casters_->reach);
 }
 
-double TexelPlaces::area(std::uint32_t triangle) const {
+double TexelPositions::area(std::uint32_t triangle) const {
     const glm::uvec3& c = corners_[triangle];
     const auto& positions = vertices_.positions;
     const glm::dvec3 a(positions[c.x]);
     return glm::length(glm::cross(glm::dvec3(positions[c.y]) - a, glm::dvec3(positions[c.z]) - a)) / 2;
 }
 
-void TexelPlaces::append(const TexelSample& sample, float area, Receivers& receivers) const {
+void TexelPositions::append(const TexelSample& sample, float area, Receivers& receivers) const {
     const glm::uvec3& c = corners_[sample.triangle];
-    Place place{at_place(vertices_.positions, c, sample.uv), {}, plane_of(vertices_.positions, c)};
-    place.normal = unit_or(at_place(vertices_.normals, c, sample.uv), place.plane);
-    if (place.plane == glm::vec3(0))
-        place.plane = place.normal;
+    Position point{at_position(vertices_.positions, c, sample.uv), {}, plane_of(vertices_.positions, c)};
+    point.normal = unit_or(at_position(vertices_.normals, c, sample.uv), point.plane);
+    if (point.plane == glm::vec3(0))
+        point.plane = point.normal;
     if (casters_)
-        move_to_casters(place);
-    receivers.positions.push_back(place.position);
-    receivers.normals.push_back(place.normal);
-    receivers.starts.push_back(place.plane);
+        move_to_casters(point);
+    receivers.positions.push_back(point.position);
+    receivers.normals.push_back(point.normal);
+    receivers.starts.push_back(point.plane);
     receivers.areas.push_back(area);
 }
 

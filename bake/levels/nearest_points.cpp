@@ -1,6 +1,6 @@
 // Searches a hierarchy of triangles for the nearest points, and selects among them by normals.
 
-#include "levels/nearest_places.h"
+#include "levels/nearest_points.h"
 
 #include <embree3/rtcore.h>
 #include <glm/common.hpp>
@@ -97,22 +97,22 @@ void NearestRule::add(std::uint32_t triangle, const std::array<glm::dvec3, 3>& c
     const double length = glm::length(normal), cosine = length > 0 ? glm::dot(normal, normal_) / length : -1,
                  lean = tie_ * (1 - std::min(cosine, 1.0)), distance = glm::distance(at, position_),
                  score = distance * distance + lean * lean;
-    const NearestPlace place{triangle, shares, distance};
+    const NearestPoint point{triangle, shares, distance};
     if (any_.worse_than(score, triangle))
-        any_ = {score, place};
+        any_ = {score, point};
     if (cosine >= kMinCosine && agreeing_.worse_than(score, triangle))
-        agreeing_ = {score, place};
+        agreeing_ = {score, point};
 }
 
 double NearestRule::radius() const {
     return std::min(std::sqrt(agreeing_.score), std::sqrt(any_.score) + reach_);
 }
 
-NearestPlace NearestRule::result() const {
-    return std::sqrt(agreeing_.score) <= std::sqrt(any_.score) + reach_ ? agreeing_.place : any_.place;
+NearestPoint NearestRule::result() const {
+    return std::sqrt(agreeing_.score) <= std::sqrt(any_.score) + reach_ ? agreeing_.position : any_.position;
 }
 
-NearestPlaces::NearestPlaces(const TraceScene& scene, const Receivers& receivers)
+NearestPoints::NearestPoints(const TraceScene& scene, const Receivers& receivers)
     : scene_(scene), receivers_(receivers) {
     diagonal_ = largest_diagonal(scene.scene());
     lit_.resize(scene.surfaces().triangles());
@@ -125,13 +125,13 @@ NearestPlaces::NearestPlaces(const TraceScene& scene, const Receivers& receivers
     }
 }
 
-std::array<glm::dvec3, 3> NearestPlaces::at_corners(const std::vector<glm::vec3>& values,
+std::array<glm::dvec3, 3> NearestPoints::at_corners(const std::vector<glm::vec3>& values,
                                                     std::uint32_t triangle) const {
     const glm::uvec3& corners = scene_.surfaces().corners(triangle);
     return {glm::dvec3(values[corners.x]), glm::dvec3(values[corners.y]), glm::dvec3(values[corners.z])};
 }
 
-NearestPlace NearestPlaces::find(const glm::vec3& position, const glm::vec3& normal) const {
+NearestPoint NearestPoints::find(const glm::vec3& position, const glm::vec3& normal) const {
     NearestRule rule(diagonal_);
     rule.begin(position, normal);
     // Boxes are floats, and so is the radius: also visit triangles that are equally near up to rounding.

@@ -13,6 +13,6 @@
 namespace prt {
 
 /// Returns the corners of `cells`, moved by at most 0.3 cells, metres.
-std::vector<glm::vec3> free_places(const TraceScene& scene, std::span<const ProbeCell> cells, int threads);
+std::vector<glm::vec3> free_positions(const TraceScene& scene, std::span<const ProbeCell> cells, int threads);
 
 } // namespace prt

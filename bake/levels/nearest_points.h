@@ -13,7 +13,7 @@
 namespace prt {
 
 /// A point of a triangle.
-struct NearestPlace {
+struct NearestPoint {
     std::uint32_t triangle = 0;        ///< index in the order of the scene's primitives; kNoTriangle: there
                                        ///< is no point
     std::array<double, 3> shares = {}; ///< barycentric coordinates
@@ -40,7 +40,7 @@ public:
              const std::array<glm::dvec3, 3>& normals);
     /// Maximum distance of points that can still be selected.
     double radius() const;
-    NearestPlace result() const;
+    NearestPoint result() const;
 
 private:
     static constexpr double kReach = 0.05, kTie = 1e-3;
@@ -48,10 +48,10 @@ private:
 
     struct Candidate {
         double score; ///< squared distance, plus a term for the normal
-        NearestPlace place;
+        NearestPoint position;
 
         bool worse_than(double other_score, std::uint32_t triangle) const {
-            return other_score < score || (other_score == score && triangle < place.triangle);
+            return other_score < score || (other_score == score && triangle < position.triangle);
         }
     };
     double reach_, tie_;
@@ -60,13 +60,13 @@ private:
 };
 
 /// Finds nearest points on the surfaces of a scene. Thread-safe.
-class NearestPlaces {
+class NearestPoints {
 public:
     /// Keeps references. All materials of the scene must cast shadows. Triangles are ignored if a corner has
     /// no normal or no area, and therefore no light.
-    NearestPlaces(const TraceScene& scene, const Receivers& receivers);
+    NearestPoints(const TraceScene& scene, const Receivers& receivers);
 
-    NearestPlace find(const glm::vec3& position, const glm::vec3& normal) const;
+    NearestPoint find(const glm::vec3& position, const glm::vec3& normal) const;
     double diagonal() const { return diagonal_; }
 
 private:

@@ -14,10 +14,10 @@ namespace prt {
 /// Groups of front receivers of one node, position and normal with nothing between them: they have the same
 /// light, and differ only by the noise of their rays. On a wall of separate quads four receivers meet at each
 /// corner.
-class SharedPlaces {
+class SharedPositions {
 public:
     /// Receivers on surfaces that transmit light or have a medium inside are in no group.
-    SharedPlaces(const TraceScene& scene, const TransportReceivers& receivers);
+    SharedPositions(const TraceScene& scene, const TransportReceivers& receivers);
 
     /// Factor that `average` applies to the squared noise of each receiver, [receivers], fronts first.
     std::vector<float> left(std::size_t receivers) const;

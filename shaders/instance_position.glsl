@@ -8,9 +8,9 @@ layout(location = PRT_LOCATION_INSTANCE_X) in vec4 world_x; // rows of the matri
 layout(location = PRT_LOCATION_INSTANCE_Y) in vec4 world_y;
 layout(location = PRT_LOCATION_INSTANCE_Z) in vec4 world_z;
 
-vec3 place_in_scene(vec3 position) {
-    vec4 place = vec4(position, 1.0);
-    return vec3(dot(world_x, place), dot(world_y, place), dot(world_z, place));
+vec3 position_in_scene(vec3 position) {
+    vec4 point = vec4(position, 1.0);
+    return vec3(dot(world_x, point), dot(world_y, point), dot(world_z, point));
 }
 
 vec3 normal_in_scene(vec3 normal) {
@@ -18,7 +18,7 @@ vec3 normal_in_scene(vec3 normal) {
            inversesqrt(dot(world_x.xyz, world_x.xyz));
 }
 #else
-vec3 place_in_scene(vec3 position) {
+vec3 position_in_scene(vec3 position) {
     return position;
 }
 
