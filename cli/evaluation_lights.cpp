@@ -27,7 +27,7 @@ std::vector<SplitLight> rotations(SplitLight light, int count) {
     std::vector<SplitLight> result;
     for (int r = 1; r < count; ++r) {
         const double degrees = 360.0 * r / count;
-        result.push_back(turned(light, glm::radians(degrees)));
+        result.push_back(rotated(light, glm::radians(degrees)));
         result.back().sky.name = fmt::format("{} +{:g}°", light.sky.name, degrees);
     }
     result.insert(result.begin(), std::move(light));

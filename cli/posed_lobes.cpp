@@ -11,7 +11,7 @@ void lobe_transfer_in_pose(const LobeModel& lobes, const VertexFrames& frames, s
     std::array<Lobe, kMaxLobes> of_vertex;
     lobes.decode(vertex, of_vertex);
     for (Lobe& lobe : of_vertex)
-        lobe.axis = turned_axis(lobe.axis, axis_turn(glm::mat3(frames.matrix(vertex))));
+        lobe.axis = rotated_axis(lobe.axis, axis_rotation(glm::mat3(frames.matrix(vertex))));
     lobe_transfer(of_vertex, order, transfer);
 }
 

@@ -26,14 +26,14 @@ void add_sky_errors(const ErrorMoments& moments, const std::vector<NamedLighting
                  {"separate_suns", "suns apart"},
                  {"lit_rms_mean", "mean of all turns", Unit::percent},
                  {"lit_rms_worst", "worst turn", Unit::percent},
-                 {"worst_turn_degrees", "its angle"}},
+                 {"worst_rotation_degrees", "its angle"}},
                 {}};
     const std::vector<glm::vec3> dark(moments.layout.lamps(), glm::vec3(0));
     for (const NamedLighting& sky : skies) {
         std::string sentence = fmt::format("under {{skies/{}/name}}: ", table.rows.size());
         for (LightingUse& use : uses_of(sky.lighting, moments.layout)) {
             use.lighting.lamps = dark;
-            const LitRmsOverTurns error = lit_rms_over_turns(moments, use.lighting);
+            const LitRmsOverRotations error = lit_rms_over_rotations(moments, use.lighting);
             sentence += fmt::format("{1}{{skies/{0}/lit_rms_mean:.3f%}}, at the worst turn "
                                     "{{skies/{0}/lit_rms_worst:.3f%}}",
                                     table.rows.size(), use.separate_suns ? "; its sun apart " : "");

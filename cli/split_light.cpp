@@ -58,7 +58,7 @@ SplitLight together(SplitLight light) {
     return light;
 }
 
-SplitLight turned(SplitLight light, double angle) {
+SplitLight rotated(SplitLight light, double angle) {
     light.sky.environment.reset();
     light.sky.light = rotated_about_y(light.sky.light, angle);
     light.whole = rotated_about_y(light.whole, angle);
@@ -93,9 +93,9 @@ SplitLight load_split_light(const Path& path, int order, const SunCount& suns, c
     }
     result.sky.light = windowed(result.sky.light, options.window);
     result.whole = windowed(result.whole, options.window);
-    if (const double turn = glm::radians(options.rotation_degrees); turn != 0) {
+    if (const double rotation = glm::radians(options.rotation_degrees); rotation != 0) {
         auto image = std::move(result.sky.environment);
-        result = turned(std::move(result), turn);
+        result = rotated(std::move(result), rotation);
         result.sky.environment = std::move(image);
     }
     return result;

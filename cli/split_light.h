@@ -45,7 +45,7 @@ SplitLight dark_sky(int order);
 SplitLight together(SplitLight light);
 
 /// Returns the light rotated about +Y, as by `rotated_about_y`, without its image.
-SplitLight turned(SplitLight light, double angle);
+SplitLight rotated(SplitLight light, double angle);
 
 /// Separates suns from an environment map, or reads those of a light file; the default number for a light
 /// file is the number of suns in it. All are rotated as `options` requires. The window filters the rest only.

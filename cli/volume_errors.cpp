@@ -45,9 +45,10 @@ std::vector<glm::vec3> normals_all_round() {
     constexpr int kNormals = 32;
     std::vector<glm::vec3> normals;
     for (int i = 0; i < kNormals; ++i) {
-        const double y = 1 - (2 * i + 1.0) / kNormals, turn = 2 * std::numbers::pi * i / std::numbers::phi;
+        const double y = 1 - (2 * i + 1.0) / kNormals,
+                     rotation = 2 * std::numbers::pi * i / std::numbers::phi;
         const double radius = std::sqrt(1 - y * y);
-        normals.emplace_back(radius * std::cos(turn), y, radius * std::sin(turn));
+        normals.emplace_back(radius * std::cos(rotation), y, radius * std::sin(rotation));
     }
     return normals;
 }

@@ -75,11 +75,11 @@ SeenLight see_light(PunctualLight light, LampReceiver receiver) {
 }
 
 // Returns direction `i` of `count` about the axis of a disc, distributed evenly over its solid angle, and in
-// w 1 minus its cosine to the axis; equal to prt::DiscDirections. `turn` rotates the directions, as a share
+// w 1 minus its cosine to the axis; equal to prt::DiscDirections. `rotation` rotates the directions, as a share
 // of the circle times 2^32.
-vec4 disc_direction(mat3 frame, float depth, uint i, uint count, uint turn) {
+vec4 disc_direction(mat3 frame, float depth, uint i, uint count, uint rotation) {
     float below = depth * (float(i) + 0.5) / float(count);
-    float sine = sqrt(below * (2.0 - below)), angle = 2.0 * kPi * unit_number(turn + i * 1640531527u);
+    float sine = sqrt(below * (2.0 - below)), angle = 2.0 * kPi * unit_number(rotation + i * 1640531527u);
     return vec4(normalize(frame * vec3(sine * cos(angle), sine * sin(angle), 1.0 - below)), below);
 }
 

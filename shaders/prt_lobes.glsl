@@ -3,9 +3,9 @@
 //
 //     PrtLobe prt_lobe(vec4 bytes)
 //         Decodes _PRT_LOBE_k, 0..255, in the frame of NORMAL.
-//     mat3 prt_lobe_turn(mat3 matrix)
+//     mat3 prt_lobe_rotation(mat3 matrix)
 //         Rotation of lobes for the matrix that moves the vertex, blended by its weights.
-//     PrtLobe prt_turned_lobe(PrtLobe lobe, mat3 turn)
+//     PrtLobe prt_rotated_lobe(PrtLobe lobe, mat3 turn)
 //         Rotates a lobe to world axes.
 //     PrtLobe prt_mapped_lobe(PrtLobe lobe, vec3 from, vec3 to)
 //         Rotates a lobe for a normal map: `from` is the vertex normal, `to` is the normal of the map.
@@ -57,13 +57,13 @@ PrtLobe prt_lobe(vec4 bytes) {
 }
 
 // Cofactors, as for normals: an unoccluded vertex is lit by its normal in every pose.
-mat3 prt_lobe_turn(mat3 m) {
-    mat3 turn = mat3(cross(m[1], m[2]), cross(m[2], m[0]), cross(m[0], m[1]));
-    return dot(m[0], turn[0]) < 0.0 ? -turn : turn;
+mat3 prt_lobe_rotation(mat3 m) {
+    mat3 rotation = mat3(cross(m[1], m[2]), cross(m[2], m[0]), cross(m[0], m[1]));
+    return dot(m[0], rotation[0]) < 0.0 ? -rotation : rotation;
 }
 
-PrtLobe prt_turned_lobe(PrtLobe lobe, mat3 turn) {
-    vec3 axis = turn * lobe.axis;
+PrtLobe prt_rotated_lobe(PrtLobe lobe, mat3 rotation) {
+    vec3 axis = rotation * lobe.axis;
     float size = length(axis);
     return PrtLobe(size > 0.0 ? axis / size : lobe.axis, lobe.gains);
 }

@@ -66,12 +66,12 @@ PrtBlockedCap prt_blocked_cap(int i, vec3 position) {
         float root = (0.5 * stored.w + 0.5) / outside;
         vec3 lean = stored.xyz;
         float blocked = root * root * (1.0 - smoothstep(PRT_OCCLUDER_FADE, 1.0, far / half_reach.w));
-        vec3 turned = lean.x * x + lean.y * y + lean.z * z;
-        float size = length(turned);
+        vec3 rotated = lean.x * x + lean.y * y + lean.z * z;
+        float size = length(rotated);
         if (blocked > 0.0) {
             cap.share = max(1.0 - (1.0 - blocked) * min(size, 1.0), blocked);
             cap.density = blocked / cap.share;
-            cap.towards = size > 0.0 ? turned / size : cap.towards;
+            cap.towards = size > 0.0 ? rotated / size : cap.towards;
         }
     }
     return cap;

@@ -18,11 +18,11 @@ uniform vec3 sky_sh[PRT_LOBE_COEFFICIENTS];
 
 vec3 radiance_of_lobes(mat3 matrix, vec3 position, vec3 normal) {
     PrtLobe lobes[PRT_LOBES];
-    mat3 turn = prt_lobe_turn(matrix);
+    mat3 rotation = prt_lobe_rotation(matrix);
     for (int k = 0; k < PRT_LOBES; ++k) {
         uint word = lobe_words[(first_vertex + gl_VertexID) * PRT_LOBES + k];
         vec4 bytes = vec4(word & 255u, word >> 8 & 255u, word >> 16 & 255u, word >> 24);
-        lobes[k] = prt_turned_lobe(prt_lobe(bytes), turn);
+        lobes[k] = prt_rotated_lobe(prt_lobe(bytes), rotation);
     }
 #ifdef PRT_VOLUME
     return prt_lobes_in_volume(lobes, position, normal);

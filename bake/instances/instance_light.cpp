@@ -35,9 +35,10 @@ constexpr int kProbesOfSamples = 128; ///< rays per sample; if a sample is seale
                                       ///< instance determine the factors
 
 /// Rotates a vector of one or several channels.
-void turn_all(const ShRotation& turn, std::size_t count, std::span<const float> from, std::span<float> to) {
+void rotate_all(const ShRotation& rotation, std::size_t count, std::span<const float> from,
+                std::span<float> to) {
     for (std::size_t first = 0; first < from.size(); first += count)
-        turn.apply(from.subspan(first, count), to.subspan(first, count));
+        rotation.apply(from.subspan(first, count), to.subspan(first, count));
 }
 
 } // namespace
@@ -162,16 +163,16 @@ void InstanceLight::trace_samples(std::span<const std::uint32_t> receivers, int 
 void InstanceLight::take_light(std::size_t sample, bool again, std::span<const float> light,
                                std::size_t first) {
     std::array<float, 3 * kMaxOrder * kMaxOrder> space;
-    const std::span<float> turned(space.data(), light.size());
-    turn_all(samples_.into_mesh[receivers_.instance_of_sample(sample)], sizes_.count, light, turned);
+    const std::span<float> rotated(space.data(), light.size());
+    rotate_all(samples_.into_mesh[receivers_.instance_of_sample(sample)], sizes_.count, light, rotated);
     float* const before = &samples_.light[sample * sizes_.dimension + first];
     if (!again) {
-        std::ranges::copy(turned, before);
+        std::ranges::copy(rotated, before);
         return;
     }
     float* const differences = &samples_.differences[sample / kSamplesToOfNoise * sizes_.dimension + first];
-    for (std::size_t i = 0; i < turned.size(); ++i)
-        differences[i] = std::numbers::sqrt2_v<float> / 2 * (before[i] - turned[i]);
+    for (std::size_t i = 0; i < rotated.size(); ++i)
+        differences[i] = std::numbers::sqrt2_v<float> / 2 * (before[i] - rotated[i]);
 }
 
 void InstanceLight::find_sealed_in(const Progress& progress) {
@@ -382,13 +383,13 @@ double InstanceLight::error_of(const InstanceFit& fit, const SharedTransfer& sha
                       noisy = (first + kSamplesToOfNoise - 1) / kSamplesToOfNoise;
     std::vector<Lighting> lights = options_.lights;
     for (Lighting& light : lights) {
-        const auto turn = [&](Light& term) {
+        const auto rotation = [&](Light& term) {
             term = truncated(term, plan_.options.order);
             samples_.into_mesh[instance].apply(std::span(term.coefficients));
         };
-        turn(light.sky);
+        rotation(light.sky);
         if (light.suns)
-            turn(*light.suns);
+            rotation(*light.suns);
     }
     return fit.error(shared, targets_of(instance, left_out),
                      {std::span<const float>(samples_.differences).subspan(noisy * sizes_.dimension),
@@ -400,11 +401,11 @@ double InstanceLight::error_of(const InstanceFit& fit, const SharedTransfer& sha
 void InstanceLight::expand(const SharedTransfer& shared, std::span<const glm::vec3> positions,
                            std::span<const std::size_t> instances) {
     std::vector<InstanceFactors> factors;
-    std::vector<ShRotation> turns;
+    std::vector<ShRotation> rotations;
     for (const std::size_t i : instances) {
         const glm::dmat3& rotation = receivers_.instances[i].rotation;
         factors.push_back(in_axes_of_mesh(result_.factors[i], rotation));
-        turns.emplace_back(plan_.options.order, rotation);
+        rotations.emplace_back(plan_.options.order, rotation);
     }
     std::vector<float> vector(sizes_.dimension);
     for (std::size_t p = 0; p < positions.size(); ++p)
@@ -416,8 +417,8 @@ void InstanceLight::expand(const SharedTransfer& shared, std::span<const glm::ve
             for (std::size_t first = sizes_.count; first < sizes_.dimension; first += sizes_.count)
                 for (std::size_t k = 0; k < sizes_.count; ++k)
                     vector[first + k] += vector[k];
-            turn_all(turns[i], sizes_.count, std::span<const float>(vector).subspan(sizes_.count),
-                     exit_of(receiver));
+            rotate_all(rotations[i], sizes_.count, std::span<const float>(vector).subspan(sizes_.count),
+                       exit_of(receiver));
         }
 }
 

@@ -129,8 +129,8 @@ BrightPatches::Cone BrightPatches::joined(const Cone& a, const Cone& b) {
     const glm::dvec3 across = narrow.axis - glm::dot(wide.axis, narrow.axis) * wide.axis;
     if (half >= pi || !(glm::length(across) > 1e-9))
         return {wide.axis, -1};
-    const double turn = half - of_wide;
-    return {std::cos(turn) * wide.axis + std::sin(turn) * glm::normalize(across), std::cos(half)};
+    const double rotation = half - of_wide;
+    return {std::cos(rotation) * wide.axis + std::sin(rotation) * glm::normalize(across), std::cos(half)};
 }
 
 BrightPatches::Bounds BrightPatches::joined(const Bounds& a, const Bounds& b) {

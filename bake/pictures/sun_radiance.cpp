@@ -26,11 +26,12 @@ std::vector<glm::vec3> sun_radiance(const TraceScene& scene, std::span<const Sun
         directions.emplace_back(sun.towards, sun.half_angle, options.rays);
     for_each_receiver(receivers_on_surfaces(all.receivers), options.threads, progress, [&](std::uint32_t p) {
         const glm::vec3 origin = scene.rays().ray_origin(all.receivers, p);
-        const double turn =
+        const double rotation =
             2 * std::numbers::pi * 0x1p-32 * static_cast<double>(receiver_seed(p, options.seed));
         for (std::size_t s = 0; s < suns.size(); ++s) {
-            const double share = share_of_disc(scene, origin, all.receivers.normals[p], directions[s], turn,
-                                               [](int) { return std::numeric_limits<float>::infinity(); });
+            const double share =
+                share_of_disc(scene, origin, all.receivers.normals[p], directions[s], rotation,
+                              [](int) { return std::numeric_limits<float>::infinity(); });
             for (int c = 0; c < 3; ++c)
                 lit.vector(p)[static_cast<std::size_t>(c)] +=
                     static_cast<float>(share * static_cast<double>(suns[s].irradiance[c]) / std::numbers::pi);

@@ -79,10 +79,10 @@ OppositeTriangles::OppositeTriangles(const Scene& scene) {
         const std::vector<glm::vec3>& at =
             scene.vertex_arrays[scene.primitives[begin->primitive].vertices].positions;
         const glm::uvec3 corners = begin->corners;
-        const auto turned = std::stable_partition(begin, end, [&](const SingleSidedFace& face) {
+        const auto rotated = std::stable_partition(begin, end, [&](const SingleSidedFace& face) {
             return !opposite_corners(at, corners, face.corners);
         });
-        const std::span<const SingleSidedFace> these(begin, turned), those(turned, end);
+        const std::span<const SingleSidedFace> these(begin, rotated), those(rotated, end);
         if (!those.empty())
             of_.resize(scene.triangles());
         const auto set = [&](std::span<const SingleSidedFace> from, std::span<const SingleSidedFace> to) {
@@ -98,7 +98,7 @@ OppositeTriangles::OppositeTriangles(const Scene& scene) {
     }
 }
 
-bool OppositeTriangles::turn_to_front(unsigned& triangle, glm::vec2& uv) const {
+bool OppositeTriangles::rotate_to_front(unsigned& triangle, glm::vec2& uv) const {
     if (of_.empty() || of_[triangle].triangle == kNone)
         return false;
     const Opposite& opposite = of_[triangle];
@@ -110,7 +110,7 @@ bool OppositeTriangles::turn_to_front(unsigned& triangle, glm::vec2& uv) const {
 
 Hit OppositeTriangles::shown(Hit hit) const {
     glm::vec2 uv(hit.u, hit.v);
-    if (hit.back && turn_to_front(hit.triangle, uv)) {
+    if (hit.back && rotate_to_front(hit.triangle, uv)) {
         hit.u = uv.x;
         hit.v = uv.y;
         hit.back = false;

@@ -72,9 +72,9 @@ std::optional<Surroundings> surroundings_of(const TraceScene& scene, const glm::
     Surroundings around;
     int backs = 0;
     for (int i = 0; i < kDirections; ++i) {
-        const float turn = 0.6180339887f * static_cast<float>(i);
+        const float rotation = 0.6180339887f * static_cast<float>(i);
         const glm::vec3 d =
-            direction_of({(static_cast<float>(i) + 0.5f) / kDirections, turn - std::floor(turn)});
+            direction_of({(static_cast<float>(i) + 0.5f) / kDirections, rotation - std::floor(rotation)});
         const auto hit = scene.rays().nearest({position, d});
         around.shut = around.shut && transmittance(scene.rays(), scene.surfaces(), position, d) <= 0;
         if (!hit)

@@ -133,9 +133,9 @@ void FitSolver::System::solve(std::span<Columns> b_then_x, double tolerance) con
             residual[i] -= length * moved[i];
             squared += residual[i] * residual[i] * inverse_diagonal[i];
         }
-        const Columns turn = ratio(squared, before);
+        const Columns rotation = ratio(squared, before);
         for (std::size_t i = 0; i < count; ++i)
-            way[i] = residual[i] * inverse_diagonal[i] + turn * way[i];
+            way[i] = residual[i] * inverse_diagonal[i] + rotation * way[i];
     }
     std::ranges::copy(x, b_then_x.begin());
 }

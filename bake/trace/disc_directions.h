@@ -24,11 +24,11 @@ public:
     int count() const { return count_; }
     /// Cosine of the angle between direction `i` and the axis.
     double cosine(int i) const { return 1 - depth_ * (i + 0.5) / count_; }
-    /// Unit direction `i`, rotated about the axis by `turn` radians; different rotations make the directions
-    /// of two positions differ.
-    glm::vec3 direction(int i, double turn) const {
+    /// Unit direction `i`, rotated about the axis by `rotation` radians; different rotations make the
+    /// directions of two positions differ.
+    glm::vec3 direction(int i, double rotation) const {
         const double cosine = this->cosine(i), sine = std::sqrt(1 - cosine * cosine);
-        const double angle = turn + i * std::numbers::pi * (3 - std::sqrt(5.0));
+        const double angle = rotation + i * std::numbers::pi * (3 - std::sqrt(5.0));
         return glm::vec3(glm::normalize(glm::dvec3(frame_.normal) * cosine +
                                         glm::dvec3(frame_.tangent) * (sine * std::cos(angle)) +
                                         glm::dvec3(frame_.bitangent) * (sine * std::sin(angle))));

@@ -124,9 +124,9 @@ private:
         double cosine, sine;
     };
     static void rotate(const Rotation& r, double& a, double& b) {
-        const double turned = r.cosine * a + r.sine * b;
+        const double rotated = r.cosine * a + r.sine * b;
         b = r.cosine * b - r.sine * a;
-        a = turned;
+        a = rotated;
     }
 
     std::vector<Rotation> rotations_;

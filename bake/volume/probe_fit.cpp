@@ -123,7 +123,7 @@ void scale_rows(const float* scale, const float* r, std::size_t rows, float* z) 
 
 /// Computes d = z + beta d, column by column.
 PRT_TARGET_CLONES
-void turn_columns(const std::array<float, kColumns>& beta, const float* z, std::size_t rows, float* d) {
+void rotate_columns(const std::array<float, kColumns>& beta, const float* z, std::size_t rows, float* d) {
     for (std::size_t i = 0; i < rows; ++i)
         for (std::size_t c = 0; c < kColumns; ++c)
             d[i * kColumns + c] = z[i * kColumns + c] + beta[c] * d[i * kColumns + c];
@@ -188,7 +188,7 @@ struct FitColumns {
             step_columns(ratios(rz, dad), d.data(), ad.data(), rows, x.data(), r.data());
             scale_rows(a.inverse_diagonal.data(), r.data(), rows, z.data());
             dot_columns(r.data(), z.data(), rows, next);
-            turn_columns(ratios(next, rz), z.data(), rows, d.data());
+            rotate_columns(ratios(next, rz), z.data(), rows, d.data());
             rz = next;
         }
     }

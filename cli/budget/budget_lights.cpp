@@ -50,7 +50,7 @@ std::vector<Sun> as_seen_by_rays(std::span<const SunDisc> discs) {
 
 /// Returns the image rotated about +Y by `texels` columns; content moves to the left, as in
 /// `rotated_about_y`.
-Image turned(Image image, int texels) {
+Image rotated(Image image, int texels) {
     for (int y = 0; y < image.height; ++y) {
         const auto row = image.pixels.begin() + static_cast<std::ptrdiff_t>(y) * image.width;
         std::rotate(row, row + texels, row + image.width);
@@ -68,7 +68,7 @@ MeasuredLight of_image(const SplitLight& light, const BudgetLightOptions& option
     const auto bands = [&](const Environment& environment) {
         return rotated_about_y(project(environment, kMaxOrder, options.threads), angle);
     };
-    MeasuredLight measured{.all = DistantLight(turned(whole, texels)),
+    MeasuredLight measured{.all = DistantLight(rotated(whole, texels)),
                            .sky = {},
                            .suns = {},
                            .sky_bands = {},
@@ -77,12 +77,12 @@ MeasuredLight of_image(const SplitLight& light, const BudgetLightOptions& option
         measured.sky_bands = bands(*light.sky.environment);
         return measured;
     }
-    measured.sky.emplace(turned(resampled_lat_long(light.split.remainder), texels));
+    measured.sky.emplace(rotated(resampled_lat_long(light.split.remainder), texels));
     measured.sky_bands = bands(light.split.remainder);
     SplitLight suns_alone;
     suns_alone.split.suns = light.split.suns;
     suns_alone.sky.light = suns_alone.whole = constant_light(kMaxOrder, glm::vec3(0));
-    measured.suns = cli::turned(suns_alone, angle).split.suns;
+    measured.suns = cli::rotated(suns_alone, angle).split.suns;
     measured.sun_bands = as_light(measured.suns, kMaxOrder);
     return measured;
 }

@@ -247,18 +247,19 @@ double expected_lit_rms(const ErrorMoments& moments, const LightMetric& metric) 
     return ratio(sum_with(moments.errors), sum_with(moments.references));
 }
 
-LitRmsOverTurns lit_rms_over_turns(const ErrorMoments& moments, const Lighting& lighting) {
-    const int order = moments.layout.order, turns = 4 * order - 3;
-    Eigen::VectorXd errors(turns), references(turns);
-    for (int k = 0; k < turns; ++k) {
-        const Squares squares = squares_under(moments, rotated_about_y(lighting, order, 2 * pi * k / turns));
+LitRmsOverRotations lit_rms_over_rotations(const ErrorMoments& moments, const Lighting& lighting) {
+    const int order = moments.layout.order, rotations = 4 * order - 3;
+    Eigen::VectorXd errors(rotations), references(rotations);
+    for (int k = 0; k < rotations; ++k) {
+        const Squares squares =
+            squares_under(moments, rotated_about_y(lighting, order, 2 * pi * k / rotations));
         errors[k] = squares.error;
         references[k] = squares.reference;
     }
     const TrigonometricPolynomial error(errors), reference(references);
     const double least = least_square(moments, lighting);
     const auto at = [&](double angle) { return ratio(error(angle), std::max(reference(angle), least)); };
-    LitRmsOverTurns result{ratio(error.mean(), std::max(reference.mean(), least))};
+    LitRmsOverRotations result{ratio(error.mean(), std::max(reference.mean(), least))};
     // A polynomial of degree d has at most 2d maxima, so that neighbours on a grid of 16 d enclose one.
     const double step = 2 * pi / (32 * order);
     int best = 0;

@@ -59,14 +59,14 @@ public:
 
     /// Adds the mean over all rotations: 2N - 1 rotations are exact, because two coefficients have
     /// frequencies about +Y below N each.
-    void add_turns(const Light& direct, const Light& other, double scale) {
-        const int turns = 2 * order_ - 1;
-        Matrix pairs(2 * size_, turns);
-        for (int k = 0; k < turns; ++k) {
-            const double angle = 2 * pi * k / turns;
+    void add_rotations(const Light& direct, const Light& other, double scale) {
+        const int rotations = 2 * order_ - 1;
+        Matrix pairs(2 * size_, rotations);
+        for (int k = 0; k < rotations; ++k) {
+            const double angle = 2 * pi * k / rotations;
             pairs.col(k) << red(rotated_about_y(direct, angle)), red(rotated_about_y(other, angle));
         }
-        sums_ += scale / turns * pairs * pairs.transpose();
+        sums_ += scale / rotations * pairs * pairs.transpose();
     }
 
     /// Adds texture, which lights all terms.
@@ -97,7 +97,7 @@ private:
 void add_draws(const Light& direct, const Light& all, double weight, const std::vector<double>& texture,
                PairMoments& moments) {
     const double scale = weight / open_square(direct, texture);
-    moments.add_turns(direct, all, scale);
+    moments.add_rotations(direct, all, scale);
     moments.add_texture(texture, scale);
 }
 

@@ -28,7 +28,8 @@ Verdict Judge::operator()(const CompressResult& result) const {
     if (!budget_.skies.empty()) {
         const ErrorMoments moments = error_moments(transfer_, decoded, surface_.areas, squares_, threads_);
         for (const Lighting& sky : budget_.skies)
-            verdict.worst_lit_rms = std::max(verdict.worst_lit_rms, lit_rms_over_turns(moments, sky).worst);
+            verdict.worst_lit_rms =
+                std::max(verdict.worst_lit_rms, lit_rms_over_rotations(moments, sky).worst);
     }
     if (jumps_)
         verdict.jump = jumps_->percentile_99(decoded, result.transfer.receivers.clusters);

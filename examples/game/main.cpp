@@ -316,15 +316,15 @@ void play(const World& world, int frames) {
     const std::vector<Mesh> meshes = upload_meshes(world);
     std::vector<glm::vec4> constants = make_tables(world.transfer);
     const prt::ClusterLighting relighter(world.transfer);
-    std::vector<glm::vec3> turned(world.sky.coefficients.size());
+    std::vector<glm::vec3> rotated(world.sky.coefficients.size());
     for (int frame = 0; frame < frames; ++frame) {
         const double angle = glm::two_pi<double>() * (frame + 1) / frames;
-        prt::ShRotation::about_y(world.sky.order, angle).apply(world.sky.coefficients, turned);
+        prt::ShRotation::about_y(world.sky.order, angle).apply(world.sky.coefficients, rotated);
         prt::SunDisc sun = world.sun;
         sun.towards = glm::vec3(glm::rotate(glm::dmat4(1), angle, glm::dvec3(0, 1, 0)) *
                                 glm::dvec4(glm::dvec3(world.sun.towards), 0));
         // The sun is part of the light after a bounce; the shader adds its direct light.
-        relighter.update({turned, prt::as_light(sun, world.sky.order).coefficients}, constants);
+        relighter.update({rotated, prt::as_light(sun, world.sky.order).coefficients}, constants);
         const glm::mat4 sun_map = sun_view(world, sun.towards);
         glBindFramebuffer(GL_FRAMEBUFFER, shadow_map);
         draw_shadows(programs.shadow, meshes, sun_map);

@@ -52,9 +52,9 @@ std::vector<Part> spruce() {
 /// Returns a lumpy crown: an ellipsoid with noise added to its radius.
 Mesh crown(const glm::vec3& center, const glm::vec3& radii, float lumps, float seed) {
     return parametric_surface(26, 19, [&](float u, float v) {
-        const float polar = 0.5f * kTurn * glm::clamp(0.01f + 0.98f * v, 0.01f, 0.99f), turn = kTurn * u;
-        const glm::vec3 out(std::sin(polar) * std::sin(turn), -std::cos(polar),
-                            std::sin(polar) * std::cos(turn));
+        const float polar = 0.5f * kTurn * glm::clamp(0.01f + 0.98f * v, 0.01f, 0.99f), rotation = kTurn * u;
+        const glm::vec3 out(std::sin(polar) * std::sin(rotation), -std::cos(polar),
+                            std::sin(polar) * std::cos(rotation));
         const float bump = noise(seed + 2.3f * out.x + 3 * out.y, 7.7f * seed + 2.3f * out.z - 2 * out.y);
         return center + radii * out * (1 + lumps * (bump - 0.5f));
     });

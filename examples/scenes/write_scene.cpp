@@ -58,8 +58,8 @@ tinygltf::Node lamp_node(const Lamp& lamp, int index) {
     node.name = lamp.name;
     node.translation = {lamp.position.x, lamp.position.y, lamp.position.z};
     if (glm::length(lamp.direction) > 0) {
-        const glm::dquat turn(glm::dvec3(0, 0, -1), glm::dvec3(lamp.direction));
-        node.rotation = {turn.x, turn.y, turn.z, turn.w};
+        const glm::dquat rotation(glm::dvec3(0, 0, -1), glm::dvec3(lamp.direction));
+        node.rotation = {rotation.x, rotation.y, rotation.z, rotation.w};
     }
     tinygltf::Value::Object extension;
     extension["light"] = tinygltf::Value(index);

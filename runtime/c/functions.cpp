@@ -68,11 +68,11 @@ prt_status prt_sh_rotate(int order, const float rotation[9], const float* in, fl
         check_pointers(rotation, in, out);
         const std::size_t count = count_of(order);
         check_function(in, count);
-        std::array<float, kMaxCoefficients> turned;
+        std::array<float, kMaxCoefficients> rotated;
         prt::ShRotation(order, glm::dmat3(glm::make_mat3(rotation)))
-            .apply(std::span(in, count), std::span(turned).first(count));
-        check_function(turned.data(), count);
-        std::copy_n(turned.begin(), count, out);
+            .apply(std::span(in, count), std::span(rotated).first(count));
+        check_function(rotated.data(), count);
+        std::copy_n(rotated.begin(), count, out);
     });
 }
 

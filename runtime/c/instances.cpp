@@ -52,8 +52,8 @@ prt_model* prt::c::make_instanced(const GltfDocument& document, const std::strin
     InstanceRelighter relighter(model.compressed->transfer, relit_instances(model));
     std::vector<glm::vec4> worlds;
     for (const FileInstance& instance : model.instances) {
-        const glm::mat4 turned(glm::transpose(glm::translate(instance.world, model.stored.origin)));
-        worlds.insert(worlds.end(), {turned[0], turned[1], turned[2]});
+        const glm::mat4 rotated(glm::transpose(glm::translate(instance.world, model.stored.origin)));
+        worlds.insert(worlds.end(), {rotated[0], rotated[1], rotated[2]});
     }
     std::vector<glm::vec4> tables = relighter.table();
     prt_shared_instances instances{std::move(relighter), std::move(worlds), std::move(tables),

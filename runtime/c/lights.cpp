@@ -187,10 +187,10 @@ prt_status prt_light_suns(int order, const prt_sun* suns, size_t count, float* l
 prt_status prt_light_rotate(int order, const float rotation[9], float* light, prt_message* message) {
     return guarded(message, [&] {
         check_pointers(rotation, light);
-        Light turned = light_from(order, light);
-        prt::ShRotation(order, glm::dmat3(glm::make_mat3(rotation))).apply(turned.coefficients);
-        check_colors(&turned.coefficients[0].x, turned.coefficients.size());
-        put(turned, light);
+        Light rotated = light_from(order, light);
+        prt::ShRotation(order, glm::dmat3(glm::make_mat3(rotation))).apply(rotated.coefficients);
+        check_colors(&rotated.coefficients[0].x, rotated.coefficients.size());
+        put(rotated, light);
     });
 }
 

@@ -20,9 +20,9 @@ constexpr int kReceivers = 1024;
 
 /// Returns direction `i` of a spherical Fibonacci lattice of `count`.
 glm::dvec3 lattice_direction(int i, int count) {
-    const double z = 1 - (2.0 * i + 1) / count, turn = 2 * pi * i * (std::numbers::phi - 1);
+    const double z = 1 - (2.0 * i + 1) / count, rotation = 2 * pi * i * (std::numbers::phi - 1);
     const double across = std::sqrt(1 - z * z);
-    return {across * std::cos(turn), z, across * std::sin(turn)};
+    return {across * std::cos(rotation), z, across * std::sin(rotation)};
 }
 
 /// Returns sample directions of a sun's disc; their number resolves half-shadows to 3 %.
@@ -33,9 +33,9 @@ std::vector<glm::dvec3> disc_directions(const SunDisc& sun) {
     std::vector<glm::dvec3> directions;
     for (int i = 0; i < kDirections; ++i) {
         const double angle = sun.half_angle * std::sqrt((i + 0.5) / kDirections),
-                     turn = 2 * pi * i * (std::numbers::phi - 1);
-        directions.push_back(std::cos(angle) * axis +
-                             std::sin(angle) * (std::cos(turn) * across.x + std::sin(turn) * across.y));
+                     rotation = 2 * pi * i * (std::numbers::phi - 1);
+        directions.push_back(std::cos(angle) * axis + std::sin(angle) * (std::cos(rotation) * across.x +
+                                                                         std::sin(rotation) * across.y));
     }
     return directions;
 }
@@ -79,12 +79,12 @@ std::vector<double> ShadowedLight::transfer(const Receiver& receiver) const {
         for (const GaussPoint& theta : gauss_points(pi * i / kPieces, pi * (i + 1) / kPieces))
             for (int j = 0; j < kPieces; ++j) {
                 const double width = (0.5 * pi - first) / kPieces;
-                for (const GaussPoint& turn : gauss_points(first + width * j, first + width * (j + 1))) {
-                    const double sine = std::sin(theta.at), cosine = std::cos(turn.at);
+                for (const GaussPoint& rotation : gauss_points(first + width * j, first + width * (j + 1))) {
+                    const double sine = std::sin(theta.at), cosine = std::cos(rotation.at);
                     const glm::dvec3 w = std::cos(theta.at) * axis +
-                                         sine * (cosine * receiver.normal + std::sin(turn.at) * across);
+                                         sine * (cosine * receiver.normal + std::sin(rotation.at) * across);
                     evaluate_sh(order_, w, std::span<double>(basis));
-                    const double weight = theta.weight * turn.weight * sine * sine * cosine / pi;
+                    const double weight = theta.weight * rotation.weight * sine * sine * cosine / pi;
                     for (std::size_t k = 0; k < sum.size(); ++k)
                         sum[k] += weight * basis[k];
                 }

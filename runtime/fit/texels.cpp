@@ -64,7 +64,7 @@ Texels::CellPair Texels::square(std::size_t texel) const {
 
 glm::dvec3 Texels::direction(std::size_t texel) const {
     if (layout_ == EnvironmentLayout::lat_long) {
-        const Turn &polar = polar_[texel / width_], &azimuth = azimuth_[texel % width_];
+        const Rotation &polar = polar_[texel / width_], &azimuth = azimuth_[texel % width_];
         const double left = polar.sine * azimuth.sine, ahead = polar.sine * azimuth.cosine;
         return center_ == LatLongCenter::z ? glm::dvec3(left, polar.cosine, ahead)
                                            : glm::dvec3(ahead, polar.cosine, -left);

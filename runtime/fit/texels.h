@@ -31,7 +31,7 @@ private:
     struct CellPair {
         Cell u, v;
     };
-    struct Turn {
+    struct Rotation {
         double cosine, sine;
     };
 
@@ -43,9 +43,9 @@ private:
     LatLongCenter center_;
     std::size_t width_, height_;
     double spacing_ = 0;
-    std::vector<Turn> polar_, azimuth_;   ///< rows and columns of a lat-long image
-    std::vector<double> row_solid_angle_; ///< per texel, for each row
-    std::vector<Cell> cells_;             ///< rows and columns of a square layout, in [-1, 1]
+    std::vector<Rotation> polar_, azimuth_; ///< rows and columns of a lat-long image
+    std::vector<double> row_solid_angle_;   ///< per texel, for each row
+    std::vector<Cell> cells_;               ///< rows and columns of a square layout, in [-1, 1]
 };
 
 } // namespace prt

@@ -10,7 +10,7 @@ namespace {
 /// Cell of a face in a grid of squares.
 struct Cell {
     int x, y;
-    bool turned = false; ///< rotated by 180 degrees
+    bool rotated = false; ///< rotated by 180 degrees
 };
 
 /// Positions of the faces +X -X +Y -Y +Z -Z in a grid of `width` by `height` cells.
@@ -59,8 +59,8 @@ std::optional<Image> faces_of_cross(const Image& image) {
         for (const Cell& cell : unfolding.faces)
             for (int y = 0; y < size; ++y)
                 for (int x = 0; x < size; ++x)
-                    column.pixels.push_back(pixel(image, cell.x * size + (cell.turned ? size - 1 - x : x),
-                                                  cell.y * size + (cell.turned ? size - 1 - y : y)));
+                    column.pixels.push_back(pixel(image, cell.x * size + (cell.rotated ? size - 1 - x : x),
+                                                  cell.y * size + (cell.rotated ? size - 1 - y : y)));
         return column;
     }
     return std::nullopt;

@@ -92,9 +92,9 @@ GridRadiance radiance_on_grid(const Light& light, int rows) {
     std::vector<float> cosines(order * columns), sines(order * columns), lowest(columns);
     for (std::size_t column = 0; column < columns; ++column) {
         const double azimuth = pi * (static_cast<double>(column) + 0.5) / rows;
-        const std::complex<double> turn(std::cos(azimuth), std::sin(azimuth));
-        std::complex<double> power = turn;
-        for (std::size_t m = 1; m < order; ++m, power *= turn) {
+        const std::complex<double> rotation(std::cos(azimuth), std::sin(azimuth));
+        std::complex<double> power = rotation;
+        for (std::size_t m = 1; m < order; ++m, power *= rotation) {
             cosines[m * columns + column] = static_cast<float>(power.real());
             sines[m * columns + column] = static_cast<float>(power.imag());
         }
@@ -127,7 +127,7 @@ GridRadiance radiance_on_grid(const Light& light, int rows) {
 
 double share_between(int order, int rows) {
     // Every direction is within half the diagonal of a square of pi / rows from a grid point.
-    const double turn = (order - 1) * pi / rows, drop = turn * turn / 8;
+    const double rotation = (order - 1) * pi / rows, drop = rotation * rotation / 8;
     return drop / (1 - 2 * drop) + kRounding;
 }
 

@@ -20,29 +20,29 @@
 namespace prt {
 namespace {
 
-using Turn = ShRotation::Turn;
-using Turns = ShRotation::Turns;
+using Rotation = ShRotation::Rotation;
+using Rotations = ShRotation::Rotations;
 
 /// Three channels and one unused lane.
 using Channels [[gnu::vector_size(sizeof(double) * 4)]] = double;
 
 /// Rotates band l about z; `c` points to the coefficient of m = 0.
 template <class Value>
-[[gnu::always_inline]] inline void turn_about_z(int l, const Turn& turn, Value* c) {
+[[gnu::always_inline]] inline void rotate_about_z(int l, const Rotation& rotation, Value* c) {
 #pragma GCC unroll 5
     for (int m = 1; m <= l; ++m) {
-        const double cosine = turn.cosine[Turn::kZero + static_cast<std::size_t>(m)],
-                     sine = turn.sine[Turn::kZero + static_cast<std::size_t>(m)];
-        const Value turned = c[m] * cosine - c[-m] * sine;
+        const double cosine = rotation.cosine[Rotation::kZero + static_cast<std::size_t>(m)],
+                     sine = rotation.sine[Rotation::kZero + static_cast<std::size_t>(m)];
+        const Value rotated = c[m] * cosine - c[-m] * sine;
         c[-m] = c[m] * sine + c[-m] * cosine;
-        c[m] = turned;
+        c[m] = rotated;
     }
 }
 
 /// Multiplies row `Row` of a band's quarter turn about x, or of its inverse, with `c`. Zero factors cost no
 /// time.
 template <bool Inverse, std::size_t L, std::size_t Row, class Value, std::size_t... Column>
-[[gnu::always_inline]] inline Value turned_row(const Value* c, std::index_sequence<Column...>) {
+[[gnu::always_inline]] inline Value rotated_row(const Value* c, std::index_sequence<Column...>) {
     Value sum{};
     const auto add = [&]<std::size_t I>() __attribute__((always_inline)) {
         // NOLINTNEXTLINE(bugprone-branch-clone): they are one where the factor is on the diagonal
@@ -56,28 +56,28 @@ template <bool Inverse, std::size_t L, std::size_t Row, class Value, std::size_t
 
 template <bool Inverse, std::size_t L, class Value, std::size_t... Row>
 [[gnu::always_inline]] inline void quarter_turn(Value* c, std::index_sequence<Row...> all) {
-    const Value turned[] = {turned_row<Inverse, L, Row>(c, all)...};
-    ((c[Row] = turned[Row]), ...);
+    const Value rotated[] = {rotated_row<Inverse, L, Row>(c, all)...};
+    ((c[Row] = rotated[Row]), ...);
 }
 
 template <std::size_t L, class Value>
-[[gnu::always_inline]] inline void rotate_band(const Turns& turns, Value* c) {
+[[gnu::always_inline]] inline void rotate_band(const Rotations& rotations, Value* c) {
     constexpr auto all = std::make_index_sequence<2 * L + 1>();
     constexpr int l = static_cast<int>(L);
-    turn_about_z(l, turns.first, c + L);
-    if (!turns.tilted)
+    rotate_about_z(l, rotations.first, c + L);
+    if (!rotations.tilted)
         return;
     quarter_turn<false, L>(c, all);
-    turn_about_z(l, turns.tilt, c + L);
+    rotate_about_z(l, rotations.tilt, c + L);
     quarter_turn<true, L>(c, all);
-    turn_about_z(l, turns.last, c + L);
+    rotate_about_z(l, rotations.last, c + L);
 }
 
 /// Bands from this one on use lists of elements. Games rarely use them, and unrolled code would double the
 /// code size.
 constexpr int kFirstListedBand = 6;
 /// Lower bands are computed from the elements of the matrix.
-constexpr int kFirstTurnedBand = 3;
+constexpr int kFirstRotatedBand = 3;
 
 struct Element {
     std::uint8_t row, column;
@@ -115,25 +115,25 @@ constexpr ElementList kElements;
 
 template <bool Inverse, class Value>
 [[gnu::always_inline]] inline void listed_quarter_turn(int l, Value* c) {
-    Value turned[2 * kMaxOrder - 1] = {};
+    Value rotated[2 * kMaxOrder - 1] = {};
     const auto band = static_cast<std::size_t>(l);
     for (std::size_t e = kElements.first[band]; e < kElements.first[band + 1]; ++e) {
         const Element& element = kElements.elements[e];
-        turned[Inverse ? element.column : element.row] +=
+        rotated[Inverse ? element.column : element.row] +=
             element.value * c[Inverse ? element.row : element.column];
     }
-    std::copy_n(turned, 2 * l + 1, c);
+    std::copy_n(rotated, 2 * l + 1, c);
 }
 
 template <class Value>
-[[gnu::always_inline]] inline void rotate_listed_band(int l, const Turns& turns, Value* c) {
-    turn_about_z(l, turns.first, c + l);
-    if (!turns.tilted)
+[[gnu::always_inline]] inline void rotate_listed_band(int l, const Rotations& rotations, Value* c) {
+    rotate_about_z(l, rotations.first, c + l);
+    if (!rotations.tilted)
         return;
     listed_quarter_turn<false>(l, c);
-    turn_about_z(l, turns.tilt, c + l);
+    rotate_about_z(l, rotations.tilt, c + l);
     listed_quarter_turn<true>(l, c);
-    turn_about_z(l, turns.last, c + l);
+    rotate_about_z(l, rotations.last, c + l);
 }
 
 /// Rotates bands 1 and 2 by the elements of the matrix, as a vector and as a traceless quadratic form. `r` is
@@ -172,30 +172,30 @@ template <class Value>
 
 /// Rotates band by band, so that the code of each band exists once for all orders.
 template <class Value>
-[[gnu::always_inline]] inline void rotate_high_bands(int order, const Turns& turns, Value* c) {
-    for (int l = kFirstTurnedBand; l < std::min(order, kFirstListedBand); ++l)
+[[gnu::always_inline]] inline void rotate_high_bands(int order, const Rotations& rotations, Value* c) {
+    for (int l = kFirstRotatedBand; l < std::min(order, kFirstListedBand); ++l)
         with_order(
             l, [&]<int L>() __attribute__((always_inline)) {
-                if constexpr (L >= kFirstTurnedBand && L < kFirstListedBand)
-                    rotate_band<static_cast<std::size_t>(L)>(turns, c + L * L);
+                if constexpr (L >= kFirstRotatedBand && L < kFirstListedBand)
+                    rotate_band<static_cast<std::size_t>(L)>(rotations, c + L * L);
             });
     for (int l = kFirstListedBand; l < order; ++l)
-        rotate_listed_band(l, turns, c + l * l);
+        rotate_listed_band(l, rotations, c + l * l);
 }
 
 PRT_TWO_CLONES
-void rotate(int order, const glm::dmat3& matrix, const Turns& turns, Channels* c) {
+void rotate(int order, const glm::dmat3& matrix, const Rotations& rotations, Channels* c) {
     if (order > 1)
         rotate_vector(matrix, c);
     if (order > 2)
         rotate_and_update(matrix, c);
-    rotate_high_bands(order, turns, c);
+    rotate_high_bands(order, rotations, c);
 }
 
 /// Rotates one channel. `in` and `out` hold all coefficients of the order, and at least 36 if it is above 3.
 template <class Real>
-[[gnu::always_inline]] inline void rotate_one_channel(int order, const glm::dmat3& matrix, const Turns& turns,
-                                                      const Real* in, Real* out) {
+[[gnu::always_inline]] inline void rotate_one_channel(int order, const glm::dmat3& matrix,
+                                                      const Rotations& rotations, const Real* in, Real* out) {
     double c[9];
     out[0] = in[0];
     if (order > 1) {
@@ -216,58 +216,61 @@ template <class Real>
         for (int i = 4; i < 9; ++i)
             out[i] = static_cast<Real>(c[i]);
     } else if (order > 3) {
-        rotate_lanes(turns, in, out);
+        rotate_lanes(rotations, in, out);
     }
 }
 
 PRT_TWO_CLONES
-void rotate_floats(int order, const glm::dmat3& matrix, const Turns& turns, const float* in, float* out) {
-    rotate_one_channel(order, matrix, turns, in, out);
+void rotate_floats(int order, const glm::dmat3& matrix, const Rotations& rotations, const float* in,
+                   float* out) {
+    rotate_one_channel(order, matrix, rotations, in, out);
 }
 
-void rotate_low_bands(int order, const glm::dmat3& matrix, const Turns& turns, const float* in, float* out) {
-    rotate_floats(order, matrix, turns, in, out);
+void rotate_low_bands(int order, const glm::dmat3& matrix, const Rotations& rotations, const float* in,
+                      float* out) {
+    rotate_floats(order, matrix, rotations, in, out);
 }
 
-void rotate_low_bands(int order, const glm::dmat3& matrix, const Turns& turns, const double* in,
+void rotate_low_bands(int order, const glm::dmat3& matrix, const Rotations& rotations, const double* in,
                       double* out) {
-    rotate_one_channel(order, matrix, turns, in, out);
+    rotate_one_channel(order, matrix, rotations, in, out);
 }
 
 /// Rotates in a zero-padded buffer; lanes of missing bands rotate zeros.
 template <std::size_t Count, class Real>
-void rotate_padded(int order, const glm::dmat3& matrix, const Turns& turns, const Real* in, Real* out) {
+void rotate_padded(int order, const glm::dmat3& matrix, const Rotations& rotations, const Real* in,
+                   Real* out) {
     Real padded[kLaneOrder * kLaneOrder] = {};
     std::copy_n(in, Count, padded);
-    rotate_low_bands(order, matrix, turns, padded, padded);
+    rotate_low_bands(order, matrix, rotations, padded, padded);
     std::copy_n(padded, Count, out);
 }
 
 template <class Real>
-void rotate_one(int order, const glm::dmat3& matrix, const Turns& turns, std::span<const Real> in,
+void rotate_one(int order, const glm::dmat3& matrix, const Rotations& rotations, std::span<const Real> in,
                 std::span<Real> out) {
     assert(std::min(in.size(), out.size()) >= static_cast<std::size_t>(coefficient_count(order)));
     if (order == 4)
-        return rotate_padded<16>(order, matrix, turns, in.data(), out.data());
+        return rotate_padded<16>(order, matrix, rotations, in.data(), out.data());
     if (order == 5)
-        return rotate_padded<25>(order, matrix, turns, in.data(), out.data());
-    rotate_low_bands(order, matrix, turns, in.data(), out.data());
+        return rotate_padded<25>(order, matrix, rotations, in.data(), out.data());
+    rotate_low_bands(order, matrix, rotations, in.data(), out.data());
     for (int l = kFirstListedBand; l < order; ++l) {
         double c[2 * kMaxOrder - 1];
         const auto width = static_cast<std::size_t>(2 * l + 1), first = static_cast<std::size_t>(l * l);
         for (std::size_t i = 0; i < width; ++i)
             c[i] = static_cast<double>(in[first + i]);
-        rotate_listed_band(l, turns, c);
+        rotate_listed_band(l, rotations, c);
         for (std::size_t i = 0; i < width; ++i)
             out[first + i] = static_cast<Real>(c[i]);
     }
 }
 
-[[gnu::always_inline]] inline void set_turn(int order, double c, double s, Turn& turn) {
-    double *cosine = &turn.cosine[Turn::kZero], *sine = &turn.sine[Turn::kZero];
+[[gnu::always_inline]] inline void set_rotation(int order, double c, double s, Rotation& rotation) {
+    double *cosine = &rotation.cosine[Rotation::kZero], *sine = &rotation.sine[Rotation::kZero];
 #pragma GCC unroll 3
-    for (std::size_t i = 0; i < Turn::kZero; ++i)
-        turn.cosine[i] = turn.sine[i] = 0;
+    for (std::size_t i = 0; i < Rotation::kZero; ++i)
+        rotation.cosine[i] = rotation.sine[i] = 0;
     cosine[0] = 1;
     sine[0] = 0;
     cosine[1] = c;
@@ -287,17 +290,18 @@ void rotate_one(int order, const glm::dmat3& matrix, const Turns& turns, std::sp
 
 /// Decomposes a rotation that is orthonormal to rounding.
 PRT_TWO_CLONES
-void set_turns(int order, const glm::dmat3& r, Turns& turns) {
+void set_rotations(int order, const glm::dmat3& r, Rotations& rotations) {
     // GLM is column-major: r[column][row]. The last rotation maps the tilt plane to the azimuth of the
     // rotated z axis. The first is read from the second row of the remainder, which is well conditioned even
     // for a small tilt.
     const double tilt = std::sqrt(r[2][0] * r[2][0] + r[2][1] * r[2][1]);
     const double inverse = tilt > 0 ? 1 / tilt : 0, cosine = tilt > 0 ? r[2][0] * inverse : 1,
                  sine = r[2][1] * inverse;
-    set_turn(order, cosine * r[1][1] - sine * r[1][0], cosine * r[0][1] - sine * r[0][0], turns.first);
-    set_turn(order, r[2][2], tilt, turns.tilt);
-    set_turn(order, cosine, sine, turns.last);
-    turns.tilted = tilt > 0 || r[2][2] < 0; // otherwise `last` is the identity
+    set_rotation(order, cosine * r[1][1] - sine * r[1][0], cosine * r[0][1] - sine * r[0][0],
+                 rotations.first);
+    set_rotation(order, r[2][2], tilt, rotations.tilt);
+    set_rotation(order, cosine, sine, rotations.last);
+    rotations.tilted = tilt > 0 || r[2][2] < 0; // otherwise `last` is the identity
 }
 
 glm::dmat3 matrix_of(const glm::dquat& q) {
@@ -311,8 +315,8 @@ glm::dmat3 matrix_of(const glm::dquat& q) {
 ShRotation::ShRotation(int order, const glm::dmat3& rotation)
     : order_((check_order(order), order)), matrix_(rotation) {
     make_rotation(rotation, matrix_);
-    if (order > kFirstTurnedBand)
-        set_turns(order, matrix_, turns_);
+    if (order > kFirstRotatedBand)
+        set_rotations(order, matrix_, rotations_);
 }
 
 ShRotation::ShRotation(int order, const glm::dquat& rotation) : ShRotation(order, matrix_of(rotation)) {}
@@ -329,17 +333,17 @@ ShRotation ShRotation::about_z(int order, double angle) {
     check_order(order);
     const double cosine = std::cos(angle), sine = std::sin(angle);
     ShRotation result(order, glm::dmat3(cosine, sine, 0, -sine, cosine, 0, 0, 0, 1));
-    set_turn(order, cosine, sine, result.turns_.first);
-    result.turns_.tilted = false;
+    set_rotation(order, cosine, sine, result.rotations_.first);
+    result.rotations_.tilted = false;
     return result;
 }
 
 void ShRotation::apply(std::span<const float> in, std::span<float> out) const {
-    rotate_one(order_, matrix_, turns_, in, out);
+    rotate_one(order_, matrix_, rotations_, in, out);
 }
 
 void ShRotation::apply(std::span<const double> in, std::span<double> out) const {
-    rotate_one(order_, matrix_, turns_, in, out);
+    rotate_one(order_, matrix_, rotations_, in, out);
 }
 
 void ShRotation::apply(std::span<glm::vec3> coefficients) const {
@@ -352,7 +356,7 @@ void ShRotation::apply(std::span<const glm::vec3> in, std::span<glm::vec3> out) 
     Channels c[kMaxOrder * kMaxOrder];
     for (std::size_t i = 0; i < count; ++i)
         c[i] = Channels{in[i].r, in[i].g, in[i].b, 0};
-    rotate(order_, matrix_, turns_, c);
+    rotate(order_, matrix_, rotations_, c);
     for (std::size_t i = 0; i < count; ++i)
         out[i] = {static_cast<float>(c[i][0]), static_cast<float>(c[i][1]), static_cast<float>(c[i][2])};
 }

@@ -38,7 +38,7 @@ constexpr double lane_factor(std::size_t l, bool to_minus, std::size_t to, bool 
 }
 
 template <bool Inverse, bool ToMinus, std::size_t To, std::size_t... From>
-[[gnu::always_inline]] inline Bands turned_lanes(const Sides& c, std::index_sequence<From...>) {
+[[gnu::always_inline]] inline Bands rotated_lanes(const Sides& c, std::index_sequence<From...>) {
     Bands sum{};
     const auto add = [&]<bool Minus, std::size_t K>() __attribute__((always_inline)) {
         constexpr double factor[kLanes] = {
@@ -54,15 +54,15 @@ template <bool Inverse, bool ToMinus, std::size_t To, std::size_t... From>
 
 template <bool Inverse, std::size_t... K>
 [[gnu::always_inline]] inline void quarter_turn_lanes(Sides& c, std::index_sequence<K...> all) {
-    c = {{{turned_lanes<Inverse, false, K>(c, all)...}, {turned_lanes<Inverse, true, K>(c, all)...}}};
+    c = {{{rotated_lanes<Inverse, false, K>(c, all)...}, {rotated_lanes<Inverse, true, K>(c, all)...}}};
 }
 
-[[gnu::always_inline]] inline void turn_lanes_about_z(const ShRotation::Turn& turn, Sides& c) {
+[[gnu::always_inline]] inline void rotate_lanes_about_z(const ShRotation::Rotation& rotation, Sides& c) {
 #pragma GCC unroll 6
     for (std::size_t k = 0; k < kDegrees; ++k) {
         Bands cosine, sine;
-        std::memcpy(&cosine, &turn.cosine[ShRotation::Turn::kZero + kFirstLane - k], sizeof cosine);
-        std::memcpy(&sine, &turn.sine[ShRotation::Turn::kZero + kFirstLane - k], sizeof sine);
+        std::memcpy(&cosine, &rotation.cosine[ShRotation::Rotation::kZero + kFirstLane - k], sizeof cosine);
+        std::memcpy(&sine, &rotation.sine[ShRotation::Rotation::kZero + kFirstLane - k], sizeof sine);
         const Bands plus = c.at[0][k], minus = c.at[1][k];
         c.at[0][k] = plus * cosine - minus * sine;
         c.at[1][k] = plus * sine + minus * cosine;
@@ -71,7 +71,8 @@ template <bool Inverse, std::size_t... K>
 
 /// Rotates bands 2 to 5 of `in` to `out`, both [36].
 template <class Real>
-[[gnu::always_inline]] inline void rotate_lanes(const ShRotation::Turns& turns, const Real* in, Real* out) {
+[[gnu::always_inline]] inline void rotate_lanes(const ShRotation::Rotations& rotations, const Real* in,
+                                                Real* out) {
     using Four [[gnu::vector_size(sizeof(Real) * kLanes)]] = Real;
     constexpr auto all = std::make_index_sequence<kDegrees>();
     Sides c;
@@ -85,12 +86,12 @@ template <class Real>
         c.at[1][k] = __builtin_convertvector(
             (Four{from(2, true), from(3, true), from(4, true), from(5, true)}), Bands);
     }
-    turn_lanes_about_z(turns.first, c);
-    if (turns.tilted) {
+    rotate_lanes_about_z(rotations.first, c);
+    if (rotations.tilted) {
         quarter_turn_lanes<false>(c, all);
-        turn_lanes_about_z(turns.tilt, c);
+        rotate_lanes_about_z(rotations.tilt, c);
         quarter_turn_lanes<true>(c, all);
-        turn_lanes_about_z(turns.last, c);
+        rotate_lanes_about_z(rotations.last, c);
     }
 #pragma GCC unroll 6
     for (std::size_t k = 0; k < kDegrees; ++k) {

@@ -193,12 +193,12 @@ void expand_instance(const SharedTransfer& shared, const PlacedInstance& instanc
                      std::span<const glm::vec3> positions, std::span<float> vectors) {
     const std::size_t dimension = shared.layout().dimension(), count = shared.level().size();
     const InstanceFactors factors = in_axes_of_mesh(instance.factors, instance.rotation);
-    const ShRotation turn(shared.layout().order, instance.rotation);
+    const ShRotation rotation(shared.layout().order, instance.rotation);
     for (std::size_t r = 0; r < shared.receivers(); ++r) {
         const std::span<float> vector = vectors.subspan(r * dimension, dimension);
         shared.sum(r, mode_factors(factors, instance.box.position_of(positions[r])), vector);
         for (std::size_t first = 0; first < dimension; first += count)
-            turn.apply(vector.subspan(first, count), vector.subspan(first, count));
+            rotation.apply(vector.subspan(first, count), vector.subspan(first, count));
     }
 }
 

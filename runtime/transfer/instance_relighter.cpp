@@ -67,12 +67,12 @@ ConstantRows joined(const ConstantRows& a, const ConstantRows& b) {
 InstanceRelighter::InstanceRelighter(const ClusteredTransfer& transfer,
                                      std::span<const RelitInstance> instances, int yaws)
     : relighter_(transfer), modes_(transfer.bases.layout.order),
-      turns_(instance_turns(rotations_of(instances), yaws)), instances_(instances.begin(), instances.end()),
-      of_(turns_.rotations.size()) {
+      rotations_(instance_rotations(rotations_of(instances), yaws)),
+      instances_(instances.begin(), instances.end()), of_(rotations_.rotations.size()) {
     if (transfer.bases.layout.outputs != 1 || transfer.bases.layout.lamps() > 0)
         throw Error("transfer of lamps is not shared by instances");
     for (std::size_t i = 0; i < instances_.size(); ++i) {
-        of_[turns_.of[i]].push_back(static_cast<std::uint32_t>(i));
+        of_[rotations_.of[i]].push_back(static_cast<std::uint32_t>(i));
         begins_.push_back(size_);
         size_ += 3 * std::size_t{instances_[i].rows.count};
     }
@@ -99,14 +99,14 @@ void InstanceRelighter::update(const Lighting& lighting, std::span<glm::vec4> co
     parallel_for(of_.size(), 1, threads, [&](std::size_t begin, std::size_t end) {
         ModeConstants modes;
         modes.fill(std::vector<glm::vec4>(relighter_.rows()));
-        for (std::size_t turn = begin; turn < end; ++turn) {
-            const auto turned = turned_into(turns_.rotations[turn], lightings);
+        for (std::size_t rotation = begin; rotation < end; ++rotation) {
+            const auto rotated = rotated_into(rotations_.rotations[rotation], lightings);
             ConstantRows all;
-            for (const std::uint32_t i : of_[turn])
+            for (const std::uint32_t i : of_[rotation])
                 all = joined(all, instances_[i].rows);
             for (std::size_t m = 0; m < kInstanceModes; ++m)
-                relighter_.update(turned[m], modes[m], all.first, all.first + all.count);
-            for (const std::uint32_t i : of_[turn])
+                relighter_.update(rotated[m], modes[m], all.first, all.first + all.count);
+            for (const std::uint32_t i : of_[rotation])
                 for (std::size_t row = 0; row < instances_[i].rows.count; ++row)
                     write_row(instances_[i].placed.factors, modes, instances_[i].rows.first + row,
                               constants.subspan(begins_[i] + 3 * row).first<3>());

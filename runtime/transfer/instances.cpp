@@ -17,8 +17,8 @@ namespace {
 
 /// Returns the angle between two rotations in degrees.
 double degrees_between(const glm::dmat3& a, const glm::dmat3& b) {
-    const glm::dmat3 turn = glm::transpose(a) * b;
-    const double cosine = 0.5 * (turn[0][0] + turn[1][1] + turn[2][2] - 1);
+    const glm::dmat3 rotation = glm::transpose(a) * b;
+    const double cosine = 0.5 * (rotation[0][0] + rotation[1][1] + rotation[2][2] - 1);
     return std::acos(std::clamp(cosine, -1.0, 1.0)) * 180 / std::numbers::pi;
 }
 
@@ -38,22 +38,23 @@ glm::dmat3 yaw_matrix(double yaw) {
 
 /// Rotates the first modes, which are SH coefficients of functions of direction; each has `terms` components.
 template <class Modes>
-void turn_modes(const ShRotation& turn, int terms, Modes& modes) {
-    const auto count = static_cast<std::size_t>(turn.order()) * static_cast<std::size_t>(turn.order());
+void rotate_modes(const ShRotation& rotation, int terms, Modes& modes) {
+    const auto count =
+        static_cast<std::size_t>(rotation.order()) * static_cast<std::size_t>(rotation.order());
     std::array<float, kPassingModes> coefficients;
     for (int term = 0; term < terms; ++term) {
         for (std::size_t i = 0; i < count; ++i)
             coefficients[i] = modes[i][term];
         const std::span<float> function(coefficients.data(), count);
-        turn.apply(std::span<const float>(function), function);
+        rotation.apply(std::span<const float>(function), function);
         for (std::size_t i = 0; i < count; ++i)
             modes[i][term] = coefficients[i];
     }
 }
 
-InstanceFactors turned(InstanceFactors factors, const glm::dmat3& rotation) {
-    turn_modes(ShRotation(kPassingOrder, rotation), 4, factors.passing);
-    turn_modes(ShRotation(kAddedOrder, rotation), 3, factors.added);
+InstanceFactors rotated(InstanceFactors factors, const glm::dmat3& rotation) {
+    rotate_modes(ShRotation(kPassingOrder, rotation), 4, factors.passing);
+    rotate_modes(ShRotation(kAddedOrder, rotation), 3, factors.added);
     return factors;
 }
 
@@ -143,39 +144,41 @@ std::array<glm::vec3, kInstanceModes> mode_factors(const InstanceFactors& factor
 }
 
 InstanceFactors in_axes_of_mesh(const InstanceFactors& factors, const glm::dmat3& rotation) {
-    return turned(factors, glm::transpose(rotation));
+    return rotated(factors, glm::transpose(rotation));
 }
 
 InstanceFactors in_axes_of_world(const InstanceFactors& factors, const glm::dmat3& rotation) {
-    return turned(factors, rotation);
+    return rotated(factors, rotation);
 }
 
-InstanceTurns instance_turns(std::span<const glm::dmat3> rotations, int bins, double degrees) {
-    InstanceTurns turns;
+InstanceRotations instance_rotations(std::span<const glm::dmat3> rotations, int bins, double degrees) {
+    InstanceRotations rotations;
     std::vector<std::uint32_t> of_bin(static_cast<std::size_t>(std::max(bins, 0)), ~0u);
     const auto add = [&](const glm::dmat3& rotation) {
-        turns.rotations.push_back(rotation);
-        return static_cast<std::uint32_t>(turns.rotations.size() - 1);
+        rotations.rotations.push_back(rotation);
+        return static_cast<std::uint32_t>(rotations.rotations.size() - 1);
     };
     for (const glm::dmat3& rotation : rotations) {
-        std::uint32_t turn = ~0u;
+        std::uint32_t rotation = ~0u;
         if (bins > 0 && is_upright(rotation)) {
             const double share = yaw_of(rotation) / (2 * std::numbers::pi);
             const auto bin = static_cast<std::size_t>(std::lround((share + 1) * bins)) % of_bin.size();
             if (of_bin[bin] == ~0u)
                 of_bin[bin] = add(yaw_matrix(2 * std::numbers::pi * static_cast<double>(bin) / bins));
-            turn = of_bin[bin];
+            rotation = of_bin[bin];
         } else {
-            const auto same = std::ranges::find_if(turns.rotations, [&](const glm::dmat3& other) {
+            const auto same = std::ranges::find_if(rotations.rotations, [&](const glm::dmat3& other) {
                 return degrees_between(other, rotation) <= degrees;
             });
-            turn = same == turns.rotations.end() ? add(rotation)
-                                                 : static_cast<std::uint32_t>(same - turns.rotations.begin());
+            rotation = same == rotations.rotations.end()
+                           ? add(rotation)
+                           : static_cast<std::uint32_t>(same - rotations.rotations.begin());
         }
-        turns.max_degrees = std::max(turns.max_degrees, degrees_between(turns.rotations[turn], rotation));
-        turns.of.push_back(turn);
+        rotations.max_degrees =
+            std::max(rotations.max_degrees, degrees_between(rotations.rotations[rotation], rotation));
+        rotations.of.push_back(rotation);
     }
-    return turns;
+    return rotations;
 }
 
 glm::vec3 exit_radiance(const InstanceFactors& factors, const glm::vec3& point,
@@ -187,13 +190,13 @@ glm::vec3 exit_radiance(const InstanceFactors& factors, const glm::vec3& point,
     return radiance;
 }
 
-std::array<Lighting, kInstanceModes> turned_into(const glm::dmat3& rotation,
-                                                 std::array<Lighting, kInstanceModes> lightings) {
-    const ShRotation turn(lightings.front().sky.order, glm::transpose(rotation));
+std::array<Lighting, kInstanceModes> rotated_into(const glm::dmat3& rotation,
+                                                  std::array<Lighting, kInstanceModes> lightings) {
+    const ShRotation rotation(lightings.front().sky.order, glm::transpose(rotation));
     for (Lighting& lighting : lightings) {
-        turn.apply(std::span(lighting.sky.coefficients));
+        rotation.apply(std::span(lighting.sky.coefficients));
         if (lighting.suns)
-            turn.apply(std::span(lighting.suns->coefficients));
+            rotation.apply(std::span(lighting.suns->coefficients));
     }
     return lightings;
 }

@@ -82,15 +82,15 @@ void check_lobes(const LobeModel& model) {
                         std::to_string(model.profiles.size()));
 }
 
-glm::mat3 axis_turn(const glm::mat3& m) {
+glm::mat3 axis_rotation(const glm::mat3& m) {
     const glm::mat3 cofactors(glm::cross(m[1], m[2]), glm::cross(m[2], m[0]), glm::cross(m[0], m[1]));
     return glm::dot(m[0], cofactors[0]) < 0 ? -cofactors : cofactors;
 }
 
-glm::vec3 turned_axis(const glm::vec3& axis, const glm::mat3& turn) {
-    const glm::vec3 turned = turn * axis;
-    const float length = glm::length(turned);
-    return length > 0 && std::isfinite(length) ? turned / length : axis;
+glm::vec3 rotated_axis(const glm::vec3& axis, const glm::mat3& rotation) {
+    const glm::vec3 rotated = rotation * axis;
+    const float length = glm::length(rotated);
+    return length > 0 && std::isfinite(length) ? rotated / length : axis;
 }
 
 void lobe_transfer(std::span<const Lobe> lobes, int order, std::span<float> transfer) {

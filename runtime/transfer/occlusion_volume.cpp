@@ -134,9 +134,9 @@ BlockedCap blocked_at(const OcclusionVolume& volume, const PlacedOccluder& where
     const float root = (0.5f * texel.w + 0.5f) / outside;
     const glm::vec3 lean(texel);
     const float fade = glm::smoothstep(1.0f, kOccluderFade, distance / where.half.w);
-    const glm::vec3 turned = lean.x * glm::vec3(where.to_box[0]) + lean.y * glm::vec3(where.to_box[1]) +
-                             lean.z * glm::vec3(where.to_box[2]);
-    return cap_of(fade * root * root, turned);
+    const glm::vec3 rotated = lean.x * glm::vec3(where.to_box[0]) + lean.y * glm::vec3(where.to_box[1]) +
+                              lean.z * glm::vec3(where.to_box[2]);
+    return cap_of(fade * root * root, rotated);
 }
 
 std::vector<std::uint32_t> occluders_near(std::span<const PlacedOccluder> placed, const glm::vec3& low,

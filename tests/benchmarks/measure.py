@@ -79,7 +79,7 @@ def main():
     with tempfile.TemporaryDirectory() as folder:
         folder = pathlib.Path(folder)
         output_of(build / "examples/scenes/example_scenes", folder)
-        for turn in range(arguments.repeat):
+        for rotation in range(arguments.repeat):
             print(f"run {turn + 1} of {arguments.repeat}", file=sys.stderr)
             for name, value in {**runtime_figures(build), **program_figures(build, folder)}.items():
                 seconds[name] = min(value, seconds.get(name, value))

@@ -88,7 +88,7 @@ TEST_F(BackSides, AreRefinedAlike) {
     ASSERT_EQ(baked.status, 0) << baked.err;
     EXPECT_NE(baked.out.find("refined in "), std::string::npos) << baked.out;
     const Scene scene = extract_scene(load_gltf(folder / "b.glb"));
-    std::map<std::set<std::array<float, 3>>, int> turned; // triangles by their corners: up minus down
+    std::map<std::set<std::array<float, 3>>, int> rotated; // triangles by their corners: up minus down
     std::size_t roof = 0;
     for (const Primitive& primitive : scene.primitives)
         for (const glm::uvec3& t : primitive.triangles) {
@@ -99,11 +99,11 @@ TEST_F(BackSides, AreRefinedAlike) {
             for (int i = 0; i < 3; ++i)
                 corners.insert(
                     {vertices.positions[t[i]].x, vertices.positions[t[i]].y, vertices.positions[t[i]].z});
-            turned[corners] += vertices.normals[t.x].y > 0 ? 1 : -1;
+            rotated[corners] += vertices.normals[t.x].y > 0 ? 1 : -1;
             ++roof;
         }
     EXPECT_GT(roof, 2 * 18u);
-    for (const auto& [corners, sum] : turned)
+    for (const auto& [corners, sum] : rotated)
         EXPECT_EQ(sum, 0);
 }
 

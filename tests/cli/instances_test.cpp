@@ -48,10 +48,10 @@ protected:
                     for (int i = 0; i < 3; ++i)
                         normals.push_back(i == axis ? 2 * side : 0);
                 }
-                const bool turned = side < 0;
+                const bool rotated = side < 0;
                 for (const unsigned i : {0u, 1u, 3u, 0u, 3u, 2u})
                     indices.push_back(first + i);
-                if (turned)
+                if (rotated)
                     std::reverse(indices.end() - 6, indices.end());
             }
         const std::size_t position = file.accessor(positions, kFloat, "VEC3", 3),

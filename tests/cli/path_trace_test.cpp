@@ -82,18 +82,18 @@ TEST_F(PathTraced, ErrorsAreSmallForABakeAndGreatWithoutShadows) {
     write_exr(folder / "sky.exr", sky, EnvironmentLayout::lat_long);
     ASSERT_EQ(prt({"bake", at("ball.glb"), "-o", at("b.glb"), "--rays", "256", "--bounces", "inf"}).status,
               0);
-    const auto error = [&](const char* model, const char* turn) {
+    const auto error = [&](const char* model, const char* rotation) {
         const Outcome outcome = prt({"render", at(model), "--env", at("sky.exr"), "-o", at("e.png"), "--size",
-                                     "64x40", "--path-trace", "32", "--show", "error", "--rotate", turn,
+                                     "64x40", "--path-trace", "32", "--show", "error", "--rotate", rotation,
                                      "--json", at("e.json"), "--backend", "cpu"});
         EXPECT_EQ(outcome.status, 0) << outcome.err;
         return read_json(folder / "e.json");
     };
-    for (const char* turn : {"0", "135"}) {
-        const auto baked = error("b.glb", turn), unshadowed = error("ball.glb", turn);
-        EXPECT_LT(baked["contrast_percentile_95"], 0.1) << turn;
-        EXPECT_GT(unshadowed["contrast_percentile_95"], 0.2) << turn;
-        EXPECT_LT(baked["flip_mean"], unshadowed["flip_mean"]) << turn;
+    for (const char* rotation : {"0", "135"}) {
+        const auto baked = error("b.glb", rotation), unshadowed = error("ball.glb", rotation);
+        EXPECT_LT(baked["contrast_percentile_95"], 0.1) << rotation;
+        EXPECT_GT(unshadowed["contrast_percentile_95"], 0.2) << rotation;
+        EXPECT_LT(baked["flip_mean"], unshadowed["flip_mean"]) << rotation;
         EXPECT_LT(baked["noise_relative_l2"], 0.2);
     }
     EXPECT_EQ(decode_image(read_file(folder / "e.png")).width, 64);

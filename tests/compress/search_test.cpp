@@ -176,8 +176,8 @@ TEST(Search, KeepsTheErrorAtEveryTurnOfSkiesThatWereGiven) {
     const Transfer decoded = decode(found.result.transfer);
     double worst = 0;
     for (const Lighting& sky : budget.skies)
-        for (int turn = 0; turn < 72; ++turn) {
-            const Light light = rotated_about_y(sky.sky, turn * std::numbers::pi / 36);
+        for (int rotation = 0; rotation < 72; ++rotation) {
+            const Light light = rotated_about_y(sky.sky, rotation * std::numbers::pi / 36);
             worst = std::max(worst, lit_rms(exit_radiance(scene.transfer, light),
                                             exit_radiance(decoded, light), scene.areas));
         }
@@ -202,14 +202,14 @@ TEST(Search, KeepsTheErrorUnderSkiesDrawnFromTheFamily) {
         const Lighting day =
             daylight(4, {.sun_elevation = elevation(random), .turbidity = turbidity(random)});
         Light light = sum(day.sky, *day.suns);
-        EXPECT_LE(lit_rms_over_turns(moments, {light}).worst, 0.02);
+        EXPECT_LE(lit_rms_over_rotations(moments, {light}).worst, 0.02);
         for (int i = 1; i < 16; ++i) {
             const auto band = static_cast<std::size_t>(std::sqrt(i));
             const double power = texture[band] * std::pow(static_cast<double>(day.sky.coefficients[0].x), 2);
             light.coefficients[static_cast<std::size_t>(i)] +=
                 glm::vec3(static_cast<float>(std::sqrt(power) * normal(random)));
         }
-        EXPECT_LE(lit_rms_over_turns(moments, {light}).worst, 1.05 * 0.02);
+        EXPECT_LE(lit_rms_over_rotations(moments, {light}).worst, 1.05 * 0.02);
     }
 }
 

@@ -20,9 +20,9 @@ int main() {
     std::vector<glm::vec4> constants(relighter.rows());
     relighter.update(light.coefficients, constants);
     const float before = constants[0].g;
-    prt::Light turned = light;
-    prt::ShRotation::about_y(4, 1).apply(turned.coefficients); // +Y does not notice
-    relighter.update(turned.coefficients, constants);
+    prt::Light rotated = light;
+    prt::ShRotation::about_y(4, 1).apply(rotated.coefficients); // +Y does not notice
+    relighter.update(rotated.coefficients, constants);
     std::printf("%g %g\n", static_cast<double>(before), static_cast<double>(constants[0].g));
     return before > 0 && std::abs(constants[0].g - before) < 1e-5f * before ? 0 : 1;
 }

@@ -156,8 +156,8 @@ void normalise(const GridPoints& points, const SparseGrid& grid, MovingBasis& ba
                  rows.bottomRows(components).transpose();
     });
     const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXf> carried(outer);
-    const Eigen::MatrixXf turn = carried.eigenvectors().rowwise().reverse();
-    change_weights(basis, Eigen::VectorXf::Zero(components), turn, turn);
+    const Eigen::MatrixXf rotation = carried.eigenvectors().rowwise().reverse();
+    change_weights(basis, Eigen::VectorXf::Zero(components), rotation, rotation);
 }
 
 } // namespace prt

@@ -58,12 +58,12 @@ EncodedImage ramps() {
 /// they are lit from different sides.
 Scene scene_of(Varying varying, bool behind) {
     const Scene receiver = SceneBuilder().triangle({0, 0, 0}, {0, 0, 0.01f}, {0.01f, 0, 0}).build();
-    const bool turned =
+    const bool rotated =
         (glm::dot(face(), glm::cross(kCorners[1] - kCorners[0], kCorners[2] - kCorners[0])) < 0) != behind;
     Scene sheet = SceneBuilder()
                       .triangle(glm::vec3(kCorners[0]), glm::vec3(kCorners[1]), glm::vec3(kCorners[2]))
                       .build();
-    if (turned)
+    if (rotated)
         std::swap(sheet.primitives[0].triangles[0].y, sheet.primitives[0].triangles[0].z);
     VertexArray& v = sheet.vertex_arrays[0];
     const glm::dvec3 middle = (kCorners[0] + kCorners[1] + kCorners[2]) / 3.0;

@@ -71,19 +71,19 @@ Scene copies_over_floor(int copies, bool alone) {
     std::vector<Scene> scenes{SceneBuilder().floor({0, 0, 0}, 3, 6).build()};
     for (int i = 0; i < copies; ++i) {
         const auto t = static_cast<float>(i);
-        const glm::mat3 turn =
+        const glm::mat3 rotation =
             (0.5f + 0.1f * t) * glm::mat3_cast(glm::angleAxis(0.7f * t, glm::normalize(glm::vec3(1, t, 2))));
         for (const Scene* mesh : {&ball, &leaf}) {
             Scene copy = *mesh;
             for (glm::vec3& p : copy.vertex_arrays[0].positions) {
                 if (mesh == &ball && i == 1)
                     p.y *= 0.5f;
-                p = turn * p +
+                p = rotation * p +
                     glm::vec3(std::cos(2.4f * t), mesh == &ball ? 0.5f : 1.0f, std::sin(2.4f * t)) *
                         (0.4f + 0.2f * t);
             }
             for (glm::vec3& n : copy.vertex_arrays[0].normals)
-                n = glm::normalize(turn * n);
+                n = glm::normalize(rotation * n);
             scenes.push_back(std::move(copy));
         }
     }

@@ -29,13 +29,13 @@ std::vector<glm::vec3> even_directions(int count, std::uint64_t seed) {
     const auto unit = [&] { return static_cast<double>(random() >> 11) * 0x1p-53; };
     // A uniform rotation (Shoemake 1992).
     const double u = unit(), v = 2 * std::numbers::pi * unit(), w = 2 * std::numbers::pi * unit();
-    const glm::dquat turn(std::sqrt(u) * std::cos(w), std::sqrt(1 - u) * std::sin(v),
-                          std::sqrt(1 - u) * std::cos(v), std::sqrt(u) * std::sin(w));
+    const glm::dquat rotation(std::sqrt(u) * std::cos(w), std::sqrt(1 - u) * std::sin(v),
+                              std::sqrt(1 - u) * std::cos(v), std::sqrt(u) * std::sin(w));
     std::vector<glm::vec3> directions;
     for (int i = 0; i < count; ++i) {
         const double z = 1 - (2 * i + 1.0) / count, phi = 2 * std::numbers::pi * i / std::numbers::phi;
         const double r = std::sqrt(std::max(0.0, 1 - z * z));
-        directions.emplace_back(turn * glm::dvec3(r * std::cos(phi), r * std::sin(phi), z));
+        directions.emplace_back(rotation * glm::dvec3(r * std::cos(phi), r * std::sin(phi), z));
     }
     return directions;
 }

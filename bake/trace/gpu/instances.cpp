@@ -67,11 +67,11 @@ double largest_coordinate_of(std::span<const glm::vec3> positions) {
 }
 
 /// Whether the matrix is a rotation with a uniform scale, without reflection.
-bool is_even(const glm::dmat3& turn) {
-    const double volume = glm::determinant(turn);
+bool is_even(const glm::dmat3& rotation) {
+    const double volume = glm::determinant(rotation);
     if (!(volume > 0))
         return false;
-    const glm::dmat3 unit = turn / std::cbrt(volume);
+    const glm::dmat3 unit = rotation / std::cbrt(volume);
     for (int i = 0; i < 3; ++i)
         for (int j = 0; j < 3; ++j)
             if (std::abs(glm::dot(unit[i], unit[j]) - (i == j ? 1 : 0)) > kUneven)
@@ -81,12 +81,13 @@ bool is_even(const glm::dmat3& turn) {
 
 std::optional<glm::mat4x3> motion(std::span<const glm::vec3> from, std::span<const glm::vec3> to,
                                   const Frame& frame) {
-    const glm::dmat3 turn = axes_of(to, frame) * glm::inverse(axes_of(from, frame));
-    if (!is_even(turn))
+    const glm::dmat3 rotation = axes_of(to, frame) * glm::inverse(axes_of(from, frame));
+    if (!is_even(rotation))
         return std::nullopt;
-    const glm::dvec3 shift = glm::dvec3(to[frame[0]]) - turn * glm::dvec3(from[frame[0]]);
+    const glm::dvec3 shift = glm::dvec3(to[frame[0]]) - rotation * glm::dvec3(from[frame[0]]);
     // Rounded to the precision on the device.
-    const glm::mat4x3 transform{glm::vec3(turn[0]), glm::vec3(turn[1]), glm::vec3(turn[2]), glm::vec3(shift)};
+    const glm::mat4x3 transform{glm::vec3(rotation[0]), glm::vec3(rotation[1]), glm::vec3(rotation[2]),
+                                glm::vec3(shift)};
     const glm::dmat4x3 rounded(transform);
     const double most = kTolerance * largest_coordinate_of(to);
     for (std::size_t v = 0; v < from.size(); ++v)

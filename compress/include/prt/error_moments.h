@@ -42,7 +42,7 @@ double expected_lit_rms(const ErrorMoments& moments, const LightMetric& metric);
 /// exit radiance at that angle, or to a tenth of its root mean square over all 3D rotations of the lighting
 /// if that is larger. Otherwise the error would be infinite at angles without light (docs/math.md, section
 /// 4).
-struct LitRmsOverTurns {
+struct LitRmsOverRotations {
     double mean = 0;        ///< root of the mean squared error over the mean square, over all angles: exact
     double worst = 0;       ///< at the worst angle
     double worst_angle = 0; ///< radians, as for `rotated_about_y`
@@ -50,6 +50,6 @@ struct LitRmsOverTurns {
 /// Computes the errors over all angles. Squared errors and squares are trigonometric polynomials in the
 /// angle, of degree 2(order - 1). They are determined from 4 order - 3 angles, evaluated at 32 order angles,
 /// and refined near the maximum.
-LitRmsOverTurns lit_rms_over_turns(const ErrorMoments& moments, const Lighting& lighting);
+LitRmsOverRotations lit_rms_over_rotations(const ErrorMoments& moments, const Lighting& lighting);
 
 } // namespace prt

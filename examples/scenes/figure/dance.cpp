@@ -28,10 +28,10 @@ float beat(float phase) {
 void raise_arm(Pose& pose, Side side, float lift, float across) {
     const auto arm = static_cast<std::size_t>(upper_arm(side));
     const float sign = sign_of(side);
-    pose.rotations[arm] = turn(sign * (-0.18f + 2.6f * lift), kZ) * turn(-1.05f * across - 0.35f * lift, kX) *
-                          turn(-sign * 0.5f * across, kY);
-    pose.rotations[arm + 1] = turn(-0.35f - 1.55f * across, kX) * turn(-sign * 0.35f * across, kZ);
-    pose.rotations[arm + 2] = turn(-0.2f * lift, kX);
+    pose.rotations[arm] = rotation(sign * (-0.18f + 2.6f * lift), kZ) *
+                          rotation(-1.05f * across - 0.35f * lift, kX) * rotation(-sign * 0.5f * across, kY);
+    pose.rotations[arm + 1] = rotation(-0.35f - 1.55f * across, kX) * rotation(-sign * 0.35f * across, kZ);
+    pose.rotations[arm + 2] = rotation(-0.2f * lift, kX);
 }
 
 /// `kick`: how far the leg is up.
@@ -44,11 +44,12 @@ Pose dancing(float phase) {
     const float yaw = glm::radians(22.0f) * wave(phase - 0.25f), roll = glm::radians(-7.0f) * aside;
     Pose pose;
     pose.hips_position = {kHipsAside * aside, kHipsHigh - kBend * (0.5f + 0.5f * step), 0};
-    pose.rotations[hips] = turn(yaw, kY) * turn(roll, kZ);
-    pose.rotations[spine] = turn(-1.6f * roll, kZ) * turn(-0.7f * yaw, kY) * turn(glm::radians(8.0f), kX);
-    pose.rotations[chest] = turn(-1.2f * yaw, kY) * turn(-0.8f * roll, kZ);
-    pose.rotations[neck] = turn(0.5f * yaw, kY) * turn(glm::radians(-5.0f), kX);
-    pose.rotations[head] = turn(0.4f * yaw, kY) * turn(glm::radians(9.0f) * aside, kZ);
+    pose.rotations[hips] = rotation(yaw, kY) * rotation(roll, kZ);
+    pose.rotations[spine] =
+        rotation(-1.6f * roll, kZ) * rotation(-0.7f * yaw, kY) * rotation(glm::radians(8.0f), kX);
+    pose.rotations[chest] = rotation(-1.2f * yaw, kY) * rotation(-0.8f * roll, kZ);
+    pose.rotations[neck] = rotation(0.5f * yaw, kY) * rotation(glm::radians(-5.0f), kX);
+    pose.rotations[head] = rotation(0.4f * yaw, kY) * rotation(glm::radians(9.0f) * aside, kZ);
     for (const Side side : kSides) {
         const float own = phase + (side == Side::left ? 0.0f : 0.5f); // offset by half a cycle
         raise_arm(pose, side, beat(own + 0.1f), beat(own + 0.55f));

@@ -78,9 +78,9 @@ FootPosition foot_position(float phase) {
 void place_arm(Pose& pose, Side side, float forward, float bent) {
     constexpr float kCloser = 0.20f;
     const auto arm = static_cast<std::size_t>(upper_arm(side));
-    pose.rotations[arm] = turn(-forward, kX) * turn(-sign_of(side) * kCloser, kZ);
-    pose.rotations[arm + 1] = turn(-bent, kX);
-    pose.rotations[arm + 2] = turn(sign_of(side) * -0.08f, kZ);
+    pose.rotations[arm] = rotation(-forward, kX) * rotation(-sign_of(side) * kCloser, kZ);
+    pose.rotations[arm + 1] = rotation(-bent, kX);
+    pose.rotations[arm + 2] = rotation(sign_of(side) * -0.08f, kZ);
 }
 
 /// `phase` is that of the left leg.
@@ -89,12 +89,13 @@ Pose walking(float phase) {
     const float yaw = glm::radians(-6.0f) * leg, roll = glm::radians(2.5f) * aside;
     Pose pose;
     pose.hips_position = {kSway * aside, kHipsHeight + kBob * wave(2 * (phase - 0.3f)), 0};
-    pose.rotations[hips] = turn(yaw, kY) * turn(roll, kZ);
+    pose.rotations[hips] = rotation(yaw, kY) * rotation(roll, kZ);
     // The chest rotates against the hips, and the head looks ahead.
-    pose.rotations[spine] = turn(-roll, kZ) * turn(-0.85f * yaw, kY) * turn(glm::radians(3.0f), kX);
-    pose.rotations[chest] = turn(-0.85f * yaw, kY);
-    pose.rotations[neck] = turn(0.35f * yaw, kY) * turn(glm::radians(-1.5f), kX);
-    pose.rotations[head] = turn(0.35f * yaw, kY) * turn(glm::radians(-1.5f), kX);
+    pose.rotations[spine] =
+        rotation(-roll, kZ) * rotation(-0.85f * yaw, kY) * rotation(glm::radians(3.0f), kX);
+    pose.rotations[chest] = rotation(-0.85f * yaw, kY);
+    pose.rotations[neck] = rotation(0.35f * yaw, kY) * rotation(glm::radians(-1.5f), kX);
+    pose.rotations[head] = rotation(0.35f * yaw, kY) * rotation(glm::radians(-1.5f), kX);
     for (const Side side : kSides) {
         const float arm = wave(phase + (side == Side::left ? 0.5f : 0.0f));
         place_arm(pose, side, glm::radians(3.0f + 23 * arm), glm::radians(24.0f + 12 * arm));
@@ -107,10 +108,10 @@ Pose standing(float phase) {
     const float breath = wave(phase);
     Pose pose;
     pose.hips_position = joints()[hips].position;
-    pose.rotations[spine] = turn(glm::radians(0.6f) * breath, kX);
-    pose.rotations[chest] = turn(glm::radians(-1.2f) * breath, kX);
+    pose.rotations[spine] = rotation(glm::radians(0.6f) * breath, kX);
+    pose.rotations[chest] = rotation(glm::radians(-1.2f) * breath, kX);
     pose.rotations[head] =
-        turn(glm::radians(6.0f) * wave(phase - 0.25f), kY) * turn(glm::radians(0.6f) * breath, kX);
+        rotation(glm::radians(6.0f) * wave(phase - 0.25f), kY) * rotation(glm::radians(0.6f) * breath, kX);
     for (const Side side : kSides)
         place_arm(pose, side, glm::radians(2.0f + breath), glm::radians(12.0f - breath));
     return pose;

@@ -15,7 +15,7 @@ constexpr glm::vec3 kSideways(1, 0, 0);
 
 /// Returns the rotation of a bone that points along -Y at rest to `along`, and of its X axis to `sideways`,
 /// which is normal to `along`.
-glm::quat bone_turn(const glm::vec3& along, const glm::vec3& sideways) {
+glm::quat bone_rotation(const glm::vec3& along, const glm::vec3& sideways) {
     return glm::quat_cast(glm::mat3(sideways, -along, glm::cross(sideways, -along)));
 }
 
@@ -31,13 +31,13 @@ glm::vec3 knee_between(const glm::vec3& hip, const glm::vec3& ankle, const glm::
 
 } // namespace
 
-std::array<glm::quat, bone_count> Pose::turned() {
+std::array<glm::quat, bone_count> Pose::rotated() {
     std::array<glm::quat, bone_count> rotations;
     rotations.fill(glm::quat(1, 0, 0, 0));
     return rotations;
 }
 
-glm::quat turn(float angle, const glm::vec3& axis) {
+glm::quat rotation(float angle, const glm::vec3& axis) {
     return glm::angleAxis(angle, axis);
 }
 
@@ -50,12 +50,12 @@ void place_foot(Pose& pose, Side side, const FootPosition& point, float aside) {
     const glm::vec3 down = glm::normalize(ankle - hip);
     const glm::vec3 sideways = glm::normalize(kSideways - glm::dot(kSideways, down) * down);
     const glm::vec3 knee = knee_between(hip, ankle, sideways);
-    const glm::quat upper = bone_turn(glm::normalize(knee - hip), sideways);
-    const glm::quat lower = bone_turn(glm::normalize(ankle - knee), sideways);
+    const glm::quat upper = bone_rotation(glm::normalize(knee - hip), sideways);
+    const glm::quat lower = bone_rotation(glm::normalize(ankle - knee), sideways);
     pose.rotations[first] = glm::conjugate(pelvis) * upper;
     pose.rotations[first + 1] = glm::conjugate(upper) * lower;
-    pose.rotations[first + 2] = glm::conjugate(lower) * turn(-point.pitch, kSideways);
-    pose.rotations[first + 3] = turn(-point.toe_bend, kSideways);
+    pose.rotations[first + 2] = glm::conjugate(lower) * rotation(-point.pitch, kSideways);
+    pose.rotations[first + 3] = rotation(-point.toe_bend, kSideways);
 }
 
 } // namespace examples::anatomy

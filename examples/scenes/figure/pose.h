@@ -9,11 +9,11 @@
 namespace examples::anatomy {
 
 struct Pose {
-    glm::vec3 hips_position;                                ///< metres
-    std::array<glm::quat, bone_count> rotations = turned(); ///< against the parent
+    glm::vec3 hips_position;                                 ///< metres
+    std::array<glm::quat, bone_count> rotations = rotated(); ///< against the parent
 
 private:
-    static std::array<glm::quat, bone_count> turned();
+    static std::array<glm::quat, bone_count> rotated();
 };
 
 /// Position of a foot's ankle, metres, and rotations of the foot and its toes, radians.
@@ -24,7 +24,7 @@ struct FootPosition {
 };
 
 /// Returns the rotation about an axis by an angle in radians.
-glm::quat turn(float angle, const glm::vec3& axis);
+glm::quat rotation(float angle, const glm::vec3& axis);
 
 /// Rotates thigh, shin, foot and toes of a side so that the foot is at `position`, `aside` metres from the
 /// middle. The hips must be set before. Throws std::logic_error if the leg is too short.

@@ -31,10 +31,10 @@ glm::vec3 level(const glm::vec3& v) {
 /// Returns the heading with free room ahead that needs the smallest rotation; the opposite heading if there
 /// is none.
 float free_heading(const Ground& ground, const glm::vec3& position, float heading) {
-    constexpr int kTurns = 12;
-    for (int i = 1; i <= kTurns; ++i)
+    constexpr int kRotations = 12;
+    for (int i = 1; i <= kRotations; ++i)
         for (const float side : {1.0f, -1.0f}) {
-            const float tried = heading + side * kTurnAround * static_cast<float>(i) / kTurns;
+            const float tried = heading + side * kTurnAround * static_cast<float>(i) / kRotations;
             if (ground.free_way(position, ahead(tried), kLookAhead) >= kLookAhead)
                 return tried;
         }

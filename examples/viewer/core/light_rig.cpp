@@ -42,7 +42,7 @@ LoadedEnvironment ready(std::string name, const prt::Environment& environment) {
 }
 
 /// Rotates `d` about +Y, as prt::rotated_about_y does.
-glm::vec3 turned(const glm::vec3& d, float angle) {
+glm::vec3 rotated(const glm::vec3& d, float angle) {
     const float c = std::cos(angle), s = std::sin(angle);
     return {c * d.x + s * d.z, d.y, c * d.z - s * d.x};
 }
@@ -199,7 +199,7 @@ float LightRig::unit() const {
 std::vector<prt::SunDisc> LightRig::own_suns() const {
     std::vector<prt::SunDisc> suns;
     if (settings_.day && day_sun_irradiance_ != glm::vec3(0))
-        suns.push_back({turned(day_sun_, settings_.rotation), day_sun_irradiance_, kSunHalfAngle});
+        suns.push_back({rotated(day_sun_, settings_.rotation), day_sun_irradiance_, kSunHalfAngle});
     for (const RigLight& light : settings_.lights)
         if (light.on && light.kind == LightKind::sun)
             suns.push_back(
@@ -208,13 +208,13 @@ std::vector<prt::SunDisc> LightRig::own_suns() const {
 }
 
 /// Returns the suns of the environment image, rotated with it.
-std::vector<prt::SunDisc> LightRig::turned_suns() const {
+std::vector<prt::SunDisc> LightRig::rotated_suns() const {
     const LoadedEnvironment* environment = base();
     std::vector<prt::SunDisc> suns;
     if (environment)
         suns = environment->suns;
     for (prt::SunDisc& sun : suns)
-        sun.towards = turned(sun.towards, settings_.rotation);
+        sun.towards = rotated(sun.towards, settings_.rotation);
     return suns;
 }
 
@@ -243,7 +243,7 @@ prt::Light LightRig::light(int order) const {
 }
 
 std::vector<prt::SunDisc> LightRig::strongest_first() const {
-    std::vector<prt::SunDisc> suns = turned_suns();
+    std::vector<prt::SunDisc> suns = rotated_suns();
     std::ranges::copy(own_suns(), std::back_inserter(suns));
     std::ranges::stable_sort(suns, std::greater(),
                              [](const prt::SunDisc& sun) { return prt::luminance(sun.irradiance); });

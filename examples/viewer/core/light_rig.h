@@ -130,7 +130,7 @@ public:
 private:
     const LoadedEnvironment* base() const;
     std::vector<prt::SunDisc> own_suns() const;
-    std::vector<prt::SunDisc> turned_suns() const;
+    std::vector<prt::SunDisc> rotated_suns() const;
     std::vector<prt::SunDisc> strongest_first() const;
     prt::DistantLight distant_light(const prt::Image* lat_long, const std::vector<prt::SunDisc>& suns) const;
     void add_shapes(prt::Light& sum) const;

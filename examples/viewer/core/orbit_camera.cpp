@@ -24,9 +24,9 @@ OrbitCamera::OrbitCamera(const prt::Camera& camera)
     pitch_ = std::clamp(std::asin(std::clamp(from.y, -1.0f, 1.0f)), -kSteepest, kSteepest);
 }
 
-void OrbitCamera::orbit(const glm::vec2& turns) {
-    yaw_ = std::remainder(yaw_ - kHalfTurn * turns.x, 2 * kHalfTurn);
-    pitch_ = std::clamp(pitch_ + kHalfTurn * turns.y, -kSteepest, kSteepest);
+void OrbitCamera::orbit(const glm::vec2& rotations) {
+    yaw_ = std::remainder(yaw_ - kHalfTurn * rotations.x, 2 * kHalfTurn);
+    pitch_ = std::clamp(pitch_ + kHalfTurn * rotations.y, -kSteepest, kSteepest);
 }
 
 void OrbitCamera::pan(const glm::vec2& way) {

@@ -12,9 +12,9 @@ public:
     OrbitCamera() = default;
     explicit OrbitCamera(const prt::Camera& camera);
 
-    /// Rotates the camera. `turns` is the pointer movement as a fraction of the window height; one height
+    /// Rotates the camera. `rotations` is the pointer movement as a fraction of the window height; one height
     /// rotates by half a turn.
-    void orbit(const glm::vec2& turns);
+    void orbit(const glm::vec2& rotations);
     /// Moves the target with the pointer; `way` is the pointer movement as a fraction of the window height.
     void pan(const glm::vec2& way);
     /// Moves closer for positive `notches`.

@@ -20,8 +20,8 @@ namespace {
 constexpr GLuint kRowBinding = 10;
 
 std::array<glm::vec4, 3> rows_of(const glm::dmat4& matrix) {
-    const glm::mat4 turned(glm::transpose(matrix));
-    return {turned[0], turned[1], turned[2]};
+    const glm::mat4 rotated(glm::transpose(matrix));
+    return {rotated[0], rotated[1], rotated[2]};
 }
 
 /// Returns the box around all primitives of a node of `scene`, in the node's space.

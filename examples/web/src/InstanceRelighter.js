@@ -3,9 +3,9 @@
 // position within the box of the mesh, so that a row needs three vectors, not one. Does not use three.js.
 
 import { updateConstants, lightColumns } from "./clusteredPca.js";
-import { ADDED_BANDS, ADDED_MODES, InstanceModes, instanceTurns, PASSING_MODES, responsesOf } from "./instanceModes.js";
-import { rotationMatrices, turnedBands } from "./sphericalHarmonics.js";
-import { updateAtYaw, polarRows, termsOf, turnTerms, yawSeries } from "./yawHarmonics.js";
+import { ADDED_BANDS, ADDED_MODES, InstanceModes, instanceRotations, PASSING_MODES, responsesOf } from "./instanceModes.js";
+import { rotationMatrices, rotatedBands } from "./sphericalHarmonics.js";
+import { updateAtYaw, polarRows, termsOf, rotationTerms, yawSeries } from "./yawHarmonics.js";
 
 /** Number of rotations about +Y for which light is computed: at most 0.7 degrees off. */
 const YAWS = 256;
@@ -87,17 +87,17 @@ export class InstanceRelighter {
     this.responses = responsesOf(clusters, rows);
     this.constantsOfModes = Array.from({ length: PASSING_MODES }, () => new Float64Array(4 * clusters.rowCount));
     const { order, rowCount } = clusters;
-    const turns = instanceTurns(instances.map(({ rotation }) => rotation), yaws);
-    const { rotations, of } = turns;
-    this.turns = rotations.map((rotation, t) => {
-      const yaw = turns.yaws[t];
+    const rotations = instanceRotations(instances.map(({ rotation }) => rotation), yaws);
+    const { rotations, of } = rotations;
+    this.rotations = rotations.map((rotation, t) => {
+      const yaw = rotations.yaws[t];
       const bands = rotationMatrices(ADDED_BANDS, rotation);
-      return { rotation, bands, instances: [], terms: yaw === null ? null : turnTerms(order, yaw) };
+      return { rotation, bands, instances: [], terms: yaw === null ? null : rotationTerms(order, yaw) };
     });
-    const isUpright = this.turns.some(({ terms }) => terms);
+    const isUpright = this.rotations.some(({ terms }) => terms);
     this.polarRows = isUpright ? polarRows(clusters, rows) : null;
     this.series = this.constantsOfModes.map(() => (isUpright ? new Float64Array(3 * termsOf(order) * rowCount) : null));
-    of.forEach((turn, i) => this.turns[turn].instances.push(i));
+    of.forEach((rotation, i) => this.rotations[rotation].instances.push(i));
     /** First constant of each instance, in vectors of four, and total size. */
     this.begins = new Float64Array(instances.length);
     this.size = 0;
@@ -139,7 +139,7 @@ export class InstanceRelighter {
     const size = rows.length / clusters.rowCount;
     const term = { ...clusters, rowCount: end - first };
     this.constantsOfModes.forEach((constants, m) => {
-      const columns = lightColumns(clusters, turnedBands(matrices, skies[m]), suns ? turnedBands(matrices, suns[m]) : null);
+      const columns = lightColumns(clusters, rotatedBands(matrices, skies[m]), suns ? rotatedBands(matrices, suns[m]) : null);
       updateConstants(term, rows.subarray(first * size, end * size), columns, constants.subarray(4 * first, 4 * end));
     });
   }
@@ -154,11 +154,11 @@ export class InstanceRelighter {
     const onLevel = this.modes.onLevel(suns ? sky.map((value, i) => value + suns[i]) : sky);
     const both = passed?.map((light, m) => light.map((value, i) => value + skies[m][i])) ?? skies;
     if (this.polarRows) this.series.forEach((series, m) => yawSeries(this.clusters, this.polarRows, skies[m], both[m], series));
-    for (const turn of this.turns) {
-      this.updateModes(turn, skies, passed);
-      for (const i of turn.instances) {
+    for (const rotation of this.rotations) {
+      this.updateModes(rotation, skies, passed);
+      for (const i of rotation.instances) {
         const { factors, rows } = this.instances[i];
-        const added = turnedBands(turn.bands, addedBy(factors, onLevel));
+        const added = rotatedBands(rotation.bands, addedBy(factors, onLevel));
         writeRows(constants, 4 * this.begins[i], rows, this.constantsOfModes, this.responses, factors, added);
       }
     }

@@ -4,7 +4,7 @@ import { Vector3 } from "three";
 import { lightColumns } from "./clusteredPca.js";
 import { checkSunLights, sunsOf } from "./directionalSuns.js";
 import { lightOfSuns } from "./lightFile.js";
-import { shownBy, turnForModel, turnIntoModel } from "./turns.js";
+import { shownBy, rotationForModel, rotateIntoModel } from "./turns.js";
 import { warnOfUnusedLights } from "./unusedLights.js";
 
 /** Base class; derived classes implement `update(sky, suns)`, with coefficients in the space of the bake. */
@@ -67,9 +67,9 @@ export class LitTransfer {
     const now = [euler.x, euler.y, euler.z, euler.order, strength, ...this.root.matrixWorld.elements.slice(0, 11), ...ownValues].join();
     if (now === shown) return;
     this.sky.shown = now;
-    const turn = turnForModel(scene, this.root);
-    const seen = (source) => source.rotated(turn).times(strength).coefficients();
-    const ownLight = own && lightOfSuns(own, this.order).rotated(turnIntoModel(this.root)).coefficients();
+    const rotation = rotationForModel(scene, this.root);
+    const seen = (source) => source.rotated(rotation).times(strength).coefficients();
+    const ownLight = own && lightOfSuns(own, this.order).rotated(rotateIntoModel(this.root)).coefficients();
     this.update(seen(light), ownLight ?? (suns ? seen(suns) : null));
   }
 

@@ -81,7 +81,7 @@ export class PrtkitPlugin {
     if (terms.length > 0) gltf.userData.prtkitOccluders = new PrtkitOccluders(terms);
     const volume = probes ? await this.volume(probes, gltf.scene) : null;
     if (vertices || texels) gltf.userData.prtkit = Object.assign(await this.surfaces(vertices, texels, gltf), { volume });
-    else if (lobes) gltf.userData.prtkit = Object.assign(await this.turning(lobes, gltf), { volume });
+    else if (lobes) gltf.userData.prtkit = Object.assign(await this.rotating(lobes, gltf), { volume });
     else if (volume) gltf.userData.prtkit = volume;
     if (gltf.userData.prtkit) gltf.scenes.forEach(noteLightsOfFile);
   }
@@ -109,7 +109,7 @@ export class PrtkitPlugin {
   }
 
   /** Returns the model of lobes that rotate with a skin. */
-  async turning(extension, gltf) {
+  async rotating(extension, gltf) {
     checkLobes(extension);
     const { bufferView } = extension.profiles;
     const model = new PrtkitLobes(extension, (await this.viewsOf([bufferView], LOBES)).get(bufferView));

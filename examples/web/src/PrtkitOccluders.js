@@ -40,7 +40,7 @@ function isShown(object) {
 }
 
 /** Writes the placement of a part as five rows of the shader: prt::placed. Returns the center of its reach. */
-function rowsOf({ object, low, high, reach }, slot, rows) {
+function updateRows({ object, low, high, reach }, slot, rows) {
   const linear = new Matrix3().setFromMatrix4(object.matrixWorld);
   const scale = Math.cbrt(Math.abs(linear.determinant()));
   const centre = new Vector3(...low.map((value, axis) => 0.5 * (value + high[axis]))).applyMatrix4(object.matrixWorld);
@@ -71,7 +71,7 @@ export class PrtkitOccluders {
   /** Updates the positions of the parts; invisible parts do not occlude. */
   update() {
     this.count = 0;
-    const centres = this.parts.flatMap((part, slot) => (isShown(part.object) ? [rowsOf(part, slot, this.rows.slice(5 * this.count++))] : []));
+    const centres = this.parts.flatMap((part, slot) => (isShown(part.object) ? [updateRows(part, slot, this.rows.slice(5 * this.count++))] : []));
     const middle = centres.reduce((sum, centre) => sum.addScaledVector(centre, 1 / centres.length), new Vector3());
     const reach = centres.reduce((most, centre, i) => Math.max(most, middle.distanceTo(centre) + this.rows[5 * i + 3].w), 0);
     this.reach.set(...middle, reach);

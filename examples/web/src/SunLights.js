@@ -1,7 +1,7 @@
 // The suns of a light file as three's directional lights, with shadow maps fitted to the lit objects.
 
 import { Box3, DirectionalLight, Group, Vector3 } from "three";
-import { environmentTurn, shownBy, turnedBy } from "./turns.js";
+import { environmentRotation, shownBy, turnedBy } from "./turns.js";
 
 const RADIUS_AT = 0.1; // equal to the value in sunLight.glsl
 const MARGIN = 2; // texels of a map beyond the fitted box
@@ -49,7 +49,7 @@ export class SunLights extends Group {
   }
 
   /** Rotates the suns about +Y by `angle` radians, as `setLight` does with the light. */
-  turn(angle) {
+  rotation(angle) {
     const [c, s] = [Math.cos(angle), Math.sin(angle)];
     this.scene = null;
     this.rotated = [c, 0, -s, 0, 1, 0, s, 0, c];
@@ -73,7 +73,7 @@ export class SunLights extends Group {
     const now = [euler.x, euler.y, euler.z, euler.order, strength].join();
     if (now === this.shown) return;
     this.shown = now;
-    this.rotated = environmentTurn(euler);
+    this.rotated = environmentRotation(euler);
     this.dim(strength);
     this.updateTransform();
   }

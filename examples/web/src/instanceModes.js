@@ -1,5 +1,5 @@
 // Lighting of instances that share the transfer of their mesh (docs/format.md, PRTKIT_instances): its modes,
-// and the rotations for which it is computed, as prt::InstanceModes and prt::instance_turns do. Does not use
+// and the rotations for which it is computed, as prt::InstanceModes and prt::instance_rotations do. Does not use
 // three.js.
 
 import { evaluateSh, gaussLegendre } from "./sphericalHarmonics.js";
@@ -96,7 +96,7 @@ function yawMatrix(angle) {
  * Rotations about +Y fall into `bins` of equal yaw; equal rotations are merged for others, and for all if
  * `bins` is 0.
  */
-export function instanceTurns(all, bins) {
+export function instanceRotations(all, bins) {
   const rotations = [];
   const yaws = [];
   const known = new Map();

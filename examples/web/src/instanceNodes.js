@@ -102,12 +102,12 @@ export async function positionsOf({ node, attributes }, parser, most) {
   }
   const counts = Object.values(read).map(({ count }) => count);
   holds(counts.length > 0 && counts.every((count) => count === counts[0]), `the instances of node ${node} have attributes of different length, or none`);
-  const [point, turn, scale] = [new Vector3(), new Quaternion(), new Vector3(1, 1, 1)];
+  const [point, rotation, scale] = [new Vector3(), new Quaternion(), new Vector3(1, 1, 1)];
   return Array.from({ length: counts[0] }, (_, i) => {
     if (read.TRANSLATION) point.fromBufferAttribute(read.TRANSLATION, i);
-    if (read.ROTATION) turn.fromBufferAttribute(read.ROTATION, i).normalize();
+    if (read.ROTATION) rotation.fromBufferAttribute(read.ROTATION, i).normalize();
     if (read.SCALE) scale.fromBufferAttribute(read.SCALE, i);
-    return new Matrix4().compose(point, turn, scale);
+    return new Matrix4().compose(point, rotation, scale);
   });
 }
 

@@ -351,8 +351,8 @@ async function start() {
     return openFiles([...event.dataTransfer.files]);
   }));
 
-  turnLightByDragging(picture);
-  turnLightByItself(picture);
+  rotateLightByDragging(picture);
+  rotateLightByItself(picture);
   const stage = element("stage");
   const resize = () => picture.resize(stage.clientWidth, stage.clientHeight, Math.min(devicePixelRatio, 2));
   new ResizeObserver(resize).observe(stage);
@@ -362,20 +362,20 @@ async function start() {
   await Promise.all([showModel(false), showSky(), setFigure(element("figure").checked)]);
 }
 
-function turnLight(picture, angle) {
+function rotateLight(picture, angle) {
   element("angle").value = Math.round((Math.atan2(Math.sin(angle), Math.cos(angle)) * 180) / Math.PI);
   picture.setAngle(angle);
 }
 
-const TURN_PER_SECOND = Math.PI / 12;
+const ROTATION_PER_SECOND = Math.PI / 12;
 
 /** Rotates the light continuously while the option is selected. */
-function turnLightByItself(picture) {
+function rotateLightByItself(picture) {
   let before = null;
   const step = (now) => {
     if (!element("turning").checked) return;
     // A slow frame, or a hidden page, does not cause a jump.
-    if (before !== null) turnLight(picture, picture.angle + TURN_PER_SECOND * Math.min((now - before) / 1000, 0.1));
+    if (before !== null) rotateLight(picture, picture.angle + ROTATION_PER_SECOND * Math.min((now - before) / 1000, 0.1));
     before = now;
     requestAnimationFrame(step);
   };
@@ -386,7 +386,7 @@ function turnLightByItself(picture) {
 }
 
 /** Dragging with the right button or with Shift rotates the light. OrbitControls handles all other dragging. */
-function turnLightByDragging(picture) {
+function rotateLightByDragging(picture) {
   let last = null;
   picture.controls.mouseButtons.RIGHT = null;
   canvas.addEventListener("contextmenu", (event) => event.preventDefault());
@@ -404,7 +404,7 @@ function turnLightByDragging(picture) {
     if (last === null) return;
     const angle = picture.angle + ((event.clientX - last) / canvas.clientHeight) * Math.PI;
     last = event.clientX;
-    turnLight(picture, angle);
+    rotateLight(picture, angle);
   });
   canvas.addEventListener("pointerup", () => (last = null));
 }

@@ -67,15 +67,15 @@ export function gaussLegendre(count) {
 
 /**
  * Returns for each band l the matrix M_ij = ∫ Y_i(w) Y_j(turn(w)) dw, by an exact quadrature: light of
- * coefficients L is M L in axes that `turn` maps to those of L. `turn(x, y, z)`: the direction [3] after a
+ * coefficients L is M L in axes that `rotation` maps to those of L. `rotation(x, y, z)`: the direction [3] after a
  * rotation.
  */
-function bandMatrices(order, turn) {
+function bandMatrices(order, rotation) {
   const rings = gaussLegendre(order);
   const azimuths = 2 * order;
   const matrices = Array.from({ length: order }, (_, l) => new Float64Array((2 * l + 1) ** 2));
   const direct = new Float64Array(order * order);
-  const turned = new Float64Array(order * order);
+  const rotated = new Float64Array(order * order);
   for (let r = 0; r < order; ++r)
     for (let a = 0; a < azimuths; ++a) {
       const z = rings.nodes[r];
@@ -84,11 +84,11 @@ function bandMatrices(order, turn) {
       const y = Math.sqrt(1 - z * z) * Math.sin(phi);
       const weight = (rings.weights[r] * 2 * Math.PI) / azimuths;
       evaluateSh(order, x, y, z, direct);
-      evaluateSh(order, ...turn(x, y, z), turned);
+      evaluateSh(order, ...rotation(x, y, z), rotated);
       for (let l = 0; l < order; ++l) {
         const size = 2 * l + 1;
         for (let i = 0; i < size; ++i)
-          for (let j = 0; j < size; ++j) matrices[l][i * size + j] += weight * direct[l * l + i] * turned[l * l + j];
+          for (let j = 0; j < size; ++j) matrices[l][i * size + j] += weight * direct[l * l + i] * rotated[l * l + j];
       }
     }
   return matrices;
@@ -101,14 +101,14 @@ function bandMatrices(order, turn) {
 export const polarMatrices = (order) => bandMatrices(order, (x, y, z) => [z, x, y]);
 
 /**
- * Returns matrices for `turnedBands` that convert light in the world to axes that `rotation` maps to the
+ * Returns matrices for `rotatedBands` that convert light in the world to axes that `rotation` maps to the
  * world's, [9] by columns.
  */
 export const rotationMatrices = (order, [a, b, c, d, e, f, g, h, k]) =>
   bandMatrices(order, (x, y, z) => [a * x + d * y + g * z, b * x + e * y + h * z, c * x + f * y + k * z]);
 
 /** Returns coefficients [order²][3] rotated by the matrices of all bands. */
-export function turnedBands(matrices, coefficients) {
+export function rotatedBands(matrices, coefficients) {
   const result = new Float64Array(3 * matrices.length ** 2);
   matrices.forEach((matrix, l) => {
     const size = 2 * l + 1;
@@ -158,7 +158,7 @@ export class ShLight {
    */
   coefficients(angle = 0) {
     const { order, polar } = this;
-    const turned = new Float64Array(polar);
+    const rotated = new Float64Array(polar);
     for (let l = 1; l < order; ++l)
       for (let m = 1; m <= l; ++m) {
         const c = Math.cos(m * angle);
@@ -166,8 +166,8 @@ export class ShLight {
         for (let channel = 0; channel < 3; ++channel) {
           const plus = polar[3 * index(l, m) + channel];
           const minus = polar[3 * index(l, -m) + channel];
-          turned[3 * index(l, m) + channel] = c * plus - s * minus;
-          turned[3 * index(l, -m) + channel] = s * plus + c * minus;
+          rotated[3 * index(l, m) + channel] = c * plus - s * minus;
+          rotated[3 * index(l, -m) + channel] = s * plus + c * minus;
         }
       }
     const result = new Float64Array(3 * order * order);
@@ -177,7 +177,7 @@ export class ShLight {
         for (let j = 0; j < size; ++j) {
           const factor = this.matrices[l][i * size + j];
           for (let channel = 0; channel < 3; ++channel)
-            result[3 * (l * l + i) + channel] += factor * turned[3 * (l * l + j) + channel];
+            result[3 * (l * l + i) + channel] += factor * rotated[3 * (l * l + j) + channel];
         }
     }
     return result;
@@ -195,9 +195,9 @@ export class ShLight {
     const rings = gaussLegendre(order);
     const basis = new Float64Array(order * order);
     for (let r = 0; r < order; ++r)
-      for (let turn = 0; turn < 2 * order; ++turn) {
+      for (let rotation = 0; rotation < 2 * order; ++rotation) {
         const z = rings.nodes[r];
-        const phi = (Math.PI * turn) / order;
+        const phi = (Math.PI * rotation) / order;
         const [x, y] = [Math.sqrt(1 - z * z) * Math.cos(phi), Math.sqrt(1 - z * z) * Math.sin(phi)];
         const weight = (rings.weights[r] * Math.PI) / order;
         const radiance = [0, 0, 0];
@@ -312,12 +312,12 @@ export function projectLatLong(image, order) {
  */
 function radianceOnGrid(order, shares, rows) {
   const columns = 2 * rows;
-  const turns = new Float64Array(2 * order * columns); // cos(m phi), sin(m phi)
+  const rotations = new Float64Array(2 * order * columns); // cos(m phi), sin(m phi)
   for (let m = 0; m < order; ++m)
     for (let x = 0; x < columns; ++x) {
       const phi = (Math.PI * (x + 0.5)) / rows;
-      turns[2 * m * columns + x] = Math.cos(m * phi);
-      turns[(2 * m + 1) * columns + x] = Math.sin(m * phi);
+      rotations[2 * m * columns + x] = Math.cos(m * phi);
+      rotations[(2 * m + 1) * columns + x] = Math.sin(m * phi);
     }
   const basis = new Float64Array(order * order);
   const values = new Float64Array(columns);
@@ -340,7 +340,7 @@ function radianceOnGrid(order, shares, rows) {
           if (m > 0) sines += basis[index(l, m)] * shares[3 * index(l, -m) + channel];
         }
         for (let x = 0, at = 2 * m * columns; x < columns; ++x)
-          values[x] += cosine * turns[at + x] + sines * turns[at + columns + x];
+          values[x] += cosine * rotations[at + x] + sines * rotations[at + columns + x];
       }
       for (let x = 0; x < columns; ++x) {
         if (values[x] < lowest[x]) lowest[x] = values[x];

@@ -140,7 +140,7 @@ export function addTransfer(shader, { PRT_INSTANCES }) {
 }
 
 // Axes of lobes rotate like normals: by all transforms of a vertex. `skinMatrix` belongs to three.
-const LOBE_TURN = `
+const LOBE_ROTATION = `
   mat3 prtMoved = mat3( modelMatrix );
 #ifdef USE_INSTANCING
   prtMoved = prtMoved * mat3( instanceMatrix );
@@ -149,9 +149,9 @@ const LOBE_TURN = `
   prtMoved = prtMoved * mat3( skinMatrix );
 #endif
 #ifdef PRT_VOLUME
-  prtRadiance = prtLobeRadiance( prt_lobe_turn( mat3( prtToVolume ) * prtMoved ), prtVolumePosition );
+  prtRadiance = prtLobeRadiance( prt_lobe_rotation( mat3( prtToVolume ) * prtMoved ), prtVolumePosition );
 #else
-  prtRadiance = prtLobeRadiance( prt_lobe_turn( prtMoved ), vec3( 0.0 ) );
+  prtRadiance = prtLobeRadiance( prt_lobe_rotation( prtMoved ), vec3( 0.0 ) );
 #endif`;
 
 const PROFILES = `
@@ -161,14 +161,14 @@ uniform highp sampler2D prt_lobe_profiles;
 const LIT_AT_VERTICES = "in vec3 prtRadiance;";
 
 /** Inserted after the position of the vertex. */
-function turnLobes(shader) {
-  shader.vertexShader = replaced(shader.vertexShader, "prtLight( transformed );", `prtLight( transformed );${LOBE_TURN}`);
+function rotateLobes(shader) {
+  shader.vertexShader = replaced(shader.vertexShader, "prtLight( transformed );", `prtLight( transformed );${LOBE_ROTATION}`);
 }
 
 /** Adds transfer that rotates with a skin to the shaders. */
 export function addLobes(shader) {
   addLight(shader, { vertex: `${PROFILES}\n${lobes}`, fragment: LIT_AT_VERTICES, lights: "" });
-  turnLobes(shader);
+  rotateLobes(shader);
   shader.fragmentShader = replaced(shader.fragmentShader, include("aomap_fragment"), OCCLUSION);
 }
 
@@ -179,5 +179,5 @@ export function addLobes(shader) {
 export function addVolume(shader, { PRT_LOBES }) {
   const [vertex, fragment] = PRT_LOBES ? [`${VOLUME}\n${PROFILES}\n${lobes}`, LIT_AT_VERTICES] : ["", ""];
   addLight(shader, { vertex, fragment: `${VOLUME}\n${volumeLight}\n${fragment}`, lights: INCIDENT });
-  if (PRT_LOBES) turnLobes(shader);
+  if (PRT_LOBES) rotateLobes(shader);
 }

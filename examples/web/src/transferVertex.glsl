@@ -17,21 +17,21 @@ uniform vec3 prtLobeLight[PRT_LOBE_COEFFICIENTS];
 #endif
 out vec3 prtRadiance;
 
-// `turn`: rotation of prt_lobe_turn, from the mesh to the space of the light: the world, or a volume, which
+// `rotation`: rotation of prt_lobe_rotation, from the mesh to the space of the light: the world, or a volume, which
 // contains `point`.
-vec3 prtLobeRadiance(mat3 turn, vec3 point) {
+vec3 prtLobeRadiance(mat3 rotation, vec3 point) {
   PrtLobe lobes[PRT_LOBES];
-  lobes[0] = prt_turned_lobe(prt_lobe(prt_lobe_0), turn);
+  lobes[0] = prt_rotated_lobe(prt_lobe(prt_lobe_0), rotation);
 #if PRT_LOBES > 1
-  lobes[1] = prt_turned_lobe(prt_lobe(prt_lobe_1), turn);
+  lobes[1] = prt_rotated_lobe(prt_lobe(prt_lobe_1), rotation);
 #endif
 #if PRT_LOBES > 2
-  lobes[2] = prt_turned_lobe(prt_lobe(prt_lobe_2), turn);
+  lobes[2] = prt_rotated_lobe(prt_lobe(prt_lobe_2), rotation);
 #endif
 #ifdef PRT_VOLUME
-  vec3 turned = turn * normal;
-  float size = length(turned);
-  return prt_lobes_in_volume(lobes, point, size > 0.0 ? turned / size : vec3(0.0, 1.0, 0.0));
+  vec3 rotated = rotation * normal;
+  float size = length(rotated);
+  return prt_lobes_in_volume(lobes, point, size > 0.0 ? rotated / size : vec3(0.0, 1.0, 0.0));
 #else
   return prt_lobes_radiance(lobes, prtLobeLight);
 #endif
@@ -67,9 +67,9 @@ vec3 prtBakedPosition() {
   return (prtToBake * vec4(position, 1.0)).xyz;
 }
 vec3 prtBakedNormal() {
-  vec3 turned = prtNormalToBake * normal;
-  float squared = dot(turned, turned);
-  return squared > 0.0 ? turned * inversesqrt(squared) : vec3(0.0);
+  vec3 rotated = prtNormalToBake * normal;
+  float squared = dot(rotated, rotated);
+  return squared > 0.0 ? rotated * inversesqrt(squared) : vec3(0.0);
 }
 #endif
 

@@ -187,10 +187,10 @@ export function lightOfVolume(volume) {
   const { uniforms } = volume;
   const toVolume = uniform(uniforms.prtToVolume.value);
   const sky = uniformArray(uniforms.prtSkyLight.value, "vec3");
-  const turned = mat3(toVolume);
-  const towards = (direction) => turned.mul(direction.transformDirection(cameraViewMatrix)).normalize().toVar();
+  const rotated = mat3(toVolume);
+  const towards = (direction) => rotated.mul(direction.transformDirection(cameraViewMatrix)).normalize().toVar();
   const point = toVolume.mul(vec4(positionWorld, 1)).xyz.toVar();
-  const light = incidentOf(tablesOf(volume), point, turned.mul(normalWorldGeometry).normalize());
+  const light = incidentOf(tablesOf(volume), point, rotated.mul(normalWorldGeometry).normalize());
   const open = light.map((_, o) => sky.element(o));
   return {
     irradianceOverPi: (normal) => incidentSum(light, towards(normal), COSINE).toVar(),

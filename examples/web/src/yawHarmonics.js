@@ -24,7 +24,7 @@ export function polarRows({ order, terms }, rows) {
 export const termsOf = (order) => 2 * order - 1;
 
 /** 1, cos(yaw), sin(yaw), cos(2 yaw), .. */
-export function turnTerms(order, yaw) {
+export function rotationTerms(order, yaw) {
   const terms = Float64Array.of(1, ...new Array(termsOf(order) - 1).fill(0));
   for (let m = 1; m < order; ++m) [terms[2 * m - 1], terms[2 * m]] = [Math.cos(m * yaw), Math.sin(m * yaw)];
   return terms;
@@ -63,7 +63,7 @@ export function yawSeries({ order, terms, rowCount }, rows, sky, all, series) {
     }
 }
 
-/** Writes constants [rows][4] of rows [first, end) at the yaw of `terms` (turnTerms). */
+/** Writes constants [rows][4] of rows [first, end) at the yaw of `terms` (rotationTerms). */
 export function updateAtYaw(series, terms, first, end, constants) {
   const count = terms.length;
   for (let row = first; row < end; ++row)

@@ -38,7 +38,7 @@ function placed(mesh, matrix) {
   return mesh;
 }
 
-const turn = new Quaternion().setFromAxisAngle(new Vector3(0.6, 0.8, 0), 1.2);
+const rotation = new Quaternion().setFromAxisAngle(new Vector3(0.6, 0.8, 0), 1.2);
 
 test("without predictors the shader is given nothing", () => {
   assert.deepEqual(bakedFrame(new Mesh(geometryOf()), []), { defines: {}, uniforms: {} });
@@ -46,7 +46,7 @@ test("without predictors the shader is given nothing", () => {
 
 test("places and normals are those of the file's world, also of nodes that mirror and stretch", () => {
   for (const scale of [[1, 1, 1], [2, 3, 0.5], [-1, 1, 1], [1e-6, 2e-6, 1e-6]]) {
-    const matrix = new Matrix4().compose(new Vector3(5, 6, 7), turn, new Vector3(...scale));
+    const matrix = new Matrix4().compose(new Vector3(5, 6, 7), rotation, new Vector3(...scale));
     const mesh = placed(new Mesh(geometryOf()), matrix);
     const frame = bakedFrame(mesh, PREDICTORS);
     // The squares stay within the range of floats, even for a very small node.
@@ -57,8 +57,8 @@ test("places and normals are those of the file's world, also of nodes that mirro
       // A normal stays perpendicular to tangents that rotate with the surface, and on its side.
       const along = new Vector3(...NORMALS[v]);
       for (const tangent of [new Vector3(1, 0, 0).cross(along), new Vector3(0, 1, 0).cross(along)]) {
-        const turned = tangent.clone().transformDirection(matrix);
-        assert.ok(Math.abs(turned.dot(normal)) < 1e-6);
+        const rotated = tangent.clone().transformDirection(matrix);
+        assert.ok(Math.abs(rotated.dot(normal)) < 1e-6);
       }
       assert.ok(normal.dot(along.clone().transformDirection(matrix)) > 0);
       assert.ok(Math.abs(normal.length() - 1) < 1e-6);

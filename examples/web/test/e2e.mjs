@@ -117,7 +117,7 @@ async function render(page, file, angle, { position, target, fieldOfView }, { sk
 }
 
 // Skies are shown as three shows them, with +X in the middle; prt has +Z there.
-const THREE_TURN = 90;
+const THREE_ROTATION = 90;
 
 const standardCamera = { position: [3.2, 2.6, 6.4], target: [0, 0.4, 0], fieldOfView: 35 };
 const query = (view) => ({
@@ -242,7 +242,7 @@ const viewOf = ({ camera, shares }) => ({ fieldOfView: 35, ...(camera ?? standar
 
 for (const [i, model] of poseless.filter(({ shares }) => !shares).entries())
   for (const angle of [25 + 40 * i, 200])
-    await check(`${model.name}, turned by ${angle}: suns light as prt relight does by rays`, async (page, errors) => {
+    await check(`${model.name}, rotated by ${angle}: suns light as prt relight does by rays`, async (page, errors) => {
       const view = viewOf(model);
       const { file } = normal(model);
       await page.goto(url({ model: model.name, quality: 1, angle, ...query(view), suns: 1 }));
@@ -352,7 +352,7 @@ await check("a Radiance sky lights as prt render does", async (page, errors) => 
   await page.goto(url({ model: "knot", angle: 25, ...query(standardCamera) }));
   await picture(page);
   const d = await difference(page, await canvas(page),
-    await render(page, models[0].levels[0].file, 25 + THREE_TURN, standardCamera, { sky: warmSky }));
+    await render(page, models[0].levels[0].file, 25 + THREE_ROTATION, standardCamera, { sky: warmSky }));
   console.log(`  mean ${d.mean.toFixed(3)} of 255`);
   assert.deepEqual(errors, []);
   assert.ok(d.mean < 2 * MEAN_TOLERANCE, `mean difference ${d.mean}`); // a few texels fill the background
@@ -367,7 +367,7 @@ await check("the sky is where three's own background has it", async (page, error
   const before = await canvas(page);
   if (screenshots) writeFileSync(join(screenshots, "own-background.png"), Buffer.from(before.split(",")[1], "base64"));
   const count = await drawn(page);
-  const showThrees = (turn) =>
+  const showThrees = (rotation) =>
     page.evaluate((radians) => {
       const shown = globalThis.prtkitPicture;
       const texture = shown.background.material.uniforms.environment.value;
@@ -377,18 +377,18 @@ await check("the sky is where three's own background has it", async (page, error
       shown.scene.backgroundRotation.y = radians;
       shown.expose = () => {}; // keep the exposure
       shown.draw();
-    }, turn);
+    }, rotation);
   await showThrees((angle * Math.PI) / 180);
   await picture(page, count);
   const same = (await difference(page, before, await canvas(page))).mean;
   const next = await drawn(page);
   await showThrees((-angle * Math.PI) / 180);
   await picture(page, next);
-  const turned = (await difference(page, before, await canvas(page))).mean;
-  console.log(`  mean ${same.toFixed(3)} of 255, turned the other way ${turned.toFixed(3)}`);
+  const rotated = (await difference(page, before, await canvas(page))).mean;
+  console.log(`  mean ${same.toFixed(3)} of 255, rotated the other way ${rotated.toFixed(3)}`);
   assert.deepEqual(errors, []);
   assert.ok(same < 2, `mean difference ${same}`); // three keeps it as a cube map
-  assert.ok(turned > 5 * same);
+  assert.ok(rotated > 5 * same);
 });
 
 for (const window of ["none", "hann", "lanczos"])
@@ -413,7 +413,7 @@ await check("dragging with the right button turns the light", async (page, error
   await picture(page, count);
   await page.waitForTimeout(200);
   const angle = await page.evaluate(() => (globalThis.prtkitPicture.angle * 180) / Math.PI);
-  assert.ok(Math.abs(angle - 90) < 1, `turned by ${angle}`);
+  assert.ok(Math.abs(angle - 90) < 1, `rotated by ${angle}`);
   const after = await canvas(page);
   assert.ok((await difference(page, before, after)).mean > 5);
   const d = await difference(page, after, await render(page, models[0].levels[0].file, angle, standardCamera));
@@ -469,7 +469,7 @@ await check("files that are dropped are shown and listed", async (page, errors) 
     const { camera, controls, fieldOfView } = globalThis.prtkitPicture;
     return { position: camera.position.toArray(), target: controls.target.toArray(), fieldOfView };
   });
-  const d = await difference(page, await canvas(page), await render(page, normal(other).file, THREE_TURN, view, { sky: warmSky }));
+  const d = await difference(page, await canvas(page), await render(page, normal(other).file, THREE_ROTATION, view, { sky: warmSky }));
   assert.ok(d.mean < 2 * MEAN_TOLERANCE, `mean difference ${d.mean}`);
   assert.deepEqual(errors, []);
   await dropped(page, { "notes.txt": warmSky });
@@ -639,8 +639,8 @@ await check("the light turns by itself", async (page, errors) => {
   const count = await drawn(page);
   await page.waitForTimeout(300);
   assert.ok((await drawn(page)) <= count + 1, "it goes on");
-  const turned = (await lightAngle()) - sunBefore - ((await angle()) - before);
-  assert.ok(Math.abs(Math.sin(turned / 2)) < 1e-6, "suns turn with the sky");
+  const rotated = (await lightAngle()) - sunBefore - ((await angle()) - before);
+  assert.ok(Math.abs(Math.sin(rotated / 2)) < 1e-6, "suns turn with the sky");
   assert.deepEqual(errors, []);
 });
 

@@ -11,7 +11,7 @@ import { join } from "node:path";
 import { fileURLToPath } from "node:url";
 import { chromium } from "playwright-core";
 import { build, createServer, preview } from "vite";
-import { environmentTurn, turnedBy } from "../src/turns.js";
+import { environmentRotation, turnedBy } from "../src/turns.js";
 import { distFolder } from "../tools/folders.mjs";
 import { ballScene } from "./ballScene.js";
 
@@ -109,12 +109,12 @@ await check("the picture is that of prt render", async () => {
 
 // Three's own diffuse light is a blurred environment: exact where that is even, a few percent off where it is not.
 for (const [metalness, side, rotation, most] of [[0, 0, [0, 0, 0], 0.01], [0.5, 0, [0, 0, 0], 0.01], [0, 0.3, [0, 0, 0], 0.05], [0, 0.3, [0.4, -0.7, 1.1], 0.05]])
-  await check(`an open ball of metalness ${metalness}, sky uneven by ${side} and turned by ${rotation}, is as three lights it`, async () => {
-    const { own, turned, others } = await ask("ball", { model: "ball.glb", rotation, metalness, side });
+  await check(`an open ball of metalness ${metalness}, sky uneven by ${side} and rotated by ${rotation}, is as three lights it`, async () => {
+    const { own, rotated, others } = await ask("ball", { model: "ball.glb", rotation, metalness, side });
     assert.ok(own.rms < most, JSON.stringify(own));
-    assert.ok(turned.rms < 0.01, `the model turned: ${turned.rms}`);
+    assert.ok(rotated.rms < 0.01, `the model rotated: ${rotated.rms}`);
     assert.ok(others.rms < 1e-3, `ambient and point lights add to it: ${others.rms}`);
-    return `${percent(own.rms)} rms, means ${own.ratio.toFixed(4)} times; turned itself ${percent(turned.rms)}`;
+    return `${percent(own.rms)} rms, means ${own.ratio.toFixed(4)} times; rotated itself ${percent(rotated.rms)}`;
   });
 
 await check("backgrounds are turned as is counted on", async () => {
@@ -126,7 +126,7 @@ await check("backgrounds are turned as is counted on", async () => {
   const [azimuth, theta] = [2 * Math.PI * ((x + 0.5) / 128 - 0.5), (Math.PI * (y + 0.5)) / 64];
   const direction = [Math.sin(theta) * Math.cos(azimuth), Math.cos(theta), Math.sin(theta) * Math.sin(azimuth)];
   for (const rotation of [[0, 0, 0], [0, 1, 0], [0.4, -0.7, 1.1]]) {
-    const seen = turnedBy(environmentTurn(new Euler(...rotation), revision), direction);
+    const seen = turnedBy(environmentRotation(new Euler(...rotation), revision), direction);
     assert.ok((await ask("inTheMiddle", { rotation, direction: seen, at: [x, y] })) > 10, `${rotation}`);
     assert.ok((await ask("inTheMiddle", { rotation, direction: seen.map((v) => -v), at: [x, y] })) < 1, `${rotation}`);
   }

@@ -3,7 +3,7 @@ import assert from "node:assert/strict";
 import { test } from "node:test";
 import { Box3, Matrix3, Matrix4, Quaternion, ShaderLib, Vector3 } from "three";
 import { GLTFLoader } from "three/examples/jsm/loaders/GLTFLoader.js";
-import { instanceTurns, InstanceModes } from "../src/instanceModes.js";
+import { instanceRotations, InstanceModes } from "../src/instanceModes.js";
 import { PrtkitPlugin, ShLight } from "../src/PrtkitLoader.js";
 import { evaluateSh, gaussLegendre } from "../src/sphericalHarmonics.js";
 import { PrtkitPlugin as NodePlugin } from "../src/webgpu.js";
@@ -100,11 +100,11 @@ test("turns about +Y fall into bins, others are their own", () => {
   const yaw = (angle) => rotation(new Quaternion().setFromAxisAngle(new Vector3(0, 1, 0), angle));
   const step = (2 * Math.PI) / 64;
   const leaning = rotation(new Quaternion(0.48, 0.36, 0, 0.8));
-  const { rotations, of } = instanceTurns([yaw(0), yaw(0.4 * step), yaw(-0.4 * step), yaw(0.6 * step), leaning, yaw(2 * Math.PI - 0.1 * step), leaning], 64);
+  const { rotations, of } = instanceRotations([yaw(0), yaw(0.4 * step), yaw(-0.4 * step), yaw(0.6 * step), leaning, yaw(2 * Math.PI - 0.1 * step), leaning], 64);
   assert.deepEqual([...of], [0, 0, 0, 1, 2, 0, 2]);
-  [0, 1].forEach((turn, i) => rotations[i].forEach((value, e) => near(value, yaw(turn * step)[e], 1e-12)));
+  [0, 1].forEach((rotation, i) => rotations[i].forEach((value, e) => near(value, yaw(rotation * step)[e], 1e-12)));
   assert.deepEqual(rotations[2], leaning);
-  assert.equal(instanceTurns([yaw(0), yaw(0.4 * step)], 0).rotations.length, 2);
+  assert.equal(instanceRotations([yaw(0), yaw(0.4 * step)], 0).rotations.length, 2);
 });
 
 /**
@@ -207,11 +207,11 @@ for (const by of ["vertices", "weights"])
           mesh.getMatrixAt(i, matrix);
           const axes = new Matrix4().extractRotation(matrix.premultiply(scene.matrixWorld));
           const modes = modesInFrame(2, ...lights, new Matrix3().setFromMatrix4(axes));
-          const turned = number === 2; // between bins of yaw: by 0.8 degrees
+          const rotated = number === 2; // between bins of yaw: by 0.8 degrees
           for (let v = 0; v < mesh.geometry.attributes.position.count; v += 97) {
             const own = numbers.slice(52 * number, 52 * (number + 1));
             const [value, expected] = [shaded(prtkit, mesh, i, v), expectedOf(prtkit, mesh, v, modes, own, BOXES[m])];
-            expected.forEach((x, c) => near(value[c], x, turned ? 0.03 : 1e-5, `instance ${number}, vertex ${v}`));
+            expected.forEach((x, c) => near(value[c], x, rotated ? 0.03 : 1e-5, `instance ${number}, vertex ${v}`));
           }
         }
       assert.equal(number, COUNT);
@@ -285,17 +285,17 @@ test("light that changes is formed anew, also as the model is turned", async () 
   const shown = { environment: null, backgroundRotation: { x: 0, y: 0, z: 0, order: "XYZ" }, backgroundIntensity: 1 };
   const light = lightOf(2, 3);
   prtkit.setLight(light, 0.4);
-  const turned = texture.image.data.slice();
+  const rotated = texture.image.data.slice();
   const { version } = texture;
   prtkit.setSky(light, shown);
-  assert.ok(texture.version > version && turned.some((value, i) => Math.abs(value - texture.image.data[i]) > 1e-3));
+  assert.ok(texture.version > version && rotated.some((value, i) => Math.abs(value - texture.image.data[i]) > 1e-3));
   scene.rotation.y = -0.4; // rotates the light by the same angle
   scene.updateMatrixWorld(true);
   prtkit.followSky();
-  turned.forEach((value, i) => near(texture.image.data[i], value, 1e-5));
+  rotated.forEach((value, i) => near(texture.image.data[i], value, 1e-5));
   shown.backgroundIntensity = 2;
   prtkit.followSky();
-  turned.forEach((value, i) => near(texture.image.data[i], 2 * value, 1e-5));
+  rotated.forEach((value, i) => near(texture.image.data[i], 2 * value, 1e-5));
 });
 
 test("the shader is that of the runtime for instances, and others have none of it", async () => {

@@ -84,23 +84,23 @@ const skinOf = (share, bones) => {
   skin.elements.forEach((_, i) => (skin.elements[i] = share * bones[0].elements[i] + (1 - share) * bones[1].elements[i]));
   return skin;
 };
-const turnOf = (skin) => new Matrix3().setFromMatrix4(skin).invert().transpose();
+const rotationOf = (skin) => new Matrix3().setFromMatrix4(skin).invert().transpose();
 
 /** Returns the positions of the ends of a square's diagonal, and its normal there. */
 export function cornersOf({ point: [x, y, z], normal, share }, bones) {
   const skin = skinOf(share, bones);
-  const turned = new Vector3(...normal).applyMatrix3(turnOf(skin)).normalize().toArray();
-  return [1, -1].map((side) => ({ point: new Vector3(x + side * SIZE, y - side * SIZE, z).applyMatrix4(skin).toArray(), normal: turned }));
+  const rotated = new Vector3(...normal).applyMatrix3(rotationOf(skin)).normalize().toArray();
+  return [1, -1].map((side) => ({ point: new Vector3(x + side * SIZE, y - side * SIZE, z).applyMatrix4(skin).toArray(), normal: rotated }));
 }
 
 /** Returns the position of a square, and its radiance for albedo 1 under coefficients [order²][3]. */
 export function radianceOf({ point, share, lobes }, bones, order, light) {
   const skin = skinOf(share, bones);
-  const turn = turnOf(skin);
+  const rotation = rotationOf(skin);
   const gains = profiles(order);
   const sum = [0, 0, 0];
   for (const [a, b, profile, scale] of lobes) {
-    const axis = axisOf([a, b]).applyMatrix3(turn).normalize();
+    const axis = axisOf([a, b]).applyMatrix3(rotation).normalize();
     evaluateSh(order, axis.x, axis.y, axis.z).forEach((value, i) => {
       const gain = (scale / 255) * gains[profile][Math.floor(Math.sqrt(i + 0.5))];
       sum.forEach((_, c) => (sum[c] += gain * value * light[3 * i + c]));

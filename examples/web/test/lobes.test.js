@@ -57,9 +57,9 @@ test("the shader turns axes with the skin, in three's own", async () => {
   assert.deepEqual([material.defines.PRT_LOBES, material.defines.PRT_LOBE_ORDER], [2, 3]);
   const shader = { uniforms: {}, vertexShader: ShaderLib.physical.vertexShader, fragmentShader: ShaderLib.physical.fragmentShader };
   material.onBeforeCompile(shader);
-  assert.match(shader.vertexShader, /mat3 prt_lobe_turn\(mat3 m\)/);
+  assert.match(shader.vertexShader, /mat3 prt_lobe_rotation\(mat3 m\)/);
   // Behind three's matrix of the skin, and where the vertex is known.
-  assert.match(shader.vertexShader, /#include <skinnormal_vertex>[^]*prtMoved \* mat3\( skinMatrix \)[^]*prtRadiance = prtLobeRadiance\( prt_lobe_turn\( prtMoved \), vec3\( 0\.0 \) \);/);
+  assert.match(shader.vertexShader, /#include <skinnormal_vertex>[^]*prtMoved \* mat3\( skinMatrix \)[^]*prtRadiance = prtLobeRadiance\( prt_lobe_rotation\( prtMoved \), vec3\( 0\.0 \) \);/);
   assert.match(shader.vertexShader, /PRT_LOBE_PROFILE\(i\) texelFetch\( prt_lobe_profiles/);
   assert.doesNotMatch(shader.vertexShader, /vec3 prt_exit_radiance/);
   assert.doesNotMatch(shader.vertexShader, /#include "/);
@@ -102,7 +102,7 @@ for (const [what, change, message] of [
   ["fewer lobes", (json, binary) => {
     json.meshes[0].primitives[0].attributes._PRT_LOBE_0 = binary.accessor(new Uint8Array(16), "VEC4");
   }, /a primitive lacks _PRT_LOBE_0 of four bytes/],
-  ["transfer of one pose, too", (json) => (json.extensions.PRTKIT_clustered_pca = {}), /the file has transfer that does not turn/],
+  ["transfer of one pose, too", (json) => (json.extensions.PRTKIT_clustered_pca = {}), /the file has transfer that does not rotation/],
 ])
   test(`${what}: refused with a reason`, async () => {
     await assert.rejects(load(lobeModel(4, change)), (error) => {

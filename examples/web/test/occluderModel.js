@@ -96,9 +96,9 @@ function leftBy({ min, max, reach }, texels, matrix, position, normal) {
   const t = clamp((far / reach - 0.6) / 0.4, 0, 1);
   const blocked = root * root * (1 - t * t * (3 - 2 * t));
   if (blocked <= 0) return 1;
-  const turned = new Vector3(...lean).applyMatrix4(matrix.clone().setPosition(0, 0, 0)).divideScalar(scale);
-  const share = Math.max(1 - (1 - blocked) * Math.min(turned.length(), 1), blocked);
-  return 1 - (blocked / share) * capCosine(turned.normalize().toArray(), share, normal);
+  const rotated = new Vector3(...lean).applyMatrix4(matrix.clone().setPosition(0, 0, 0)).divideScalar(scale);
+  const share = Math.max(1 - (1 - blocked) * Math.min(rotated.length(), 1), blocked);
+  return 1 - (blocked / share) * capCosine(rotated.normalize().toArray(), share, normal);
 }
 
 /** Returns the fraction that remains with all parts, at the matrices `moved`. */

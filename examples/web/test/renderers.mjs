@@ -217,10 +217,10 @@ const [across, down] = [48, 40];
 const volumeLight = Array.from({ length: 27 }, (_, i) => Math.cos(3 * i + 1) + (i < 3 ? 3 : 0));
 /** Through both bricks and between probes, beyond the box, and where there is no brick. */
 const points = [
-  { point: [-0.53, 0.61, -0.37], turn: [0.3, 0.5, 0.1] },
-  { point: [0.31, 0.13, -0.91], turn: [-1.2, 0.2, 2.1] },
-  { point: [-1.77, -0.41, -1.23], turn: [0.4, 2.6, -0.3] },
-  { point: [0.07, 1.23, 0.29], turn: [1.1, -0.7, 0.9] },
+  { point: [-0.53, 0.61, -0.37], rotation: [0.3, 0.5, 0.1] },
+  { point: [0.31, 0.13, -0.91], rotation: [-1.2, 0.2, 2.1] },
+  { point: [-1.77, -0.41, -1.23], rotation: [0.4, 2.6, -0.3] },
+  { point: [0.07, 1.23, 0.29], rotation: [1.1, -0.7, 0.9] },
 ];
 
 /**
@@ -232,16 +232,16 @@ async function offPlain(askThere, asked, expected) {
   const volume = volumeOf(extension, view);
   const columns = lightColumns(volume.clusters, volumeLight, null, [0.5, 2, 0.25]);
   const pixels = await askThere("lit", { ...asked, light: volumeLight, lamps: { Lantern: [0.5, 2, 0.25] }, size: [across, down] });
-  const turned = new Euler().fromArray(asked.turn);
-  const normal = new Vector3(0, 0, 1).applyEuler(turned).toArray();
+  const rotated = new Euler().fromArray(asked.rotation);
+  const normal = new Vector3(0, 0, 1).applyEuler(rotated).toArray();
   let [most, brightest] = [0, 0];
   for (let y = 0; y < down; ++y)
     for (let x = 0; x < across; ++x) {
       const row = asked.api === "webgpu" ? down - 1 - y : y;
-      const at = new Vector3((2 * (x + 0.5)) / across - 1, (2 * (y + 0.5)) / down - 1, 0).applyEuler(turned);
+      const at = new Vector3((2 * (x + 0.5)) / across - 1, (2 * (y + 0.5)) / down - 1, 0).applyEuler(rotated);
       const incident = incidentAround(volume, asked.point.map((value, a) => value + at.toArray()[a]), normal, columns);
       // Nodes of three compute one view position, also for orthographic cameras.
-      const towards = asked.api === "webgl" ? normal : new Vector3(0, 0, 2).applyEuler(turned).sub(at).normalize().toArray();
+      const towards = asked.api === "webgl" ? normal : new Vector3(0, 0, 2).applyEuler(rotated).sub(at).normalize().toArray();
       const cosine = normal.reduce((sum, value, a) => sum + value * towards[a], 0);
       const mirrored = normal.map((value, a) => 2 * cosine * value - towards[a]);
       expected(incident, normal, mirrored).forEach((value, c) => {
@@ -268,7 +268,7 @@ for (const [api, askThere] of [["webgl", ask], ["nodes", ask], ["webgpu", onWebg
       const off = await offPlain(askThere, { ...matte, floats: true, kind, ...points[0] }, (incident, normal) => sumOf(incident, normal));
       assert.ok(off < 1e-5, `${kind}: ${off}`);
     }
-    const off = await offPlain(askThere, { ...matte, floats: true, moved: { point: [0.5, -0.25, 2], turn: [0.4, 1.3, -0.6] }, ...points[1] }, (incident, normal) => sumOf(incident, normal));
+    const off = await offPlain(askThere, { ...matte, floats: true, moved: { point: [0.5, -0.25, 2], rotation: [0.4, 1.3, -0.6] }, ...points[1] }, (incident, normal) => sumOf(incident, normal));
     assert.ok(off < 1e-5, `moved: ${off}`);
   });
   await check(`${api}: chrome mirrors what comes in from there`, async () => {
@@ -281,11 +281,11 @@ for (const [api, askThere] of [["webgl", ask], ["nodes", ask], ["webgpu", onWebg
 
 await check("what passes over baked surfaces takes as much of their light as plain numbers say", async () => {
   const moved = [
-    { point: [0.2, 0.7, -0.3], turn: [0.3, 1.1, -0.2], scale: 1 },
-    { point: [-0.6, 0.3, 0.5], turn: [0, -0.4, 0], scale: 1.5 },
+    { point: [0.2, 0.7, -0.3], rotation: [0.3, 1.1, -0.2], scale: 1 },
+    { point: [-0.6, 0.3, 0.5], rotation: [0, -0.4, 0], scale: 1.5 },
   ];
-  const matrices = moved.map(({ point, turn, scale }) =>
-    new Matrix4().compose(new Vector3(...point), new Quaternion().setFromEuler(new Euler(...turn)), new Vector3(scale, scale, scale)).toArray());
+  const matrices = moved.map(({ point, rotation, scale }) =>
+    new Matrix4().compose(new Vector3(...point), new Quaternion().setFromEuler(new Euler(...rotation)), new Vector3(scale, scale, scale)).toArray());
   const size = [16, 12];
   const [open, occluded, after] = await ask("occluded", { model: "vertices.glb", passer: "passer.glb", moved, centre: [0, 0], size, light });
   assert.deepEqual(after, open);
@@ -307,10 +307,10 @@ await check("lobes turn with the skin, and have the light of the world, as plain
   const size = [96, 96];
   let [most, seen] = [0, 0];
   for (const order of [2, 3, 4])
-    for (const [pose, turn] of [[[[0, 0, 0], [0, 0, 0]], [0, 0, 0]], [[[0.3, -0.2, 0.4], [-0.5, 0.4, -0.2]], [0.2, 0.3, 0.1]]]) {
+    for (const [pose, rotation] of [[[[0, 0, 0], [0, 0, 0]], [0, 0, 0]], [[[0.3, -0.2, 0.4], [-0.5, 0.4, -0.2]], [0.2, 0.3, 0.1]]]) {
       const sky = Array.from({ length: 3 * order * order }, (_, i) => 0.6 * Math.cos(3 * i + 1) + (i < 3 ? 3 : 0));
-      const pixels = await ask("posed", { model: `lobes_${order}.glb`, pose, turn, light: sky, size });
-      const all = new Matrix4().makeRotationFromEuler(new Euler(...turn));
+      const pixels = await ask("posed", { model: `lobes_${order}.glb`, pose, rotation, light: sky, size });
+      const all = new Matrix4().makeRotationFromEuler(new Euler(...rotation));
       const bones = boneMatrices(pose).map((bone) => bone.premultiply(all));
       for (const square of squares()) {
         const { point, radiance } = radianceOf(square, bones, order, sky);
@@ -332,7 +332,7 @@ await check("lobes have the light of the volume where they are, as plain numbers
   const columns = lightColumns(volume.clusters, volumeLight, null, null);
   const pose = [[0.3, -0.2, 0.4], [-0.5, 0.4, -0.2]];
   const bones = boneMatrices(pose);
-  const pixels = await ask("posed", { model: "lobes_4.glb", volume: "volume.glb", pose, turn: [0, 0, 0], light: volumeLight, size });
+  const pixels = await ask("posed", { model: "lobes_4.glb", volume: "volume.glb", pose, rotation: [0, 0, 0], light: volumeLight, size });
   let [most, brightest, seen] = [0, 0, 0];
   for (const square of squares()) {
     const { point } = radianceOf(square, bones, 4, new Float64Array(48));

@@ -84,13 +84,13 @@ test("a turned light is the light of the turned image", () => {
   const sky = ([x, y, z]) => [Math.exp(2 * x - y), Math.exp(z + 0.5 * x * y), Math.max(0, y)];
   const angle = 1.234;
   const [c, s] = [Math.cos(angle), Math.sin(angle)];
-  const turned = projectLatLong(imageOf(512, 256, sky), 8).coefficients(angle);
+  const rotated = projectLatLong(imageOf(512, 256, sky), 8).coefficients(angle);
   // f'(w) = f(R^-1 w)
   const expected = projectLatLong(
     imageOf(512, 256, ([x, y, z]) => sky([c * x - s * z, y, s * x + c * z])),
     8,
   ).coefficients();
-  expected.forEach((value, i) => near(turned[i], value, 2e-3, `coefficient ${i}`));
+  expected.forEach((value, i) => near(rotated[i], value, 2e-3, `coefficient ${i}`));
 });
 
 test("a quarter turn brings light from +Z to +X", () => {
@@ -168,8 +168,8 @@ test("turning the light does not change the factors", () => {
   for (let k = 0; k < 12; ++k) {
     const z = 1 - (2 * k + 1) / 12;
     const towards = [Math.sqrt(1 - z * z) * Math.cos(2.4 * k), Math.sqrt(1 - z * z) * Math.sin(2.4 * k), z];
-    const turned = deringFactors(order, sunAndSky(order, towards, [0.1, 0.1, 0.2]));
-    turned.forEach((factor, l) => near(factor, straight[l], 0.03, `${towards}, band ${l}:`));
+    const rotated = deringFactors(order, sunAndSky(order, towards, [0.1, 0.1, 0.2]));
+    rotated.forEach((factor, l) => near(factor, straight[l], 0.03, `${towards}, band ${l}:`));
   }
 });
 
@@ -207,8 +207,8 @@ test("a turned light is what its directions say, whatever the rotation", () => {
     const [before, after] = [light.coefficients(), light.rotated(matrix).coefficients()];
     const radiance = (coefficients, d) => evaluateSh(7, ...d).reduce((sum, y, i) => sum + y * coefficients[3 * i + 1], 0);
     for (const d of [[0.36, -0.48, 0.8], [0, 0, -1], [-0.6, 0, 0.8]]) {
-      const turned = [0, 1, 2].map((row) => matrix[row] * d[0] + matrix[3 + row] * d[1] + matrix[6 + row] * d[2]);
-      near(radiance(after, turned), radiance(before, d), 1e-12);
+      const rotated = [0, 1, 2].map((row) => matrix[row] * d[0] + matrix[3 + row] * d[1] + matrix[6 + row] * d[2]);
+      near(radiance(after, rotated), radiance(before, d), 1e-12);
     }
   }
 });
@@ -216,6 +216,6 @@ test("a turned light is what its directions say, whatever the rotation", () => {
 test("a turn about +Y is the same by its matrix as by its angle", () => {
   const light = new ShLight(4, Float64Array.from({ length: 48 }, (_, i) => Math.cos(i * i)));
   const [cosine, sine] = [Math.cos(0.7), Math.sin(0.7)];
-  const turned = light.rotated([cosine, 0, -sine, 0, 1, 0, sine, 0, cosine]).coefficients();
-  light.coefficients(0.7).forEach((value, i) => near(turned[i], value, 1e-12));
+  const rotated = light.rotated([cosine, 0, -sine, 0, 1, 0, sine, 0, cosine]).coefficients();
+  light.coefficients(0.7).forEach((value, i) => near(rotated[i], value, 1e-12));
 });

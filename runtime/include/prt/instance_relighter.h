@@ -48,7 +48,7 @@ public:
     /// Number of vectors in the constants of all instances: three per row.
     std::size_t size() const { return size_; }
     /// Maximum error of the rotation of an instance's lighting, in degrees.
-    double max_degrees() const { return turns_.max_degrees; }
+    double max_degrees() const { return rotations_.max_degrees; }
     /// Returns the attributes of each instance, [instances][2]: the center of its box, and the inverse half
     /// widths. The two w hold the offset of its constants, 16 bits each.
     std::vector<glm::vec4> table() const;
@@ -59,7 +59,7 @@ public:
 private:
     ClusterLighting relighter_;
     InstanceModes modes_;
-    InstanceTurns turns_;
+    InstanceRotations rotations_;
     std::vector<RelitInstance> instances_;
     std::vector<std::size_t> begins_;            ///< [instances] index of their first constant
     std::vector<std::vector<std::uint32_t>> of_; ///< [turns] instances with each rotation

@@ -154,7 +154,7 @@ void expand_instance(const SharedTransfer& shared, const PlacedInstance& instanc
 
 /// Assigns each instance a rotation in which its lighting is evaluated, so that few rotated lightings are
 /// needed.
-struct InstanceTurns {
+struct InstanceRotations {
     std::vector<glm::dmat3> rotations; ///< from the mesh's frame to the world's
     std::vector<std::uint32_t> of;     ///< [instances] index into `rotations`
     double max_degrees = 0;            ///< maximum angle between an instance's rotation and its assigned
@@ -162,11 +162,11 @@ struct InstanceTurns {
 };
 /// Groups rotations. Rotations about +Y are rounded to `bins` evenly spaced yaws. All others, and all if
 /// `bins` is 0, share a rotation only if they differ by at most `degrees`.
-InstanceTurns instance_turns(std::span<const glm::dmat3> rotations, int bins, double degrees = 0.01);
+InstanceRotations instance_rotations(std::span<const glm::dmat3> rotations, int bins, double degrees = 0.01);
 
 /// Rotates the lightings of all modes into the mesh frame of a rotation, for the constants of instances.
-std::array<Lighting, kInstanceModes> turned_into(const glm::dmat3& rotation,
-                                                 std::array<Lighting, kInstanceModes> lightings);
+std::array<Lighting, kInstanceModes> rotated_into(const glm::dmat3& rotation,
+                                                  std::array<Lighting, kInstanceModes> lightings);
 
 /// Computes the exit radiance of a vertex for albedo 1; `of_modes` is its radiance under each mode.
 glm::vec3 exit_radiance(const InstanceFactors& factors, const glm::vec3& position,

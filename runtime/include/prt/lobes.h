@@ -5,11 +5,11 @@
 // radiance transfer", 2005). Fitted by prt/lobe_fit.h, written to files by prt/lobe_gltf.h, and evaluated
 // here and by shaders/prt_lobes.glsl. Experimental.
 //
-//     const glm::mat3 turn = axis_turn(skin_matrix);               // of the vertex, in this frame
+//     const glm::mat3 turn = axis_rotation(skin_matrix);               // of the vertex, in this frame
 //     std::array<Lobe, kMaxLobes> lobes;
 //     model.decode(vertex, lobes);
 //     for (Lobe& lobe : lobes)
-//         lobe.axis = turned_axis(lobe.axis, turn);
+//         lobe.axis = rotated_axis(lobe.axis, turn);
 //     const glm::vec3 radiance = albedo * lobe_radiance(lobes, light, model.order);
 
 #include "prt/support/glm_layout.h"
@@ -71,9 +71,9 @@ void check_lobes(const LobeModel& model);
 /// Returns the matrix that transforms the lobe axes of a vertex. `matrix` is the blended skin matrix of the
 /// vertex, not necessarily a rotation. Axes transform like normals, by the cofactors, so that an unoccluded
 /// vertex is lit by its normal in every pose.
-glm::mat3 axis_turn(const glm::mat3& matrix);
+glm::mat3 axis_rotation(const glm::mat3& matrix);
 /// Returns the transformed axis, normalised; returns `axis` unchanged if the transformed vector is zero.
-glm::vec3 turned_axis(const glm::vec3& axis, const glm::mat3& turn);
+glm::vec3 rotated_axis(const glm::vec3& axis, const glm::mat3& rotation);
 
 /// Computes the exit radiance for albedo 1, clamped to 0. `light`: coefficients of incident light,
 /// [light_order²]; bands of lobes above `light_order` are ignored.

@@ -47,22 +47,22 @@ public:
     void apply(std::span<const glm::vec3> in, std::span<glm::vec3> out) const;
 
     /// cos(m a) and sin(m a) of a rotation by a about z.
-    struct Turn {
+    struct Rotation {
         static constexpr std::size_t kZero = 3; ///< index of m = 0; vector code that handles several bands
                                                 ///< reads the entries before it
         std::array<double, kZero + kMaxOrder> cosine, sine;
-        Turn() {} // leaves entries that the order does not use uninitialised
+        Rotation() {} // leaves entries that the order does not use uninitialised
     };
     /// Decomposition of a rotation: about z first, then about y (tilt), then about z again.
-    struct Turns {
-        Turn first, tilt, last;
+    struct Rotations {
+        Rotation first, tilt, last;
         bool tilted = false; ///< false: the rotation is `first` alone
     };
 
 private:
     int order_;
-    glm::dmat3 matrix_; ///< rotates bands 1 and 2
-    Turns turns_;       ///< rotates the higher bands
+    glm::dmat3 matrix_;   ///< rotates bands 1 and 2
+    Rotations rotations_; ///< rotates the higher bands
 };
 
 } // namespace prt

@@ -96,15 +96,15 @@ struct MapAxes {
 /// Returns the axes for which the bounding rectangle of the slice is smallest, among rotations about the
 /// light direction.
 MapAxes axes_of(const SunDisc& sun, const Slice& slice) {
-    constexpr int kTurns = 24;
+    constexpr int kRotations = 24;
     const glm::dvec3 along = -glm::normalize(glm::dvec3(sun.towards));
     const TangentFrame frame = tangent_frame(sun.towards);
     const glm::dvec3 first = glm::normalize(glm::cross(glm::dvec3(frame.bitangent), along)),
                      second = glm::cross(along, first);
     MapAxes best{};
     double least = std::numeric_limits<double>::infinity();
-    for (int turn = 0; turn < kTurns; ++turn) {
-        const double angle = 0.5 * std::numbers::pi * turn / kTurns;
+    for (int rotation = 0; rotation < kRotations; ++rotation) {
+        const double angle = 0.5 * std::numbers::pi * rotation / kRotations;
         const MapAxes axes{std::cos(angle) * first + std::sin(angle) * second,
                            std::cos(angle) * second - std::sin(angle) * first, along};
         const double area =

@@ -34,12 +34,13 @@ struct Attribute {
 /// transforms.
 std::vector<float> read_attribute(const tinygltf::Model& model, int index, const Attribute& attribute) {
     const tinygltf::Accessor& accessor = get_accessor(model, index);
-    const bool turns = attribute.components == 4;
+    const bool rotations = attribute.components == 4;
     const bool small = accessor.componentType == TINYGLTF_COMPONENT_TYPE_BYTE ||
                        accessor.componentType == TINYGLTF_COMPONENT_TYPE_SHORT;
-    if (accessor.componentType != TINYGLTF_COMPONENT_TYPE_FLOAT && !(turns && small && accessor.normalized))
+    if (accessor.componentType != TINYGLTF_COMPONENT_TYPE_FLOAT &&
+        !(rotations && small && accessor.normalized))
         throw Error(std::string(attribute.name) + " of its instances holds " +
-                    (turns ? "neither floats nor normalized signed bytes or shorts" : "no floats"));
+                    (rotations ? "neither floats nor normalized signed bytes or shorts" : "no floats"));
     std::vector<float> values = read_floats(model, index, static_cast<int>(attribute.components));
     for (std::size_t first = 0; first < values.size(); first += attribute.components) {
         const std::span<const float> one = std::span(values).subspan(first, attribute.components);
@@ -47,7 +48,7 @@ std::vector<float> read_attribute(const tinygltf::Model& model, int index, const
             std::string(attribute.name) + " of instance " + std::to_string(first / attribute.components);
         if (!std::ranges::all_of(one, [](float number) { return std::isfinite(number); }))
             throw Error(name + " is not finite");
-        if (turns && std::ranges::all_of(one, [](float number) { return number == 0; }))
+        if (rotations && std::ranges::all_of(one, [](float number) { return number == 0; }))
             throw Error(name + " is zero, and no rotation");
     }
     return values;

@@ -55,9 +55,9 @@ bool is_visible(const tinygltf::Node& node) {
 glm::dmat4 LocalPose::transform() const {
     if (matrix)
         return *matrix;
-    const glm::dmat4 turned =
+    const glm::dmat4 rotated =
         glm::translate(glm::dmat4(1), translation) * glm::mat4_cast(glm::normalize(rotation));
-    return glm::scale(turned, scale);
+    return glm::scale(rotated, scale);
 }
 
 NodeTree node_tree(const tinygltf::Model& model) {

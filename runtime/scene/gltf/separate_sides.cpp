@@ -157,14 +157,14 @@ private:
                 move(target);
     }
 
-    std::size_t moved_accessor(int old, bool turns, const BackVertices& backs, Moved& moved) {
-        const auto [found, is_new] = moved.try_emplace({old, turns}, 0);
+    std::size_t moved_accessor(int old, bool rotations, const BackVertices& backs, Moved& moved) {
+        const auto [found, is_new] = moved.try_emplace({old, rotations}, 0);
         if (!is_new)
             return found->second;
         replaced_.insert(static_cast<std::size_t>(old));
         std::vector<std::byte> elements = gathered_elements(contents_.model, old, backs.source());
         const std::size_t size = elements.size() / backs.source().size();
-        if (turns)
+        if (rotations)
             negate(get_accessor(contents_.model, old).componentType,
                    std::span(elements).subspan(backs.fronts() * size));
         return found->second = add_vertex_accessor(

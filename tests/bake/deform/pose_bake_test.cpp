@@ -58,9 +58,9 @@ Tube tube() {
 }
 
 void add_keys(GlbFile& file, const std::string& name, const std::vector<float>& times,
-              const std::vector<float>& turns) {
+              const std::vector<float>& rotations) {
     const auto input = file.accessor(times, test::kFloat, "SCALAR", 1),
-               output = file.accessor(turns, test::kFloat, "VEC4", 4);
+               output = file.accessor(rotations, test::kFloat, "VEC4", 4);
     file.json["animations"].push_back(
         {{"name", name},
          {"samplers", {{{"input", input}, {"output", output}, {"interpolation", "LINEAR"}}}},
@@ -188,19 +188,19 @@ TEST(PoseBake, LobesOfABentTubeTurnWithTheBend) {
     const PoseTransfer truth = bake_pose(model, bent, options);
     const VertexFrames frames(model, bent);
     const std::vector<glm::vec3> normals = normals_in(model, bent);
-    Transfer turned = zero_transfer(4, 1, frames.vertices()), still = turned;
+    Transfer rotated = zero_transfer(4, 1, frames.vertices()), still = rotated;
     for (std::size_t v = 0; v < frames.vertices(); ++v) {
         Lobe lobe = fitted[v];
         lobe_transfer({&lobe, 1}, 4, still.vector(v));
-        lobe.axis = turned_axis(lobe.axis, axis_turn(glm::mat3(frames.matrix(v))));
-        lobe_transfer({&lobe, 1}, 4, turned.vector(v));
+        lobe.axis = rotated_axis(lobe.axis, axis_rotation(glm::mat3(frames.matrix(v))));
+        lobe_transfer({&lobe, 1}, 4, rotated.vector(v));
         // The ends hardly see each other: their lobes are those of their normals.
         if (v < 2 * kSides || v >= (kRings - 2) * kSides) {
             EXPECT_GT(glm::dot(lobe.axis, normals[v]), 0.995f) << v;
         }
     }
     // Noise of 4096 rays, and occlusion inside the bend; without rotation the error is half of all light.
-    EXPECT_LT(relative_l2(truth.transfer, turned, truth.areas), 0.06);
+    EXPECT_LT(relative_l2(truth.transfer, rotated, truth.areas), 0.06);
     EXPECT_GT(relative_l2(truth.transfer, still, truth.areas), 0.25);
 }
 

@@ -225,24 +225,24 @@ TEST(GpuLamps, ThatAreThereInPartAreTheCpus) {
 /// A floor meets a wall that shines: at the edge half of the sky of a vertex is wall, which it sees edge on,
 /// from a hair before it.
 TEST(GpuLamps, LightWhatStandsInTheirPlane) {
-    for (const float turn : {0.0f, 0.4f}) {
-        const auto turned = [turn](const glm::vec3& p) {
-            return glm::vec3(std::cos(turn) * p.x + std::sin(turn) * p.z, p.y,
-                             std::cos(turn) * p.z - std::sin(turn) * p.x);
+    for (const float rotation : {0.0f, 0.4f}) {
+        const auto rotated = [rotation](const glm::vec3& p) {
+            return glm::vec3(std::cos(rotation) * p.x + std::sin(rotation) * p.z, p.y,
+                             std::cos(rotation) * p.z - std::sin(rotation) * p.x);
         };
         Scene wall = SceneBuilder()
                          .quad({-50, 0, 0}, {50, 0, 0}, {50, 100, 0}, {-50, 100, 0})
-                         .transform(turned)
+                         .transform(rotated)
                          .build();
         wall.materials[0].emission.radiance = glm::vec3(1);
         LitScene scene(test::join(
-            {SceneBuilder().quad({-1, 0, 0}, {-1, 0, 2}, {1, 0, 2}, {1, 0, 0}).transform(turned).build(),
+            {SceneBuilder().quad({-1, 0, 0}, {-1, 0, 2}, {1, 0, 2}, {1, 0, 0}).transform(rotated).build(),
              wall}));
         LampOptions options;
         options.rays = 1024;
         const LampLight light = scene.on_gpu(options);
         for (const std::size_t p : {0u, 3u})
-            EXPECT_NEAR(radiance(light, p, 0).x, 0.5, 0.02) << turn << " " << p;
+            EXPECT_NEAR(radiance(light, p, 0).x, 0.5, 0.02) << rotation << " " << p;
     }
 }
 

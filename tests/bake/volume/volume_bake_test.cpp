@@ -75,9 +75,9 @@ double half_product(std::size_t o, std::size_t i) {
     constexpr int kZ = 64, kTurn = 64;
     for (int a = 0; a < kZ; ++a)
         for (int b = 0; b < kTurn; ++b) {
-            const double y = (a + 0.5) / kZ, turn = 2 * std::numbers::pi * b / kTurn,
+            const double y = (a + 0.5) / kZ, rotation = 2 * std::numbers::pi * b / kTurn,
                          r = std::sqrt(1 - y * y);
-            evaluate_sh(4, glm::dvec3(r * std::cos(turn), y, r * std::sin(turn)), basis);
+            evaluate_sh(4, glm::dvec3(r * std::cos(rotation), y, r * std::sin(rotation)), basis);
             sum += basis[o] * basis[i] * 2 * std::numbers::pi / (kZ * kTurn);
         }
     return sum;

@@ -84,9 +84,9 @@ std::array<float, 6> distances_before(const glm::vec3& normal, float offset, flo
     VisibilityVotes votes;
     votes.begin(glm::vec3(0), 1);
     for (int i = 0; i < kRays; ++i) {
-        const double y = 1 - (2 * i + 1.0) / kRays, turn = 2 * std::numbers::pi * i / std::numbers::phi,
+        const double y = 1 - (2 * i + 1.0) / kRays, rotation = 2 * std::numbers::pi * i / std::numbers::phi,
                      radius = std::sqrt(1 - y * y);
-        const glm::vec3 d(radius * std::cos(turn), y, radius * std::sin(turn));
+        const glm::vec3 d(radius * std::cos(rotation), y, radius * std::sin(rotation));
         const float along = offset / glm::dot(normal, d);
         if (along > 0 && glm::length(d * along - normal * offset) < limit)
             votes.add_hit(d * along, normal, 1);

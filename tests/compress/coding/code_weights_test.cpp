@@ -27,7 +27,7 @@ void expect_kept(const QuantisedClusters& clusters, std::mt19937& random) {
     std::vector<std::vector<float>> written(kPoints);
     std::vector<std::size_t> cluster(kPoints);
     std::uniform_real_distribution<float> unit(-1, 1);
-    for (int turn = 0; turn < 2; ++turn) // the second time in other clusters
+    for (int rotation = 0; rotation < 2; ++rotation) // the second time in other clusters
         for (std::size_t p = 0; p < kPoints; ++p) {
             cluster[p] = random() % clusters.clusters();
             written[p].clear();

@@ -100,12 +100,12 @@ TEST_P(OfLayouts, NoTurnIsWorseThanTheWorstAndItIsFound) {
     Case c(GetParam());
     const Lighting lighting = c.lighting();
     const ErrorMoments moments = c.moments();
-    const LitRmsOverTurns found = lit_rms_over_turns(moments, lighting);
+    const LitRmsOverRotations found = lit_rms_over_rotations(moments, lighting);
     const auto at = [&](double angle) {
-        Lighting turned{rotated_about_y(lighting.sky, angle), {}, lighting.lamps};
+        Lighting rotated{rotated_about_y(lighting.sky, angle), {}, lighting.lamps};
         if (lighting.suns)
-            turned.suns = rotated_about_y(*lighting.suns, angle);
-        return turned;
+            rotated.suns = rotated_about_y(*lighting.suns, angle);
+        return rotated;
     };
     double worst = 0;
     for (int degree = 0; degree < 720; ++degree)
@@ -117,7 +117,7 @@ TEST_P(OfLayouts, NoTurnIsWorseThanTheWorstAndItIsFound) {
 
 /// A receiver that sees only band 1 along X is dark if light comes along Z. In space, the mean square of a
 /// coefficient of band 1 is a third of its power.
-TEST(ErrorMomentsOverTurns, CompareWithATenthOfTheMeanOverAllRotationsInTheDark) {
+TEST(ErrorMomentsOverRotations, CompareWithATenthOfTheMeanOverAllRotationsInTheDark) {
     const TransferLayout layout = layout_of_one(2, 1);
     Transfer reference = zero_transfer(layout, 1), approximation = reference;
     reference.vector(0)[3] = 2;
@@ -126,39 +126,39 @@ TEST(ErrorMomentsOverTurns, CompareWithATenthOfTheMeanOverAllRotationsInTheDark)
     Light light{2, std::vector<glm::vec3>(4, glm::vec3(0))};
     light.coefficients[0] = glm::vec3(5);
     light.coefficients[3] = glm::vec3(1);
-    const LitRmsOverTurns found =
-        lit_rms_over_turns(error_moments(reference, approximation, std::vector<float>(1, 1.0f)), {light});
+    const LitRmsOverRotations found =
+        lit_rms_over_rotations(error_moments(reference, approximation, std::vector<float>(1, 1.0f)), {light});
     EXPECT_NEAR(found.worst, 0.005 / (0.1 * std::sqrt(4.0 / 3)), 1e-6);
     EXPECT_NEAR(found.mean, 0.005 / std::sqrt(4.0 / 2), 1e-6);
 }
 
 /// Light in bands that transfer does not have: errors are relative to float rounding only.
-TEST(ErrorMomentsOverTurns, AreFiniteWhereTransferHasOtherBandsThanTheLight) {
+TEST(ErrorMomentsOverRotations, AreFiniteWhereTransferHasOtherBandsThanTheLight) {
     const TransferLayout layout = layout_of_one(2, 1);
     Transfer reference = zero_transfer(layout, 1), approximation = reference;
     reference.vector(0)[3] = 1;
     approximation.vector(0)[0] = 1e-9f;
     approximation.vector(0)[3] = 1;
     const ErrorMoments moments = error_moments(reference, approximation, std::vector<float>(1, 1.0f));
-    EXPECT_NEAR(lit_rms_over_turns(moments, {constant_light(2, glm::vec3(1))}).worst, 0.01, 1e-5);
+    EXPECT_NEAR(lit_rms_over_rotations(moments, {constant_light(2, glm::vec3(1))}).worst, 0.01, 1e-5);
 }
 
-TEST(ErrorMomentsOverTurns, HaveTheMeanThatTheMetricOfThatLightExpects) {
+TEST(ErrorMomentsOverRotations, HaveTheMeanThatTheMetricOfThatLightExpects) {
     Case c(kLayouts[2]);
     const Lighting lighting = c.lighting();
     const ErrorMoments moments = c.moments();
     double error = 0, square = 0;
-    for (int turn = 0; turn < 360; ++turn) {
-        const Lighting turned{rotated_about_y(lighting.sky, turn * M_PI / 180),
-                              rotated_about_y(*lighting.suns, turn * M_PI / 180)};
-        const auto wanted = exit_radiance(c.reference, turned),
-                   found = exit_radiance(c.approximation, turned);
-        const double of_turn = lit_scale(wanted, c.areas).mean_square;
-        error += std::pow(lit_rms(wanted, found, c.areas), 2) * of_turn;
-        square += of_turn;
+    for (int rotation = 0; rotation < 360; ++rotation) {
+        const Lighting rotated{rotated_about_y(lighting.sky, rotation * M_PI / 180),
+                               rotated_about_y(*lighting.suns, rotation * M_PI / 180)};
+        const auto wanted = exit_radiance(c.reference, rotated),
+                   found = exit_radiance(c.approximation, rotated);
+        const double of_rotation = lit_scale(wanted, c.areas).mean_square;
+        error += std::pow(lit_rms(wanted, found, c.areas), 2) * of_rotation;
+        square += of_rotation;
     }
     const double mean = std::sqrt(error / square);
-    EXPECT_NEAR(lit_rms_over_turns(moments, lighting).mean, mean, 1e-5 * mean);
+    EXPECT_NEAR(lit_rms_over_rotations(moments, lighting).mean, mean, 1e-5 * mean);
 }
 
 TEST(ErrorMoments, AreInfiniteWhereOnlyErrorsShineAndZeroInTheDark) {

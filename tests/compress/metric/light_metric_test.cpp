@@ -68,9 +68,9 @@ TEST_P(Metric, OfLightsIsTheMeanOfWhatEachTurnOfEachCosts) {
         double energy = 0;
         for (const glm::vec3& c : light.coefficients)
             energy += static_cast<double>(glm::dot(c, c));
-        for (int turn = 0; turn < 360; ++turn) {
-            const Light turned = rotated_about_y(light, turn * M_PI / 180);
-            sums.add(exit_radiance(a, turned), exit_radiance(b, turned), 1 / energy);
+        for (int rotation = 0; rotation < 360; ++rotation) {
+            const Light rotated = rotated_about_y(light, rotation * M_PI / 180);
+            sums.add(exit_radiance(a, rotated), exit_radiance(b, rotated), 1 / energy);
         }
     }
     const double found =
@@ -124,10 +124,10 @@ TEST(MetricOfTerms, OfLightsWithSunsIsTheMeanOfWhatEachTurnOfEachCosts) {
     const Lighting lighting{random_light(4, random), random_light(5, random)};
     const Transfer a = random_transfer(20, layout, 12), b = random_transfer(20, layout, 112);
     LitSums sums;
-    for (int turn = 0; turn < 360; ++turn) {
-        const Lighting turned{rotated_about_y(lighting.sky, turn * M_PI / 180),
-                              rotated_about_y(truncated(*lighting.suns, 4), turn * M_PI / 180)};
-        sums.add(exit_radiance(a, turned), exit_radiance(b, turned));
+    for (int rotation = 0; rotation < 360; ++rotation) {
+        const Lighting rotated{rotated_about_y(lighting.sky, rotation * M_PI / 180),
+                               rotated_about_y(truncated(*lighting.suns, 4), rotation * M_PI / 180)};
+        sums.add(exit_radiance(a, rotated), exit_radiance(b, rotated));
     }
     const double found =
         expected_lit_rms(a, b, std::vector<float>(20, 1.0f), metric_of_lights(std::vector{lighting}, layout));

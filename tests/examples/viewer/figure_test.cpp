@@ -51,11 +51,11 @@ GlbFile ball_figure(bool bad = false) {
         SceneBuilder().sphere({0, kBallRadius, 0}, kBallRadius, 24).build(), glm::vec3(0.6f)));
     const float end = bad ? std::numeric_limits<float>::quiet_NaN() : 1.0f;
     const auto times = file.accessor(std::vector<float>{0, 0.5f, end}, prt::test::kFloat, "SCALAR", 1),
-               turns = file.accessor(std::vector<float>{0, 0, 0, 1, 0, 1, 0, 0, 0, 0, 0, -1},
-                                     prt::test::kFloat, "VEC4", 4);
+               rotations = file.accessor(std::vector<float>{0, 0, 0, 1, 0, 1, 0, 0, 0, 0, 0, -1},
+                                         prt::test::kFloat, "VEC4", 4);
     file.json["animations"] = {
         {{"name", "walk"},
-         {"samplers", {{{"input", times}, {"output", turns}}}},
+         {"samplers", {{{"input", times}, {"output", rotations}}}},
          {"channels", {{{"sampler", 0}, {"target", {{"node", 0}, {"path", "rotation"}}}}}},
          {"extras", {{"speed", 1.5}}}}};
     return file;

@@ -88,9 +88,9 @@ TEST(LightRig, TurnsTheEnvironmentForBoth) {
     rig.set(settings);
     EXPECT_LT(relative_difference(rig.light(kOrder), projected(rig.distant_light())), 0.005);
     settings.rotation = 0;
-    const prt::Light turned = rig.light(kOrder);
+    const prt::Light rotated = rig.light(kOrder);
     rig.set(settings);
-    EXPECT_GT(relative_difference(rig.light(kOrder), turned), 0.05);
+    EXPECT_GT(relative_difference(rig.light(kOrder), rotated), 0.05);
 }
 
 TEST(LightRig, LetsTheSunRiseInTheEastAndStandInTheSouthAtNoon) {
@@ -267,16 +267,16 @@ TEST(LightRig, MeasuresBandsAndRaysOfTheSameLight) {
     const prt::MeasuredLight together = rig.measured_light(), separate = rig.separate_measured_light();
     // The day's image of 128 x 64 is rotated in one of 1024 x 512 with interpolation; its sun has an extent
     // that rays do not hit.
-    constexpr double kTurned = 0.01;
+    constexpr double kRotated = 0.01;
     EXPECT_FALSE(together.sky);
-    EXPECT_LT(relative_difference(bands(together.sky_bands), projected(together.all)), kTurned);
+    EXPECT_LT(relative_difference(bands(together.sky_bands), projected(together.all)), kRotated);
     ASSERT_TRUE(separate.sky);
     EXPECT_EQ(separate.suns.size(), 4U);
     EXPECT_EQ(separate.sky->suns().size(), 3U);
-    EXPECT_LT(relative_difference(bands(separate.sky_bands), projected(*separate.sky)), kTurned);
+    EXPECT_LT(relative_difference(bands(separate.sky_bands), projected(*separate.sky)), kRotated);
     EXPECT_LT(relative_difference(prt::sum(bands(separate.sky_bands), bands(separate.sun_bands)),
                                   projected(separate.all)),
-              kTurned);
+              kRotated);
 }
 
 TEST(LightRig, CountsItsChanges) {

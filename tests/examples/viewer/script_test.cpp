@@ -107,10 +107,10 @@ TEST_F(Script, KeysAndThePointerDoWhatTheyDoInTheWindow) {
         {folder / "ball.glb"});
     EXPECT_NE(picture("a.png").pixels, picture("turned.png").pixels);
     // Half the window's height is a quarter rotation; the last bit of a pixel may differ.
-    const prt::Image8 turned = picture("turned.png"), same = picture("same.png");
+    const prt::Image8 rotated = picture("turned.png"), same = picture("same.png");
     for (std::size_t i = 0; i < same.pixels.size(); ++i)
         for (int c = 0; c < 3; ++c)
-            ASSERT_NEAR(turned.pixels[i][c], same.pixels[i][c], 1);
+            ASSERT_NEAR(rotated.pixels[i][c], same.pixels[i][c], 1);
     EXPECT_NE(picture("moved.png").pixels, same.pixels);
     EXPECT_NE(picture("wires.png").pixels, picture("moved.png").pixels);
     EXPECT_NE(picture("lobe.png").pixels, picture("wires.png").pixels);

@@ -106,11 +106,11 @@ const ExtremeCase kFunctions[] = {
      }},
     {"rotate_light",
      [](int n, float x, float y) {
-         const float turn[9] = {y, 0, 0, 0, y, 0, 0, 0, y};
+         const float rotation[9] = {y, 0, 0, 0, y, 0, 0, 0, y};
          return made(3 * square(n), [&](float* to, prt_message* m) {
              std::fill_n(to, 3 * square(n), 0.5f);
              to[0] = x;
-             const prt_status status = prt_light_rotate(n, turn, to, m);
+             const prt_status status = prt_light_rotate(n, rotation, to, m);
              EXPECT_TRUE(status == PRT_OK || to[3 * square(n) - 1] == (n == 1 ? to[2] : 0.5f)); // unchanged
              return status;
          });

@@ -17,7 +17,7 @@ using test::ExtremeCase;
 using test::Numbers;
 
 /// Returns a rotated function of finite coefficients.
-Numbers turned(int order, const ShRotation& rotation) {
+Numbers rotated(int order, const ShRotation& rotation) {
     std::vector<double> function(static_cast<std::size_t>(order * order), 0.5), result(function.size());
     rotation.apply(std::span<const double>(function), std::span<double>(result));
     return result;
@@ -29,18 +29,18 @@ const ExtremeCase kRotations[] = {
          glm::dmat3 matrix(1);
          matrix[0][0] = static_cast<double>(x);
          matrix[2][1] = static_cast<double>(y);
-         return turned(n, ShRotation(n, matrix));
+         return rotated(n, ShRotation(n, matrix));
      }},
     {"quaternion",
      [](int n, float x, float y) {
-         return turned(n, ShRotation(n, glm::dquat(static_cast<double>(x), 0, static_cast<double>(y), 0)));
+         return rotated(n, ShRotation(n, glm::dquat(static_cast<double>(x), 0, static_cast<double>(y), 0)));
      }},
     {"about_x",
-     [](int n, float x, float) { return turned(n, ShRotation::about_x(n, static_cast<double>(x))); }},
+     [](int n, float x, float) { return rotated(n, ShRotation::about_x(n, static_cast<double>(x))); }},
     {"about_y",
-     [](int n, float x, float) { return turned(n, ShRotation::about_y(n, static_cast<double>(x))); }},
+     [](int n, float x, float) { return rotated(n, ShRotation::about_y(n, static_cast<double>(x))); }},
     {"about_z",
-     [](int n, float x, float) { return turned(n, ShRotation::about_z(n, static_cast<double>(x))); }},
+     [](int n, float x, float) { return rotated(n, ShRotation::about_z(n, static_cast<double>(x))); }},
     {"windows",
      [](int n, float x, float) {
          const auto width = static_cast<double>(x);

@@ -142,17 +142,17 @@ TEST(LobeFit, MoreLobesComeNearer) {
 
 TEST(LobeFit, TurnsWithItsTarget) {
     const Targets targets = shadowed_vertices(40);
-    const glm::dquat turn = glm::angleAxis(2.1, glm::normalize(glm::dvec3(1, -2, 0.5)));
-    Targets turned = targets;
+    const glm::dquat rotation = glm::angleAxis(2.1, glm::normalize(glm::dvec3(1, -2, 0.5)));
+    Targets rotated = targets;
     for (std::size_t v = 0; v < targets.areas.size(); ++v) {
-        const auto vector = std::span(turned.vectors).subspan(v * kCoefficients, kCoefficients);
-        ShRotation(4, turn).apply(vector, vector);
+        const auto vector = std::span(rotated.vectors).subspan(v * kCoefficients, kCoefficients);
+        ShRotation(4, rotation).apply(vector, vector);
     }
     const LobeFitOptions options{.lobes = 1};
     const std::vector<Lobe> still = fit_lobes(targets.view(), options),
-                            moved = fit_lobes(turned.view(), options);
+                            moved = fit_lobes(rotated.view(), options);
     for (std::size_t v = 0; v < still.size(); ++v)
-        EXPECT_LT(glm::distance(turn * glm::dvec3(still[v].axis), glm::dvec3(moved[v].axis)), 2e-3) << v;
+        EXPECT_LT(glm::distance(rotation * glm::dvec3(still[v].axis), glm::dvec3(moved[v].axis)), 2e-3) << v;
 }
 
 TEST(LobeFit, BytesCostLittleAndRespectTheFurnace) {

@@ -145,9 +145,9 @@ TEST(Dering, NoChannelCountsMoreThanAnother) {
 
 TEST(Dering, TurningTheLightDoesNotChangeTheFilter) {
     const Light light = sunny(6, kTowards, {0.05f, 0.1f, 0.2f});
-    Light turned = light;
-    ShRotation(6, glm::angleAxis(1.1, glm::normalize(glm::dvec3(1, 2, 3)))).apply(turned.coefficients);
-    const BandFactors a = dering_factors(light), b = dering_factors(turned);
+    Light rotated = light;
+    ShRotation(6, glm::angleAxis(1.1, glm::normalize(glm::dvec3(1, 2, 3)))).apply(rotated.coefficients);
+    const BandFactors a = dering_factors(light), b = dering_factors(rotated);
     for (std::size_t l = 0; l < 6; ++l)
         EXPECT_NEAR(a[l], b[l], 0.02) << l;
 }

@@ -96,9 +96,9 @@ TEST(Light, DirectionalLightGivesItsIrradianceToAFacingReceiver) {
 TEST(Light, AQuarterTurnAboutYTakesLightFromZToX) {
     const Light from_z = cone_light(6, {0, 0, 1}, 0.3, glm::vec3(1)),
                 from_x = cone_light(6, {1, 0, 0}, 0.3, glm::vec3(1));
-    const Light turned = rotated_about_y(from_z, pi / 2);
-    for (std::size_t i = 0; i < turned.coefficients.size(); ++i)
-        EXPECT_NEAR(turned.coefficients[i].r, from_x.coefficients[i].r, 1e-6f);
+    const Light rotated = rotated_about_y(from_z, pi / 2);
+    for (std::size_t i = 0; i < rotated.coefficients.size(); ++i)
+        EXPECT_NEAR(rotated.coefficients[i].r, from_x.coefficients[i].r, 1e-6f);
 }
 
 TEST(Light, WindowsLeaveTheMeanAndDampTheRest) {

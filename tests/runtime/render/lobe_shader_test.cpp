@@ -80,7 +80,7 @@ std::vector<Lit> lit_by_cpp(const LobeModel& model, const std::vector<Vertex>& v
         std::array<Lobe, kLobes> lobes, mapped;
         for (std::size_t k = 0; k < kLobes; ++k) {
             lobes[k] = model.decode(vertex.words[k]);
-            lobes[k].axis = turned_axis(lobes[k].axis, axis_turn(vertex.matrix));
+            lobes[k].axis = rotated_axis(lobes[k].axis, axis_rotation(vertex.matrix));
             mapped[k] = lobes[k];
             mapped[k].axis = axis_onto(lobes[k].axis, vertex.normal, vertex.mapped);
         }
@@ -107,11 +107,11 @@ uniform vec3 light[PRT_LOBE_COEFFICIENTS];
 out vec3 plain;
 out vec3 mapped;
 void main() {
-    mat3 turn = prt_lobe_turn(mat3(column_0, column_1, column_2));
+    mat3 turn = prt_lobe_rotation(mat3(column_0, column_1, column_2));
     PrtLobe lobes[PRT_LOBES];
-    lobes[0] = prt_turned_lobe(prt_lobe(word_0), turn);
-    lobes[1] = prt_turned_lobe(prt_lobe(word_1), turn);
-    lobes[2] = prt_turned_lobe(prt_lobe(word_2), turn);
+    lobes[0] = prt_rotated_lobe(prt_lobe(word_0), turn);
+    lobes[1] = prt_rotated_lobe(prt_lobe(word_1), turn);
+    lobes[2] = prt_rotated_lobe(prt_lobe(word_2), turn);
     plain = prt_lobes_radiance(lobes, light);
     for (int k = 0; k < PRT_LOBES; ++k)
         lobes[k] = prt_mapped_lobe(lobes[k], normal, mapped_normal);

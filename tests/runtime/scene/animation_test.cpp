@@ -55,7 +55,7 @@ void animate(GlbFile& file, const Keys& keys, int node = 0) {
 }
 
 /// Returns a rotation about +Z as a glTF quaternion.
-std::vector<float> turn(double degrees) {
+std::vector<float> rotation(double degrees) {
     const double half = degrees * kPi / 360;
     return {0, 0, static_cast<float>(std::sin(half)), static_cast<float>(std::cos(half))};
 }
@@ -98,7 +98,7 @@ void expect_near(const glm::dvec3& found, const glm::dvec3& wanted) {
 
 TEST(Animation, HalfOfTheTimeIsHalfOfTheAngle) {
     GlbFile file = test::triangle_file();
-    animate(file, {"rotation", "LINEAR", {1, 3}, joined({turn(0), turn(120)})});
+    animate(file, {"rotation", "LINEAR", {1, 3}, joined({rotation(0), rotation(120)})});
     const AnimatedScene scene = animated(file);
     EXPECT_EQ(scene.animations().at(0).duration, 3);
     for (const double seconds :
@@ -111,10 +111,10 @@ TEST(Animation, HalfOfTheTimeIsHalfOfTheAngle) {
 
 TEST(Animation, RotationsTurnTheShortWay) {
     GlbFile file = test::triangle_file();
-    std::vector<float> far = turn(90);
+    std::vector<float> far = rotation(90);
     for (float& number : far)
         number = -number; // an equal rotation
-    animate(file, {"rotation", "LINEAR", {0, 1}, joined({turn(0), far})});
+    animate(file, {"rotation", "LINEAR", {0, 1}, joined({rotation(0), far})});
     const AnimatedScene scene = animated(file);
     const auto nodes = scene.pose(scene.animations()[0], 0.5);
     expect_near(glm::dvec3(nodes[0] * glm::dvec4(1, 0, 0, 0)), {std::sqrt(0.5), std::sqrt(0.5), 0});
@@ -155,8 +155,9 @@ TEST(Animation, SplinesAreTheCubicsOfTheirTangents) {
 TEST(Animation, SplinesOfRotationsAreUnit) {
     GlbFile file = test::triangle_file();
     const std::vector<float> still(4, 0);
-    animate(file,
-            {"rotation", "CUBICSPLINE", {0, 1}, joined({still, turn(0), still, still, turn(90), still})});
+    animate(
+        file,
+        {"rotation", "CUBICSPLINE", {0, 1}, joined({still, rotation(0), still, still, rotation(90), still})});
     const AnimatedScene scene = animated(file);
     const auto nodes = scene.pose(scene.animations()[0], 0.5);
     EXPECT_NEAR(glm::determinant(nodes[0]), 1, 1e-12);
@@ -169,7 +170,7 @@ TEST(Animation, ChildrenGoWithTheirParentsAndOthersStay) {
     file.json["nodes"] = {
         {{"mesh", 0}, {"children", {1}}}, {{"translation", {0, 2, 0}}}, {{"translation", {3, 0, 0}}}};
     file.json["scenes"] = {{{"nodes", {0, 2}}}};
-    animate(file, {"rotation", "LINEAR", {0, 1}, joined({turn(0), turn(90)})});
+    animate(file, {"rotation", "LINEAR", {0, 1}, joined({rotation(0), rotation(90)})});
     const AnimatedScene scene = animated(file);
     const auto nodes = scene.pose(scene.animations()[0], 1);
     expect_near(position(nodes[1]), {-2, 0, 0});
@@ -178,7 +179,7 @@ TEST(Animation, ChildrenGoWithTheirParentsAndOthersStay) {
 
 TEST(Skins, AJointTurnedByARightAngleTakesItsVerticesWithIt) {
     GlbFile file = skinned_file();
-    animate(file, {"rotation", "LINEAR", {0, 1}, joined({turn(0), turn(90)})}, 2);
+    animate(file, {"rotation", "LINEAR", {0, 1}, joined({rotation(0), rotation(90)})}, 2);
     const AnimatedScene scene = animated(file);
     const auto nodes = scene.pose(scene.animations()[0], 1);
     const Scene posed = scene.posed(nodes, glm::dmat4(1));
@@ -199,12 +200,12 @@ TEST(Skins, NormalsTurnWithTheirJointsAndLeanAgainstScales) {
     const float s = std::sqrt(0.5f);
     file.json["meshes"][0]["primitives"][0]["attributes"]["NORMAL"] =
         file.accessor(std::vector<float>{0, 0, 1, 1, 0, 0, s, s, 0}, test::kFloat, "VEC3", 3);
-    animate(file, {"rotation", "LINEAR", {0, 1}, joined({turn(0), turn(90)})}, 2);
+    animate(file, {"rotation", "LINEAR", {0, 1}, joined({rotation(0), rotation(90)})}, 2);
     animate(file, {"scale", "STEP", {0}, {2, 1, 1}}, 1);
     const AnimatedScene scene = animated(file);
-    const Scene turned = scene.posed(scene.pose(scene.animations()[0], 1), glm::dmat4(1));
-    expect_near(turned.vertex_arrays[0].normals[0], {0, 0, 1});
-    expect_near(turned.vertex_arrays[0].normals[1], {0, 1, 0});
+    const Scene rotated = scene.posed(scene.pose(scene.animations()[0], 1), glm::dmat4(1));
+    expect_near(rotated.vertex_arrays[0].normals[0], {0, 0, 1});
+    expect_near(rotated.vertex_arrays[0].normals[1], {0, 1, 0});
     const Scene wide = scene.posed(scene.pose(scene.animations()[1], 0), glm::dmat4(1));
     const glm::dvec3 leaning =
         glm::normalize(glm::dvec3(0.5, 1, 0)); // the plane x + y = c becomes x / 2 + y = c
@@ -229,16 +230,16 @@ void expect_rest_is_scene(const AnimatedScene& animated, const Scene& scene) {
 }
 
 TEST(Skins, AtRestTheSceneIsAsItIsExtracted) {
-    GlbFile turned = skinned_file();
-    turned.json["nodes"][2]["rotation"] = turn(37);
-    GlbFile flat = turned;
+    GlbFile rotated = skinned_file();
+    rotated.json["nodes"][2]["rotation"] = rotation(37);
+    GlbFile flat = rotated;
     flat.json["meshes"][0]["primitives"][0]["attributes"].erase("NORMAL");
     GlbFile rigid = test::triangle_file();
     rigid.json["nodes"][0]["scale"] = {2, -1, 0.5};
     GlbFile loose = skinned_file(); // vertex 0 has no joint
     loose.json["meshes"][0]["primitives"][0]["attributes"]["WEIGHTS_0"] =
         loose.accessor(std::vector<float>{0, 0, 0, 0, 1, 0, 0, 0, 0.5f, 0.5f, 0, 0}, test::kFloat, "VEC4", 4);
-    for (const GlbFile& file : {turned, flat, rigid, loose}) {
+    for (const GlbFile& file : {rotated, flat, rigid, loose}) {
         const test::TemporaryFolder folder;
         file.write(folder / "rest.glb");
         const GltfDocument document = load_gltf(folder / "rest.glb");

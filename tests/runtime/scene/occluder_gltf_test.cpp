@@ -41,14 +41,14 @@ GlbFile chain() {
 }
 
 /// Adds an animation that rotates a node.
-void turn(GlbFile& file, int node) {
+void rotation(GlbFile& file, int node) {
     const std::size_t times = file.accessor(std::vector<float>{0, 1}, test::kFloat, "SCALAR", 1);
     file.json["accessors"][times]["min"] = {0};
     file.json["accessors"][times]["max"] = {1};
-    const std::size_t turns =
+    const std::size_t rotations =
         file.accessor(std::vector<float>{0, 0, 0, 1, 0, 1, 0, 0}, test::kFloat, "VEC4", 4);
     file.json["animations"].push_back(
-        {{"samplers", {{{"input", times}, {"output", turns}}}},
+        {{"samplers", {{{"input", times}, {"output", rotations}}}},
          {"channels", {{{"sampler", 0}, {"target", {{"node", node}, {"path", "rotation"}}}}}}});
 }
 
@@ -98,7 +98,7 @@ TEST(RigidParts, HoldTheMaterialsAndImagesThatTheyUse) {
 
 TEST(RigidParts, BeginAtNodesThatMove) {
     GlbFile file = chain();
-    turn(file, 1);
+    rotation(file, 1);
     const std::vector<RigidPart> parts = terms_of(file);
     ASSERT_EQ(names_of(parts), (std::vector<std::string>{"root", "arm"}));
     EXPECT_EQ(parts[0].scene.triangles(), 1u);
@@ -107,7 +107,7 @@ TEST(RigidParts, BeginAtNodesThatMove) {
 
 TEST(RigidParts, AreInTheFrameOfTheirNode) {
     GlbFile file = chain();
-    turn(file, 1);
+    rotation(file, 1);
     const RigidPart arm = terms_of(file)[1];
     const glm::dmat4 back = glm::inverse(arm.frame);
     float least = 1e9f;
@@ -119,8 +119,8 @@ TEST(RigidParts, AreInTheFrameOfTheirNode) {
 
 TEST(RigidParts, ThatAreSmallGoWithWhatCarriesThem) {
     GlbFile file = chain();
-    turn(file, 1);
-    turn(file, 2);
+    rotation(file, 1);
+    rotation(file, 2);
     EXPECT_EQ(terms_of(file).size(), 3u);
     // Every triangle has a diagonal of 1.41, two of 2.24, the whole one of 3.16.
     EXPECT_EQ(names_of(terms_of(file, 0.5)), (std::vector<std::string>{"root", "arm"}));

@@ -168,8 +168,8 @@ TEST(SeparateSides, AreOfANode) {
         const glm::uvec3& c = mirrored.triangles[t];
         const glm::vec3 &a = vertices.positions[c.x], &b = vertices.positions[c.y],
                         &d = vertices.positions[c.z];
-        const float turn = (b.x - a.x) * (d.y - a.y) - (b.y - a.y) * (d.x - a.x);
-        EXPECT_GT(turn * vertices.normals[c.x].z, 0) << t;
+        const float rotation = (b.x - a.x) * (d.y - a.y) - (b.y - a.y) * (d.x - a.x);
+        EXPECT_GT(rotation * vertices.normals[c.x].z, 0) << t;
         EXPECT_EQ(vertices.normals[c.x].z, t < 2 ? 1 : -1) << t;
     }
 }

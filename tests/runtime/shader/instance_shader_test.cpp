@@ -52,7 +52,7 @@ InstanceFactors random_factors(std::mt19937& random) {
 std::vector<glm::vec3> radiance_of(const ClusteredTransfer& mesh, const PlacedInstance& instance,
                                    const Lighting& lighting) {
     std::array<std::vector<glm::vec3>, kInstanceModes> of_modes;
-    const auto lightings = turned_into(instance.rotation, InstanceModes(kOrder).lightings(lighting));
+    const auto lightings = rotated_into(instance.rotation, InstanceModes(kOrder).lightings(lighting));
     for (std::size_t m = 0; m < kInstanceModes; ++m)
         of_modes[m] = exit_radiance(mesh, lightings[m]);
     const std::size_t predictor_rows = mesh.bases.predictor_rows(), of_position = predictor_rows - 3;

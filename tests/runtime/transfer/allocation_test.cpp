@@ -46,14 +46,14 @@ TEST(Frame, AllocatesNothing) {
     const ClusterLighting relighter(transfer);
     std::vector<glm::vec4> constants(relighter.rows()), others(relighter.rows());
     const Light light = constant_light(6, {1, 2, 3});
-    std::vector<glm::vec3> turned(36);
+    std::vector<glm::vec3> rotated(36);
     std::array<float, 36> basis{}, product{};
     sh_product(6, basis, basis, product); // its tables are made when they are first wanted
 
     const std::size_t before = allocations;
-    ShRotation(6, glm::dmat3(1)).apply(light.coefficients, turned);
-    relighter.update(turned, constants);
-    relighter.update(turned, others, 0, 64);
+    ShRotation(6, glm::dmat3(1)).apply(light.coefficients, rotated);
+    relighter.update(rotated, constants);
+    relighter.update(rotated, others, 0, 64);
     blend_constants(constants, others, 0.5f, constants);
     evaluate_sh(6, glm::vec3(0, 0, 1), std::span<float>(basis));
     sh_product(6, basis, basis, product);

@@ -89,13 +89,13 @@ TEST(Instances, ATurnedInstanceIsLitAsItsMeshByTurnedLight) {
     const Transfer transfer = draw.transfer(6);
     const glm::dmat3 rotation = draw.rotation();
     Lighting lighting{draw.light(), draw.light()};
-    const auto turned_mesh =
+    const auto rotated_mesh =
         lit(transfer.layout,
             expanded_vectors(transfer, {open_factors(), rotation, {}}, std::vector<glm::vec3>(6)), lighting);
     const ShRotation back(kOrder, glm::transpose(rotation));
     back.apply(std::span(lighting.sky.coefficients));
     back.apply(std::span(lighting.suns->coefficients));
-    expect_near(turned_mesh, exit_radiance(transfer, lighting), 1e-4f);
+    expect_near(rotated_mesh, exit_radiance(transfer, lighting), 1e-4f);
 }
 
 /// Lightings of modes, as in a shader, agree with modes of transfer, as defined by the file.
@@ -109,7 +109,7 @@ TEST(Instances, ModesOfLightDoWhatModesOfTransferDo) {
     const PlacedInstance placed{draw.factors(), draw.rotation(), box_round(positions)};
     const auto by_transfer = lit(transfer.layout, expanded_vectors(transfer, placed, positions), lighting);
 
-    const auto lightings = turned_into(placed.rotation, InstanceModes(kOrder).lightings(lighting));
+    const auto lightings = rotated_into(placed.rotation, InstanceModes(kOrder).lightings(lighting));
     std::array<std::vector<glm::vec3>, kInstanceModes> of_modes;
     for (std::size_t m = 0; m < kInstanceModes; ++m)
         of_modes[m] = exit_radiance(transfer, lightings[m]);
@@ -191,11 +191,11 @@ TEST(Instances, UprightOnesShareTheTurnsOfFewYaws) {
     for (int i = 0; i < 100; ++i)
         rotations.push_back(glm::dmat3(glm::angleAxis(0.37 * i, glm::dvec3(0, 1, 0))));
     rotations.push_back(glm::dmat3(glm::angleAxis(0.5, glm::dvec3(1, 0, 0))));
-    const InstanceTurns turns = instance_turns(rotations, 16);
-    EXPECT_EQ(turns.rotations.size(), 17u);
-    EXPECT_LE(turns.max_degrees, 11.26);
-    EXPECT_GT(turns.max_degrees, 8);
-    const InstanceTurns exact = instance_turns(rotations, 0);
+    const InstanceRotations rotations = instance_rotations(rotations, 16);
+    EXPECT_EQ(rotations.rotations.size(), 17u);
+    EXPECT_LE(rotations.max_degrees, 11.26);
+    EXPECT_GT(rotations.max_degrees, 8);
+    const InstanceRotations exact = instance_rotations(rotations, 0);
     EXPECT_LT(exact.max_degrees, 0.011);
     for (std::size_t i = 0; i < rotations.size(); ++i)
         for (int c = 0; c < 3; ++c)

@@ -71,15 +71,16 @@ TEST(Lobes, TurnAsNormalsDo) {
     std::mt19937 random(2);
     for (int i = 0; i < 50; ++i) {
         const glm::vec3 axis = any_direction(random);
-        const glm::quat turn = glm::angleAxis(0.1f * static_cast<float>(i), any_direction(random));
-        expect_near(turned_axis(axis, axis_turn(3.0f * glm::mat3_cast(turn))), turn * axis);
-        expect_near(turned_axis(axis, axis_turn(-glm::mat3_cast(turn))), -(turn * axis)); // mirrored
+        const glm::quat rotation = glm::angleAxis(0.1f * static_cast<float>(i), any_direction(random));
+        expect_near(rotated_axis(axis, axis_rotation(3.0f * glm::mat3_cast(rotation))), rotation * axis);
+        expect_near(rotated_axis(axis, axis_rotation(-glm::mat3_cast(rotation))),
+                    -(rotation * axis)); // mirrored
         // The normal of a plane stays normal to it for any matrix.
         const glm::vec3 along = glm::normalize(glm::cross(axis, any_direction(random)));
         const glm::mat3 any(any_direction(random), 2.0f * any_direction(random), any_direction(random));
-        EXPECT_NEAR(glm::dot(turned_axis(axis, axis_turn(any)), glm::normalize(any * along)), 0, 2e-4f);
+        EXPECT_NEAR(glm::dot(rotated_axis(axis, axis_rotation(any)), glm::normalize(any * along)), 0, 2e-4f);
     }
-    expect_near(turned_axis({0, 1, 0}, axis_turn(glm::mat3(0))), {0, 1, 0});
+    expect_near(rotated_axis({0, 1, 0}, axis_rotation(glm::mat3(0))), {0, 1, 0});
 }
 
 TEST(Lobes, OfTheCosineLightAnOpenReceiver) {

@@ -156,8 +156,8 @@ TEST(OcclusionVolume, TurnsMovesAndScalesWithItsObject) {
     OcclusionVolume volume = ball(0.5f);
     volume.low = {-1, -2, -0.5f}; // no symmetry
     volume.high = {2, 1.5f, 0.7f};
-    const glm::mat4 turn = glm::rotate(glm::mat4(1), 1.1f, glm::normalize(glm::vec3(1, 2, 3)));
-    const glm::mat4 moved = glm::scale(glm::translate(glm::mat4(1), {5, 6, 7}) * turn, glm::vec3(100.0f));
+    const glm::mat4 rotation = glm::rotate(glm::mat4(1), 1.1f, glm::normalize(glm::vec3(1, 2, 3)));
+    const glm::mat4 moved = glm::scale(glm::translate(glm::mat4(1), {5, 6, 7}) * rotation, glm::vec3(100.0f));
     const PlacedOccluder at_home = placed(volume, glm::mat4(1), 0), away = placed(volume, moved, 0);
     EXPECT_NEAR(glm::distance(away.center(), glm::vec3(moved * glm::vec4(0.5f, -0.25f, 0.1f, 1))), 0, 1e-3);
     EXPECT_NEAR(away.reach(), 100 * volume.reach, 1e-2);
@@ -166,7 +166,7 @@ TEST(OcclusionVolume, TurnsMovesAndScalesWithItsObject) {
         const float home = blocked_cosine(blocked_at(volume, at_home, position), normal);
         const float there =
             blocked_cosine(blocked_at(volume, away, glm::vec3(moved * glm::vec4(position, 1))),
-                           glm::vec3(turn * glm::vec4(normal, 0)));
+                           glm::vec3(rotation * glm::vec4(normal, 0)));
         EXPECT_NEAR(home, there, 1e-4);
     }
 }

@@ -104,14 +104,14 @@ async function ball({ model, rotation, metalness, side }) {
   gltf.scene.traverse(({ material }) => material && (material.metalness = metalness));
   const lit = radiance(scene, camera);
   gltf.scene.rotation.set(0.5, 0.9, -0.3); // a sphere looks the same after rotation
-  const turned = compared(radiance(scene, camera), lit);
+  const rotated = compared(radiance(scene, camera), lit);
   scene.add(new AmbientLight(0xffffff, 3), new PointLight(0xffffff, 30).translateZ(3)); // which are in the sky, or lamps
   const others = compared(radiance(scene, camera), lit);
   gltf.scene.traverse((object) => {
     if (object.isMesh) object.material = new MeshStandardMaterial({ color: object.material.color, roughness: 1, metalness });
   });
   scene.clear().add(gltf.scene);
-  return { own: compared(lit, radiance(scene, camera)), turned, others };
+  return { own: compared(lit, radiance(scene, camera)), rotated, others };
 }
 
 /** Returns the middle pixel of a view along `direction` of a rotated background, which has one bright texel. */

@@ -325,9 +325,9 @@ const MATERIALS = {
 /**
  * Returns the radiance of a square lit by a volume: floats from the bottom row up, red, green, blue and
  * alpha, without a tone curve. The square is a `kind` of mesh, 2 metres wide, at position `point` with
- * rotation `turn` (Euler angles); the camera looks at it along its normal.
+ * rotation `rotation` (Euler angles); the camera looks at it along its normal.
  */
-async function lit({ api = "webgl", model, floats, kind, material, point, turn, light, lamps, moved, size: [width, height] }) {
+async function lit({ api = "webgl", model, floats, kind, material, point, rotation, light, lamps, moved, size: [width, height] }) {
   const drawing = await rendererOf(api);
   const gltf = await load(model, api === "webgl" ? PrtkitPlugin : NodePlugin);
   let { volume } = gltf.userData.prtkit;
@@ -336,7 +336,7 @@ async function lit({ api = "webgl", model, floats, kind, material, point, turn, 
   const holder = new Group();
   holder.add(squares(kind, MATERIALS[material]()));
   holder.position.fromArray(point);
-  holder.rotation.fromArray(turn);
+  holder.rotation.fromArray(rotation);
   const seen = new OrthographicCamera(-1, 1, 1, -1, 0.1, 10);
   seen.position.z = 2;
   holder.add(seen);
@@ -344,7 +344,7 @@ async function lit({ api = "webgl", model, floats, kind, material, point, turn, 
   const scene = new Scene().add(gltf.scene, around);
   for (const root of moved ? [gltf.scene, around] : []) {
     root.position.fromArray(moved.point); // with all that is in it
-    root.rotation.fromArray(moved.turn);
+    root.rotation.fromArray(moved.rotation);
   }
   volume.light(holder);
   const target = new WebGLRenderTarget(width, height, { type: FloatType });
@@ -368,7 +368,7 @@ async function occluded({ model, passer, moved, centre, size: [width, height], l
   const floor = gltf.scene.children[0];
   passing.scene.children.forEach((child, i) => {
     child.position.fromArray(moved[i].point);
-    child.rotation.fromArray(moved[i].turn);
+    child.rotation.fromArray(moved[i].rotation);
     child.scale.setScalar(moved[i].scale);
   });
   const scene = new Scene().add(floor, passing.scene);
@@ -389,16 +389,16 @@ async function occluded({ model, passer, moved, centre, size: [width, height], l
 
 /**
  * Returns floats of a figure with lobes in a pose, from the front, 2 metres wide, from the bottom row up.
- * `pose`: Euler angles of its bones; `turn`: rotation of the figure; `volume`: a file whose volume lights it;
+ * `pose`: Euler angles of its bones; `rotation`: rotation of the figure; `volume`: a file whose volume lights it;
  * otherwise the sky does.
  */
-async function posed({ model, volume, pose, turn, light, size: [width, height] }) {
+async function posed({ model, volume, pose, rotation, light, size: [width, height] }) {
   const drawing = await rendererOf("webgl");
   const { scene: figure, userData } = await load(model);
   const { prtkit } = userData;
   ["one", "other"].forEach((name, i) => figure.getObjectByName(name).rotation.fromArray(pose[i]));
   const scene = new Scene().add(new Group().add(figure));
-  scene.children[0].rotation.fromArray(turn);
+  scene.children[0].rotation.fromArray(rotation);
   if (volume) {
     const around = await load(volume);
     const own = around.userData.prtkit.volume;

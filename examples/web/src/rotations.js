@@ -17,7 +17,7 @@ function product(a, b) {
  * Returns three's rotation of an equirectangular environment by `euler`: light of direction d in the image
  * comes from this matrix times d.
  */
-export function environmentTurn(euler, revision = Number.parseInt(REVISION)) {
+export function environmentRotation(euler, revision = Number.parseInt(REVISION)) {
   if (revision >= 184) return upperLeft(new Matrix4().makeRotationFromEuler(euler));
   // Earlier releases look up directions rotated by the negative angles in the same order.
   const lookup = new Euler(-euler.x, -euler.y, -euler.z, euler.order);
@@ -25,7 +25,7 @@ export function environmentTurn(euler, revision = Number.parseInt(REVISION)) {
 }
 
 /** Returns the rotation of an object in the world, without its position and scale; mirrored if the object is. */
-function worldTurn({ matrixWorld }) {
+function worldRotation({ matrixWorld }) {
   const axes = [0, 1, 2].map((column) => new Vector3().setFromMatrixColumn(matrixWorld, column).normalize());
   axes[1].addScaledVector(axes[0], -axes[1].dot(axes[0])).normalize();
   axes[2].addScaledVector(axes[0], -axes[2].dot(axes[0])).addScaledVector(axes[1], -axes[2].dot(axes[1])).normalize();
@@ -43,14 +43,14 @@ export function shownBy(scene) {
 }
 
 /** Returns the rotation from world directions to those of `root`, the model as baked. */
-export const turnIntoModel = (root) => transposed(worldTurn(root));
+export const rotateIntoModel = (root) => transposed(worldRotation(root));
 
 /**
  * Returns the rotation from the directions of the image to those of `root`, the model as baked, which may be
  * rotated since.
  */
-export function turnForModel(scene, root) {
-  return product(turnIntoModel(root), environmentTurn(shownBy(scene).euler));
+export function rotationForModel(scene, root) {
+  return product(rotateIntoModel(root), environmentRotation(shownBy(scene).euler));
 }
 
 /** Returns the vector `v` [3] rotated by a matrix. */
