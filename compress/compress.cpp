@@ -221,9 +221,9 @@ ClusteredTransfer code(const Task& task, const ReceiverSurface& surface, FoundCl
     if (options.coding.format == WeightFormat::packed || task.light.lamps())
         alternate(coding.points, task.significance, how, progress.range(0, tuning::kAlternatedAt), coded);
     progress.update(tuning::kAlternatedAt);
-    if (options.seam_price > 0 && !surface.edges.empty() && !draft)
+    if (options.seam_weight > 0 && !surface.edges.empty() && !draft)
         smooth_seams(coding.points, task.significance, surface.edges, surface.jumps, coded.clusters,
-                     {.seam_price = options.seam_price,
+                     {.seam_weight = options.seam_weight,
                       .mean_components = options.mean_components,
                       .threads = options.threads},
                      coded.codes);

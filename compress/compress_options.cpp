@@ -40,8 +40,8 @@ void check_options(const CompressOptions& o) {
         out_of_range("components per vertex must be finite and not negative", o.mean_components);
     if (o.coding.format == WeightFormat::packed)
         check_packed(o.coding, o.clusters);
-    if (!(o.seam_price >= 0 && o.seam_price <= kMaxPrice))
-        out_of_range("the seam weight must lie in 0..1e6", o.seam_price);
+    if (!(o.seam_weight >= 0 && o.seam_weight <= kMaxSeamWeight))
+        out_of_range("the seam weight must lie in 0..1e6", o.seam_weight);
     if (o.basis_share && !(*o.basis_share >= 0 && *o.basis_share < 1))
         out_of_range("the share of the bases must lie in 0..1", *o.basis_share);
 }
@@ -136,7 +136,7 @@ ClusteringOptions clustering_options(const CompressOptions& options, std::size_t
     how.mean_components = options.mean_components;
     how.trace = options.trace;
     how.threads = options.threads;
-    how.spending.component_limit = std::min(coding.components, static_cast<int>(dimension));
+    how.rate_budget.component_limit = std::min(coding.components, static_cast<int>(dimension));
     if (coding.format != WeightFormat::packed)
         return how;
     how.rows_cost = options.bases_count;
@@ -145,9 +145,9 @@ ClusteringOptions clustering_options(const CompressOptions& options, std::size_t
         most = std::min(most, static_cast<int>(coding.fixed_bits.size()));
     else if (coding.bits == 0)
         most = 0;
-    how.spending.component_limit = std::min(how.spending.component_limit, most);
-    how.spending.bits = coding.bits;
-    how.spending.fixed_bits = coding.fixed_bits;
+    how.rate_budget.component_limit = std::min(how.rate_budget.component_limit, most);
+    how.rate_budget.bits = coding.bits;
+    how.rate_budget.fixed_bits = coding.fixed_bits;
     return how;
 }
 

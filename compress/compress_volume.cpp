@@ -56,7 +56,7 @@ CompressedVolumeResult compress_volume(const BakedVolume& volume, CompressOption
                                               volume.baked.transfer, of_coefficients, options.threads);
     options.metric = incident_metric(metric, volume.coefficients());
     options.predictors = PredictorChoice::none;
-    options.seam_price = 0;
+    options.seam_weight = 0;
     CompressResult result = compress(probes, {.areas = of_probes}, options, progress);
     return {{volume.grid, volume.order, volume.visibility, {std::move(result.transfer), volume.baked.record}},
             std::move(result.statistics)};

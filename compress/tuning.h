@@ -142,8 +142,8 @@ inline constexpr double kBitsPerRow = 64;
 /// Fraction of the error, times the number of components, that an additional bit for a receiver's weights
 /// removes: an optimal quantiser gains log 4 = 1.39 per bit (docs/math.md, eq. 24).
 inline constexpr double kGainPerBit = 1.4;
-/// Rounds in which the price of a component and the points converge. By hand. [budget] with --shader-ops
-inline constexpr int kPriceRounds = 12;
+/// Rounds in which the multiplier of a component and the points converge. By hand. [budget] with --shader-ops
+inline constexpr int kMultiplierRounds = 12;
 
 // coding/
 
@@ -181,7 +181,7 @@ inline constexpr std::size_t kReceiversPerSeamChange = 200;
 /// convergence. On a room of 196 572 texels with 8 bytes each, under a sunny street, radiance times 0.8 in
 /// sRGB: 99 % of positions jump by at most 0.5 of 255 shades (1.6 without), and 99.9 % by 0.9 instead of 2.4;
 /// lit_rms grows by 1.9 %. With 20 and 50: 0.4, 0.7 and 3.1 %; with 20 and 0: 0.7, 1.3 and 1.8 %. [preset]
-inline constexpr double kJumpPrice = 16, kJumpBorder = 5;
+inline constexpr double kJumpMultiplier = 16, kJumpBorder = 5;
 inline constexpr int kJumpSweeps = 6;
 /// Minimum relative saving of another code, which prevents oscillation by rounding.
 inline constexpr double kMinSeamGain = 1e-6;

@@ -108,11 +108,11 @@ public:
         for (const SeamPoint& point : seams) {
             const BilinearTexels here = bilinear_at(atlas, point.here),
                                  there = bilinear_at(atlas, point.there);
-            const double price = std::min(price_of(here, sizes), price_of(there, sizes));
+            const double multiplier = std::min(multiplier_of(here, sizes), multiplier_of(there, sizes));
             for (const auto& [filter, sign] : {std::pair(&here, 1.0), std::pair(&there, -1.0)})
                 for (std::size_t i = 0; i < 4; ++i)
                     entries.emplace_back(row, unknown(filter->texels[i]),
-                                         std::sqrt(price) * sign * filter->weights[i]);
+                                         std::sqrt(multiplier) * sign * filter->weights[i]);
             ++row;
         }
         const auto size = static_cast<int>(texels_.size());
@@ -141,7 +141,7 @@ public:
 
 private:
     /// Cost by the size of the chart with the largest weight in the filter.
-    static double price_of(const BilinearTexels& filter, std::span<const std::uint32_t> sizes) {
+    static double multiplier_of(const BilinearTexels& filter, std::span<const std::uint32_t> sizes) {
         double texels = 0, most = -1;
         for (std::size_t i = 0; i < 4; ++i)
             if (const std::uint32_t size = sizes[filter.texels[i]]; size > 0 && filter.weights[i] > most) {

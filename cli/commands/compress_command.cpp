@@ -752,10 +752,10 @@ void add_compress(CLI::App& app, Session& session) {
     command->add_flag("--best-effort", a.best_effort, "write the nearest where nothing keeps the budget");
     add_metric(command, a.metric);
     command
-        ->add_option("--seam-weight", a.options.compress.seam_price,
+        ->add_option("--seam-weight", a.options.compress.seam_weight,
                      "what jumps of the error along mesh edges cost, 0: nothing")
         ->capture_default_str()
-        ->check(real_in(0, kMaxPrice));
+        ->check(real_in(0, kMaxSeamWeight));
     command->add_flag("--combine-direct", a.writing.whole,
                       "direct and indirect light as one: smaller, for who does not light suns apart");
     command

@@ -199,7 +199,7 @@ Spectrum spectrum_of(const Eigen::MatrixXd& covariance, double floor, bool with_
 
 } // namespace
 
-ClusterFit fit_cluster(const ClusterMoments::View& moments, const Spending& spending) {
+ClusterFit fit_cluster(const ClusterMoments::View& moments, const RateBudget& rate_budget) {
     ClusterFit fit;
     fit.mean.assign(moments.dimension, 0.0f);
     fit.center.assign(moments.predictors, 0.0f);
@@ -225,7 +225,7 @@ ClusterFit fit_cluster(const ClusterMoments::View& moments, const Spending& spen
     }
     Spectrum spectrum = spectrum_of(regression.residual, rounding_floor(joint, moments.dimension), true);
     fit.variances = std::move(spectrum.variances);
-    fit.plan = plan_components(fit.variances, fit.significance, spending);
+    fit.plan = plan_components(fit.variances, fit.significance, rate_budget);
     for (std::size_t j = 0; j < fit.plan.bits.size(); ++j) {
         Eigen::VectorXd direction = spectrum.directions.col(static_cast<Eigen::Index>(j));
         Eigen::Index largest = 0; // the sign of an eigenvector is arbitrary; fix it
@@ -238,14 +238,14 @@ ClusterFit fit_cluster(const ClusterMoments::View& moments, const Spending& spen
     return fit;
 }
 
-double cluster_cost(const ClusterMoments::View& moments, const Spending& spending) {
+double cluster_cost(const ClusterMoments::View& moments, const RateBudget& rate_budget) {
     if (!(moments.significance() > kMinSignificance) || moments.dimension == 0)
         return 0;
     const Covariance joint = joint_covariance(moments);
     const Spectrum spectrum =
         spectrum_of(regression_of(joint, moments).residual, rounding_floor(joint, moments.dimension), false);
-    return cost_of(plan_components(spectrum.variances, moments.significance(), spending),
-                   moments.significance(), spending);
+    return cost_of(plan_components(spectrum.variances, moments.significance(), rate_budget),
+                   moments.significance(), rate_budget);
 }
 
 } // namespace prt

@@ -51,15 +51,15 @@ struct ClusterFit {
     ComponentPlan plan;
     double significance = 0;
 
-    /// Cost of all points of the cluster, including prices.
-    double cost(const Spending& spending) const { return cost_of(plan, significance, spending); }
+    /// Cost of all points of the cluster, including multipliers.
+    double cost(const RateBudget& rate_budget) const { return cost_of(plan, significance, rate_budget); }
 };
 
 /// Computes regression on the predictors, and local PCA of the residual, from moments. Directions whose
 /// variance is only rounding of the points are dropped.
-ClusterFit fit_cluster(const ClusterMoments::View& moments, const Spending& spending);
+ClusterFit fit_cluster(const ClusterMoments::View& moments, const RateBudget& rate_budget);
 
 /// Computes the cost of `fit_cluster` without its directions: five times as fast.
-double cluster_cost(const ClusterMoments::View& moments, const Spending& spending);
+double cluster_cost(const ClusterMoments::View& moments, const RateBudget& rate_budget);
 
 } // namespace prt

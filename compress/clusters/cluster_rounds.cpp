@@ -57,14 +57,14 @@ ClusterState ClusterRounds::start(std::vector<std::uint32_t> clusters, std::size
     return state;
 }
 
-void ClusterRounds::refit(ClusterState& state, const Spending& spending) const {
+void ClusterRounds::refit(ClusterState& state, const RateBudget& rate_budget) const {
     parallel_for(state.fits.size(), 1, threads, [&](std::size_t begin, std::size_t end) {
         for (std::size_t k = begin; k < end; ++k)
-            state.fits[k] = fit_cluster(state.moments.view(k), spending);
+            state.fits[k] = fit_cluster(state.moments.view(k), rate_budget);
     });
     state.cost = 0;
     for (const ClusterFit& fit : state.fits)
-        state.cost += fit.cost(spending);
+        state.cost += fit.cost(rate_budget);
 }
 
 void ClusterRounds::reassign(ClusterState& state) const {

@@ -13,7 +13,7 @@ struct ClusterState {
     std::vector<std::uint32_t> clusters; ///< [points]
     ClusterMoments moments;
     std::vector<ClusterFit> fits;
-    double cost = 0; ///< cost of the fits, including prices
+    double cost = 0; ///< cost of the fits, including multipliers
 };
 
 /// Rounds of clustered PCA. Keeps references.
@@ -29,11 +29,11 @@ struct ClusterRounds {
     ClusterState start(std::vector<std::uint32_t> clusters, std::size_t count) const;
     /// Computes local PCA of every cluster, with the most economical number of components. Empty clusters
     /// stay empty.
-    void refit(ClusterState& state, const Spending& spending) const;
+    void refit(ClusterState& state, const RateBudget& rate_budget) const;
     /// Assigns every point to the best cluster.
     void reassign(ClusterState& state) const;
-    void round(ClusterState& state, const Spending& spending) const {
-        refit(state, spending);
+    void round(ClusterState& state, const RateBudget& rate_budget) const {
+        refit(state, rate_budget);
         reassign(state);
     }
     void tell(const CompressEvent& event) const {

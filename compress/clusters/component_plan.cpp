@@ -51,21 +51,21 @@ std::vector<std::uint8_t> divide_bits(std::span<const double> variances, std::si
 
 /// Returns the bits of up to `components` axes.
 std::vector<std::uint8_t> bits_of(std::span<const double> variances, std::size_t components,
-                                  const Spending& spending) {
-    if (spending.fixed_bits.empty())
-        return spending.bits > 0 ? divide_bits(variances, components, spending.bits)
-                                 : std::vector<std::uint8_t>(components, 0);
+                                  const RateBudget& rate_budget) {
+    if (rate_budget.fixed_bits.empty())
+        return rate_budget.bits > 0 ? divide_bits(variances, components, rate_budget.bits)
+                                    : std::vector<std::uint8_t>(components, 0);
     std::vector<std::uint8_t> bits;
-    for (std::size_t j = 0; j < std::min(components, spending.fixed_bits.size()); ++j)
-        bits.push_back(static_cast<std::uint8_t>(spending.fixed_bits[j]));
+    for (std::size_t j = 0; j < std::min(components, rate_budget.fixed_bits.size()); ++j)
+        bits.push_back(static_cast<std::uint8_t>(rate_budget.fixed_bits[j]));
     return bits;
 }
 
 /// Returns the error that rounding weights to these bits adds.
 double rounding_of(std::span<const double> variances, std::span<const std::uint8_t> bits,
-                   const Spending& spending) {
+                   const RateBudget& rate_budget) {
     double sum = 0;
-    if (spending.bits > 0 || !spending.fixed_bits.empty())
+    if (rate_budget.bits > 0 || !rate_budget.fixed_bits.empty())
         for (std::size_t j = 0; j < bits.size(); ++j)
             sum += variances[j] * left_after(bits[j]);
     return sum;
@@ -73,26 +73,26 @@ double rounding_of(std::span<const double> variances, std::span<const std::uint8
 
 } // namespace
 
-std::vector<double> errors_by_components(std::span<const double> variances, const Spending& spending) {
+std::vector<double> errors_by_components(std::span<const double> variances, const RateBudget& rate_budget) {
     const auto rank = static_cast<std::size_t>(
         std::find_if(variances.begin(), variances.end(), [](double v) { return !(v > 0); }) -
         variances.begin());
-    const std::size_t most = std::min(rank, static_cast<std::size_t>(spending.component_limit));
+    const std::size_t most = std::min(rank, static_cast<std::size_t>(rate_budget.component_limit));
     std::vector<double> errors = {tail(variances, 0)};
     for (std::size_t m = 1; m <= most; ++m) {
-        const std::vector<std::uint8_t> bits = bits_of(variances, m, spending);
+        const std::vector<std::uint8_t> bits = bits_of(variances, m, rate_budget);
         if (bits.size() < m)
             break; // no bits left for another component
-        errors.push_back(tail(variances, m) + rounding_of(variances, bits, spending));
+        errors.push_back(tail(variances, m) + rounding_of(variances, bits, rate_budget));
     }
     return errors;
 }
 
 std::size_t cheapest_components(std::span<const double> errors, double significance,
-                                const Spending& spending) {
-    const double price =
-        spending.component_price + (significance > 0 ? spending.row_price / significance : 0);
-    const auto cost = [&](std::size_t m) { return errors[m] + price * static_cast<double>(m); };
+                                const RateBudget& rate_budget) {
+    const double multiplier =
+        rate_budget.component_multiplier + (significance > 0 ? rate_budget.row_multiplier / significance : 0);
+    const auto cost = [&](std::size_t m) { return errors[m] + multiplier * static_cast<double>(m); };
     std::size_t best = 0;
     for (std::size_t m = 1; m < errors.size(); ++m)
         if (cost(m) < cost(best))
@@ -101,13 +101,13 @@ std::size_t cheapest_components(std::span<const double> errors, double significa
 }
 
 ComponentPlan plan_components(std::span<const double> variances, double significance,
-                              const Spending& spending) {
-    const std::vector<double> errors = errors_by_components(variances, spending);
-    const std::size_t m = cheapest_components(errors, significance, spending);
-    std::vector<std::uint8_t> bits = bits_of(variances, m, spending);
-    const double prices = spending.component_price * static_cast<double>(m),
-                 penalty = prices + rounding_of(variances, bits, spending);
-    return {std::move(bits), penalty, errors[m] + prices};
+                              const RateBudget& rate_budget) {
+    const std::vector<double> errors = errors_by_components(variances, rate_budget);
+    const std::size_t m = cheapest_components(errors, significance, rate_budget);
+    std::vector<std::uint8_t> bits = bits_of(variances, m, rate_budget);
+    const double multipliers = rate_budget.component_multiplier * static_cast<double>(m),
+                 penalty = multipliers + rounding_of(variances, bits, rate_budget);
+    return {std::move(bits), penalty, errors[m] + multipliers};
 }
 
 } // namespace prt

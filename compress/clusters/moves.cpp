@@ -23,8 +23,8 @@ struct PossibleMerge {
 
 class Moves {
 public:
-    Moves(const ClusterRounds& rounds, const Spending& spending, const ClusterState& state)
-        : rounds_(rounds), points_(rounds.points), spending_(spending), state_(state),
+    Moves(const ClusterRounds& rounds, const RateBudget& rate_budget, const ClusterState& state)
+        : rounds_(rounds), points_(rounds.points), rate_budget_(rate_budget), state_(state),
           clusters_(penalised_clusters(state.fits, rounds.points.dimension)) {}
 
     /// Returns the best split of each cluster, [clusters]; the gain is 0 if the cluster's cost is below
@@ -41,16 +41,16 @@ public:
     std::size_t merge_least(std::size_t wanted, std::vector<std::uint32_t>& next) const;
 
 private:
-    double cost(std::size_t k) const { return state_.fits[k].cost(spending_); }
+    double cost(std::size_t k) const { return state_.fits[k].cost(rate_budget_); }
     double cost_of_moments(std::span<const double> moments) const {
-        return cluster_cost({points_.dimension, points_.predictors, moments}, spending_);
+        return cluster_cost({points_.dimension, points_.predictors, moments}, rate_budget_);
     }
     PossibleSplit split(std::size_t k, std::span<const std::uint32_t> members) const;
     PossibleMerge merge(std::size_t k, std::size_t other) const;
 
     const ClusterRounds& rounds_;
     const PointBlocks& points_;
-    const Spending& spending_;
+    const RateBudget& rate_budget_;
     const ClusterState& state_;
     PenalisedClusters clusters_; ///< clusters of `state_`
 };
@@ -202,9 +202,9 @@ std::size_t Moves::merge_least(std::size_t wanted, std::vector<std::uint32_t>& n
 
 } // namespace
 
-bool split_and_merge(const ClusterRounds& rounds, const Spending& spending, double tolerance,
+bool split_and_merge(const ClusterRounds& rounds, const RateBudget& rate_budget, double tolerance,
                      const Progress& progress, ClusterState& state) {
-    const Moves moves(rounds, spending, state);
+    const Moves moves(rounds, rate_budget, state);
     ClusterState next = state;
     // Only clusters whose cost is above the mean are considered.
     const double mean = state.cost / static_cast<double>(state.fits.size());
@@ -213,9 +213,9 @@ bool split_and_merge(const ClusterRounds& rounds, const Spending& spending, doub
     next.moments.update(rounds.points, rounds.significance, state.clusters, next.clusters, rounds.threads);
     for (int r = 0; r < tuning::kRoundsAfterMoves; ++r) {
         progress.update(static_cast<double>(r) / tuning::kRoundsAfterMoves);
-        rounds.round(next, spending);
+        rounds.round(next, rate_budget);
     }
-    rounds.refit(next, spending);
+    rounds.refit(next, rate_budget);
     const bool kept = next.cost < state.cost * (1 - tolerance);
     rounds.tell(MovesTried{state.cost, next.cost, kept});
     if (kept)
@@ -223,17 +223,18 @@ bool split_and_merge(const ClusterRounds& rounds, const Spending& spending, doub
     return kept;
 }
 
-void resize(const ClusterRounds& rounds, const Spending& spending, std::size_t wanted, ClusterState& state) {
-    rounds.refit(state, spending);
+void resize(const ClusterRounds& rounds, const RateBudget& rate_budget, std::size_t wanted,
+            ClusterState& state) {
+    rounds.refit(state, rate_budget);
     while (state.fits.size() != wanted) {
-        const Moves moves(rounds, spending, state);
+        const Moves moves(rounds, rate_budget, state);
         std::vector<std::uint32_t> next = state.clusters;
         const std::size_t count =
             state.fits.size() < wanted ? moves.split_most(wanted, next) : moves.merge_least(wanted, next);
         if (count == state.fits.size())
             return;
         state = rounds.start(std::move(next), count);
-        rounds.round(state, spending);
+        rounds.round(state, rate_budget);
     }
 }
 

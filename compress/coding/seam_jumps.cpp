@@ -5,8 +5,8 @@
 
 namespace prt {
 
-SeamJumps::SeamJumps(std::span<const SeamJump> jumps, const JumpPrices& prices)
-    : jumps_(jumps), prices_(prices) {
+SeamJumps::SeamJumps(std::span<const SeamJump> jumps, const JumpWeights& multipliers)
+    : jumps_(jumps), multipliers_(multipliers) {
     for (std::size_t s = 0; s < jumps.size(); ++s)
         for (std::size_t i = 0; i < jumps[s].receivers.size(); ++i)
             if (jumps[s].weights[i] != 0)
@@ -49,9 +49,9 @@ void SeamJumps::move(std::size_t p, const Eigen::VectorXf& by) {
 double SeamJumps::pull(std::size_t p, const Eigen::VectorXf& now, Eigen::VectorXf& slope) const {
     double curvature = 0;
     for (const Part& part : parts_of(p)) {
-        const double price = prices_.square * static_cast<double>(part.weight);
-        slope -= static_cast<float>(price) * (sums_.col(part.jump) - part.weight * now);
-        curvature += price * static_cast<double>(part.weight);
+        const double multiplier = multipliers_.square * static_cast<double>(part.weight);
+        slope -= static_cast<float>(multiplier) * (sums_.col(part.jump) - part.weight * now);
+        curvature += multiplier * static_cast<double>(part.weight);
     }
     return curvature;
 }

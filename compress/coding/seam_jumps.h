@@ -12,18 +12,18 @@
 
 namespace prt {
 
-struct JumpPrices {
-    double square = 0; ///< price of a squared jump
-    double border = 0; ///< price of a receiver in another cluster, for each receiver that a jump reads
+struct JumpWeights {
+    double square = 0; ///< multiplier of a squared jump
+    double border = 0; ///< multiplier of a receiver in another cluster, for each receiver that a jump reads
                        ///< together with it
 };
 
 /// Jumps of the error: weighted sums of the errors of receivers. Baked light has no jumps, so these are the
-/// visible ones. A jump costs its price times its square.
+/// visible ones. A jump costs its multiplier times its square.
 class SeamJumps {
 public:
     /// Keeps a reference.
-    SeamJumps(std::span<const SeamJump> jumps, const JumpPrices& prices);
+    SeamJumps(std::span<const SeamJump> jumps, const JumpWeights& multipliers);
 
     /// Receivers that jumps read, in ascending order.
     std::span<const std::uint32_t> receivers() const { return receivers_; }
@@ -41,7 +41,7 @@ public:
     template <class Separate>
     double borders(std::size_t p, Separate&& separate) const {
         double cost = 0;
-        see_partners(p, [&](std::uint32_t q) { cost += separate(q) ? prices_.border : 0; });
+        see_partners(p, [&](std::uint32_t q) { cost += separate(q) ? multipliers_.border : 0; });
         return cost;
     }
 
@@ -70,7 +70,7 @@ private:
     void unite_parts();
 
     std::span<const SeamJump> jumps_;
-    JumpPrices prices_;
+    JumpWeights multipliers_;
     std::vector<Part> parts_; ///< sorted by receiver
     std::vector<std::uint32_t> receivers_;
     std::vector<std::size_t> first_; ///< [receivers_ + 1] index into parts_

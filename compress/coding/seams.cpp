@@ -95,7 +95,7 @@ public:
           edge_shares_(significance_per_edge(neighbours_, significance)),
           dimension_(static_cast<Eigen::Index>(points.dimension)),
           jumps_(jumps,
-                 {tuning::kJumpPrice * mean_of(significance),
+                 {tuning::kJumpMultiplier * mean_of(significance),
                   tuning::kJumpBorder * mean_of(significance) * total_error(significance, codes.errors)}) {}
 
     void solve_weights();
@@ -127,8 +127,8 @@ private:
     }
     /// Returns the significance of an edge.
     double edge(std::size_t p, std::size_t q) const { return edge_shares_[p] + edge_shares_[q]; }
-    float edge_price(std::size_t p, std::size_t q) const {
-        return static_cast<float>(options_.seam_price * edge(p, q));
+    float edge_weight(std::size_t p, std::size_t q) const {
+        return static_cast<float>(options_.seam_weight * edge(p, q));
     }
     /// Applies the scales of a receiver, which weigh its errors, to a vector; all vectors except rows are
     /// scaled.
@@ -208,7 +208,7 @@ std::vector<float> SeamSmoother::descent(const Stretch& stretch) const {
             sum = significance_[p] * own;
             for (const std::uint32_t q : neighbours_.of(p)) {
                 error_of(q, other);
-                sum += edge_price(p, q) * (own - other);
+                sum += edge_weight(p, q) * (own - other);
             }
             multiply_scales(p, sum);
             for (std::size_t j = 0; j < components(p); ++j)
@@ -238,19 +238,19 @@ std::vector<float> SeamSmoother::curvature(const Stretch& stretch, std::span<con
             };
             bool at_border = false;
             for (const std::uint32_t q : neighbours_.of(p)) {
-                const float price = edge_price(p, q);
-                own += price;
+                const float multiplier = edge_weight(p, q);
+                own += multiplier;
                 if (first_[q] == kElsewhere)
                     continue;
                 if (codes_.clusters[q] == k) {
-                    add_within(q, -price);
+                    add_within(q, -multiplier);
                     continue;
                 }
                 if (!at_border)
                     across.setZero();
                 at_border = true;
                 beyond.setZero();
-                add_combination(q, change.data() + first_[q], beyond, -price);
+                add_combination(q, change.data() + first_[q], beyond, -multiplier);
                 multiply_scales(q, beyond);
                 across += beyond;
             }
@@ -272,7 +272,7 @@ std::vector<float> SeamSmoother::inverse_diagonal(const Stretch& stretch) const 
     for (const std::uint32_t p : stretch.receivers) {
         auto total = static_cast<double>(significance_[p]);
         for (const std::uint32_t q : neighbours_.of(p))
-            total += options_.seam_price * edge(p, q);
+            total += options_.seam_weight * edge(p, q);
         for (std::size_t j = 0; j < components(p); ++j) {
             double d = 0;
             const auto at = static_cast<Eigen::Index>(j);
@@ -349,9 +349,9 @@ void SeamSmoother::pull_at(std::size_t p, Pull& pull) const {
             pull.candidates.push_back(k);
     };
     for (const std::uint32_t q : neighbours_.of(p)) {
-        pull.total += options_.seam_price * edge(p, q);
+        pull.total += options_.seam_weight * edge(p, q);
         error_of(q, error);
-        pull.vector += static_cast<float>(options_.seam_price * edge(p, q)) * error;
+        pull.vector += static_cast<float>(options_.seam_weight * edge(p, q)) * error;
         consider(codes_.clusters[q]);
     }
     if (jumps_.measured()) {
@@ -458,7 +458,7 @@ void smooth_seams(const PointBlocks& points, std::span<const float> significance
     if (points.dimension == 0)
         return;
     SeamSmoother smoother(points, significance, edges, jumps, clusters, options, codes);
-    if (options.seam_price > 0 && clusters.max_components > 0)
+    if (options.seam_weight > 0 && clusters.max_components > 0)
         smoother.solve_weights();
     smoother.reassign();
     smoother.close_jumps();

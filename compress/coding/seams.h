@@ -9,7 +9,7 @@
 namespace prt {
 
 struct SeamOptions {
-    double seam_price = 0;      ///< mu of docs/math.md, eq. 28
+    double seam_weight = 0;     ///< mu of docs/math.md, eq. 28
     double mean_components = 0; ///< maximum mean number of components; 0: no limit
     /// Number of receivers whose weights are solved for together, as real numbers.
     std::size_t solved_together = tuning::kSolvedTogether;

@@ -16,7 +16,7 @@ struct Line {
     int component_limit = std::numeric_limits<int>::max(); ///< lowered if the budget is very small
     PredictorChoice predictors = PredictorChoice::normal;
     double basis_share = -1; ///< CompressOptions::basis_share; negative: the tuned value
-    bool finished = false;   ///< with all rounds and seams; drafts only predictor the search
+    bool finished = false;   ///< with all rounds and seams; drafts only steer the search
     friend auto operator<=>(const Line&, const Line&) = default;
 };
 

@@ -129,7 +129,7 @@ BaselineResult classic_cpca(const Transfer& transfer, std::span<const float> are
     const Frame frame = fit_frame(transfer, significance, plain_metric(transfer.layout), 0, options.threads);
     std::mt19937_64 random(options.seed);
     const ClusteringOptions how{.clusters = static_cast<std::size_t>(options.clusters),
-                                .spending = {.component_limit = options.components},
+                                .rate_budget = {.component_limit = options.components},
                                 .schedule = classic_schedule(options.iterate),
                                 .trace = {},
                                 .threads = options.threads};

@@ -192,7 +192,7 @@ TEST(Compress, EveryFormatIsTheSameForAnyNumberOfThreads) {
             options.clusters = 20;
             options.mean_components = format == WeightFormat::packed ? 0 : 3;
             options.coding.format = format;
-            options.seam_price = 1;
+            options.seam_weight = 1;
             options.threads = threads;
             results.push_back(compress(t, {std::vector<float>(700, 1.0f), edges}, options).transfer);
             EXPECT_EQ(results.back().bases.rows, results.front().bases.rows);
@@ -271,7 +271,7 @@ TEST(HardCase, AxesThatVanishBesideOthersAreLeftOut) {
     t.vector(1)[3] = 1.4e-5f;
     t.vector(2)[5] = 8.5e-4f;
     CompressOptions options;
-    options.seam_price = 1;
+    options.seam_weight = 1;
     const std::vector<Edge> edges = {{0, 1}, {1, 2}};
     const CompressResult result = compress(t, {std::vector<float>(3, 1.0f), edges}, options);
     EXPECT_LT(error_of(t, result), 1e-3);
@@ -403,12 +403,12 @@ TEST(Compress, RefusesWhatItCannotDo) {
     refused([](CompressOptions& o) { o.coding.fixed_bits = {17}; });
     refused([](CompressOptions& o) { o.coding.fixed_bits = {0}; });
     refused([](CompressOptions& o) { o.coding.cluster_bits = 3; }); // 256 clusters
-    refused([](CompressOptions& o) { o.seam_price = -1; });
-    refused([](CompressOptions& o) { o.seam_price = std::nan(""); });
+    refused([](CompressOptions& o) { o.seam_weight = -1; });
+    refused([](CompressOptions& o) { o.seam_weight = std::nan(""); });
     refused([](CompressOptions& o) { o.mean_components = -2; });
     refused([](CompressOptions& o) { o.basis_share = 1; });
     refused([](CompressOptions& o) { o.metric = natural_metric(layout_of_one(4, 1)); });
-    refused([](CompressOptions& o) { o.seam_price = 2 * kMaxPrice; });
+    refused([](CompressOptions& o) { o.seam_weight = 2 * kMaxSeamWeight; });
     refused([](CompressOptions& o) { o.mean_components = std::numeric_limits<double>::infinity(); });
     const CompressOptions options;
     EXPECT_THROW(compress(fine, {std::vector<float>(9, 1.0f)}, options), Error);

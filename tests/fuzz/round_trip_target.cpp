@@ -61,7 +61,7 @@ CompressOptions options_of(std::span<const std::uint8_t> head) {
     if (head[3] & 32)
         options.mean_components = head[7] / 16.0;
     options.bases_count = head[3] & 64;
-    options.seam_price = head[7] & 1 ? head[6] / 64.0 : 0;
+    options.seam_weight = head[7] & 1 ? head[6] / 64.0 : 0;
     return options;
 }
 

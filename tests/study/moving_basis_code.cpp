@@ -70,8 +70,8 @@ void round_weights(const WeightEquations& equations, std::span<const WeightSteps
 
 /// Solves for weights and rounds them to the best steps.
 void code_weights(const GridPoints& points, MovingBasisFit& fit, std::span<const std::uint8_t> bits,
-                  float price) {
-    solve_weights(points, fit.grid, fit.basis, price);
+                  float multiplier) {
+    solve_weights(points, fit.grid, fit.basis, multiplier);
     std::vector<WeightSteps> steps;
     for (std::size_t l = 0; l < bits.size(); ++l)
         steps.push_back(steps_for(points, fit.basis.weights, static_cast<Index>(l), bits[l]));
@@ -79,7 +79,7 @@ void code_weights(const GridPoints& points, MovingBasisFit& fit, std::span<const
     parallel_for(cells.size(), 8, points.threads, [&](std::size_t begin, std::size_t end) {
         for (std::size_t c = begin; c < end; ++c)
             for (std::size_t i = cells[c].begin; i < cells[c].end; ++i)
-                round_weights(weight_equations(points, fit.grid, fit.basis, cells[c], i, price), steps,
+                round_weights(weight_equations(points, fit.grid, fit.basis, cells[c], i, multiplier), steps,
                               fit.basis.weights.row(fit.grid.receivers[i]));
     });
 }
@@ -129,13 +129,13 @@ MovingBasisCode code_moving_basis(const GridPoints& points, MovingBasisFit fit, 
     if (fit.basis.components > 0) // without bits the plan would have weights as floats
         plan = plan_components(energies_of(points, fit.grid, fit.basis), 1,
                                {.component_limit = static_cast<int>(fit.basis.components), .bits = bits});
-    const RowPrices prices{tuning::kSmoothness, tuning::kRowRidge};
-    const auto price = static_cast<float>(tuning::kWeightPrice *
-                                          squared_error(points, values_of(points, fit.grid, fit.basis)));
+    const RowMultipliers multipliers{tuning::kSmoothness, tuning::kRowRidge};
+    const auto multiplier = static_cast<float>(tuning::kWeightMultiplier *
+                                               squared_error(points, values_of(points, fit.grid, fit.basis)));
     fit.basis = truncated(fit.basis, plan.bits.size());
     for (int round = 0; round < tuning::kCodeRounds; ++round) {
-        code_weights(points, fit, plan.bits, price);
-        improve_rows(points, fit.grid, fit.basis, prices, tuning::kRowStepsOfCode);
+        code_weights(points, fit, plan.bits, multiplier);
+        improve_rows(points, fit.grid, fit.basis, multipliers, tuning::kRowStepsOfCode);
     }
     MovingBasisCode code;
     code.components = plan.bits.size();
@@ -144,7 +144,7 @@ MovingBasisCode code_moving_basis(const GridPoints& points, MovingBasisFit fit, 
     const float step = step_of_rows(points, fit, row_share * code.error);
     if (step > 0) {
         code.table_bytes += round_rows(fit.basis, step);
-        code_weights(points, fit, plan.bits, price);
+        code_weights(points, fit, plan.bits, multiplier);
     } else // the code must be lossless
         code.table_bytes += static_cast<double>(fit.basis.rows.size()) * sizeof(float);
     code.values = values_of(points, fit.grid, fit.basis);

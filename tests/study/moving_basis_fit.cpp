@@ -23,12 +23,13 @@ void alternate(const GridPoints& points, MovingBasisFit& fit, const MovingBasisS
             normalise(points, fit.grid, basis);
             carried = 0;
         }
-        improve_rows(points, fit.grid, basis, schedule.prices, tuning::kRowSteps);
+        improve_rows(points, fit.grid, basis, schedule.multipliers, tuning::kRowSteps);
         const RowMatrix rows = basis.rows;
         if (carried > 0)
             basis.rows += static_cast<float>(carried) / static_cast<float>(carried + 3) * (rows - relighter);
         relighter = rows;
-        solve_weights(points, fit.grid, basis, static_cast<float>(schedule.weight_price * relighter_error));
+        solve_weights(points, fit.grid, basis,
+                      static_cast<float>(schedule.weight_multiplier * relighter_error));
         const double error = squared_error(points, values_of(points, fit.grid, basis));
         carried = carried > 0 && error > relighter_error ? 0 : carried + 1;
         relighter_error = error;
@@ -38,24 +39,24 @@ void alternate(const GridPoints& points, MovingBasisFit& fit, const MovingBasisS
 } // namespace
 
 WeightEquations weight_equations(const GridPoints& points, const SparseGrid& grid, const MovingBasis& basis,
-                                 const SparseGrid::Cell& cell, std::size_t i, float price) {
+                                 const SparseGrid::Cell& cell, std::size_t i, float multiplier) {
     RowMatrix rows;
     interpolate(grid, basis, cell, i, rows);
     const auto b = rows.bottomRows(basis.rows_per_node() - 1);
     WeightEquations equations{b * b.transpose(),
                               b * (points.values.row(grid.receivers[i]) - rows.row(0)).transpose()};
-    equations.gram.diagonal().array() += tuning::kWeightRidge * equations.gram.trace() + price + 1e-30f;
+    equations.gram.diagonal().array() += tuning::kWeightRidge * equations.gram.trace() + multiplier + 1e-30f;
     return equations;
 }
 
-void solve_weights(const GridPoints& points, const SparseGrid& grid, MovingBasis& basis, float price) {
+void solve_weights(const GridPoints& points, const SparseGrid& grid, MovingBasis& basis, float multiplier) {
     if (basis.components == 0)
         return;
     parallel_for(grid.cells.size(), 8, points.threads, [&](std::size_t begin, std::size_t end) {
         for (std::size_t c = begin; c < end; ++c)
             for (std::size_t i = grid.cells[c].begin; i < grid.cells[c].end; ++i) {
                 const WeightEquations equations =
-                    weight_equations(points, grid, basis, grid.cells[c], i, price);
+                    weight_equations(points, grid, basis, grid.cells[c], i, multiplier);
                 basis.weights.row(grid.receivers[i]) =
                     equations.gram.ldlt().solve(equations.right).transpose();
             }

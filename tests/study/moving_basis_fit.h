@@ -11,9 +11,9 @@ struct MovingBasisFit {
 };
 
 struct MovingBasisSchedule {
-    RowPrices prices = {tuning::kSmoothness, tuning::kRowRidge};
-    double weight_price = tuning::kWeightPrice; ///< cost of a squared weight, as a fraction of the squared
-                                                ///< error
+    RowMultipliers multipliers = {tuning::kSmoothness, tuning::kRowRidge};
+    double weight_multiplier = tuning::kWeightMultiplier; ///< cost of a squared weight, as a fraction of the
+                                                          ///< squared error
     int rounds = tuning::kRoundsOfGrid;
 };
 
@@ -23,8 +23,9 @@ struct MovingBasisSchedule {
 MovingBasisFit fit_moving_basis(const GridPoints& points, double size, std::size_t components,
                                 const MovingBasisSchedule& schedule = {});
 
-/// Computes the best weights for the given rows; a squared weight costs `price`.
-void solve_weights(const GridPoints& points, const SparseGrid& grid, MovingBasis& basis, float price = 0);
+/// Computes the best weights for the given rows; a squared weight costs `multiplier`.
+void solve_weights(const GridPoints& points, const SparseGrid& grid, MovingBasis& basis,
+                   float multiplier = 0);
 
 /// Coefficients of the products of two rows, and of each row with the residual after the mean, in the
 /// equations of the weights of the receiver at index `i` of grid.receivers.
@@ -33,6 +34,6 @@ struct WeightEquations {
     Eigen::VectorXf right; ///< [components]
 };
 WeightEquations weight_equations(const GridPoints& points, const SparseGrid& grid, const MovingBasis& basis,
-                                 const SparseGrid::Cell& cell, std::size_t i, float price);
+                                 const SparseGrid::Cell& cell, std::size_t i, float multiplier);
 
 } // namespace prt

@@ -54,7 +54,7 @@ double root_error(const GridPoints& points, const MovingBasisFit& fit) {
 }
 
 constexpr MovingBasisSchedule exactly(int rounds) {
-    return {.prices = {}, .weight_price = 0, .rounds = rounds};
+    return {.multipliers = {}, .weight_multiplier = 0, .rounds = rounds};
 }
 
 TEST(SparseGrid, InterpolatesWhatIsLinearAndHasTheNodesThatAreNeeded) {
@@ -114,7 +114,7 @@ TEST(MovingBasis, NormalisingChangesNoValue) {
     const std::vector<glm::vec3> positions = sample_positions(500);
     const SparseGrid grid = sparse_grid(positions, 1);
     const GridPoints points = points_on(grid, positions, 3);
-    MovingBasisFit fit = fit_moving_basis(points, 1, 3, {.prices = {0, 0.1f}, .rounds = 5});
+    MovingBasisFit fit = fit_moving_basis(points, 1, 3, {.multipliers = {0, 0.1f}, .rounds = 5});
     fit.basis.weights.col(1) = 3 * fit.basis.weights.col(0) - fit.basis.weights.col(1);
     fit.basis.weights.array() += 0.5f;
     const RowMatrix before = values_of(points, fit.grid, fit.basis);

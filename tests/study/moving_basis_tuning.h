@@ -17,7 +17,7 @@ inline constexpr float kRowRidge = 1e-3f;
 /// Cost of a squared weight, as a fraction of the squared error. Without it a few weights, at short bases,
 /// are a hundred times as long as the others and take their bits: 13 % more error on the bunny, with eight
 /// components in a word.
-inline constexpr double kWeightPrice = 0.05;
+inline constexpr double kWeightMultiplier = 0.05;
 /// Share of the basis's length that is added where weights are solved for, against float rounding.
 inline constexpr float kWeightRidge = 1e-6f;
 

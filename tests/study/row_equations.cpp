@@ -32,10 +32,10 @@ bool make_an_edge(const glm::ivec3& a, const glm::ivec3& b) {
 } // namespace
 
 RowEquations::RowEquations(const GridPoints& points, const SparseGrid& grid, const MovingBasis& basis,
-                           const RowPrices& prices)
+                           const RowMultipliers& multipliers)
     : points_(points), grid_(grid), basis_(basis), rows_(basis.rows_per_node()),
-      smoothness_(prices.smoothness / static_cast<float>(std::max<std::size_t>(1, grid.nodes.size()))),
-      ridge_(prices.ridge), parts_(grid.nodes.size()), partners_(grid.nodes.size()),
+      smoothness_(multipliers.smoothness / static_cast<float>(std::max<std::size_t>(1, grid.nodes.size()))),
+      ridge_(multipliers.ridge), parts_(grid.nodes.size()), partners_(grid.nodes.size()),
       reach_(grid.nodes.size()) {
     for (std::size_t c = 0; c < grid.cells.size(); ++c)
         for (std::size_t corner = 0; corner < kCorners; ++corner)
@@ -155,8 +155,8 @@ RowMatrix RowEquations::preconditioned(const RowMatrix& residual) const {
 }
 
 void improve_rows(const GridPoints& points, const SparseGrid& grid, MovingBasis& basis,
-                  const RowPrices& prices, int steps) {
-    const RowEquations equations(points, grid, basis, prices);
+                  const RowMultipliers& multipliers, int steps) {
+    const RowEquations equations(points, grid, basis, multipliers);
     RowMatrix residual = equations.right_side() - equations.apply(basis.rows);
     RowMatrix z = equations.preconditioned(residual), direction = z;
     Eigen::RowVectorXf product = products(residual, z);

@@ -7,7 +7,7 @@
 namespace prt {
 
 /// Costs of rows in addition to the error.
-struct RowPrices {
+struct RowMultipliers {
     float smoothness = 0; ///< for differences between nodes of one edge, all nodes together
     float ridge = 0;      ///< for the squared length of bases, at receivers
 };
@@ -18,7 +18,7 @@ class RowEquations {
 public:
     /// Keeps references.
     RowEquations(const GridPoints& points, const SparseGrid& grid, const MovingBasis& basis,
-                 const RowPrices& prices);
+                 const RowMultipliers& multipliers);
 
     /// Applies the matrix of the equations to `rows`.
     RowMatrix apply(const RowMatrix& rows) const;
@@ -47,6 +47,6 @@ private:
 /// Takes `steps` of conjugate gradients (Hestenes and Stiefel 1952), separately for each column of the rows,
 /// starting from the rows of `basis`.
 void improve_rows(const GridPoints& points, const SparseGrid& grid, MovingBasis& basis,
-                  const RowPrices& prices, int steps);
+                  const RowMultipliers& multipliers, int steps);
 
 } // namespace prt

@@ -29,8 +29,8 @@ inline constexpr int kMaxPackedBits = 32 * kMaxPackedWords - 16;
 /// Maximum transfer coefficient that can be compressed. A real one is 1 if all light arrives, and a few
 /// hundred behind nearly black sheets. Squares of values up to this limit can be summed in floats.
 inline constexpr float kMaxInputTransfer = 1e12f;
-/// Maximum price of seams.
-inline constexpr double kMaxPrice = 1e6;
+/// Maximum multiplier of seams.
+inline constexpr double kMaxSeamWeight = 1e6;
 
 /// Storage of a receiver's weights.
 struct WeightCoding {
@@ -81,7 +81,7 @@ struct CompressOptions {
     std::optional<LightMetric> metric = {};
     /// mu of docs/math.md, eq. 28: the cost of a jump of the error along a mesh edge, relative to the error
     /// itself.
-    double seam_price = 1;
+    double seam_weight = 1;
     std::uint64_t seed = 0;
     int threads = 0;          ///< 0: all
     CompressTrace trace = {}; ///< receives progress events; does not change results

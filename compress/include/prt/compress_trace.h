@@ -15,7 +15,7 @@ struct ClustersSeeded {
 };
 
 /// A round of clustered PCA before weights are quantised. Costs are squared, weighted errors (docs/math.md,
-/// eq. 28c), including expected quantisation loss and prices.
+/// eq. 28c), including expected quantisation loss and multipliers.
 struct ClusteringRound {
     int component_limit;
     double cost;

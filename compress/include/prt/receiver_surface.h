@@ -17,7 +17,7 @@ namespace prt {
 /// View of the data of receivers. Keeps references.
 struct ReceiverSurface {
     std::span<const float> areas;     ///< [receivers] weight of an error; 0: ignored
-    std::span<const Edge> edges = {}; ///< required if seams have a price
+    std::span<const Edge> edges = {}; ///< required if seams have a multiplier
     /// [receivers], or empty if the renderer does not have them: unit or zero; metres, relative to
     /// Scene::origin.
     std::span<const glm::vec3> normals = {}, positions = {};

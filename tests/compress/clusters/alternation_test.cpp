@@ -34,8 +34,8 @@ TEST(Alternation, NeverLosesWhatARoundHasFound) {
         ClusteringOptions how;
         // the number of members is at most the number of unknowns of least squares
         how.clusters = kReceivers / 9;
-        how.spending.component_limit = 16;
-        how.spending.bits = 33;
+        how.rate_budget.component_limit = 16;
+        how.rate_budget.bits = 33;
         std::mt19937_64 random(seed);
         const Clustering found = cluster_points(points, significance, how, random, {});
         QuantisedClusters clusters = quantised_clusters(points, significance, found, WeightFormat::packed, 1);

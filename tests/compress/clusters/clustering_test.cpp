@@ -37,8 +37,11 @@ bool finds_subspaces(unsigned seed, const ClusteringSchedule& schedule) {
     const Transfer t = crossing_subspaces(3, seed);
     const std::vector<float> significance(t.receivers(), 1.0f / static_cast<float>(t.receivers()));
     const PointBlocks points(t, fit_frame(t, significance, plain_metric(t.layout), 0, 1), {}, 1);
-    const ClusteringOptions options{
-        .clusters = 3, .spending = {.component_limit = 5}, .schedule = schedule, .trace = {}, .threads = 1};
+    const ClusteringOptions options{.clusters = 3,
+                                    .rate_budget = {.component_limit = 5},
+                                    .schedule = schedule,
+                                    .trace = {},
+                                    .threads = 1};
     std::mt19937_64 random(seed);
     return cluster_points(points, significance, options, random, {}).cost < 1e-6;
 }

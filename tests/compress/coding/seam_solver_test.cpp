@@ -91,17 +91,17 @@ struct SmallMesh {
         return sum;
     }
     /// The sum of eq. 28.
-    double energy(const Codes& of, double seam_price) const {
+    double energy(const Codes& of, double seam_weight) const {
         double sum = mean_error(of);
         for (const Edge& e : edges)
-            sum += seam_price * share(e) * (error(of, e.first) - error(of, e.second)).squaredNorm();
+            sum += seam_weight * share(e) * (error(of, e.first) - error(of, e.second)).squaredNorm();
         return sum;
     }
 };
 
 /// Returns the minimum of eq. 28 over the weights, with the receivers' clusters fixed: a dense least-squares
 /// problem.
-double min_energy(const SmallMesh& mesh, double seam_price) {
+double min_energy(const SmallMesh& mesh, double seam_weight) {
     const std::size_t components = mesh.clusters.max_components;
     const auto unknowns = static_cast<Eigen::Index>(mesh.points.count * components),
                rows = static_cast<Eigen::Index>(kDimension * (mesh.points.count + mesh.edges.size()));
@@ -119,8 +119,8 @@ double min_energy(const SmallMesh& mesh, double seam_price) {
     for (std::size_t p = 0; p < mesh.points.count; ++p, at += kDimension)
         add(p, std::sqrt(static_cast<double>(mesh.significance[p])));
     for (const Edge& e : mesh.edges) {
-        add(e.first, std::sqrt(seam_price * mesh.share(e)));
-        add(e.second, -std::sqrt(seam_price * mesh.share(e)));
+        add(e.first, std::sqrt(seam_weight * mesh.share(e)));
+        add(e.second, -std::sqrt(seam_weight * mesh.share(e)));
         at += kDimension;
     }
     const Eigen::VectorXd weights = matrix.colPivHouseholderQr().solve(right);
@@ -132,26 +132,26 @@ TEST(SeamSolver, WeightsThatMayBeAnyReachTheLeastOfTheSum) {
     // would converge slowly, because the seam weight couples neighbours.
     for (const std::size_t components : {1u, 2u}) {
         SmallMesh mesh(12, components, 100, WeightGrid::any());
-        constexpr double kPrice = 50;
-        const double start = mesh.energy(mesh.codes, kPrice), least = min_energy(mesh, kPrice);
+        constexpr double kMultiplier = 50;
+        const double start = mesh.energy(mesh.codes, kMultiplier), least = min_energy(mesh, kMultiplier);
         ASSERT_LT(least, 0.9 * start);
         const std::vector<std::uint32_t> before = mesh.codes.clusters;
-        smooth_seams(mesh.points, mesh.significance, mesh.edges, {}, mesh.clusters, {.seam_price = kPrice},
-                     mesh.codes);
+        smooth_seams(mesh.points, mesh.significance, mesh.edges, {}, mesh.clusters,
+                     {.seam_weight = kMultiplier}, mesh.codes);
         EXPECT_EQ(mesh.codes.clusters, before);
         // Points of 300 are floats, and the solver ends where the squared residual fell to 1e-6.
-        EXPECT_NEAR(mesh.energy(mesh.codes, kPrice), least, 1e-4 * (start - least));
+        EXPECT_NEAR(mesh.energy(mesh.codes, kMultiplier), least, 1e-4 * (start - least));
     }
 }
 
 TEST(SeamSolver, NoReceiverAloneFindsACheaperCodeAfterwards) {
     // Clusters lie near each other, and weights have eight values, all of which are tried.
     SmallMesh mesh(60, 1, 0.5f, WeightGrid::of_bits(3));
-    constexpr double kPrice = 2;
-    const double start = mesh.energy(mesh.codes, kPrice);
-    smooth_seams(mesh.points, mesh.significance, mesh.edges, {}, mesh.clusters, {.seam_price = kPrice},
+    constexpr double kMultiplier = 2;
+    const double start = mesh.energy(mesh.codes, kMultiplier);
+    smooth_seams(mesh.points, mesh.significance, mesh.edges, {}, mesh.clusters, {.seam_weight = kMultiplier},
                  mesh.codes);
-    const double reached = mesh.energy(mesh.codes, kPrice);
+    const double reached = mesh.energy(mesh.codes, kMultiplier);
     EXPECT_LT(reached, 0.95 * start);
     for (const Edge& edge : mesh.edges)
         for (const auto& [p, q] : {std::pair(edge.first, edge.second), {edge.second, edge.first}})
@@ -161,7 +161,7 @@ TEST(SeamSolver, NoReceiverAloneFindsACheaperCodeAfterwards) {
                     other.clusters[p] = k;
                     const float weight = static_cast<float>(2 * i - 7) / 7;
                     other.weights.write(mesh.clusters, k, p, &weight);
-                    EXPECT_GE(mesh.energy(other, kPrice), (1 - 1e-6) * reached) << p << " " << k;
+                    EXPECT_GE(mesh.energy(other, kMultiplier), (1 - 1e-6) * reached) << p << " " << k;
                 }
     for (std::size_t p = 0; p < mesh.points.count; ++p)
         EXPECT_NEAR(static_cast<double>(mesh.codes.errors[p]), mesh.error(mesh.codes, p).squaredNorm(), 1e-5);
@@ -170,16 +170,16 @@ TEST(SeamSolver, NoReceiverAloneFindsACheaperCodeAfterwards) {
 TEST(SeamSolver, StretchesReachWhatAllTogetherDo) {
     // Continuous weights: solving all receivers together reaches the minimum; a stretch with fixed neighbours
     // misses it because of the coupling to them.
-    constexpr double kPrice = 2;
+    constexpr double kMultiplier = 2;
     SmallMesh together(400, 2, 100, WeightGrid::any());
-    const double start = together.energy(together.codes, kPrice);
+    const double start = together.energy(together.codes, kMultiplier);
     SmallMesh stretches = together;
     smooth_seams(together.points, together.significance, together.edges, {}, together.clusters,
-                 {.seam_price = kPrice}, together.codes);
+                 {.seam_weight = kMultiplier}, together.codes);
     smooth_seams(stretches.points, stretches.significance, stretches.edges, {}, stretches.clusters,
-                 {.seam_price = kPrice, .solved_together = 40}, stretches.codes);
-    const double least = together.energy(together.codes, kPrice),
-                 reached = stretches.energy(stretches.codes, kPrice);
+                 {.seam_weight = kMultiplier, .solved_together = 40}, stretches.codes);
+    const double least = together.energy(together.codes, kMultiplier),
+                 reached = stretches.energy(stretches.codes, kMultiplier);
     EXPECT_LT(least, 0.95 * start);
     EXPECT_LT(reached - least, 0.02 * (start - least));
 }
@@ -188,7 +188,7 @@ TEST(SeamSolver, AReceiverStaysWhereNoOtherClusterIsCheaper) {
     // All clusters are equal and have only a mean.
     SmallMesh mesh(12, 0, 0, WeightGrid::any());
     const std::vector<std::uint32_t> before = mesh.codes.clusters;
-    smooth_seams(mesh.points, mesh.significance, mesh.edges, {}, mesh.clusters, {.seam_price = 1},
+    smooth_seams(mesh.points, mesh.significance, mesh.edges, {}, mesh.clusters, {.seam_weight = 1},
                  mesh.codes);
     EXPECT_EQ(mesh.codes.clusters, before);
 }

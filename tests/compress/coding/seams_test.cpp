@@ -40,13 +40,13 @@ struct Grid {
         double squared = 0;
         double lit_rms = 0;
     };
-    Jumps compressed(double seam_price, WeightFormat format) const {
+    Jumps compressed(double seam_weight, WeightFormat format) const {
         CompressOptions options;
         options.clusters = 30;
         options.coding.components = 2;
         options.coding.bits = 12;
         options.coding.format = format;
-        options.seam_price = seam_price;
+        options.seam_weight = seam_weight;
         options.metric = natural_metric(transfer.layout); // which jumps are measured in
         const CompressResult result = compress(transfer, {areas, edges}, options);
         const Transfer decoded = decode(result.transfer);
@@ -82,7 +82,7 @@ TEST_P(Seams, SmoothingKeepsTheMeanNumberOfComponents) {
     options.mean_components = 1.5; // some have one, others two or more: reassignment would like the latter
     options.coding.bits = 48;
     options.coding.format = GetParam();
-    options.seam_price = 4;
+    options.seam_weight = 4;
     const CompressResult result = compress(grid.transfer, {grid.areas, grid.edges}, options);
     EXPECT_LE(result.statistics.mean_components, 1.5);
     EXPECT_GT(result.statistics.mean_components, 1.2);
