@@ -3,10 +3,10 @@
 #include "prt/bake.h"
 
 #include "bake_options.h"
+#include "direct_transfer.h"
 #include "error_check.h"
-#include "exit_light.h"
-#include "measured_light.h"
 #include "memory.h"
+#include "outgoing_transfer.h"
 #include "prt/support/stopwatch.h"
 #include "scene/positions_without_area.h"
 #include "transfer_terms.h"
@@ -46,20 +46,21 @@ std::vector<bool> not_told_by_rays(const BakePlan& plan, const SealedIn& sealed)
 }
 
 /// Exit transfer after all bounces, with lamps in the same vectors.
-struct ExitLight {
+struct OutgoingTransfer {
     Propagated all;
     ErrorCheck::Bounced at_points;
     BakeNoise noise;
 };
 
 /// Propagates measured light. `points`: gathers at the points where errors are measured; may be null.
-ExitLight exit_light(const BakePlan& plan, Measured& measured, const TransportOperators& operators,
-                     const GatherOperator* points, const Progress& progress) {
+OutgoingTransfer outgoing_transfer(const BakePlan& plan, Measured& measured,
+                                   const TransportOperators& operators, const GatherOperator* points,
+                                   const Progress& progress) {
     const std::vector<bool> left_out = not_told_by_rays(plan, measured.sealed);
     std::optional<NoiseFilter> filter;
     if (measured.direct.half)
         filter.emplace(vertex_filter(plan, *measured.shared, left_out));
-    ExitLight exit;
+    OutgoingTransfer exit;
     exit.noise.filtered = filter.has_value();
     const Beside beside{
         .points = points, .filter = filter ? &*filter : nullptr, .left_out = &left_out, .noise = &exit.noise};
@@ -110,8 +111,8 @@ BakeResult bake(const Scene& scene, const BakeOptions& options, const Progress& 
                                        .gather = direct.gather ? &*direct.gather : nullptr,
                                        .product = product.get(),
                                        .fit = measured.fit ? &*measured.fit : nullptr};
-    ExitLight exit = exit_light(plan, measured, operators, check ? check->gather() : nullptr,
-                                progress.range(traced_sky, 1));
+    OutgoingTransfer exit = outgoing_transfer(plan, measured, operators, check ? check->gather() : nullptr,
+                                              progress.range(traced_sky, 1));
     if (exit.noise.sky > 0)
         direct.sampling_error = exit.noise.sky;
     if (measured.shared)

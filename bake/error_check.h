@@ -2,8 +2,8 @@
 
 // Measures the error of a bake at points over the surface.
 
+#include "direct_transfer.h"
 #include "error_sums.h"
-#include "measured_light.h"
 #include "plan.h"
 #include "surface/surface_samples.h"
 

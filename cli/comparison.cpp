@@ -316,7 +316,7 @@ private:
     static const SceneFile& matched(SceneFile& model, const SceneFile& baked, const ComparisonOptions& a) {
         check_belong_together(baked, a.baked, model, a.shipped);
         if (baked.lightmap && model.compressed)
-            model.compressed->transfer = picked_texels(model.compressed->transfer, baked.lightmap->texels);
+            model.compressed->transfer = gather_texels(model.compressed->transfer, baked.lightmap->texels);
         return model;
     }
 

@@ -35,7 +35,7 @@ std::vector<std::byte> with_fallback(std::span<const std::byte> file, const Path
     return encode_glb(document, buffers);
 }
 
-void say_fallback(const std::optional<Fallback>& fallback, Report& report) {
+void report_fallback(const std::optional<Fallback>& fallback, Report& report) {
     if (!fallback)
         return;
     add_figures(report, {{"fallback",

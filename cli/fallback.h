@@ -28,6 +28,6 @@ std::optional<Fallback> load_fallback(const Path& light, int order, const LightO
 std::vector<std::byte> with_fallback(std::span<const std::byte> file, const Path& path, Fallback& fallback,
                                      BufferCompression buffers, int threads);
 
-void say_fallback(const std::optional<Fallback>& fallback, Report& report);
+void report_fallback(const std::optional<Fallback>& fallback, Report& report);
 
 } // namespace prt::cli

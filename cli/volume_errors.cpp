@@ -211,7 +211,7 @@ Table leak_table(const BakedVolume& volume, const VolumeLookup& lookup, const Fr
 /// A light that the volume is measured under.
 struct VolumeLight {
     std::string name;
-    const MeasuredLight& measured;
+    const ReferenceLight& measured;
     Lighting lighting;
     const SceneLamps* lamps = nullptr;
 };

@@ -1,7 +1,7 @@
 // Computes the light that moving objects block at receivers near them (docs/math.md, section 20). For GLSL 4.5
 // and 3.3, GLSL ES 3.0 and Vulkan:
 //
-//     float prt_occluders_openness(vec3 position, vec3 normal)
+//     float prt_occluders_visibility(vec3 position, vec3 normal)
 //         Remaining share of light from a uniform environment.
 //     float prt_occluders_sun(vec3 position, vec3 towards, float half_angle)
 //         Remaining share of the light of a sun, with a soft shadow; 0: full shadow.
@@ -64,9 +64,9 @@ PrtBlockedCap prt_blocked_cap(int i, vec3 position) {
         at.z += kSide * PRT_OCCLUDER_ROWS[5 * i + 4].x;
         vec4 stored = textureLod(prt_occluder_texture, at / texels, 0.0);
         float root = (0.5 * stored.w + 0.5) / outside;
-        vec3 lean = stored.xyz;
+        vec3 blocked_direction = stored.xyz;
         float blocked = root * root * (1.0 - smoothstep(PRT_OCCLUDER_FADE, 1.0, far / half_reach.w));
-        vec3 rotated = lean.x * x + lean.y * y + lean.z * z;
+        vec3 rotated = blocked_direction.x * x + blocked_direction.y * y + blocked_direction.z * z;
         float size = length(rotated);
         if (blocked > 0.0) {
             cap.share = max(1.0 - (1.0 - blocked) * min(size, 1.0), blocked);
@@ -110,7 +110,7 @@ float prt_blocked_sun(PrtBlockedCap cap, vec3 towards, float half_angle) {
     return cap.density * inside * inside * (3.0 - 2.0 * inside);
 }
 
-float prt_occluders_openness(vec3 position, vec3 normal) {
+float prt_occluders_visibility(vec3 position, vec3 normal) {
     float left = 1.0;
     for (int i = 0; i < PRT_OCCLUDER_COUNT; ++i)
         left *= 1.0 - prt_blocked_cosine(prt_blocked_cap(i, position), normal);

@@ -18,7 +18,7 @@ vec3 left_by_occluders() {
         prt_volume_incident(occluded_position, n, light);
         left = prt_occluders_light(occluded_position, n, light);
 #else
-        left = vec3(prt_occluders_openness(occluded_position, n));
+        left = vec3(prt_occluders_visibility(occluded_position, n));
 #endif
     }
     return left;

@@ -2,7 +2,7 @@
 
 #include "instances/shared_mesh_bake.h"
 
-#include "measured_light.h"
+#include "direct_transfer.h"
 #include "prt/sh_basis.h"
 #include "transfer_terms.h"
 #include "transport/light_transport.h"

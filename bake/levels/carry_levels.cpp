@@ -2,8 +2,8 @@
 
 #include "levels/level_surface.h"
 #include "prt/support/stopwatch.h"
-#include "surface/bend_weights.h"
 #include "surface/fit_solver.h"
+#include "surface/smoothness_weights.h"
 
 #include <algorithm>
 
@@ -79,7 +79,7 @@ private:
         std::vector<double> missing(equations.unknowns * stride_);
         for (std::size_t s = 0; s < samples.samples.size(); ++s)
             add_samples<double>(equations, s, missing_at(samples.samples[s]), stride_, missing);
-        const std::vector<float> weights(equations.bends.size(), kFirstBendWeight);
+        const std::vector<float> weights(equations.second_differences.size(), kFirstSmoothnessWeight);
         FitSolver(equations, weights).solve(missing, stride_, options_.threads);
         for (std::size_t p = 0; p < surface.term.receivers.size(); ++p) {
             const std::uint32_t u = equations.unknown_of[p];

@@ -40,9 +40,9 @@ public:
     glm::vec3 from_scene(const glm::vec3& p) const { return glm::vec3(inverse_ * glm::dvec4(p, 1)); }
     /// Converts a lean like shaders in reverse (`blocked_at`): by the inverse of the transposed scene-to-box
     /// matrix.
-    glm::vec3 lean_from_scene(const glm::vec3& lean) const {
+    glm::vec3 lean_from_scene(const glm::vec3& blocked_direction) const {
         const glm::dmat3 rows = glm::transpose(scale_ * glm::dmat3(inverse_));
-        return glm::vec3(glm::inverse(rows) * glm::dvec3(lean));
+        return glm::vec3(glm::inverse(rows) * glm::dvec3(blocked_direction));
     }
 
 private:
@@ -106,8 +106,8 @@ Seen look(const Scene& part, const Points& points, const BakeOptions& options, c
         // directions are opposite.
         const glm::vec3 mean = -glm::vec3(-open[3], -open[1], open[2]) / linear;
         const float most = point.blocked * (1 - point.blocked);
-        point.lean = most > 1e-6f ? mean / most : glm::vec3(0);
-        point.lean /= std::max(glm::length(point.lean), 1.0f);
+        point.blocked_direction = most > 1e-6f ? mean / most : glm::vec3(0);
+        point.blocked_direction /= std::max(glm::length(point.blocked_direction), 1.0f);
         seen.in_scene.push_back(points.in_scene[p]);
     }
     return seen;
@@ -175,7 +175,7 @@ OccluderBake bake_occluder(const Scene& part, const glm::dmat4& to_scene, const 
     baked.volume.reach = reach_of(baked.volume, seen, frame, options.least);
     check_occlusion_volume(baked.volume);
     for (BlockedPoint& point : seen.points)
-        point.lean = frame.lean_from_scene(point.lean);
+        point.blocked_direction = frame.lean_from_scene(point.blocked_direction);
     fit_texels(seen.points, baked.volume);
     bake.seed += kSecondScramble;
     judge(part, points_in(baked.volume, frame, kJudgePoints, bake.seed), bake,

@@ -94,7 +94,7 @@ void fit_texels(std::span<const BlockedPoint> points, OcclusionVolume& volume) {
         const CellCorners corners = corners_of(point.at);
         const auto root = std::sqrt(static_cast<double>(point.blocked));
         much.add(corners, 1, {root, 0, 0});
-        where.add(corners, root, glm::dvec3(point.lean));
+        where.add(corners, root, glm::dvec3(point.blocked_direction));
         all += root;
     }
     much.smooth(kSmooth);
@@ -102,9 +102,9 @@ void fit_texels(std::span<const BlockedPoint> points, OcclusionVolume& volume) {
     const Eigen::MatrixX3d roots = much.solution(), leans = where.solution();
     for (int t = 0; t < kTexels; ++t) {
         const auto root = static_cast<float>(std::clamp(roots(t, 0), 0.0, 1.0));
-        glm::vec3 lean(leans(t, 0), leans(t, 1), leans(t, 2));
-        lean /= std::max(glm::length(lean), 1.0f);
-        volume.texels[static_cast<std::size_t>(t)] = occluder_texel(root * root, lean);
+        glm::vec3 blocked_direction(leans(t, 0), leans(t, 1), leans(t, 2));
+        blocked_direction /= std::max(glm::length(blocked_direction), 1.0f);
+        volume.texels[static_cast<std::size_t>(t)] = occluder_texel(root * root, blocked_direction);
     }
 }
 

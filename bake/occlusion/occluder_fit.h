@@ -12,9 +12,9 @@ namespace prt {
 
 /// Occlusion at a point.
 struct BlockedPoint {
-    glm::vec3 at{0};   ///< coordinates in the box, 0..1 along each side
-    float blocked = 0; ///< blocked share of all directions
-    glm::vec3 lean{0}; ///< as in `cap_of`, in the object's frame
+    glm::vec3 at{0};                ///< coordinates in the box, 0..1 along each side
+    float blocked = 0;              ///< blocked share of all directions
+    glm::vec3 blocked_direction{0}; ///< as in `cap_of`, in the object's frame
 };
 
 /// Least squares of sqrt(blocked), which is approximately proportional to 1 / distance, and of the lean,

@@ -2,8 +2,8 @@
 
 #include "refine/surface_error.h"
 
-#include "surface/bend_weights.h"
 #include "surface/fit_solver.h"
+#include "surface/smoothness_weights.h"
 #include "trace/scrambles.h"
 
 #include <algorithm>
@@ -58,7 +58,7 @@ private:
         std::vector<float> x(equations.unknowns * stride_);
         for (std::size_t s = 0; s < fold.of.size(); ++s)
             add_samples(equations, s, points_.light(fold.of[s]), stride_, std::span(x));
-        const std::vector<float> weights(equations.bends.size(), kPlainBendWeight);
+        const std::vector<float> weights(equations.second_differences.size(), kPlainSmoothnessWeight);
         FitSolver(equations, weights).solve(x, stride_, threads_);
         return x;
     }

@@ -147,14 +147,15 @@ double ErrorBudget::sum() const {
     return all;
 }
 
-ErrorBudget error_budget(const SurfacePoints& points, const SurfaceRadiance& reference, const BandCut& cut,
-                         const InterpolatedRadiance& radiance, BudgetMeasure measure) {
+ErrorBudget error_budget(const SurfacePoints& points, const SurfaceRadiance& reference,
+                         const BandTruncation& cut, const InterpolatedRadiance& radiance,
+                         BudgetMeasure measure) {
     const Resampling resampling(points, reference, measure);
     const auto estimate = [&](auto&& value) { return resampling.estimate(of_points(points, value)); };
     const auto product = [&](std::size_t p, const glm::vec3& a, const glm::vec3& b) {
         return resampling.product(p, a, b);
     };
-    const BandCut endless{cut.order, kEndlessBounces, cut.factors};
+    const BandTruncation endless{cut.order, kEndlessBounces, cut.factors};
     const std::span<const glm::vec3> truth[2] = {reference.truth(0), reference.truth(1)};
     const Radiance bands[2] = {reference.under(endless, 0), reference.under(endless, 1)};
     const Radiance wanted[2] = {reference.under(cut, 0), reference.under(cut, 1)};
@@ -185,23 +186,25 @@ ErrorBudget error_budget(const SurfacePoints& points, const SurfaceRadiance& ref
     return budget;
 }
 
-SquaredError light_error(const SurfacePoints& points, const SurfaceRadiance& reference, const BandCut& cut) {
-    const BandCut all{cut.order, kEndlessBounces, cut.factors};
+SquaredError light_error(const SurfacePoints& points, const SurfaceRadiance& reference,
+                         const BandTruncation& cut) {
+    const BandTruncation all{cut.order, kEndlessBounces, cut.factors};
     return error_of(points, reference,
                     {difference(reference.under(all, 0), reference.truth(0)),
                      difference(reference.under(all, 1), reference.truth(1))});
 }
 
 SquaredError bounces_error(const SurfacePoints& points, const SurfaceRadiance& reference,
-                           const BandCut& cut) {
-    const BandCut all{cut.order, kEndlessBounces, cut.factors};
+                           const BandTruncation& cut) {
+    const BandTruncation all{cut.order, kEndlessBounces, cut.factors};
     return error_of(points, reference,
                     {difference(reference.under(all, 0), reference.under(cut, 0)),
                      difference(reference.under(all, 1), reference.under(cut, 1))});
 }
 
 SquaredError split_error(const SurfacePoints& points, const SurfaceRadiance& reference,
-                         const QuarterCorners& quarters, const SurfaceRadiance& corners, const BandCut& cut) {
+                         const QuarterCorners& quarters, const SurfaceRadiance& corners,
+                         const BandTruncation& cut) {
     std::array<Radiance, 2> missing;
     for (int half = 0; half < 2; ++half) {
         const Radiance here = reference.under(cut, half), at_corners = corners.under(cut, half);

@@ -115,7 +115,7 @@ FreePositions free_positions_in(const TraceScene& scene, const VolumeGrid& grid,
 
 std::array<std::vector<glm::vec3>, 2>
 incident_reference(const TraceScene& scene, const std::vector<glm::vec3>& points, int order,
-                   const MeasuredLight& light, const IncidentOptions& options, const Progress& progress) {
+                   const ReferenceLight& light, const IncidentOptions& options, const Progress& progress) {
     // A visible surface is lit by all light; only at the position itself the renderer adds a part of the
     // light.
     const LightPaths paths{scene, {light.all, light.all, options.lamps}, {kEndlessBounces, true, false}};

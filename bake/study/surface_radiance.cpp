@@ -55,7 +55,7 @@ struct PointSum {
     BandRadiance bands;
 };
 
-void add_paths(const LightPaths& paths, const SurfaceHit& hit, const MeasuredLight& light, PathRange range,
+void add_paths(const LightPaths& paths, const SurfaceHit& hit, const ReferenceLight& light, PathRange range,
                PointSum& sum) {
     std::array<float, static_cast<std::size_t>(coefficient_count(kMaxOrder))> basis;
     for (int i = range.begin; i < range.end; ++i) {
@@ -122,7 +122,7 @@ double noise_of(const SurfacePoints& points, const std::array<std::vector<PointS
 } // namespace
 
 SurfaceRadiance::SurfaceRadiance(const TraceScene& scene, const SurfacePoints& points,
-                                 const MeasuredLight& light, const SurfaceRadianceOptions& options,
+                                 const ReferenceLight& light, const SurfaceRadianceOptions& options,
                                  const Progress& progress) {
     const LightPaths paths{scene, {light.seen(), light.all}, {kEndlessBounces, false, false}};
     std::vector<SurfaceHit> hits;
@@ -158,7 +158,7 @@ SurfaceRadiance::SurfaceRadiance(const TraceScene& scene, const SurfacePoints& p
     progress.update(1);
 }
 
-std::vector<glm::vec3> SurfaceRadiance::under(const BandCut& cut, int half) const {
+std::vector<glm::vec3> SurfaceRadiance::under(const BandTruncation& cut, int half) const {
     const int most = cut.bounces < 0 ? kCountedBounces : std::min(cut.bounces, kCountedBounces);
     std::vector<glm::vec3> radiance;
     for (const BandRadiance& bands : halves_[static_cast<std::size_t>(half)].bands) {

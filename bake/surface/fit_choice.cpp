@@ -45,7 +45,7 @@ public:
         const Halves at_points = trace(samples_.receivers, all), at_vertices = trace(vertices, corners);
         const std::vector<bool> sealed_points = sealed(samples_.receivers, all, at_points),
                                 sealed_vertices = sealed(vertices, corners, at_vertices);
-        double bends = 0, noise = 0, norm = 0;
+        double second_differences = 0, noise = 0, norm = 0;
         for (std::uint32_t s = 0; s < samples_.size(); ++s) {
             const glm::uvec3 c = corners_of(samples_.positions[s]);
             bool tells = !sealed_points[s];
@@ -55,13 +55,13 @@ public:
                 continue;
             const std::span<const float> a = at_points.first.vector(s), b = at_points.second.vector(s);
             const auto weight = static_cast<double>(samples_.receivers.areas[s]);
-            bends +=
+            second_differences +=
                 weight * product(missing(at_vertices.first, c, s, a), missing(at_vertices.second, c, s, b));
             noise += weight * squared_distance(a, b) / 2;
             norm += weight * product(a, b);
         }
         if (norm > 0) {
-            result_.between = std::sqrt(std::max(0.0, bends) / norm);
+            result_.between = std::sqrt(std::max(0.0, second_differences) / norm);
             // The squared noise of nets of n rays falls as n^-1.5.
             const double times = static_cast<double>(plan_.options.rays) / rays_of_half();
             result_.sampling = std::sqrt(noise * std::pow(times, -1.5) / norm);

@@ -34,7 +34,7 @@ std::array<std::uint32_t, 3> unknowns_at(const Surfaces& surfaces, const Transpo
 }
 
 /// Returns a triangle for each side whose corners are three different unknowns. Needles at the pole of a
-/// sphere have only two, and their bend is unbounded.
+/// sphere have only two, and their second difference is unbounded.
 std::vector<FitTriangle> triangles_over(const Surfaces& surfaces, const TransportReceivers& receivers,
                                         std::span<const std::uint32_t> unknown_of) {
     std::vector<FitTriangle> triangles;
@@ -65,7 +65,8 @@ FitEquations fit_equations(const Surfaces& surfaces, const TransportReceivers& r
             {unknowns_at(surfaces, receivers, equations.unknown_of, position.triangle, position.back),
              position.shares(), samples.receivers.areas[s]});
     }
-    equations.bends = bends_of(triangles_over(surfaces, receivers, equations.unknown_of));
+    equations.second_differences =
+        second_differences_of(triangles_over(surfaces, receivers, equations.unknown_of));
     return equations;
 }
 

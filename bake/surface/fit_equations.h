@@ -26,8 +26,8 @@ struct FitRow {
 struct FitEquations {
     std::vector<std::uint32_t> unknown_of; ///< [receivers] unknown; kNoReceiver: none
     std::size_t unknowns = 0;
-    std::vector<FitRow> rows; ///< [samples]
-    std::vector<Bend> bends;  ///< bends of x
+    std::vector<FitRow> rows;                         ///< [samples]
+    std::vector<SecondDifference> second_differences; ///< second differences of x
 };
 /// Creates the equations. `alike` [receivers]: the first receiver that shares an unknown with each.
 FitEquations fit_equations(const Surfaces& surfaces, const TransportReceivers& receivers,

@@ -2,7 +2,7 @@
 
 #include "surface/fit_noise.h"
 
-#include "surface/bend_weights.h"
+#include "surface/smoothness_weights.h"
 #include "trace/sample_sequence.h"
 #include "trace/scrambles.h"
 
@@ -68,13 +68,14 @@ TellingColumns brightest_columns(std::span<const double> squares) {
 
 NoiseSolver noise_solver(const SurfaceSamples& samples, const FitEquations& equations, NoisySums sums,
                          std::uint64_t seed, int threads) {
-    const FitSolver first(equations, std::vector<float>(equations.bends.size(), kFirstBendWeight));
+    const FitSolver first(equations,
+                          std::vector<float>(equations.second_differences.size(), kFirstSmoothnessWeight));
     std::vector<float>& x = sums.plain;
     first.solve(x, sums.columns, threads, FitSolver::kEstimate);
     subtract_with_signs(samples, equations, x, sums, seed);
     std::vector<float> noise = sums.with_signs;
     first.solve(noise, sums.columns, threads, FitSolver::kEstimate);
-    return {FitSolver(equations, bend_weights(equations, x, noise, sums.columns)),
+    return {FitSolver(equations, smoothness_weights(equations, x, noise, sums.columns)),
             std::move(sums.with_signs)};
 }
 

@@ -20,7 +20,7 @@ using Columns [[gnu::vector_size(kColumns * sizeof(double))]] = double;
 
 constexpr int kMaxSteps = 500; ///< needed for needle-shaped triangles
 
-Matrix normal_matrix(const FitEquations& equations, std::span<const float> bend_weights) {
+Matrix normal_matrix(const FitEquations& equations, std::span<const float> smoothness_weights) {
     std::vector<Eigen::Triplet<double>> entries;
     std::vector<double> diagonal(equations.unknowns, 0);
     const auto add = [&](std::uint32_t i, std::uint32_t j, double value) {
@@ -39,13 +39,14 @@ Matrix normal_matrix(const FitEquations& equations, std::span<const float> bend_
                         static_cast<double>(row.area) *
                             (static_cast<double>(row.shares[i]) * static_cast<double>(row.shares[j]) +
                              kSlope * (i == j ? 2.0 : -1.0)));
-    for (std::size_t e = 0; e < equations.bends.size(); ++e) {
-        const Bend& bend = equations.bends[e];
+    for (std::size_t e = 0; e < equations.second_differences.size(); ++e) {
+        const SecondDifference& second_difference = equations.second_differences[e];
         for (std::size_t i = 0; i < 4; ++i)
             for (std::size_t j = 0; j < 4; ++j)
-                add(bend.unknowns[i], bend.unknowns[j],
-                    static_cast<double>(bend_weights[e]) * static_cast<double>(bend.area) *
-                        static_cast<double>(bend.factors[i]) * static_cast<double>(bend.factors[j]));
+                add(second_difference.unknowns[i], second_difference.unknowns[j],
+                    static_cast<double>(smoothness_weights[e]) * static_cast<double>(second_difference.area) *
+                        static_cast<double>(second_difference.factors[i]) *
+                        static_cast<double>(second_difference.factors[j]));
     }
     constexpr double kRidge = 1e-9; // relative to the diagonal: undetermined unknowns stay finite
     for (std::size_t i = 0; i < diagonal.size(); ++i)
@@ -64,8 +65,8 @@ struct FitSolver::System {
     std::vector<double> inverse_diagonal, inverse_sum; ///< [unknowns] reciprocals of the diagonal and of the
                                                        ///< row's sum; 0 if the sum is not positive
 
-    System(const FitEquations& equations, std::span<const float> bend_weights)
-        : matrix(normal_matrix(equations, bend_weights)) {
+    System(const FitEquations& equations, std::span<const float> smoothness_weights)
+        : matrix(normal_matrix(equations, smoothness_weights)) {
         for (Eigen::Index i = 0; i < matrix.rows(); ++i) {
             double sum = 0, diagonal = 0;
             for (Matrix::InnerIterator entry(matrix, i); entry; ++entry) {
@@ -159,8 +160,8 @@ void FitSolver::System::solve_all(std::span<Value> b_then_x, std::size_t stride,
     });
 }
 
-FitSolver::FitSolver(const FitEquations& equations, std::span<const float> bend_weights)
-    : system_(std::make_unique<const System>(equations, bend_weights)) {}
+FitSolver::FitSolver(const FitEquations& equations, std::span<const float> smoothness_weights)
+    : system_(std::make_unique<const System>(equations, smoothness_weights)) {}
 
 FitSolver::~FitSolver() = default;
 FitSolver::FitSolver(FitSolver&&) noexcept = default;

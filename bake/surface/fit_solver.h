@@ -13,15 +13,16 @@ namespace prt {
 /// thread-safe.
 class FitSolver {
 public:
-    /// `bend_weights` [bends]: w_e, the cost of bends relative to the squared error over the surface.
-    FitSolver(const FitEquations& equations, std::span<const float> bend_weights);
+    /// `smoothness_weights` [second differences]: w_e, the cost of second differences relative to the squared
+    /// error over the surface.
+    FitSolver(const FitEquations& equations, std::span<const float> smoothness_weights);
     ~FitSolver();
     FitSolver(FitSolver&&) noexcept;
     FitSolver& operator=(FitSolver&&) noexcept;
 
     /// Tolerances of the norm of the residual, weighted by the inverse diagonal, relative to that of b.
     /// kPrecise changes no error over the surface in four digits; kEstimate is for estimating noise and
-    /// bends; kRough is for filtering noise.
+    /// second differences; kRough is for filtering noise.
     static constexpr double kPrecise = 1e-5, kEstimate = 1e-3, kRough = 3e-3;
 
     /// Replaces b by x, [unknowns][stride]; zero for unknowns without samples. Deterministic for any number

@@ -6,9 +6,9 @@
 #include "prt/sh_basis.h"
 #include "prt/trace_receivers.h"
 #include "scene/sealed.h"
-#include "surface/bend_weights.h"
 #include "surface/fit_noise.h"
 #include "surface/separated_receivers.h"
+#include "surface/smoothness_weights.h"
 #include "trace/sample_sequence.h"
 #include "trace/scrambles.h"
 #include "trace/vector_sums.h"
@@ -324,7 +324,8 @@ FittedLight trace_fitted(const BakePlan& plan, Tracer& tracer, LastOfLamps last,
     FittedSky sky = fit_sky(plan, samples, equations, std::move(sums));
     std::optional<FitSolver> of_lamps;
     if (!plan.lamps.empty()) // the edges of their shadows are elsewhere
-        of_lamps.emplace(equations, std::vector<float>(equations.bends.size(), kPlainBendWeight));
+        of_lamps.emplace(equations,
+                         std::vector<float>(equations.second_differences.size(), kPlainSmoothnessWeight));
     MeasuredLamps lit_by_lamps = measured_lamps(plan, equations, lamps);
     std::vector<float> weights = unknown_weights(equations);
     SurfaceFit fit{std::move(samples), std::move(equations), std::move(weights), std::move(sky.solver),

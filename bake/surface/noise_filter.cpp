@@ -4,7 +4,7 @@
 
 #include "prt/sh_basis.h"
 #include "prt/support/parallel.h"
-#include "surface/bend_weights.h"
+#include "surface/smoothness_weights.h"
 #include "surface/surface_fit.h"
 #include "trace/scrambles.h"
 
@@ -57,8 +57,9 @@ NoiseFilter::NoiseFilter(FitEquations equations, std::vector<std::uint32_t> posi
     : equations_(std::move(equations)), positions_(std::move(positions)),
       weights_(unknown_weights(equations_)), threads_(threads) {
     // An unknown without samples is 0 and would darken its neighbours.
-    std::erase_if(equations_.bends, [&](const Bend& bend) {
-        return std::ranges::any_of(bend.unknowns, [&](std::uint32_t u) { return !(weights_[u] > 0); });
+    std::erase_if(equations_.second_differences, [&](const SecondDifference& second_difference) {
+        return std::ranges::any_of(second_difference.unknowns,
+                                   [&](std::uint32_t u) { return !(weights_[u] > 0); });
     });
 }
 
@@ -97,10 +98,11 @@ TellingColumns NoiseFilter::brightest(const Values& light, std::size_t columns) 
 FitSolver NoiseFilter::fit(const Values& light, const TellingColumns& columns, const Values& noise_of) const {
     const std::size_t count = columns.size();
     std::vector<float> x = sums(columns, light), noise = sums(columns, noise_of);
-    const FitSolver first(equations_, std::vector<float>(equations_.bends.size(), kFirstBendWeight));
+    const FitSolver first(equations_,
+                          std::vector<float>(equations_.second_differences.size(), kFirstSmoothnessWeight));
     first.solve(x, count, threads_, FitSolver::kEstimate);
     first.solve(noise, count, threads_, FitSolver::kEstimate);
-    return {equations_, bend_weights(equations_, x, noise, count)};
+    return {equations_, smoothness_weights(equations_, x, noise, count)};
 }
 
 double NoiseFilter::norm(const FitSolver& solver, const TellingColumns& columns, const Values& values) const {
@@ -116,9 +118,9 @@ double NoiseFilter::norm(const FitSolver& solver, const TellingColumns& columns,
 
 void NoiseFilter::limit(std::span<const float> means, std::size_t columns, std::span<float> x) const {
     std::vector<float> low(means.begin(), means.end()), high = low;
-    for (const Bend& bend : equations_.bends)
-        for (const std::uint32_t u : bend.unknowns)
-            for (const std::uint32_t v : bend.unknowns)
+    for (const SecondDifference& second_difference : equations_.second_differences)
+        for (const std::uint32_t u : second_difference.unknowns)
+            for (const std::uint32_t v : second_difference.unknowns)
                 for (std::size_t c = 0; u != v && c < columns; ++c) {
                     low[u * columns + c] = std::min(low[u * columns + c], means[v * columns + c]);
                     high[u * columns + c] = std::max(high[u * columns + c], means[v * columns + c]);

@@ -13,9 +13,9 @@
 
 namespace prt {
 
-/// Replaces light at positions of a surface by light with smaller bends where bends are noise. It uses the
-/// equations of a surface fit with one sample at an unknown for each position (docs/math.md, section 14). The
-/// filter is linear, and its rows sum to 1.
+/// Replaces light at positions of a surface by light with smaller second differences where second differences
+/// are noise. It uses the equations of a surface fit with one sample at an unknown for each position
+/// (docs/math.md, section 14). The filter is linear, and its rows sum to 1.
 class NoiseFilter {
 public:
     /// `positions` [samples of `equations`]: indices that values are requested by; FitEquations::unknown_of
@@ -34,8 +34,8 @@ public:
     TellingColumns brightest(const Values& light, std::size_t columns) const;
 
     /// Filters all columns. A filtered value stays within the range of its own value and of those that share
-    /// a bend with it; exact zeros are kept. Columns are read in blocks before they are written. `write` is
-    /// called from several threads.
+    /// a second difference with it; exact zeros are kept. Columns are read in blocks before they are written.
+    /// `write` is called from several threads.
     void apply(const FitSolver& solver, std::size_t columns, const Values& light, const Write& write) const;
     /// Filters all columns of a transfer.
     void apply(const FitSolver& solver, Transfer& light) const;
@@ -45,8 +45,8 @@ private:
     std::vector<float> sums(const TellingColumns& columns, const Values& values) const;
     void apply_to(const FitSolver& solver, const TellingColumns& columns, const Values& light,
                   const Write& write) const;
-    /// Limits x [unknowns][columns] to the range of `means` at each unknown and at those that share a bend
-    /// with it.
+    /// Limits x [unknowns][columns] to the range of `means` at each unknown and at those that share a second
+    /// difference with it.
     void limit(std::span<const float> means, std::size_t columns, std::span<float> x) const;
 
     FitEquations equations_;

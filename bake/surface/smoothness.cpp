@@ -39,7 +39,7 @@ Slope slope_of(const FitTriangle& t, std::size_t edge) {
 
 } // namespace
 
-std::vector<Bend> bends_of(std::span<const FitTriangle> triangles) {
+std::vector<SecondDifference> second_differences_of(std::span<const FitTriangle> triangles) {
     std::vector<Slope> slopes;
     slopes.reserve(3 * triangles.size());
     for (const FitTriangle& t : triangles)
@@ -48,7 +48,7 @@ std::vector<Bend> bends_of(std::span<const FitTriangle> triangles) {
     const auto ends = [](const Slope& s) { return std::pair(s.low, s.high); };
     std::stable_sort(slopes.begin(), slopes.end(),
                      [&](const Slope& a, const Slope& b) { return ends(a) < ends(b); });
-    std::vector<Bend> bends;
+    std::vector<SecondDifference> second_differences;
     for (std::size_t begin = 0, end = 0; begin < slopes.size(); begin = end) {
         while (end < slopes.size() && ends(slopes[end]) == ends(slopes[begin]))
             ++end;
@@ -58,13 +58,13 @@ std::vector<Bend> bends_of(std::span<const FitTriangle> triangles) {
             continue;
         const double h = 2 * a.height * b.height / (a.height + b.height);
         const double to_a = h / a.height, to_b = h / b.height;
-        bends.push_back({{a.opposite, b.opposite, a.low, a.high},
-                         {static_cast<float>(to_a), static_cast<float>(to_b),
-                          static_cast<float>(-to_a * (1 - a.share) - to_b * (1 - b.share)),
-                          static_cast<float>(-to_a * a.share - to_b * b.share)},
-                         static_cast<float>(a.area + b.area)});
+        second_differences.push_back({{a.opposite, b.opposite, a.low, a.high},
+                                      {static_cast<float>(to_a), static_cast<float>(to_b),
+                                       static_cast<float>(-to_a * (1 - a.share) - to_b * (1 - b.share)),
+                                       static_cast<float>(-to_a * a.share - to_b * b.share)},
+                                      static_cast<float>(a.area + b.area)});
     }
-    return bends;
+    return second_differences;
 }
 
 } // namespace prt

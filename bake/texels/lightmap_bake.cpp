@@ -5,7 +5,7 @@
 
 #include "available_memory.h"
 #include "bake_options.h"
-#include "bounced_sources.h"
+#include "bounce_sources.h"
 #include "memory.h"
 #include "prt/error_measures.h"
 #include "prt/support/error.h"
@@ -130,7 +130,7 @@ public:
         const std::unique_ptr<Tracer> tracer = make_tracer(traced, options_.tracer);
         statistics().notices = plan.notices;
         const double share = plan.bounces != 0 || !plan.lamps.empty() ? 0.2 : 0;
-        BouncedSources sources = bounced_sources(plan, *tracer, progress.range(0, share));
+        BounceSources sources = bounce_sources(plan, *tracer, progress.range(0, share));
         bounces_done_ = sources.bounces;
         statistics().rays += sources.rays;
         statistics().sources = plan.bounces != 0 ? plan.receivers().size() : 0;

@@ -44,7 +44,7 @@ void check_room(const std::vector<Atlas>& atlases, double limit) {
 }
 
 OcclusionMap map_of(const Atlas& atlas, TexelLight light, const Scene& scene) {
-    OcclusionMap map{.atlas = atlas, .openness = {}, .measured = light.measured};
+    OcclusionMap map{.atlas = atlas, .ambient_visibility = {}, .measured = light.measured};
     const auto lit = static_cast<std::size_t>(std::ranges::count(light.lit, true));
     map.sealed = light.measured - lit;
     fill_gutters(atlas, light.lit, light.direct, kStride);
@@ -54,7 +54,7 @@ OcclusionMap map_of(const Atlas& atlas, TexelLight light, const Scene& scene) {
     map.seam = rms_jump(atlas, seams, light.direct);
     Transfer transfer = zero_transfer(2, 1, 0);
     transfer.vectors = std::move(light.direct);
-    map.openness = openness_of(transfer);
+    map.ambient_visibility = ambient_visibility_of(transfer);
     return map;
 }
 

@@ -151,7 +151,7 @@ FitEquations TexelNet::equations(std::uint32_t first, std::uint32_t last) const 
                 add(a, d, c);
             }
         }
-    equations.bends = bends_of(triangles);
+    equations.second_differences = second_differences_of(triangles);
     return equations;
 }
 

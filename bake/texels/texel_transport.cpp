@@ -12,7 +12,7 @@
 
 namespace prt {
 
-TexelTransport::TexelTransport(const BakePlan& plan, BouncedSources sources, std::size_t rows)
+TexelTransport::TexelTransport(const BakePlan& plan, BounceSources sources, std::size_t rows)
     : plan_(plan),
       gather_(plan.scene.surfaces(), *plan.transport, plan.bounces != 0 ? rows : 0, plan.channels),
       sky_order_(sources.sky.layout.order) {

@@ -2,7 +2,7 @@
 
 // Light of texels in addition to direct light of the sky: from surfaces after bounces, and from lamps.
 
-#include "bounced_sources.h"
+#include "bounce_sources.h"
 #include "prt/tracer.h"
 #include "transport/gather.h"
 
@@ -16,7 +16,7 @@ namespace prt {
 class TexelTransport {
 public:
     /// Processes `rows` texels at a time. Keeps a reference to `plan`.
-    TexelTransport(const BakePlan& plan, BouncedSources sources, std::size_t rows);
+    TexelTransport(const BakePlan& plan, BounceSources sources, std::size_t rows);
 
     bool bounces() const { return plan_.bounces != 0; }
     std::size_t rows() const { return gather_.rows(); }

@@ -5,9 +5,9 @@
 #include "occlusion/falloff_tracer.h"
 #include "prt/support/error.h"
 #include "trace/embree_tracer.h"
+#include "trace/fallback_tracer.h"
 #include "trace/gpu/gl_rasterizer.h"
 #include "trace/gpu/vulkan_tracer.h"
-#include "trace/lasting_tracer.h"
 
 namespace prt {
 namespace {
@@ -33,11 +33,11 @@ std::unique_ptr<Tracer> make_ray_tracer(const TraceScene& scene, const TracerCho
     if (choice.backend == Backend::gpu)
         return make_vulkan_tracer(scene, {.device = choice.gpu, .traversal = choice.traversal});
     try {
-        return std::make_unique<LastingTracer>(
+        return std::make_unique<FallbackTracer>(
             make_vulkan_tracer(scene, {.hardware_only = true, .traversal = choice.traversal}), scene);
     } catch (const GpuFailure& failure) { // not enough memory for the scene
-        return std::make_unique<LastingTracer>(std::make_unique<EmbreeTracer>(scene), scene,
-                                               std::string("(") + failure.what() + ") ");
+        return std::make_unique<FallbackTracer>(std::make_unique<EmbreeTracer>(scene), scene,
+                                                std::string("(") + failure.what() + ") ");
     } catch (const Error&) { // no device
         return std::make_unique<EmbreeTracer>(scene);
     }

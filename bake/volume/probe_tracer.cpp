@@ -66,7 +66,7 @@ struct ProbeTracer::Space {
     ProbeView seen;
 };
 
-ProbeTracer::ProbeTracer(const BakePlan& plan, Tracer& tracer, BouncedSources sources, int order)
+ProbeTracer::ProbeTracer(const BakePlan& plan, Tracer& tracer, BounceSources sources, int order)
     : plan_(plan), tracer_(tracer), whole_(kChunk), last_(1),
       reflectance_(shared_reflectance(plan.scene.surfaces(), *plan.transport)) {
     layout_.order = order;

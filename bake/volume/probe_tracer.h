@@ -2,7 +2,7 @@
 
 // Computes incident light at positions in free space, with the rays of any tracer.
 
-#include "bounced_sources.h"
+#include "bounce_sources.h"
 #include "lamps/lamp_rays.h"
 #include "plan.h"
 #include "prt/tracer.h"
@@ -54,7 +54,7 @@ struct ProbeCell {
 class ProbeTracer {
 public:
     /// Keeps references to `plan` and `tracer`. Multiplies `sources` by the reflectance.
-    ProbeTracer(const BakePlan& plan, Tracer& tracer, BouncedSources sources, int order);
+    ProbeTracer(const BakePlan& plan, Tracer& tracer, BounceSources sources, int order);
 
     const IncidentLayout& layout() const { return layout_; }
     std::size_t rays() const { return rays_; }

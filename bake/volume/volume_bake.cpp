@@ -199,7 +199,7 @@ private:
     VolumeStatistics& statistics() { return result_.statistics; }
 
     ProbeTracer probe_tracer(const Progress& progress) {
-        BouncedSources sources = bounced_sources(plan_, *tracer_, progress);
+        BounceSources sources = bounce_sources(plan_, *tracer_, progress);
         statistics().rays = sources.rays;
         statistics().seconds.sources = watch_.seconds();
         bounces_ = sources.bounces;

@@ -70,7 +70,7 @@ private:
         const QuarterCorners quarters = quarter_corners(s_.reference.scene(), some);
         double split = 0;
         for (std::size_t i = 0; i < s_.reference.lights().size(); ++i) {
-            const MeasuredLight& light = s_.reference.lights()[i].measured;
+            const ReferenceLight& light = s_.reference.lights()[i].measured;
             const auto radiance = [&](const SurfacePoints& points, std::uint64_t seed) {
                 return SurfaceRadiance(s_.reference.scene(), points, light,
                                        {.seed = seed, .threads = s_.effort.threads}, {{}, progress_.stop});

@@ -25,7 +25,7 @@ std::vector<glm::vec3> filtered(const BudgetReference& reference, const Lightmap
                                 std::span<const glm::vec3> at_receivers) {
     const SurfacePoints& points = reference.points();
     const LightmapLookup lookup(reference.scene().scene(), lightmap.layout);
-    const std::vector<glm::vec3> texels = spread_over_maps(lightmap.layout, lightmap.texels, at_receivers);
+    const std::vector<glm::vec3> texels = scatter_to_maps(lightmap.layout, lightmap.texels, at_receivers);
     std::vector<glm::vec3> values;
     for (std::size_t i = 0; i < points.size(); ++i)
         values.push_back(lookup.look_up(points.triangles[i], points.uv[i], texels));
@@ -82,7 +82,7 @@ Budgets budgets(const BudgetReference& reference, const BudgetStages& stages, in
         };
         InterpolatedRadiance radiance{at_points(stages.baked), at_points(stages.repeated), {}, stages.alike};
         radiance.shipped = stages.shipped ? at_points(*stages.shipped) : radiance.baked;
-        const BandCut cut = reference.cut(i, order, stages.bounces);
+        const BandTruncation cut = reference.cut(i, order, stages.bounces);
         for (const auto& [measure, list] : {std::pair(BudgetMeasure::relative, &all.relative),
                                             std::pair(BudgetMeasure::visible, &all.visible)})
             list->push_back(error_budget(reference.points(), reference.of(i), cut, radiance, measure));

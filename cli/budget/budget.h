@@ -34,7 +34,7 @@ public:
     const SurfaceRadiance& of(std::size_t light) const { return radiance_[light]; }
 
     /// Returns the truncation of a bake of this order and number of bounces under a light.
-    BandCut cut(std::size_t light, int order, int bounces) const {
+    BandTruncation cut(std::size_t light, int order, int bounces) const {
         return {order, bounces, lights_[light].factors(order)};
     }
     /// Return squared relative errors, as means over all lights: of truncating to `order` bands, with all

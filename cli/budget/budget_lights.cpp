@@ -59,7 +59,7 @@ Image rotated(Image image, int texels) {
 }
 
 /// Returns the light of an environment map with the suns in `split`.
-MeasuredLight of_image(const SplitLight& light, const BudgetLightOptions& options) {
+ReferenceLight of_image(const SplitLight& light, const BudgetLightOptions& options) {
     const Image whole = resampled_lat_long(*light.sky.environment);
     const double degrees = std::remainder(options.reading.rotation_degrees, 360.0);
     const int texels =
@@ -68,11 +68,11 @@ MeasuredLight of_image(const SplitLight& light, const BudgetLightOptions& option
     const auto bands = [&](const Environment& environment) {
         return rotated_about_y(project(environment, kMaxOrder, options.threads), angle);
     };
-    MeasuredLight measured{.all = DistantLight(rotated(whole, texels)),
-                           .sky = {},
-                           .suns = {},
-                           .sky_bands = {},
-                           .sun_bands = constant_light(kMaxOrder, glm::vec3(0))};
+    ReferenceLight measured{.all = DistantLight(rotated(whole, texels)),
+                            .sky = {},
+                            .suns = {},
+                            .sky_bands = {},
+                            .sun_bands = constant_light(kMaxOrder, glm::vec3(0))};
     if (light.split.suns.empty()) {
         measured.sky_bands = bands(*light.sky.environment);
         return measured;
@@ -88,14 +88,14 @@ MeasuredLight of_image(const SplitLight& light, const BudgetLightOptions& option
 }
 
 /// From coefficients of kMaxOrder and suns.
-MeasuredLight of_coefficients(const SplitLight& light, bool separate) {
+ReferenceLight of_coefficients(const SplitLight& light, bool separate) {
     const std::vector<Sun> suns = as_seen_by_rays(light.split.suns);
     const Image sky = drawn(light.sky.light);
-    MeasuredLight measured{.all = DistantLight(sky, suns),
-                           .sky = {},
-                           .suns = {},
-                           .sky_bands = separate ? light.sky.light : light.whole,
-                           .sun_bands = constant_light(kMaxOrder, glm::vec3(0))};
+    ReferenceLight measured{.all = DistantLight(sky, suns),
+                            .sky = {},
+                            .suns = {},
+                            .sky_bands = separate ? light.sky.light : light.whole,
+                            .sun_bands = constant_light(kMaxOrder, glm::vec3(0))};
     if (separate && !suns.empty()) {
         measured.sky.emplace(sky);
         measured.suns = light.split.suns;

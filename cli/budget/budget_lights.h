@@ -12,7 +12,7 @@ namespace prt::cli {
 
 struct BudgetLight {
     std::string name;
-    MeasuredLight measured;
+    ReferenceLight measured;
 
     /// Returns the factors of `deringed` on the bands of the sky at this order.
     BandFactors factors(int order) const;

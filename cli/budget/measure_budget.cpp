@@ -49,7 +49,7 @@ void measure(const BudgetRequest& request, const SceneFile& baked, const SceneFi
     const BudgetReference reference(baked.scene, lights, effort, progress.range(0.4, 0.8));
     std::optional<Transfer> coded;
     if (shipped)
-        coded = decode(baked.lightmap ? picked_texels(shipped->compressed->transfer, baked.lightmap->texels)
+        coded = decode(baked.lightmap ? gather_texels(shipped->compressed->transfer, baked.lightmap->texels)
                                       : shipped->compressed->transfer,
                        threads);
     const Budgets all = budgets(reference,

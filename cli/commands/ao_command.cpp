@@ -120,12 +120,12 @@ Report bake_vertices(const AoArguments& a, GltfDocument& document, const Scene& 
     const BakeStatistics& s = result.statistics;
     std::vector<VertexAttribute> attributes;
     if (a.attribute == "COLOR_0")
-        attributes.push_back(shaded_vertex_colors(scene, result.openness.ambient));
+        attributes.push_back(shaded_vertex_colors(scene, result.ambient_visibility.ambient));
     else
-        attributes.push_back({a.attribute, 1, result.openness.ambient});
+        attributes.push_back({a.attribute, 1, result.ambient_visibility.ambient});
     if (a.what.bent_normals) {
         VertexAttribute& bent = attributes.emplace_back(VertexAttribute{kBentNormal, 3, {}});
-        for (const glm::vec3& n : result.openness.bent_normals)
+        for (const glm::vec3& n : result.ambient_visibility.bent_normals)
             bent.values.insert(bent.values.end(), {n.x, n.y, n.z});
     }
     write_vertex_attributes(document, scene, attributes);
@@ -138,13 +138,13 @@ Report bake_vertices(const AoArguments& a, GltfDocument& document, const Scene& 
                          {"device", s.device},
                          {"fit", s.fit.samples > 0 ? "surface" : "vertex"},
                          {"sampling_error_relative_l2", s.sampling_error},
-                         {"mean_ambient", mean_of(result.openness.ambient, areas)}});
+                         {"mean_ambient", mean_of(result.ambient_visibility.ambient, areas)}});
     report.sentences = {
         fmt::format("{{output}}: occlusion of {{receivers}} vertices in {}, {{rays_per_receiver}} rays "
                     "each, on {{device}}",
                     a.attribute == "COLOR_0" ? "COLOR_0, times the colors that are there" : a.attribute),
         s.fit.samples > 0 ? "fitted to the surface between vertices" : "measured at vertices"};
-    add_notices(report, notices_of_black(a, black_share(result.openness.ambient, areas)));
+    add_notices(report, notices_of_black(a, black_share(result.ambient_visibility.ambient, areas)));
     return report;
 }
 
@@ -158,9 +158,9 @@ Report bake_textures(const AoArguments& a, GltfDocument& document, const Scene& 
         textures.push_back({.primitives = map.atlas.primitives,
                             .texcoord = map.atlas.uv_set,
                             .repeats = map.atlas.repeats,
-                            .occlusion = grey_png(map.atlas, map.openness.ambient),
+                            .occlusion = grey_png(map.atlas, map.ambient_visibility.ambient),
                             .bent_normals = a.what.bent_normals
-                                                ? normal_png(map.atlas, map.openness.bent_normals)
+                                                ? normal_png(map.atlas, map.ambient_visibility.bent_normals)
                                                 : std::vector<std::byte>()});
         maps.push_back({{"width", map.atlas.width},
                         {"height", map.atlas.height},
@@ -172,7 +172,7 @@ Report bake_textures(const AoArguments& a, GltfDocument& document, const Scene& 
         lit += map.measured - map.sealed;
         measured += map.measured;
         bright += static_cast<std::size_t>(
-            std::ranges::count_if(map.openness.ambient, [](float v) { return v >= kBlack; }));
+            std::ranges::count_if(map.ambient_visibility.ambient, [](float v) { return v >= kBlack; }));
     };
     OcclusionMapsStatistics result = occlusion_maps(scene, atlases, a.options, take, finer.model(), progress);
     if (const std::size_t replaced = write_surface_textures(document, scene, textures); replaced > 0)

@@ -355,7 +355,7 @@ SceneSurface surface_of_vertices(const Bake& bake) {
     }
     const Scene scene = extract_scene(bake.document);
     SceneSurface surface(scene);
-    surface.areas = shown_areas(bake.document, scene);
+    surface.areas = instanced_areas(bake.document, scene);
     return surface;
 }
 
@@ -406,7 +406,7 @@ std::vector<std::byte> encoded(const CompressArguments& a, Bake bake, Scene& sce
     const BufferCompression buffers = buffer_compression(a);
     if (bake.lightmap) {
         bake.lightmap->baked.record = bake.stored.record;
-        write_lightmap(document, scene, spread_over_maps(*bake.lightmap, std::move(compressed)));
+        write_lightmap(document, scene, scatter_to_maps(*bake.lightmap, std::move(compressed)));
         return encode_glb(document, buffers);
     }
     CompressedTransfer result{std::move(compressed), bake.stored.record};
@@ -479,7 +479,7 @@ Written written(const CompressArguments& a, std::vector<std::byte> file, const B
     SceneFile read = readable(a, [&] { return scene_file_of(std::move(document), a.output); });
     ClusteredTransfer& transfer = read.compressed->transfer;
     if (lightmap)
-        return {std::move(read.scene), picked_texels(transfer, lightmap->texels), lightmap->areas,
+        return {std::move(read.scene), gather_texels(transfer, lightmap->texels), lightmap->areas,
                 lightmap_edges(lightmap->layout, lightmap->texels, lightmap->seams), bytes};
     if (bake.levels) {
         LeveledScene levels = extract_levels(read.document);
@@ -492,7 +492,7 @@ Written written(const CompressArguments& a, std::vector<std::byte> file, const B
         return {std::move(levels.scene), std::move(all), std::move(areas),
                 std::move(edges),        bytes,          std::move(coarser)};
     }
-    std::vector<float> areas = shown_areas(read.document, read.scene);
+    std::vector<float> areas = instanced_areas(read.document, read.scene);
     std::vector<Edge> edges = mesh_edges(read.scene);
     return {std::move(read.scene), std::move(transfer), std::move(areas), std::move(edges), bytes};
 }
@@ -729,12 +729,12 @@ void run(CompressArguments a, Session& session) {
     add_figures(report, reuse_json(reuse_before, vertex_reuse(result.scene)));
     add_errors(error_moments(transfer, result.transfer, result.areas, threads), *options.compress.metric,
                std::move(skies), report);
-    say_fallback(fallback, report);
+    report_fallback(fallback, report);
     add_levels_and_instances(bake, transfer, result, report);
     if (volume)
         add_volume_compression(volume->statistics, volume->volume, report);
     if (texels)
-        say_texels(report);
+        report_texels(report);
     publish(report, a.reports.json, session);
 }
 

@@ -137,7 +137,7 @@ void run(EvaluateArguments a, Session& session) {
     if (a.measures.sweep)
         add_sweep(run_sweep(a, baked, lights, session), report);
     if (baked.lightmap)
-        say_texels(report);
+        report_texels(report);
     publish(report, a.files, session);
 }
 

@@ -231,7 +231,7 @@ void run(InfoArguments a, Session& session) {
     if (!model.record() && !model.lobes)
         report.sentences.emplace_back("no transfer");
     if (model.lightmap)
-        say_texels(report);
+        report_texels(report);
     if (a.check) {
         const std::vector<Finding> findings = check_model(model);
         add_findings(findings, report);

@@ -177,11 +177,11 @@ std::vector<glm::vec3> lightmap_errors(const SceneFile& baked, const SceneFile& 
     const LightmapOfFile& lightmap = *baked.lightmap;
     const std::vector<glm::vec3> shipped =
         model.compressed
-            ? exit_radiance(picked_texels(model.compressed->transfer, lightmap.texels), lighting, threads)
+            ? exit_radiance(gather_texels(model.compressed->transfer, lightmap.texels), lighting, threads)
             : lit_colors(model, lighting, threads);
     const std::vector<glm::vec3> errors =
         error_colors(exit_radiance(baked.baked->transfer, lighting, threads), shipped, lightmap.areas);
-    return model.compressed ? spread_over_maps(lightmap.layout, lightmap.texels, errors) : errors;
+    return model.compressed ? scatter_to_maps(lightmap.layout, lightmap.texels, errors) : errors;
 }
 
 std::vector<glm::vec3> colors_to_show(const RenderArguments& a, const SceneFile& model,
@@ -224,7 +224,7 @@ struct LitMaps {
 /// color of one nearby.
 LitMaps lit_maps(const SceneFile& model, const std::vector<glm::vec3>& colors) {
     const LightmapOfFile& lightmap = *model.lightmap;
-    LitMaps lit{model.baked ? spread_over_maps(lightmap.layout, lightmap.texels, colors) : colors, {}};
+    LitMaps lit{model.baked ? scatter_to_maps(lightmap.layout, lightmap.texels, colors) : colors, {}};
     lit.at_vertices = at_vertices(model.scene, lightmap.layout, lit.texels);
     return lit;
 }

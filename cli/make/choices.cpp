@@ -10,7 +10,7 @@
 
 namespace prt::cli {
 
-CutChoice choose_cut(const CutErrors& errors, double allowed) {
+TruncationChoice choose_truncation(const TruncationErrors& errors, double allowed) {
     constexpr double kLittleMore = 1.25;
     int bounces = 0;
     while (bounces < kCountedBounces && errors.bounces(bounces) > kShareOfBounces * allowed)

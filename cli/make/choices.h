@@ -33,12 +33,12 @@ inline constexpr double kBesideBytes = 0.01;
 inline constexpr double kShareOfTime = 0.15;
 
 /// Path-traced errors of truncating bands and bounces.
-struct CutErrors {
+struct TruncationErrors {
     std::function<double(int order)> light;     ///< with all bounces
     std::function<double(int bounces)> bounces; ///< error of the missing bounces
 };
 
-struct CutChoice {
+struct TruncationChoice {
     int order, bounces;
     double squared; ///< sum of light and bounces
 };
@@ -46,7 +46,7 @@ struct CutChoice {
 /// Returns the minimum number of bounces with a negligible error, and the minimum order whose light error is
 /// within its fraction of `allowed`. If no order is, its error is at most slightly above that of the maximum
 /// order.
-CutChoice choose_cut(const CutErrors& errors, double allowed);
+TruncationChoice choose_truncation(const TruncationErrors& errors, double allowed);
 
 /// Rays per receiver, a power of two, so that their noise, `measured` with `rays`, has its share of
 /// `allowed`.

@@ -27,7 +27,7 @@
 namespace prt::cli {
 namespace {
 
-constexpr int kPilotRays = 256;
+constexpr int kTrialRays = 256;
 
 std::string percent(double squared) {
     return fmt::format("{:.2f} %", 100 * std::sqrt(std::max(squared, 0.0)));
@@ -49,14 +49,14 @@ struct Compressed {
 /// Chosen options.
 struct MakePlan {
     double error = 0; ///< that is aimed at
-    CutChoice cut{};
+    TruncationChoice cut{};
     double refine = 0; ///< target of refinement; 0: none
     FitMode fit = FitMode::automatic;
     int rays = 0;
 };
 
 /// Errors and time measured by two trial bakes with few rays.
-struct Pilot {
+struct TrialBake {
     ErrorBudget budget;
     double seconds_per_ray = 0;
 };
@@ -75,13 +75,13 @@ public:
         plan_.error = r_.goal.bytes_per_vertex ? kBesideBytes : r_.goal.max_error.value_or(kUsualError);
         trace_paths();
         choose_bands();
-        Pilot pilot = bake_pilot();
-        const bool coarse = pilot.budget.of(ErrorCause::vertices).value > kMaxVertexShare * allowed();
-        if (coarse && in_time(0.3) && refine_mesh(pilot)) {
+        TrialBake trial = run_trial_bake();
+        const bool coarse = trial.budget.of(ErrorCause::vertices).value > kMaxVertexShare * allowed();
+        if (coarse && in_time(0.3) && refine_mesh(trial)) {
             trace_paths();
-            pilot = bake_pilot();
+            trial = run_trial_bake();
         }
-        choose_effort(pilot);
+        choose_effort(trial);
         bake_all();
         Compressed best =
             r_.goal.bytes_per_vertex ? compressed({}, r_.goal.bytes_per_vertex) : within_error();
@@ -119,8 +119,8 @@ private:
 
     /// Chooses order and number of bounces by the path-traced error of each.
     void choose_bands() {
-        const CutErrors errors{[&](int order) { return reference_->light_error(order); },
-                               [&](int bounces) { return reference_->bounces_error(bounces); }};
+        const TruncationErrors errors{[&](int order) { return reference_->light_error(order); },
+                                      [&](int bounces) { return reference_->bounces_error(bounces); }};
         if (aims_by_itself())
             plan_.error =
                 std::max(kUsualError, std::sqrt(kAboveRest * std::max(errors.light(kMaxOrder), 0.0)));
@@ -129,7 +129,7 @@ private:
         for (const int bounces : {0, 1, 2, 4})
             tried_.push_back(
                 fmt::format("{} bounces: bounces {}", bounces, percent(errors.bounces(bounces))));
-        plan_.cut = choose_cut(errors, allowed());
+        plan_.cut = choose_truncation(errors, allowed());
         check_lamps_end();
         check_possible(plan_.cut.squared, fmt::format("what {} bands cannot hold", plan_.cut.order));
     }
@@ -179,34 +179,34 @@ private:
     }
 
     /// Measures the error of vertices and rays, and whether vertices are fitted.
-    Pilot bake_pilot() {
+    TrialBake run_trial_bake() {
         const Stopwatch stopwatch;
-        BakeOptions options = bake_options(kPilotRays);
+        BakeOptions options = bake_options(kTrialRays);
         options.lamps.mode = LampMode::none;
         const BakeResult first = baked(options, "baking a trial");
         plan_.fit = options.fit = first.baked.record.fitted ? FitMode::surface : FitMode::vertex;
         options.seed = 1;
-        pilot_ = baked(options, "baking another").baked.transfer;
-        Pilot pilot{mean_budget(budgets(*reference_,
-                                        {.baked = first.baked.transfer,
-                                         .repeated = pilot_,
-                                         .shipped = nullptr,
-                                         .bounces = plan_.cut.bounces},
-                                        r_.threads)
-                                    .relative),
-                    stopwatch.seconds() / (2 * kPilotRays)};
+        trial_ = baked(options, "baking another").baked.transfer;
+        TrialBake trial{mean_budget(budgets(*reference_,
+                                            {.baked = first.baked.transfer,
+                                             .repeated = trial_,
+                                             .shipped = nullptr,
+                                             .bounces = plan_.cut.bounces},
+                                            r_.threads)
+                                        .relative),
+                        stopwatch.seconds() / (2 * kTrialRays)};
         tried_.push_back(fmt::format("{} vertices of {} rays, {}: vertices {}, rays {}", scene_.receivers(),
-                                     kPilotRays, plan_.fit == FitMode::surface ? "fitted" : "as they are",
-                                     percent(pilot.budget.of(ErrorCause::vertices).value),
-                                     percent(pilot.budget.of(ErrorCause::rays).value)));
-        return pilot;
+                                     kTrialRays, plan_.fit == FitMode::surface ? "fitted" : "as they are",
+                                     percent(trial.budget.of(ErrorCause::vertices).value),
+                                     percent(trial.budget.of(ErrorCause::rays).value)));
+        return trial;
     }
 
     /// Splits triangles until the error between vertices is within its fraction; false if no triangle is
     /// split.
-    bool refine_mesh(const Pilot& pilot) {
+    bool refine_mesh(const TrialBake& trial) {
         constexpr double kLook = 1e3; // a target that is met at once
-        BakeOptions options = bake_options(kPilotRays);
+        BakeOptions options = bake_options(kTrialRays);
         options.fit = FitMode::surface;
         ProgressBar bar = session_.progress_bar("refining");
         const Progress progress = bar.progress();
@@ -214,7 +214,7 @@ private:
         // decrease in proportion.
         const double now = refine(scene_, options, {.target = kLook}, progress.range(0, 0.1))
                                .statistics.before.error,
-                     vertices = pilot.budget.of(ErrorCause::vertices).value;
+                     vertices = trial.budget.of(ErrorCause::vertices).value;
         const double target = now * std::sqrt(kShareOfVertices * allowed() / vertices);
         if (!(target > 0))
             return false;
@@ -232,21 +232,21 @@ private:
     }
 
     /// Chooses rays by their noise, within the allowed time.
-    void choose_effort(const Pilot& pilot) {
-        plan_.rays = choose_rays(pilot.budget.of(ErrorCause::rays).value, kPilotRays, allowed());
+    void choose_effort(const TrialBake& trial) {
+        plan_.rays = choose_rays(trial.budget.of(ErrorCause::rays).value, kTrialRays, allowed());
         if (r_.goal.seconds) { // half of the remaining time, because compression takes as long as the bake
             const double left = 0.5 * (*r_.goal.seconds - watch_.seconds());
-            while (plan_.rays > kFewestRays && plan_.rays * pilot.seconds_per_ray > left)
+            while (plan_.rays > kFewestRays && plan_.rays * trial.seconds_per_ray > left)
                 plan_.rays /= 2;
         }
         double before_bytes = kShareOfRays * allowed();
         for (const ErrorCause cause : {ErrorCause::light, ErrorCause::bounces, ErrorCause::vertices})
-            before_bytes += pilot.budget.of(cause).value;
+            before_bytes += trial.budget.of(cause).value;
         if (aims_by_itself())
             plan_.error = std::max(kUsualError, std::sqrt(kAboveRest * before_bytes));
         check_possible(before_bytes, fmt::format("light ({}) with what vertices leave between them ({})",
                                                  percent(plan_.cut.squared),
-                                                 percent(pilot.budget.of(ErrorCause::vertices).value)));
+                                                 percent(trial.budget.of(ErrorCause::vertices).value)));
     }
 
     /// Bakes the transfer, writes the file and reads it back, as separate commands do.
@@ -307,10 +307,10 @@ private:
         const Transfer coded = decode(one.transfer, r_.threads);
         one.budgets = budgets(*reference_,
                               {.baked = transfer(),
-                               .repeated = pilot_,
+                               .repeated = trial_,
                                .shipped = &coded,
                                .bounces = plan_.cut.bounces,
-                               .alike = plan_.rays == kPilotRays},
+                               .alike = plan_.rays == kTrialRays},
                               r_.threads);
         tried_.push_back(fmt::format("prt compress {} {:.4g}: {:.2f} bytes per vertex, bytes {}, in all {}",
                                      max_error ? "--max-error" : "--bytes-per-vertex", one.asked,
@@ -334,7 +334,7 @@ private:
         };
         const Budgets uncompressed = budgets(
             *reference_,
-            {.baked = transfer(), .repeated = pilot_, .shipped = nullptr, .bounces = plan_.cut.bounces},
+            {.baked = transfer(), .repeated = trial_, .shipped = nullptr, .bounces = plan_.cut.bounces},
             r_.threads);
         const double left = std::max(allowed() - rest(uncompressed), (1 - kMaxUncompressedShare) * allowed());
         AskedError asked(std::sqrt(left));
@@ -442,7 +442,7 @@ private:
     std::unique_ptr<BudgetReference> reference_;
     Stopwatch watch_;
     MakePlan plan_;
-    Transfer pilot_;
+    Transfer trial_;
     std::optional<SceneFile> model_;
     std::vector<std::string> tried_, notices_;
 };

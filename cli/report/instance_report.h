@@ -12,7 +12,7 @@ namespace prt::cli {
 /// Result of a bake whose instances share transfer.
 struct InstanceOutcome {
     std::string output;
-    const Scene& scene; ///< unshared
+    const Scene& scene; ///< unique
     const InstancedBake& baked;
     double error = 0;         ///< allowed error of an instance
     std::uintmax_t bytes = 0; ///< file size

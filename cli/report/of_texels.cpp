@@ -44,7 +44,7 @@ Json of_texels(const Json& json) {
 
 } // namespace
 
-void say_texels(Report& report) {
+void report_texels(Report& report) {
     for (Figure& figure : report.figures) {
         figure.column.key = of_texels(std::move(figure.column.key));
         figure.column.title = title_of_texels(std::move(figure.column.title));

@@ -6,6 +6,6 @@ namespace prt::cli {
 
 /// Renames figures and sentences of a report whose receivers are texels: "per vertex" becomes "per texel",
 /// also in keys.
-void say_texels(Report& report);
+void report_texels(Report& report);
 
 } // namespace prt::cli

@@ -38,7 +38,7 @@ LitLightmap make_lightmap(const std::filesystem::path& scene, int size, int orde
     how.predictors = prt::PredictorChoice::none; // texels have no normals
     prt::CompressResult compressed = prt::compress_preset(baked.baked.transfer, surface.view(), how).result;
     result.bytes_per_texel = compressed.statistics.bytes_with_bases(baked.texels.size());
-    result.lightmap = prt::spread_over_maps(baked, std::move(compressed.transfer));
+    result.lightmap = prt::scatter_to_maps(baked, std::move(compressed.transfer));
     return result;
 }
 

@@ -135,7 +135,7 @@ void for_each_texel(const LightmapLayout& layout, std::span<const std::uint32_t>
 
 } // namespace
 
-CompressedLightmap spread_over_maps(const BakedLightmap& baked, ClusteredTransfer compressed) {
+CompressedLightmap scatter_to_maps(const BakedLightmap& baked, ClusteredTransfer compressed) {
     CompressedLightmap lightmap{baked.layout, {{std::move(compressed.bases), {}}, baked.baked.record}};
     ClusteredReceivers& all = lightmap.compressed.transfer.receivers =
         room_for(baked.layout.texels(), compressed.receivers);
@@ -145,15 +145,15 @@ CompressedLightmap spread_over_maps(const BakedLightmap& baked, ClusteredTransfe
     return lightmap;
 }
 
-std::vector<glm::vec3> spread_over_maps(const LightmapLayout& layout, std::span<const std::uint32_t> texels,
-                                        std::span<const glm::vec3> values) {
+std::vector<glm::vec3> scatter_to_maps(const LightmapLayout& layout, std::span<const std::uint32_t> texels,
+                                       std::span<const glm::vec3> values) {
     std::vector<glm::vec3> all(layout.texels());
     for_each_texel(layout, texels,
                    [&](std::size_t texel, std::size_t receiver) { all[texel] = values[receiver]; });
     return all;
 }
 
-ClusteredTransfer picked_texels(const ClusteredTransfer& all, std::span<const std::uint32_t> texels) {
+ClusteredTransfer gather_texels(const ClusteredTransfer& all, std::span<const std::uint32_t> texels) {
     ClusteredTransfer picked{all.bases, room_for(texels.size(), all.receivers)};
     for (std::size_t i = 0; i < texels.size(); ++i)
         copy_receiver(all.receivers, texels[i], picked.receivers, i);

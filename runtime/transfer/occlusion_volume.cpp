@@ -55,12 +55,12 @@ glm::vec4 filtered(const OcclusionVolume& volume, const glm::vec3& at) {
 
 } // namespace
 
-BlockedCap cap_of(float blocked, const glm::vec3& lean) {
-    const float length = glm::length(lean);
+BlockedCap cap_of(float blocked, const glm::vec3& blocked_direction) {
+    const float length = glm::length(blocked_direction);
     if (!(blocked > 0))
         return {};
     const float share = std::max(1 - (1 - blocked) * std::min(length, 1.0f), blocked);
-    return {length > 0 ? lean / length : glm::vec3(0, 1, 0), share, blocked / share};
+    return {length > 0 ? blocked_direction / length : glm::vec3(0, 1, 0), share, blocked / share};
 }
 
 float blocked_cosine(const BlockedCap& cap, const glm::vec3& normal) {
@@ -78,12 +78,13 @@ float blocked_sun(const BlockedCap& cap, const glm::vec3& towards_sun, float hal
     return cap.density * inside * inside * (3 - 2 * inside);
 }
 
-OccluderTexel occluder_texel(float blocked, const glm::vec3& lean) {
+OccluderTexel occluder_texel(float blocked, const glm::vec3& blocked_direction) {
     const auto stored = [](float value) {
         return static_cast<std::int8_t>(std::lround(std::clamp(127 * value, -127.0f, 127.0f)));
     };
     const float root = std::sqrt(std::clamp(blocked, 0.0f, 1.0f));
-    return {stored(lean.x), stored(lean.y), stored(lean.z), stored(2 * root - 1)};
+    return {stored(blocked_direction.x), stored(blocked_direction.y), stored(blocked_direction.z),
+            stored(2 * root - 1)};
 }
 
 void check_occlusion_volume(const OcclusionVolume& volume) {
@@ -132,10 +133,11 @@ BlockedCap blocked_at(const OcclusionVolume& volume, const PlacedOccluder& where
     const float outside = std::max({std::abs(sides.x), std::abs(sides.y), std::abs(sides.z), 1.0f});
     const glm::vec4 texel = filtered(volume, sides / outside);
     const float root = (0.5f * texel.w + 0.5f) / outside;
-    const glm::vec3 lean(texel);
+    const glm::vec3 blocked_direction(texel);
     const float fade = glm::smoothstep(1.0f, kOccluderFade, distance / where.half.w);
-    const glm::vec3 rotated = lean.x * glm::vec3(where.to_box[0]) + lean.y * glm::vec3(where.to_box[1]) +
-                              lean.z * glm::vec3(where.to_box[2]);
+    const glm::vec3 rotated = blocked_direction.x * glm::vec3(where.to_box[0]) +
+                              blocked_direction.y * glm::vec3(where.to_box[1]) +
+                              blocked_direction.z * glm::vec3(where.to_box[2]);
     return cap_of(fade * root * root, rotated);
 }
 

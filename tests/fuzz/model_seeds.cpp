@@ -184,7 +184,7 @@ void write_lightmaps(const Path& folder) {
     const std::vector<Edge> edges = lightmap_edges(layout, baked.texels, baked.seams);
     const CompressOptions options{.clusters = 3, .coding = preset_u64(), .predictors = PredictorChoice::none};
     const ClusteredTransfer coded = compress(baked.baked.transfer, {baked.areas, edges}, options).transfer;
-    test::with_lightmap(scene, spread_over_maps(baked, coded)).write(folder / "lightmap.coded.glb");
+    test::with_lightmap(scene, scatter_to_maps(baked, coded)).write(folder / "lightmap.coded.glb");
 }
 
 /// Writes a skinned triangle with an occluder at its joint.

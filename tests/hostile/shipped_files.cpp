@@ -106,7 +106,7 @@ std::vector<ShippedFile> lightmap_files() {
     const ClusteredTransfer coded = compress(baked.baked.transfer, {baked.areas, edges}, options).transfer;
     CompressedLightmap plain = random_lightmap(layout.maps, 1, false, random);
     plain.layout = layout;
-    return {{"texels_coded", with_lightmap(scene, spread_over_maps(baked, coded))},
+    return {{"texels_coded", with_lightmap(scene, scatter_to_maps(baked, coded))},
             {"texels_plain", with_lightmap(scene, plain)}};
 }
 

@@ -22,17 +22,17 @@ struct OcclusionOptions {
 };
 
 /// Ambient visibility and bent normals, one entry per receiver.
-struct Openness {
+struct AmbientVisibility {
     std::vector<float> ambient;          ///< cosine-weighted visible share of a uniform sky, 0..1
     std::vector<glm::vec3> bent_normals; ///< unit, mean direction of the visible light
 };
 
 /// Converts transfer of order 2 with one channel. If no light arrives, the bent normal is the entry of
 /// `normals`, or +Y if `normals` is empty.
-Openness openness_of(const Transfer& transfer, std::span<const glm::vec3> normals = {});
+AmbientVisibility ambient_visibility_of(const Transfer& transfer, std::span<const glm::vec3> normals = {});
 
 struct OcclusionResult {
-    Openness openness; ///< [receivers]
+    AmbientVisibility ambient_visibility; ///< [receivers]
     BakeStatistics statistics;
 };
 

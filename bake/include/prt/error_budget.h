@@ -68,20 +68,23 @@ struct InterpolatedRadiance {
 /// the bands by the path tracer's light (light), the baked bounces by all bounces (bounces), interpolated
 /// radiance by radiance at the points (vertices), the bake by an independent bake (rays), and the compressed
 /// bake by the uncompressed one (bytes); docs/math.md, section 16. `cut`: order and bounces of the bake.
-ErrorBudget error_budget(const SurfacePoints& points, const SurfaceRadiance& reference, const BandCut& cut,
-                         const InterpolatedRadiance& radiance,
+ErrorBudget error_budget(const SurfacePoints& points, const SurfaceRadiance& reference,
+                         const BandTruncation& cut, const InterpolatedRadiance& radiance,
                          BudgetMeasure measure = BudgetMeasure::relative);
 
 /// Error that `cut` would leave because of its order, with all bounces.
-SquaredError light_error(const SurfacePoints& points, const SurfaceRadiance& reference, const BandCut& cut);
+SquaredError light_error(const SurfacePoints& points, const SurfaceRadiance& reference,
+                         const BandTruncation& cut);
 /// Error that `cut` would leave because of its number of bounces.
-SquaredError bounces_error(const SurfacePoints& points, const SurfaceRadiance& reference, const BandCut& cut);
+SquaredError bounces_error(const SurfacePoints& points, const SurfaceRadiance& reference,
+                           const BandTruncation& cut);
 
 /// Squared relative interpolation error if all triangles were split at the midpoints of their edges and the
 /// light at their corners were exact. `corners` is the radiance at the corners of `quarters` [3 points].
 /// `points` are those of `reference`.
 SquaredError split_error(const SurfacePoints& points, const SurfaceRadiance& reference,
-                         const QuarterCorners& quarters, const SurfaceRadiance& corners, const BandCut& cut);
+                         const QuarterCorners& quarters, const SurfaceRadiance& corners,
+                         const BandTruncation& cut);
 
 /// Mean over several lights.
 ErrorBudget mean_budget(std::span<const ErrorBudget> budgets);

@@ -40,8 +40,10 @@ struct IncidentOptions {
 /// product of differences from both has no noise in its mean. The result contains the distant light without
 /// direct light of suns that the renderer adds, and the light of lamps, including direct light. Surfaces
 /// scatter as in `PathTracer`. Throws `Cancelled` when asked to stop.
-std::array<std::vector<glm::vec3>, 2>
-incident_reference(const TraceScene& scene, const std::vector<glm::vec3>& positions, int order,
-                   const MeasuredLight& light, const IncidentOptions& options, const Progress& progress = {});
+std::array<std::vector<glm::vec3>, 2> incident_reference(const TraceScene& scene,
+                                                         const std::vector<glm::vec3>& positions, int order,
+                                                         const ReferenceLight& light,
+                                                         const IncidentOptions& options,
+                                                         const Progress& progress = {});
 
 } // namespace prt

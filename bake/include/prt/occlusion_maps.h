@@ -14,7 +14,8 @@ namespace prt {
 /// Occlusion of one texture, row by row from the top.
 struct OcclusionMap {
     Atlas atlas;
-    Openness openness;                ///< [texels]; texels between charts take the values of their neighbours
+    AmbientVisibility
+        ambient_visibility;           ///< [texels]; texels between charts take the values of their neighbours
     std::size_t measured = 0;         ///< texels on surfaces
     std::size_t sealed = 0;           ///< measured texels inside geometry; they take the values of their
                                       ///< neighbours

@@ -17,7 +17,7 @@
 namespace prt {
 
 /// A light in exact form and as coefficients.
-struct MeasuredLight {
+struct ReferenceLight {
     DistantLight all;                ///< lights everything that is lit after a bounce
     std::optional<DistantLight> sky; ///< lights surfaces directly if `suns` are left to the renderer;
                                      ///< otherwise `all`
@@ -39,7 +39,7 @@ struct BandRadiance {
 };
 
 /// Order and number of bounces that transfer is limited to.
-struct BandCut {
+struct BandTruncation {
     int order = 6;
     int bounces = 0;     ///< number of bounces, or kEndlessBounces; kCountedBounces and more are equivalent
     BandFactors factors; ///< factors on the sky's bands, from `deringed`
@@ -61,14 +61,14 @@ struct SurfaceRadianceOptions {
 class SurfaceRadiance {
 public:
     /// Throws `Cancelled` when asked to stop.
-    SurfaceRadiance(const TraceScene& scene, const SurfacePoints& points, const MeasuredLight& light,
+    SurfaceRadiance(const TraceScene& scene, const SurfacePoints& points, const ReferenceLight& light,
                     const SurfaceRadianceOptions& options, const Progress& progress = {});
 
     /// Radiance from all bounces of the exact light, without direct light of suns that the renderer adds.
     /// [points]
     std::span<const glm::vec3> truth(int half) const { return halves_[static_cast<std::size_t>(half)].truth; }
     /// Radiance that remains within `cut`. [points]
-    std::vector<glm::vec3> under(const BandCut& cut, int half) const;
+    std::vector<glm::vec3> under(const BandTruncation& cut, int half) const;
     /// Direct light of the suns that the renderer adds. [points]
     std::span<const glm::vec3> suns() const { return suns_; }
 

@@ -13,7 +13,7 @@ namespace {
 
 constexpr float kDancePeriod = 2; ///< seconds: 60 frames at 30 in a second
 constexpr int kKeys = 60;
-constexpr float kHipsHigh = 0.885f, kBend = 0.055f, kHipsAside = 0.09f; ///< metres
+constexpr float kHipsHigh = 0.885f, kSecondDifference = 0.055f, kHipsAside = 0.09f; ///< metres
 constexpr float kDancerFootAside = 0.13f;
 constexpr float kKickHeight = 0.42f, kKickAhead = 0.46f; ///< metres, of the ankle
 
@@ -43,7 +43,7 @@ Pose dancing(float phase) {
     const float aside = wave(phase), step = wave(2 * phase);
     const float yaw = glm::radians(22.0f) * wave(phase - 0.25f), roll = glm::radians(-7.0f) * aside;
     Pose pose;
-    pose.hips_position = {kHipsAside * aside, kHipsHigh - kBend * (0.5f + 0.5f * step), 0};
+    pose.hips_position = {kHipsAside * aside, kHipsHigh - kSecondDifference * (0.5f + 0.5f * step), 0};
     pose.rotations[hips] = rotation(yaw, kY) * rotation(roll, kZ);
     pose.rotations[spine] =
         rotation(-1.6f * roll, kZ) * rotation(-0.7f * yaw, kY) * rotation(glm::radians(8.0f), kX);

@@ -143,8 +143,8 @@ void find_budget(Channel& channel, const BudgetSubject& subject) {
     const auto again = repeated(channel, subject);
     channel.enter(Stage::measuring, "following paths from the surface");
     const bool separate = subject.version.separate_suns && loaded.raw->layout.has(prt::TermKind::direct);
-    const prt::MeasuredLight light =
-        separate ? subject.rig.separate_measured_light() : subject.rig.measured_light();
+    const prt::ReferenceLight light =
+        separate ? subject.rig.separate_reference_light() : subject.rig.reference_light();
     const int threads = threads_beside_drawing();
     const prt::Progress progress = channel.progress();
     const prt::SurfacePoints points =
@@ -166,8 +166,8 @@ void find_budget(Channel& channel, const BudgetSubject& subject) {
     radiance.shipped =
         loaded.compressed ? radiance_at(points, *loaded.compressed, loaded.compressed->bases.layout, lighting)
                           : radiance.baked;
-    const prt::BandCut cut{order, loaded.record.endless ? prt::kEndlessBounces : loaded.record.bounces,
-                           factors};
+    const prt::BandTruncation cut{order, loaded.record.endless ? prt::kEndlessBounces : loaded.record.bounces,
+                                  factors};
     channel.post(SurfaceBudget{loaded.model, subject.version,
                                prt::error_budget(points, reference, cut, radiance),
                                total_colors(model, points, reference, radiance.shipped)});

@@ -303,7 +303,7 @@ prt::DistantLight LightRig::distant_light() const {
     return distant_light(environment ? &environment->lat_long : nullptr, own_suns());
 }
 
-prt::MeasuredLight LightRig::measured_light() const {
+prt::ReferenceLight LightRig::reference_light() const {
     LightRig rig = *this;
     rig.settings_.window = prt::Window::none;
     return {.all = distant_light(),
@@ -313,12 +313,12 @@ prt::MeasuredLight LightRig::measured_light() const {
             .sun_bands = prt::constant_light(prt::kMaxOrder, glm::vec3(0))};
 }
 
-prt::MeasuredLight LightRig::separate_measured_light() const {
+prt::ReferenceLight LightRig::separate_reference_light() const {
     LightRig rig = *this;
     rig.settings_.window = prt::Window::none;
     SeparateLight separate = rig.separate_light(prt::kMaxOrder);
     if (separate.suns.empty())
-        return measured_light();
+        return reference_light();
     const LoadedEnvironment* environment = base();
     const bool has_suns = environment && !environment->sky_lat_long.pixels.empty();
     std::vector<prt::SunDisc> others = strongest_first();

@@ -116,8 +116,8 @@ public:
     prt::DistantLight distant_light() const;
     /// Returns the light for an error budget, without a window. The suns are part of the sky, or separate as
     /// in `separate_light`.
-    prt::MeasuredLight measured_light() const;
-    prt::MeasuredLight separate_measured_light() const;
+    prt::ReferenceLight reference_light() const;
+    prt::ReferenceLight separate_reference_light() const;
 
     /// Returns the fraction of night, 0..1; 0 for an environment map.
     float darkness() const;

@@ -10,7 +10,7 @@ namespace viewer {
 std::vector<glm::vec3> texel_radiance(const LoadedModel& loaded, const prt::Lighting& lighting,
                                       std::span<const std::uint32_t> texels) {
     if (loaded.compressed)
-        return prt::exit_radiance(prt::picked_texels(*loaded.compressed, texels), lighting, 1);
+        return prt::exit_radiance(prt::gather_texels(*loaded.compressed, texels), lighting, 1);
     const std::vector<glm::vec3> columns = prt::light_columns(loaded.raw->layout, lighting);
     std::vector<glm::vec3> radiance;
     for (const std::uint32_t texel : texels) {

@@ -144,7 +144,7 @@ Compressed compress_as(Channel& channel, const LoadedModel& loaded, const Compre
         return compressed;
     }
     compressed.lightmap = std::make_shared<const prt::CompressedLightmap>(
-        prt::spread_over_maps(*loaded.lightmap.baked, std::move(transfer)));
+        prt::scatter_to_maps(*loaded.lightmap.baked, std::move(transfer)));
     return compressed;
 }
 
@@ -170,7 +170,7 @@ number_pictures(const LoadedModel& loaded, const prt::Lighting& lighting, const 
         return pictures;
     const prt::BakedLightmap* lightmap = loaded.lightmap.baked.get();
     const prt::ClusteredTransfer picked =
-        lightmap ? prt::picked_texels(*loaded.compressed, lightmap->texels) : prt::ClusteredTransfer();
+        lightmap ? prt::gather_texels(*loaded.compressed, lightmap->texels) : prt::ClusteredTransfer();
     const prt::ClusteredTransfer& compressed = lightmap ? picked : *loaded.compressed;
     const std::vector<prt::Edge> of_texels =
         lightmap ? prt::lightmap_edges(lightmap->layout, lightmap->texels, lightmap->seams)
@@ -183,7 +183,7 @@ number_pictures(const LoadedModel& loaded, const prt::Lighting& lighting, const 
                    prt::exit_radiance(compressed, with_lamps(lighting, lamps, compressed.bases.layout), 1);
     const auto add = [&](PictureKind kind, std::vector<glm::vec3> colors) {
         pictures.emplace_back(kind, lightmap
-                                        ? prt::spread_over_maps(lightmap->layout, lightmap->texels, colors)
+                                        ? prt::scatter_to_maps(lightmap->layout, lightmap->texels, colors)
                                         : std::move(colors));
     };
     add(PictureKind::error, prt::error_colors(reference, approximation, areas));

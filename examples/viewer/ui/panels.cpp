@@ -42,7 +42,7 @@ void choose_texel_grid(Viewer& viewer) {
     ImGui::BeginDisabled(!there);
     control(viewer.settings, setting("texel_grid"));
     ImGui::EndDisabled();
-    say_why_disabled(there ? "" : "no lightmap is open (prt bake --size)");
+    show_reason_disabled(there ? "" : "no lightmap is open (prt bake --size)");
 }
 
 void picture_panel(Viewer& viewer) {
@@ -206,7 +206,7 @@ void compression_controls(Viewer& viewer) {
         if (ImGui::SmallButton("bake anew"))
             viewer.bake_anew();
         ImGui::EndDisabled();
-        say_why_disabled(
+        show_reason_disabled(
             viewer.can_bake() ? "" : "the viewer bakes vertices; lightmaps are baked by prt bake --size");
         tip("Traces the model again with three bounces, though its file holds transfer.");
     }
@@ -308,7 +308,7 @@ void moving_panel(Viewer& viewer) {
     controls(viewer.settings, {"figure", "walks"});
     controls(viewer.settings, {"walk_speed"});
     ImGui::EndDisabled();
-    say_why_disabled(there ? "" : "drop an animated model beside the scene");
+    show_reason_disabled(there ? "" : "drop an animated model beside the scene");
     controls(viewer.settings, {"spheres", "probes", "contact"});
     if (viewer.jobs().busy(JobKind::volume))
         ImGui::ProgressBar(static_cast<float>(viewer.jobs().share(JobKind::volume)), {-1, 0},

@@ -19,7 +19,7 @@ void tip(const char* text) {
     ImGui::EndTooltip();
 }
 
-void say_why_disabled(const std::string& reason) {
+void show_reason_disabled(const std::string& reason) {
     if (!reason.empty() && ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled))
         ImGui::SetTooltip("%s", reason.c_str());
 }
@@ -33,7 +33,7 @@ void choose_picture(const Command& command, PictureKind& kind,
         if (ImGui::Selectable(name.title, name.kind == kind,
                               reason.empty() ? 0 : ImGuiSelectableFlags_Disabled))
             kind = name.kind;
-        say_why_disabled(reason);
+        show_reason_disabled(reason);
     }
     ImGui::EndCombo();
 }

@@ -16,7 +16,7 @@ void tip(const char* text);
 void line(const char* name, const std::string& value, const char* what = nullptr);
 void check(const char* label, bool& value, const char* what);
 /// Shows a tooltip with the reason why the previous control is disabled; does nothing if `reason` is empty.
-void say_why_disabled(const std::string& reason);
+void show_reason_disabled(const std::string& reason);
 /// Shows a drop-down of pictures; those with a reason from `why_not` are disabled.
 void choose_picture(const Command& command, PictureKind& kind,
                     const std::function<std::string(PictureKind)>& why_not);

@@ -92,7 +92,7 @@ const TRANSFER = `
   vec3 prtDiffuse = max( prtRadiance, vec3( 0.0 ) );
 #ifdef PRT_OCCLUDERS
   if ( distance( prtPosition, prtOccluderReach.xyz ) < prtOccluderReach.w )
-    prtDiffuse *= prt_occluders_openness( prtPosition, inverseTransformDirection( nonPerturbedNormal, viewMatrix ) );
+    prtDiffuse *= prt_occluders_visibility( prtPosition, inverseTransformDirection( nonPerturbedNormal, viewMatrix ) );
 #endif
 #if defined( STANDARD ) && ( defined( USE_ENVMAP ) || defined( PRT_VOLUME ) )
   iblIrradiance = PI * prtDiffuse;

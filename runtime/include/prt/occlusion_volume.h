@@ -34,9 +34,9 @@ struct BlockedCap {
     float density = 0;          ///< blocked fraction of the cap, 0..1
 };
 
-/// Builds the cap from the blocked fraction of all directions, 0..1, and from `lean`, the mean blocked
-/// direction over (1 - blocked): length 1 for a full cap, less for scattered occluders.
-BlockedCap cap_of(float blocked, const glm::vec3& lean);
+/// Builds the cap from the blocked fraction of all directions, 0..1, and from `blocked_direction`, the mean
+/// blocked direction over (1 - blocked): length 1 for a full cap, less for scattered occluders.
+BlockedCap cap_of(float blocked, const glm::vec3& blocked_direction);
 
 /// Returns the fraction of uniform incident light, 0..1, that the cap blocks for a receiver with the given
 /// unit normal, weighted by the cosine. The part of the cap below the horizon blocks nothing.
@@ -46,9 +46,9 @@ float blocked_cosine(const BlockedCap& cap, const glm::vec3& normal);
 /// because it is not an outline of the object.
 float blocked_sun(const BlockedCap& cap, const glm::vec3& towards_sun, float half_angle);
 
-/// Stored point of a volume: lean · 127, and 254 sqrt(blocked) - 127.
+/// Stored point of a volume: blocked direction · 127, and 254 sqrt(blocked) - 127.
 using OccluderTexel = std::array<std::int8_t, 4>;
-OccluderTexel occluder_texel(float blocked, const glm::vec3& lean);
+OccluderTexel occluder_texel(float blocked, const glm::vec3& blocked_direction);
 
 /// Occlusion volume in the frame of an object.
 struct OcclusionVolume {
@@ -73,7 +73,7 @@ struct PlacedOccluder {
 };
 
 /// Transforms an occluder. `to_world` rotates, translates and scales the object's frame. Under non-uniform
-/// scale the directions are approximate: `lean` transforms like a normal.
+/// scale the directions are approximate: `blocked_direction` transforms like a normal.
 PlacedOccluder placed(const OcclusionVolume& volume, const glm::mat4& to_world, std::size_t slot);
 
 /// Returns the directions that the object blocks at a position in the world.

@@ -7,10 +7,10 @@
 #include "gltf/changed_file.h"
 #include "gltf/clustered_json.h"
 #include "gltf/fallback.h"
+#include "gltf/make_meshes_unique.h"
 #include "gltf/own_attributes.h"
 #include "gltf/predictors_json.h"
 #include "gltf/transfer_json.h"
-#include "gltf/unshare.h"
 
 #include <algorithm>
 #include <cstring>
@@ -126,7 +126,7 @@ void read_weights(const GltfContents& contents, const Json& attributes, std::siz
 }
 
 void write_into(GltfContents& contents, const Scene& scene, const CompressedTransfer& compressed) {
-    const std::vector<Json*> primitives = unshare(contents, scene);
+    const std::vector<Json*> primitives = make_meshes_unique(contents, scene);
     contents.remove_transfer();
     const ClusteredBases& bases = compressed.transfer.bases;
     const ClusteredReceivers& receivers = compressed.transfer.receivers;

@@ -16,7 +16,7 @@
 #include "gltf/lights.h"
 #include "gltf/meshopt_views.h"
 #include "gltf/repair_vertices.h"
-#include "gltf/reread.h"
+#include "gltf/reparse.h"
 #include "gltf/side_files.h"
 #include "gltf/smooth_primitives.h"
 #include "gltf/supported_extensions.h"
@@ -305,7 +305,7 @@ std::vector<std::byte> smallest_glb(const GltfDocument& document) {
     std::vector<std::byte> file = compressed_glb(document.contents());
     if (!extension_of(document.contents().json, kClusteredExtension))
         return file;
-    const auto coded = with_coded_vertices(document.contents(), reread(document).contents());
+    const auto coded = with_coded_vertices(document.contents(), reparse(document).contents());
     if (!coded)
         return file;
     std::vector<std::byte> other = compressed_glb(*coded);
@@ -337,7 +337,7 @@ GltfDocument parse_smoothed(std::span<const std::byte> file, const std::filesyst
         throw Error(path.string() + ": " + in_plain_words(error));
     }
     if (smoothed)
-        return reread(document, options.instancing);
+        return reparse(document, options.instancing);
     plain.instancing = options.instancing;
     return options.instancing == Instancing::nodes ? std::move(document) : parse_gltf(file, path, plain);
 }

@@ -3,8 +3,8 @@
 #include "prt/fallback.h"
 
 #include "gltf/fallback.h"
+#include "gltf/make_meshes_unique.h"
 #include "gltf/transfer_json.h"
-#include "gltf/unshare.h"
 
 #include <glm/common.hpp>
 #include <glm/gtc/type_precision.hpp>
@@ -116,7 +116,7 @@ std::size_t add_colors(GltfContents& contents, const VertexArray& vertices,
 /// Gives the primitives of `scene` the light as COLOR_0. Returns how many show it.
 std::size_t show_light(GltfContents& contents, const Scene& scene, std::span<const glm::vec3> radiance,
                        float exposure, UnlitUse use) {
-    const std::vector<Json*> primitives = unshare(contents, scene);
+    const std::vector<Json*> primitives = make_meshes_unique(contents, scene);
     UnlitMaterials materials(contents.json, used_elsewhere(contents.json, primitives), use);
     std::map<std::size_t, std::size_t> colors; // accessors by vertex array
     std::map<int, bool> left_alone;            // by original material

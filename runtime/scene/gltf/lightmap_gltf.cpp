@@ -5,7 +5,7 @@
 #include "gltf/accessor.h"
 #include "gltf/allowance.h"
 #include "gltf/clustered_json.h"
-#include "gltf/unshare.h"
+#include "gltf/make_meshes_unique.h"
 
 #include <algorithm>
 #include <cstring>
@@ -26,7 +26,7 @@ Json maps_json(const LightmapLayout& layout) {
 /// Writes the extension at the top level, and the maps of primitives.
 Json& write_layout(GltfContents& contents, const Scene& scene, const LightmapLayout& layout,
                    const TransferLayout& transfer) {
-    const std::vector<Json*> primitives = unshare(contents, scene);
+    const std::vector<Json*> primitives = make_meshes_unique(contents, scene);
     contents.remove_transfer();
     for (std::size_t p = 0; p < primitives.size(); ++p)
         extensions_of(*primitives[p])[kLightmapExtension] = {{"map", layout.positions[p].map},

@@ -4,8 +4,8 @@
 
 #include "gltf/accessor.h"
 #include "gltf/allowance.h"
+#include "gltf/make_meshes_unique.h"
 #include "gltf/transfer_json.h"
-#include "gltf/unshare.h"
 
 #include <algorithm>
 #include <cstring>
@@ -89,7 +89,7 @@ LobeRecord read_lobe_record(const Json& json) {
 void write_lobes(GltfDocument& document, const Scene& scene, const StoredLobes& lobes) {
     check_lobes(lobes.model);
     named(document, [&](GltfContents& contents) {
-        const std::vector<Json*> primitives = unshare(contents, scene);
+        const std::vector<Json*> primitives = make_meshes_unique(contents, scene);
         contents.remove_transfer();
         std::vector<Json> attributes;
         for (const VertexArray& vertices : scene.vertex_arrays) {

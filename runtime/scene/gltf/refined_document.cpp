@@ -2,11 +2,11 @@
 #include "prt/refinement.h"
 
 #include "gltf/gathered_accessor.h"
+#include "gltf/make_meshes_unique.h"
 #include "gltf/midpoint_accessor.h"
 #include "gltf/midpoint_joints.h"
-#include "gltf/reread.h"
+#include "gltf/reparse.h"
 #include "gltf/transfer_json.h"
-#include "gltf/unshare.h"
 
 #include <map>
 #include <optional>
@@ -99,12 +99,12 @@ private:
 
 GltfDocument refined(GltfDocument document, const Scene& scene, const Refinement& refinement) {
     named(document, [&](GltfContents& contents) {
-        unshare(contents, scene);
+        make_meshes_unique(contents, scene);
         contents.remove_transfer();
     });
-    document = reread(document);
+    document = reparse(document);
     named(document, [&](GltfContents& contents) { DocumentRefiner(contents, scene, refinement).refine(); });
-    return reread(document);
+    return reparse(document);
 }
 
 } // namespace prt

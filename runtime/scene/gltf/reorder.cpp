@@ -4,8 +4,8 @@
 #include "gltf/accessor.h"
 #include "gltf/contents.h"
 #include "gltf/gathered_accessor.h"
+#include "gltf/make_meshes_unique.h"
 #include "gltf/transfer_json.h"
-#include "gltf/unshare.h"
 #include "prt/support/error.h"
 
 #include <meshoptimizer.h>
@@ -71,7 +71,7 @@ std::vector<std::uint32_t> sorted(const std::vector<Key>& keys) {
 }
 
 void reorder(GltfContents& contents, const Scene& scene, std::span<const std::uint32_t> order) {
-    const std::vector<Json*> primitives = unshare(contents, scene);
+    const std::vector<Json*> primitives = make_meshes_unique(contents, scene);
     std::set<std::size_t> replaced;
     std::map<std::pair<std::size_t, std::size_t>, std::size_t>
         moved; // accessor and vertex array: its new accessor

@@ -3,10 +3,10 @@
 
 #include "gltf/accessor.h"
 #include "gltf/gathered_accessor.h"
+#include "gltf/make_meshes_unique.h"
 #include "gltf/material_choices.h"
-#include "gltf/reread.h"
+#include "gltf/reparse.h"
 #include "gltf/transfer_json.h"
-#include "gltf/unshare.h"
 #include "prt/support/error.h"
 
 #include <algorithm>
@@ -251,12 +251,12 @@ private:
 GltfDocument with_separate_sides(GltfDocument document, const Scene& scene,
                                  const std::vector<bool>& triangles) {
     named(document, [&](GltfContents& contents) {
-        unshare(contents, scene);
+        make_meshes_unique(contents, scene);
         contents.remove_transfer();
     });
-    document = reread(document);
+    document = reparse(document);
     named(document, [&](GltfContents& contents) { SideSeparator(contents, scene, triangles).separate(); });
-    return reread(document);
+    return reparse(document);
 }
 
 } // namespace prt

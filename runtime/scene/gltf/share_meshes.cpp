@@ -18,8 +18,8 @@ struct Numbered {
 };
 
 /// Adds an accessor like `reference` with the elements of instances `kept`.
-std::size_t picked_accessor(GltfContents& contents, const Json& reference,
-                            const std::vector<std::size_t>& kept) {
+std::size_t selected_accessor(GltfContents& contents, const Json& reference,
+                              const std::vector<std::size_t>& kept) {
     const auto index = reference.get<int>();
     const std::vector<std::byte> elements = read_elements(contents.model, index);
     Json accessor = contents.json["accessors"].at(static_cast<std::size_t>(index));
@@ -77,7 +77,7 @@ private:
         Json extension = expanded.extension;
         if (kept.size() < expanded.count)
             for (Json& accessor : extension["attributes"])
-                accessor = picked_accessor(contents_, accessor, kept);
+                accessor = selected_accessor(contents_, accessor, kept);
         nodes()[expanded.node]["mesh"] = Json(nodes()[expanded.first + kept.front()]["mesh"]);
         Json& extensions = extensions_of(nodes()[expanded.node]);
         extensions[kInstancingExtension] = std::move(extension);

@@ -3,8 +3,8 @@
 #include "gltf/smooth_primitives.h"
 
 #include "gltf/accessor.h"
+#include "gltf/make_meshes_unique.h"
 #include "gltf/triangles.h"
-#include "gltf/unshare.h"
 #include "smooth_normals.h"
 
 #include <sstream>

@@ -2,9 +2,9 @@
 
 #include "prt/gltf.h"
 
+#include "gltf/make_meshes_unique.h"
 #include "gltf/material_choices.h"
 #include "gltf/transfer_json.h"
-#include "gltf/unshare.h"
 #include "prt/support/error.h"
 
 #include <map>
@@ -107,7 +107,7 @@ std::size_t write_surface_textures(GltfDocument& document, const Scene& scene,
     std::size_t replaced = 0;
     named(document, [&](GltfContents& contents) {
         Json& json = contents.json;
-        const std::vector<Json*> primitives = unshare(contents, scene);
+        const std::vector<Json*> primitives = make_meshes_unique(contents, scene);
         const OwnMaterials materials(json, primitives, textures);
         for (std::size_t i = 0; i < textures.size(); ++i) {
             const SurfaceTexture& texture = textures[i];

@@ -3,8 +3,8 @@
 #include "prt/stored_transfer.h"
 
 #include "gltf/allowance.h"
+#include "gltf/make_meshes_unique.h"
 #include "gltf/transfer_json.h"
-#include "gltf/unshare.h"
 
 #include <algorithm>
 
@@ -14,7 +14,7 @@ namespace {
 constexpr int kTransferVersion = 5;
 
 void write_into(GltfContents& contents, const Scene& scene, const BakedTransfer& baked) {
-    const std::vector<Json*> primitives = unshare(contents, scene);
+    const std::vector<Json*> primitives = make_meshes_unique(contents, scene);
     contents.remove_transfer();
     const Transfer& transfer = baked.transfer;
     std::vector<Json> views;

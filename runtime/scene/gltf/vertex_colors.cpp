@@ -2,8 +2,8 @@
 
 #include "prt/gltf.h"
 
+#include "gltf/make_meshes_unique.h"
 #include "gltf/transfer_json.h"
-#include "gltf/unshare.h"
 
 #include <algorithm>
 
@@ -30,7 +30,7 @@ std::size_t add_attribute(GltfContents& contents, const VertexArray& vertices,
 void write_vertex_attributes(GltfDocument& document, const Scene& scene,
                              std::span<const VertexAttribute> attributes) {
     named(document, [&](GltfContents& contents) {
-        const std::vector<Json*> primitives = unshare(contents, scene);
+        const std::vector<Json*> primitives = make_meshes_unique(contents, scene);
         for (const VertexAttribute& attribute : attributes) {
             std::vector<std::size_t> accessors;
             for (const VertexArray& vertices : scene.vertex_arrays)

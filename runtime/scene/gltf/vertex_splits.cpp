@@ -3,9 +3,9 @@
 #include "prt/vertex_splits.h"
 
 #include "gltf/gathered_accessor.h"
-#include "gltf/reread.h"
+#include "gltf/make_meshes_unique.h"
+#include "gltf/reparse.h"
 #include "gltf/transfer_json.h"
-#include "gltf/unshare.h"
 
 #include <algorithm>
 #include <set>
@@ -67,10 +67,10 @@ int free_texcoord(const Scene& scene) {
 GltfDocument with_texcoords(GltfDocument document, const Scene& scene, std::span<const VertexSplit> splits,
                             int set) {
     named(document, [&](GltfContents& contents) {
-        unshare(contents, scene);
+        make_meshes_unique(contents, scene);
         contents.remove_transfer();
     });
-    document = reread(document);
+    document = reparse(document);
     named(document, [&](GltfContents& contents) {
         SplitWriter writer(contents);
         for (std::size_t p = 0; p < scene.primitives.size(); ++p) {
@@ -82,7 +82,7 @@ GltfDocument with_texcoords(GltfDocument document, const Scene& scene, std::span
         }
         writer.finish();
     });
-    return reread(document);
+    return reparse(document);
 }
 
 } // namespace prt

@@ -43,8 +43,8 @@ Scene wall(float distance, float height) {
 
 TEST(AmbientOcclusion, OfAnOpenVertexIsOneAndLooksUp) {
     const OcclusionResult result = ambient_occlusion(spot(), at_vertices(64));
-    EXPECT_NEAR(result.openness.ambient[0], 1, 1e-5);
-    EXPECT_NEAR(result.openness.bent_normals[0].y, 1, 1e-5);
+    EXPECT_NEAR(result.ambient_visibility.ambient[0], 1, 1e-5);
+    EXPECT_NEAR(result.ambient_visibility.bent_normals[0].y, 1, 1e-5);
 }
 
 TEST(AmbientOcclusion, UnderADiscIsItsFormFactor) {
@@ -52,8 +52,8 @@ TEST(AmbientOcclusion, UnderADiscIsItsFormFactor) {
     const Scene scene =
         test::join({spot(), SceneBuilder().disc({0, 0.7f, 0}, {0, -1, 0}, 0.9f, 512).build()});
     const OcclusionResult result = ambient_occlusion(scene, at_vertices());
-    EXPECT_NEAR(result.openness.ambient[0], 1 - r * r / (r * r + h * h), 2e-3);
-    EXPECT_NEAR(result.openness.bent_normals[0].y, 1, 2e-3);
+    EXPECT_NEAR(result.ambient_visibility.ambient[0], 1 - r * r / (r * r + h * h), 2e-3);
+    EXPECT_NEAR(result.ambient_visibility.bent_normals[0].y, 1, 2e-3);
 }
 
 TEST(AmbientOcclusion, BeforeAnEndlessWallIsThatOfItsHeight) {
@@ -62,7 +62,7 @@ TEST(AmbientOcclusion, BeforeAnEndlessWallIsThatOfItsHeight) {
         const float distance = 0.1f, height = distance * static_cast<float>(std::tan(angle));
         const OcclusionResult result =
             ambient_occlusion(test::join({spot(), wall(distance, height)}), at_vertices());
-        EXPECT_NEAR(result.openness.ambient[0], (1 + std::cos(angle)) / 2, 3e-3) << elevation;
+        EXPECT_NEAR(result.ambient_visibility.ambient[0], (1 + std::cos(angle)) / 2, 3e-3) << elevation;
         // Mean direction of light, by quadrature over the directions that the wall leaves open.
         glm::dvec3 mean(0);
         for (int axis = 0; axis < 3; ++axis)
@@ -71,7 +71,8 @@ TEST(AmbientOcclusion, BeforeAnEndlessWallIsThatOfItsHeight) {
                 return open ? d.y * d[axis] : 0.0;
             });
         const glm::dvec3 expected = glm::normalize(mean);
-        EXPECT_LT(glm::distance(glm::dvec3(result.openness.bent_normals[0]), expected), 1e-2) << elevation;
+        EXPECT_LT(glm::distance(glm::dvec3(result.ambient_visibility.bent_normals[0]), expected), 1e-2)
+            << elevation;
     }
 }
 
@@ -102,17 +103,19 @@ TEST(Obscurance, UnderAPlaneIsTheIntegralOfTheFalloff) {
             OcclusionOptions options = at_vertices();
             options.tracer.falloff = falloff;
             const OcclusionResult result = ambient_occlusion(under_a_wide_plane(height), options);
-            EXPECT_NEAR(result.openness.ambient[0], under_a_plane(falloff, static_cast<double>(height)), 3e-3)
+            EXPECT_NEAR(result.ambient_visibility.ambient[0],
+                        under_a_plane(falloff, static_cast<double>(height)), 3e-3)
                 << height;
-            if (result.openness.ambient[0] > 0.05f) { // below that, few rays determine the direction
-                EXPECT_NEAR(result.openness.bent_normals[0].y, 1, 1e-2);
+            if (result.ambient_visibility.ambient[0] >
+                0.05f) { // below that, few rays determine the direction
+                EXPECT_NEAR(result.ambient_visibility.bent_normals[0].y, 1, 1e-2);
             }
         }
 }
 
 TEST(Obscurance, OfAClosedRoomIsNotBlack) {
     Scene room = SceneBuilder().bowl({0, 0, 0}, 2, 12, 0).build();
-    EXPECT_EQ(ambient_occlusion(room, at_vertices(64)).openness.ambient[20], 0);
+    EXPECT_EQ(ambient_occlusion(room, at_vertices(64)).ambient_visibility.ambient[20], 0);
     OcclusionOptions options = at_vertices(4096);
     options.tracer.falloff.terms = {{2, 1}};
     // From a point on a sphere, the distance to the hit at angle θ is 2 R cos θ.
@@ -124,8 +127,8 @@ TEST(Obscurance, OfAClosedRoomIsNotBlack) {
     }
     double mean = 0;
     const OcclusionResult result = ambient_occlusion(room, options);
-    for (const float v : result.openness.ambient)
-        mean += static_cast<double>(v) / static_cast<double>(result.openness.ambient.size());
+    for (const float v : result.ambient_visibility.ambient)
+        mean += static_cast<double>(v) / static_cast<double>(result.ambient_visibility.ambient.size());
     EXPECT_NEAR(mean, expected, 0.03 * expected); // twelve rows are not quite round
 }
 
@@ -139,7 +142,7 @@ TEST(Obscurance, InsideSolidsIsThatOfNeighbours) {
     EXPECT_GT(result.statistics.receivers.sealed, 0u);
     const std::vector<glm::vec3>& positions = floor.vertex_arrays[0].positions;
     for (std::size_t v = 0; v < positions.size(); ++v)
-        EXPECT_GT(result.openness.ambient[v], 0.3f) << positions[v].x << " " << positions[v].z;
+        EXPECT_GT(result.ambient_visibility.ambient[v], 0.3f) << positions[v].x << " " << positions[v].z;
 }
 
 TEST(Falloff, PassesHalfAtItsDistance) {

@@ -71,7 +71,7 @@ struct Night {
     /// Returns coefficients of order 3 at a position, the mean of both halves.
     std::vector<glm::vec3> incident(const glm::vec3& point, int paths) const {
         const Light black = constant_light(kMaxOrder, glm::vec3(0));
-        const MeasuredLight light{DistantLight({}), {}, {}, black, black};
+        const ReferenceLight light{DistantLight({}), {}, {}, black, black};
         const auto halves =
             incident_reference(traced, {point}, 3, light, {.paths = paths, .lamps = &lamps, .threads = 1});
         std::vector<glm::vec3> mean;

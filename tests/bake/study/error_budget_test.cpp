@@ -18,7 +18,7 @@ namespace prt::test {
 namespace {
 
 /// Returns a sky with `radiance` at height y above the horizon, -1..1; its bands are those of the image.
-MeasuredLight sky_of(const std::function<float(float y)>& radiance) {
+ReferenceLight sky_of(const std::function<float(float y)>& radiance) {
     Image image{8, 180, {}};
     for (int y = 0; y < image.height; ++y)
         for (int x = 0; x < image.width; ++x)
@@ -31,12 +31,12 @@ MeasuredLight sky_of(const std::function<float(float y)>& radiance) {
             .sun_bands = constant_light(kMaxOrder, glm::vec3(0))};
 }
 
-MeasuredLight uniform() {
+ReferenceLight uniform() {
     return sky_of([](float) { return 1.0f; });
 }
 
-BandCut cut_of(int order, int bounces = kEndlessBounces) {
-    BandCut cut{order, bounces, {}};
+BandTruncation truncation_of(int order, int bounces = kEndlessBounces) {
+    BandTruncation cut{order, bounces, {}};
     cut.factors.fill(1);
     return cut;
 }
@@ -51,10 +51,10 @@ struct Lit {
     Scene scene;
     TraceScene traced{scene};
     SurfacePoints points;
-    MeasuredLight light;
+    ReferenceLight light;
     SurfaceRadiance reference;
 
-    Lit(Scene of, MeasuredLight lit_by, int paths = 64)
+    Lit(Scene of, ReferenceLight lit_by, int paths = 64)
         : scene(std::move(of)), points(surface_points(traced, {.count = 1000})), light(std::move(lit_by)),
           reference(traced, points, light, {.paths = paths, .max_paths = paths}) {}
 };
@@ -117,7 +117,7 @@ TEST(SurfaceRadiance, IsOneEverywhereInAWhiteWorldUnderUniformLight) {
         true); // backs of single-sided surfaces are black
     const Lit lit(std::move(scene), uniform(), 256);
     double truth = 0, bands = 0, area = 0;
-    const std::vector<glm::vec3> held = lit.reference.under(cut_of(1), 0);
+    const std::vector<glm::vec3> held = lit.reference.under(truncation_of(1), 0);
     for (std::size_t p = 0; p < lit.points.size(); ++p) {
         const auto a = static_cast<double>(lit.points.receivers.areas[p]);
         area += a;
@@ -139,7 +139,7 @@ TEST(ErrorBudget, OfLightIsWhatBandsLoseOfACap) {
         double held = 0;
         for (std::size_t i = 0; i < lobe.size(); ++i)
             held += lobe[i] * static_cast<double>(lit.light.sky_bands.coefficients[i].x);
-        const SquaredError error = light_error(lit.points, lit.reference, cut_of(order));
+        const SquaredError error = light_error(lit.points, lit.reference, truncation_of(order));
         EXPECT_NEAR(error.value, std::pow(held / 0.75 - 1, 2), 3e-4) << order;
         EXPECT_LE(error.low, error.value);
         EXPECT_GE(error.high, error.value);
@@ -150,18 +150,18 @@ TEST(ErrorBudget, OfBouncesIsWhatIsMissing) {
     // Each point of a bowl that is closed except for a hole reflects light: with albedo 1 all bounces give 1,
     // and no bounces give only direct light of the sky.
     const Lit lit(painted(SceneBuilder().bowl(glm::vec3(0), 1, 24, 6).build(), glm::vec3(1)), uniform(), 256);
-    const std::vector<glm::vec3> direct = lit.reference.under(cut_of(1, 0), 0);
+    const std::vector<glm::vec3> direct = lit.reference.under(truncation_of(1, 0), 0);
     double wanted = 0, area = 0;
     for (std::size_t p = 0; p < lit.points.size(); ++p) {
         const auto a = static_cast<double>(lit.points.receivers.areas[p]);
         wanted += a * std::pow(1 - static_cast<double>(direct[p].x), 2);
         area += a;
     }
-    const double error = bounces_error(lit.points, lit.reference, cut_of(1, 0)).value;
+    const double error = bounces_error(lit.points, lit.reference, truncation_of(1, 0)).value;
     EXPECT_GT(error, 0.2);
     EXPECT_NEAR(error, wanted / area, 0.02); // noise of single points in `wanted`: 1/4 over 256 paths
-    EXPECT_LT(bounces_error(lit.points, lit.reference, cut_of(1, 1)).value, error);
-    EXPECT_EQ(bounces_error(lit.points, lit.reference, cut_of(1)).value, 0);
+    EXPECT_LT(bounces_error(lit.points, lit.reference, truncation_of(1, 1)).value, error);
+    EXPECT_EQ(bounces_error(lit.points, lit.reference, truncation_of(1)).value, 0);
 }
 
 /// Vertex values of 1 with errors of known kinds.
@@ -169,13 +169,13 @@ struct Painted {
     std::vector<float> baked, repeated, shipped;
 };
 
-Painted painted_values(std::size_t receivers, float bend, float noise, float coding) {
+Painted painted_values(std::size_t receivers, float second_difference, float noise, float coding) {
     std::mt19937 random(7);
     std::normal_distribution<float> normal;
     Painted values;
     for (std::size_t p = 0; p < receivers; ++p) {
-        values.baked.push_back(1 + bend + noise * normal(random));
-        values.repeated.push_back(1 + bend + noise * normal(random));
+        values.baked.push_back(1 + second_difference + noise * normal(random));
+        values.repeated.push_back(1 + second_difference + noise * normal(random));
         values.shipped.push_back(values.baked.back() + coding * normal(random));
     }
     return values;
@@ -184,7 +184,7 @@ Painted painted_values(std::size_t receivers, float bend, float noise, float cod
 ErrorBudget budget_of(const Lit& lit, const Painted& values, bool alike) {
     InterpolatedRadiance radiance{at_points(lit, values.baked), at_points(lit, values.repeated),
                                   at_points(lit, values.shipped), alike};
-    return error_budget(lit.points, lit.reference, cut_of(1), radiance);
+    return error_budget(lit.points, lit.reference, truncation_of(1), radiance);
 }
 
 TEST(ErrorBudget, FindsEachCauseOfAPaintedFloor) {
@@ -210,7 +210,8 @@ TEST(ErrorBudget, OfContrastIsOverTheLightAndWeightedAsLuminance) {
     const Lit lit(SceneBuilder().floor(glm::vec3(0), 2, 40).build(), uniform());
     const auto error = [&](const glm::vec3& by) {
         const std::vector<glm::vec3> off(lit.points.size(), glm::vec3(1) + by);
-        return error_budget(lit.points, lit.reference, cut_of(1), {off, off, off}, BudgetMeasure::visible)
+        return error_budget(lit.points, lit.reference, truncation_of(1), {off, off, off},
+                            BudgetMeasure::visible)
             .total.root();
     };
     EXPECT_NEAR(error(glm::vec3(0.2f)), 0.2 / 1.1, 1e-4);
@@ -236,14 +237,14 @@ TEST(ErrorBudget, OfContrastCountsDimLight) {
         off.emplace_back(static_cast<float>(light[p] + 0.2));
     }
     const ErrorBudget budget =
-        error_budget(lit.points, lit.reference, cut_of(1), {off, off, off}, BudgetMeasure::visible);
+        error_budget(lit.points, lit.reference, truncation_of(1), {off, off, off}, BudgetMeasure::visible);
     EXPECT_NEAR(budget.total.root(), std::sqrt(expected), 0.02 * std::sqrt(expected));
 }
 
 TEST(ErrorBudget, IsNothingWhereNothingIsWrong) {
     const Lit lit(open_floor(), uniform());
     const std::vector<glm::vec3> one = all_points(lit.points, 1);
-    const ErrorBudget budget = error_budget(lit.points, lit.reference, cut_of(3), {one, one, one});
+    const ErrorBudget budget = error_budget(lit.points, lit.reference, truncation_of(3), {one, one, one});
     EXPECT_NEAR(budget.total.value, 0, 1e-5);
     EXPECT_EQ(budget.of(ErrorCause::rays).value, 0);
     EXPECT_EQ(budget.of(ErrorCause::bytes).value, 0);
@@ -252,7 +253,7 @@ TEST(ErrorBudget, IsNothingWhereNothingIsWrong) {
 
 TEST(ErrorBudget, LeavesSunsThatAreApartToTheRenderer) {
     // Only a separate sun: transfer is not used, and errors are relative to the light of the sun.
-    MeasuredLight light = uniform();
+    ReferenceLight light = uniform();
     light.all = DistantLight(Image{1, 1, {glm::vec3(0)}}, {{glm::vec3(0, 1, 0), glm::vec3(2)}});
     light.sky.emplace(Image{1, 1, {glm::vec3(0)}});
     light.suns = {{glm::vec3(0, 1, 0), glm::vec3(2), 0}};
@@ -262,7 +263,7 @@ TEST(ErrorBudget, LeavesSunsThatAreApartToTheRenderer) {
     for (const glm::vec3& sun : lit.reference.suns())
         EXPECT_NEAR(sun.x, 2 / M_PI, 1e-5);
     const auto off = all_points(lit.points, static_cast<float>(0.1 * 2 / M_PI));
-    const ErrorBudget budget = error_budget(lit.points, lit.reference, cut_of(4), {off, off, off});
+    const ErrorBudget budget = error_budget(lit.points, lit.reference, truncation_of(4), {off, off, off});
     EXPECT_NEAR(budget.total.root(), 0.1, 1e-4);
     EXPECT_NEAR(budget.of(ErrorCause::light).value, 0, 1e-9);
 }
@@ -273,18 +274,18 @@ TEST(ErrorBudget, OfSplitTrianglesIsNothingWhereLightIsEven) {
     const Lit lit(open_floor(), uniform());
     const QuarterCorners quarters = quarter_corners(lit.traced, lit.points);
     const SurfaceRadiance corners(lit.traced, quarters.corners, lit.light, {.paths = 64, .max_paths = 64});
-    EXPECT_NEAR(split_error(lit.points, lit.reference, quarters, corners, cut_of(2)).value, 0, 1e-4);
+    EXPECT_NEAR(split_error(lit.points, lit.reference, quarters, corners, truncation_of(2)).value, 0, 1e-4);
 }
 
 TEST(SurfaceRadiance, IsTheSameForAnyNumberOfThreads) {
     const Scene scene = SceneBuilder().floor(glm::vec3(0), 2, 8).sphere(glm::vec3(0, 1, 0), 0.8f, 8).build();
     const TraceScene traced(scene);
     const SurfacePoints points = surface_points(traced, {.count = 100});
-    const MeasuredLight light = uniform();
+    const ReferenceLight light = uniform();
     const SurfaceRadiance one(traced, points, light, {.paths = 32, .max_paths = 64, .threads = 1}),
         three(traced, points, light, {.paths = 32, .max_paths = 64, .threads = 3});
     EXPECT_TRUE(std::ranges::equal(one.truth(1), three.truth(1)));
-    EXPECT_EQ(one.under(cut_of(4), 0), three.under(cut_of(4), 0));
+    EXPECT_EQ(one.under(truncation_of(4), 0), three.under(truncation_of(4), 0));
 }
 
 } // namespace

@@ -30,13 +30,14 @@ struct Fitted {
                                   alike_receivers(traced.surfaces(), receivers))) {}
 
     /// Fits a function over space to the receivers, with a weight on second differences.
-    std::vector<float> fit(const std::function<double(const glm::vec3&)>& f, float bend_weight) const {
+    std::vector<float> fit(const std::function<double(const glm::vec3&)>& f, float smoothness_weight) const {
         std::vector<float> at_samples;
         for (const glm::vec3& p : samples.receivers.positions)
             at_samples.push_back(static_cast<float>(f(p)));
         std::vector<float> x(equations.unknowns), values(receivers.receivers.size());
         add_samples(equations, 0, std::span<const float>(at_samples), 1, std::span(x));
-        FitSolver(equations, std::vector<float>(equations.bends.size(), bend_weight)).solve(x, 1, 2);
+        FitSolver(equations, std::vector<float>(equations.second_differences.size(), smoothness_weight))
+            .solve(x, 1, 2);
         spread_unknowns(equations, std::span<const float>(x), 1, std::span(values));
         return values;
     }
@@ -83,42 +84,46 @@ TEST(SurfaceSamples, LayersTakeEachSampleOnce) {
     EXPECT_EQ(sum, samples.size());
 }
 
-TEST(Bend, IsZeroWhereAFunctionIsLinearOverTheUnfoldedTriangles) {
+TEST(SecondDifference, IsZeroWhereAFunctionIsLinearOverTheUnfoldedTriangles) {
     // Folded by 90 degrees along z: the distance from the fold, seen along the surface.
     const std::vector<FitTriangle> triangles = {
         {{0, 1, 2}, {{{0, 0, 0}, {0, 0, 1}, {-2, 0, 0.3}}}},
         {{1, 0, 3}, {{{0, 0, 1}, {0, 0, 0}, {0, 0.5, 0.8}}}},
     };
-    const std::vector<Bend> bends = bends_of(triangles);
-    ASSERT_EQ(bends.size(), 1);
-    const auto bend = [&](const std::array<double, 4>& x) {
+    const std::vector<SecondDifference> second_differences = second_differences_of(triangles);
+    ASSERT_EQ(second_differences.size(), 1);
+    const auto second_difference = [&](const std::array<double, 4>& x) {
         double sum = 0;
         for (std::size_t i = 0; i < 4; ++i)
-            sum += static_cast<double>(bends[0].factors[i]) * x[bends[0].unknowns[i]];
+            sum +=
+                static_cast<double>(second_differences[0].factors[i]) * x[second_differences[0].unknowns[i]];
         return sum;
     };
-    EXPECT_NEAR(bend({1, 1, 1, 1}), 0, 1e-6);
-    EXPECT_NEAR(bend({0, 0, -2, 0.5}), 0, 1e-6);  // across
-    EXPECT_NEAR(bend({0, 1, 0.3, 0.8}), 0, 1e-6); // along
-    EXPECT_FLOAT_EQ(bends[0].area, 1 + 0.25f);
+    EXPECT_NEAR(second_difference({1, 1, 1, 1}), 0, 1e-6);
+    EXPECT_NEAR(second_difference({0, 0, -2, 0.5}), 0, 1e-6);  // across
+    EXPECT_NEAR(second_difference({0, 1, 0.3, 0.8}), 0, 1e-6); // along
+    EXPECT_FLOAT_EQ(second_differences[0].area, 1 + 0.25f);
     // Heights 2 and 0.5: their harmonic mean over each, times a bend of 1 in either slope.
-    EXPECT_NEAR(bend({0, 0, 2, 0}), 0.8, 1e-6);
-    EXPECT_NEAR(bend({0, 0, 0, 0.5}), 0.8, 1e-6);
+    EXPECT_NEAR(second_difference({0, 0, 2, 0}), 0.8, 1e-6);
+    EXPECT_NEAR(second_difference({0, 0, 0, 0.5}), 0.8, 1e-6);
 }
 
-TEST(Bend, IsOfEdgesThatTwoTrianglesShare) {
+TEST(SecondDifference, IsOfEdgesThatTwoTrianglesShare) {
     const std::array<glm::dvec3, 3> at = {{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}};
-    EXPECT_EQ(bends_of(std::vector<FitTriangle>{{{0, 1, 2}, at}}).size(), 0);
-    EXPECT_EQ(bends_of(std::vector<FitTriangle>{{{0, 1, 2}, at}, {{1, 0, 3}, at}, {{0, 1, 4}, at}}).size(),
-              0);
-    EXPECT_EQ(bends_of(std::vector<FitTriangle>{{{0, 1, 2}, at}, {{0, 1, 2}, at}}).size(), 0); // duplicated
+    EXPECT_EQ(second_differences_of(std::vector<FitTriangle>{{{0, 1, 2}, at}}).size(), 0);
+    EXPECT_EQ(
+        second_differences_of(std::vector<FitTriangle>{{{0, 1, 2}, at}, {{1, 0, 3}, at}, {{0, 1, 4}, at}})
+            .size(),
+        0);
+    EXPECT_EQ(second_differences_of(std::vector<FitTriangle>{{{0, 1, 2}, at}, {{0, 1, 2}, at}}).size(),
+              0); // duplicated
 }
 
-TEST(Bend, IsNotThatOfEdgesWithoutLength) {
+TEST(SecondDifference, IsNotThatOfEdgesWithoutLength) {
     // At the pole of a sphere whose vertices are not exactly equal: they differ by a denormal.
     const std::vector<FitTriangle> triangles = {{{0, 1, 2}, {{{0, 0, 0}, {3.3e-41, 0, 0}, {1, 1, 0}}}},
                                                 {{1, 0, 3}, {{{3.3e-41, 0, 0}, {0, 0, 0}, {1, -1, 0}}}}};
-    EXPECT_EQ(bends_of(triangles).size(), 0);
+    EXPECT_EQ(second_differences_of(triangles).size(), 0);
 }
 
 class FitWeight : public testing::TestWithParam<float> {};
@@ -211,7 +216,8 @@ TEST(Fit, DoesNotDependOnThreads) {
     for (float& v : one)
         v = std::uniform_real_distribution<float>(-1, 1)(random);
     many = one;
-    const FitSolver solver(floor.equations, std::vector<float>(floor.equations.bends.size(), 0.1f));
+    const FitSolver solver(floor.equations,
+                           std::vector<float>(floor.equations.second_differences.size(), 0.1f));
     solver.solve(one, 19, 1);
     solver.solve(many, 19, 5);
     EXPECT_EQ(one, many);

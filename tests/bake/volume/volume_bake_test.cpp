@@ -263,11 +263,11 @@ TEST(IncidentReference, IsWhatABakeOfManyRaysFinds) {
     const PlacedLight baked = bake_positions(scene, positions, 3, rays(6 * 2048, kEndlessBounces));
     const std::vector<glm::vec3> expected = exit_radiance(baked.transfer, sky);
     const Image white{8, 4, std::vector<glm::vec3>(32, glm::vec3(1))};
-    const MeasuredLight light{.all = DistantLight(white),
-                              .sky = std::nullopt,
-                              .suns = {},
-                              .sky_bands = constant_light(kMaxOrder, glm::vec3(1)),
-                              .sun_bands = constant_light(kMaxOrder, glm::vec3(0))};
+    const ReferenceLight light{.all = DistantLight(white),
+                               .sky = std::nullopt,
+                               .suns = {},
+                               .sky_bands = constant_light(kMaxOrder, glm::vec3(1)),
+                               .sun_bands = constant_light(kMaxOrder, glm::vec3(0))};
     const TraceScene traced(scene);
     const auto halves = incident_reference(traced, positions, 3, light, {.paths = 1 << 14});
     for (std::size_t r = 0; r < expected.size(); ++r)

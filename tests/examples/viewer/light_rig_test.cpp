@@ -243,7 +243,7 @@ TEST(LightRig, FindsTheSunsOfAnEnvironmentAndTurnsThemWithIt) {
     EXPECT_NEAR(together(separate).coefficients[0].g / rig.light(kOrder).coefficients[0].g, 1, 1e-3);
     EXPECT_LT(relative_difference(separate.lighting.sky, prt::constant_light(kOrder, glm::vec3(1))), 0.01);
     EXPECT_TRUE(rig.distant_light().suns().empty()); // rays meet it in the image
-    const prt::MeasuredLight measured = rig.separate_measured_light();
+    const prt::ReferenceLight measured = rig.separate_reference_light();
     EXPECT_LT(relative_difference(projected(*measured.sky), prt::constant_light(kOrder, glm::vec3(1))), 0.01);
     settings.rotation = 1;
     rig.set(settings);
@@ -264,7 +264,7 @@ TEST(LightRig, MeasuresBandsAndRaysOfTheSameLight) {
         settings.lights[i].direction = glm::normalize(glm::vec3(std::cos(i), 0.5f, std::sin(i)));
     rig.set(settings);
     const auto bands = [](const prt::Light& light) { return prt::truncated(light, kOrder); };
-    const prt::MeasuredLight together = rig.measured_light(), separate = rig.separate_measured_light();
+    const prt::ReferenceLight together = rig.reference_light(), separate = rig.separate_reference_light();
     // The day's image of 128 x 64 is rotated in one of 1024 x 512 with interpolation; its sun has an extent
     // that rays do not hit.
     constexpr double kRotated = 0.01;

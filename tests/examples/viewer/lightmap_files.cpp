@@ -76,7 +76,7 @@ void LightmapFiles::write_shipped(int size, const std::filesystem::path& path) c
         prt::lightmap_edges(lightmap.layout, lightmap.texels, lightmap.seams);
     prt::write_lightmap(
         document, scene,
-        prt::spread_over_maps(
+        prt::scatter_to_maps(
             lightmap, prt::compress(lightmap.baked.transfer, {lightmap.areas, edges}, options).transfer));
     prt::save_glb(document, path);
 }

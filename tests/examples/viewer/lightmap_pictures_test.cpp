@@ -93,8 +93,8 @@ protected:
     std::vector<glm::vec3> radiance(PictureKind kind) const {
         if (kind == PictureKind::prt_compressed)
             return prt::exit_radiance(*loaded.compressed, lit.lighting);
-        return prt::spread_over_maps(*loaded.lightmap.layout(), loaded.lightmap.baked->texels,
-                                     prt::exit_radiance(*loaded.raw, lit.lighting));
+        return prt::scatter_to_maps(*loaded.lightmap.layout(), loaded.lightmap.baked->texels,
+                                    prt::exit_radiance(*loaded.raw, lit.lighting));
     }
     prt::Picture picture_by(const std::vector<glm::vec3>& texels) const {
         prt::Picture picture = picture_of(*loaded.model, {}, view.camera, kShot.x, kShot.y);

@@ -119,7 +119,7 @@ layout(location = 0) in vec3 position;
 layout(location = 1) in vec3 normal;
 out vec2 left;
 void main() {
-    left = vec2(prt_occluders_openness(position, normal),
+    left = vec2(prt_occluders_visibility(position, normal),
                 prt_occluders_sun(position, normalize(vec3(1.0, 2.0, -0.5)), 0.05));
     gl_Position = vec4(0.0);
 })";

@@ -24,7 +24,7 @@ constexpr double kSide = 4; ///< metres
 
 struct Floor {
     double lamp, ceiling, sky, open; ///< open: fraction of the sky that the ball leaves visible
-    double light(double openness) const { return lamp + ceiling + sky * openness; }
+    double light(double ambient_visibility) const { return lamp + ceiling + sky * ambient_visibility; }
 };
 
 Floor floor_at(const glm::dvec2& p) {

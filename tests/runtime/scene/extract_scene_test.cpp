@@ -117,7 +117,7 @@ TEST(Nodes, HierarchyInstancesAndMirrorsPlaceTheMesh) {
     file.json["scenes"][0]["nodes"] = {0, 3};
     const Scene scene = scene_of(file);
     ASSERT_EQ(scene.primitives.size(), 3u);
-    EXPECT_EQ(scene.receivers(), 9u); // instances are unshared
+    EXPECT_EQ(scene.receivers(), 9u); // instances are unique
     // Breadth first: the rotated one is a root.
     const auto& rotated = scene.vertex_arrays[scene.primitives[0].vertices];
     EXPECT_LT(glm::distance(world(scene, rotated, 1), glm::vec3(0, 0, -1)), 1e-6f);

@@ -217,7 +217,7 @@ TEST(TransferInGltf, WhatIsUnknownSurvives) {
     const auto before = test::read_glb(files.source).json, after = test::read_glb(files.written).json;
     EXPECT_EQ(after["unknownMember"], "stays");
     EXPECT_EQ(after["extensions"]["VENDOR_unknown"], before["extensions"]["VENDOR_unknown"]);
-    EXPECT_EQ(after["meshes"].size(), 2u); // unshared
+    EXPECT_EQ(after["meshes"].size(), 2u); // unique
     EXPECT_EQ(after["meshes"][1]["primitives"][1]["extras"]["keep"], 1);
     EXPECT_EQ(after["nodes"][1]["name"], "mirrored");
     EXPECT_EQ(after["extensionsUsed"].size(), 2u);

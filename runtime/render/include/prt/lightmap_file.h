@@ -22,14 +22,14 @@ std::optional<CompressedLightmap> read_compressed_lightmap(const GltfDocument& d
 
 /// Expands the `compressed` receivers of `baked` to all texels, as a game loads them. A texel that is no
 /// receiver gets the values of a near receiver.
-CompressedLightmap spread_over_maps(const BakedLightmap& baked, ClusteredTransfer compressed);
+CompressedLightmap scatter_to_maps(const BakedLightmap& baked, ClusteredTransfer compressed);
 
 /// Expands `values` of the texels `texels` to all texels. Other texels get the value of a near one.
-std::vector<glm::vec3> spread_over_maps(const LightmapLayout& layout, std::span<const std::uint32_t> texels,
-                                        std::span<const glm::vec3> values);
+std::vector<glm::vec3> scatter_to_maps(const LightmapLayout& layout, std::span<const std::uint32_t> texels,
+                                       std::span<const glm::vec3> values);
 
 /// Selects the receivers `texels` from all texels of a lightmap, in their order.
-ClusteredTransfer picked_texels(const ClusteredTransfer& all, std::span<const std::uint32_t> texels);
+ClusteredTransfer gather_texels(const ClusteredTransfer& all, std::span<const std::uint32_t> texels);
 
 /// Returns word `word` of every texel of map `map`, row by row: the texels of an R32UI texture.
 std::vector<std::uint32_t> words_of_map(const CompressedLightmap& lightmap, std::size_t map, int word);

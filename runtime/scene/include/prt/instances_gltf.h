@@ -98,7 +98,7 @@ std::vector<RelitInstance> relit_instances(std::span<const FileInstance> instanc
 
 /// Returns areas of the receivers of `stored`, the scene of `document` with each mesh once. For meshes with
 /// instances, the areas are summed over all instances, with their scale.
-std::vector<float> shown_areas(const GltfDocument& document, const Scene& stored);
+std::vector<float> instanced_areas(const GltfDocument& document, const Scene& stored);
 
 /// Returns the transfer of all receivers of `scene`, in the world's frame. Transfer of instances is computed
 /// from the transfer of their mesh and their factors. `transfer` has the receivers of `stored`.

@@ -56,7 +56,7 @@ std::map<int, double> areas_of_meshes(const GltfContents& contents) {
 
 } // namespace
 
-std::vector<float> shown_areas(const GltfDocument& document, const Scene& stored) {
+std::vector<float> instanced_areas(const GltfDocument& document, const Scene& stored) {
     return named(document, [&](const GltfContents& contents) {
         std::vector<float> areas = receiver_areas(stored);
         const std::map<int, double> of_meshes = areas_of_meshes(contents);

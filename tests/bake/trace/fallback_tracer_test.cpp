@@ -1,6 +1,6 @@
 // A GPU that fails on the way: the rest is traced on the CPU.
 
-#include "trace/lasting_tracer.h"
+#include "trace/fallback_tracer.h"
 
 #include "lamps/lamp_light.h"
 #include "plan.h"
@@ -85,7 +85,7 @@ private:
     BakePlan plan_ = plan_bake(traced_, media_, options_);
 };
 
-TEST(LastingTracer, GoesOnWithTheCpu) {
+TEST(FallbackTracer, GoesOnWithTheCpu) {
     const Scene scene = test::SceneBuilder().floor({0, 0, 0}, 2, 6).sphere({0, 1, 0}, 0.5f, 8).build();
     const TraceScene traced(scene);
     const Receivers receivers = vertex_receivers(scene);
@@ -93,24 +93,24 @@ TEST(LastingTracer, GoesOnWithTheCpu) {
     EmbreeTracer cpu(traced);
     const Transfer expected = test::traced(cpu, receivers, options);
     for (const int batches : {0, 2}) {
-        LastingTracer tracer(std::make_unique<FailingTracer>(traced, batches), traced);
+        FallbackTracer tracer(std::make_unique<FailingTracer>(traced, batches), traced);
         EXPECT_EQ(tracer.device(), "a GPU");
         EXPECT_EQ(test::traced(tracer, receivers, options).vectors, expected.vectors);
         EXPECT_EQ(tracer.backend(), Backend::cpu);
         EXPECT_EQ(tracer.device().find("a GPU, then (it was taken away) "), 0u) << tracer.device();
     }
-    LastingTracer lit(std::make_unique<FailingTracer>(traced, 0), traced);
+    FallbackTracer lit(std::make_unique<FailingTracer>(traced, 0), traced);
     EXPECT_EQ(lit.lamp_light({.scene = traced, .receivers = receivers, .lamps = {}, .options = {}}, {}).rays,
               0u);
     EXPECT_EQ(lit.backend(), Backend::cpu);
 }
 
-TEST(LastingTracer, SumsAnewWhereSumsAreLost) {
+TEST(FallbackTracer, SumsAnewWhereSumsAreLost) {
     const Fitted fitted;
     EmbreeTracer cpu(fitted.traced());
     const FittedLight expected = fitted.of(cpu);
     for (const int batches : {0, 3, 1000}) { // in the middle of tracing, and when sums are read
-        LastingTracer tracer(std::make_unique<FailingTracer>(fitted.traced(), batches), fitted.traced());
+        FallbackTracer tracer(std::make_unique<FailingTracer>(fitted.traced(), batches), fitted.traced());
         const FittedLight found = fitted.of(tracer);
         EXPECT_EQ(tracer.backend(), Backend::cpu);
         EXPECT_EQ(found.direct.transfer.vectors, expected.direct.transfer.vectors);

@@ -1,18 +1,18 @@
 // Computes all bounces between the vertices of a scene except the last one.
 
-#include "bounced_sources.h"
+#include "bounce_sources.h"
 
-#include "exit_light.h"
+#include "direct_transfer.h"
 #include "lamps/lamp_light.h"
-#include "measured_light.h"
+#include "outgoing_transfer.h"
 #include "transfer_terms.h"
 
 #include <memory>
 
 namespace prt {
 
-BouncedSources bounced_sources(const BakePlan& plan, Tracer& tracer, const Progress& progress) {
-    BouncedSources sources;
+BounceSources bounce_sources(const BakePlan& plan, Tracer& tracer, const Progress& progress) {
+    BounceSources sources;
     const LampTask no_task{.scene = plan.scene,
                            .receivers = Receivers(),
                            .lamps = plan.lamps,

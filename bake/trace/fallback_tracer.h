@@ -13,10 +13,10 @@ struct GpuFailure;
 
 /// Traces on a GPU. If the GPU is lost or runs out of memory, the failed call and all following calls run on
 /// the CPU, and `device` reports it.
-class LastingTracer final : public Tracer {
+class FallbackTracer final : public Tracer {
 public:
     /// Keeps a reference to `scene`. `lost`: report about a GPU that failed earlier.
-    LastingTracer(std::unique_ptr<Tracer> tracer, const TraceScene& scene, std::string lost = {})
+    FallbackTracer(std::unique_ptr<Tracer> tracer, const TraceScene& scene, std::string lost = {})
         : tracer_(std::move(tracer)), scene_(scene), lost_(std::move(lost)) {}
     Backend backend() const override { return tracer_->backend(); }
     std::string device() const override { return lost_ + tracer_->device(); }

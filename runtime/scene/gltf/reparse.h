@@ -7,6 +7,6 @@
 namespace prt {
 
 /// Returns the document after writing and parsing it, so that its model includes all changes.
-GltfDocument reread(const GltfDocument& document, Instancing instancing = Instancing::nodes);
+GltfDocument reparse(const GltfDocument& document, Instancing instancing = Instancing::nodes);
 
 } // namespace prt

@@ -1,7 +1,7 @@
 // Chooses smoothness weights per edge: low where the light has curvature, for example at shadow edges, high
 // elsewhere.
 
-#include "surface/bend_weights.h"
+#include "surface/smoothness_weights.h"
 
 #include <algorithm>
 
@@ -15,7 +15,7 @@ constexpr double kWeightOfNoise = 0.15;
 constexpr double kMinSignal = 0.02;
 constexpr double kMinWeight = 0.0005, kMaxWeight = 0.5;
 
-/// Sums of squared bends.
+/// Sums of squared second differences.
 struct Squares {
     double all = 0, noise = 0;
 
@@ -26,12 +26,13 @@ struct Squares {
     }
 };
 
-double squared_bend(const Bend& bend, std::span<const float> x, std::size_t stride) {
+double squared_second_difference(const SecondDifference& second_difference, std::span<const float> x,
+                                 std::size_t stride) {
     double sum = 0;
     for (std::size_t c = 0; c < stride; ++c) {
         float value = 0;
-        for (std::size_t i = 0; i < bend.unknowns.size(); ++i)
-            value += bend.factors[i] * x[bend.unknowns[i] * stride + c];
+        for (std::size_t i = 0; i < second_difference.unknowns.size(); ++i)
+            value += second_difference.factors[i] * x[second_difference.unknowns[i] * stride + c];
         sum += static_cast<double>(value) * static_cast<double>(value);
     }
     return sum;
@@ -39,19 +40,20 @@ double squared_bend(const Bend& bend, std::span<const float> x, std::size_t stri
 
 } // namespace
 
-std::vector<float> bend_weights(const FitEquations& equations, std::span<const float> x,
-                                std::span<const float> noise, std::size_t stride) {
+std::vector<float> smoothness_weights(const FitEquations& equations, std::span<const float> x,
+                                      std::span<const float> noise, std::size_t stride) {
     std::vector<Squares> round(equations.unknowns);
-    for (const Bend& bend : equations.bends) {
-        const Squares squares{squared_bend(bend, x, stride), squared_bend(bend, noise, stride)};
-        for (const std::uint32_t u : bend.unknowns)
+    for (const SecondDifference& second_difference : equations.second_differences) {
+        const Squares squares{squared_second_difference(second_difference, x, stride),
+                              squared_second_difference(second_difference, noise, stride)};
+        for (const std::uint32_t u : second_difference.unknowns)
             round[u] += squares;
     }
     std::vector<float> weights;
-    weights.reserve(equations.bends.size());
-    for (const Bend& bend : equations.bends) {
+    weights.reserve(equations.second_differences.size());
+    for (const SecondDifference& second_difference : equations.second_differences) {
         Squares near;
-        for (const std::uint32_t u : bend.unknowns)
+        for (const std::uint32_t u : second_difference.unknowns)
             near += round[u];
         const double signal = std::max(near.all - near.noise, kMinSignal * near.noise);
         weights.push_back(static_cast<float>(

@@ -1,12 +1,12 @@
 // Writes and parses a document.
-#include "gltf/reread.h"
+#include "gltf/reparse.h"
 
 #include "gltf/contents.h"
 #include "prt/encode_glb.h"
 
 namespace prt {
 
-GltfDocument reread(const GltfDocument& document, Instancing instancing) {
+GltfDocument reparse(const GltfDocument& document, Instancing instancing) {
     // All readable images are embedded at this point.
     GltfDocument again =
         parse_gltf(encode_glb(document), document.contents().path,

@@ -1,6 +1,6 @@
 // Continues on the CPU if a GPU fails.
 
-#include "trace/lasting_tracer.h"
+#include "trace/fallback_tracer.h"
 
 #include "lamps/lamp_light.h"
 #include "prt/gpu_failure.h"
@@ -69,7 +69,7 @@ private:
 } // namespace
 
 template <class Work>
-auto LastingTracer::counted(const Work& work) {
+auto FallbackTracer::counted(const Work& work) {
     const TraceSeconds before = tracer_->seconds();
     const auto count = [&] {
         const TraceSeconds after = tracer_->seconds();
@@ -88,7 +88,7 @@ auto LastingTracer::counted(const Work& work) {
 }
 
 template <class Work>
-auto LastingTracer::lasting(const Work& work) {
+auto FallbackTracer::lasting(const Work& work) {
     try {
         return counted(work);
     } catch (const GpuFailure& failure) {
@@ -97,14 +97,14 @@ auto LastingTracer::lasting(const Work& work) {
     }
 }
 
-void LastingTracer::go_on_with_cpu(const GpuFailure& failure) {
+void FallbackTracer::go_on_with_cpu(const GpuFailure& failure) {
     lost_ = fmt::format("{}, then ({}) ", tracer_->device(), failure.what());
     tracer_ = std::make_unique<EmbreeTracer>(scene_);
 }
 
-class LastingTracer::Sums final : public VectorSums {
+class FallbackTracer::Sums final : public VectorSums {
 public:
-    Sums(LastingTracer& tracer, std::unique_ptr<VectorSums> gpu) : tracer_(tracer), gpu_(std::move(gpu)) {}
+    Sums(FallbackTracer& tracer, std::unique_ptr<VectorSums> gpu) : tracer_(tracer), gpu_(std::move(gpu)) {}
 
     void trace(const Receivers& receivers, std::span<const std::uint32_t> indices,
                const TraceOptions& options, std::span<const SumRow> rows, std::span<float> first,
@@ -127,26 +127,26 @@ private:
         }
     }
 
-    LastingTracer& tracer_;
+    FallbackTracer& tracer_;
     std::unique_ptr<VectorSums> gpu_;
 };
 
-void LastingTracer::trace(const Receivers& receivers, std::span<const std::uint32_t> indices,
-                          const TraceOptions& options, std::span<float> vectors, const HitSink& sink,
-                          const Progress& progress) {
+void FallbackTracer::trace(const Receivers& receivers, std::span<const std::uint32_t> indices,
+                           const TraceOptions& options, std::span<float> vectors, const HitSink& sink,
+                           const Progress& progress) {
     lasting([&] { tracer_->trace(receivers, indices, options, vectors, sink, progress); });
 }
 
-LampLight LastingTracer::lamp_light(const LampTask& task, const Progress& progress) {
+LampLight FallbackTracer::lamp_light(const LampTask& task, const Progress& progress) {
     return lasting([&] { return tracer_->lamp_light(task, progress); });
 }
 
-std::unique_ptr<GatherProduct> LastingTracer::gather_product(const GatherOperator& gather) {
+std::unique_ptr<GatherProduct> FallbackTracer::gather_product(const GatherOperator& gather) {
     std::unique_ptr<GatherProduct> product = lasting([&] { return tracer_->gather_product(gather); });
     return product ? std::make_unique<LastingProduct>(std::move(product), gather, scene_.threads()) : nullptr;
 }
 
-std::unique_ptr<VectorSums> LastingTracer::vector_sums(int order, std::span<const float> weights) {
+std::unique_ptr<VectorSums> FallbackTracer::vector_sums(int order, std::span<const float> weights) {
     std::unique_ptr<VectorSums> sums = lasting([&] { return tracer_->vector_sums(order, weights); });
     return sums ? std::make_unique<Sums>(*this, std::move(sums)) : nullptr;
 }

@@ -2,8 +2,8 @@
 
 // Light that leaves the receivers of a plan after all bounces.
 
+#include "direct_transfer.h"
 #include "lamps/lamp_bounces.h"
-#include "measured_light.h"
 #include "plan.h"
 #include "transport/light_transport.h"
 

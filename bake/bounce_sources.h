@@ -12,7 +12,7 @@ namespace prt {
 
 /// Exit transfer of all receivers of a plan, on both sides of surfaces, before the last bounce. A transfer
 /// without receivers means that there is no such light.
-struct BouncedSources {
+struct BounceSources {
     Transfer sky, lamps;
     std::optional<LampConnections> connections; ///< connections for the last bounce of lamps, if there is one
     int bounces = 0;                            ///< number of computed bounces, including the last one
@@ -20,6 +20,6 @@ struct BouncedSources {
 };
 
 /// Measures light at the receivers of `plan` and propagates it up to the last bounce.
-BouncedSources bounced_sources(const BakePlan& plan, Tracer& tracer, const Progress& progress);
+BounceSources bounce_sources(const BakePlan& plan, Tracer& tracer, const Progress& progress);
 
 } // namespace prt

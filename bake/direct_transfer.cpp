@@ -1,7 +1,7 @@
 // Measures light before it bounces, at receivers or over the surface between them, and finds sealed
 // receivers.
 
-#include "measured_light.h"
+#include "direct_transfer.h"
 
 #include "scene/sealed.h"
 #include "surface/fit_choice.h"

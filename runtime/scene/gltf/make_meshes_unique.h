@@ -10,7 +10,7 @@ namespace prt {
 /// Makes the file hold the scene's vertices one to one, so that data per receiver can be attached: meshes
 /// that several nodes share are copied per node, and primitives whose vertices were split for flat normals
 /// are rewritten as triangles. Returns the JSON of each scene primitive in `contents`.
-std::vector<Json*> unshare(GltfContents& contents, const Scene& scene);
+std::vector<Json*> make_meshes_unique(GltfContents& contents, const Scene& scene);
 
 /// Writes a primitive anew: vertex i is a copy of vertex source[i] with normals[i], in all attributes and
 /// morph targets but tangents and changes of normals.

@@ -1,6 +1,6 @@
 // Adds bounces to measured light, and removes the back sides of surfaces.
 
-#include "exit_light.h"
+#include "outgoing_transfer.h"
 
 #include "prt/sh_basis.h"
 #include "prt/support/error.h"
