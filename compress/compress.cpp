@@ -23,7 +23,7 @@ struct Task {
     const SeenLight& light;
     const std::vector<float>& significance; ///< [receivers] `SeenLight::weights`
     PredictorCoordinates predictors;
-    const Course& course;
+    const TrialSettings& settings;
 };
 
 /// Points in a frame, and the clusters found for them.
@@ -45,8 +45,8 @@ double rounding_allowed(const Task& task, double most) {
 FoundClusters find_clusters(const Task& task, const Progress& progress) {
     const CompressOptions& options = task.options;
     ClusteringOptions how = clustering_options(options, task.transfer.dimension());
-    how.start.assign(task.course.start.begin(), task.course.start.end());
-    if (task.course.draft)
+    how.start.assign(task.settings.start.begin(), task.settings.start.end());
+    if (task.settings.draft)
         how.schedule = draft_schedule();
     double max_dropped = !bases_are_coded(options)                ? 0
                          : task.transfer.layout().outputs > 1     ? tuning::kDroppedOfOutputs
@@ -199,7 +199,7 @@ void fill_up(std::span<const int> fixed_bits, QuantisedClusters& clusters, Codes
 ClusteredTransfer code(const Task& task, const ReceiverSurface& surface, FoundClusters&& found,
                        const Progress& progress) {
     const CompressOptions& options = task.options;
-    const bool draft = task.course.draft;
+    const bool draft = task.settings.draft;
     ClusterLists candidates;
     AlternationOptions how{.candidates = nullptr,
                            .stay = options.mean_components > 0,
@@ -249,7 +249,7 @@ CompressResult compress(const TransferView& transfer, const ReceiverSurface& sur
     return compress_from({}, transfer, surface, options, progress);
 }
 
-CompressResult compress_from(const Course& course, const TransferView& transfer,
+CompressResult compress_from(const TrialSettings& settings, const TransferView& transfer,
                              const ReceiverSurface& surface, const CompressOptions& options,
                              const Progress& progress) {
     check_input(transfer, surface, options);
@@ -257,11 +257,11 @@ CompressResult compress_from(const Course& course, const TransferView& transfer,
     const Stopwatch stopwatch;
     std::optional<SeenLight> own;
     const SeenLight& light =
-        course.light ? *course.light
-                     : own.emplace(transfer, areas, metric_of(options, transfer, areas), options.threads);
+        settings.light ? *settings.light
+                       : own.emplace(transfer, areas, metric_of(options, transfer, areas), options.threads);
     const Task task{
         transfer, options, light, light.weights(), predictor_coordinates(surface, options.predictors),
-        course};
+        settings};
     CompressResult result;
     CompressStatistics& statistics = result.statistics;
     FoundClusters found = find_clusters(task, progress.range(0, tuning::kClustersFoundAt));

@@ -9,7 +9,7 @@ namespace prt {
 class SeenLight;
 
 /// Settings of one compression within a search.
-struct Course {
+struct TrialSettings {
     /// [receivers] clusters of an earlier result, which are split and merged to the desired number: saves
     /// half of the time. Empty: start from vector quantisation.
     std::span<const std::uint16_t> start = {};
@@ -19,7 +19,7 @@ struct Course {
     const SeenLight* light = nullptr;
 };
 
-CompressResult compress_from(const Course& course, const TransferView& transfer,
+CompressResult compress_from(const TrialSettings& settings, const TransferView& transfer,
                              const ReceiverSurface& surface, const CompressOptions& options,
                              const Progress& progress);
 

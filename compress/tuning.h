@@ -199,7 +199,7 @@ inline constexpr double kFinishedOverDraft = 0.97;
 /// Number of receivers up to which all combinations are searched, in seconds; and up to which no drafts are
 /// used. [budget]
 inline constexpr double kFewReceivers = 1500, kAlwaysFinished = 600;
-/// Stop searching a line when its estimated cost exceeds this multiple of the best. [budget]
+/// Stop searching a configuration when its estimated cost exceeds this multiple of the best. [budget]
 inline constexpr double kHopeless = 1.02;
 /// Fractions of the error that rounding bases may add, tried relative to the format's; and the maximum.
 /// [budget]
@@ -208,7 +208,7 @@ inline constexpr double kMaxShare = 0.9;
 
 /// Number of steps without improvement before a search reverses. By hand. [budget]
 inline constexpr int kPatience = 2;
-/// Trials on one line of the search: to fill bytes, to reach an error. By hand. [budget]
+/// Trials on one configuration of the search: to fill bytes, to reach an error. By hand. [budget]
 inline constexpr int kBytesTries = 6, kErrorTries = 6;
 /// Maximum size of a preset's bases relative to the weights, and size in bytes that is always allowed: a prop
 /// of a few hundred vertices needs it. By hand, over meshes of 232 to 3 000 vertices. [preset]
@@ -218,8 +218,8 @@ inline constexpr double kBasesOverWeights = 2, kAlwaysForBases = 4096;
 inline constexpr std::size_t kReceiversPerCluster = 12, kAlwaysClusters = 64;
 /// Maximum number of clusters if only operations are limited. [budget] --shader-ops
 inline constexpr std::size_t kMaxClustersOfOperations = 512;
-/// Fraction of the bytes that ends a line. For a preset that does not fit, whose limit is a rule of thumb,
-/// the last tenth is not worth a trial. By hand. [budget]
+/// Fraction of the bytes that ends a configuration. For a preset that does not fit, whose limit is a rule of
+/// thumb, the last tenth is not worth a trial. By hand. [budget]
 inline constexpr double kMinFilled = 0.975, kMinFilledOfPreset = 0.9;
 /// Ratio of total bytes to weight bytes above which both settings of `bases_count` are tried. A preset's
 /// settings differ only if the bases exceed their share because of few vertices: 2 478 vertices had 0.479 and
@@ -230,7 +230,7 @@ inline constexpr double kBothWays = 2, kBothWaysOfPreset = 1.02 * (1 + kBasesOve
 inline constexpr double kBytesPerClusterAndNumber = 12, kMinBytesPerCluster = 4;
 /// Clusters of the first trial for an error. [budget]
 inline constexpr double kFirstClusters = 64;
-/// Fraction of an allowed error that ends a line, for complete trials and drafts. By hand. [budget]
+/// Fraction of an allowed error that ends a configuration, for complete trials and drafts. By hand. [budget]
 inline constexpr double kNearEnough = 0.98, kNearEnoughOfDrafts = 0.95;
 /// Ratio between a number of clusters that misses and one that reaches the target at which the search ends.
 /// By hand. [budget]

@@ -39,11 +39,11 @@ BudgetSearch::BudgetSearch(const SearchTask& task, const Effort& effort)
         trials_.expect_bytes_per_cluster(*effort.bytes_per_cluster);
 }
 
-/// Runs the search. A limit on operations already keeps components few. The first line then does not count
-/// bases (`first_line`), so that components are not dropped in favour of clusters that fit anyway: 0.40
+/// Runs the search. A limit on operations already keeps components few. The first config then does not count
+/// bases (`first_config`), so that components are not dropped in favour of clusters that fit anyway: 0.40
 /// instead of 1.04 times the error of classic CPCA with one component, measured on a head.
 SearchResult BudgetSearch::run() {
-    walk(first_line());
+    walk(first_config());
     if (task_.few_receivers())
         vary_thoroughly();
     else
@@ -54,13 +54,13 @@ SearchResult BudgetSearch::run() {
     return trials_.take_result();
 }
 
-Line BudgetSearch::first_line() const {
-    Line line{.payload = first_payload(),
-              .bases_count = !budget_.operations,
-              .predictors = task_.options.compress.predictors};
-    if (task_.options.choose_predictors && !affordable(line.predictors))
-        line.predictors = PredictorChoice::none;
-    return line;
+PayloadConfig BudgetSearch::first_config() const {
+    PayloadConfig config{.payload = first_payload(),
+                         .bases_count = !budget_.operations,
+                         .predictors = task_.options.compress.predictors};
+    if (task_.options.choose_predictors && !affordable(config.predictors))
+        config.predictors = PredictorChoice::none;
+    return config;
 }
 
 bool BudgetSearch::affordable(PredictorChoice predictors) const {
@@ -97,9 +97,9 @@ int BudgetSearch::max_payload() const {
     return most;
 }
 
-double BudgetSearch::max_bytes(const Line& line) const {
+double BudgetSearch::max_bytes(const PayloadConfig& config) const {
     return budget_.bytes_per_vertex.value_or((1 + tuning::kBasesOverWeights) *
-                                             task_.payload_bytes(std::max(line.payload, max_payload())));
+                                             task_.payload_bytes(std::max(config.payload, max_payload())));
 }
 
 /// Returns the start payload. Few components need few weight bits.
@@ -117,7 +117,7 @@ int BudgetSearch::first_payload() const {
 }
 
 /// Walks from the start in both directions until the cost increases twice in a row.
-double BudgetSearch::walk(const Line& start) {
+double BudgetSearch::walk(const PayloadConfig& start) {
     double least = best_on(start);
     for (const int direction : {1, -1}) {
         double best = best_on(start);
@@ -128,9 +128,9 @@ double BudgetSearch::walk(const Line& start) {
             if (trials_.saves_bytes() && trials_.kept() &&
                 task_.payload_bytes(payload) >= trials_.best()->trial.bytes_per_vertex)
                 break; // the weights alone take more
-            Line line = start;
-            line.payload = payload;
-            const double found = best_on(line);
+            PayloadConfig config = start;
+            config.payload = payload;
+            const double found = best_on(config);
             worse = found < best ? 0 : worse + 1;
             best = std::min(best, found);
         }
@@ -148,54 +148,54 @@ void BudgetSearch::vary() {
                            (task_.packed() && best.bytes_per_vertex > effort_.both_ways * best.payload_bytes);
     if (other_way) {
         const double found = trials_.cost(best);
-        Line line = trials_.best()->line;
-        line.bases_count = !line.bases_count;
-        if (best_on(line) < found)
-            walk(line);
+        PayloadConfig config = trials_.best()->config;
+        config.bases_count = !config.bases_count;
+        if (best_on(config) < found)
+            walk(config);
     }
     if (!task_.options.choose_predictors)
         return;
     for (const PredictorChoice predictors :
          {PredictorChoice::none, PredictorChoice::normal, PredictorChoice::normal_and_position}) {
-        Line line = trials_.best()->line;
-        line.predictors = predictors;
+        PayloadConfig config = trials_.best()->config;
+        config.predictors = predictors;
         if (affordable(predictors))
-            best_on(line);
+            best_on(config);
     }
 }
 
 /// Tries all combinations, and the payloads from each: for few receivers this takes little time.
 void BudgetSearch::vary_thoroughly() {
-    const Line from = trials_.best()->line;
+    const PayloadConfig from = trials_.best()->config;
     for (const PredictorChoice predictors :
          {PredictorChoice::none, PredictorChoice::normal, PredictorChoice::normal_and_position})
         for (const bool bases_count : {true, false}) {
-            Line line = from;
-            line.bases_count = bases_count;
+            PayloadConfig config = from;
+            config.bases_count = bases_count;
             if (task_.options.choose_predictors)
-                line.predictors = predictors;
-            if (affordable(line.predictors))
-                walk(line);
+                config.predictors = predictors;
+            if (affordable(config.predictors))
+                walk(config);
         }
     if (!bases_are_coded(task_.options.compress))
         return;
     for (const double factor : tuning::kOtherShares) {
-        Line line = trials_.best()->line;
-        line.basis_share = std::min(factor * basis_share(task_.options.compress), tuning::kMaxShare);
-        walk(line);
+        PayloadConfig config = trials_.best()->config;
+        config.basis_share = std::min(factor * basis_share(task_.options.compress), tuning::kMaxShare);
+        walk(config);
     }
 }
 
-/// Completes the line of the best draft with all rounds and seams; if the result exceeds the budget, tries
-/// other lines.
+/// Completes the config of the best draft with all rounds and seams; if the result exceeds the budget, tries
+/// other configs.
 void BudgetSearch::finish() {
     if (!trials_.best()->trial.draft)
         return;
-    Line line = trials_.best()->line;
-    line.finished = true;
-    best_on(line);
+    PayloadConfig config = trials_.best()->config;
+    config.finished = true;
+    best_on(config);
     if (!trials_.kept())
-        walk(line);
+        walk(config);
 }
 
 /// Searches with fewer components if even one cluster with all its directions takes too many bytes. Starts
@@ -218,18 +218,18 @@ void BudgetSearch::search_fewer_components() {
     }
 }
 
-double BudgetSearch::best_on(const Line& line) {
-    const auto [known, is_new] = min_cost_.try_emplace(line, kNothingFound);
+double BudgetSearch::best_on(const PayloadConfig& config) {
+    const auto [known, is_new] = min_cost_.try_emplace(config, kNothingFound);
     if (!is_new)
         return known->second;
     double least = kNothingFound;
     if (!task_.options.choose_clusters)
-        least = trials_.cost(trials_.attempt(task_.options.compress.clusters, line));
+        least = trials_.cost(trials_.attempt(task_.options.compress.clusters, config));
     else if (trials_.saves_bytes())
-        reach_error(line, least);
+        reach_error(config, least);
     else
-        fill_bytes(line, least);
-    return min_cost_[line] = least;
+        fill_bytes(config, least);
+    return min_cost_[config] = least;
 }
 
 int BudgetSearch::clamped(double clusters) const {
@@ -237,12 +237,12 @@ int BudgetSearch::clamped(double clusters) const {
 }
 
 /// Extrapolates the trial to the target error or size by typical exponents.
-bool BudgetSearch::hopeless(const SearchTrial& t, const Line& line) const {
-    if (task_.few_receivers() || line.finished || !trials_.kept() ||
+bool BudgetSearch::hopeless(const SearchTrial& t, const PayloadConfig& config) const {
+    if (task_.few_receivers() || config.finished || !trials_.kept() ||
         (trials_.keeps(t) && trials_.cost(t) <= trials_.cost(trials_.best()->trial)))
         return false;
     const SearchTrial& best = trials_.best()->trial;
-    const double payload = task_.payload_bytes(line.payload);
+    const double payload = task_.payload_bytes(config.payload);
     // More clusters may gain more than the typical exponent predicts, and fewer may lose less.
     const auto exponent = [&](bool more) { return more ? steepest_ : tuning::kErrorExponentDown; };
     if (trials_.saves_bytes()) {
@@ -251,40 +251,41 @@ bool BudgetSearch::hopeless(const SearchTrial& t, const Line& line) const {
         return payload + clusters * (t.bytes_per_vertex - payload) >
                tuning::kHopeless * best.bytes_per_vertex;
     }
-    const double clusters = (max_bytes(line) - payload) / std::max(t.bytes_per_vertex - payload, 1e-9);
+    const double clusters = (max_bytes(config) - payload) / std::max(t.bytes_per_vertex - payload, 1e-9);
     return t.lit_rms * std::pow(clusters, -exponent(clusters > 1)) > tuning::kHopeless * best.lit_rms;
 }
 
 /// Estimates the size of bases per cluster before the first trial, from the rows of the best trial.
-double BudgetSearch::bytes_per_cluster(const Line& line) const {
+double BudgetSearch::bytes_per_cluster(const PayloadConfig& config) const {
     if (!trials_.best())
         return trials_.bytes_per_cluster();
     const SearchTrial& best = trials_.best()->trial;
-    const Line& on = trials_.best()->line;
+    const PayloadConfig& on = trials_.best()->config;
     const double predictors = predictor_rows_of(on.predictors, task_.surface),
-                 components = best.operations - predictors, more = (1.0 + line.payload) / (1.0 + on.payload),
-                 rows = 1 + predictor_rows_of(line.predictors, task_.surface) + more * components;
+                 components = best.operations - predictors,
+                 more = (1.0 + config.payload) / (1.0 + on.payload),
+                 rows = 1 + predictor_rows_of(config.predictors, task_.surface) + more * components;
     return std::max((best.bytes_per_vertex - best.payload_bytes) * task_.receivers() / best.clusters * rows /
                         (1 + best.operations),
                     tuning::kMinBytesPerCluster);
 }
 
 /// Returns one cluster if components were reduced because nothing else fits.
-double BudgetSearch::first_clusters_of_bytes(const Line& line, double aim) const {
-    if (line.component_limit < kMaxPackedComponents)
+double BudgetSearch::first_clusters_of_bytes(const PayloadConfig& config, double aim) const {
+    if (config.component_limit < kMaxPackedComponents)
         return 1;
-    if (line.finished)
+    if (config.finished)
         return trials_.best()->trial.clusters;
-    return (aim - task_.payload_bytes(line.payload)) * task_.receivers() / bytes_per_cluster(line);
+    return (aim - task_.payload_bytes(config.payload)) * task_.receivers() / bytes_per_cluster(config);
 }
 
 /// Halves the clusters while this lowers the cost. For transfer of few dimensions, more clusters take bits
 /// from weights without benefit: fewer clusters leave bytes unused and have a smaller error.
-void BudgetSearch::reduce_clusters(const Line& line, int clusters, double& least) {
+void BudgetSearch::reduce_clusters(const PayloadConfig& config, int clusters, double& least) {
     int worse = 0;
     while (clusters > 1 && worse < tuning::kPatience) {
         clusters /= 2;
-        const double cost = trials_.cost(trials_.attempt(clusters, line));
+        const double cost = trials_.cost(trials_.attempt(clusters, config));
         worse = cost < least ? 0 : worse + 1;
         least = std::min(least, cost);
     }
@@ -292,15 +293,15 @@ void BudgetSearch::reduce_clusters(const Line& line, int clusters, double& least
 
 /// Searches the maximum number of clusters that fit the bytes, between a number that fits and one that does
 /// not; reduces it if the error grew with it.
-void BudgetSearch::fill_bytes(const Line& line, double& least) {
-    const double most = max_bytes(line), aim = 0.5 * (1 + effort_.min_filled) * most;
-    KnownClusters fits{0, task_.payload_bytes(line.payload)},
+void BudgetSearch::fill_bytes(const PayloadConfig& config, double& least) {
+    const double most = max_bytes(config), aim = 0.5 * (1 + effort_.min_filled) * most;
+    KnownClusters fits{0, task_.payload_bytes(config.payload)},
         too_many{static_cast<double>(max_clusters_) + 1, 0}, before;
-    double next = first_clusters_of_bytes(line, aim);
+    double next = first_clusters_of_bytes(config, aim);
     int best = 0, max_kept = 0;
     for (int i = 0; i < tuning::kBytesTries && fits.clusters + 1 < too_many.clusters; ++i) {
         const int clusters = clamped(std::clamp(next, fits.clusters + 1, too_many.clusters - 1));
-        const SearchTrial& trial = trials_.attempt(clusters, line);
+        const SearchTrial& trial = trials_.attempt(clusters, config);
         const double bytes = trial.bytes_per_vertex;
         if (const double cost = trials_.cost(trial); cost < least) {
             least = cost;
@@ -312,7 +313,7 @@ void BudgetSearch::fill_bytes(const Line& line, double& least) {
             observed_exponent(before, {static_cast<double>(clusters), trial.lit_rms});
         before = {static_cast<double>(clusters), trial.lit_rms};
         (bytes <= most ? fits : too_many) = {static_cast<double>(clusters), bytes};
-        if ((bytes <= most && bytes > effort_.min_filled * most) || hopeless(trial, line))
+        if ((bytes <= most && bytes > effort_.min_filled * most) || hopeless(trial, config))
             break;
         if (too_many.value > 0)
             next = interpolated(fits, too_many, aim);
@@ -320,23 +321,23 @@ void BudgetSearch::fill_bytes(const Line& line, double& least) {
             next = clusters + (aim - bytes) * task_.receivers() / trials_.bytes_per_cluster();
     }
     if (best > 0 && best < max_kept)
-        reduce_clusters(line, best, least);
+        reduce_clusters(config, best, least);
 }
 
 /// Estimates the first number of clusters for an error. Another word typically halves the error.
-int BudgetSearch::first_clusters(const Line& line) const {
+int BudgetSearch::first_clusters(const PayloadConfig& config) const {
     if (!trials_.best())
         return clamped(tuning::kFirstClusters);
     const SearchTrial& best = trials_.best()->trial;
-    const int words = task_.packed() ? line.payload - trials_.best()->line.payload : 0;
+    const int words = task_.packed() ? config.payload - trials_.best()->config.payload : 0;
     return clamped(best.clusters *
                    clusters_for(std::pow(2, words) / trials_.excess_of_error(best), tuning::kErrorExponent));
 }
 
 /// Returns whether another word reaches the error in fewer bytes, if the current payload would need many more
 /// clusters.
-bool BudgetSearch::wants_payload(const SearchTrial& t, const Line& line, double exponent) const {
-    if (!task_.packed() || line.payload == max_payload() || task_.few_receivers())
+bool BudgetSearch::wants_payload(const SearchTrial& t, const PayloadConfig& config, double exponent) const {
+    if (!task_.packed() || config.payload == max_payload() || task_.few_receivers())
         return false;
     const double excess = trials_.excess_of_error(t), bases = t.bytes_per_vertex - t.payload_bytes;
     const double here = bases * clusters_for(1 / excess, exponent),
@@ -358,20 +359,20 @@ double BudgetSearch::observed_exponent(const KnownClusters& a, const KnownCluste
 /// Searches the minimum number of clusters that reaches the error, between a number that misses and one that
 /// reaches it. Log error is assumed linear in log clusters, with a slope from the last two trials or a
 /// typical value.
-void BudgetSearch::reach_error(const Line& line, double& least) {
+void BudgetSearch::reach_error(const PayloadConfig& config, double& least) {
     const double near_enough =
-        line.finished || !task_.has_drafts() ? tuning::kNearEnough : tuning::kNearEnoughOfDrafts;
+        config.finished || !task_.has_drafts() ? tuning::kNearEnough : tuning::kNearEnoughOfDrafts;
     const double aim = 0.3 * near_enough + 0.7;
     KnownClusters misses{0, 0}, reaches{static_cast<double>(max_clusters_) + 1, 0}, before;
-    double next = first_clusters(line), exponent = tuning::kErrorExponent;
+    double next = first_clusters(config), exponent = tuning::kErrorExponent;
     for (int i = 0; i < tuning::kErrorTries && misses.clusters + 1 < reaches.clusters; ++i) {
         const int clusters = clamped(std::clamp(next, misses.clusters + 1, reaches.clusters - 1));
-        const SearchTrial& trial = trials_.attempt(clusters, line);
+        const SearchTrial& trial = trials_.attempt(clusters, config);
         least = std::min(least, trials_.cost(trial));
         const double excess = std::max(trials_.excess_of_error(trial), 1e-12);
         const bool enough = excess <= 1;
         (enough ? reaches : misses) = {static_cast<double>(clusters), excess};
-        if ((enough && excess > near_enough) || hopeless(trial, line))
+        if ((enough && excess > near_enough) || hopeless(trial, config))
             break;
         if (misses.value > 0 && reaches.value > 0 &&
             reaches.clusters < misses.clusters * tuning::kNearClusters)
@@ -382,7 +383,7 @@ void BudgetSearch::reach_error(const Line& line, double& least) {
         if (before.clusters > 0)
             exponent = observed_exponent(before, {static_cast<double>(clusters), excess});
         before = {static_cast<double>(clusters), excess};
-        if (!enough && !trials_.kept() && !line.finished && wants_payload(trial, line, exponent))
+        if (!enough && !trials_.kept() && !config.finished && wants_payload(trial, config, exponent))
             break;
         const double factor = clusters_for(std::clamp(aim / excess, std::exp(-2.0), std::exp(2.0)), exponent);
         if (!(reaches.value > 0) && factor > tuning::kHopelessFactor) // a larger payload is needed

@@ -22,45 +22,45 @@ struct KnownClusters {
     double clusters = 0, value = 0;
 };
 
-/// Searches the best result within a budget: varies the clusters on lines of otherwise fixed settings, then
-/// the payload, then all other settings from the best one. A line is abandoned as soon as its trials predict
-/// that it cannot win.
+/// Searches the best result within a budget: varies the clusters on configs of otherwise fixed settings, then
+/// the payload, then all other settings from the best one. A config is abandoned as soon as its trials
+/// predict that it cannot win.
 class BudgetSearch {
 public:
     explicit BudgetSearch(const SearchTask& task, const Effort& effort = {});
     SearchResult run();
 
 private:
-    Line first_line() const;
+    PayloadConfig first_config() const;
     int first_payload() const;
     int min_payload() const;
     int max_payload() const;
     int max_clusters() const;
-    /// Returns the bytes per receiver that a line may fill: the budget's, or, without a limit on bytes, the
+    /// Returns the bytes per receiver that a config may fill: the budget's, or, without a limit on bytes, the
     /// maximum size of a preset.
-    double max_bytes(const Line& line) const;
+    double max_bytes(const PayloadConfig& config) const;
     bool affordable(PredictorChoice predictors) const;
 
-    /// Searches lines of all payloads around `line`'s. Returns the minimum cost.
-    double walk(const Line& line);
+    /// Searches configs of all payloads around `config`'s. Returns the minimum cost.
+    double walk(const PayloadConfig& config);
     /// Varies the other settings, starting from the best result.
     void vary();
     void vary_thoroughly();
     void finish();
     void search_fewer_components();
 
-    /// Searches the best number of clusters on a line, by bytes or by error. Returns its cost.
-    double best_on(const Line& line);
-    double bytes_per_cluster(const Line& line) const;
-    double first_clusters_of_bytes(const Line& line, double aim) const;
-    void fill_bytes(const Line& line, double& least);
-    void reduce_clusters(const Line& line, int clusters, double& least);
-    void reach_error(const Line& line, double& least);
-    int first_clusters(const Line& line) const;
+    /// Searches the best number of clusters on a config, by bytes or by error. Returns its cost.
+    double best_on(const PayloadConfig& config);
+    double bytes_per_cluster(const PayloadConfig& config) const;
+    double first_clusters_of_bytes(const PayloadConfig& config, double aim) const;
+    void fill_bytes(const PayloadConfig& config, double& least);
+    void reduce_clusters(const PayloadConfig& config, int clusters, double& least);
+    void reach_error(const PayloadConfig& config, double& least);
+    int first_clusters(const PayloadConfig& config) const;
     double observed_exponent(const KnownClusters& a, const KnownClusters& b);
-    bool wants_payload(const SearchTrial& trial, const Line& line, double exponent) const;
-    /// Returns whether a trial predicts that its line is worse than the best result.
-    bool hopeless(const SearchTrial& trial, const Line& line) const;
+    bool wants_payload(const SearchTrial& trial, const PayloadConfig& config, double exponent) const;
+    /// Returns whether a trial predicts that its config is worse than the best result.
+    bool hopeless(const SearchTrial& trial, const PayloadConfig& config) const;
     int clamped(double clusters) const;
 
     const SearchTask& task_;
@@ -69,7 +69,7 @@ private:
     Trials trials_;
     int max_clusters_;
     double steepest_ = tuning::kErrorExponent; ///< maximum over all observations
-    std::map<Line, double> min_cost_;
+    std::map<PayloadConfig, double> min_cost_;
 };
 
 } // namespace prt

@@ -23,8 +23,8 @@ std::optional<double> SearchTask::components_beside(PredictorChoice predictors) 
 Trials::Trials(const SearchTask& task)
     : task_(task), budget_(task.options.budget),
       light_(task.transfer, task.surface.areas, *task.options.compress.metric, task.options.compress.threads),
-      judge_(task.transfer, task.surface, *task.options.compress.metric, budget_,
-             task.options.compress.threads),
+      evaluate_(task.transfer, task.surface, *task.options.compress.metric, budget_,
+                task.options.compress.threads),
       bytes_per_cluster_(tuning::kBytesPerClusterAndNumber * task.dimension()) {}
 
 double Trials::excess_of_error(const SearchTrial& t) const {
@@ -45,25 +45,25 @@ double Trials::cost(const SearchTrial& t) const {
     return saves_bytes() ? t.bytes_per_vertex : t.lit_rms;
 }
 
-CompressOptions Trials::options_on(const Line& line, int clusters) const {
+CompressOptions Trials::options_on(const PayloadConfig& config, int clusters) const {
     CompressOptions o = task_.options.compress;
     WeightCoding& coding = o.coding;
     o.clusters = clusters;
-    o.predictors = line.predictors;
-    if (line.basis_share >= 0)
-        o.basis_share = line.basis_share;
-    int most = 4 * line.payload;
+    o.predictors = config.predictors;
+    if (config.basis_share >= 0)
+        o.basis_share = config.basis_share;
+    int most = 4 * config.payload;
     if (task_.packed()) {
         coding.cluster_bits = static_cast<int>(std::bit_width(static_cast<unsigned>(clusters - 1)));
-        o.bases_count = line.bases_count;
+        o.bases_count = config.bases_count;
         coding.fixed_bits.clear();
         coding.bits =
-            std::min(32 * line.payload - coding.cluster_bits, kMaxPackedBits); // words are bound as a whole
+            std::min(32 * config.payload - coding.cluster_bits, kMaxPackedBits); // words are bound as a whole
         most = kMaxPackedComponents;
     }
     if (task_.options.choose_components)
-        coding.components = std::min({most, task_.dimension(), line.component_limit});
-    if (const std::optional<double> components = task_.components_beside(line.predictors)) {
+        coding.components = std::min({most, task_.dimension(), config.component_limit});
+    if (const std::optional<double> components = task_.components_beside(config.predictors)) {
         o.mean_components = std::max(*components, 0.0);
         if (!(*components > 0)) // `compress` treats 0 as no limit
             coding.components = 0;
@@ -78,7 +78,7 @@ std::span<const std::uint16_t> Trials::start_for(int clusters) const {
         return {};
     double nearest = std::log(tuning::kFarStart);
     std::span<const std::uint16_t> start;
-    const auto consider = [&](const std::optional<Try>& from,
+    const auto consider = [&](const std::optional<KeptTrial>& from,
                               const std::vector<std::uint16_t>& of_receivers) {
         if (!from)
             return;
@@ -93,27 +93,27 @@ std::span<const std::uint16_t> Trials::start_for(int clusters) const {
     return start;
 }
 
-const SearchTrial& Trials::attempt(int clusters, const Line& line) {
-    const auto key = std::pair(clusters, line);
+const SearchTrial& Trials::attempt(int clusters, const PayloadConfig& config) {
+    const auto key = std::pair(clusters, config);
     if (const auto known = tried_.find(key); known != tried_.end())
         return known->second;
     // The number of trials is unknown; each takes a tenth of the remaining progress.
     const double done = 1 - std::pow(0.9, static_cast<double>(tried_.size()));
-    const bool draft = !line.finished && task_.has_drafts();
+    const bool draft = !config.finished && task_.has_drafts();
     CompressResult result =
         compress_from({start_for(clusters), draft, &light_}, task_.transfer, task_.surface,
-                      options_on(line, clusters), task_.progress.range(done, done + 0.1 * (1 - done)));
+                      options_on(config, clusters), task_.progress.range(done, done + 0.1 * (1 - done)));
     const CompressStatistics& s = result.statistics;
-    const Verdict verdict = judge_(result);
+    const Score score = evaluate_(result);
     const double finished = draft ? tuning::kFinishedOverDraft : 1;
     const SearchTrial trial{.draft = draft,
                             .clusters = clusters,
                             .payload_bytes = static_cast<int>(s.bytes_per_receiver),
                             .lit_rms = finished * s.error(),
-                            .worst_lit_rms = finished * verdict.worst_lit_rms,
+                            .worst_lit_rms = finished * score.worst_lit_rms,
                             .sky_contrast = finished * s.sky_contrast,
                             .lamp_contrast = finished * s.lamp_contrast,
-                            .jump = finished * verdict.jump,
+                            .jump = finished * score.jump,
                             .bytes_per_vertex = s.bytes_with_bases(task_.transfer.receivers()),
                             .operations = s.operations(),
                             .seconds = s.seconds};
@@ -122,7 +122,7 @@ const SearchTrial& Trials::attempt(int clusters, const Line& line) {
     if (task_.options.compress.trace)
         task_.options.compress.trace(trial);
     result_.trials.push_back(trial);
-    keep_if_better(std::move(result), trial, line);
+    keep_if_better(std::move(result), trial, config);
     return tried_[key] = trial;
 }
 
@@ -132,10 +132,10 @@ bool Trials::is_better(const SearchTrial& trial) const {
     return cost(trial) < cost(best_->trial);
 }
 
-void Trials::keep_if_better(CompressResult&& result, const SearchTrial& trial, const Line& line) {
+void Trials::keep_if_better(CompressResult&& result, const SearchTrial& trial, const PayloadConfig& config) {
     std::vector<std::uint16_t>& clusters = result.transfer.receivers.clusters;
     if (!is_better(trial)) {
-        last_ = {trial, line};
+        last_ = {trial, config};
         last_clusters_ = std::move(clusters);
         return;
     }
@@ -143,7 +143,7 @@ void Trials::keep_if_better(CompressResult&& result, const SearchTrial& trial, c
         last_ = best_;
         last_clusters_ = std::move(result_.result.transfer.receivers.clusters);
     }
-    best_ = {trial, line};
+    best_ = {trial, config};
     result_.result = std::move(result);
 }
 

@@ -4,8 +4,8 @@
 
 #include "metric/seen_light.h"
 #include "prt/search.h"
-#include "search/judge.h"
-#include "search/line.h"
+#include "search/payload_config.h"
+#include "search/trial_evaluator.h"
 #include "tuning.h"
 
 #include <map>
@@ -38,14 +38,14 @@ struct SearchTask {
 /// a complete trial is better than any draft.
 class Trials {
 public:
-    struct Try {
+    struct KeptTrial {
         SearchTrial trial;
-        Line line;
+        PayloadConfig config;
     };
 
     explicit Trials(const SearchTask& task);
 
-    const SearchTrial& attempt(int clusters, const Line& line);
+    const SearchTrial& attempt(int clusters, const PayloadConfig& config);
 
     bool keeps(const SearchTrial& trial) const { return !(excess(trial) > 1); }
     /// Returns the maximum ratio of a quantity to its limit; above 1 the budget is exceeded.
@@ -57,7 +57,7 @@ public:
     /// Returns whether the search minimises bytes at an allowed error, rather than the error.
     bool saves_bytes() const { return budget_.max_error.has_value(); }
 
-    const std::optional<Try>& best() const { return best_; }
+    const std::optional<KeptTrial>& best() const { return best_; }
     bool kept() const { return best_ && keeps(best_->trial); }
     /// Returns the bytes of the bases per cluster in the last trial.
     double bytes_per_cluster() const { return bytes_per_cluster_; }
@@ -66,20 +66,20 @@ public:
     SearchResult take_result();
 
 private:
-    CompressOptions options_on(const Line& line, int clusters) const;
+    CompressOptions options_on(const PayloadConfig& config, int clusters) const;
     std::span<const std::uint16_t> start_for(int clusters) const;
     bool is_better(const SearchTrial& trial) const;
-    void keep_if_better(CompressResult&& result, const SearchTrial& trial, const Line& line);
+    void keep_if_better(CompressResult&& result, const SearchTrial& trial, const PayloadConfig& config);
 
     const SearchTask& task_;
     const Budget& budget_;
     SeenLight light_;
-    Judge judge_;
+    TrialEvaluator evaluate_;
     double bytes_per_cluster_;
-    std::map<std::pair<int, Line>, SearchTrial> tried_;
-    std::optional<Try> last_; ///< empty if it is the best
+    std::map<std::pair<int, PayloadConfig>, SearchTrial> tried_;
+    std::optional<KeptTrial> last_; ///< empty if it is the best
     std::vector<std::uint16_t> last_clusters_;
-    std::optional<Try> best_;
+    std::optional<KeptTrial> best_;
     SearchResult result_;
 };
 

@@ -10,19 +10,19 @@
 namespace prt {
 
 /// Quantities by which a result is evaluated.
-struct Verdict {
+struct Score {
     double worst_lit_rms = 0; ///< maximum of the expected error and the errors under the budget's skies, at
                               ///< their worst rotations
     double jump = 0;          ///< jump limited by `Budget::max_jump`; 0 if there is no limit
 };
 
 /// Evaluates results of one transfer against a budget. Keeps references.
-class Judge {
+class TrialEvaluator {
 public:
-    Judge(const TransferView& transfer, const ReceiverSurface& surface, const LightMetric& metric,
-          const Budget& budget, int threads);
+    TrialEvaluator(const TransferView& transfer, const ReceiverSurface& surface, const LightMetric& metric,
+                   const Budget& budget, int threads);
 
-    Verdict operator()(const CompressResult& result) const;
+    Score operator()(const CompressResult& result) const;
 
 private:
     const TransferView& transfer_;

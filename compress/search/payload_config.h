@@ -10,14 +10,14 @@
 namespace prt {
 
 /// Settings along which a search varies the number of clusters.
-struct Line {
+struct PayloadConfig {
     int payload = 1; ///< 32-bit words per receiver, or groups of four floats
     bool bases_count = true;
     int component_limit = std::numeric_limits<int>::max(); ///< lowered if the budget is very small
     PredictorChoice predictors = PredictorChoice::normal;
     double basis_share = -1; ///< CompressOptions::basis_share; negative: the tuned value
     bool finished = false;   ///< with all rounds and seams; drafts only steer the search
-    friend auto operator<=>(const Line&, const Line&) = default;
+    friend auto operator<=>(const PayloadConfig&, const PayloadConfig&) = default;
 };
 
 /// Returns the bytes per receiver of a payload; with floats, four of them hold the cluster.

@@ -1,6 +1,6 @@
 // Bytes per receiver and shader operations of a payload configuration.
 
-#include "search/line.h"
+#include "search/payload_config.h"
 
 #include <algorithm>
 #include <numeric>
