@@ -152,33 +152,32 @@ InstanceFactors in_axes_of_world(const InstanceFactors& factors, const glm::dmat
 }
 
 InstanceRotations instance_rotations(std::span<const glm::dmat3> rotations, int bins, double degrees) {
-    InstanceRotations rotations;
+    InstanceRotations result;
     std::vector<std::uint32_t> of_bin(static_cast<std::size_t>(std::max(bins, 0)), ~0u);
     const auto add = [&](const glm::dmat3& rotation) {
-        rotations.rotations.push_back(rotation);
-        return static_cast<std::uint32_t>(rotations.rotations.size() - 1);
+        result.rotations.push_back(rotation);
+        return static_cast<std::uint32_t>(result.rotations.size() - 1);
     };
     for (const glm::dmat3& rotation : rotations) {
-        std::uint32_t rotation = ~0u;
+        std::uint32_t index = ~0u;
         if (bins > 0 && is_upright(rotation)) {
             const double share = yaw_of(rotation) / (2 * std::numbers::pi);
             const auto bin = static_cast<std::size_t>(std::lround((share + 1) * bins)) % of_bin.size();
             if (of_bin[bin] == ~0u)
                 of_bin[bin] = add(yaw_matrix(2 * std::numbers::pi * static_cast<double>(bin) / bins));
-            rotation = of_bin[bin];
+            index = of_bin[bin];
         } else {
-            const auto same = std::ranges::find_if(rotations.rotations, [&](const glm::dmat3& other) {
+            const auto same = std::ranges::find_if(result.rotations, [&](const glm::dmat3& other) {
                 return degrees_between(other, rotation) <= degrees;
             });
-            rotation = same == rotations.rotations.end()
-                           ? add(rotation)
-                           : static_cast<std::uint32_t>(same - rotations.rotations.begin());
+            index = same == result.rotations.end()
+                        ? add(rotation)
+                        : static_cast<std::uint32_t>(same - result.rotations.begin());
         }
-        rotations.max_degrees =
-            std::max(rotations.max_degrees, degrees_between(rotations.rotations[rotation], rotation));
-        rotations.of.push_back(rotation);
+        result.max_degrees = std::max(result.max_degrees, degrees_between(result.rotations[index], rotation));
+        result.of.push_back(index);
     }
-    return rotations;
+    return result;
 }
 
 glm::vec3 exit_radiance(const InstanceFactors& factors, const glm::vec3& point,
@@ -192,11 +191,11 @@ glm::vec3 exit_radiance(const InstanceFactors& factors, const glm::vec3& point,
 
 std::array<Lighting, kInstanceModes> rotated_into(const glm::dmat3& rotation,
                                                   std::array<Lighting, kInstanceModes> lightings) {
-    const ShRotation rotation(lightings.front().sky.order, glm::transpose(rotation));
+    const ShRotation into(lightings.front().sky.order, glm::transpose(rotation));
     for (Lighting& lighting : lightings) {
-        rotation.apply(std::span(lighting.sky.coefficients));
+        into.apply(std::span(lighting.sky.coefficients));
         if (lighting.suns)
-            rotation.apply(std::span(lighting.suns->coefficients));
+            into.apply(std::span(lighting.suns->coefficients));
     }
     return lightings;
 }

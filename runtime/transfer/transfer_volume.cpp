@@ -188,24 +188,24 @@ VolumeLookup::VolumeLookup(const VolumeGrid& grid, std::span<const ProbeVisibili
         const auto distances =
             distances_of(visibility[p], grid.spacing * static_cast<float>(1 << probes_.levels[p]));
         for (std::size_t a = 0; a < 6; ++a)
-            nearness[a] = distances[a] > 0 ? 1 / distances[a] : kBlindNearness;
+            nearness[a] = distances[a] > 0 ? 1 / distances[a] : kInvalidNearness;
     }
 }
 
 VolumeCorners VolumeLookup::find(const glm::vec3& position, const glm::vec3& normal) const {
     const glm::vec3 extent = grid_.spacing * static_cast<float>(kBrickCells) * glm::vec3(grid_.size);
-    const auto position_of = [&](const glm::vec3& at) {
+    const auto brick_of = [&](const glm::vec3& at) {
         const glm::vec3 bricks = (at - grid_.origin) / (grid_.spacing * static_cast<float>(kBrickCells));
         return glm::clamp(glm::ivec3(glm::floor(bricks)), glm::ivec3(0), grid_.size - 1);
     };
     const glm::vec3 inside = glm::clamp(position, grid_.origin, grid_.origin + extent);
-    std::uint32_t brick = index_[entry_of(grid_, position_of(inside))];
+    std::uint32_t brick = index_[entry_of(grid_, brick_of(inside))];
     if (brick == kNoBrick)
         brick = 0;
     const float cell = grid_.spacing * static_cast<float>(1 << grid_.bricks[brick].level);
     const glm::vec3 seen =
         glm::clamp(inside + kNormalBias * cell * normal, grid_.origin, grid_.origin + extent);
-    if (const std::uint32_t there = index_[entry_of(grid_, position_of(seen))]; there != kNoBrick)
+    if (const std::uint32_t there = index_[entry_of(grid_, brick_of(seen))]; there != kNoBrick)
         brick = there;
     VolumeCorners corners = corners_in(grid_, probes_, brick, seen);
     float sum = 0;

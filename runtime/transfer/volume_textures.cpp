@@ -15,7 +15,7 @@ bool sees_cell(const std::array<float, 6>& distances, const glm::ivec3& step) {
     float passed = 0; // at the opposite corner
     for (int a = 0; a < 3; ++a) {
         const float distance = distances[static_cast<std::size_t>(2 * a + (step[a] == 0 ? 1 : 0))];
-        passed = std::max(passed, distance > 0 ? 1 / distance : kBlindNearness);
+        passed = std::max(passed, distance > 0 ? 1 / distance : kInvalidNearness);
     }
     return passed <= kVisibilityFull - kRoom;
 }

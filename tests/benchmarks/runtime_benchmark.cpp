@@ -158,7 +158,7 @@ void constants(State& state) {
                                 ? TransferLayout{kOrder, {{TermKind::direct, 1}, {TermKind::indirect, 3}}}
                                 : layout_of_one(kOrder, channels);
     for (int lamp = 0; lamp < state.range(1); ++lamp)
-        layout.parts.push_back({TermKind::lamp, 3, std::to_string(lamp)});
+        layout.terms.push_back({TermKind::lamp, 3, std::to_string(lamp)});
     const ClusterLighting relighter(clustered(256, 8, layout, 256, 1));
     const auto light = random_light();
     std::vector<glm::vec4> out(relighter.rows());

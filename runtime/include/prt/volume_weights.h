@@ -21,7 +21,7 @@ inline constexpr float kVisibilityFull = 0.8f, kVisibilityNone = 1.03f;
 /// never sum to zero. If all probes are hidden, the least hidden ones dominate.
 inline constexpr float kHiddenWeight = 1e-4f;
 /// Inverse visibility distance, per metre, of a probe inside geometry.
-inline constexpr float kBlindNearness = 1e18f;
+inline constexpr float kInvalidNearness = 1e18f;
 
 /// Returns the visibility weight of a probe for a point at offset `from`. `nearness` is 1 / visibility
 /// distance along -x, +x, -y, ..

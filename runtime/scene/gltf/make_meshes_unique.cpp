@@ -18,7 +18,7 @@ namespace prt {
 namespace {
 
 /// Copies meshes that more than one node uses; returns the new mesh index of each node.
-std::map<int, std::size_t> make_meshes_unique(GltfContents& contents, const Scene& scene) {
+std::map<int, std::size_t> copy_shared_meshes(GltfContents& contents, const Scene& scene) {
     Json& json = contents.json;
     std::map<int, std::size_t> mesh_of_node;
     std::map<int, double> taken; // meshes that have a node, and the bytes of a copy
@@ -103,7 +103,7 @@ void replace_vertices(GltfContents& contents, Json& primitive, const std::vector
 }
 
 std::vector<Json*> make_meshes_unique(GltfContents& contents, const Scene& scene) {
-    const std::map<int, std::size_t> mesh_of_node = make_meshes_unique(contents, scene);
+    const std::map<int, std::size_t> mesh_of_node = copy_shared_meshes(contents, scene);
     std::vector<Json*> result;
     for (const Primitive& primitive : scene.primitives) {
         Json& json = contents.json["meshes"][mesh_of_node.at(primitive.node)]["primitives"]

@@ -44,13 +44,13 @@ double largest_difference(const std::vector<double>& a, const std::vector<double
     return largest;
 }
 
-glm::dquat rotation(double angle, const glm::dvec3& axis) {
+glm::dquat quaternion(double angle, const glm::dvec3& axis) {
     return glm::angleAxis(angle, glm::normalize(axis));
 }
 
 TEST(ShRotation, TwoTurnsAreOne) {
     const auto f = random_function(1);
-    const glm::dquat a = rotation(0.7, {1, 2, 3}), b = rotation(2.9, {-1, 0.2, 0.4});
+    const glm::dquat a = quaternion(0.7, {1, 2, 3}), b = quaternion(2.9, {-1, 0.2, 0.4});
     EXPECT_LT(largest_difference(rotated(rotated(f, ShRotation(kOrder, a)), ShRotation(kOrder, b)),
                                  rotated(f, ShRotation(kOrder, b * a))),
               1e-12);
@@ -64,7 +64,7 @@ TEST(ShRotation, TwoTurnsAreOne) {
 TEST(ShRotation, NearlyNoTiltAndHalfTurnsAreExact) {
     const auto f = random_function(2);
     for (const double tilt : {0.0, 1e-300, 1e-17, 1e-9, 1e-5, pi - 1e-9, pi}) {
-        const glm::dmat3 r = glm::mat3_cast(rotation(0.9, {0, 0, 1}) * rotation(tilt, {1, 0.3, 0}));
+        const glm::dmat3 r = glm::mat3_cast(quaternion(0.9, {0, 0, 1}) * quaternion(tilt, {1, 0.3, 0}));
         const auto g = rotated(f, ShRotation(kOrder, r));
         for (const glm::dvec3 d : {glm::dvec3(1, 2, 3), glm::dvec3(0.1, -2, 0.3), glm::dvec3(0, 0, 1)}) {
             const glm::dvec3 w = glm::normalize(d);
@@ -85,20 +85,20 @@ TEST(ShRotation, AxesAreThoseOfTheQuaternion) {
     const auto f = random_function(3);
     for (const double angle : {0.3, -2.0, 3.5}) {
         EXPECT_LT(largest_difference(rotated(f, ShRotation::about_x(kOrder, angle)),
-                                     rotated(f, ShRotation(kOrder, rotation(angle, {1, 0, 0})))),
+                                     rotated(f, ShRotation(kOrder, quaternion(angle, {1, 0, 0})))),
                   1e-12);
         EXPECT_LT(largest_difference(rotated(f, ShRotation::about_y(kOrder, angle)),
-                                     rotated(f, ShRotation(kOrder, rotation(angle, {0, 1, 0})))),
+                                     rotated(f, ShRotation(kOrder, quaternion(angle, {0, 1, 0})))),
                   1e-12);
         EXPECT_LT(largest_difference(rotated(f, ShRotation::about_z(kOrder, angle)),
-                                     rotated(f, ShRotation(kOrder, rotation(angle, {0, 0, 1})))),
+                                     rotated(f, ShRotation(kOrder, quaternion(angle, {0, 0, 1})))),
                   1e-12);
     }
 }
 
 TEST(ShRotation, FloatsAndColorsAreTheSame) {
     const auto f = random_function(4);
-    const ShRotation rotation(kOrder, rotation(1.1, {3, -1, 2}));
+    const ShRotation rotation(kOrder, quaternion(1.1, {3, -1, 2}));
     const auto expected = rotated(f, rotation);
     std::vector<float> in(f.begin(), f.end()), out(100);
     rotation.apply(std::span<const float>(in), std::span<float>(out));
@@ -117,7 +117,7 @@ TEST(ShRotation, FloatsAndColorsAreTheSame) {
 /// Bands are independent, so a rotation of fewer bands equals the first bands of one of more, and changes no
 /// further elements. Compared with the function itself.
 TEST(ShRotation, EveryOrderTurnsTheFunctionAndNothingElse) {
-    const glm::dmat3 r = glm::mat3_cast(rotation(2.3, {0.3, -1, 0.7}));
+    const glm::dmat3 r = glm::mat3_cast(quaternion(2.3, {0.3, -1, 0.7}));
     const glm::dvec3 w = glm::normalize(glm::dvec3(0.2, 0.9, -0.5)), before = glm::transpose(r) * w;
     const auto f = random_function(8);
     std::array<double, 100> at_w{}, at_before{};
@@ -161,7 +161,7 @@ TEST(ShRotation, MatricesOfFloatsAreTakenApartAsRotations) {
 }
 
 TEST(ShRotation, TenThousandComposedMatricesKeepTheNorm) {
-    const glm::dmat3 step = glm::mat3_cast(rotation(0.01, {1, -2, 0.5}));
+    const glm::dmat3 step = glm::mat3_cast(quaternion(0.01, {1, -2, 0.5}));
     glm::mat3 all(1); // a game's own floats
     for (int i = 0; i < 10000; ++i)
         all = glm::mat3(step) * all;
@@ -175,7 +175,7 @@ TEST(ShRotation, TenThousandComposedMatricesKeepTheNorm) {
 }
 
 TEST(ShRotation, WhatIsNoRotationIsRefused) {
-    const glm::dmat3 r = glm::mat3_cast(rotation(0.4, {1, 1, 0}));
+    const glm::dmat3 r = glm::mat3_cast(quaternion(0.4, {1, 1, 0}));
     EXPECT_THROW(ShRotation(3, 2.0 * r), Error);
     EXPECT_THROW(ShRotation(3, glm::dmat3(0)), Error);
     EXPECT_THROW(ShRotation(3, std::numeric_limits<double>::quiet_NaN() * r), Error);

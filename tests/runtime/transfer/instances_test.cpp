@@ -191,10 +191,10 @@ TEST(Instances, UprightOnesShareTheTurnsOfFewYaws) {
     for (int i = 0; i < 100; ++i)
         rotations.push_back(glm::dmat3(glm::angleAxis(0.37 * i, glm::dvec3(0, 1, 0))));
     rotations.push_back(glm::dmat3(glm::angleAxis(0.5, glm::dvec3(1, 0, 0))));
-    const InstanceRotations rotations = instance_rotations(rotations, 16);
-    EXPECT_EQ(rotations.rotations.size(), 17u);
-    EXPECT_LE(rotations.max_degrees, 11.26);
-    EXPECT_GT(rotations.max_degrees, 8);
+    const InstanceRotations shared = instance_rotations(rotations, 16);
+    EXPECT_EQ(shared.rotations.size(), 17u);
+    EXPECT_LE(shared.max_degrees, 11.26);
+    EXPECT_GT(shared.max_degrees, 8);
     const InstanceRotations exact = instance_rotations(rotations, 0);
     EXPECT_LT(exact.max_degrees, 0.011);
     for (std::size_t i = 0; i < rotations.size(); ++i)
