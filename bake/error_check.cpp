@@ -88,7 +88,7 @@ SurfaceSamples ErrorCheck::look(Tracer& tracer, const Transfer& sky, const Surfa
     std::vector<double> squares(many.size());
     double sum = 0;
     for (std::size_t s = 0; s < many.size(); ++s) {
-        const SurfacePoint& position = many.positions[s];
+        const SamplePosition& position = many.positions[s];
         const glm::uvec3 corners =
             corner_receivers(plan_.scene.surfaces(), *plan_.transport, position.triangle, false);
         double off = -static_cast<double>(seen.vector(s)[0]);
@@ -131,7 +131,7 @@ void ErrorCheck::choose_points(Tracer& tracer, const Measured& measured, const s
         for (const std::uint32_t p : body.members())
             in_medium[p] = true;
     for (std::size_t s = 0; s < some.size(); ++s) {
-        const SurfacePoint& position = some.positions[s];
+        const SamplePosition& position = some.positions[s];
         const glm::uvec3 corners = corner_receivers(surfaces, *plan_.transport, position.triangle, false);
         bool known = true;
         for (int i = 0; i < 3; ++i)

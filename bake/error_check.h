@@ -40,7 +40,7 @@ public:
 
 private:
     struct Point {
-        SurfacePoint position;
+        SamplePosition position;
         double area;                       ///< m² that the point represents
         std::uint32_t front;               ///< row of the front side
         std::optional<std::uint32_t> back; ///< row of the back side, if the back scatters light

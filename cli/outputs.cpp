@@ -78,8 +78,8 @@ std::vector<Path> check_outputs(const std::vector<Output>& outputs, const std::v
     for (std::size_t i = 0; i < asked.size(); ++i) {
         const Output& output = asked[i];
         const std::string name = output.path.string();
-        const OutputFile file(output.path); // leaves no file behind
-        check_suffix(output, position.is_stream());
+        const OutputFile opened(output.path); // leaves no file behind
+        check_suffix(output, opened.is_stream());
         for (const Path& input : inputs)
             for (const Path& file : files_of(input))
                 if (!file.empty() && same_file(file, output.path))

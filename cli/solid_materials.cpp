@@ -11,7 +11,7 @@ namespace {
 
 /// Materials that are in use and of which no vertex has direct light.
 std::vector<bool> without_direct_light(const Scene& scene, const Transfer& transfer) {
-    const std::size_t count = transfer.layout.numbers_of(transfer.layout.parts.front());
+    const std::size_t count = transfer.layout.numbers_of(transfer.layout.terms.front());
     std::vector<bool> used(scene.materials.size(), false), lit = used;
     for (const Primitive& primitive : scene.primitives)
         for (const glm::uvec3& t : primitive.triangles)

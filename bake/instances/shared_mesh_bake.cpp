@@ -103,7 +103,7 @@ SharedMeshBake bake_shared_mesh(const Scene& stored, int node, int channels, con
 
 Transfer of_fronts(const BakePlan& plan, const Transfer& both_sides, int direct_channels) {
     const std::size_t count = static_cast<std::size_t>(coefficient_count(both_sides.layout.order));
-    const auto part = [&](std::size_t first, TermKind kind, int stored, int channels) {
+    const auto term = [&](std::size_t first, TermKind kind, int stored, int channels) {
         Transfer one =
             zero_transfer(layout_of_one(both_sides.layout.order, channels, kind), both_sides.receivers());
         for (std::size_t r = 0; r < one.receivers(); ++r)
@@ -115,12 +115,12 @@ Transfer of_fronts(const BakePlan& plan, const Transfer& both_sides, int direct_
         one.vectors.resize(plan.transport->fronts * one.dimension());
         return one;
     };
-    Transfer direct = part(0, TermKind::direct, 1, direct_channels);
-    if (both_sides.layout.parts.size() == 1)
+    Transfer direct = term(0, TermKind::direct, 1, direct_channels);
+    if (both_sides.layout.terms.size() == 1)
         return direct;
-    const int channels = both_sides.layout.parts[1].channels;
-    const Transfer rest = part(count, TermKind::indirect, channels, channels);
-    Transfer all = zero_transfer({direct.layout.order, {direct.layout.parts[0], rest.layout.parts[0]}},
+    const int channels = both_sides.layout.terms[1].channels;
+    const Transfer rest = term(count, TermKind::indirect, channels, channels);
+    Transfer all = zero_transfer({direct.layout.order, {direct.layout.terms[0], rest.layout.terms[0]}},
                                  direct.receivers());
     for (std::size_t r = 0; r < all.receivers(); ++r)
         std::ranges::copy(rest.vector(r), std::ranges::copy(direct.vector(r), all.vector(r).begin()).out);

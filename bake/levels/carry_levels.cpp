@@ -61,7 +61,7 @@ private:
             if (equations.unknown_of[p] == kNoReceiver || nearest[p].triangle == kNoTriangle)
                 continue;
             const std::array<std::uint32_t, 3> corners = finest.corners(nearest[p].triangle);
-            const std::span<float> to = vector(surface.term.receivers[p]);
+            const std::span<float> to = vector(surface.part.receivers[p]);
             for (std::size_t c = 0; c < stride_; ++c) {
                 double sum = 0;
                 for (std::size_t i = 0; i < 3; ++i)
@@ -81,10 +81,10 @@ private:
             add_samples<double>(equations, s, missing_at(samples.samples[s]), stride_, missing);
         const std::vector<float> weights(equations.second_differences.size(), kFirstSmoothnessWeight);
         FitSolver(equations, weights).solve(missing, stride_, options_.threads);
-        for (std::size_t p = 0; p < surface.term.receivers.size(); ++p) {
+        for (std::size_t p = 0; p < surface.part.receivers.size(); ++p) {
             const std::uint32_t u = equations.unknown_of[p];
             for (std::size_t c = 0; u != kNoReceiver && c < stride_; ++c)
-                vector(surface.term.receivers[p])[c] += static_cast<float>(missing[u * stride_ + c]);
+                vector(surface.part.receivers[p])[c] += static_cast<float>(missing[u * stride_ + c]);
         }
         progress_.check();
     }

@@ -177,9 +177,9 @@ LevelSquares level_error(const LevelSamples& samples, std::span<const float> fin
 LevelSquares level_error(const LevelSamples& samples, const Transfer& finest, const Transfer& level) {
     std::vector<float> weights;
     const TransferLayout& layout = finest.layout;
-    for (const TransferTerm& part : layout.parts)
-        weights.insert(weights.end(), layout.columns_of(part) * static_cast<std::size_t>(part.channels),
-                       static_cast<float>(layout.channels()) / static_cast<float>(part.channels));
+    for (const TransferTerm& term : layout.terms)
+        weights.insert(weights.end(), layout.columns_of(term) * static_cast<std::size_t>(term.channels),
+                       static_cast<float>(layout.channels()) / static_cast<float>(term.channels));
     return level_error(samples, finest.vectors, level.vectors, weights);
 }
 

@@ -29,7 +29,7 @@ ScenePart with_level(const LeveledScene& scene, std::size_t number) {
 }
 
 bool same_layout(const TransferLayout& a, const TransferLayout& b) {
-    return a.order == b.order && std::ranges::equal(a.parts, b.parts, [](const auto& p, const auto& q) {
+    return a.order == b.order && std::ranges::equal(a.terms, b.terms, [](const auto& p, const auto& q) {
                return p.kind == q.kind && p.channels == q.channels && p.name == q.name;
            });
 }

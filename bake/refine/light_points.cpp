@@ -85,7 +85,7 @@ void LightPoints::add(const LitMesh& mesh, std::uint32_t triangle, Counts counts
     for (std::size_t i = 0; i < count; ++i) {
         const std::size_t fold = counts[0] == counts[1] ? (hash + i) % 2 : counts[1] < counts[0] ? 1 : 0;
         ++counts[fold];
-        const SurfacePoint position{triangle, false, even_point(hash, i)};
+        const SamplePosition position{triangle, false, even_point(hash, i)};
         append_sample(added, mesh.surfaces, mesh.receivers, position, 0);
         points_.push_back({position, static_cast<std::uint8_t>(fold), false});
     }

@@ -45,7 +45,7 @@ public:
     bool look_closer();
 
     std::size_t size() const { return points_.size(); }
-    const SurfacePoint& position(std::size_t point) const { return points_[point].position; }
+    const SamplePosition& position(std::size_t point) const { return points_[point].position; }
     std::size_t fold(std::size_t point) const { return points_[point].fold; }
     bool sealed(std::size_t point) const { return points_[point].sealed; }
     /// Light from both scrambles, one after the other: [2][order²].
@@ -58,7 +58,7 @@ public:
 
 private:
     struct Point {
-        SurfacePoint position;
+        SamplePosition position;
         std::uint8_t fold;
         bool sealed; ///< inside geometry, where no light arrives: provides no information
     };

@@ -135,10 +135,10 @@ private:
         trace_receivers(*tracer, receivers_, indices_,
                         {.order = options_.order, .rays = rays, .seed = options_.seed}, transfer, progress);
         run.seconds = all.seconds();
-        run.terms = tracer->seconds();
-        run.terms.trace -= before.trace;
-        run.terms.accumulate -= before.accumulate;
-        run.terms.transfer -= before.transfer;
+        run.stages = tracer->seconds();
+        run.stages.trace -= before.trace;
+        run.stages.accumulate -= before.accumulate;
+        run.stages.transfer -= before.transfer;
         run.rays_per_second = static_cast<double>(indices_.size()) * rays / run.seconds;
         run.relative_l2 = relative_l2(reference_, transfer, areas_);
         run.contrast = transfer_contrast(reference_, transfer, areas_);
@@ -164,7 +164,7 @@ private:
         run.rays = rays;
         run.seconds = s.seconds.all;
         run.seconds_build = s.seconds.build;
-        run.terms = s.seconds.tracing;
+        run.stages = s.seconds.tracing;
         run.rays_per_second = s.rays_per_second();
         if (result.baked.transfer.layout.channels() != 1)
             throw Error("light that comes through colored sheets is not measured between vertices");

@@ -32,7 +32,7 @@ SurfacePoints points_by_area(const TraceScene& scene, const SurfacePointOptions&
     const auto area = [&](std::size_t s) { return static_cast<double>(dense.receivers.areas[s]); };
     SurfacePoints points;
     for (const Picked& picked : pick(dense.size(), options.count, area)) {
-        const SurfacePoint& point = dense.positions[picked.index];
+        const SamplePosition& point = dense.positions[picked.index];
         const glm::uvec3 corners = corner_receivers(scene.surfaces(), receivers, point.triangle, false);
         const float seen = scene.surfaces().coverage({point.triangle, point.uv, 0});
         if (glm::any(glm::equal(corners, glm::uvec3(kNoReceiver))) || !(seen > 0))

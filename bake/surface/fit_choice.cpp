@@ -36,7 +36,7 @@ public:
         const Receivers& vertices = plan_.receivers();
         std::vector<std::uint32_t> corners, all(samples_.size());
         std::iota(all.begin(), all.end(), 0u);
-        for (const SurfacePoint& position : samples_.positions)
+        for (const SamplePosition& position : samples_.positions)
             for (int i = 0; i < 3; ++i)
                 if (const std::uint32_t p = corners_of(position)[i]; p != kNoReceiver)
                     corners.push_back(p);
@@ -91,7 +91,7 @@ private:
                              {.count = count, .seed = plan_.options.seed + 1});
     }
 
-    glm::uvec3 corners_of(const SurfacePoint& position) const {
+    glm::uvec3 corners_of(const SamplePosition& position) const {
         return corner_receivers(plan_.scene.surfaces(), *plan_.transport, position.triangle, position.back);
     }
 

@@ -60,7 +60,7 @@ FitEquations fit_equations(const Surfaces& surfaces, const TransportReceivers& r
     number_unknowns(receivers.receivers, alike, equations);
     equations.rows.reserve(samples.size());
     for (std::size_t s = 0; s < samples.size(); ++s) {
-        const SurfacePoint& position = samples.positions[s];
+        const SamplePosition& position = samples.positions[s];
         equations.rows.push_back(
             {unknowns_at(surfaces, receivers, equations.unknown_of, position.triangle, position.back),
              position.shares(), samples.receivers.areas[s]});

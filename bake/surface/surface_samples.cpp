@@ -20,7 +20,7 @@ glm::dvec3 doubled_area(const Receivers& receivers, const glm::uvec3& c) {
 }
 
 struct Sample {
-    SurfacePoint position;
+    SamplePosition position;
     TriangleSide side;
     float area;
     std::uint32_t near; ///< receiver at the nearest corner
@@ -46,7 +46,7 @@ std::vector<Sample> spread_samples(const Surfaces& surfaces, const TransportRece
         const std::uint32_t hash = side_hash(side, spread.seed);
         const glm::uvec3 corners = corner_receivers(surfaces, receivers, side.triangle, side.back);
         for (std::size_t i = 0; i < n; ++i) {
-            const SurfacePoint position{side.triangle, side.back, even_point(hash, i)};
+            const SamplePosition position{side.triangle, side.back, even_point(hash, i)};
             const std::array<float, 3> shares = position.shares();
             const auto nearest = std::max_element(shares.begin(), shares.end()) - shares.begin();
             samples.push_back({position, side, static_cast<float>(side.area / static_cast<double>(n)),
@@ -57,7 +57,7 @@ std::vector<Sample> spread_samples(const Surfaces& surfaces, const TransportRece
 }
 
 /// Returns the interpolated normal, or the normal of the plane if the corners' normals cancel.
-glm::vec3 normal_at(const Receivers& receivers, const glm::uvec3& corners, const SurfacePoint& position,
+glm::vec3 normal_at(const Receivers& receivers, const glm::uvec3& corners, const SamplePosition& position,
                     const glm::vec3& of_plane) {
     glm::vec3 sum(0);
     const std::array<float, 3> shares = position.shares();
@@ -117,7 +117,7 @@ glm::uvec3 corner_receivers(const Surfaces& surfaces, const TransportReceivers& 
 }
 
 std::vector<float> interpolated(const Transfer& transfer, const glm::uvec3& corners,
-                                const SurfacePoint& position) {
+                                const SamplePosition& position) {
     const std::array<float, 3> shares = position.shares();
     std::vector<float> sum(transfer.dimension());
     for (std::size_t k = 0; k < sum.size(); ++k)
@@ -134,7 +134,7 @@ Receivers SurfaceSamples::layer(std::size_t k) const {
 }
 
 void append_sample(SurfaceSamples& samples, const Surfaces& surfaces, const TransportReceivers& receivers,
-                   const SurfacePoint& position, float area) {
+                   const SamplePosition& position, float area) {
     const Receivers& all = receivers.receivers;
     const glm::uvec3& c = surfaces.corners(position.triangle);
     const glm::dvec3 normal = doubled_area(all, c);

@@ -12,7 +12,7 @@
 namespace prt {
 
 /// Position of a sample: barycentric coordinates on one side of a triangle.
-struct SurfacePoint {
+struct SamplePosition {
     std::uint32_t triangle; ///< index in the order of the scene's primitives and their triangles
     bool back;              ///< back of the triangle
     glm::vec2 uv;           ///< barycentric coordinates of corners 1 and 2
@@ -25,7 +25,7 @@ struct SurfacePoint {
 /// layers + k is receiver g of layer k.
 struct SurfaceSamples {
     Receivers receivers;
-    std::vector<SurfacePoint> positions;
+    std::vector<SamplePosition> positions;
     std::size_t layers = 1;
 
     std::size_t size() const { return positions.size(); }
@@ -39,7 +39,7 @@ glm::uvec3 corner_receivers(const Surfaces& surfaces, const TransportReceivers& 
 
 /// Interpolates the vectors of `corners` at `position`; none of them is kNoReceiver.
 std::vector<float> interpolated(const Transfer& transfer, const glm::uvec3& corners,
-                                const SurfacePoint& position);
+                                const SamplePosition& position);
 
 /// One side of a triangle with receivers.
 struct TriangleSide {
@@ -59,7 +59,7 @@ glm::vec2 even_point(std::uint32_t hash, std::size_t i);
 
 /// Appends a sample at `position`, on a triangle with an area, that represents `area`.
 void append_sample(SurfaceSamples& samples, const Surfaces& surfaces, const TransportReceivers& receivers,
-                   const SurfacePoint& position, float area);
+                   const SamplePosition& position, float area);
 
 /// Options of sample_surfaces.
 struct SampleSpread {

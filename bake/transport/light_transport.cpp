@@ -346,7 +346,7 @@ SharpTransfer propagate_sharply(Transfer smooth, const LightAtSamples& light,
         for (std::size_t c = 0; c < many; ++c)
             exit.vectors[p * many + c] += direct[p * few + c % few];
     sharp.direct = {layout_of_one(layout.order, static_cast<int>(few) / coefficient_count(layout.order),
-                                  layout.parts.front().kind),
+                                  layout.terms.front().kind),
                     direct};
     exit_from_incident(operators, layout.order, layout.channels(), exit.vectors, threads);
     return sharp;

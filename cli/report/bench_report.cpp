@@ -39,8 +39,8 @@ Table runs_table(const BenchResult& result) {
                      {"surface_l2", "over the surface", Unit::percent}};
     for (const BenchSeries& series : result.series)
         for (const BenchRun& r : series.runs)
-            table.rows.push_back({series.name(), r.rays, r.seconds, r.seconds_build, r.terms.trace,
-                                  r.terms.accumulate, r.terms.transfer, r.rays_per_second, r.relative_l2,
+            table.rows.push_back({series.name(), r.rays, r.seconds, r.seconds_build, r.stages.trace,
+                                  r.stages.accumulate, r.stages.transfer, r.rays_per_second, r.relative_l2,
                                   r.contrast, r.surface_l2});
     table.about =
         "build: hierarchy, upload, shaders. trace: rays, or drawing depth maps; on the GPU with the "

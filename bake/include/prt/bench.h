@@ -27,7 +27,7 @@ struct BenchOptions {
 struct BenchRun {
     int rays = 0; ///< rays per receiver; for method raster the number of directions
     double seconds = 0, seconds_build = 0;
-    TraceSeconds parts;
+    TraceSeconds stages;
     double rays_per_second = 0;
     double relative_l2 = 0; ///< against the reference, over the reference's receivers
     double contrast = 0;    ///< `transfer_contrast` against the same reference

@@ -84,7 +84,7 @@ TEST(NoiseFilter, LeavesDirectLightOfLamps) {
     BakeOptions with = bounced(64, 1, true), without = bounced(64, 1, false);
     with.bounces = without.bounces = 0;
     const Transfer filtered = bake(scene, with).baked.transfer, noisy = bake(scene, without).baked.transfer;
-    ASSERT_EQ(filtered.layout.parts.back().kind, TermKind::lamp);
+    ASSERT_EQ(filtered.layout.terms.back().kind, TermKind::lamp);
     for (std::size_t v = 0; v < filtered.receivers(); ++v)
         ASSERT_EQ(filtered.vector(v).back(), noisy.vector(v).back());
 }

@@ -344,13 +344,13 @@ TEST(OcclusionMaps, ConvergeToThePointsThatTheyAreOf) {
         EXPECT_EQ(map.measured, atlas.texels());
         EXPECT_EQ(map.sealed, 0u);
         const std::size_t middle = atlas.texels() / 2;
-        const double now = std::abs(static_cast<double>(map.openness.ambient[middle]) - expected);
+        const double now = std::abs(static_cast<double>(map.ambient_visibility.ambient[middle]) - expected);
         EXPECT_LT(now, error);
         error = now;
-        EXPECT_NEAR(map.openness.bent_normals[middle].y, 1, 0.01);
+        EXPECT_NEAR(map.ambient_visibility.bent_normals[middle].y, 1, 0.01);
         // Symmetric, and more open at the border, to where light leans outwards.
-        EXPECT_GT(map.openness.ambient[0], map.openness.ambient[middle] + 0.2f);
-        EXPECT_LT(map.openness.bent_normals[0].x, -0.05f);
+        EXPECT_GT(map.ambient_visibility.ambient[0], map.ambient_visibility.ambient[middle] + 0.2f);
+        EXPECT_LT(map.ambient_visibility.bent_normals[0].x, -0.05f);
     }
     EXPECT_LT(error, 0.01);
 }
@@ -378,7 +378,7 @@ TEST(OcclusionMaps, HaveWhatArrivesAtAFinerModel) {
     options.rays = 1024;
     const auto at = [&](double reach, std::size_t column, std::size_t row) {
         const OcclusionMap map = map_of(plate, atlas, options, {&fine, reach});
-        return static_cast<double>(map.openness.ambient[row * 16 + column]);
+        return static_cast<double>(map.ambient_visibility.ambient[row * 16 + column]);
     };
     EXPECT_NEAR(at(0.5, 1, 1), 1, 1e-3); // next to the pit
     // In its middle, a square of 1 m at a height of 0.2 m is open; a quarter of it by the closed form of
@@ -398,7 +398,7 @@ TEST(OcclusionMaps, LeaveOutWhatIsInsideSolids) {
     const OcclusionMap map = map_of(scene, atlas, options);
     const double inside = 3.14159 * 0.25 / 4 * 32 * 32;
     EXPECT_NEAR(static_cast<double>(map.sealed), inside, 0.15 * inside);
-    EXPECT_GT(*std::ranges::min_element(map.openness.ambient), 0.3f); // and no texel is black
+    EXPECT_GT(*std::ranges::min_element(map.ambient_visibility.ambient), 0.3f); // and no texel is black
 }
 
 } // namespace

@@ -99,7 +99,7 @@ TEST(Commands, HaveEachKeyAndEachNameOnce) {
     for (const Command& command : commands()) {
         EXPECT_TRUE(*command.id == 0 || ids.insert(command.id).second) << command.id;
         EXPECT_TRUE(command.key == 0 || keys.insert(command.key).second) << command.key;
-        EXPECT_TRUE(command.position || command.press);
+        EXPECT_TRUE(command.setting || command.press);
         if (*command.id != 0) {
             EXPECT_EQ(&setting(command.id), &command);
         }

@@ -38,7 +38,7 @@ float largest(const glm::vec3& v) {
 prt::TransferLayout layout_with(const std::vector<std::string>& names) {
     prt::TransferLayout layout{2, {{prt::TermKind::combined, 1}}};
     for (const std::string& name : names)
-        layout.parts.push_back({prt::TermKind::lamp, 1, name});
+        layout.terms.push_back({prt::TermKind::lamp, 1, name});
     return layout;
 }
 
