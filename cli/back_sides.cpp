@@ -18,8 +18,9 @@
 namespace prt::cli {
 namespace {
 
-const std::map<std::string, BackSides> kBackSides = {{"auto", BackSides::automatic},
-                                                     {"shared", BackSides::shared}};
+constexpr Choice<BackSides> kBackSides[] = {
+    {"auto", BackSides::automatic, "if light reaches both sides: separate vertices for each side"},
+    {"shared", BackSides::shared, "they show the light of the front"}};
 
 /// All levels of detail; light passes the coarser ones.
 Scene scene_of_levels(const GltfDocument& document, const std::vector<std::string>& no_shadow) {
@@ -42,11 +43,7 @@ Scene scene_of_levels(const GltfDocument& document, const std::vector<std::strin
 } // namespace
 
 void add_back_sides(CLI::App* command, BackSides& sides) {
-    choice(command, "--back-sides", sides, kBackSides,
-           "backs of double-sided surfaces: auto: where light reaches them, the file gets single-sided "
-           "surfaces with "
-           "vertices for each side; shared: they show the light of fronts",
-           "auto");
+    choice(command, "--back-sides", sides, kBackSides, "back sides of double-sided materials", "auto");
 }
 
 void separate_sides(const SidesRequest& request, GltfDocument& document, Scene& scene) {

@@ -6,17 +6,18 @@
 
 #include <fmt/core.h>
 
-#include <map>
+#include <algorithm>
 #include <optional>
 
 namespace prt::cli {
 namespace {
 
-const std::map<std::string, MetricChoice> kMetrics = {{"outdoor", MetricChoice::outdoor},
-                                                      {"indoor", MetricChoice::indoor},
-                                                      {"day", MetricChoice::day},
-                                                      {"natural", MetricChoice::natural},
-                                                      {"plain", MetricChoice::plain}};
+constexpr Choice<MetricChoice> kMetrics[] = {
+    {"outdoor", MetricChoice::outdoor, "skies with ground and sun"},
+    {"indoor", MetricChoice::indoor, "rooms with windows and lamps"},
+    {"day", MetricChoice::day, "clear skies of a day"},
+    {"natural", MetricChoice::natural, "any natural light in any orientation"},
+    {"plain", MetricChoice::plain, "all coefficients have the same weight"}};
 
 /// Returns no family for plain.
 std::optional<LightFamily> family_of(MetricChoice choice) {
@@ -58,10 +59,7 @@ std::vector<Lighting> skies_to_promise(const std::vector<Lighting>& given, std::
 
 /// "outdoor"
 std::string name_of(MetricChoice choice) {
-    for (const auto& [name, value] : kMetrics)
-        if (value == choice)
-            return name;
-    return {};
+    return std::ranges::find(kMetrics, choice, &Choice<MetricChoice>::value)->name;
 }
 
 std::string coverage(const MetricArguments& arguments, const TransferLayout& layout, std::size_t promised) {
@@ -94,20 +92,27 @@ void promise(ErrorTerms& terms, Budget& budget) {
 }
 
 void add_metric(CLI::App* command, MetricArguments& arguments) {
-    CLI::Option* metric =
-        choice(command, "--metric", arguments.metric, kMetrics,
-               "what an error costs, on average over: skies with ground and sun; rooms; clear skies "
-               "of a day; any lighting, any way up; or all coefficients alike",
-               "outdoor");
     command
-        ->add_option(
-            "--lights", arguments.lights,
-            "compress for this environment (.exr, .hdr, .png, .jpg) or light (.json), turned about +Y; "
-            "repeat it for each of several")
+        ->add_option_function<std::vector<std::string>>(
+            "--lights",
+            [&arguments](const std::vector<std::string>& names) {
+                for (const std::string& name : names) {
+                    const auto family = std::ranges::find(kMetrics, name, &Choice<MetricChoice>::name);
+                    if (family == std::end(kMetrics))
+                        arguments.lights.emplace_back(name);
+                    else if (names.size() > 1)
+                        throw CLI::ValidationError("--lights",
+                                                   "'" + name + "' cannot be combined with others");
+                    else
+                        arguments.metric = family->value;
+                }
+            },
+            "lights for which the error is minimized" + explained(kMetrics) +
+                "\nFILE: environment (.exr, .hdr, .png, .jpg) or light (.json); repeat the option for each")
         ->allow_extra_args(false) // one each time, so that the bake may follow
-        ->excludes(metric)
         ->check(named)
-        ->type_name("FILE");
+        ->type_name("FAMILY|FILE")
+        ->default_str("outdoor");
     add_light_options(command, arguments.light_options);
 }
 

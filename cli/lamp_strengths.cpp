@@ -84,23 +84,24 @@ double mean_luminance(const Relit& model, const Lighting& lighting) {
 void add_lamps(CLI::App* command, LampChoice& lamps) {
     command
         ->add_option_function<std::string>(
-            "--lamps",
+            "--lamp-strengths",
             [&lamps](const std::string& given) {
                 lamps.on = given != "off";
                 lamps.file = given == "on" || given == "off" ? "" : given;
             },
-            "lamps of the model: on, as in the scene; off; or a .json with a strength, or red, green and "
-            "blue, for each name, \"*\" for the others")
+            "strengths of the lamps\n"
+            "on: as in the scene\n"
+            "off: no lamps\n"
+            "FILE: .json with a strength or [red, green, blue] for each lamp name; \"*\": all others")
         ->type_name("on|off|FILE")
         ->default_str("on");
 }
 
 void add_lamp_scale(CLI::App* command, double& scale) {
     command
-        ->add_option(
-            "--lamp-scale", scale,
-            "factor on point, spot and directional lights, not on materials that shine; 0.00146 (1/683) "
-            "for files with candela and lux, as Blender writes them, beside skies of radiance about 1")
+        ->add_option("--lamp-scale", scale,
+                     "factor on punctual lights; 0.00146 (1/683) for candela and lux, as Blender exports\n"
+                     "emissive materials are not scaled")
         ->capture_default_str()
         ->check(above_zero());
 }

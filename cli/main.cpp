@@ -1,6 +1,7 @@
 // The prt program: parses the command line, runs a command and reports errors.
 
 #include "commands/commands.h"
+#include "help.h"
 #include "known_names.h"
 #include "prt/support/error.h"
 #include "session.h"
@@ -31,7 +32,10 @@ std::string command_line(int argc, char** argv) {
 }
 
 void add_commands(CLI::App& app, Session& session) {
-    app.set_version_flag("--version", "prt " PRTKIT_VERSION);
+    app.formatter(std::make_shared<HelpFormatter>());
+    app.set_help_flag("-h,--help", "print the common options and exit");
+    app.set_help_all_flag("--help-all", "print all options and exit");
+    app.set_version_flag("--version", "prt " PRTKIT_VERSION, "print the version and exit");
     app.require_subcommand(1);
     add_make(app, session);
     add_ao(app, session);
@@ -54,7 +58,7 @@ int run(int argc, char** argv) {
     add_commands(app, session);
     if (argc < 2) {
         print(app.help());
-        throw CLI::ParseError("which command? They are listed above", CLI::ExitCodes::RequiredError);
+        throw CLI::ParseError("a command is missing; the list is above", CLI::ExitCodes::RequiredError);
     }
     check_names(app, {argv + 1, static_cast<std::size_t>(argc - 1)});
     try {

@@ -31,7 +31,7 @@ void add_suns(CLI::App* command, SunCount& suns, const std::string& text, const 
             },
             text)
         ->check(sun_count)
-        ->type_name("0..16|auto")
+        ->type_name("N|auto")
         ->default_str(otherwise);
 }
 

@@ -35,8 +35,8 @@ Lighting lighting_of(const SplitLight& light);
 
 /// Error message: transfer without a separate direct term cannot be lit by separate suns, with advice.
 inline constexpr const char* kNoDirectTerm =
-    "keeps no direct light apart, so that suns cannot be lit apart from "
-    "the sky; lobes never do, other transfer without --combine-direct";
+    "has no separate direct transfer, which separate suns need: compress without --combine-direct (lobes "
+    "never have it)";
 
 /// Returns a sky without light.
 SplitLight dark_sky(int order);
