@@ -94,7 +94,7 @@ std::vector<Damage> damages_to_maps() {
     return {
         {"version", [](GlbFile& f) { extension(f)["version"] = 9; }, "has version 9", kRefuses},
         {"order", [](GlbFile& f) { extension(f)["order"] = 11; }, "order is 11", kRefuses},
-        {"no_terms", [](GlbFile& f) { extension(f)["terms"] = Json::array(); }, "part", kRefuses},
+        {"no_terms", [](GlbFile& f) { extension(f)["terms"] = Json::array(); }, "terms", kRefuses},
         {"no_maps", [](GlbFile& f) { extension(f).erase("maps"); }, "maps", kRefuses},
         {"empty_maps", [](GlbFile& f) { extension(f)["maps"] = Json::array(); },
          "the maps are no list, or none", kRefuses},
