@@ -94,7 +94,7 @@ double mean(const Row& row) {
 
 /// Mean error over the skies of the methods that matter, a scene a column.
 std::string summary(const std::vector<SceneResult>& scenes) {
-    std::string table = "Mean error over the skies; the tables below have each.\n\n| method |";
+    std::string table = "Mean error over the skies; the tables below list each sky.\n\n| method |";
     for (const SceneResult& scene : scenes)
         table += " " + scene.name + " |";
     table += "\n| --- |";
@@ -114,25 +114,24 @@ std::string summary(const std::vector<SceneResult>& scenes) {
 
 std::string explanation(const SceneResult& scene, const Options& options) {
     return fmt::format(
-        "Made by `prt-comparison` (at the end). Error: relative L2 of exit radiance, base colour 1, "
-        "over all pixels that show the "
-        "scene, {} x {}, against path tracing under the whole environment map with endless "
-        "bounces. Two independent references "
-        "of {} paths per pixel are taken, so that their noise does not count: the mean of (p - "
-        "a)(p - b). FLIP: mean HDR-FLIP of the whole picture against the mean of both, 67 pixels per degree; "
-        "0 is the same, the "
-        "noise of the references counts. Bytes are those of a "
-        "vertex beside position and normal, the bases of the compressed shared out; raw transfer "
-        "as float16; AO, of direct light, 8 bits; of lightmaps ({} x {} texels on charts of their own, drawn "
-        "by rays, not timed) those of a texel. Times "
-        "are of {}: drawing a frame, and what a change of the light takes once. All methods but "
-        "PRT light by three bands "
-        "of the environment, as games do. SSAO has 16 samples and the best of five radii for "
-        "each scene. Rows with a sun by shadow map or by rays have the brightest sun of the sky, where it "
-        "has "
-        "one, taken out of it (`--suns 1`) and added at each pixel: their pictures are those of `prt "
-        "render`, and "
-        "not timed. The bake has {} rays, endless bounces.\n",
+        "`prt-comparison` generates this page; the command is at the end.\n\n"
+        "- Error: relative L2 of exit radiance for base color 1, over all pixels of the scene, {} x "
+        "{}, against path tracing under the whole environment map with endless bounces. There are "
+        "two independent references of {} paths per pixel, so that their noise does not count: the "
+        "mean of (p - a)(p - b).\n"
+        "- FLIP: mean HDR-FLIP of the whole picture against the mean of both references, 67 pixels "
+        "per degree; 0 means equal pictures. It includes the noise of the references.\n"
+        "- Bytes: per vertex, in addition to position and normal, with the bases of compressed "
+        "transfer divided by the number of vertices. Raw transfer is float16; AO, of direct light, "
+        "has 8 bits. For lightmaps: per texel ({} x {} texels with their own charts, drawn by rays, "
+        "not timed).\n"
+        "- Times: of {}; for drawing a frame, and for a change of the light.\n"
+        "- All methods except PRT use three bands of the environment, as games do. SSAO has 16 "
+        "samples and the best of five radii for each scene.\n"
+        "- Rows with a sun by shadow map or by rays: the brightest sun, if the sky has one, is "
+        "removed from the sky (`--suns 1`) and added at each pixel. Their pictures are those of "
+        "`prt render`, and not timed.\n"
+        "- The bake has {} rays and endless bounces.\n",
         options.width, options.height, options.passes, options.lightmap_size, options.lightmap_size,
         scene.device, options.bake_rays);
 }
@@ -203,11 +202,11 @@ void write_pictures(const std::vector<SceneResult>& scenes, const Options& optio
 
 std::string report(const std::vector<SceneResult>& scenes, const std::vector<Sky>& skies,
                    const Options& options, const std::string& images, const std::string& note) {
-    std::string page = "# What precomputed transfer is worth\n\n";
+    std::string page = "# Comparison of PRT with other methods\n\n";
     page += summary(scenes) + explanation(scenes.front(), options);
     for (const SceneResult& scene : scenes)
         page += section(scene, skies, images);
-    page += "\n## Made by\n\n    prt-comparison";
+    page += "\n## Command\n\n    prt-comparison";
     for (const SceneResult& scene : scenes)
         page += " " + scene.name + ".glb";
     for (const Sky& sky : skies)
