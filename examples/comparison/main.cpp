@@ -1,4 +1,4 @@
-// prt-comparison: measures lighting methods against path tracing, and writes a page with the results.
+// prt-comparison: measures every way to light a scene against path tracing, and writes the page about it.
 
 #include "report.h"
 
@@ -60,15 +60,15 @@ struct Arguments {
 void add_options(CLI::App& app, Arguments& arguments) {
     comparison::Options& options = arguments.options;
     app.add_option("scenes", arguments.scenes, "glTF scenes")->required();
-    app.add_option("--sky", arguments.skies, "environment maps; the pictures use the first")->required();
-    app.add_option("-o,--output", arguments.output, "Markdown page to write")->required();
-    app.add_option("--images", arguments.images, "folder to write its pictures to")->required();
-    app.add_option("--note", arguments.note, "last line of the page: origin of scenes and skies");
-    app.add_option("--json", arguments.json, "JSON file to write all numbers to");
-    app.add_option("--passes", options.passes, "paths per pixel of each reference")
+    app.add_option("--sky", arguments.skies, "environment maps; the pictures show the first one")->required();
+    app.add_option("-o,--output", arguments.output, "output page, Markdown")->required();
+    app.add_option("--images", arguments.images, "output folder for the pictures of the page")->required();
+    app.add_option("--note", arguments.note, "last line of the page: sources of the scenes and skies");
+    app.add_option("--json", arguments.json, "output file for all figures, JSON");
+    app.add_option("--passes", options.passes, "number of paths per pixel of each reference")
         ->check(CLI::Range(1, 1 << 16))
         ->capture_default_str();
-    app.add_option("--rays", options.bake_rays, "rays per vertex of the bake")
+    app.add_option("--rays", options.bake_rays, "number of rays per vertex of the bake")
         ->check(CLI::Range(1, 1 << 20))
         ->capture_default_str();
     app.add_option("--width", options.width, "width of the pictures in pixels")
@@ -106,8 +106,7 @@ void run(const Arguments& arguments) {
 } // namespace
 
 int main(int argc, char** argv) {
-    CLI::App app("Measures unshadowed irradiance, SSAO, baked AO and PRT against path tracing.",
-                 "prt-comparison");
+    CLI::App app("Measures unshadowed light, SSAO, baked AO and PRT against path tracing.", "prt-comparison");
     Arguments arguments;
     add_options(app, arguments);
     try {
