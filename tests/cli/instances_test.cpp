@@ -335,7 +335,7 @@ TEST_F(SharedInstances, WrongAttributesAreRefusedByTheirNames) {
         [](GlbFile& file) {
             return file.accessor(std::vector<std::uint16_t>{1, 1, 1, 1, 1, 1}, kUnsignedShort, "VEC3", 3);
         },
-        "SCALE of its instances holds no floats");
+        "SCALE of its instances must contain floats");
 }
 
 TEST_F(SharedInstances, ZeroAndMillionsOfInstancesAreToldBeforeWork) {
