@@ -2,6 +2,7 @@
 
 #include "prt/json_file.h"
 
+#include "prt/support/counted.h"
 #include "prt/support/error.h"
 #include "prt/support/file.h"
 #include "prt/support/json_tree.h"
@@ -61,7 +62,7 @@ std::vector<float> numbers(const Json& object, const char* key, std::size_t coun
     if (!list.is_array())
         throw Error(quoted(key) + " is not a list of numbers");
     if (list.size() != count)
-        throw Error(quoted(key) + " has " + std::to_string(list.size()) + " numbers, but needs " +
+        throw Error(quoted(key) + " has " + counted(list.size(), "number") + ", but needs " +
                     std::to_string(count));
     std::vector<float> values;
     for (const Json& value : list) {

@@ -167,10 +167,10 @@ std::vector<Damage> damages_to_raw() {
 
 std::vector<Damage> damages_to_images() {
     constexpr Schema kRefuses = Schema::refuses;
-    constexpr const char* kNoPng = "word 0 of map 0 is no PNG of 8 bits";
+    constexpr const char* kNoPng = "word 0 of map 0 is not a PNG with 8 bits";
     return {
         {"image_of_another_size", [](GlbFile& f) { put_pixels(f, 7, 6, {}); },
-         "has 7 x 6 pixels for a lightmap of 8 x 6 texels"},
+         "has 7 x 6 pixels, but the lightmap has 8 x 6 texels"},
         {"image_of_the_other_map", [](GlbFile& f) { map(f)["images"][0] = 2; }, "has 5 x 4 pixels"},
         {"image_jpeg",
          [](GlbFile& f) { put_image(f, bytes_of("\xff\xd8\xff\xe0 and more, behind the mark of a JPEG")); },
@@ -199,16 +199,16 @@ std::vector<Damage> damages_to_images() {
         {"no_images_at_all", [](GlbFile& f) { f.json.erase("images"); },
          "the file has no images for the maps"},
         {"no_images", [](GlbFile& f) { map(f).erase("images"); }, "images", kRefuses},
-        {"no_words", [](GlbFile& f) { map(f)["images"] = Json::array(); }, "a map has 0 images for 2 words",
-         kRefuses},
+        {"no_words", [](GlbFile& f) { map(f)["images"] = Json::array(); },
+         "a map has 0 images, but a texel has 2 words", kRefuses},
         {"fewer_words_in_a_map", [](GlbFile& f) { map(f)["images"].erase(1); },
-         "a map has 1 images for 2 words"},
+         "a map has 1 image, but a texel has 2 words"},
         {"more_words",
          [](GlbFile& f) {
              for (Json& m : extension(f)["maps"])
                  m["images"].push_back(m["images"][0]);
          },
-         "a map has 3 images for 2 words"},
+         "a map has 3 images, but a texel has 2 words"},
     };
 }
 
@@ -219,7 +219,7 @@ std::vector<Damage> damages_to_clusters() {
          [](GlbFile& f) {
              put_pixels(f, 8, 6, {15, 0, 0, 0});
          },
-         "texel 0 is in cluster 15 of 11"},
+         "texel 0 has cluster 15, but there are only 11"},
         {"no_components", [](GlbFile& f) { extension(f).erase("components"); }, "components", kRefuses},
         {"no_bases", [](GlbFile& f) { extension(f).erase("bases"); }, "bases", kRefuses},
         {"no_packing", [](GlbFile& f) { extension(f).erase("packing"); }, "packing", kRefuses},

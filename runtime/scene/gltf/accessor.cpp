@@ -92,7 +92,7 @@ void apply_sparse(const tinygltf::Model& model, const tinygltf::Accessor& access
 
 void check_components(const tinygltf::Accessor& accessor, int components, const std::string& name) {
     if (component_count(accessor.type) != components)
-        throw Error(name + " has " + std::to_string(component_count(accessor.type)) + " components, but " +
+        throw Error(name + " has " + counted(component_count(accessor.type), "component") + ", but " +
                     std::to_string(components) + " are required");
 }
 

@@ -1,6 +1,7 @@
 // Reads and writes transfer of texels in glTF files: PRTKIT_lightmap of docs/format.md.
 
 #include "prt/lightmap_gltf.h"
+#include "prt/support/counted.h"
 
 #include "gltf/accessor.h"
 #include "gltf/allowance.h"
@@ -189,7 +190,7 @@ std::vector<std::vector<std::byte>> read_images(const GltfContents& contents, co
     for (const Json& map : maps) {
         const Json& images = map.at("images");
         if (!images.is_array() || images.size() != words)
-            throw Error("a map has " + std::to_string(images.size()) + " images, but a texel has " +
+            throw Error("a map has " + counted(images.size(), "image") + ", but a texel has " +
                         std::to_string(words) + " words");
         if (contents.images.empty())
             throw Error("the file has no images for the maps");

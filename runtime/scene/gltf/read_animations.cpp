@@ -55,7 +55,7 @@ std::vector<glm::vec4> read_values(const tinygltf::Model& model, int accessor,
     const std::vector<float> numbers = read_floats(model, accessor, static_cast<int>(components));
     const std::size_t count = numbers.size() / components;
     if (count != of_key * channel.times.size())
-        throw Error("it has " + std::to_string(count) + " values, but its " +
+        throw Error("it has " + counted(count, "value") + ", but its " +
                     counted(channel.times.size(), "keyframe needs ", "keyframes need ") +
                     std::to_string(of_key * channel.times.size()));
     std::vector<glm::vec4> values(count, glm::vec4(0));

@@ -59,9 +59,9 @@ Skin read_skin(const tinygltf::Model& model, int index) {
     if (file.inverseBindMatrices >= 0) {
         inverse_bind = read_floats(model, file.inverseBindMatrices, 16);
         if (inverse_bind.size() < 16 * file.joints.size())
-            throw Error("skin " + std::to_string(index) + " has " + std::to_string(file.joints.size()) +
-                        " joints, but " + std::to_string(inverse_bind.size() / 16) +
-                        " inverse bind matrices");
+            throw Error("skin " + std::to_string(index) + " has " + counted(file.joints.size(), "joint") +
+                        ", but " +
+                        counted(inverse_bind.size() / 16, "inverse bind matrix", "inverse bind matrices"));
     }
     Skin skin;
     for (std::size_t j = 0; j < file.joints.size(); ++j) {

@@ -232,9 +232,9 @@ TEST(BadTextures, StopOnlyABakeThatNeedsThem) {
     Scene scene = ceiling_without_its_image();
     EXPECT_EQ(message(scene), ""); // direct light, opaque
     scene.materials[1].alpha_mode = AlphaMode::mask;
-    EXPECT_EQ(message(scene), "image 0 'wood.ktx2' is KTX 2, which is not read, and no PNG, JPEG, WebP or "
-                              "AVIF stands beside it; its "
-                              "pixels are needed here, unless --bad-textures ignore is given");
+    EXPECT_EQ(message(scene),
+              "image 0 'wood.ktx2' is KTX 2, which is not supported, and the texture has no PNG, JPEG, WebP "
+              "or AVIF as a fallback; ignore such textures with --bad-textures ignore");
     scene.materials[1].alpha_mode = AlphaMode::opaque;
     options.bounces = 1;
     EXPECT_NE(message(scene), "");
