@@ -152,7 +152,7 @@ protected:
 
 TEST_F(WithoutGpu, ThatIsSaidUnlessTheBackendIsAutomatic) {
     expect_refused(bake({"--backend", "gpu"}), "no driver for Vulkan");
-    expect_refused(bake({"--gpu", "0"}), "there is no GPU");
+    expect_refused(bake({"--gpu", "0"}), "no GPU can be used for baking");
     expect_refused(bake({"--backend", "gpu", "--method", "raster"}), "OpenGL 4.5");
     EXPECT_EQ(bake({"--backend", "auto"}).status, 0);
 }

@@ -100,7 +100,7 @@ TEST_F(Check, FindsLampsWithoutEffect) {
 
 TEST_F(Check, FindsCoordinatesThatNoLightmapFits) {
     for (const auto& [uv, words] : {std::pair(std::vector<float>{0, 0, 3.5f, 0, 0, 1}, "crosses the border"),
-                                    std::pair(std::vector<float>{0, 0, 0, 0, 0, 0}, "a line or a point")}) {
+                                    std::pair(std::vector<float>{0, 0, 0, 0, 0, 0}, "covers no area")}) {
         GlbFile file = triangle_file();
         Json& attributes = file.json["meshes"][0]["primitives"][0]["attributes"];
         for (const char* set : {"TEXCOORD_0", "TEXCOORD_1"})

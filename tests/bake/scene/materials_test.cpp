@@ -190,7 +190,7 @@ TEST(Metal, BouncesByThatShareAndSaysSo) {
             const BakeResult result = bake(bowl, options);
             notices = 0;
             for (const std::string& notice : result.statistics.notices)
-                notices += notice.find("1 material of metal") != std::string::npos;
+                notices += notice.find("1 material is metallic") != std::string::npos;
             return exit_radiance(result.baked.transfer, constant_light(1, glm::vec3(1)))[12 * 25].x;
         };
         const float direct = radiance(0);
