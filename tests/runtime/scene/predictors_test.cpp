@@ -236,12 +236,11 @@ TEST(PredictorsInFile, ThatMakeNoSenseAreRefusedInALine) {
         {"predictors are not a list", [](Json& e) { e["predictors"] = "normal"; }},
         {"predictors are not a list", [](Json& e) { e["predictors"] = Json::array(); }},
         {"predictors are not a list", [](Json& e) { e["predictors"].push_back(e["predictors"][0]); }},
-        {"the kind of a predictor is unknown", [](Json& e) { e["predictors"][0]["kind"] = "tangent"; }},
-        {"the kind of a predictor is unknown", [](Json& e) { e["predictors"][0]["kind"] = 1; }},
-        {"a normal and a position, in this order", [](Json& e) { e["predictors"][1] = e["predictors"][0]; }},
-        {"a normal and a position, in this order", [](Json& e) { e["predictors"][0] = e["predictors"][1]; }},
-        {"a normal and a position, in this order",
-         [](Json& e) { std::swap(e["predictors"][0], e["predictors"][1]); }},
+        {"kind of a predictor is unknown", [](Json& e) { e["predictors"][0]["kind"] = "tangent"; }},
+        {"kind of a predictor is unknown", [](Json& e) { e["predictors"][0]["kind"] = 1; }},
+        {"two predictors must be", [](Json& e) { e["predictors"][1] = e["predictors"][0]; }},
+        {"two predictors must be", [](Json& e) { e["predictors"][0] = e["predictors"][1]; }},
+        {"two predictors must be", [](Json& e) { std::swap(e["predictors"][0], e["predictors"][1]); }},
         {"is damaged glTF", [](Json& e) { e["predictors"][0].erase("kind"); }},
         {"is damaged glTF", [](Json& e) { e["predictors"][0].erase("scale"); }},
         {"is damaged glTF", [](Json& e) { e["predictors"][1].erase("origin"); }},
@@ -267,8 +266,7 @@ TEST(PredictorsInFile, ThatMakeNoSenseAreRefusedInALine) {
              e["predictors"][1]["origin"][0] = 1e9;
              e["predictors"][1]["scale"][0] = 1e3;
          }},
-        {"centers have 5 columns, but the predictors have 6",
-         [](Json& e) { e["centers"]["drops"].erase(0); }},
+        {"5 columns, but the predictors have 6", [](Json& e) { e["centers"]["drops"].erase(0); }},
         {"an element of \"drops\" is 16", [](Json& e) { e["centers"]["drops"][0] = 16; }},
         {"buffer view 999 does not exist", [](Json& e) { e["centers"]["bufferView"] = 999; }},
     };
