@@ -30,9 +30,10 @@ GpuBuffer::GpuBuffer(const VulkanDevice& device, std::size_t bytes, GpuMemory me
                      vk::BufferUsageFlags usage)
     : bytes_(std::max<std::size_t>(4, (bytes + 3) / 4 * 4)) {
     if (bytes_ > device.traits().max_bytes)
-        throw GpuMemoryError(fmt::format("{} need {:.0f} MB, but a buffer of \"{}\" is limited to {:.0f} MB",
-                                         what, static_cast<double>(bytes_) / 1e6, device.traits().about.name,
-                                         static_cast<double>(device.traits().max_bytes) / 1e6));
+        throw GpuMemoryError(
+            fmt::format("a buffer for {} needs {:.0f} MB, but the limit of \"{}\" is {:.0f} MB", what,
+                        static_cast<double>(bytes_) / 1e6, device.traits().about.name,
+                        static_cast<double>(device.traits().max_bytes) / 1e6));
     using Use = vk::BufferUsageFlagBits;
     usage |= Use::eStorageBuffer | Use::eTransferSrc | Use::eTransferDst;
     const bool addressed = static_cast<bool>(usage & Use::eShaderDeviceAddress);

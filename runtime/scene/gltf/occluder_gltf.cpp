@@ -46,7 +46,8 @@ OcclusionVolume read_occluder(const GltfContents& contents, const Json& json) {
     const Json version = json.value("version", Json(0));
     if (!version.is_number_integer() || version != kOccluderVersion)
         throw Error(std::string(kOccluderExtension) + " has version " + version.dump() +
-                    ", but this program reads version " + std::to_string(kOccluderVersion));
+                    ", but this program reads version " + std::to_string(kOccluderVersion) +
+                    "; write the file again with this version of prt");
     OcclusionVolume volume;
     volume.low = read_corner(json, "min");
     volume.high = read_corner(json, "max");

@@ -119,7 +119,8 @@ const Json* find_extension(const GltfContents& contents, const char* name, int e
     const Json version = extension->value("version", Json(0));
     if (!version.is_number_integer() || version != expected_version)
         throw Error(std::string(name) + " has version " + version.dump() +
-                    ", but this program reads version " + std::to_string(expected_version));
+                    ", but this program reads version " + std::to_string(expected_version) +
+                    "; write the file again with this version of prt");
     return extension;
 }
 
