@@ -246,8 +246,9 @@ TEST_F(FirstHour, AMeshWithoutNormalsReportsHowItsVerticesGrow) {
     GlbFile file = triangle_file();
     file.json["meshes"][0]["primitives"][0]["attributes"].erase("NORMAL");
     file.write(folder / "t.glb");
-    for (const auto& [option, words] : {std::pair("--fit=auto", "gets flat ones: 3 vertices became 3"),
-                                        std::pair("--smooth-normals=30", "gets smooth ones where")}) {
+    for (const auto& [option, words] :
+         {std::pair("--fit=auto", "flat shading is used: 3 vertices become 3"),
+          std::pair("--smooth-normals=30", "normals are created, smooth across edges")}) {
         const Outcome outcome =
             prt({"bake", at("t.glb"), "-o", at("n.glb"), "--rays", "16", "--order", "2", option});
         EXPECT_EQ(outcome.status, 0);

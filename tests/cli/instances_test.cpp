@@ -327,7 +327,8 @@ TEST_F(SharedInstances, WrongAttributesAreRefusedByTheirNames) {
     const auto floats = [](const std::vector<float>& values, const char* type, std::size_t components) {
         return [=](GlbFile& file) { return file.accessor(values, kFloat, type, components); };
     };
-    refused("ROTATION", floats({0, 0, 0, 1, 0, 0, 0, 0}, "VEC4", 4), "ROTATION of instance 1 is zero");
+    refused("ROTATION", floats({0, 0, 0, 1, 0, 0, 0, 0}, "VEC4", 4),
+            "ROTATION of instance 1 is not a rotation");
     refused("TRANSLATION", floats({0, 0, 0, 1, std::nanf(""), 0}, "VEC3", 3),
             "TRANSLATION of instance 1 is not finite");
     refused(
@@ -335,7 +336,7 @@ TEST_F(SharedInstances, WrongAttributesAreRefusedByTheirNames) {
         [](GlbFile& file) {
             return file.accessor(std::vector<std::uint16_t>{1, 1, 1, 1, 1, 1}, kUnsignedShort, "VEC3", 3);
         },
-        "SCALE of its instances holds no floats");
+        "SCALE of its instances must contain floats");
 }
 
 TEST_F(SharedInstances, ZeroAndMillionsOfInstancesAreToldBeforeWork) {

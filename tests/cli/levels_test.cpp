@@ -148,7 +148,7 @@ TEST_F(LevelsOfDetail, ThatDoNotFitAreRefused) {
     expect_refused(large, "level 1 of node 0 'ball'");
     GlbFile missing = file;
     missing.json["nodes"][0]["extensions"]["MSFT_lod"]["ids"] = {1, 9};
-    expect_refused(missing, "names node 9, which is not there");
+    expect_refused(missing, "refers to node 9, which does not exist");
     expect_refused(file, "--instances shared does not know", {"--instances", "shared"});
     write(far, "far.glb");
     EXPECT_EQ(bake("far.glb", "ignored.glb", {"--levels", "ignore"}).status, 0);
