@@ -1,12 +1,15 @@
 // Writes reports as text for the terminal.
 
 #include "prt/support/printable.h"
+#include "report/counted.h"
 #include "report/report.h"
 
 #include <fmt/core.h>
 
 #include <algorithm>
 #include <sstream>
+#include <string_view>
+#include <utility>
 
 namespace prt::cli {
 namespace {
@@ -63,12 +66,23 @@ std::string table_text(const Table& table) {
     return table.about.empty() ? text : text + wrapped(table.about, "    ");
 }
 
+/// Returns a number with its noun. `nouns`: "sun", or "vertex|vertices" if the plural is irregular.
+std::string with_noun(std::string number, std::string_view nouns) {
+    const std::size_t bar = std::min(nouns.find('|'), nouns.size());
+    return counted(std::move(number), nouns.substr(0, bar), nouns.substr(std::min(bar + 1, nouns.size())));
+}
+
 /// A figure in a sentence.
 std::string in_words(const Json& value, std::string format) {
-    if (value.is_string())
-        return printable(value.get<std::string>());
+    const bool noun = format.starts_with('#');
+    if (value.is_string()) {
+        std::string text = printable(value.get<std::string>());
+        return noun ? with_noun(std::move(text), format.substr(1)) : text;
+    }
     if (format.empty())
         return value.dump();
+    if (noun)
+        return with_noun(value.dump(), format.substr(1));
     const char last = format.back();
     const double scale = last == '%' ? 100 : last == 'M' ? 1e-6 : 1;
     if (scale != 1)
@@ -148,7 +162,7 @@ std::string report_text(const Report& report) {
         if (rows_for_people(table) > 0)
             text += table_text(table);
     for (const std::string& note : report.notes)
-        text += "  left out: " + printable(note) + "\n";
+        text += "  omitted: " + printable(note) + "\n";
     return text;
 }
 

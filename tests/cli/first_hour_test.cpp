@@ -175,8 +175,8 @@ TEST_F(FirstHour, TheVerdictFallsWithTheErrorAndItsFiguresAreExplained) {
         return prt({"evaluate", at("b.glb"), at("c.glb")}).out;
     };
     const std::string mean = verdict_of("1", "0"), all = verdict_of("1", "9");
-    EXPECT_NE(mean.find("visibly wrong"), std::string::npos) << mean; // every vertex has the mean's light
-    EXPECT_NE(all.find("looks the same as the bake"), std::string::npos) << all; // all data are included
+    EXPECT_NE(mean.find("clearly visible difference"), std::string::npos) << mean; // every vertex has the mean's light
+    EXPECT_NE(all.find("no visible difference from the bake"), std::string::npos) << all; // all data are included
     EXPECT_NE(all.find("lit_rms: relative L2"), std::string::npos) << all;       // the meaning of the columns
 }
 
@@ -201,8 +201,8 @@ TEST_F(FirstHour, AnEvaluationBeginsWithAVerdictAndEveryFileHoldsItsFigures) {
                                  at("e.html"), "--csv", at("e.csv")});
     ASSERT_EQ(outcome.status, 0) << outcome.err;
     const std::string verdict = outcome.out.substr(0, outcome.out.find('\n'));
-    EXPECT_TRUE(verdict.starts_with("4 bytes a vertex, ")) << verdict; // a lone triangle is exact
-    EXPECT_NE(verdict.find("looks the same as the bake"), std::string::npos) << verdict;
+    EXPECT_TRUE(verdict.starts_with("4 bytes per vertex, ")) << verdict; // a lone triangle is exact
+    EXPECT_NE(verdict.find("no visible difference from the bake"), std::string::npos) << verdict;
     const auto json = nlohmann::json::parse(text("e.json"));
     EXPECT_EQ(json["verdict"], verdict);
     EXPECT_EQ(json["bytes_bound_per_vertex"], 4);

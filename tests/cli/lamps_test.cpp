@@ -155,7 +155,7 @@ TEST_F(LampsOnTheRoad, NameObjectsThatErrMuchMore) {
     const auto& fine = errors["objects"][0];
     EXPECT_EQ(fine["name"], "Fine");
     EXPECT_LT(fine["lamps"]["relative_l2"], 0.02);
-    EXPECT_TRUE(fine["backs"]["relative_l2"].is_null());          // one-sided
+    EXPECT_TRUE(fine["back_sides"]["relative_l2"].is_null());          // one-sided
     EXPECT_GT(errors["objects"][1]["lamps"]["relative_l2"], 0.5); // the middle is brightest, corners far away
 }
 
