@@ -133,8 +133,9 @@ private:
                                          percent(errors.bounces(bounces))));
         plan_.cut = choose_truncation(errors, allowed());
         check_lamps_end();
-        check_possible(plan_.cut.squared, fmt::format("the truncation to order {} and {} bounces",
-                                                      plan_.cut.order, bounces_in_words(plan_.cut.bounces)));
+        check_possible(plan_.cut.squared,
+                       fmt::format("the truncation to order {} and {}", plan_.cut.order,
+                                   counted(bounces_in_words(plan_.cut.bounces), "bounce")));
     }
 
     /// Limits the bounces where light of lamps would grow without end.

@@ -68,8 +68,7 @@ void add_volume_compression(const CompressStatistics& statistics, const Compress
         "  {volume/clusters:#cluster} x {volume/components_mean:.2f} components, "
         "{volume/bytes_bound_per_probe} bytes per probe, {volume/bytes_per_probe_with_bases:.2f} with the "
         "bases, plus {volume/visibility_bytes_per_probe} for visibility distances; expected error of "
-        "incident "
-        "light {volume/expected_error:.2f%}; {volume/seconds:.2f} s");
+        "incident light {volume/expected_error:.2f%}; {volume/seconds:.2f} s");
 }
 
 } // namespace prt::cli

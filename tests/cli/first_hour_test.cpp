@@ -175,9 +175,11 @@ TEST_F(FirstHour, TheVerdictFallsWithTheErrorAndItsFiguresAreExplained) {
         return prt({"evaluate", at("b.glb"), at("c.glb")}).out;
     };
     const std::string mean = verdict_of("1", "0"), all = verdict_of("1", "9");
-    EXPECT_NE(mean.find("clearly visible difference"), std::string::npos) << mean; // every vertex has the mean's light
-    EXPECT_NE(all.find("no visible difference from the bake"), std::string::npos) << all; // all data are included
-    EXPECT_NE(all.find("lit_rms: relative L2"), std::string::npos) << all;       // the meaning of the columns
+    EXPECT_NE(mean.find("clearly visible difference"), std::string::npos)
+        << mean; // every vertex has the mean's light
+    EXPECT_NE(all.find("no visible difference from the bake"), std::string::npos)
+        << all;                                                            // all data are included
+    EXPECT_NE(all.find("lit_rms: relative L2"), std::string::npos) << all; // the meaning of the columns
 }
 
 TEST_F(FirstHour, SmallMeshesAreToldThatSizesAreFitted) {
@@ -208,7 +210,7 @@ TEST_F(FirstHour, AnEvaluationBeginsWithAVerdictAndEveryFileHoldsItsFigures) {
     EXPECT_EQ(json["bytes_bound_per_vertex"], 4);
     const std::string page = text("e.html"), csv = text("e.csv");
     for (const char* term :
-         {"b.glb", "c.glb", "prt evaluate", "prefers-color-scheme", "UTC", "Before", "After"})
+         {"b.glb", "c.glb", "prt evaluate", "prefers-color-scheme", "UTC", "Bake, under", "Shipped file"})
         EXPECT_NE(page.find(term), std::string::npos) << term;
     EXPECT_NE(page.find(verdict), std::string::npos);
     EXPECT_EQ(page.find("{{"), std::string::npos);

@@ -206,7 +206,7 @@ TEST_F(Lightmaps, AreRefusedWhereTheyCannotBe) {
     expect_refused(compress({"--fallback", at("sky.exr")}), "the light of this file is in texels");
     EXPECT_FALSE(std::filesystem::exists(folder / "shipped.glb"));
     expect_refused(prt({"relight", at("baked.glb"), "--env", at("sky.exr"), "-o", at("r.glb")}),
-                   "holds a lightmap");
+                   "contains a lightmap");
 }
 
 } // namespace
