@@ -95,16 +95,14 @@ void promise(ErrorTerms& terms, Budget& budget) {
 }
 
 void add_metric(CLI::App* command, MetricArguments& arguments) {
-    CLI::Option* metric =
-        choice(command, "--metric", arguments.metric, kMetrics,
-               "lighting that weighs errors: day: clear skies of a day; indoor: rooms; natural: any "
-               "lighting, any way up; outdoor: skies with ground and sun; plain: equal weights",
-               "outdoor");
+    CLI::Option* metric = choice(command, "--metric", arguments.metric, kMetrics,
+                                 "weigh errors by day: clear skies; indoor: rooms; natural: any light; "
+                                 "outdoor: sky and sun; plain: none",
+                                 "outdoor");
     command
         ->add_option(
             "--lights", arguments.lights,
-            "environment (.exr, .hdr, .png, .jpg) or light (.json) that errors are limited under, at all "
-            "rotations about +Y; repeatable")
+            "environment (.exr, .hdr, .png, .jpg) or light (.json), at all rotations about +Y; repeatable")
         ->allow_extra_args(false) // one each time, so that the bake may follow
         ->excludes(metric)
         ->check(named)

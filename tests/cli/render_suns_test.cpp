@@ -91,7 +91,7 @@ TEST_F(RenderSuns, LightsWithTheSkyWhatIsNotApart) {
     for (const char* sky : {"sun.json", "sunny.exr"}) {
         const Outcome outcome = render({at("w.glb"), "--env", at(sky), "-o", at("w.exr")});
         EXPECT_EQ(outcome.status, 0) << outcome.err;
-        EXPECT_NE(outcome.err.find("keeps no direct light apart"), std::string::npos) << outcome.err;
+        EXPECT_NE(outcome.err.find("has no separate direct term"), std::string::npos) << outcome.err;
         const Image none = rendered({at("w.glb"), "--env", at(sky), "--suns", "0"});
         EXPECT_EQ(load_environment(folder / "w.exr").environment.image.pixels, none.pixels) << sky;
     }
@@ -176,7 +176,7 @@ TEST_F(RenderSuns, SaysWhatItCannotDo) {
         EXPECT_NE(outcome.err.find(words), std::string::npos) << outcome.err;
         EXPECT_FALSE(std::filesystem::exists(folder / "no.png"));
     };
-    refused({at("w.glb"), "--env", at("sun.json"), "--suns", "1"}, 1, "no direct light apart");
+    refused({at("w.glb"), "--env", at("sun.json"), "--suns", "1"}, 1, "no separate direct term");
     std::ifstream file(folder / "sun.json");
     nlohmann::json five = nlohmann::json::parse(file);
     five["suns"] = std::vector<nlohmann::json>(5, five["suns"][0]);
