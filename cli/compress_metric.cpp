@@ -96,8 +96,8 @@ void promise(ErrorTerms& terms, Budget& budget) {
 
 void add_metric(CLI::App* command, MetricArguments& arguments) {
     CLI::Option* metric = choice(command, "--metric", arguments.metric, kMetrics,
-                                 "weigh errors by day: clear skies; indoor: rooms; natural: any light; "
-                                 "outdoor: sky and sun; plain: none",
+                                 "family that weighs errors: day (clear skies), indoor, natural (any), "
+                                 "outdoor (sky, sun), plain (none)",
                                  "outdoor");
     command
         ->add_option(

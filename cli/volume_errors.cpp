@@ -197,10 +197,10 @@ Table leak_table(const BakedVolume& volume, const VolumeLookup& lookup, const Fr
         largest = std::max(largest, std::abs(sky));
     }
     Table table{"volume_leaks", "Leaks of the volume through walls", "", {}, {}};
-    table.about =
-        fmt::format("Direct light of a uniform sky in the volume, at those of the {} positions in free "
-                    "space from which no ray reaches the sky. 0: no leak. 1: as much as under the open sky.",
-                    points.positions.size());
+    table.about = fmt::format(
+        "Direct light of a uniform sky in the volume, at those of the {} positions in free "
+        "space from which no ray reaches the sky; 0 means no leak, 1 as much light as under the open sky.",
+        points.positions.size());
     table.columns = {{"positions", "positions without sky"},
                      {"mean", "mean", Unit::plain, 4},
                      {"max", "max", Unit::plain, 3}};

@@ -47,7 +47,7 @@ Table runs_table(const BenchResult& result) {
         "GPU this includes the sums of spherical harmonics. Accumulate: sums of spherical harmonics on the "
         "CPU; depth tests with method raster. GPU copies: copies to and from the GPU. Rays/s: rays or depth "
         "tests per second of total time. Contrast error: error at each vertex relative to its own transfer "
-        "and a tenth of the logarithmic mean of all. Fitted: vertex values are a least-squares fit to "
+        "plus a tenth of the logarithmic mean of all. Fitted: vertex values are a least-squares fit to "
         "samples of the surface; this increases the error at the vertices themselves.";
     table.charts = {{"total time, s", "error at vertices, %",
                      curves(

@@ -56,8 +56,8 @@ Report instance_report(const InstanceOutcome& outcome) {
     report.sentences = {
         fmt::format(
             "{{output}}: {{receivers:#vertex|vertices}}, {{triangles:#triangle}}, transfer stored for "
-            "{{receivers_stored:#vertex|vertices}}, order {{order}}, {}, "
-            "{{bake/rays_per_receiver:#ray}} per vertex, {{bake/bounces:#bounce}}",
+            "{{receivers_stored:#vertex|vertices}}, order {{order}}, {}, {{bake/rays_per_receiver:#ray}} "
+            "per vertex, {{bake/bounces:#bounce}}",
             terms_in_words(transfer.transfer.layout)),
         "{instances/shared:#instance} with the shared transfer of {instances/meshes:#mesh|meshes}; "
         "{instances/baked_separately:#instance} baked separately, because sharing has an error above "

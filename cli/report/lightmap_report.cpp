@@ -81,8 +81,7 @@ Report lightmap_report(const LightmapOutcome& baked) {
         report.sentences.emplace_back(
             "bounces are computed at {sources:#vertex|vertices}: those of the mesh, and added ones");
     report.sentences.emplace_back("{seconds:.3f} s: vertices {seconds_sources:.3f}, texels "
-                                  "{seconds_texels:.3f}; {rays_per_second:.2fM} "
-                                  "million rays/s");
+                                  "{seconds_texels:.3f}; {rays_per_second:.2fM} million rays/s");
     report.sentences.emplace_back(s.denoised
                                       ? "sampling noise of sky light: {sampling_error_relative_l2:.2f%}"
                                       : "sampling error of direct light: estimate "

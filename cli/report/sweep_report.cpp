@@ -58,7 +58,7 @@ template <class Limits>
 Table best_table(const Sweep& sweep, const std::vector<SweepPoint>& points, const Limits& limits,
                  const char* unit, Best best) {
     Table table;
-    table.columns.push_back({"method", "lit_rms for at most", Unit::plain});
+    table.columns.push_back({"method", "method", Unit::plain});
     for (const auto limit : limits) {
         table.columns.push_back(
             {"", fmt::format("{:g} {}", static_cast<double>(limit), unit), Unit::percent});
@@ -106,16 +106,18 @@ void add_sweep(const Sweep& sweep, Report& report) {
     Table bytes = best_table(sweep, sweep.by_bytes, kSweepBytes, "bytes", best_by_bytes);
     bytes.title = "Error at equal bytes";
     bytes.about =
-        "Bytes per vertex: vertex attributes in whole 32-bit words, plus all tables divided by the number "
-        "of vertices; the rule is the same for all methods. Jumps: difference of the error between the two "
-        "ends of an edge, relative to the mean radiance, 99th percentile.";
+        "Values: lit_rms and jumps of the best setting with at most this size. Bytes per vertex: attributes "
+        "in whole 32-bit words, plus all tables divided by the number of vertices; the rule is the same for "
+        "all methods. Jumps: difference of the error between the two ends of an edge, relative to the mean "
+        "radiance, 99th percentile.";
     bytes.charts = {chart(sweep.by_bytes, "bytes per vertex, bases included", bytes_of)};
     Table ops = best_table(sweep, sweep.by_components, kSweepComponents, "operations", best_by_components);
     ops.title = "Error at equal shader operations";
     ops.about = fmt::format(
-        "Mean number of multiply-adds of a colour per vertex. Clustered methods of the literature use {} "
-        "clusters, or one per {} vertices if that is fewer; prtkit uses any number of clusters that needs "
-        "no more bytes than classic CPCA with the same operations.",
+        "Values: as above, with at most this number of operations. Operations: mean number of multiply-adds "
+        "of a colour per vertex. Clustered methods of the literature use {} clusters, or one per {} "
+        "vertices if that is fewer; prtkit uses any number of clusters that needs no more bytes than "
+        "classic CPCA with the same operations.",
         kSweepClusters, kMinReceiversPerCluster);
     ops.charts = {chart(sweep.by_components, "multiply-adds per vertex", ops_of)};
     report.tables.push_back(std::move(bytes));
