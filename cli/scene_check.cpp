@@ -27,18 +27,18 @@ constexpr std::string_view kChecked =
 
 /// Remedies for notices of reading, by words of these.
 constexpr std::pair<std::string_view, std::string_view> kRemedies[] = {
-    {"have no normals", "export normals; flat normals split every vertex"},
-    {"normals are zero or not finite", "recalculate the normals of the mesh"},
+    {"no normals", "export normals; flat normals split every vertex"},
+    {"normals are zero", "recalculate the normals of the mesh"},
     {"no usable normal", "recalculate the normals of the mesh"},
     {"texture coordinates are not finite", "unwrap these vertices again"},
     {"cannot be read", "add the file, or bake with --bad-textures ignore"},
     {"is read", "change the URI to the name of the file"},
     {"normal map", "no action needed: a shader can add it to the baked light"},
-    {"skinned meshes", "pose the model before a bake, or use prt lobes"},
-    {"morph targets", "set the weights before a bake"},
-    {"instances (EXT_mesh_gpu_instancing)", "no action needed, or bake with --instances shared"},
-    {"points, lines or nothing", "no action needed: they receive no light"},
-    {"are null", "remove null members from the JSON"},
+    {"skinned", "pose the model before a bake, or use prt lobes"},
+    {"morph", "set the weights before a bake"},
+    {"EXT_mesh_gpu_instancing", "no action needed, or bake with --instances shared"},
+    {"points, lines", "no action needed: they receive no light"},
+    {"null", "remove null members from the JSON"},
 };
 
 std::string remedy_for(const std::string& notice) {

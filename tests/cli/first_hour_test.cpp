@@ -134,6 +134,13 @@ TEST_F(FirstHour, OptionsThatAreMisspeltAreNamedAlone) {
     expect_line({"bake", at("t.glb"), "-o", ""}, 2, "--output: the name of the file is empty");
 }
 
+TEST_F(FirstHour, NounsAgreeWithTheirNumbers) {
+    const Outcome outcome = prt({"bake", at("t.glb"), "-o", at("b.glb"), "--rays", "16", "--bounces", "1"});
+    ASSERT_EQ(outcome.status, 0) << outcome.err;
+    EXPECT_NE(outcome.out.find(": 3 receivers, 1 triangle, order 6, "), std::string::npos) << outcome.out;
+    EXPECT_NE(outcome.out.find(", 16 rays per receiver, 1 bounce\n"), std::string::npos) << outcome.out;
+}
+
 TEST_F(FirstHour, OptionsMayStandBeforeTheFilesThatFollow) {
     bake_and_compress();
     write_png(folder / "sky.png", 4, 2, std::vector<glm::u8vec3>(8, glm::u8vec3(188)));
