@@ -96,8 +96,8 @@ void promise(ErrorTerms& terms, Budget& budget) {
 
 void add_metric(CLI::App* command, MetricArguments& arguments) {
     CLI::Option* metric = choice(command, "--metric", arguments.metric, kMetrics,
-                                 "family that weighs errors: day (clear skies), indoor, natural (any), "
-                                 "outdoor (sky, sun), plain (none)",
+                                 "lights to compress for: day (clear skies), indoor, natural (any), outdoor "
+                                 "(sky, sun), plain (equal)",
                                  "outdoor");
     command
         ->add_option(

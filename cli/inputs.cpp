@@ -42,10 +42,10 @@ void check_belong_together(const SceneFile& baked, const Path& baked_path, const
     if (!same_positions || baked.record()->receivers != shipped.record()->receivers ||
         baked.scene.receivers() != shipped.scene.receivers())
         throw Error(shipped_path.string() + ": was not made from " + baked_path.string() +
-                    ": their receivers differ");
+                    ": their receivers differ; use files of one bake");
     if (baked.order() != shipped.order())
-        throw Error(fmt::format("{}: has order {}, but {} has order {}", shipped_path.string(),
-                                shipped.order(), baked_path.string(), baked.order()));
+        throw Error(fmt::format("{}: has order {}, but {} has order {}; use files of one bake",
+                                shipped_path.string(), shipped.order(), baked_path.string(), baked.order()));
 }
 
 void check_of_vertices(const SceneFile& model, const Path& path, const std::string& command) {

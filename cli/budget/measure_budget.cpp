@@ -22,10 +22,9 @@ void check_no_media(const SceneFile& baked) {
     const std::vector<bool> solid = solid_materials(baked);
     for (const Primitive& primitive : baked.scene.primitives)
         if (solid[primitive.material])
-            throw Error(
-                "material '" + baked.scene.materials[primitive.material].name +
-                "' has no direct light: all of its light passes through a medium, which the path tracer of "
-                "an error budget does not support, or it has no light");
+            throw Error("material '" + baked.scene.materials[primitive.material].name +
+                        "' has no direct light: its light passes through a medium, which the path tracer of "
+                        "an error budget does not support, or no light reaches it");
 }
 
 /// Repeats a bake with another seed.

@@ -237,10 +237,11 @@ void add_sentences(const BakeOutcome& baked, const Json& statistics, Report& rep
     if (baked.refinement)
         add_refinement_sentences(*baked.refinement, report);
     else if (s.fit.between > 0 || s.fit.samples > 0)
-        say(fmt::format(
-            "interpolation error of direct light at vertices: {{interpolation_error_relative_l2:.3f%}}; {}",
-            s.fit.samples > 0 ? "each vertex is fitted to {samples_per_receiver:#sample} of the surface"
-                              : "light is sampled at vertices"));
+        say(fmt::format("interpolation error of direct light sampled at vertices: "
+                        "{{interpolation_error_relative_l2:.3f%}}; {}",
+                        s.fit.samples > 0
+                            ? "vertices are fitted to {samples_per_receiver:#sample} of the surface each"
+                            : "light is sampled at the vertices"));
     if (s.gather.entries > 0)
         say("bounce matrix: {gather_entries:#link} between receivers, {gather_bytes:.1fM} MB; "
             "omitted bounces: at most {remaining_energy:.2g%} of the largest transfer");

@@ -59,9 +59,9 @@ Report instance_report(const InstanceOutcome& outcome) {
             "{{receivers_stored:#vertex|vertices}}, order {{order}}, {}, {{bake/rays_per_receiver:#ray}} "
             "per vertex, {{bake/bounces:#bounce}}",
             terms_in_words(transfer.transfer.layout)),
-        "{instances/shared:#instance} with the shared transfer of {instances/meshes:#mesh|meshes}; "
-        "{instances/baked_separately:#instance} baked separately, because sharing has an error above "
-        "{instances/error_allowed_relative_l2:.1f%}",
+        "shared transfer: {instances/meshes:#mesh|meshes}, {instances/shared:#instance}; baked separately "
+        "because of an error above {instances/error_allowed_relative_l2:.1f%}: "
+        "{instances/baked_separately:#instance}",
         "error of shared transfer: median {instances/error_relative_l2/median:.2f%}, 99th percentile "
         "{instances/error_relative_l2/percentile_99:.2f%}, maximum {instances/error_relative_l2/max:.2f%} "
         "(at the samples, under soft skies and {instances/lights:#given light})"};
@@ -83,7 +83,7 @@ void add_instance_constants(const std::vector<RelitInstance>& instances, Json fi
     add_figures(report, {{"instances", std::move(figures)}});
     report.sentences.emplace_back(
         "GPU memory for each lighting: {instances/bytes_constants_per_instance} bytes of constants per "
-        "instance, {instances/bytes_constants} in total; prt compress --clusters reduces it");
+        "instance, {instances/bytes_constants} in total; fewer clusters (prt compress --clusters) need less");
 }
 
 } // namespace prt::cli
