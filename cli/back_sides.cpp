@@ -8,7 +8,7 @@
 #include "prt/levels.h"
 #include "prt/separate_sides.h"
 #include "prt/sides.h"
-#include "report/counted.h"
+#include "prt/support/counted.h"
 
 #include <fmt/core.h>
 
@@ -24,7 +24,7 @@ const std::map<std::string, BackSides> kBackSides = {{"auto", BackSides::automat
 
 /// Returns "18 double-sided triangles": the number of true elements.
 std::string double_sided(const std::vector<bool>& triangles) {
-    return counted(static_cast<std::size_t>(std::ranges::count(triangles, true)), "double-sided triangle");
+    return counted(std::ranges::count(triangles, true), "double-sided triangle");
 }
 
 /// All levels of detail; light passes the coarser ones.

@@ -2,7 +2,7 @@
 
 #include "compress_metric.h"
 
-#include "report/counted.h"
+#include "prt/support/counted.h"
 #include "split_light.h"
 
 #include <fmt/core.h>

@@ -7,7 +7,7 @@
 #include "prt/light_file.h"
 #include "prt/lightmap_file.h"
 #include "prt/reorder.h"
-#include "report/counted.h"
+#include "prt/support/counted.h"
 
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>

@@ -2,12 +2,12 @@
 
 #include "scene_check.h"
 
+#include "prt/support/counted.h"
 #include "prt/support/error.h"
 #include "prt/support/printable.h"
 #include "prt/texels.h"
 #include "prt/texture.h"
 #include "prt/unread.h"
-#include "report/counted.h"
 
 #include <fmt/core.h>
 #include <glm/common.hpp>
@@ -28,11 +28,11 @@ constexpr std::string_view kChecked =
 /// Remedies for notices of reading, by words of these.
 constexpr std::pair<std::string_view, std::string_view> kRemedies[] = {
     {"no normals", "export normals; flat normals split every vertex"},
-    {"normals are zero", "recalculate the normals of the mesh"},
+    {"zero or not finite", "recalculate the normals of the mesh"},
     {"no usable normal", "recalculate the normals of the mesh"},
-    {"texture coordinates are not finite", "unwrap these vertices again"},
+    {"texture coordinate", "unwrap these vertices again"},
     {"cannot be read", "add the file, or bake with --bad-textures ignore"},
-    {"is read", "change the URI to the name of the file"},
+    {"' is read", "change the URI to the name of the file"},
     {"normal map", "no action needed: a shader can add it to the baked light"},
     {"skinned", "pose the model before a bake, or use prt lobes"},
     {"morph", "set the weights before a bake"},

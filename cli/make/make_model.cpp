@@ -14,9 +14,9 @@
 #include "prt/levels.h"
 #include "prt/refine.h"
 #include "prt/search.h"
+#include "prt/support/counted.h"
 #include "prt/support/error.h"
 #include "prt/support/stopwatch.h"
-#include "report/counted.h"
 #include "shell_word.h"
 
 #include <fmt/core.h>
@@ -128,14 +128,14 @@ private:
         for (const int order : {2, 4, 6, 8, 10})
             tried_.push_back(fmt::format("order {}: error of light {}", order, percent(errors.light(order))));
         for (const int bounces : {0, 1, 2, 4})
-            tried_.push_back(fmt::format("{}: error of bounces {}",
-                                         counted(static_cast<std::size_t>(bounces), "bounce"),
+            tried_.push_back(fmt::format("{}: error of bounces {}", counted(bounces, "bounce"),
                                          percent(errors.bounces(bounces))));
         plan_.cut = choose_truncation(errors, allowed());
         check_lamps_end();
-        check_possible(plan_.cut.squared,
-                       fmt::format("the truncation to order {} and {}", plan_.cut.order,
-                                   counted(bounces_in_words(plan_.cut.bounces), "bounce")));
+        check_possible(plan_.cut.squared, fmt::format("the truncation to order {} and {}", plan_.cut.order,
+                                                      plan_.cut.bounces == kEndlessBounces
+                                                          ? "all bounces"
+                                                          : counted(plan_.cut.bounces, "bounce")));
     }
 
     /// Limits the bounces where light of lamps would grow without end.

@@ -3,8 +3,8 @@
 #include "report/bake_report.h"
 
 #include "options.h"
+#include "prt/support/counted.h"
 #include "prt/support/printable.h"
-#include "report/counted.h"
 #include "report/publish.h"
 
 #include <fmt/core.h>

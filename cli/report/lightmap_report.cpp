@@ -2,7 +2,7 @@
 
 #include "report/lightmap_report.h"
 
-#include "report/counted.h"
+#include "prt/support/counted.h"
 #include "report/publish.h"
 
 #include <fmt/ranges.h>

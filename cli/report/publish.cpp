@@ -2,7 +2,7 @@
 
 #include "report/publish.h"
 
-#include "report/counted.h"
+#include "prt/support/counted.h"
 #include "terminal.h"
 
 #include <fmt/chrono.h>

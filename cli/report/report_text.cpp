@@ -1,7 +1,6 @@
 // Writes reports as text for the terminal.
 
 #include "prt/support/printable.h"
-#include "report/counted.h"
 #include "report/report.h"
 
 #include <fmt/core.h>
@@ -69,7 +68,10 @@ std::string table_text(const Table& table) {
 /// Returns a number with its noun. `nouns`: "sun", or "vertex|vertices" if the plural is irregular.
 std::string with_noun(std::string number, std::string_view nouns) {
     const std::size_t bar = std::min(nouns.find('|'), nouns.size());
-    return counted(std::move(number), nouns.substr(0, bar), nouns.substr(std::min(bar + 1, nouns.size())));
+    const bool one = number == "1";
+    if (one || bar == nouns.size())
+        return number.append(" ").append(nouns.substr(0, bar)).append(one ? "" : "s");
+    return number.append(" ").append(nouns.substr(bar + 1));
 }
 
 /// A figure in a sentence.
