@@ -2,6 +2,7 @@
 
 #include "compress_metric.h"
 
+#include "prt/support/counted.h"
 #include "split_light.h"
 
 #include <fmt/core.h>
@@ -64,22 +65,22 @@ std::string name_of(MetricChoice choice) {
 
 std::string coverage(const MetricArguments& arguments, const TransferLayout& layout, std::size_t promised) {
     if (layout.distant_terms().empty())
-        return "promises hold for each lamp alone";
+        return "the limits hold for each lamp alone";
     if (!arguments.lights.empty())
         return fmt::format(
-            "promises hold under each of the {} --lights at every rotation about +Y, their suns "
-            "in the sky or apart; other skies may exceed them",
-            arguments.lights.size());
+            "the limits hold under {} (--lights) at every rotation about +Y, with suns in the sky or "
+            "separate; the errors under other skies may be larger",
+            counted(arguments.lights.size(), "given light"));
     if (promised == 0)
         return fmt::format(
-            "promises hold on average over the {} metric; a single sky may exceed them: pass it "
-            "by --lights",
+            "the limits hold on average over the metric '{}'; the errors under a single sky may be larger: "
+            "pass that sky with --lights FILE",
             name_of(arguments.metric));
     return fmt::format(
-        "the error is promised under each of {} skies of the {} family at every rotation about "
-        "+Y, jumps on average over the family; other skies may exceed them: pass them by "
-        "--lights",
-        promised, name_of(arguments.metric));
+        "the error limit holds under {} of the family '{}' at every rotation about +Y, the limit of jumps "
+        "on average over the family; the errors under other skies may be larger: pass them with --lights "
+        "FILE",
+        counted(promised, "sky", "skies"), name_of(arguments.metric));
 }
 
 } // namespace

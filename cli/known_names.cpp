@@ -47,7 +47,7 @@ bool is_in(const std::vector<std::string>& names, const std::string& name) {
     return std::find(names.begin(), names.end(), name) != names.end();
 }
 
-/// Returns "; did you mean bake?", or "; there are " and all names if none is near.
+/// Returns "; did you mean bake?", or "; available: " and all names if no name is near.
 std::string suggestion(const std::vector<std::string>& names, const std::string& name) {
     std::string all, nearest;
     std::size_t least = 3;
@@ -58,7 +58,7 @@ std::string suggestion(const std::vector<std::string>& names, const std::string&
             nearest = known;
         }
     }
-    return nearest.empty() ? "; there are " + all : "; did you mean " + nearest + "?";
+    return nearest.empty() ? "; available: " + all : "; did you mean " + nearest + "?";
 }
 
 /// An option that has another name now.
@@ -131,7 +131,7 @@ void check_old_name(const std::string& command, const std::string& name) {
 }
 
 [[noreturn]] void refuse(const char* what, const std::string& name, const std::vector<std::string>& names) {
-    throw CLI::ParseError("there is no " + std::string(what) + " '" + name + "'" + suggestion(names, name),
+    throw CLI::ParseError("unknown " + std::string(what) + " '" + name + "'" + suggestion(names, name),
                           CLI::ExitCodes::ExtrasError);
 }
 

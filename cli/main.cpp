@@ -58,7 +58,8 @@ int run(int argc, char** argv) {
     add_commands(app, session);
     if (argc < 2) {
         print(app.help());
-        throw CLI::ParseError("a command is missing; the list is above", CLI::ExitCodes::RequiredError);
+        throw CLI::ParseError("no command given; the commands are listed above",
+                              CLI::ExitCodes::RequiredError);
     }
     check_names(app, {argv + 1, static_cast<std::size_t>(argc - 1)});
     try {
@@ -70,7 +71,7 @@ int run(int argc, char** argv) {
     return session.status();
 }
 
-constexpr const char* kNoMemory = "there is not enough memory";
+constexpr const char* kNoMemory = "out of memory";
 
 /// Also where there is no memory left for words.
 int complain(int status, std::string_view what, std::string_view more = {}) noexcept {
@@ -111,7 +112,7 @@ int run_and_tell(int argc, char** argv) {
     } catch (const std::filesystem::filesystem_error& error) {
         return complain(1, error.what());
     } catch (const std::exception& error) {
-        return complain(1, "of our own making, please report it: ", error.what());
+        return complain(1, "internal error, please report it: ", error.what());
     }
 }
 

@@ -35,8 +35,8 @@ Lighting lighting_of(const SplitLight& light);
 
 /// Error message: transfer without a separate direct term cannot be lit by separate suns, with advice.
 inline constexpr const char* kNoDirectTerm =
-    "has no separate direct transfer, which separate suns need: compress without --combine-direct (lobes "
-    "never have it)";
+    "has no separate direct term, so suns cannot be separate from the sky; compress without --combine-direct "
+    "(lobes never have a direct term)";
 
 /// Returns a sky without light.
 SplitLight dark_sky(int order);

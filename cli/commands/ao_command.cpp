@@ -132,7 +132,7 @@ Report bake_vertices(const AoArguments& a, GltfDocument& document, const Scene& 
     const std::vector<float> areas = receiver_areas(scene);
     Report report;
     add_figures(report, {{"receivers", s.receivers.all},
-                         {"receivers_sealed", s.receivers.sealed},
+                         {"receivers_enclosed", s.receivers.sealed},
                          {"rays", s.rays},
                          {"rays_per_receiver", a.options.rays},
                          {"device", s.device},
@@ -166,7 +166,7 @@ Report bake_textures(const AoArguments& a, GltfDocument& document, const Scene& 
                         {"height", map.atlas.height},
                         {"primitives", map.atlas.primitives.size()},
                         {"texels_measured", map.measured},
-                        {"texels_sealed", map.sealed},
+                        {"texels_enclosed", map.sealed},
                         {"seam_before_rms", map.seam_before},
                         {"seam_rms", map.seam}});
         lit += map.measured - map.sealed;
@@ -184,7 +184,7 @@ Report bake_textures(const AoArguments& a, GltfDocument& document, const Scene& 
     Report report;
     add_figures(report, {{"textures", maps.size()},
                          {"texels", measured},
-                         {"texels_sealed", measured - lit},
+                         {"texels_enclosed", measured - lit},
                          {"rays", result.rays},
                          {"rays_per_texel", a.options.rays},
                          {"rays_per_second", static_cast<double>(result.rays) / result.seconds},

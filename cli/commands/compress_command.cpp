@@ -523,7 +523,7 @@ Json result_json(const CompressStatistics& s, const CompressOptions& options, co
         {"terms", terms_figures(transfer.layout())},
         {"receivers", receivers},
         {"clusters", s.clusters},
-        {"components_most", bases.max_components()},
+        {"components_max", bases.max_components()},
         {"components_mean", s.mean_components},
         {"predictors", predictors_in_words(bases)},
         {"shader_operations", s.operations()},

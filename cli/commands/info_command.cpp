@@ -104,7 +104,7 @@ void add_compressed(const CompressedTransfer& compressed, Report& report) {
                            {"terms", terms_figures(t.bases.layout)},
                            {"clusters", t.bases.clusters()},
                            {"components_least", *least},
-                           {"components_most", *most},
+                           {"components_max", *most},
                            {"weights", t.receivers.format == WeightFormat::packed ? "packed" : "float"},
                            {"bytes_bound_per_vertex", bytes_per_receiver(t)},
                            {"bits_used_per_vertex", bits_per_receiver(t)},
@@ -115,7 +115,7 @@ void add_compressed(const CompressedTransfer& compressed, Report& report) {
     const std::string own = "clustered_pca/";
     report.sentences.push_back(fmt::format(
         "clustered PCA: order {{{0}order}}, {1}, {2} x {{{0}components_least}} to "
-        "{{{0}components_most}} components, {{{0}weights}} weights",
+        "{{{0}components_max}} components, {{{0}weights}} weights",
         own, terms_in_words(t.bases.layout), counted(own + "clusters", t.bases.clusters(), "cluster")));
     report.sentences.push_back(fmt::format(
         "{{{0}bytes_bound_per_vertex}} bytes per vertex to bind ({{{0}bits_used_per_vertex}} bits in use)",

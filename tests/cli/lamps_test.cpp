@@ -155,7 +155,7 @@ TEST_F(LampsOnTheRoad, NameObjectsThatErrMuchMore) {
     const auto& fine = errors["objects"][0];
     EXPECT_EQ(fine["name"], "Fine");
     EXPECT_LT(fine["lamps"]["relative_l2"], 0.02);
-    EXPECT_TRUE(fine["backs"]["relative_l2"].is_null());          // one-sided
+    EXPECT_TRUE(fine["back_sides"]["relative_l2"].is_null());     // one-sided
     EXPECT_GT(errors["objects"][1]["lamps"]["relative_l2"], 0.5); // the middle is brightest, corners far away
 }
 
@@ -259,11 +259,10 @@ TEST_F(LampsOnTheRoad, ThatAreWrongAreSaidSoInALine) {
     const auto strengths = [&](const char* file) {
         return std::vector<std::string>{"relight", at("b.glb"), "-o", at("no.glb"), "--lamps", at(file)};
     };
-    refused(strengths("unknown.json"), 1,
-            "no lamp of the model is called 'Lamp.blue'; there are: Lamp.white");
+    refused(strengths("unknown.json"), 1, "the model has no lamp 'Lamp.blue'; its lamps are: Lamp.white");
     refused(strengths("negative.json"), 1, "the strength of 'Lamp.white'");
     refused(strengths("word.json"), 1, "the strength of 'Lamp.white'");
-    refused(strengths("list.json"), 1, "no object of lamps");
+    refused(strengths("list.json"), 1, "a JSON object with a strength for each lamp");
     refused(strengths("nan.json"), 1, "not valid JSON: the error is at byte");
     refused(strengths("missing.json"), 1, "missing.json");
     refused({"relight", at("n.glb"), "-o", at("no.glb")}, 1, "has no lamps, and without --env");

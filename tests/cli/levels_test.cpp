@@ -69,7 +69,7 @@ TEST_F(LevelsOfDetail, GoAllTheRoad) {
     const nlohmann::json levels = read_json(folder / "bake.json")["levels"];
     EXPECT_EQ(levels["mode"], "carry");
     ASSERT_EQ(levels["by_level"].size(), 2u);
-    EXPECT_EQ(levels["all"][1]["of"], "node 0 'ball'");
+    EXPECT_EQ(levels["all"][1]["level_0"], "node 0 'ball'");
     EXPECT_GT(levels["by_level"][0]["relative_l2"], 0);
     EXPECT_LT(levels["by_level"][0]["relative_l2"], levels["by_level"][1]["relative_l2"]);
     EXPECT_LT(levels["by_level"][1]["relative_l2"], 0.2);
