@@ -126,7 +126,7 @@ public:
     }
     std::span<const float> level() const { return modes_.level(); }
     /// Computes the transfer vector of a receiver for given mode factors in axes of the mesh. The added modes
-    /// go into the last part, because reflected light is not direct.
+    /// go into the last term, because reflected light is not direct; they are left out if that is `direct`.
     void sum(std::size_t receiver, std::span<const glm::vec3> factors, std::span<float> vector) const;
 
 private:
