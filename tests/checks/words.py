@@ -64,7 +64,7 @@ WORDS = {
 
 # Phrases with such words that are plain English.
 ALLOWED = re.compile(
-    r"\b(users?|people|readers?|anyone|everyone|someone) who\b|\bthere (is|are|was|were) no\b|\b(is|are) no (longer|more)\b"
+    r"\b(users?|people|readers?|anyone|everyone|someone) who\b|\bthere (is|are|was|were) (no|none)\b|\b(is|are) no (longer|more)\b"
     r"|\b(in|into) place\b(?! of)|\bdecimal places?\b|\b(takes?|taking|took) place\b|\bin turn\b|\bturn(s|ed|ing)? (it |them )?(on|off)\b"
     r"|\bstands? for\b|\bthat is to say\b|\b(so|as) many( \w+)? as possible\b", re.IGNORECASE)
 

@@ -45,7 +45,8 @@ public:
 
     /// Flushes to disk. Throws `Error` on failure.
     void finish();
-    /// Gives the file its name. A file that had this name is kept, and restored unless `keep()` follows.
+    /// Publishes the file under its name. A previous file with this name is set aside, and restored unless
+    /// `keep()` follows.
     void publish();
     /// Accepts the published file and removes the old one.
     void keep() noexcept;
