@@ -108,8 +108,8 @@ struct ClusteredBases {
 struct ClusterLayout {
     std::uint32_t first_row = 0;  ///< index of the first constant of the cluster
     std::uint32_t components = 0; ///< m_k
-    std::uint32_t widths[2] =
-        {}; ///< packed weights: bits - 1 of component j in four bits starting at bit 4 (j mod 8)
+    /// Packed weights: bits - 1 of component j in four bits starting at bit 4 (j mod 8).
+    std::uint32_t widths[2] = {};
 };
 
 /// Returns whether all clusters have the same number of components and, if packed, the same weight widths.

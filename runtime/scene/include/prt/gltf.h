@@ -103,7 +103,7 @@ VertexAttribute shaded_vertex_colors(const Scene& scene, std::span<const float> 
 void write_vertex_attributes(GltfDocument& document, const Scene& scene,
                              std::span<const VertexAttribute> attributes);
 
-/// A texture, as PNG files, for a set of primitives.
+/// Occlusion and bent normals of some primitives as PNG files.
 struct SurfaceTexture {
     std::vector<std::size_t> primitives; ///< indices into Scene::primitives
     int texcoord = 1;

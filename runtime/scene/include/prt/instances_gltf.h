@@ -89,12 +89,11 @@ std::vector<FileInstance> read_instances(const GltfDocument& document, const Sce
 /// Contents of a file whose instances share transfer, as stored: each mesh once, in its own frame.
 struct InstancedModel {
     Scene stored;
-    std::optional<BakedTransfer>
-        baked; ///< raw transfer of the receivers of `stored`; empty if `compressed` is set
-    std::optional<CompressedTransfer> compressed;
+    std::optional<BakedTransfer> baked; ///< raw transfer of the receivers of `stored`, if the file has it
+    std::optional<CompressedTransfer> compressed; ///< compressed transfer, if the file has it
     std::vector<FileInstance> instances;
 };
-/// Reads the model from `path`, the file of `document`. `document` and `scene` must be read with
+/// Returns the model of `document`, which was read from `path`. `document` and `scene` must be read with
 /// `Instancing::nodes`, and `shares_instances` must be true. Throws the errors of `read_instances`, and
 /// `Error` if there is no transfer.
 InstancedModel read_instanced(const GltfDocument& document, const Scene& scene,

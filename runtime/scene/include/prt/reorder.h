@@ -34,10 +34,10 @@ Transfer in_order_of(const Scene& scene, const Scene& other, const Transfer& tra
 /// Efficiency of vertex processing on a GPU that draws all triangles in order, by the analysis of
 /// meshoptimizer.
 struct VertexReuse {
-    double transforms_per_triangle =
-        0; ///< vertex shader invocations per triangle, with a cache of 16 vertices
-    double overfetch =
-        0; ///< bytes of positions fetched in cache lines of 64 bytes, divided by the size of all positions
+    /// Vertex shader invocations per triangle, with a cache of 16 vertices.
+    double transforms_per_triangle = 0;
+    /// Bytes of positions fetched in cache lines of 64 bytes, divided by the size of all positions.
+    double overfetch = 0;
 };
 /// Computes the efficiency of vertex processing for `scene`.
 VertexReuse vertex_reuse(const Scene& scene);

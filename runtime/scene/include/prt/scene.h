@@ -136,8 +136,8 @@ struct PunctualLight {
 struct EncodedImage {
     std::string name;             ///< for messages
     std::vector<std::byte> bytes; ///< empty: cannot be read
-    std::string trouble =
-        {}; ///< reason why it cannot be read; the message of the `Error` for code that needs the pixels
+    /// Reason why it cannot be read; the message of the `Error` for code that needs the pixels.
+    std::string trouble = {};
 };
 
 /// A flattened scene.
@@ -174,6 +174,7 @@ std::string receivers_id(const Scene& scene);
 struct Bounds {
     glm::vec3 low, high;
 };
+/// Returns the bounding box of all triangles.
 Bounds bounds(const Scene& scene);
 /// Returns the bounding box of one primitive; inverted and infinite if it has no triangle.
 Bounds bounds(const Scene& scene, const Primitive& primitive);

@@ -20,7 +20,7 @@ struct VertexSplit {
     std::vector<glm::uvec3> triangles; ///< indices of new vertices, with the winding order of the scene
 };
 
-/// Returns the smallest n for which no primitive has TEXCOORD_n.
+/// Returns the number of the set of texture coordinates that follows the last one of any primitive.
 int free_texcoord(const Scene& scene);
 
 /// Returns the file with the coordinates of `splits` [primitives of the scene] as TEXCOORD_`set`. All other
