@@ -13,8 +13,8 @@ namespace prt {
 struct RefineOptions {
     /// Target for the interpolation error of direct light over the surface, relative L2.
     double target = 0.02;
-    /// Maximum number of vertices of the finer scene; 0: four times the number in the scene, but at least 20
-    /// 000.
+    /// Maximum number of vertices of the finer scene; 0: four times the number in the scene, but at least
+    /// 20000.
     std::size_t max_vertices = 0;
 };
 

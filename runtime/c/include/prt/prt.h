@@ -91,7 +91,7 @@ PRT_API prt_status prt_light_from_file(int order, const char* path, int center, 
 /* A sun: a distant disc of uniform radiance. */
 typedef struct prt_sun {
     float towards[3];    /* unit direction to its center */
-    float irradiance[3]; /* of a receiver that faces it */
+    float irradiance[3]; /* irradiance of a receiver that faces it */
     float half_angle;    /* radians; 0: no extent */
 } prt_sun;
 /* Loads a light file of `prt project` (docs/format.md): the first `order` bands of its sky, and its suns.

@@ -44,7 +44,7 @@ struct EnvironmentFile {
 /// JPEG, which are read as sRGB. A path that contains "{face}" stands for six files with the layout
 /// `EnvironmentLayout::cube_faces`; "{face}" is replaced by px, nx, py, ny, pz and nz (or posx .., +x ..,
 /// right, left, top, bottom, front, back). Throws `Error` with the file name for a file that is damaged or
-/// not an environment map. Sizes in headers are limited to 192 MB plus 64 bytes per byte of the file.
+/// not an environment map. The memory for the image is limited to 192 MB plus 64 bytes per byte of the file.
 EnvironmentFile load_environment(const std::filesystem::path& path, const EnvironmentOptions& options = {});
 
 /// 8-bit RGBA pixels as stored, without color conversion.
