@@ -19,7 +19,7 @@ namespace prt {
 inline constexpr double kMinEdge = 1.0 / 8192;
 
 /// Marks edges of a scene's `WeldedEdges` for splitting. If an edge is marked, the longest edge of each of
-/// its triangles is marked, too.
+/// its triangles is also marked.
 class EdgeMarks {
 public:
     /// Keeps a reference to `edges`.

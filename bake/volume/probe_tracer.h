@@ -61,7 +61,7 @@ public:
 
     struct Task {
         std::span<const glm::vec3> positions;
-        /// [places] cells of probes, for visibility distances; empty: they are not needed.
+        /// [positions] cells of probes, for visibility distances; empty: they are not needed.
         std::span<const ProbeCell> cells = {};
         int rays = 1024; ///< approximate number of rays per position
         std::uint64_t seed = 0;

@@ -66,7 +66,7 @@ void GpuScene::upload_tables(const VulkanDevice& device, GpuQueue& queue, const 
                              std::span<const std::uint32_t> slots) {
     std::vector<std::uint32_t> asked(slots.begin(), slots.end());
     for (std::uint32_t t = 0; t < scene.surfaces().triangles();
-         ++t) // lamps that cast no shadow may be cut out, too
+         ++t) // also lamps that cast no shadow may be cut out
         if (!scene.surfaces().opaque(t) && !scene.surfaces().material(t).casts_shadow)
             asked.push_back(t);
     alpha_ = make_alpha_tables(scene, asked);
