@@ -25,8 +25,8 @@ constexpr std::size_t kExpandedAtOnce = 8; ///< instances that are processed tog
 constexpr int kMaxEndlessBounces = 200;    ///< maximum number of endless bounces
 constexpr double kMinChange = 1e-4;        ///< relative change of light on surfaces drawn once, below which
                                            ///< endless bounces stop
-constexpr int kSampleHitStride =
-    8; ///< the purpose of kHitStride, for samples: there are many of them per factor
+/// The purpose of kHitStride, for samples: there are many of them per factor.
+constexpr int kSampleHitStride = 8;
 constexpr int kMinSampleRays = 16;
 /// Minimum share of a sample's rays that end at backs for it to be a candidate. The rays are few; at sealed
 /// samples 98 of 100 end at backs.

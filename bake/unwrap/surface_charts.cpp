@@ -19,10 +19,10 @@ namespace {
 
 constexpr int kDirections = 6; ///< +x, -x, +y, -y, +z, -z
 constexpr double kSharp = 0.7; ///< cosine between the normals at an edge; below it, charts end at the edge
-constexpr double kSteepest =
-    0.3; ///< minimum cosine between the normal of a face and its axis, except for needles
-constexpr int kOverlapTexels =
-    256; ///< resolution along the longer side of a chart for the search of overlaps
+/// Minimum cosine between the normal of a face and its axis, except for needles.
+constexpr double kSteepest = 0.3;
+/// Resolution along the longer side of a chart for the search of overlaps.
+constexpr int kOverlapTexels = 256;
 
 double along(const glm::dvec3& normal, int direction) {
     return (direction % 2 == 0 ? 1 : -1) * normal[direction / 2];

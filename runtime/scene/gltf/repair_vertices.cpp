@@ -139,13 +139,13 @@ public:
 private:
     struct Normals {
         std::optional<Damaged> damaged;
-        std::vector<glm::dvec3>
-            sums; ///< [vertices] sum of the normals of the triangles at each vertex, weighted by area
+        /// [vertices] sum of the normals of the triangles at each vertex, weighted by area.
+        std::vector<glm::dvec3> sums;
     };
 
     void add_triangles(const tinygltf::Primitive& primitive, int position, Normals& normals) {
-        constexpr double kElement =
-            64; // work per element counts as bytes: limits files that use one accessor in many primitives
+        // Work per element, counted in bytes: limits files that use one accessor in many primitives.
+        constexpr double kElement = 64;
         const std::vector<float> p = read_floats(contents_.model, position, 3);
         const std::size_t vertices = p.size() / 3;
         const std::vector<glm::uvec3> triangles = read_triangles(contents_.model, primitive, vertices);
