@@ -91,7 +91,7 @@ TexelNet::TexelNet(const Scene& scene, const Atlas& atlas, std::span<const Chart
       positions_(atlas.texels()), normals_(atlas.texels()), charts_(atlas.texels(), kNoReceiver),
       sizes_(atlas.texels()) {
     const std::vector<std::uint32_t> connected = connected_triangles(scene, atlas.uv_set);
-    // Triangles whose coordinates are one point keep the size 1, which has no effect.
+    // Triangles whose coordinates are one point may have any size.
     std::vector<float> size_of(connected.size(), 1.0f);
     for (const ChartTriangle& t : charts) {
         const glm::dvec2 ab = t.corners[1] - t.corners[0], ac = t.corners[2] - t.corners[0];

@@ -116,7 +116,7 @@ class Words(unittest.TestCase):
     def test_allow_plain_texts(self):
         for path, text in [
                 (self.HEADER, "// Returns the light of suns, where it is known; at most\n// of 9 bands. What it is is not here?\nint turn;\n"),
-                (self.HEADER, "/// Users who edit in place turn it off: `told` takes place in turn.\n/// There is no lamp.\n/// There is none.\n"),
+                (self.HEADER, "/// Users who edit in place turn it off: `told` takes place in turn.\n/// There is no lamp.\n/// There is none.\n/// Places the probes.\n"),
                 (self.HEADER, "#include <told.h>\n"),
                 ("bake/scene/a.h", "// told\n"), ("shaders/bake_a.glsl", "// told\n"), ("docs/deep/a.md", "told\n"),
                 ("cli/a.cpp", 'f(name + " of suns", b ? "what" : "of it"); // told\n'),

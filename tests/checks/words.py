@@ -63,10 +63,20 @@ WORDS = {
 }
 
 # Phrases with such words that are plain English.
-ALLOWED = re.compile(
-    r"\b(users?|people|readers?|anyone|everyone|someone) who\b|\bthere (is|are|was|were) (no|none)\b|\b(is|are) no (longer|more)\b"
-    r"|\b(in|into) place\b(?! of)|\bdecimal places?\b|\b(takes?|taking|took) place\b|\bin turn\b|\bturn(s|ed|ing)? (it |them )?(on|off)\b"
-    r"|\bstands? for\b|\bthat is to say\b|\b(so|as) many( \w+)? as possible\b", re.IGNORECASE)
+ALLOWED = re.compile("|".join((
+    r"\b(users?|people|readers?|anyone|everyone|someone) who\b",
+    r"\bthere (is|are|was|were) (no|none|such)\b",
+    r"\b(is|are) no (longer|more)\b",
+    r"(^|(?<=[.!?] ))Places? (?=(the|a|an|each|all)\b)",
+    r"\b(in|into) place\b(?! of)",
+    r"\b(takes?|taking|took) place\b",
+    r"\bdecimal places?\b",
+    r"\bin turn\b",
+    r"\bturn(s|ed|ing)? (it |them )?(on|off)\b",
+    r"\bstands? for\b",
+    r"\bthat is to say\b",
+    r"\b(so|as) many( \w+)? as possible\b",
+)), re.IGNORECASE)
 
 NAMES = re.compile(r"\bk(Most|Least|Largest|Smallest)[A-Z]\w*")
 
