@@ -41,7 +41,7 @@ private:
 /// A triangle of the finer scene as a part of the original triangle.
 struct Part {
     std::uint32_t whole;               ///< triangle of the original scene
-    std::array<glm::dvec2, 3> corners; ///< barycentric coordinates of corners 1 and 2 of `combined`
+    std::array<glm::dvec2, 3> corners; ///< barycentric coordinates of corners 1 and 2 of `whole`
 };
 
 struct Bisection {

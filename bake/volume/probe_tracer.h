@@ -24,8 +24,8 @@ class OuterSums;
 /// Layout of a coefficient of incident light: the layouts of the sky and of lamps one after another.
 struct IncidentLayout {
     int order = 3;      ///< order of incident light
-    TransferLayout sky; ///< part `direct`, and `indirect` if light bounces
-    /// Coefficient k is the light of lamp k; has no parts if there are no lamps.
+    TransferLayout sky; ///< terms `direct`, and `indirect` if light bounces
+    /// Coefficient k is the light of lamp k; has no terms if there are no lamps.
     TransferLayout lamps;
 
     std::size_t coefficients() const { return static_cast<std::size_t>(coefficient_count(order)); }
