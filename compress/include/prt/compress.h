@@ -79,8 +79,8 @@ struct CompressOptions {
     /// Squared error that rounding of the bases may add, as a fraction of the squared error without it. 0:
     /// bases are float32. Without a value: 0.1. Ignored for float weights, whose bases are always float32.
     std::optional<double> basis_share = {};
-    /// For packed weights: count the size of the bases, so that clusters omit directions that cost more bytes
-    /// than they save.
+    /// For packed weights: include the bytes of the bases in the cost. Clusters then omit directions whose
+    /// bytes reduce the error more if they are spent on other clusters.
     bool bases_count = false;
     /// Cost of an error. Without a value: the metric of LightFamily::outdoor, `balanced`.
     std::optional<LightMetric> metric = {};

@@ -27,8 +27,9 @@ void reorder_vertices(GltfDocument& document, const Scene& scene, std::span<cons
 /// receivers.
 std::vector<std::uint32_t> matching_receivers(const Scene& scene, const Scene& other);
 
-/// Returns `transfer`, whose receivers are those of `other`, in the order of the receivers of `scene`. Needed
-/// because compression may reorder the vertices of a file. Throws the errors of `matching_receivers`.
+/// Returns `transfer`, whose receivers are those of `other`, in the order of the receivers of `scene`. The
+/// orders may differ, because compression may reorder the vertices of a file. Throws the errors of
+/// `matching_receivers`.
 Transfer in_order_of(const Scene& scene, const Scene& other, const Transfer& transfer);
 
 /// Efficiency of vertex processing on a GPU that draws all triangles in order, by the analysis of
