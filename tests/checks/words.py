@@ -152,7 +152,7 @@ def strings(source):
 
 
 def paragraphs(document):
-    """Paragraphs, list items, headings and table cells of Markdown, without code."""
+    """Paragraphs, list items, headings and table cells of Markdown, without code. Cells may be noun phrases."""
     texts, fenced, open_paragraph = [], False, False
     for number, line in enumerate(document.split("\n"), 1):
         if line.lstrip().startswith("```"):
@@ -165,14 +165,14 @@ def paragraphs(document):
         words = re.sub(r"^\s*([#>*+-]+|\d+\.)\s+", "", line)
         if line.lstrip().startswith("|"):
             for cell in line.strip(" |").split("|"):
-                texts.append(Text(is_fragment=" " not in cell.strip()))
+                texts.append(Text(is_fragment=not re.match(r"\s*(what|where|who) \S", cell, re.IGNORECASE)))
                 texts[-1].add(number, cell)
             open_paragraph = False
         elif not words.strip():
             open_paragraph = False
         else:
             if not open_paragraph or words != line:
-                texts.append(Text())
+                texts.append(Text(is_fragment=words == line and words[0].islower()))  # it may follow an equation
             texts[-1].add(number, words)
             open_paragraph = not line.startswith("#")
     return texts
