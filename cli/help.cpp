@@ -8,7 +8,7 @@
 namespace prt::cli {
 namespace {
 
-constexpr std::size_t kColumn = 32; ///< start of the descriptions
+constexpr std::size_t kColumn = 30; ///< start of the descriptions
 
 /// Removes the descriptions of validators, which CLI11 appends to the name of the value.
 std::string value_name(const CLI::Option& option) {
@@ -98,7 +98,7 @@ const std::vector<HelpGroup>& help_groups() {
          {"trace"}},
         {"Lights",
          {"lights", "suns", "rotate", "exposure", "lamp-strengths"},
-         {"window", "env-layout", "layer", "bad-pixels", "rotations", "sun-rays"}},
+         {"window", "env-layout", "layer", "bad-pixels", "rotations"}},
         {"Picture",
          {"size", "camera", "look-at", "fov", "show", "baked", "path-trace"},
          {"tone-map", "samples", "no-background"}},
@@ -109,11 +109,11 @@ const std::vector<HelpGroup>& help_groups() {
          {"order", "rays", "target-error", "bounces", "denoise", "fit", "refine", "preset", "lobes", "poses"},
          {"method", "enclosed", "storage", "seed", "clusters", "components", "bits", "predictors",
           "seam-weight"}},
-        {"Lamps", {"lamps", "lamp-scale", "lamp-group"}, {}},
+        {"Lamps", {"lamps", "lamp-scale"}, {}},
         {"Materials", {"subsurface", "no-shadow"}, {"metres-per-unit", "back-sides"}},
         {"Occlusion", {"falloff", "max-distance", "bent-normals", "occluders"}, {"attribute"}},
         {"Lightmap", {"texels", "high-poly"}, {}},
-        {"Volume", {"volume"}, {"volume-bounds", "volume-bytes"}},
+        {"Volume", {"volume"}, {}},
         {"Instances and levels of detail", {"instances", "levels"}, {}},
         {"File", {"combine-direct", "fallback", "reorder", "meshopt"}, {}},
         {"Reading", {}, {"smooth-normals", "bad-textures", "allow-outside", "memory-limit"}},

@@ -86,6 +86,9 @@ constexpr OldName kOldNames[] = {
     {"", "--volume-probes", "--volume probes=N"},
     {"", "--volume-error", "--volume METRES,error=X"},
     {"", "--volume-order", "--volume METRES,order=N"},
+    {"", "--volume-bounds", "--volume METRES,bounds=x0,y0,z0,x1,y1,z1"},
+    {"", "--volume-bytes", "--volume bytes=N"},
+    {"", "--volume-clusters", "removed: the number of clusters follows from the probes"},
     {"", "--volume-fit", "--volume METRES,fit=X"},
     {"ao", "--volume", "--occluders"},
     {"evaluate", "--volume", "--measure volume"},
@@ -94,6 +97,8 @@ constexpr OldName kOldNames[] = {
     {"", "--instance-samples", "--instances shared,samples=N"},
     {"", "--instance-lights", "--lights FILE"},
     {"", "--lamp-radius", "--lamps all,radius=METRES"},
+    {"", "--lamp-group", "--lamps all,group=NAME=PATTERN"},
+    {"", "--sun-rays", "--suns auto,rays=N"},
     {"", "--lamp-rays", "--lamps all,rays=N"},
     {"relight", "--lamps", "--lamp-strengths on|off|FILE"},
     {"render", "--lamps", "--lamp-strengths on|off|FILE"},
@@ -127,7 +132,9 @@ constexpr OldName kOldNames[] = {
 void check_old_name(const std::string& command, const std::string& name) {
     for (const OldName& old : kOldNames)
         if (name == old.old && (old.command.empty() || command == old.command))
-            throw CLI::ParseError(name + " is now " + std::string(old.now), CLI::ExitCodes::ExtrasError);
+            throw CLI::ParseError(name + (old.now.starts_with("removed") ? " is " : " is now ") +
+                                      std::string(old.now),
+                                  CLI::ExitCodes::ExtrasError);
 }
 
 [[noreturn]] void refuse(const char* what, const std::string& name, const std::vector<std::string>& names) {

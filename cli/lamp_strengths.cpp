@@ -100,7 +100,8 @@ void add_lamps(CLI::App* command, LampChoice& lamps) {
 void add_lamp_scale(CLI::App* command, double& scale) {
     command
         ->add_option("--lamp-scale", scale,
-                     "factor on punctual lights; 0.00146 (1/683) for candela and lux, as Blender exports\n"
+                     "factor on punctual lights; 0.00146 (1/683) for candela and lux\n"
+                     "Blender, for example, exports candela and lux\n"
                      "emissive materials are not scaled")
         ->capture_default_str()
         ->check(above_zero());

@@ -109,7 +109,7 @@ void add_output(CLI::App* command, Path& output, const std::string& text) {
 
 void add_reading(CLI::App* command, ReadingOptions& reading, double* limit) {
     command->add_flag("--allow-outside", reading.allow_outside,
-                      "allow buffers and images outside the scene's folder; for trusted scenes");
+                      "allow files outside the scene's folder; for trusted scenes");
     choice(command, "--bad-textures", reading.bad_textures, kBadTextures,
            "handling of missing, damaged or unsupported textures", "error");
     command
@@ -122,17 +122,16 @@ void add_reading(CLI::App* command, ReadingOptions& reading, double* limit) {
                 if (limit)
                     *limit = static_cast<double>(bytes);
             },
-            limit ? "limit for the bake and for the scene, as 8GB"
-                  : "limit for the scene with instances and morph targets, as 8GB")
+            limit ? "memory limit for the bake and the scene, as 8GB" : "memory limit for the scene, as 8GB")
         ->transform(CLI::AsSizeValue(true))
         ->type_name("SIZE")
-        ->default_str(limit ? "the machine's memory" : "256MB + 64 x file size");
+        ->default_str(limit ? "the machine's memory" : "256MB + 64 x file");
 }
 
 void add_smooth_normals(CLI::App* command, GltfOptions& reading) {
     command
         ->add_option("--smooth-normals", reading.smooth_normals_degrees,
-                     "make smooth normals across edges up to this angle; for meshes without normals")
+                     "smooth normals across edges up to this angle, if normals are missing")
         ->type_name("DEGREES")
         ->check(CLI::Range(0.0, 180.0));
 }
@@ -204,10 +203,10 @@ CLI::Option* add_lights(CLI::App* command, std::vector<Path>& lights, const std:
 }
 
 CLI::Option* add_light(CLI::App* command, Path& light) {
-    return command->add_option("--lights", light, kLightFiles)
+    return command->add_option("--lights", light, std::string("light of the sky\nFILE: ") + kLightFiles)
         ->check(named)
         ->type_name("FILE")
-        ->default_str("dark sky, lamps only");
+        ->default_str("lamps only");
 }
 
 void add_fit(CLI::App* command, FitMode& fit, const std::string& text) {
@@ -221,7 +220,7 @@ void add_light_options(CLI::App* command, LightOptions& options) {
            window->name);
     command
         ->add_option("--rotate", options.rotation_degrees,
-                     "rotate the environment about +Y, degrees, counter-clockwise from above")
+                     "rotate the environment about +Y, degrees\ncounter-clockwise, seen from above")
         ->capture_default_str()
         ->check(real_in(-1e6, 1e6));
     command
@@ -232,7 +231,7 @@ void add_light_options(CLI::App* command, LightOptions& options) {
                 options.environment.layout = layout.layout;
                 options.environment.center = layout.center;
             },
-            "layout of the environment image" + explained(kLayouts))
+            "layout of the image" + explained(kLayouts))
         ->type_name(names_of(kLayouts))
         ->default_str("from its shape");
     command->add_option("--layer", options.environment.layer, "layer or part of an OpenEXR environment")

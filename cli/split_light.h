@@ -17,8 +17,9 @@ struct SunCount {
     std::optional<int> count = 0; ///< unset: all that are worth separating
 };
 
-/// --suns
-void add_suns(CLI::App* command, SunCount& suns, const std::string& text, const std::string& otherwise);
+/// Adds --suns. `rays`: also adds its setting `rays`, the number of rays to each sun.
+void add_suns(CLI::App* command, SunCount& suns, const std::string& text, const std::string& usual,
+              int* rays = nullptr);
 
 /// A sky without its suns, and the suns found.
 struct SplitLight {

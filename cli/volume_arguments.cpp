@@ -22,7 +22,7 @@ VolumeArguments::WorldBounds parse_bounds(const std::string& text) {
     for (int a = 0; a < 3; ++a)
         finite = finite && std::isfinite(b.least[a]) && std::isfinite(b.most[a]);
     if (numbers != 6 || static_cast<std::size_t>(used) != text.size() || !finite)
-        throw CLI::ValidationError("--volume-bounds", "'" + text + "' is not x0,y0,z0,x1,y1,z1 in metres");
+        throw CLI::ValidationError("--volume", "bounds=" + text + ": expected x0,y0,z0,x1,y1,z1 in metres");
     return b;
 }
 
@@ -48,7 +48,7 @@ void add_volume(CLI::App* command, VolumeArguments& arguments) {
                           volume.spacing = 0;
                       })
         .number("error", 0, 0.99,
-                "split cells, down to 1/4, until transfer between probes has this relative L2 error [0: off]",
+                "split cells, down to 1/4, to reach this relative L2 error between probes [0: off]",
                 [&volume](double error) { volume.error = error; })
         .whole_number("order", 2, kMaxIncidentOrder, "SH order of the incident light at a probe [3]",
                       [&volume](int order) { volume.order = order; })
@@ -56,14 +56,9 @@ void add_volume(CLI::App* command, VolumeArguments& arguments) {
                 fmt::format("points per probe for a least-squares fit [1 from {} rays on, else 0]",
                             kRaysWorthAFit),
                 [&volume](double points) { volume.fit_points = points; })
+        .key("bounds", "x0,y0,z0,x1,y1,z1", "box of the volume, world space, metres [box of the scene]",
+             [&arguments](const std::string& text) { arguments.bounds = parse_bounds(text); })
         .add(command);
-    command
-        ->add_option_function<std::string>(
-            "--volume-bounds",
-            [&arguments](const std::string& text) { arguments.bounds = parse_bounds(text); },
-            "box of the volume, world space, metres")
-        ->type_name("x0,y0,z0,x1,y1,z1")
-        ->default_str("bounds of the scene");
 }
 
 void check_volume(const VolumeArguments& arguments) {
@@ -71,8 +66,8 @@ void check_volume(const VolumeArguments& arguments) {
     const VolumeOptions& volume = arguments.volume;
     if (!arguments.given() && (arguments.bounds || volume.order != usual.order ||
                                volume.fit_points != usual.fit_points || volume.error != usual.error))
-        throw Error("--volume and --volume-bounds need a distance or a number of probes, as --volume 0.5 or "
-                    "--volume probes=4000");
+        throw Error(
+            "--volume needs a distance or a number of probes, as --volume 0.5 or --volume probes=4000");
 }
 
 VolumeOptions volume_options(const VolumeArguments& arguments, const Scene& scene) {

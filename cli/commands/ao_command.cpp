@@ -264,7 +264,7 @@ void run(AoArguments a, Session& session) {
 
 void add_outputs(CLI::App* command, AoArguments& a) {
     CLI::Option* texels = add_texels(command, a.textures, "bake textures instead of vertices");
-    command->add_option("--attribute", a.attribute, "vertex attribute to write; its name begins with _")
+    command->add_option("--attribute", a.attribute, "attribute to write; its name begins with _")
         ->default_str("COLOR_0, multiplied")
         ->excludes(texels);
     command->add_flag("--bent-normals", a.outputs.bent_normals,
@@ -272,7 +272,7 @@ void add_outputs(CLI::App* command, AoArguments& a) {
                       "vertices: the attribute _BENT_NORMAL; textures: named in extras.prtkit of materials");
     command
         ->add_flag("--occluders", a.outputs.occluders,
-                   "write occlusion volumes of moving objects instead, for contact shadows\n"
+                   "write occlusion volumes of moving objects instead\nthey are for contact shadows\n"
                    "one volume for each object that moves as one part, and for each bone of a skinned figure")
         ->excludes(texels)
         ->excludes("--attribute")
@@ -287,7 +287,7 @@ void add_falloff(CLI::App* command, Falloff& falloff) {
                 for (const std::string& text : texts)
                     falloff.terms.push_back(parse_term(text));
             },
-            "obscurance: surfaces at this distance, metres, block half of the light\n"
+            "obscurance: distance at which surfaces block half, metres\n"
             "several distances with shares: 2:97,300:3")
         ->delimiter(',')
         ->allow_extra_args(false)
@@ -308,7 +308,7 @@ void add_ao(CLI::App& app, Session& session) {
     add_output(command, a.output, "model to write, .glb");
     add_outputs(command, a);
     add_falloff(command, a.options.tracer.falloff);
-    command->add_option("--rays", a.rays, "rays per vertex, texel, or point of a volume")
+    command->add_option("--rays", a.rays, "rays per vertex, texel or occluder point")
         ->check(CLI::Range(1, kMaxRays))
         ->default_str("1024; --occluders: 256");
     add_fit(command, a.options.fit, "where the occlusion of vertices is measured");

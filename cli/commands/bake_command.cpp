@@ -78,11 +78,17 @@ bool all_in(const glm::dvec3& v, double low, double high) {
     return v.x >= low && v.x <= high && v.y >= low && v.y <= high && v.z >= low && v.z <= high;
 }
 
-/// Returns "marble, skin1, ...".
+/// Returns "marble, skin1, ...", in lines of help.
 std::string names_of_media() {
     std::string names;
-    for (const NamedMedium& named : measured_media())
-        names += (names.empty() ? "" : ", ") + std::string(named.name);
+    std::size_t line = 0;
+    for (const NamedMedium& named : measured_media()) {
+        if (names.size() - line > 70) {
+            names += ",\nnames: ";
+            line = names.size();
+        }
+        names += (names.size() == line ? "" : ", ") + std::string(named.name);
+    }
     return names;
 }
 
@@ -132,10 +138,10 @@ void add_transport(CLI::App* command, BakeOptions& options) {
                     options.subsurface.media.push_back(parse_medium(text));
             },
             "subsurface scattering in a material, or in all\n"
-            "MEDIUM: " +
+            "MEDIUM: a name, or sr,sg,sb,ar,ag,ab: reduced scattering and absorption, 1/mm\n"
+            "names: " +
                 names_of_media() +
                 "\n"
-                "MEDIUM: or sr,sg,sb,ar,ag,ab: reduced scattering and absorption, 1/mm\n"
                 "repeat the option for several materials")
         ->allow_extra_args(false) // one each time, so that the scene may follow
         ->type_name("[MATERIAL=]MEDIUM");
@@ -151,7 +157,7 @@ void add_transport(CLI::App* command, BakeOptions& options) {
 LampGroup parse_group(const std::string& text) {
     const std::size_t equals = text.find('=');
     if (equals == 0 || equals == std::string::npos || equals + 1 == text.size())
-        throw CLI::ValidationError("--lamp-group", "'" + text + "' is not NAME=PATTERN");
+        throw CLI::ValidationError("--lamps", "group=" + text + ": expected NAME=PATTERN");
     return {text.substr(0, equals), text.substr(equals + 1)};
 }
 
@@ -163,18 +169,10 @@ void add_lamps(CLI::App* command, LampOptions& lamps) {
                 [&lamps](double metres) { lamps.radius = metres; })
         .whole_number("rays", 1, kMaxRays, "rays from a receiver to the lamps of a name [64]",
                       [&lamps](int rays) { lamps.rays = rays; })
+        .key("group", "NAME=PATTERN", "one term for all lamps that match; *: any letters; repeatable",
+             [&lamps](const std::string& text) { lamps.groups.push_back(parse_group(text)); })
         .add(command)
         ->default_str("all");
-    command
-        ->add_option_function<std::vector<std::string>>(
-            "--lamp-group",
-            [&lamps](const std::vector<std::string>& texts) {
-                for (const std::string& text : texts)
-                    lamps.groups.push_back(parse_group(text));
-            },
-            "one term for all lamps that match; *: any letters; repeat the option")
-        ->allow_extra_args(false)
-        ->type_name("NAME=PATTERN");
 }
 
 void add_method(CLI::App* command, BakeOptions& options) {

@@ -24,6 +24,7 @@
 #include "report/trace_lines.h"
 #include "report/volume_report.h"
 #include "sky_errors.h"
+#include "suboptions.h"
 
 #include <fmt/ranges.h>
 
@@ -123,8 +124,8 @@ void add_preset(CLI::App* command, SearchOptions& o) {
             "bits of all weights of a vertex, 0 to 240\n"
             "float: weights are not quantized, to measure the error of quantization")
         ->type_name("N|float");
-    choice(command, "--predictors", o.compress.predictors, kPredictors,
-           "attributes that predict transfer in the shader", "normal, chosen for a goal");
+    choice(command, "--predictors", o.compress.predictors, kPredictors, "attributes that predict transfer",
+           "normal");
 }
 
 void set_max_jump(const std::string& value, Budget& budget) {
@@ -144,11 +145,12 @@ void add_goals(CLI::App* command, SearchOptions& o) {
     command
         ->add_option_function<std::string>(
             "--max-jump", [&o](const std::string& value) { set_max_jump(value, o.budget); },
-            "maximum jump of the error between clusters, share of the mean radiance\n"
+            "maximum error jump between clusters, share of the mean radiance\n"
             "holds for 99 % of the borders, by area: under each of --lights at 24 rotations\n"
-            "none: no limit")
+            "none: no limit; " +
+                fmt::format("with --max-error and no other goal, the default is {}", kUnseenJump))
         ->type_name("X|none")
-        ->default_str(fmt::format("{} with --max-error alone", kUnseenJump));
+        ->default_str("none");
     command
         ->add_option("--bytes-per-vertex", o.budget.bytes_per_vertex,
                      "smallest error with at most this size, bases included\n"
@@ -756,18 +758,23 @@ void add_compress(CLI::App& app, Session& session) {
         ->capture_default_str()
         ->check(real_in(0, kMaxSeamWeight));
     command->add_flag("--combine-direct", a.writing.whole,
-                      "merge direct and indirect transfer: smaller, but suns have no sharp shadows");
+                      "merge direct and indirect transfer: smaller, no sharp shadows of suns");
     command
         ->add_option("--fallback", a.writing.fallback,
                      "light for viewers without PRT support, as vertex colors\n"
                      "FILE: environment (.exr, .hdr, .png, .jpg) or light (.json)")
         ->check(named)
         ->type_name("FILE");
-    command
-        ->add_option("--volume-bytes", a.volume_bytes,
-                     "bytes per probe of a volume: 4, 8, 12, 16, 20, 24 or 28")
-        ->capture_default_str()
-        ->check(CLI::IsMember({4, 8, 12, 16, 20, 24, 28}));
+    Suboptions("--volume", "", "size of a baked volume", nullptr)
+        .key("bytes", "N", "bytes per probe: 4, 8, 12, 16, 20, 24 or 28 [16]",
+             [&a](const std::string& text) {
+                 const std::optional<int> bytes = whole_number(text);
+                 if (!bytes || *bytes < 4 || *bytes > 28 || *bytes % 4 != 0)
+                     throw CLI::ValidationError("--volume",
+                                                "bytes=" + text + ": expected a multiple of 4 from 4 to 28");
+                 a.volume_bytes = *bytes;
+             })
+        .add(command);
     command->add_flag("--reorder", a.writing.reorder, "sort vertices by cluster");
     command->add_flag("--meshopt", a.writing.meshopt,
                       "compress the file: EXT_meshopt_compression, entropy-coded weights");

@@ -247,9 +247,7 @@ void add_info(CLI::App& app, Session& session) {
     auto& a = arguments_for<InfoArguments>(command,
                                            [&session](const InfoArguments& given) { run(given, session); });
     command->add_option("file", a.file, "any .gltf or .glb")->required()->check(named);
-    command->add_flag(
-        "--check", a.check,
-        "also list problems for a bake or an importer, with remedies; status 1 if there are any");
+    command->add_flag("--check", a.check, "list problems with remedies; status 1 if there are any");
     add_reading(command, a.reading);
     add_json(command, a.json);
 }

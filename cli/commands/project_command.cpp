@@ -131,7 +131,7 @@ void add_project(CLI::App& app, Session& session) {
     command->add_option("--order", a.order, "SH order N, 1 to 10: N² coefficients")
         ->capture_default_str()
         ->check(CLI::Range(1, kMaxOrder));
-    add_suns(command, a.suns, "suns in the image, written separately; the rest becomes coefficients", "0");
+    add_suns(command, a.suns, "suns in the image, written separately from the coefficients", "0");
     add_light_options(command, a.light_options);
     add_threads(command, a.threads);
     add_json(command, a.json);

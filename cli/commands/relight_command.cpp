@@ -211,11 +211,8 @@ void add_relight(CLI::App& app, Session& session) {
     command->add_option("model", a.model, "baked or compressed .glb")->required()->check(named);
     add_light(command, a.environment);
     add_output(command, a.output, "model to write, .glb; COLOR_0 is the light");
-    add_suns(command, a.suns, "suns in the light, shadowed by rays", "auto");
+    add_suns(command, a.suns, "suns in the light, shadowed by rays", "auto", &a.rays);
     add_lamps(command, a.lamps);
-    command->add_option("--sun-rays", a.rays, "rays from a vertex to each sun")
-        ->capture_default_str()
-        ->check(CLI::Range(1, 1 << 20));
     choice(command, "--colors", a.colors, kColors, "values of COLOR_0", "radiance");
     add_exposure(command, a.exposure);
     add_light_options(command, a.light_options);

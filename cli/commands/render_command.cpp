@@ -540,9 +540,7 @@ void add_render(CLI::App& app, Session& session) {
     CLI::App* command = app.add_subcommand("render", "Draw a picture of a file under a light");
     auto& a = arguments_for<RenderArguments>(
         command, [&session](const RenderArguments& given) { run(given, session); });
-    command
-        ->add_option("model", a.model,
-                     ".gltf or .glb: compressed, baked, or without transfer (then unshadowed)")
+    command->add_option("model", a.model, ".gltf or .glb; without transfer, the sky casts no shadows")
         ->required()
         ->check(named);
     add_light(command, a.environment);
@@ -554,8 +552,7 @@ void add_render(CLI::App& app, Session& session) {
         ->type_name("FILE")
         ->check(named);
     command
-        ->add_option("--path-trace", a.look.paths,
-                     "path-traced picture with N paths per pixel: sky, suns, lamps, all bounces")
+        ->add_option("--path-trace", a.look.paths, "draw by path tracing with N paths per pixel, all bounces")
         ->type_name("N")
         ->check(CLI::Range(2, 1 << 20));
     add_exposure(command, a.look.exposure);
@@ -566,13 +563,9 @@ void add_render(CLI::App& app, Session& session) {
     command->add_flag("!--no-background", a.look.background,
                       "draw a black background instead of the environment");
     add_light_options(command, a.light_options);
-    add_suns(command, a.lights.suns, "suns in the light, drawn with sharp shadows; 0: part of the sky",
-             "auto");
+    add_suns(command, a.lights.suns, "suns in the light, drawn with sharp shadows", "auto");
     add_lamps(command, a.lights.lamps);
     add_lamp_scale(command, a.lights.lamp_scale);
-    command->add_option("--sun-rays", a.lights.sun_rays, "rays from a pixel to each sun")
-        ->capture_default_str()
-        ->check(CLI::Range(1, 1 << 20));
     add_reading(command, a.reading);
     add_threads(command, a.threads);
     add_json(command, a.json);
