@@ -68,9 +68,9 @@ class Glb {
 }
 
 /// Numbers of a transfer vector.
-const columnsOf = (part, order) => (part.kind === "lamp" ? 1 : order * order);
-const dimensionOf = ({ order, parts }) =>
-  parts.reduce((sum, part) => sum + part.channels * columnsOf(part, order), 0);
+const columnsOf = (term, order) => (term.kind === "lamp" ? 1 : order * order);
+const dimensionOf = ({ order, terms }) =>
+  terms.reduce((sum, term) => sum + term.channels * columnsOf(term, order), 0);
 
 /// Vectors [receivers][S] of a buffer view.
 function rawVectors(glb, extension, view) {
@@ -281,43 +281,43 @@ function texels(baked, shipped) {
 const baked = new Glb(process.argv[2]);
 const shipped = new Glb(process.argv[3]);
 const ofTexels = baked.json.extensions.PRTKIT_lightmap;
-const { order, parts } = ofTexels ?? baked.json.extensions.PRTKIT_transfer;
-const channels = Math.max(...parts.map((part) => part.channels));
+const { order, terms } = ofTexels ?? baked.json.extensions.PRTKIT_transfer;
+const channels = Math.max(...terms.map((term) => term.channels));
 
-/// E[ a·b ] of the light in band l on two parts under natural light: docs/math.md, section 4.
+/// E[ a·b ] of the light in band l on two terms under natural light: docs/math.md, section 4.
 function power(l, kindA, kindB) {
   const falling = (p, fall) => (l === 0 ? 1 : p * l ** -fall);
-  if (parts.filter(({ kind }) => kind !== "lamp").length === 1) return falling(0.28, 0.6);
+  if (terms.filter(({ kind }) => kind !== "lamp").length === 1) return falling(0.28, 0.6);
   return falling(0.24, 0.85) + (kindA === "direct" || kindB === "direct" ? 0.05 : 0.1);
 }
 
-/// A vector by colour and part: [colours][parts][columns].
+/// A vector by colour and term: [colours][terms][columns].
 function byColor(vector) {
   return Array.from({ length: channels }, (_, c) => {
     let at = 0;
-    return parts.map((part) => {
-      const columns = columnsOf(part, order);
-      const from = at + Math.min(c, part.channels - 1) * columns;
-      at += part.channels * columns;
+    return terms.map((term) => {
+      const columns = columnsOf(term, order);
+      const from = at + Math.min(c, term.channels - 1) * columns;
+      at += term.channels * columns;
       return vector.slice(from, from + columns);
     });
   });
 }
 
-/// The squares of a vector's numbers, a grey part counted for each colour, and its expected square of light.
+/// The squares of a vector's numbers, a grey term counted for each colour, and its expected square of light.
 function costs(vector) {
   let squares = 0;
   let lit = 0;
   const byLamps = new Map();
   for (const of of byColor(vector))
-    parts.forEach((a, p) =>
+    terms.forEach((a, p) =>
       of[p].forEach((value, i) => {
         squares += value ** 2;
         if (a.kind === "lamp") {
           byLamps.set(p, (byLamps.get(p) ?? 0) + value ** 2); // each lamp separately, at its own strength
           return;
         }
-        parts.forEach((b, q) => {
+        terms.forEach((b, q) => {
           if (b.kind !== "lamp") lit += value * of[q][i] * power(Math.floor(Math.sqrt(i)), a.kind, b.kind);
         });
       }),
@@ -326,7 +326,7 @@ function costs(vector) {
 }
 
 const sums = { error: 0, norm: 0, litError: 0, litNorm: 0 };
-const lamps = new Map(); // by part: its error and norm
+const lamps = new Map(); // by term: its error and norm
 for (const { area, vector, decoded } of ofTexels ? texels(baked, shipped) : vertices(baked, shipped)) {
   const [error, litError, lampError] = costs(vector.map((value, k) => value - decoded[k]));
   const [norm, litNorm, lampNorm] = costs(vector);

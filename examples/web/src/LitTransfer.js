@@ -4,7 +4,7 @@ import { Vector3 } from "three";
 import { lightColumns } from "./clusteredPca.js";
 import { checkSunLights, sunsOf } from "./directionalSuns.js";
 import { lightOfSuns } from "./lightFile.js";
-import { shownBy, rotationForModel, rotateIntoModel } from "./turns.js";
+import { shownBy, rotationForModel, rotationIntoModel } from "./rotations.js";
 import { warnOfUnusedLights } from "./unusedLights.js";
 
 /** Base class; derived classes implement `update(sky, suns)`, with coefficients in the space of the bake. */
@@ -69,7 +69,7 @@ export class LitTransfer {
     this.sky.shown = now;
     const rotation = rotationForModel(scene, this.root);
     const seen = (source) => source.rotated(rotation).times(strength).coefficients();
-    const ownLight = own && lightOfSuns(own, this.order).rotated(rotateIntoModel(this.root)).coefficients();
+    const ownLight = own && lightOfSuns(own, this.order).rotated(rotationIntoModel(this.root)).coefficients();
     this.update(seen(light), ownLight ?? (suns ? seen(suns) : null));
   }
 

@@ -5,7 +5,7 @@ import { BufferGeometry, InstancedBufferAttribute, InstancedMesh, Matrix4 } from
 import { bakedFrame } from "./bakedFrame.js";
 import { InstanceRelighter, rowsOf } from "./InstanceRelighter.js";
 import { FACTORS } from "./instanceModes.js";
-import { evenRotation, factorsOf, movingNodes, positionsOf } from "./instanceNodes.js";
+import { evenRotation, factorsOf, movingNodes, matricesOf } from "./instanceNodes.js";
 import { clustersTextureOf, constantsTextureOf, tablesOf, widthFor } from "./tables.js";
 import { expect, INSTANCES } from "./wholeExtension.js";
 
@@ -63,13 +63,13 @@ async function instancesOf({ nodes, moves }, objects, factors, boxes, parser) {
   for (const node of nodes) {
     const object = objects.get(node.node);
     if (!object) continue; // in a different scene
-    const points = await positionsOf(node, parser, count - node.first);
-    points.forEach((point, i) => {
-      const world = object.matrixWorld.clone().multiply(point);
+    const matrices = await matricesOf(node, parser, count - node.first);
+    matrices.forEach((matrix, i) => {
+      const world = object.matrixWorld.clone().multiply(matrix);
       const rotation = evenRotation(world);
       expect(rotation, `node ${node.node} draws an instance that it mirrors or scales unevenly`, INSTANCES);
       const own = factors.subarray(FACTORS * (node.first + i), FACTORS * (node.first + i + 1));
-      instances.push({ matrix: moves ? point : world, rotation, factors: own, box: boxes[node.box] });
+      instances.push({ matrix: moves ? matrix : world, rotation, factors: own, box: boxes[node.box] });
     });
   }
   return instances;

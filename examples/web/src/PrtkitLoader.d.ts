@@ -212,7 +212,7 @@ export class SunLights extends Group {
    */
   fit(object: Object3D | Box3): this;
   /** Rotates the suns about +Y by `angle` radians, as `setLight` does with the light. */
-  rotation(angle: number): this;
+  rotate(angle: number): this;
   /**
    * Rotates and dims the suns in every frame as `scene` does its environment, as `setSky` does with the
    * light.

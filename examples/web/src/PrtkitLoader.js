@@ -11,7 +11,7 @@
 // With separate suns, from a light file of `prt project --suns auto`:
 //
 //   const { sky, suns } = readLightFile(await (await fetch("light.json")).json());
-//   const lights = new SunLights(suns).fit(gltf.scene).turn(angle);
+//   const lights = new SunLights(suns).fit(gltf.scene).rotate(angle);
 //   scene.add(lights);
 //   prtkit.setLight(sky.deringed(), angle, lightOfSuns(suns, prtkit.order));
 //
@@ -74,14 +74,14 @@ export class PrtkitPlugin {
   async afterRoot(gltf) {
     const { [VERTICES]: vertices, [TEXELS]: texels, [PROBES]: probes, [LOBES]: lobes } = this.parser.json.extensions ?? {};
     expect(!vertices || !texels, "the file has the transfer of texels, too");
-    expect(!lobes || !(vertices || texels), "the file has transfer that does not turn with a skin, too", LOBES);
+    expect(!lobes || !(vertices || texels), "the file also has transfer that does not rotate with a skin", LOBES);
     const name = [vertices && VERTICES, texels && TEXELS, probes && PROBES, lobes && LOBES].find(Boolean);
     expect(!name || gltf.scene, "the file has no scene", name);
-    const terms = await occludersOf(this.parser, gltf, (list) => this.viewsOf(list, OCCLUDERS));
-    if (terms.length > 0) gltf.userData.prtkitOccluders = new PrtkitOccluders(terms);
+    const occluders = await occludersOf(this.parser, gltf, (list) => this.viewsOf(list, OCCLUDERS));
+    if (occluders.length > 0) gltf.userData.prtkitOccluders = new PrtkitOccluders(occluders);
     const volume = probes ? await this.volume(probes, gltf.scene) : null;
     if (vertices || texels) gltf.userData.prtkit = Object.assign(await this.surfaces(vertices, texels, gltf), { volume });
-    else if (lobes) gltf.userData.prtkit = Object.assign(await this.rotating(lobes, gltf), { volume });
+    else if (lobes) gltf.userData.prtkit = Object.assign(await this.lobesModel(lobes, gltf), { volume });
     else if (volume) gltf.userData.prtkit = volume;
     if (gltf.userData.prtkit) gltf.scenes.forEach(noteLightsOfFile);
   }
@@ -109,7 +109,7 @@ export class PrtkitPlugin {
   }
 
   /** Returns the model of lobes that rotate with a skin. */
-  async rotating(extension, gltf) {
+  async lobesModel(extension, gltf) {
     checkLobes(extension);
     const { bufferView } = extension.profiles;
     const model = new PrtkitLobes(extension, (await this.viewsOf([bufferView], LOBES)).get(bufferView));

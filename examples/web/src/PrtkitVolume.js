@@ -85,9 +85,9 @@ export class PrtkitVolume extends LitTransfer {
       prtSkyLight: { value: Array.from({ length: order * order }, () => new Vector3()) },
       prtSeparateSuns: { value: false },
     };
-    this.asked = null; // light that is to be formed
+    this.asked = null; // requested light that is not computed yet
     this.steps = null; // steps of the light being computed
-    this.isFormed = false; // any light
+    this.hasLight = false; // any light
     this.frame = -1;
     this.renderers = new WeakSet(); // renderers whose textures are large enough
     this.tables = null; // tables of nodes
@@ -171,7 +171,7 @@ export class PrtkitVolume extends LitTransfer {
   /** Replaces the shown light by the computed one. */
   show({ separate, open }) {
     this.steps = null;
-    this.isFormed = true;
+    this.hasLight = true;
     [this.spare, this.texture.image.data] = [this.texture.image.data, this.spare];
     this.texture.needsUpdate = true;
     this.uniforms.prtSeparateSuns.value = separate;
@@ -203,7 +203,7 @@ export class PrtkitVolume extends LitTransfer {
     this.checkSize(renderer);
     this.updateTransform();
     this.followSky();
-    if (!this.isFormed) this.settle();
+    if (!this.hasLight) this.settle();
     else if (!this.isSettled) this.step();
   }
 

@@ -1,7 +1,7 @@
 // The suns of a light file as three's directional lights, with shadow maps fitted to the lit objects.
 
 import { Box3, DirectionalLight, Group, Vector3 } from "three";
-import { environmentRotation, shownBy, turnedBy } from "./turns.js";
+import { environmentRotation, shownBy, rotatedBy } from "./rotations.js";
 
 const RADIUS_AT = 0.1; // equal to the value in sunLight.glsl
 const MARGIN = 2; // texels of a map beyond the fitted box
@@ -49,7 +49,7 @@ export class SunLights extends Group {
   }
 
   /** Rotates the suns about +Y by `angle` radians, as `setLight` does with the light. */
-  rotation(angle) {
+  rotate(angle) {
     const [c, s] = [Math.cos(angle), Math.sin(angle)];
     this.scene = null;
     this.rotated = [c, 0, -s, 0, 1, 0, s, 0, c];
@@ -96,7 +96,7 @@ export class SunLights extends Group {
     this.lights.forEach((light, i) => {
       const { towards, halfAngle } = this.suns[i];
       light.target.position.copy(centre);
-      light.position.fromArray(turnedBy(this.rotated, towards));
+      light.position.fromArray(rotatedBy(this.rotated, towards));
       light.position.multiplyScalar(2 * radius).add(centre);
       fitShadow(light.shadow, light.position, this.box, Math.tan(Math.min(halfAngle, 1.5)));
     });

@@ -110,7 +110,7 @@ function decodedRows({ order, terms, outputs, components, predictors, firstRows,
   const dimension = dimensionOf({ order, terms, outputs });
   const axisCount = bases.values.drops.length;
   expect(bases.axes.drops.length === dimension, "the sizes of the coded bases do not fit together");
-  const numbers = (term, count, largest, what) => floats(view(bases[term].bufferView), count, largest, what);
+  const numbers = (name, count, largest, what) => floats(view(bases[name].bufferView), count, largest, what);
   const origin = numbers("origin", dimension, LARGEST_TRANSFER, "the numbers of the origin");
   const scales = numbers("scales", axisCount, Number.MAX_VALUE, "the scales");
   const units = bases.units ? numbers("units", dimension, Number.MAX_VALUE, "the units") : new Float32Array(dimension).fill(1);

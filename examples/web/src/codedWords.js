@@ -47,7 +47,7 @@ class RansDecoder {
     this.bytes = bytes;
     this.slots = slots;
     this.position = 0;
-    this.rotation = 0;
+    this.current = 0;
     this.states = Array.from({ length: STATES }, () => {
       const low = this.unit();
       return low + 65536 * this.unit();
@@ -58,20 +58,20 @@ class RansDecoder {
     this.position += 2;
     return this.position <= this.bytes.length ? this.bytes[at] | (this.bytes[at + 1] << 8) : 0;
   }
-  takeTurns(state) {
-    this.states[this.rotation] = state < LEAST_STATE ? state * 65536 + this.unit() : state;
-    this.rotation = (this.rotation + 1) % STATES;
+  advance(state) {
+    this.states[this.current] = state < LEAST_STATE ? state * 65536 + this.unit() : state;
+    this.current = (this.current + 1) % STATES;
   }
   symbol(context) {
-    const state = this.states[this.rotation];
+    const state = this.states[this.current];
     const at = 3 * (context * TOTAL + (state & (TOTAL - 1)));
     const frequency = this.slots[at + 1];
-    this.takeTurns(frequency * (state >>> FREQUENCY_BITS) + this.slots[at + 2]);
+    this.advance(frequency * (state >>> FREQUENCY_BITS) + this.slots[at + 2]);
     return this.slots[at];
   }
   plain(width) {
-    const state = this.states[this.rotation];
-    this.takeTurns(state >>> width);
+    const state = this.states[this.current];
+    this.advance(state >>> width);
     return state & ((1 << width) - 1);
   }
   endsWell() {

@@ -86,7 +86,7 @@ export function evenRotation({ elements: e }) {
 const SIZES = { TRANSLATION: 3, ROTATION: 4, SCALE: 3 };
 
 /** Returns the matrices of the instances of a node, in its space, at most `most`; `parser`: of GLTFLoader. */
-export async function positionsOf({ node, attributes }, parser, most) {
+export async function matricesOf({ node, attributes }, parser, most) {
   if (attributes === null) return [new Matrix4()];
   const read = {};
   for (const [name, size] of Object.entries(SIZES)) {
@@ -102,12 +102,12 @@ export async function positionsOf({ node, attributes }, parser, most) {
   }
   const counts = Object.values(read).map(({ count }) => count);
   holds(counts.length > 0 && counts.every((count) => count === counts[0]), `the instances of node ${node} have attributes of different length, or none`);
-  const [point, rotation, scale] = [new Vector3(), new Quaternion(), new Vector3(1, 1, 1)];
+  const [position, rotation, scale] = [new Vector3(), new Quaternion(), new Vector3(1, 1, 1)];
   return Array.from({ length: counts[0] }, (_, i) => {
-    if (read.TRANSLATION) point.fromBufferAttribute(read.TRANSLATION, i);
+    if (read.TRANSLATION) position.fromBufferAttribute(read.TRANSLATION, i);
     if (read.ROTATION) rotation.fromBufferAttribute(read.ROTATION, i).normalize();
     if (read.SCALE) scale.fromBufferAttribute(read.SCALE, i);
-    return new Matrix4().compose(point, rotation, scale);
+    return new Matrix4().compose(position, rotation, scale);
   });
 }
 

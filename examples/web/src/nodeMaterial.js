@@ -142,8 +142,8 @@ const lit = (Base) =>
      */
     customProgramCacheKey() {
       const { model, defines, traits, lightMap } = this._transfer;
-      const terms = [(model.constantsTexture ?? model.texture).id, JSON.stringify(defines), traits?.lit, traits?.transmission.w > 0, lightMap?.channel];
-      return `${super.customProgramCacheKey()}:prtkit:${terms.join(":")}`;
+      const key = [(model.constantsTexture ?? model.texture).id, JSON.stringify(defines), traits?.lit, traits?.transmission.w > 0, lightMap?.channel];
+      return `${super.customProgramCacheKey()}:prtkit:${key.join(":")}`;
     }
 
     setupEnvironment(builder) {

@@ -307,7 +307,7 @@ export class Picture {
       for (const { userData } of this.before ? [this.gltf, this.before] : [this.gltf])
         userData.prtkit.setLight(sky.times(this.daylight), this.angle, suns?.times(this.daylight) ?? null, this.lamps);
     }
-    this.sunLights?.rotation(this.angle).dim(this.daylight);
+    this.sunLights?.rotate(this.angle).dim(this.daylight);
     this.draw();
   }
 

@@ -43,17 +43,17 @@ export function shownBy(scene) {
 }
 
 /** Returns the rotation from world directions to those of `root`, the model as baked. */
-export const rotateIntoModel = (root) => transposed(worldRotation(root));
+export const rotationIntoModel = (root) => transposed(worldRotation(root));
 
 /**
  * Returns the rotation from the directions of the image to those of `root`, the model as baked, which may be
  * rotated since.
  */
 export function rotationForModel(scene, root) {
-  return product(rotateIntoModel(root), environmentRotation(shownBy(scene).euler));
+  return product(rotationIntoModel(root), environmentRotation(shownBy(scene).euler));
 }
 
 /** Returns the vector `v` [3] rotated by a matrix. */
-export function turnedBy(m, [x, y, z]) {
+export function rotatedBy(m, [x, y, z]) {
   return [m[0] * x + m[3] * y + m[6] * z, m[1] * x + m[4] * y + m[7] * z, m[2] * x + m[5] * y + m[8] * z];
 }

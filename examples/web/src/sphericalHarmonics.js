@@ -66,7 +66,7 @@ export function gaussLegendre(count) {
 }
 
 /**
- * Returns for each band l the matrix M_ij = ∫ Y_i(w) Y_j(turn(w)) dw, by an exact quadrature: light of
+ * Returns for each band l the matrix M_ij = ∫ Y_i(w) Y_j(rotation(w)) dw, by an exact quadrature: light of
  * coefficients L is M L in axes that `rotation` maps to those of L. `rotation(x, y, z)`: the direction [3] after a
  * rotation.
  */
@@ -195,9 +195,9 @@ export class ShLight {
     const rings = gaussLegendre(order);
     const basis = new Float64Array(order * order);
     for (let r = 0; r < order; ++r)
-      for (let rotation = 0; rotation < 2 * order; ++rotation) {
+      for (let column = 0; column < 2 * order; ++column) {
         const z = rings.nodes[r];
-        const phi = (Math.PI * rotation) / order;
+        const phi = (Math.PI * column) / order;
         const [x, y] = [Math.sqrt(1 - z * z) * Math.cos(phi), Math.sqrt(1 - z * z) * Math.sin(phi)];
         const weight = (rings.weights[r] * Math.PI) / order;
         const radiance = [0, 0, 0];
@@ -312,12 +312,12 @@ export function projectLatLong(image, order) {
  */
 function radianceOnGrid(order, shares, rows) {
   const columns = 2 * rows;
-  const rotations = new Float64Array(2 * order * columns); // cos(m phi), sin(m phi)
+  const harmonics = new Float64Array(2 * order * columns); // cos(m phi), sin(m phi)
   for (let m = 0; m < order; ++m)
     for (let x = 0; x < columns; ++x) {
       const phi = (Math.PI * (x + 0.5)) / rows;
-      rotations[2 * m * columns + x] = Math.cos(m * phi);
-      rotations[(2 * m + 1) * columns + x] = Math.sin(m * phi);
+      harmonics[2 * m * columns + x] = Math.cos(m * phi);
+      harmonics[(2 * m + 1) * columns + x] = Math.sin(m * phi);
     }
   const basis = new Float64Array(order * order);
   const values = new Float64Array(columns);
@@ -340,7 +340,7 @@ function radianceOnGrid(order, shares, rows) {
           if (m > 0) sines += basis[index(l, m)] * shares[3 * index(l, -m) + channel];
         }
         for (let x = 0, at = 2 * m * columns; x < columns; ++x)
-          values[x] += cosine * rotations[at + x] + sines * rotations[at + columns + x];
+          values[x] += cosine * harmonics[at + x] + sines * harmonics[at + columns + x];
       }
       for (let x = 0; x < columns; ++x) {
         if (values[x] < lowest[x]) lowest[x] = values[x];

@@ -20,10 +20,10 @@ function packedWords(groups) {
 function wordAttribute(words, stride, first) {
   const size = Math.min(4, stride - first);
   const count = words.length / stride;
-  const term = new Uint32Array(count * size);
+  const own = new Uint32Array(count * size);
   for (let v = 0; v < count; ++v)
-    for (let w = 0; w < size; ++w) term[v * size + w] = words[v * stride + first + w];
-  return new BufferAttribute(term, size);
+    for (let w = 0; w < size; ++w) own[v * size + w] = words[v * stride + first + w];
+  return new BufferAttribute(own, size);
 }
 
 /** The first `count` groups of weights, taken out of a geometry with all of them. */

@@ -121,7 +121,7 @@ export function checkExtension(extension) {
 /** Validates the common members of vertices and texels. */
 function checkClusters(extension) {
   const { order, terms, components, predictors, centers } = extension;
-  expect(isWhole(order, 1, 10) && areTerms(terms), "order or parts are wrong");
+  expect(isWhole(order, 1, 10) && areTerms(terms), "order or terms are wrong");
   expect(terms.every(({ towards }) => towards === undefined), 'a sun is among the lamps of the terms ("towards"), as older versions wrote it; bake the scene again');
   expect(Array.isArray(components) && isWhole(components.length, 1, 65536), "the components are no list of 1 to 65536");
   expect(components.every((m) => isWhole(m, 0, 600)), "the components of a cluster are wrong");
@@ -230,5 +230,5 @@ export function viewsOf({ packing, centers, predictors, bases, bricks, visibilit
   const { origin, units, scales, steps, axes, values } = bases;
   const coded = values ? [origin, units, scales, steps, axes, values] : [bases];
   const used = [packing, predictors && centers, ...coded, bricks, visibility, words];
-  return used.filter((term) => term !== undefined).map(({ bufferView }) => bufferView);
+  return used.filter((view) => view !== undefined).map(({ bufferView }) => bufferView);
 }

@@ -17,7 +17,7 @@ test("a sun is a directional light of its irradiance, which turns as the light d
   assert.ok(light.isDirectionalLight && light.castShadow);
   assert.deepEqual(light.color.clone().multiplyScalar(light.intensity).toArray().map((v) => Math.round(1e6 * v) / 1e6), [3, 2, 1]);
   near(direction(light).z, 1, 1e-12);
-  lights.rotation(Math.PI / 2);
+  lights.rotate(Math.PI / 2);
   near(direction(light).x, 1, 1e-12); // after a quarter rotation, light from +Z comes from +X
   assert.equal(lights.dim(0.5).dim(0.25).lights[0].intensity, 0.75);
   assert.equal(new SunLights([{ ...sun, irradiance: [0, 0, 0] }]).lights[0].intensity, 0);
@@ -27,7 +27,7 @@ test("a shadow map sees the box that it is fitted to from anywhere, and is fille
   const box = new Box3(new Vector3(-4, 0, -10), new Vector3(4, 4, 1));
   for (const towards of [sun.towards, [0, 1, 0], [0, -1, 0], [1, 0, 0], [-0.6, 0.8, 0]])
     for (const angle of [0, 0.7, 3]) {
-      const lights = new SunLights([{ ...sun, towards }]).fit(box).rotation(angle);
+      const lights = new SunLights([{ ...sun, towards }]).fit(box).rotate(angle);
       lights.updateMatrixWorld(true);
       const [light] = lights.lights;
       light.shadow.updateMatrices(light); // three's renderer does this

@@ -653,7 +653,7 @@ await check("somebody walks through a model with a volume, and casts a shadow; o
     const [foot, ground] = [moving.parts.figure.position, moving.walk.at(moving.metres)];
     let lit = 0;
     moving.parts.figure.traverse(({ material, castShadow }) => (lit += material?._transfer?.model === moving.volume && castShadow ? 1 : 0));
-    return { separate: foot.distanceTo(ground), lit, computed: moving.volume.isFormed };
+    return { separate: foot.distanceTo(ground), lit, computed: moving.volume.hasLight };
   });
   assert.ok(shown.separate < 1e-6 && shown.lit > 0 && shown.computed, JSON.stringify(shown));
   if (screenshots) await page.screenshot({ path: join(screenshots, "figure.png") });

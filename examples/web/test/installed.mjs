@@ -11,7 +11,7 @@ import { join } from "node:path";
 import { fileURLToPath } from "node:url";
 import { chromium } from "playwright-core";
 import { build, createServer, preview } from "vite";
-import { environmentRotation, turnedBy } from "../src/turns.js";
+import { environmentRotation, rotatedBy } from "../src/rotations.js";
 import { distFolder } from "../tools/folders.mjs";
 import { ballScene } from "./ballScene.js";
 
@@ -126,7 +126,7 @@ await check("backgrounds are turned as is counted on", async () => {
   const [azimuth, theta] = [2 * Math.PI * ((x + 0.5) / 128 - 0.5), (Math.PI * (y + 0.5)) / 64];
   const direction = [Math.sin(theta) * Math.cos(azimuth), Math.cos(theta), Math.sin(theta) * Math.sin(azimuth)];
   for (const rotation of [[0, 0, 0], [0, 1, 0], [0.4, -0.7, 1.1]]) {
-    const seen = turnedBy(environmentRotation(new Euler(...rotation), revision), direction);
+    const seen = rotatedBy(environmentRotation(new Euler(...rotation), revision), direction);
     assert.ok((await ask("inTheMiddle", { rotation, direction: seen, at: [x, y] })) > 10, `${rotation}`);
     assert.ok((await ask("inTheMiddle", { rotation, direction: seen.map((v) => -v), at: [x, y] })) < 1, `${rotation}`);
   }

@@ -102,7 +102,7 @@ test("turns about +Y fall into bins, others are their own", () => {
   const leaning = rotation(new Quaternion(0.48, 0.36, 0, 0.8));
   const { rotations, of } = instanceRotations([yaw(0), yaw(0.4 * step), yaw(-0.4 * step), yaw(0.6 * step), leaning, yaw(2 * Math.PI - 0.1 * step), leaning], 64);
   assert.deepEqual([...of], [0, 0, 0, 1, 2, 0, 2]);
-  [0, 1].forEach((rotation, i) => rotations[i].forEach((value, e) => near(value, yaw(rotation * step)[e], 1e-12)));
+  [0, 1].forEach((steps, i) => rotations[i].forEach((value, e) => near(value, yaw(steps * step)[e], 1e-12)));
   assert.deepEqual(rotations[2], leaning);
   assert.equal(instanceRotations([yaw(0), yaw(0.4 * step)], 0).rotations.length, 2);
 });

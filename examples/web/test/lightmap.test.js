@@ -58,7 +58,7 @@ test("images of words are decoded without conversion", async () => {
 
 test("images beside the file are read, too", async () => {
   const { userData } = await load((json, binary) => {
-    const bytes = binary.terms[2 * json.images[1].bufferView];
+    const bytes = binary.chunks[2 * json.images[1].bufferView];
     json.images[1] = { uri: `data:image/png;base64,${bytes.toString("base64")}` };
   });
   assert.equal(userData.prtkit.maps.maps[0].words.length, 2);
@@ -99,7 +99,7 @@ test("maps are drawn again when a device that was lost is there again", async ()
 });
 
 const refusals = {
-  "another version": [(json) => (extensionOf(json).version = 2), /version 2 is not known, only 1; compress the model again/],
+  "another version": [(json) => (extensionOf(json).version = 1), /version 1 is not known, only 2; compress the model again/],
   "a raw bake": [(json) => (extensionOf(json).raw = {}), /holds transfer as it was baked; make it one to ship: prt compress/],
   "predictors": [(json) => Object.assign(extensionOf(json), { predictors: [{ kind: "normal", scale: [1, 1, 1] }], centers: { bufferView: 0, drops: [0, 0, 0] } }), /texels have no predictors/],
   "weights that are not packed": [(json) => delete extensionOf(json).packing, /not packed/],

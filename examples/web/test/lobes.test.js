@@ -102,7 +102,7 @@ for (const [what, change, message] of [
   ["fewer lobes", (json, binary) => {
     json.meshes[0].primitives[0].attributes._PRT_LOBE_0 = binary.accessor(new Uint8Array(16), "VEC4");
   }, /a primitive lacks _PRT_LOBE_0 of four bytes/],
-  ["transfer of one pose, too", (json) => (json.extensions.PRTKIT_clustered_pca = {}), /the file has transfer that does not rotation/],
+  ["transfer of one pose, too", (json) => (json.extensions.PRTKIT_clustered_pca = {}), /the file also has transfer that does not rotate/],
 ])
   test(`${what}: refused with a reason`, async () => {
     await assert.rejects(load(lobeModel(4, change)), (error) => {

@@ -22,7 +22,7 @@ import { lightFromProbe, PrtkitModel, projectEquirectangular, projectInWorker, S
 import { decodeClusters } from "../src/clusteredPca.js";
 import { halfFloat } from "../src/halfFloat.js";
 import { evaluateSh, ShLight } from "../src/sphericalHarmonics.js";
-import { environmentRotation, turnedBy } from "../src/turns.js";
+import { environmentRotation, rotatedBy } from "../src/rotations.js";
 
 const near = (actual, expected, tolerance, what = "") =>
   assert.ok(Math.abs(actual - expected) <= tolerance, `${what} ${actual} is not within ${tolerance} of ${expected}`);
@@ -50,7 +50,7 @@ function lightFrom(d, order = 2) {
 
 test("a turn of the environment about +Y is the angle of setLight, in all releases of three", () => {
   for (const revision of [180, 187]) {
-    const rotated = turnedBy(environmentRotation(new Euler(0, Math.PI / 2, 0), revision), [0, 0, 1]);
+    const rotated = rotatedBy(environmentRotation(new Euler(0, Math.PI / 2, 0), revision), [0, 0, 1]);
     allNear(rotated, [1, 0, 0], 1e-12, revision);
   }
 });
@@ -60,9 +60,9 @@ test("three looks up environments as is counted on", () => {
   assert.match(ShaderChunk.envmap_physical_pars_fragment, /envMapRotation \* worldNormal/);
   const euler = new Euler(0.4, -0.7, 1.1);
   const d = [0.36, 0.48, 0.8];
-  const later = turnedBy(environmentRotation(euler, 187), d);
+  const later = rotatedBy(environmentRotation(euler, 187), d);
   allNear(new Vector3(...d).applyEuler(euler).toArray(), later, 1e-12, "release 187");
-  const lookup = new Vector3(...turnedBy(environmentRotation(euler, 180), d)).applyEuler(new Euler(-0.4, 0.7, -1.1));
+  const lookup = new Vector3(...rotatedBy(environmentRotation(euler, 180), d)).applyEuler(new Euler(-0.4, 0.7, -1.1));
   allNear(lookup.toArray(), d, 1e-12, "release 180");
 });
 
@@ -115,7 +115,7 @@ test("suns follow the scene as the light does", () => {
   scene.updateMatrixWorld();
   const [light] = suns.lights;
   const direction = light.position.clone().sub(light.target.position).normalize().toArray();
-  allNear(direction, turnedBy(environmentRotation(scene.environmentRotation), towards), 1e-9, "direction");
+  allNear(direction, rotatedBy(environmentRotation(scene.environmentRotation), towards), 1e-9, "direction");
   near(light.intensity, 1.5, 1e-12);
 });
 

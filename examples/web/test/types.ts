@@ -33,7 +33,7 @@ export async function show(scene: Scene): Promise<number> {
   model.setLight(1);
   scene.add(gltf.scene);
   const lighting = readLightFile(await (await fetch("light.json")).json());
-  const suns = new SunLights(lighting.suns, { mapSize: 1024 }).fit(gltf.scene).rotation(1);
+  const suns = new SunLights(lighting.suns, { mapSize: 1024 }).fit(gltf.scene).rotate(1);
   scene.add(suns);
   model.setLight(lighting.sky.deringed(), 1, lightOfSuns(lighting.suns, model.order));
   model.setLight(lighting.sky, 1, null, { [model.lamps[0]]: 0.5, Sign: [1, 0.5, 0] });

@@ -284,7 +284,7 @@ test("parts take light where they are, while they are shown", async () => {
 
 const extensionIn = (json) => json.extensions.PRTKIT_transfer_volume;
 const refusals = {
-  "another version": [(e) => (e.version = 2), /version 2 is not known, only 1; compress the model again/],
+  "another version": [(e) => (e.version = 1), /version 1 is not known, only 2; compress the model again/],
   "a raw bake": [(e) => (e.raw = {}), /holds transfer as it was baked; make it one to ship: prt compress/],
   "an order that there is not": [(e) => (e.incidentOrder = 5), /the order of incident light is not 2 to 4/],
   "no spacing": [(e) => (e.spacing = 0), /the spacing or the origin is no usable number/],

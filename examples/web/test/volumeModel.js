@@ -98,9 +98,9 @@ export function incidentAt({ clusters, words, stride }, probe, columns) {
   const { rowCount, outputs, rows } = clusters;
   const size = rows.length / (rowCount * outputs);
   return Array.from({ length: outputs }, (_, o) => {
-    const term = new Float32Array(rowCount * size);
-    for (let r = 0; r < rowCount; ++r) term.set(rows.subarray((r * outputs + o) * size, (r * outputs + o + 1) * size), r * size);
-    return radianceOfWords({ ...clusters, rows: term }, columns, own);
+    const outputRows = new Float32Array(rowCount * size);
+    for (let r = 0; r < rowCount; ++r) outputRows.set(rows.subarray((r * outputs + o) * size, (r * outputs + o + 1) * size), r * size);
+    return radianceOfWords({ ...clusters, rows: outputRows }, columns, own);
   });
 }
 
@@ -135,8 +135,8 @@ export function weightsAt({ grid, visibility }, position, normal) {
     const trilinear = step.reduce((product, s, a) => product * (s ? at[a] - low[a] : 1 - at[a] + low[a]), 1);
     const passed = biased.reduce((sum, x, a) => {
       const from = x - (origin[a] + spacing * corners[3 * probe + a]);
-      const visibility = visibility[6 * probe + 2 * a + (from > 0 ? 1 : 0)];
-      return sum + Math.abs(from) / Math.max(4 * spacing * 2 ** levels[probe] * (visibility / 255) ** 2, 1e-18);
+      const distance = visibility[6 * probe + 2 * a + (from > 0 ? 1 : 0)];
+      return sum + Math.abs(from) / Math.max(4 * spacing * 2 ** levels[probe] * (distance / 255) ** 2, 1e-18);
     }, 0);
     const t = clamp((passed - 0.9) / 0.3, 0, 1);
     return [probe, trilinear * Math.max(1 - t * t * (3 - 2 * t), 1e-4)];
