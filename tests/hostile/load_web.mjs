@@ -42,7 +42,7 @@ function wrongModel(gltf) {
   let wrong = null;
   gltf.scene.traverse(({ geometry }) => {
     const attributes = geometry?.attributes ?? {};
-    for (const name of ["prt_position", "prt_normal", "prt_weights_0", "prt_weights_1"])
+    for (const name of ["prt_baked_position", "prt_baked_normal", "prt_weights_0", "prt_weights_1"])
       if (attributes[name] && !Array.from(attributes[name].array).every(Number.isFinite)) wrong = `${name} is not finite`;
     const words = attributes.prt_words_0 ?? attributes.prt_cluster;
     const mask = clusters.widths ? 2 ** clusters.clusterBits - 1 : 0xffffffff;

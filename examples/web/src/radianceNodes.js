@@ -84,7 +84,7 @@ const normalToBake = ofMaterial(new Matrix3(), "prtNormalToBake");
 
 /** Returns position and normal of a vertex in the space of the bake, as in transferVertex.glsl. */
 function bakedFrameOf(defines) {
-  if (defines.PRT_BAKED_ATTRIBUTES) return { point: attribute("prt_position", "vec3"), normal: attribute("prt_normal", "vec3") };
+  if (defines.PRT_BAKED_ATTRIBUTES) return { point: attribute("prt_baked_position", "vec3"), normal: attribute("prt_baked_normal", "vec3") };
   const rotated = normalToBake.mul(normalGeometry);
   return { point: toBake.mul(positionGeometry).xyz, normal: rotated.mul(rotated.dot(rotated).max(1e-30).inverseSqrt()) };
 }
