@@ -47,7 +47,7 @@ function wrongModel(gltf) {
     const words = attributes.prt_words_0 ?? attributes.prt_cluster;
     const mask = clusters.widths ? 2 ** clusters.clusterBits - 1 : 0xffffffff;
     for (let v = 0; words && v < words.count; ++v)
-      if ((words.getX(v) & mask) >>> 0 >= clusters.components.length) wrong = `vertex ${v} is in no cluster`;
+      if ((words.getX(v) & mask) >>> 0 >= clusters.components.length) wrong = `vertex ${v} names a cluster that does not exist`;
   });
   return wrong;
 }
@@ -57,7 +57,7 @@ function wrongRefusal(error) {
   if (!(error instanceof Error)) return "what is thrown is no Error";
   const inOurs = /examples\/web\/src/.test(error.stack.split("\n").find((line) => line.trim().startsWith("at ")) ?? "");
   const ours = /^PRTKIT_(clustered_pca|lightmap|transfer_volume|occlusion_volume): [^\n]+$/.test(error.message);
-  return inOurs && !ours ? `says ${error.name}: ${error.message}` : null;
+  return inOurs && !ours ? `throws ${error.name}: ${error.message}` : null;
 }
 
 process.on("unhandledRejection", () => {}); // GLTFLoader leaves some unhandled when it fails

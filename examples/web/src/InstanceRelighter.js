@@ -1,5 +1,5 @@
-// Computes constants of instances that share the transfer of their mesh, which their shader reads in place of
-// those of the model (shaders/prt_instances.glsl), as prt::InstanceRelighter does. They are linear in the
+// Computes constants of instances that share the transfer of their mesh, which their shader reads instead of
+// those of the model (shaders/prt_instances.glsl), like prt::InstanceRelighter. They are linear in the
 // position within the box of the mesh, so that a row needs three vectors, not one. Does not use three.js.
 
 import { updateConstants, lightColumns } from "./clusteredPca.js";
@@ -97,7 +97,7 @@ export class InstanceRelighter {
     this.polarRows = isUpright ? polarRows(clusters, rows) : null;
     this.series = this.constantsOfModes.map(() => (isUpright ? new Float64Array(3 * seriesSize(order) * rowCount) : null));
     found.of.forEach((rotation, i) => this.rotations[rotation].instances.push(i));
-    /** First constant of each instance, in vectors of four, and total size. */
+    /** First constant of each instance, and total size, in vectors of four. */
     this.begins = new Float64Array(instances.length);
     this.size = 0;
     instances.forEach(({ rows: { length } }, i) => {
@@ -106,8 +106,8 @@ export class InstanceRelighter {
     });
   }
 
-  /** Attributes of instances [first, first + count): the middle of the box of each and one over its half widths; in w where its
-   * constants begin, 16 bits in each. */
+  /** Returns the attributes of instances [first, first + count): the center of the box and one over its half widths; in w the
+   * index of the first constant, 16 bits in each. */
   table(first, count) {
     const [low, high] = [new Float32Array(4 * count), new Float32Array(4 * count)];
     for (let i = 0; i < count; ++i) {

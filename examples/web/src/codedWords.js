@@ -21,7 +21,7 @@ const CONTEXTS = firstContext(SYMBOL_BITS + 1);
 const rowsOf = (context) => (context >= firstContext(6) ? 4 : context >= firstContext(5) ? 2 : 1);
 const ROWS = Array.from({ length: CONTEXTS }, (_, context) => rowsOf(context)).reduce((sum, rows) => sum + rows);
 
-/** The symbol, its frequency and the number within it of each slot of each context: [contexts][TOTAL][3]. */
+/** Returns for each slot of each context the symbol, its frequency and the slot's offset in it: [contexts][TOTAL][3]. */
 function slotsOf(bytes, drops) {
   expect(drops.length === COLUMNS, `the frequencies of the coded words have ${drops.length} columns, not ${COLUMNS}`);
   const frequencies = codedRows(bytes, drops, ROWS);
@@ -31,7 +31,7 @@ function slotsOf(bytes, drops) {
     const own = frequencies.subarray(COLUMNS * row, COLUMNS * (row + rowsOf(context)));
     row += rowsOf(context);
     const sum = own.reduce((total, frequency) => (frequency < 0 ? NaN : total + frequency), 0);
-    expect(sum === 0 || sum === TOTAL, `${DAMAGED}: the frequencies have another sum than ${TOTAL}`);
+    expect(sum === 0 || sum === TOTAL, `${DAMAGED}: the sum of the frequencies is not ${TOTAL}`);
     if (sum === 0) own[0] = TOTAL; // unused
     let slot = context * TOTAL;
     own.forEach((frequency, symbol) => {
@@ -102,7 +102,7 @@ export function earlierNeighbors(triangles, vertices) {
   return neighbors;
 }
 
-/** The bytes of each block. */
+/** Returns the bytes of each block. */
 function blocksOf(bytes, count) {
   const tooEarly = "the coded words end too early";
   expect(4 * count <= bytes.length, tooEarly);
@@ -114,7 +114,7 @@ function blocksOf(bytes, count) {
   return blocks;
 }
 
-/** The vertices that predict vertex v, which is not the first of its block, the context of its cluster, and the distinct clusters of them. */
+/** Returns the vertices that predict vertex `v` (not the first of its block), the context of its cluster, and their distinct clusters. */
 function prediction(clusters, neighbors, v) {
   const by = [];
   for (let i = 3 * v; i < 3 * v + 3 && neighbors[i] < v; ++i) by.push(neighbors[i]);

@@ -103,7 +103,7 @@ function predictorsOf({ constantsTexture }, defines) {
 
 const TYPES = ["uint", "uvec2", "uvec3", "uvec4"];
 
-/** The words of a vertex, from the attributes of vertexWeights.js. */
+/** Returns the words of a vertex, from the attributes of vertexWeights.js. */
 function wordsOfVertex(count) {
   const inAttribute = (i) => Math.min(4, count - 4 * i);
   return Array.from({ length: count }, (_, j) => {
@@ -113,7 +113,7 @@ function wordsOfVertex(count) {
   });
 }
 
-/** Radiance of the vertices of a geometry with these `defines`, interpolated. */
+/** Returns the interpolated radiance of the vertices of a geometry with these `defines`. */
 export function radianceOfVertices(model, defines) {
   const predictors = predictorsOf(model, defines);
   const packed = defines.PRT_PACKED_WORDS;

@@ -84,7 +84,7 @@ export function relitMaterial(source, transfer) {
 function takesVolume({ isMeshStandardMaterial, isMeshLambertMaterial, isMeshPhongMaterial, isMeshToonMaterial, lights, type }) {
   if (isMeshStandardMaterial || isMeshLambertMaterial) return true;
   if (isMeshPhongMaterial || isMeshToonMaterial || lights === true)
-    throw new Error(`prtkit: a volume lights MeshStandardMaterial, MeshPhysicalMaterial and MeshLambertMaterial, not ${type}`);
+    throw new Error(`prtkit: a volume does not light ${type}; use MeshStandardMaterial, MeshPhysicalMaterial or MeshLambertMaterial`);
   return false;
 }
 
@@ -116,5 +116,5 @@ export function movingMaterial(source, volume, copied) {
   return copied(own, lobes ? withLobes(lit, lobes) : lit);
 }
 
-/** `source` lit by the transfer of a volume, by WebGLRenderer; its own shader is kept. */
+/** Returns `source` lit by a volume, for WebGLRenderer; custom shader changes are kept. */
 export const copiedMaterial = (source, transfer) => light(source.clone(), transfer);

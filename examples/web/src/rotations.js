@@ -5,7 +5,7 @@ import { Euler, Matrix4, REVISION, Vector3 } from "three";
 const upperLeft = ({ elements: e }) => [e[0], e[1], e[2], e[4], e[5], e[6], e[8], e[9], e[10]];
 const transposed = (m) => [m[0], m[3], m[6], m[1], m[4], m[7], m[2], m[5], m[8]];
 
-/** The product a b of two matrices. */
+/** Returns the product a b of two matrices. */
 function product(a, b) {
   return Array.from({ length: 9 }, (_, i) => {
     const [column, row] = [Math.floor(i / 3), i % 3];

@@ -1,5 +1,5 @@
-// shaders/prt_volume.glsl and volumeLight.glsl in three's node language, for WebGPURenderer: names are theirs. All is built where
-// a lighting model adds up, within its flow.
+// shaders/prt_volume.glsl and volumeLight.glsl in three's node language, for WebGPURenderer, with the same names. Nodes are created
+// while a lighting model is evaluated, within its flow.
 
 import {
   cameraViewMatrix,
@@ -40,7 +40,7 @@ function tableOf({ image: { data, width, height, depth }, format, type }) {
   return { texture, entry };
 }
 
-/** A texel of a 3D texture at integer coordinates: three has no node for it. */
+/** A texel of a 3D texture at integer coordinates; three has no node for it. */
 class TexelNode extends Texture3DNode {
   static get type() {
     return "PrtTexelNode";
@@ -56,7 +56,7 @@ class TexelNode extends Texture3DNode {
 }
 const texel = (texture, at) => new TexelNode(texture, at).setSampler(false);
 
-/** Numbers and textures of a volume. */
+/** Returns the textures and parameters of a volume. */
 function tablesOf(volume) {
   const { uniforms, source, atlas } = volume;
   volume.tables ??= [uniforms.prt_volume_visibility.value, uniforms.prt_volume_index.value].map(tableOf);

@@ -26,7 +26,7 @@ export function atlasOf({ bricks }, order) {
   return { bricks: [x, y, z], planes: Math.ceil((3 * order ** 2 + 1) / 4), texels: SIDE ** 3 * x * y * z };
 }
 
-/** Texel of corner `i` of brick `b` in a plane. */
+/** Returns the texel of corner `i` of brick `b` in a plane. */
 export function texelOf({ bricks: [x, y] }, b, i) {
   const brick = [b % x, Math.floor(b / x) % y, Math.floor(b / (x * y))];
   const step = [i % SIDE, Math.floor(i / SIDE) % SIDE, Math.floor(i / SIDE ** 2)];

@@ -20,7 +20,7 @@ export function polarRows({ order, terms }, rows) {
   return result;
 }
 
-/** Number of values of a series. */
+/** Number of values in a series. */
 export const seriesSize = (order) => 2 * order - 1;
 
 /** Returns 1, cos(yaw), sin(yaw), cos(2 yaw), .. */

@@ -11,7 +11,7 @@ const near = (actual, expected, tolerance, what = "") =>
 const sun = { towards: [0.48, 0.6, -0.64], irradiance: [3, 2, 1], halfAngle: 0.0046 };
 const direction = (light) => light.position.clone().sub(light.target.position).normalize();
 
-test("a sun is a directional light of its irradiance, which turns as the light does", () => {
+test("a sun is a directional light with its irradiance and rotates with the light", () => {
   const lights = new SunLights([{ ...sun, towards: [0, 0, 1] }]);
   const [light] = lights.lights;
   assert.ok(light.isDirectionalLight && light.castShadow);
@@ -23,7 +23,7 @@ test("a sun is a directional light of its irradiance, which turns as the light d
   assert.equal(new SunLights([{ ...sun, irradiance: [0, 0, 0] }]).lights[0].intensity, 0);
 });
 
-test("a shadow map sees the box that it is fitted to from anywhere, and is filled by it", () => {
+test("a shadow map contains its box from every direction and is filled by it", () => {
   const box = new Box3(new Vector3(-4, 0, -10), new Vector3(4, 4, 1));
   for (const towards of [sun.towards, [0, 1, 0], [0, -1, 0], [1, 0, 0], [-0.6, 0.8, 0]])
     for (const angle of [0, 0.7, 3]) {
@@ -45,7 +45,7 @@ test("a shadow map sees the box that it is fitted to from anywhere, and is fille
     }
 });
 
-test("the radius of a shadow is the sun's, at a tenth of the depth", () => {
+test("the shadow radius is the sun's at a tenth of the depth", () => {
   const box = new Box3(new Vector3(-1, -1, -1), new Vector3(1, 1, 1));
   const [{ shadow }] = new SunLights([{ ...sun, towards: [0, 1, 0], halfAngle: 0.02 }], { mapSize: 1000 }).fit(box).lights;
   const texel = (shadow.camera.right - shadow.camera.left) / 1000;
@@ -54,7 +54,7 @@ test("the radius of a shadow is the sun's, at a tenth of the depth", () => {
   assert.equal(new SunLights([{ ...sun, halfAngle: 0 }]).lights[0].shadow.radius, 0);
 });
 
-test("what is fitted to may be an object that stands anywhere; nothing is refused", () => {
+test("shadow maps fit objects at any position; an empty object is rejected", () => {
   const mesh = new Mesh(new BoxGeometry(2, 2, 2));
   mesh.position.set(100, 0, 0);
   const lights = new SunLights([sun]).fit(new Scene().add(mesh));

@@ -44,7 +44,7 @@ function packedWidths() {
   return Uint8Array.from({ length: Math.ceil(codes.length / 2) }, (_, i) => codes[2 * i] | ((codes[2 * i + 1] ?? 0) << 4));
 }
 
-/** Words of probes, each in a cluster that there is. */
+/** Returns words of probes, each in an existing cluster. */
 function randomWords() {
   const next = random(5);
   for (let i = 0; i < 9; ++i) next();
@@ -54,7 +54,7 @@ function randomWords() {
   });
 }
 
-/** Probes that see all around, some less far, and some that are inside of something. */
+/** Returns visibility distances: full ones, some shorter ones, and some inside geometry. */
 function visibilityOf(open) {
   const next = random(3);
   return Uint8Array.from({ length: 6 * PROBES }, (_, i) => {
@@ -63,7 +63,7 @@ function visibilityOf(open) {
   });
 }
 
-/** The extension, in `binary`. */
+/** Returns the extension, with its data in `binary`. */
 export function volumeExtension(binary, { incidentOrder = 3, open = false } = {}) {
   const outputs = incidentOrder ** 2;
   const view = (array) => ({ bufferView: binary.view(array) });
@@ -82,7 +82,7 @@ export function volumeExtension(binary, { incidentOrder = 3, open = false } = {}
   };
 }
 
-/** A file with a volume alone. */
+/** Returns a file that contains only a volume. */
 export function volumeModel(options = {}, change = () => {}) {
   const binary = new Binary();
   const json = { scene: 0, scenes: [{ nodes: [] }], extensions: {} };
@@ -91,8 +91,8 @@ export function volumeModel(options = {}, change = () => {}) {
   return binary.file(json);
 }
 
-/** Coefficients of the light that comes in at a probe, [order²][3], under `columns` (lightColumns): the words as docs/format.md
- * has them, one output after the other. */
+/** Returns the coefficients of incident light at a probe, [order²][3], under `columns` (lightColumns), from the words as
+ * docs/format.md defines them, one output after the other. */
 export function incidentAt({ clusters, words, stride }, probe, columns) {
   const own = [...words.subarray(stride * probe, stride * (probe + 1))];
   const { rowCount, outputs, rows } = clusters;
