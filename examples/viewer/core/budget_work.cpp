@@ -37,8 +37,8 @@ void check_no_media(const prt::Scene& scene) {
     for (const prt::Material& material : scene.materials)
         if (prt::medium_of(material))
             throw prt::Error("light of the material '" + material.name +
-                             "' comes out of a medium, which the path tracer that a budget is measured by "
-                             "does not enter");
+                             "' comes from inside a medium, which the path tracer of the error budget "
+                             "does not support");
 }
 
 /// Returns the factors by which `windowed` scales the bands.
@@ -141,7 +141,7 @@ void find_budget(Channel& channel, const BudgetSubject& subject) {
     check_no_media(model.scene);
     const int order = loaded.compressed ? loaded.compressed->bases.layout.order : loaded.raw->layout.order;
     const auto again = repeated(channel, subject);
-    channel.enter(Stage::measuring, "following paths from the surface");
+    channel.enter(Stage::measuring, "tracing paths from the surface");
     const bool separate = subject.version.separate_suns && loaded.raw->layout.has(prt::TermKind::direct);
     const prt::ReferenceLight light =
         separate ? subject.rig.separate_reference_light() : subject.rig.reference_light();
@@ -150,7 +150,7 @@ void find_budget(Channel& channel, const BudgetSubject& subject) {
     const prt::SurfacePoints points =
         prt::surface_points(*model.trace, {.threads = threads}, {{}, progress.stop});
     if (points.size() == 0)
-        throw prt::Error("the model has no surface that light reaches, so that there is no error to measure");
+        throw prt::Error("no light reaches a surface of the model, so no error can be measured");
     const prt::SurfaceRadiance reference(
         *model.trace, points, light, {.max_paths = kMaxPaths, .noise = kNoise, .threads = threads}, progress);
 

@@ -385,11 +385,9 @@ TEST(FigureScript, ChoosesPathsAndSaysWhatIsWrong) {
             R"({"figure": {"file": "ball.glb", "path": [[0, 0, 0], [1, 0, 0]], "scale": 0.5, "seconds": 2}})"),
         "");
     EXPECT_TRUE(std::filesystem::exists(folder / "out.png"));
-    EXPECT_NE(said(R"({"figure": {"animation": "walk"}})").find("there is no figure in a scene"),
+    EXPECT_NE(said(R"({"figure": {"animation": "walk"}})").find("no figure is open"), std::string::npos);
+    EXPECT_NE(said(R"({"figure": {"file": "ball.glb", "animation": "dance"}})").find("no animation 'dance'"),
               std::string::npos);
-    EXPECT_NE(
-        said(R"({"figure": {"file": "ball.glb", "animation": "dance"}})").find("no animation called 'dance'"),
-        std::string::npos);
     EXPECT_NE(said(R"({"figure": {"file": "ball.glb", "scale": 0}})").find("scale of a figure"),
               std::string::npos);
 }

@@ -308,16 +308,16 @@ TEST_F(ViewedLamp, IsRefusedWithTheReason) {
         EXPECT_NE(text.find(part), std::string::npos) << step << ": " << text;
         EXPECT_NE(text.find("step 3: "), std::string::npos) << text;
     };
-    says(R"({"lamps": {"Lamp.c": 1}})", "no lamp of the model is called 'Lamp.c'; there are: Lamp.a, Lamp.b");
+    says(R"({"lamps": {"Lamp.c": 1}})", "the model has no lamp 'Lamp.c'; its lamps: Lamp.a, Lamp.b");
     for (const char* strength :
          {"-1", "-1e-9", "2e9", "1e39", "null", "\"NaN\"", "[1, 2]", "[1, 2, -3]", "[1, 2, null]", "true"}) {
-        says(std::string(R"({"lamps": {"Lamp.a": )") + strength + "}}",
-             "the strength of 'Lamp.a' is neither");
-        says(std::string(R"({"lamps": {"*": )") + strength + "}}", "the strength of '*' is neither");
+        says(std::string(R"({"lamps": {"Lamp.a": )") + strength + "}}", "the strength of 'Lamp.a' is not");
+        says(std::string(R"({"lamps": {"*": )") + strength + "}}", "the strength of '*' is not");
     }
-    says(R"({"lamps": 3})", "an object of names and strengths");
-    says(R"({"set": {"lamp_strength": -0.5}})", "lamp_strength is a finite number from 0 on, not -0.5");
-    says(R"({"set": {"lamp_strength": 1e39}})", "lamp_strength is a finite number");
+    says(R"({"lamps": 3})", "must be an object of names and strengths");
+    says(R"({"set": {"lamp_strength": -0.5}})",
+         "lamp_strength must be a finite number of at least 0, not -0.5");
+    says(R"({"set": {"lamp_strength": 1e39}})", "lamp_strength must be a finite number");
     says(R"({"set": {"lamp_strength": null}})", "must be number");
     // Values that JSON cannot represent do not reach the step.
     EXPECT_NE(why(R"({"lamps": {"*": NaN}})").find("script.json"), std::string::npos);
@@ -381,8 +381,8 @@ TEST_F(LampsOfTheViewer, AreListedAndGoWithTheModel) {
 TEST_F(LampsOfTheViewer, AreSaidToBeMissingWherePicturesHaveNone) {
     EXPECT_EQ(viewer->shown(PictureKind::prt).note, "");
     EXPECT_EQ(viewer->shown(PictureKind::prt_compressed).note, "");
-    EXPECT_EQ(viewer->shown(PictureKind::reference).note, "without lamps and what shines");
-    EXPECT_EQ(viewer->shown(PictureKind::unshadowed).note, "without the light of lamps");
+    EXPECT_EQ(viewer->shown(PictureKind::reference).note, "without lamps and emission");
+    EXPECT_EQ(viewer->shown(PictureKind::unshadowed).note, "without lamps");
     lamps().on = false;
     EXPECT_EQ(viewer->shown(PictureKind::reference).note, "");
     EXPECT_EQ(viewer->shown(PictureKind::unshadowed).note, "");

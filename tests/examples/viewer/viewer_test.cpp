@@ -141,7 +141,7 @@ TEST_F(ViewerTest, OpensCompressedFilesAndSaysWhatTheyLack) {
     EXPECT_EQ(viewer->figures().transfer.order, 4);
     EXPECT_EQ(viewer->figures().transfer.bytes_per_receiver, 4);
     EXPECT_EQ(right(), PictureKind::unshadowed);
-    EXPECT_NE(viewer->shown(PictureKind::prt).note.find("bake to see it"), std::string::npos);
+    EXPECT_NE(viewer->shown(PictureKind::prt).note.find("bake again to see it"), std::string::npos);
     EXPECT_EQ(viewer->shown(PictureKind::prt_compressed).kind, PictureKind::prt_compressed);
     EXPECT_GT(viewer->figures().milliseconds.open, 0);
     viewer->bake_anew();
@@ -180,7 +180,7 @@ TEST_F(ViewerTest, RefusesAnotherSceneForABake) {
     prt::test::scene_file(SceneBuilder().floor({0, 0, 0}, 1).build()).write(other);
     open({shipped(), other});
     ASSERT_FALSE(viewer->messages().empty());
-    EXPECT_NE(viewer->messages().back().find("other.glb: is another scene"), std::string::npos);
+    EXPECT_NE(viewer->messages().back().find("other.glb: contains a different scene"), std::string::npos);
 }
 
 TEST_F(ViewerTest, SurvivesWhatIsBroken) {
@@ -250,7 +250,8 @@ TEST_F(ViewerTest, SaysWhereTransferKeepsNoDirectLightApart) {
     prt::save_glb(document, folder / "whole.glb");
     open({folder / "whole.glb"});
     EXPECT_EQ(viewer->shown(PictureKind::prt).kind, PictureKind::prt);
-    EXPECT_NE(viewer->shown(PictureKind::prt).note.find("no direct light is kept apart"), std::string::npos);
+    EXPECT_NE(viewer->shown(PictureKind::prt).note.find("the transfer has no direct term"),
+              std::string::npos);
     EXPECT_TRUE(viewer->shown(PictureKind::unshadowed).note.empty());
     viewer->settings.lit.separate_suns = false;
     frame();
