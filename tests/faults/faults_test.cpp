@@ -51,7 +51,7 @@ protected:
             const Outcome outcome = run_in(road, command, {});
             EXPECT_EQ(outcome.status, 0) << outcome.err;
         }
-        whole = files_of(road.path());
+        complete = files_of(road.path());
     }
 
     static std::vector<Command> commands() {
@@ -83,17 +83,18 @@ protected:
     /// Fills a folder with the inputs of `command`, and with old files at its outputs if `old`.
     void prepare(const TemporaryFolder& folder, const Command& command, bool old) const {
         for (const std::string& input : command.inputs)
-            folder.file(input, whole.at(input));
+            folder.file(input, complete.at(input));
         for (const std::string& output : command.outputs)
             if (old)
                 folder.file(output, "old");
     }
 
-    /// Whether all outputs are whole, or all as they were.
-    void expect_whole(const TemporaryFolder& folder, const Command& command, bool old, bool written) const {
+    /// Checks that all outputs are complete, or all are unchanged.
+    void expect_complete(const TemporaryFolder& folder, const Command& command, bool old,
+                         bool written) const {
         const Files files = files_of(folder.path());
         for (const std::string& input : command.inputs)
-            EXPECT_TRUE(files.at(input) == whole.at(input)) << input;
+            EXPECT_TRUE(files.at(input) == complete.at(input)) << input;
         for (const std::string& output : command.outputs) {
             const auto found = files.find(output);
             if (!written) {
@@ -101,7 +102,7 @@ protected:
             } else if (found == files.end()) {
                 ADD_FAILURE() << output << " is missing";
             } else if (output.ends_with(".glb") || output.ends_with(".exr")) {
-                EXPECT_TRUE(found->second == whole.at(output)) << output;
+                EXPECT_TRUE(found->second == complete.at(output)) << output;
             } else { // contains the duration
                 EXPECT_TRUE(found->second.ends_with(output.ends_with(".html") ? ">\n" : "}\n")) << output;
             }
@@ -123,7 +124,7 @@ protected:
                 << outcome.err;
             EXPECT_EQ(outcome.err.find("of our own making"), std::string::npos) << outcome.err;
         }
-        expect_whole(folder, command, old, outcome.status == 0);
+        expect_complete(folder, command, old, outcome.status == 0);
     }
 
     void kill_once(const Command& command, const std::string& fault, const std::string& without, bool old) {
@@ -136,11 +137,11 @@ protected:
         const Files files = files_of(folder.path());
         for (const std::string& output : command.outputs)
             if (output.ends_with(".glb") && files.contains(output) && files.at(output) != "old") {
-                EXPECT_TRUE(files.at(output) == whole.at(output)) << output;
+                EXPECT_TRUE(files.at(output) == complete.at(output)) << output;
             }
         const Outcome after = run_in(folder, command, {});
         EXPECT_EQ(after.status, 0) << after.err;
-        expect_whole(folder, command, old, true); // and no other file is left
+        expect_complete(folder, command, old, true); // and no other file remains
     }
 
     /// Returns the number of calls of each kind that a command makes.
@@ -171,7 +172,7 @@ protected:
     }
 
     TemporaryFolder road;
-    Files whole; ///< files of a run without faults
+    Files complete; ///< files of a run without faults
 };
 
 TEST_F(Faults, WhateverFailsOnceNothingIsLost) {

@@ -56,7 +56,7 @@ bool use_in_c(std::span<const std::byte> bytes) {
     prt_message message = {};
     if (prt_model_load_memory(bytes.data(), bytes.size(), &model, &message) != PRT_OK) {
         fuzz::expect_plain(message.text);
-        fuzz::expect(model == nullptr, "a model that is refused is there");
+        fuzz::expect(model == nullptr, "a rejected model is not null");
         return false;
     }
     prt_model_info info;
@@ -72,7 +72,7 @@ bool use_in_c(std::span<const std::byte> bytes) {
     return true;
 }
 
-/// Whether it was read.
+/// Returns true if the file was read by all interfaces that support it.
 bool is_read(const std::string& file) {
     const std::span<const std::byte> bytes = std::as_bytes(std::span(file));
     bool read = true, of_vertices = true; // the C interface supports only vertices
@@ -105,7 +105,7 @@ TEST(HostileShippedFiles, AreRefusedInALineOrDecodedToFiniteNumbers) {
             ADD_FAILURE() << error.what();
         }
     }
-    // Both ways are taken.
+    // Some files are read, others are rejected.
     EXPECT_GT(read, cases / 20);
     EXPECT_LT(read, cases - cases / 4);
     rusage usage = {};

@@ -17,7 +17,7 @@ const { PrtkitPlugin, PrtkitVolume, projectEquirectangular } = await import(path
 
 const [folder, verbose] = process.argv.slice(2);
 const white = projectEquirectangular(new DataTexture(new Float32Array([1, 1, 1, 1]), 1, 1, RGBAFormat, FloatType));
-globalThis.createImageBitmap ??= async () => ({}); // node decodes no images
+globalThis.createImageBitmap ??= async () => ({}); // node cannot decode images
 const SECONDS = 20; // normal files need milliseconds
 
 /** Returns the first error of a volume; null if it is valid. */
@@ -52,9 +52,9 @@ function wrongModel(gltf) {
   return wrong;
 }
 
-/** Returns the error in the way a file is rejected; null if there is none. */
+/** Returns what is wrong with a rejection by `error`, or null. */
 function wrongRefusal(error) {
-  if (!(error instanceof Error)) return "what is thrown is no Error";
+  if (!(error instanceof Error)) return "throws a value that is not an Error";
   const inOurs = /examples\/web\/src/.test(error.stack.split("\n").find((line) => line.trim().startsWith("at ")) ?? "");
   const ours = /^PRTKIT_(clustered_pca|lightmap|transfer_volume|occlusion_volume): [^\n]+$/.test(error.message);
   return inOurs && !ours ? `throws ${error.name}: ${error.message}` : null;
@@ -73,7 +73,7 @@ for (const name of files) {
     wrong = wrongModel(await loader.parseAsync(bytes.buffer.slice(bytes.byteOffset, bytes.byteOffset + bytes.length), ""));
     ++read;
   } catch (error) {
-    wrong = name.startsWith("whole") ? `is refused: ${error}` : wrongRefusal(error);
+    wrong = name.startsWith("whole") ? `is rejected: ${error}` : wrongRefusal(error);
     if (wrong && verbose) wrong += `\n${error.stack}`;
   }
   if (performance.now() - begin > 1000 * SECONDS) wrong = "takes too long";
