@@ -62,7 +62,7 @@ TEST(HardCase, DegenerateDuplicatedAndNeedleTrianglesDoNoHarm) {
 
 /// A triangle without area is on a floor. Two of its corners are at corners of the floor and take their
 /// light; the third is at no other vertex and stays black.
-TEST(HardCase, VerticesWithoutAreaTakeTheLightOfTheirPosition) {
+TEST(HardCase, VerticesWithoutAreaGetTheLightOfTheirPosition) {
     for (const FitMode fit : {FitMode::vertex, FitMode::surface}) {
         BakeOptions options;
         options.order = 3;

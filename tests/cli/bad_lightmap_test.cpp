@@ -288,21 +288,21 @@ protected:
     }
 };
 
-TEST_F(BadLightmaps, AreRefusedForTheirMaps) {
+TEST_F(BadLightmaps, AreRejectedForInvalidMaps) {
     expect_refused(raw_file(), damages_to_maps());
     expect_refused(shipped_file(), damages_to_maps());
 }
 
-TEST_F(BadLightmaps, AreRefusedForWhatWasBaked) {
+TEST_F(BadLightmaps, AreRejectedForInvalidBakes) {
     expect_refused(raw_file(), damages_to_raw());
 }
 
-TEST_F(BadLightmaps, AreRefusedForTheirWords) {
+TEST_F(BadLightmaps, AreRejectedForInvalidWords) {
     expect_refused(shipped_file(), damages_to_images());
     expect_refused(shipped_file(), damages_to_clusters());
 }
 
-TEST_F(BadLightmaps, AreNotThoseThatAreRight) {
+TEST_F(BadLightmaps, AcceptsValidLightmaps) {
     std::vector<std::string> files = {write(raw_file(), "raw"), write(shipped_file(), "shipped"),
                                       write(shipped_file(true), "alike")};
     const Outcome compressed = prt({"compress", at("raw.glb"), "-o", at("coded.glb"), "--clusters", "3"});

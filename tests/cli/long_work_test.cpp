@@ -34,7 +34,7 @@ bool minds_interrupts(pid_t process) {
     return false;
 }
 
-TEST_P(LongWork, IsEndedByCtrlCAndLeavesNothing) {
+TEST_P(LongWork, StopsAtCtrlCWithoutOutput) {
     copy_examples(folder.path(), {"room"});
     const std::size_t before = folder.files();
     const std::string scene = at("room.glb"), output = at("b.glb");
@@ -61,7 +61,7 @@ TEST_P(LongWork, IsEndedByCtrlCAndLeavesNothing) {
     EXPECT_TRUE(WIFEXITED(status) && WEXITSTATUS(status) == 1);
     EXPECT_EQ(folder.files(), before);
 }
-TEST_F(Road, TooLargeABakeIsRefusedWithItsSize) {
+TEST_F(Road, LargeBakesAreRejectedWithTheirSize) {
     copy_examples(folder.path(), {"room"});
     const Outcome bake =
         prt({"bake", at("room.glb"), "-o", at("b.glb"), "--rays", "16777216", "--bounces", "1"});

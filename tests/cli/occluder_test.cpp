@@ -21,7 +21,7 @@ protected:
     }
 };
 
-TEST_F(OccluderCommand, WritesVolumesAndSaysHowFarTheyAreOff) {
+TEST_F(OccluderCommand, WritesVolumesAndReportsTheirError) {
     const Outcome outcome = ao({"--rays", "32", "--json", at("ao.json")});
     ASSERT_EQ(outcome.status, 0) << outcome.err;
     EXPECT_EQ(validator_errors(folder / "out.glb"), 0);
@@ -36,7 +36,7 @@ TEST_F(OccluderCommand, WritesVolumesAndSaysHowFarTheyAreOff) {
     EXPECT_NE(info.out.find("block around them"), std::string::npos) << info.out;
 }
 
-TEST_F(OccluderCommand, RefusesWhatIsOfSurfaces) {
+TEST_F(OccluderCommand, RejectsSurfaceOptions) {
     for (const auto& options : std::vector<std::vector<std::string>>{{"--size", "64"},
                                                                      {"--attribute", "_AO"},
                                                                      {"--bent-normals"},

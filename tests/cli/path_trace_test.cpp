@@ -44,7 +44,7 @@ protected:
     }
 };
 
-TEST_F(PathTraced, FloorsAreAsBrightAsTheirLight) {
+TEST_F(PathTraced, FloorsMatchTheirLight) {
     // Under radiance 0.7 a floor of albedo 1 reflects 0.7; a sun of irradiance 2 at 60 degrees adds 2 cos 60
     // / pi.
     EXPECT_NEAR(seen("floor.glb", {"--env", at("even.exr")}).g, 0.7, 0.01);
@@ -59,7 +59,7 @@ TEST_F(PathTraced, FloorsAreAsBrightAsTheirLight) {
     EXPECT_NEAR(lit.g, 0.5 / std::numbers::pi, 1e-3);
 }
 
-TEST_F(PathTraced, LampsOfASceneWithoutTransferShine) {
+TEST_F(PathTraced, LampsOfASceneWithoutTransferEmit) {
     GlbFile file = scene_file(SceneBuilder().floor({0, 0, 0}, 2, 8).build());
     file.json["extensionsUsed"] = {"KHR_lights_punctual"};
     file.json["extensions"]["KHR_lights_punctual"]["lights"] = {
@@ -99,7 +99,7 @@ TEST_F(PathTraced, ErrorsAreSmallForABakeAndGreatWithoutShadows) {
     EXPECT_EQ(decode_image(read_file(folder / "e.png")).width, 64);
 }
 
-TEST_F(PathTraced, OptionsThatDoNotGoTogetherAreRefused) {
+TEST_F(PathTraced, IncompatibleOptionsAreRejected) {
     for (const std::vector<std::string>& wrong :
          {std::vector<std::string>{"--show", "error"},
           {"--show", "ao", "--path-trace", "8"},
@@ -151,7 +151,7 @@ INSTANTIATE_TEST_SUITE_P(All, DemoPictures, testing::ValuesIn(demo_pictures()),
 // Means over blocks of 8 x 8 pixels against path tracing, of pictures a twelfth as wide as the demo's. Bakes
 // measure 3 to 7 %, noise of 64 paths included; the night room of a compressor that destroys faint light 27
 // %.
-TEST_P(DemoPictures, LookAsPathTracing) {
+TEST_P(DemoPictures, MatchPathTracing) {
     const DemoPicture& picture = GetParam();
     copy_examples(folder.path(), {picture.name, picture.sky});
     const std::string scene = at((picture.name + ".glb").c_str()), sky = at((picture.sky + ".exr").c_str());

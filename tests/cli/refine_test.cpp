@@ -10,7 +10,7 @@
 namespace prt::test {
 namespace {
 
-TEST_F(Road, RefinesAndSaysWhatItDid) {
+TEST_F(Road, RefinementIsReported) {
     copy_examples(folder.path(), {"plain_room"});
     const Outcome bake = prt({"bake", at("plain_room.glb"), "-o", at("b.glb"), "--order", "3", "--rays", "64",
                               "--refine", "0.1", "--json", at("b.json"), "--backend", "cpu"});
@@ -33,7 +33,7 @@ TEST_F(Road, RefinesAndSaysWhatItDid) {
         GTEST_SKIP() << "gltf-validator is not installed";
 }
 
-TEST_F(Road, KeepsToTheVerticesThatARefinementMayHave) {
+TEST_F(Road, RefinementKeepsTheVertexLimit) {
     copy_examples(folder.path(), {"plain_room"});
     const Outcome bake = prt({"bake", at("plain_room.glb"), "-o", at("b.glb"), "--order", "3", "--rays", "64",
                               "--refine", "0.05", "--most-vertices", "600", "--backend", "cpu"});
@@ -44,7 +44,7 @@ TEST_F(Road, KeepsToTheVerticesThatARefinementMayHave) {
     EXPECT_GT(vertices, 580);
 }
 
-TEST_F(Road, RefusesRefinementOfWhatItCannotMeasure) {
+TEST_F(Road, RejectsUnsupportedRefinement) {
     triangle_file().write(folder / "t.glb");
     const auto bake = [&](std::vector<std::string> options) {
         options.insert(options.begin(), {"bake", at("t.glb"), "-o", at("b.glb")});

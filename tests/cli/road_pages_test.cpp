@@ -37,7 +37,7 @@ std::string drawn_page(const std::filesystem::path& path) {
     return outcome.out;
 }
 
-TEST_F(Road, ASweepIsAPageThatStandsAlone) {
+TEST_F(Road, SweepsAreSelfContainedPages) {
     triangle_file().write(folder / "t.glb");
     ASSERT_EQ(prt({"bake", at("t.glb"), "-o", at("b.glb"), "--rays", "16", "--order", "2"}).status, 0);
     const Outcome evaluate =

@@ -16,7 +16,7 @@
 namespace prt::test {
 namespace {
 
-TEST_F(Road, NoticesOfTheSceneAreSaidOnceAndStandInTheReports) {
+TEST_F(Road, NoticesArePrintedOnceAndReported) {
     GlbFile file = triangle_file();
     file.json["materials"] = {{{"pbrMetallicRoughness", {{"baseColorFactor", {2, 1, 1, 1}}}}}};
     file.json["meshes"][0]["primitives"][0]["material"] = 0;
@@ -32,10 +32,10 @@ TEST_F(Road, NoticesOfTheSceneAreSaidOnceAndStandInTheReports) {
     }
 }
 
-class ExampleRoad : public Road, public testing::WithParamInterface<const char*> {};
-INSTANTIATE_TEST_SUITE_P(Scenes, ExampleRoad, testing::Values("knot", "room", "terrain", "tree"));
+class ExamplePipeline : public Road, public testing::WithParamInterface<const char*> {};
+INSTANTIATE_TEST_SUITE_P(Scenes, ExamplePipeline, testing::Values("knot", "room", "terrain", "tree"));
 
-TEST_P(ExampleRoad, LeadsFromSceneToPictures) {
+TEST_P(ExamplePipeline, LeadsFromSceneToPictures) {
     copy_examples(folder.path(), {GetParam(), "sky"});
     const std::string scene = at((std::string(GetParam()) + ".glb").c_str());
     const Outcome bake =
@@ -155,7 +155,7 @@ TEST_F(Road, EveryViewIsDrawn) {
             }
 }
 
-TEST_F(Road, EveryOptionOfTheContractThatThereIsIsTaken) {
+TEST_F(Road, EverySupportedOptionIsAccepted) {
     triangle_file().write(folder / "t.glb");
     const Outcome outcome =
         prt({"bake",      at("t.glb"), "-o",     at("b.glb"), "--order", "3",         "--rays",
@@ -165,7 +165,7 @@ TEST_F(Road, EveryOptionOfTheContractThatThereIsIsTaken) {
     EXPECT_EQ(read_json(folder / "b.json")["bake"]["seed"], 5);
 }
 
-TEST_F(Road, SameSeedSameBytesWhateverTheThreads) {
+TEST_F(Road, EqualSeedsGiveEqualBytesForAllThreads) {
     triangle_file().write(folder / "t.glb");
     for (const char* threads : {"1", "2"}) {
         ASSERT_EQ(prt({"bake", at("t.glb"), "-o", at((std::string("b") + threads).c_str()), "--rays", "100",
@@ -206,13 +206,13 @@ struct LampScene {
 void PrintTo(const LampScene& scene, std::ostream* to) {
     *to << scene.name;
 }
-class LampRoad : public Road, public testing::WithParamInterface<LampScene> {};
-INSTANTIATE_TEST_SUITE_P(Scenes, LampRoad,
+class LampPipeline : public Road, public testing::WithParamInterface<LampScene> {};
+INSTANTIATE_TEST_SUITE_P(Scenes, LampPipeline,
                          testing::Values(LampScene{"courtyard", "Lanterns=Lantern*", 8, 2},
                                          LampScene{"night_room", "Lamps=Lamp*", 3, 4}),
                          [](const auto& scene) { return std::string(scene.param.name); });
 
-TEST_P(LampRoad, BakesTheLampsOfAScene) {
+TEST_P(LampPipeline, BakesTheLampsOfAScene) {
     const auto& [name, group, lights, lamps] = GetParam();
     copy_examples(folder.path(), {name});
     const std::string scene = at((std::string(name) + ".glb").c_str());

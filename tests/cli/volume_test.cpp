@@ -35,7 +35,7 @@ protected:
     }
 };
 
-TEST_F(Volumes, GoAllTheRoad) {
+TEST_F(Volumes, WorkInAllCommands) {
     ASSERT_EQ(bake({"--volume", "1", "--bounces", "1", "--json", at("bake.json")}).status, 0);
     const nlohmann::json baked_figures = read_json(folder / "bake.json")["volume"];
     EXPECT_GT(baked_figures["probes"], 400);
@@ -80,7 +80,7 @@ TEST_F(Volumes, GoAllTheRoad) {
     }
 }
 
-TEST_F(Volumes, GoWithASecondBake) {
+TEST_F(Volumes, AreRemovedByASecondBake) {
     ASSERT_EQ(bake({"--volume-probes", "400"}).status, 0);
     EXPECT_TRUE(read_volume(load_gltf(folder / "baked.glb"), extract_scene(load_gltf(folder / "baked.glb"))));
     ASSERT_EQ(prt({"bake", at("baked.glb"), "-o", at("again.glb"), "--rays", "8"}).status, 0);
@@ -88,7 +88,7 @@ TEST_F(Volumes, GoWithASecondBake) {
     EXPECT_FALSE(read_volume(again, extract_scene(again)));
 }
 
-TEST_F(Volumes, StandBesideLightmaps) {
+TEST_F(Volumes, CombineWithLightmaps) {
     ASSERT_EQ(bake({"--volume", "2", "--size", "64", "--unwrap"}).status, 0);
     ASSERT_EQ(
         prt({"compress", at("baked.glb"), "-o", at("shipped.glb"), "--clusters", "4", "--bits", "24"}).status,
@@ -98,7 +98,7 @@ TEST_F(Volumes, StandBesideLightmaps) {
     EXPECT_EQ(validator_errors(folder / "shipped.glb"), 0);
 }
 
-TEST_F(Volumes, RefuseWhatMakesNone) {
+TEST_F(Volumes, RejectInvalidOptions) {
     expect_refused(bake({"--volume", "1e-3"}), "make it smaller");
     expect_refused(bake({"--volume", "1e-7"}), "closer than positions");
     expect_refused(bake({"--volume-order", "2"}), "say --volume");

@@ -175,12 +175,12 @@ protected:
     Files complete; ///< files of a run without faults
 };
 
-TEST_F(Faults, WhateverFailsOnceNothingIsLost) {
+TEST_F(Faults, NoDataIsLostAfterASingleFailure) {
     const auto fail = [this](const auto&... about) { fail_once(about...); };
     spread({"write", "open", "rename", "sync", "map", "allocate", "thread"}, "", fail);
 }
 
-TEST_F(Faults, NorWhereFilesNeedANameFromTheStart) {
+TEST_F(Faults, NoDataIsLostWithoutUnnamedFiles) {
     const auto fail = [this](const auto&... about) { fail_once(about...); };
     spread({"write", "open", "rename", "sync"}, "tmpfile", fail);
     spread({"rename"}, "tmpfile,exchange",
@@ -190,14 +190,14 @@ TEST_F(Faults, NorWhereFilesNeedANameFromTheStart) {
            });
 }
 
-TEST_F(Faults, AKilledRunLeavesWholeFilesAndTheNextCleansUp) {
+TEST_F(Faults, KilledRunsLeaveCompleteFilesAndTheNextCleansUp) {
     const auto kill = [this](const auto&... about) { kill_once(about...); };
     spread({"write", "open", "rename", "sync"}, "", kill);
     spread({"write", "rename", "sync"}, "tmpfile", kill);
 }
 
 /// OpenEXR omits lines without an error if it has no memory to compress them.
-TEST_F(Faults, APictureIsWholeOrNone) {
+TEST_F(Faults, PicturesAreCompleteOrMissing) {
     const Command render = commands().back();
     const long all = counts_of(render, "").at("allocate");
     for (long n = std::max(1L, all - 200); n <= all; ++n)
@@ -205,7 +205,7 @@ TEST_F(Faults, APictureIsWholeOrNone) {
 }
 
 /// Embree builds its trees in threads of its library, and reports an error if it gets none.
-TEST_F(Faults, OneThreadIsEnoughOrOneLine) {
+TEST_F(Faults, OneThreadSufficesOrIsReportedInOneLine) {
     for (const Command& command : commands()) {
         fail_once(command, "thread:1:all", "", false);
         if (command.words[0] == "compress") {
@@ -216,7 +216,7 @@ TEST_F(Faults, OneThreadIsEnoughOrOneLine) {
     }
 }
 
-TEST_F(Faults, AllMemoryAndAllDescriptorsGoneIsOneLine) {
+TEST_F(Faults, MissingMemoryAndDescriptorsAreReportedInOneLine) {
     for (const Command& command : commands())
         for (const char* kind : {"allocate", "open", "write"})
             for (const char* from : {"1", "2", "20", "200"})

@@ -86,12 +86,12 @@ bool is_read(const std::string& file) {
     return read;
 }
 
-TEST(HostileShippedFiles, AreReadWhereNothingIsDamaged) {
+TEST(HostileShippedFiles, AreReadWithoutDamage) {
     for (const ShippedFile& shipped : shipped_files())
         EXPECT_TRUE(is_read(shipped.file.bytes())) << shipped.name;
 }
 
-TEST(HostileShippedFiles, AreRefusedInALineOrDecodedToFiniteNumbers) {
+TEST(HostileShippedFiles, AreRejectedInOneLineOrDecodedToFiniteNumbers) {
     const std::vector<ShippedFile> files = shipped_files();
     const std::uint32_t first = number_from("PRTKIT_HOSTILE_FIRST", 0),
                         cases = number_from("PRTKIT_HOSTILE_CASES", 1200);

@@ -51,7 +51,7 @@ bool use(const std::string& file) {
     return true;
 }
 
-TEST(HostileVolumes, AreRefusedInALineOrFormedToFiniteNumbers) {
+TEST(HostileVolumes, AreRejectedInOneLineOrComputedToFiniteNumbers) {
     const std::vector<ShippedFile> files = volume_files();
     for (const ShippedFile& shipped : files)
         EXPECT_TRUE(use(shipped.file.bytes()));

@@ -19,7 +19,7 @@ RUNTIME = Suite("runtime_tests", "-*Suns*:*Skies*:Sky.AgreesWithAFiner*")
 SMALL_ORDERS = Suite("runtime_tests", "*Sh*-All/ShOrder.*/6:All/ShOrder.*/7:All/ShOrder.*/8:All/ShOrder.*/9")
 COMPRESS = Suite("compress_tests", "-Search*:Sweep*")
 BAKE = Suite("bake_tests", "HitPoint*:Textures*:Glass*:Cut*:Blended*:Bad*:Leaf*:Metal*:Disc*:*Degrees*:*Orders*:Sobol*:Uniform*:Tangent*:"
-             "AddBasis*:Direct*:InsideG*:Shell*:Ray*:BackFaces*:Channels*:Hard*:FootOf*:Reduced*:Dipole*:MeasuredM*:SphereB*:White*:Bounces*:Memory*")
+             "AddBasis*:Direct*:InsideG*:Shell*:Ray*:BackFaces*:Channels*:Hard*:WallFoot*:Reduced*:Dipole*:MeasuredM*:SphereB*:White*:Bounces*:Memory*")
 BOUNCES = Suite("bake_tests", "ColorB*:*PinHole*:ParallelPlates*:SphericalBowl*:Subsurface*:SmoothBoxes*:SealedIn*:OneSidedC*")
 WHOLE_BAKE = Suite("bake_tests", "PathTracer*:EndlessWall*:OneSided*:Bake*:Storage*:Diffusion*:SamplingError*:TargetError*")
 DIFFUSION = Suite("bake_tests", "Diffusion*")

@@ -42,7 +42,7 @@ prt::TransferLayout layout_with(const std::vector<std::string>& names) {
     return layout;
 }
 
-TEST(LampStrengths, AreThoseOfTheirNamesTimesThatOfAll) {
+TEST(LampStrengths, AreProductsOfOwnAndGlobalStrength) {
     LampSettings settings{
         .strength = 2,
         .each = {{.name = "b", .strength = 3, .color = {1, 0.5f, 0}}, {.name = "c", .on = false}}};
@@ -54,7 +54,7 @@ TEST(LampStrengths, AreThoseOfTheirNamesTimesThatOfAll) {
     EXPECT_FALSE(any_shines(settings));
 }
 
-TEST(LampStrengths, StayWhereTransferComesThatHasTheSameLamps) {
+TEST(LampStrengths, AreKeptForTransferWithTheSameLamps) {
     const prt::TransferLayout raw = layout_with({"a", "b"}), compressed = layout_with({"b", "c"});
     const prt::TransferLayout* both[] = {&raw, &compressed};
     const std::vector<Lamp> lamps = lamps_of(both, {{.name = "b", .strength = 5}, {.name = "gone"}});
@@ -136,7 +136,7 @@ protected:
     std::vector<float> alpha;
 };
 
-TEST_F(LampPictures, ChangeWithTheStrengthAsLightDoes) {
+TEST_F(LampPictures, ScaleWithTheStrength) {
     load(lit_scene());
     ASSERT_EQ(transfer.layout.lamps(), 2u);
     for (const PictureKind kind : {PictureKind::prt, PictureKind::prt_compressed})
@@ -181,7 +181,7 @@ TEST_F(LampPictures, AreSumsOverTheLampsByName) {
     }
 }
 
-TEST_F(LampPictures, ShowWhatShinesTimesItsStrengthInEveryKind) {
+TEST_F(LampPictures, ShowEmissionTimesStrengthInEveryKind) {
     load(shining_square({0.25f, 2, 0.5f}));
     ASSERT_EQ(transfer.layout.lamps(), 1u);
     for (const PictureKind kind : {PictureKind::unshadowed, PictureKind::ssao, PictureKind::ssao_normals,
@@ -214,7 +214,7 @@ void add_texture(prt::Scene& scene) {
     }
 }
 
-TEST_F(LampPictures, ShowTexturesOfWhatShinesAsTheRendererDoes) {
+TEST_F(LampPictures, ShowEmissiveTexturesLikeTheRenderer) {
     prt::Scene scene = shining_square({2, 3, 4});
     add_texture(scene);
     load(std::move(scene));
@@ -235,7 +235,7 @@ TEST_F(LampPictures, ShowTexturesOfWhatShinesAsTheRendererDoes) {
     }
 }
 
-TEST_F(LampPictures, OfASkyAloneShowNothingThatShines) {
+TEST_F(LampPictures, UnderASkyShowNoEmission) {
     load(shining_square({0.25f, 2, 0.5f}));
     gpu->set_light(sky);
     renderer->draw(1, PictureKind::prt, *gpu, settings, view, {0, kColumns});
@@ -302,7 +302,7 @@ TEST_F(ViewedLamp, IsSetByScripts) {
     EXPECT_EQ(picture("again.png").pixels, both.pixels);
 }
 
-TEST_F(ViewedLamp, IsRefusedWithTheReason) {
+TEST_F(ViewedLamp, IsRejectedWithTheReason) {
     const auto says = [&](const std::string& step, const char* part) {
         const std::string text = why(step);
         EXPECT_NE(text.find(part), std::string::npos) << step << ": " << text;
@@ -363,7 +363,7 @@ protected:
     std::unique_ptr<Viewer> viewer;
 };
 
-TEST_F(LampsOfTheViewer, AreListedAndGoWithTheModel) {
+TEST_F(LampsOfTheViewer, AreListedWhileTheModelIsOpen) {
     ASSERT_EQ(lamps().each.size(), 2u);
     EXPECT_EQ(lamps().each[0].name, "Lamp.a");
     EXPECT_EQ(lamps().each[1].name, "Lamp.b");
@@ -378,7 +378,7 @@ TEST_F(LampsOfTheViewer, AreListedAndGoWithTheModel) {
     EXPECT_TRUE(lamps().each.empty());
 }
 
-TEST_F(LampsOfTheViewer, AreSaidToBeMissingWherePicturesHaveNone) {
+TEST_F(LampsOfTheViewer, AreReportedAsMissingInPicturesWithoutLamps) {
     EXPECT_EQ(viewer->shown(PictureKind::prt).note, "");
     EXPECT_EQ(viewer->shown(PictureKind::prt_compressed).note, "");
     EXPECT_EQ(viewer->shown(PictureKind::reference).note, "without lamps and emission");
@@ -390,7 +390,7 @@ TEST_F(LampsOfTheViewer, AreSaidToBeMissingWherePicturesHaveNone) {
 
 // By day the exposure is fully automatic; at night brighter lamps look brighter: 0.6 of a stop is
 // compensated.
-TEST_F(LampsOfTheViewer, AreMeteredInFullByDayAndInPartAtNight) {
+TEST_F(LampsOfTheViewer, AreMeteredFullyByDayAndPartlyAtNight) {
     viewer->lights.day = viewer->lights.environment_on = false; // no night either
     frame();
     const float alone = stops();
@@ -406,7 +406,7 @@ TEST_F(LampsOfTheViewer, AreMeteredInFullByDayAndInPartAtNight) {
     EXPECT_NEAR(stops() - night, -0.6f, 0.1f);
 }
 
-TEST_F(LampsOfTheViewer, LightNumbersToo) {
+TEST_F(LampsOfTheViewer, LightNumberPictures) {
     viewer->settings.right = PictureKind::error;
     viewer->settings.split = 0;
     const auto error_picture = [&] {

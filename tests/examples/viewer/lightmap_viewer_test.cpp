@@ -69,7 +69,7 @@ protected:
     std::unique_ptr<Offscreen> screen;
 };
 
-TEST_F(LightmapViewer, CompressesABakeAndSaysWhatItTakes) {
+TEST_F(LightmapViewer, CompressesABakeAndReportsItsSize) {
     open({files.raw()});
     EXPECT_EQ(message(), "");
     EXPECT_TRUE(viewer->document().loaded.of_texels());
@@ -112,7 +112,7 @@ TEST_F(LightmapViewer, SavesTheCompressedLightmap) {
     EXPECT_LT(again, 0.2);
 }
 
-TEST_F(LightmapViewer, PutsABakeAndItsCompressedFileTogether) {
+TEST_F(LightmapViewer, CombinesABakeAndItsCompressedFile) {
     for (const bool bake_first : {false, true})
         for (const bool at_once : {false, true}) {
             TearDown();
@@ -134,7 +134,7 @@ TEST_F(LightmapViewer, PutsABakeAndItsCompressedFileTogether) {
         }
 }
 
-TEST_F(LightmapViewer, SaysWhatALightmapAloneCannotShow) {
+TEST_F(LightmapViewer, ReportsPicturesThatNeedMoreThanALightmap) {
     open({files.shipped()});
     EXPECT_EQ(viewer->shown(PictureKind::prt_compressed).kind, PictureKind::prt_compressed);
     EXPECT_EQ(viewer->shown(PictureKind::clusters).note, "not available yet");
@@ -182,7 +182,7 @@ TEST_F(LightmapViewer, ShowsVerticesAndALightmapSideBySide) {
         }
 }
 
-TEST_F(LightmapViewer, BakesVerticesToTheEndThoughALightmapIsOpenedMeanwhile) {
+TEST_F(LightmapViewer, CompletesAVertexBakeWhileALightmapIsOpened) {
     const std::filesystem::path lightmap = files.shipped();
     viewer->open({files.unbaked()});
     while (!viewer->document().raw() && viewer->jobs().busy())
@@ -211,7 +211,7 @@ TEST_F(LightmapViewer, HasNumbersOfBoth) {
     EXPECT_EQ(viewer->shown(right_picture(viewer->settings)).kind, PictureKind::error);
 }
 
-TEST_F(LightmapViewer, RefusesWhatDoesNotBelongToIt) {
+TEST_F(LightmapViewer, RejectsMismatchedFiles) {
     const std::filesystem::path shipped = files.shipped(), other = files.folder() / "other.glb";
     std::filesystem::copy_file(files.raw(32), files.folder() / "coarse.glb");
     prt::test::scene_file(prt::test::SceneBuilder().floor({0, 0, 0}, 1).build()).write(other);
