@@ -14,13 +14,13 @@ set(long_tests
     LightmapViewer.CompletesAVertexBake* LightmapViewer.HasNumbers* LightmapViewer.CombinesABake*
     LightmapViewer.ShowsVertices* Lightmaps.AreDecoded* LobesCommand.IsByteIdentical* Make.Keeps* Make.MeetsTheError*
     Make.ReportsWhy* Make.ReportsMissing* ManyReceivers.* OtherLayouts.NoiseIs* ParallelPlates.OneBounce*
-    PathTracer.AgreesWith* PlainSkies.YieldNo* PlainSkies.HaveNo* RenderSuns.* Road.ADecoder* Road.AutomaticExposure*
-    Road.BouncesOnTheGpu* Road.EveryView* SamplingError.* SceneLamps.BakerLamps* Script.KeysAnd*
-    Script.MeasuresTheErrorBudget* Script.OpensWaits* Search.MatchesAGrid* Search.IsMonotone* Search.IsNeverWorse*
-    Search.Keeps* Search.LimitsJumps* Search.OperationBudget* Search.Presets* Search.ReportsTheTime*
-    Search.FloatWeightsFit* Skies/Suns.* Sky.AgreesWith* SphericalBowl.* Storage.* Subsurface.IsFinite*
-    SunShadowPictures.AgreeWithRays* Suns.SumWithTheRemainder* Sweep.* TargetError.FindsTheWindow*
-    TargetError.IsReached* TargetError.NeedsFewer* Trace.NoCluster* ViewerPictures.SeparateSuns*
-    ViewerTest.BakesAndShows* ViewerTest.LimitsTheBases* ViewerTest.ListsEvery* ViewerTest.OpensCompressed*
-    ViewerTest.CombinesABake* ViewerTest.ReportsTransfer* VolumeBake.FitReduces*)
+    PathTracer.AgreesWith* PlainSkies.YieldNo* PlainSkies.HaveNo* RenderSuns.* Pipeline.ADecoder*
+    Pipeline.AutomaticExposure* Pipeline.BouncesOnTheGpu* Pipeline.EveryView* SamplingError.* SceneLamps.BakerLamps*
+    Script.KeysAnd* Script.MeasuresTheErrorBudget* Script.OpensWaits* Search.MatchesAGrid* Search.IsMonotone*
+    Search.IsNeverWorse* Search.Keeps* Search.LimitsJumps* Search.OperationBudget* Search.Presets*
+    Search.ReportsTheTime* Search.FloatWeightsFit* Skies/Suns.* Sky.AgreesWith* SphericalBowl.* Storage.*
+    Subsurface.IsFinite* SunShadowPictures.AgreeWithRays* Suns.SumWithTheRemainder* Sweep.*
+    TargetError.FindsTheWindow* TargetError.IsReached* TargetError.NeedsFewer* Trace.NoCluster*
+    ViewerPictures.SeparateSuns* ViewerTest.BakesAndShows* ViewerTest.LimitsTheBases* ViewerTest.ListsEvery*
+    ViewerTest.OpensCompressed* ViewerTest.CombinesABake* ViewerTest.ReportsTransfer* VolumeBake.FitReduces*)
 list(JOIN long_tests ":" long_tests)

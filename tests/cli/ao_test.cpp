@@ -1,9 +1,9 @@
 // Tests ambient occlusion through the program: written data and rejected input.
 
 #include "demanding_file.h"
+#include "pipeline.h"
 #include "prt/gltf.h"
 #include "prt/image_file.h"
-#include "road.h"
 
 #include <gtest/gtest.h>
 
@@ -12,7 +12,7 @@
 namespace prt::test {
 namespace {
 
-class Occlusion : public Road {
+class Occlusion : public Pipeline {
 protected:
     void SetUp() override {
         demanding_file().write(folder / "d.glb");

@@ -1,10 +1,10 @@
 // Both sides of double-sided surfaces, from the command line to the file.
 
+#include "pipeline.h"
 #include "prt/encode_glb.h"
 #include "prt/gltf.h"
 #include "prt/levels.h"
 #include "prt/support/file.h"
-#include "road.h"
 #include "support/glb_file.h"
 #include "support/scene_builder.h"
 
@@ -23,7 +23,7 @@ GlbFile roof_file() {
     return file;
 }
 
-class BackSides : public Road {
+class BackSides : public Pipeline {
 protected:
     Outcome bake(const char* scene, const char* output, std::vector<std::string> options = {}) {
         options.insert(options.begin(), {"bake", at(scene), "-o", at(output), "--order", "2", "--rays", "64",

@@ -1,8 +1,8 @@
 // Tests files with invalid lightmaps: each is rejected with a one-line error, and invalid JSON is also
 // rejected by the schemas of docs/format.md. Valid files are accepted by both.
 
+#include "pipeline.h"
 #include "prt/image_file.h"
-#include "road.h"
 #include "support/lightmap_model.h"
 #include "support/random_lightmap.h"
 
@@ -239,7 +239,7 @@ std::vector<Damage> damages_to_clusters() {
     };
 }
 
-class BadLightmaps : public Road {
+class BadLightmaps : public Pipeline {
 protected:
     std::string write(const GlbFile& file, const std::string& name) {
         file.write(folder / (name + ".glb"));

@@ -1,8 +1,8 @@
 // prt compress --fallback: other viewers have a lit picture, and prt has the one that it had.
 
+#include "pipeline.h"
 #include "prt/image_file.h"
 #include "prt/support/file.h"
-#include "road.h"
 #include "support/glb_file.h"
 #include "support/scene_builder.h"
 
@@ -11,7 +11,7 @@
 namespace prt::test {
 namespace {
 
-class FallbackFiles : public Road {
+class FallbackFiles : public Pipeline {
 protected:
     void SetUp() override {
         scene_file(SceneBuilder().floor({0, 0, 0}, 2, 6).sphere({0, 0.8f, 0}, 0.7f, 8).build())

@@ -1,10 +1,10 @@
 // Tests instances that share transfer through the program: baked, compressed, reported, evaluated and drawn;
 // and rejected input.
 
+#include "pipeline.h"
 #include "prt/instances_gltf.h"
 #include "prt/light.h"
 #include "prt/support/error.h"
-#include "road.h"
 #include "support/glb_file.h"
 
 #include <gtest/gtest.h>
@@ -17,7 +17,7 @@
 namespace prt::test {
 namespace shared_transfer {
 
-class SharedInstances : public Road {
+class SharedInstances : public Pipeline {
 protected:
     void make(const char* scene) {
         ASSERT_EQ(run(PRT_EXAMPLE_SCENES, {folder.path().string(), scene, "sky"}).status, 0);

@@ -1,8 +1,8 @@
 // Tests levels of detail through the program: baked, compressed, reported, evaluated and drawn; and rejected
 // input.
 
+#include "pipeline.h"
 #include "prt/levels.h"
-#include "road.h"
 #include "support/level_file.h"
 #include "support/scene_builder.h"
 
@@ -15,7 +15,7 @@
 namespace prt::test {
 namespace levels_of_files {
 
-class LevelsOfDetail : public Road {
+class LevelsOfDetail : public Pipeline {
 protected:
     /// A ball with a dent, of some 2 000 triangles.
     GlbFile ball() const {

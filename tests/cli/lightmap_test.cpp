@@ -1,8 +1,8 @@
 // Tests lightmaps through the program: baked, compressed, reported and drawn; and rejected input.
 
+#include "pipeline.h"
 #include "prt/image_file.h"
 #include "prt/lightmap_file.h"
-#include "road.h"
 #include "support/glb_file.h"
 #include "support/lightmap_model.h"
 #include "support/scene_builder.h"
@@ -16,7 +16,7 @@
 namespace prt::test {
 namespace {
 
-class Lightmaps : public Road {
+class Lightmaps : public Pipeline {
 protected:
     static constexpr const char* kScene = "plain_room.glb";
 

@@ -1,8 +1,8 @@
 // Tests prt lobes: transfer that rotates with a skin, and rejected input.
 
+#include "pipeline.h"
 #include "prt/image_file.h"
 #include "prt/lobe_gltf.h"
-#include "road.h"
 #include "support/glb_file.h"
 
 #include <glm/geometric.hpp>
@@ -16,7 +16,7 @@
 namespace prt::test {
 namespace {
 
-class LobesCommand : public Road {
+class LobesCommand : public Pipeline {
 protected:
     void SetUp() override { copy_examples(folder.path(), {"figure"}); }
     Outcome lobes(const char* model, std::vector<std::string> options = {}) {

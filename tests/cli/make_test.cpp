@@ -1,6 +1,6 @@
 // Tests prt make and prt evaluate --budget, from the command line to the file.
 
-#include "road.h"
+#include "pipeline.h"
 #include "support/glb_file.h"
 
 #include <algorithm>
@@ -22,7 +22,7 @@ std::vector<std::string> arguments_of(const std::string& line) {
     return arguments;
 }
 
-class Make : public Road {
+class Make : public Pipeline {
 protected:
     void SetUp() override { copy_examples(folder.path(), {"knot", "sky"}); }
     Outcome make(std::vector<std::string> options) const {
@@ -91,7 +91,7 @@ TEST_F(Make, ReportsMissingBounces) {
     EXPECT_LT(report["total_error_with_advice"], 0.1);
 }
 
-TEST_F(Road, RejectsBudgetsBeyondPathTracing) {
+TEST_F(Pipeline, RejectsBudgetsBeyondPathTracing) {
     triangle_file().write(folder / "t.glb");
     ASSERT_EQ(prt({"bake", at("t.glb"), "-o", at("b.glb"), "--rays", "64", "--subsurface", "marble"}).status,
               0);

@@ -1,8 +1,8 @@
 // Tests prt ao --volume: occlusion by moving parts, and rejected input.
 
+#include "pipeline.h"
 #include "prt/gltf.h"
 #include "prt/occluder_gltf.h"
-#include "road.h"
 
 #include <gtest/gtest.h>
 
@@ -11,7 +11,7 @@
 namespace prt::test {
 namespace {
 
-class OccluderCommand : public Road {
+class OccluderCommand : public Pipeline {
 protected:
     void SetUp() override { copy_examples(folder.path(), {"figure"}); }
     Outcome ao(const std::vector<std::string>& options) {

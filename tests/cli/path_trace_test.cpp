@@ -1,8 +1,8 @@
 // prt render --path-trace: closed forms, and the pictures of the demo against it.
 
+#include "pipeline.h"
 #include "prt/image_file.h"
 #include "prt/support/file.h"
-#include "road.h"
 #include "support/glb_file.h"
 #include "support/scene_builder.h"
 
@@ -18,7 +18,7 @@
 namespace prt::test {
 namespace {
 
-class PathTraced : public Road {
+class PathTraced : public Pipeline {
 protected:
     void SetUp() override {
         scene_file(SceneBuilder().floor({0, 0, 0}, 2, 8).build()).write(folder / "floor.glb");
@@ -127,14 +127,14 @@ std::vector<DemoPicture> demo_pictures() {
     const std::regex line_form(R"(^((?:\w+=\S+ )*)(road|made) (\w+)(.*)$)"),
         sky_update(R"(sky=out/scenes/(\w+)\.exr)");
     for (std::string line; std::getline(script, line);) {
-        std::smatch terms;
-        if (!std::regex_match(line, terms, line_form))
+        std::smatch match;
+        if (!std::regex_match(line, match, line_form))
             continue;
-        DemoPicture picture{.name = terms[3], .way = terms[2], .preset = {}, .camera = {}};
-        const std::string variables = terms[1];
+        DemoPicture picture{.name = match[3], .way = match[2], .preset = {}, .camera = {}};
+        const std::string variables = match[1];
         if (std::smatch sky; std::regex_search(variables, sky, sky_update))
             picture.sky = sky[1];
-        std::istringstream rest(terms[4].str());
+        std::istringstream rest(match[4].str());
         if (picture.way == "road")
             rest >> picture.bounces >> picture.preset;
         for (std::string word; rest >> word;)
@@ -144,7 +144,7 @@ std::vector<DemoPicture> demo_pictures() {
     return pictures;
 }
 
-class DemoPictures : public Road, public testing::WithParamInterface<DemoPicture> {};
+class DemoPictures : public Pipeline, public testing::WithParamInterface<DemoPicture> {};
 INSTANTIATE_TEST_SUITE_P(All, DemoPictures, testing::ValuesIn(demo_pictures()),
                          [](const auto& picture) { return picture.param.name; });
 

@@ -1,9 +1,9 @@
 // Tests volumes through the program: baked, compressed, reported and evaluated; and rejected input.
 
+#include "pipeline.h"
 #include "prt/gltf.h"
 #include "prt/volume_gltf.h"
 #include "prt/volume_relighter.h"
-#include "road.h"
 #include "support/glb_file.h"
 #include "support/random_volume.h"
 #include "support/volume_model.h"
@@ -17,7 +17,7 @@
 namespace prt::test {
 namespace {
 
-class Volumes : public Road {
+class Volumes : public Pipeline {
 protected:
     static constexpr const char* kScene = "plain_room.glb";
 
@@ -134,7 +134,7 @@ void write_textures(const CompressedVolume& volume, const std::filesystem::path&
     file.write(reinterpret_cast<const char*>(texels.data()), static_cast<std::streamsize>(texels.size()));
 }
 
-TEST_F(Road, VolumesHaveTheSameTexturesInTheWeb) {
+TEST_F(Pipeline, VolumesHaveTheSameTexturesInTheWeb) {
     if (std::string(PRT_NODE).empty())
         GTEST_SKIP() << "node is not installed";
     const std::string script = (std::filesystem::path(PRT_DECODE).parent_path() / "update_web.mjs").string();

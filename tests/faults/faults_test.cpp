@@ -44,14 +44,14 @@ long faults_of_a_kind() {
 class Faults : public testing::Test {
 protected:
     Faults() {
-        triangle_file().write(road / "scene.glb");
-        road.file("light.json", R"({"prtkit_light": 1, "order": 2, "coefficients": {"red": [1, 0, 0, 0],
+        triangle_file().write(pipeline / "scene.glb");
+        pipeline.file("light.json", R"({"prtkit_light": 1, "order": 2, "coefficients": {"red": [1, 0, 0, 0],
                                     "green": [1, 0, 0, 0], "blue": [1, 0, 0, 0]}})");
         for (const Command& command : commands()) {
-            const Outcome outcome = run_in(road, command, {});
+            const Outcome outcome = run_in(pipeline, command, {});
             EXPECT_EQ(outcome.status, 0) << outcome.err;
         }
-        complete = files_of(road.path());
+        complete = files_of(pipeline.path());
     }
 
     static std::vector<Command> commands() {
@@ -171,7 +171,7 @@ protected:
         }
     }
 
-    TemporaryFolder road;
+    TemporaryFolder pipeline;
     Files complete; ///< files of a run without faults
 };
 
