@@ -146,7 +146,7 @@ TEST(HardCase, SmallObjectsFarOutKeepTheirShadows) {
     EXPECT_LT(std::sqrt(squared / norm), 0.03);
 }
 
-TEST(HardCase, ObjectsTooSmallForTheirDistanceAreNamed) {
+TEST(HardCase, ObjectsTooSmallForTheirDistanceAreReported) {
     for (const auto& [size, distance, too_small] :
          {std::tuple{0.04f, 6000.0f, true}, {0.04f, 60.0f, false}, {1.0f, 6000.0f, false}}) {
         // The far triangle is a separate object, far larger than its rounding.

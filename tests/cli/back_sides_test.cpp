@@ -73,7 +73,7 @@ TEST_F(BackSides, ShareTheLightOfTheFront) {
               extract_scene(load_gltf(folder / "roof.glb")).receivers());
 }
 
-TEST_F(BackSides, HaveChartsOfTheirOwnInALightmap) {
+TEST_F(BackSides, HaveSeparateLightmapCharts) {
     roof_file().write(folder / "roof.glb");
     const Outcome baked = bake("roof.glb", "b.glb", {"--size", "64", "--unwrap"});
     ASSERT_EQ(baked.status, 0) << baked.err;
@@ -138,7 +138,7 @@ TEST_F(BackSides, AreKeptIfAVariantCullsThem) {
 }
 
 /// The underside of the roof is not as open as its top.
-TEST_F(BackSides, HaveOcclusionOfTheirOwn) {
+TEST_F(BackSides, HaveSeparateOcclusion) {
     roof_file().write(folder / "roof.glb");
     const Outcome ao = prt({"ao", at("roof.glb"), "-o", at("b.glb"), "--rays", "64", "--attribute", "_AO"});
     ASSERT_EQ(ao.status, 0) << ao.err;

@@ -139,7 +139,7 @@ TEST_F(SharedInstances, LargeErrorsCauseSeparateBakes) {
     EXPECT_LT(read_json(folder / "errors.json")["relative_l2"], 0.5);
 }
 
-TEST_F(SharedInstances, AnInstanceInTheOpenHasFactorOne) {
+TEST_F(SharedInstances, UnoccludedInstancesHaveFactorOne) {
     boxes({0, 0, 0, 0, 1000, 0}).write(folder / "boxes.glb"); // with few rays none of them hits the other box
     ASSERT_EQ(bake("boxes.glb", "shared.glb", "shared", {"--bounces", "2", "--json", at("bake.json")}).status,
               0);

@@ -122,7 +122,7 @@ TEST(SunsInPictures, AddUp) {
 
 /// With base color 0.5 a leaf reflects 0.3 and transmits 0.4; as exit radiance for albedo 1 both are divided
 /// by the base color (docs/math.md, eq. 38).
-TEST(SunsInPictures, ShineThroughLeaves) {
+TEST(SunsInPictures, LightThroughLeaves) {
     Scene leaf = test::painted(SceneBuilder().floor({0, 0, 0}, 4, 1).build(), glm::vec3(0.5f), true);
     leaf.materials[0].transmission.factor = 0.4f;
     SunnyPicture shown(leaf);

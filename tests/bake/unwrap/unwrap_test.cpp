@@ -71,7 +71,7 @@ Scene crumpled(std::uint32_t seed) {
 }
 
 /// A floor, and triangles of one place or one line at its corners and elsewhere.
-TEST(Unwrap, FacesWithoutAreaHaveNoChartsOfTheirOwn) {
+TEST(Unwrap, FacesWithoutAreaHaveNoCharts) {
     const Scene floor = SceneBuilder().floor({0, 0, 0}, 1, 4).build();
     const TexelOptions options{.size = 64};
     Scene scene = floor;

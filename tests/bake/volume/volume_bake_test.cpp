@@ -55,7 +55,7 @@ SceneBuilder& add_box(SceneBuilder& builder, const glm::vec3& low, const glm::ve
     return builder;
 }
 
-TEST(VolumeBake, IsTheIdentityInTheOpen) {
+TEST(VolumeBake, IsTheIdentityWithoutOcclusion) {
     const Scene scene = SceneBuilder().floor({0, -1e6f, 0}, 0.1f).build();
     const VolumeBake bake = bake_volume(scene, probes(1, {{0, 0, 0}, {4, 4, 4}}), rays(64));
     const Transfer& t = bake.volume.baked.transfer;

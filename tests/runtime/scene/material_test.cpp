@@ -189,7 +189,7 @@ GlbFile three_instances() {
     return file;
 }
 
-TEST(Instances, AreNodesOfTheirOwnInTheScene) {
+TEST(Instances, AreSeparateNodesInTheScene) {
     const Scene scene = parsed(three_instances());
     ASSERT_EQ(scene.primitives.size(), 4u); // the child is there once
     const auto corner = [&](std::size_t primitive, std::size_t vertex) {
@@ -210,7 +210,7 @@ TEST(Instances, AreNodesOfTheirOwnInTheScene) {
     EXPECT_EQ(notices_with(scene, "its 3 instances"), 1u);
 }
 
-TEST(Instances, KeepTransferOfTheirOwnInTheFile) {
+TEST(Instances, KeepSeparateTransferInTheFile) {
     GltfDocument document = document_of(three_instances());
     const Scene scene = extract_scene(document);
     BakedTransfer baked;

@@ -244,7 +244,7 @@ TEST(Meshopt, QuaternionsOfInstancesGetTheirLargestNumberBack) {
     EXPECT_LT(glm::distance(corner, glm::vec3(0, 0, -1)), 1e-4f);
 }
 
-TEST(Meshopt, FiltersOfAnotherStrideAreRefused) {
+TEST(Meshopt, FiltersOfAnotherStrideAreRejected) {
     for (const auto& [filter, stride] : {std::pair("OCTAHEDRAL", 12), std::pair("QUATERNION", 4)}) {
         GlbFile file = test::triangle_file();
         filtered_view(file, std::vector<std::uint32_t>(12, 1), static_cast<std::size_t>(stride), filter);

@@ -114,7 +114,7 @@ GlbFile file_of_variants(bool double_sided) {
     return file;
 }
 
-TEST(SeparateSides, GoWithVariantsAndLeaveMaterialsToOthers) {
+TEST(SeparateSides, FollowVariantsAndKeepOtherMaterials) {
     GlbFile file = file_of_variants(true);
     Json plain = file.json["meshes"][0]["primitives"][0];
     plain.erase("extensions");

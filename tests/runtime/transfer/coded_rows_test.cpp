@@ -160,7 +160,7 @@ TEST(CodedBases, AreTheOriginInMeansAndScaledSumsOfTheAxes) {
     EXPECT_THROW(decode_bases(other, components), Error);
 }
 
-TEST(CodedBases, HaveStepsOfTheirOwnInEachClusterAndGroupOfAxes) {
+TEST(CodedBases, HaveSeparateStepsPerClusterAndAxisGroup) {
     const std::vector<int> components = {1, 0};
     const std::vector<std::int32_t> axes = {1, 0, 0, 0, 1, 0, 0, 0, 1}, // three, each of one number
         values = {5, 6, 7, -1, -2, -3, 9, 10, 11};                      // mean, direction; mean

@@ -166,7 +166,7 @@ TEST(Instances, FactorRotationsAreInvertible) {
         EXPECT_NEAR(again[i], before[i], 1e-5f);
 }
 
-TEST(Instances, FactorsInBytesAreNearAndExactInTheOpen) {
+TEST(Instances, ByteFactorsAreCloseAndExactIfUnoccluded) {
     Draw draw;
     std::vector<InstanceFactors> factors = {open_factors()};
     for (int i = 0; i < 50; ++i)

@@ -181,7 +181,7 @@ TEST(VisibilityWeight, HidesExactlyTheOutsideOfTheBox) {
     }
 }
 
-TEST(VolumeWeights, LeaveOutProbesBehindAWall) {
+TEST(VolumeWeights, ExcludeProbesBehindAWall) {
     const VolumeGrid grid{
         .origin = glm::vec3(0), .spacing = 1, .size = {1, 1, 1}, .bricks = {{{0, 0, 0}, 0}}};
     const VolumeProbes probes = probes_of(grid);
