@@ -131,7 +131,7 @@ export class PrtkitOccluders {
   dispose(): void;
 }
 
-/** The probes of a file, in addition to its surfaces or alone: `gltf.userData.prtkit.volume`. */
+/** Probes of a file, with or without surfaces: `gltf.userData.prtkit.volume`. */
 export class PrtkitVolume extends LitTransfer {
   /** Number of bands of incident light at probes. */
   readonly incidentOrder: 2 | 3 | 4;
@@ -151,7 +151,7 @@ export class PrtkitVolume extends LitTransfer {
   readonly isSettled: boolean;
   /** Completes the computation now. */
   settle(): this;
-  /** Return the position of a probe in the world of the file, and whether it is inside geometry. */
+  /** Position of a probe in world space of the file, and whether it is inside geometry. */
   positionOfProbe(probe: number): Vector3;
   isSealed(probe: number): boolean;
   /** Inputs of custom shaders: the uniforms that `volumeShader` reads, and its defines. */
@@ -159,7 +159,7 @@ export class PrtkitVolume extends LitTransfer {
   readonly defines: Record<string, number>;
   /** Updates light and position before a custom shader is drawn. */
   readonly beforeRender: (renderer: unknown) => void;
-  /** The light of the probes. */
+  /** Light of the probes. */
   readonly texture: Data3DTexture;
   /** Frees the textures on the device. */
   dispose(): void;

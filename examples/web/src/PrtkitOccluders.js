@@ -1,4 +1,4 @@
-// Occlusion of baked surfaces by moving objects near them: PRTKIT_occlusion_volume, from `prt ao --volume`.
+// Occlusion of baked surfaces by moving objects near them: PRTKIT_occlusion_volume, from `prt ao --occluders`.
 
 import { ByteType, Data3DTexture, LinearFilter, Matrix3, RGBAFormat, Vector3, Vector4 } from "three";
 import { checkOccluder, expect, OCCLUDERS } from "./wholeExtension.js";

@@ -98,7 +98,7 @@ export class PrtkitVolume extends LitTransfer {
     this.updateTransform();
   }
 
-  /** Returns this volume: files have it in addition to transfer of surfaces, or alone. */
+  /** Returns this volume, for symmetry with a model. */
   get volume() {
     return this;
   }
