@@ -101,7 +101,7 @@ float prtVisibility(sampler2D map, mat4 toMap, DirectionalLightShadow sun, vec3 
 }
 
 #define PRT_VISIBILITY(i)                                                                                              \
-  prtVisibility(directionalShadowMap[i], directionalShadowMatrix[i], directionalLightShadows[i], prtPosition,             \
+  prtVisibility(directionalShadowMap[i], directionalShadowMatrix[i], directionalLightShadows[i], prtPosition,          \
                 towardsSun* worldFace)
 
 #else
@@ -119,8 +119,8 @@ float prtNormalBias(mat4 toMap, DirectionalLightShadow sun) {
             directionalLightShadows[i].shadowIntensity, directionalLightShadows[i].shadowBias,                         \
             directionalLightShadows[i].shadowRadius,                                                                   \
             directionalShadowMatrix[i] *                                                                               \
-                vec4(prtPosition + prtNormalBias(directionalShadowMatrix[i], directionalLightShadows[i]) * towardsSun *   \
-                                    worldFace,                                                                         \
+                vec4(prtPosition + prtNormalBias(directionalShadowMatrix[i], directionalLightShadows[i]) *             \
+                                       towardsSun * worldFace,                                                         \
                      1.0))
 
 #endif

@@ -1,6 +1,6 @@
-// Shades three's directional lights with the model of the material where they are visible; diffusely through thin sheets
-// (docs/math.md, eq. 38). Included into the fragment shader of three's materials, after its own lights; prtFace: the
-// unit normal of the triangle, on the visible side.
+// Shades three's directional lights with the model of the material where they are visible; diffusely through thin
+// sheets (docs/math.md, eq. 38). Included into the fragment shader of three's materials, after its own lights; prtFace:
+// the unit normal of the triangle, on the visible side.
 #if defined(PRT_SUNS) && NUM_DIR_LIGHTS > 0
 
 if (prtSeparateSuns) {
