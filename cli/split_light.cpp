@@ -16,8 +16,9 @@ namespace {
 /// Returns the error of a value of `--suns`; empty if it is valid.
 std::string sun_count(const std::string& text) {
     const std::optional<int> count = whole_number(text);
-    return text == "auto" || (count && *count >= 0 && *count <= 16) ? ""
-                                                                    : text + " is neither auto nor 0..16";
+    return text == "auto" || (count && *count >= 0 && *count <= 16)
+               ? ""
+               : text + " is not valid; use auto or a number in 0..16";
 }
 
 } // namespace
@@ -31,7 +32,7 @@ void add_suns(CLI::App* command, SunCount& suns, const std::string& text, const 
             },
             text)
         ->check(sun_count)
-        ->type_name("0..16|auto")
+        ->type_name("N|auto")
         ->default_str(otherwise);
 }
 

@@ -35,8 +35,8 @@ Lighting lighting_of(const SplitLight& light);
 
 /// Error message: transfer without a separate direct term cannot be lit by separate suns, with advice.
 inline constexpr const char* kNoDirectTerm =
-    "keeps no direct light apart, so that suns cannot be lit apart from "
-    "the sky; lobes never do, other transfer without --combine-direct";
+    "has no separate direct term, so suns cannot be separate from the sky; compress without --combine-direct "
+    "(lobes never have a direct term)";
 
 /// Returns a sky without light.
 SplitLight dark_sky(int order);

@@ -43,7 +43,7 @@ PRT_VOLUME_SAMPLER(PRT_UNIT_VOLUME_VISIBILITY) usampler3D prt_volume_visibility;
 PRT_VOLUME_SAMPLER(PRT_UNIT_VOLUME_INDEX) usampler3D prt_volume_index;
 
 struct PrtVolumeBrick {
-    ivec3 point; // in bricks of level 0
+    ivec3 position; // in bricks of level 0
     int level, slot;
 };
 

@@ -6,6 +6,7 @@
 
 #include "lamps/lamp_light.h"
 #include "prt/sh.h"
+#include "prt/support/counted.h"
 #include "prt/support/parallel.h"
 #include "prt/support/stopwatch.h"
 #include "scene/opposite_triangles.h"
@@ -276,7 +277,7 @@ EmbreeTracer::EmbreeTracer(const TraceScene& scene) : scene_(scene) {
 }
 
 std::string EmbreeTracer::device() const {
-    return fmt::format("Embree 3, {} threads", thread_count(scene_.threads()));
+    return fmt::format("Embree 3, {}", counted(thread_count(scene_.threads()), "thread"));
 }
 
 std::size_t EmbreeTracer::batch_size(const TraceOptions& options) const {

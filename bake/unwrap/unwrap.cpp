@@ -86,8 +86,8 @@ std::size_t max_charts(int side) {
            static_cast<double>(wanted) * wanted < kTexels * static_cast<double>(charts))
         wanted *= 2;
     throw Error(
-        fmt::format("a texture of {0} x {0} texels is too small for {1} charts or more: give {2} texels or "
-                    "more along a side, or each object a texture of its own (--atlas each)",
+        fmt::format("a texture of {0} x {0} texels is too small for at least {1} charts; use {2} or more "
+                    "texels per side, or a separate texture per object (--texels ...,atlas=each)",
                     side, charts, std::max(wanted, std::min(2 * side, kMaxTexels))));
 }
 
@@ -112,8 +112,8 @@ Packed pack_by_density(std::span<const FlatBox> boxes, double density) {
         if (std::optional<Packed> packed = pack(boxes, static_cast<int>(side), density))
             return std::move(*packed);
     throw Error(fmt::format(
-        "{:.3g} texels a metre need a texture of more than {} texels along a side: give fewer, or "
-        "each object a texture of its own",
+        "{:.3g} texels per metre need a texture with more than {} texels per side; use fewer texels or "
+        "a separate texture per object (--texels ...,atlas=each)",
         density, kMaxTexels));
 }
 

@@ -227,7 +227,7 @@ private:
         say_("lightmap");
         const LitLightmap lit = make_lightmap(model_->path, options_.lightmap_size,
                                               kOrders[std::size(kOrders) - 1], options_.bake_rays);
-        Row whole{.method = "lightmap, 8 bytes a texel",
+        Row whole{.method = "lightmap, 8 bytes per texel",
                   .bytes_per_vertex = lit.bytes_per_texel,
                   .errors = {},
                   .picture = {}};

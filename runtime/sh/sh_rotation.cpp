@@ -306,7 +306,7 @@ void set_rotations(int order, const glm::dmat3& r, Rotations& rotations) {
 
 glm::dmat3 matrix_of(const glm::dquat& q) {
     if (!(std::abs(glm::dot(q, q) - 1) <= kRotationTolerance))
-        throw Error("a quaternion whose length is not 1 is no rotation");
+        throw Error("the quaternion is not a rotation: its length is not 1");
     return glm::mat3_cast(glm::normalize(q));
 }
 

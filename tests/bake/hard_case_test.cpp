@@ -160,7 +160,8 @@ TEST(HardCase, ObjectsTooSmallForTheirDistanceAreReported) {
         EXPECT_EQ(notice.has_value(), too_small) << size << " " << distance;
         if (notice) {
             EXPECT_EQ(notice->substr(0, 10), "1 object i");
-            EXPECT_NE(notice->find("object is 0.04 m in size and 6000 m"), std::string::npos) << *notice;
+            EXPECT_NE(notice->find("object has a size of 0.04 m and is 6000 m"), std::string::npos)
+                << *notice;
         }
     }
 }

@@ -152,7 +152,7 @@ protected:
 
 TEST_F(GpuSelection, MissingGpuIsReportedUnlessAutomatic) {
     expect_refused(bake({"--backend", "gpu"}), "no driver for Vulkan");
-    expect_refused(bake({"--gpu", "0"}), "there is no GPU");
+    expect_refused(bake({"--gpu", "0"}), "no GPU can be used for baking");
     expect_refused(bake({"--backend", "gpu", "--method", "raster"}), "OpenGL 4.5");
     EXPECT_EQ(bake({"--backend", "auto"}).status, 0);
 }
@@ -266,7 +266,7 @@ TEST_F(BadInput, CompressAndEvaluateNeedABake) {
     other.write(folder / "other.glb");
     const std::string other_baked = (folder / "other_baked.glb").string();
     ASSERT_EQ(prt({"bake", (folder / "other.glb").string(), "-o", other_baked, "--rays", "4"}).status, 0);
-    expect_refused(prt({"evaluate", other_baked, shipped}), "does not belong");
+    expect_refused(prt({"evaluate", other_baked, shipped}), "was not made from");
     const std::string low = (folder / "low.glb").string();
     ASSERT_EQ(prt({"bake", scene, "-o", low, "--rays", "4", "--order", "3"}).status, 0);
     expect_refused(prt({"evaluate", low, shipped}), "order");
@@ -339,28 +339,28 @@ TEST_F(BadLightFile, IsRejectedWithAPlainReason) {
         refuse_at(std::string("/") + key, nullptr, std::string("\"") + key + "\" is missing");
     refuse_at("/coefficients/green", nullptr, "\"green\" is missing");
     refuse_at("/coefficients", 3, "\"red\" is missing");
-    refuse_at("/coefficients/blue", {1, 2}, "\"blue\" has 2 numbers and needs 1");
-    refuse_at("/coefficients/blue", nlohmann::json::array(), "\"blue\" has 0 numbers and needs 1");
-    refuse_at("/coefficients/blue", "much", "\"blue\" is no list");
-    refuse_at("/coefficients/blue/0", "much", "\"blue\" is no list");
+    refuse_at("/coefficients/blue", {1, 2}, "\"blue\" has 2 numbers, but needs 1");
+    refuse_at("/coefficients/blue", nlohmann::json::array(), "\"blue\" has 0 numbers, but needs 1");
+    refuse_at("/coefficients/blue", "much", "\"blue\" is not a list");
+    refuse_at("/coefficients/blue/0", "much", "\"blue\" is not a list");
     refuse_at("/coefficients/blue/0", 1e300, "finite");
     for (const nlohmann::json& order : {nlohmann::json(6.5), nlohmann::json(0), nlohmann::json(1e300)})
-        refuse_at("/order", order, "whole number in 1..10");
-    refuse_at("/order", "six", "\"order\" is no number");
-    refuse_at("/prtkit_light", "one", "no light of prt project");
-    refuse("[1]", "no light of prt project");
-    refuse("{\"prtkit_light\": 1,", "no JSON from byte");
-    refuse("{\"prtkit_light\": 1e999}", "beyond");
+        refuse_at("/order", order, "must be an integer in 1..10");
+    refuse_at("/order", "six", "\"order\" is not a number");
+    refuse_at("/prtkit_light", "one", "not a light file");
+    refuse("[1]", "not a light file");
+    refuse("{\"prtkit_light\": 1,", "not valid JSON: the error is at byte");
+    refuse("{\"prtkit_light\": 1e999}", "double");
 }
 
 TEST_F(BadLightFile, ItsSunsAreCheckedOneByOne) {
-    refuse_at("/suns", nlohmann::json::object(), "\"suns\" is no list");
+    refuse_at("/suns", nlohmann::json::object(), "\"suns\" is not a list");
     refuse_at("/lights", nlohmann::json::array(), "older version of prt");
     refuse_at("/suns/0", 3, "sun 0 of \"suns\": \"towards\" is missing");
     for (const char* key : {"towards", "irradiance", "half_angle_radians"})
         refuse_at(std::string("/suns/0/") + key, nullptr, std::string("\"") + key + "\" is missing");
-    refuse_at("/suns/0/towards", {0, 1}, "has 2 numbers and needs 3");
-    refuse_at("/suns/0/towards", {0, 0, 0}, "no direction");
+    refuse_at("/suns/0/towards", {0, 1}, "has 2 numbers, but needs 3");
+    refuse_at("/suns/0/towards", {0, 0, 0}, "not a direction");
     refuse_at("/suns/0/irradiance/1", -1, "\"irradiance\" is negative");
     refuse_at("/suns/0/half_angle_radians", 2, "0..1.5708");
 }

@@ -36,7 +36,7 @@ TEST_F(FallbackFiles, IsWrittenAndChangesNoPictureOfPrt) {
         way.insert(way.end(), {"--fallback", at("sky.exr")});
         const Outcome outcome = compress("shown.glb", way);
         ASSERT_EQ(outcome.status, 0) << outcome.err;
-        EXPECT_NE(outcome.out.find("viewers without PRT show it as sky.exr lights it, at exposure "),
+        EXPECT_NE(outcome.out.find("viewers without PRT show the model lit by sky.exr, at exposure "),
                   std::string::npos)
             << outcome.out;
         const double exposure = read_json(folder / "c.json")["fallback"]["exposure"];

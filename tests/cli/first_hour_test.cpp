@@ -134,6 +134,13 @@ TEST_F(FirstHour, MisspeltOptionsAreReportedAlone) {
     expect_line({"bake", at("t.glb"), "-o", ""}, 2, "--output: the name of the file is empty");
 }
 
+TEST_F(FirstHour, NounsAgreeWithTheirNumbers) {
+    const Outcome outcome = prt({"bake", at("t.glb"), "-o", at("b.glb"), "--rays", "16", "--bounces", "1"});
+    ASSERT_EQ(outcome.status, 0) << outcome.err;
+    EXPECT_NE(outcome.out.find(": 3 receivers, 1 triangle, order 6, "), std::string::npos) << outcome.out;
+    EXPECT_NE(outcome.out.find(", 16 rays per receiver, 1 bounce\n"), std::string::npos) << outcome.out;
+}
+
 TEST_F(FirstHour, OptionsMayPrecedeFiles) {
     bake_and_compress();
     write_png(folder / "sky.png", 4, 2, std::vector<glm::u8vec3>(8, glm::u8vec3(188)));
@@ -175,9 +182,11 @@ TEST_F(FirstHour, TheVerdictFallsWithTheErrorAndItsFiguresAreExplained) {
         return prt({"evaluate", at("b.glb"), at("c.glb")}).out;
     };
     const std::string mean = verdict_of("1", "0"), all = verdict_of("1", "9");
-    EXPECT_NE(mean.find("visibly wrong"), std::string::npos) << mean; // every vertex has the mean's light
-    EXPECT_NE(all.find("looks the same as the bake"), std::string::npos) << all; // all data are included
-    EXPECT_NE(all.find("lit_rms: relative L2"), std::string::npos) << all;       // the meaning of the columns
+    EXPECT_NE(mean.find("clearly visible difference"), std::string::npos)
+        << mean; // every vertex has the mean's light
+    EXPECT_NE(all.find("no visible difference from the bake"), std::string::npos)
+        << all;                                                            // all data are included
+    EXPECT_NE(all.find("lit_rms: relative L2"), std::string::npos) << all; // the meaning of the columns
 }
 
 TEST_F(FirstHour, SmallMeshesReportFittedSizes) {
@@ -201,14 +210,14 @@ TEST_F(FirstHour, EvaluationsBeginWithAVerdictAndAllReportsContainTheFigures) {
                                  at("e.html"), "--csv", at("e.csv")});
     ASSERT_EQ(outcome.status, 0) << outcome.err;
     const std::string verdict = outcome.out.substr(0, outcome.out.find('\n'));
-    EXPECT_TRUE(verdict.starts_with("4 bytes a vertex, ")) << verdict; // a lone triangle is exact
-    EXPECT_NE(verdict.find("looks the same as the bake"), std::string::npos) << verdict;
+    EXPECT_TRUE(verdict.starts_with("4 bytes per vertex, ")) << verdict; // a lone triangle is exact
+    EXPECT_NE(verdict.find("no visible difference from the bake"), std::string::npos) << verdict;
     const auto json = nlohmann::json::parse(text("e.json"));
     EXPECT_EQ(json["verdict"], verdict);
     EXPECT_EQ(json["bytes_bound_per_vertex"], 4);
     const std::string page = text("e.html"), csv = text("e.csv");
     for (const char* term :
-         {"b.glb", "c.glb", "prt evaluate", "prefers-color-scheme", "UTC", "Before", "After"})
+         {"b.glb", "c.glb", "prt evaluate", "prefers-color-scheme", "UTC", "Bake, under", "Shipped file"})
         EXPECT_NE(page.find(term), std::string::npos) << term;
     EXPECT_NE(page.find(verdict), std::string::npos);
     EXPECT_EQ(page.find("{{"), std::string::npos);
@@ -246,8 +255,9 @@ TEST_F(FirstHour, AMeshWithoutNormalsReportsHowItsVerticesGrow) {
     GlbFile file = triangle_file();
     file.json["meshes"][0]["primitives"][0]["attributes"].erase("NORMAL");
     file.write(folder / "t.glb");
-    for (const auto& [option, words] : {std::pair("--fit=auto", "gets flat ones: 3 vertices became 3"),
-                                        std::pair("--smooth-normals=30", "gets smooth ones where")}) {
+    for (const auto& [option, words] :
+         {std::pair("--fit=auto", "flat shading is used: 3 vertices become 3"),
+          std::pair("--smooth-normals=30", "normals are created, smooth across edges")}) {
         const Outcome outcome =
             prt({"bake", at("t.glb"), "-o", at("n.glb"), "--rays", "16", "--order", "2", option});
         EXPECT_EQ(outcome.status, 0);

@@ -69,7 +69,7 @@ TEST_F(LevelsOfDetail, WorkInAllCommands) {
     const nlohmann::json levels = read_json(folder / "bake.json")["levels"];
     EXPECT_EQ(levels["mode"], "carry");
     ASSERT_EQ(levels["by_level"].size(), 2u);
-    EXPECT_EQ(levels["all"][1]["of"], "node 0 'ball'");
+    EXPECT_EQ(levels["all"][1]["level_0"], "node 0 'ball'");
     EXPECT_GT(levels["by_level"][0]["relative_l2"], 0);
     EXPECT_LT(levels["by_level"][0]["relative_l2"], levels["by_level"][1]["relative_l2"]);
     EXPECT_LT(levels["by_level"][1]["relative_l2"], 0.2);
@@ -148,7 +148,7 @@ TEST_F(LevelsOfDetail, MismatchesAreRejected) {
     expect_refused(large, "level 1 of node 0 'ball'");
     GlbFile missing = file;
     missing.json["nodes"][0]["extensions"]["MSFT_lod"]["ids"] = {1, 9};
-    expect_refused(missing, "names node 9, which is not there");
+    expect_refused(missing, "refers to node 9, which does not exist");
     expect_refused(file, "--instances shared does not know", {"--instances", "shared"});
     write(far, "far.glb");
     EXPECT_EQ(bake("far.glb", "ignored.glb", {"--levels", "ignore"}).status, 0);

@@ -65,7 +65,7 @@ TEST_F(Lightmaps, TouchingBlocksUseTheRequestedRays) {
     ASSERT_EQ(baked.status, 0) << baked.err;
     const nlohmann::json report = read_json(folder / "b.json");
     EXPECT_LT(report["rays"].get<double>(), 1.2 * 64 * report["texels_measured"].get<double>());
-    EXPECT_GT(report["texels_sealed"], 10000); // out of 180 000
+    EXPECT_GT(report["texels_enclosed"], 10000); // out of 180 000
 }
 
 TEST_F(Lightmaps, WorkInAllCommands) {
@@ -206,7 +206,7 @@ TEST_F(Lightmaps, AreRejectedIfUnsupported) {
     expect_refused(compress({"--fallback", at("sky.exr")}), "the light of this file is in texels");
     EXPECT_FALSE(std::filesystem::exists(folder / "shipped.glb"));
     expect_refused(prt({"relight", at("baked.glb"), "--env", at("sky.exr"), "-o", at("r.glb")}),
-                   "holds a lightmap");
+                   "contains a lightmap");
 }
 
 } // namespace

@@ -116,8 +116,9 @@ TEST_F(LobesCommand, RejectsStaticModels) {
     GlbFile still = read_glb(folder / "figure.glb");
     still.json.erase("animations");
     still.write(folder / "still.glb");
-    expect_refusal("still.glb", "has no animation to take poses from");
-    expect_refusal("figure.glb", "has no animation 'fly'; it has walk, idle, dance", {"--animation", "fly"});
+    expect_refusal("still.glb", "has no animation, but poses need one");
+    expect_refusal("figure.glb", "has no animation 'fly'; available: walk, idle, dance",
+                   {"--animation", "fly"});
 }
 
 TEST_F(LobesCommand, RejectsASkinWithoutWeights) {

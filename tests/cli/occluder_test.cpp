@@ -26,12 +26,12 @@ TEST_F(OccluderCommand, WritesVolumesAndReportsTheirError) {
     ASSERT_EQ(outcome.status, 0) << outcome.err;
     EXPECT_EQ(validator_errors(folder / "out.glb"), 0);
     const nlohmann::json figures = read_json(folder / "ao.json");
-    EXPECT_EQ(read_occluders(load_gltf(folder / "out.glb")).size(), figures["parts"]);
+    EXPECT_EQ(read_occluders(load_gltf(folder / "out.glb")).size(), figures["objects"]);
     EXPECT_GT(figures["floor_mean_blocked"], figures["floor_mean_error"]);
     EXPECT_LT(figures["mean_error"], 0.05);
     // Later commands keep the occluders.
     ASSERT_EQ(prt({"bake", at("out.glb"), "-o", at("baked.glb"), "--rays", "8", "--order", "2"}).status, 0);
-    EXPECT_EQ(read_occluders(load_gltf(folder / "baked.glb")).size(), figures["parts"]);
+    EXPECT_EQ(read_occluders(load_gltf(folder / "baked.glb")).size(), figures["objects"]);
     const Outcome info = prt({"info", at("baked.glb")});
     EXPECT_NE(info.out.find("block around them"), std::string::npos) << info.out;
 }

@@ -136,7 +136,7 @@ TEST_F(Relight, ReportsUnsupportedInput) {
     refused({at("b.glb"), "--env", at("sun.json"), "--suns", "17"}, 2, "17");
     refused({at("b.glb"), "--env", at("sun.json"), "--sun-rays", "0"}, 2, "--sun-rays");
     ASSERT_EQ(prt({"compress", at("b.glb"), "-o", at("w.glb"), "--combine-direct"}).status, 0);
-    refused({at("w.glb"), "--env", at("sun.json"), "--suns", "1"}, 1, "no direct light apart");
+    refused({at("w.glb"), "--env", at("sun.json"), "--suns", "1"}, 1, "no separate direct term");
     const Outcome merged = prt({"relight", at("w.glb"), "--env", at("sun.json"), "-o", at("lit.glb")});
     EXPECT_EQ(merged.status, 0);
     EXPECT_NE(merged.err.find("no direct light apart"), std::string::npos) << merged.err;

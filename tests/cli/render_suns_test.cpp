@@ -91,7 +91,7 @@ TEST_F(RenderSuns, LightCombinedTransferWithTheSky) {
     for (const char* sky : {"sun.json", "sunny.exr"}) {
         const Outcome outcome = render({at("w.glb"), "--env", at(sky), "-o", at("w.exr")});
         EXPECT_EQ(outcome.status, 0) << outcome.err;
-        EXPECT_NE(outcome.err.find("keeps no direct light apart"), std::string::npos) << outcome.err;
+        EXPECT_NE(outcome.err.find("has no separate direct term"), std::string::npos) << outcome.err;
         const Image none = rendered({at("w.glb"), "--env", at(sky), "--suns", "0"});
         EXPECT_EQ(load_environment(folder / "w.exr").environment.image.pixels, none.pixels) << sky;
     }
@@ -152,18 +152,19 @@ TEST_F(RenderSuns, AreSeparateInTheVerdict) {
     };
     const auto sun = rows("c.glb", "sun.json");
     EXPECT_GT(sun["sun.json"]["lit_rms"], 0);
-    EXPECT_FALSE(sun["sun.json"]["judged"]);
-    EXPECT_EQ(sun["sun.json, suns apart"]["lit_rms"], 0);
-    EXPECT_EQ(sun["sun.json, suns apart"]["separate_suns"], 1);
-    EXPECT_TRUE(sun["sun.json, suns apart"]["judged"]);
-    EXPECT_NE(sun["verdict"].get<std::string>().find("0.00 % under sun.json, suns apart"), std::string::npos)
+    EXPECT_FALSE(sun["sun.json"]["in_verdict"]);
+    EXPECT_EQ(sun["sun.json, separate suns"]["lit_rms"], 0);
+    EXPECT_EQ(sun["sun.json, separate suns"]["separate_suns"], 1);
+    EXPECT_TRUE(sun["sun.json, separate suns"]["in_verdict"]);
+    EXPECT_NE(sun["verdict"].get<std::string>().find("0.00 % under sun.json, separate suns"),
+              std::string::npos)
         << sun["verdict"];
     const auto sky = rows("c.glb", "sunny.exr");
-    EXPECT_LT(sky["sunny.exr, suns apart"]["lit_rms"], sky["sunny.exr"]["lit_rms"]);
-    EXPECT_FALSE(rows("c.glb", "plain.exr").contains("plain.exr, suns apart"));
+    EXPECT_LT(sky["sunny.exr, separate suns"]["lit_rms"], sky["sunny.exr"]["lit_rms"]);
+    EXPECT_FALSE(rows("c.glb", "plain.exr").contains("plain.exr, separate suns"));
     const auto whole = rows("w.glb", "sunny.exr");
-    EXPECT_FALSE(whole.contains("sunny.exr, suns apart"));
-    EXPECT_TRUE(whole["sunny.exr"]["judged"]);
+    EXPECT_FALSE(whole.contains("sunny.exr, separate suns"));
+    EXPECT_TRUE(whole["sunny.exr"]["in_verdict"]);
 }
 
 TEST_F(RenderSuns, ReportUnsupportedInput) {
@@ -175,7 +176,7 @@ TEST_F(RenderSuns, ReportUnsupportedInput) {
         EXPECT_NE(outcome.err.find(words), std::string::npos) << outcome.err;
         EXPECT_FALSE(std::filesystem::exists(folder / "no.png"));
     };
-    refused({at("w.glb"), "--env", at("sun.json"), "--suns", "1"}, 1, "no direct light apart");
+    refused({at("w.glb"), "--env", at("sun.json"), "--suns", "1"}, 1, "no separate direct term");
     std::ifstream file(folder / "sun.json");
     nlohmann::json five = nlohmann::json::parse(file);
     five["suns"] = std::vector<nlohmann::json>(5, five["suns"][0]);

@@ -99,8 +99,8 @@ TEST_F(Volumes, CombineWithLightmaps) {
 }
 
 TEST_F(Volumes, RejectInvalidOptions) {
-    expect_refused(bake({"--volume", "1e-3"}), "make it smaller");
-    expect_refused(bake({"--volume", "1e-7"}), "closer than positions");
+    expect_refused(bake({"--volume", "1e-3"}), "use smaller bounds");
+    expect_refused(bake({"--volume", "1e-7"}), "below the precision of positions");
     expect_refused(bake({"--volume-order", "2"}), "say --volume");
     expect_refused(bake({"--volume", "1", "--volume-bounds", "1,1,1,0,0,0"}), "two corners");
     expect_refused(bake({"--volume", "0.05", "--memory-limit", "40MB"}), "memory");

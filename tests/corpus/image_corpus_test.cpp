@@ -189,7 +189,7 @@ TEST(ImageCorpus, KritaLayersExr) {
                                {"sun.R", 4}, {"sun.G", 5}, {"sun.B", 6}};
     std::size_t notices = 0;
     EXPECT_EQ(first_pixel(channels, "sun", notices), glm::vec3(4, 5, 6));
-    EXPECT_NE(refusal_of(channels, "").find("'sky', 'sun' by --layer NAME"), std::string::npos)
+    EXPECT_NE(refusal_of(channels, "").find("'sky', 'sun'; choose one with --layer NAME"), std::string::npos)
         << refusal_of(channels, "");
     EXPECT_NE(refusal_of(channels, "moon").find("'sky', 'sun'"), std::string::npos);
 }

@@ -122,7 +122,7 @@ protected:
             ASSERT_NE(at, std::string::npos) << outcome.err;
             EXPECT_EQ(std::count(outcome.err.begin() + static_cast<long>(at), outcome.err.end(), '\n'), 1)
                 << outcome.err;
-            EXPECT_EQ(outcome.err.find("of our own making"), std::string::npos) << outcome.err;
+            EXPECT_EQ(outcome.err.find("internal error"), std::string::npos) << outcome.err;
         }
         expect_complete(folder, command, old, outcome.status == 0);
     }

@@ -18,8 +18,9 @@ struct GpuMemoryError : GpuFailure {
 /// A device ends long loops early, so that its results are wrong.
 struct GpuLoopsCutShort : GpuFailure {
     GpuLoopsCutShort()
-        : GpuFailure("the GPU ends long loops before their time, so that what it computes is wrong (software "
-                     "devices of older drivers do): bake on the CPU") {}
+        : GpuFailure(
+              "the GPU ends long loops early, so its results are wrong (known from software devices of "
+              "older drivers); bake on the CPU with --device cpu") {}
 };
 
 } // namespace prt

@@ -31,7 +31,7 @@ void deduplicate_meshes(GltfContents& contents) {
         if (!extension_of(nodes[n], kInstancesExtension))
             continue;
         if (!nodes[n].contains("mesh"))
-            throw Error("node " + std::to_string(n) + " has " + kInstancesExtension + " and no mesh");
+            throw Error("node " + std::to_string(n) + " has " + kInstancesExtension + ", but no mesh");
         const auto mesh = nodes[n]["mesh"].get<std::size_t>();
         const auto [found, is_new] = of_mesh.try_emplace(mesh, contents.separate.size());
         if (is_new)

@@ -50,7 +50,8 @@ std::map<int, double> areas_of_meshes(const GltfContents& contents) {
                     found->second * area_of_instances(contents, contents.json["nodes"][drawer]);
     for (const auto& [node, area] : of_stand_in)
         if (!(area <= kMaxArea))
-            throw Error("instances of the mesh of node " + std::to_string(node) + " are scaled beyond 1e9");
+            throw Error("instances of the mesh of node " + std::to_string(node) +
+                        " are too large: their scale exceeds 1e9");
     return of_stand_in;
 }
 

@@ -32,7 +32,7 @@ std::map<int, std::size_t> copy_shared_meshes(GltfContents& contents, const Scen
             if (first->second == 0)
                 first->second = json_bytes(json["meshes"][mesh]);
             bytes += first->second;
-            check_allowed(bytes, contents.file_bytes, "what its meshes hold, once for each node,");
+            check_allowed(bytes, contents.file_bytes, "the JSON of its meshes, copied for each node,");
             Json copy = json["meshes"][mesh];
             mesh = json["meshes"].size();
             json["meshes"].push_back(std::move(copy));

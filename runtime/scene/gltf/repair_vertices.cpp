@@ -4,6 +4,7 @@
 #include "gltf/accessor.h"
 #include "gltf/allowance.h"
 #include "gltf/triangles.h"
+#include "prt/support/counted.h"
 #include "prt/support/error.h"
 #include "triangle_normal.h"
 
@@ -148,7 +149,7 @@ private:
         const std::size_t vertices = p.size() / 3;
         const std::vector<glm::uvec3> triangles = read_triangles(contents_.model, primitive, vertices);
         bytes_ += kElement * static_cast<double>(vertices + triangles.size());
-        check_allowed(bytes_, contents_.file_bytes, "what replaces its unusable normals");
+        check_allowed(bytes_, contents_.file_bytes, "the replacement of its unusable normals");
         normals.sums.resize(std::max(normals.sums.size(), normals.damaged->values.size() / 3));
         const auto at = [&](std::uint32_t i) { return glm::dvec3(p[3 * i], p[3 * i + 1], p[3 * i + 2]); };
         for (const glm::uvec3& t : triangles)
@@ -177,13 +178,12 @@ void repair_vertices(GltfContents& contents) {
                             error.what());
             }
     if (const std::size_t replaced = normals.finish(); replaced > 0)
-        contents.notices.push_back(std::to_string(replaced) +
-                                   " normals are zero or not finite and become those of their triangles, in "
-                                   "files that are written, too");
+        contents.notices.push_back(counted(replaced, "normal is", "normals are") +
+                                   " zero or not finite; the normal of the adjacent triangles is used, also "
+                                   "in the output");
     if (texcoords > 0)
-        contents.notices.push_back(std::to_string(texcoords) +
-                                   " texture coordinates are not finite and become 0, in files that are "
-                                   "written, too");
+        contents.notices.push_back(counted(texcoords, "texture coordinate is", "texture coordinates are") +
+                                   " not finite and set to 0, also in the output");
 }
 
 } // namespace prt

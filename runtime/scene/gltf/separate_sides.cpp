@@ -135,7 +135,7 @@ private:
     const Json& material(std::size_t index) const {
         const Json& materials = contents_.json["materials"];
         if (index >= materials.size())
-            throw Error("there is no material " + std::to_string(index));
+            throw Error("material " + std::to_string(index) + " does not exist");
         return materials[index];
     }
 

@@ -150,7 +150,7 @@ TEST(Poses, WithExtremeVerticesAreRejected) {
         bake_pose(model, poses_of(model, 1).back(), {.rays = 4});
         FAIL() << "it is baked";
     } catch (const Error& error) {
-        EXPECT_NE(std::string(error.what()).find("animation 'bend' takes vertices beyond"),
+        EXPECT_NE(std::string(error.what()).find("animation 'bend' moves vertices farther than"),
                   std::string::npos);
     }
 }

@@ -39,12 +39,12 @@ TEST(Glass, IsReportedIfTinted) {
     textured.base_color_texture.image = 0;
     EXPECT_EQ(notice_of({clear}), "");
     for (const Material& tinted : {red, blue, textured}) {
-        EXPECT_EQ(notice_of({clear, tinted}, false), "1 material of tinted glass");
+        EXPECT_EQ(notice_of({clear, tinted}, false), "1 material is tinted glass");
         Material opaque = tinted;
         opaque.glass.factor = 0;
         EXPECT_EQ(notice_of({opaque}), "");
     }
-    EXPECT_EQ(notice_of({red, clear, blue}), "2 materials of tinted glass");
+    EXPECT_EQ(notice_of({red, clear, blue}), "2 materials are tinted glass");
 }
 
 TEST(Metal, IsReportedIfItMirrorsWithBounces) {
@@ -56,13 +56,13 @@ TEST(Metal, IsReportedIfItMirrorsWithBounces) {
     textured.metal.texture.image = 0;
     EXPECT_EQ(notice_of({rough}), "");
     for (const Material& polished : {smooth, textured}) {
-        EXPECT_EQ(notice_of({rough, polished}), "1 material of metal");
+        EXPECT_EQ(notice_of({rough, polished}), "1 material is metallic");
         EXPECT_EQ(notice_of({polished}, false), "");
         Material other = polished;
         other.metal.factor = 0;
         EXPECT_EQ(notice_of({other}), "");
     }
-    EXPECT_EQ(notice_of({smooth, textured}), "2 materials of metal");
+    EXPECT_EQ(notice_of({smooth, textured}), "2 materials are metallic");
 }
 
 } // namespace

@@ -190,7 +190,7 @@ TEST(Metal, BouncesItsDiffuseFractionWithANotice) {
             const BakeResult result = bake(bowl, options);
             notices = 0;
             for (const std::string& notice : result.statistics.notices)
-                notices += notice.find("1 material of metal") != std::string::npos;
+                notices += notice.find("1 material is metallic") != std::string::npos;
             return exit_radiance(result.baked.transfer, constant_light(1, glm::vec3(1)))[12 * 25].x;
         };
         const float direct = radiance(0);
@@ -232,9 +232,9 @@ TEST(BadTextures, FailOnlyBakesThatUseThem) {
     Scene scene = ceiling_without_its_image();
     EXPECT_EQ(message(scene), ""); // direct light, opaque
     scene.materials[1].alpha_mode = AlphaMode::mask;
-    EXPECT_EQ(message(scene), "image 0 'wood.ktx2' is KTX 2, which is not read, and no PNG, JPEG, WebP or "
-                              "AVIF stands beside it; its "
-                              "pixels are needed here, unless --bad-textures ignore is given");
+    EXPECT_EQ(message(scene),
+              "image 0 'wood.ktx2' is KTX 2, which is not supported, and the texture has no PNG, JPEG, WebP "
+              "or AVIF as a fallback; ignore such textures with --bad-textures ignore");
     scene.materials[1].alpha_mode = AlphaMode::opaque;
     options.bounces = 1;
     EXPECT_NE(message(scene), "");

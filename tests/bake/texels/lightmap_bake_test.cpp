@@ -382,10 +382,10 @@ TEST(LightmapBake, RejectsFeaturesKnownOnlyAtVertices) {
     Scene leaf = test::painted(floor, glm::vec3(0.5f), true);
     for (Material& material : leaf.materials)
         material.transmission.factor = 0.5f;
-    refused(leaf, options_of(2, 16, 1), "lets light through");
+    refused(leaf, options_of(2, 16, 1), "has diffuse transmission");
     BakeOptions medium = options_of(2, 16, 1);
     medium.subsurface.media = {{"", measured_media().front().medium}};
-    refused(floor, medium, "has a medium inside");
+    refused(floor, medium, "has subsurface scattering");
     BakeOptions adaptive = options_of(2, 16, 0);
     adaptive.target_error = 0.1;
     refused(floor, adaptive, "number of rays");

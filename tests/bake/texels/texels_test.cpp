@@ -124,13 +124,13 @@ TEST(Texels, InvalidCoordinatesAreRejected) {
     refused(good, {.size = 8, .uv_set = 1}, "has no TEXCOORD_1");
     refused(floor_at({0.5f, 0}, 1), {.size = 8, .uv_set = 0}, "crosses the border");
     for (const TexelOptions& options : {TexelOptions{.per_metre = 8, .uv_set = 0}, {.size = 8, .uv_set = 0}})
-        refused(floor_at({0.5f, 0.5f}, 0), options, "is a line or a point");
+        refused(floor_at({0.5f, 0.5f}, 0), options, "covers no area");
     // Two layers of triangles far smaller than a texel.
     const Scene fine = floor_at({0, 0}, 1, 200);
     refused(test::join({fine, fine}), {.size = 8, .uv_set = 0, .atlases = AtlasMode::one},
-            "lies in two of them");
-    refused(good, {.per_metre = 1e5, .uv_set = 0}, "more than 8192");
-    refused(good, {.per_metre = 0, .uv_set = 0}, "finite and above 0");
+            "is covered more than once");
+    refused(good, {.per_metre = 1e5, .uv_set = 0}, "more than the limit of 8192");
+    refused(good, {.per_metre = 0, .uv_set = 0}, "finite and greater than 0");
     Scene twice = test::join({good, good});
     twice.primitives[1].node = twice.primitives[0].node;
     refused(twice, {.size = 8, .uv_set = 0, .atlases = AtlasMode::one}, "100.0 %");

@@ -109,7 +109,7 @@ TEST(Unwrap, SmallSizesAreRejectedWithASufficientOne) {
         unwrap(scene, {.size = 32});
         FAIL();
     } catch (const Error& error) {
-        EXPECT_NE(std::string(error.what()).find("too small for 300 charts or more: give 256 texels"),
+        EXPECT_NE(std::string(error.what()).find("too small for at least 300 charts; use 256 or more"),
                   std::string::npos)
             << error.what();
     }

@@ -359,7 +359,7 @@ TEST_F(FigureTest, ErrorsAreReportedAndTheSceneIsKept) {
     viewer->open({folder / "bad.glb"});
     frames_until([&] { return !viewer->jobs().busy(); });
     ASSERT_FALSE(viewer->messages().empty());
-    EXPECT_NE(viewer->messages().back().find("time of key 2 is not finite"), std::string::npos)
+    EXPECT_NE(viewer->messages().back().find("time of keyframe 2 is not finite"), std::string::npos)
         << viewer->messages().back();
     EXPECT_EQ(viewer->document().name(), "scene.glb");
     EXPECT_EQ(moving().path().filename(), "ball.glb");

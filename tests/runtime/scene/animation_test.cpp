@@ -286,15 +286,15 @@ TEST(BadAnimation, IsRejectedWithItsPosition) {
         EXPECT_NE(text.find("moving.glb: animation 0 channel 0: "), std::string::npos) << text;
         EXPECT_EQ(text.find('\n'), std::string::npos);
     };
-    has(refused({"translation", "LINEAR", {0, kNan}, two}), "time of key 1 is not finite");
-    has(refused({"translation", "LINEAR", {1, 0.5f}, two}), "key 1 is earlier than the one before it");
+    has(refused({"translation", "LINEAR", {0, kNan}, two}), "time of keyframe 1 is not finite");
+    has(refused({"translation", "LINEAR", {1, 0.5f}, two}), "keyframe 1 is earlier than the previous one");
     has(refused({"translation", "LINEAR", {0, 1}, {0, 0, 0, 1, kNan, 0}}), "value 1 is not finite");
-    has(refused({"translation", "LINEAR", {0, 1, 2}, two}), "2 values for 3 keys");
-    has(refused({"translation", "CUBICSPLINE", {0, 1}, two}), "2 values for 2 keys of 3 each");
-    has(refused({"translation", "LINEAR", {}, {}}), "it has no keys");
-    has(refused({"translation", "LINEAR", {0, 1}, two}, 7), "moves node 7, which is not there");
-    has(refused({"rotation", "LINEAR", {0}, {0, 0, 0, 0}}), "rotation of key 0 is 0");
-    has(refused({"translation", "WOBBLE", {0, 1}, two}), "no interpolation 'WOBBLE'");
+    has(refused({"translation", "LINEAR", {0, 1, 2}, two}), "2 values, but its 3 keyframes need 3");
+    has(refused({"translation", "CUBICSPLINE", {0, 1}, two}), "2 values, but its 2 keyframes need 6");
+    has(refused({"translation", "LINEAR", {}, {}}), "it has no keyframes");
+    has(refused({"translation", "LINEAR", {0, 1}, two}, 7), "moves node 7, which does not exist");
+    has(refused({"rotation", "LINEAR", {0}, {0, 0, 0, 0}}), "rotation of keyframe 0 is not a rotation");
+    has(refused({"translation", "WOBBLE", {0, 1}, two}), "interpolation 'WOBBLE' is not LINEAR");
 }
 
 TEST(BadAnimation, WithMissingTargetsIsRejected) {
@@ -302,11 +302,11 @@ TEST(BadAnimation, WithMissingTargetsIsRejected) {
     animate(file, {"translation", "LINEAR", {0, 1}, {0, 0, 0, 1, 0, 0}});
     GlbFile output = file, input = file, sampler = file, matrix = file;
     output.json["animations"][0]["samplers"][0]["output"] = 99;
-    EXPECT_NE(refusal(output).find("accessor 99 is not there"), std::string::npos) << refusal(output);
+    EXPECT_NE(refusal(output).find("accessor 99 does not exist"), std::string::npos) << refusal(output);
     input.json["animations"][0]["samplers"][0]["input"] = 98;
-    EXPECT_NE(refusal(input).find("accessor 98 is not there"), std::string::npos) << refusal(input);
+    EXPECT_NE(refusal(input).find("accessor 98 does not exist"), std::string::npos) << refusal(input);
     sampler.json["animations"][0]["channels"][0]["sampler"] = 5;
-    EXPECT_NE(refusal(sampler).find("sampler 5 is not there"), std::string::npos) << refusal(sampler);
+    EXPECT_NE(refusal(sampler).find("sampler 5 does not exist"), std::string::npos) << refusal(sampler);
     matrix.json["nodes"][0]["matrix"] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
     EXPECT_NE(refusal(matrix).find("node 0, which has a matrix"), std::string::npos) << refusal(matrix);
 }
@@ -314,24 +314,24 @@ TEST(BadAnimation, WithMissingTargetsIsRejected) {
 TEST(BadSkin, IsRejectedWithItsPosition) {
     GlbFile joint = skinned_file(), index = skinned_file(), skin = skinned_file(), bind = skinned_file();
     joint.json["skins"][0]["joints"] = {1, 44};
-    EXPECT_NE(refusal(joint).find("joint 1 of skin 0 is node 44, which is not there"), std::string::npos)
+    EXPECT_NE(refusal(joint).find("joint 1 of skin 0 is node 44, which does not exist"), std::string::npos)
         << refusal(joint);
     index.json["skins"][0]["joints"] = {1};
-    EXPECT_NE(refusal(index).find("joint 1 is beyond the 1 of its skin"), std::string::npos)
+    EXPECT_NE(refusal(index).find("joint 1 does not exist: the skin has 1 joint"), std::string::npos)
         << refusal(index);
     skin.json["nodes"][0]["skin"] = 3;
-    EXPECT_NE(refusal(skin).find("skin 3 is not there"), std::string::npos) << refusal(skin);
+    EXPECT_NE(refusal(skin).find("skin 3 does not exist"), std::string::npos) << refusal(skin);
     bind.json["skins"][0]["inverseBindMatrices"] = 77;
-    EXPECT_NE(refusal(bind).find("accessor 77 is not there"), std::string::npos) << refusal(bind);
+    EXPECT_NE(refusal(bind).find("accessor 77 does not exist"), std::string::npos) << refusal(bind);
     GlbFile few = skinned_file();
     few.json["skins"][0]["inverseBindMatrices"] = few.accessor(
         std::vector<float>{1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1}, test::kFloat, "MAT4", 16);
-    EXPECT_NE(refusal(few).find("2 joints, and 1 inverse bind"), std::string::npos) << refusal(few);
+    EXPECT_NE(refusal(few).find("2 joints, but 1 inverse bind"), std::string::npos) << refusal(few);
     for (const float weight : {std::nanf(""), -1.0f}) {
         GlbFile file = skinned_file();
         file.json["meshes"][0]["primitives"][0]["attributes"]["WEIGHTS_0"] = file.accessor(
             std::vector<float>{1, 0, 0, 0, weight, 0, 0, 0, 1, 0, 0, 0}, test::kFloat, "VEC4", 4);
-        EXPECT_NE(refusal(file).find("a weight of vertex 1"), std::string::npos) << refusal(file);
+        EXPECT_NE(refusal(file).find("a joint weight of vertex 1"), std::string::npos) << refusal(file);
     }
 }
 

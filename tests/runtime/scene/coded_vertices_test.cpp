@@ -174,7 +174,7 @@ TEST(CodedVertices, DamageIsRejected) {
         return json["meshes"][0]["primitives"][2]["extensions"][kExtension]["firstVertex"];
     };
     expect_refused("vertices is 0", [&](Json& json) { words(json)["vertices"] = 0; });
-    expect_refused("would take", [&](Json& json) { words(json)["vertices"] = 2'000'000'000; });
+    expect_refused("would need", [&](Json& json) { words(json)["vertices"] = 2'000'000'000; });
     expect_refused("the coded words end too early",
                    [&](Json& json) { words(json)["vertices"] = 2 * kSize * kSize + 1; });
     expect_refused("beyond the", [&](Json& json) { words(json)["vertices"] = kSize * kSize; });
@@ -204,8 +204,9 @@ TEST(CodedVertices, ReorderedMeshesAreRejectedWithTheRemedy) {
         load_gltf(files.folder / "reordered.glb");
         ADD_FAILURE() << "was read";
     } catch (const Error& error) {
-        EXPECT_NE(std::string(error.what()).find("another program has changed the file; run it before"),
-                  std::string::npos)
+        EXPECT_NE(
+            std::string(error.what()).find("another program has changed the file; run that program before"),
+            std::string::npos)
             << error.what();
     }
 }

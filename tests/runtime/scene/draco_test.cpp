@@ -287,8 +287,8 @@ TEST(Draco, DamageNamesThePrimitive) {
     };
     broken("no attribute 99", [](GlbFile&, auto& extension) { extension["attributes"]["POSITION"] = 99; });
     broken("components", [](GlbFile&, auto& extension) { extension["attributes"]["NORMAL"] = kTexcoordId; });
-    broken("buffer view 40 is not there", [](GlbFile&, auto& extension) { extension["bufferView"] = 40; });
-    broken("COLOR_0 beside it 3", [](GlbFile& file, auto&) {
+    broken("buffer view 40 does not exist", [](GlbFile&, auto& extension) { extension["bufferView"] = 40; });
+    broken("uncompressed attribute COLOR_0 has 3", [](GlbFile& file, auto&) {
         first_primitive(file)["attributes"]["COLOR_0"] =
             file.accessor(std::vector<float>(9, 0.5f), test::kFloat, "VEC3", 3);
     });

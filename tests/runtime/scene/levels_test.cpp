@@ -159,18 +159,20 @@ TEST(LevelsInFiles, ContradictionsAreRejected) {
         EXPECT_NE(line.find(words), std::string::npos) << line;
         EXPECT_EQ(line.find('\n'), std::string::npos);
     };
-    expect(file_of({with_ids(plain, {7}), plain}, 1), "names node 7, which is not there");
-    expect(file_of({with_ids(plain, {-1}), plain}, 1), "names node -1, which is not there");
-    expect(file_of({with_ids(plain, {1.5}), plain}, 1), "which is not there");
+    expect(file_of({with_ids(plain, {7}), plain}, 1), "refers to node 7, which does not exist");
+    expect(file_of({with_ids(plain, {-1}), plain}, 1), "refers to node -1, which does not exist");
+    expect(file_of({with_ids(plain, {1.5}), plain}, 1), "which does not exist");
     expect(file_of({with_ids(plain, "1"), plain}, 1), "no list of ids");
-    expect(file_of({with_ids(plain, {0}), plain}, 1), "which it is");
+    expect(file_of({with_ids(plain, {0}), plain}, 1), "which is the same node");
     expect(file_of({with_ids(plain, {1, 1}), plain}, 1), "twice");
     expect(file_of({with_ids(plain, {2}), with_ids(plain, {2}), plain}, 2), "and of node 1");
-    expect(file_of({with_ids(plain, {1}), with_ids(plain, {2}), plain}, 1), "has levels of its own");
-    expect(file_of({with_ids(plain, {1}), with_ids(plain, {0}), plain}, 1), "has levels of its own");
-    expect(file_of({{{"children", {1}}}, with_ids(plain, {0})}, 1), "above it");
+    expect(file_of({with_ids(plain, {1}), with_ids(plain, {2}), plain}, 1),
+           "cannot have levels of detail itself");
+    expect(file_of({with_ids(plain, {1}), with_ids(plain, {0}), plain}, 1),
+           "cannot have levels of detail itself");
+    expect(file_of({{{"children", {1}}}, with_ids(plain, {0})}, 1), "which is one of its descendants");
     expect(file_of({with_ids(plain, {1}), {{"children", {1}}}}, 1), "its own ancestor");
-    expect(file_of({with_ids(plain, {1}), {{"children", {9}}}}, 1), "node 9 is not there");
+    expect(file_of({with_ids(plain, {1}), {{"children", {9}}}}, 1), "node 9 does not exist");
 }
 
 TEST(LevelsInFiles, WithoutTrianglesAreOmittedWithANotice) {

@@ -102,7 +102,7 @@ TEST(PunctualLights, InvalidLightsAreRejected) {
             << light.dump() << ": " << error_of(with_light(light));
     GlbFile missing = with_light({{"type", "point"}});
     missing.json["nodes"].back()["extensions"]["KHR_lights_punctual"]["light"] = 7;
-    EXPECT_NE(error_of(missing).find("light 7 is not there"), std::string::npos);
+    EXPECT_NE(error_of(missing).find("light 7 does not exist"), std::string::npos);
     for (const Json& index : {Json(0.5), Json(-1), Json(1e30), Json("0")}) {
         missing.json["nodes"].back()["extensions"]["KHR_lights_punctual"]["light"] = index;
         EXPECT_NE(error_of(missing).find("light is " + index.dump()), std::string::npos) << error_of(missing);

@@ -111,15 +111,15 @@ TEST(LobesOfFiles, DamageIsRejected) {
         EXPECT_EQ(error.find('\n'), std::string::npos);
     };
     expect("PRTKIT_lobes has version 9", [](Json& e, Json&) { e["version"] = 9; });
-    expect("order of lobes", [](Json& e, Json&) { e["order"] = 5; });
+    expect("the order of the lobes", [](Json& e, Json&) { e["order"] = 5; });
     expect("lobes", [](Json& e, Json&) { e["lobes"] = 4; });
-    expect("count of profiles", [](Json& e, Json&) { e["profiles"]["count"] = 300; });
+    expect("the number of profiles", [](Json& e, Json&) { e["profiles"]["count"] = 300; });
     expect("the profiles of lobes", [](Json& e, Json&) { e["profiles"]["count"] = 2; });
     expect("4711", [](Json& e, Json&) { e["profiles"]["bufferView"] = 4711; });
     expect("memory.glb", [](Json& e, Json&) { e.erase("profiles"); });
     expect("poses", [](Json& e, Json&) { e["bake"]["poses"] = -1; });
     expect("mesh 0 primitive 0", [](Json&, Json& a) { a.erase("_PRT_LOBE_1"); });
-    expect("_PRT_LOBE_1 is not four bytes for each of 3 vertices",
+    expect("_PRT_LOBE_1 must have four unsigned bytes for each of 3 vertices",
            [](Json&, Json& a) { a["_PRT_LOBE_1"] = a["POSITION"]; });
 }
 

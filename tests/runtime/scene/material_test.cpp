@@ -162,7 +162,7 @@ TEST(Hidden, NodesAndTheirDescendantsAreExcluded) {
     ASSERT_EQ(scene.primitives.size(), 2u);
     EXPECT_EQ(scene.primitives[0].node, 0);
     EXPECT_EQ(scene.primitives[1].node, 5);
-    EXPECT_EQ(notices_with(scene, "3 meshes are hidden"), 1u);
+    EXPECT_EQ(notices_with(scene, "3 hidden meshes are ignored"), 1u);
 }
 
 /// Returns three instances of the triangle, moved, rotated and scaled, below a node that moves all up.
@@ -241,7 +241,7 @@ TEST(Instances, MismatchesAreRejected) {
     };
     EXPECT_NE(message([](GlbFile& file, auto& attributes) {
                   attributes["SCALE"] = file.accessor(std::vector<float>(6, 1), test::kFloat, "VEC3", 3);
-              }).find("memory.glb: node 0: its instances have attributes of different length"),
+              }).find("memory.glb: node 0: the attributes of its instances have different numbers"),
               std::string::npos);
     EXPECT_NE(message([](GlbFile&, auto& attributes) { attributes["SCALE"] = 99; }).find("accessor 99"),
               std::string::npos);

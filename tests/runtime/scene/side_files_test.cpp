@@ -115,8 +115,9 @@ TEST_F(SideFile, ExcessiveReferencesAreRejected) {
 TEST_F(SideFile, OutputsAsInputsAreRejected) {
     for (const char* uri : {"own.bin", "inward.bin", "parts/../own.bin"}) {
         const GltfOptions options{.outputs = {folder / "gone.glb", folder / "scene/own.bin"}};
-        EXPECT_NE(refusal_of_buffer(uri, options).find("which this run would replace"), std::string::npos);
-        EXPECT_NE(refusal_of_image(uri, options).find("which this run would replace"), std::string::npos);
+        EXPECT_NE(refusal_of_buffer(uri, options).find("which the output would overwrite"),
+                  std::string::npos);
+        EXPECT_NE(refusal_of_image(uri, options).find("which the output would overwrite"), std::string::npos);
     }
     EXPECT_EQ(refusal_of_buffer("own.bin", {.outputs = {folder / "secret.bin", folder / "gone.glb"}}), "");
 }

@@ -392,7 +392,7 @@ std::string refusal(const Damage& read_changed, const std::function<void(GlbFile
 /// the remedy.
 TEST(TransferInGltf, ChangesOfOtherProgramsAreRejectedWithTheRemedy) {
     const std::string remedy =
-        ": another program has changed the file; run it before prt bake, or run prt compress again";
+        ": another program has changed the file; run that program before prt bake, or run prt compress again";
     const auto attributes = [](GlbFile& file) -> nlohmann::ordered_json& {
         return file.json["meshes"][0]["primitives"][0]["attributes"];
     };
@@ -412,14 +412,14 @@ TEST(TransferInGltf, ChangesOfOtherProgramsAreRejectedWithTheRemedy) {
         });
         expect(format, "lacks _PRT_WEIGHTS_0",
                [&](GlbFile& file) { attributes(file).erase("_PRT_WEIGHTS_0"); });
-        expect(format, "_PRT_WEIGHTS_0, but no extension PRTKIT_clustered_pca", [&](GlbFile& file) {
+        expect(format, "_PRT_WEIGHTS_0, but not the extension PRTKIT_clustered_pca", [&](GlbFile& file) {
             file.json.erase("extensions");
             attributes(file).erase("_PRT_CLUSTER");
         });
     }
-    expect(WeightFormat::float32, "lacks _PRT_CLUSTER",
+    expect(WeightFormat::float32, "has no attribute _PRT_CLUSTER",
            [&](GlbFile& file) { attributes(file).erase("_PRT_CLUSTER"); });
-    expect(WeightFormat::float32, "_PRT_CLUSTER, but no extension PRTKIT_clustered_pca",
+    expect(WeightFormat::float32, "_PRT_CLUSTER, but not the extension PRTKIT_clustered_pca",
            [&](GlbFile& file) { file.json.erase("extensions"); });
     // Integers as floats, and as shares of their type.
     expect(WeightFormat::packed, "_PRT_WEIGHTS_0 has component type 5126, not 5121", [&](GlbFile& file) {
@@ -525,7 +525,7 @@ TEST(TransferInGltf, MissingDataIsNotAllocated) {
     const auto many_clusters = [](GlbFile& file) {
         extension(file.json)["components"] = std::vector<int>(65536, 27);
     };
-    EXPECT_NE(refusal(read_plain, many_clusters).find("bytes, but there are"), std::string::npos);
+    EXPECT_NE(refusal(read_plain, many_clusters).find("bytes, but the buffer view has"), std::string::npos);
     // A row of zeros has four bits and is decoded to one value per axis.
     const auto many_axes = [&](GlbFile& file) {
         auto& e = extension(file.json);
@@ -536,7 +536,7 @@ TEST(TransferInGltf, MissingDataIsNotAllocated) {
                                 {"bufferView", file.view(std::vector<std::byte>(17 * 2048 / 2))}};
         e["bases"]["scales"]["bufferView"] = file.view(std::vector<std::byte>(80000));
     };
-    EXPECT_NE(refusal(read_coded, many_axes).find("its bases would take"), std::string::npos);
+    EXPECT_NE(refusal(read_coded, many_axes).find("its bases would need"), std::string::npos);
 }
 
 TEST(TransferInGltf, DataSharedWithGeometryIsKept) {

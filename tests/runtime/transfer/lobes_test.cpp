@@ -120,10 +120,12 @@ TEST(Lobes, InvalidLobesAreRejected) {
         return std::string();
     };
     EXPECT_EQ(error_of([](LobeModel&) {}), "");
-    EXPECT_NE(error_of([](LobeModel& m) { m.order = 5; }).find("order 2 to 4, not 5"), std::string::npos);
-    EXPECT_NE(error_of([](LobeModel& m) { m.lobes = 4; }).find("1 to 3 lobes, not 4"), std::string::npos);
-    EXPECT_NE(error_of([](LobeModel& m) { m.profiles.clear(); }).find("profiles, not 0"), std::string::npos);
-    EXPECT_NE(error_of([](LobeModel& m) { m.words[1][2] = 2; }).find("profile 2 of 2"), std::string::npos);
+    EXPECT_NE(error_of([](LobeModel& m) { m.order = 5; }).find("must be in 2..4, not 5"), std::string::npos);
+    EXPECT_NE(error_of([](LobeModel& m) { m.lobes = 4; }).find("must be in 1..3, not 4"), std::string::npos);
+    EXPECT_NE(error_of([](LobeModel& m) { m.profiles.clear(); }).find("must be in 1..256, not 0"),
+              std::string::npos);
+    EXPECT_NE(error_of([](LobeModel& m) { m.words[1][2] = 2; }).find("profile 2, but there are only 2"),
+              std::string::npos);
     for (const float bad : {std::numeric_limits<float>::quiet_NaN(), 1e4f})
         EXPECT_NE(error_of([&](LobeModel& m) { m.profiles[1][3] = bad; }).find("not finite or too large"),
                   std::string::npos);

@@ -17,6 +17,6 @@ inline bool is_lfs_pointer(std::span<const std::byte> file) {
 }
 
 inline constexpr const char* kLfsRemedy =
-    "is a pointer of Git LFS, not the file itself: fetch it by git lfs pull";
+    "is a Git LFS pointer, not the file itself; fetch the file with git lfs pull";
 
 } // namespace prt
