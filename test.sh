@@ -18,6 +18,7 @@ look() {
     git ls-files '*.sh' .ci/run | xargs shellcheck
     tests/checks/include_arrows.py .
     tests/checks/sizes.py .
+    tests/checks/words.py .
     tests/checks/checks_test.py
 }
 

@@ -139,7 +139,7 @@ SharpTransfer sharp_lamps_in_color(const BakePlan& plan, const Transfer& smooth,
     return {in_color(red.direct, green.direct, blue.direct), in_color(red.exit, green.exit, blue.exit)};
 }
 
-/// Adds `rows` to the operators, so that they gather the last bounce there, too.
+/// Adds `rows` to the operators, so that they also gather the last bounce at these receivers.
 TransportOperators with_rows(TransportOperators operators,
                              std::initializer_list<const GatherOperator*> rows) {
     for (const GatherOperator* one : rows)

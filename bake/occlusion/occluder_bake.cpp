@@ -38,8 +38,8 @@ public:
     double scale() const { return scale_; }
     glm::vec3 to_scene(const glm::vec3& p) const { return glm::vec3(to_scene_ * glm::dvec4(p, 1)); }
     glm::vec3 from_scene(const glm::vec3& p) const { return glm::vec3(inverse_ * glm::dvec4(p, 1)); }
-    /// Converts a lean like shaders in reverse (`blocked_at`): by the inverse of the transposed scene-to-box
-    /// matrix.
+    /// Converts a mean blocked direction from the scene's frame to the object's, the inverse of the
+    /// conversion in `blocked_at`: by the inverse of the transposed scene-to-box matrix.
     glm::vec3 lean_from_scene(const glm::vec3& blocked_direction) const {
         const glm::dmat3 rows = glm::transpose(scale_ * glm::dmat3(inverse_));
         return glm::vec3(glm::inverse(rows) * glm::dvec3(blocked_direction));

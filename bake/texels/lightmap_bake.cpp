@@ -1,5 +1,5 @@
-// Bakes texels: light is bounced between vertices, then gathered by every texel with the rays of its own
-// direct light.
+// Bakes texels: light bounces between vertices, then every texel gathers it with the rays that computed the
+// texel's direct light.
 
 #include "prt/lightmap_bake.h"
 
@@ -42,7 +42,7 @@ constexpr double kTexelsBetweenSources = 8;
 /// Approximate maximum number of bytes of the gather rows that exist at a time.
 constexpr double kBytesOfRows = 1e9; ///< for the rows of one gather; lamps need additional memory
 
-/// A side of a texel, metres, in the mean of all.
+/// Returns the mean side length of a texel in metres.
 double texel_size(const TexelPositions& positions, const std::vector<std::vector<ChartTriangle>>& charts) {
     double surface = 0, texels = 0;
     for (const auto& of_atlas : charts)
@@ -321,14 +321,14 @@ private:
     std::vector<std::vector<ChartTriangle>> charts_; ///< [atlases]
     struct Parts {
         Transfer direct, rest, lamps;
-    } light_; ///< of the receivers so far
+    } light_; ///< light of the receivers that are complete
     struct Jumps {
         double before = 0, after = 0; ///< squared
         std::size_t points = 0;
     } jumps_;
     struct Noise {
         double squares = 0, texels = 0; ///< relative, weighted by texels
-    } noise_;                           ///< of filtered maps
+    } noise_;                           ///< noise of filtered maps
     int bounces_done_ = 0;
     LightmapBake result_;
 };

@@ -18,7 +18,7 @@
 namespace prt {
 namespace {
 
-constexpr std::size_t kStride = 4; ///< of transfer of order 2
+constexpr std::size_t kStride = 4; ///< number of coefficients of order 2
 
 /// Jumps of the first coefficient across seams, root mean square.
 double rms_jump(const Atlas& atlas, std::span<const SeamPoint> seams, std::span<const float> vectors) {

@@ -51,7 +51,7 @@ Atlas sized(const Scene& scene, Atlas atlas, const TexelOptions& options) {
     atlas.repeats = repeats(scene, atlas);
     const double in_texture = area_in_texture(scene, atlas);
     double side = options.size;
-    if (options.size == 0) // so that a metre has this number of texels in the mean
+    if (options.size == 0) // chosen by the mean number of texels per metre
         side = std::ceil(options.per_metre * std::sqrt(area_on_surfaces(scene, atlas) / in_texture));
     if (!(side <= kMaxTexels))
         throw Error(fmt::format(

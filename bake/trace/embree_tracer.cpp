@@ -197,7 +197,7 @@ void trace_some_hits(const Plan& plan, const SobolChunk& chunk, Work& work) {
 }
 
 /// Moves the directions of rays with a share to sum to the front; the shares go to `work.blocked`. Returns
-/// the number of these rays; sets `combined` if all shares are 1.
+/// the number of these rays; sets `whole` if all shares are 1.
 int keep_shares(Work& work, int count, bool of_blocked, bool& whole) {
     std::size_t kept = 0;
     bool fractions = false;

@@ -130,7 +130,7 @@ PointsBetween points_between(const VolumeGrid& grid, const Bounds& bounds, doubl
     return points;
 }
 
-/// Splits vectors [places][coefficients][numbers] into the parts of a file.
+/// Splits vectors [positions][coefficients][numbers] into the terms of a file.
 Transfer split_into_terms(const IncidentLayout& layout, const BakePlan& plan,
                           std::span<const float> vectors) {
     const std::size_t numbers = layout.numbers(), rows = vectors.size() / numbers;

@@ -130,7 +130,8 @@ const void* offset(std::size_t bytes) {
     return reinterpret_cast<const void*>(bytes);
 }
 
-/// Attributes of packed weights, in the bound buffer: words, four an attribute, that hold the cluster, too.
+/// Attributes of packed weights, in the bound buffer: four words per attribute; they also contain the
+/// cluster.
 void attach_words(const prt::ClusteredReceivers& receivers, std::size_t first) {
     const std::size_t stride = receivers.stride();
     for (int word = 0; word < receivers.words; word += 4) {

@@ -212,9 +212,8 @@ Image resampled_lat_long(const Environment& environment) {
     const bool lat_long = environment.layout == EnvironmentLayout::lat_long;
     if (lat_long && environment.center == LatLongCenter::z)
         return image;
-    // A face of a cube spans a quarter turn, an angular map a full turn, the height of the result half a
-    // turn. If the width of a lat-long image is a multiple of four, the rotation by a quarter is exact in
-    // pixels.
+    // A face of a cube spans 90 degrees, an angular map 360 degrees, the height of the result 180 degrees. If
+    // the width of a lat-long image is a multiple of four, the rotation by 90 degrees is exact in pixels.
     const int height = lat_long                                           ? image.height
                        : environment.layout == EnvironmentLayout::angular ? std::max(1, image.width / 2)
                                                                           : 2 * image.width;

@@ -123,7 +123,7 @@ private:
     };
 
     /// Maximum number of rays from a receiver to a lamp: the rays of each light are rounded up. At least one,
-    /// so that dark receivers are written, too.
+    /// so that dark receivers are also written.
     std::uint32_t max_rays(const LampTables::Ranges& ranges) const {
         const auto spread = static_cast<std::uint32_t>(task_.options.rays);
         return std::max(

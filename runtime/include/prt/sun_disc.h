@@ -19,10 +19,10 @@ struct SunDisc {
                                    ///< its image
 };
 
-/// Returns a sun as SH coefficients (docs/math.md, eq. 14), for transfer after at least one bounce. Throws
-/// `Error` for a half angle outside 0..pi/2 and for values that are not finite.
+/// Returns a sun as SH coefficients (docs/math.md, eq. 14), for `Lighting::suns`. Throws `Error` for a half
+/// angle outside 0..pi/2 and for values that are not finite.
 Light as_light(const SunDisc& sun, int order);
-/// Returns the sum of the suns.
+/// Returns the sum of all `suns` as SH coefficients, for `Lighting::suns`.
 Light as_light(std::span<const SunDisc> suns, int order);
 
 } // namespace prt

@@ -7,7 +7,7 @@ namespace prt {
 
 namespace {
 
-std::string megabytes(double bytes) { // no more digits than mean something
+std::string megabytes(double bytes) { // whole megabytes: more digits are meaningless
     constexpr double kMegabyte = 1e6;
     return bytes < 1e18 ? std::to_string(static_cast<unsigned long long>(bytes / kMegabyte)) + " MB"
                         : std::string("more than 1e12 MB");

@@ -113,7 +113,7 @@ std::size_t add_colors(GltfContents& contents, const VertexArray& vertices,
                                   {"type", "VEC4"}});
 }
 
-/// Gives the primitives of `scene` the light as COLOR_0. Returns how many show it.
+/// Writes the light as COLOR_0 of the primitives of `scene`. Returns the number of primitives that show it.
 std::size_t show_light(GltfContents& contents, const Scene& scene, std::span<const glm::vec3> radiance,
                        float exposure, UnlitUse use) {
     const std::vector<Json*> primitives = make_meshes_unique(contents, scene);

@@ -64,7 +64,7 @@ std::vector<glm::vec3> flat_normals(const GltfContents& contents, const Json& po
     return normals;
 }
 
-/// Corners as the file has them, those of a mirrored node turned back.
+/// Returns the triangles with the winding order of the file, which extraction reverses for mirrored nodes.
 std::vector<glm::uvec3> in_file_order(const Primitive& primitive) {
     std::vector<glm::uvec3> triangles = primitive.triangles;
     if (primitive.mirrored)

@@ -189,7 +189,7 @@ private:
         return at;
     }
 
-    /// Makes the materials of these primitives single-sided; copies materials that others use too.
+    /// Makes the materials of these primitives single-sided; copies materials that others also use.
     void single_sided(const std::vector<JsonLocation>& primitives) {
         std::map<std::size_t, std::size_t> users;
         for_each_primitive(contents_.json, [&](Json& primitive) {

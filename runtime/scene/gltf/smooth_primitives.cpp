@@ -1,4 +1,4 @@
-// Gives primitives without normals smooth ones.
+// Adds smooth normals to primitives without normals.
 
 #include "gltf/smooth_primitives.h"
 
