@@ -98,7 +98,7 @@ Legend legend_of(const Viewer& viewer, const SidePicture& picture) {
                 "step of contrast between clusters; blue: inside a cluster"};
     case PictureKind::surface_error:
         return {true, "0", fmt::format("{:.0f} %", 100 * kWhiteSurfaceError),
-                "of the RMS radiance, against path tracing"};
+                "error relative to the RMS radiance, by path tracing"};
     default:
         return {};
     }
