@@ -34,7 +34,7 @@ look_at() {
     local name=$1
     $prt render "out/$name.shipped.glb" --env "$sky" -o "out/$name.png" "${@:2}"
     [ -n "${first-}" ] || first="out/$name.png after $(minutes)"
-    $prt render "out/$name.shipped.glb" --env "$sky" --rotate 120 -o "out/$name.turned.png" "${@:2}"
+    $prt render "out/$name.shipped.glb" --env "$sky" --rotate 120 -o "out/$name.rotated.png" "${@:2}"
     $prt evaluate "out/$name.baked.glb" "out/$name.shipped.glb" --lights "$sky" ${budget:+--budget} --html "out/$name.html" --json "out/$name.json"
 }
 volume=0.5 road room inf u32 --camera 1.2,1.9,4.2 --look-at 0,1.8,-5 --fov 45

@@ -85,8 +85,8 @@ std::vector<glm::vec3> total_colors(const Model& model, const prt::SurfacePoints
     for (std::size_t p = 0; p < points.size(); ++p) {
         const glm::dvec3 a(reference.truth(0)[p]), b(reference.truth(1)[p]), sun(reference.suns()[p]),
             at_point(shown[p]);
-        squared.push_back(glm::dot(at_point - a, at_point - b)); // The noise of `a` and `b` is independent,
-                                                                 // so the product has no bias.
+        squared.push_back(glm::dot(at_point - a, at_point - b)); // unbiased, because the
+                                                                 // noise of `a` and `b` is independent
         norm += static_cast<double>(points.receivers.areas[p]) * glm::dot(a + sun, b + sun);
         area += static_cast<double>(points.receivers.areas[p]);
     }

@@ -152,7 +152,7 @@ Viewer::Shown Viewer::shown(const SidePicture& wanted) const {
 
 void Viewer::draw_sides(const std::array<SidePicture, 2>& pictures, const FrameView& view) {
     const LoadedModel* const lightmap = document_.lightmap();
-    // the difference would be a grid, too
+    // the difference would also show the grid
     const bool grid = settings.drawing.texel_grid && lightmap && !settings.difference;
 
     const int width = seen_.size.x,

@@ -21,7 +21,7 @@ float strength_of(const nlohmann::json& value, const std::string& name) {
     return strength;
 }
 
-/// Turns `lamp` on with this strength. The slider shows the largest channel.
+/// Switches `lamp` on with this strength. The slider shows the largest channel.
 void set_strength(Lamp& lamp, const glm::vec3& strength) {
     lamp.on = true;
     lamp.strength = std::max({strength.r, strength.g, strength.b});

@@ -330,7 +330,7 @@ async function start() {
   element("compare").onchange = guarded(showBefore);
   picture.controls.addEventListener("end", showAddress);
   canvas.addEventListener("pointerup", showAddress);
-  element("turning").addEventListener("change", showAddress);
+  element("rotating").addEventListener("change", showAddress);
   element("link").onclick = guarded(async () => {
     await navigator.clipboard.writeText(location.href);
     element("link").textContent = "Copied";
@@ -373,13 +373,13 @@ const ROTATION_PER_SECOND = Math.PI / 12;
 function rotateLightByItself(picture) {
   let before = null;
   const step = (now) => {
-    if (!element("turning").checked) return;
+    if (!element("rotating").checked) return;
     // A slow frame, or a hidden page, does not cause a jump.
     if (before !== null) rotateLight(picture, picture.angle + ROTATION_PER_SECOND * Math.min((now - before) / 1000, 0.1));
     before = now;
     requestAnimationFrame(step);
   };
-  element("turning").onchange = () => {
+  element("rotating").onchange = () => {
     before = null;
     requestAnimationFrame(step);
   };

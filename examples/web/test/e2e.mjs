@@ -633,9 +633,9 @@ await check("the light rotates continuously", async (page, errors) => {
     return Math.atan2(position.x - target.position.x, position.z - target.position.z);
   });
   const [before, sunBefore] = [await angle(), await lightAngle()];
-  await page.locator("#turning").check();
+  await page.locator("#rotating").check();
   await page.waitForFunction((from) => globalThis.prtkitPicture.angle > from + 0.1, before);
-  await page.locator("#turning").uncheck();
+  await page.locator("#rotating").uncheck();
   const count = await drawn(page);
   await page.waitForTimeout(300);
   assert.ok((await drawn(page)) <= count + 1, "the rotation continues");

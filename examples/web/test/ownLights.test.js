@@ -114,7 +114,7 @@ test("each light that does not light baked meshes is reported once", () => {
   const third = sunIn(scene);
   model.setSky(dark, scene, { suns: [sun, other, third] });
   assert.deepEqual(drawn(), []);
-  model.setLight(dark, 0, dark); // those of SunLights
+  model.setLight(dark, 0, dark); // suns of SunLights
   assert.deepEqual(drawn(), []);
 });
 
