@@ -51,7 +51,7 @@ inline constexpr double kRoomFromAbove = 0.5, kLampOverRoom = 0.4, kTextureIndoo
 /// By hand. [preset] with --lights
 inline constexpr double kNaturalShare = 0.01;
 /// A receiver is an outlier if its vector is longer than the median by this factor: near it, float has no
-/// precision for the others. By hand; HardCase.AHugeOutlierIsKeptAndSpoilsNothing.
+/// precision for the others. By hand; HardCase.HugeOutliersAreKeptWithoutHarm.
 inline constexpr float kOutlierLength = 100;
 
 /// Weight of the mean squared contrast error of lamps relative to the squared relative error under the sky.

@@ -1,10 +1,10 @@
 // Both sides of double-sided surfaces, from the command line to the file.
 
+#include "pipeline.h"
 #include "prt/encode_glb.h"
 #include "prt/gltf.h"
 #include "prt/levels.h"
 #include "prt/support/file.h"
-#include "road.h"
 #include "support/glb_file.h"
 #include "support/scene_builder.h"
 
@@ -23,7 +23,7 @@ GlbFile roof_file() {
     return file;
 }
 
-class BackSides : public Road {
+class BackSides : public Pipeline {
 protected:
     Outcome bake(const char* scene, const char* output, std::vector<std::string> options = {}) {
         options.insert(options.begin(), {"bake", at(scene), "-o", at(output), "--order", "2", "--rays", "64",
@@ -32,7 +32,7 @@ protected:
     }
 };
 
-TEST_F(BackSides, GetVerticesWhereLightReachesThem) {
+TEST_F(BackSides, GetVerticesIfLightReachesThem) {
     roof_file().write(folder / "roof.glb");
     const std::size_t fronts = extract_scene(load_gltf(folder / "roof.glb")).receivers();
     const Outcome baked = bake("roof.glb", "b.glb");
@@ -64,7 +64,7 @@ TEST_F(BackSides, GetVerticesWhereLightReachesThem) {
     EXPECT_NE(validator_errors(folder / "b.glb"), 1);
 }
 
-TEST_F(BackSides, ShowTheLightOfTheFrontWhereTheyShareIt) {
+TEST_F(BackSides, ShareTheLightOfTheFront) {
     roof_file().write(folder / "roof.glb");
     const Outcome baked = bake("roof.glb", "b.glb", {"--back-sides", "shared"});
     ASSERT_EQ(baked.status, 0) << baked.err;
@@ -74,7 +74,7 @@ TEST_F(BackSides, ShowTheLightOfTheFrontWhereTheyShareIt) {
               extract_scene(load_gltf(folder / "roof.glb")).receivers());
 }
 
-TEST_F(BackSides, HaveChartsOfTheirOwnInALightmap) {
+TEST_F(BackSides, HaveSeparateLightmapCharts) {
     roof_file().write(folder / "roof.glb");
     const Outcome baked = bake("roof.glb", "b.glb", {"--size", "64", "--unwrap"});
     ASSERT_EQ(baked.status, 0) << baked.err;
@@ -83,7 +83,7 @@ TEST_F(BackSides, HaveChartsOfTheirOwnInALightmap) {
 }
 
 /// Both sides are split in the same way: every triangle of the roof still has its opposite.
-TEST_F(BackSides, AreRefinedAlike) {
+TEST_F(BackSides, AreRefinedLikeFronts) {
     roof_file().write(folder / "roof.glb");
     const Outcome baked = bake("roof.glb", "b.glb", {"--refine", "0.005"});
     ASSERT_EQ(baked.status, 0) << baked.err;
@@ -109,7 +109,7 @@ TEST_F(BackSides, AreRefinedAlike) {
 }
 
 /// A variant that culls back faces keeps the mesh unchanged, also if flat normals split its vertices.
-TEST_F(BackSides, StayWhereAVariantCullsThem) {
+TEST_F(BackSides, AreKeptIfAVariantCullsThem) {
     GlbFile file = triangle_file();
     const std::size_t tent = file.accessor(
         std::vector<float>{-1, 0.5f, 1, 0, 1, 1, 1, 0.5f, 1, -1, 0.5f, -1, 0, 1, -1, 1, 0.5f, -1}, kFloat,
@@ -139,7 +139,7 @@ TEST_F(BackSides, StayWhereAVariantCullsThem) {
 }
 
 /// The underside of the roof is not as open as its top.
-TEST_F(BackSides, HaveOcclusionOfTheirOwn) {
+TEST_F(BackSides, HaveSeparateOcclusion) {
     roof_file().write(folder / "roof.glb");
     const Outcome ao = prt({"ao", at("roof.glb"), "-o", at("b.glb"), "--rays", "64", "--attribute", "_AO"});
     ASSERT_EQ(ao.status, 0) << ao.err;
@@ -149,7 +149,7 @@ TEST_F(BackSides, HaveOcclusionOfTheirOwn) {
 }
 
 /// Both levels get back sides, with equal kinds of light.
-TEST_F(BackSides, AreThoseOfCoarserLevels) {
+TEST_F(BackSides, ExistInCoarserLevels) {
     GlbFile file = roof_file();
     file.json["meshes"].push_back(file.json["meshes"][0]);
     file.json["nodes"].push_back({{"name", "coarse"}, {"mesh", 1}});
@@ -166,7 +166,7 @@ TEST_F(BackSides, AreThoseOfCoarserLevels) {
 }
 
 /// The underside of the roof is unshadowed if its material casts no shadow, also in texels.
-TEST_F(BackSides, SeeThroughWhatStopsNoLight) {
+TEST_F(BackSides, SeeThroughMaterialsWithoutShadow) {
     scene_file(SceneBuilder().floor({0, 1, 0}, 1, 3).sphere({0, 1, 0}, 3, 8).build())
         .write(folder / "plain.glb");
     GlbFile file = read_glb(folder / "plain.glb");

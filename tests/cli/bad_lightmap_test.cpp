@@ -1,8 +1,8 @@
 // Tests files with invalid lightmaps: each is rejected with a one-line error, and invalid JSON is also
 // rejected by the schemas of docs/format.md. Valid files are accepted by both.
 
+#include "pipeline.h"
 #include "prt/image_file.h"
-#include "road.h"
 #include "support/lightmap_model.h"
 #include "support/random_lightmap.h"
 
@@ -240,7 +240,7 @@ std::vector<Damage> damages_to_clusters() {
     };
 }
 
-class BadLightmaps : public Road {
+class BadLightmaps : public Pipeline {
 protected:
     std::string write(const GlbFile& file, const std::string& name) {
         file.write(folder / (name + ".glb"));
@@ -289,21 +289,21 @@ protected:
     }
 };
 
-TEST_F(BadLightmaps, AreRefusedForTheirMaps) {
+TEST_F(BadLightmaps, AreRejectedForInvalidMaps) {
     expect_refused(raw_file(), damages_to_maps());
     expect_refused(shipped_file(), damages_to_maps());
 }
 
-TEST_F(BadLightmaps, AreRefusedForWhatWasBaked) {
+TEST_F(BadLightmaps, AreRejectedForInvalidBakes) {
     expect_refused(raw_file(), damages_to_raw());
 }
 
-TEST_F(BadLightmaps, AreRefusedForTheirWords) {
+TEST_F(BadLightmaps, AreRejectedForInvalidWords) {
     expect_refused(shipped_file(), damages_to_images());
     expect_refused(shipped_file(), damages_to_clusters());
 }
 
-TEST_F(BadLightmaps, AreNotThoseThatAreRight) {
+TEST_F(BadLightmaps, AcceptsValidLightmaps) {
     std::vector<std::string> files = {write(raw_file(), "raw"), write(shipped_file(), "shipped"),
                                       write(shipped_file(true), "alike")};
     const Outcome compressed = prt({"compress", at("raw.glb"), "-o", at("coded.glb"), "--clusters", "3"});

@@ -59,13 +59,13 @@ GlbFile with_material(const Json& material) {
 
 const Json kTextured = {{"pbrMetallicRoughness", {{"baseColorTexture", {{"index", 0}}}}}};
 
-TEST_F(Check, FindsNothingInAPlainModel) {
+TEST_F(Check, AcceptsAPlainModel) {
     const Json report = check(triangle_file());
     EXPECT_TRUE(report["findings"].empty()) << report;
     EXPECT_NE(report["checked"].get<std::string>().find("texture coordinates"), std::string::npos);
 }
 
-TEST_F(Check, FindsImagesThatCannotBeRead) {
+TEST_F(Check, FindsUnreadableImages) {
     GlbFile missing = with_material(kTextured), damaged = missing;
     missing.json["images"] = {{{"uri", "gone.png"}}};
     expect_one(check(missing), "image 0 'gone.png' cannot be read");
@@ -73,7 +73,7 @@ TEST_F(Check, FindsImagesThatCannotBeRead) {
     expect_one(check(damaged), "is needed, but cannot be decoded");
 }
 
-TEST_F(Check, FindsExtensionsThatAreNotRead) {
+TEST_F(Check, FindsUnsupportedExtensions) {
     GlbFile file = triangle_file();
     file.json["extensionsUsed"] = {"VENDOR_wind", "KHR_materials_unlit"};
     expect_one(check(file), "the extension VENDOR_wind is not read");
@@ -99,7 +99,7 @@ TEST_F(Check, FindsLampsWithoutEffect) {
               std::string::npos);
 }
 
-TEST_F(Check, FindsCoordinatesThatNoLightmapFits) {
+TEST_F(Check, FindsCoordinatesUnfitForLightmaps) {
     for (const auto& [uv, words] : {std::pair(std::vector<float>{0, 0, 3.5f, 0, 0, 1}, "crosses the border"),
                                     std::pair(std::vector<float>{0, 0, 0, 0, 0, 0}, "covers no area")}) {
         GlbFile file = triangle_file();
@@ -132,14 +132,14 @@ GlbFile tetrahedron(bool inwards, int points) {
     return file;
 }
 
-TEST_F(Check, FindsClosedSurfacesThatFaceInwardsAndTrianglesWithoutArea) {
+TEST_F(Check, FindsInvertedClosedSurfacesAndTrianglesWithoutArea) {
     EXPECT_TRUE(check(tetrahedron(false, 0))["findings"].empty());
     expect_one(check(tetrahedron(true, 0)), "is closed and faces inwards");
     expect_one(check(tetrahedron(false, 2)), "2 triangles have no area");
 }
 
 /// gltfpack and others move vertices of a shipped file.
-TEST_F(Check, FindsVerticesThatWereChangedAfterABake) {
+TEST_F(Check, FindsVerticesChangedAfterABake) {
     triangle_file().write(folder / "scene.glb");
     ASSERT_EQ(prt({"bake", at("scene.glb"), "-o", at("baked.glb"), "--rays", "4", "--order", "2"}).status, 0);
     GlbFile baked = read_glb(folder / "baked.glb");
@@ -153,7 +153,7 @@ TEST_F(Check, FindsVerticesThatWereChangedAfterABake) {
     expect_one(check(baked), "differ from those that were baked");
 }
 
-TEST_F(Check, MissingImagesStopOnlyWhatNeedsTheirPixels) {
+TEST_F(Check, MissingImagesFailOnlyUsersOfTheirPixels) {
     GlbFile file = with_material(kTextured);
     file.json["images"] = {{{"uri", "gone.png"}}};
     file.write(folder / "scene.glb");
@@ -181,7 +181,7 @@ TEST_F(Check, MissingImagesStopOnlyWhatNeedsTheirPixels) {
     EXPECT_EQ(prt({"relight", baked, "--env", light, "-o", lit, "--albedo"}).status, 1);
 }
 
-TEST_F(Check, CommandsThatPassTransferOnRefuseItWhereItIsDamaged) {
+TEST_F(Check, CommandsThatCopyTransferRejectDamage) {
     triangle_file().write(folder / "scene.glb");
     ASSERT_EQ(prt({"bake", at("scene.glb"), "-o", at("baked.glb"), "--rays", "4", "--order", "2"}).status, 0);
     GlbFile damaged = read_glb(folder / "baked.glb");

@@ -1,10 +1,10 @@
 // Tests instances that share transfer through the program: baked, compressed, reported, evaluated and drawn;
 // and rejected input.
 
+#include "pipeline.h"
 #include "prt/instances_gltf.h"
 #include "prt/light.h"
 #include "prt/support/error.h"
-#include "road.h"
 #include "support/glb_file.h"
 
 #include <gtest/gtest.h>
@@ -17,7 +17,7 @@
 namespace prt::test {
 namespace shared_transfer {
 
-class SharedInstances : public Road {
+class SharedInstances : public Pipeline {
 protected:
     void make(const char* scene) {
         ASSERT_EQ(run(PRT_EXAMPLE_SCENES, {folder.path().string(), scene, "sky"}).status, 0);
@@ -79,7 +79,7 @@ protected:
     }
 };
 
-TEST_F(SharedInstances, GoAllTheRoad) {
+TEST_F(SharedInstances, WorkInAllCommands) {
     make("forest:12");
     ASSERT_EQ(bake("forest.glb", "own.glb", "own", {"--bounces", "1"}).status, 0);
     ASSERT_EQ(bake("forest.glb", "shared.glb", "shared",
@@ -115,7 +115,7 @@ TEST_F(SharedInstances, GoAllTheRoad) {
               0);
 }
 
-TEST_F(SharedInstances, ThoseThatErrTooMuchAreBakedAlone) {
+TEST_F(SharedInstances, LargeErrorsCauseSeparateBakes) {
     make("forest:6");
     ASSERT_EQ(bake("forest.glb", "shared.glb", "shared", {"--instance-error", "0", "--bounces", "1"}).status,
               0);
@@ -139,7 +139,7 @@ TEST_F(SharedInstances, ThoseThatErrTooMuchAreBakedAlone) {
     EXPECT_LT(read_json(folder / "errors.json")["relative_l2"], 0.5);
 }
 
-TEST_F(SharedInstances, AnInstanceInTheOpenHasFactorOne) {
+TEST_F(SharedInstances, UnoccludedInstancesHaveFactorOne) {
     boxes({0, 0, 0, 0, 1000, 0}).write(folder / "boxes.glb"); // with few rays none of them hits the other box
     ASSERT_EQ(bake("boxes.glb", "shared.glb", "shared", {"--bounces", "2", "--json", at("bake.json")}).status,
               0);
@@ -150,7 +150,7 @@ TEST_F(SharedInstances, AnInstanceInTheOpenHasFactorOne) {
         EXPECT_EQ(instance.placed.factors, open_factors());
 }
 
-TEST_F(SharedInstances, NeighboursTakeLightFromEachOther) {
+TEST_F(SharedInstances, NeighborsShadowEachOther) {
     boxes({0, 0, 0, 0, 1.2f, 0}).write(folder / "boxes.glb");
     ASSERT_EQ(bake("boxes.glb", "shared.glb", "shared", {"--instance-error", "9", "--rays", "256"}).status,
               0);
@@ -167,7 +167,7 @@ TEST_F(SharedInstances, NeighboursTakeLightFromEachOther) {
 }
 
 /// The furnace: white boxes that light each other without end.
-TEST_F(SharedInstances, WhiteNeighboursGiveBackAtMostWhatComes) {
+TEST_F(SharedInstances, WhiteNeighborsConserveEnergy) {
     boxes({0, 0, 0, 0, 1.5f, 0, 1.3f, 0, 0.2f}).write(folder / "boxes.glb");
     ASSERT_EQ(bake("boxes.glb", "shared.glb", "shared",
                    {"--instance-error", "9", "--rays", "512", "--bounces", "inf"})
@@ -189,7 +189,7 @@ TEST_F(SharedInstances, WhiteNeighboursGiveBackAtMostWhatComes) {
 }
 
 /// Reported errors are those of factors, not of rays; samples have 16 and 128 rays.
-TEST_F(SharedInstances, ErrorsAreToldAlikeByFewRaysAndByMany) {
+TEST_F(SharedInstances, ErrorsDoNotDependOnTheNumberOfRays) {
     make("forest:24");
     double median[2];
     for (const int i : {0, 1}) {
@@ -232,7 +232,7 @@ TEST_F(SharedInstances, KeepTheirLimitUnderGivenSkies) {
 }
 
 /// A mesh of instances that plain nodes also draw, as siblings and as children.
-TEST_F(SharedInstances, ArePlainNodesAndInstancesAlike) {
+TEST_F(SharedInstances, SupportPlainNodesAndInstances) {
     for (const bool below : {false, true}) {
         GlbFile file = boxes({0, 0, 0, 3, 0, 0});
         file.json["nodes"].push_back({{"mesh", 0}, {"translation", {6, 0, 0}}});
@@ -254,7 +254,7 @@ TEST_F(SharedInstances, ArePlainNodesAndInstancesAlike) {
 }
 
 /// Instances that are baked separately may be at another position in the file, and are still compared.
-TEST_F(SharedInstances, OfWhichSomeAreBakedAloneAreCompared) {
+TEST_F(SharedInstances, MixedWithSeparateInstancesAreCompared) {
     boxes({0, 0, 0, 0, 1.2f, 0, 40, 0, 0, 80, 0, 0}).write(folder / "boxes.glb");
     ASSERT_EQ(bake("boxes.glb", "own.glb", "own", {"--rays", "256"}).status, 0);
     ASSERT_EQ(bake("boxes.glb", "shared.glb", "shared",
@@ -269,7 +269,7 @@ TEST_F(SharedInstances, OfWhichSomeAreBakedAloneAreCompared) {
     EXPECT_LT(read_json(folder / "errors.json")["relative_l2"], 0.05);
 }
 
-TEST_F(SharedInstances, MatricesThatDoNotFitHaveTransferOfTheirOwn) {
+TEST_F(SharedInstances, UnsupportedMatricesGetSeparateTransfer) {
     GlbFile file = boxes({0, 0, 0});
     file.json["nodes"] = nlohmann::ordered_json::array();
     for (const auto& node : std::vector<nlohmann::ordered_json>{
@@ -295,7 +295,7 @@ TEST_F(SharedInstances, MatricesThatDoNotFitHaveTransferOfTheirOwn) {
     EXPECT_EQ(prt({"info", at("shared.glb")}).status, 0);
 }
 
-TEST_F(SharedInstances, WhatCannotBeSharedIsRefused) {
+TEST_F(SharedInstances, UnsupportedMeshesAreRejected) {
     GlbFile alone = boxes({0, 0, 0});
     alone.write(folder / "boxes.glb");
     const Outcome one = bake("boxes.glb", "shared.glb", "shared");
@@ -313,7 +313,7 @@ TEST_F(SharedInstances, WhatCannotBeSharedIsRefused) {
     EXPECT_EQ(fallback.status, 1);
 }
 
-TEST_F(SharedInstances, WrongAttributesAreRefusedByTheirNames) {
+TEST_F(SharedInstances, WrongAttributesAreRejectedByName) {
     const auto refused = [&](const char* attribute, auto&& accessor_in, const char* why) {
         GlbFile file = boxes({0, 0, 0, 3, 0, 0});
         const std::size_t accessor = accessor_in(file);
@@ -339,7 +339,7 @@ TEST_F(SharedInstances, WrongAttributesAreRefusedByTheirNames) {
         "SCALE of its instances must contain floats");
 }
 
-TEST_F(SharedInstances, ZeroAndMillionsOfInstancesAreToldBeforeWork) {
+TEST_F(SharedInstances, ZeroAndMillionsOfInstancesAreReportedFirst) {
     GlbFile none = boxes({0, 0, 0});
     none.json["accessors"][3]["count"] = 0;
     none.write(folder / "none.glb");
@@ -353,7 +353,7 @@ TEST_F(SharedInstances, ZeroAndMillionsOfInstancesAreToldBeforeWork) {
     EXPECT_NE(outcome.err.find(" MB"), std::string::npos) << outcome.err;
 }
 
-TEST_F(SharedInstances, DamagedFactorsAreRefused) {
+TEST_F(SharedInstances, DamagedFactorsAreRejected) {
     boxes({0, 0, 0, 0, 1.2f, 0}).write(folder / "boxes.glb");
     ASSERT_EQ(bake("boxes.glb", "shared.glb", "shared", {"--instance-error", "9"}).status, 0);
     const auto damaged = [&](auto&& change) {

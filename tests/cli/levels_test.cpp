@@ -1,8 +1,8 @@
 // Tests levels of detail through the program: baked, compressed, reported, evaluated and drawn; and rejected
 // input.
 
+#include "pipeline.h"
 #include "prt/levels.h"
-#include "road.h"
 #include "support/level_file.h"
 #include "support/scene_builder.h"
 
@@ -15,7 +15,7 @@
 namespace prt::test {
 namespace levels_of_files {
 
-class LevelsOfDetail : public Road {
+class LevelsOfDetail : public Pipeline {
 protected:
     /// A ball with a dent, of some 2 000 triangles.
     GlbFile ball() const {
@@ -57,7 +57,7 @@ void write_light(const std::filesystem::path& path) {
 
 constexpr float kShares[] = {0.5f, 0.1f};
 
-TEST_F(LevelsOfDetail, GoAllTheRoad) {
+TEST_F(LevelsOfDetail, WorkInAllCommands) {
     write(ball(), "ball.glb");
     write(with_levels(ball(), kShares), "levels.glb");
     write(with_levels(ball(), kShares, LevelsBy::names), "names.glb");
@@ -96,7 +96,7 @@ TEST_F(LevelsOfDetail, GoAllTheRoad) {
     EXPECT_EQ(prt({"shader", at("shipped.glb"), "-o", at("shader")}).status, 0);
 }
 
-TEST_F(LevelsOfDetail, AreDrawnAndLitAsLevel0) {
+TEST_F(LevelsOfDetail, AreDrawnAndLitLikeLevel0) {
     write(with_levels(ball(), kShares), "levels.glb");
     write_light(folder / "sky.json");
     ASSERT_EQ(bake("levels.glb", "baked.glb").status, 0);
@@ -118,7 +118,7 @@ TEST_F(LevelsOfDetail, AreDrawnAndLitAsLevel0) {
     EXPECT_GT(levels.scene.receivers(), levels.finest_receivers);
 }
 
-TEST_F(LevelsOfDetail, AreBakedAsIsAskedFor) {
+TEST_F(LevelsOfDetail, AreBakedOnRequest) {
     write(with_levels(ball(), kShares), "levels.glb");
     ASSERT_EQ(bake("levels.glb", "own.glb", {"--levels", "own", "--json", at("own.json")}).status, 0);
     ASSERT_EQ(bake("levels.glb", "carry.glb", {"--levels", "carry"}).status, 0);
@@ -138,7 +138,7 @@ TEST_F(LevelsOfDetail, AreBakedAsIsAskedFor) {
     EXPECT_NE(texels.err.find("get no lightmap"), std::string::npos) << texels.err;
 }
 
-TEST_F(LevelsOfDetail, ThatDoNotFitAreRefused) {
+TEST_F(LevelsOfDetail, MismatchesAreRejected) {
     GlbFile file = with_levels(ball(), kShares);
     GlbFile far = file;
     far.json["nodes"][2]["translation"] = {5, 0, 0};

@@ -1,6 +1,6 @@
 // Tests prt make and prt evaluate --budget, from the command line to the file.
 
-#include "road.h"
+#include "pipeline.h"
 #include "support/glb_file.h"
 
 #include <algorithm>
@@ -22,7 +22,7 @@ std::vector<std::string> arguments_of(const std::string& line) {
     return arguments;
 }
 
-class Make : public Road {
+class Make : public Pipeline {
 protected:
     void SetUp() override { copy_examples(folder.path(), {"knot", "sky"}); }
     Outcome make(std::vector<std::string> options) const {
@@ -32,7 +32,7 @@ protected:
     }
 };
 
-TEST_F(Make, KeepsTheErrorAndSaysHowToDoTheSameByHand) {
+TEST_F(Make, MeetsTheErrorAndReportsEquivalentCommands) {
     const Outcome made = make({"--max-error", "0.1", "--baked", at("b.glb")});
     ASSERT_EQ(made.status, 0) << made.err;
     const auto report = read_json(folder / "m.json");
@@ -63,7 +63,7 @@ TEST_F(Make, KeepsTheErrorAndSaysHowToDoTheSameByHand) {
     EXPECT_NE(bytes_of(folder / "e.html").find("\"bars\""), std::string::npos);
 }
 
-TEST_F(Make, KeepsBytes) {
+TEST_F(Make, KeepsTheByteLimit) {
     ASSERT_EQ(make({"--bytes-per-vertex", "4.5", "--max-error", "0.1"}).status, 2);
     const Outcome made = make({"--bytes-per-vertex", "4.5", "--seconds", "5"});
     ASSERT_EQ(made.status, 0) << made.err;
@@ -73,14 +73,14 @@ TEST_F(Make, KeepsBytes) {
     EXPECT_NE(none.err.find("--bytes-per-vertex 1 cannot be reached"), std::string::npos) << none.err;
 }
 
-TEST_F(Make, SaysWhatKeepsAnErrorFromBeingMet) {
+TEST_F(Make, ReportsWhyAnErrorIsNotMet) {
     const Outcome none = make({"--max-error", "0.001", "--seconds", "5"});
     EXPECT_EQ(none.status, 1);
     EXPECT_NE(none.err.find("an error of 0.10 % cannot be reached"), std::string::npos) << none.err;
     EXPECT_FALSE(std::filesystem::exists(folder / "s.glb"));
 }
 
-TEST_F(Make, TellsBouncesThatWereNotBaked) {
+TEST_F(Make, ReportsMissingBounces) {
     ASSERT_EQ(prt({"bake", at("knot.glb"), "-o", at("b.glb"), "--order", "4", "--rays", "64"}).status, 0);
     const Outcome evaluated =
         prt({"evaluate", at("b.glb"), "--budget", "--lights", at("sky.exr"), "--json", at("e.json")});
@@ -91,7 +91,7 @@ TEST_F(Make, TellsBouncesThatWereNotBaked) {
     EXPECT_LT(report["total_error_with_advice"], 0.1);
 }
 
-TEST_F(Road, RefusesBudgetsOfWhatPathsCannotTell) {
+TEST_F(Pipeline, RejectsBudgetsBeyondPathTracing) {
     triangle_file().write(folder / "t.glb");
     ASSERT_EQ(prt({"bake", at("t.glb"), "-o", at("b.glb"), "--rays", "64", "--subsurface", "marble"}).status,
               0);

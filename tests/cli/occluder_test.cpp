@@ -1,8 +1,8 @@
 // Tests prt ao --volume: occlusion by moving parts, and rejected input.
 
+#include "pipeline.h"
 #include "prt/gltf.h"
 #include "prt/occluder_gltf.h"
-#include "road.h"
 
 #include <gtest/gtest.h>
 
@@ -11,7 +11,7 @@
 namespace prt::test {
 namespace {
 
-class OccluderCommand : public Road {
+class OccluderCommand : public Pipeline {
 protected:
     void SetUp() override { copy_examples(folder.path(), {"figure"}); }
     Outcome ao(const std::vector<std::string>& options) {
@@ -21,7 +21,7 @@ protected:
     }
 };
 
-TEST_F(OccluderCommand, WritesVolumesAndSaysHowFarTheyAreOff) {
+TEST_F(OccluderCommand, WritesVolumesAndReportsTheirError) {
     const Outcome outcome = ao({"--rays", "32", "--json", at("ao.json")});
     ASSERT_EQ(outcome.status, 0) << outcome.err;
     EXPECT_EQ(validator_errors(folder / "out.glb"), 0);
@@ -36,7 +36,7 @@ TEST_F(OccluderCommand, WritesVolumesAndSaysHowFarTheyAreOff) {
     EXPECT_NE(info.out.find("block around them"), std::string::npos) << info.out;
 }
 
-TEST_F(OccluderCommand, RefusesWhatIsOfSurfaces) {
+TEST_F(OccluderCommand, RejectsSurfaceOptions) {
     for (const auto& options : std::vector<std::vector<std::string>>{{"--size", "64"},
                                                                      {"--attribute", "_AO"},
                                                                      {"--bent-normals"},

@@ -65,7 +65,7 @@ protected:
 };
 
 /// The shadow of the roof starts at x = 1; pixels of 3 cm resolve it.
-TEST_F(RenderSuns, ShadowsThemSharplyByRaysAndByMaps) {
+TEST_F(RenderSuns, HaveSharpShadowsByRaysAndMaps) {
     for (const auto& [model, by] : {std::pair("s.glb", "cpu"), // without transfer
                                     {"b.glb", "cpu"},
                                     {"c.glb", "cpu"},
@@ -83,7 +83,7 @@ TEST_F(RenderSuns, ShadowsThemSharplyByRaysAndByMaps) {
     }
 }
 
-TEST_F(RenderSuns, LightsWithTheSkyWhatIsNotApart) {
+TEST_F(RenderSuns, LightCombinedTransferWithTheSky) {
     const Image separate = rendered({at("b.glb"), "--env", at("sun.json")}),
                 together = rendered({at("b.glb"), "--env", at("sun.json"), "--suns", "0"});
     EXPECT_LT(separate.at(44, 16).g, 1e-6f);
@@ -100,7 +100,7 @@ TEST_F(RenderSuns, LightsWithTheSkyWhatIsNotApart) {
 }
 
 /// If the whole floor is marble, the sun and its shadow come only through transfer.
-TEST_F(RenderSuns, LightsMediaThroughTransfer) {
+TEST_F(RenderSuns, LightMediaThroughTransfer) {
     ASSERT_EQ(prt({"bake", at("s.glb"), "-o", at("m.glb"), "--rays", "256", "--order", "4", "--subsurface",
                    "marble"})
                   .status,
@@ -114,13 +114,13 @@ TEST_F(RenderSuns, LightsMediaThroughTransfer) {
 }
 
 /// A sky without suns is lit as it was before there were any.
-TEST_F(RenderSuns, LeavesPlainSkiesAlone) {
+TEST_F(RenderSuns, DoNotChangePlainSkies) {
     const Image found = rendered({at("c.glb"), "--env", at("plain.exr")}),
                 none = rendered({at("c.glb"), "--env", at("plain.exr"), "--suns", "0"});
     EXPECT_EQ(found.pixels, none.pixels);
 }
 
-TEST_F(RenderSuns, TellsThem) {
+TEST_F(RenderSuns, AreReported) {
     const Outcome outcome = render(
         {at("c.glb"), "--env", at("sunny.exr"), "-o", at("p.png"), "--json", at("r.json"), "--suns", "2"});
     EXPECT_EQ(outcome.status, 0) << outcome.err;
@@ -129,7 +129,7 @@ TEST_F(RenderSuns, TellsThem) {
 }
 
 /// If all light comes from a sun, the picture has the usual brightness.
-TEST_F(RenderSuns, ExposesForThem) {
+TEST_F(RenderSuns, CountForTheExposure) {
     const Outcome outcome =
         render({at("s.glb"), "--env", at("sun.json"), "-o", at("p.png"), "--json", at("r.json")});
     EXPECT_EQ(outcome.status, 0) << outcome.err;
@@ -139,7 +139,7 @@ TEST_F(RenderSuns, ExposesForThem) {
 
 /// Under a sky with only a sun, transfer contributes only bounced light, and here there is none; relative to
 /// the light of the whole sun its error is zero, and the verdict reports this.
-TEST_F(RenderSuns, AreApartInTheVerdict) {
+TEST_F(RenderSuns, AreSeparateInTheVerdict) {
     const auto rows = [&](const char* shipped, const char* sky) {
         const Outcome outcome =
             prt({"evaluate", at("b.glb"), at(shipped), "--lights", at(sky), "--json", at("r.json")});
@@ -167,7 +167,7 @@ TEST_F(RenderSuns, AreApartInTheVerdict) {
     EXPECT_TRUE(whole["sunny.exr"]["in_verdict"]);
 }
 
-TEST_F(RenderSuns, SaysWhatItCannotDo) {
+TEST_F(RenderSuns, ReportUnsupportedInput) {
     const auto refused = [&](std::vector<std::string> arguments, int status, const char* words) {
         arguments.insert(arguments.begin(), "render");
         arguments.insert(arguments.end(), {"-o", at("no.png")});

@@ -138,7 +138,7 @@ TEST(GltfCorpus, GltfpackKhronosMeshopt) {
               plain.vertex_arrays[0].positions);
 }
 
-TEST(GltfCorpus, GltfpackMeshoptOfVersionOneIsRefusedWithARemedy) {
+TEST(GltfCorpus, GltfpackMeshoptOfVersionOneIsRejectedWithARemedy) {
     GlbFile file = with_meshopt("KHR_meshopt_compression");
     for (const Json& view : file.json["bufferViews"])
         if (view.contains("extensions"))
@@ -206,7 +206,7 @@ UriResult read_with_uri(const std::string& uri, const char* slot = "baseColorTex
     return {scene.images.at(0).trouble, scene.notices};
 }
 
-TEST(GltfCorpus, UrisThatMeanOneFile) {
+TEST(GltfCorpus, EquivalentUris) {
     for (const char* uri : {"textures/Brick%20One.png", "textures/Brick One.png"}) {
         const UriResult result = read_with_uri(uri);
         EXPECT_EQ(result.trouble, "") << uri;
@@ -241,7 +241,7 @@ TEST(GltfCorpus, MissingImagesAreNotices) {
     }
 }
 
-TEST(GltfCorpus, SketchfabNormalsAndCoordinatesThatAreNotNumbers) {
+TEST(GltfCorpus, SketchfabNonFiniteNormalsAndCoordinates) {
     const float nan = std::numeric_limits<float>::quiet_NaN();
     for (const bool sparse : {false, true}) {
         GlbFile file = test::triangle_file();
@@ -275,7 +275,7 @@ TEST(GltfCorpus, SketchfabNormalsAndCoordinatesThatAreNotNumbers) {
     }
 }
 
-TEST(GltfCorpus, NormalsWithoutDataAreThoseOfTriangles) {
+TEST(GltfCorpus, NormalsWithoutDataBecomeTriangleNormals) {
     GlbFile file = test::triangle_file();
     Json& attributes = file.json["meshes"][0]["primitives"][0]["attributes"];
     file.json["accessors"].push_back({{"componentType", test::kFloat}, {"type", "VEC3"}, {"count", 3}});
@@ -301,7 +301,7 @@ TEST(GltfCorpus, OctaneInstancesBeyondTheLimit) {
     EXPECT_EQ(read(0).primitives.size(), 100u);
 }
 
-TEST(GltfCorpus, LargeExtrasStayInTheFile) {
+TEST(GltfCorpus, LargeExtrasAreKept) {
     GlbFile file = test::triangle_file();
     Json kept = {{"list", Json::array()}};
     for (int i = 0; i < 20'000; ++i)
@@ -344,7 +344,7 @@ TEST(GltfCorpus, AnimationsWithoutDataAreBoundedTogether) {
 }
 
 /// Trees of one text by the parser of the library and by that of linear time.
-TEST(JsonTree, EqualsThatOfTheLibrary) {
+TEST(JsonTree, MatchesTheLibrary) {
     for (const char* text : {"{}", "[]", "3", R"("a\u00e4")", "[1,-2,3.5,true,null,[],{}]",
                              R"({"b":1,"a":{"c":[{"d":2}]},"e":3})", R"({"a":1,"b":2,"a":3})",
                              R"({"z":0,"b":{"a":1,"a":2},"a":1,"b":2,"z":5,"c":6,"b":[7]})"})

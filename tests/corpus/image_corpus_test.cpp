@@ -99,7 +99,7 @@ TEST(ImageCorpus, RadiancePcondColorCorrection) {
     EXPECT_EQ(file.notices.size(), 1u);
 }
 
-TEST(ImageCorpus, RadianceExposureThatIsNoneIsRefused) {
+TEST(ImageCorpus, InvalidRadianceExposureIsRejected) {
     for (const char* line : {"EXPOSURE=0", "EXPOSURE=-1", "EXPOSURE=bright", "EXPOSURE=", "EXPOSURE=inf"})
         EXPECT_THROW(read("a.hdr", radiance(lines({line, kRgbe}), "-Y 2 +X 4")), Error) << line;
 }
@@ -221,7 +221,7 @@ TEST(ImageCorpus, OverscanOfASkyExr) {
     EXPECT_EQ(std::count(image.pixels.begin(), image.pixels.end(), glm::vec3(5)), kWidth * kHeight);
 }
 
-TEST(ImageCorpus, NukePartsExr) {
+TEST(ImageCorpus, NukeMultipartExr) {
     const test::TemporaryFolder folder;
     std::vector<Imf::Header> headers;
     for (const char* name : {"beauty", "sky"}) {

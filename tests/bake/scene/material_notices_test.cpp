@@ -28,7 +28,7 @@ std::string notice_of(const std::vector<Material>& materials, bool with_bounces 
     return notices.empty() ? "" : notices[0].substr(0, notices[0].find(':'));
 }
 
-TEST(Glass, IsNamedWhereItIsTinted) {
+TEST(Glass, IsReportedIfTinted) {
     Material clear;
     clear.metal.factor = 0;
     clear.glass.factor = 0.5f;
@@ -47,7 +47,7 @@ TEST(Glass, IsNamedWhereItIsTinted) {
     EXPECT_EQ(notice_of({red, clear, blue}), "2 materials are tinted glass");
 }
 
-TEST(Metal, IsNamedWhereItMirrorsAndLightBounces) {
+TEST(Metal, IsReportedIfItMirrorsWithBounces) {
     Material rough;
     rough.metal.factor = 0.5f;
     rough.metal.roughness = 1;

@@ -109,7 +109,7 @@ TEST(Animation, HalfOfTheTimeIsHalfOfTheAngle) {
     }
 }
 
-TEST(Animation, RotationsTurnTheShortWay) {
+TEST(Animation, RotationsTakeTheShortestPath) {
     GlbFile file = test::triangle_file();
     std::vector<float> far = rotation(90);
     for (float& number : far)
@@ -120,7 +120,7 @@ TEST(Animation, RotationsTurnTheShortWay) {
     expect_near(glm::dvec3(nodes[0] * glm::dvec4(1, 0, 0, 0)), {std::sqrt(0.5), std::sqrt(0.5), 0});
 }
 
-TEST(Animation, StepsHoldAndLinesGoStraight) {
+TEST(Animation, StepAndLinearInterpolationFollowGltf) {
     GlbFile file = test::triangle_file();
     animate(file, {"translation", "STEP", {0, 1, 2}, {0, 0, 0, 4, 0, 0, 0, 8, 0}});
     animate(file, {"scale", "LINEAR", {0, 2}, {1, 1, 1, 3, 5, 1}});
@@ -165,7 +165,7 @@ TEST(Animation, SplinesOfRotationsAreUnit) {
     expect_near(glm::dvec3(nodes[0] * glm::dvec4(1, 0, 0, 0)), {std::sqrt(0.5), std::sqrt(0.5), 0});
 }
 
-TEST(Animation, ChildrenGoWithTheirParentsAndOthersStay) {
+TEST(Animation, ChildrenMoveWithTheirParents) {
     GlbFile file = test::triangle_file();
     file.json["nodes"] = {
         {{"mesh", 0}, {"children", {1}}}, {{"translation", {0, 2, 0}}}, {{"translation", {3, 0, 0}}}};
@@ -177,7 +177,7 @@ TEST(Animation, ChildrenGoWithTheirParentsAndOthersStay) {
     expect_near(position(nodes[2]), {3, 0, 0});
 }
 
-TEST(Skins, AJointTurnedByARightAngleTakesItsVerticesWithIt) {
+TEST(Skins, VerticesRotateWithTheirJoint) {
     GlbFile file = skinned_file();
     animate(file, {"rotation", "LINEAR", {0, 1}, joined({rotation(0), rotation(90)})}, 2);
     const AnimatedScene scene = animated(file);
@@ -195,7 +195,7 @@ TEST(Skins, AJointTurnedByARightAngleTakesItsVerticesWithIt) {
     expect_near(glm::dvec3(palette[1] * glm::dvec4(1, 0, 0, 1)), {1, 2, 0});
 }
 
-TEST(Skins, NormalsTurnWithTheirJointsAndLeanAgainstScales) {
+TEST(Skins, NormalsFollowJointsAndInverseScales) {
     GlbFile file = skinned_file();
     const float s = std::sqrt(0.5f);
     file.json["meshes"][0]["primitives"][0]["attributes"]["NORMAL"] =
@@ -229,7 +229,7 @@ void expect_rest_is_scene(const AnimatedScene& animated, const Scene& scene) {
     }
 }
 
-TEST(Skins, AtRestTheSceneIsAsItIsExtracted) {
+TEST(Skins, RestPoseMatchesTheExtractedScene) {
     GlbFile rotated = skinned_file();
     rotated.json["nodes"][2]["rotation"] = rotation(37);
     GlbFile flat = rotated;
@@ -247,7 +247,7 @@ TEST(Skins, AtRestTheSceneIsAsItIsExtracted) {
     }
 }
 
-TEST(Skins, ARealCharacterRestsAsItIsExtractedAndIsFiniteInAllItsMovements) {
+TEST(Skins, RealCharactersMatchTheRestPoseAndStayFinite) {
     const std::filesystem::path path = test::shared_file("mesh/RobotExpressive.glb");
     if (path.empty())
         GTEST_SKIP() << "no mesh/RobotExpressive.glb";
@@ -263,7 +263,7 @@ TEST(Skins, ARealCharacterRestsAsItIsExtractedAndIsFiniteInAllItsMovements) {
     }
 }
 
-TEST(Animation, WhatMovesNoNodeIsLeftOut) {
+TEST(Animation, ChannelsWithoutNodesAreIgnored) {
     GlbFile file = test::triangle_file();
     animate(file, {"translation", "LINEAR", {0, 1}, {0, 0, 0, 1, 0, 0}});
     file.json["animations"][0]["channels"][0]["target"] = {{"path", "pointer"}};
@@ -274,7 +274,7 @@ TEST(Animation, WhatMovesNoNodeIsLeftOut) {
     EXPECT_EQ(scene.pose(scene.animations()[0], 1), scene.rest());
 }
 
-TEST(BadAnimation, IsRefusedWithItsPosition) {
+TEST(BadAnimation, IsRejectedWithItsPosition) {
     const auto refused = [](const Keys& keys, int node = 0) {
         GlbFile file = test::triangle_file();
         animate(file, keys, node);
@@ -297,7 +297,7 @@ TEST(BadAnimation, IsRefusedWithItsPosition) {
     has(refused({"translation", "WOBBLE", {0, 1}, two}), "interpolation 'WOBBLE' is not LINEAR");
 }
 
-TEST(BadAnimation, OfWhatIsNotThereIsRefused) {
+TEST(BadAnimation, WithMissingTargetsIsRejected) {
     GlbFile file = test::triangle_file();
     animate(file, {"translation", "LINEAR", {0, 1}, {0, 0, 0, 1, 0, 0}});
     GlbFile output = file, input = file, sampler = file, matrix = file;
@@ -311,7 +311,7 @@ TEST(BadAnimation, OfWhatIsNotThereIsRefused) {
     EXPECT_NE(refusal(matrix).find("node 0, which has a matrix"), std::string::npos) << refusal(matrix);
 }
 
-TEST(BadSkin, IsRefusedWithItsPosition) {
+TEST(BadSkin, IsRejectedWithItsPosition) {
     GlbFile joint = skinned_file(), index = skinned_file(), skin = skinned_file(), bind = skinned_file();
     joint.json["skins"][0]["joints"] = {1, 44};
     EXPECT_NE(refusal(joint).find("joint 1 of skin 0 is node 44, which does not exist"), std::string::npos)

@@ -231,7 +231,7 @@ INSTANTIATE_TEST_SUITE_P(
         Damage{"nodes_of_wrong_type", [](GlbFile& f) { f.json["nodes"] = "x"; }, ""}),
     [](const auto& kind) { return kind.param.name; });
 
-TEST_P(DamagedGltf, IsOneClearLineThatNamesTheFile) {
+TEST_P(DamagedGltf, IsReportedInOneLineWithTheFileName) {
     const test::TemporaryFolder folder;
     GlbFile file = test::triangle_file();
     GetParam().change(file);
@@ -247,7 +247,7 @@ TEST_P(DamagedGltf, IsOneClearLineThatNamesTheFile) {
     }
 }
 
-TEST(DamagedGlb, CutAnywhereIsRefused) {
+TEST(DamagedGlb, TruncationIsRejected) {
     const test::TemporaryFolder folder;
     const std::string whole = test::triangle_file().bytes();
     for (std::size_t length = 1; length < whole.size(); length += 7) {
@@ -256,7 +256,7 @@ TEST(DamagedGlb, CutAnywhereIsRefused) {
     }
 }
 
-TEST(DamagedGlb, EveryByteChangedIsReadOrRefused) {
+TEST(DamagedGlb, ChangedBytesAreReadOrRejected) {
     const test::TemporaryFolder folder;
     const std::string whole = test::triangle_file().bytes();
     for (std::size_t i = 0; i < whole.size(); ++i) {
@@ -354,7 +354,7 @@ TEST(HostileGltf, WideAttributesAreBounded) {
     EXPECT_NE(refused.find("would need 280 MB"), std::string::npos) << refused;
 }
 
-TEST(HostileGltf, MeshesThatNodesShareAreBoundedWhereEachGetsItsOwn) {
+TEST(HostileGltf, SharedMeshesAreBoundedWhenCopiedForNodes) {
     GlbFile file = test::triangle_file();
     file.json["meshes"][0]["extras"] = std::vector<int>(100'000, 1);
     for (int i = 1; i < 200; ++i) {
@@ -387,13 +387,13 @@ TEST(HostileGltf, LongNamesOfAttributesAreHeldOnce) {
     EXPECT_LT(usage.ru_maxrss, 800'000) << "kilobytes";
 }
 
-TEST(HostileGltf, ListsAreBoundedByWhatTheirReaderMakesOfThem) {
+TEST(HostileGltf, ListsAreBoundedByDecodedSize) {
     GlbFile file = test::triangle_file();
     file.json["materials"] = std::vector<nlohmann::ordered_json>(400'000, nlohmann::ordered_json::object());
     EXPECT_NE(refusal_of(file.bytes()).find("its JSON would need"), std::string::npos);
 }
 
-TEST(HostileGltf, ImagesThatShareTheirBytesAreBounded) {
+TEST(HostileGltf, ImagesWithSharedBytesAreBounded) {
     GlbFile file = test::triangle_file();
     const std::size_t view = file.view(std::vector<std::byte>(1'000'000));
     for (int i = 0; i < 300; ++i)
@@ -411,7 +411,7 @@ TEST(HostileGltf, CompressedViewsAreBounded) {
     EXPECT_NE(refusal_of(file.bytes()).find("would need 10240 MB"), std::string::npos);
 }
 
-TEST(DamagedGltfText, IsRefused) {
+TEST(DamagedGltfText, IsRejected) {
     const test::TemporaryFolder folder;
     for (const char* text : {"{", "[]", "3", "{}", "hello", "{\"asset\":{}}", "\xff\xfe"})
         EXPECT_THROW(load_gltf(folder.file("text.gltf", text)), Error) << text;

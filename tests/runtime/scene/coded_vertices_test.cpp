@@ -113,7 +113,7 @@ ClusteredReceivers read(const std::filesystem::path& path) {
     return read_clustered(document, extract_scene(document))->transfer.receivers;
 }
 
-TEST(CodedVertices, ComeBackBitByBit) {
+TEST(CodedVertices, RoundTripExactly) {
     const Files files;
     const Json json = json_of(files.coded);
     EXPECT_EQ(json["extensions"][kExtension]["packing"]["words"]["vertices"], 2 * kSize * kSize);
@@ -128,7 +128,7 @@ TEST(CodedVertices, ComeBackBitByBit) {
     EXPECT_EQ(plain.size(), 2 * kSize * kSize);
 }
 
-TEST(CodedVertices, ReadAndSavedAgainArePlain) {
+TEST(CodedVertices, AreSavedAsPlainAttributes) {
     const Files files;
     save_glb(load_gltf(files.coded), files.folder / "again.glb");
     const Json json = json_of(files.folder / "again.glb");
@@ -143,13 +143,13 @@ TEST(CodedVertices, ReadAndSavedAgainArePlain) {
               std::filesystem::file_size(files.plain) + 200);
 }
 
-TEST(CodedVertices, StayAttributesWhereThoseAreSmaller) {
+TEST(CodedVertices, AreUsedOnlyIfSmallerThanAttributes) {
     const Files files(3); // smaller than the frequencies
     EXPECT_FALSE(json_of(files.coded)["extensions"][kExtension]["packing"].contains("words"));
     EXPECT_EQ(read(files.coded).weights, read(files.plain).weights);
 }
 
-TEST(CodedVertices, DamagedAreRefused) {
+TEST(CodedVertices, DamageIsRejected) {
     const Files files;
     std::ifstream stream(files.coded, std::ios::binary);
     const std::string good{std::istreambuf_iterator<char>(stream), {}};
@@ -188,7 +188,7 @@ TEST(CodedVertices, DamagedAreRefused) {
 
 /// Words are predicted from neighbours: vertices in another order have other words, which ends in a damaged
 /// code.
-TEST(CodedVertices, OfAReorderedMeshAreRefusedWithTheRemedy) {
+TEST(CodedVertices, ReorderedMeshesAreRejectedWithTheRemedy) {
     const Files files;
     GlbFile file = test::read_glb(files.coded);
     std::vector<std::uint16_t> indices;

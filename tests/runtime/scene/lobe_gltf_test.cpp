@@ -47,7 +47,7 @@ GlbFile with_lobes() {
     return test::glb_of(encode_glb(document));
 }
 
-TEST(LobesOfFiles, AreReadAsTheyWereWritten) {
+TEST(LobesOfFiles, RoundTrip) {
     const GltfDocument document = parsed(with_lobes());
     const std::optional<StoredLobes> read = read_lobes(document, extract_scene(document));
     const StoredLobes expected = any_lobes();
@@ -98,7 +98,7 @@ std::string error_of(const GlbFile& file) {
     return "no error";
 }
 
-TEST(LobesOfFiles, ThatAreDamagedAreRefused) {
+TEST(LobesOfFiles, DamageIsRejected) {
     const auto damaged = [](auto damage) {
         GlbFile file = with_lobes();
         damage(file.json["extensions"]["PRTKIT_lobes"],
@@ -123,7 +123,7 @@ TEST(LobesOfFiles, ThatAreDamagedAreRefused) {
            [](Json&, Json& a) { a["_PRT_LOBE_1"] = a["POSITION"]; });
 }
 
-TEST(LobesOfFiles, WithProfilesThatAreNotThereAreRefused) {
+TEST(LobesOfFiles, MissingProfilesAreRejected) {
     GlbFile file = with_lobes();
     const std::size_t accessor = file.json["meshes"][0]["primitives"][0]["attributes"]["_PRT_LOBE_0"];
     const std::size_t view = file.json["accessors"][accessor]["bufferView"];

@@ -114,7 +114,7 @@ class PredictorsInFiles : public testing::TestWithParam<WeightFormat> {};
 INSTANTIATE_TEST_SUITE_P(Formats, PredictorsInFiles,
                          testing::Values(WeightFormat::float32, WeightFormat::packed));
 
-TEST_P(PredictorsInFiles, ComeBackAsTheyAre) {
+TEST_P(PredictorsInFiles, RoundTrip) {
     for (const glm::dvec3 point : {glm::dvec3(0), glm::dvec3(1e6, -2e6, 123456.75)})
         for (const std::vector<PredictorKind>& kinds : test::sets_of_predictors()) {
             const test::TemporaryFolder folder;
@@ -161,7 +161,7 @@ TEST(PredictorsInFile, OriginsArePositionsInItsWorld) {
     }
 }
 
-TEST(PredictorsInFile, FollowVerticesThatMove) {
+TEST(PredictorsInFile, FollowMovingVertices) {
     const test::TemporaryFolder folder;
     test::triangle_file().write(folder / "t.glb");
     Model model = read(folder / "t.glb");
@@ -183,7 +183,7 @@ TEST(PredictorsInFile, FollowVerticesThatMove) {
             EXPECT_EQ(after.vector(p)[i], before.vector(order[p])[i]);
 }
 
-TEST(PredictorsInFile, LeaveNothingBehind) {
+TEST(PredictorsInFile, AreRemovedCompletely) {
     const test::TemporaryFolder folder;
     test::triangle_file().write(folder / "t.glb");
     Model model = read(folder / "t.glb");
@@ -228,7 +228,7 @@ private:
     GlbFile good_;
 };
 
-TEST(PredictorsInFile, ThatMakeNoSenseAreRefusedInALine) {
+TEST(PredictorsInFile, InvalidPredictorsAreRejectedInOneLine) {
     using Json = nlohmann::ordered_json;
     const PredictedFile predicted_file(WeightFormat::packed);
     EXPECT_EQ(predicted_file.refusal([](Json&, GlbFile&) {}), "was read");
@@ -288,7 +288,7 @@ TEST(PredictorsInFile, ThatMakeNoSenseAreRefusedInALine) {
     EXPECT_NE(predicted_file.refusal([](Json& e, GlbFile&) { e.erase("predictors"); }), "was read");
 }
 
-TEST(PredictorsInFile, RowsOfZerosAreNotAllocatedForNothing) {
+TEST(PredictorsInFile, RowsOfZerosAreNotAllocated) {
     const PredictedFile predicted_file(WeightFormat::float32);
     const auto many = [](nlohmann::ordered_json& e, GlbFile& file) {
         constexpr std::size_t kClusters = 65536, kDimension = 12, kAxes = 200;

@@ -125,7 +125,7 @@ struct OnDisk {
     explicit OnDisk(const GlbFile& file) { file.write(source); }
 };
 
-TEST(TransferInGltf, RawVectorsComeBackExactly) {
+TEST(TransferInGltf, RawVectorsRoundTripExactly) {
     const OnDisk files(demanding_file());
     GltfDocument document = load_gltf(files.source);
     const Scene scene = extract_scene(document);
@@ -151,7 +151,7 @@ TEST(TransferInGltf, RawVectorsComeBackExactly) {
     EXPECT_FALSE(read_clustered(again, scene_again));
 }
 
-TEST(TransferInGltf, PartsComeBackAsTheyAre) {
+TEST(TransferInGltf, TermsRoundTrip) {
     const OnDisk files(demanding_file());
     GltfDocument document = load_gltf(files.source);
     const Scene scene = extract_scene(document);
@@ -170,7 +170,7 @@ TEST(TransferInGltf, PartsComeBackAsTheyAre) {
     EXPECT_EQ(read->transfer.vectors, baked.transfer.vectors);
 }
 
-TEST(TransferInGltf, VectorsOfAnotherLayoutAreRefused) {
+TEST(TransferInGltf, VectorsOfAnotherLayoutAreRejected) {
     const OnDisk files(demanding_file());
     GltfDocument document = load_gltf(files.source);
     const Scene scene = extract_scene(document);
@@ -187,7 +187,7 @@ TEST(TransferInGltf, VectorsOfAnotherLayoutAreRefused) {
     }
 }
 
-TEST(TransferInGltf, ReceiversAreTheSamePointsAfterwards) {
+TEST(TransferInGltf, ReceiversKeepTheirPositions) {
     const OnDisk files(demanding_file());
     GltfDocument document = load_gltf(files.source);
     const Scene scene = extract_scene(document);
@@ -208,7 +208,7 @@ TEST(TransferInGltf, ReceiversAreTheSamePointsAfterwards) {
     }
 }
 
-TEST(TransferInGltf, WhatIsUnknownSurvives) {
+TEST(TransferInGltf, UnknownContentIsKept) {
     const OnDisk files(demanding_file());
     GltfDocument document = load_gltf(files.source);
     const Scene scene = extract_scene(document);
@@ -230,7 +230,7 @@ INSTANTIATE_TEST_SUITE_P(
                     std::pair{WeightFormat::float32, 257}, std::pair{WeightFormat::float32, 1},
                     std::pair{WeightFormat::packed, 1}, std::pair{WeightFormat::packed, 300}));
 
-TEST_P(Weights, CompressedTransferComesBackExactly) {
+TEST_P(Weights, CompressedTransferRoundTripsExactly) {
     const auto [format, clusters] = GetParam();
     const OnDisk files(demanding_file());
     GltfDocument document = load_gltf(files.source);
@@ -251,7 +251,7 @@ TEST_P(Weights, CompressedTransferComesBackExactly) {
     EXPECT_EQ(read->record.receivers, c.record.receivers);
 }
 
-TEST(TransferInGltf, CompressingTakesTheRawVectorsOut) {
+TEST(TransferInGltf, CompressionRemovesRawVectors) {
     const OnDisk files(demanding_file());
     GltfDocument document = load_gltf(files.source);
     const Scene scene = extract_scene(document);
@@ -272,7 +272,7 @@ TEST(TransferInGltf, CompressingTakesTheRawVectorsOut) {
         EXPECT_EQ(again.vertex_arrays[a].positions, baked_scene.vertex_arrays[a].positions);
 }
 
-TEST(TransferInGltf, WritingTwiceIsWritingOnce) {
+TEST(TransferInGltf, WritingIsIdempotent) {
     const OnDisk files(demanding_file());
     for (int time = 0; time < 3; ++time) {
         GltfDocument document = load_gltf(time == 0 ? files.source : files.written);
@@ -328,7 +328,7 @@ nlohmann::ordered_json& extension(nlohmann::ordered_json& json) {
     return json["extensions"]["PRTKIT_clustered_pca"];
 }
 
-TEST(TransferInGltf, DamagedPackedTransferIsRefused) {
+TEST(TransferInGltf, DamagedPackedTransferIsRejected) {
     const Damage read_changed(WeightFormat::packed);
     EXPECT_NO_THROW(read_changed([](auto&) {}));
     EXPECT_THROW(read_changed([&](auto& j) { extension(j).erase("packing"); }), Error);
@@ -345,7 +345,7 @@ TEST(TransferInGltf, DamagedPackedTransferIsRefused) {
     EXPECT_THROW(read_changed([&](auto& j) { extension(j)["bases"]["scales"]["bufferView"] = 99; }), Error);
 }
 
-TEST(TransferInGltf, DamagedTransferIsRefused) {
+TEST(TransferInGltf, DamagedTransferIsRejected) {
     const Damage read_changed(WeightFormat::float32);
     EXPECT_NO_THROW(read_changed([](auto&) {}));
     EXPECT_THROW(read_changed([&](auto& j) { extension(j)["version"] = 99; }), Error);
@@ -390,7 +390,7 @@ std::string refusal(const Damage& read_changed, const std::function<void(GlbFile
 
 /// Other programs change files with data that they do not support: each change is refused with the reason and
 /// the remedy.
-TEST(TransferInGltf, ChangesOfOtherProgramsAreRefusedWithTheRemedy) {
+TEST(TransferInGltf, ChangesOfOtherProgramsAreRejectedWithTheRemedy) {
     const std::string remedy =
         ": another program has changed the file; run that program before prt bake, or run prt compress again";
     const auto attributes = [](GlbFile& file) -> nlohmann::ordered_json& {
@@ -437,7 +437,7 @@ void put_float(GlbFile& file, const nlohmann::ordered_json& view, std::size_t in
     std::memcpy(&file.binary[offset + index * sizeof value], &value, sizeof value);
 }
 
-TEST(TransferInGltf, EverythingThatTheSchemaForbidsIsRefused) {
+TEST(TransferInGltf, SchemaViolationsAreRejected) {
     const Damage read_changed(WeightFormat::packed);
     const auto bases = [](auto& j) -> auto& {
         return extension(j)["bases"];
@@ -520,7 +520,7 @@ TEST(TransferInGltf, WeightsAndVectorsAreFiniteAndNotHuge) {
     }
 }
 
-TEST(TransferInGltf, WhatTheFileDoesNotHoldIsNotAllocated) {
+TEST(TransferInGltf, MissingDataIsNotAllocated) {
     const Damage read_plain(WeightFormat::float32), read_coded(WeightFormat::packed);
     const auto many_clusters = [](GlbFile& file) {
         extension(file.json)["components"] = std::vector<int>(65536, 27);
@@ -539,7 +539,7 @@ TEST(TransferInGltf, WhatTheFileDoesNotHoldIsNotAllocated) {
     EXPECT_NE(refusal(read_coded, many_axes).find("its bases would need"), std::string::npos);
 }
 
-TEST(TransferInGltf, DataThatTransferSharesWithGeometryStays) {
+TEST(TransferInGltf, DataSharedWithGeometryIsKept) {
     const OnDisk files(test::triangle_file());
     GltfDocument document = load_gltf(files.source);
     const Scene scene = extract_scene(document);

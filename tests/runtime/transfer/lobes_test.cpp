@@ -37,7 +37,7 @@ LobeModel two_profiles() {
     return model;
 }
 
-TEST(Lobes, WordsAreThoseOfTheFormat) {
+TEST(Lobes, WordsFollowTheFormat) {
     const LobeModel model = two_profiles();
     // (190 - 127) / 127 and (64 - 127) / 127 result in z = 1/127.
     const Lobe lobe = model.decode(LobeWord{190, 64, 1, 51});
@@ -67,7 +67,7 @@ TEST(Lobes, TheSixAxesAreExactAndOthersWithinADegree) {
     EXPECT_GT(worst, std::cos(0.95f * 3.14159265f / 180));
 }
 
-TEST(Lobes, TurnAsNormalsDo) {
+TEST(Lobes, RotateLikeNormals) {
     std::mt19937 random(2);
     for (int i = 0; i < 50; ++i) {
         const glm::vec3 axis = any_direction(random);
@@ -83,7 +83,7 @@ TEST(Lobes, TurnAsNormalsDo) {
     expect_near(rotated_axis({0, 1, 0}, axis_rotation(glm::mat3(0))), {0, 1, 0});
 }
 
-TEST(Lobes, OfTheCosineLightAnOpenReceiver) {
+TEST(Lobes, CosineLobeLightsAnOpenReceiver) {
     std::mt19937 random(4);
     Light light{4, {}};
     for (int i = 0; i < 16; ++i)
@@ -107,7 +107,7 @@ TEST(Lobes, SendOutNoNegativeLight) {
     EXPECT_EQ(lobe_radiance({&dark, 1}, constant_light(4, glm::vec3(1)).coefficients, 4), glm::vec3(0));
 }
 
-TEST(Lobes, ThatMakeNoSenseAreRefused) {
+TEST(Lobes, InvalidLobesAreRejected) {
     const auto error_of = [](auto change) {
         LobeModel model = two_profiles();
         model.words = {{0, 0, 1, 0}, {0, 0, 0, 9}};
