@@ -27,15 +27,15 @@ road() {
 made() {
     local name=$1
     echo
-    $prt make "out/scenes/$name.glb" -o "out/$name.shipped.glb" --baked "out/$name.baked.glb" --lights "$sky" --max-error 0.03
+    $prt make "out/scenes/$name.glb" -o "out/$name.shipped.glb" --keep-bake "out/$name.baked.glb" --lights "$sky" --max-error 0.03
     budget=1 look_at "$name" "${@:2}"
 }
 look_at() {
     local name=$1
-    $prt render "out/$name.shipped.glb" --env "$sky" -o "out/$name.png" "${@:2}"
+    $prt render "out/$name.shipped.glb" --lights "$sky" -o "out/$name.png" "${@:2}"
     [ -n "${first-}" ] || first="out/$name.png after $(minutes)"
-    $prt render "out/$name.shipped.glb" --env "$sky" --rotate 120 -o "out/$name.rotated.png" "${@:2}"
-    $prt evaluate "out/$name.baked.glb" "out/$name.shipped.glb" --lights "$sky" ${budget:+--budget} --html "out/$name.html" --json "out/$name.json"
+    $prt render "out/$name.shipped.glb" --lights "$sky" --rotate 120 -o "out/$name.rotated.png" "${@:2}"
+    $prt evaluate "out/$name.baked.glb" "out/$name.shipped.glb" --lights "$sky" ${budget:+--measure budget} --report "out/$name.html" --json "out/$name.json"
 }
 volume=0.5 road room inf u32 --camera 1.2,1.9,4.2 --look-at 0,1.8,-5 --fov 45
 made knot
@@ -46,19 +46,19 @@ rays=256 sky=out/scenes/night.exr road night_room inf u64 --camera 0.6,1.7,2.6 -
 rays=128 sky=out/scenes/noon.exr road courtyard inf u64 --camera 3.9,1.75,4.9 --look-at -1.3,2.75,-6 --fov 46
 echo
 # The room again, with light in a lightmap instead of at vertices.
-$prt bake out/scenes/room.glb -o out/room.lightmap.baked.glb --size 256 --unwrap --bounces inf --rays 1024
+$prt bake out/scenes/room.glb -o out/room.lightmap.baked.glb --texels 256 --texels unwrap --bounces inf --rays 1024
 $prt compress out/room.lightmap.baked.glb -o out/room.lightmap.shipped.glb --preset u64
-$prt render out/room.lightmap.shipped.glb --env "$sky" -o out/room.lightmap.png --camera 1.2,1.9,4.2 --look-at 0,1.8,-5 --fov 45
+$prt render out/room.lightmap.shipped.glb --lights "$sky" -o out/room.lightmap.png --camera 1.2,1.9,4.2 --look-at 0,1.8,-5 --fov 45
 echo
 # A forest whose trees share the transfer of three meshes, and a figure that shadows itself.
 build/release/examples/scenes/example_scenes out/scenes forest:200
 $prt bake out/scenes/forest.glb -o out/forest.baked.glb --instances shared --bounces inf --rays 512
 $prt compress out/forest.baked.glb -o out/forest.shipped.glb --clusters 64
-$prt render out/forest.shipped.glb --env "$sky" -o out/forest.png --camera 4,3,16 --look-at 0,2,0 --fov 50
+$prt render out/forest.shipped.glb --lights "$sky" -o out/forest.png --camera 4,3,16 --look-at 0,2,0 --fov 50
 $prt lobes out/scenes/figure.glb -o out/figure.lobes.glb
 echo
-$prt render out/knot.shipped.glb --env "$sky" --show clusters -o out/knot.clusters.png
-$prt render out/knot.shipped.glb --env "$sky" --show error --baked out/knot.baked.glb -o out/knot.error.png
+$prt render out/knot.shipped.glb --lights "$sky" --show clusters -o out/knot.clusters.png
+$prt render out/knot.shipped.glb --lights "$sky" --show error --baked out/knot.baked.glb -o out/knot.error.png
 echo
 cmake --build --preset release
 viewer=build/release/examples/viewer/prt-viewer
@@ -66,7 +66,7 @@ cp examples/viewer/tour.json out/
 $viewer out/room.baked.glb out/room.shipped.glb out/scenes/sky.exr --headless out/tour.json
 rm out/tour.json
 echo
-$prt bench out/scenes/knot.glb --to 256 --most-seconds 2 --html out/bench.html
+$prt bench out/scenes/knot.glb --rays 64..256 --seconds 2 --report out/bench.html
 echo
 echo "First picture: $first; total: $(minutes)"
 echo "Pictures and reports: out/*.png and out/*.html"

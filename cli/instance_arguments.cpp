@@ -85,7 +85,7 @@ SharedMeshes meshes_to_share(const InstanceArguments& arguments, const GltfDocum
                              const Scene& scene, const AskedFor& asked) {
     if (arguments.mode == InstanceMode::own) {
         if (!arguments.lights.empty())
-            throw Error("--instance-lights is for --instances shared or auto");
+            throw Error("--lights of prt bake needs --instances shared or auto");
         return {};
     }
     const bool must = arguments.mode == InstanceMode::shared;

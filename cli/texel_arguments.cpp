@@ -62,9 +62,12 @@ CLI::Option* add_texels(CLI::App* command, TexelArguments& a, const std::string&
             .detail("N: texels along each side of a texture")
             .detail("N/m: texels per metre, on average over the surface")
             .flag("unwrap", "make charts and a new set of coordinates if the existing ones do not fit",
-                  [&a] { a.unwrap = true; })
+                  [&a] { a.unwrap = a.mentioned = true; })
             .whole_number("uv", 0, 7, "texture coordinates, TEXCOORD_N [1]",
-                          [&a](int set) { a.texels.uv_set = set; })
+                          [&a](int set) {
+                              a.texels.uv_set = set;
+                              a.mentioned = true;
+                          })
             .key("atlas", names_of(kAtlasModes), "number of textures [auto]",
                  [&a](const std::string& name) { a.texels.atlases = chosen("--texels", kAtlasModes, name); })
             .add(command);
@@ -81,6 +84,10 @@ CLI::Option* add_texels(CLI::App* command, TexelArguments& a, const std::string&
 }
 
 void check_texels(const TexelArguments& a) {
+    if (a.high_poly.empty() && a.distance)
+        throw Error("--high-poly needs a file, as --high-poly detailed.glb,distance=0.1");
+    if (!a.given() && a.mentioned)
+        throw Error("--texels needs a size, as --texels 1024 or --texels 64/m");
     if (!a.given() && !a.high_poly.empty())
         throw Error("--high-poly needs textures: add --texels");
 }

@@ -17,6 +17,7 @@ namespace prt::cli {
 
 struct TexelArguments {
     TexelOptions texels;
+    bool mentioned = false;         ///< --texels was given, possibly without a size
     bool unwrap = false;            ///< write new texture coordinates if the existing ones do not fit
     Path high_poly;                 ///< model whose surface blocks light and is lit, in place of the scene
     std::optional<double> distance; ///< maximum distance of that surface, metres

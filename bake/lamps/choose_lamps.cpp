@@ -46,10 +46,11 @@ public:
                 throw Error(fmt::format("no lamp matches '{}', or all matches are in earlier groups",
                                         printable(groups_[g].pattern)));
         if (lamps_.size() > kMaxLamps)
-            throw Error(fmt::format("the scene has {} lamps with different names, but at most {} can be "
-                                    "dimmed separately; group lamps (--lamp-group) or exclude them (--lamps "
-                                    "none)",
-                                    lamps_.size(), kMaxLamps));
+            throw Error(fmt::format(
+                "the scene has {} lamps with different names, but at most {} can be "
+                "dimmed separately; group lamps (--lamps all,group=NAME=PATTERN) or exclude them (--lamps "
+                "none)",
+                lamps_.size(), kMaxLamps));
         return std::move(lamps_);
     }
 

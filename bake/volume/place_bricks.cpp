@@ -130,7 +130,7 @@ Bounds volume_bounds(const Scene& scene, const VolumeOptions& options) {
         return *options.bounds;
     }
     if (scene.triangles() == 0)
-        throw Error("the scene has no triangles; set the bounds of the volume with --volume-bounds");
+        throw Error("the scene has no triangles; set the bounds of the volume with --volume ...,bounds=");
     Bounds box = bounds(scene);
     // A flat scene gets some space above it.
     box.high = glm::max(box.high, box.low + 1e-3f * glm::length(box.high - box.low));

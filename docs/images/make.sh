@@ -17,19 +17,19 @@ sky=$scenes/sky.exr
 # From a scene of that name: bake with the options that follow, and what is shipped of it.
 bake() { [ -f "$work/$2.baked.glb" ] || "$prt" bake "$scenes/$1.glb" -o "$work/$2.baked.glb" "${@:3}" >/dev/null; }
 ship() { "$prt" compress "$work/$1.baked.glb" -o "$work/$1.shipped.glb" --preset "$2" >/dev/null; }
-render() { "$prt" render "$work/$1.glb" --env "$sky" -o "$work/$2.png" --size 840x472 --samples 4 "${@:3}"; }
+render() { "$prt" render "$work/$1.glb" --lights "$sky" -o "$work/$2.png" --size 840x472 --samples 4 "${@:3}"; }
 room_view=(--camera "1.2,1.9,4.2" --look-at "0,1.8,-5" --fov 45)
 tree_view=(--camera "1.5,1.7,5.5" --look-at "0,1.9,0")
 
 # The courtyard at noon and at night, lanterns and windows lit.
-bake courtyard courtyard --bounces 3 --rays 256 --lamp-rays 16
+bake courtyard courtyard --bounces 3 --rays 256 --lamps rays=16
 ship courtyard u64
 echo '{ "*": 0 }' > "$work/off.json"
 court() {
-    "$prt" render "$work/courtyard.shipped.glb" --env "$scenes/$1.exr" -o "$work/court.$1.png" --size 1280x720 --samples 3 \
+    "$prt" render "$work/courtyard.shipped.glb" --lights "$scenes/$1.exr" -o "$work/court.$1.png" --size 1280x720 --samples 3 \
         --camera 3.9,1.75,4.9 --look-at -1.3,2.75,-6 --fov 46 "${@:2}"
 }
-court noon --lamps "$work/off.json"
+court noon --lamp-strengths "$work/off.json"
 court night --exposure auto-0.7
 node $images/sheet.mjs $images/courtyard.jpg 2 700 "$work"/court.{noon,night}.png
 
@@ -67,10 +67,10 @@ node -e '
 bake opaque opaque --bounces 3
 # Exposure of the second picture for the first, too.
 pair() {
-    "$prt" render "$work/$2.baked.glb" --env "$sky" -o "$work/$2.png" --size 840x600 --json "$work/e.json" "${@:3}" >/dev/null
+    "$prt" render "$work/$2.baked.glb" --lights "$sky" -o "$work/$2.png" --size 840x600 --json "$work/e.json" "${@:3}" >/dev/null
     local stops
     stops=$(node -p 'JSON.parse(require("fs").readFileSync(process.argv[1])).exposure_stops' "$work/e.json")
-    "$prt" render "$work/$1.baked.glb" --env "$sky" -o "$work/$1.png" --size 840x600 "${@:3}" --exposure "$stops" >/dev/null
+    "$prt" render "$work/$1.baked.glb" --lights "$sky" -o "$work/$1.png" --size 840x600 "${@:3}" --exposure "$stops" >/dev/null
     mv "$work/$1.png" "$work/$1.first.png"
     mv "$work/$2.png" "$work/$2.second.png"
 }
@@ -81,7 +81,7 @@ node $images/sheet.mjs $images/transport.jpg 2 426 \
     "$work"/{dark.first,room.second,opaque.first,tree.second,knot.first,marble.second}.png
 
 # A lightmap of the room, for the viewer.
-bake room room.lightmap --size 512 --unwrap --bounces 3
+bake room room.lightmap --texels 512 --texels unwrap --bounces 3
 ship room.lightmap u64
 
 # The viewer's tour.

@@ -61,7 +61,7 @@ def program_figures(build, folder):
     for name, (scene, options) in COMPRESSIONS.items():
         figures[name] = report_of(prt, "compress", folder / f"{scene}.baked.glb", "-o", folder / "shipped.glb",
                                   *options.split())["seconds"]
-    bench = report_of(prt, "bench", folder / "knot.glb", "--from", "256", "--to", "256", "--most-seconds", "10")
+    bench = report_of(prt, "bench", folder / "knot.glb", "--rays", "256..256", "--seconds", "10")
     for run in bench["runs"]:
         figures[f"bench knot, {run['series']}, {run['rays']}"] = run["seconds"]
     return figures

@@ -92,7 +92,7 @@ TEST_F(Occlusion, UsesCustomAttributes) {
 }
 
 TEST_F(Occlusion, TexelsBecomeOcclusionTextures) {
-    const Outcome outcome = ao({"--size", "48", "--unwrap", "--bent-normals"});
+    const Outcome outcome = ao({"--texels", "48", "--texels", "unwrap", "--bent-normals"});
     ASSERT_EQ(outcome.status, 0) << outcome.err;
     EXPECT_NE(outcome.err.find("TEXCOORD_1 has"), std::string::npos) << outcome.err;
     EXPECT_GT(read_json(folder / "o.json")["charts"], 1);
@@ -115,15 +115,15 @@ TEST_F(Occlusion, TexelsBecomeOcclusionTextures) {
     for (const glm::u8vec4& p : bent.pixels)
         EXPECT_NEAR(glm::length(glm::vec3(p) / 127.5f - 1.0f), 1, 0.02f);
     // Once more: coordinates are there now.
-    ASSERT_EQ(prt({"ao", at("o.glb"), "-o", at("again.glb"), "--size", "48", "--rays", "16"}).status, 0);
-    const Outcome again =
-        prt({"ao", at("o.glb"), "-o", at("again.glb"), "--texels", "4/m", "--unwrap", "--rays", "16"});
+    ASSERT_EQ(prt({"ao", at("o.glb"), "-o", at("again.glb"), "--texels", "48", "--rays", "16"}).status, 0);
+    const Outcome again = prt(
+        {"ao", at("o.glb"), "-o", at("again.glb"), "--texels", "4/m", "--texels", "unwrap", "--rays", "16"});
     EXPECT_EQ(again.status, 0);
     EXPECT_NE(again.err.find("has TEXCOORD_1 already"), std::string::npos) << again.err;
 }
 
 TEST_F(Occlusion, EachObjectHasItsMaterial) {
-    ASSERT_EQ(ao({"--size", "32", "--unwrap", "--atlas", "each"}).status, 0);
+    ASSERT_EQ(ao({"--texels", "32", "--texels", "unwrap", "--texels", "atlas=each"}).status, 0);
     written();
     EXPECT_EQ(read_json(folder / "o.json")["textures"], 2);
     const GlbFile file = read_glb(folder / "o.glb");
@@ -137,15 +137,20 @@ TEST_F(Occlusion, EachObjectHasItsMaterial) {
 
 TEST_F(Occlusion, DoesNotDependOnThreads) {
     const auto bytes = [&](const char* threads) {
-        EXPECT_EQ(ao({"--size", "32", "--unwrap", "--falloff", "2:97,300:3", "--threads", threads}).status,
-                  0);
+        EXPECT_EQ(
+            ao({"--texels", "32", "--texels", "unwrap", "--falloff", "2:97,300:3", "--threads", threads})
+                .status,
+            0);
         return read_glb(folder / "o.glb").binary;
     };
     EXPECT_EQ(bytes("1"), bytes("3"));
 }
 
 TEST_F(Occlusion, UsesAHighPolyModel) {
-    EXPECT_EQ(ao({"--size", "32", "--unwrap", "--casters", at("d.glb"), "--reach", "0.1"}).status, 0);
+    EXPECT_EQ(ao({"--texels", "32", "--texels", "unwrap", "--high-poly", at("d.glb"), "--high-poly",
+                  "distance=0.1"})
+                  .status,
+              0);
     written();
 }
 
@@ -155,26 +160,26 @@ TEST_F(Occlusion, RejectsUnsupportedOptions) {
         std::vector<std::string> options;
         int status;
         std::string why;
-    } cases[] = {{{"--size", "16"}, 1, "has no TEXCOORD_1"},
-                 {{"--size", "16", "--uv", "0"}, 1, "has no TEXCOORD_0"},
-                 {{"--casters", at("t.glb")}, 1, "is for textures"},
-                 {{"--size", "16", "--unwrap", "--casters", at("missing.glb")}, 1, "missing.glb"},
-                 {{"--reach", "1"}, 2, "--casters"},
-                 {{"--unwrap"}, 1, "give --size or --texels"},
-                 {{"--uv", "0"}, 1, "give --size or --texels"},
-                 {{"--atlas", "each"}, 1, "give --size or --texels"},
-                 {{"--attribute", "_BENT_NORMAL", "--bent-normals"}, 1, "--bent-normals"},
-                 {{"--size", "3", "--unwrap"}, 1, "too small"},
-                 {{"--texels", "1e6/m", "--unwrap"}, 1, "more than 8192"},
-                 {{"--attribute", "AO"}, 1, "begin with _"},
-                 {{"--texels", "0/m"}, 2, "--texels"},
-                 {{"--texels", "nan"}, 2, "--texels"},
-                 {{"--falloff", "0"}, 2, "--falloff"},
-                 {{"--falloff", "2:-1"}, 2, "--falloff"},
-                 {{"--falloff", "2:0"}, 1, "shares"},
-                 {{"--distance", "0"}, 2, "--distance"},
-                 {{"--size", "16", "--texels", "4"}, 2, "excludes"},
-                 {{"--backend", "cpu", "--gpu", "0"}, 1, "--gpu"}};
+    } cases[] = {
+        {{"--texels", "16"}, 1, "has no TEXCOORD_1"},
+        {{"--texels", "16", "--texels", "uv=0"}, 1, "has no TEXCOORD_0"},
+        {{"--high-poly", at("t.glb")}, 1, "needs textures"},
+        {{"--texels", "16", "--texels", "unwrap", "--high-poly", at("missing.glb")}, 1, "missing.glb"},
+        {{"--high-poly", "distance=1"}, 1, "needs a file"},
+        {{"--texels", "unwrap"}, 1, "--texels needs a size"},
+        {{"--texels", "uv=0"}, 1, "--texels needs a size"},
+        {{"--texels", "atlas=each"}, 1, "--texels needs a size"},
+        {{"--attribute", "_BENT_NORMAL", "--bent-normals"}, 1, "--bent-normals"},
+        {{"--texels", "3", "--texels", "unwrap"}, 1, "too small"},
+        {{"--texels", "1e6/m", "--texels", "unwrap"}, 1, "more than 8192"},
+        {{"--attribute", "AO"}, 1, "begin with _"},
+        {{"--texels", "0/m"}, 2, "--texels"},
+        {{"--texels", "nan"}, 2, "--texels"},
+        {{"--falloff", "0"}, 2, "--falloff"},
+        {{"--falloff", "2:-1"}, 2, "--falloff"},
+        {{"--falloff", "2:0"}, 1, "shares"},
+        {{"--max-distance", "0"}, 2, "--max-distance"},
+        {{"--device", ""}, 2, "--device"}};
     for (const auto& c : cases) {
         const std::size_t before = folder.files();
         const Outcome outcome = ao(c.options, "t.glb");

@@ -27,7 +27,7 @@ class BackSides : public Pipeline {
 protected:
     Outcome bake(const char* scene, const char* output, std::vector<std::string> options = {}) {
         options.insert(options.begin(), {"bake", at(scene), "-o", at(output), "--order", "2", "--rays", "64",
-                                         "--bounces", "1", "--backend", "cpu", "--json", at("b.json")});
+                                         "--bounces", "1", "--device", "cpu", "--json", at("b.json")});
         return prt(options);
     }
 };
@@ -76,7 +76,7 @@ TEST_F(BackSides, ShareTheLightOfTheFront) {
 
 TEST_F(BackSides, HaveSeparateLightmapCharts) {
     roof_file().write(folder / "roof.glb");
-    const Outcome baked = bake("roof.glb", "b.glb", {"--size", "64", "--unwrap"});
+    const Outcome baked = bake("roof.glb", "b.glb", {"--texels", "64", "--texels", "unwrap"});
     ASSERT_EQ(baked.status, 0) << baked.err;
     EXPECT_NE(baked.err.find("the back sides of 18"), std::string::npos) << baked.err;
     EXPECT_EQ(extract_scene(load_gltf(folder / "b.glb")).triangles(), 32u + 2 * 18);
@@ -173,7 +173,8 @@ TEST_F(BackSides, SeeThroughMaterialsWithoutShadow) {
     file.json["materials"] = {{{"name", "board"}, {"doubleSided", true}}};
     file.json["meshes"][0]["primitives"][0]["material"] = 0;
     file.write(folder / "closed.glb");
-    const std::vector<std::string> texels{"--size", "128", "--unwrap"}, shell{"--no-shadow", "board"};
+    const std::vector<std::string> texels{"--texels", "128", "--texels", "unwrap"},
+        shell{"--no-shadow", "board"};
     for (const bool in_texels : {false, true})
         for (const bool open : {false, true}) {
             std::vector<std::string> options = in_texels ? texels : std::vector<std::string>{};

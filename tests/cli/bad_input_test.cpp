@@ -151,10 +151,10 @@ protected:
 };
 
 TEST_F(GpuSelection, MissingGpuIsReportedUnlessAutomatic) {
-    expect_refused(bake({"--backend", "gpu"}), "no driver for Vulkan");
-    expect_refused(bake({"--gpu", "0"}), "no GPU can be used for baking");
-    expect_refused(bake({"--backend", "gpu", "--method", "raster"}), "OpenGL 4.5");
-    EXPECT_EQ(bake({"--backend", "auto"}).status, 0);
+    expect_refused(bake({"--device", "gpu"}), "no driver for Vulkan");
+    expect_refused(bake({"--device", "0"}), "no GPU can be used for baking");
+    expect_refused(bake({"--device", "gpu", "--method", "raster"}), "OpenGL 4.5");
+    EXPECT_EQ(bake({"--device", "auto"}).status, 0);
 }
 
 TEST_F(BadInput, MissingOrUnselectedGpus) {
@@ -163,17 +163,17 @@ TEST_F(BadInput, MissingOrUnselectedGpus) {
         std::ranges::move(options, std::back_inserter(arguments));
         expect_refused(prt(arguments), why);
     };
-    refuse({"--gpu", "no such card"}, "no GPU has \"no such card\" as its number or in its name");
-    refuse({"--gpu", "999"}, "no GPU has \"999\"");
-    refuse({"--gpu", "0", "--backend", "cpu"}, "--backend cpu uses none");
-    refuse({"--gpu", "0", "--method", "raster"}, "depth maps");
-    EXPECT_EQ(prt({"bench", "--list-devices"}).status, 0);
+    refuse({"--device", "no such card"}, "no GPU has \"no such card\" as its number or in its name");
+    refuse({"--device", "999"}, "no GPU has \"999\"");
+    refuse({"--device", "0", "--device", "cpu"}, "--device cpu uses none");
+    refuse({"--device", "0", "--method", "raster"}, "depth maps");
+    EXPECT_EQ(prt({"bench", "--device", "list"}).status, 0);
 }
 
 TEST_F(BadInput, RasterWithBouncesOrOnTheCpu) {
     const auto scene = good();
     refuse_bake(scene, {"--method", "raster", "--bounces", "1"});
-    refuse_bake(scene, {"--method", "raster", "--backend", "cpu"});
+    refuse_bake(scene, {"--method", "raster", "--device", "cpu"});
     refuse_bake(scene, {"--method", "raster", "--target-error", "0.1"});
     refuse_bake(scene, {"--method", "raster", "--fit", "surface"});
 }
@@ -214,26 +214,26 @@ TEST_F(BadInput, WrongUsageHasStatusTwo) {
           {"bake", scene, "-o", out, "--order", "six"},
           {"bake", scene, "-o", out, "--bounces", "many"},
           {"bake", scene, "-o", out, "--bounces", "-1"},
-          {"bake", scene, "-o", out, "--backend", "tpu"},
+          {"bake", scene, "-o", out, "--device", "tpu"},
           {"bake", scene, "-o", out, "--method", "guess"},
           {"bake", scene, "-o", out, "--subsurface", "custard"},
           {"bake", scene, "-o", out, "--subsurface", "1,2,3,4,5"},
           {"bake", scene, "-o", out, "--rays", "64", "--target-error", "0.01"},
           {"bench"},
-          {"bench", scene, "--list-devices"},
+          {"bench", scene, "--device", "list"},
           {"compress", scene, "-o", out, "--clusters", "auto"},
           {"compress", scene, "-o", out, "--components", "auto"},
-          {"compress", scene, "-o", out, "--weights", "8"},
+          {"compress", scene, "-o", out, "--bits", "241"},
           {"compress", scene, "-o", out, "--preset", "u32", "--clusters", "4"},
           {"compress", scene, "-o", out, "--preset", "u16"},
           {"compress", scene, "-o", out, "--max-error", "0.1", "--bits", "24"},
           {"compress", scene, "-o", out, "--max-error", "small"},
-          {"compress", scene, "-o", out, "--metric", "plain", "--lights", scene},
+          {"compress", scene, "-o", out, "--lights", "plain", "--lights", scene},
           {"evaluate", scene},
-          {"render", scene, "--env", scene, "-o", "p.png", "--size", "0x5"},
-          {"render", scene, "--env", scene, "-o", "p.png", "--size", "4294967297x1"},
-          {"render", scene, "--env", scene, "-o", "p.png", "--show", "error"},
-          {"render", scene, "--env", scene, "-o", "p.png", "--camera", "1,2"}}) {
+          {"render", scene, "--lights", scene, "-o", "p.png", "--size", "0x5"},
+          {"render", scene, "--lights", scene, "-o", "p.png", "--size", "4294967297x1"},
+          {"render", scene, "--lights", scene, "-o", "p.png", "--show", "error"},
+          {"render", scene, "--lights", scene, "-o", "p.png", "--camera", "1,2"}}) {
         const Outcome outcome = prt(arguments);
         EXPECT_EQ(outcome.status, 2) << (arguments.empty() ? "" : arguments[0]) << outcome.err;
         EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 1) << outcome.err;
@@ -296,7 +296,7 @@ TEST_F(BadInput, InvalidEnvironments) {
     const std::string baked = (folder / "baked.glb").string();
     ASSERT_EQ(prt({"bake", good().string(), "-o", baked, "--rays", "4"}).status, 0);
     expect_refused(
-        prt({"render", baked, "--env", (folder / "bad.json").string(), "-o", (folder / "p.png").string()}),
+        prt({"render", baked, "--lights", (folder / "bad.json").string(), "-o", (folder / "p.png").string()}),
         "bad.json");
 }
 
@@ -408,7 +408,7 @@ TEST_F(BadInput, ReferencedFilesAreNeverChanged) {
              {"bake", scene, "-o", out, "--rays", "4", "--json", report},
              {"info", scene, "--json", report},
              {"bench", scene, "--json", report},
-             {"render", scene, "--env", light, "-o", picture, "--backend", "cpu", "--json", report}})
+             {"render", scene, "--lights", light, "-o", picture, "--device", "cpu", "--json", report}})
         expect_refused(prt(words), scene);
     EXPECT_EQ(std::filesystem::file_size(report), buffer.size());
 }

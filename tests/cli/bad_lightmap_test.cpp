@@ -322,7 +322,7 @@ TEST_F(BadLightmaps, AcceptsValidLightmaps) {
                   .status,
               0);
     ASSERT_EQ(
-        prt({"compress", at("vertices.glb"), "-o", at("floats.glb"), "--clusters", "1", "--weights", "float"})
+        prt({"compress", at("vertices.glb"), "-o", at("floats.glb"), "--clusters", "1", "--bits", "float"})
             .status,
         0);
     for (const char* name : {"vertices.glb", "packed.glb", "floats.glb"})

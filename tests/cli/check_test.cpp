@@ -177,8 +177,8 @@ TEST_F(Check, MissingImagesFailOnlyUsersOfTheirPixels) {
     EXPECT_NE(refused.err.find("--bad-textures ignore"), std::string::npos) << refused.err;
     EXPECT_EQ(prt(with({"1", "--bad-textures", "ignore"})).status, 0);
     EXPECT_EQ(prt(with({"0"})).status, 0);
-    EXPECT_EQ(prt({"relight", baked, "--env", light, "-o", lit}).status, 0);
-    EXPECT_EQ(prt({"relight", baked, "--env", light, "-o", lit, "--albedo"}).status, 1);
+    EXPECT_EQ(prt({"relight", baked, "--lights", light, "-o", lit}).status, 0);
+    EXPECT_EQ(prt({"relight", baked, "--lights", light, "-o", lit, "--colors", "albedo"}).status, 1);
 }
 
 TEST_F(Check, CommandsThatCopyTransferRejectDamage) {

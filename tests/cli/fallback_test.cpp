@@ -48,10 +48,11 @@ TEST_F(FallbackFiles, IsWrittenAndChangesNoPictureOfPrt) {
         const int errors = validator_errors(folder / "shown.glb");
         EXPECT_LE(errors, 0);
         for (const char* name : {"plain", "shown"})
-            ASSERT_EQ(prt({"render", at((std::string(name) + ".glb").c_str()), "--env", at("sky.exr"), "-o",
-                           at((std::string(name) + ".png").c_str()), "--size", "64x48", "--samples", "1"})
-                          .status,
-                      0);
+            ASSERT_EQ(
+                prt({"render", at((std::string(name) + ".glb").c_str()), "--lights", at("sky.exr"), "-o",
+                     at((std::string(name) + ".png").c_str()), "--size", "64x48", "--samples", "1"})
+                    .status,
+                0);
         EXPECT_EQ(read_file(folder / "plain.png"), read_file(folder / "shown.png"));
     }
 }

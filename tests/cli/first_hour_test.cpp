@@ -92,14 +92,14 @@ TEST_F(FirstHour, EveryWritingCommandChecksItsOutputs) {
     write_exr(folder / "e.exr", {4, 2, std::vector<glm::vec3>(8, glm::vec3(1))});
     expect_line({"compress", at("b.glb"), "-o", at("c.png")}, 1, ".glb");
     expect_line({"compress", at("b.glb"), "-o", at("b.glb")}, 1, "is an input");
-    expect_line({"evaluate", at("b.glb"), at("c.glb"), "--html", at("no/r.html")}, 1, "no/r.html");
-    expect_line({"evaluate", at("b.glb"), at("c.glb"), "--csv", at("r.html")}, 1, ".csv");
+    expect_line({"evaluate", at("b.glb"), at("c.glb"), "--report", at("no/r.html")}, 1, "no/r.html");
+    expect_line({"evaluate", at("b.glb"), at("c.glb"), "--report", at("r.html")}, 1, ".csv");
     expect_line({"project", at("e.exr"), "-o", at("light.exr")}, 1, ".json");
     expect_line({"project", at("e.exr"), "-o", at("light")}, 1, ".json");
-    expect_line({"render", at("c.glb"), "--env", at("e.exr"), "-o", at("p.jpg")}, 1, ".png or .exr");
-    expect_line({"render", at("c.glb"), "--env", at("e.exr"), "-o", at("e.exr")}, 1, "is an input");
+    expect_line({"render", at("c.glb"), "--lights", at("e.exr"), "-o", at("p.jpg")}, 1, ".png or .exr");
+    expect_line({"render", at("c.glb"), "--lights", at("e.exr"), "-o", at("e.exr")}, 1, "is an input");
     expect_line({"shader", at("c.glb"), "-o", at("s.png")}, 1, "s.png");
-    expect_line({"bench", at("t.glb"), "--html", at("b.json")}, 1, ".html");
+    expect_line({"bench", at("t.glb"), "--report", at("b.json")}, 1, ".html");
     expect_line({"info", at("c.glb"), "--json", at("no/i.json")}, 1, "no/i.json");
 }
 
@@ -176,8 +176,8 @@ TEST_F(FirstHour, TheVerdictFallsWithTheErrorAndItsFiguresAreExplained) {
         .write(folder / "ball.glb");
     ASSERT_EQ(prt({"bake", at("ball.glb"), "-o", at("b.glb"), "--rays", "64", "--order", "3"}).status, 0);
     const auto verdict_of = [&](const char* clusters, const char* components) {
-        const Outcome made = prt({"compress", at("b.glb"), "-o", at("c.glb"), "--weights", "float",
-                                  "--clusters", clusters, "--components", components});
+        const Outcome made = prt({"compress", at("b.glb"), "-o", at("c.glb"), "--bits", "float", "--clusters",
+                                  clusters, "--components", components});
         EXPECT_EQ(made.status, 0) << made.err;
         return prt({"evaluate", at("b.glb"), at("c.glb")}).out;
     };
@@ -199,15 +199,15 @@ TEST_F(FirstHour, SmallMeshesReportFittedSizes) {
     const auto json = nlohmann::json::parse(text("c.json"));
     EXPECT_LE(json["bytes_bases"], 4096u + 12u * json["receivers"].get<unsigned>());
     const Outcome floats =
-        prt({"compress", at("b.glb"), "-o", at("c.glb"), "--weights", "float", "--json", at("c.json")});
+        prt({"compress", at("b.glb"), "-o", at("c.glb"), "--bits", "float", "--json", at("c.json")});
     EXPECT_NE(floats.out.find("clusters are fitted"), std::string::npos) << floats.out;
     EXPECT_GT(nlohmann::json::parse(text("c.json"))["components_mean"], 1);
 }
 
 TEST_F(FirstHour, EvaluationsBeginWithAVerdictAndAllReportsContainTheFigures) {
     bake_and_compress();
-    const Outcome outcome = prt({"evaluate", at("b.glb"), at("c.glb"), "--json", at("e.json"), "--html",
-                                 at("e.html"), "--csv", at("e.csv")});
+    const Outcome outcome = prt({"evaluate", at("b.glb"), at("c.glb"), "--json", at("e.json"), "--report",
+                                 at("e.html"), "--report", at("e.csv")});
     ASSERT_EQ(outcome.status, 0) << outcome.err;
     const std::string verdict = outcome.out.substr(0, outcome.out.find('\n'));
     EXPECT_TRUE(verdict.starts_with("4 bytes per vertex, ")) << verdict; // a lone triangle is exact
@@ -236,7 +236,7 @@ TEST_F(FirstHour, EvaluationsBeginWithAVerdictAndAllReportsContainTheFigures) {
 TEST_F(FirstHour, TheCsvOfASweepHasOneRowForEachMethodAndBudget) {
     prt_once("b.glb", {"bake", at("t.glb"), "--rays", "16", "--order", "3"}, folder / "b.glb");
     const Outcome outcome =
-        prt({"evaluate", at("b.glb"), "--sweep", "--csv", at("e.csv"), "--json", at("e.json")});
+        prt({"evaluate", at("b.glb"), "--measure", "sweep", "--report", at("e.csv"), "--json", at("e.json")});
     ASSERT_EQ(outcome.status, 0) << outcome.err;
     const auto json = nlohmann::json::parse(text("e.json"));
     std::set<std::vector<std::string>> seen;

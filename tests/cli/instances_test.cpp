@@ -83,7 +83,7 @@ TEST_F(SharedInstances, WorkInAllCommands) {
     make("forest:12");
     ASSERT_EQ(bake("forest.glb", "own.glb", "own", {"--bounces", "1"}).status, 0);
     ASSERT_EQ(bake("forest.glb", "shared.glb", "shared",
-                   {"--bounces", "1", "--instance-error", "1", "--json", at("bake.json")})
+                   {"--bounces", "1", "--instances", "error=1", "--json", at("bake.json")})
                   .status,
               0);
     const nlohmann::json baked = read_json(folder / "bake.json");
@@ -109,26 +109,26 @@ TEST_F(SharedInstances, WorkInAllCommands) {
     }
     EXPECT_LT(std::filesystem::file_size(folder / "shipped.glb"),
               std::filesystem::file_size(folder / "own.glb") / 3);
-    EXPECT_EQ(prt({"render", at("shipped.glb"), "--env", at("sky.exr"), "-o", at("a.png"), "--size", "64x48",
-                   "--backend", "cpu"})
+    EXPECT_EQ(prt({"render", at("shipped.glb"), "--lights", at("sky.exr"), "-o", at("a.png"), "--size",
+                   "64x48", "--device", "cpu"})
                   .status,
               0);
 }
 
 TEST_F(SharedInstances, LargeErrorsCauseSeparateBakes) {
     make("forest:6");
-    ASSERT_EQ(bake("forest.glb", "shared.glb", "shared", {"--instance-error", "0", "--bounces", "1"}).status,
+    ASSERT_EQ(bake("forest.glb", "shared.glb", "shared", {"--instances", "error=0", "--bounces", "1"}).status,
               0);
     EXPECT_FALSE(holds_instances(load_gltf(folder / "shared.glb")));
     ASSERT_EQ(bake("forest.glb", "all.glb", "shared",
-                   {"--instance-error", "1", "--bounces", "1", "--json", at("all.json")})
+                   {"--instances", "error=1", "--bounces", "1", "--json", at("all.json")})
                   .status,
               0);
     std::vector<double> errors = read_json(folder / "all.json")["instances"]["errors_relative_l2"];
     std::ranges::sort(errors);
     ASSERT_EQ(bake("forest.glb", "some.glb", "shared",
-                   {"--instance-error", std::to_string(0.5 * (errors[4] + errors[5])), "--bounces", "1",
-                    "--json", at("some.json")})
+                   {"--instances", std::string("error=") + std::to_string(0.5 * (errors[4] + errors[5])),
+                    "--bounces", "1", "--json", at("some.json")})
                   .status,
               0);
     const nlohmann::json some = read_json(folder / "some.json");
@@ -152,7 +152,7 @@ TEST_F(SharedInstances, UnoccludedInstancesHaveFactorOne) {
 
 TEST_F(SharedInstances, NeighborsShadowEachOther) {
     boxes({0, 0, 0, 0, 1.2f, 0}).write(folder / "boxes.glb");
-    ASSERT_EQ(bake("boxes.glb", "shared.glb", "shared", {"--instance-error", "9", "--rays", "256"}).status,
+    ASSERT_EQ(bake("boxes.glb", "shared.glb", "shared", {"--instances", "error=9", "--rays", "256"}).status,
               0);
     const std::vector<FileInstance> instances = instances_of("shared.glb");
     ASSERT_EQ(instances.size(), 2u);
@@ -170,7 +170,7 @@ TEST_F(SharedInstances, NeighborsShadowEachOther) {
 TEST_F(SharedInstances, WhiteNeighborsConserveEnergy) {
     boxes({0, 0, 0, 0, 1.5f, 0, 1.3f, 0, 0.2f}).write(folder / "boxes.glb");
     ASSERT_EQ(bake("boxes.glb", "shared.glb", "shared",
-                   {"--instance-error", "9", "--rays", "512", "--bounces", "inf"})
+                   {"--instances", "error=9", "--rays", "512", "--bounces", "inf"})
                   .status,
               0);
     const GltfDocument document = load_gltf(folder / "shared.glb"),
@@ -195,7 +195,7 @@ TEST_F(SharedInstances, ErrorsDoNotDependOnTheNumberOfRays) {
     for (const int i : {0, 1}) {
         ASSERT_EQ(
             bake("forest.glb", "shared.glb", "shared",
-                 {"--rays", i == 0 ? "256" : "2048", "--instance-error", "9", "--json", at("bake.json")})
+                 {"--rays", i == 0 ? "256" : "2048", "--instances", "error=9", "--json", at("bake.json")})
                 .status,
             0);
         median[i] = read_json(folder / "bake.json")["instances"]["error_relative_l2"]["median"];
@@ -212,8 +212,8 @@ TEST_F(SharedInstances, KeepTheirLimitUnderGivenSkies) {
         EXPECT_EQ(bake("forest.glb", "shared.glb", "shared", all).status, 0);
         return read_json(folder / "bake.json")["instances"];
     };
-    const std::vector<double> soft = errors({"--instance-error", "9"})["errors_relative_l2"],
-                              lit = errors({"--instance-error", "9", "--instance-lights",
+    const std::vector<double> soft = errors({"--instances", "error=9"})["errors_relative_l2"],
+                              lit = errors({"--instances", "error=9", "--lights",
                                             at("sky.exr")})["errors_relative_l2"];
     ASSERT_EQ(lit.size(), soft.size());
     std::size_t more = 0;
@@ -225,7 +225,7 @@ TEST_F(SharedInstances, KeepTheirLimitUnderGivenSkies) {
     std::vector<double> sorted = lit;
     std::ranges::sort(sorted);
     const nlohmann::json kept =
-        errors({"--instance-error", std::to_string(sorted[8]), "--instance-lights", at("sky.exr")});
+        errors({"--instances", std::string("error=") + std::to_string(sorted[8]), "--lights", at("sky.exr")});
     EXPECT_GE(kept["baked_separately"], 3);
     EXPECT_LE(kept["error_relative_l2"]["max"], sorted[8] + 1e-6);
     EXPECT_NE(bake("forest.glb", "shared.glb", "shared", {"--suns", "auto"}).status, 0);
@@ -244,7 +244,7 @@ TEST_F(SharedInstances, SupportPlainNodesAndInstances) {
         file.write(folder / "boxes.glb");
         ASSERT_EQ(bake("boxes.glb", "own.glb", "own", {"--rays", "256"}).status, 0);
         ASSERT_EQ(
-            bake("boxes.glb", "shared.glb", "shared", {"--instance-error", "9", "--rays", "256"}).status, 0);
+            bake("boxes.glb", "shared.glb", "shared", {"--instances", "error=9", "--rays", "256"}).status, 0);
         EXPECT_EQ(validator_errors(folder / "shared.glb"), 0);
         const std::vector<FileInstance> instances = instances_of("shared.glb");
         ASSERT_EQ(instances.size(), 4u);
@@ -258,7 +258,7 @@ TEST_F(SharedInstances, MixedWithSeparateInstancesAreCompared) {
     boxes({0, 0, 0, 0, 1.2f, 0, 40, 0, 0, 80, 0, 0}).write(folder / "boxes.glb");
     ASSERT_EQ(bake("boxes.glb", "own.glb", "own", {"--rays", "256"}).status, 0);
     ASSERT_EQ(bake("boxes.glb", "shared.glb", "shared",
-                   {"--rays", "256", "--instance-error", "0.01", "--json", at("bake.json")})
+                   {"--rays", "256", "--instances", "error=0.01", "--json", at("bake.json")})
                   .status,
               0);
     const nlohmann::json told = read_json(folder / "bake.json")["instances"];
@@ -284,7 +284,7 @@ TEST_F(SharedInstances, UnsupportedMatricesGetSeparateTransfer) {
     file.json["scenes"] = {{{"nodes", {0, 1, 2, 3, 4}}}};
     file.json.erase("extensionsUsed");
     file.write(folder / "boxes.glb");
-    ASSERT_EQ(bake("boxes.glb", "shared.glb", "shared", {"--json", at("bake.json"), "--instance-error", "9"})
+    ASSERT_EQ(bake("boxes.glb", "shared.glb", "shared", {"--json", at("bake.json"), "--instances", "error=9"})
                   .status,
               0);
     const nlohmann::json told = read_json(folder / "bake.json")["instances"];
@@ -304,7 +304,7 @@ TEST_F(SharedInstances, UnsupportedMeshesAreRejected) {
     EXPECT_EQ(bake("boxes.glb", "auto.glb", "auto").status, 0);
     boxes({0, 0, 0, 3, 0, 0}).write(folder / "two.glb");
     for (const std::vector<std::string>& options : std::vector<std::vector<std::string>>{
-             {"--texels", "4"}, {"--volume", "1"}, {"--refine", "0.1"}, {"--subsurface", "marble"}})
+             {"--texels", "4/m"}, {"--volume", "1"}, {"--refine", "0.1"}, {"--subsurface", "marble"}})
         EXPECT_EQ(bake("two.glb", "shared.glb", "shared", options).status, 1) << options[0];
     EXPECT_FALSE(std::filesystem::exists(folder / "shared.glb"));
     ASSERT_EQ(bake("two.glb", "shared.glb", "shared", {"--bounces", "1"}).status, 0);
@@ -355,7 +355,7 @@ TEST_F(SharedInstances, ZeroAndMillionsOfInstancesAreReportedFirst) {
 
 TEST_F(SharedInstances, DamagedFactorsAreRejected) {
     boxes({0, 0, 0, 0, 1.2f, 0}).write(folder / "boxes.glb");
-    ASSERT_EQ(bake("boxes.glb", "shared.glb", "shared", {"--instance-error", "9"}).status, 0);
+    ASSERT_EQ(bake("boxes.glb", "shared.glb", "shared", {"--instances", "error=9"}).status, 0);
     const auto damaged = [&](auto&& change) {
         GlbFile file = read_glb(folder / "shared.glb");
         change(file.json);

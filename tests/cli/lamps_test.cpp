@@ -65,7 +65,8 @@ protected:
     }
     /// Returns the lit vertices, without a sky.
     VertexArray lit(const std::string& model, const std::string& strengths) const {
-        const Outcome outcome = prt({"relight", at(model), "-o", at("lit.glb"), "--lamps", strengths});
+        const Outcome outcome =
+            prt({"relight", at(model), "-o", at("lit.glb"), "--lamp-strengths", strengths});
         EXPECT_EQ(outcome.status, 0) << outcome.err;
         return extract_scene(load_gltf(folder / "lit.glb")).vertex_arrays[0];
     }
@@ -109,8 +110,8 @@ TEST_F(LampCommands, PhotometricUnitsAreReported) {
                                 {"order", 3},
                                 {"coefficients", {{"red", uniform}, {"green", uniform}, {"blue", uniform}}}};
     folder.file("sky.json", sky.dump());
-    const Outcome drawn = prt({"render", at("bright.glb"), "-o", at("p.png"), "--size", "32x32", "--backend",
-                               "cpu", "--env", at("sky.json")});
+    const Outcome drawn = prt({"render", at("bright.glb"), "-o", at("p.png"), "--size", "32x32", "--device",
+                               "cpu", "--lights", at("sky.json")});
     EXPECT_EQ(drawn.status, 0) << drawn.err;
     EXPECT_NE(drawn.err.find("--lamp-scale 0.00146"), std::string::npos) << drawn.err;
 }
@@ -167,7 +168,7 @@ TEST_F(LampCommands, OnlyLampsHaveNoSkyBudget) {
     file.json["scenes"][0]["nodes"].push_back(1);
     file.write(folder / "s.glb");
     bake("n.glb", {});
-    const Outcome outcome = prt({"evaluate", at("n.glb"), "--budget"});
+    const Outcome outcome = prt({"evaluate", at("n.glb"), "--measure", "budget"});
     EXPECT_EQ(outcome.status, 1);
     EXPECT_NE(outcome.err.find("the transfer has no distant light"), std::string::npos) << outcome.err;
 }
@@ -182,17 +183,16 @@ TEST_F(LampCommands, WhoseTexturesAreMissingAreDark) {
     file.write(folder / "s.glb");
     bake("dark.glb", {"--bad-textures", "ignore"});
     EXPECT_TRUE(lamps_of("dark.glb").empty());
-    const Outcome drawn = prt({"render", at("dark.glb"), "-o", at("p.png"), "--size", "32x32", "--backend",
+    const Outcome drawn = prt({"render", at("dark.glb"), "-o", at("p.png"), "--size", "32x32", "--device",
                                "cpu", "--bad-textures", "ignore"});
     EXPECT_EQ(drawn.status, 0) << drawn.err;
-    EXPECT_EQ(
-        prt({"render", at("dark.glb"), "-o", at("p.png"), "--size", "32x32", "--backend", "cpu"}).status, 1);
+    EXPECT_EQ(prt({"render", at("dark.glb"), "-o", at("p.png"), "--size", "32x32", "--device", "cpu"}).status,
+              1);
 }
 
 TEST_F(LampCommands, ScaleWithTheirStrengths) {
-    ASSERT_EQ(
-        prt({"compress", at("b.glb"), "-o", at("c.glb"), "--weights", "float", "--clusters", "16"}).status,
-        0);
+    ASSERT_EQ(prt({"compress", at("b.glb"), "-o", at("c.glb"), "--bits", "float", "--clusters", "16"}).status,
+              0);
     EXPECT_EQ(lamps_of("b.glb"), (std::vector<std::string>{"Lamp.white", "Lamp.red"}));
     EXPECT_EQ(lamps_of("c.glb"), lamps_of("b.glb"));
     folder.file("strengths.json", R"({"Lamp.white": [3, 0, 1], "*": 0})");
@@ -215,7 +215,7 @@ TEST_F(LampCommands, ScaleWithTheirStrengths) {
 }
 
 TEST_F(LampCommands, AreGroupedOrOmitted) {
-    bake("g.glb", {"--lamp-group", "all of them=Lamp.*"});
+    bake("g.glb", {"--lamps", "group=all of them=Lamp.*"});
     EXPECT_EQ(lamps_of("g.glb"), std::vector<std::string>{"all of them"});
     bake("n.glb", {"--lamps", "none"});
     EXPECT_TRUE(lamps_of("n.glb").empty());
@@ -226,7 +226,7 @@ TEST_F(LampCommands, AreGroupedOrOmitted) {
 
 TEST_F(LampCommands, CanBeTheOnlyLight) {
     const Outcome outcome =
-        prt({"render", at("b.glb"), "-o", at("p.png"), "--backend", "cpu", "--json", at("r.json")});
+        prt({"render", at("b.glb"), "-o", at("p.png"), "--device", "cpu", "--json", at("r.json")});
     ASSERT_EQ(outcome.status, 0) << outcome.err;
     const auto report = nlohmann::json::parse(std::ifstream(folder / "r.json"));
     // 0.3 of radiance in the middle, less about it: its mean becomes 0.22.
@@ -257,7 +257,8 @@ TEST_F(LampCommands, InvalidLampsAreReportedInOneLine) {
         EXPECT_FALSE(std::filesystem::exists(folder / "no.glb")) << words;
     };
     const auto strengths = [&](const char* file) {
-        return std::vector<std::string>{"relight", at("b.glb"), "-o", at("no.glb"), "--lamps", at(file)};
+        return std::vector<std::string>{"relight",    at("b.glb"),        "-o",
+                                        at("no.glb"), "--lamp-strengths", at(file)};
     };
     refused(strengths("unknown.json"), 1, "the model has no lamp 'Lamp.blue'; its lamps are: Lamp.white");
     refused(strengths("negative.json"), 1, "the strength of 'Lamp.white'");
@@ -265,10 +266,10 @@ TEST_F(LampCommands, InvalidLampsAreReportedInOneLine) {
     refused(strengths("list.json"), 1, "a JSON object with a strength for each lamp");
     refused(strengths("nan.json"), 1, "not valid JSON: the error is at byte");
     refused(strengths("missing.json"), 1, "missing.json");
-    refused({"relight", at("n.glb"), "-o", at("no.glb")}, 1, "has no lamps, and without --env");
-    refused({"bake", at("s.glb"), "-o", at("no.glb"), "--lamp-group", "Lantern"}, 2, "NAME=PATTERN");
-    refused({"bake", at("s.glb"), "-o", at("no.glb"), "--lamp-group", "a=Lantern*"}, 1, "'Lantern*'");
-    refused({"bake", at("s.glb"), "-o", at("no.glb"), "--lamp-radius", "-1"}, 2, "--lamp-radius");
+    refused({"relight", at("n.glb"), "-o", at("no.glb")}, 1, "has no lamps; light it with --lights");
+    refused({"bake", at("s.glb"), "-o", at("no.glb"), "--lamps", "group=Lantern"}, 2, "NAME=PATTERN");
+    refused({"bake", at("s.glb"), "-o", at("no.glb"), "--lamps", "group=a=Lantern*"}, 1, "'Lantern*'");
+    refused({"bake", at("s.glb"), "-o", at("no.glb"), "--lamps", "radius=-1"}, 2, "radius=-1");
     refused({"bake", at("s.glb"), "-o", at("no.glb"), "--lamps", "some"}, 2, "--lamps");
 }
 

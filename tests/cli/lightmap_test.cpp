@@ -60,8 +60,8 @@ TEST_F(Lightmaps, TouchingBlocksUseTheRequestedRays) {
         file.json["scenes"][0]["nodes"][static_cast<std::size_t>(i)] = i;
     }
     file.write(folder / "blocks.glb");
-    const Outcome baked = prt({"bake", at("blocks.glb"), "-o", at("b.glb"), "--size", "512", "--unwrap",
-                               "--rays", "64", "--order", "2", "--json", at("b.json")});
+    const Outcome baked = prt({"bake", at("blocks.glb"), "-o", at("b.glb"), "--texels", "512", "--texels",
+                               "unwrap", "--rays", "64", "--order", "2", "--json", at("b.json")});
     ASSERT_EQ(baked.status, 0) << baked.err;
     const nlohmann::json report = read_json(folder / "b.json");
     EXPECT_LT(report["rays"].get<double>(), 1.2 * 64 * report["texels_measured"].get<double>());
@@ -69,7 +69,9 @@ TEST_F(Lightmaps, TouchingBlocksUseTheRequestedRays) {
 }
 
 TEST_F(Lightmaps, WorkInAllCommands) {
-    ASSERT_EQ(bake({"--size", "128", "--unwrap", "--bounces", "1", "--json", at("bake.json")}).status, 0);
+    ASSERT_EQ(
+        bake({"--texels", "128", "--texels", "unwrap", "--bounces", "1", "--json", at("bake.json")}).status,
+        0);
     EXPECT_GT(read_json(folder / "bake.json")["texels_measured"], 1000);
     ASSERT_EQ(prt({"compress", at("baked.glb"), "-o", at("shipped.glb"), "--clusters", "8", "--bits", "56",
                    "--json", at("compress.json")})
@@ -95,22 +97,22 @@ TEST_F(Lightmaps, WorkInAllCommands) {
     const Outcome info = prt({"info", at("shipped.glb")});
     EXPECT_NE(info.out.find("1 map, 128 x 128"), std::string::npos) << info.out;
     for (const char* model : {"baked.glb", "shipped.glb"})
-        EXPECT_EQ(
-            prt({"render", at(model), "--env", at("sky.exr"), "-o", at("p.png"), "--size", "64x48"}).status,
-            0);
+        EXPECT_EQ(prt({"render", at(model), "--lights", at("sky.exr"), "-o", at("p.png"), "--size", "64x48"})
+                      .status,
+                  0);
 }
 
 TEST_F(Lightmaps, AreDecodedFromTheFormatPageWithTheSameError) {
     if (std::string(PRT_NODE).empty() ||
         !std::filesystem::exists(std::string(PRT_VALIDATOR_MODULES) + "/pngjs"))
         GTEST_SKIP() << "node or pngjs is not installed";
-    ASSERT_EQ(bake({"--size", "64", "--unwrap", "--bounces", "1"}).status,
+    ASSERT_EQ(bake({"--texels", "64", "--texels", "unwrap", "--bounces", "1"}).status,
               0); // two parts, one of them colored
     const std::vector<std::vector<std::string>> ways = {
         {}, {"--preset", "u64"}, {"--clusters", "50", "--bits", "40"}, {"--clusters", "1", "--bits", "0"}};
     for (const std::vector<std::string>& way : ways) {
         std::vector<std::string> arguments = {"compress", at("baked.glb"),     "-o",       at("shipped.glb"),
-                                              "--json",   at("compress.json"), "--metric", "natural"};
+                                              "--json",   at("compress.json"), "--lights", "natural"};
         arguments.insert(arguments.end(), way.begin(), way.end());
         ASSERT_EQ(prt(arguments).status, 0);
         const Outcome decoder =
@@ -127,7 +129,7 @@ TEST_F(Lightmaps, AreDecodedFromTheFormatPageWithTheSameError) {
 }
 
 TEST_F(Lightmaps, ShadersCompile) {
-    ASSERT_EQ(bake({"--size", "64", "--unwrap"}).status, 0);
+    ASSERT_EQ(bake({"--texels", "64", "--texels", "unwrap"}).status, 0);
     ASSERT_EQ(prt({"compress", at("baked.glb"), "-o", at("shipped.glb")}).status, 0);
     const struct {
         const char *language, *file;
@@ -138,7 +140,7 @@ TEST_F(Lightmaps, ShadersCompile) {
         std::vector<std::string> arguments = {"shader",   at("shipped.glb"), "-o",
                                               at(c.file), "--language",      c.language};
         if (c.fragment)
-            arguments.emplace_back("--fragment");
+            arguments.insert(arguments.end(), {"--stage", "fragment"});
         ASSERT_EQ(prt(arguments).status, 0) << c.language;
         if (const std::string glslang = PRT_GLSLANG; !glslang.empty()) {
             const Outcome outcome = c.language == std::string("vulkan")
@@ -150,7 +152,7 @@ TEST_F(Lightmaps, ShadersCompile) {
 }
 
 TEST_F(Lightmaps, AreRemovedByAVertexBake) {
-    ASSERT_EQ(bake({"--size", "64", "--unwrap"}).status, 0);
+    ASSERT_EQ(bake({"--texels", "64", "--texels", "unwrap"}).status, 0);
     ASSERT_EQ(prt({"compress", at("baked.glb"), "-o", at("shipped.glb")}).status, 0);
     ASSERT_EQ(prt({"bake", at("shipped.glb"), "-o", at("again.glb"), "--rays", "16"}).status, 0);
     const GlbFile file = read_glb(folder / "again.glb");
@@ -164,7 +166,7 @@ TEST_F(Lightmaps, ShowSunsForMoreVerticesThanTexels) {
     GlbFile floor = mapped_floor(60);
     floor.json["meshes"][0]["primitives"].erase(1);
     floor.write(folder / kScene);
-    ASSERT_EQ(bake({"--size", "8", "--uv", "0"}).status, 0);
+    ASSERT_EQ(bake({"--texels", "8", "--texels", "uv=0"}).status, 0);
     ASSERT_EQ(
         prt({"compress", at("baked.glb"), "-o", at("shipped.glb"), "--clusters", "1", "--bits", "24"}).status,
         0);
@@ -175,8 +177,8 @@ TEST_F(Lightmaps, ShowSunsForMoreVerticesThanTexels) {
     std::ofstream(folder / "sun.json") << sun;
     std::vector<double> brightness;
     for (const char* model : {"baked.glb", "shipped.glb"}) {
-        const Outcome drawn = prt({"render", at(model), "--env", at("sun.json"), "-o", at("sun.exr"),
-                                   "--size", "32x16", "--backend", "cpu", "--no-background"});
+        const Outcome drawn = prt({"render", at(model), "--lights", at("sun.json"), "-o", at("sun.exr"),
+                                   "--size", "32x16", "--device", "cpu", "--no-background"});
         ASSERT_EQ(drawn.status, 0) << drawn.err;
         double sum = 0;
         for (const glm::vec3& p : load_environment(folder / "sun.exr").environment.image.pixels)
@@ -188,24 +190,25 @@ TEST_F(Lightmaps, ShowSunsForMoreVerticesThanTexels) {
 }
 
 TEST_F(Lightmaps, AreRejectedIfUnsupported) {
-    expect_refused(bake({"--size", "64"}), "has no TEXCOORD_1");
-    expect_refused(bake({"--unwrap"}), "--unwrap is for textures");
-    expect_refused(bake({"--size", "64", "--unwrap", "--refine", "0.1"}), "--refine is for vertices");
-    expect_refused(bake({"--size", "8", "--unwrap"}), "texels");
-    expect_refused(bake({"--size", "4096", "--unwrap", "--memory-limit", "100MB"}), "memory");
+    expect_refused(bake({"--texels", "64"}), "has no TEXCOORD_1");
+    expect_refused(bake({"--texels", "unwrap"}), "--texels needs a size");
+    expect_refused(bake({"--texels", "64", "--texels", "unwrap", "--refine", "0.1"}),
+                   "--refine and --texels cannot be combined");
+    expect_refused(bake({"--texels", "8", "--texels", "unwrap"}), "texels");
+    expect_refused(bake({"--texels", "4096", "--texels", "unwrap", "--memory-limit", "100MB"}), "memory");
     EXPECT_FALSE(std::filesystem::exists(folder / "baked.glb"));
-    ASSERT_EQ(bake({"--size", "64", "--unwrap"}).status, 0);
+    ASSERT_EQ(bake({"--texels", "64", "--texels", "unwrap"}).status, 0);
     const auto compress = [&](const std::vector<std::string>& options) {
         std::vector<std::string> arguments = {"compress", at("baked.glb"), "-o", at("shipped.glb")};
         arguments.insert(arguments.end(), options.begin(), options.end());
         return prt(arguments);
     };
     expect_refused(compress({"--predictors", "normal"}), "texels know neither");
-    expect_refused(compress({"--weights", "float"}), "packed");
+    expect_refused(compress({"--bits", "float"}), "does not support lightmaps");
     expect_refused(compress({"--reorder"}), "texels stay where they are");
     expect_refused(compress({"--fallback", at("sky.exr")}), "the light of this file is in texels");
     EXPECT_FALSE(std::filesystem::exists(folder / "shipped.glb"));
-    expect_refused(prt({"relight", at("baked.glb"), "--env", at("sky.exr"), "-o", at("r.glb")}),
+    expect_refused(prt({"relight", at("baked.glb"), "--lights", at("sky.exr"), "-o", at("r.glb")}),
                    "contains a lightmap");
 }
 

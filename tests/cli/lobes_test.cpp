@@ -34,8 +34,8 @@ protected:
 };
 
 TEST_F(LobesCommand, WritesLobesAndMeasuresThemOverFrames) {
-    const Outcome outcome = lobes("figure.glb", {"--animation", "dance", "--rays", "64", "--poses", "4",
-                                                 "--frames", "2", "--json", at("lobes.json")});
+    const Outcome outcome = lobes("figure.glb", {"--poses", "animation=dance", "--rays", "64", "--poses", "4",
+                                                 "--poses", "frames=2", "--json", at("lobes.json")});
     ASSERT_EQ(outcome.status, 0) << outcome.err;
     EXPECT_LE(validator_errors(folder / "out.glb"), 0);
     const nlohmann::json figures = read_json(folder / "lobes.json");
@@ -51,14 +51,14 @@ TEST_F(LobesCommand, WritesLobesAndMeasuresThemOverFrames) {
     EXPECT_EQ(stored->model.vertices(), figures["vertices"]);
     EXPECT_NE(prt({"info", at("out.glb")}).out.find("lobes that turn with the skin: order 4, 2 lobes"),
               std::string::npos);
-    ASSERT_EQ(prt({"shader", at("out.glb"), "-o", at("lobes.glsl"), "--lobes"}).status, 0);
+    ASSERT_EQ(prt({"shader", at("out.glb"), "-o", at("lobes.glsl"), "--stage", "lobes"}).status, 0);
     EXPECT_GT(std::filesystem::file_size(folder / "lobes.glsl"), 1000u);
-    EXPECT_EQ(prt({"shader", at("figure.glb"), "-o", at("x.glsl"), "--lobes"}).status, 1);
+    EXPECT_EQ(prt({"shader", at("figure.glb"), "-o", at("x.glsl"), "--stage", "lobes"}).status, 1);
 }
 
 TEST_F(LobesCommand, IsByteIdenticalForAllThreadCounts) {
-    const std::vector<std::string> options = {"--rays",   "16", "--poses", "2",
-                                              "--frames", "0",  "--lobes", "1"};
+    const std::vector<std::string> options = {"--rays",  "16",       "--poses", "2",
+                                              "--poses", "frames=0", "--lobes", "1"};
     std::vector<std::string> one = options;
     one.insert(one.end(), {"--threads", "1"});
     ASSERT_EQ(lobes("figure.glb", one).status, 0);
@@ -77,7 +77,7 @@ TEST_F(LobesCommand, AreRenderedInThePoseOfTheFile) {
     still.json["nodes"].push_back({{"name", "draws nothing"}});
     still.json["animations"] = nlohmann::ordered_json::array({animation});
     still.write(folder / "still.glb");
-    const Outcome outcome = lobes("still.glb", {"--rays", "256", "--poses", "1", "--frames", "0"});
+    const Outcome outcome = lobes("still.glb", {"--rays", "256", "--poses", "1", "--poses", "frames=0"});
     ASSERT_EQ(outcome.status, 0) << outcome.err;
     EXPECT_NE(outcome.err.find("no vertex of it moves"), std::string::npos) << outcome.err;
     ASSERT_EQ(prt({"bake", at("still.glb"), "-o", at("baked.glb"), "--order", "4", "--rays", "256",
@@ -91,8 +91,8 @@ TEST_F(LobesCommand, AreRenderedInThePoseOfTheFile) {
     write_exr(folder / "sky.exr", {8, 4, sky});
     const auto picture = [&](const char* model) {
         const Outcome rendered =
-            prt({"render", at(model), "--env", at("sky.exr"), "-o", at("p.exr"), "--size", "192x96",
-                 "--no-background", "--suns", "0", "--backend", "cpu"});
+            prt({"render", at(model), "--lights", at("sky.exr"), "-o", at("p.exr"), "--size", "192x96",
+                 "--no-background", "--suns", "0", "--device", "cpu"});
         EXPECT_EQ(rendered.status, 0) << rendered.err;
         const bool unlit = rendered.err.find("holds no transfer") != std::string::npos;
         EXPECT_EQ(unlit, std::string(model) == "still.glb") << rendered.err;
@@ -118,7 +118,7 @@ TEST_F(LobesCommand, RejectsStaticModels) {
     still.write(folder / "still.glb");
     expect_refusal("still.glb", "has no animation, but poses need one");
     expect_refusal("figure.glb", "has no animation 'fly'; available: walk, idle, dance",
-                   {"--animation", "fly"});
+                   {"--poses", "animation=fly"});
 }
 
 TEST_F(LobesCommand, RejectsASkinWithoutWeights) {

@@ -1,4 +1,4 @@
-// Tests prt make and prt evaluate --budget, from the command line to the file.
+// Tests prt make and prt evaluate --measure budget, from the command line to the file.
 
 #include "pipeline.h"
 #include "support/glb_file.h"
@@ -33,7 +33,7 @@ protected:
 };
 
 TEST_F(Make, MeetsTheErrorAndReportsEquivalentCommands) {
-    const Outcome made = make({"--max-error", "0.1", "--baked", at("b.glb")});
+    const Outcome made = make({"--max-error", "0.1", "--keep-bake", at("b.glb")});
     ASSERT_EQ(made.status, 0) << made.err;
     const auto report = read_json(folder / "m.json");
     EXPECT_LE(report["total_error"], 0.1);
@@ -48,8 +48,8 @@ TEST_F(Make, MeetsTheErrorAndReportsEquivalentCommands) {
     EXPECT_TRUE(bytes_of(folder / "s.glb") == shipped);
 
     // Checks the guarantee with the other command: it needs one more bake, while points and paths are equal.
-    const Outcome evaluated = prt({"evaluate", at("b.glb"), at("s.glb"), "--budget", "--lights",
-                                   at("sky.exr"), "--json", at("e.json"), "--html", at("e.html")});
+    const Outcome evaluated = prt({"evaluate", at("b.glb"), at("s.glb"), "--measure", "budget", "--lights",
+                                   at("sky.exr"), "--json", at("e.json"), "--report", at("e.html")});
     ASSERT_EQ(evaluated.status, 0) << evaluated.err;
     const auto budget = read_json(folder / "e.json")["budget"][0];
     EXPECT_LE(budget["total"], 0.1);
@@ -82,8 +82,8 @@ TEST_F(Make, ReportsWhyAnErrorIsNotMet) {
 
 TEST_F(Make, ReportsMissingBounces) {
     ASSERT_EQ(prt({"bake", at("knot.glb"), "-o", at("b.glb"), "--order", "4", "--rays", "64"}).status, 0);
-    const Outcome evaluated =
-        prt({"evaluate", at("b.glb"), "--budget", "--lights", at("sky.exr"), "--json", at("e.json")});
+    const Outcome evaluated = prt(
+        {"evaluate", at("b.glb"), "--measure", "budget", "--lights", at("sky.exr"), "--json", at("e.json")});
     ASSERT_EQ(evaluated.status, 0) << evaluated.err;
     const auto report = read_json(folder / "e.json");
     EXPECT_EQ(report["advice_option"], "prt bake --bounces inf");
@@ -95,11 +95,11 @@ TEST_F(Pipeline, RejectsBudgetsBeyondPathTracing) {
     triangle_file().write(folder / "t.glb");
     ASSERT_EQ(prt({"bake", at("t.glb"), "-o", at("b.glb"), "--rays", "64", "--subsurface", "marble"}).status,
               0);
-    const Outcome medium = prt({"evaluate", at("b.glb"), "--budget"});
+    const Outcome medium = prt({"evaluate", at("b.glb"), "--measure", "budget"});
     EXPECT_EQ(medium.status, 1);
     EXPECT_NE(medium.err.find("passes through a medium"), std::string::npos) << medium.err;
     EXPECT_EQ(std::count(medium.err.begin(), medium.err.end(), '\n'), 1) << medium.err;
-    EXPECT_EQ(prt({"evaluate", at("b.glb"), "--budget", "--rotations", "4"}).status, 2);
+    EXPECT_EQ(prt({"evaluate", at("b.glb"), "--measure", "budget", "--rotations", "4"}).status, 2);
     EXPECT_EQ(prt({"make", at("t.glb"), "-o", at("s.glb")}).status, 2); // lights are required
 }
 

@@ -1,4 +1,4 @@
-// Tests prt ao --volume: occlusion by moving parts, and rejected input.
+// Tests prt ao --occluders: occlusion by moving parts, and rejected input.
 
 #include "pipeline.h"
 #include "prt/gltf.h"
@@ -15,7 +15,7 @@ class OccluderCommand : public Pipeline {
 protected:
     void SetUp() override { copy_examples(folder.path(), {"figure"}); }
     Outcome ao(const std::vector<std::string>& options) {
-        std::vector<std::string> arguments = {"ao", at("figure.glb"), "-o", at("out.glb"), "--volume"};
+        std::vector<std::string> arguments = {"ao", at("figure.glb"), "-o", at("out.glb"), "--occluders"};
         arguments.insert(arguments.end(), options.begin(), options.end());
         return prt(arguments);
     }
@@ -37,13 +37,13 @@ TEST_F(OccluderCommand, WritesVolumesAndReportsTheirError) {
 }
 
 TEST_F(OccluderCommand, RejectsSurfaceOptions) {
-    for (const auto& options : std::vector<std::vector<std::string>>{{"--size", "64"},
+    for (const auto& options : std::vector<std::vector<std::string>>{{"--texels", "64"},
                                                                      {"--attribute", "_AO"},
                                                                      {"--bent-normals"},
                                                                      {"--fit", "surface"},
-                                                                     {"--inside", "keep"}})
+                                                                     {"--enclosed", "keep"}})
         EXPECT_EQ(ao(options).status, 2) << options[0];
-    const Outcome outcome = ao({"--distance", "2"});
+    const Outcome outcome = ao({"--max-distance", "2"});
     EXPECT_EQ(outcome.status, 1);
     EXPECT_NE(outcome.err.find("of surfaces"), std::string::npos) << outcome.err;
     EXPECT_FALSE(std::filesystem::exists(folder / "out.glb"));

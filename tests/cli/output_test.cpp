@@ -33,7 +33,7 @@ protected:
         return run("sh", {"-c", "cd " + folder.path().string() + "; " + words});
     }
     std::string bake(const std::string& more) const {
-        return PRT_PROGRAM " bake good.glb -o out.glb --order 2 --rays 4 --backend cpu " + more;
+        return PRT_PROGRAM " bake good.glb -o out.glb --order 2 --rays 4 --device cpu " + more;
     }
 
     TemporaryFolder folder;
@@ -45,7 +45,7 @@ TEST_F(Output, ArgumentsOutOfRangeAreWrongUsage) {
                       light = (folder / "out.json").string();
     const std::vector<std::string> bake = {"bake", file, "-o", out}, compress = {"compress", file, "-o", out},
                                    project = {"project", file, "-o", light},
-                                   render = {"render", file, "--env", file, "-o", "p.png"},
+                                   render = {"render", file, "--lights", file, "-o", "p.png"},
                                    bench = {"bench", file};
     const std::vector<std::pair<std::vector<std::string>, std::vector<std::string>>> cases = {
         {bake, {"--order", "0", "--order", "11", "--rays", "0", "--rays", "-4", "--rays", "99999999999"}},
@@ -53,7 +53,7 @@ TEST_F(Output, ArgumentsOutOfRangeAreWrongUsage) {
         {bake, {"--metres-per-unit", "0", "--metres-per-unit", "nan", "--metres-per-unit", "1e300"}},
         {bake, {"--memory-limit", "-1", "--memory-limit", "nan"}},
         {bake, {"--seed", "-1", "--seed", "18446744073709551616", "--seed", "1.5"}},
-        {bake, {"--bounces", "2147483647", "--raster-resolution", "15", "--json", ""}},
+        {bake, {"--bounces", "2147483647", "--method", "resolution=15", "--json", ""}},
         {bake, {"--subsurface", "1e38,1,1,1,1,1", "--subsurface", "1,1,1,nan,1,1"}},
         {compress, {"--clusters", "0", "--clusters", "65537", "--components", "-1", "--bits", "1000"}},
         {compress, {"--seam-weight", "-1", "--seam-weight", "2e6", "--seam-weight", "nan"}},
@@ -62,7 +62,7 @@ TEST_F(Output, ArgumentsOutOfRangeAreWrongUsage) {
         {project, {"--order", "11", "--rotate", "nan", "--rotate", "inf", "--json", ""}},
         {render, {"--fov", "nan", "--fov", "0", "--camera", "nan,0,0", "--camera", "inf,0,0"}},
         {render, {"--exposure", "nan", "--exposure", "inf", "--exposure", "1e9", "--samples", "17"}},
-        {bench, {"--most-seconds", "nan", "--most-seconds", "-1", "--html", ""}}};
+        {bench, {"--seconds", "nan", "--seconds", "-1", "--report", ""}}};
     for (const auto& [command, options] : cases)
         for (std::size_t i = 0; i < options.size(); i += 2) {
             std::vector<std::string> words = command;
@@ -108,7 +108,7 @@ TEST_F(Output, StreamsAreWrittenAndKept) {
     EXPECT_NE(shell(PRT_PROGRAM " info good.glb --json /dev/stdout | cat").out.find("\n{\n"),
               std::string::npos);
     EXPECT_EQ(shell(bake("--json /dev/null")).status, 0);
-    EXPECT_EQ(shell(PRT_PROGRAM " bake good.glb -o /dev/null --rays 4 --order 2 --backend cpu").status, 0);
+    EXPECT_EQ(shell(PRT_PROGRAM " bake good.glb -o /dev/null --rays 4 --order 2 --device cpu").status, 0);
     EXPECT_TRUE(std::filesystem::is_character_file("/dev/null"));
     const Outcome pipe = shell("mkfifo pipe; cat pipe & " PRT_PROGRAM " info good.glb --json pipe; wait");
     EXPECT_TRUE(pipe.out.ends_with("}\n")) << pipe.out << pipe.err;
@@ -128,7 +128,7 @@ TEST_F(Output, TerminalControlCharactersAreNotPrinted) {
     std::filesystem::copy_file(scene, folder / "c\n\x1b[1m.glb");
     for (const char* name : {"a.glb", "b.glb", "c\n\x1b[1m.glb"}) {
         const Outcome outcome = prt({"bake", (folder / name).string(), "-o",
-                                     (folder / "c\n\x1b.glb").string(), "--rays", "4", "--backend", "cpu"});
+                                     (folder / "c\n\x1b.glb").string(), "--rays", "4", "--device", "cpu"});
         EXPECT_LE(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 1) << outcome.err;
         for (const std::string& text : {outcome.out, outcome.err})
             for (const char c : text) {
@@ -162,7 +162,7 @@ TEST_F(Output, CancelledPicturesLeaveNoFile) {
     folder.file("light.json", R"({"prtkit_light": 1, "order": 2,
                                   "coefficients": {"red": [1, 0, 0, 0], "green": [1, 0, 0, 0],
                                                    "blue": [1, 0, 0, 0]}})");
-    const std::string render = PRT_PROGRAM " render out.glb --env light.json -o p.exr --backend cpu ";
+    const std::string render = PRT_PROGRAM " render out.glb --lights light.json -o p.exr --device cpu ";
     for (const char* after : {"0", "2"}) { // seconds; signals that come before it listens are ignored
         const Outcome outcome =
             shell("trap '' INT; " + render + "--size 4096x4096 --samples 1 & sleep " + after +

@@ -47,14 +47,14 @@ protected:
 TEST_F(PathTraced, FloorsMatchTheirLight) {
     // Under radiance 0.7 a floor of albedo 1 reflects 0.7; a sun of irradiance 2 at 60 degrees adds 2 cos 60
     // / pi.
-    EXPECT_NEAR(seen("floor.glb", {"--env", at("even.exr")}).g, 0.7, 0.01);
+    EXPECT_NEAR(seen("floor.glb", {"--lights", at("even.exr")}).g, 0.7, 0.01);
     nlohmann::json light = {{"prtkit_light", 1}, {"order", 6}};
     for (const char* channel : {"red", "green", "blue"})
         light["coefficients"][channel] = std::vector<float>(36, 0.0f);
     light["suns"] = {
         {{"towards", {std::sqrt(0.75), 0.5, 0}}, {"irradiance", {2, 1, 0}}, {"half_angle_radians", 0.02}}};
     folder.file("sun.json", light.dump());
-    const glm::vec3 lit = seen("floor.glb", {"--env", at("sun.json")});
+    const glm::vec3 lit = seen("floor.glb", {"--lights", at("sun.json")});
     EXPECT_NEAR(lit.r, 1 / std::numbers::pi, 2e-3);
     EXPECT_NEAR(lit.g, 0.5 / std::numbers::pi, 1e-3);
 }
@@ -70,7 +70,7 @@ TEST_F(PathTraced, LampsOfASceneWithoutTransferEmit) {
     file.write(folder / "lamp.glb");
     // Intensity 3 from 2 m above.
     EXPECT_NEAR(seen("lamp.glb", {}).g, 3 / (4 * std::numbers::pi), 3e-3);
-    EXPECT_EQ(seen("lamp.glb", {"--lamps", "off"}).g, 0);
+    EXPECT_EQ(seen("lamp.glb", {"--lamp-strengths", "off"}).g, 0);
 }
 
 TEST_F(PathTraced, ErrorsAreSmallForABakeAndGreatWithoutShadows) {
@@ -83,9 +83,9 @@ TEST_F(PathTraced, ErrorsAreSmallForABakeAndGreatWithoutShadows) {
     ASSERT_EQ(prt({"bake", at("ball.glb"), "-o", at("b.glb"), "--rays", "256", "--bounces", "inf"}).status,
               0);
     const auto error = [&](const char* model, const char* rotation) {
-        const Outcome outcome = prt({"render", at(model), "--env", at("sky.exr"), "-o", at("e.png"), "--size",
-                                     "64x40", "--path-trace", "32", "--show", "error", "--rotate", rotation,
-                                     "--json", at("e.json"), "--backend", "cpu"});
+        const Outcome outcome = prt({"render", at(model), "--lights", at("sky.exr"), "-o", at("e.png"),
+                                     "--size", "64x40", "--path-trace", "32", "--show", "error", "--rotate",
+                                     rotation, "--json", at("e.json"), "--device", "cpu"});
         EXPECT_EQ(outcome.status, 0) << outcome.err;
         return read_json(folder / "e.json");
     };
@@ -106,7 +106,7 @@ TEST_F(PathTraced, IncompatibleOptionsAreRejected) {
           {"--show", "error", "--path-trace", "8", "--baked", at("floor.glb")},
           {"--path-trace", "1"},
           {"--baked", at("floor.glb")}}) {
-        std::vector<std::string> arguments = {"render", at("floor.glb"), "--env", at("even.exr"),
+        std::vector<std::string> arguments = {"render", at("floor.glb"), "--lights", at("even.exr"),
                                               "-o",     at("p.png")};
         arguments.insert(arguments.end(), wrong.begin(), wrong.end());
         const Outcome outcome = prt(arguments);
@@ -162,9 +162,9 @@ TEST_P(DemoPictures, MatchPathTracing) {
     } else {
         ASSERT_EQ(prt({"make", scene, "-o", at("c.glb"), "--lights", sky, "--max-error", "0.03"}).status, 0);
     }
-    std::vector<std::string> arguments = {"render", at("c.glb"),  "--env",        sky,  "-o",     at("e.png"),
+    std::vector<std::string> arguments = {"render", at("c.glb"),  "--lights",     sky,  "-o",     at("e.png"),
                                           "--size", "108x60",     "--path-trace", "64", "--show", "error",
-                                          "--json", at("e.json"), "--backend",    "cpu"};
+                                          "--json", at("e.json"), "--device",     "cpu"};
     arguments.insert(arguments.end(), picture.camera.begin(), picture.camera.end());
     const Outcome outcome = prt(arguments);
     ASSERT_EQ(outcome.status, 0) << outcome.err;

@@ -75,7 +75,7 @@ TEST_F(Pipeline, WorthwhileSunsAreFoundAndRotateWithTheSky) {
 
 TEST_F(Pipeline, CenterOfALatLongImageMayFaceX) {
     write_exr(folder / "sky.exr", sunny_image(), EnvironmentLayout::lat_long);
-    ASSERT_EQ(prt({"project", at("sky.exr"), "-o", at("x.json"), "--env-center", "x"}).status, 0);
+    ASSERT_EQ(prt({"project", at("sky.exr"), "-o", at("x.json"), "--env-layout", "lat-long-x"}).status, 0);
     ASSERT_EQ(prt({"project", at("sky.exr"), "-o", at("turned.json"), "--rotate", "90"}).status, 0);
     ASSERT_EQ(prt({"project", at("sky.exr"), "-o", at("z.json")}).status, 0);
     EXPECT_LT(largest_difference(read_json(folder / "x.json"), read_json(folder / "turned.json")), 1e-5);
@@ -88,12 +88,12 @@ TEST_F(Pipeline, LightFilesServeAsEnvironments) {
     ASSERT_EQ(
         prt({"project", at("e.exr"), "-o", at("l.json"), "--order", "6", "--json", at("r.json")}).status, 0);
     EXPECT_NEAR(read_json(folder / "r.json")["mean_radiance"][2].get<double>(), 3, 1e-5);
-    ASSERT_EQ(prt({"render", at("t.glb"), "--env", at("l.json"), "-o", at("a.exr"), "--size", "32x32",
-                   "--backend", "cpu"})
+    ASSERT_EQ(prt({"render", at("t.glb"), "--lights", at("l.json"), "-o", at("a.exr"), "--size", "32x32",
+                   "--device", "cpu"})
                   .status,
               0);
-    ASSERT_EQ(prt({"render", at("t.glb"), "--env", at("e.exr"), "-o", at("b.exr"), "--size", "32x32",
-                   "--backend", "cpu", "--no-background"})
+    ASSERT_EQ(prt({"render", at("t.glb"), "--lights", at("e.exr"), "-o", at("b.exr"), "--size", "32x32",
+                   "--device", "cpu", "--no-background"})
                   .status,
               0);
     EXPECT_EQ(read_file(folder / "a.exr"), read_file(folder / "b.exr"));
@@ -108,8 +108,8 @@ TEST_F(Pipeline, AutomaticExposureMeasuresTheModelAndIsReported) {
     write_exr(folder / "e.exr", {4, 2, std::vector<glm::vec3>(8, glm::vec3(4))});
     const auto stops = [&](const char* exposure, const char* backend) {
         const Outcome outcome =
-            prt({"render", at("t.glb"), "--env", at("e.exr"), "-o", at("p.png"), "--size", "64x48",
-                 "--backend", backend, "--exposure", exposure, "--json", at("r.json")});
+            prt({"render", at("t.glb"), "--lights", at("e.exr"), "-o", at("p.png"), "--size", "64x48",
+                 "--device", backend, "--exposure", exposure, "--json", at("r.json")});
         EXPECT_EQ(outcome.status, 0) << outcome.err;
         EXPECT_NE(outcome.out.find(" stops"), std::string::npos) << outcome.out;
         const auto report = read_json(folder / "r.json");
@@ -126,7 +126,8 @@ TEST_F(Pipeline, AutomaticExposureMeasuresTheModelAndIsReported) {
     }
     for (const char* wrong : {"auto1", "auto+", "bright", "", "nan", "auto+inf"})
         EXPECT_EQ(
-            prt({"render", at("t.glb"), "--env", at("e.exr"), "-o", at("p.png"), "--exposure", wrong}).status,
+            prt({"render", at("t.glb"), "--lights", at("e.exr"), "-o", at("p.png"), "--exposure", wrong})
+                .status,
             2)
             << wrong;
 }
@@ -147,7 +148,8 @@ TEST_F(Pipeline, SunsAreSeparatedAndTheRemainderRelights) {
     EXPECT_NEAR(red * 0.2820948, 0.5, 0.05); // the sky without its sun
     triangle_file().write(folder / "t.glb");
     EXPECT_EQ(
-        prt({"render", at("t.glb"), "--env", at("l.json"), "-o", at("p.png"), "--size", "32x32"}).status, 0);
+        prt({"render", at("t.glb"), "--lights", at("l.json"), "-o", at("p.png"), "--size", "32x32"}).status,
+        0);
     EXPECT_EQ(prt({"project", at("sky.exr"), "-o", at("l.json"), "--suns", "-1"}).status, 2);
 }
 

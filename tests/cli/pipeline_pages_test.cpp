@@ -40,8 +40,8 @@ std::string drawn_page(const std::filesystem::path& path) {
 TEST_F(Pipeline, SweepsAreSelfContainedPages) {
     triangle_file().write(folder / "t.glb");
     ASSERT_EQ(prt({"bake", at("t.glb"), "-o", at("b.glb"), "--rays", "16", "--order", "2"}).status, 0);
-    const Outcome evaluate =
-        prt({"evaluate", at("b.glb"), "--sweep", "--json", at("e.json"), "--html", at("e.html")});
+    const Outcome evaluate = prt(
+        {"evaluate", at("b.glb"), "--measure", "sweep", "--json", at("e.json"), "--report", at("e.html")});
     ASSERT_EQ(evaluate.status, 0) << evaluate.err;
     const auto sweep = read_json(folder / "e.json")["sweep"];
     EXPECT_GT(sweep["equal_bytes"].size(), 3u);
@@ -65,8 +65,8 @@ TEST_F(Pipeline, SweepsAreSelfContainedPages) {
 
 TEST_F(Pipeline, BenchMeasuresEveryBackendAndMethod) {
     triangle_file().write(folder / "a<b>&.glb");
-    const Outcome bench = prt({"bench", at("a<b>&.glb"), "--from", "16", "--to", "64", "--order", "3",
-                               "--json", at("bench.json"), "--html", at("bench.html")});
+    const Outcome bench = prt({"bench", at("a<b>&.glb"), "--rays", "16..64", "--order", "3", "--json",
+                               at("bench.json"), "--report", at("bench.html")});
     ASSERT_EQ(bench.status, 0) << bench.err;
     const auto report = read_json(folder / "bench.json");
     EXPECT_EQ(report["reference_rays"], 64 * 64);

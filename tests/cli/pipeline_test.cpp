@@ -55,7 +55,7 @@ TEST_P(ExamplePipeline, LeadsFromSceneToPictures) {
     EXPECT_LE(compress_report["bits_used_per_vertex"], 28);
 
     const Outcome evaluate = prt({"evaluate", at("b.glb"), at("c.glb"), "--lights", at("sky.exr"), "--json",
-                                  at("e.json"), "--html", at("e.html")});
+                                  at("e.json"), "--report", at("e.html")});
     ASSERT_EQ(evaluate.status, 0) << evaluate.err;
     const auto report = read_json(folder / "e.json");
     EXPECT_NEAR(report["relative_l2"].get<double>(), compress_report["relative_l2"].get<double>(), 1e-9);
@@ -63,9 +63,9 @@ TEST_P(ExamplePipeline, LeadsFromSceneToPictures) {
     EXPECT_GT(std::filesystem::file_size(folder / "e.html"), 1000u);
 
     for (const char* backend : {"cpu", "gpu"}) {
-        const Outcome render = prt({"render", at("c.glb"), "--env", at("sky.exr"), "-o",
+        const Outcome render = prt({"render", at("c.glb"), "--lights", at("sky.exr"), "-o",
                                     at((std::string(backend) + ".exr").c_str()), "--size", "96x64",
-                                    "--samples", "1", "--backend", backend});
+                                    "--samples", "1", "--device", backend});
         ASSERT_EQ(render.status, 0) << render.err;
     }
     const EnvironmentOptions any{EnvironmentLayout::lat_long, BadPixels::error};
@@ -91,7 +91,7 @@ TEST_F(Pipeline, ADecoderWrittenFromTheFormatPageFindsTheSameError) {
             .status,
         0); // two parts, one of them colored
     const std::vector<std::vector<std::string>> ways = {
-        {"--weights", "float", "--clusters", "20", "--components", "5"},
+        {"--bits", "float", "--clusters", "20", "--components", "5"},
         {},
         {"--preset", "u64"},
         {"--clusters", "50", "--bits", "40"},
@@ -99,7 +99,7 @@ TEST_F(Pipeline, ADecoderWrittenFromTheFormatPageFindsTheSameError) {
         {"--clusters", "300", "--bits", "23"}};
     for (const std::vector<std::string>& way : ways) {
         std::vector<std::string> arguments = {"compress", at("b.glb"),  "-o",       at("c.glb"),
-                                              "--json",   at("c.json"), "--metric", "natural"};
+                                              "--json",   at("c.json"), "--lights", "natural"};
         arguments.insert(arguments.end(), way.begin(), way.end());
         ASSERT_EQ(prt(arguments).status, 0);
         const Outcome decoder = run(PRT_NODE, {PRT_DECODE, at("b.glb"), at("c.glb")});
@@ -117,14 +117,14 @@ TEST_F(Pipeline, ADecoderWrittenFromTheFormatPageFindsTheSameError) {
 TEST_F(Pipeline, FilesWrittenFromDemandingScenesAreValidGltf) {
     demanding_file().write(folder / "d.glb");
     write_png(folder / "a picture.png", 2, 2, std::vector<glm::u8vec3>(4, glm::u8vec3(200)));
-    for (const char* weights : {"packed", "float"}) {
+    for (const char* bits : {"24", "float"}) {
         ASSERT_EQ(prt({"bake", at("d.glb"), "-o", at("b.glb"), "--rays", "16"}).status, 0);
         const Outcome compress = prt({"compress", at("b.glb"), "-o", at("c.glb"), "--clusters", "3",
-                                      "--components", "5", "--weights", weights});
+                                      "--components", "5", "--bits", bits});
         ASSERT_EQ(compress.status, 0) << compress.err;
         std::filesystem::rename(folder / "a picture.png",
                                 folder / "moved.png"); // the written file needs no other file
-        const Outcome render = prt({"render", at("c.glb"), "--env", at("light.json"), "-o", at("p.png")});
+        const Outcome render = prt({"render", at("c.glb"), "--lights", at("light.json"), "-o", at("p.png")});
         EXPECT_EQ(render.status, 1);
         EXPECT_NE(render.err.find("light.json"), std::string::npos) << render.err; // the image was there
         std::filesystem::rename(folder / "moved.png", folder / "a picture.png");
@@ -143,9 +143,9 @@ TEST_F(Pipeline, EveryViewIsDrawn) {
     for (const char* backend : {"cpu", "gpu"})
         for (const char* model : {"t.glb", "b.glb", "c.glb"})
             for (const std::string show : {"lit", "ao", "clusters", "error"}) {
-                std::vector<std::string> arguments = {"render",    at(model),   "--env",  at("e.exr"),
-                                                      "-o",        at("p.png"), "--size", "48x32",
-                                                      "--backend", backend,     "--show", show};
+                std::vector<std::string> arguments = {"render",   at(model),   "--lights", at("e.exr"),
+                                                      "-o",       at("p.png"), "--size",   "48x32",
+                                                      "--device", backend,     "--show",   show};
                 if (show == "error")
                     arguments.insert(arguments.end(), {"--baked", at("b.glb")});
                 const Outcome outcome = prt(arguments);
@@ -159,7 +159,7 @@ TEST_F(Pipeline, EverySupportedOptionIsAccepted) {
     triangle_file().write(folder / "t.glb");
     const Outcome outcome =
         prt({"bake",      at("t.glb"), "-o",     at("b.glb"), "--order", "3",         "--rays",
-             "8",         "--bounces", "0",      "--backend", "cpu",     "--method",  "trace",
+             "8",         "--bounces", "0",      "--device",  "cpu",     "--method",  "trace",
              "--threads", "1",         "--seed", "5",         "--json",  at("b.json")});
     EXPECT_EQ(outcome.status, 0) << outcome.err;
     EXPECT_EQ(read_json(folder / "b.json")["bake"]["seed"], 5);
@@ -184,7 +184,7 @@ TEST_F(Pipeline, EqualSeedsGiveEqualBytesForAllThreads) {
 TEST_F(Pipeline, BouncesOnTheGpuLandInTheFileAndItsReport) {
     copy_examples(folder.path(), {"tree"});
     const Outcome bake = prt({"bake", at("tree.glb"), "-o", at("b.glb"), "--rays", "16", "--order", "2",
-                              "--bounces", "2", "--backend", "gpu", "--json", at("b.json")});
+                              "--bounces", "2", "--device", "gpu", "--json", at("b.json")});
     ASSERT_EQ(bake.status, 0) << bake.err;
     const auto report = read_json(folder / "b.json");
     EXPECT_EQ(report["channels"], 3);
@@ -216,8 +216,8 @@ TEST_P(LampPipeline, BakesTheLampsOfAScene) {
     const auto& [name, group, lights, lamps] = GetParam();
     copy_examples(folder.path(), {name});
     const std::string scene = at((std::string(name) + ".glb").c_str());
-    const Outcome bake = prt({"bake", scene, "-o", at("b.glb"), "--rays", "2", "--order", "1", "--lamp-rays",
-                              "1", "--lamp-group", group, "--json", at("b.json")});
+    const Outcome bake = prt({"bake", scene, "-o", at("b.glb"), "--rays", "2", "--order", "1", "--lamps",
+                              "rays=1", "--lamps", std::string("group=") + group, "--json", at("b.json")});
     ASSERT_EQ(bake.status, 0) << bake.err;
     const auto report = read_json(folder / "b.json");
     EXPECT_LT(report["receivers"], 150000);

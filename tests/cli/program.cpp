@@ -45,7 +45,7 @@ Outcome prt(const std::vector<std::string>& arguments) {
     const auto uses = [&](const char* word) {
         return std::find(arguments.begin(), arguments.end(), word) != arguments.end();
     };
-    if (!uses("gpu") && !uses("--gpu") && !uses("bench"))
+    if (!uses("gpu") && !uses("--device") && !uses("bench"))
         return run(PRT_PROGRAM, arguments);
     // Leaks of the OpenGL driver cannot be distinguished from ours, as in the test programs that use OpenGL.
     std::vector<std::string> with_environment = {"ASAN_OPTIONS=detect_leaks=0", PRT_PROGRAM};

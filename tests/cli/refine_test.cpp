@@ -13,7 +13,7 @@ namespace {
 TEST_F(Pipeline, RefinementIsReported) {
     copy_examples(folder.path(), {"plain_room"});
     const Outcome bake = prt({"bake", at("plain_room.glb"), "-o", at("b.glb"), "--order", "3", "--rays", "64",
-                              "--refine", "0.1", "--json", at("b.json"), "--backend", "cpu"});
+                              "--refine", "0.1", "--json", at("b.json"), "--device", "cpu"});
     ASSERT_EQ(bake.status, 0) << bake.err;
     EXPECT_NE(bake.out.find("refined in "), std::string::npos) << bake.out;
     const auto report = read_json(folder / "b.json");
@@ -36,7 +36,7 @@ TEST_F(Pipeline, RefinementIsReported) {
 TEST_F(Pipeline, RefinementKeepsTheVertexLimit) {
     copy_examples(folder.path(), {"plain_room"});
     const Outcome bake = prt({"bake", at("plain_room.glb"), "-o", at("b.glb"), "--order", "3", "--rays", "64",
-                              "--refine", "0.05", "--most-vertices", "600", "--backend", "cpu"});
+                              "--refine", "0.05", "--refine", "vertices=600", "--device", "cpu"});
     ASSERT_EQ(bake.status, 0) << bake.err;
     EXPECT_NE(bake.out.find("within the vertex limit"), std::string::npos) << bake.out;
     const std::size_t vertices = extract_scene(load_gltf(folder / "b.glb")).receivers();
@@ -62,8 +62,8 @@ TEST_F(Pipeline, RejectsUnsupportedRefinement) {
     for (const std::vector<std::string>& options :
          std::vector<std::vector<std::string>>{{"--refine", "0"},
                                                {"--refine", "much"},
-                                               {"--most-vertices", "9"},
-                                               {"--refine", "0.1", "--most-vertices", "0"}})
+                                               {"--refine", "vertices=9"},
+                                               {"--refine", "0.1", "--refine", "vertices=0"}})
         EXPECT_EQ(bake(options).status, 2);
     EXPECT_EQ(bake({"--refine", "0.02", "--rays", "16"}).status, 0); // no triangle needs a split
 }

@@ -50,7 +50,7 @@ protected:
 /// A red sky of radiance 0.5 and a green sun overhead of irradiance 0.4 pi, which adds 0.4 on an open floor.
 TEST_F(Relight, AddsTheSkyByTransferAndTheSunsByRays) {
     for (const char* model : {"b.glb", "c.glb"})
-        for (const glm::vec3& color : relit({at(model), "--env", at("sun.json")}))
+        for (const glm::vec3& color : relit({at(model), "--lights", at("sun.json")}))
             EXPECT_LT(glm::distance(color, glm::vec3(0.5f, 0.4f, 0)), 3e-3f) << model;
 }
 
@@ -61,7 +61,7 @@ TEST_F(Relight, LightsMediaBySunsOnce) {
                   .status,
               0);
     glm::vec3 brightest(0); // in the middle, from where no light leaks out over the edge
-    for (const glm::vec3& color : relit({at("b.glb"), "--env", at("sun.json")}))
+    for (const glm::vec3& color : relit({at("b.glb"), "--lights", at("sun.json")}))
         brightest = glm::max(brightest, color);
     EXPECT_NEAR(brightest.r, 0.5f, 0.05f);
     EXPECT_NEAR(brightest.g, 0.4f, 0.05f);
@@ -73,7 +73,7 @@ TEST_F(Relight, MultipliesByTheBaseColorOnRequest) {
     file.json["meshes"][0]["primitives"][0]["material"] = 0;
     file.write(folder / "s.glb");
     ASSERT_EQ(prt({"bake", at("s.glb"), "-o", at("b.glb"), "--rays", "256", "--order", "4"}).status, 0);
-    for (const glm::vec3& color : relit({at("b.glb"), "--env", at("sun.json"), "--albedo"}))
+    for (const glm::vec3& color : relit({at("b.glb"), "--lights", at("sun.json"), "--colors", "albedo"}))
         EXPECT_LT(glm::distance(color, glm::vec3(0.25f, 0.1f, 0)), 3e-3f);
 }
 
@@ -87,7 +87,7 @@ TEST_F(Relight, WritesUnlitMaterialsWithAnExposure) {
     ASSERT_EQ(prt({"bake", at("s.glb"), "-o", at("b.glb"), "--rays", "256", "--order", "4"}).status, 0);
     const auto expect = [&](const char* stops, float factor) {
         for (const glm::vec3& color :
-             relit({at("b.glb"), "--env", at("sun.json"), "--unlit", "--exposure", stops}))
+             relit({at("b.glb"), "--lights", at("sun.json"), "--colors", "unlit", "--exposure", stops}))
             EXPECT_LT(glm::distance(color, factor * glm::vec3(0.5f, 0.4f, 0)), 3e-3f * factor) << stops;
         const GlbFile lit = read_glb(folder / "lit.glb");
         EXPECT_EQ(lit.json["materials"][0]["extensions"]["KHR_materials_unlit"],
@@ -99,12 +99,12 @@ TEST_F(Relight, WritesUnlitMaterialsWithAnExposure) {
     const float automatic = 0.22f / (0.2126f * 0.25f + 0.7152f * 0.1f);
     expect("auto", automatic);
     expect("auto-1", 0.5f * automatic);
-    const Outcome both =
-        prt({"relight", at("b.glb"), "--env", at("sun.json"), "-o", at("n.glb"), "--unlit", "--albedo"});
+    const Outcome both = prt({"relight", at("b.glb"), "--lights", at("sun.json"), "-o", at("n.glb"),
+                              "--colors", "unlit", "--colors", "albedo"});
     EXPECT_EQ(both.status, 2);
-    EXPECT_EQ(
-        prt({"relight", at("b.glb"), "--env", at("sun.json"), "-o", at("n.glb"), "--exposure", "1"}).status,
-        2);
+    EXPECT_EQ(prt({"relight", at("b.glb"), "--lights", at("sun.json"), "-o", at("n.glb"), "--exposure", "1"})
+                  .status,
+              2);
 }
 
 /// A sun of one texel is found in the image, and shadowed by rays or kept in the sky: on an open floor the
@@ -113,8 +113,8 @@ TEST_F(Relight, FindsSunsInImages) {
     Image sky{64, 32, std::vector<glm::vec3>(64 * 32, glm::vec3(0.2f))};
     sky.at(20, 3) = glm::vec3(400);
     write_exr(folder / "sky.exr", sky, EnvironmentLayout::lat_long);
-    const auto separate = relit({at("b.glb"), "--env", at("sky.exr"), "--suns", "1"}),
-               together = relit({at("b.glb"), "--env", at("sky.exr"), "--suns", "0"});
+    const auto separate = relit({at("b.glb"), "--lights", at("sky.exr"), "--suns", "1"}),
+               together = relit({at("b.glb"), "--lights", at("sky.exr"), "--suns", "0"});
     // The cosine's own bands beyond 4 are 1 % of it.
     for (std::size_t p = 0; p < separate.size(); ++p)
         EXPECT_NEAR(separate[p].x / together[p].x, 1, 0.03f);
@@ -132,12 +132,12 @@ TEST_F(Relight, ReportsUnsupportedInput) {
         EXPECT_NE(outcome.err.find(words), std::string::npos) << outcome.err;
         EXPECT_EQ(folder.files(), before);
     };
-    refused({at("s.glb"), "--env", at("sun.json")}, 1, "holds no transfer");
-    refused({at("b.glb"), "--env", at("sun.json"), "--suns", "17"}, 2, "17");
-    refused({at("b.glb"), "--env", at("sun.json"), "--sun-rays", "0"}, 2, "--sun-rays");
+    refused({at("s.glb"), "--lights", at("sun.json")}, 1, "holds no transfer");
+    refused({at("b.glb"), "--lights", at("sun.json"), "--suns", "17"}, 2, "17");
+    refused({at("b.glb"), "--lights", at("sun.json"), "--suns", "rays=0"}, 2, "rays=0");
     ASSERT_EQ(prt({"compress", at("b.glb"), "-o", at("w.glb"), "--combine-direct"}).status, 0);
-    refused({at("w.glb"), "--env", at("sun.json"), "--suns", "1"}, 1, "no separate direct term");
-    const Outcome merged = prt({"relight", at("w.glb"), "--env", at("sun.json"), "-o", at("lit.glb")});
+    refused({at("w.glb"), "--lights", at("sun.json"), "--suns", "1"}, 1, "no separate direct term");
+    const Outcome merged = prt({"relight", at("w.glb"), "--lights", at("sun.json"), "-o", at("lit.glb")});
     EXPECT_EQ(merged.status, 0);
     EXPECT_NE(merged.err.find("no direct light apart"), std::string::npos) << merged.err;
 }

@@ -43,7 +43,7 @@ protected:
     std::string at(const char* name) const { return (folder / name).string(); }
     Outcome render(std::vector<std::string> arguments) const {
         for (const char* a : {"--size", "64x32", "--camera", "0.7,1.5,0.001", "--look-at", "0.7,0,0", "--fov",
-                              "40", "--backend", backend})
+                              "40", "--device", backend})
             arguments.emplace_back(a);
         arguments.insert(arguments.begin(), "render");
         return prt(arguments);
@@ -73,7 +73,7 @@ TEST_F(RenderSuns, HaveSharpShadowsByRaysAndMaps) {
                                     {"b.glb", "gpu"},
                                     {"c.glb", "gpu"}}) {
         backend = by;
-        const Image image = rendered({at(model), "--env", at("sun.json")});
+        const Image image = rendered({at(model), "--lights", at("sun.json")});
         ASSERT_EQ(image.width, 64);
         const int edge = 32 + static_cast<int>(0.3 * 16 / (1.5 * std::tan(20 * std::numbers::pi / 180)));
         for (int x = 0; x < edge - 1; ++x)
@@ -84,18 +84,18 @@ TEST_F(RenderSuns, HaveSharpShadowsByRaysAndMaps) {
 }
 
 TEST_F(RenderSuns, LightCombinedTransferWithTheSky) {
-    const Image separate = rendered({at("b.glb"), "--env", at("sun.json")}),
-                together = rendered({at("b.glb"), "--env", at("sun.json"), "--suns", "0"});
+    const Image separate = rendered({at("b.glb"), "--lights", at("sun.json")}),
+                together = rendered({at("b.glb"), "--lights", at("sun.json"), "--suns", "0"});
     EXPECT_LT(separate.at(44, 16).g, 1e-6f);
     EXPECT_GT(together.at(44, 16).g, 0.005f); // order 4 blurs the shadow's edge
     for (const char* sky : {"sun.json", "sunny.exr"}) {
-        const Outcome outcome = render({at("w.glb"), "--env", at(sky), "-o", at("w.exr")});
+        const Outcome outcome = render({at("w.glb"), "--lights", at(sky), "-o", at("w.exr")});
         EXPECT_EQ(outcome.status, 0) << outcome.err;
         EXPECT_NE(outcome.err.find("has no separate direct term"), std::string::npos) << outcome.err;
-        const Image none = rendered({at("w.glb"), "--env", at(sky), "--suns", "0"});
+        const Image none = rendered({at("w.glb"), "--lights", at(sky), "--suns", "0"});
         EXPECT_EQ(load_environment(folder / "w.exr").environment.image.pixels, none.pixels) << sky;
     }
-    const Outcome none = render({at("w.glb"), "--env", at("plain.exr"), "-o", at("w.exr")});
+    const Outcome none = render({at("w.glb"), "--lights", at("plain.exr"), "-o", at("w.exr")});
     EXPECT_EQ(none.err.find("apart"), std::string::npos) << none.err; // no notice is needed
 }
 
@@ -106,23 +106,23 @@ TEST_F(RenderSuns, LightMediaThroughTransfer) {
                   .status,
               0);
     // Both without a window, because a window filters only the sky and not separate suns.
-    const Image separate = rendered({at("m.glb"), "--env", at("sun.json"), "--window", "none"}),
+    const Image separate = rendered({at("m.glb"), "--lights", at("sun.json"), "--window", "none"}),
                 together =
-                    rendered({at("m.glb"), "--env", at("sun.json"), "--suns", "0", "--window", "none"});
+                    rendered({at("m.glb"), "--lights", at("sun.json"), "--suns", "0", "--window", "none"});
     for (std::size_t i = 0; i < separate.pixels.size(); ++i)
         ASSERT_LT(glm::distance(separate.pixels[i], together.pixels[i]), 1e-4f);
 }
 
 /// A sky without suns is lit as it was before there were any.
 TEST_F(RenderSuns, DoNotChangePlainSkies) {
-    const Image found = rendered({at("c.glb"), "--env", at("plain.exr")}),
-                none = rendered({at("c.glb"), "--env", at("plain.exr"), "--suns", "0"});
+    const Image found = rendered({at("c.glb"), "--lights", at("plain.exr")}),
+                none = rendered({at("c.glb"), "--lights", at("plain.exr"), "--suns", "0"});
     EXPECT_EQ(found.pixels, none.pixels);
 }
 
 TEST_F(RenderSuns, AreReported) {
     const Outcome outcome = render(
-        {at("c.glb"), "--env", at("sunny.exr"), "-o", at("p.png"), "--json", at("r.json"), "--suns", "2"});
+        {at("c.glb"), "--lights", at("sunny.exr"), "-o", at("p.png"), "--json", at("r.json"), "--suns", "2"});
     EXPECT_EQ(outcome.status, 0) << outcome.err;
     EXPECT_EQ(report()["suns"], 1); // there is but one
     EXPECT_NE(outcome.out.find("1 suns apart"), std::string::npos) << outcome.out;
@@ -131,7 +131,7 @@ TEST_F(RenderSuns, AreReported) {
 /// If all light comes from a sun, the picture has the usual brightness.
 TEST_F(RenderSuns, CountForTheExposure) {
     const Outcome outcome =
-        render({at("s.glb"), "--env", at("sun.json"), "-o", at("p.png"), "--json", at("r.json")});
+        render({at("s.glb"), "--lights", at("sun.json"), "-o", at("p.png"), "--json", at("r.json")});
     EXPECT_EQ(outcome.status, 0) << outcome.err;
     // Some 0.7 of the picture at green 0.4: its luminance becomes 0.22.
     EXPECT_NEAR(report()["exposure_stops"].get<double>(), std::log2(0.22 / (0.7 * 0.4 * 0.7152)), 0.4);
@@ -176,19 +176,19 @@ TEST_F(RenderSuns, ReportUnsupportedInput) {
         EXPECT_NE(outcome.err.find(words), std::string::npos) << outcome.err;
         EXPECT_FALSE(std::filesystem::exists(folder / "no.png"));
     };
-    refused({at("w.glb"), "--env", at("sun.json"), "--suns", "1"}, 1, "no separate direct term");
+    refused({at("w.glb"), "--lights", at("sun.json"), "--suns", "1"}, 1, "no separate direct term");
     std::ifstream file(folder / "sun.json");
     nlohmann::json five = nlohmann::json::parse(file);
     five["suns"] = std::vector<nlohmann::json>(5, five["suns"][0]);
     folder.file("five.json", five.dump());
-    refused({at("b.glb"), "--env", at("five.json"), "--backend", "gpu"}, 1, "at most 4 suns, not 5");
+    refused({at("b.glb"), "--lights", at("five.json"), "--device", "gpu"}, 1, "at most 4 suns, not 5");
     ASSERT_EQ(prt({"bake", at("s.glb"), "-o", at("m.glb"), "--rays", "64", "--order", "4", "--subsurface",
                    "marble"})
                   .status,
               0);
-    refused({at("m.glb"), "--env", at("sunny.exr"), "--suns", "1", "--backend", "gpu"}, 1, "--subsurface");
-    refused({at("b.glb"), "--env", at("sunny.exr"), "--suns", "many"}, 2, "many");
-    refused({at("b.glb"), "--env", at("sunny.exr"), "--sun-rays", "0"}, 2, "--sun-rays");
+    refused({at("m.glb"), "--lights", at("sunny.exr"), "--suns", "1", "--device", "gpu"}, 1, "--subsurface");
+    refused({at("b.glb"), "--lights", at("sunny.exr"), "--suns", "many"}, 2, "many");
+    refused({at("b.glb"), "--lights", at("sunny.exr"), "--suns", "rays=0"}, 2, "rays=0");
 }
 
 } // namespace

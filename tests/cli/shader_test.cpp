@@ -59,8 +59,8 @@ INSTANTIATE_TEST_SUITE_P(
     Weights, Shader,
     testing::Values(std::vector<std::string>{}, std::vector<std::string>{"--preset", "u64"},
                     std::vector<std::string>{"--clusters", "1", "--bits", "200"},
-                    std::vector<std::string>{"--weights", "float", "--clusters", "1"},
-                    std::vector<std::string>{"--weights", "float", "--clusters", "2", "--components", "0"}));
+                    std::vector<std::string>{"--bits", "float", "--clusters", "1"},
+                    std::vector<std::string>{"--bits", "float", "--clusters", "2", "--components", "0"}));
 
 TEST_P(Shader, CompilesInEveryLanguage) {
     for (const std::string language : {"glsl450", "glsl330", "essl300", "vulkan"})
@@ -92,14 +92,15 @@ TEST_P(Shader, CompilesInEveryLanguage) {
 TEST_P(Shader, ConstantsAreComputedByComputeShaders) {
     for (const std::string language : {"glsl450", "vulkan"}) {
         const Outcome outcome =
-            prt({"shader", at("c.glb"), "-o", at("s.comp"), "--compute", "--language", language});
+            prt({"shader", at("c.glb"), "-o", at("s.comp"), "--stage", "compute", "--language", language});
         ASSERT_EQ(outcome.status, 0) << outcome.err;
         if (language == "vulkan")
             compiles_for_vulkan("s.comp", "comp");
         else
             succeeds(PRT_GLSLANG, {"-S", "comp", at("s.comp")});
     }
-    EXPECT_EQ(prt({"shader", at("c.glb"), "-o", at("s.comp"), "--compute", "--language", "essl300"}).status,
+    EXPECT_EQ(prt({"shader", at("c.glb"), "-o", at("s.comp"), "--stage", "compute", "--language", "essl300"})
+                  .status,
               1);
     EXPECT_EQ(prt({"shader", at("b.glb"), "-o", at("s.comp")}).status, 1);
 }
@@ -110,7 +111,7 @@ TEST_F(VolumeShader, HasOneLookupForEveryLanguage) {
     std::mt19937 random(1);
     for (const int order : {2, 3, 4}) {
         with_volume(triangle_file(), random_volume(order, false, random)).write(folder / "v.glb");
-        const Outcome outcome = prt({"shader", at("v.glb"), "-o", at("v.glsl"), "--volume"});
+        const Outcome outcome = prt({"shader", at("v.glb"), "-o", at("v.glsl"), "--stage", "volume"});
         ASSERT_EQ(outcome.status, 0) << outcome.err;
         EXPECT_NE(outcome.out.find("RGBA16F"), std::string::npos) << outcome.out;
         // the file contains only a volume
@@ -145,8 +146,8 @@ TEST_F(VolumeShader, ComputesLightInComputeShaders) {
     std::mt19937 random(2);
     for (const bool alike : {false, true}) {
         with_volume(triangle_file(), random_volume(3, alike, random)).write(folder / "v.glb");
-        const std::vector<std::string> command = {"shader",   at("v.glb"), "-o",        at("v.comp"),
-                                                  "--volume", "--compute", "--language"};
+        const std::vector<std::string> command = {"shader",  at("v.glb"),      "-o",        at("v.comp"),
+                                                  "--stage", "volume-compute", "--language"};
         const auto in = [&](const std::string& language) {
             std::vector<std::string> arguments = command;
             arguments.push_back(language);
@@ -159,7 +160,7 @@ TEST_F(VolumeShader, ComputesLightInComputeShaders) {
         EXPECT_EQ(in("essl300").status, 1);
     }
     triangle_file().write(folder / "t.glb");
-    const Outcome outcome = prt({"shader", at("t.glb"), "-o", at("v.glsl"), "--volume"});
+    const Outcome outcome = prt({"shader", at("t.glb"), "-o", at("v.glsl"), "--stage", "volume"});
     EXPECT_EQ(outcome.status, 1);
     EXPECT_NE(outcome.err.find("no compressed volume"), std::string::npos) << outcome.err;
 }

@@ -61,7 +61,7 @@ TEST_F(TransferTerms, AreCompressedForLightsWithSeparateSuns) {
     const Scene scene = extract_scene(baked);
     const Transfer reference = read_transfer(baked, scene)->transfer;
     const auto error_of = [&](std::vector<std::string> options, const Lighting& lighting) {
-        options.insert(options.begin(), {"compress", at("b.glb"), "-o", at("c.glb"), "--weights", "float",
+        options.insert(options.begin(), {"compress", at("b.glb"), "-o", at("c.glb"), "--bits", "float",
                                          "--clusters", "3", "--components", "2"});
         EXPECT_EQ(prt(options).status, 0);
         const GltfDocument coded = load_gltf(folder / "c.glb");
@@ -72,7 +72,7 @@ TEST_F(TransferTerms, AreCompressedForLightsWithSeparateSuns) {
     const Light suns = as_light(sun, 3);
     for (const Lighting& lighting : {Lighting{sky, suns}, Lighting{sum(sky, suns)}})
         EXPECT_LT(error_of({"--lights", at("light.json")}, lighting),
-                  1.05 * error_of({"--metric", "natural"}, lighting));
+                  1.05 * error_of({"--lights", "natural"}, lighting));
 }
 
 TEST_F(TransferTerms, AreCombinedOnRequest) {

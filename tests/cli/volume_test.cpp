@@ -40,8 +40,8 @@ TEST_F(Volumes, WorkInAllCommands) {
     const nlohmann::json baked_figures = read_json(folder / "bake.json")["volume"];
     EXPECT_GT(baked_figures["probes"], 400);
     EXPECT_EQ(validator_errors(folder / "baked.glb"), 0);
-    ASSERT_EQ(prt({"compress", at("baked.glb"), "-o", at("shipped.glb"), "--volume-bytes", "8",
-                   "--volume-clusters", "2", "--json", at("compress.json")})
+    ASSERT_EQ(prt({"compress", at("baked.glb"), "-o", at("shipped.glb"), "--volume", "bytes=8", "--json",
+                   at("compress.json")})
                   .status,
               0);
     const nlohmann::json compressed = read_json(folder / "compress.json")["volume"];
@@ -64,8 +64,8 @@ TEST_F(Volumes, WorkInAllCommands) {
     const Outcome info = prt({"info", at("shipped.glb")});
     EXPECT_EQ(info.status, 0);
     EXPECT_NE(info.out.find("volume: "), std::string::npos) << info.out;
-    const Outcome evaluation = prt({"evaluate", at("baked.glb"), at("shipped.glb"), "--volume", "--lights",
-                                    at("sky.exr"), "--json", at("errors.json")});
+    const Outcome evaluation = prt({"evaluate", at("baked.glb"), at("shipped.glb"), "--measure", "volume",
+                                    "--lights", at("sky.exr"), "--json", at("errors.json")});
     ASSERT_EQ(evaluation.status, 0) << evaluation.err;
     const nlohmann::json errors = read_json(folder / "errors.json")["volume_errors"];
     ASSERT_EQ(errors.size(), 5u); // rows of both files, and of other engines' data at these probes
@@ -81,7 +81,7 @@ TEST_F(Volumes, WorkInAllCommands) {
 }
 
 TEST_F(Volumes, AreRemovedByASecondBake) {
-    ASSERT_EQ(bake({"--volume-probes", "400"}).status, 0);
+    ASSERT_EQ(bake({"--volume", "probes=400"}).status, 0);
     EXPECT_TRUE(read_volume(load_gltf(folder / "baked.glb"), extract_scene(load_gltf(folder / "baked.glb"))));
     ASSERT_EQ(prt({"bake", at("baked.glb"), "-o", at("again.glb"), "--rays", "8"}).status, 0);
     const GltfDocument again = load_gltf(folder / "again.glb");
@@ -89,7 +89,7 @@ TEST_F(Volumes, AreRemovedByASecondBake) {
 }
 
 TEST_F(Volumes, CombineWithLightmaps) {
-    ASSERT_EQ(bake({"--volume", "2", "--size", "64", "--unwrap"}).status, 0);
+    ASSERT_EQ(bake({"--volume", "2", "--texels", "64", "--texels", "unwrap"}).status, 0);
     ASSERT_EQ(
         prt({"compress", at("baked.glb"), "-o", at("shipped.glb"), "--clusters", "4", "--bits", "24"}).status,
         0);
@@ -101,15 +101,15 @@ TEST_F(Volumes, CombineWithLightmaps) {
 TEST_F(Volumes, RejectInvalidOptions) {
     expect_refused(bake({"--volume", "1e-3"}), "use smaller bounds");
     expect_refused(bake({"--volume", "1e-7"}), "below the precision of positions");
-    expect_refused(bake({"--volume-order", "2"}), "say --volume");
-    expect_refused(bake({"--volume", "1", "--volume-bounds", "1,1,1,0,0,0"}), "two corners");
+    expect_refused(bake({"--volume", "order=2"}), "--volume needs a distance");
+    expect_refused(bake({"--volume", "1", "--volume", "bounds=1,1,1,0,0,0"}), "two corners");
     expect_refused(bake({"--volume", "0.05", "--memory-limit", "40MB"}), "memory");
-    expect_refused(bake({"--volume-probes", "100000000", "--memory-limit", "500MB"}), "memory");
+    expect_refused(bake({"--volume", "probes=100000000", "--memory-limit", "500MB"}), "memory");
     EXPECT_NE(bake({"--volume", "1e18"}).status, 0);
     EXPECT_NE(bake({"--volume", "-1"}).status, 0);
     EXPECT_NE(bake({"--volume", "nan"}).status, 0);
-    EXPECT_NE(bake({"--volume", "1", "--volume-bounds", "0,0,0,1,1"}).status, 0);
-    EXPECT_NE(bake({"--volume", "1", "--volume-bounds", "0,0,0,1,nan,1"}).status, 0);
+    EXPECT_NE(bake({"--volume", "1", "--volume", "bounds=0,0,0,1,1"}).status, 0);
+    EXPECT_NE(bake({"--volume", "1", "--volume", "bounds=0,0,0,1,nan,1"}).status, 0);
 }
 
 /// Writes the textures of a volume's shader lookup, one after the other: visibility distances, index, and the

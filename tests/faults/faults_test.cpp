@@ -56,17 +56,17 @@ protected:
 
     static std::vector<Command> commands() {
         return {{{"bake", "scene.glb", "-o", "baked.glb", "--order", "2", "--rays", "4", "--bounces", "1",
-                  "--backend", "cpu", "--json", "bake.json"},
+                  "--device", "cpu", "--json", "bake.json"},
                  {"scene.glb"},
                  {"baked.glb", "bake.json"}},
                 {{"compress", "baked.glb", "-o", "shipped.glb", "--trace", "trace.jsonl"},
                  {"baked.glb"},
                  {"shipped.glb", "trace.jsonl"}},
-                {{"evaluate", "baked.glb", "shipped.glb", "--html", "page.html", "--json", "evaluate.json"},
+                {{"evaluate", "baked.glb", "shipped.glb", "--report", "page.html", "--json", "evaluate.json"},
                  {"baked.glb", "shipped.glb"},
                  {"page.html", "evaluate.json"}},
-                {{"render", "shipped.glb", "--env", "light.json", "-o", "picture.exr", "--size", "16x8",
-                  "--backend", "cpu", "--json", "render.json"},
+                {{"render", "shipped.glb", "--lights", "light.json", "-o", "picture.exr", "--size", "16x8",
+                  "--device", "cpu", "--json", "render.json"},
                  {"shipped.glb", "light.json"},
                  {"picture.exr", "render.json"}}};
     }

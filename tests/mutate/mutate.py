@@ -33,19 +33,19 @@ LIGHT = {"prtkit_light": 1, "order": 3, "coefficients": {channel: [3] + [0.1] * 
 
 # Commands for each kind of file: {file} is the changed one, {baked} and {shipped} are the original files.
 SCENE = [["info", "{file}"],
-         ["bake", "{file}", "-o", "out.glb", "--rays", "4", "--order", "2", "--backend", "cpu"],
-         ["bake", "{file}", "-o", "out.glb", "--rays", "4", "--order", "2", "--backend", "cpu", "--bounces", "1"],
-         ["render", "{file}", "--env", "light.json", "-o", "out.exr", "--size", "16x8", "--samples", "1", "--backend", "cpu"]]
+         ["bake", "{file}", "-o", "out.glb", "--rays", "4", "--order", "2", "--device", "cpu"],
+         ["bake", "{file}", "-o", "out.glb", "--rays", "4", "--order", "2", "--device", "cpu", "--bounces", "1"],
+         ["render", "{file}", "--lights", "light.json", "-o", "out.exr", "--size", "16x8", "--samples", "1", "--device", "cpu"]]
 COMPRESS = ["compress", "{file}", "-o", "out.glb"]
 # Commands that copy the content of a file.
-AO = ["ao", "{file}", "-o", "out.glb", "--rays", "4", "--backend", "cpu"]
-PASS_ON = [AO, AO + ["--volume"], AO + ["--size", "32", "--unwrap"],
-           ["lobes", "{file}", "-o", "out.glb", "--rays", "4", "--poses", "1", "--frames", "1", "--backend", "cpu"]]
-RELIGHT = ["relight", "{file}", "--env", "light.json", "-o", "out.glb"]
+AO = ["ao", "{file}", "-o", "out.glb", "--rays", "4", "--device", "cpu"]
+PASS_ON = [AO, AO + ["--occluders"], AO + ["--texels", "32", "--texels", "unwrap"],
+           ["lobes", "{file}", "-o", "out.glb", "--rays", "4", "--poses", "1", "--poses", "frames=1", "--device", "cpu"]]
+RELIGHT = ["relight", "{file}", "--lights", "light.json", "-o", "out.glb"]
 MAKE = ["make", "{file}", "-o", "out.glb", "--lights", "light.json", "--max-error", "0.5", "--seconds", "0.1", "--best-effort"]
 SCENE += [["info", "{file}", "--check"], MAKE] + PASS_ON
 BAKED = SCENE[:2] + SCENE[3:4] + PASS_ON + [RELIGHT] + [COMPRESS, COMPRESS + ["--meshopt"], COMPRESS + ["--reorder"],
-                                 COMPRESS + ["--weights", "float", "--preset", "custom", "--clusters", "3", "--components", "2"],
+                                 COMPRESS + ["--bits", "float", "--preset", "custom", "--clusters", "3", "--components", "2"],
                                  ["evaluate", "{file}", "{shipped}"]]
 SHIPPED = SCENE[:1] + SCENE[3:4] + PASS_ON + [["evaluate", "{baked}", "{file}"], ["shader", "{file}", "-o", "out.vert"],
                                               RELIGHT] + SCENE[1:2]
@@ -55,10 +55,10 @@ KEPT = SCENE[:1] + PASS_ON + SCENE[1:2]
 RAW_TEXELS = SCENE[:1] + SCENE[3:4] + PASS_ON + [COMPRESS, COMPRESS + ["--preset", "custom", "--clusters", "3", "--components", "2"],
                                       ["evaluate", "{file}", "{shipped}"]]
 TEXELS = SCENE[:1] + SCENE[3:4] + PASS_ON + [["evaluate", "{baked}", "{file}"], ["shader", "{file}", "-o", "out.comp"],
-                                  ["shader", "{file}", "-o", "out.frag", "--fragment"]] + SCENE[1:2]
-SHIPMENTS = [["--meshopt"], ["--preset", "custom", "--weights", "float", "--clusters", "2", "--components", "3"], ["--preset", "u64", "--reorder"],
+                                  ["shader", "{file}", "-o", "out.frag", "--stage", "fragment"]] + SCENE[1:2]
+SHIPMENTS = [["--meshopt"], ["--preset", "custom", "--bits", "float", "--clusters", "2", "--components", "3"], ["--preset", "u64", "--reorder"],
              ["--preset", "u32x4", "--predictors", "position"],
-             ["--preset", "custom", "--weights", "float", "--clusters", "2", "--components", "3", "--predictors", "position"]]
+             ["--preset", "custom", "--bits", "float", "--clusters", "2", "--components", "3", "--predictors", "position"]]
 
 
 class Bases:
@@ -68,7 +68,7 @@ class Bases:
         self.files = []
         for scene in scenes:
             baked = folder / f"{scene.stem}.baked.glb"
-            self.make(program, ["bake", scene, "-o", baked, "--rays", "16", "--order", "3", "--backend", "cpu", "--storage",
+            self.make(program, ["bake", scene, "-o", baked, "--rays", "16", "--order", "3", "--device", "cpu", "--storage",
                                 "float16" if len(self.files) % 2 else "float32"])
             shipped = [folder / f"{scene.stem}.{i}.glb" for i in range(len(SHIPMENTS))]
             for path, options in zip(shipped, SHIPMENTS):
@@ -81,9 +81,9 @@ class Bases:
 
     def add_kept(self, program, scene, folder):
         """Adds files with occlusion volumes and, for animated scenes, with lobes."""
-        for name, options in (("volume", ["ao", "--volume"]), ("lobes", ["lobes", "--poses", "1", "--frames", "0"])):
+        for name, options in (("volume", ["ao", "--occluders"]), ("lobes", ["lobes", "--poses", "1", "--poses", "frames=0"])):
             path = folder / f"{scene.stem}.{name}.glb"
-            done = subprocess.run([program, options[0], scene, "-o", path, *options[1:], "--rays", "4", "--backend", "cpu"], check=False,
+            done = subprocess.run([program, options[0], scene, "-o", path, *options[1:], "--rays", "4", "--device", "cpu"], check=False,
                                   env=ENVIRONMENT, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
             if done.returncode == 0:
                 self.files.append((path.read_bytes(), KEPT, {}))
@@ -91,7 +91,7 @@ class Bases:
     def add_lightmap(self, program, scene, folder):
         """Adds lightmap files if the materials of the scene support them."""
         names = {name: str(folder / f"{scene.stem}.texels.{name}.glb") for name in ("baked", "shipped")}
-        bake = [program, "bake", scene, "-o", names["baked"], "--size", "32", "--unwrap", "--rays", "4", "--order", "2", "--backend", "cpu"]
+        bake = [program, "bake", scene, "-o", names["baked"], "--texels", "32", "--texels", "unwrap", "--rays", "4", "--order", "2", "--device", "cpu"]
         if subprocess.run(bake, check=False, env=ENVIRONMENT, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL).returncode != 0:
             return
         self.make(program, ["compress", names["baked"], "-o", names["shipped"], "--preset", "u64"])

@@ -1,6 +1,6 @@
-// Measures error at equal bytes and at equal shader operations: the methods of `prt evaluate --sweep`, and
-// two methods of research: a moving basis (Silvennoinen and Sloan 2021) and residual vector quantisation
-// (Chen, Guan and Wang 2010).
+// Measures error at equal bytes and at equal shader operations: the methods of `prt evaluate --measure
+// sweep`, and two methods of research: a moving basis (Silvennoinen and Sloan 2021) and residual vector
+// quantisation (Chen, Guan and Wang 2010).
 //      compression_study BAKED.glb [--lights SKY]... [--json FILE]
 
 #include "moving_basis_candidates.h"

@@ -105,10 +105,10 @@ async function render(page, file, angle, { position, target, fieldOfView }, { sk
   const json = join(work, "reference.json");
   const exposure = await page.evaluate(() => Math.log2(globalThis.prtkitPicture.renderer.toneMappingExposure));
   const run = (stops) =>
-    execFileSync(prt, ["render", join(distFolder, file), "--env", sky, "-o", output, "--json", json, "--backend", "cpu",
+    execFileSync(prt, ["render", join(distFolder, file), "--lights", sky, "-o", output, "--json", json, "--device", "cpu",
       "--rotate", String(angle), "--size", `${width}x${height}`, "--samples", "3", "--camera", position.join(","),
       "--look-at", target.join(","), "--window", window, "--fov", String(fieldOfView), "--exposure", stops,
-      "--suns", suns, "--sun-rays", "64"], { stdio: "ignore" });
+      "--suns", suns, "--suns", "rays=64"], { stdio: "ignore" });
   run("auto");
   const metered = JSON.parse(readFileSync(json, "utf8")).exposure_stops;
   assert.ok(Math.abs(metered - exposure) < METERED, `the page meters ${exposure} stops, prt ${metered}`);
@@ -250,7 +250,7 @@ for (const [i, model] of poseless.filter(({ shares }) => !shares).entries())
       assert.equal(await page.evaluate(() => globalThis.prtkitPicture.canSeparateSuns), true);
       await matte(page);
       const lit = join(work, "lit.glb");
-      execFileSync(prt, ["relight", join(distFolder, file), "--env", join(distFolder, skies[0].light), "-o", lit, "--albedo",
+      execFileSync(prt, ["relight", join(distFolder, file), "--lights", join(distFolder, skies[0].light), "-o", lit, "--colors", "albedo",
         "--window", "auto", "--rotate", String(angle)], { stdio: "ignore" });
       const d = await radianceAgainst(page, vertexColors(lit));
       console.log(`  ${(100 * d.rms).toFixed(2)} % rms, means ${d.ratio.toFixed(4)} times, over ${(100 * d.even).toFixed(0)} % of the model`);
@@ -534,8 +534,8 @@ await check("lamps light like prt and can be dimmed", async (page, errors) => {
     const at = (suffix) => join(work, name + suffix);
     lampScene(at(".gltf"), lights);
     prtRun("bake", at(".gltf"), "-o", at(".baked.glb"), "--rays", "256", "--bounces", "1");
-    prtRun("compress", at(".baked.glb"), "-o", at(".glb"), "--weights", "float", "--clusters", "16", "--components", "16");
-    prtRun("relight", at(".glb"), "--env", warmSky, "--env-center", "x", "--suns", "0", "--window", "auto", "--albedo", "-o", at(".lit.glb"));
+    prtRun("compress", at(".baked.glb"), "-o", at(".glb"), "--bits", "float", "--clusters", "16", "--components", "16");
+    prtRun("relight", at(".glb"), "--lights", warmSky, "--env-layout", "lat-long-x", "--suns", "0", "--window", "auto", "--colors", "albedo", "-o", at(".lit.glb"));
     return { file: at(".glb"), colors: vertexColors(at(".lit.glb")) };
   };
   const both = made("both", [bulb, red]);
@@ -583,7 +583,7 @@ await check("suns can be merged into the sky and separated again", async (page, 
 
 await check("a light file can be dropped with its sky or alone", async (page, errors) => {
   const lightFile = join(work, "warm.json");
-  execFileSync(prt, ["project", warmSky, "-o", lightFile, "--env-center", "x", "--suns", "0"], { stdio: "ignore" });
+  execFileSync(prt, ["project", warmSky, "-o", lightFile, "--env-layout", "lat-long-x", "--suns", "0"], { stdio: "ignore" });
   const light = JSON.parse(readFileSync(lightFile, "utf8"));
   const suns = [{ towards: [0.6, 0.64, 0.48], irradiance: [6, 5, 4], half_angle_radians: 0.005 }];
   writeFileSync(lightFile, JSON.stringify({ ...light, suns }));
@@ -851,7 +851,7 @@ await check("lightmaps of prt: the picture equals that of prt render", async (pa
       for (const name of Object.keys(primitives[0].attributes)) if (name.startsWith("_PRT")) delete primitives[0].attributes[name];
   }));
   const run = (...options) => execFileSync(prt, options, { stdio: "ignore" });
-  run("bake", scene, "-o", baked, "--rays", "256", "--bounces", "1", "--size", "128", "--unwrap");
+  run("bake", scene, "-o", baked, "--rays", "256", "--bounces", "1", "--texels", "128", "--texels", "unwrap");
   run("compress", baked, "-o", shipped);
   const view = { position: [1.5, 3, 5], target: [0, 0.4, 0], fieldOfView: 40 };
   await page.goto(url({ model: "knot", angle: 60, panel: 0, suns: 0 }));

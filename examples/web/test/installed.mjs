@@ -35,7 +35,7 @@ copyFileSync(join(distFolder, models[0].levels[1].file), served("model.glb"));
 copyFileSync(join(distFolder, skies[0].file), served("sky.exr"));
 writeFileSync(join(folder, "ball.gltf"), ballScene());
 run(prt, "bake", "ball.gltf", "-o", "ball.baked.glb", "--rays", "4096", "--bounces", "0");
-run(prt, "compress", "ball.baked.glb", "-o", served("ball.glb"), "--weights", "float", "--clusters", "16", "--components", "16");
+run(prt, "compress", "ball.baked.glb", "-o", served("ball.glb"), "--bits", "float", "--clusters", "16", "--components", "16");
 
 await build({ root: folder, base: "./", logLevel: "error", build: { chunkSizeWarningLimit: 2000 } });
 const built = await preview({ root: folder, preview: { port: 0, host: "127.0.0.1" }, logLevel: "error" });
@@ -85,7 +85,7 @@ await check("Vite build and development server: a worker projects, and the pictu
 await check("the picture equals that of prt render", async () => {
   const shown = await ask("likePrt", view);
   const output = join(folder, "prt.png");
-  run(prt, "render", served("model.glb"), "--env", served("sky.exr"), "-o", output, "--backend", "cpu", "--size", "320x180", "--samples", "3",
+  run(prt, "render", served("model.glb"), "--lights", served("sky.exr"), "-o", output, "--device", "cpu", "--size", "320x180", "--samples", "3",
     "--camera", view.position.join(), "--look-at", view.towards.join(), "--fov", "35", "--window", "auto", "--exposure", "-1", "--suns", "0");
   const expected = await page.evaluate(async (source) => {
     const image = new Image();

@@ -40,7 +40,7 @@ const levels = [
   { name: "u128", title: "fine", options: ["--clusters", "64", "--components", "16", "--bits", "122"] }, // four words with the cluster
 ];
 /** Options of a model close to the bake: the maximum number of components of a shader, without rounding. */
-const asBaked = ["--weights", "float", "--clusters", "16", "--components", "48", "--predictors", "none", "--seam-weight", "0"];
+const asBaked = ["--bits", "float", "--clusters", "16", "--components", "48", "--predictors", "none", "--seam-weight", "0"];
 const cameras = {
   room: { position: [1.2, 1.9, 4.2], target: [0, 1.8, -5], fieldOfView: 45 },
   tree: { position: [1.5, 1.7, 5.5], target: [0, 1.9, 0] },
@@ -64,7 +64,7 @@ const large = new Set(["courtyard", "forest"]); // fewer rays and one file, beca
  * clusters of its mesh.
  */
 const shared = {
-  forest: { bake: ["--instances", "shared", "--instance-error", "1"], level: { name: "u32", title: "small", options: ["--clusters", "48"] } },
+  forest: { bake: ["--instances", "shared", "--instances", "error=1"], level: { name: "u32", title: "small", options: ["--clusters", "48"] } },
 };
 /** Skinned models have no bake of one pose, but lobes for all poses of the animation shown. */
 const dancing = { figure: "dance" };
@@ -87,7 +87,7 @@ const models = scenes.map(({ name, file }, i) => {
     console.log(`baking ${name} (${i + 1} of ${scenes.length})`);
     const volume = walks[name] ? ["--volume", String(walks[name].spacing)] : [];
     const sharing = shared[name]?.bake ?? [];
-    run(prt, "bake", file, "-o", baked, "--bounces", "3", "--rays", String(count), "--lamp-rays", "32", ...volume, ...sharing);
+    run(prt, "bake", file, "-o", baked, "--bounces", "3", "--rays", String(count), "--lamps", "rays=32", ...volume, ...sharing);
   }
   console.log(`compressing ${name} (${i + 1} of ${scenes.length})`);
   const compressed = (suffix, options) => {
@@ -119,7 +119,7 @@ for (const [name, clip] of Object.entries(dancing)) {
   if (!names.includes(name)) continue;
   console.log(`fitting lobes to ${name}`);
   const file = `models/${name}.lobes.glb`;
-  run(prt, "lobes", join(work, `${name}.glb`), "-o", join(publicFolder, file), "--rays", rays, "--frames", "0");
+  run(prt, "lobes", join(work, `${name}.glb`), "-o", join(publicFolder, file), "--rays", rays, "--poses", "frames=0");
   const level = { title: "lobes", file, fileBytes: statSync(join(publicFolder, file)).size };
   models.push({ name, title: `${name}, dancing`, camera: cameras[name], clip, levels: [level] });
 }
@@ -128,11 +128,11 @@ const skyEntries = skies.map(({ title, file, center = "x" }) => {
   const to = `skies/${basename(file)}`;
   const light = `${to}.json`;
   copyFileSync(file, join(publicFolder, to));
-  run(prt, "project", file, "-o", join(publicFolder, light), "--suns", "auto", "--order", "10", "--env-center", center);
+  run(prt, "project", file, "-o", join(publicFolder, light), "--suns", "auto", "--order", "10", "--env-layout", center === "x" ? "lat-long-x" : "lat-long");
   return { title, file: to, center, light };
 });
 const figure = "models/figure.glb";
-run(prt, "ao", join(work, "figure.glb"), "-o", join(publicFolder, figure), "--volume");
+run(prt, "ao", join(work, "figure.glb"), "-o", join(publicFolder, figure), "--occluders");
 writeFileSync(manifest, JSON.stringify({ models, skies: skyEntries, figure }, null, 2));
 rmSync(work, { recursive: true });
 console.log(`${publicFolder}: models and skies are complete`);
