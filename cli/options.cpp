@@ -46,9 +46,13 @@ constexpr Choice<MapLayout> kLayouts[] = {
     {"lat-long-x",
      {EnvironmentLayout::lat_long, LatLongCenter::x},
      "the center looks along x, as in three.js, glTF viewers and Blender"},
-    {"cube", {EnvironmentLayout::cube}, "six faces in a cross or strip"},
-    {"cube-faces", {EnvironmentLayout::cube_faces}, "one of six files, named by face"},
-    {"angular", {EnvironmentLayout::angular}, "light probe, angular map"}};
+    {"cube",
+     {EnvironmentLayout::cube},
+     "six faces in a column, edge texels on the edges of the cube (OpenEXR)"},
+    {"cube-faces",
+     {EnvironmentLayout::cube_faces},
+     "six faces in a row or a cross (OpenGL, Vulkan, Direct3D)"},
+    {"angular", {EnvironmentLayout::angular}, "light probe: all directions in a circle (Debevec)"}};
 constexpr Choice<BadPixels> kBadPixels[] = {{"error", BadPixels::error, "stop"},
                                             {"zero", BadPixels::zero, "set them to 0"},
                                             {"clamp", BadPixels::clamp, "limit them to the valid range"}};

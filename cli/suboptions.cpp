@@ -16,7 +16,7 @@ Suboptions::Suboptions(std::string name, std::string value, std::string text, Ta
 
 Suboptions& Suboptions::key(const std::string& name, const std::string& value, const std::string& text,
                             Take take) {
-    details_ += fmt::format("\n,{}={}: {}", name, value, text);
+    details_ += fmt::format("\n{}{}={}: {}", value_.empty() ? "" : ",", name, value, text);
     listed_ += fmt::format("{}{}={}", listed_.empty() ? "" : ", ", name, value);
     settings_.push_back({name, true, std::move(take)});
     return *this;
@@ -45,7 +45,7 @@ Suboptions& Suboptions::whole_number(const std::string& name, int low, int high,
 }
 
 Suboptions& Suboptions::flag(const std::string& name, const std::string& text, std::function<void()> take) {
-    details_ += fmt::format("\n,{}: {}", name, text);
+    details_ += fmt::format("\n{}{}: {}", value_.empty() ? "" : ",", name, text);
     listed_ += (listed_.empty() ? "" : ", ") + name;
     settings_.push_back({name, false, [take = std::move(take)](const std::string&) { take(); }});
     return *this;

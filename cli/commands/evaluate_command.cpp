@@ -177,7 +177,7 @@ void add_evaluate(CLI::App& app, Session& session) {
     add_lights(command, a.lights, "lights under which errors are measured")
         ->default_str("uniform, overcast, sun");
     add_light_options(command, a.light_options);
-    add_suns(command, a.suns, "suns in the images; also measures light without their direct term", "auto");
+    add_suns(command, a.suns, "suns in the images; light without them is also measured", "auto");
     command->add_option("--rotations", a.rotations, "number of rotations of each light about +Y")
         ->capture_default_str()
         ->check(CLI::Range(1, 64));

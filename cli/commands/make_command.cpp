@@ -37,9 +37,8 @@ void run(MakeArguments a, Session& session) {
 } // namespace
 
 void add_make(CLI::App& app, Session& session) {
-    CLI::App* command = app.add_subcommand(
-        "make",
-        "Bake and compress a scene; chooses order, rays, bounces, mesh and bytes for an error or a size");
+    CLI::App* command =
+        app.add_subcommand("make", "Bake and compress a scene with the fewest bytes for an error");
     auto options_of_lights = std::make_shared<std::vector<const CLI::Option*>>();
     auto& a = arguments_for<MakeArguments>(command, [&session, options_of_lights](MakeArguments given) {
         for (const CLI::Option* option : *options_of_lights)

@@ -123,8 +123,7 @@ void add_project(CLI::App& app, Session& session) {
         command, [&session](const ProjectArguments& given) { run(given, session); });
     command
         ->add_option("environment", a.environment,
-                     "environment map, .exr, .hdr, .png or .jpg; with {face} in its name six files px, nx, "
-                     "py, ny, pz, nz")
+                     "environment (.exr, .hdr, .png, .jpg); {face}: px, nx, py, ny, pz, nz")
         ->required()
         ->check(named);
     add_output(command, a.output, "light to write, .json");

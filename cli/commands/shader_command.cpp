@@ -209,7 +209,7 @@ void add_shader(CLI::App& app, Session& session) {
     choice(command, "--language", a.language, kLanguages, "shading language", "glsl450");
     choice(command, "--constants", a.constants, kConstants, "storage of the constants",
            "buffer if the language has it");
-    choice(command, "--stage", a.stage, kStages, "which shader to write", "vertex");
+    choice(command, "--stage", a.stage, kStages, "shader to write", "vertex")->type_name("STAGE");
     add_reading(command, a.reading);
 }
 
