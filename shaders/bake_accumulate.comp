@@ -67,9 +67,9 @@ float total[PRT_MAX_COEFFICIENTS];
     if (m < kOrder) {                                                                                                  \
         float before = 0.0, legendre = 0.0;                                                                            \
         PRT_BANDS_FROM(m, PRT_ADD_BAND)                                                                                \
-        float rotated = d.x * cosine - d.y * sine;                                                                      \
+        float rotated = d.x * cosine - d.y * sine;                                                                     \
         sine = d.x * sine + d.y * cosine;                                                                              \
-        cosine = rotated;                                                                                               \
+        cosine = rotated;                                                                                              \
     }
 
 // Adds weight times the basis to `total`, or weight times the clamped cosine lobe.

@@ -19,7 +19,8 @@ const float kNoLines = 3.0, kFullLines = 8.0; // size of a texel in pixels
 void main() {
     vec2 position = lightmap_texcoord * vec2(textureSize(lightmap, 0)); // borders are at integers
     vec2 texels_a_sample =
-        max(vec2(length(vec2(dFdx(position.x), dFdy(position.x))), length(vec2(dFdx(position.y), dFdy(position.y)))), vec2(1e-9));
+        max(vec2(length(vec2(dFdx(position.x), dFdy(position.x))), length(vec2(dFdx(position.y), dFdy(position.y)))),
+            vec2(1e-9));
     vec2 to_border = abs(fract(position - 0.5) - 0.5) / texels_a_sample; // in samples
     vec2 cover = clamp(0.5 + 0.5 * samples - to_border, 0.0, 1.0);
     cover *= smoothstep(kNoLines, kFullLines, 1.0 / (texels_a_sample * samples));
