@@ -109,7 +109,8 @@ SharedMeshes meshes_to_share(const InstanceArguments& arguments, const GltfDocum
     if (!must && (other_light || !pays(arguments, meshes, scene)))
         return {};
     if (must && meshes.meshes.empty())
-        throw Error("no mesh is drawn twice by nodes that turn, move and scale it evenly: nothing is shared");
+        throw Error("no mesh is drawn twice by nodes with rotation, translation and uniform scale: no "
+                    "transfer can be shared");
     if (meshes.mirrored + meshes.uneven + meshes.bent > 0)
         print_notices(
             "instances",

@@ -47,7 +47,7 @@ TexelRoom unwrapped(const TexelArguments& a, const Path& path, GltfDocument& doc
         atlas.uv_set = set;
     print_notices(
         path.string(),
-        {fmt::format("TEXCOORD_{} has {} now, {:.4g} texels a metre", set,
+        {fmt::format("TEXCOORD_{} has {} now, {:.4g} texels per metre", set,
                      unwrapping.charts == 1 ? "one chart" : fmt::format("{} charts", unwrapping.charts),
                      unwrapping.texels_per_metre)});
     return {std::move(unwrapping.atlases),

@@ -142,7 +142,7 @@ Report bake_vertices(const AoArguments& a, GltfDocument& document, const Scene& 
     report.sentences = {
         fmt::format("{{output}}: occlusion of {{receivers}} vertices in {}, {{rays_per_receiver}} rays "
                     "each, on {{device}}",
-                    a.attribute == "COLOR_0" ? "COLOR_0, times the colors that are there" : a.attribute),
+                    a.attribute == "COLOR_0" ? "COLOR_0, multiplied by the existing colors" : a.attribute),
         s.fit.samples > 0 ? "fitted to the surface between vertices" : "measured at vertices"};
     add_notices(report, notices_of_black(a, black_share(result.ambient_visibility.ambient, areas)));
     return report;
@@ -190,13 +190,13 @@ Report bake_textures(const AoArguments& a, GltfDocument& document, const Scene& 
                          {"rays_per_second", static_cast<double>(result.rays) / result.seconds},
                          {"device", result.device},
                          {"maps", maps}});
-    report.sentences = {
-        "{output}: occlusion of {texels} texels in {textures} textures, up to {rays_per_texel} rays each, on "
-        "{device}; {rays_per_second:.2fM} million rays/s"};
+    report.sentences = {"{output}: occlusion of {texels} texels in {textures:#texture}, up to "
+                        "{rays_per_texel} rays per texel, on "
+                        "{device}; {rays_per_second:.2fM} million rays/s"};
     for (std::size_t i = 0; i < maps.size(); ++i)
         report.sentences.push_back(fmt::format(
-            "texture {0}: {{maps/{0}/width}} x {{maps/{0}/height}}, jumps across seams of "
-            "{{maps/{0}/seam_before_rms:.3f}} are now {{maps/{0}/seam_rms:.4f}}, root mean square",
+            "texture {0}: {{maps/{0}/width}} x {{maps/{0}/height}}, jumps across seams (root mean square): "
+            "{{maps/{0}/seam_before_rms:.3f}} before, {{maps/{0}/seam_rms:.4f}} after filtering",
             i));
     add_notices(report, result.notices);
     return report;
@@ -311,7 +311,7 @@ void add_ao(CLI::App& app, Session& session) {
     command->add_option("--rays", a.rays, "rays per vertex, texel or occluder point")
         ->check(CLI::Range(1, kMaxRays))
         ->default_str("1024; --occluders: 256");
-    add_fit(command, a.options.fit, "where the occlusion of vertices is measured");
+    add_fit(command, a.options.fit, "points at which the occlusion of vertices is measured");
     add_no_shadow(command, a.no_shadow);
     add_back_sides(command, a.back_sides);
     add_device(command, a.options.tracer);

@@ -116,8 +116,8 @@ MediumChoice parse_medium(const std::string& text) {
         !all_in(a * kPerMillimetre, 0, kMaxCoefficient))
         throw CLI::ValidationError("--subsurface",
                                    "'" + medium + "' is neither one of " + names +
-                                       "nor six coefficients sr,sg,sb,ar,ag,ab in 1/mm, scattering "
-                                       "from 1e-12 and none above 1e6");
+                                       "nor six coefficients sr,sg,sb,ar,ag,ab in 1/mm (scattering "
+                                       "at least 1e-12, all at most 1e6)");
     s *= kPerMillimetre;
     a *= kPerMillimetre;
     return choice;
@@ -178,7 +178,7 @@ void add_lamps(CLI::App* command, LampOptions& lamps) {
 void add_method(CLI::App* command, BakeOptions& options) {
     choice(command, "--denoise", options.repairs.denoise, kDenoise, "noise filter", "on");
     add_device(command, options.tracer);
-    add_fit(command, options.fit, "where light is measured");
+    add_fit(command, options.fit, "points at which light is measured");
     Suboptions("--method", names_of(kBakeMethods), "how visibility is computed",
                [&options](const std::string& name) {
                    options.tracer.method = chosen("--method", kBakeMethods, name);
@@ -349,8 +349,9 @@ void run_instances(const BakeArguments& a, const SharedMeshes& meshes, GltfDocum
         return bake_shared(a.instances, {document, scene, a.no_shadow}, meshes, a.options, bar.progress());
     });
     if (!baked.document) {
-        print_notices("instances", {fmt::format("all {} would err by more than {:.3g} %: each is baked alone",
-                                                baked.baked_alone, 100 * a.instances.error)});
+        print_notices("instances",
+                      {fmt::format("all {} have an error above {:.3g} %: each is baked separately",
+                                   baked.baked_alone, 100 * a.instances.error)});
         run_vertices(a, document, scene, session);
         return;
     }

@@ -288,8 +288,8 @@ Bake bake_of_surfaces(GltfDocument document, const Scene& scene, const Path& pat
     std::optional<StoredBake> stored = read_stored_transfer(document, levels ? levels->scene : scene);
     if (!stored)
         throw Error(path.string() + (scene_file_of(std::move(document), path).compressed
-                                         ? ": is compressed already; compress the bake it came from"
-                                         : ": holds no transfer; run prt bake first"));
+                                         ? ": is already compressed; compress its bake"
+                                         : ": contains no transfer; run prt bake first"));
     discard_transfer(document); // it is in `stored`, and would use memory twice
     Bake bake{std::move(document), std::move(*stored)};
     bake.levels = levels.has_value();
@@ -390,7 +390,7 @@ Outcome run_compressor(const CompressArguments& a, const TransferView& transfer,
         return {compress(transfer, surface, o, bar.progress()), {}, {}};
     SearchResult found = compress_within(transfer, surface, options, bar.progress());
     if (!found.kept && !a.best_effort) {
-        throw Error(a.baked.string() + ": nothing keeps the budget; the nearest has " +
+        throw Error(a.baked.string() + ": no result meets the goal; the closest has " +
                     in_words(found.result.statistics, transfer.receivers()) + "; " +
                     in_words(promises_of(options.budget, found.best)) + " (--best-effort writes it)");
     }
@@ -465,7 +465,7 @@ auto readable(const CompressArguments& a, Read&& read) {
     try {
         return read();
     } catch (const Error& error) {
-        throw Error(a.baked.string() + ": cannot be compressed, nobody could read " + error.what());
+        throw Error(a.baked.string() + ": cannot be compressed: a reader would reject " + error.what());
     }
 }
 
@@ -581,9 +581,10 @@ std::vector<std::string> sentences(const CompressArguments& a, bool fitted) {
             fmt::format("the mesh is small: {} fitted to it, so that bases do not outweigh weights",
                         a.options.compress.coding.format == WeightFormat::packed ? "clusters and bits are"
                                                                                  : "clusters are"));
-    list.emplace_back("expected error of the lit surface (lit_rms) {lit_rms:.3f%}, of the transfer (relative "
-                      "L2) {relative_l2:.3f%}; between clusters it jumps by at most "
-                      "{jump_across_clusters:.2f%} of what is seen in 99 % of places, on average over skies");
+    list.emplace_back(
+        "expected error of the lit surface (lit_rms) {lit_rms:.3f%}, of the transfer (relative "
+        "L2) {relative_l2:.3f%}; jumps between clusters are at most "
+        "{jump_across_clusters:.2f%} of the visible radiance on 99 % of the borders, on average over skies");
     list.emplace_back(
         "{bytes_bound_per_vertex} bytes per vertex to bind ({bits_used_per_vertex} bits in use), "
         "{bytes_bound_per_vertex_with_bases:.2f} with the bases; uncompressed "
@@ -613,14 +614,13 @@ Report report_of(const CompressArguments& a, const SearchOptions& options, const
     report.sentences = sentences(a, a.preset && !outcome.trials.empty());
     if (s.sky_contrast > 0) {
         add_figures(report, {{"sky_contrast", s.sky_contrast}});
-        report.sentences.emplace_back(
-            "light of skies differs by {sky_contrast:.2%} of what is seen (contrast error, "
-            "root mean square)");
+        report.sentences.emplace_back("contrast error of the light of skies: {sky_contrast:.2%} ("
+                                      "root mean square)");
     }
     if (s.lamp_contrast > 0) {
         add_figures(report, {{"lamp_contrast", s.lamp_contrast}});
-        report.sentences.emplace_back("light of each lamp alone differs by {lamp_contrast:.2%} of what is "
-                                      "seen (contrast error, root mean square)");
+        report.sentences.emplace_back("contrast error of each lamp alone: {lamp_contrast:.2%} (root mean "
+                                      "square)");
     }
     if (outcome.best)
         add_promises(options, *outcome.best, covers, report);
@@ -638,7 +638,8 @@ void add_levels_and_instances(const Bake& bake, const TransferView& transfer, co
 /// Checks the options for texels: a pass over a map has no normals, and its words are packed.
 void choose_for_texels(const CompressArguments& a, SearchOptions& options) {
     if (a.predictors_given && options.compress.predictors != PredictorChoice::none)
-        throw Error("--predictors: texels know neither normals nor positions; leave it out, or say none");
+        throw Error("--predictors does not support lightmaps: texels have no normals and positions; use "
+                    "--predictors none");
     if (options.compress.coding.format != WeightFormat::packed)
         throw Error("--bits float does not support lightmaps: weights of texels are integers");
     if (a.writing.reorder)

@@ -87,9 +87,9 @@ void add_sizes_of_bake(const EvaluateArguments& a, const Transfer& transfer, Rep
 std::vector<Path> check(const EvaluateArguments& a) {
     if (a.shipped.empty() && !a.measures.sweep && !a.measures.budget && !a.measures.volume)
         throw CLI::ValidationError(
-            "evaluate", "compares two files: prt evaluate BAKED.glb SHIPPED.glb; or measures what the "
-                        "compressor makes of one: prt evaluate BAKED.glb --measure sweep; or where the error "
-                        "of a picture comes from: prt evaluate BAKED.glb [SHIPPED.glb] --measure budget");
+            "evaluate",
+            "a second file or --measure is missing; examples: prt evaluate BAKED.glb SHIPPED.glb; prt "
+            "evaluate BAKED.glb --measure sweep; prt evaluate BAKED.glb --measure budget");
     if (a.measures.budget && a.rotations != 1)
         throw CLI::ValidationError("--rotations", "cannot be combined with --measure budget; use --rotate");
     std::vector<Path> inputs = a.lights;
@@ -117,7 +117,8 @@ void run(EvaluateArguments a, Session& session) {
     a.reading.outputs = check(a);
     SceneFile baked = load_scene_file(a.baked, a.reading);
     if (!baked.baked)
-        throw Error(a.baked.string() + ": holds no raw transfer; the first file is the output of prt bake");
+        throw Error(a.baked.string() +
+                    ": contains no raw transfer; the first file must be the output of prt bake");
     const std::vector<SplitLight> lights = lights_of(a, baked.baked->transfer.layout.order);
     Report report = empty_report(a, session);
     if (!a.shipped.empty())

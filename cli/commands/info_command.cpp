@@ -38,7 +38,7 @@ std::string record_sentence(const std::string& key, const BakeRecord& record) {
                        raster ? "depth maps" : "rays", record.backend == Backend::cpu ? "CPU" : "GPU",
                        counted(key + "/rays_per_receiver", static_cast<std::size_t>(record.rays),
                                raster ? "direction" : "ray"),
-                       record.fitted ? " over the surface round it" : "",
+                       record.fitted ? " over the surface around it" : "",
                        record.endless
                            ? "all bounces"
                            : counted(key + "/bounces", static_cast<std::size_t>(record.bounces), "bounce"),
@@ -90,7 +90,7 @@ void add_predictors(const ClusteredBases& bases, const std::string& own, Report&
     if (bases.predictors.empty())
         return;
     report.sentences.push_back(fmt::format("predictors: {0}: {{{1}predictor_rows}} rows in each cluster and "
-                                           "no byte of a vertex; the shader adds "
+                                           "no bytes per vertex; the shader does "
                                            "{{{1}predictor_rows}} multiply-adds of a color",
                                            fmt::join(predictor_names(bases), " and "), own));
 }

@@ -158,8 +158,7 @@ void run(LobesArguments a, Session& session) {
         const std::vector<ModelPose> poses = poses_of(model, a.poses, a.animation);
         if (!moves(model, poses))
             print_notices(a.model.string(),
-                          {"no vertex of it moves in these poses: prt bake holds the light of "
-                           "what stands still better"});
+                          {"no vertex moves in these poses; use prt bake for a model that does not move"});
         const Made made = make_lobes(a, model, poses, session);
         report = report_of(a, made, poses.size());
         measure_frames(a, model, made, session, report);

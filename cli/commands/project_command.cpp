@@ -69,10 +69,11 @@ void report_suns(const SunSplit& split, Report& report) {
             sun.towards.x, sun.towards.y, sun.towards.z, sun.irradiance.r, sun.irradiance.g, sun.irradiance.b,
             degrees_across(sun), 100 * sun.energy_share));
     report.sentences.emplace_back(
-        split.suns.empty() ? "no sun is separate; the error of light in shadows is {error_without_suns:.1f%}"
-                           : "the coefficients hold the other {remainder_energy_share:.1f%}; light in "
-                             "shadows errs by {error_with_suns:.1f%}, by {error_without_suns:.1f%} "
-                             "without suns apart");
+        split.suns.empty()
+            ? "no sun is separate; the error of light in shadows is {error_without_suns:.1f%}"
+            : "the coefficients contain the other {remainder_energy_share:.1f%}; the error of light "
+              "in shadows is {error_with_suns:.1f%}, and {error_without_suns:.1f%} without "
+              "separate suns");
     add_figures(report, {{"suns", suns_json(split.suns)},
                          {"remainder_energy_share", split.remainder_share},
                          {"error_without_suns", split.error_without},

@@ -86,7 +86,7 @@ bool is_together(const SceneFile& model) {
 
 void check_model(const RelightArguments& a, const SceneFile& model) {
     if (!model.record())
-        throw Error(a.model.string() + ": holds no transfer; run prt bake first");
+        throw Error(a.model.string() + ": contains no transfer; run prt bake first");
     check_of_vertices(model, a.model, "relight writes vertex colors; use prt render");
     if (a.environment.empty() && layout_of(model).lamps() == 0)
         throw Error(a.model.string() + ": has no lamps; light it with --lights");
@@ -154,7 +154,7 @@ Report report_of(const RelightArguments& a, std::size_t suns, std::span<const gl
                          {"suns", suns},
                          {"mean_radiance", {mean.r, mean.g, mean.b}}});
     report.sentences = {
-        fmt::format("{{output}}: radiance of {{receivers}} vertices{}, {{suns}} separate suns, mean "
+        fmt::format("{{output}}: radiance of {{receivers}} vertices{}, {{suns:#separate sun}}, mean "
                     "{{mean_radiance/0:.4g}} {{mean_radiance/1:.4g}} {{mean_radiance/2:.4g}}",
                     a.colors == ColorKind::albedo ? "" : " for albedo 1"),
         "{bytes_file} bytes on disk; {seconds:.2f} s"};

@@ -209,7 +209,8 @@ std::vector<glm::vec3> colors_to_show(const RenderArguments& a, const SceneFile&
             break;
         SceneFile baked = load_scene_file(a.baked, a.reading);
         if (!baked.baked)
-            throw Error(a.baked.string() + ": holds no raw transfer; --baked is the output of prt bake");
+            throw Error(a.baked.string() +
+                        ": contains no raw transfer; --baked must be the output of prt bake");
         check_belong_together(baked, a.baked, model, a.model);
         about(a.model, [&] { put_in_order_of(model.scene, baked); });
         if (model.lightmap)
@@ -396,7 +397,7 @@ Report report_of(const RenderArguments& a, const Picture& picture, const Rendere
                          {"look_at_metres", {target.x, target.y, target.z}}});
     std::string sentence = "{output}: {width_pixels} x {height_pixels}, {seconds:.3f} s, {renderer}";
     if (!picture.suns.empty())
-        sentence += picture.suns.size() == 1 ? ", {suns} separate sun" : ", {suns} separate suns";
+        sentence += ", {suns:#separate sun}";
     if (rendered.noise)
         sentence += add_traced(a, rendered, report);
     if (rendered.exposure) {

@@ -93,7 +93,7 @@ void write_lightmap_shader(const ShaderArguments& a, const ClusteredTransfer& tr
 void write_volume_shader(const ShaderArguments& a, const SceneFile& model, Session& session) {
     if (!model.compressed_volume)
         throw Error(a.model.string() +
-                    ": holds no compressed volume; run prt bake --volume and prt compress first");
+                    ": contains no compressed volume; run prt bake --volume and prt compress first");
     const CompressedVolume& volume = *model.compressed_volume;
     session.write(a.output, a.computes()
                                 ? volume_shader(volume, a.language)
@@ -104,7 +104,7 @@ void write_volume_shader(const ShaderArguments& a, const SceneFile& model, Sessi
                       printable(a.output.string()),
                       a.computes() ? fmt::format("a compute shader, {} x {} x {} groups", atlas.bricks.x,
                                                  atlas.bricks.y, atlas.bricks.z)
-                                   : "functions to put behind the version line of a shader",
+                                   : "functions, to be inserted after the version line of a shader",
                       texels.x, texels.y, texels.z));
 }
 
@@ -116,7 +116,7 @@ void write_occluder_shader(const ShaderArguments& a, const SceneFile& model, Ses
             : "";
     session.write(a.output, lookup + shader_part("prt_occluders.glsl", ""));
     print(fmt::format(
-        "{}: functions to put behind the version line of a shader; {}, lists of up to {} objects\n",
+        "{}: functions, to be inserted after the version line of a shader; {}, lists of up to {} objects\n",
         printable(a.output.string()),
         model.compressed_volume ? "light by the volume of the file"
                                 : "no light, as the file has no compressed volume",
@@ -126,7 +126,7 @@ void write_occluder_shader(const ShaderArguments& a, const SceneFile& model, Ses
 /// Writes lobe transfer that rotates with a skin, after the lookup of the volume that lights it.
 void write_lobe_shader(const ShaderArguments& a, const SceneFile& model, Session& session) {
     if (!model.lobes)
-        throw Error(a.model.string() + ": holds no lobes; run prt lobes first");
+        throw Error(a.model.string() + ": contains no lobes; run prt lobes first");
     const LobeModel& lobes = model.lobes->model;
     const std::string lookup =
         model.compressed_volume
@@ -134,7 +134,7 @@ void write_lobe_shader(const ShaderArguments& a, const SceneFile& model, Session
             : "";
     session.write(a.output, lobe_functions(lobes, lookup));
     print(fmt::format(
-        "{}: functions to put behind the version line of a shader; {} of _PRT_LOBE_0 on, profiles in "
+        "{}: functions, to be inserted after the version line of a shader; {} of _PRT_LOBE_0 on, profiles in "
         "a uniform block of {} bytes{}\n",
         printable(a.output.string()),
         lobes.lobes == 1 ? "one attribute" : fmt::format("{} attributes", lobes.lobes),
@@ -172,14 +172,14 @@ void run(ShaderArguments a, Session& session) {
     const std::optional<CompressedTransfer>& compressed =
         model.instanced ? model.instanced->compressed : model.compressed;
     if (!compressed)
-        throw Error(a.model.string() + ": holds no compressed transfer; run prt compress first");
+        throw Error(a.model.string() + ": contains no compressed transfer; run prt compress first");
     const ClusteredTransfer& transfer = compressed->transfer;
     if (a.stage == Stage::instances)
         return write_instance_shader(a, model, session);
     const ConstantSource constants = a.constants.value_or(constants_for(a.language));
     if (a.stage == Stage::fragment && !model.lightmap)
         throw Error(a.model.string() +
-                    ": holds no lightmap, which --stage fragment needs; bake with --texels");
+                    ": contains no lightmap, which --stage fragment needs; bake with --texels");
     if (model.lightmap && !a.computes())
         return write_lightmap_shader(a, transfer, constants, session);
     const std::string source = a.computes()
@@ -191,7 +191,7 @@ void run(ShaderArguments a, Session& session) {
     print(fmt::format("{}: {} clusters, {} rows of constants{}\n", printable(a.output.string()),
                       transfer.bases.clusters(), constant_rows(transfer.bases),
                       clusters_are_alike(transfer.bases) && !a.computes()
-                          ? "; all clusters are divided alike: no loop, no table of clusters"
+                          ? "; all clusters have the same layout: no loop, no table of clusters"
                           : ""));
     if (!a.computes())
         print("to bind (kind, location or binding, name, type, content; - by name):\n" +

@@ -33,7 +33,7 @@ TEST_F(OccluderCommand, WritesVolumesAndReportsTheirError) {
     ASSERT_EQ(prt({"bake", at("out.glb"), "-o", at("baked.glb"), "--rays", "8", "--order", "2"}).status, 0);
     EXPECT_EQ(read_occluders(load_gltf(folder / "baked.glb")).size(), figures["objects"]);
     const Outcome info = prt({"info", at("baked.glb")});
-    EXPECT_NE(info.out.find("block around them"), std::string::npos) << info.out;
+    EXPECT_NE(info.out.find("have an occlusion volume"), std::string::npos) << info.out;
 }
 
 TEST_F(OccluderCommand, RejectsSurfaceOptions) {

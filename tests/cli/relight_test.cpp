@@ -139,7 +139,7 @@ TEST_F(Relight, ReportsUnsupportedInput) {
     refused({at("w.glb"), "--lights", at("sun.json"), "--suns", "1"}, 1, "no separate direct term");
     const Outcome merged = prt({"relight", at("w.glb"), "--lights", at("sun.json"), "-o", at("lit.glb")});
     EXPECT_EQ(merged.status, 0);
-    EXPECT_NE(merged.err.find("no direct light apart"), std::string::npos) << merged.err;
+    EXPECT_NE(merged.err.find("no separate direct"), std::string::npos) << merged.err;
 }
 
 } // namespace

@@ -96,7 +96,7 @@ TEST_F(RenderSuns, LightCombinedTransferWithTheSky) {
         EXPECT_EQ(load_environment(folder / "w.exr").environment.image.pixels, none.pixels) << sky;
     }
     const Outcome none = render({at("w.glb"), "--lights", at("plain.exr"), "-o", at("w.exr")});
-    EXPECT_EQ(none.err.find("apart"), std::string::npos) << none.err; // no notice is needed
+    EXPECT_EQ(none.err.find("separate direct"), std::string::npos) << none.err; // no notice is needed
 }
 
 /// If the whole floor is marble, the sun and its shadow come only through transfer.
@@ -125,7 +125,7 @@ TEST_F(RenderSuns, AreReported) {
         {at("c.glb"), "--lights", at("sunny.exr"), "-o", at("p.png"), "--json", at("r.json"), "--suns", "2"});
     EXPECT_EQ(outcome.status, 0) << outcome.err;
     EXPECT_EQ(report()["suns"], 1); // there is but one
-    EXPECT_NE(outcome.out.find("1 suns apart"), std::string::npos) << outcome.out;
+    EXPECT_NE(outcome.out.find("1 separate sun"), std::string::npos) << outcome.out;
 }
 
 /// If all light comes from a sun, the picture has the usual brightness.
