@@ -293,13 +293,12 @@ public:
         const Lighting lighting = judged(light);
         Lighting drawn = lighting;
         drawn.sky = deringed(drawn.sky);
-        const std::span<const SunDisc> suns =
-            separate_suns(light) ? light.split.suns : std::span<const SunDisc>();
+        const std::span<const Sun> suns = separate_suns(light) ? light.split.suns : std::span<const Sun>();
         const auto before = wanted_under(drawn);
         const float exposure =
             exposure_of(before, sun_radiance(scene, suns, {.rays = 16, .threads = a_.threads}));
         const auto add = [&](std::string title, std::span<const glm::vec3> colors, float exposed,
-                             std::span<const SunDisc> by = {}) {
+                             std::span<const Sun> by = {}) {
             report.pictures.push_back({std::move(title), picture(scene, colors, by, exposed)});
         };
         add("Before: the bake, under " + light.sky.name, before, exposure, suns);
@@ -430,7 +429,7 @@ private:
 
     /// A PNG.
     std::vector<std::byte> picture(const TraceScene& scene, std::span<const glm::vec3> colors,
-                                   std::span<const SunDisc> suns, float exposure) const {
+                                   std::span<const Sun> suns, float exposure) const {
         constexpr int kWidth = 720, kHeight = 450, kSamples = 2;
         Picture picture;
         picture.scene = &model_.scene;

@@ -15,7 +15,7 @@ std::vector<SplitLight> default_lights(int order) {
     const auto sky = [](std::string name, Light light) {
         return SplitLight{{std::move(name), light, {}}, {}, light};
     };
-    const SunDisc sun{glm::normalize(glm::vec3(0.5f, 1, 0.7f)), glm::vec3(1)};
+    const Sun sun{glm::normalize(glm::vec3(0.5f, 1, 0.7f)), glm::vec3(1)};
     SplitLight sunny = sky("sun", constant_light(order, glm::vec3(0)));
     sunny.split.suns = {sun};
     sunny.whole = as_light(sun, order);

@@ -62,7 +62,7 @@ SplitLight rotated(SplitLight light, double angle) {
     light.sky.environment.reset();
     light.sky.light = rotated_about_y(light.sky.light, angle);
     light.whole = rotated_about_y(light.whole, angle);
-    for (SunDisc& sun : light.split.suns)
+    for (Sun& sun : light.split.suns)
         sun.towards = glm::vec3(glm::rotate(glm::dmat4(1), angle, glm::dvec3(0, 1, 0)) *
                                 glm::dvec4(glm::dvec3(sun.towards), 0));
     return light;

@@ -81,10 +81,10 @@ void scale(BandRadiance& radiance, float factor) {
 }
 
 /// Direct light of suns at a point.
-glm::vec3 sun_light(const TraceScene& scene, const SurfaceHit& hit, std::span<const SunDisc> suns) {
+glm::vec3 sun_light(const TraceScene& scene, const SurfaceHit& hit, std::span<const Sun> suns) {
     constexpr int kSunRays = 64;
     glm::vec3 sum(0);
-    for (const SunDisc& sun : suns) {
+    for (const Sun& sun : suns) {
         const DiscDirections disc(sun.towards, sun.half_angle, kSunRays);
         const double share = share_of_disc(scene, hit.side.origin(), hit.side.normal, disc, 0,
                                            [](int) { return std::numeric_limits<float>::infinity(); });

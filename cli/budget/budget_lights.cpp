@@ -30,10 +30,10 @@ Image drawn(const Light& light) {
 }
 
 /// Returns suns for path tracing: a wide sun becomes several ones, evenly distributed over its disc.
-std::vector<Sun> as_seen_by_rays(std::span<const SunDisc> discs) {
+std::vector<Sun> as_seen_by_rays(std::span<const Sun> discs) {
     constexpr int kParts = 16;
     std::vector<Sun> suns;
-    for (const SunDisc& disc : discs) {
+    for (const Sun& disc : discs) {
         const int terms = disc.half_angle > 0 ? kParts : 1;
         for (int i = 0; i < terms; ++i) { // on a spiral (docs/math.md, eq. 41)
             const double radius = disc.half_angle * std::sqrt((i + 0.5) / terms),

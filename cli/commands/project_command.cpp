@@ -37,7 +37,7 @@ const char* layout_name(EnvironmentLayout layout) {
     return "lat-long";
 }
 
-double degrees_across(const SunDisc& sun) {
+double degrees_across(const Sun& sun) {
     return 2 * glm::degrees(sun.half_angle);
 }
 
@@ -50,30 +50,34 @@ Json light_json(const Light& light) {
     return {{"prtkit_light", 1}, {"order", light.order}, {"coefficients", channels}};
 }
 
-Json suns_json(const std::vector<SunDisc>& suns) {
+Json suns_json(const SunSplit& split) {
     Json list = Json::array();
-    for (const SunDisc& sun : suns)
+    for (std::size_t i = 0; i < split.suns.size(); ++i) {
+        const Sun& sun = split.suns[i];
         list.push_back({{"towards", {sun.towards.x, sun.towards.y, sun.towards.z}},
                         {"irradiance", {sun.irradiance.r, sun.irradiance.g, sun.irradiance.b}},
                         {"half_angle_radians", sun.half_angle},
                         {"angular_size_degrees", degrees_across(sun)},
-                        {"energy_share", sun.energy_share}});
+                        {"energy_share", split.energy_shares[i]}});
+    }
     return list;
 }
 
 void report_suns(const SunSplit& split, Report& report) {
-    for (const SunDisc& sun : split.suns)
+    for (std::size_t i = 0; i < split.suns.size(); ++i) {
+        const Sun& sun = split.suns[i];
         report.sentences.push_back(fmt::format(
             "sun towards {:.4f} {:.4f} {:.4f}, irradiance {:.4g} {:.4g} {:.4g}, {:.2f} degrees across: "
             "{:.1f} % of the energy",
             sun.towards.x, sun.towards.y, sun.towards.z, sun.irradiance.r, sun.irradiance.g, sun.irradiance.b,
-            degrees_across(sun), 100 * sun.energy_share));
+            degrees_across(sun), 100 * split.energy_shares[i]));
+    }
     report.sentences.emplace_back(
         split.suns.empty() ? "no sun stands apart; light in shadows errs by {error_without_suns:.1f%}"
                            : "the coefficients hold the other {remainder_energy_share:.1f%}; light in "
                              "shadows errs by {error_with_suns:.1f%}, by {error_without_suns:.1f%} "
                              "without suns apart");
-    add_figures(report, {{"suns", suns_json(split.suns)},
+    add_figures(report, {{"suns", suns_json(split)},
                          {"remainder_energy_share", split.remainder_share},
                          {"error_without_suns", split.error_without},
                          {"error_with_suns", split.error_with}});
@@ -92,7 +96,7 @@ void run(const ProjectArguments& a, Session& session) {
     const double seconds = stopwatch.seconds();
     Json file = light_json(loaded.light);
     if (separate)
-        file["suns"] = suns_json(split.suns);
+        file["suns"] = suns_json(split);
     session.write(a.output, json_text(file));
 
     const glm::vec3 mean = loaded.light.coefficients[0] * static_cast<float>(kY00);

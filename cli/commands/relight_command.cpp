@@ -67,7 +67,7 @@ std::vector<glm::vec3> lit_by_transfer(const Lighting& lighting, int threads, Sc
 }
 
 /// Direct light of suns, by rays.
-void add_suns(const TraceScene& scene, std::span<const SunDisc> suns, const SunRays& rays,
+void add_suns(const TraceScene& scene, std::span<const Sun> suns, const SunRays& rays,
               const Progress& progress, std::vector<glm::vec3>& radiance) {
     const std::vector<glm::vec3> direct = sun_radiance(scene, suns, rays, progress);
     for (std::size_t p = 0; p < radiance.size(); ++p)

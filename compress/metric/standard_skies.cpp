@@ -5,7 +5,7 @@
 
 #include "prt/sh.h"
 #include "prt/sky.h"
-#include "prt/sun_disc.h"
+#include "prt/sun.h"
 #include "tuning.h"
 
 #include <glm/trigonometric.hpp>

@@ -2,7 +2,7 @@
 
 // Light of suns alone with sharp shadows: a renderer adds it to the light of transfer with shadow maps.
 
-#include "prt/sun_disc.h"
+#include "prt/sun.h"
 #include "prt/support/progress.h"
 #include "prt/trace_scene.h"
 
@@ -23,7 +23,7 @@ struct SunRays {
 /// Computes exit radiance for albedo 1 of every vertex of `scene` under `suns`, shadowed by rays, without
 /// bounces: [receivers]. Thin sheets transmit it as in `direct` transfer, to which it is added. `solid`
 /// surfaces, whose light comes out of a medium, get zero. Throws `Cancelled` when asked to stop.
-std::vector<glm::vec3> sun_radiance(const TraceScene& scene, std::span<const SunDisc> suns,
+std::vector<glm::vec3> sun_radiance(const TraceScene& scene, std::span<const Sun> suns,
                                     const SunRays& options = {}, const Progress& progress = {});
 
 } // namespace prt

@@ -5,7 +5,7 @@
 
 #include "prt/dering.h"
 #include "prt/distant_light.h"
-#include "prt/sun_disc.h"
+#include "prt/sun.h"
 #include "prt/surface_points.h"
 #include "prt/transfer_layout.h"
 
@@ -21,7 +21,7 @@ struct ReferenceLight {
     DistantLight all;                ///< lights everything that is lit after a bounce
     std::optional<DistantLight> sky; ///< lights surfaces directly if `suns` are left to the renderer;
                                      ///< otherwise `all`
-    std::vector<SunDisc> suns;       ///< suns that the renderer adds with sharp shadows
+    std::vector<Sun> suns;           ///< suns that the renderer adds with sharp shadows
     Light sky_bands, sun_bands;      ///< of order kMaxOrder: light without `suns`, and light of the suns
 
     /// Light that paths use at the first surface.
