@@ -2,7 +2,7 @@
 
 #include "compress_metric.h"
 
-#include "split_light.h"
+#include "loaded_light.h"
 
 #include <fmt/core.h>
 
@@ -117,9 +117,9 @@ std::vector<Lighting> given_lights(const MetricArguments& arguments, const Trans
     for (const Path& path : arguments.lights) {
         Lighting lighting =
             layout.distant_terms().size() < 2
-                ? Lighting{load_light(path, layout.order, arguments.light_options, threads).light}
+                ? Lighting{load_light(path, layout.order, {0}, arguments.light_options, threads).sky}
                 : lighting_of(
-                      load_split_light(path, layout.order, {std::nullopt}, arguments.light_options, threads));
+                      load_light(path, layout.order, {std::nullopt}, arguments.light_options, threads));
         lighting.name = path.filename().string();
         lights.push_back(std::move(lighting));
     }

@@ -2,6 +2,7 @@
 
 #include "fallback.h"
 
+#include "loaded_light.h"
 #include "prt/encode_glb.h"
 #include "prt/fallback.h"
 #include "prt/levels.h"
@@ -16,8 +17,8 @@ std::optional<Fallback> load_fallback(const Path& light, int order, const LightO
                                       int threads) {
     if (light.empty())
         return std::nullopt;
-    LoadedLight loaded = load_light(light, order, options, threads);
-    return Fallback{{.sky = std::move(loaded.light), .name = std::move(loaded.name)}};
+    LoadedLight loaded = load_light(light, order, {0}, options, threads);
+    return Fallback{{.sky = std::move(loaded.sky), .name = std::move(loaded.name)}};
 }
 
 std::vector<std::byte> with_fallback(std::span<const std::byte> file, const Path& path, Fallback& fallback,

@@ -121,6 +121,17 @@ double noise_of(const SurfacePoints& points, const std::array<std::vector<PointS
 
 } // namespace
 
+BandFactors ReferenceLight::factors(int order) const {
+    return dering_factors(truncated(sky_bands, order));
+}
+
+Lighting ReferenceLight::lighting(int order, const BandFactors& factors) const {
+    Lighting lighting{.sky = with_band_factors(truncated(sky_bands, order), factors), .name = name};
+    if (!suns.empty())
+        lighting.suns = truncated(sun_bands, order);
+    return lighting;
+}
+
 SurfaceRadiance::SurfaceRadiance(const TraceScene& scene, const SurfacePoints& points,
                                  const ReferenceLight& light, const SurfaceRadianceOptions& options,
                                  const Progress& progress) {

@@ -2,12 +2,12 @@
 
 #include "commands/commands.h"
 
+#include "loaded_light.h"
 #include "options.h"
 #include "outputs.h"
 #include "prt/light_file.h"
 #include "prt/support/error.h"
 #include "prt/support/stopwatch.h"
-#include "split_light.h"
 
 #include <fmt/core.h>
 #include <glm/trigonometric.hpp>
@@ -90,16 +90,15 @@ void run(const ProjectArguments& a, Session& session) {
     if (separate && suffix_of(a.environment) == ".json")
         throw Error(a.environment.string() + ": is a light file, and suns are found in images");
     const Stopwatch stopwatch;
-    const SplitLight light = load_split_light(a.environment, a.order, a.suns, a.light_options, a.threads);
-    const LoadedLight& loaded = light.sky;
+    const LoadedLight light = load_light(a.environment, a.order, a.suns, a.light_options, a.threads);
     const SunSplit& split = light.split;
     const double seconds = stopwatch.seconds();
-    Json file = light_json(loaded.light);
+    Json file = light_json(light.sky);
     if (separate)
         file["suns"] = suns_json(split);
     session.write(a.output, json_text(file));
 
-    const glm::vec3 mean = loaded.light.coefficients[0] * static_cast<float>(kY00);
+    const glm::vec3 mean = light.sky.coefficients[0] * static_cast<float>(kY00);
     Report report;
     add_figures(report, {{"output", a.output.string()},
                          {"order", a.order},
@@ -109,10 +108,10 @@ void run(const ProjectArguments& a, Session& session) {
                         "{mean_radiance/2:.4g}"};
     if (separate)
         report_suns(split, report);
-    if (loaded.environment) {
-        add_figures(report, {{"layout", layout_name(loaded.environment->layout)},
-                             {"width_pixels", loaded.environment->image.width},
-                             {"height_pixels", loaded.environment->image.height}});
+    if (light.environment) {
+        add_figures(report, {{"layout", layout_name(light.environment->layout)},
+                             {"width_pixels", light.environment->image.width},
+                             {"height_pixels", light.environment->image.height}});
         report.sentences.emplace_back("from a {layout} image of {width_pixels} x {height_pixels}");
     }
     publish(report, a.json, session);

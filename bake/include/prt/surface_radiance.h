@@ -12,6 +12,7 @@
 #include <array>
 #include <cstdint>
 #include <optional>
+#include <string>
 #include <vector>
 
 namespace prt {
@@ -23,9 +24,16 @@ struct ReferenceLight {
                                      ///< otherwise `all`
     std::vector<Sun> suns;           ///< suns that the renderer adds with sharp shadows
     Light sky_bands, sun_bands;      ///< of order kMaxOrder: light without `suns`, and light of the suns
+    std::string name = {};           ///< for reports; may be empty
 
     /// Light that paths use at the first surface.
     const DistantLight& seen() const { return sky ? *sky : all; }
+    /// Returns the factors of `deringed` on the bands of the sky at this order.
+    BandFactors factors(int order) const;
+    /// Returns the lighting for transfer of this order, with `factors` on the bands of the sky. Suns are in
+    /// the sky unless they are separate.
+    Lighting lighting(int order, const BandFactors& factors) const;
+    Lighting lighting(int order) const { return lighting(order, factors(order)); }
 };
 
 /// Bounces stored separately; later ones share the last entry.
