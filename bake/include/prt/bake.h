@@ -89,7 +89,7 @@ struct BakeErrors {
         double of_scene = 0;
         bool known = false; ///< false if there are too few points or no light; `relative_l2` is then 0
     };
-    struct Lamp {
+    struct LampError {
         std::string name;
         Error error;
     };
@@ -106,7 +106,7 @@ struct BakeErrors {
     /// Errors that arise because back sides of two-sided surfaces show the values of front sides, where
     /// direct light of the sky or of lamps reaches the back.
     Error backs, backs_by_lamps;
-    std::vector<Lamp> each_lamp = {};
+    std::vector<LampError> each_lamp = {};
     std::vector<Node> nodes = {}; ///< in the order of their first primitives
 };
 
