@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Installs what is missing, builds the program, and takes the example scenes from glTF through bake, compress, pictures and
-# evaluate, all in out/: first the room, whose picture is the first to see. Then builds the rest: the viewer and its tour.
+# Installs missing packages, builds the program, and runs bake, compress, render and evaluate on the example scenes in out/;
+# the room is first. Then builds the viewer and runs its tour.
 set -euo pipefail
 cd "$(dirname "$0")"
 cmake/install_packages.sh
@@ -14,8 +14,8 @@ minutes() {
 }
 sky=out/scenes/sky.exr
 
-# name, bounces, preset of the compressor, options of the camera; the sky, the rays of a vertex and metres between
-# probes where they are others
+# Arguments: name, bounces, preset of the compressor, camera options. The variables sky, rays (per vertex) and volume
+# (metres between probes) override the defaults.
 road() {
     local name=$1 bounces=$2 preset=$3
     echo
@@ -23,7 +23,7 @@ road() {
     $prt compress "out/$name.baked.glb" -o "out/$name.shipped.glb" --preset "$preset"
     look_at "$name" "${@:4}"
 }
-# The same, as the program chooses to, for an error over the surface of 3 %.
+# Lets `prt make` choose all settings for an error of 3 % over the surface.
 made() {
     local name=$1
     echo
@@ -34,7 +34,7 @@ look_at() {
     local name=$1
     $prt render "out/$name.shipped.glb" --env "$sky" -o "out/$name.png" "${@:2}"
     [ -n "${first-}" ] || first="out/$name.png after $(minutes)"
-    $prt render "out/$name.shipped.glb" --env "$sky" --rotate 120 -o "out/$name.turned.png" "${@:2}"
+    $prt render "out/$name.shipped.glb" --env "$sky" --rotate 120 -o "out/$name.rotated.png" "${@:2}"
     $prt evaluate "out/$name.baked.glb" "out/$name.shipped.glb" --lights "$sky" ${budget:+--budget} --html "out/$name.html" --json "out/$name.json"
 }
 volume=0.5 road room inf u32 --camera 1.2,1.9,4.2 --look-at 0,1.8,-5 --fov 45
@@ -45,12 +45,12 @@ rays=256 sky=out/scenes/night.exr road night_room inf u64 --camera 0.6,1.7,2.6 -
 # The courtyard, 139 000 vertices: minutes on a few cores.
 rays=128 sky=out/scenes/noon.exr road courtyard inf u64 --camera 3.9,1.75,4.9 --look-at -1.3,2.75,-6 --fov 46
 echo
-# The room again, with its light in the texels of a map instead of at vertices.
+# The room again, with light in a lightmap instead of at vertices.
 $prt bake out/scenes/room.glb -o out/room.lightmap.baked.glb --size 256 --unwrap --bounces inf --rays 1024
 $prt compress out/room.lightmap.baked.glb -o out/room.lightmap.shipped.glb --preset u64
 $prt render out/room.lightmap.shipped.glb --env "$sky" -o out/room.lightmap.png --camera 1.2,1.9,4.2 --look-at 0,1.8,-5 --fov 45
 echo
-# A forest whose trees share the transfer of three, and a figure that shadows itself.
+# A forest whose trees share the transfer of three meshes, and a figure that shadows itself.
 build/release/examples/scenes/example_scenes out/scenes forest:200
 $prt bake out/scenes/forest.glb -o out/forest.baked.glb --instances shared --bounces inf --rays 512
 $prt compress out/forest.baked.glb -o out/forest.shipped.glb --clusters 64
@@ -68,6 +68,6 @@ rm out/tour.json
 echo
 $prt bench out/scenes/knot.glb --to 256 --most-seconds 2 --html out/bench.html
 echo
-echo "First picture: $first; everything: $(minutes)"
-echo "Pictures and reports are in out/: open out/*.png and out/*.html"
-echo "To look at them yourself: $viewer out/room.baked.glb out/room.shipped.glb out/scenes/sky.exr"
+echo "First picture: $first; total: $(minutes)"
+echo "Pictures and reports: out/*.png and out/*.html"
+echo "Interactive viewer: $viewer out/room.baked.glb out/room.shipped.glb out/scenes/sky.exr"

@@ -1,11 +1,11 @@
 #!/usr/bin/env bash
-# Tests prtkit. Installs what is missing first.
-#   ./test.sh          the gate, for every change: source checks, all unit tests under the address and
+# Tests prtkit. Installs missing packages first.
+#   ./test.sh          the gate before every merge: source checks, all unit tests under the address and
 #                      undefined-behaviour sanitizers, a short fuzz run, warnings of gcc, clang-tidy over changed files,
 #                      unit tests and three pictures of the web page, threads under the thread sanitizer
-#   ./test.sh all      everything, before a release and before a feature is declared done: also the optimised build with
+#   ./test.sh all      everything, before a release and at the end of a feature: also the optimised build with
 #                      the long tests, installed packages and fault injection, drivers with ray queries, mutated models,
-#                      clang-tidy and the thread sanitizer over everything, all of the web page in Chromium
+#                      clang-tidy and the thread sanitizer over everything, all tests of the web page in Chromium
 #   ./test.sh STEP...  single steps
 set -euo pipefail
 cd "$(dirname "$0")"
@@ -18,6 +18,7 @@ look() {
     git ls-files '*.sh' .ci/run | xargs shellcheck
     tests/checks/include_arrows.py .
     tests/checks/sizes.py .
+    tests/checks/words.py .
     tests/checks/checks_test.py
 }
 
@@ -25,26 +26,26 @@ sanitize() {
     build_and_test sanitize
 }
 
-# The same inputs every time, in the build of `sanitize`; docs/fuzzing.md says how to run more.
+# Uses the build of `sanitize` and the same inputs in every run; docs/fuzzing.md describes longer runs.
 fuzz() {
     build_and_test fuzz sanitize
 }
 
-# Models that are wrong in one place or a few, through the program; more damaged shipped files than the gate reads.
+# Runs the program on models with one or a few errors, and reads more damaged shipped files than the gate.
 mutated_models() {
     build_and_test mutated_models sanitize
     build/sanitize/tests/hostile_tests --gtest_brief=1
 }
 
-# gcc reads every source and builds none.
+# gcc checks every source without building it.
 warnings() {
     configure warnings
     ninja -C build/warnings -t targets all | sed -n 's/^\(.*\.o\): C\(XX\)\?_COMPILER.*/\1/p' |
         xargs ninja -C build/warnings --quiet
 }
 
-# Sources that changed since the branch left main; on main itself those of the six hours before
-# the last commit, which is more than one session lands.
+# Checks sources that changed since the branch left main; on main itself, sources that changed in the six hours
+# before the last commit.
 tidy() {
     local base
     base=$(git merge-base HEAD origin/main 2>/dev/null || true)
@@ -73,14 +74,14 @@ threads_all() {
 }
 
 optimised() {
-    install_page # for damaged files in the loader of the web page
-    tests/support/fetch_drivers.sh build/drivers || echo "test.sh: no driver with ray queries: tests of them are skipped"
+    install_page # the loader of the web page reads damaged files
+    tests/support/fetch_drivers.sh build/drivers || echo "test.sh: no driver with ray queries was found; their tests are skipped"
     build_and_test check
 }
 
 # Needs the build of `sanitize`.
 web() {
-    check_page sanitize knot 16 '^knot, (small|normal): |^knot: with suns apart|without transfer'
+    check_page sanitize knot 16 '^knot, (small|normal): |^knot: with separate suns|without transfer'
 }
 
 # Needs the build of `optimised`.
@@ -93,8 +94,8 @@ configure() {
     cmake --preset "$1" >/dev/null
 }
 
-# build_and_test PRESET [BUILD]: the targets and tests of a preset, in the build of that name or in BUILD. Lists tests that
-# were skipped.
+# build_and_test PRESET [BUILD]: builds the targets and runs the tests of a preset, in the build of that name or in BUILD.
+# Lists skipped tests.
 build_and_test() {
     local build=${2-$1}
     configure "$build"
@@ -114,8 +115,8 @@ run_tidy() {
     fi
 }
 
-# check_page BUILD SCENES RAYS CHECKS: lint, unit tests and types of the web page, and its pictures in Chromium against
-# those of prt.
+# check_page BUILD SCENES RAYS CHECKS: runs lint, unit tests and type checks of the web page, and compares its pictures in
+# Chromium with those of prt.
 check_page() (
     install_page
     npm --silent --prefix examples/web test
@@ -130,7 +131,7 @@ install_page() {
     npm --silent --prefix examples/web install --no-audit --no-fund --no-package-lock
 }
 
-# A table of the steps and their times, whether all passed or one failed.
+# Prints a table of the steps and their times, also after a failure.
 times=()
 current=
 begin=0
@@ -164,7 +165,7 @@ all) steps=("${all[@]}") ;;
 esac
 for step in "${steps[@]}"; do
     if [[ ! $step =~ ^[a-z_]+$ || " ${known[*]} " != *" $step "* ]]; then
-        echo "test.sh: there is no step '$step'; there are: ${known[*]}" >&2
+        echo "test.sh: unknown step '$step'; steps: ${known[*]}" >&2
         exit 2
     fi
 done

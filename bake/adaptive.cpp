@@ -87,8 +87,8 @@ private:
             rays_[p] = planned_[p] = kFirstRays;
             own[p] = 0.5 * squared_distance(light_.all.vector(p), second.vector(p));
             squares_.norm +=
-                area(p) * product(light_.all.vector(p), second.vector(p)); // the product contains the noise
-                                                                           // of neither
+                area(p) * product(light_.all.vector(p), second.vector(p)); // independent, so that
+                                                                           // their noise cancels
         }
         add_missed_light(second, own);
         for (const std::uint32_t p : indices_) {

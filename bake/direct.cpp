@@ -30,7 +30,7 @@ std::vector<std::uint32_t> trace_adaptively(const BakePlan& plan, Tracer& tracer
     direct.sampling_error = adaptive.error;
     if (!adaptive.reached)
         direct.notices.push_back(
-            fmt::format("the error to reach was not reached with {} rays per receiver", kMaxRays));
+            fmt::format("the target error was not reached with {} rays per receiver", kMaxRays));
     return std::move(adaptive.rays);
 }
 
@@ -40,7 +40,8 @@ void add_gather(const BakePlan& plan, Tracer& tracer, const LampConnections* lam
                                        direct.half ? &*direct.half : nullptr, progress);
     direct.rays += traced.rays;
     if (traced.gather.entries() == 0) {
-        direct.notices.push_back("no bounces: no ray from a receiver meets a surface that scatters");
+        direct.notices.push_back(
+            "bounces are skipped: no ray from a receiver hits a surface that reflects light diffusely");
         if (direct.half)
             direct.half->gather.reset();
         return;

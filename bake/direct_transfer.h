@@ -18,8 +18,8 @@ struct Measured {
     SealedIn sealed;
     std::optional<SurfaceFit> fit; ///< empty: light is measured at receivers
     SampledLight sky;              ///< direct light at the fit's samples
-    std::optional<SharedPositions> shared =
-        {}; ///< groups of receivers to average at the end; empty: a fit replaces them
+    /// Groups of receivers to average at the end; empty: a fit replaces them.
+    std::optional<SharedPositions> shared = {};
 };
 
 /// Measures light at the positions that `plan.options.fit` selects. Rays for this choice are counted in

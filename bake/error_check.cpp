@@ -147,8 +147,8 @@ void ErrorCheck::choose_points(Tracer& tracer, const Measured& measured, const s
     }
 }
 
-/// Adds back sides in nodes whose backs light reaches; nobody sees the others. Thin sheets that transmit
-/// light need both sides.
+/// Adds back sides in nodes whose backs light reaches; other back sides are never visible. Thin sheets that
+/// transmit light need both sides.
 void ErrorCheck::add_backs() {
     std::vector<Point*> two_sided;
     std::vector<std::uint32_t> triangles;

@@ -5,6 +5,7 @@
 
 #include "available_memory.h"
 #include "prt/sh_basis.h"
+#include "prt/support/counted.h"
 #include "prt/support/error.h"
 
 #include <fmt/core.h>
@@ -52,12 +53,12 @@ bool fits_memory(const BakePlan& plan, double more) {
 void check_memory(const BakePlan& plan, double more) {
     const double there = memory_there(plan.options), needed = memory_needed(plan) + more;
     if (there > 0 && needed > there)
-        throw Error(
-            fmt::format("the bake needs about {:.2g} GB of memory ({} receivers, order {}, {} rays{}), "
-                        "and {} {:.2g} GB",
-                        needed * 1e-9, plan.receivers().size(), plan.options.order, plan.options.rays,
-                        plan.bounces != 0 ? ", with bounces" : "",
-                        plan.options.memory.limit > 0 ? "the limit is" : "there are", there * 1e-9));
+        throw Error(fmt::format(
+            "the bake needs about {:.2g} GB of memory ({}, order {}, {}{}), "
+            "but {} {:.2g} GB; reduce the order or the number of rays",
+            needed * 1e-9, counted(plan.receivers().size(), "receiver"), plan.options.order,
+            counted(plan.options.rays, "ray"), plan.bounces != 0 ? ", with bounces" : "",
+            plan.options.memory.limit > 0 ? "the limit is" : "the machine has only", there * 1e-9));
 }
 
 } // namespace prt

@@ -57,10 +57,10 @@ void check_converged(const BakePlan& plan, const Propagated& lit, int bounces) {
         most = std::max(most, v);
     }
     if (!lit.converged || least < -1e-2f * most)
-        throw EndlessLampLight(
-            fmt::format("light of lamps grows without end in endless bounces: a closed room reflects all of "
-                        "it (base color 1: {}); lower these base colors, or limit the bounces (--bounces 8)",
-                        nodes_that_reflect_all(plan.scene.surfaces())));
+        throw EndlessLampLight(fmt::format(
+            "the light of lamps does not converge with endless bounces: a closed room reflects all "
+            "of it (base color 1: {}); use darker base colors or limit the bounces (--bounces 8)",
+            nodes_that_reflect_all(plan.scene.surfaces())));
 }
 
 /// Whether bounces process the color channels of lamps separately, one after the other.
@@ -139,7 +139,7 @@ SharpTransfer sharp_lamps_in_color(const BakePlan& plan, const Transfer& smooth,
     return {in_color(red.direct, green.direct, blue.direct), in_color(red.exit, green.exit, blue.exit)};
 }
 
-/// Adds `rows` to the operators, so that they gather the last bounce there, too.
+/// Adds `rows` to the operators, so that they also gather the last bounce at these receivers.
 TransportOperators with_rows(TransportOperators operators,
                              std::initializer_list<const GatherOperator*> rows) {
     for (const GatherOperator* one : rows)

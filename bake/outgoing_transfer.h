@@ -20,7 +20,8 @@ struct Beside {
 };
 
 /// Computes exit transfer of the scene's receivers in its terms: direct light, and all bounces with
-/// subsurface scattering. Moves the light out of `measured`. Propagated::beside holds the light at `points`.
+/// subsurface scattering. Moves the light out of `measured`. Member `beside` of the result is the light at
+/// `points`.
 Propagated propagate_all(const BakePlan& plan, Measured& measured, const TransportOperators& operators,
                          const Beside& beside, const Progress& progress);
 

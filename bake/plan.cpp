@@ -44,7 +44,7 @@ void check_medium(const Medium& medium, const std::string& material) {
               medium.absorption[c] >= 0 && medium.absorption[c] <= kMaxCoefficient))
             throw Error(
                 fmt::format("the medium of material '{}' scatters {:.3g} and absorbs {:.3g} per unit: "
-                            "they must lie in {:.0e}..{:.0e} and 0..{:.0e}",
+                            "scattering must be in {:.0e}..{:.0e}, absorption in 0..{:.0e}",
                             material, medium.scattering[c], medium.absorption[c], kMinScattering,
                             kMaxCoefficient, kMaxCoefficient));
 }
@@ -78,7 +78,7 @@ Media choose_media(const Scene& scene, const BakeOptions& options) {
                 found = true;
             }
         if (!found)
-            throw Error(fmt::format("no material is called '{}'", choice.material));
+            throw Error(fmt::format("no material has the name '{}'", choice.material));
     }
     for (std::size_t m = 0; m < media.size(); ++m)
         if (auto& medium = media[m]) {
@@ -101,8 +101,8 @@ std::vector<std::string> scene_notices(const TraceScene& scene, const BakeOption
     std::vector<std::string> notices;
     for (const auto& [image, encoding] : needed_images(scene.scene(), texture_needs(options)))
         if (scene.textures()[static_cast<std::size_t>(image)].levels.empty())
-            notices.push_back(fmt::format("image {} is missing or damaged: the factors of its materials are "
-                                          "used alone; emission with it is black",
+            notices.push_back(fmt::format("image {} is missing or damaged; its materials use their factors "
+                                          "without it, and emission with it is black",
                                           image));
     for (std::string& notice : material_notices(scene.scene(), options.bounces != 0))
         notices.push_back(std::move(notice));
@@ -122,7 +122,7 @@ BakePlan plan_bake(const TraceScene& scene, const Media& media, const BakeOption
                   .notices = scene_notices(scene, options)};
     if (plan.bounces != 0 && !traits.scattering) {
         plan.bounces = 0;
-        plan.notices.push_back("no bounces: every surface is black");
+        plan.notices.push_back("bounces are skipped: all surfaces are black");
     }
     const bool from_surfaces = plan.bounces != 0 || traits.transmission;
     Receivers fronts = vertex_receivers(scene.scene());
@@ -134,8 +134,9 @@ BakePlan plan_bake(const TraceScene& scene, const Media& media, const BakeOption
         std::all_of(plan.diffusion.begin(), plan.diffusion.end(), [](const auto& d) { return d.is_grey(); });
     plan.channels = (traits.color && from_surfaces) || !grey_media ? 3 : 1;
     if (plan.channels == 1)
-        plan.notices.push_back(fmt::format("one channel: {}", plan.bounces != 0 ? "every surface is grey"
-                                                                                : "direct light is white"));
+        plan.notices.push_back(
+            fmt::format("the transfer has one channel: {}",
+                        plan.bounces != 0 ? "all surfaces are grey" : "direct light is white"));
     return plan;
 }
 

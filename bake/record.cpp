@@ -2,6 +2,8 @@
 
 #include "record.h"
 
+#include "prt/support/counted.h"
+
 #include <fmt/core.h>
 #include <glm/gtc/packing.hpp>
 
@@ -25,13 +27,14 @@ std::vector<std::string> notices_of(const BakePlan& plan, const DirectLight& dir
     notices.insert(notices.end(), direct.notices.begin(), direct.notices.end());
     const std::size_t refilled = sealed.refill.size();
     if (!sealed.receivers.empty())
-        notices.push_back(fmt::format(
-            "{} receivers are sealed in by backs of faces; {} of them take the light of their neighbours{}",
-            sealed.receivers.size(), refilled,
-            refilled < sealed.receivers.size() ? ", the others stay dark" : ""));
+        notices.push_back(fmt::format("{} inside solid geometry; {} from neighbours{}",
+                                      counted(sealed.receivers.size(), "vertex is", "vertices are"),
+                                      counted(refilled, "is filled", "are filled"),
+                                      refilled < sealed.receivers.size() ? ", the others stay dark" : ""));
     if (!exit.converged)
-        notices.push_back(fmt::format("the sum over all bounces still changes by {:.2g} after {} steps",
-                                      exit.remaining, exit.bounces));
+        notices.push_back(
+            fmt::format("the sum over all bounces has not converged: it changes by {:.2g} after {}",
+                        exit.remaining, counted(exit.bounces, "step")));
     return notices;
 }
 
@@ -79,7 +82,7 @@ TransferStorage storage_for(const StorageErrors& errors, std::vector<std::string
     if (!(errors.rounding < 0.1 * errors.sampling))
         return TransferStorage::float32;
     notices.push_back(fmt::format(
-        "stored as float16: its rounding, {:.2g} %, is below a tenth of the sampling error, {:.2g} %",
+        "stored as float16: the rounding error, {:.2g} %, is below a tenth of the sampling error, {:.2g} %",
         100 * errors.rounding, 100 * errors.sampling));
     return TransferStorage::float16;
 }

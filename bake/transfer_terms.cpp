@@ -102,9 +102,10 @@ Transfer with_lamps(const Transfer& sky, const Transfer& light, const std::vecto
             for (int c = 0; c < terms[k].channels; ++c) {
                 *to = light.vector(p)[static_cast<std::size_t>(c) * stride + k];
                 if (!(std::abs(*to++) <= kMaxTransfer))
-                    throw Error(fmt::format("lamp '{}' lights a vertex with a radiance above 1e6, more than "
-                                            "files hold: give it less intensity, and more at runtime",
-                                            printable(lamps[k].name)));
+                    throw Error(
+                        fmt::format("lamp '{}' lights a vertex with a radiance above 1e6, the limit "
+                                    "of files; reduce its intensity and raise its strength at runtime",
+                                    printable(lamps[k].name)));
             }
     }
     return all;

@@ -8,6 +8,7 @@
 #include "prt/levels.h"
 #include "prt/separate_sides.h"
 #include "prt/sides.h"
+#include "prt/support/counted.h"
 
 #include <fmt/core.h>
 
@@ -18,8 +19,14 @@
 namespace prt::cli {
 namespace {
 
-const std::map<std::string, BackSides> kBackSides = {{"auto", BackSides::automatic},
-                                                     {"shared", BackSides::shared}};
+constexpr Choice<BackSides> kBackSides[] = {
+    {"auto", BackSides::automatic, "if light reaches both sides: separate vertices for each side"},
+    {"shared", BackSides::shared, "they show the light of the front"}};
+
+/// Returns "18 double-sided triangles": the number of true elements.
+std::string double_sided(const std::vector<bool>& triangles) {
+    return counted(std::ranges::count(triangles, true), "double-sided triangle");
+}
 
 /// All levels of detail; light passes the coarser ones.
 Scene scene_of_levels(const GltfDocument& document, const std::vector<std::string>& no_shadow) {
@@ -42,11 +49,7 @@ Scene scene_of_levels(const GltfDocument& document, const std::vector<std::strin
 } // namespace
 
 void add_back_sides(CLI::App* command, BackSides& sides) {
-    choice(command, "--back-sides", sides, kBackSides,
-           "backs of double-sided surfaces: auto: where light reaches them, the file gets single-sided "
-           "surfaces with "
-           "vertices for each side; shared: they show the light of fronts",
-           "auto");
+    choice(command, "--back-sides", sides, kBackSides, "back sides of double-sided materials", "auto");
 }
 
 void separate_sides(const SidesRequest& request, GltfDocument& document, Scene& scene) {
@@ -68,10 +71,9 @@ void separate_sides(const SidesRequest& request, GltfDocument& document, Scene& 
     scene = std::move(separate); // the one of the document, also where a variant culls all of the backs
     if (added == 0)
         return;
-    const std::string notice = fmt::format(
-        "light reaches the backs of {} double-sided triangles: {} more vertices hold it (--back-sides "
-        "shared: backs show the light of fronts)",
-        std::ranges::count(triangles, true), added);
+    const std::string notice =
+        fmt::format("light reaches the back sides of {}; {} added for it (--back-sides shared adds none)",
+                    double_sided(triangles), counted(added, "vertex was", "vertices were"));
     print_notices(request.path.string(), {notice});
     scene.notices.push_back(notice);
 }
@@ -82,9 +84,9 @@ void note_shared_sides(const SidesRequest& request, const Scene& scene) {
     if (!triangles.empty())
         print_notices(
             request.path.string(),
-            {fmt::format("light reaches the backs of {} double-sided triangles: instances that share "
-                         "transfer show the light of fronts there",
-                         std::ranges::count(triangles, true))});
+            {fmt::format("light reaches the back sides of {}; instances with shared transfer show the light "
+                         "of the front sides there",
+                         double_sided(triangles))});
 }
 
 } // namespace prt::cli

@@ -47,7 +47,7 @@ Candidate candidate(const SceneFile& model, const Path& path) {
         return {model, decode(model.compressed->transfer), model.compressed->transfer.receivers.clusters};
     if (model.baked)
         return {model, model.baked->transfer, std::nullopt};
-    throw Error(path.string() + ": holds no transfer; run prt bake and prt compress first");
+    throw Error(path.string() + ": contains no transfer; run prt bake and prt compress first");
 }
 
 /// Error under one lighting.
@@ -93,25 +93,26 @@ std::string about_lights(const Evaluation& evaluation) {
                                       [](const NamedError& e) { return e.suns > 0; });
     const bool lamps = std::any_of(evaluation.standard.begin(), evaluation.standard.end(),
                                    [](const NamedError& e) { return e.judged; });
-    return "lit_rms: relative L2 of exit radiance for albedo 1. lit_max and 99.9 %: the largest error of a "
-           "receiver, and that which 99.9 % stay below. Darker half: relative L2 of the half of the area "
-           "where the radiance is least. Seam: the largest jump of the error along an edge between two "
-           "clusters; 99 %: what 99 % of such edges, and of those inside a cluster, stay below. All but the "
-           "relative ones are over the mean radiance. Visible: the error over the radiance that is there, "
-           "and a "
-           "tenth of the logarithmic mean: 95 % of the area are within it; jumps: 99 % of all edges. The "
-           "worst sun is that of 64 all over the sphere whose "
-           "error is largest; errors under it are over the radiance of all 64, since one that lights nothing "
-           "leaves nothing to divide by. It stands " +
-           evaluation.worst_sun + ". Random white: every coefficient alike; over the root mean square of R." +
+    return "lit_rms: relative L2 of exit radiance for albedo 1. lit_max and 99.9 %: maximum and 99.9th "
+           "percentile of the errors of receivers. Darker half: relative L2 over the darker half of the "
+           "area. Contrast error, 95 %: error relative to the radiance at the point plus a tenth of the "
+           "logarithmic mean of all; 95 % of the area have less. Jumps, 99 %: jump of this error along an "
+           "edge; 99 % of all edges have less. Largest seam: largest jump of the error along an edge "
+           "between two clusters. Seams and inner, 99 %: 99th percentile of the jumps along edges between "
+           "clusters and inside clusters. lit_max, 99.9 %, all seams and inner are relative to the mean "
+           "radiance. Worst sun: the sun with the largest error among 64 over the whole sphere; its errors "
+           "are relative to the radiance of all 64, because a sun may light nothing. Its direction is " +
+           evaluation.worst_sun +
+           ". Random white: random coefficients of equal variance; errors are relative to the root mean "
+           "square of the radiance." +
            (separate
-                ? " Suns apart: transfer without the direct light of suns, which renderers add with sharp "
-                  "shadows; over the radiance under the whole light. The verdict goes by these."
+                ? " Separate suns: light without the direct light of suns, which the renderer adds with "
+                  "sharp shadows; errors are relative to the radiance under the complete light. The verdict "
+                  "uses these rows."
                 : "") +
-           (lamps
-                ? " Lamps: all of the scene as bright as they are there, without a sky; under skies they are "
-                  "off. Below, each lamp alone."
-                : "");
+           (lamps ? " Lamps: all lamps at the strengths of the scene, without a sky; then each lamp alone. "
+                    "Lamps are off under skies."
+                  : "");
 }
 
 /// Returns null if the light that an error is relative to is zero.
@@ -127,15 +128,15 @@ Table lights_table(const Evaluation& evaluation, const SceneFile& baked) {
                      {"lit_max", "lit_max", share, 2},
                      {"percentile_999", "99.9 %", share, 2},
                      {"darker_half_rms", "darker half", share},
-                     {"visible_percentile_95", "visible, 95 %", share, 2},
+                     {"visible_percentile_95", "contrast error, 95 %", share, 2},
                      {"visible_jumps_99", "jumps, 99 %", share, 2},
-                     {"seam", "seam", share, 2},
+                     {"seam", "largest seam", share, 2},
                      {"crossing_percentile_99", "seams, 99 %", share, 2},
                      {"inner_percentile_99", "inner, 99 %", share, 2},
                      {"mean_radiance", "mean radiance"}};
     for (const char* key :
          {"crossing_edges", "crossing_rms", "seam_position_metres", "inner_edges", "inner_rms", "inner_max",
-          "separate_suns", "judged", "visible_mean", "visible_percentile_99", "visible_above_5_percent"})
+          "separate_suns", "in_verdict", "visible_mean", "visible_percentile_99", "visible_above_5_percent"})
         table.columns.push_back({key});
     for (const auto* lights : {&evaluation.named, &evaluation.standard})
         for (const auto& [name, e, suns, judged] : *lights)
@@ -166,12 +167,12 @@ Table lights_table(const Evaluation& evaluation, const SceneFile& baked) {
 }
 
 Table clusters_table(const Evaluation& evaluation) {
-    Table table{"clusters", "Clusters with most of the error", "", {}, {}};
+    Table table{"clusters", "Clusters with the largest errors", "", {}, {}};
     table.columns = {{"cluster", "cluster"},
                      {"receivers", "vertices"},
                      {"components", "components"},
-                     {"area_share", "of the area", Unit::percent, 2},
-                     {"squared_error_share", "of the squared error", Unit::percent, 2},
+                     {"area_share", "share of the area", Unit::percent, 2},
+                     {"squared_error_share", "share of the squared error", Unit::percent, 2},
                      {"lit_rms", "lit_rms", Unit::percent}};
     for (const ClusterShare& c : evaluation.clusters)
         table.rows.push_back({c.cluster, c.receivers, c.components, c.area_share, c.error_share, c.lit_rms});
@@ -194,8 +195,8 @@ public:
         Evaluation evaluation;
         evaluation.relative_l2 = relative_l2(reference(), shipped_.transfer, areas_);
         if (!std::isfinite(evaluation.relative_l2))
-            throw Error(a_.baked.string() + ": lets no light through anywhere, and " + a_.shipped.string() +
-                        " does: no error is relative to that");
+            throw Error(a_.baked.string() + ": all transfer is zero, but that of " + a_.shipped.string() +
+                        " is not; no relative error exists");
         ClusterShares shares(model_.compressed ? model_.compressed->transfer.bases.clusters() : 0);
         for (const LoadedLight& light : lights) {
             add_named(light, evaluation);
@@ -216,7 +217,7 @@ public:
     }
 
     void add_sizes(Report& report) const {
-        add_figure(report, {"bytes_file_shipped", "bytes of the file, shipped"},
+        add_figure(report, {"bytes_file_shipped", "file size of the shipped file, bytes"},
                    static_cast<std::size_t>(std::filesystem::file_size(a_.shipped)));
         if (!model_.compressed)
             return;
@@ -224,13 +225,14 @@ public:
         const double with_bases =
             static_cast<double>(bytes_per_receiver(t)) +
             static_cast<double>(basis_bytes(t.bases)) / static_cast<double>(t.receivers.size());
-        add_figure(report, {"bytes_bound_per_vertex", "bytes per vertex to bind"}, bytes_per_receiver(t));
-        add_figure(report, {"bytes_bound_per_vertex_with_bases", "bytes per vertex with the bases"},
+        add_figure(report, {"bytes_bound_per_vertex", "bytes of attributes per vertex"},
+                   bytes_per_receiver(t));
+        add_figure(report, {"bytes_bound_per_vertex_with_bases", "bytes per vertex, bases included"},
                    with_bases);
-        add_figure(report, {"bits_used_per_vertex", "bits per vertex in use"}, bits_per_receiver(t));
+        add_figure(report, {"bits_used_per_vertex", "used bits per vertex"}, bits_per_receiver(t));
         add_figure(report, {"bytes_bases", "bytes of bases"}, basis_bytes(t.bases));
         add_figure(report, {"clusters", "clusters"}, t.bases.clusters());
-        add_figure(report, {"components_most", "components, at most"}, t.bases.max_components());
+        add_figure(report, {"components_max", "maximum number of components"}, t.bases.max_components());
     }
 
     /// Adds errors of instances that share transfer, each over its vertices, under the lighting of the
@@ -274,7 +276,7 @@ public:
                 }
             }
         if (lights > 1)
-            v.under = fmt::format("these {} lights{}", lights, separate ? ", suns apart" : "");
+            v.under = fmt::format("these {} lights{}", lights, separate ? ", separate suns" : "");
         if (model_.compressed)
             v.bytes_per_vertex = bytes_per_receiver(model_.compressed->transfer);
         return v;
@@ -301,8 +303,8 @@ public:
                              std::span<const Sun> by = {}) {
             report.pictures.push_back({std::move(title), picture(scene, colors, by, exposed)});
         };
-        add("Before: the bake, under " + light.name, before, exposure, suns);
-        add("After: as shipped", shipped_under(drawn), exposure, suns);
+        add("Bake, under " + light.name, before, exposure, suns);
+        add("Shipped file", shipped_under(drawn), exposure, suns);
         const auto wanted = wanted_under(lighting), lit = shipped_under(lighting);
         add(fmt::format("Contrast error (white: {:.0f} %)", 100 * kWhiteError),
             error_colors(wanted, lit, areas_), 1);
@@ -381,8 +383,9 @@ private:
             std::vector<glm::vec3> shown = wanted_under(whole);
             LitScale scale = lit_scale(shown, areas_);
             scale.shown = std::move(shown);
-            evaluation.named.push_back({light.name + ", suns apart", error_under(lighting_of(light), scale),
-                                        light.split.suns.size(), true});
+            evaluation.named.push_back({light.name + ", separate suns",
+                                        error_under(lighting_of(light), scale), light.split.suns.size(),
+                                        true});
         }
         if (const std::size_t lamps = reference().layout.lamps(); lamps > 0)
             evaluation.named.push_back(
@@ -408,7 +411,7 @@ private:
                 continue;
             worst = error;
             const glm::vec3& d = suns.directions[i];
-            evaluation.worst_sun = fmt::format("towards {:.2f} {:.2f} {:.2f}", d.x, d.y, d.z);
+            evaluation.worst_sun = fmt::format("{:.2f} {:.2f} {:.2f}", d.x, d.y, d.z);
         }
         evaluation.standard.push_back({fmt::format("worst of {} suns", suns.lights.size()), worst});
     }
@@ -483,7 +486,7 @@ void add_comparison(const ComparisonOptions& options, SceneFile& baked,
     if (!evaluation.clusters.empty())
         report.tables.push_back(clusters_table(evaluation));
     if (options.pictures && baked.lightmap)
-        report.notes.emplace_back("pictures of lightmaps: prt render draws them");
+        report.notes.emplace_back("pictures of lightmaps; draw them with prt render");
     else if (options.pictures)
         comparison.add_pictures(worst_of(evaluation, lights), report);
 }

@@ -3,20 +3,22 @@
 #include "compress_metric.h"
 
 #include "loaded_light.h"
+#include "prt/support/counted.h"
 
 #include <fmt/core.h>
 
-#include <map>
+#include <algorithm>
 #include <optional>
 
 namespace prt::cli {
 namespace {
 
-const std::map<std::string, MetricChoice> kMetrics = {{"outdoor", MetricChoice::outdoor},
-                                                      {"indoor", MetricChoice::indoor},
-                                                      {"day", MetricChoice::day},
-                                                      {"natural", MetricChoice::natural},
-                                                      {"plain", MetricChoice::plain}};
+constexpr Choice<MetricChoice> kMetrics[] = {
+    {"outdoor", MetricChoice::outdoor, "skies with ground and sun"},
+    {"indoor", MetricChoice::indoor, "rooms with windows and lamps"},
+    {"day", MetricChoice::day, "clear skies of a day"},
+    {"natural", MetricChoice::natural, "any natural light in any orientation"},
+    {"plain", MetricChoice::plain, "all coefficients have the same weight"}};
 
 /// Returns no family for plain.
 std::optional<LightFamily> family_of(MetricChoice choice) {
@@ -58,30 +60,27 @@ std::vector<Lighting> skies_to_promise(const std::vector<Lighting>& given, std::
 
 /// "outdoor"
 std::string name_of(MetricChoice choice) {
-    for (const auto& [name, value] : kMetrics)
-        if (value == choice)
-            return name;
-    return {};
+    return std::ranges::find(kMetrics, choice, &Choice<MetricChoice>::value)->name;
 }
 
 std::string coverage(const MetricArguments& arguments, const TransferLayout& layout, std::size_t promised) {
     if (layout.distant_terms().empty())
-        return "promises hold for each lamp alone";
+        return "the limits hold for each lamp alone";
     if (!arguments.lights.empty())
         return fmt::format(
-            "promises hold under each of the {} --lights at every rotation about +Y, their suns "
-            "in the sky or apart; other skies may exceed them",
-            arguments.lights.size());
+            "the limits hold under {} (--lights) at every rotation about +Y, with suns in the sky or "
+            "separate; the errors under other skies may be larger",
+            counted(arguments.lights.size(), "given light"));
     if (promised == 0)
         return fmt::format(
-            "promises hold on average over the {} metric; a single sky may exceed them: pass it "
-            "by --lights",
+            "the limits hold on average over the metric '{}'; the errors under a single sky may be larger: "
+            "pass that sky with --lights FILE",
             name_of(arguments.metric));
     return fmt::format(
-        "the error is promised under each of {} skies of the {} family at every rotation about "
-        "+Y, jumps on average over the family; other skies may exceed them: pass them by "
-        "--lights",
-        promised, name_of(arguments.metric));
+        "the error limit holds under {} of the family '{}' at every rotation about +Y, the limit of jumps "
+        "on average over the family; the errors under other skies may be larger: pass them with --lights "
+        "FILE",
+        counted(promised, "sky", "skies"), name_of(arguments.metric));
 }
 
 } // namespace
@@ -94,20 +93,27 @@ void promise(ErrorTerms& terms, Budget& budget) {
 }
 
 void add_metric(CLI::App* command, MetricArguments& arguments) {
-    CLI::Option* metric =
-        choice(command, "--metric", arguments.metric, kMetrics,
-               "what an error costs, on average over: skies with ground and sun; rooms; clear skies "
-               "of a day; any lighting, any way up; or all coefficients alike",
-               "outdoor");
     command
-        ->add_option(
-            "--lights", arguments.lights,
-            "compress for this environment (.exr, .hdr, .png, .jpg) or light (.json), turned about +Y; "
-            "repeat it for each of several")
+        ->add_option_function<std::vector<std::string>>(
+            "--lights",
+            [&arguments](const std::vector<std::string>& names) {
+                for (const std::string& name : names) {
+                    const auto family = std::ranges::find(kMetrics, name, &Choice<MetricChoice>::name);
+                    if (family == std::end(kMetrics))
+                        arguments.lights.emplace_back(name);
+                    else if (names.size() > 1)
+                        throw CLI::ValidationError("--lights",
+                                                   "'" + name + "' cannot be combined with others");
+                    else
+                        arguments.metric = family->value;
+                }
+            },
+            "lights for which the error is minimized" + explained(kMetrics) +
+                "\nFILE: environment (.exr, .hdr, .png, .jpg) or light (.json); repeat the option for each")
         ->allow_extra_args(false) // one each time, so that the bake may follow
-        ->excludes(metric)
         ->check(named)
-        ->type_name("FILE");
+        ->type_name("FAMILY|FILE")
+        ->default_str("outdoor");
     add_light_options(command, arguments.light_options);
 }
 

@@ -44,7 +44,7 @@ void report_fallback(const std::optional<Fallback>& fallback, Report& report) {
                            {"exposure", fallback->exposure},
                            {"primitives", fallback->primitives}}}});
     report.sentences.emplace_back(
-        "viewers without PRT show it as {fallback/light} lights it, at exposure {fallback/exposure:.4g}");
+        "viewers without PRT show the model lit by {fallback/light}, at exposure {fallback/exposure:.4g}");
 }
 
 } // namespace prt::cli

@@ -7,6 +7,7 @@
 #include "prt/light_file.h"
 #include "prt/lightmap_file.h"
 #include "prt/reorder.h"
+#include "prt/support/counted.h"
 
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
@@ -34,22 +35,22 @@ void check_belong_together(const SceneFile& baked, const Path& baked_path, const
                            const Path& shipped_path) {
     for (const auto& [model, path] : {std::pair(&baked, &baked_path), std::pair(&shipped, &shipped_path)})
         if (!model->record())
-            throw Error(path->string() + ": holds no transfer; run prt bake first");
+            throw Error(path->string() + ": contains no transfer; run prt bake first");
     const bool same_positions = baked.lightmap && shipped.lightmap
                                     ? baked.lightmap->layout == shipped.lightmap->layout
                                     : !baked.lightmap && !shipped.lightmap;
     if (!same_positions || baked.record()->receivers != shipped.record()->receivers ||
         baked.scene.receivers() != shipped.scene.receivers())
-        throw Error(shipped_path.string() + ": does not belong to " + baked_path.string() +
-                    ": their receivers differ");
+        throw Error(shipped_path.string() + ": was not made from " + baked_path.string() +
+                    ": their receivers differ; use files of one bake");
     if (baked.order() != shipped.order())
-        throw Error(fmt::format("{}: has order {}, {} has order {}", shipped_path.string(), shipped.order(),
-                                baked_path.string(), baked.order()));
+        throw Error(fmt::format("{}: has order {}, but {} has order {}; use files of one bake",
+                                shipped_path.string(), shipped.order(), baked_path.string(), baked.order()));
 }
 
 void check_of_vertices(const SceneFile& model, const Path& path, const std::string& command) {
     if (model.lightmap)
-        throw Error(path.string() + ": holds a lightmap; " + command);
+        throw Error(path.string() + ": contains a lightmap; " + command);
 }
 
 const TransferLayout& layout_of(const SceneFile& model) {
@@ -120,10 +121,12 @@ Environment load_environment_map(const Path& path, const EnvironmentOptions& opt
     EnvironmentFile file = load_environment(path, options);
     print_notices(path.string(), file.notices);
     if (file.repaired_pixels > 0)
-        print_notices(path.string(), {fmt::format("{} bad pixels were repaired", file.repaired_pixels)});
+        print_notices(path.string(),
+                      {counted(file.repaired_pixels, "bad pixel was", "bad pixels were") + " repaired"});
     if (file.low_dynamic_range)
-        print_notices(path.string(), {"has 8 bits per channel: it is read as sRGB, and what is brighter than "
-                                      "white (suns, lamps) is clipped"});
+        print_notices(path.string(),
+                      {"has 8 bits per channel: it is read as sRGB, and light brighter than white "
+                       "(suns, lamps) is clipped; use .exr or .hdr"});
     return std::move(file.environment);
 }
 

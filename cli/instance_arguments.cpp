@@ -6,6 +6,7 @@
 #include "options.h"
 #include "prt/receivers.h"
 #include "prt/support/error.h"
+#include "suboptions.h"
 
 #include <fmt/core.h>
 
@@ -14,8 +15,10 @@
 namespace prt::cli {
 namespace {
 
-const std::map<std::string, InstanceMode> kModes = {
-    {"own", InstanceMode::own}, {"shared", InstanceMode::shared}, {"auto", InstanceMode::automatic}};
+constexpr Choice<InstanceMode> kModes[] = {
+    {"own", InstanceMode::own, "each instance has separate transfer"},
+    {"shared", InstanceMode::shared, "a mesh is baked once; each instance has 52 bytes of factors"},
+    {"auto", InstanceMode::automatic, "shared if possible and if it saves 3/4 of the vertices, else own"}};
 
 std::size_t vertices_of(const Scene& scene, int node) {
     std::size_t count = 0;
@@ -61,34 +64,21 @@ SharedMeshes without_bad_ones(const SharedMeshes& meshes, const std::vector<doub
 } // namespace
 
 void add_instances(CLI::App* command, InstanceArguments& arguments) {
-    choice(
-        command, "--instances", arguments.mode, kModes,
-        "meshes that nodes or EXT_mesh_gpu_instancing draw often: own: each has transfer of its own; shared: "
-        "that of their mesh, which is baked once, times factors of their place; auto: shared where that can "
-        "be "
-        "and spares three quarters of the vertices",
-        "own");
-    command
-        ->add_option("--instance-error", arguments.error,
-                     "instances whose light errs by more, in relative L2, are baked alone: 0.1 is 10 %. "
-                     "Measured under "
-                     "five soft skies and --instance-lights")
-        ->capture_default_str()
-        ->check(real_in(0, 1e9));
+    Suboptions(
+        "--instances", names_of(kModes), "transfer of meshes that are drawn several times",
+        [&arguments](const std::string& name) { arguments.mode = chosen("--instances", kModes, name); })
+        .detail(explained(kModes).substr(1))
+        .number("error", 0, 1e9, "bake instances with a larger relative L2 error separately [0.1]",
+                [&arguments](double error) { arguments.error = error; })
+        .whole_number("samples", 8, 1 << 20,
+                      "vertices of each instance that are traced in its position [256]",
+                      [&arguments](int samples) { arguments.bake.samples = samples; })
+        .add(command)
+        ->default_str("own");
     CLI::Option* const lights =
-        command
-            ->add_option("--instance-lights", arguments.lights,
-                         "environment maps and light files under which --instance-error is kept, too")
-            ->check(CLI::ExistingFile);
-    add_suns(command, arguments.suns, "suns of --instance-lights that the renderer adds with sharp shadows",
-             "0");
+        add_lights(command, arguments.lights, "lights for which the error of instances is limited");
+    add_suns(command, arguments.suns, "suns of --lights that the renderer draws with sharp shadows", "0");
     command->get_option("--suns")->needs(lights);
-    command
-        ->add_option(
-            "--instance-samples", arguments.bake.samples,
-            "vertices of each instance that are traced where it stands, with a sixteenth of the rays")
-        ->capture_default_str()
-        ->check(CLI::Range(8, 1 << 20));
 }
 
 SharedMeshes meshes_to_share(const InstanceArguments& arguments, const GltfDocument& document,

@@ -35,23 +35,24 @@ Table instances_table(const std::vector<LoadedLight>& lights,
     Table table{
         "instances",
         "Errors of instances by light",
-        "lit_rms of each instance that shares the transfer of its mesh, over its own vertices and relative "
-        "to its own radiance under the whole light; suns are apart where transfer keeps them so",
+        "lit_rms of each instance that shares the transfer of its mesh, over the vertices of the instance, "
+        "relative to its radiance under the complete light. Suns are separate if the transfer has a direct "
+        "term.",
         {},
         {}};
     const Unit share = Unit::percent;
     table.columns = {{"light", "light"},
                      {"count", "instances"},
                      {"median", "median", share, 2},
-                     {"percentile_90", "90 %", share, 2},
-                     {"percentile_99", "99 %", share, 2},
-                     {"most", "most", share, 2}};
+                     {"percentile_90", "90th percentile", share, 2},
+                     {"percentile_99", "99th percentile", share, 2},
+                     {"max", "maximum", share, 2}};
     for (std::size_t l = 0; l < lights.size(); ++l) {
         if (errors[l].empty())
             continue;
         const Json of = percentiles(errors[l]);
         table.rows.push_back({lights[l].name, errors[l].size(), of["median"], of["percentile_90"],
-                              of["percentile_99"], of["most"]});
+                              of["percentile_99"], of["max"]});
     }
     return table;
 }

@@ -47,7 +47,7 @@ bool is_in(const std::vector<std::string>& names, const std::string& name) {
     return std::find(names.begin(), names.end(), name) != names.end();
 }
 
-/// Returns "; did you mean bake?", or "; there are " and all names if none is near.
+/// Returns "; did you mean bake?", or "; available: " and all names if no name is near.
 std::string suggestion(const std::vector<std::string>& names, const std::string& name) {
     std::string all, nearest;
     std::size_t least = 3;
@@ -58,11 +58,87 @@ std::string suggestion(const std::vector<std::string>& names, const std::string&
             nearest = known;
         }
     }
-    return nearest.empty() ? "; there are " + all : "; did you mean " + nearest + "?";
+    return nearest.empty() ? "; available: " + all : "; did you mean " + nearest + "?";
+}
+
+/// An option that has another name now.
+struct OldName {
+    std::string_view command; ///< empty: all commands
+    std::string_view old, now;
+};
+constexpr OldName kOldNames[] = {
+    {"", "--env", "--lights FILE"},
+    {"", "--backend", "--device auto|cpu|gpu"},
+    {"", "--gpu", "--device N|NAME"},
+    {"", "--traversal", "--device gpu,traversal=auto|compute|device"},
+    {"", "--list-devices", "--device list"},
+    {"", "--html", "--report FILE.html"},
+    {"", "--csv", "--report FILE.csv"},
+    {"", "--scene-limit", "--memory-limit SIZE"},
+    {"", "--env-center", "--env-layout lat-long|lat-long-x"},
+    {"bake", "--size", "--texels N"},
+    {"ao", "--size", "--texels N"},
+    {"", "--uv", "--texels N,uv=N"},
+    {"", "--unwrap", "--texels N,unwrap"},
+    {"", "--atlas", "--texels N,atlas=auto|one|each"},
+    {"", "--casters", "--high-poly FILE"},
+    {"", "--reach", "--high-poly FILE,distance=METRES"},
+    {"", "--volume-probes", "--volume probes=N"},
+    {"", "--volume-error", "--volume METRES,error=X"},
+    {"", "--volume-order", "--volume METRES,order=N"},
+    {"", "--volume-bounds", "--volume METRES,bounds=x0,y0,z0,x1,y1,z1"},
+    {"", "--volume-bytes", "--volume bytes=N"},
+    {"", "--volume-clusters", "removed: the number of clusters follows from the probes"},
+    {"", "--volume-fit", "--volume METRES,fit=X"},
+    {"ao", "--volume", "--occluders"},
+    {"evaluate", "--volume", "--measure volume"},
+    {"shader", "--volume", "--stage volume"},
+    {"", "--instance-error", "--instances shared,error=X"},
+    {"", "--instance-samples", "--instances shared,samples=N"},
+    {"", "--instance-lights", "--lights FILE"},
+    {"", "--lamp-radius", "--lamps all,radius=METRES"},
+    {"", "--lamp-group", "--lamps all,group=NAME=PATTERN"},
+    {"", "--sun-rays", "--suns auto,rays=N"},
+    {"", "--lamp-rays", "--lamps all,rays=N"},
+    {"relight", "--lamps", "--lamp-strengths on|off|FILE"},
+    {"render", "--lamps", "--lamp-strengths on|off|FILE"},
+    {"", "--raster-resolution", "--method raster,resolution=N"},
+    {"", "--most-vertices", "--refine ERROR,vertices=N"},
+    {"", "--inside", "--enclosed keep|refill"},
+    {"", "--guides", "--predictors none|normal|position"},
+    {"", "--whole", "--combine-direct"},
+    {"", "--weights", "--bits float"},
+    {"", "--metric", "--lights outdoor|indoor|day|natural|plain"},
+    {"", "--bytes-per-texel", "--bytes-per-vertex X"},
+    {"make", "--baked", "--keep-bake FILE"},
+    {"", "--sweep", "--measure sweep"},
+    {"", "--budget", "--measure budget"},
+    {"", "--albedo", "--colors albedo"},
+    {"", "--unlit", "--colors unlit"},
+    {"shader", "--compute", "--stage compute"},
+    {"shader", "--fragment", "--stage fragment"},
+    {"shader", "--instances", "--stage instances"},
+    {"shader", "--occluders", "--stage occluders"},
+    {"shader", "--lobes", "--stage lobes"},
+    {"", "--distance", "--max-distance METRES"},
+    {"", "--frames", "--poses N,frames=N"},
+    {"", "--animation", "--poses N,animation=NAME"},
+    {"", "--from", "--rays FROM..TO"},
+    {"", "--to", "--rays FROM..TO"},
+    {"", "--most-seconds", "--seconds X"},
+};
+
+/// Throws the new name of an option if `name` is an old one.
+void check_old_name(const std::string& command, const std::string& name) {
+    for (const OldName& old : kOldNames)
+        if (name == old.old && (old.command.empty() || command == old.command))
+            throw CLI::ParseError(name + (old.now.starts_with("removed") ? " is " : " is now ") +
+                                      std::string(old.now),
+                                  CLI::ExitCodes::ExtrasError);
 }
 
 [[noreturn]] void refuse(const char* what, const std::string& name, const std::vector<std::string>& names) {
-    throw CLI::ParseError("there is no " + std::string(what) + " '" + name + "'" + suggestion(names, name),
+    throw CLI::ParseError("unknown " + std::string(what) + " '" + name + "'" + suggestion(names, name),
                           CLI::ExitCodes::ExtrasError);
 }
 
@@ -76,8 +152,10 @@ void check_names(const CLI::App& app, std::span<char* const> words) {
         const bool option = word.starts_with("-");
         if (option && word.starts_with("--")) {
             const std::string name = word.substr(0, word.find('='));
-            if (const auto names = names_of_options(*command); !is_in(names, name))
+            if (const auto names = names_of_options(*command); !is_in(names, name)) {
+                check_old_name(command->get_name(), name);
                 refuse("option", name, names);
+            }
         } else if (!option && command == &app) {
             const auto names = names_of_commands(app);
             if (!is_in(names, word))

@@ -24,7 +24,7 @@ constexpr double kMaxStrength = 1e9;
 float strength_of(const Json& value, const std::string& name) {
     const double strength = value.is_number() ? value.get<double>() : -1;
     if (!(strength >= 0 && strength <= kMaxStrength))
-        throw Error(fmt::format("the strength of '{}' is neither a number in 0..1e9 nor three of them",
+        throw Error(fmt::format("the strength of '{}' must be a number in 0..1e9, or a list of three",
                                 printable(name)));
     return static_cast<float>(strength);
 }
@@ -44,7 +44,7 @@ std::vector<std::string> names_of(const TransferLayout& layout) {
 
 std::vector<glm::vec3> strengths_of(const Json& file, const TransferLayout& layout) {
     if (!file.is_object())
-        throw Error("is JSON, but no object of lamps and their strengths");
+        throw Error("must contain a JSON object with a strength for each lamp");
     const glm::vec3 others = file.contains("*") ? color_of(file["*"], "*") : glm::vec3(1);
     std::vector<glm::vec3> strengths(layout.lamps(), others);
     const std::vector<std::string> names = names_of(layout);
@@ -53,7 +53,7 @@ std::vector<glm::vec3> strengths_of(const Json& file, const TransferLayout& layo
             continue;
         const auto found = std::find(names.begin(), names.end(), name);
         if (found == names.end())
-            throw Error(fmt::format("no lamp of the model is called '{}'; there are: {}", printable(name),
+            throw Error(fmt::format("the model has no lamp '{}'; its lamps are: {}", printable(name),
                                     printable(fmt::format("{}", fmt::join(names, ", ")))));
         strengths[static_cast<std::size_t>(found - names.begin())] = color_of(value, name);
     }
@@ -84,23 +84,25 @@ double mean_luminance(const Relit& model, const Lighting& lighting) {
 void add_lamps(CLI::App* command, LampChoice& lamps) {
     command
         ->add_option_function<std::string>(
-            "--lamps",
+            "--lamp-strengths",
             [&lamps](const std::string& given) {
                 lamps.on = given != "off";
                 lamps.file = given == "on" || given == "off" ? "" : given;
             },
-            "lamps of the model: on, as in the scene; off; or a .json with a strength, or red, green and "
-            "blue, for each name, \"*\" for the others")
+            "strengths of the lamps\n"
+            "on: as in the scene\n"
+            "off: no lamps\n"
+            "FILE: .json with a strength or [red, green, blue] for each lamp name; \"*\": all others")
         ->type_name("on|off|FILE")
         ->default_str("on");
 }
 
 void add_lamp_scale(CLI::App* command, double& scale) {
     command
-        ->add_option(
-            "--lamp-scale", scale,
-            "factor on point, spot and directional lights, not on materials that shine; 0.00146 (1/683) "
-            "for files with candela and lux, as Blender writes them, beside skies of radiance about 1")
+        ->add_option("--lamp-scale", scale,
+                     "factor on punctual lights; 0.00146 (1/683) for candela and lux\n"
+                     "Blender, for example, exports candela and lux\n"
+                     "emissive materials are not scaled")
         ->capture_default_str()
         ->check(above_zero());
 }
@@ -141,8 +143,9 @@ std::optional<std::string> photometric_notice(const Scene& scene, const Relit& m
         return std::nullopt;
     const double ratio = of_lights / of_sky;
     return fmt::format(
-        "its lights give {:.3g} times as much light as the open sky, as lights in candela and lux do (683 "
-        "lumens are a watt; Blender writes them); --lamp-scale {:.3g} makes it {:.2g} times",
+        "the lights of the scene are {:.3g} times as bright as the open sky; they probably have photometric "
+        "units (candela and lux, 683 lm/W, as Blender exports them): --lamp-scale {:.3g} reduces this to "
+        "{:.2g} times",
         ratio, 1 / kLumensPerWatt, ratio / kLumensPerWatt);
 }
 

@@ -24,7 +24,7 @@ struct LampChoice {
     std::filesystem::path file = {};
 };
 
-/// --lamps
+/// Adds --lamp-strengths.
 void add_lamps(CLI::App* command, LampChoice& lamps);
 
 /// Adds --lamp-scale: a factor on lights of KHR_lights_punctual.

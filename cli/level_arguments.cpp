@@ -5,24 +5,21 @@
 #include "options.h"
 #include "outputs.h"
 
-#include <map>
 #include <string>
 
 namespace prt::cli {
 namespace {
 
-const std::map<std::string, LevelMode> kLevelModes = {
-    {"carry", LevelMode::carry}, {"own", LevelMode::own}, {"ignore", LevelMode::ignore}};
+constexpr Choice<LevelMode> kLevelModes[] = {
+    {"carry", LevelMode::carry, "they get the light of level 0, fitted to their surface"},
+    {"own", LevelMode::own, "each is baked in place of level 0; takes as long as level 0"},
+    {"ignore", LevelMode::ignore, "they get no transfer"}};
 
 } // namespace
 
 void add_levels(CLI::App* command, LevelMode& mode) {
-    choice(
-        command, "--levels", mode, kLevelModes,
-        "coarser levels of detail of nodes, by MSFT_lod or by names as ROCK_LOD0, ROCK_LOD1, which cast no "
-        "shadow: carry: they get the light of level 0, as their surface shows it best; own: each is baked "
-        "in the place of level 0, which takes as long again; ignore: they get none",
-        "carry");
+    choice(command, "--levels", mode, kLevelModes,
+           "coarser levels of detail (MSFT_lod or names as ROCK_LOD1)", "carry");
 }
 
 const char* to_string(LevelMode mode) {

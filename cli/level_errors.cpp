@@ -90,9 +90,9 @@ Table levels_table(const std::map<int, LevelErrors>& errors, const std::vector<L
     Table table{
         "levels",
         "Coarser levels of detail against level 0",
-        "relative L2, at samples all over the surface of the level against the nearest places of level 0 "
-        "of the bake: of the transfer that the bake gave it, of what is shipped, and of exit radiance "
-        "under the light where that is largest",
+        "Relative L2 at samples over the surface of the level, against the nearest positions on level 0 of "
+        "the bake. Bake: baked transfer of the level. Shipped: transfer in the compressed file. lit_rms: "
+        "exit radiance of the compressed file under the worst light.",
         {},
         {}};
     const Unit share = Unit::percent;
@@ -103,7 +103,7 @@ Table levels_table(const std::map<int, LevelErrors>& errors, const std::vector<L
                      {"baked_relative_l2", "bake", share},
                      {"shipped_relative_l2", "shipped", share},
                      {"lit_rms", "lit_rms", share},
-                     {"light", "under"}};
+                     {"light", "worst light"}};
     for (const auto& [level, e] : errors) {
         const auto worst = std::ranges::max_element(e.lit, {}, &LevelSquares::relative_l2);
         const bool any = worst != e.lit.end();
@@ -124,7 +124,8 @@ void add_level_errors(const LevelFiles& files, const std::vector<LoadedLight>& l
     const std::optional<LeveledModel> shipped = about(
         files.shipped_path, [&] { return leveled_model(load_gltf(files.shipped_path, files.reading)); });
     if (!shipped) {
-        report.notes.emplace_back("the shipped file has no transfer of coarser levels of detail");
+        report.notes.emplace_back(
+            "errors of coarser levels of detail: the shipped file has no transfer for them");
         return;
     }
     about(files.shipped_path, [&] {

@@ -5,6 +5,7 @@
 #include "options.h"
 #include "outputs.h"
 #include "prt/light_file.h"
+#include "suboptions.h"
 
 #include <fmt/core.h>
 #include <glm/gtc/matrix_transform.hpp>
@@ -13,26 +14,24 @@
 namespace prt::cli {
 namespace {
 
-/// Returns the error of a value of `--suns`; empty if it is valid.
-std::string sun_count(const std::string& text) {
-    const std::optional<int> count = whole_number(text);
-    return text == "auto" || (count && *count >= 0 && *count <= 16) ? ""
-                                                                    : text + " is neither auto nor 0..16";
+void set_count(const std::string& text, SunCount& suns) {
+    suns.count = text == "auto" ? std::nullopt : whole_number(text);
+    if (text != "auto" && (!suns.count || *suns.count < 0 || *suns.count > 16))
+        throw CLI::ValidationError("--suns", "'" + text + "' is neither auto nor a number in 0..16");
 }
 
 } // namespace
 
-void add_suns(CLI::App* command, SunCount& suns, const std::string& text, const std::string& otherwise) {
-    command
-        ->add_option_function<std::string>(
-            "--suns",
-            [&suns](const std::string& given) {
-                suns.count = given == "auto" ? std::nullopt : whole_number(given);
-            },
-            text)
-        ->check(sun_count)
-        ->type_name("0..16|auto")
-        ->default_str(otherwise);
+void add_suns(CLI::App* command, SunCount& suns, const std::string& text, const std::string& usual,
+              int* rays) {
+    Suboptions option("--suns", "N|auto", text,
+                      [&suns](const std::string& given) { set_count(given, suns); });
+    option.detail("auto: all that reduce the error noticeably, up to 4; those of a light file")
+        .detail("0: suns are part of the sky");
+    if (rays)
+        option.whole_number("rays", 1, 1 << 20, fmt::format("rays to each sun [{}]", *rays),
+                            [rays](int count) { *rays = count; });
+    option.add(command)->default_str(usual);
 }
 
 Light light_of_suns(const LoadedLight& light) {

@@ -17,15 +17,16 @@ struct SunCount {
     std::optional<int> count = 0; ///< unset: all that are worth separating
 };
 
-/// --suns
-void add_suns(CLI::App* command, SunCount& suns, const std::string& text, const std::string& otherwise);
+/// Adds --suns. `rays`: also adds its setting `rays`, the number of rays to each sun.
+void add_suns(CLI::App* command, SunCount& suns, const std::string& text, const std::string& usual,
+              int* rays = nullptr);
 
 /// Light of an environment map, of a light file or built in.
 struct LoadedLight {
     std::string name; ///< for reports: the name of the file
     Light sky;        ///< light without the suns of `split`
     Light combined;   ///< light of sky and suns
-    /// The separate suns. The other members are set if they were found in `environment`.
+    /// The separate suns; all other members have values only for suns that were found in `environment`.
     SunSplit split = {};
     std::optional<Environment> environment = {}; ///< the image, not rotated, if the light comes from one
 };
@@ -38,8 +39,8 @@ Lighting lighting_of(const LoadedLight& light);
 
 /// Error message: transfer without a separate direct term cannot be lit by separate suns, with advice.
 inline constexpr const char* kNoDirectTerm =
-    "keeps no direct light apart, so that suns cannot be lit apart from "
-    "the sky; lobes never do, other transfer without --combine-direct";
+    "has no separate direct term, so suns cannot be separate from the sky; compress without --combine-direct "
+    "(lobes never have a direct term)";
 
 /// Returns a sky without light.
 LoadedLight dark_sky(int order);

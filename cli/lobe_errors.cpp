@@ -76,8 +76,8 @@ private:
 
 std::vector<Column> method_columns() {
     return {{"lit_rms", "lobes", Unit::percent, 2},
-            {"lit_rms_best", "best of all that turn", Unit::percent, 2},
-            {"lit_rms_rest", "the rest pose's bake", Unit::percent, 2},
+            {"lit_rms_best", "best rotating transfer", Unit::percent, 2},
+            {"lit_rms_rest", "rest-pose bake", Unit::percent, 2},
             {"lit_rms_unshadowed", "unshadowed", Unit::percent, 2}};
 }
 
@@ -90,10 +90,11 @@ void add_row(std::vector<Json> row, const ByMethod& squares, double count, Table
 Table table_by_sky() {
     Table table{"lobe_errors", "Errors of lobes over frames, by sky", "", {}, {}};
     table.about =
-        "Root mean square over the frames of lit_rms against a bake of each, of vertices that are not "
-        "inside geometry. Best of all that turn: the mean over the poses of the fit, all its numbers, "
-        "turned with the skin; no transfer of a vertex that is one in all poses does better.";
-    table.columns = {{"sky", "sky"}, {"separate_suns", "suns apart"}};
+        "Root mean square of lit_rms over the frames, against a separate bake of each frame, for vertices "
+        "that are not inside geometry. Best rotating transfer: the mean over the fitted poses, with all "
+        "coefficients, rotated with the skin; no other transfer that is constant over the poses has a "
+        "smaller error.";
+    table.columns = {{"sky", "sky"}, {"separate_suns", "separate suns"}};
     for (Column& column : method_columns())
         table.columns.push_back(std::move(column));
     return table;
@@ -144,10 +145,9 @@ void add_lobe_errors(const LobeErrorRequest& request, const Progress& progress, 
         add_figures(report, {{columns[m].key, std::sqrt(all[m])}});
     add_figures(report, {{"frames", request.frames.size()}});
     report.sentences.emplace_back(
-        "over {frames} frames, under skies: {lit_rms:.2f%} off bakes of each; {lit_rms_best:.2f%} for the "
-        "best "
-        "that one transfer in all poses can do, {lit_rms_rest:.2f%} for the rest pose's bake turned with the "
-        "skin, {lit_rms_unshadowed:.2f%} unshadowed");
+        "error over {frames:#frame} under skies, against a bake of each frame: lobes {lit_rms:.2f%}; best "
+        "transfer that rotates with the skin {lit_rms_best:.2f%}; rest-pose bake, rotated with the skin "
+        "{lit_rms_rest:.2f%}; unshadowed {lit_rms_unshadowed:.2f%}");
     report.tables.push_back(std::move(sky_table));
     report.tables.push_back(std::move(frame_table));
 }

@@ -1,6 +1,7 @@
 // The prt program: parses the command line, runs a command and reports errors.
 
 #include "commands/commands.h"
+#include "help.h"
 #include "known_names.h"
 #include "prt/support/error.h"
 #include "session.h"
@@ -31,7 +32,10 @@ std::string command_line(int argc, char** argv) {
 }
 
 void add_commands(CLI::App& app, Session& session) {
-    app.set_version_flag("--version", "prt " PRTKIT_VERSION);
+    app.formatter(std::make_shared<HelpFormatter>());
+    app.set_help_flag("-h,--help", "print the common options and exit");
+    app.set_help_all_flag("--help-all", "print all options and exit");
+    app.set_version_flag("--version", "prt " PRTKIT_VERSION, "print the version and exit");
     app.require_subcommand(1);
     add_make(app, session);
     add_ao(app, session);
@@ -54,7 +58,8 @@ int run(int argc, char** argv) {
     add_commands(app, session);
     if (argc < 2) {
         print(app.help());
-        throw CLI::ParseError("which command? They are listed above", CLI::ExitCodes::RequiredError);
+        throw CLI::ParseError("no command given; the commands are listed above",
+                              CLI::ExitCodes::RequiredError);
     }
     check_names(app, {argv + 1, static_cast<std::size_t>(argc - 1)});
     try {
@@ -66,7 +71,7 @@ int run(int argc, char** argv) {
     return session.status();
 }
 
-constexpr const char* kNoMemory = "there is not enough memory";
+constexpr const char* kNoMemory = "out of memory";
 
 /// Also where there is no memory left for words.
 int complain(int status, std::string_view what, std::string_view more = {}) noexcept {
@@ -107,7 +112,7 @@ int run_and_tell(int argc, char** argv) {
     } catch (const std::filesystem::filesystem_error& error) {
         return complain(1, error.what());
     } catch (const std::exception& error) {
-        return complain(1, "of our own making, please report it: ", error.what());
+        return complain(1, "internal error, please report it: ", error.what());
     }
 }
 

@@ -9,8 +9,7 @@ namespace prt::cli {
 void add_no_shadow(CLI::App* command, std::vector<std::string>& materials) {
     command
         ->add_option("--no-shadow", materials,
-                     "a material whose surfaces stop no light, as the sky or the outline that is a shell "
-                     "round a scene")
+                     "material that casts no shadow, such as a sky dome; repeat the option")
         ->allow_extra_args(false)
         ->type_name("MATERIAL");
 }

@@ -25,12 +25,12 @@ bool is_uneven(const glm::dmat4& frame) {
 Table table_of_parts() {
     Table table{"occlusion_volumes", "Occlusion volumes", "", {}, {}};
     table.about =
-        "What each part blocks for receivers at random places of its box, facing anywhere: the mean, and the "
-        "mean difference to rays.";
-    table.columns = {{"part", "part"},
+        "Fraction of light that each rigid object blocks, for receivers at random positions in its box with "
+        "random normals: the mean, and the mean difference from ray tracing.";
+    table.columns = {{"object", "object"},
                      {"triangles", "triangles"},
-                     {"mean_blocked", "blocked", Unit::percent, 2},
-                     {"mean_error", "error", Unit::percent, 2}};
+                     {"mean_blocked", "mean blocked", Unit::percent, 2},
+                     {"mean_error", "mean error", Unit::percent, 2}};
     return table;
 }
 
@@ -86,24 +86,25 @@ Report bake_occluders(GltfDocument& document, const Scene& scene, const Occluder
     const FloorOcclusion floor =
         floor_occlusion(scene, baked.volumes, baked.frames, options, progress.range(0.9, 1));
     Report report;
-    add_figures(report, {{"parts", baked.occluders.size()},
-                         {"parts_left_out", baked.left_out},
+    add_figures(report, {{"objects", baked.occluders.size()},
+                         {"objects_omitted", baked.left_out},
                          {"bytes_volumes", baked.occluders.size() * sizeof(OcclusionVolume::texels)},
                          {"rays", baked.rays},
                          {"mean_error", baked.error / static_cast<double>(baked.occluders.size())},
                          {"floor_mean_blocked", floor.mean_blocked},
                          {"floor_mean_error", floor.mean_error},
-                         {"floor_largest_error", floor.largest_error},
-                         {"parts_scaled_unevenly", baked.uneven}});
+                         {"floor_max_error", floor.largest_error},
+                         {"objects_scaled_nonuniformly", baked.uneven}});
     report.sentences = {
-        "{output}: what {parts} parts that move as one block around them, {bytes_volumes} bytes; "
-        "{mean_error:.2f%} of the light of receivers near them off, on average",
-        "all together, on the floor that they stand on: {floor_mean_blocked:.2f%} blocked, "
-        "{floor_mean_error:.2f%} off by rays, {floor_largest_error:.2f%} at most"};
+        "{output}: occlusion volumes of {objects:#rigid object}, {bytes_volumes} bytes; mean error "
+        "{mean_error:.2f%} of the light of receivers nearby",
+        "all objects together, on the floor below: {floor_mean_blocked:.2f%} of the light blocked, mean "
+        "error {floor_mean_error:.2f%} against ray tracing, maximum {floor_max_error:.2f%}"};
     if (!baked.uneven.empty())
-        report.sentences.push_back("of parts that are scaled unevenly directions are about right alone");
+        report.sentences.push_back(
+            "directions of occlusion are approximate for objects with non-uniform scale");
     for (std::size_t i = 0; i < baked.left_out.size(); ++i)
-        report.sentences.push_back(fmt::format("left out: {{parts_left_out/{}}}", i));
+        report.sentences.push_back(fmt::format("omitted: {{objects_omitted/{}}}", i));
     report.tables.push_back(baked.table);
     return report;
 }

@@ -2,6 +2,9 @@
 
 #include "options.h"
 
+#include "outputs.h"
+#include "suboptions.h"
+
 #include <fmt/core.h>
 
 #include <algorithm>
@@ -12,24 +15,68 @@
 namespace prt::cli {
 namespace {
 
-const std::map<std::string, Backend> kBackends = {
-    {"auto", Backend::automatic}, {"cpu", Backend::cpu}, {"gpu", Backend::gpu}};
-const std::map<std::string, Inside> kInsides = {{"refill", Inside::refill}, {"keep", Inside::keep}};
-const std::map<std::string, FitMode> kFits = {
-    {"auto", FitMode::automatic}, {"vertex", FitMode::vertex}, {"surface", FitMode::surface}};
-const std::map<std::string, BadTextures> kBadTextures = {{"error", BadTextures::error},
-                                                         {"ignore", BadTextures::ignore}};
-const std::map<std::string, Window> kWindows = {{"none", Window::none},
-                                                {"hann", Window::hann},
-                                                {"lanczos", Window::lanczos},
-                                                {"auto", Window::automatic}};
-const std::map<std::string, EnvironmentLayout> kLayouts = {{"lat-long", EnvironmentLayout::lat_long},
-                                                           {"cube", EnvironmentLayout::cube},
-                                                           {"cube-faces", EnvironmentLayout::cube_faces},
-                                                           {"angular", EnvironmentLayout::angular}};
-const std::map<std::string, LatLongCenter> kCenters = {{"x", LatLongCenter::x}, {"z", LatLongCenter::z}};
-const std::map<std::string, BadPixels> kBadPixels = {
-    {"error", BadPixels::error}, {"zero", BadPixels::zero}, {"clamp", BadPixels::clamp}};
+constexpr Choice<Traversal> kTraversals[] = {
+    {"auto", Traversal::automatic, "ray queries if the GPU has them, else compute"},
+    {"compute", Traversal::compute, "a bounding volume hierarchy in compute shaders"},
+    {"device", Traversal::device, "ray queries of the GPU"}};
+constexpr Choice<Inside> kInsides[] = {{"refill", Inside::refill, "they get the light of their neighbours"},
+                                       {"keep", Inside::keep, "they stay dark"}};
+constexpr Choice<FitMode> kFits[] = {
+    {"auto", FitMode::automatic,
+     "surface if test points between the vertices show a smaller error, else vertex"},
+    {"vertex", FitMode::vertex, "at the vertices"},
+    {"surface", FitMode::surface, "over the surface; vertex values are a least-squares fit"}};
+constexpr Choice<BadTextures> kBadTextures[] = {
+    {"error", BadTextures::error, "stop if the command needs the texture"},
+    {"ignore", BadTextures::ignore,
+     "use the factors of the material; no emission if its texture is unusable"}};
+constexpr Choice<Window> kWindows[] = {
+    {"none", Window::none, "no filter"},
+    {"hann", Window::hann, "Hann window"},
+    {"lanczos", Window::lanczos, "Lanczos window"},
+    {"auto", Window::automatic, "the weakest filter for which no radiance is negative"}};
+
+/// Layout and center of an environment map.
+struct MapLayout {
+    EnvironmentLayout layout;
+    LatLongCenter center = LatLongCenter::z;
+};
+constexpr Choice<MapLayout> kLayouts[] = {
+    {"lat-long", {EnvironmentLayout::lat_long}, "latitude and longitude; the center looks along z (OpenEXR)"},
+    {"lat-long-x",
+     {EnvironmentLayout::lat_long, LatLongCenter::x},
+     "the center looks along x, as in three.js, glTF viewers and Blender"},
+    {"cube", {EnvironmentLayout::cube}, "six faces in a cross or strip"},
+    {"cube-faces", {EnvironmentLayout::cube_faces}, "one of six files, named by face"},
+    {"angular", {EnvironmentLayout::angular}, "light probe, angular map"}};
+constexpr Choice<BadPixels> kBadPixels[] = {{"error", BadPixels::error, "stop"},
+                                            {"zero", BadPixels::zero, "set them to 0"},
+                                            {"clamp", BadPixels::clamp, "limit them to the valid range"}};
+
+CLI::Validator seed_range() {
+    const auto check = [](const std::string& text) {
+        std::uint64_t value = 0;
+        const char* end = text.data() + text.size();
+        const auto [stop, error] = std::from_chars(text.data(), end, value);
+        return error == std::errc() && stop == end ? std::string()
+                                                   : text + " is not a whole number in [0 - 2^64 - 1]";
+    };
+    return {check, "UINT64"};
+}
+
+void set_device(const std::string& text, TracerChoice& tracer) {
+    tracer.gpu.clear();
+    if (text.empty())
+        throw CLI::ValidationError("--device", "the name is empty");
+    if (text == "auto" || text == "cpu" || text == "gpu") {
+        tracer.backend = text == "auto" ? Backend::automatic : text == "cpu" ? Backend::cpu : Backend::gpu;
+        return;
+    }
+    tracer.backend = Backend::gpu;
+    tracer.gpu = text;
+}
+
+constexpr const char* kLightFiles = "environment (.exr, .hdr, .png, .jpg) or light (.json)";
 
 } // namespace
 
@@ -37,7 +84,8 @@ CLI::Validator real_in(double low, double high) {
     const std::string range = fmt::format("[{} - {}]", low, high);
     const auto check = [low, high, range](const std::string& text) {
         const std::optional<double> value = real_number(text);
-        return value && *value >= low && *value <= high ? std::string() : text + " is no number in " + range;
+        return value && *value >= low && *value <= high ? std::string()
+                                                        : text + " is not a number in " + range;
     };
     return {check, "FLOAT in " + range};
 }
@@ -46,20 +94,9 @@ CLI::Validator above_zero() {
     const auto check = [](const std::string& text) {
         const std::optional<double> value = real_number(text);
         return value && *value > 0 && std::isfinite(*value) ? std::string()
-                                                            : text + " is no finite number above 0";
+                                                            : text + " is not a finite number above 0";
     };
     return {check, "POSITIVE"};
-}
-
-CLI::Validator seed() {
-    const auto check = [](const std::string& text) {
-        std::uint64_t value = 0;
-        const char* end = text.data() + text.size();
-        const auto [stop, error] = std::from_chars(text.data(), end, value);
-        return error == std::errc() && stop == end ? std::string()
-                                                   : text + " is no whole number in [0 - 2^64 - 1]";
-    };
-    return {check, "UINT64"};
 }
 
 std::string named(const std::string& name) {
@@ -70,82 +107,106 @@ void add_output(CLI::App* command, Path& output, const std::string& text) {
     command->add_option("-o,--output", output, text)->required()->type_name("FILE")->check(named);
 }
 
-void add_reading(CLI::App* command, ReadingOptions& reading) {
+void add_reading(CLI::App* command, ReadingOptions& reading, double* limit) {
     command->add_flag("--allow-outside", reading.allow_outside,
-                      "a scene's buffers and images may lie outside its folder: for scenes that you trust");
+                      "allow files outside the scene's folder; for trusted scenes");
     choice(command, "--bad-textures", reading.bad_textures, kBadTextures,
-           "textures that are missing, damaged or of a format that is not read: stop where one is needed, or "
-           "use the factors of their materials alone, and no emission where its texture is one",
-           "error");
+           "handling of missing, damaged or unsupported textures", "error");
     command
-        ->add_option_function<double>(
-            "--scene-limit", [&reading](double gigabytes) { reading.scene_limit = 1e9 * gigabytes; },
-            "GB that a scene may take with its instances and morph targets; otherwise 0.256 and 64 times the "
-            "size of its files")
-        ->check(above_zero());
+        ->add_option_function<std::uint64_t>(
+            "--memory-limit",
+            [&reading, limit](const std::uint64_t& bytes) {
+                if (bytes == 0 || bytes > std::uint64_t{1} << 60) // a negative number wraps to this range
+                    throw CLI::ValidationError("--memory-limit", "expected a size above 0, for example 8GB");
+                reading.scene_limit = static_cast<double>(bytes);
+                if (limit)
+                    *limit = static_cast<double>(bytes);
+            },
+            limit ? "memory limit for the bake and the scene, as 8GB" : "memory limit for the scene, as 8GB")
+        ->transform(CLI::AsSizeValue(true))
+        ->type_name("SIZE")
+        ->default_str(limit ? "the machine's memory" : "256MB + 64 x file");
 }
 
 void add_smooth_normals(CLI::App* command, GltfOptions& reading) {
     command
         ->add_option("--smooth-normals", reading.smooth_normals_degrees,
-                     "primitives without normals get smooth ones across edges of this angle or less; without "
-                     "it flat ones")
+                     "smooth normals across edges up to this angle, if normals are missing")
         ->type_name("DEGREES")
         ->check(CLI::Range(0.0, 180.0));
 }
 
 void add_threads(CLI::App* command, int& threads) {
-    command->add_option("--threads", threads, "number of threads, 0: all")
+    command->add_option("--threads", threads, "number of threads; 0: all")
         ->capture_default_str()
         ->check(CLI::Range(0, 1024));
 }
 
 void add_json(CLI::App* command, Path& json) {
-    command->add_option("--json", json, "also write all figures to this file")
-        ->type_name("FILE")
-        ->check(named);
+    command->add_option("--json", json, "write all figures to this file")->type_name("FILE")->check(named);
 }
 
 void add_reports(CLI::App* command, ReportFiles& files) {
     add_json(command, files.json);
-    command->add_option("--html", files.html, "also write a report page to this file")
-        ->type_name("FILE")
-        ->check(named);
     command
-        ->add_option("--csv", files.csv,
-                     "also write all tables to this file: one row per method, budget, light or lamp, units "
-                     "in the header")
-        ->type_name("FILE")
-        ->check(named);
+        ->add_option_function<std::vector<std::string>>(
+            "--report",
+            [&files](const std::vector<std::string>& names) {
+                for (const std::string& name : names) {
+                    const std::string suffix = suffix_of(name);
+                    if (suffix != ".html" && suffix != ".htm" && suffix != ".csv")
+                        throw CLI::ValidationError("--report", "'" + name + "' is neither .html nor .csv");
+                    (suffix == ".csv" ? files.csv : files.html) = name;
+                }
+            },
+            "write a page (.html) or tables (.csv); repeat the option for both\n"
+            ".csv: one row per method, budget, light or lamp; units are in the header")
+        ->allow_extra_args(false)
+        ->type_name("FILE");
 }
 
-CLI::Option* add_gpu(CLI::App* command, std::string& gpu) {
+CLI::Option* add_device(CLI::App* command, TracerChoice& tracer) {
+    return Suboptions("--device", "auto|cpu|gpu|N|NAME", "processor that traces the rays",
+                      [&tracer](const std::string& text) { set_device(text, tracer); })
+        .detail("auto: a hardware GPU if there is one, else the CPU")
+        .detail("cpu: Embree")
+        .detail("gpu: Vulkan 1.2, hardware or software")
+        .detail("N, NAME: a GPU by its number or part of its name, from bench --device list")
+        .key("traversal", names_of(kTraversals), "how a GPU traces rays",
+             [&tracer](const std::string& name) { tracer.traversal = chosen("--device", kTraversals, name); })
+        .add(command)
+        ->default_str("auto");
+}
+
+void check_device(const TracerChoice& tracer) {
+    if (!tracer.gpu.empty() && tracer.method == BakeMethod::raster)
+        throw Error("--device names a GPU for rays, but --method raster draws on the GPU of OpenGL; use "
+                    "--device gpu");
+}
+
+void add_seed(CLI::App* command, std::uint64_t& seed) {
+    command->add_option("--seed", seed, "seed of the random numbers")
+        ->capture_default_str()
+        ->check(seed_range());
+}
+
+void add_enclosed(CLI::App* command, Inside& inside) {
+    choice(command, "--enclosed", inside, kInsides, "vertices inside solid geometry", "refill");
+}
+
+CLI::Option* add_lights(CLI::App* command, std::vector<Path>& lights, const std::string& text) {
     return command
-        ->add_option("--gpu", gpu,
-                     "the GPU to bake on: its number, or a part of its name (bench --list-devices)")
-        ->type_name("N|NAME")
-        ->check([](const std::string& name) { return name.empty() ? "the name is empty" : ""; });
+        ->add_option("--lights", lights, text + "\nFILE: " + kLightFiles + "; repeat the option for each")
+        ->allow_extra_args(false) // one each time, so that positional arguments may follow
+        ->check(named)
+        ->type_name("FILE");
 }
 
-CLI::Option* add_backend(CLI::App* command, Backend& backend, const std::string& text) {
-    return choice(command, "--backend", backend, kBackends, text, "auto");
-}
-
-void choose_gpu(TracerChoice& tracer) {
-    if (tracer.gpu.empty())
-        return;
-    if (tracer.backend == Backend::cpu)
-        throw Error("--gpu names a GPU, and --backend cpu uses none");
-    if (tracer.method == BakeMethod::raster)
-        throw Error("--gpu names a GPU for rays: depth maps are drawn where OpenGL is");
-    tracer.backend = Backend::gpu;
-}
-
-void add_inside(CLI::App* command, Inside& inside) {
-    choice(command, "--inside", inside, kInsides,
-           "vertices that lie inside solid geometry, where no light comes: they take the light of their "
-           "neighbours, or stay dark",
-           "refill");
+CLI::Option* add_light(CLI::App* command, Path& light) {
+    return command->add_option("--lights", light, std::string("light of the sky\nFILE: ") + kLightFiles)
+        ->check(named)
+        ->type_name("FILE")
+        ->default_str("lamps only");
 }
 
 void add_fit(CLI::App* command, FitMode& fit, const std::string& text) {
@@ -154,28 +215,29 @@ void add_fit(CLI::App* command, FitMode& fit, const std::string& text) {
 }
 
 void add_light_options(CLI::App* command, LightOptions& options) {
-    const auto window = std::find_if(kWindows.begin(), kWindows.end(),
-                                     [&](const auto& named) { return named.second == options.window; });
-    choice(command, "--window", options.window, kWindows,
-           "filter of the SH bands against ringing; auto: the least under which no radiance is negative",
-           window->first);
+    const auto window = std::ranges::find(kWindows, options.window, &Choice<Window>::value);
+    choice(command, "--window", options.window, kWindows, "filter of the SH bands against ringing",
+           window->name);
     command
         ->add_option("--rotate", options.rotation_degrees,
-                     "turn the environment about +Y, degrees, counter-clockwise from above")
+                     "rotate the environment about +Y, degrees\ncounter-clockwise, seen from above")
         ->capture_default_str()
         ->check(real_in(-1e6, 1e6));
-    choice(command, "--env-layout", options.environment.layout, kLayouts,
-           "how to read an image that does not say; otherwise by its shape", "by shape");
-    command->add_option(
-        "--layer", options.environment.layer,
-        "layer or part of an OpenEXR environment; otherwise its plain channels or its only layer");
-    choice(
-        command, "--env-center", options.environment.center, kCenters,
-        "what the centre column of a lat-long image looks at: z as OpenEXR says, x as three.js, glTF viewers "
-        "and Blender show it",
-        "z");
+    command
+        ->add_option_function<std::string>(
+            "--env-layout",
+            [&options](const std::string& name) {
+                const MapLayout layout = chosen("--env-layout", kLayouts, name);
+                options.environment.layout = layout.layout;
+                options.environment.center = layout.center;
+            },
+            "layout of the image" + explained(kLayouts))
+        ->type_name(names_of(kLayouts))
+        ->default_str("from its shape");
+    command->add_option("--layer", options.environment.layer, "layer or part of an OpenEXR environment")
+        ->default_str("RGB or the only layer");
     choice(command, "--bad-pixels", options.environment.bad_pixels, kBadPixels,
-           "what to do with negative, infinite and NaN pixels", "error");
+           "handling of negative, infinite and NaN pixels", "error");
 }
 
 std::optional<int> whole_number(const std::string& text) {

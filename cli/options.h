@@ -9,10 +9,12 @@
 
 #include <CLI/CLI.hpp>
 
-#include <map>
+#include <cstdint>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
+#include <vector>
 
 namespace prt::cli {
 
@@ -25,44 +27,82 @@ Arguments& arguments_for(CLI::App* command, Run run) {
     return *arguments;
 }
 
-/// Adds an option whose value is one of `choices`.
-template <class T, class Target>
-CLI::Option* choice(CLI::App* command, const std::string& name, Target& target,
-                    const std::map<std::string, T>& choices, const std::string& text,
-                    const std::string& otherwise) {
+/// A value that an option can have.
+template <class T>
+struct Choice {
+    const char* name;
+    T value;
+    const char* explanation;
+};
+
+/// Returns the value of the choice called `name`. Throws `CLI::ValidationError` if there is none.
+template <class T, std::size_t N>
+T chosen(const std::string& option, const Choice<T> (&choices)[N], const std::string& name) {
     std::string names;
-    for (const auto& [key, value] : choices)
-        names += (names.empty() ? "" : "|") + key;
-    return command
-        ->add_option_function<std::string>(
-            name, [&target, &choices](const std::string& key) { target = choices.at(key); }, text)
-        ->check(CLI::IsMember(choices))
-        ->type_name(names)
-        ->default_str(otherwise);
+    for (const Choice<T>& choice : choices) {
+        if (name == choice.name)
+            return choice.value;
+        names += (names.empty() ? "" : "|") + std::string(choice.name);
+    }
+    throw CLI::ValidationError(option, "'" + name + "' is not one of " + names);
 }
 
-/// Validators of arguments; an invalid value is a usage error, and the command does not start.
+/// Returns "auto|on|off", and the lines that explain the choices in help.
+template <class T, std::size_t N>
+std::string names_of(const Choice<T> (&choices)[N]) {
+    std::string names;
+    for (const Choice<T>& choice : choices)
+        names += (names.empty() ? "" : "|") + std::string(choice.name);
+    return names;
+}
+template <class T, std::size_t N>
+std::string explained(const Choice<T> (&choices)[N]) {
+    std::string lines;
+    for (const Choice<T>& choice : choices)
+        lines += std::string("\n") + choice.name + ": " + choice.explanation;
+    return lines;
+}
+
+/// Adds an option whose value is one of `choices`.
+template <class T, std::size_t N, class Target>
+CLI::Option* choice(CLI::App* command, const std::string& name, Target& target, const Choice<T> (&choices)[N],
+                    const std::string& text, const std::string& usual) {
+    return command
+        ->add_option_function<std::string>(
+            name,
+            [name, &target, &choices](const std::string& given) { target = chosen(name, choices, given); },
+            text + explained(choices))
+        ->type_name(names_of(choices))
+        ->default_str(usual);
+}
+
+/// Validators of arguments. An invalid value is a usage error, and the command does not start.
 CLI::Validator real_in(double low, double high); ///< rejects NaN
 CLI::Validator above_zero();                     ///< finite
-CLI::Validator seed();
 /// Returns the error message for an empty file name; empty if the name is valid.
 std::string named(const std::string& name);
 
 /// Adds -o, --output: the main output of a command.
 void add_output(CLI::App* command, Path& output, const std::string& text);
-/// Adds --allow-outside, --bad-textures and --scene-limit, for every command that reads a scene.
-void add_reading(CLI::App* command, ReadingOptions& reading);
+/// Adds --allow-outside, --bad-textures and --memory-limit, for every command that reads a scene. `limit`:
+/// also gets the limit, in bytes.
+void add_reading(CLI::App* command, ReadingOptions& reading, double* limit = nullptr);
 /// --smooth-normals
 void add_smooth_normals(CLI::App* command, GltfOptions& reading);
 void add_threads(CLI::App* command, int& threads);
 void add_json(CLI::App* command, Path& json);
 void add_reports(CLI::App* command, ReportFiles& files);
-CLI::Option* add_backend(CLI::App* command, Backend& backend, const std::string& text);
-/// Adds --gpu, for commands that bake on one.
-CLI::Option* add_gpu(CLI::App* command, std::string& gpu);
-/// Selects the GPU backend if a GPU is named. Throws `Error` if rays are not traced on a GPU.
-void choose_gpu(TracerChoice& tracer);
-void add_inside(CLI::App* command, Inside& inside);
+/// Adds --device, for commands that trace rays.
+CLI::Option* add_device(CLI::App* command, TracerChoice& tracer);
+/// Throws `Error` if a GPU is named and rays are not traced on one.
+void check_device(const TracerChoice& tracer);
+void add_seed(CLI::App* command, std::uint64_t& seed);
+/// Adds --enclosed.
+void add_enclosed(CLI::App* command, Inside& inside);
+/// Adds --lights for commands that use several; `text` says what for.
+CLI::Option* add_lights(CLI::App* command, std::vector<Path>& lights, const std::string& text);
+/// Adds --lights for commands that use one light, which may be missing.
+CLI::Option* add_light(CLI::App* command, Path& light);
 /// Adds --fit, which is automatic by default.
 void add_fit(CLI::App* command, FitMode& fit, const std::string& text);
 void add_light_options(CLI::App* command, LightOptions& options);

@@ -43,10 +43,10 @@ void check_suffix(const Output& output, bool stream) {
     if (suffix.empty() ? !needed : output.suffixes.empty() ? !is_in(kTelling) : is_in(output.suffixes))
         return;
     if (output.suffixes.empty())
-        throw Error(fmt::format("{}: {} writes text, which is no {} file", output.path.string(),
-                                output.option, suffix));
-    throw Error(fmt::format("{}: {} writes {}, so the name must end in that", output.path.string(),
-                            output.option, fmt::join(output.suffixes, " or ")));
+        throw Error(fmt::format("{}: {} writes text; the name of the file must not end in {}",
+                                output.path.string(), output.option, suffix));
+    throw Error(fmt::format("{}: the name of the file must end in {}; {} writes no other format",
+                            output.path.string(), fmt::join(output.suffixes, " or "), output.option));
 }
 
 /// Returns the files that a name stands for: six if it contains {face}.
@@ -83,12 +83,12 @@ std::vector<Path> check_outputs(const std::vector<Output>& outputs, const std::v
         for (const Path& input : inputs)
             for (const Path& file : files_of(input))
                 if (!file.empty() && same_file(file, output.path))
-                    throw Error(fmt::format("{}: is an input, which {} would replace: give another name",
+                    throw Error(fmt::format("{}: is an input, which {} would overwrite; use another name",
                                             name, output.option));
         for (std::size_t other = 0; other < i; ++other)
             if (same_file(asked[other].path, output.path))
-                throw Error(
-                    fmt::format("{}: {} and {} would be one file", name, asked[other].option, output.option));
+                throw Error(fmt::format("{}: {} and {} would be one file; use another name", name,
+                                        asked[other].option, output.option));
     }
     std::vector<Path> paths;
     for (const Output& output : asked)

@@ -2,6 +2,7 @@
 
 #include "scene_check.h"
 
+#include "prt/support/counted.h"
 #include "prt/support/error.h"
 #include "prt/support/printable.h"
 #include "prt/texels.h"
@@ -21,31 +22,30 @@ namespace prt::cli {
 namespace {
 
 constexpr std::string_view kChecked =
-    "notices of reading, images, extensions, texture coordinates for lightmaps, triangles without area, "
-    "closed "
-    "surfaces that face inwards, lights, number of objects, vertices changed after a bake";
+    "notices of the reader, images, extensions, texture coordinates for lightmaps, triangles without area, "
+    "closed surfaces that face inwards, lights, number of primitives, vertices changed after a bake";
 
 /// Remedies for notices of reading, by words of these.
 constexpr std::pair<std::string_view, std::string_view> kRemedies[] = {
-    {"have no normals", "export normals: flat ones split every vertex"},
-    {"normals are zero or not finite", "recalculate the normals of the mesh"},
+    {"no normals", "export normals; flat normals split every vertex"},
+    {"zero or not finite", "recalculate the normals of the mesh"},
     {"no usable normal", "recalculate the normals of the mesh"},
-    {"texture coordinates are not finite", "unwrap these vertices again"},
-    {"cannot be read", "put the file there, or bake with --bad-textures ignore"},
-    {"is read", "write the URI as the file is named"},
-    {"normal map", "nothing to do: a shader can add it to the baked light"},
-    {"skinned meshes", "pose the model before a bake, or use prt lobes"},
-    {"morph targets", "set the weights before a bake"},
-    {"instances (EXT_mesh_gpu_instancing)", "nothing to do, or bake with --instances shared"},
-    {"points, lines or nothing", "nothing to do: they take no light"},
-    {"are null", "leave null members out of the JSON"},
+    {"texture coordinate", "unwrap these vertices again"},
+    {"cannot be read", "add the file, or bake with --bad-textures ignore"},
+    {"' is read", "change the URI to the name of the file"},
+    {"normal map", "no action needed: a shader can add it to the baked light"},
+    {"skinned", "pose the model before a bake, or use prt lobes"},
+    {"morph", "set the weights before a bake"},
+    {"EXT_mesh_gpu_instancing", "no action needed, or bake with --instances shared"},
+    {"points, lines", "no action needed: they receive no light"},
+    {"null", "remove null members from the JSON"},
 };
 
 std::string remedy_for(const std::string& notice) {
     for (const auto& [words, remedy] : kRemedies)
         if (notice.find(words) != std::string::npos)
             return std::string(remedy);
-    return "nothing to do where that is intended";
+    return "no action needed if this is intended";
 }
 
 void check_images(const Scene& scene, std::vector<Finding>& findings) {
@@ -61,7 +61,7 @@ void check_images(const Scene& scene, std::vector<Finding>& findings) {
         try {
             load_textures(one, BadTextures::error, TextureNeeds::pictures);
         } catch (const Error&) {
-            findings.push_back({scene.images[index].name + " is needed and cannot be decoded",
+            findings.push_back({scene.images[index].name + " is needed, but cannot be decoded",
                                 "store it as PNG or JPEG, or bake with --bad-textures ignore"});
         }
     }
@@ -77,8 +77,8 @@ void check_texcoords(const Scene& scene, std::vector<Finding>& findings) {
     try {
         plan_atlases(scene, {.size = 256});
     } catch (const Error& error) {
-        findings.push_back({fmt::format("no lightmap fits TEXCOORD_1: {}", error.what()),
-                            "bake lightmaps with --unwrap; vertices need no coordinates"});
+        findings.push_back({fmt::format("TEXCOORD_1 is not usable for lightmaps: {}", error.what()),
+                            "bake lightmaps with --texels N,unwrap; bakes of vertices need no coordinates"});
     }
 }
 
@@ -118,19 +118,19 @@ void check_triangles(const Scene& scene, std::vector<Finding>& findings) {
         const double volume = enclosed_volume(vertices, primitive.triangles);
         if (volume < 0 && !scene.materials[primitive.material].double_sided)
             findings.push_back(
-                {fmt::format("mesh {} primitive {} ({}) is closed and faces inwards: from outside it is "
-                             "invisible, and takes light inside",
+                {fmt::format("mesh {} primitive {} ({}) is closed and faces inwards: it is invisible from "
+                             "outside and receives light on its inside",
                              primitive.mesh, primitive.primitive, printable(primitive.node_name)),
-                 "flip its faces, unless it is seen from inside, as a room"});
+                 "flip its faces, unless it is seen from inside, such as a room"});
     }
     if (flat > 0)
-        findings.push_back({fmt::format("{} triangles have no area", flat),
-                            "dissolve degenerate faces: they only cost vertices"});
+        findings.push_back({counted(flat, "triangle has", "triangles have") + " no area",
+                            "remove degenerate faces: their vertices need memory, but are not visible"});
 }
 
 void check_lights(const SceneFile& model, std::vector<Finding>& findings) {
     for (const std::string& light : unused_lights(model.document))
-        findings.push_back({printable(light) + " is at no node", "delete it, or give it a node"});
+        findings.push_back({printable(light) + " is not used by any node", "delete it, or add it to a node"});
     const Bounds box = bounds(model.scene);
     for (const PunctualLight& light : model.scene.lights) {
         const glm::vec3 nearest = glm::clamp(light.position, box.low, box.high);
@@ -139,9 +139,9 @@ void check_lights(const SceneFile& model, std::vector<Finding>& findings) {
                 {fmt::format("light '{}' is black", printable(light.name)), "raise its intensity"});
         else if (light.kind != PunctualKind::directional &&
                  glm::distance(nearest, light.position) > light.range)
-            findings.push_back({fmt::format("light '{}' ends at {:.4g} m, before any surface",
+            findings.push_back({fmt::format("light '{}' has a range of {:.4g} m and reaches no surface",
                                             printable(light.name), light.range),
-                                "raise its range, or leave the range out"});
+                                "raise its range, or remove the range"});
     }
 }
 
@@ -150,8 +150,9 @@ void check_baked(const SceneFile& model, std::vector<Finding>& findings) {
     if (!record || model.lightmap || model.instanced || record->receivers.empty() ||
         record->receivers == receivers_id(model.scene))
         return;
-    findings.push_back({"its vertices are not those that were baked: a program has moved or quantised them",
-                        "run that program before prt bake, or bake again"});
+    findings.push_back(
+        {"its vertices differ from those that were baked: a program has moved or quantised them",
+         "run that program before prt bake, or bake again"});
 }
 
 } // namespace
@@ -164,14 +165,15 @@ std::vector<Finding> check_model(const SceneFile& model) {
     check_images(scene, findings);
     for (const std::string& name : unread_extensions(model.document))
         findings.push_back({"the extension " + printable(name) + " is not read",
-                            "nothing to do where light does not depend on it: it is kept"});
+                            "no action needed if light does not depend on it: the file keeps it"});
     check_texcoords(scene, findings);
     check_triangles(scene, findings);
     check_lights(model, findings);
     constexpr std::size_t kMany = 10'000;
     if (scene.primitives.size() > kMany)
-        findings.push_back({fmt::format("{} primitives are drawn", scene.primitives.size()),
-                            "join objects of one material: each costs draw calls and clusters"});
+        findings.push_back(
+            {fmt::format("the scene draws {} primitives", scene.primitives.size()),
+             "join objects with the same material: each primitive needs draw calls and clusters"});
     check_baked(model, findings);
     return findings;
 }
@@ -179,17 +181,15 @@ std::vector<Finding> check_model(const SceneFile& model) {
 void add_findings(const std::vector<Finding>& findings, Report& report) {
     Json list = Json::array();
     for (std::size_t i = 0; i < findings.size(); ++i) {
-        list.push_back({{"what", findings[i].what}, {"remedy", findings[i].remedy}});
-        report.sentences.push_back(fmt::format("check: {{check/findings/{0}/what}}; "
+        list.push_back({{"problem", findings[i].what}, {"remedy", findings[i].remedy}});
+        report.sentences.push_back(fmt::format("check: {{check/findings/{0}/problem}}; "
                                                "{{check/findings/{0}/remedy}}",
                                                i));
     }
     add_figures(report, {{"check", {{"findings", std::move(list)}, {"checked", kChecked}}}});
-    report.sentences.push_back(fmt::format("check: {}; checked are {{check/checked}}",
-                                           findings.empty() ? "nothing found"
-                                           : findings.size() == 1
-                                               ? "1 finding"
-                                               : fmt::format("{} findings", findings.size())));
+    report.sentences.push_back(
+        fmt::format("check: {}; checked: {{check/checked}}",
+                    findings.empty() ? "no problems found" : counted(findings.size(), "problem")));
 }
 
 } // namespace prt::cli

@@ -21,13 +21,13 @@ void add_sky_errors(const ErrorMoments& moments, const std::vector<Lighting>& sk
     if (moments.layout.distant_terms().empty())
         return;
     Table table{"skies",
-                "Errors under skies, turned about +Y",
+                "Errors under skies at all rotations about +Y",
                 "",
                 {{"name", "sky"},
-                 {"separate_suns", "suns apart"},
-                 {"lit_rms_mean", "mean of all turns", Unit::percent},
-                 {"lit_rms_worst", "worst turn", Unit::percent},
-                 {"worst_rotation_degrees", "its angle"}},
+                 {"separate_suns", "separate suns"},
+                 {"lit_rms_mean", "mean of all rotations", Unit::percent},
+                 {"lit_rms_worst", "worst rotation", Unit::percent},
+                 {"worst_rotation_degrees", "angle of the worst, degrees"}},
                 {}};
     const std::vector<glm::vec3> dark(moments.layout.lamps(), glm::vec3(0));
     for (const Lighting& sky : skies) {
@@ -35,9 +35,9 @@ void add_sky_errors(const ErrorMoments& moments, const std::vector<Lighting>& sk
         for (LightingUse& use : uses_of(sky, moments.layout)) {
             use.lighting.lamps = dark;
             const LitRmsOverRotations error = lit_rms_over_rotations(moments, use.lighting);
-            sentence += fmt::format("{1}{{skies/{0}/lit_rms_mean:.3f%}}, at the worst turn "
+            sentence += fmt::format("{1}mean error {{skies/{0}/lit_rms_mean:.3f%}}, at the worst rotation "
                                     "{{skies/{0}/lit_rms_worst:.3f%}}",
-                                    table.rows.size(), use.separate_suns ? "; its sun apart " : "");
+                                    table.rows.size(), use.separate_suns ? "; with a separate sun: " : "");
             table.rows.push_back(
                 {sky.name, use.separate_suns, error.mean, error.worst, glm::degrees(error.worst_angle)});
         }

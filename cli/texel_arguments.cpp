@@ -5,40 +5,41 @@
 #include "options.h"
 #include "prt/support/error.h"
 #include "prt/unwrap.h"
+#include "suboptions.h"
 
 #include <fmt/core.h>
 #include <glm/geometric.hpp>
 
 #include <cmath>
-#include <map>
 #include <utility>
 
 namespace prt::cli {
 namespace {
 
-const std::map<std::string, AtlasMode> kAtlasModes = {
-    {"auto", AtlasMode::automatic}, {"one", AtlasMode::one}, {"each", AtlasMode::each}};
+constexpr Choice<AtlasMode> kAtlasModes[] = {
+    {"auto", AtlasMode::automatic, "one if the charts do not overlap, else each"},
+    {"one", AtlasMode::one, "one texture for all objects"},
+    {"each", AtlasMode::each, "a texture for each object"}};
 
-/// "64/m" or "64".
-double parse_density(const std::string& text) {
-    const std::string number = text.ends_with("/m") ? text.substr(0, text.size() - 2) : text;
-    const std::optional<double> density = real_number(number);
-    if (!density || !(*density > 0) || !std::isfinite(*density))
-        throw CLI::ValidationError("--texels", "'" + text + "' is no number of texels a metre, as 64/m");
-    return *density;
-}
-
-/// Returns the options including those for coordinates and textures.
-TexelOptions texel_options(const TexelArguments& a) {
-    TexelOptions options = a.texels;
-    options.uv_set = a.uv_set.value_or(options.uv_set);
-    options.atlases = a.atlas.value_or(options.atlases);
-    return options;
+/// Reads "1024", texels along each side, or "64/m", texels per metre.
+void parse_size(const std::string& text, TexelOptions& texels) {
+    const bool density = text.ends_with("/m");
+    const std::optional<double> per_metre =
+        density ? real_number(text.substr(0, text.size() - 2)) : std::nullopt;
+    const std::optional<int> size = density ? std::nullopt : whole_number(text);
+    if (density ? !per_metre || !(*per_metre > 0) || !std::isfinite(*per_metre)
+                : !size || *size < 1 || *size > kMaxTexels)
+        throw CLI::ValidationError(
+            "--texels",
+            fmt::format("'{}' is neither a number of texels in 1..{} nor texels per metre, as 64/m", text,
+                        kMaxTexels));
+    texels.per_metre = per_metre.value_or(0);
+    texels.size = size.value_or(0);
 }
 
 /// Generates new texture coordinates for the scene.
 TexelRoom unwrapped(const TexelArguments& a, const Path& path, GltfDocument& document, Scene& scene) {
-    Unwrapping unwrapping = unwrap(scene, texel_options(a));
+    Unwrapping unwrapping = unwrap(scene, a.texels);
     const int set = free_texcoord(scene);
     document = with_texcoords(std::move(document), scene, unwrapping.primitives, set);
     scene = extract_scene(document);
@@ -55,72 +56,53 @@ TexelRoom unwrapped(const TexelArguments& a, const Path& path, GltfDocument& doc
 
 } // namespace
 
-TexelSizeOptions add_texels(CLI::App* command, TexelArguments& a, const std::string& what) {
-    CLI::Option* density =
-        command
-            ->add_option_function<std::string>(
-                "--texels", [&a](const std::string& text) { a.texels.per_metre = parse_density(text); },
-                what + ", with so many texels a metre in the mean")
-            ->type_name("N/m");
-    CLI::Option* size =
-        command->add_option("--size", a.texels.size, what + ", with so many texels along each side")
-            ->check(CLI::Range(1, kMaxTexels))
-            ->excludes(density);
-    command->add_option("--uv", a.uv_set, "coordinates that textures use: TEXCOORD_n")
-        ->default_str("1")
-        ->check(CLI::Range(0, 7));
-    command->add_flag(
-        "--unwrap", a.unwrap,
-        "where these coordinates have no place for every surface: cut the scene into charts, and write them "
-        "as a set of their own");
-    choice(command, "--atlas", a.atlas, kAtlasModes,
-           "a texture for all, or for each object; auto: for all where their charts do not overlap", "auto");
-    CLI::Option* casters =
-        command
-            ->add_option(
-                "--casters", a.casters,
-                "a finer model of the same, that blocks in the place of the scene: texels have what arrives "
-                "at its surface")
-            ->check(named)
-            ->type_name("FILE");
-    command
-        ->add_option(
-            "--reach", a.reach,
-            "how far the finer surface may lie off, metres; otherwise a fiftieth of the scene's extent")
-        ->check(above_zero())
-        ->needs(casters);
-    return {density, size};
+CLI::Option* add_texels(CLI::App* command, TexelArguments& a, const std::string& text) {
+    CLI::Option* texels =
+        Suboptions("--texels", "N|N/m", text, [&a](const std::string& value) { parse_size(value, a.texels); })
+            .detail("N: texels along each side of a texture")
+            .detail("N/m: texels per metre, on average over the surface")
+            .flag("unwrap", "make charts and a new set of coordinates if the existing ones do not fit",
+                  [&a] { a.unwrap = true; })
+            .whole_number("uv", 0, 7, "texture coordinates, TEXCOORD_N [1]",
+                          [&a](int set) { a.texels.uv_set = set; })
+            .key("atlas", names_of(kAtlasModes), "number of textures [auto]",
+                 [&a](const std::string& name) { a.texels.atlases = chosen("--texels", kAtlasModes, name); })
+            .add(command);
+    Suboptions("--high-poly", "FILE", "detailed model; texels get the light that arrives at its surface",
+               [&a](const std::string& file) {
+                   if (file.empty())
+                       throw CLI::ValidationError("--high-poly", "the name of the file is empty");
+                   a.high_poly = file;
+               })
+        .number("distance", 1e-9, 1e9, "maximum distance of its surface, metres [1/50 of the scene's size]",
+                [&a](double metres) { a.distance = metres; })
+        .add(command);
+    return texels;
 }
 
 void check_texels(const TexelArguments& a) {
-    if (a.given())
-        return;
-    for (const auto& [given, option] : {std::pair(a.unwrap, "--unwrap"),
-                                        {a.uv_set.has_value(), "--uv"},
-                                        {a.atlas.has_value(), "--atlas"},
-                                        {!a.casters.empty(), "--casters"}})
-        if (given)
-            throw Error(std::string(option) + " is for textures: give --size or --texels");
+    if (!a.given() && !a.high_poly.empty())
+        throw Error("--high-poly needs textures: add --texels");
 }
 
 Finer load_finer(const TexelArguments& a, const GltfOptions& reading, const Scene& scene) {
     Finer finer;
-    if (a.casters.empty())
+    if (a.high_poly.empty())
         return finer;
-    finer.scene = extract_scene(load_gltf(a.casters, reading));
-    print_notices(a.casters.string(), finer.scene->notices);
+    finer.scene = extract_scene(load_gltf(a.high_poly, reading));
+    print_notices(a.high_poly.string(), finer.scene->notices);
     const Bounds box = bounds(scene);
-    finer.reach = a.reach.value_or(static_cast<double>(glm::distance(box.low, box.high)) / 50);
+    finer.distance = a.distance.value_or(static_cast<double>(glm::distance(box.low, box.high)) / 50);
     return finer;
 }
 
 TexelRoom make_room(const TexelArguments& a, const Path& path, GltfDocument& document, Scene& scene) {
-    const TexelOptions options = texel_options(a);
     if (!a.unwrap)
-        return {plan_atlases(scene, options)};
+        return {plan_atlases(scene, a.texels)};
     try { // existing coordinates are kept if they have space for every surface
-        TexelRoom room{plan_atlases(scene, options)};
-        print_notices(path.string(), {fmt::format("has TEXCOORD_{} already, which is kept", options.uv_set)});
+        TexelRoom room{plan_atlases(scene, a.texels)};
+        print_notices(path.string(),
+                      {fmt::format("has TEXCOORD_{} already, which is kept", a.texels.uv_set)});
         return room;
     } catch (const Error&) { // that is why
         return unwrapped(a, path, document, scene);

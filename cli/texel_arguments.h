@@ -17,33 +17,26 @@ namespace prt::cli {
 
 struct TexelArguments {
     TexelOptions texels;
-    std::optional<int> uv_set;
-    std::optional<AtlasMode> atlas;
-    bool unwrap = false;
-    Path casters;
-    std::optional<double> reach; ///< metres
+    bool unwrap = false;            ///< write new texture coordinates if the existing ones do not fit
+    Path high_poly;                 ///< model whose surface blocks light and is lit, in place of the scene
+    std::optional<double> distance; ///< maximum distance of that surface, metres
 
     /// True if textures are requested.
     bool given() const { return texels.size > 0 || texels.per_metre > 0; }
 };
 
-/// The options that request textures.
-struct TexelSizeOptions {
-    CLI::Option *density, *size;
-};
+/// Adds --texels and --high-poly. Returns --texels. `text` says what is baked.
+CLI::Option* add_texels(CLI::App* command, TexelArguments& arguments, const std::string& text);
 
-/// Adds the options of texels. `what` is the first part of their help: "into textures".
-TexelSizeOptions add_texels(CLI::App* command, TexelArguments& arguments, const std::string& what);
-
-/// Throws `Error` for options of textures if no textures are requested.
+/// Throws `Error` for --high-poly if no textures are requested.
 void check_texels(const TexelArguments& arguments);
 
 /// A finer model, and its maximum distance: by default a fiftieth of the scene's extent.
 struct Finer {
     std::optional<Scene> scene;
-    double reach = 0;
+    double distance = 0;
 
-    FinerModel model() const { return {scene ? &*scene : nullptr, reach}; }
+    FinerModel model() const { return {scene ? &*scene : nullptr, distance}; }
 };
 Finer load_finer(const TexelArguments& arguments, const GltfOptions& reading, const Scene& scene);
 
@@ -52,7 +45,7 @@ struct TexelRoom {
     std::vector<Atlas> atlases;
     Json figures = Json::object();
 };
-/// Finds space for all surfaces of `scene`, read from `path`. With --unwrap, document and scene get new
+/// Finds space for all surfaces of `scene`, read from `path`. With `unwrap`, document and scene get new
 /// coordinates if the existing ones have no space for every surface. Throws `Error`.
 TexelRoom make_room(const TexelArguments& arguments, const Path& path, GltfDocument& document, Scene& scene);
 

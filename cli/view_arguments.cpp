@@ -22,11 +22,12 @@ void parse_vector(const std::string& name, const std::string& text, std::optiona
 }
 
 void vector_option(CLI::App* command, const std::string& name, std::optional<glm::dvec3>& target,
-                   const std::string& text) {
+                   const std::string& text, const std::string& usual) {
     command
         ->add_option_function<std::string>(
             name, [name, &target](const std::string& value) { parse_vector(name, value, target); }, text)
-        ->type_name("x,y,z");
+        ->type_name("x,y,z")
+        ->default_str(usual);
 }
 
 void parse_size(const std::string& text, int& width, int& height) {
@@ -60,13 +61,11 @@ void add_view(CLI::App* command, View& view) {
     command
         ->add_option_function<std::string>(
             "--size", [&view](const std::string& text) { parse_size(text, view.width, view.height); },
-            "size in pixels")
+            "width and height in pixels")
         ->type_name("WxH")
         ->default_str("1280x720");
-    vector_option(command, "--camera", view.camera,
-                  "position of the camera, metres; otherwise it sees the whole scene");
-    vector_option(command, "--look-at", view.look_at,
-                  "point the camera looks at; otherwise the middle of the scene");
+    vector_option(command, "--camera", view.camera, "position of the camera, metres", "sees the whole scene");
+    vector_option(command, "--look-at", view.look_at, "target of the camera, metres", "center of the scene");
     command->add_option("--fov", view.field_of_view_degrees, "vertical field of view, degrees")
         ->capture_default_str()
         ->check(real_in(1, 170));
@@ -76,8 +75,8 @@ CLI::Option* add_exposure(CLI::App* command, Exposure& exposure) {
     return command
         ->add_option_function<std::string>(
             "--exposure", [&exposure](const std::string& text) { exposure = parse_exposure(text); },
-            "stops; or auto: the mean luminance of what shows of the model becomes 0.22; or stops "
-            "beside it: auto+1, auto-0.5")
+            "exposure in stops, or auto, auto+1, auto-0.5\n"
+            "auto: the mean luminance of the visible model becomes 0.22")
         ->type_name("STOPS")
         ->default_str("auto");
 }

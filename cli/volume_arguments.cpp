@@ -4,6 +4,7 @@
 
 #include "options.h"
 #include "prt/support/error.h"
+#include "suboptions.h"
 
 #include <fmt/core.h>
 
@@ -21,7 +22,7 @@ VolumeArguments::WorldBounds parse_bounds(const std::string& text) {
     for (int a = 0; a < 3; ++a)
         finite = finite && std::isfinite(b.least[a]) && std::isfinite(b.most[a]);
     if (numbers != 6 || static_cast<std::size_t>(used) != text.size() || !finite)
-        throw CLI::ValidationError("--volume-bounds", "'" + text + "' is not x0,y0,z0,x1,y1,z1 in metres");
+        throw CLI::ValidationError("--volume", "bounds=" + text + ": expected x0,y0,z0,x1,y1,z1 in metres");
     return b;
 }
 
@@ -29,40 +30,35 @@ VolumeArguments::WorldBounds parse_bounds(const std::string& text) {
 
 void add_volume(CLI::App* command, VolumeArguments& arguments) {
     VolumeOptions& volume = arguments.volume;
-    CLI::Option* spacing =
-        command
-            ->add_option("--volume", volume.spacing,
-                         "also bake probes in free space, which light what moves: so many metres apart near "
-                         "surfaces, further in the open")
-            ->check(real_in(1e-9, kFarthestVertex))
-            ->type_name("METRES");
-    command->add_option("--volume-probes", volume.probes, "the same, as close as so many probes allow")
-        ->check(CLI::Range(std::size_t{125}, std::size_t{1} << 28))
-        ->excludes(spacing);
-    command
-        ->add_option(
-            "--volume-error", volume.error,
-            "split cells where light between probes errs most, down to a quarter, until coefficients "
-            "of transfer err by so much over all (relative L2, low bands count more; light itself errs by "
-            "about twice that under skies with bright parts); 0: no cell")
-        ->capture_default_str()
-        ->check(real_in(0, 0.99));
-    command
-        ->add_option_function<std::string>(
-            "--volume-bounds",
-            [&arguments](const std::string& text) { arguments.bounds = parse_bounds(text); },
-            "box that probes fill, in the world; otherwise that of the scene")
-        ->type_name("x0,y0,z0,x1,y1,z1");
-    command
-        ->add_option("--volume-order", volume.order, "SH bands of the light that comes in at a probe, 2 to 4")
-        ->capture_default_str()
-        ->check(CLI::Range(2, kMaxIncidentOrder));
-    command
-        ->add_option("--volume-fit", volume.fit_points,
-                     fmt::format("points for each probe where light between probes is measured, which probes "
-                                 "are then fitted to; 0: none; otherwise 1 from {} rays on",
-                                 kRaysWorthAFit))
-        ->check(real_in(0, 100));
+    const auto set_spacing = [&volume](double metres) {
+        volume.spacing = metres;
+        volume.probes = 0;
+    };
+    Suboptions("--volume", "METRES", "also bake a volume of probes, which lights moving objects",
+               [set_spacing](const std::string& text) {
+                   const std::optional<double> metres = real_number(text);
+                   if (!metres || !(*metres >= 1e-9 && *metres <= static_cast<double>(kFarthestVertex)))
+                       throw CLI::ValidationError("--volume", "'" + text + "' is not a distance in metres");
+                   set_spacing(*metres);
+               })
+        .detail("METRES: distance of probes near surfaces; larger in open space")
+        .whole_number("probes", 125, 1 << 28, "in place of METRES: the densest volume with at most N probes",
+                      [&volume](int count) {
+                          volume.probes = static_cast<std::size_t>(count);
+                          volume.spacing = 0;
+                      })
+        .number("error", 0, 0.99,
+                "split cells, down to 1/4, to reach this relative L2 error between probes [0: off]",
+                [&volume](double error) { volume.error = error; })
+        .whole_number("order", 2, kMaxIncidentOrder, "SH order of the incident light at a probe [3]",
+                      [&volume](int order) { volume.order = order; })
+        .number("fit", 0, 100,
+                fmt::format("points per probe for a least-squares fit [1 from {} rays on, else 0]",
+                            kRaysWorthAFit),
+                [&volume](double points) { volume.fit_points = points; })
+        .key("bounds", "x0,y0,z0,x1,y1,z1", "box of the volume, world space, metres [box of the scene]",
+             [&arguments](const std::string& text) { arguments.bounds = parse_bounds(text); })
+        .add(command);
 }
 
 void check_volume(const VolumeArguments& arguments) {
@@ -70,8 +66,8 @@ void check_volume(const VolumeArguments& arguments) {
     const VolumeOptions& volume = arguments.volume;
     if (!arguments.given() && (arguments.bounds || volume.order != usual.order ||
                                volume.fit_points != usual.fit_points || volume.error != usual.error))
-        throw Error("--volume-bounds, --volume-error, --volume-order and --volume-fit are of volumes: say "
-                    "--volume or --volume-probes, too");
+        throw Error(
+            "--volume needs a distance or a number of probes, as --volume 0.5 or --volume probes=4000");
 }
 
 VolumeOptions volume_options(const VolumeArguments& arguments, const Scene& scene) {

@@ -118,18 +118,18 @@ std::string distance_title(std::size_t i) {
     if (i == 0)
         return fmt::format("within {:g} m", kDistances[0]);
     return std::isinf(kDistances[i]) ? fmt::format("beyond {:g} m", kDistances[i - 1])
-                                     : fmt::format("to {:g} m", kDistances[i]);
+                                     : fmt::format("up to {:g} m", kDistances[i]);
 }
 
 Table empty_table() {
     Table table{"volume_errors", "Errors of the volume in free space", "", {}, {}};
     table.about = fmt::format(
-        "Relative L2 of the coefficients of the light that comes in at {} places in free "
-        "space, by their distance from surfaces, against path tracing under the whole "
-        "light; suns that can be lit apart are left to the renderer. Lamps are dark under "
-        "skies, and shine as in the scene without one. The last column is of surfaces that face "
-        "anywhere, over all places; sky occlusion is what other engines keep at the same probes: how "
-        "much of a grey sky arrives, times the sky's own irradiance.",
+        "Relative L2 of the coefficients of incident light at {} positions in free space, by their distance "
+        "from surfaces, against path tracing under the complete light. Separate suns are shadowed by the "
+        "renderer. Lamps are off under skies; the row 'lamps' has no sky and lamps at the strengths of the "
+        "scene. Irradiance: error on surfaces of all orientations, over all positions. Sky occlusion: data "
+        "that other engines store at the same probes, the fraction of a grey sky that arrives, times the "
+        "irradiance of the sky.",
         kPositions);
     table.columns = {{"light", "light"}, {"volume", "volume"}, {"error", "error", Unit::percent, 2}};
     for (std::size_t i = 0; i < kDistances.size(); ++i)
@@ -170,10 +170,11 @@ std::optional<CompressedVolume> shipped_volume(const BudgetRequest& request, con
     SceneFile shipped = load_scene_file(request.shipped, request.reading);
     std::optional<CompressedVolume>& small = shipped.compressed_volume;
     if (!small)
-        throw Error(request.shipped.string() + ": holds no compressed volume");
+        throw Error(request.shipped.string() +
+                    ": contains no compressed volume; run prt compress on a bake with a volume");
     if (small->grid != volume.grid || small->order != volume.order ||
         small->compressed.record.receivers != volume.baked.record.receivers)
-        throw Error(request.shipped.string() + ": its volume does not belong to that of " +
+        throw Error(request.shipped.string() + ": its volume was not made from the volume of " +
                     request.baked.string());
     return std::move(small);
 }
@@ -196,13 +197,13 @@ Table leak_table(const BakedVolume& volume, const VolumeLookup& lookup, const Fr
         largest = std::max(largest, std::abs(sky));
     }
     Table table{"volume_leaks", "Leaks of the volume through walls", "", {}, {}};
-    table.about =
-        fmt::format("Direct light of a uniform sky that the volume has at places which no ray to the "
-                    "sky leaves, among the {} places in free space: 0 where nothing leaks, 1 is "
-                    "what comes in under the open sky.",
-                    points.positions.size());
-    table.columns = {
-        {"places", "places without sky"}, {"mean", "mean", Unit::plain, 4}, {"max", "max", Unit::plain, 3}};
+    table.about = fmt::format(
+        "Direct light of a uniform sky in the volume, at those of the {} positions in free "
+        "space from which no ray reaches the sky; 0 means no leak, 1 as much light as under the open sky.",
+        points.positions.size());
+    table.columns = {{"positions", "positions without sky"},
+                     {"mean", "mean", Unit::plain, 4},
+                     {"max", "max", Unit::plain, 3}};
     table.rows = {
         {shut, shut > 0 ? Json(sum / static_cast<double>(shut)) : Json(), shut > 0 ? Json(largest) : Json()}};
     return table;
@@ -227,9 +228,10 @@ void add_sky_occlusion(const Lighting& lighting, const SkyOcclusion& occlusion, 
                        const FreePositions& points, const std::array<std::vector<glm::vec3>, 2>& truth,
                        Table& table) {
     using Kind = SkyOcclusionKind;
-    for (const auto& row_kind : {std::pair(Kind::number, "sky occlusion, 1 number"),
-                                 std::pair(Kind::linear, "sky occlusion, 4 numbers"),
-                                 std::pair(Kind::directed, "the same and a direction")}) {
+    for (const auto& row_kind :
+         {std::pair(Kind::number, "sky occlusion, 1 coefficient"),
+          std::pair(Kind::linear, "sky occlusion, 4 coefficients"),
+          std::pair(Kind::directed, "sky occlusion, 4 coefficients and a direction")}) {
         const ErrorSum sum = irradiance_error(points, truth, [&](std::size_t p, const glm::vec3& normal) {
             return occlusion.irradiance(lookup.find(points.positions[p]), normal, lighting.sky,
                                         row_kind.first);
@@ -253,7 +255,8 @@ void add_means(std::span<const VolumeErrors> of_baked, std::span<const VolumeErr
 
 void check_request(const BudgetRequest& request, SceneFile& baked) {
     if (!baked.volume)
-        throw Error(request.baked.string() + ": holds no raw volume; run prt bake --volume first");
+        throw Error(request.baked.string() +
+                    ": contains no uncompressed volume; run prt bake --volume first");
     about(request.baked, [&] { leave_out_shadows(baked.scene, request.no_shadow); });
 }
 

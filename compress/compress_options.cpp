@@ -2,6 +2,7 @@
 
 #include "compress_options.h"
 
+#include "prt/support/counted.h"
 #include "prt/support/error.h"
 
 #include <algorithm>
@@ -20,37 +21,39 @@ namespace {
 
 void check_packed(const WeightCoding& coding, int clusters) {
     if (coding.fixed_bits.empty() && (coding.bits < 0 || coding.bits > kMaxPackedBits))
-        out_of_range("bits of a vertex's weights must lie in 0.." + std::to_string(kMaxPackedBits),
+        out_of_range("the number of weight bits per vertex must be in 0.." + std::to_string(kMaxPackedBits),
                      coding.bits);
     for (const int bits : coding.fixed_bits)
         if (bits < 1 || bits > kMaxWeightBits)
-            out_of_range("bits of a weight must lie in 1.." + std::to_string(kMaxWeightBits), bits);
+            out_of_range("the number of bits per weight must be in 1.." + std::to_string(kMaxWeightBits),
+                         bits);
     if (coding.cluster_bits < 0 || coding.cluster_bits > 16 ||
         (coding.cluster_bits > 0 && clusters > 1 << coding.cluster_bits))
-        throw Error(std::to_string(clusters) + " clusters do not fit " + std::to_string(coding.cluster_bits) +
-                    " bits");
+        throw Error(std::to_string(clusters) + " clusters do not fit into " +
+                    counted(coding.cluster_bits, "bit"));
 }
 
 void check_options(const CompressOptions& o) {
     if (o.clusters < 1 || o.clusters > 65536)
-        out_of_range("clusters must lie in 1..65536", o.clusters);
+        out_of_range("the number of clusters must be in 1..65536", o.clusters);
     if (o.coding.components < 0)
-        out_of_range("components must not be negative", o.coding.components);
+        out_of_range("the number of components must not be negative", o.coding.components);
     if (!(o.mean_components >= 0 && std::isfinite(o.mean_components)))
-        out_of_range("components per vertex must be finite and not negative", o.mean_components);
+        out_of_range("the number of components per vertex must be finite and not negative",
+                     o.mean_components);
     if (o.coding.format == WeightFormat::packed)
         check_packed(o.coding, o.clusters);
     if (!(o.seam_weight >= 0 && o.seam_weight <= kMaxSeamWeight))
-        out_of_range("the seam weight must lie in 0..1e6", o.seam_weight);
+        out_of_range("the seam weight must be in 0..1e6", o.seam_weight);
     if (o.basis_share && !(*o.basis_share >= 0 && *o.basis_share < 1))
-        out_of_range("the share of the bases must lie in 0..1", *o.basis_share);
+        out_of_range("the share of the bases must be at least 0 and less than 1", *o.basis_share);
 }
 
 /// Checks a receiver attribute; empty if the renderer does not have it.
 void check_attribute(std::span<const glm::vec3> values, std::size_t receivers, const char* name) {
     if (!values.empty() && values.size() != receivers)
-        throw Error("there are " + std::string(name) + " for " + std::to_string(values.size()) +
-                    " receivers of " + std::to_string(receivers));
+        throw Error("there are " + std::to_string(receivers) + " receivers, but " + std::string(name) +
+                    " for " + std::to_string(values.size()));
     for (const glm::vec3& v : values)
         if (!(std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z)))
             throw Error("the " + std::string(name) + " of receivers are not finite");
@@ -63,7 +66,7 @@ void check_finite(const TransferView& transfer, std::span<const float> areas) {
         vectors.resize(std::min(kRead, transfer.receivers() - begin) * transfer.dimension());
         transfer.read(begin, vectors);
         if (!std::ranges::all_of(vectors, [](float v) { return std::abs(v) <= kMaxInputTransfer; }))
-            throw Error("the transfer holds values that are not finite, or beyond 1e12");
+            throw Error("the transfer contains values that are not finite or exceed 1e12");
     }
     if (!std::all_of(areas.begin(), areas.end(), [](float area) { return std::isfinite(area); }))
         throw Error("the areas of receivers are not finite");
@@ -93,24 +96,25 @@ void check_input(const TransferView& transfer, const ReceiverSurface& surface,
     check_options(options);
     const std::optional<LightMetric>& metric = options.metric;
     if (metric && metric->layout != transfer.layout())
-        throw Error("the metric has another order or other terms than the transfer");
+        throw Error("the metric and the transfer have different orders or terms");
     if (transfer.receivers() == 0)
-        throw Error("there are no receivers to compress");
+        throw Error("the transfer has no receivers");
     if (surface.areas.size() != transfer.receivers())
-        throw Error("there are areas for " + std::to_string(surface.areas.size()) + " receivers of " +
-                    std::to_string(transfer.receivers()));
+        throw Error("there are " + std::to_string(transfer.receivers()) + " receivers, but areas for " +
+                    std::to_string(surface.areas.size()));
     check_finite(transfer, surface.areas);
     check_attribute(surface.normals, transfer.receivers(), "normals");
     check_attribute(surface.positions, transfer.receivers(), "positions");
     for (const Edge& edge : surface.edges)
         if (edge.first >= transfer.receivers() || edge.second >= transfer.receivers())
-            throw Error("an edge joins receivers " + std::to_string(edge.first) + " and " +
-                        std::to_string(edge.second) + " of " + std::to_string(transfer.receivers()));
+            throw Error("an edge connects receivers " + std::to_string(edge.first) + " and " +
+                        std::to_string(edge.second) + ", but there are only " +
+                        std::to_string(transfer.receivers()));
     for (const SeamJump& jump : surface.jumps)
         for (const std::uint32_t receiver : jump.receivers)
             if (receiver >= transfer.receivers())
-                throw Error("a seam reads receiver " + std::to_string(receiver) + " of " +
-                            std::to_string(transfer.receivers()));
+                throw Error("a seam refers to receiver " + std::to_string(receiver) +
+                            ", but there are only " + std::to_string(transfer.receivers()));
 }
 
 LightMetric metric_of(const CompressOptions& options, const TransferView& transfer,

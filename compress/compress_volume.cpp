@@ -45,7 +45,7 @@ WeightCoding preset_volume() {
 CompressedVolumeResult compress_volume(const BakedVolume& volume, CompressOptions options,
                                        const Progress& progress) {
     if (options.coding.format != WeightFormat::packed)
-        throw Error("weights of volumes are packed into words: choose so many bits");
+        throw Error("the weights of a volume must be packed; use --bits N");
     const TransferView probes = as_probes(volume);
     const std::vector<float> of_coefficients(volume.baked.transfer.receivers(), 1.0f),
         of_probes(probes.receivers(), 1.0f);

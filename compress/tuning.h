@@ -4,15 +4,16 @@
 // measures the effect of another value. To change one: edit, build, and compare over the four demo scenes and
 // the scenes that you ship:
 //
-//   [sweep]   prt evaluate BAKED.glb --sweep --json REPORT.json     lit_rms at equal bytes, equal components
+//   [sweep]   prt evaluate BAKED.glb --measure sweep --json REPORT.json
+//                                                                    lit_rms at equal bytes, equal components
 //   [preset]  prt compress BAKED.glb -o OUT.glb --preset u32 --json REPORT.json     lit_rms, seconds
 //   [budget]  prt compress BAKED.glb -o OUT.glb --bytes-per-vertex 9 (or --max-error 0.01) --json REPORT.json
 //                                                                    lit_rms, bytes, trials, seconds
 //   [trace]   any of the latter with --trace TRACE.jsonl             rounds, splits, merges, trials
 //   [seams]   prt evaluate BAKED.glb OUT.glb --json REPORT.json      seam, lit_max
 //
-// "Measured": on the named scenes, when the value was chosen. "By hand": a round value that no result was
-// found to depend on. Tolerances of floating point are defined where they are used, with their derivation.
+// "Measured": measured on the named scenes when the value was chosen. "By hand": a round value; no result was
+// found to depend on it. Tolerances of floating point are defined where they are used, with their derivation.
 
 #include <cstddef>
 
@@ -21,8 +22,8 @@ namespace prt::tuning {
 /// Fractions of time at which stages of compression end, for progress. Measured on the example scenes (tree
 /// u64, room u32, knot u32): the three agree within 0.03.
 inline constexpr double kClustersFoundAt = 0.84, kClustersCodedAt = 0.94; ///< stages of `compress`
-inline constexpr double kSeedsAt = 0.12, kComponentsGrownAt = 0.72,
-                        kImprovedAt = 0.97;                    ///< stages of finding clusters
+/// Stages of finding clusters.
+inline constexpr double kSeedsAt = 0.12, kComponentsGrownAt = 0.72, kImprovedAt = 0.97;
 inline constexpr double kFirstRoundsAt = 0.5, kMovesAt = 0.85; ///< stages of improving them
 inline constexpr double kAlternatedAt = 0.45;                  ///< stages of coding
 
@@ -43,14 +44,14 @@ inline constexpr double kGroundAlbedo = 0.2;
 /// project`
 inline constexpr double kTextureOutdoors = 0.1, kTextureFallOutdoors = 1.5;
 /// Rooms: band 1 along +Y relative to band 0, light of a lamp or window relative to the rest, and the
-/// remaining power, p / l^f. [preset] with --metric indoor, under the photographs' rooms
+/// remaining power, p / l^f. [preset] with --lights indoor, under the photographs' rooms
 inline constexpr double kRoomFromAbove = 0.5, kLampOverRoom = 0.4, kTextureIndoors = 0.1,
                         kTextureFallIndoors = 1;
 /// Fraction of the power that natural lighting has in the metric of given lights, so that no error is free.
 /// By hand. [preset] with --lights
 inline constexpr double kNaturalShare = 0.01;
 /// A receiver is an outlier if its vector is longer than the median by this factor: near it, float has no
-/// precision for the others. By hand; HardCase.AHugeOutlierIsKeptAndSpoilsNothing.
+/// precision for the others. By hand; HardCase.HugeOutliersAreKeptWithoutHarm.
 inline constexpr float kOutlierLength = 100;
 
 /// Weight of the mean squared contrast error of lamps relative to the squared relative error under the sky.

@@ -1,6 +1,5 @@
-// Computes the constants of all clusters for a lighting, instead of prt::ClusterLighting::form: one row per
-// thread. Define PRT_ROWS and the definitions of terms that prt_terms.glsl needs. Dispatch (PRT_ROWS + 63) /
-// 64 groups.
+// Computes the constants of all clusters for a lighting on the GPU, like prt::ClusterLighting::update: one
+// row per thread. Define PRT_ROWS and the lines of prt::term_defines. Dispatch (PRT_ROWS + 63) / 64 groups.
 
 #include "shared_layout.h"
 
@@ -11,7 +10,7 @@ layout(std430, binding = PRT_BINDING_MATRIX) readonly buffer PrtMatrix {
     float prt_matrix[];
 };
 layout(std430, binding = PRT_BINDING_LIGHT) readonly buffer PrtLight {
-    vec4 prt_light[]; // rgb of a color of prt::light_columns
+    vec4 prt_light[]; // rgb: result of prt::light_columns
 };
 layout(std430, binding = PRT_BINDING_CONSTANTS) writeonly buffer PrtConstants {
     vec4 prt_constants[];

@@ -1,7 +1,7 @@
-// Stores a value in a few bits of a G-buffer, for example ambient occlusion in five bits: ordered dithering
+// Converts a value to a few bits of a G-buffer, for example ambient occlusion to five bits. Ordered dithering
 // (Bayer 1973) preserves its mean. For GLSL 330, ESSL 300 and later.
 
-// Returns a threshold in (0, 1); each occurs once in 8 x 8 pixels.
+// Returns the dither threshold of a pixel, in (0, 1). Each of 64 thresholds occurs once in 8 x 8 pixels.
 float prt_bayer_threshold(uvec2 pixel) {
     uint value = 0u;
     for (uint bit = 0u; bit < 3u; ++bit) {

@@ -1,18 +1,18 @@
-// Computes exit radiance of a vertex from compressed transfer (docs/math.md, eq. 29), for a receiver of albedo
-// 1. For GLSL 4.5 and 3.3, GLSL ES 3.0 and Vulkan; HLSL is generated from the Vulkan version
-// (docs/integration.md).
+// Computes the exit radiance of a vertex for albedo 1 from compressed transfer (docs/math.md, eq. 29). For
+// GLSL 4.5 and 3.3, GLSL ES 3.0 and Vulkan; HLSL is generated from the Vulkan version (docs/integration.md).
 //
 // Define before including (prt::relight_defines writes the lines for a model)
 //     PRT_PACKED_WORDS n     packed weights: n 32-bit words per vertex, 1..8, and PRT_CLUSTER_BITS b, or
 //     PRT_WEIGHT_VECTORS n   floats: the number of VEC4 weight attributes, 0..12 (0: clusters only).
-// If all clusters have the same layout, which avoids a loop and the table of clusters:
+// If all clusters have the same layout; then there is no loop and no table of clusters:
 //     PRT_CLUSTER_ROWS n     number of rows per cluster, and
 //     PRT_SAME_WEIGHTS       PRT_ADD(j, weight) for every weight j; a packed weight is PRT_BITS(position, width).
-// If the words are not vertex attributes but variables that the shader sets (prt_lightmap.frag):
+// If the words are variables that the shader sets, instead of vertex attributes (prt_lightmap.frag):
 //     PRT_WORDS_OF_TEXEL     packed words only.
-// Data of the vertex that clusters use in addition to its weights, the predictors:
+// Predictors: data of the vertex that clusters use in addition to its weights:
 //     PRT_PREDICTOR_NORMAL       the normal,
-//     PRT_PREDICTOR_POSITION     the position relative to PRT_PREDICTOR_ORIGIN, a vec3: numbers, or the name of a uniform.
+//     PRT_PREDICTOR_POSITION     the position relative to PRT_PREDICTOR_ORIGIN, a vec3: numbers, or the name of a
+//                                uniform.
 // Storage of the constants, which contain the data of prt::ClusterLighting and prt::cluster_layouts:
 //     PRT_CONSTANTS_BUFFER   storage buffers (the default; OpenGL 4.3, Vulkan, Direct3D 11),
 //     PRT_CONSTANTS_BLOCK    uniform blocks, with PRT_MAX_ROWS and PRT_MAX_CLUSTERS, or
@@ -20,7 +20,7 @@
 
 #include "shared_layout.h"
 
-// The program binds blocks and samplers by name if the language has no binding layout.
+// If the language has no binding layout, the program must bind blocks and samplers by name.
 #if defined(VULKAN) || (!defined(GL_ES) && __VERSION__ >= 420)
 #define PRT_BINDING(number) , binding = number
 #define PRT_SAMPLER(number) layout(binding = number) uniform highp
@@ -49,7 +49,7 @@ vec4 prt_constant_at(uint at) {
 #endif
 }
 
-// Row `row` of the constants of all clusters: a color, or for an instance a color that is linear in the
+// Returns row `row` of the constants of all clusters: a color. For an instance, the color is linear in the
 // position.
 #ifdef PRT_INSTANCES
 #define PRT_COLOR mat3x4
@@ -90,7 +90,8 @@ layout(std430 PRT_BINDING(PRT_BINDING_CLUSTERS)) readonly buffer PrtClusters {
 };
 #endif
 
-// Entry by PRT_CLUSTER_*: first row, components, widths of weights 0 to 7, 8 to 15.
+// Returns the entry of a cluster, indexed by PRT_CLUSTER_*: first row, number of components, widths of weights
+// 0 to 7, widths of weights 8 to 15.
 uvec4 prt_layout_of(uint cluster) {
 #ifdef PRT_CONSTANTS_TEXTURE
     return texelFetch(prt_clusters, ivec2(cluster % uint(PRT_TEXTURE_WIDTH), cluster / uint(PRT_TEXTURE_WIDTH)), 0);
@@ -100,7 +101,7 @@ uvec4 prt_layout_of(uint cluster) {
 }
 #endif
 
-// Rows relative to the first row of a cluster: of the position predictor, and of the first direction.
+// Offsets of rows from the first row of a cluster: the position predictor, and the first basis direction.
 #ifdef PRT_PREDICTOR_NORMAL
 #define PRT_POSITION_ROW 4u
 #else
@@ -112,7 +113,7 @@ uvec4 prt_layout_of(uint cluster) {
 #define PRT_DIRECTION_ROW PRT_POSITION_ROW
 #endif
 
-// Mean of the cluster with first row `first`, plus the contribution of the predictors.
+// Returns the mean of the cluster with first row `first` plus the contribution of the predictors.
 PRT_COLOR prt_predicted(uint first, vec3 position, vec3 normal) {
     PRT_COLOR radiance = prt_constant(first);
 #ifdef PRT_PREDICTOR_NORMAL
@@ -150,7 +151,7 @@ uint prt_word(uint index) {
 #endif
 }
 
-// Returns `width` bits from bit `position` on, width <= 16. A weight may span two words.
+// Returns `width` bits of the words, starting at bit `position`; width <= 16. A weight may span two words.
 uint prt_bits(uint position, uint width) {
     uint word = position >> 5, shift = position & 31u;
     uint bits = prt_word(word) >> shift;
@@ -208,9 +209,9 @@ uint prt_cluster_of_vertex() {
 }
 #endif
 
-// vec3 prt_exit_radiance(vec3 position, vec3 normal): both in the model's frame, as at the time of the bake;
-// the normal is unit, or zero if the mesh has none. Arguments that the model does not use as predictors are
-// ignored.
+// vec3 prt_exit_radiance(vec3 position, vec3 normal): returns the exit radiance. Both arguments are those of
+// the baked model, in its frame; the normal is unit, or zero if the mesh has none. Arguments that the model
+// does not use as predictors are ignored.
 
 #if defined(PRT_CLUSTER_ROWS)
 // One line, because GLSL 3.30 has no line continuation.

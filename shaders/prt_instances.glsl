@@ -1,7 +1,7 @@
-// Exit radiance of a vertex of an instance that shares the transfer of its mesh (docs/math.md, section 22),
-// for a receiver of albedo 1. Define PRT_INSTANCES in addition to the definitions for prt_exit_radiance.glsl.
-// The constants are those of prt::InstanceRelighter; they do not fit into uniform blocks. Without PRT_INSTANCES
-// this file contains only prt_exit_radiance.
+// Computes the exit radiance for albedo 1 of a vertex of an instance that shares the transfer of its mesh
+// (docs/math.md, section 22). Define PRT_INSTANCES in addition to the definitions for prt_exit_radiance.glsl.
+// The constants are those of prt::InstanceRelighter. They do not fit into uniform blocks. Without
+// PRT_INSTANCES this file contains only prt_exit_radiance.
 
 #include "prt_exit_radiance.glsl"
 

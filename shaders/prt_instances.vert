@@ -1,5 +1,5 @@
-// The complete vertex shader of instances that share transfer, as a starting point for your shader. The
-// matrix of an instance and its rows of prt::InstanceRelighter::table are instance attributes.
+// Complete vertex shader of instances that share transfer: a starting point for your shader. The matrix of an
+// instance and its rows of prt::InstanceRelighter::table are instance attributes.
 
 #include "prt_instances.glsl"
 

@@ -1,6 +1,6 @@
-// Computes exit radiance of the texels of a lightmap (docs/format.md, PRTKIT_lightmap): one texel per thread,
-// once for every light. Surfaces then look it up like any texture, with filtering. Dispatch (width + 7) / 8
-// by (height + 7) / 8 groups, then generate mipmaps.
+// Computes the exit radiance for albedo 1 of the texels of a lightmap (docs/format.md, PRTKIT_lightmap), one
+// texel per thread. Dispatched when the lighting changes. Surfaces then sample the map like any texture, with
+// filtering. Dispatch (width + 7) / 8 by (height + 7) / 8 groups, then generate mipmaps.
 //
 // Define before including: the definitions of prt_exit_radiance.glsl for packed weights and constants, and
 //     PRT_LIGHTMAP_FORMAT    format of the image: rgba16f (default), r11f_g11f_b10f or rgba32f.

@@ -1,10 +1,11 @@
-// Computes exit radiance of the texels of a lightmap (docs/format.md, PRTKIT_lightmap): drawn to a target of
-// the map's size, once for every light. Surfaces then look it up like any texture, with filtering. For GLSL
-// 3.3, GLSL ES 3.0 and later.
+// Computes the exit radiance for albedo 1 of the texels of a lightmap (docs/format.md, PRTKIT_lightmap).
+// Drawn to a target of the map's size when the lighting changes. Surfaces then sample the map like any
+// texture, with filtering. For GLSL 3.3, GLSL ES 3.0 and later.
 //
 // Define before including: the definitions of prt_exit_radiance.glsl for packed weights and constants, and
-//     PRT_NORMALIZED_WORDS   if the images of words are RGBA8 textures, as created by browsers; default: RGBA8UI.
-// The images are read by texel: without filters, mipmaps, color conversion or multiplication by alpha.
+//     PRT_NORMALIZED_WORDS   if the images of words are RGBA8 textures, as browsers create them; default: RGBA8UI.
+// The shader fetches single texels of the images, without filters. The images must not have mipmaps, color
+// conversion or multiplication by alpha.
 
 #define PRT_WORDS_OF_TEXEL
 #include "prt_exit_radiance.glsl"

@@ -2,26 +2,27 @@
 // skin (docs/math.md, section 21; docs/format.md, PRTKIT_lobes). For GLSL 4.5 and 3.3, GLSL ES 3.0 and Vulkan:
 //
 //     PrtLobe prt_lobe(vec4 bytes)
-//         Decodes _PRT_LOBE_k, 0..255, in the frame of NORMAL.
+//         Decodes attribute _PRT_LOBE_k, components 0..255. The lobe is in the frame of NORMAL.
 //     mat3 prt_lobe_rotation(mat3 matrix)
-//         Rotation of lobes for the matrix that moves the vertex, blended by its weights.
-//     PrtLobe prt_rotated_lobe(PrtLobe lobe, mat3 turn)
+//         Returns the rotation of lobes. `matrix` is the skin matrix of the vertex, blended by its weights.
+//     PrtLobe prt_rotated_lobe(PrtLobe lobe, mat3 rotation)
 //         Rotates a lobe to world axes.
 //     PrtLobe prt_mapped_lobe(PrtLobe lobe, vec3 from, vec3 to)
 //         Rotates a lobe for a normal map: `from` is the vertex normal, `to` is the normal of the map.
 //     vec3 prt_lobe_sum(PrtLobe lobe, vec3 light[PRT_LOBE_COEFFICIENTS])
-//         Exit radiance of one lobe; may be negative.
+//         Returns the exit radiance of one lobe; it may be negative.
 //     vec3 prt_lobes_radiance(PrtLobe lobes[PRT_LOBES], vec3 light[PRT_LOBE_COEFFICIENTS])
-//         Exit radiance for albedo 1.
+//         Returns the exit radiance of all lobes for albedo 1.
 // If prt_volume.glsl was included before, also:
 //     vec3 prt_lobes_in_volume(PrtLobe lobes[PRT_LOBES], vec3 position, vec3 normal)
-//         Exit radiance for albedo 1 under the light of the volume at a position.
+//         Returns the exit radiance of all lobes for albedo 1 under the light of the volume at a position.
 //
 // `light` is defined in docs/format.md: coefficients L_lm of radiance per color, in world axes.
 //
 // Define before including
 //     PRT_LOBES n            lobes per vertex, 1..3,
-//     PRT_LOBE_ORDER n       bands of `light`, 2..4; default: those of the volume. Higher bands of lobes are ignored.
+//     PRT_LOBE_ORDER n       number of bands of `light`, 2..4; default: that of the volume. Higher bands of lobes
+//                            are ignored.
 // If the profiles are not in the uniform block of this file:
 //     PRT_LOBE_PROFILE(i)    a vec4: gains of bands 0 to 3 of profile i, 0 beyond the order of the file.
 
@@ -56,7 +57,8 @@ PrtLobe prt_lobe(vec4 bytes) {
     return PrtLobe(normalize(vec3(p, z)), bytes.w / 255.0 * PRT_LOBE_PROFILE(int(bytes.z + 0.5)));
 }
 
-// Cofactors, as for normals: an unoccluded vertex is lit by its normal in every pose.
+// Uses the cofactors of the matrix, as for normals, so that an unoccluded vertex is lit by its normal in
+// every pose.
 mat3 prt_lobe_rotation(mat3 m) {
     mat3 rotation = mat3(cross(m[1], m[2]), cross(m[2], m[0]), cross(m[0], m[1]));
     return dot(m[0], rotation[0]) < 0.0 ? -rotation : rotation;
@@ -68,7 +70,7 @@ PrtLobe prt_rotated_lobe(PrtLobe lobe, mat3 rotation) {
     return PrtLobe(size > 0.0 ? axis / size : lobe.axis, lobe.gains);
 }
 
-// Rotates by the smallest rotation that maps unit `from` to unit `to`.
+// Rotates a lobe by the smallest rotation that maps unit `from` to unit `to`.
 PrtLobe prt_mapped_lobe(PrtLobe lobe, vec3 from, vec3 to) {
     vec3 both = from + to;
     float size = 1.0 + dot(from, to);
@@ -76,7 +78,7 @@ PrtLobe prt_mapped_lobe(PrtLobe lobe, vec3 from, vec3 to) {
     return PrtLobe(size < 1e-6 ? -lobe.axis : axis, lobe.gains);
 }
 
-// Computes the sum over l of gain_l times the sum over m of Y_lm(axis) L_lm (docs/math.md, eq. 1 to 3).
+// Returns the sum over l of gain_l times the sum over m of Y_lm(axis) L_lm (docs/math.md, eq. 1 to 3).
 vec3 prt_lobe_sum(PrtLobe lobe, vec3 light[PRT_LOBE_COEFFICIENTS]) {
     vec3 n = lobe.axis;
     vec4 gains = lobe.gains;

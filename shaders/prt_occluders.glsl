@@ -2,24 +2,25 @@
 // and 3.3, GLSL ES 3.0 and Vulkan:
 //
 //     float prt_occluders_visibility(vec3 position, vec3 normal)
-//         Remaining share of light from a uniform environment.
+//         Returns the share of light from a uniform environment that is not blocked.
 //     float prt_occluders_sun(vec3 position, vec3 towards, float half_angle)
-//         Remaining share of the light of a sun, with a soft shadow; 0: full shadow.
+//         Returns the share of the light of a sun that is not blocked, with a soft shadow; 0: full shadow.
+//         `half_angle`: half angle of the sun in radians.
 // If prt_volume.glsl was included before, also:
 //     vec3 prt_occluders_light(vec3 position, vec3 normal, vec3 light[PRT_VOLUME_COEFFICIENTS])
-//         Remaining share of the incident light `light`.
+//         Returns the share of the incident light `light` that is not blocked.
 //
 // `position` is in metres in the world of the occluders; `normal` and `towards` are unit.
 //
-// Objects are the lists of prt::placed and prt::occluders_near: a uniform block of this file, or, if they are
-// defined,
+// The objects are the results of prt::placed, selected by prt::occluders_near. They are in a uniform block of
+// this file, or in these, if they are defined:
 //     PRT_OCCLUDER_ROWS     an array of vec4, five per object, and
 //     PRT_OCCLUDER_COUNT    an int.
 // PRT_MAX_OCCLUDERS: capacity of the block.
 
 #include "shared_layout.h"
 
-// The program binds by name if the language has no binding layout.
+// If the language has no binding layout, the program must bind the block and the sampler by name.
 #if defined(VULKAN) || (!defined(GL_ES) && __VERSION__ >= 420)
 layout(binding = PRT_UNIT_OCCLUDERS) uniform highp sampler3D prt_occluder_texture;
 #else
@@ -55,8 +56,8 @@ PrtBlockedCap prt_blocked_cap(int i, vec3 position) {
     PrtBlockedCap cap = PrtBlockedCap(vec3(0.0, 1.0, 0.0), 0.0, 0.0);
     if (far < half_reach.w) {
         const float kSide = float(PRT_OCCLUDER_SIDE);
-        // Outside the box use the point on its surface in the direction of the center: from there on the
-        // solid angle falls with the square of the distance.
+        // Outside the box, use the point on its surface in the direction of the center. Beyond it, the solid
+        // angle decreases with the square of the distance.
         vec3 sides = q / half_reach.xyz, sizes = abs(sides);
         float outside = max(max(sizes.x, sizes.y), max(sizes.z, 1.0));
         vec3 texels = vec3(kSide, kSide, float(textureSize(prt_occluder_texture, 0).z));
@@ -77,13 +78,13 @@ PrtBlockedCap prt_blocked_cap(int i, vec3 position) {
     return cap;
 }
 
-// Angle of a cosine. Built-in functions of drivers may have errors of 1e-4.
+// Returns the angle of a cosine. The built-in `acos` of a driver may have errors of 1e-4.
 float prt_angle_of(float cosine) {
     return atan(sqrt(max(1.0 - cosine * cosine, 0.0)), cosine);
 }
 
-// Share of the cosine-weighted hemisphere that a cap covers. The cap is at most half of the sphere; `cosine`:
-// between the cap's center and the normal.
+// Returns the share of the cosine-weighted hemisphere that a cap covers. `share`: size of the cap, at most
+// half of the sphere; `cosine`: cosine of the angle between its center and the normal.
 float prt_cap_cosine(float share, float cosine) {
     float squared = 4.0 * share * (1.0 - share), rest = squared - cosine * cosine;
     float sum = max(cosine, 0.0) * squared;
@@ -95,7 +96,7 @@ float prt_cap_cosine(float share, float cosine) {
     return sum;
 }
 
-// Share of light from a uniform environment that a cap blocks.
+// Returns the share of light from a uniform environment that a cap blocks.
 float prt_blocked_cosine(PrtBlockedCap cap, vec3 normal) {
     float cosine = clamp(dot(cap.towards, normal), -1.0, 1.0);
     return cap.density *
@@ -125,8 +126,8 @@ float prt_occluders_sun(vec3 position, vec3 towards, float half_angle) {
 }
 
 #ifdef PRT_VOLUME_ORDER
-// Weights the blocked share by the light from the direction of the object relative to all arriving light: an
-// object in front of a bright sky blocks more.
+// Weights the blocked share of each object by the light from its direction, relative to all incident light:
+// an object in front of a bright sky blocks more.
 vec3 prt_occluders_light(vec3 position, vec3 normal, vec3 light[PRT_VOLUME_COEFFICIENTS]) {
     vec3 all = max(prt_incident_irradiance(light, normal), vec3(1e-12)), left = vec3(1.0);
     for (int i = 0; i < PRT_OCCLUDER_COUNT; ++i) {

@@ -1,4 +1,4 @@
-// The complete vertex shader of a relit model, as a starting point for your shader.
+// Complete vertex shader of a relit model: a starting point for your shader.
 
 #include "prt_exit_radiance.glsl"
 

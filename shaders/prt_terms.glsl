@@ -1,8 +1,8 @@
-// Computes the light of a transfer vector. Define the lines of prt::term_defines: PRT_NUMBERS of a vector,
-// PRT_COEFFICIENTS (order²); PRT_FIRST_CHANNELS and PRT_SECOND_CHANNELS, the channels, 1 or 3, of the terms
-// of distant light that exist; and PRT_LAMPS with a bit for each colored lamp, the first 32 in
-// PRT_COLORED_LAMPS. Define PRT_TRANSFER(at, i), number i of the vector at `at`, and PRT_LIGHT(i), color i of
-// prt::light_columns.
+// Multiplies a transfer vector with a lighting. Define the lines of prt::term_defines: PRT_NUMBERS, the
+// length of a vector; PRT_COEFFICIENTS, order²; PRT_FIRST_CHANNELS and PRT_SECOND_CHANNELS, the number of
+// channels, 1 or 3, of the terms of distant light that exist; PRT_LAMPS, the number of lamps;
+// PRT_COLORED_LAMPS, two words with one bit per lamp that is set for three channels. Also define
+// PRT_TRANSFER(at, i), number i of the vector at `at`, and PRT_LIGHT(i), color i of prt::light_columns.
 
 #ifndef PRT_FIRST_CHANNELS
 #define PRT_FIRST_CHANNELS 0
@@ -14,7 +14,7 @@
 #define PRT_LAMPS 0
 #endif
 
-// Light of a grey term, or of a colored term, whose numbers begin at `number` and whose colors begin at
+// Return the light of a grey or of a colored term. Its coefficients begin at `number`, its light colors at
 // `color`.
 vec3 prt_grey_term(uint at, uint number, uint color) {
     vec3 sum = vec3(0.0);
@@ -32,7 +32,7 @@ vec3 prt_colored_term(uint at, uint number, uint color) {
 }
 
 #if PRT_LAMPS > 0
-// Light of lamps, each with one color and one or three numbers.
+// Returns the light of all lamps; each has one light color and one or three coefficients.
 vec3 prt_lamps(uint at, uint number, uint color) {
     const uint kColored[2] = uint[2](PRT_COLORED_LAMPS);
     vec3 sum = vec3(0.0);

@@ -1,6 +1,6 @@
-// Computes the light of the probes of a volume for prt_volume.glsl, instead of prt::VolumeRelighter::form: one
-// texel per thread, once for every light. The number of groups is the size of the atlas in bricks along each
-// side.
+// Computes the light of the probes of a volume for prt_volume.glsl, like prt::VolumeRelighter::update: one
+// texel per thread. Dispatched when the lighting changes. The number of groups along each axis is the size of
+// the atlas in bricks.
 //
 // Define before including: the definitions of prt_exit_radiance.glsl for packed weights and constants, and
 //     PRT_VOLUME_ORDER n      order of incident light, 2..4
@@ -20,7 +20,7 @@ layout(std430, binding = PRT_BINDING_VOLUME_WORDS) readonly buffer PrtVolumeWord
     uint prt_volume_words[]; // [probes][PRT_PACKED_WORDS]
 };
 layout(std430, binding = PRT_BINDING_VOLUME_PROBES) readonly buffer PrtVolumeProbes {
-    uint prt_volume_probes[]; // [bricks][125], x before y before z
+    uint prt_volume_probes[]; // [bricks][125], x varies fastest, then y, then z
 };
 #ifdef VULKAN
 layout(binding = PRT_UNIT_VOLUME_LIGHT, PRT_VOLUME_FORMAT) writeonly uniform image3D prt_volume_image;
@@ -72,7 +72,7 @@ void prt_add_cluster() {
 }
 #endif
 
-// Number `n` of a texel, counted over all planes.
+// Returns number `n` of a texel, counted over all planes.
 float prt_number(int n) {
     if (n < 3 * PRT_VOLUME_OUTPUTS)
         return prt_sums[n / 3][n % 3];

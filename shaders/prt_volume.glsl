@@ -2,26 +2,27 @@
 // GLSL ES 3.0 and Vulkan:
 //
 //     vec3 prt_volume_irradiance(vec3 position, vec3 normal)
-//         Irradiance over pi: multiplied by the albedo it is the exit radiance of a surface.
+//         Returns irradiance divided by pi. Times the albedo, this is the exit radiance of a surface.
 //     float prt_volume_sun_visibility(vec3 position, vec3 normal)
-//         Visibility of the sun that the textures were computed for.
+//         Returns the visibility of the sun for which the light texture was computed, 0..1.
 //     void prt_volume_incident(vec3 position, vec3 normal, out vec3 light[PRT_VOLUME_COEFFICIENTS])
-//         Incident light, for the following functions.
+//         Computes the coefficients of incident light, the argument `light` of the following functions.
 //     vec3 prt_incident_irradiance(light, normal)
-//         Irradiance over pi.
+//         Returns irradiance divided by pi.
 //     vec3 prt_incident_radiance(light, towards)
-//         Blurred radiance from a direction, for glossy reflections.
+//         Returns blurred radiance from unit direction `towards`, for glossy reflections.
 //     vec3 prt_incident_direction(light)
-//         Main direction of the light.
+//         Returns the main direction of the light.
 //
 // `position` is in metres; `normal` is the unit normal of the lit surface, or zero.
 //
 // Define before including (prt::volume_defines writes the lines for a volume)
 //     PRT_VOLUME_ORDER n         order of incident light, 2..4,
-//     PRT_VOLUME_LINEAR          if the sampler of light filters: it then reads cells that all probes see,
+//     PRT_VOLUME_LINEAR          if the sampler of light filters linearly; it is then used in cells that all their
+//                                probes see,
 // and, as numbers or as names of uniforms,
-//     PRT_VOLUME_ORIGIN          vec3: minimum corner, which positions are relative to,
-//     PRT_VOLUME_SPACING         float,
+//     PRT_VOLUME_ORIGIN          vec3: minimum corner, in the same frame as positions,
+//     PRT_VOLUME_SPACING         float: distance of the finest probes,
 //     PRT_VOLUME_SIZE            ivec3: in bricks of level 0,
 //     PRT_VOLUME_FIRST           ivec4: position and level of brick 0,
 //     PRT_VOLUME_BRICKS          ivec3: size of the atlas in bricks (prt::VolumeAtlas).
@@ -30,7 +31,7 @@
 
 #define PRT_VOLUME_COEFFICIENTS (PRT_VOLUME_ORDER * PRT_VOLUME_ORDER)
 
-// The program binds samplers by name if the language has no binding layout.
+// If the language has no binding layout, the program must bind samplers by name.
 #if defined(VULKAN) || (!defined(GL_ES) && __VERSION__ >= 420)
 #define PRT_VOLUME_SAMPLER(number) layout(binding = number) uniform highp
 #else
@@ -43,7 +44,7 @@ PRT_VOLUME_SAMPLER(PRT_UNIT_VOLUME_VISIBILITY) usampler3D prt_volume_visibility;
 PRT_VOLUME_SAMPLER(PRT_UNIT_VOLUME_INDEX) usampler3D prt_volume_index;
 
 struct PrtVolumeBrick {
-    ivec3 point; // in bricks of level 0
+    ivec3 position; // in bricks of level 0
     int level, slot;
 };
 
@@ -55,7 +56,7 @@ struct PrtVolumePosition {
     vec4 weights[2];
 };
 
-// Returns the brick that contains a position inside the volume; `brick` if there is none.
+// Returns the brick that contains a position inside the volume, or `brick` if no brick does.
 PrtVolumeBrick prt_volume_brick(vec3 position, PrtVolumeBrick brick) {
     vec3 bricks = (position - PRT_VOLUME_ORIGIN) / (4.0 * PRT_VOLUME_SPACING);
     ivec3 point = clamp(ivec3(floor(bricks)), ivec3(0), PRT_VOLUME_SIZE - 1);
@@ -68,7 +69,8 @@ PrtVolumeBrick prt_volume_brick(vec3 position, PrtVolumeBrick brick) {
     return brick;
 }
 
-// Weight of a probe with these visibility distances, for a position `from` relative to the probe, in cells.
+// Returns the visibility weight of a probe for a position at offset `from` from it, in cells. `visibility`:
+// its texel.
 float prt_volume_probe_weight(uvec2 visibility, vec3 from) {
     vec3 below = vec3(visibility.x & 255u, visibility.x >> 16 & 255u, visibility.y & 255u),
          above = vec3(visibility.x >> 8 & 255u, visibility.x >> 24, visibility.y >> 8 & 255u);
@@ -76,12 +78,14 @@ float prt_volume_probe_weight(uvec2 visibility, vec3 from) {
     vec3 distances = PRT_VOLUME_VISIBILITY_CELLS * float(1u << (visibility.y >> 16 & 3u)) * root * root;
     vec3 along = abs(from) / max(distances, vec3(1e-18));
     float passed = max(along.x, max(along.y, along.z)); // 1: at the surface
-    float behind = clamp((passed - PRT_VOLUME_VISIBILITY_FULL) / (PRT_VOLUME_VISIBILITY_NONE - PRT_VOLUME_VISIBILITY_FULL), 0.0, 1.0);
+    float behind = clamp(
+        (passed - PRT_VOLUME_VISIBILITY_FULL) / (PRT_VOLUME_VISIBILITY_NONE - PRT_VOLUME_VISIBILITY_FULL), 0.0, 1.0);
     float beyond = clamp(passed, 1.0, 16.0), squared = beyond * beyond, fourth = squared * squared;
     return max(1.0 - behind * behind * (3.0 - 2.0 * behind), PRT_VOLUME_HIDDEN_WEIGHT / (fourth * fourth));
 }
 
-// `at`: position in cells of a brick from its minimum corner, not necessarily inside the brick.
+// Returns the weights of the probes around a position. `at`: position relative to the minimum corner of
+// `brick`, in its cells; it may be outside the brick.
 PrtVolumePosition prt_volume_weighted(PrtVolumeBrick brick, vec3 at) {
     vec3 inside = clamp(at, vec3(0.0), vec3(4.0));
     ivec3 low = min(ivec3(inside), ivec3(3)), bricks = PRT_VOLUME_BRICKS;
@@ -121,7 +125,7 @@ PrtVolumePosition prt_volume_find(vec3 position, vec3 normal) {
     return prt_volume_weighted(brick, (seen - (least + PRT_VOLUME_SPACING * vec3(4 * brick.position))) / cell);
 }
 
-// Four numbers at a position.
+// Returns the four interpolated numbers of a plane at a position.
 vec4 prt_volume_plane(PrtVolumePosition point, int plane) {
     ivec3 texel = point.texel + ivec3(0, 0, 5 * PRT_VOLUME_BRICKS.z * plane);
 #ifdef PRT_VOLUME_LINEAR
@@ -153,8 +157,8 @@ float prt_volume_sun_visibility(vec3 position, vec3 normal) {
     return prt_volume_plane(prt_volume_find(position, normal), kNumber >> 2)[kNumber & 3];
 }
 
-// Radiance in unit direction `n` of light whose band l is multiplied by `bands[l]` (docs/math.md, eq. 1 to
-// 3).
+// Returns the radiance in unit direction `n` of `light` with band l multiplied by `bands[l]` (docs/math.md,
+// eq. 1 to 3).
 vec3 prt_incident_sum(vec3 light[PRT_VOLUME_COEFFICIENTS], vec3 n, vec4 bands) {
     vec3 sum = bands[0] * 0.282094792 * light[0];
     sum += bands[1] * 0.488602512 * (-n.y * light[1] + n.z * light[2] - n.x * light[3]);
@@ -174,7 +178,7 @@ vec3 prt_incident_sum(vec3 light[PRT_VOLUME_COEFFICIENTS], vec3 n, vec4 bands) {
     return max(sum, vec3(0.0));
 }
 
-// Irradiance over pi: the bands of the cosine are 1, 2/3, 1/4 and 0.
+// Returns irradiance divided by pi. The factors of the clamped cosine are 1, 2/3, 1/4 and 0.
 vec3 prt_incident_irradiance(vec3 light[PRT_VOLUME_COEFFICIENTS], vec3 normal) {
     return prt_incident_sum(light, normal, vec4(1.0, 2.0 / 3.0, 0.25, 0.0));
 }
@@ -183,7 +187,7 @@ vec3 prt_incident_radiance(vec3 light[PRT_VOLUME_COEFFICIENTS], vec3 towards) {
     return prt_incident_sum(light, towards, vec4(1.0));
 }
 
-// Unit direction towards the maximum of the light; zero if the light is uniform.
+// Returns the unit direction to the maximum of the light; zero if the light is uniform.
 vec3 prt_incident_direction(vec3 light[PRT_VOLUME_COEFFICIENTS]) {
     const vec3 kLuminance = vec3(0.2126, 0.7152, 0.0722);
     vec3 direction = vec3(-dot(light[3], kLuminance), -dot(light[1], kLuminance), dot(light[2], kLuminance));

@@ -34,7 +34,7 @@ struct SumRow {
 struct GatherPush {
     uint first_row, end_row; // rows of the block
     uint first_gathered;     // row at which row 0 of the block is written
-    uint add;                // add to the total, too
+    uint add;                // also add to the total
     uint first_sum_row;      // sum row of row 0 of the block
     float largest;           // maximum of exit transfer, if rows are summed
 };

@@ -12,7 +12,7 @@
 #include "irradiance.glsl"
 #endif
 
-in vec3 position, normal;
+in vec3 point, normal;
 uniform vec3 eye;
 uniform bool chrome;
 out vec4 result;
@@ -24,12 +24,12 @@ in vec3 lobed_radiance;
 #ifdef PRT_VOLUME
 vec3 mirrored_radiance(vec3 n, vec3 towards) {
     vec3 light[PRT_VOLUME_COEFFICIENTS];
-    prt_volume_incident(position, n, light);
+    prt_volume_incident(point, n, light);
     const vec4 kHann = vec4(1.0, 0.75, 0.25, 0.0); // without it bright areas are surrounded by black rings
     return prt_incident_sum(light, towards, kHann);
 }
 vec3 matt_radiance(vec3 n) {
-    return prt_volume_irradiance(position, n);
+    return prt_volume_irradiance(point, n);
 }
 #else
 vec3 mirrored_radiance(vec3 n, vec3 towards) {
@@ -68,7 +68,7 @@ vec3 mirrored_suns(vec3 n, vec3 towards) {
 void main() {
     vec3 base = surface_base_color().rgb;
     vec3 n = normalize(gl_FrontFacing ? normal : -normal);
-    vec3 towards = reflect(normalize(position - eye), n);
+    vec3 towards = reflect(normalize(point - eye), n);
     vec3 lit = chrome ? base * (mirrored_radiance(n, towards) + mirrored_suns(n, towards)) : base * diffuse_radiance(n);
 #ifdef PRT_SUNS
     if (!chrome)

@@ -5,7 +5,7 @@
 flat in vec3 middle;
 flat in int sealed;
 in vec3 normal;
-uniform float exposure; // of the picture: red has the same brightness under any light
+uniform float exposure; // exposure of the picture: red then has the same brightness under any light
 out vec4 result;
 
 void main() {

@@ -1,26 +1,26 @@
 # Long tests, as a filter of gtest: the slowest tests of code that other tests also cover. ctest labels them
 # `long`; `./test.sh` skips them, `./test.sh all` runs them.
 set(long_tests
-    All/ShaderVariants.ComputeItWithout* Bake.ErrorFalls* Bake.NumbersOfRays* *BakesTheLampsOfAScene/courtyard
-    BelowTheZenith.IsDimmedByAll* BlockedCap.TakesThe* ColorBleeding.* Comparison.* Compress.TakesAllNumbers*
-    All/DemoPictures.* CompressPredictors.ShaderOperations* *CompressedVolumes.ErrAs* CompressedVolumes.EvaluateWhat*
-    *CompressedVolumes.OfFewDirections* Culling.NeverDrops* Diffusion.IsThatOf* Diffusion.OfAShadowsEdge*
-    Diffusion.OfUniformLight* EndlessWall.* *ErrAsEstimated* ErrorBudget.OfBounces* *ErrsAsEstimated* FallbackRoad.*
-    FigureTest.IsLitAs* FirstHour.SmallMeshes* FirstHour.UniformBlocks*
-    FittedBake.BouncesAre* GpuRaster.Converges* GpuRaster.Peels* GpuSums.AreThose* GpuTrace.GivesTheSame*
-    GpuTrace.HasCopies* IncidentReference.* Lamps.ThatAreSpheres* *LeadsFromSceneToPictures/1
-    *LeadsFromSceneToPictures/2 *LeadsFromSceneToPictures/3 Levels.NearestPoints* LevelsOfDetail.AreBaked*
-    Light.ConeAgrees* LightmapBake.BouncesAs* LightmapBake.ComesTo* LightmapScript.* LightmapViewer.BakesVertices*
-    LightmapViewer.HasNumbers* LightmapViewer.PutsABake* LightmapViewer.ShowsVertices* Lightmaps.AreDecoded*
-    LobesCommand.GivesTheSame* Make.Keeps* Make.SaysWhat* Make.TellsBounces* ManyReceivers.*
-    OtherLayouts.NoiseIs* ParallelPlates.OneBounce*
-    PathTracer.AgreesWith* PlainSkies.GiveNo* PlainSkies.HaveNo* RenderSuns.* Road.ADecoder* Road.AutomaticExposure*
-    Road.BouncesOnTheGpu* Road.EveryView* SamplingError.* SceneLamps.TheBakers* Script.KeysAnd* Script.MeasuresWhere*
-    Script.OpensWaits* Search.FindsOn* Search.IsMonotone* Search.IsNeverWorse* Search.Keeps* Search.LimitsJumps*
-    Search.OperationsAlone* Search.Presets* Search.TakesAsLong* Search.WeightsThatAreNot*
-    Skies/Suns.* Sky.AgreesWith* SphericalBowl.* Storage.* Subsurface.OfTheDensest* SunShadowPictures.AgreeWithRays*
-    Suns.AndRemainder* Sweep.* TargetError.FindsTheWindow* TargetError.IsReached* TargetError.TakesFewer*
-    Trace.NoCluster* ViewerPictures.OfSunsApart* ViewerTest.BakesWhatIsNot* ViewerTest.GivesSmall*
-    ViewerTest.ListsEvery* ViewerTest.OpensCompressed* ViewerTest.PutsABake* ViewerTest.SaysWhereTransfer*
-    VolumeBake.AFit*)
+    All/ShaderVariants.ComputeEqualClusters* Bake.ErrorFalls* Bake.HasNoBias* *BakesTheLampsOfAScene/courtyard
+    BelowTheZenith.IsDimmedByAll* BlockedCap.BlocksTheCosine* ColorBleeding.* Comparison.*
+    Compress.AcceptsColoredTerms* All/DemoPictures.* CompressPredictors.ShaderOperations*
+    *CompressedVolumes.HaveTheExpectedError* CompressedVolumes.EvaluateTheir* *CompressedVolumes.LoseOnly*
+    Culling.KeepsVisible* Diffusion.MatchesAFiner* Diffusion.IntegratesTheDipole* Diffusion.IsUniform* EndlessWall.*
+    *HaveTheEstimatedError* ErrorBudget.BounceError* *HasTheEstimatedError* FallbackFiles.* FigureTest.IsLitLike*
+    FirstHour.SmallMeshes* FirstHour.LargeUniformBlocks* FittedBake.BouncesAre* GpuRaster.Converges* GpuRaster.Peels*
+    GpuSums.MatchTheVectors* GpuTrace.DoesNotDepend* GpuTrace.StoresCopies* IncidentReference.* Lamps.SpheresFollow*
+    *LeadsFromSceneToPictures/1 *LeadsFromSceneToPictures/2 *LeadsFromSceneToPictures/3 Levels.NearestPositions*
+    LevelsOfDetail.AreBaked* Light.ConeAgrees* LightmapBake.BouncesLike* LightmapBake.Converges* LightmapScript.*
+    LightmapViewer.CompletesAVertexBake* LightmapViewer.HasNumbers* LightmapViewer.CombinesABake*
+    LightmapViewer.ShowsVertices* Lightmaps.AreDecoded* LobesCommand.IsByteIdentical* Make.Keeps* Make.MeetsTheError*
+    Make.ReportsWhy* Make.ReportsMissing* ManyReceivers.* OtherLayouts.NoiseIs* ParallelPlates.OneBounce*
+    PathTracer.AgreesWith* PlainSkies.YieldNo* PlainSkies.HaveNo* RenderSuns.* Pipeline.ADecoder*
+    Pipeline.AutomaticExposure* Pipeline.BouncesOnTheGpu* Pipeline.EveryView* SamplingError.* SceneLamps.BakerLamps*
+    Script.KeysAnd* Script.MeasuresTheErrorBudget* Script.OpensWaits* Search.MatchesAGrid* Search.IsMonotone*
+    Search.IsNeverWorse* Search.Keeps* Search.LimitsJumps* Search.OperationBudget* Search.Presets*
+    Search.ReportsTheTime* Search.FloatWeightsFit* Skies/Suns.* Sky.AgreesWith* SphericalBowl.* Storage.*
+    Subsurface.IsFinite* SunShadowPictures.AgreeWithRays* Suns.SumWithTheRemainder* Sweep.*
+    TargetError.FindsTheWindow* TargetError.IsReached* TargetError.NeedsFewer* Trace.NoCluster*
+    ViewerPictures.SeparateSuns* ViewerTest.BakesAndShows* ViewerTest.LimitsTheBases* ViewerTest.ListsEvery*
+    ViewerTest.OpensCompressed* ViewerTest.CombinesABake* ViewerTest.ReportsTransfer* VolumeBake.FitReduces*)
 list(JOIN long_tests ":" long_tests)

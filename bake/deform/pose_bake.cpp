@@ -39,8 +39,8 @@ void check_positions(const Scene& scene, const ModelPose& pose) {
         for (const glm::vec3& p : vertices.positions)
             if (!(std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)}) <=
                   static_cast<float>(kFarthestVertex)))
-                throw Error("animation '" + pose.animation + "' takes vertices beyond " +
-                            std::to_string(static_cast<long>(kFarthestVertex)) + " m at " +
+                throw Error("animation '" + pose.animation + "' moves vertices farther than " +
+                            std::to_string(static_cast<long>(kFarthestVertex)) + " m from the origin at " +
                             std::to_string(pose.seconds) + " s");
 }
 

@@ -8,7 +8,7 @@ namespace {
 
 std::vector<const Animation*> chosen_animations(const AnimatedScene& model, const std::string& only) {
     if (model.animations().empty())
-        throw Error("has no animation to take poses from");
+        throw Error("has no animation, but poses need one");
     std::vector<const Animation*> animations;
     for (const Animation& animation : model.animations())
         if (only.empty() || animation.name == only)
@@ -18,7 +18,7 @@ std::vector<const Animation*> chosen_animations(const AnimatedScene& model, cons
     std::string names;
     for (const Animation& animation : model.animations())
         names += (names.empty() ? "" : ", ") + animation.name;
-    throw Error("has no animation '" + only + "'; it has " + names);
+    throw Error("has no animation '" + only + "'; available: " + names);
 }
 
 ModelPose pose_at(const AnimatedScene& model, const Animation& animation, double seconds) {
@@ -44,7 +44,7 @@ void add_poses(const AnimatedScene& model, std::span<const Animation* const> ani
 
 void check_count(int count) {
     if (count < 1)
-        throw Error("poses are 1 or more");
+        throw Error("the number of poses must be at least 1");
 }
 
 } // namespace

@@ -20,14 +20,13 @@ namespace {
 void check_instance_options(const BakeOptions& options, const InstanceBakeOptions& instances) {
     check_options(options);
     if (options.tracer.method == BakeMethod::raster)
-        throw Error("instances that share transfer are baked by rays: use method trace");
+        throw Error("--instances shared does not support --method raster; use --method trace");
     if (options.target_error)
-        throw Error("instances that share transfer take a number of rays, not an error to reach");
+        throw Error("--instances shared does not support --target-error; use --rays");
     if (options.fit == FitMode::surface)
-        throw Error("light of instances that share transfer is measured at vertices: leave out the fit to "
-                    "the surface");
+        throw Error("--instances shared does not support --fit surface; use --fit vertex");
     if (instances.samples < 8 || !(instances.rays > 0 && instances.rays <= 1))
-        throw Error("an instance has 8 samples at least, of as many rays as a receiver at most");
+        throw Error("the number of samples per instance must be at least 8, and their share of rays in 0..1");
 }
 
 /// Returns `options` for the meshes and the scene, without a fit.
@@ -58,11 +57,9 @@ public:
           traced_(trace_scene(scene.scene, choose_media(scene.scene, options_), options_)),
           plan_(plan_bake(traced_, choose_media(scene.scene, options_), options_)) {
         if (!plan_.diffusion.empty())
-            throw Error(
-                "instances that share transfer know no light under surfaces: bake with --instances own");
+            throw Error("--instances shared does not support subsurface scattering; use --instances own");
         if (!plan_.lamps.empty())
-            throw Error(
-                "instances that share transfer know no lamps: bake with --lamps none or --instances own");
+            throw Error("--instances shared does not support lamps; use --lamps none or --instances own");
         check_memory(plan_);
     }
 

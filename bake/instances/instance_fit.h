@@ -59,8 +59,8 @@ private:
     InstanceFactors factors_of_unknowns(const Eigen::VectorXd& unknowns) const;
 
     TransferLayout layout_;
-    bool added_ = false; ///< there is a part for added modes
-    int channels_ = 1;   ///< channels of that part
+    bool added_ = false; ///< there is a term for added modes
+    int channels_ = 1;   ///< channels of that term
     InstanceSamples samples_;
     Eigen::VectorXf weights_; ///< [dimension] squared weights of the metric
     // A column of a passing mode is the mode times a coordinate of the position; a column of an added mode is

@@ -25,7 +25,8 @@ constexpr std::size_t kExpandedAtOnce = 8; ///< instances that are processed tog
 constexpr int kMaxEndlessBounces = 200;    ///< maximum number of endless bounces
 constexpr double kMinChange = 1e-4;        ///< relative change of light on surfaces drawn once, below which
                                            ///< endless bounces stop
-constexpr int kSampleHitStride = 8;        ///< as kHitStride; there are many samples per factor
+/// The purpose of kHitStride, for samples: there are many of them per factor.
+constexpr int kSampleHitStride = 8;
 constexpr int kMinSampleRays = 16;
 /// Minimum share of a sample's rays that end at backs for it to be a candidate. The rays are few; at sealed
 /// samples 98 of 100 end at backs.
@@ -115,8 +116,8 @@ void InstanceLight::trace_own(const Progress& progress) {
     result_.rays += receivers_.own.size() * static_cast<std::size_t>(options.rays);
 }
 
-/// Traces all samples, and some of them twice to estimate the noise. Two halves of the same rays are no
-/// substitute: a half is less evenly distributed, and its noise is more than 50 % larger.
+/// Traces all samples, and some of them twice to estimate the noise. Two halves of the same rays do not
+/// suffice: a half is less evenly distributed, and its noise is more than 50 % larger.
 void InstanceLight::trace_samples(const Progress& progress) {
     std::vector<std::uint32_t> noisy;
     for (std::size_t s = 0; s < receivers_.sampled.size(); s += kSamplesToOfNoise)

@@ -89,7 +89,8 @@ InstanceReceivers choose_receivers(const InstanceScene& scene, const BakePlan& p
         for (const MeshPlacement& placement : scene.meshes[m].placements) {
             const std::vector<std::uint32_t>& fronts = of_nodes.at(placement.node);
             if (fronts.size() != meshes[m].plan->transport->fronts)
-                throw Error("node " + std::to_string(placement.node) + " has other vertices than its mesh");
+                throw Error("node " + std::to_string(placement.node) +
+                            " does not have the same vertices as its mesh");
             InstanceReceivers::Instance instance{m, placement.node, placement.rotation,
                                                  both_sides(plan, meshes[m], fronts), result.sampled.size()};
             for (const std::uint32_t r : instance.receivers)

@@ -1,6 +1,6 @@
 #pragma once
 
-// Bakes an instanced mesh alone in the open.
+// Bakes an instanced mesh without surroundings.
 
 #include "plan.h"
 #include "prt/instances.h"
@@ -16,7 +16,7 @@ struct SharedMeshBake {
     std::unique_ptr<const TraceScene> traced;
     std::unique_ptr<const BakePlan> plan;
     /// Exit transfer on both sides of surfaces after 0, 1, .. bounces; for endless bounces after none and
-    /// after all. Parts: `direct` with one channel and, if light bounces, `indirect`.
+    /// after all. Its terms are `direct` with one channel and, if light bounces, `indirect`.
     std::vector<Transfer> after;
     InstanceBox box;
     std::size_t rays = 0;
@@ -32,8 +32,8 @@ struct SharedMeshBake {
 SharedMeshBake bake_shared_mesh(const Scene& stored, int node, int channels, const BakeOptions& options,
                                 const Progress& progress);
 
-/// Exit transfer of the mesh's vertices as stored in files. The direct part has `direct_channels`; the
-/// indirect part, if there is one, has the channels of `after`.
+/// Returns exit transfer of the mesh's vertices as stored in files. The direct term has `direct_channels`;
+/// the indirect term, if there is one, has the channels of `after`.
 Transfer stored_transfer(const SharedMeshBake& mesh, int direct_channels);
 
 /// Converts exit transfer [receivers of `plan`] on both sides to that of fronts, as stored in files.

@@ -33,7 +33,7 @@ public:
             lamps_.push_back({.name = name});
         Lamp& lamp = lamps_[at->second];
         if (!is_new && grouped == lamp.members.empty())
-            throw Error(fmt::format("a lamp outside of group '{}' has that name: give the group another",
+            throw Error(fmt::format("a lamp has the same name as lamp group '{}'; rename the group",
                                     printable(name)));
         if (grouped && std::find(lamp.members.begin(), lamp.members.end(), own) == lamp.members.end())
             lamp.members.push_back(own);
@@ -43,11 +43,11 @@ public:
     std::vector<Lamp> finish() {
         for (std::size_t g = 0; g < groups_.size(); ++g)
             if (!used_[g])
-                throw Error(fmt::format("no lamp is called '{}' beside those of groups before",
+                throw Error(fmt::format("no lamp matches '{}', or all matches are in earlier groups",
                                         printable(groups_[g].pattern)));
         if (lamps_.size() > kMaxLamps)
-            throw Error(fmt::format("the scene has {} lamps of different names, and at most {} can be dimmed "
-                                    "apart: put some into groups (--lamp-group) or leave them out (--lamps "
+            throw Error(fmt::format("the scene has {} lamps with different names, but at most {} can be "
+                                    "dimmed separately; group lamps (--lamp-group) or exclude them (--lamps "
                                     "none)",
                                     lamps_.size(), kMaxLamps));
         return std::move(lamps_);

@@ -28,8 +28,8 @@ struct LampTask {
 };
 
 struct LampLight {
-    Transfer transfer;    ///< one part, whose coefficient k is the light of lamp k; coefficients after the
-                          ///< last lamp are zero
+    Transfer transfer; ///< one term, whose coefficient k is the light of lamp k; coefficients after the last
+                       ///< lamp are zero
     std::size_t rays = 0; ///< traced rays
 };
 

@@ -118,7 +118,7 @@ ShiningTriangles::ShiningTriangles(const TraceScene& scene, const Lamp& lamp) : 
             c(vertices.positions[corners.z]);
         const double area = 0.5 * glm::length(glm::cross(b - a, c - a));
         // A texel of the size of the triangle at its centroid is about its mean; it only steers the sampling.
-        // The triangle is dark if a texel of four times this size is black, too.
+        // The triangle is dark if a texel of four times this size is also black.
         const SurfacePoint middle{t, glm::vec2(1.0f / 3), static_cast<float>(area)};
         const glm::vec3 mean = surfaces.emission(middle);
         if (mean == glm::vec3(0) && surfaces.emission({t, middle.uv, 4 * middle.footprint}) == glm::vec3(0))

@@ -46,7 +46,8 @@ private:
 /// Whether the last bounce of lamps uses separate rows with connections.
 enum class LastOfLamps { as_others, connected };
 
-/// Creates connections for the last bounce of lamps, if `last` requests them and there is such light.
+/// Creates connections for the last bounce of lamps, if `last` requests them and `plan` has lamps and
+/// bounces.
 std::optional<LampConnections> connections_to(const BakePlan& plan, LastOfLamps last, const Transfer& light);
 
 /// Rows that gather the light of lamps at receivers.

@@ -107,7 +107,7 @@ private:
         outcome.squares = level_error(samples, bake_.transfer, bake_.transfer);
         if (samples.rms_distance > kFarLevel * samples.diagonal)
             bake_.notices.push_back(level.name + " is far from the surface of " + node.name +
-                                    ", whose light it takes: see its distance");
+                                    ", from which its light is copied; check its distance in the report");
         bake_.levels.push_back(std::move(outcome));
     }
 

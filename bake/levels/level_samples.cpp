@@ -101,9 +101,10 @@ LevelSamples match_samples(const SurfaceSamples& samples, const PartSurface& lev
 
 void check_distance(const LevelSamples& samples, const LeveledNode& node, const CoarserLevel& level) {
     if (samples.rms_distance > kTooFar * samples.diagonal)
-        throw Error(fmt::format("{}, level {} of {}, is {:.3g} m away from it, which is {:.3g} m across: a "
-                                "level stands where its node does",
-                                level.name, level.level, node.name, samples.rms_distance, samples.diagonal));
+        throw Error(
+            fmt::format("{}, level {} of {}, is {:.3g} m away from this node, which is {:.3g} m in size; "
+                        "a level must be at the position of its node",
+                        level.name, level.level, node.name, samples.rms_distance, samples.diagonal));
 }
 
 LevelOutcome outcome_of(const Scene& scene, const LeveledNode& node, const CoarserLevel& level,

@@ -57,8 +57,8 @@ LevelBake bake_levels(const LeveledScene& scene, const Transfer& finest, const B
         const BakeResult bake = prt::bake(part.scene, options, progress.range(begin, end));
         if (!same_layout(bake.baked.transfer.layout, finest.layout))
             throw Error("level of detail " + std::to_string(number) +
-                        " has light of other kinds or colors on its own than level 0: its transfer can only "
-                        "be carried over");
+                        " needs transfer with other terms or colors than level 0 and cannot be baked "
+                        "separately; use --levels carry");
         copy_level(part, bake.baked.transfer, scene.finest_receivers, result.transfer);
     }
     for (const LeveledNode& node : scene.nodes)

@@ -27,7 +27,7 @@ void check_falloff(const Falloff& falloff) {
     double shares = 0;
     for (const Falloff::Term& term : falloff.terms) {
         if (!(term.half_distance > 0 && std::isfinite(term.half_distance)))
-            throw Error("the distance at which half of the light passes must be finite and above 0");
+            throw Error("the half distance of a fall-off must be finite and greater than 0");
         if (!(term.share >= 0 && std::isfinite(term.share)))
             throw Error("the share of a fall-off must be finite and not negative");
         shares += term.share;
@@ -35,7 +35,7 @@ void check_falloff(const Falloff& falloff) {
     if (!falloff.terms.empty() && !(shares > 0))
         throw Error("the shares of the fall-off are all 0");
     if (!(falloff.farthest > 0))
-        throw Error("the distance beyond which nothing blocks must be above 0");
+        throw Error("the maximum distance of occlusion must be greater than 0");
 }
 
 } // namespace prt

@@ -32,14 +32,14 @@ public:
     explicit Frame(const glm::dmat4& to_scene)
         : to_scene_(to_scene), scale_(std::cbrt(std::abs(glm::determinant(glm::dmat3(to_scene))))) {
         if (!(scale_ > 0) || !std::isfinite(scale_))
-            throw Error("the object is scaled to nothing");
+            throw Error("the scale of the object is 0 or not finite");
         inverse_ = glm::inverse(to_scene);
     }
     double scale() const { return scale_; }
     glm::vec3 to_scene(const glm::vec3& p) const { return glm::vec3(to_scene_ * glm::dvec4(p, 1)); }
     glm::vec3 from_scene(const glm::vec3& p) const { return glm::vec3(inverse_ * glm::dvec4(p, 1)); }
-    /// Converts a lean like shaders in reverse (`blocked_at`): by the inverse of the transposed scene-to-box
-    /// matrix.
+    /// Converts a mean blocked direction from the scene's frame to the object's, the inverse of the
+    /// conversion in `blocked_at`: by the inverse of the transposed scene-to-box matrix.
     glm::vec3 lean_from_scene(const glm::vec3& blocked_direction) const {
         const glm::dmat3 rows = glm::transpose(scale_ * glm::dmat3(inverse_));
         return glm::vec3(glm::inverse(rows) * glm::dvec3(blocked_direction));
@@ -62,7 +62,7 @@ void place_box(const Scene& part, const Frame& frame, double margin, OcclusionVo
     const glm::vec3 sides = high - low;
     const float grown = static_cast<float>(margin) * (sides.x + sides.y + sides.z) / 3;
     if (!(grown > 0))
-        throw Error("the object has no extent");
+        throw Error("the object has a size of 0");
     volume.low = low - grown;
     volume.high = high + grown;
 }
@@ -171,7 +171,7 @@ OccluderBake bake_occluder(const Scene& part, const glm::dmat4& to_scene, const 
     Seen seen =
         look(part, points_in(baked.volume, frame, kFitPoints, options.seed), bake, progress.range(0, 0.8));
     if (seen.points.empty())
-        throw Error("all places around the object see backs of surfaces");
+        throw Error("all points around the object are inside solid geometry");
     baked.volume.reach = reach_of(baked.volume, seen, frame, options.least);
     check_occlusion_volume(baked.volume);
     for (BlockedPoint& point : seen.points)

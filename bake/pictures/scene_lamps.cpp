@@ -5,6 +5,7 @@
 
 #include "lamps/punctual.h"
 #include "prt/color.h"
+#include "prt/support/counted.h"
 #include "prt/support/error.h"
 #include "scene/transmittance.h"
 
@@ -67,7 +68,8 @@ SceneLamps::SceneLamps(const TraceScene& scene, std::span<const TransferTerm> la
                        std::span<const glm::vec3> strengths)
     : scene_(scene), strengths_(scene.scene().materials.size(), glm::vec3(0)) {
     if (strengths.size() != lamps.size())
-        throw Error(fmt::format("{} lamps have {} strengths", lamps.size(), strengths.size()));
+        throw Error(fmt::format("{}, but {}", counted(lamps.size(), "lamp"),
+                                counted(strengths.size(), "lamp strength")));
     const std::vector<PunctualLight>& lights = scene.scene().lights;
     for (std::uint32_t i = 0; i < lights.size(); ++i)
         if (const auto strength = strength_of_name(lights[i].name, lamps, strengths))

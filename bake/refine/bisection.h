@@ -19,7 +19,7 @@ namespace prt {
 inline constexpr double kMinEdge = 1.0 / 8192;
 
 /// Marks edges of a scene's `WeldedEdges` for splitting. If an edge is marked, the longest edge of each of
-/// its triangles is marked, too.
+/// its triangles is also marked.
 class EdgeMarks {
 public:
     /// Keeps a reference to `edges`.
@@ -41,7 +41,7 @@ private:
 /// A triangle of the finer scene as a part of the original triangle.
 struct Part {
     std::uint32_t whole;               ///< triangle of the original scene
-    std::array<glm::dvec2, 3> corners; ///< barycentric coordinates of corners 1 and 2 of `combined`
+    std::array<glm::dvec2, 3> corners; ///< barycentric coordinates of corners 1 and 2 of `whole`
 };
 
 struct Bisection {

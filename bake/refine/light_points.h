@@ -38,7 +38,7 @@ public:
 
     /// Adds points until each triangle of `mesh` has enough.
     void spread(const LitMesh& mesh, const Progress& progress);
-    /// Moves points to the parts that their triangles were split into.
+    /// Moves points to the parts (`terms`) into which their triangles were split.
     void move(std::span<const Part> terms);
 
     /// Requests more points in triangles with few points. Returns whether it found any.

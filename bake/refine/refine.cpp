@@ -29,13 +29,13 @@ constexpr double kTakenOff = 0.7;
 void check_options(const BakeOptions& options, const RefineOptions& how) {
     check_order(options.order);
     if (!(how.target > 0 && std::isfinite(how.target)))
-        throw Error("the error to refine to must be finite and above 0");
+        throw Error("the error of --refine must be finite and greater than 0");
     if (options.tracer.method == BakeMethod::raster)
-        throw Error("refinement asks points of the surface by rays: use method trace");
+        throw Error("--refine does not support --method raster; use --method trace");
     if (options.target_error)
-        throw Error("an error to reach is one of vertices: leave it out, or refinement");
+        throw Error("--refine and --target-error cannot be combined");
     if (options.fit == FitMode::vertex)
-        throw Error("refinement is for light that is fitted to the surface: leave out fit vertex");
+        throw Error("--refine does not support --fit vertex; use --fit auto or surface");
 }
 
 /// Refines a scene in rounds.

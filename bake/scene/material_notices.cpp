@@ -2,6 +2,8 @@
 
 #include "scene/material_notices.h"
 
+#include "prt/support/counted.h"
+
 #include <fmt/core.h>
 
 #include <set>
@@ -21,14 +23,13 @@ std::vector<std::string> material_notices(const Scene& scene, bool with_bounces)
     }
     std::vector<std::string> notices;
     if (polished > 0 && with_bounces)
-        notices.push_back(fmt::format("{} of metal: what they reflect is in the bounces as far as they are "
-                                      "rough, and lost as far as they are mirrors",
-                                      polished == 1 ? "1 material" : fmt::format("{} materials", polished)));
+        notices.push_back(fmt::format("{} metallic: bounces contain the rough part of the reflection, the "
+                                      "mirror part is lost",
+                                      counted(polished, "material is", "materials are")));
     if (tinted > 0)
-        notices.push_back(
-            fmt::format("{} of tinted glass: the light that passes is dimmed by the luminance of "
-                        "the base colour factor, and keeps its colour",
-                        tinted == 1 ? "1 material" : fmt::format("{} materials", tinted)));
+        notices.push_back(fmt::format("{} tinted glass: transmitted light is multiplied by the luminance of "
+                                      "the base color factor, without a change of hue",
+                                      counted(tinted, "material is", "materials are")));
     return notices;
 }
 

@@ -139,7 +139,7 @@ RayScene::RayScene(const Scene& scene, int threads)
     rtcReleaseGeometry(geometry);
     rtcCommitScene(scene_.get());
     if (rtcGetDeviceError(device_.get()) != RTC_ERROR_NONE)
-        throw Error("the bounding volume hierarchy cannot be built: not enough memory");
+        throw Error("there is not enough memory for the bounding volume hierarchy");
 }
 
 template <class Visit>

@@ -14,7 +14,7 @@ enum class Side { front, back };
 
 /// Returns for every vertex the origin of its rays on that side of the surface, relative to its position, in
 /// units of RayScene::surface_offset: [receivers]. An origin is at least half a unit above the plane of every
-/// face of the vertex, if there is such a point, and up to four units along the surface towards the area that
+/// face of the vertex, if such a point exists, and up to four units along the surface towards the area that
 /// the vertex represents. Reason: a vertex on the edge of a floor is in the plane of a wall that rises there,
 /// and without this offset rounding would decide on which side of the wall it is.
 std::vector<glm::vec3> ray_starts(const Scene& scene, Side side);

@@ -3,6 +3,7 @@
 #include "scene/small_objects.h"
 
 #include "prt/ray_scene.h"
+#include "prt/support/counted.h"
 
 #include <fmt/format.h>
 #include <glm/common.hpp>
@@ -36,17 +37,18 @@ std::optional<std::string> small_object_notice(const Scene& scene) {
         ++small;
         if (size / offset < worst) {
             worst = size / offset;
-            object = fmt::format("{} is {:.2g} m in size and {:.0f} m from the middle of the scene, where "
-                                 "rays start {:.2g} m off "
-                                 "surfaces",
-                                 primitive.node_name, size, largest(farthest), offset);
+            object =
+                fmt::format("{} has a size of {:.2g} m and is {:.0f} m from the center of the scene, where "
+                            "rays start {:.2g} m from surfaces",
+                            primitive.node_name, size, largest(farthest), offset);
         }
     }
     if (small == 0)
         return std::nullopt;
-    return fmt::format("{} too small for single precision so far out, their shadows are wrong by some 3 % or "
-                       "more: {}; bake them in a smaller scene",
-                       small == 1 ? "1 object is" : fmt::format("{} objects are", small), object);
+    return fmt::format(
+        "{} too small for single precision at this distance from the center; shadows have an error of "
+        "about 3 % or more: {}; bake small objects in a smaller scene",
+        counted(small, "object is", "objects are"), object);
 }
 
 } // namespace prt

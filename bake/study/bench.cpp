@@ -94,7 +94,7 @@ private:
             const double expected = per_ray * rays;
             if (expected > options_.max_seconds) {
                 series.left_out =
-                    fmt::format("{} {} and more would take {:.0f} s and more", rays,
+                    fmt::format("runs of {} {} or more are skipped: they would take at least {:.0f} s", rays,
                                 setup.method == BakeMethod::raster ? "directions" : "rays", expected);
                 break;
             }
@@ -167,7 +167,7 @@ private:
         run.stages = s.seconds.tracing;
         run.rays_per_second = s.rays_per_second();
         if (result.baked.transfer.layout.channels() != 1)
-            throw Error("light that comes through colored sheets is not measured between vertices");
+            throw Error("the benchmark does not support transmission through colored surfaces");
         run.relative_l2 = relative_l2(reference_, result.baked.transfer, areas_);
         run.contrast = transfer_contrast(reference_, result.baked.transfer, areas_);
         run.surface_l2 = surface_->relative_l2(result.baked.transfer);

@@ -101,7 +101,7 @@ FreePositions free_positions_in(const TraceScene& scene, const VolumeGrid& grid,
     FreePositions points;
     for (std::size_t tries = 0; points.positions.size() < count; ++tries) {
         if (tries > 20 * count)
-            throw Error("there is next to no free space in the volume to measure light in");
+            throw Error("the volume has almost no free space for test points");
         const float x = unit(random), y = unit(random), z = unit(random);
         const glm::vec3 position = low + (high - low) * glm::vec3(x, y, z);
         if (const auto around = surroundings_of(scene, position)) {

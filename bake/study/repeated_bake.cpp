@@ -60,17 +60,18 @@ void check_repeats(const Transfer& baked, const Transfer& repeated, std::span<co
     constexpr double kNoise = 6, kRounding = 0.05;
     const std::size_t terms = baked.layout.distant_terms().size();
     if (terms == 0)
-        throw Error("a budget is of the light of a sky, and none of it reaches this scene");
+        throw Error("the error cannot be broken down: the transfer has no distant light");
     bool same = terms == repeated.layout.terms.size() && baked.receivers() == repeated.receivers();
     for (std::size_t i = 0; same && i < terms; ++i)
         same = baked.layout.terms[i] == repeated.layout.terms[i];
     const double off = same ? difference_of_bakes(baked, repeated, areas) : 1;
     if (!(off <= kNoise * record.sampling_error + kRounding))
-        throw Error(fmt::format(
-            "baked again, it differs by {:.1f} %, where {:.1f} % is the noise of its rays: a budget needs a "
-            "bake of the scene as it is in the file; name its --no-shadow again, and bake without --inside, "
-            "--subsurface and --casters",
-            100 * off, 100 * record.sampling_error));
+        throw Error(
+            fmt::format("a repeated bake differs by {:.1f} %, but the noise of the rays is {:.1f} %; the "
+                        "breakdown needs a bake of the scene as in the file: repeat --no-shadow, and bake "
+                        "without --enclosed, "
+                        "--subsurface and --high-poly",
+                        100 * off, 100 * record.sampling_error));
 }
 
 } // namespace

@@ -9,8 +9,8 @@
 
 namespace prt {
 
-/// Solves (M + R) x = b, with M_ij = Σ_s a_s φ_i φ_j and xᵀ R x = Σ_e w_e A_e bend_e(x)². Solving is
-/// thread-safe.
+/// Solves (M + R) x = b, with M_ij = Σ_s a_s φ_i φ_j and xᵀ R x = Σ_e w_e A_e d_e(x)², where d_e is a second
+/// difference. Solving is thread-safe.
 class FitSolver {
 public:
     /// `smoothness_weights` [second differences]: w_e, the cost of second differences relative to the squared

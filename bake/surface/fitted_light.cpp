@@ -56,7 +56,8 @@ public:
         std::sort(sums.dark.begin(), sums.dark.end());
         if (direct.gather && direct.gather->entries() == 0) {
             direct.gather.reset();
-            direct.notices.push_back("no bounces: no ray from a sample meets a surface that scatters");
+            direct.notices.push_back(
+                "bounces are skipped: no ray from a sample hits a surface that reflects light diffusely");
         }
         return sums;
     }

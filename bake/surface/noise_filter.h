@@ -33,9 +33,9 @@ public:
     /// Returns the brightest columns of `light`.
     TellingColumns brightest(const Values& light, std::size_t columns) const;
 
-    /// Filters all columns. A filtered value stays within the range of its own value and of those that share
-    /// a second difference with it; exact zeros are kept. Columns are read in blocks before they are written.
-    /// `write` is called from several threads.
+    /// Filters all columns. A filtered value stays within the range of the original value and of the values
+    /// that share a second difference with it; exact zeros are kept. Columns are read in blocks before they
+    /// are written. `write` is called from several threads.
     void apply(const FitSolver& solver, std::size_t columns, const Values& light, const Write& write) const;
     /// Filters all columns of a transfer.
     void apply(const FitSolver& solver, Transfer& light) const;

@@ -8,7 +8,7 @@
 namespace prt {
 namespace {
 
-/// A receiver at a position, with the range of its own samples.
+/// A receiver at a position, with the range of its samples.
 struct Member {
     std::uint32_t receiver;
     float low, high; ///< range of a test value

@@ -1,6 +1,6 @@
 #pragma once
 
-// Bends of a function across the edges of a mesh.
+// Second differences of a function across the edges of a mesh.
 
 #include <glm/vec3.hpp>
 

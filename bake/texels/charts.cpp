@@ -28,9 +28,9 @@ glm::dvec2 checked(const glm::dvec2& at, const glm::dvec2& tile, const Primitive
     for (int axis = 0; axis < 2; ++axis)
         if (!(uv[axis] >= -kOutside && uv[axis] <= 1 + kOutside))
             throw Error(fmt::format(
-                "a triangle of mesh {} primitive {} crosses the border of the texture, where "
-                "TEXCOORD_{} is ({:.4g}, {:.4g}): light of its own needs coordinates in 0..1; --unwrap "
-                "makes some",
+                "mesh {} primitive {}: a triangle crosses the border of the texture, because "
+                "TEXCOORD_{} is ({:.4g}, {:.4g}), not in 0..1; use another set (--texels ...,uv=N) or "
+                "a generated one (--texels ...,unwrap)",
                 primitive.mesh, primitive.primitive, atlas.uv_set, at.x, at.y));
     return glm::dvec2(std::clamp(uv.x, 0.0, 1.0) * atlas.width, std::clamp(uv.y, 0.0, 1.0) * atlas.height);
 }
@@ -45,9 +45,9 @@ const std::vector<glm::vec2>& coordinates(const Scene& scene, const Primitive& p
     const auto& sets = scene.vertex_arrays[primitive.vertices].texcoords;
     const auto set = static_cast<std::size_t>(uv_set);
     if (set >= sets.size() || sets[set].empty())
-        throw Error(fmt::format(
-            "mesh {} primitive {} has no TEXCOORD_{}: take another set (--uv), or --unwrap makes one",
-            primitive.mesh, primitive.primitive, uv_set));
+        throw Error(fmt::format("mesh {} primitive {} has no TEXCOORD_{}; use another set (--texels "
+                                "...,uv=N) or a generated one (--texels ...,unwrap)",
+                                primitive.mesh, primitive.primitive, uv_set));
     return sets[set];
 }
 

@@ -12,7 +12,7 @@
 
 namespace prt {
 
-/// In texels: texel (i, j) is the square from (i, j) on.
+/// A triangle in texel coordinates: texel (i, j) is the square from (i, j) to (i + 1, j + 1).
 struct ChartTriangle {
     std::uint32_t triangle; ///< in the order of the scene's primitives and their triangles
     std::array<glm::dvec2, 3> corners;
@@ -22,7 +22,7 @@ struct ChartTriangle {
 /// crosses the border of the texture. Triangles that are completely in another square than 0..1 are in a
 /// repetition of the texture.
 std::vector<ChartTriangle> chart_triangles(const Scene& scene, const Atlas& atlas);
-/// Whether any triangle is in a repetition of the texture.
+/// Returns whether any triangle is in a repetition of the texture.
 bool repeats(const Scene& scene, const Atlas& atlas);
 
 /// Barycentric coordinates of corners 1 and 2 of `point`, and the minimum distance to an edge, positive
@@ -33,7 +33,8 @@ struct InTriangle {
 };
 InTriangle in_triangle(const ChartTriangle& triangle, const glm::dvec2& point);
 
-/// The point of the triangle that is nearest to `point`: barycentric coordinates of corners 1 and 2.
+/// Returns the point of the triangle that is nearest to `point`, as barycentric coordinates of corners 1 and
+/// 2.
 glm::dvec2 nearest_in_triangle(const ChartTriangle& triangle, const glm::dvec2& point);
 
 inline glm::dvec2 position_of(const ChartTriangle& t, const glm::dvec2& uv) {

@@ -1,5 +1,5 @@
-// Bakes texels: light is bounced between vertices, then gathered by every texel with the rays of its own
-// direct light.
+// Bakes texels: light bounces between vertices, then every texel gathers it with the rays that computed the
+// texel's direct light.
 
 #include "prt/lightmap_bake.h"
 
@@ -8,6 +8,7 @@
 #include "bounce_sources.h"
 #include "memory.h"
 #include "prt/error_measures.h"
+#include "prt/support/counted.h"
 #include "prt/support/error.h"
 #include "prt/support/stopwatch.h"
 #include "prt/trace_receivers.h"
@@ -41,7 +42,7 @@ constexpr double kTexelsBetweenSources = 8;
 /// Approximate maximum number of bytes of the gather rows that exist at a time.
 constexpr double kBytesOfRows = 1e9; ///< for the rows of one gather; lamps need additional memory
 
-/// A side of a texel, metres, in the mean of all.
+/// Returns the mean side length of a texel in metres.
 double texel_size(const TexelPositions& positions, const std::vector<std::vector<ChartTriangle>>& charts) {
     double surface = 0, texels = 0;
     for (const auto& of_atlas : charts)
@@ -59,18 +60,19 @@ void check_materials(const Scene& scene, const Media& media) {
         const Material& material = scene.materials[primitive.material];
         const bool leaf = material.transmission.factor > 0 && !media[primitive.material];
         if (leaf || media[primitive.material])
-            throw Error(fmt::format("mesh {} primitive {} {}, which texels do not know yet: bake at vertices",
-                                    primitive.mesh, primitive.primitive,
-                                    leaf ? "lets light through as leaves do" : "has a medium inside"));
+            throw Error(fmt::format(
+                "mesh {} primitive {} {}, which lightmaps do not support; bake at vertices, without --texels",
+                primitive.mesh, primitive.primitive,
+                leaf ? "has diffuse transmission" : "has subsurface scattering"));
     }
 }
 
 void check_texel_options(const BakeOptions& options) {
     check_options(options);
     if (options.tracer.method == BakeMethod::raster)
-        throw Error("method raster draws depth maps for vertices: use method trace for texels");
+        throw Error("--method raster does not support lightmaps; use --method trace");
     if (options.target_error)
-        throw Error("an error to reach is one of vertices: give texels a number of rays");
+        throw Error("--target-error does not support lightmaps; use --rays");
 }
 
 /// Checks the memory of dense values of the largest map and of three times the values of all receivers:
@@ -85,8 +87,8 @@ void check_room(const std::vector<Atlas>& atlases, std::size_t numbers, double l
                  needed = value * (1.1 * largest + 3.2 * all), there = available_memory(limit);
     if (there > 0 && needed > there)
         throw Error(
-            fmt::format("maps of {:.3g} texels with {} numbers each need about {:.2g} GB of memory, and "
-                        "there are {:.2g} GB: give fewer texels or a lower order",
+            fmt::format("maps of {:.3g} texels with {} numbers each need about {:.2g} GB of memory, but "
+                        "only {:.2g} GB are available; use fewer texels or a lower order",
                         all, numbers, needed * 1e-9, there * 1e-9));
 }
 
@@ -305,9 +307,8 @@ private:
         s.seam_before = rms(jumps_.before);
         s.seam = rms(jumps_.after);
         if (s.texels.sealed > 0)
-            s.notices.push_back(fmt::format(
-                "{} texels are sealed in by backs of faces: they take the light of texels beside them",
-                s.texels.sealed));
+            s.notices.push_back(fmt::format("{} inside solid geometry and filled from neighbours",
+                                            counted(s.texels.sealed, "texel is", "texels are")));
         s.seconds.all = watch.seconds();
         s.seconds.texels = s.seconds.all - s.seconds.sources;
     }
@@ -320,14 +321,14 @@ private:
     std::vector<std::vector<ChartTriangle>> charts_; ///< [atlases]
     struct Parts {
         Transfer direct, rest, lamps;
-    } light_; ///< of the receivers so far
+    } light_; ///< light of the receivers that are complete
     struct Jumps {
         double before = 0, after = 0; ///< squared
         std::size_t points = 0;
     } jumps_;
     struct Noise {
         double squares = 0, texels = 0; ///< relative, weighted by texels
-    } noise_;                           ///< of filtered maps
+    } noise_;                           ///< noise of filtered maps
     int bounces_done_ = 0;
     LightmapBake result_;
 };

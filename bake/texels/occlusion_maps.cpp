@@ -18,7 +18,7 @@
 namespace prt {
 namespace {
 
-constexpr std::size_t kStride = 4; ///< of transfer of order 2
+constexpr std::size_t kStride = 4; ///< number of coefficients of order 2
 
 /// Jumps of the first coefficient across seams, root mean square.
 double rms_jump(const Atlas& atlas, std::span<const SeamPoint> seams, std::span<const float> vectors) {
@@ -38,9 +38,9 @@ void check_room(const std::vector<Atlas>& atlases, double limit) {
     for (const Atlas& atlas : atlases)
         if (const double needed = kBytesOfTexel * static_cast<double>(atlas.texels());
             there > 0 && needed > there)
-            throw Error(fmt::format(
-                "a texture of {} x {} texels needs about {:.2g} GB of memory, and there are {:.2g} GB",
-                atlas.width, atlas.height, needed * 1e-9, there * 1e-9));
+            throw Error(fmt::format("a texture of {} x {} texels needs about {:.2g} GB of memory, but only "
+                                    "{:.2g} GB are available",
+                                    atlas.width, atlas.height, needed * 1e-9, there * 1e-9));
 }
 
 OcclusionMap map_of(const Atlas& atlas, TexelLight light, const Scene& scene) {
@@ -62,8 +62,9 @@ OcclusionMap map_of(const Atlas& atlas, TexelLight light, const Scene& scene) {
 
 void check_finer(const FinerModel& finer) {
     if (finer.scene && !(finer.reach > 0 && finer.reach <= kFarthestVertex))
-        throw Error(fmt::format("how far a finer model may lie off must be above 0, and at most {:g} m",
-                                kFarthestVertex));
+        throw Error(
+            fmt::format("the distance of the high-poly model must be greater than 0 and at most {:g} m",
+                        kFarthestVertex));
 }
 
 OcclusionMapsStatistics occlusion_maps(const Scene& scene, const std::vector<Atlas>& atlases,

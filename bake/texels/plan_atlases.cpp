@@ -27,9 +27,10 @@ double area_in_texture(const Scene& scene, const Atlas& atlas) {
         area += std::abs(a.x * b.y - a.y * b.x) / 2;
     }
     if (!(area > 0))
-        throw Error(fmt::format("TEXCOORD_{} of mesh {} is a line or a point, without texels: --unwrap makes "
-                                "other coordinates",
-                                atlas.uv_set, scene.primitives[atlas.primitives.front()].mesh));
+        throw Error(
+            fmt::format("TEXCOORD_{} of mesh {} covers no area; use another set (--texels ...,uv=N) or a "
+                        "generated one (--texels ...,unwrap)",
+                        atlas.uv_set, scene.primitives[atlas.primitives.front()].mesh));
     return area;
 }
 
@@ -50,13 +51,13 @@ Atlas sized(const Scene& scene, Atlas atlas, const TexelOptions& options) {
     atlas.repeats = repeats(scene, atlas);
     const double in_texture = area_in_texture(scene, atlas);
     double side = options.size;
-    if (options.size == 0) // so that a metre has this number of texels in the mean
+    if (options.size == 0) // chosen by the mean number of texels per metre
         side = std::ceil(options.per_metre * std::sqrt(area_on_surfaces(scene, atlas) / in_texture));
     if (!(side <= kMaxTexels))
-        throw Error(
-            fmt::format("{:.3g} texels a metre need a texture of {:.3g} texels along a side, more than "
-                        "{}: give fewer, or each object a texture of its own",
-                        options.per_metre, side, kMaxTexels));
+        throw Error(fmt::format(
+            "{:.3g} texels per metre need a texture with {:.3g} texels per side, more than the limit of "
+            "{}; use fewer texels or a separate texture per object (--texels ...,atlas=each)",
+            options.per_metre, side, kMaxTexels));
     atlas.width = atlas.height = options.size > 0 ? options.size : std::max(4, static_cast<int>(side));
     return atlas;
 }
@@ -87,9 +88,9 @@ double overlap(const Scene& scene, const Atlas& atlas) {
 std::vector<Atlas> plan_atlases(const Scene& scene, const TexelOptions& options) {
     if (options.size > kMaxTexels || options.size < 0)
         throw Error(
-            fmt::format("a texture has 1 to {} texels along a side, not {}", kMaxTexels, options.size));
+            fmt::format("the number of texels per side must be in 1..{}, not {}", kMaxTexels, options.size));
     if (options.size == 0 && !(options.per_metre > 0 && std::isfinite(options.per_metre)))
-        throw Error("the number of texels a metre must be finite and above 0");
+        throw Error("the number of texels per metre must be finite and greater than 0");
     if (options.atlases != AtlasMode::each) {
         Atlas all = of_all(scene, options);
         const double share = overlap(scene, all);
@@ -97,8 +98,8 @@ std::vector<Atlas> plan_atlases(const Scene& scene, const TexelOptions& options)
             return {std::move(all)};
         if (options.atlases == AtlasMode::one)
             throw Error(fmt::format(
-                "{:.1f} % of what the charts of TEXCOORD_{} cover lies in two of them, and a texture for all "
-                "has one value there: take --atlas each or --unwrap",
+                "{:.1f} % of the area of the charts of TEXCOORD_{} is covered more than once, so "
+                "all objects cannot share one texture; use --texels ...,atlas=each or --texels ...,unwrap",
                 100 * share, options.uv_set));
     }
     std::vector<Atlas> atlases = of_each_object(scene, options);
@@ -106,8 +107,9 @@ std::vector<Atlas> plan_atlases(const Scene& scene, const TexelOptions& options)
         if (const double share = overlap(scene, atlas); share > kMaxOverlap) {
             const Primitive& primitive = scene.primitives[atlas.primitives.front()];
             throw Error(fmt::format(
-                "charts of mesh {} (node {}) overlap: {:.1f} % of what its TEXCOORD_{} covers lies in two "
-                "of them, and both cannot have light of their own: --unwrap makes other coordinates",
+                "charts of mesh {} (node {}) overlap: {:.1f} % of the area of its TEXCOORD_{} is covered "
+                "more than once; use another set (--texels ...,uv=N) or a generated one (--texels "
+                "...,unwrap)",
                 primitive.mesh, primitive.node, 100 * share, options.uv_set));
         }
     return atlases;

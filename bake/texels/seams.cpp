@@ -26,7 +26,7 @@ constexpr double kTexelsOfChart = 64;
 using SeamCorner = std::array<float, 6>; ///< position and normal
 
 struct SeamSide {
-    glm::dvec2 first, second; ///< of the edge, in texels
+    glm::dvec2 first, second; ///< ends of the edge, in texels
 };
 
 /// Edges by their corners, the lesser first, with every side that they have in the atlas.

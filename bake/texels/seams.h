@@ -30,7 +30,7 @@ inline BilinearTexels bilinear_at(const Atlas& atlas, const glm::dvec2& position
     return bilinear_texels(size_of(atlas), position.x, position.y);
 }
 
-/// By how much the first number of `values` [texels][stride] jumps across a seam.
+/// Returns the jump of the first number of `values` [texels][stride] across a seam.
 double jump_at(const Atlas& atlas, const SeamPoint& point, std::span<const float> values, std::size_t stride);
 
 } // namespace prt

@@ -17,7 +17,7 @@ struct TexelAreas {
     std::vector<float> areas;
 };
 
-/// Texels squared that a chart's triangle covers.
+/// Returns the area of a chart's triangle in texels.
 double area_in_texels(const ChartTriangle& triangle);
 
 TexelAreas texel_areas(const Atlas& atlas, std::span<const ChartTriangle> charts,

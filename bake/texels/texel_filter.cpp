@@ -91,7 +91,8 @@ TexelNet::TexelNet(const Scene& scene, const Atlas& atlas, std::span<const Chart
       positions_(atlas.texels()), normals_(atlas.texels()), charts_(atlas.texels(), kNoReceiver),
       sizes_(atlas.texels()) {
     const std::vector<std::uint32_t> connected = connected_triangles(scene, atlas.uv_set);
-    std::vector<float> size_of(connected.size(), 1.0f); // where coordinates are one point: any
+    // Triangles whose coordinates are one point may have any size.
+    std::vector<float> size_of(connected.size(), 1.0f);
     for (const ChartTriangle& t : charts) {
         const glm::dvec2 ab = t.corners[1] - t.corners[0], ac = t.corners[2] - t.corners[0];
         const double texels = 0.5 * std::abs(ab.x * ac.y - ab.y * ac.x);

@@ -29,12 +29,13 @@ private:
 
     std::uint32_t width_, height_;
     std::vector<glm::dvec3> positions_, normals_; ///< [texels] means of their samples
-    std::vector<std::uint32_t> charts_;           ///< [texels], kNoReceiver where there is no light
-    std::vector<float> sizes_;                    ///< [texels] of a texel, m
+    std::vector<std::uint32_t> charts_;           ///< [texels]; kNoReceiver for texels without light
+    std::vector<float> sizes_;                    ///< [texels] side length on the surface, metres
 };
 
-/// Filters direct and bounced light of a sky by one filter, and bounces of lamps, as TexelLight::noise asks.
-/// Some rows of the atlas at a time. Returns the relative noise that is left of the sky.
+/// Filters direct and bounced light of a sky by one filter, and bounces of lamps by another, as strongly as
+/// TexelLight::noise requires. Processes several rows of the atlas at a time. Returns the relative noise that
+/// remains in the light of the sky.
 double filter_texels(const TexelNet& net, int threads, TexelLight& light);
 
 } // namespace prt

@@ -34,10 +34,10 @@ std::vector<TexelGroup> by_texel(std::span<const TexelSample> samples) {
     return groups;
 }
 
-/// One sample of each of some texels.
+/// One sample of each of several texels.
 struct Layer {
     Receivers receivers;
-    std::vector<std::uint32_t> indices; ///< of those that are there
+    std::vector<std::uint32_t> indices; ///< indices of the receivers that exist
 };
 
 /// Whether a texel is sealed in, determined by its first dark sample; its other samples are equal in this.
@@ -229,7 +229,8 @@ private:
         return is_sealed;
     }
 
-    /// Places in `unknown` of texels to ask: the ends of each row of texels, and some between.
+    /// Returns indices in `unknown` of the texels to test: the ends of each row of adjacent texels, and some
+    /// between.
     static std::vector<std::size_t> posts_of(std::span<const TexelGroup> groups,
                                              std::span<const std::uint32_t> unknown) {
         std::vector<std::size_t> posts;

@@ -66,16 +66,16 @@ std::optional<std::string> TexelPositions::check_casters() const {
     constexpr double kMany = 0.02;
     const std::size_t asked = asked_, found = found_;
     if (asked > 0 && found == 0)
-        throw Error(
-            fmt::format("no texel finds a surface of the finer model within {:g} m: it lies somewhere "
-                        "else, or --reach is too short",
-                        casters_->reach));
+        throw Error(fmt::format(
+            "no texel is within {:g} m of the surface of the high-poly model; check its position or "
+            "use a larger --high-poly distance",
+            casters_->reach));
     const double missing = asked > 0 ? 1 - static_cast<double>(found) / static_cast<double>(asked) : 0;
     if (missing <= kMany)
         return std::nullopt;
     return fmt::format(
-        "{:.1f} % of places of texels find no surface of the finer model within {:g} m, and stay "
-        "where they are: --reach looks further",
+        "{:.1f} % of the texels are not within {:g} m of the surface of the high-poly model and use the "
+        "low-poly surface; use a larger --high-poly distance",
         100 * missing, casters_->reach);
 }
 

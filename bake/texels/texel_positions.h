@@ -25,12 +25,12 @@ struct Casters {
 /// above or below and faces the same direction.
 class TexelPositions {
 public:
-    /// Keeps references. `casters`: null where the scene casts itself.
+    /// Keeps references. `casters` null: the scene itself blocks light.
     TexelPositions(const Scene& scene, const Casters* casters);
     /// Appends a receiver of that area.
     void append(const TexelSample& sample, float area, Receivers& receivers) const;
-    /// Returns a notice if many samples so far found no surface of casters, nothing otherwise. Throws `Error`
-    /// if no sample found one: these are other surfaces.
+    /// Returns a notice if many of the samples so far found no surface of `casters`, otherwise no value.
+    /// Throws `Error` if no sample found one, because the model then has other surfaces.
     std::optional<std::string> check_casters() const;
     /// Area of a triangle of the scene, m².
     double area(std::uint32_t triangle) const;

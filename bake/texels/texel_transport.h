@@ -38,7 +38,7 @@ public:
     std::size_t light_of_lamps(Tracer& tracer, const Receivers& receivers, std::uint64_t seed,
                                std::span<float> direct, std::span<float> bounced,
                                const Progress& progress) const;
-    /// How lamp light is laid out: coefficient k is that of lamp k.
+    /// Layout of the light of lamps: coefficient k is the light of lamp k.
     const TransferLayout& lamp_layout() const { return lamp_layout_; }
 
 private:

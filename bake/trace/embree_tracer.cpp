@@ -6,6 +6,7 @@
 
 #include "lamps/lamp_light.h"
 #include "prt/sh.h"
+#include "prt/support/counted.h"
 #include "prt/support/parallel.h"
 #include "prt/support/stopwatch.h"
 #include "scene/opposite_triangles.h"
@@ -196,7 +197,7 @@ void trace_some_hits(const Plan& plan, const SobolChunk& chunk, Work& work) {
 }
 
 /// Moves the directions of rays with a share to sum to the front; the shares go to `work.blocked`. Returns
-/// the number of these rays; sets `combined` if all shares are 1.
+/// the number of these rays; sets `whole` if all shares are 1.
 int keep_shares(Work& work, int count, bool of_blocked, bool& whole) {
     std::size_t kept = 0;
     bool fractions = false;
@@ -276,7 +277,7 @@ EmbreeTracer::EmbreeTracer(const TraceScene& scene) : scene_(scene) {
 }
 
 std::string EmbreeTracer::device() const {
-    return fmt::format("Embree 3, {} threads", thread_count(scene_.threads()));
+    return fmt::format("Embree 3, {}", counted(thread_count(scene_.threads()), "thread"));
 }
 
 std::size_t EmbreeTracer::batch_size(const TraceOptions& options) const {

@@ -28,7 +28,7 @@ public:
                const TraceOptions& options, std::span<float> vectors, const HitSink& sink = {},
                const Progress& progress = {}) override;
     LampLight lamp_light(const LampTask& task, const Progress& progress) override;
-    /// Creates products that continue on the CPU, too.
+    /// Creates products that also continue on the CPU.
     std::unique_ptr<GatherProduct> gather_product(const GatherOperator& gather) override;
     /// Creates sums on the GPU. Their contents are lost if the GPU fails: then they throw `GpuFailure`, and
     /// `backend` is the CPU from then on.

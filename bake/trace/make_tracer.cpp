@@ -17,8 +17,8 @@ std::unique_ptr<Tracer> make_rasterizer(const TraceScene& scene, const TracerCho
     std::string why;
     std::unique_ptr<GlContext> context = GlContext::create(any ? GlDevice::any : GlDevice::hardware, &why);
     if (!context)
-        throw Error("there is no OpenGL 4.5 to draw depth maps on (" + why + ")" +
-                    (any ? "" : ": automatic takes hardware only, --backend gpu also software"));
+        throw Error("--method raster needs OpenGL 4.5, which is not available (" + why + ")" +
+                    (any ? "" : "; --device auto accepts hardware only, --device gpu also software"));
     return std::make_unique<GlRasterizer>(std::move(context), scene, choice.raster_resolution);
 }
 

@@ -2,8 +2,8 @@
 
 // All bounces at once: x = sum over k of K^k b as the solution of (I - K) x = b, by GMRES (Y. Saad, M. H.
 // Schultz, SIAM J. Sci. Stat. Comput. 7, 1986). In an almost closed room K has one eigenvalue next to 1: a
-// sum over bounces needs as many bounces as light needs to leave the room, Krylov methods need only one or
-// two steps more than elsewhere.
+// sum over bounces needs the number of bounces after which light has left the room; Krylov methods need only
+// one or two steps more than elsewhere.
 
 #include <cstddef>
 #include <functional>

@@ -10,8 +10,7 @@
 
 namespace prt {
 
-/// Packs rectangles next to each other in a square. Returns the corner of each, or nothing if they do not
-/// fit.
+/// Packs rectangles next to each other in a square. Returns the corner of each; no value if they do not fit.
 std::optional<std::vector<glm::ivec2>> pack_rectangles(std::span<const glm::ivec2> sizes, int side);
 
 } // namespace prt

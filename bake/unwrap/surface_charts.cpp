@@ -17,10 +17,12 @@
 namespace prt {
 namespace {
 
-constexpr int kDirections = 6;      ///< +x, -x, +y, -y, +z, -z
-constexpr double kSharp = 0.7;      ///< cosine between normals across an edge that charts end at
-constexpr double kSteepest = 0.3;   ///< cosine to its axis that a face has at least, but for needles
-constexpr int kOverlapTexels = 256; ///< along the longer side of a chart that is looked through for overlaps
+constexpr int kDirections = 6; ///< +x, -x, +y, -y, +z, -z
+constexpr double kSharp = 0.7; ///< cosine between the normals at an edge; below it, charts end at the edge
+/// Minimum cosine between the normal of a face and its axis, except for needles.
+constexpr double kSteepest = 0.3;
+/// Resolution along the longer side of a chart for the search of overlaps.
+constexpr int kOverlapTexels = 256;
 
 double along(const glm::dvec3& normal, int direction) {
     return (direction % 2 == 0 ? 1 : -1) * normal[direction / 2];
@@ -36,7 +38,7 @@ int steepest_direction(const glm::dvec3& normal) {
 
 using Position = std::array<float, 3>;
 
-/// Faces that share an edge which is not sharp: [faces].
+/// Returns for each face the faces that share an edge with it which is not sharp: [faces].
 std::vector<std::vector<std::uint32_t>> neighbours(const Scene& scene, std::span<const ChartFace> faces) {
     struct EdgeSide {
         std::uint32_t face;
@@ -72,12 +74,12 @@ std::vector<std::vector<std::uint32_t>> neighbours(const Scene& scene, std::span
     return result;
 }
 
-/// Direction of each face: that of its normal, unless most of its neighbours have another one that is also
-/// possible for the face.
+/// Returns the direction of each face: the one nearest to its normal, unless most of its neighbours have
+/// another direction that is also possible for the face.
 std::vector<int> directions(std::span<const ChartFace> faces,
                             const std::vector<std::vector<std::uint32_t>>& beside) {
     constexpr int kPasses = 32;
-    constexpr double kOfNeighbours = 0.6; // against the cosine
+    constexpr double kOfNeighbours = 0.6; // weight of the neighbours relative to the cosine
     std::vector<int> direction;
     for (const ChartFace& face : faces)
         direction.push_back(steepest_direction(face.normal));
@@ -102,7 +104,7 @@ std::vector<int> directions(std::span<const ChartFace> faces,
     return direction;
 }
 
-/// Splits a chart into its connected parts.
+/// Returns the connected parts of a chart.
 template <class SameChart>
 std::vector<std::vector<std::uint32_t>> connected(std::span<const std::uint32_t> faces,
                                                   const std::vector<std::vector<std::uint32_t>>& beside,
@@ -151,7 +153,7 @@ bool overlaps(std::span<const ChartFace> faces, const SurfaceChart& chart) {
     return sample_texels(flat, atlas).overlapping > 0;
 }
 
-/// Halves of a chart that overlaps itself: nearer and farther along its axis.
+/// Returns the two halves of a chart that overlaps itself: nearer and farther along its axis.
 std::array<std::vector<std::uint32_t>, 2> halves(std::span<const ChartFace> faces,
                                                  const SurfaceChart& chart) {
     const auto depth = [&](std::uint32_t f) {
@@ -165,7 +167,7 @@ std::array<std::vector<std::uint32_t>, 2> halves(std::span<const ChartFace> face
     return {{{sorted.begin(), middle}, {middle, sorted.end()}}};
 }
 
-/// Faces without area join charts: those that have one of their corners, else the first.
+/// Appends faces without area to charts: to one that has one of their corners, else to the first.
 void join_flat(std::span<const ChartFace> faces, std::span<const std::uint32_t> flat,
                std::vector<SurfaceChart>& charts) {
     if (charts.empty() || flat.empty()) {
@@ -188,10 +190,10 @@ void join_flat(std::span<const ChartFace> faces, std::span<const std::uint32_t> 
     }
 }
 
-/// Twice the area of a triangle whose height is what its corners are rounded to as floats, or less: corners
-/// on a line, but for that.
+/// Returns twice the area of the face if its height were the rounding error of its corners as floats. A
+/// smaller face has corners on a line, up to rounding.
 double rounding_of(const ChartFace& face) {
-    constexpr double kRounding = 4 * 0x1p-24; // of two corners and the line between them
+    constexpr double kRounding = 4 * 0x1p-24; // rounding of two corners and of the line between them
     double largest = 0, longest = 0;
     for (int i = 0; i < 3; ++i) {
         largest = std::max(largest, glm::length(face.corners[i]));
@@ -248,7 +250,7 @@ std::vector<SurfaceChart> cut_into_charts(const Scene& scene, std::span<const Ch
     while (!waiting.empty() && waiting.size() + done.size() <= max_charts) {
         SurfaceChart chart = std::move(waiting.back());
         waiting.pop_back();
-        // Two triangles that look to one side lie on two sides of their edge.
+        // Two triangles that face the same side do not overlap: they are on both sides of their edge.
         if (chart.faces.size() <= 2 || !overlaps(faces, chart))
             done.push_back(std::move(chart));
         else

@@ -1,6 +1,6 @@
 #pragma once
 
-// Cuts surfaces into pieces that a projection along an axis lays flat.
+// Cuts surfaces into charts, which are projected along an axis.
 
 #include "prt/scene.h"
 
@@ -13,7 +13,7 @@
 
 namespace prt {
 
-/// A triangle to be laid flat.
+/// A triangle of the scene that becomes part of a chart.
 struct ChartFace {
     std::size_t primitive = 0, triangle = 0; ///< in the scene
     glm::dvec3 corners[3];
@@ -25,7 +25,7 @@ struct SurfaceChart {
     std::vector<std::uint32_t> faces;
 };
 
-/// Projects a position along the axis, in metres.
+/// Projects a position along `axis`, metres.
 glm::dvec2 projected(const glm::dvec3& position, int axis);
 
 std::vector<ChartFace> chart_faces(const Scene& scene, std::span<const std::size_t> primitives);

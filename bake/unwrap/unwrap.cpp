@@ -19,13 +19,14 @@
 namespace prt {
 namespace {
 
-constexpr int kSeparate = 2; ///< texels on every side of a chart
+constexpr int kSeparate = 2; ///< number of empty texels on every side of a chart
 
 struct FlatBox {
     glm::dvec2 low, size; ///< metres
 };
 
-/// Boxes of the faces with area; those without follow, and are moved into the box.
+/// Returns the bounding boxes of charts, from their faces with area. Faces without area are moved into the
+/// box.
 std::vector<FlatBox> flat_boxes(std::span<const ChartFace> faces, std::span<const SurfaceChart> charts) {
     std::vector<FlatBox> boxes;
     for (const SurfaceChart& chart : charts) {
@@ -46,7 +47,7 @@ std::vector<FlatBox> flat_boxes(std::span<const ChartFace> faces, std::span<cons
 struct Packed {
     std::vector<glm::ivec2> corners;
     int side = 0;
-    double density = 0; ///< texels a metre
+    double density = 0; ///< texels per metre
 };
 
 std::optional<Packed> pack(std::span<const FlatBox> boxes, int side, double density) {
@@ -72,7 +73,7 @@ double area_of(std::span<const FlatBox> boxes) {
                            [](double sum, const FlatBox& box) { return sum + box.size.x * box.size.y; });
 }
 
-/// Returns how many of the smallest charts fit a texture.
+/// Returns the number of charts of minimum size that fit into a texture.
 std::size_t max_charts(int side) {
     constexpr std::size_t kMinTexels = (1 + 2 * kSeparate) * (1 + 2 * kSeparate);
     return static_cast<std::size_t>(side) * static_cast<std::size_t>(side) / kMinTexels;
@@ -86,8 +87,8 @@ std::size_t max_charts(int side) {
            static_cast<double>(wanted) * wanted < kTexels * static_cast<double>(charts))
         wanted *= 2;
     throw Error(
-        fmt::format("a texture of {0} x {0} texels is too small for {1} charts or more: give {2} texels or "
-                    "more along a side, or each object a texture of its own (--atlas each)",
+        fmt::format("a texture of {0} x {0} texels is too small for at least {1} charts; use {2} or more "
+                    "texels per side, or a separate texture per object (--texels ...,atlas=each)",
                     side, charts, std::max(wanted, std::min(2 * side, kMaxTexels))));
 }
 
@@ -112,8 +113,8 @@ Packed pack_by_density(std::span<const FlatBox> boxes, double density) {
         if (std::optional<Packed> packed = pack(boxes, static_cast<int>(side), density))
             return std::move(*packed);
     throw Error(fmt::format(
-        "{:.3g} texels a metre need a texture of more than {} texels along a side: give fewer, or "
-        "each object a texture of its own",
+        "{:.3g} texels per metre need a texture with more than {} texels per side; use fewer texels or "
+        "a separate texture per object (--texels ...,atlas=each)",
         density, kMaxTexels));
 }
 
@@ -124,7 +125,7 @@ public:
 
     void write(std::span<const ChartFace> faces, const SurfaceChart& chart, const FlatBox& box,
                const glm::ivec2& corner, const Packed& packed) {
-        std::map<std::pair<std::size_t, std::uint32_t>, std::uint32_t> vertices; // of this chart
+        std::map<std::pair<std::size_t, std::uint32_t>, std::uint32_t> vertices; // new vertices of this chart
         for (const std::uint32_t f : chart.faces) {
             const ChartFace& face = faces[f];
             VertexSplit& split = splits_[face.primitive];

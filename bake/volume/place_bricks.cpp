@@ -102,21 +102,24 @@ void check_bounds(const Bounds& bounds) {
     for (int a = 0; a < 3; ++a)
         if (!(bounds.low[a] < bounds.high[a]) || !(std::abs(bounds.low[a]) <= 1e9f) ||
             !(std::abs(bounds.high[a]) <= 1e9f))
-            throw Error("the bounds of a volume are two corners, x0,y0,z0,x1,y1,z1, the second beyond the "
-                        "first along every axis");
+            throw Error(
+                "the bounds of the volume must be two corners, x0,y0,z0,x1,y1,z1, with x0 < x1, y0 < y1, "
+                "z0 < z1, within 1e9 m");
 }
 
 void check_spacing(const Bounds& bounds, double spacing) {
     const glm::vec3 far = glm::max(glm::abs(bounds.low), glm::abs(bounds.high));
     if (spacing < 64 * 0x1p-24 * static_cast<double>(std::max({far.x, far.y, far.z})))
-        throw Error(fmt::format("probes {:g} m apart are closer than positions can tell so far from the "
-                                "scene: choose other bounds, or a larger distance",
-                                spacing));
+        throw Error(
+            fmt::format("a probe spacing of {:g} m is below the precision of positions so far from the "
+                        "origin; use other bounds or a larger spacing",
+                        spacing));
     const glm::dvec3 bricks = glm::dvec3(bounds.high - bounds.low) / (kBrickCells * spacing);
     if (std::max({bricks.x, bricks.y, bricks.z}) > kMaxBricksAlong)
-        throw Error(fmt::format("probes {:g} m apart are more than {} along the volume: make it smaller, or "
-                                "their distance larger",
-                                spacing, kMaxBricksAlong * kBrickCells));
+        throw Error(fmt::format(
+            "a probe spacing of {:g} m needs more than {} probes along a side of the volume; use smaller "
+            "bounds or a larger spacing",
+            spacing, kMaxBricksAlong * kBrickCells));
 }
 
 } // namespace
@@ -127,7 +130,7 @@ Bounds volume_bounds(const Scene& scene, const VolumeOptions& options) {
         return *options.bounds;
     }
     if (scene.triangles() == 0)
-        throw Error("a scene without triangles has no bounds for a volume: give it some");
+        throw Error("the scene has no triangles; set the bounds of the volume with --volume-bounds");
     Bounds box = bounds(scene);
     // A flat scene gets some space above it.
     box.high = glm::max(box.high, box.low + 1e-3f * glm::length(box.high - box.low));
@@ -143,7 +146,7 @@ VolumeGrid place_bricks(const Scene& scene, const VolumeOptions& options, std::s
         VolumeGrid grid = Placement(box, static_cast<float>(options.spacing), max_bricks).place(triangles);
         if (grid.bricks.size() > max_bricks)
             throw Error(
-                fmt::format("probes {:g} m apart do not fit into memory: set them further apart, or take "
+                fmt::format("a probe spacing of {:g} m needs too much memory; use a larger spacing or "
                             "a lower order",
                             options.spacing));
         return grid;
@@ -164,7 +167,7 @@ VolumeGrid place_bricks(const Scene& scene, const VolumeOptions& options, std::s
             grid = std::move(finer);
     }
     if (probes_of(grid).size() > options.probes)
-        throw Error(fmt::format("a volume has {} probes at least", kBrickProbes));
+        throw Error(fmt::format("a volume needs at least {} probes", kBrickProbes));
     return grid;
 }
 

@@ -12,8 +12,8 @@ namespace prt {
 /// Returns the bounds of the options, or of the scene. Throws `Error` if they are invalid.
 Bounds volume_bounds(const Scene& scene, const VolumeOptions& options);
 
-/// Places the bricks. Throws `Error` for invalid bounds or spacing, and for a spacing that would not fit into
-/// memory; stops after `most` bricks to find out.
+/// Places the bricks. Throws `Error` for invalid bounds or spacing, and if there are more than `most` bricks,
+/// which do not fit into memory.
 VolumeGrid place_bricks(const Scene& scene, const VolumeOptions& options, std::size_t most);
 
 } // namespace prt

@@ -21,8 +21,8 @@ struct ProbeVectors {
     std::span<float> of(std::size_t probe) const { return values.subspan(probe * stride, stride); }
 };
 
-/// Replaces the values of blind probes by the mean of their neighbours, ring by ring from the other probes
-/// on.
+/// Replaces the values of invalid probes (inside geometry) by the mean of their neighbours, ring by ring,
+/// starting next to the valid probes.
 void fill_invalid(const VolumeProbes& probes, const std::vector<bool>& invalid, const ProbeVectors& vectors);
 
 /// Replaces the values of hanging probes by interpolated values of the coarse bricks next to them.

@@ -24,8 +24,8 @@ class OuterSums;
 /// Layout of a coefficient of incident light: the layouts of the sky and of lamps one after another.
 struct IncidentLayout {
     int order = 3;      ///< order of incident light
-    TransferLayout sky; ///< part `direct`, and `indirect` if light bounces
-    /// Coefficient k is the light of lamp k; has no parts if there are no lamps.
+    TransferLayout sky; ///< terms `direct`, and `indirect` if light bounces
+    /// Coefficient k is the light of lamp k; has no terms if there are no lamps.
     TransferLayout lamps;
 
     std::size_t coefficients() const { return static_cast<std::size_t>(coefficient_count(order)); }
@@ -61,7 +61,7 @@ public:
 
     struct Task {
         std::span<const glm::vec3> positions;
-        /// [places] cells of probes, for visibility distances; empty: they are not needed.
+        /// [positions] cells of probes, for visibility distances; empty: they are not needed.
         std::span<const ProbeCell> cells = {};
         int rays = 1024; ///< approximate number of rays per position
         std::uint64_t seed = 0;

@@ -35,21 +35,22 @@ namespace {
 void check_volume_options(const VolumeOptions& volume, const BakeOptions& options) {
     check_options(options);
     if (options.tracer.method == BakeMethod::raster)
-        throw Error("method raster draws depth maps for vertices: use method trace for volumes");
+        throw Error("--method raster does not support volumes; use --method trace");
     if (options.target_error)
-        throw Error("an error to reach is one of vertices: give probes a number of rays");
+        throw Error("--target-error does not support volumes; use --rays");
     if (volume.order < 2 || volume.order > kMaxIncidentOrder)
-        throw Error(fmt::format("incident light of volumes has 2 to {} bands, not {}", kMaxIncidentOrder,
-                                volume.order));
+        throw Error(fmt::format("the order of the incident light of a volume must be in 2..{}, not {}",
+                                kMaxIncidentOrder, volume.order));
     if (volume.probes == 0 && !(volume.spacing > 0 && volume.spacing <= kFarthestVertex))
-        throw Error(fmt::format("probes of a volume cannot be {:g} m apart", volume.spacing));
+        throw Error(fmt::format("the probe spacing of a volume cannot be {:g} m", volume.spacing));
     if (!(volume.error >= 0 && volume.error < 1))
         throw Error(
-            fmt::format("an error that light between probes may have is 0 to 1, not {:g}", volume.error));
+            fmt::format("the error of a volume must be at least 0 and less than 1, not {:g}", volume.error));
     if (volume.error > 0 && volume.probes > 0)
-        throw Error("an error to reach takes as many probes as it needs: give a spacing to begin with");
+        throw Error("the error of a volume determines its number of probes; use --volume spacing=M instead "
+                    "of probes=N");
     if (volume.fit_points && !(*volume.fit_points >= 0 && *volume.fit_points <= 100))
-        throw Error("points of the fit are 0 to 100 for each probe");
+        throw Error("the number of fit points per probe must be in 0..100");
 }
 
 /// Number of points per cell for finding where light has errors.
@@ -86,8 +87,8 @@ double bytes_of_probe(const VolumeOptions& volume, std::size_t numbers) {
 void check_room(const VolumeOptions& volume, double probes, std::size_t numbers, double there) {
     const double needed = bytes_of_probe(volume, numbers) * probes;
     if (there > 0 && needed > there)
-        throw Error(fmt::format("{:.3g} probes of {} numbers each need about {:.2g} GB of memory, and there "
-                                "are {:.2g} GB: set them further apart, or take a lower order",
+        throw Error(fmt::format("{:.3g} probes with {} numbers each need about {:.2g} GB of memory, but only "
+                                "{:.2g} GB are available; use a larger spacing or a lower order",
                                 probes, numbers * static_cast<std::size_t>(coefficient_count(volume.order)),
                                 needed * 1e-9, there * 1e-9));
 }
@@ -129,7 +130,7 @@ PointsBetween points_between(const VolumeGrid& grid, const Bounds& bounds, doubl
     return points;
 }
 
-/// Splits vectors [places][coefficients][numbers] into the parts of a file.
+/// Splits vectors [positions][coefficients][numbers] into the terms of a file.
 Transfer split_into_terms(const IncidentLayout& layout, const BakePlan& plan,
                           std::span<const float> vectors) {
     const std::size_t numbers = layout.numbers(), rows = vectors.size() / numbers;
@@ -295,8 +296,8 @@ private:
         counts.hanging = probes_of(result_.volume.grid).hanging.size();
         counts.bricks = result_.volume.grid.bricks.size();
         if (counts.invalid == counts.all)
-            throw Error("no probe of the volume is in free space: all see backs of surfaces. Choose other "
-                        "bounds, or let materials be double-sided");
+            throw Error("all probes of the volume are inside solid geometry; use other bounds or "
+                        "double-sided materials");
         statistics().seconds.probes = watch_.seconds() - statistics().seconds.sources;
     }
 

@@ -36,15 +36,13 @@ void check_limits(const VulkanDevice& device, std::size_t triangles, std::size_t
     const auto max_triangles =
         std::min<std::uint64_t>(device.traits().max_triangles, std::numeric_limits<std::uint32_t>::max());
     if (triangles > max_triangles)
-        throw Error(
-            fmt::format("the scene is too large for this GPU: {} triangles, and its hierarchies have at "
-                        "most {}",
-                        triangles, max_triangles));
+        throw Error(fmt::format("the scene is too large for this GPU: it has {} triangles, "
+                                "but the limit is {}",
+                                triangles, max_triangles));
     if (copies > device.traits().max_instances)
-        throw Error(
-            fmt::format("the scene is too large for this GPU: {} instances, and its hierarchies have at "
-                        "most {}",
-                        copies, device.traits().max_instances));
+        throw Error(fmt::format("the scene is too large for this GPU: it has {} instances, "
+                                "but the limit is {}",
+                                copies, device.traits().max_instances));
 }
 
 constexpr std::size_t kAlignment = 256; ///< alignment of hierarchies in a buffer, from the specification

@@ -30,9 +30,10 @@ GpuBuffer::GpuBuffer(const VulkanDevice& device, std::size_t bytes, GpuMemory me
                      vk::BufferUsageFlags usage)
     : bytes_(std::max<std::size_t>(4, (bytes + 3) / 4 * 4)) {
     if (bytes_ > device.traits().max_bytes)
-        throw GpuMemoryError(fmt::format("{} take {:.0f} MB, and a buffer of \"{}\" holds {:.0f} MB", what,
-                                         static_cast<double>(bytes_) / 1e6, device.traits().about.name,
-                                         static_cast<double>(device.traits().max_bytes) / 1e6));
+        throw GpuMemoryError(
+            fmt::format("a buffer for {} needs {:.0f} MB, but the limit of \"{}\" is {:.0f} MB", what,
+                        static_cast<double>(bytes_) / 1e6, device.traits().about.name,
+                        static_cast<double>(device.traits().max_bytes) / 1e6));
     using Use = vk::BufferUsageFlagBits;
     usage |= Use::eStorageBuffer | Use::eTransferSrc | Use::eTransferDst;
     const bool addressed = static_cast<bool>(usage & Use::eShaderDeviceAddress);
@@ -45,8 +46,9 @@ GpuBuffer::GpuBuffer(const VulkanDevice& device, std::size_t bytes, GpuMemory me
     try {
         memory_ = device.handle().allocateMemory(info);
     } catch (const vk::OutOfDeviceMemoryError&) {
-        throw GpuMemoryError(fmt::format("\"{}\" has no {:.0f} MB left for {}", device.traits().about.name,
-                                         static_cast<double>(bytes_) / 1e6, what));
+        throw GpuMemoryError(fmt::format("\"{}\" does not have {:.0f} MB of free memory for {}",
+                                         device.traits().about.name, static_cast<double>(bytes_) / 1e6,
+                                         what));
     }
     buffer_.bindMemory(*memory_, 0);
     if (memory != GpuMemory::device)

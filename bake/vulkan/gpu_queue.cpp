@@ -64,7 +64,7 @@ void GpuQueue::wait(Ticket ticket) const {
     if (ticket == 0)
         return;
     if (device_.handle().waitSemaphores({{}, 1, &*done_, &ticket}, kLongest) == vk::Result::eTimeout)
-        throw GpuLost("the GPU did not end what should take a tenth of a second within a minute");
+        throw GpuLost("the GPU did not finish within a minute work that should take a tenth of a second");
 }
 
 double GpuQueue::seconds(Ticket ticket) const {

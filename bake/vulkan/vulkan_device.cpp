@@ -60,9 +60,9 @@ std::string missing(const vk::raii::PhysicalDevice& device) {
     if (device.getProperties().apiVersion < kVersion)
         return "Vulkan 1.2";
     if (!compute_family(device))
-        return "a queue that computes";
+        return "compute queue";
     if (device.getProperties().limits.maxPerStageDescriptorStorageBuffers < kMaxBuffers)
-        return fmt::format("{} buffers for a kernel", kMaxBuffers);
+        return fmt::format("support for {} storage buffers per shader", kMaxBuffers);
     const auto features =
         device.getFeatures2<vk::PhysicalDeviceFeatures2, vk::PhysicalDeviceVulkan12Features>();
     if (!features.get<vk::PhysicalDeviceVulkan12Features>().timelineSemaphore)
@@ -74,7 +74,7 @@ std::string missing(const vk::raii::PhysicalDevice& device) {
         vk::SubgroupFeatureFlagBits::eBasic | vk::SubgroupFeatureFlagBits::eArithmetic;
     if (!(subgroups.subgroupSupportedStages & vk::ShaderStageFlagBits::eCompute) ||
         (subgroups.subgroupSupportedOperations & kNeeded) != kNeeded)
-        return "sums over subgroups in compute shaders";
+        return "subgroup arithmetic in compute shaders";
     return "";
 }
 
@@ -127,7 +127,7 @@ std::size_t named_device(std::span<const GpuDevice> devices, const std::string& 
             fitting.push_back(i);
     if (fitting.size() == 1)
         return fitting.front();
-    throw Error(fmt::format("{} GPU has \"{}\" as its number or in its name: {}",
+    throw Error(fmt::format("{} GPU has \"{}\" as its number or in its name; available: {}",
                             fitting.empty() ? "no" : "more than one", which, listed(devices)));
 }
 
@@ -141,12 +141,12 @@ std::size_t best_device(std::span<const GpuDevice> devices, bool hardware_only) 
             why +=
                 fmt::format("{}\"{}\" has no {}", why.empty() ? "" : ", ", devices[i].name, devices[i].lacks);
         else if (hardware_only && !devices[i].hardware)
-            why += fmt::format("{}\"{}\" is software", why.empty() ? "" : ", ", devices[i].name);
+            why += fmt::format("{}\"{}\" is a software device", why.empty() ? "" : ", ", devices[i].name);
         else if (!best || rank(i) > rank(*best))
             best = i;
     }
     if (!best)
-        throw Error(fmt::format("there is no GPU to bake on ({})",
+        throw Error(fmt::format("no GPU can be used for baking ({})",
                                 why.empty() ? "no driver for Vulkan is installed" : why));
     return *best;
 }
@@ -163,7 +163,7 @@ vk::raii::Context open_loader() {
     try {
         return {};
     } catch (const std::exception&) {
-        throw Error("there is no Vulkan here: its loader, libvulkan, is not installed");
+        throw Error("Vulkan is not available: its loader, libvulkan, is not installed");
     }
 }
 
@@ -178,7 +178,7 @@ vk::raii::Instance open_instance(const vk::raii::Context& context, bool validate
     try {
         return {context, info};
     } catch (const vk::IncompatibleDriverError&) {
-        throw Error("there is no GPU to bake on (no driver for Vulkan is installed)");
+        throw Error("no GPU can be used for baking (no driver for Vulkan is installed)");
     } catch (const vk::LayerNotPresentError&) {
         throw Error("Vulkan's validation layer is not installed");
     }
@@ -232,10 +232,11 @@ VulkanDevice::VulkanDevice(const VulkanChoice& choice)
                                                          : named_device(devices, choice.device);
         traits_.about = devices[chosen];
         if (!traits_.about.lacks.empty())
-            throw Error(
-                fmt::format("\"{}\" cannot bake: it has no {}", traits_.about.name, traits_.about.lacks));
+            throw Error(fmt::format("\"{}\" cannot be used for baking: it has no {}", traits_.about.name,
+                                    traits_.about.lacks));
         if (choice.traversal == Traversal::device && !traits_.about.ray_queries)
-            throw Error(fmt::format("\"{}\" has no ray queries", traits_.about.name));
+            throw Error(fmt::format("\"{}\" has no ray queries; use --device auto,traversal=compute",
+                                    traits_.about.name));
         traits_.ray_queries = choice.traversal != Traversal::compute && traits_.about.ray_queries;
         physical_ = std::move(found[chosen]);
         make_device();
@@ -313,7 +314,8 @@ std::uint32_t VulkanDevice::memory_kind(std::uint32_t kinds, vk::MemoryPropertyF
     for (std::uint32_t kind = 0; kind < memory.memoryTypeCount; ++kind)
         if ((kinds >> kind & 1) != 0 && (memory.memoryTypes[kind].propertyFlags & wanted) == wanted)
             return kind;
-    throw Error(fmt::format("\"{}\" has no memory that is {}", traits_.about.name, vk::to_string(wanted)));
+    throw Error(
+        fmt::format("\"{}\" has no memory of the type {}", traits_.about.name, vk::to_string(wanted)));
 }
 
 } // namespace prt

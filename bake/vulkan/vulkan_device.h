@@ -78,13 +78,13 @@ auto with_vulkan_errors(const Work& work) {
     try {
         return work();
     } catch (const vk::DeviceLostError&) {
-        throw GpuLost("the GPU was lost while it worked: its driver was reset, or it was taken away");
+        throw GpuLost("the GPU was lost during the work: its driver was reset, or the device was removed");
     } catch (const vk::OutOfDeviceMemoryError&) {
-        throw GpuMemoryError("the GPU has not enough memory");
+        throw GpuMemoryError("the GPU does not have enough memory");
     } catch (const vk::OutOfHostMemoryError&) {
         throw GpuMemoryError("there is not enough memory for the GPU's driver");
     } catch (const vk::SystemError& error) {
-        throw Error("the GPU's driver refuses: " + one_line(error.what()));
+        throw Error("the GPU's driver reports an error: " + one_line(error.what()));
     }
 }
 

@@ -80,7 +80,7 @@ private:
             split +=
                 split_error(some, here, quarters, corners, s_.reference.cut(i, order(), bounces())).value;
         }
-        return Trial{"more vertices (prt bake --refine), here all triangles in four",
+        return Trial{"more vertices (prt bake --refine; measured with every triangle split in four)",
                      split / static_cast<double>(s_.reference.lights().size())};
     }
 

@@ -16,7 +16,7 @@ SurfacePoints points_of(const TraceScene& scene, const BudgetEffort& effort, con
     SurfacePoints points = surface_points(
         scene, {.count = effort.points, .seed = effort.seed, .threads = effort.threads}, {{}, progress.stop});
     if (points.size() == 0)
-        throw Error("has no surface that light reaches, so that there is no error to take apart");
+        throw Error("no light reaches any surface, so there is no error to measure");
     return points;
 }
 

@@ -35,7 +35,7 @@ std::vector<Json> row_of(const std::string& name, const ErrorBudget& budget) {
 }
 
 Bars bars_of(const std::vector<ReferenceLight>& lights, const std::vector<ErrorBudget>& budgets) {
-    Bars bars{"squared error over the surface, shares of the causes; the length is the total", {}, {}};
+    Bars bars{"squared error over the surface by cause; the length of a bar is the total error", {}, {}};
     for (const ErrorCause cause : kCauses)
         bars.series.emplace_back(to_string(cause));
     for (std::size_t i = 0; i < lights.size(); ++i) {
@@ -60,7 +60,7 @@ Table table_of(const std::vector<ReferenceLight>& lights, const std::vector<Erro
     for (const ErrorCause cause : kCauses)
         table.columns.push_back(
             {std::string(to_string(cause)) + "_error", to_string(cause), Unit::percent, 2});
-    table.columns.push_back({"sum_over_total", "sum of squares over total", Unit::plain, 2});
+    table.columns.push_back({"sum_over_total", "sum / total (squares)", Unit::plain, 2});
     table.columns.push_back({"total_interval", "95 % interval of the total"});
     for (const char* measured : {"total", "light", "bounces", "vertices", "rays", "bytes"})
         for (const char* end : {"_low", "_high"})
@@ -78,8 +78,8 @@ std::string causes_in_words(const ErrorBudget& mean) {
     std::vector<std::string> causes;
     for (const ErrorCause cause : kCauses)
         causes.push_back(fmt::format("{} {:.2f}", to_string(cause), 100 * mean.of(cause).root()));
-    const char* together = mean.sum() > kMuch * mean.total.value   ? ", which partly undo each other"
-                           : mean.total.value > kMuch * mean.sum() ? ", which add to each other"
+    const char* together = mean.sum() > kMuch * mean.total.value   ? ", which partly cancel each other"
+                           : mean.total.value > kMuch * mean.sum() ? ", which reinforce each other"
                                                                    : "";
     return fmt::format("{} %{}", fmt::join(causes, ", "), together);
 }
@@ -87,35 +87,34 @@ std::string causes_in_words(const ErrorBudget& mean) {
 } // namespace
 
 std::vector<Table> budget_tables(const std::vector<ReferenceLight>& lights, const Budgets& budgets) {
-    Table relative =
-        table_of(lights, budgets.relative, "budget", "Where the error over the surface comes from");
+    Table relative = table_of(lights, budgets.relative, "budget", "Error over the surface by cause");
     relative.about =
-        "Relative L2 of exit radiance for albedo 1 at points all over the surface, against path tracing "
-        "under "
-        "the whole light. Light: what the bands cannot hold, with their ringing taken out. Bounces: those "
-        "not "
-        "baked. Vertices: light is interpolated between them. Rays: noise of the bake. Bytes: compression. "
-        "Each is what would be left if it were the only one; their squares add up to that of the total, but "
-        "for what they do to each other. Suns that can be lit apart are left to the renderer, and count in "
-        "what errors are relative to.";
-    Table visible = table_of(lights, budgets.visible, "visible_budget",
-                             "Where the visible error over the surface comes from");
+        "Relative L2 of exit radiance for albedo 1, at points over the whole surface, against path tracing "
+        "under the complete light. Light: truncation of the light to the bands of the bake, with ringing "
+        "removed. Bounces: bounces that were not baked. Vertices: interpolation between vertices. Rays: "
+        "sampling noise of the bake. Bytes: compression. Each value is the error with this cause alone; the "
+        "squares add up to the square of the total, except for interactions between causes. Separate suns "
+        "are shadowed by the renderer: they have no error here, but the errors are relative to light that "
+        "includes them.";
+    Table visible =
+        table_of(lights, budgets.visible, "visible_budget", "Contrast error over the surface by cause");
     visible.about = "Root mean square of the contrast error: each error is relative to the luminance at its "
-                    "point and a tenth of the logarithmic mean of all. Causes as above.";
+                    "point plus a tenth of the logarithmic mean of all points. The causes are those above.";
     return {std::move(relative), std::move(visible)};
 }
 
 std::string budget_in_words(const ErrorBudget& mean, const ErrorBudget& visible_mean, std::size_t lights) {
-    return fmt::format("{:.2f} % from path tracing{}: {}; contrast error {:.2f} %: {}",
+    return fmt::format("error {:.2f} % against path tracing{}: {}; contrast error {:.2f} %: {}",
                        100 * mean.total.root(),
                        lights > 1 ? fmt::format(" under these {} lights", lights) : "", causes_in_words(mean),
                        100 * visible_mean.total.root(), causes_in_words(visible_mean));
 }
 
 std::string advice_in_words(const std::optional<Advice>& advice) {
-    return advice ? fmt::format("against {}: {} would bring {:.2f} to {:.2f} %", to_string(advice->cause),
-                                advice->option, 100 * advice->before, 100 * advice->after)
-                  : "no single option takes a fiftieth of that away";
+    return advice ? fmt::format("to reduce the error of {}, use {}: the total falls from {:.2f} to {:.2f} %",
+                                to_string(advice->cause), advice->option, 100 * advice->before,
+                                100 * advice->after)
+                  : "no single option reduces the error by more than a fiftieth";
 }
 
 void add_advice(const std::optional<Advice>& advice, Report& report) {

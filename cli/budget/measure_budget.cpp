@@ -22,10 +22,9 @@ void check_no_media(const SceneFile& baked) {
     const std::vector<bool> solid = solid_materials(baked);
     for (const Primitive& primitive : baked.scene.primitives)
         if (solid[primitive.material])
-            throw Error(
-                "no direct light reaches the material '" + baked.scene.materials[primitive.material].name +
-                "': all of it comes out of a medium, which the path tracer that a budget is measured by does "
-                "not enter, or none at all");
+            throw Error("material '" + baked.scene.materials[primitive.material].name +
+                        "' has no direct light: its light passes through a medium, which the path tracer of "
+                        "an error budget does not support, or no light reaches it");
 }
 
 /// Repeats a bake with another seed.
@@ -41,7 +40,7 @@ void measure(const BudgetRequest& request, const SceneFile& baked, const SceneFi
              Session& session) {
     const int threads = request.lights.threads;
     const BakeRecord& record = *baked.record();
-    ProgressBar bar = session.progress_bar("taking errors apart");
+    ProgressBar bar = session.progress_bar("measuring the error budget");
     const Progress progress = bar.progress();
     const std::vector<ReferenceLight> lights = budget_lights(request.lights);
     const Transfer repeated = repeat(baked, threads, progress.range(0, 0.4));
@@ -66,7 +65,7 @@ void measure(const BudgetRequest& request, const SceneFile& baked, const SceneFi
     std::vector<Table> tables = budget_tables(lights, all);
     const std::string words = budget_in_words(mean, visible_mean, lights.size());
     Table& first = tables.front();
-    first.about = fmt::format("Over the surface {}; {}. {}", words, advice_in_words(what), first.about);
+    first.about = fmt::format("Over the surface: {}; {}. {}", words, advice_in_words(what), first.about);
     report.tables.insert(report.tables.begin(), tables.begin(), tables.end());
     add_figures(report, {{"surface_error", words}});
     add_advice(what, report);
@@ -85,7 +84,8 @@ void add_budget(BudgetRequest request, SceneFile& baked, Report& report, Session
     if (shipped)
         check_belong_together(baked, request.baked, *shipped, request.shipped);
     if (shipped && !shipped->compressed)
-        throw Error(request.shipped.string() + ": is no compressed file: a budget is of one bake");
+        throw Error(request.shipped.string() +
+                    ": is not compressed; an error budget needs a bake and its compressed file");
     const TransferLayout& layout = shipped ? layout_of(*shipped) : layout_of(baked);
     request.lights.order = baked.order();
     request.lights.separate = layout.has(TermKind::direct);

@@ -29,9 +29,9 @@ struct AoArguments {
     TexelArguments textures;
     OcclusionOptions options;
     std::optional<int> rays;
-    struct What {
-        bool bent_normals = false, volume = false;
-    } what;
+    struct Outputs {
+        bool bent_normals = false, occluders = false;
+    } outputs;
     ReadingOptions reading;
 
     bool in_textures() const { return textures.given(); }
@@ -101,8 +101,8 @@ std::vector<std::string> notices_of_black(const AoArguments& a, double share) {
     if (share < kNoticedBlackShare || !a.options.tracer.falloff.blocks_everywhere())
         return {};
     return {fmt::format(
-        "{:.0f} % of the surface is black, as in a closed room: --falloff 1 lets surfaces block less "
-        "the farther they are",
+        "{:.0f} % of the surface is black, as in a closed room; use --falloff 1: distant surfaces then "
+        "block less",
         100 * share)};
 }
 
@@ -123,7 +123,7 @@ Report bake_vertices(const AoArguments& a, GltfDocument& document, const Scene& 
         attributes.push_back(shaded_vertex_colors(scene, result.ambient_visibility.ambient));
     else
         attributes.push_back({a.attribute, 1, result.ambient_visibility.ambient});
-    if (a.what.bent_normals) {
+    if (a.outputs.bent_normals) {
         VertexAttribute& bent = attributes.emplace_back(VertexAttribute{kBentNormal, 3, {}});
         for (const glm::vec3& n : result.ambient_visibility.bent_normals)
             bent.values.insert(bent.values.end(), {n.x, n.y, n.z});
@@ -132,7 +132,7 @@ Report bake_vertices(const AoArguments& a, GltfDocument& document, const Scene& 
     const std::vector<float> areas = receiver_areas(scene);
     Report report;
     add_figures(report, {{"receivers", s.receivers.all},
-                         {"receivers_sealed", s.receivers.sealed},
+                         {"receivers_enclosed", s.receivers.sealed},
                          {"rays", s.rays},
                          {"rays_per_receiver", a.options.rays},
                          {"device", s.device},
@@ -159,14 +159,14 @@ Report bake_textures(const AoArguments& a, GltfDocument& document, const Scene& 
                             .texcoord = map.atlas.uv_set,
                             .repeats = map.atlas.repeats,
                             .occlusion = grey_png(map.atlas, map.ambient_visibility.ambient),
-                            .bent_normals = a.what.bent_normals
+                            .bent_normals = a.outputs.bent_normals
                                                 ? normal_png(map.atlas, map.ambient_visibility.bent_normals)
                                                 : std::vector<std::byte>()});
         maps.push_back({{"width", map.atlas.width},
                         {"height", map.atlas.height},
                         {"primitives", map.atlas.primitives.size()},
                         {"texels_measured", map.measured},
-                        {"texels_sealed", map.sealed},
+                        {"texels_enclosed", map.sealed},
                         {"seam_before_rms", map.seam_before},
                         {"seam_rms", map.seam}});
         lit += map.measured - map.sealed;
@@ -184,7 +184,7 @@ Report bake_textures(const AoArguments& a, GltfDocument& document, const Scene& 
     Report report;
     add_figures(report, {{"textures", maps.size()},
                          {"texels", measured},
-                         {"texels_sealed", measured - lit},
+                         {"texels_enclosed", measured - lit},
                          {"rays", result.rays},
                          {"rays_per_texel", a.options.rays},
                          {"rays_per_second", static_cast<double>(result.rays) / result.seconds},
@@ -204,12 +204,13 @@ Report bake_textures(const AoArguments& a, GltfDocument& document, const Scene& 
 
 void check_arguments(const AoArguments& a) {
     if (a.attribute != "COLOR_0" && !a.attribute.starts_with("_"))
-        throw Error("--attribute: glTF wants names of own attributes to begin with _, as _AO");
-    if (a.attribute == kBentNormal && a.what.bent_normals)
-        throw Error("--attribute: _BENT_NORMAL is where --bent-normals go");
+        throw Error("--attribute: glTF requires that names of custom attributes begin with _, as _AO");
+    if (a.attribute == kBentNormal && a.outputs.bent_normals)
+        throw Error("--attribute: _BENT_NORMAL is the attribute of --bent-normals; choose another name");
     check_texels(a.textures);
-    if (a.what.volume && !a.options.tracer.falloff.blocks_everywhere())
-        throw Error("--falloff and --distance are of surfaces: an occlusion volume ends at its reach");
+    if (a.outputs.occluders && !a.options.tracer.falloff.blocks_everywhere())
+        throw Error(
+            "--occluders does not support --falloff and --max-distance: its volumes have their own reach");
 }
 
 /// Gives both sides of double-sided surfaces separate vertices.
@@ -224,24 +225,24 @@ void separate(const AoArguments& a, GltfDocument& document, Scene& scene) {
 
 Report bake_asked(const AoArguments& a, GltfDocument& document, const Scene& scene, const TexelRoom& room,
                   const Progress& progress) {
-    if (a.what.volume)
+    if (a.outputs.occluders)
         return bake_occluders(document, scene, occluder_options(a), progress);
     return a.in_textures() ? bake_textures(a, document, scene, room.atlases, progress)
                            : bake_vertices(a, document, scene, progress);
 }
 
 void run(AoArguments a, Session& session) {
-    choose_gpu(a.options.tracer);
+    check_device(a.options.tracer);
     check_arguments(a);
     a.options.rays = a.rays.value_or(a.options.rays);
     a.reading.outputs = check_outputs({{a.output, "--output", {".glb"}}, {a.json, "--json", {".json"}}},
-                                      {a.scene, a.textures.casters});
+                                      {a.scene, a.textures.high_poly});
     a.options.repairs.bad_textures = a.reading.bad_textures;
     const Stopwatch watch;
     ModelToPassOn model = load_to_pass_on(a.scene, a.reading);
     GltfDocument& document = model.document;
     Scene& scene = model.scene;
-    if (!a.what.volume && (!a.in_textures() || a.textures.unwrap))
+    if (!a.outputs.occluders && (!a.in_textures() || a.textures.unwrap))
         about(a.scene, [&] { separate(a, document, scene); });
     const TexelRoom room =
         a.in_textures() ? about(a.scene, [&] { return make_room(a.textures, a.scene, document, scene); })
@@ -261,24 +262,19 @@ void run(AoArguments a, Session& session) {
     publish(report, a.json, session);
 }
 
-void add_positions(CLI::App* command, AoArguments& a) {
-    const TexelSizeOptions in = add_texels(command, a.textures, "into textures instead of vertices");
+void add_outputs(CLI::App* command, AoArguments& a) {
+    CLI::Option* texels = add_texels(command, a.textures, "bake textures instead of vertices");
+    command->add_option("--attribute", a.attribute, "attribute to write; its name begins with _")
+        ->default_str("COLOR_0, multiplied")
+        ->excludes(texels);
+    command->add_flag("--bent-normals", a.outputs.bent_normals,
+                      "also write bent normals, in the frame of the scene\n"
+                      "vertices: the attribute _BENT_NORMAL; textures: named in extras.prtkit of materials");
     command
-        ->add_option(
-            "--attribute", a.attribute,
-            "attribute of vertices to write instead of COLOR_0, which is multiplied: its name begins with _")
-        ->capture_default_str()
-        ->excludes(in.density)
-        ->excludes(in.size);
-    command->add_flag("--bent-normals", a.what.bent_normals,
-                      "where light comes from on average, too: the attribute _BENT_NORMAL, or a texture that "
-                      "extras.prtkit of materials names; in the frame of the scene");
-    command
-        ->add_flag("--volume", a.what.volume,
-                   "instead, what each part that moves as one blocks around it: objects, and the bones of "
-                   "skinned figures; for contact shadows on what they come near to")
-        ->excludes(in.density)
-        ->excludes(in.size)
+        ->add_flag("--occluders", a.outputs.occluders,
+                   "write occlusion volumes of moving objects instead\nthey are for contact shadows\n"
+                   "one volume for each object that moves as one part, and for each bone of a skinned figure")
+        ->excludes(texels)
         ->excludes("--attribute")
         ->excludes("--bent-normals");
 }
@@ -291,46 +287,38 @@ void add_falloff(CLI::App* command, Falloff& falloff) {
                 for (const std::string& text : texts)
                     falloff.terms.push_back(parse_term(text));
             },
-            "obscurance: surfaces at this distance, metres, let half of the light pass; several with their "
-            "shares, as "
-            "2:97,300:3")
+            "obscurance: distance at which surfaces block half, metres\n"
+            "several distances with shares: 2:97,300:3")
         ->delimiter(',')
         ->allow_extra_args(false)
         ->type_name("DISTANCE[:SHARE],...");
-    command->add_option("--distance", falloff.farthest, "surfaces farther than this, metres, do not block")
+    command
+        ->add_option("--max-distance", falloff.farthest,
+                     "distance beyond which surfaces do not block, metres")
         ->check(above_zero());
 }
 
 } // namespace
 
 void add_ao(CLI::App& app, Session& session) {
-    CLI::App* command = app.add_subcommand(
-        "ao", "Write ambient occlusion and bent normals at vertices or in textures, for any engine");
+    CLI::App* command = app.add_subcommand("ao", "Bake ambient occlusion and bent normals for any engine");
     auto& a =
         arguments_for<AoArguments>(command, [&session](const AoArguments& given) { run(given, session); });
     command->add_option("scene", a.scene, "glTF 2.0 scene, .gltf or .glb")->required()->check(named);
     add_output(command, a.output, "model to write, .glb");
-    add_positions(command, a);
+    add_outputs(command, a);
     add_falloff(command, a.options.tracer.falloff);
-    command
-        ->add_option("--rays", a.rays,
-                     "rays per vertex or texel (1024 without this), or point of a volume (256)")
-        ->check(CLI::Range(1, kMaxRays));
-    add_fit(
-        command, a.options.fit,
-        "of vertices: measured there; fitted to the surface between them; auto: as points between vertices "
-        "tell");
+    command->add_option("--rays", a.rays, "rays per vertex, texel or occluder point")
+        ->check(CLI::Range(1, kMaxRays))
+        ->default_str("1024; --occluders: 256");
+    add_fit(command, a.options.fit, "where the occlusion of vertices is measured");
     add_no_shadow(command, a.no_shadow);
     add_back_sides(command, a.back_sides);
-    add_backend(command, a.options.tracer.backend,
-                "gpu: Vulkan 1.2 of any kind; auto: a hardware GPU, else the CPU");
-    add_gpu(command, a.options.tracer.gpu);
-    add_inside(command, a.options.repairs.inside);
-    for (const char* of_vertices : {"--fit", "--inside"})
-        command->get_option("--volume")->excludes(command->get_option(of_vertices));
-    command->add_option("--seed", a.options.seed, "seed of the samples")
-        ->capture_default_str()
-        ->check(seed());
+    add_device(command, a.options.tracer);
+    add_enclosed(command, a.options.repairs.inside);
+    for (const char* of_vertices : {"--fit", "--enclosed"})
+        command->get_option("--occluders")->excludes(command->get_option(of_vertices));
+    add_seed(command, a.options.seed);
     add_reading(command, a.reading);
     add_smooth_normals(command, a.reading);
     add_threads(command, a.options.threads);

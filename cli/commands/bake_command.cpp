@@ -19,10 +19,13 @@
 #include "report/level_report.h"
 #include "report/lightmap_report.h"
 #include "report/volume_report.h"
+#include "suboptions.h"
 #include "texel_arguments.h"
 #include "volume_arguments.h"
 
 #include <fmt/core.h>
+
+#include <limits>
 
 namespace prt::cli {
 namespace {
@@ -43,15 +46,19 @@ struct BakeArguments {
     ReadingOptions reading;
 };
 
-const std::map<std::string, Traversal> kTraversals = {
-    {"auto", Traversal::automatic}, {"device", Traversal::device}, {"compute", Traversal::compute}};
-const std::map<std::string, BakeMethod> kBakeMethods = {{"trace", BakeMethod::trace},
-                                                        {"raster", BakeMethod::raster}};
-const std::map<std::string, std::optional<TransferStorage>> kStorages = {
-    {"auto", std::nullopt}, {"float32", TransferStorage::float32}, {"float16", TransferStorage::float16}};
-const std::map<std::string, bool> kDenoise = {{"on", true}, {"off", false}};
-const std::map<std::string, LampMode> kLampModes = {
-    {"all", LampMode::all}, {"indirect", LampMode::indirect}, {"none", LampMode::none}};
+constexpr Choice<BakeMethod> kBakeMethods[] = {
+    {"trace", BakeMethod::trace, "rays"},
+    {"raster", BakeMethod::raster, "depth maps from many directions, by OpenGL; direct light only"}};
+constexpr Choice<std::optional<TransferStorage>> kStorages[] = {
+    {"auto", std::nullopt, "float16 if its rounding is below 1/10 of the sampling error, else float32"},
+    {"float16", TransferStorage::float16, "2 bytes per coefficient"},
+    {"float32", TransferStorage::float32, "4 bytes per coefficient"}};
+constexpr Choice<bool> kDenoise[] = {{"on", true, "filter noise over the surface"},
+                                     {"off", false, "keep the values of the rays"}};
+constexpr Choice<LampMode> kLampModes[] = {
+    {"all", LampMode::all, "direct and bounced light"},
+    {"indirect", LampMode::indirect, "bounced light only; the renderer adds shadowed lamps"},
+    {"none", LampMode::none, "no light"}};
 
 int parse_bounces(const std::string& text) {
     if (text == "inf")
@@ -69,6 +76,20 @@ constexpr double kPerMillimetre = 1000; ///< in 1/m
 /// True if all three components are in the range; false for NaN.
 bool all_in(const glm::dvec3& v, double low, double high) {
     return v.x >= low && v.x <= high && v.y >= low && v.y <= high && v.z >= low && v.z <= high;
+}
+
+/// Returns "marble, skin1, ...", in lines of help.
+std::string names_of_media() {
+    std::string names;
+    std::size_t line = 0;
+    for (const NamedMedium& named : measured_media()) {
+        if (names.size() - line > 70) {
+            names += ",\nnames: ";
+            line = names.size();
+        }
+        names += (names.size() == line ? "" : ", ") + std::string(named.name);
+    }
+    return names;
 }
 
 /// [MATERIAL=]MEDIUM, where MEDIUM is a name or six coefficients in 1/mm.
@@ -106,7 +127,7 @@ void add_transport(CLI::App* command, BakeOptions& options) {
     command
         ->add_option_function<std::string>(
             "--bounces", [&options](const std::string& text) { options.bounces = parse_bounces(text); },
-            "bounces of light between surfaces; inf: all of them")
+            "bounces of light between surfaces; inf: all")
         ->type_name("N|inf")
         ->default_str("0");
     command
@@ -116,99 +137,71 @@ void add_transport(CLI::App* command, BakeOptions& options) {
                 for (const std::string& text : texts)
                     options.subsurface.media.push_back(parse_medium(text));
             },
-            "light spreads under the surface of a material, or of all: marble, skin1, whole-milk and others, "
-            "or "
-            "reduced scattering and absorption sr,sg,sb,ar,ag,ab in 1/mm")
+            "subsurface scattering in a material, or in all\n"
+            "MEDIUM: a name, or sr,sg,sb,ar,ag,ab: reduced scattering and absorption, 1/mm\n"
+            "names: " +
+                names_of_media() +
+                "\n"
+                "repeat the option for several materials")
         ->allow_extra_args(false) // one each time, so that the scene may follow
         ->type_name("[MATERIAL=]MEDIUM");
     command
         ->add_option("--metres-per-unit", options.subsurface.metres_per_unit,
-                     "size of the scene's unit, where it is not glTF's metre; only media care")
+                     "length unit of the scene, metres; for subsurface scattering")
         ->capture_default_str()
         ->check(real_in(1e-9, 1e9));
-    command
-        ->add_option_function<std::uint64_t>(
-            "--memory-limit",
-            [&options](const std::uint64_t& bytes) {
-                if (bytes > std::uint64_t{1} << 60) // a negative number wraps to this range
-                    throw CLI::ValidationError("--memory-limit", "is no size that memory can have");
-                options.memory.limit = static_cast<double>(bytes);
-            },
-            "bytes that the bake may take; otherwise what the machine or its container has")
-        ->transform(CLI::AsSizeValue(true))
-        ->type_name("SIZE, as 8GB");
-    add_inside(command, options.repairs.inside);
+    add_enclosed(command, options.repairs.inside);
 }
 
 /// NAME=PATTERN
 LampGroup parse_group(const std::string& text) {
     const std::size_t equals = text.find('=');
     if (equals == 0 || equals == std::string::npos || equals + 1 == text.size())
-        throw CLI::ValidationError("--lamp-group", "'" + text + "' is not NAME=PATTERN");
+        throw CLI::ValidationError("--lamps", "group=" + text + ": expected NAME=PATTERN");
     return {text.substr(0, equals), text.substr(equals + 1)};
 }
 
 void add_lamps(CLI::App* command, LampOptions& lamps) {
-    choice(command, "--lamps", lamps.mode, kLampModes,
-           "light of the scene's lamps and of materials that shine: all of it; bounces alone, for renderers "
-           "that shadow lamps themselves; or none",
-           "all");
-    command
-        ->add_option_function<std::vector<std::string>>(
-            "--lamp-group",
-            [&lamps](const std::vector<std::string>& texts) {
-                for (const std::string& text : texts)
-                    lamps.groups.push_back(parse_group(text));
-            },
-            "lamps that are dimmed together: those whose name matches, * standing for any letters")
-        ->allow_extra_args(false)
-        ->type_name("NAME=PATTERN");
-    command
-        ->add_option("--lamp-radius", lamps.radius,
-                     "radius of points and spots, metres: the larger, the softer their shadows")
-        ->capture_default_str()
-        ->check(real_in(0, 1e9));
-    command->add_option("--lamp-rays", lamps.rays, "rays from a vertex to the lamps of a name with extent")
-        ->capture_default_str()
-        ->check(CLI::Range(1, kMaxRays));
+    Suboptions("--lamps", names_of(kLampModes), "light of lamps and emissive materials",
+               [&lamps](const std::string& name) { lamps.mode = chosen("--lamps", kLampModes, name); })
+        .detail(explained(kLampModes).substr(1))
+        .number("radius", 0, 1e9, "radius of point and spot lights, metres; softens their shadows [0]",
+                [&lamps](double metres) { lamps.radius = metres; })
+        .whole_number("rays", 1, kMaxRays, "rays from a receiver to the lamps of a name [64]",
+                      [&lamps](int rays) { lamps.rays = rays; })
+        .key("group", "NAME=PATTERN", "one term for all lamps that match; *: any letters; repeatable",
+             [&lamps](const std::string& text) { lamps.groups.push_back(parse_group(text)); })
+        .add(command)
+        ->default_str("all");
 }
 
 void add_method(CLI::App* command, BakeOptions& options) {
-    choice(command, "--denoise", options.repairs.denoise, kDenoise,
-           "filter light that is measured at vertices over the surface, as far as it is noise", "on");
-    add_backend(command, options.tracer.backend,
-                "gpu: Vulkan 1.2 of any kind; auto: a hardware GPU, else the CPU");
-    add_gpu(command, options.tracer.gpu);
-    choice(command, "--traversal", options.tracer.traversal, kTraversals,
-           "how a GPU finds what rays meet: device: its ray queries; compute: a hierarchy of our own; auto: "
-           "ray queries where it has some",
-           "auto");
-    add_fit(command, options.fit,
-            "where light is measured: at vertices; over the surface between them, so that the values of "
-            "vertices come nearest to it where they are interpolated; auto: as points between vertices tell");
-    choice(command, "--method", options.tracer.method, kBakeMethods,
-           "trace: rays; raster: depth maps from many directions, direct light only, on the GPU", "trace");
-    command
-        ->add_option("--raster-resolution", options.tracer.raster_resolution,
-                     "texels along each side of a depth map")
-        ->capture_default_str()
-        ->check(CLI::Range(16, 16384));
+    choice(command, "--denoise", options.repairs.denoise, kDenoise, "noise filter", "on");
+    add_device(command, options.tracer);
+    add_fit(command, options.fit, "where light is measured");
+    Suboptions("--method", names_of(kBakeMethods), "how visibility is computed",
+               [&options](const std::string& name) {
+                   options.tracer.method = chosen("--method", kBakeMethods, name);
+               })
+        .detail(explained(kBakeMethods).substr(1))
+        .whole_number("resolution", 16, 16384, "texels along each side of a depth map [1024]",
+                      [&options](int texels) { options.tracer.raster_resolution = texels; })
+        .add(command)
+        ->default_str("trace");
 }
 
 void add_refinement(CLI::App* command, BakeArguments& a) {
-    CLI::Option* refine =
-        command
-            ->add_option("--refine", a.finer.refine,
-                         "split triangles, in the file that is written, too, until direct light between "
-                         "vertices errs by no more than this over the surface, in relative L2: 0.02 is 2 %. "
-                         "Light is fitted to the surface then")
-            ->check(above_zero());
-    command
-        ->add_option("--most-vertices", a.finer.max_vertices,
-                     "vertices that --refine may reach, all nodes together; otherwise four times those of "
-                     "the scene, or 20000 where that is more")
-        ->check(CLI::PositiveNumber)
-        ->needs(refine);
+    Suboptions("--refine", "ERROR", "split triangles until direct light has this relative L2 error",
+               [&a](const std::string& text) {
+                   if (const std::string wrong = above_zero()(text); !wrong.empty())
+                       throw CLI::ValidationError("--refine", wrong);
+                   a.finer.refine = real_number(text);
+               })
+        .detail("ERROR: interpolation error over the surface, as 0.02; the written mesh has the new vertices")
+        .whole_number("vertices", 1, std::numeric_limits<int>::max(),
+                      "maximum number of vertices [4 x those of the scene, at least 20000]",
+                      [&a](int count) { a.finer.max_vertices = static_cast<std::size_t>(count); })
+        .add(command);
 }
 
 /// Replaces document and scene by the refined ones.
@@ -376,8 +369,10 @@ bool leaves_levels_out(const BakeArguments& a, const GltfDocument& document) {
     if (a.levels == LevelMode::ignore || a.instances.mode == InstanceMode::own || !has_levels(document))
         return true;
     if (a.instances.mode == InstanceMode::shared)
-        throw Error(a.scene.string() + ": has levels of detail, which --instances shared does not know: say "
-                                       "--levels ignore, or leave it out");
+        throw Error(
+            a.scene.string() +
+            ": has levels of detail, which --instances shared does not support: use --levels ignore or "
+            "--instances own");
     return false;
 }
 
@@ -385,14 +380,17 @@ void check_arguments(const BakeArguments& a) {
     check_texels(a.texels);
     check_volume(a.volume);
     if (a.texels.given() && a.finer.refine)
-        throw Error("--refine is for vertices: texels are as fine as --texels or --size says");
+        throw Error(
+            "--refine and --texels cannot be combined: --refine splits triangles for light at vertices");
+    if (a.finer.max_vertices > 0 && !a.finer.refine)
+        throw Error("--refine needs an error, as --refine 0.02,vertices=50000");
 }
 
 void run(BakeArguments a, Session& session) {
-    choose_gpu(a.options.tracer);
+    check_device(a.options.tracer);
     check_arguments(a);
     std::vector<Path> inputs = a.instances.lights;
-    inputs.insert(inputs.end(), {a.scene, a.texels.casters});
+    inputs.insert(inputs.end(), {a.scene, a.texels.high_poly});
     a.reading.outputs =
         check_outputs({{a.output, "--output", {".glb"}}, {a.json, "--json", {".json"}}}, inputs);
     a.options.repairs.bad_textures = a.reading.bad_textures;
@@ -423,22 +421,22 @@ void run(BakeArguments a, Session& session) {
 } // namespace
 
 void add_bake(CLI::App& app, Session& session) {
-    CLI::App* command = app.add_subcommand("bake", "Bake transfer vectors for every vertex of a glTF scene");
+    CLI::App* command =
+        app.add_subcommand("bake", "Bake transfer of a glTF scene at vertices, texels and probes");
     auto& a = arguments_for<BakeArguments>(command,
                                            [&session](const BakeArguments& given) { run(given, session); });
     command->add_option("scene", a.scene, "glTF 2.0 scene, .gltf or .glb")->required()->check(named);
     add_output(command, a.output, "baked .glb to write");
-    command->add_option("--order", a.options.order, "SH order N, 1..10: N² coefficients")
+    command->add_option("--order", a.options.order, "SH order N, 1 to 10: N² coefficients")
         ->capture_default_str()
         ->check(CLI::Range(1, kMaxOrder));
     CLI::Option* rays =
-        command->add_option("--rays", a.options.rays, "rays per receiver; directions where method is raster")
+        command->add_option("--rays", a.options.rays, "rays per receiver; directions for --method raster")
             ->capture_default_str()
             ->check(CLI::Range(1, kMaxRays));
     command
-        ->add_option(
-            "--target-error", a.options.target_error,
-            "relative L2 error of the direct light to reach, with as many rays as each receiver needs")
+        ->add_option("--target-error", a.options.target_error,
+                     "relative L2 noise of direct light; chooses the rays of each receiver")
         ->check(above_zero())
         ->excludes(rays);
     add_transport(command, a.options);
@@ -448,16 +446,14 @@ void add_bake(CLI::App& app, Session& session) {
     add_method(command, a.options);
     add_refinement(command, a);
     add_back_sides(command, a.back_sides);
-    add_texels(command, a.texels, "into a lightmap instead of vertices");
+    add_texels(command, a.texels, "bake a lightmap instead of vertices");
     add_volume(command, a.volume);
     add_instances(command, a.instances);
     add_levels(command, a.levels);
-    choice(command, "--storage", a.options.memory.storage, kStorages,
-           "auto: float16 where its rounding is less than a tenth of the sampling error", "auto");
-    command->add_option("--seed", a.options.seed, "seed of the samples")
-        ->capture_default_str()
-        ->check(seed());
-    add_reading(command, a.reading);
+    choice(command, "--storage", a.options.memory.storage, kStorages, "precision of the written transfer",
+           "auto");
+    add_seed(command, a.options.seed);
+    add_reading(command, a.reading, &a.options.memory.limit);
     add_smooth_normals(command, a.reading);
     add_threads(command, a.options.threads);
     add_json(command, a.json);

@@ -1,4 +1,4 @@
-// prt bench: measures the speed of relighting.
+// prt bench: measures speed and error of bakes.
 
 #include "commands/commands.h"
 
@@ -7,6 +7,7 @@
 #include "outputs.h"
 #include "prt/gpu_devices.h"
 #include "report/bench_report.h"
+#include "suboptions.h"
 
 #include <fmt/core.h>
 
@@ -52,11 +53,11 @@ void run(BenchArguments a, Session& session) {
     if (a.list_devices)
         return print_devices();
     if (a.scene.empty())
-        throw CLI::RequiredError("scene or --list-devices");
+        throw CLI::RequiredError("scene or --device list");
     a.options.bad_textures = a.reading.bad_textures;
     a.reading.outputs = check_outputs({{a.files.json, "--json", {".json"}},
-                                       {a.files.html, "--html", {".html", ".htm"}},
-                                       {a.files.csv, "--csv", {".csv"}}},
+                                       {a.files.html, "--report", {".html", ".htm"}},
+                                       {a.files.csv, "--report", {".csv"}}},
                                       {a.scene});
     Report report = scene_report(a, session);
     report.origin.emplace_back("command", session.command_line());
@@ -66,37 +67,62 @@ void run(BenchArguments a, Session& session) {
     publish(report, a.files, session);
 }
 
+void set_rays(const std::string& text, BenchOptions& options) {
+    const std::size_t dots = text.find("..");
+    const std::optional<int> from = whole_number(text.substr(0, dots)),
+                             to = dots == std::string::npos ? std::nullopt
+                                                            : whole_number(text.substr(dots + 2));
+    if (!from || !to || *from < 1 || *from > kMaxRays || *to < 1 || *to > kMaxRays / 64)
+        throw CLI::ValidationError(
+            "--rays", fmt::format("'{}' is not FROM..TO with numbers in 1..{}", text, kMaxRays / 64));
+    options.fewest_rays = *from;
+    options.max_rays = *to;
+}
+
+void add_bench_device(CLI::App* command, BenchArguments& a, CLI::Option* scene) {
+    command
+        ->add_option_function<std::string>(
+            "--device",
+            [&a, scene](const std::string& text) {
+                a.list_devices = text == "list";
+                if (a.list_devices && scene->count() > 0)
+                    throw CLI::ValidationError("--device", "list does not bake: omit the scene");
+                if (text.empty())
+                    throw CLI::ValidationError("--device", "the name is empty");
+                a.options.gpu = a.list_devices ? "" : text;
+            },
+            "GPU to bake on\n"
+            "N, NAME: a GPU by its number or part of its name\n"
+            "list: print the GPUs and exit")
+        ->type_name("N|NAME|list");
+}
+
 } // namespace
 
 void add_bench(CLI::App& app, Session& session) {
-    CLI::App* command = app.add_subcommand(
-        "bench", "Measure speed against error of the bake, on every backend and by every method");
+    CLI::App* command =
+        app.add_subcommand("bench", "Measure speed and error of bakes on all devices and by all methods");
     auto& a = arguments_for<BenchArguments>(command,
                                             [&session](const BenchArguments& given) { run(given, session); });
     CLI::Option* scene = command->add_option("scene", a.scene, "glTF 2.0 scene, .gltf or .glb")->check(named);
-    command->add_flag("--list-devices", a.list_devices, "print the GPUs that bakes could run on, and end")
-        ->excludes(scene);
-    add_gpu(command, a.options.gpu);
-    command->add_option("--order", a.options.order, "SH order N")
+    add_bench_device(command, a, scene);
+    command->add_option("--order", a.options.order, "SH order N, 1 to 10: N² coefficients")
         ->capture_default_str()
         ->check(CLI::Range(1, kMaxOrder));
-    command->add_option("--from", a.options.fewest_rays, "fewest rays per receiver")
-        ->capture_default_str()
-        ->check(CLI::Range(1, kMaxRays));
-    command->add_option("--to", a.options.max_rays, "most rays per receiver")
-        ->capture_default_str()
-        ->check(CLI::Range(1, kMaxRays / 64));
     command
-        ->add_option("--raster-resolution", a.options.raster_resolution,
-                     "texels along each side of a depth map")
-        ->capture_default_str()
-        ->check(CLI::Range(16, 16384));
-    command->add_option("--most-seconds", a.options.max_seconds, "leave runs out that would take longer")
+        ->add_option_function<std::string>(
+            "--rays", [&a](const std::string& text) { set_rays(text, a.options); },
+            "range of rays per receiver; doubled from FROM to TO")
+        ->type_name("FROM..TO")
+        ->default_str(fmt::format("{}..{}", a.options.fewest_rays, a.options.max_rays));
+    Suboptions("--method", "", "settings of depth maps", nullptr)
+        .whole_number("resolution", 16, 16384, "texels along each side of a depth map [1024]",
+                      [&a](int texels) { a.options.raster_resolution = texels; })
+        .add(command);
+    command->add_option("--seconds", a.options.max_seconds, "skip runs that take longer")
         ->capture_default_str()
         ->check(real_in(0, 1e9));
-    command->add_option("--seed", a.options.seed, "seed of the samples")
-        ->capture_default_str()
-        ->check(seed());
+    add_seed(command, a.options.seed);
     add_reading(command, a.reading);
     add_threads(command, a.options.threads);
     add_reports(command, a.files);

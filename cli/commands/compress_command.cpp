@@ -24,6 +24,7 @@
 #include "report/trace_lines.h"
 #include "report/volume_report.h"
 #include "sky_errors.h"
+#include "suboptions.h"
 
 #include <fmt/ranges.h>
 
@@ -47,21 +48,16 @@ struct CompressArguments {
         bool meshopt = false, reorder = false, whole = false;
         Path fallback; ///< a light
     } writing;
-    struct Volume {
-        int bytes = 16;   ///< bytes of a probe's weights
-        int clusters = 0; ///< 0: derived from the number of probes
-    } volume;
+    int volume_bytes = 16; ///< bytes of a probe's weights
     ReadingOptions reading;
 };
 
-const std::map<std::string, WeightFormat> kWeights = {{"packed", WeightFormat::packed},
-                                                      {"float", WeightFormat::float32}};
 const std::map<std::string, WeightCoding (*)()> kPresets = {
     {"u32", preset_u32}, {"u64", preset_u64}, {"u32x4", preset_u32x4}, {"u64x9", preset_u64x9}};
-const std::map<std::string, PredictorChoice> kPredictors = {
-    {"none", PredictorChoice::none},
-    {"normal", PredictorChoice::normal},
-    {"position", PredictorChoice::normal_and_position}};
+constexpr Choice<PredictorChoice> kPredictors[] = {
+    {"none", PredictorChoice::none, "clusters predict nothing"},
+    {"normal", PredictorChoice::normal, "transfer is predicted linearly from the normal"},
+    {"position", PredictorChoice::normal_and_position, "also from the position"}};
 
 struct CountRange {
     int low, high;
@@ -86,7 +82,20 @@ void count_or_auto(CLI::App* command, const std::string& name, CountRange range,
         ->type_name("N|auto");
 }
 
-void add_sizes(CLI::App* command, SearchOptions& o) {
+void set_bits(const std::string& text, WeightCoding& coding) {
+    if (text == "float") {
+        coding.format = WeightFormat::float32;
+        return;
+    }
+    const std::optional<int> bits = whole_number(text);
+    if (!bits || *bits < 0 || *bits > kMaxPackedBits)
+        throw CLI::ValidationError(
+            "--bits", fmt::format("'{}' is neither a number in 0..{} nor float", text, kMaxPackedBits));
+    coding.format = WeightFormat::packed;
+    coding.bits = *bits;
+}
+
+void add_preset(CLI::App* command, SearchOptions& o) {
     command
         ->add_option_function<std::string>(
             "--preset",
@@ -94,79 +103,74 @@ void add_sizes(CLI::App* command, SearchOptions& o) {
                 if (name != "custom")
                     o.compress.coding = kPresets.at(name)();
             },
-            "u32: all of a vertex in one 32-bit word; u64: in two; both with 256 clusters, or as many as "
-            "bases of twice those bytes (or 4 KB) hold; u32x4, u64x9: with four or nine components in all "
-            "clusters, for shaders without a loop; custom: as the following options say")
+            "layout of a vertex\n"
+            "u32: one 32-bit word; up to 256 clusters\n"
+            "u64: two 32-bit words; up to 256 clusters\n"
+            "u32x4: one word, four components in all clusters; for shaders without loops\n"
+            "u64x9: two words, nine components in all clusters; for shaders without loops\n"
+            "custom: from --clusters, --components, --bits and --predictors\n"
+            "small meshes get fewer clusters: bases are at most twice the vertices' bytes, or 4 KB")
         ->check(CLI::IsMember({"u32", "u64", "u32x4", "u64x9", "custom"}))
         ->type_name("u32|u64|u32x4|u64x9|custom")
-        ->default_str("u32, custom with other sizes");
+        ->default_str("u32");
     count_or_auto(command, "--clusters", {1, 65536}, o.compress.clusters, o.choose_clusters,
-                  "number of clusters, 1..65536");
+                  "number of clusters, 1 to 65536; auto: with a goal");
     count_or_auto(command, "--components", {0, 3 * coefficient_count(kMaxOrder)},
-                  o.compress.coding.components, o.choose_components, "most PCA components of a cluster");
+                  o.compress.coding.components, o.choose_components,
+                  "maximum number of PCA components of a cluster; auto: with a goal");
     command
-        ->add_option("--bits", o.compress.coding.bits,
-                     "bits of a vertex's weights together, where they are packed")
-        ->check(CLI::Range(0, kMaxPackedBits));
-    choice(command, "--weights", o.compress.coding.format, kWeights,
-           "packed: bits by variance; float: not rounded, to find out what rounding costs", "packed");
-    choice(
-        command, "--predictors", o.compress.predictors, kPredictors,
-        "what the vertex shader tells clusters: its normal, also its position, or nothing; each costs three "
-        "operations and three rows of every cluster",
-        "normal, with a budget whatever serves it best");
+        ->add_option_function<std::string>(
+            "--bits", [&o](const std::string& text) { set_bits(text, o.compress.coding); },
+            "bits of all weights of a vertex, 0 to 240\n"
+            "float: weights are not quantized, to measure the error of quantization")
+        ->type_name("N|float");
+    choice(command, "--predictors", o.compress.predictors, kPredictors, "attributes that predict transfer",
+           "normal");
+}
+
+void set_max_jump(const std::string& value, Budget& budget) {
+    if (value == "none")
+        return;
+    if (const std::string wrong = above_zero()(value); !wrong.empty())
+        throw CLI::ValidationError("--max-jump", wrong + ", nor none");
+    budget.max_jump = real_number(value);
+}
+
+void add_goals(CLI::App* command, SearchOptions& o) {
     command
         ->add_option("--max-error", o.budget.max_error,
-                     "the cheapest whose lit_rms is at most this, as expected under the metric, and at every "
-                     "turn of each --lights, or, without, of each sky of the metric's family; and so the "
-                     "contrast error of lamps, each alone")
+                     "smallest file with at most this error, relative L2 under the lights\n"
+                     "also limits the contrast error of each lamp alone")
         ->check(above_zero());
     command
         ->add_option_function<std::string>(
-            "--max-jump",
-            [&o](const std::string& value) {
-                if (value == "none")
-                    return;
-                if (const std::string wrong = above_zero()(value); !wrong.empty())
-                    throw CLI::ValidationError("--max-jump", wrong + ", nor none");
-                o.budget.max_jump = real_number(value);
-            },
-            "errors that jump by at most this share of the mean radiance across 99 % of the borders "
-            "between clusters, beside another budget: under each of --lights at 24 rotations, or, without, "
-            "on average over the metric's family")
-        ->type_name("FLOAT|none")
-        ->default_str(fmt::format("{} with --max-error alone", kUnseenJump));
+            "--max-jump", [&o](const std::string& value) { set_max_jump(value, o.budget); },
+            "maximum error jump between clusters, share of the mean radiance\n"
+            "holds for 99 % of the borders, by area: under each of --lights at 24 rotations\n"
+            "none: no limit; " +
+                fmt::format("with --max-error and no other goal, the default is {}", kUnseenJump))
+        ->type_name("X|none")
+        ->default_str("none");
     command
-        ->add_option("--bytes-per-vertex,--bytes-per-texel", o.budget.bytes_per_vertex,
-                     "the best of at most this size: whole 32-bit words, as a game binds them, and bases")
+        ->add_option("--bytes-per-vertex", o.budget.bytes_per_vertex,
+                     "smallest error with at most this size, bases included\n"
+                     "bytes of a vertex, texel or probe, in whole 32-bit words")
         ->check(above_zero());
     command
-        ->add_option(
-            "--shader-ops", o.budget.operations,
-            "rows that the vertex shader adds, components and those of predictors, on average at most")
+        ->add_option("--shader-ops", o.budget.operations,
+                     "maximum number of rows that the shader adds per vertex, on average")
         ->check(above_zero());
-}
-
-void add_volume_sizes(CLI::App* command, CompressArguments& a) {
-    command
-        ->add_option("--volume-bytes", a.volume.bytes,
-                     "bytes of a probe's weights, where the bake has a volume: a multiple of 4")
-        ->capture_default_str()
-        ->check(CLI::IsMember({4, 8, 12, 16, 20, 24, 28}));
-    command
-        ->add_option("--volume-clusters", a.volume.clusters,
-                     "clusters of probes; otherwise by how many there are")
-        ->check(CLI::Range(1, 256));
 }
 
 /// Resolves combinations of options: u32 if no size is given, a search if a budget is given.
 void resolve(const CLI::App& command, CompressArguments& a) {
     SearchOptions& o = a.options;
     const auto given = [&](const char* name) { return command.count(name) > 0; };
-    const bool sizes = given("--clusters") || given("--components") || given("--bits") || given("--weights");
+    const bool floats = o.compress.coding.format == WeightFormat::float32;
+    const bool sizes = given("--clusters") || given("--components") || given("--bits");
     const bool preset = given("--preset") && command.get_option("--preset")->as<std::string>() != "custom";
     if (preset && (sizes || o.budget.any()))
-        throw CLI::ValidationError("--preset", "presets fix what other sizes and budgets would choose");
+        throw CLI::ValidationError("--preset", "cannot be combined with other sizes or goals");
     a.components_given = given("--components");
     a.predictors_given = given("--predictors");
     a.preset = preset || (!o.budget.any() && !sizes && !given("--preset"));
@@ -174,8 +178,8 @@ void resolve(const CLI::App& command, CompressArguments& a) {
         o.budget.max_jump = kUnseenJump;
     if (o.budget.any()) {
         o.choose_predictors = !given("--predictors");
-        if (given("--bits"))
-            throw CLI::ValidationError("--bits", "is what a budget chooses");
+        if (given("--bits") && !floats)
+            throw CLI::ValidationError("--bits", "cannot be combined with a goal, which chooses the bits");
         o.choose_clusters = o.choose_clusters || !given("--clusters");
         o.choose_components = o.choose_components || !given("--components");
         return;
@@ -186,7 +190,7 @@ void resolve(const CLI::App& command, CompressArguments& a) {
         o.compress.coding = preset_u32();
         return;
     }
-    if (preset || o.compress.coding.format == WeightFormat::packed)
+    if (preset || !floats)
         return;
     if (!given("--components"))
         o.compress.coding.components = 8;
@@ -324,11 +328,9 @@ std::optional<CompressedVolumeResult> compress_probes(const CompressArguments& a
         return std::nullopt;
     CompressOptions options;
     options.coding = preset_volume();
-    options.coding.bits = 8 * a.volume.bytes - options.coding.cluster_bits;
-    options.clusters = a.volume.clusters > 0
-                           ? a.volume.clusters
-                           : static_cast<int>(std::clamp<std::size_t>(
-                                 bake.volume->visibility.size() / kProbesOfCluster, kMinClusters, 256));
+    options.coding.bits = 8 * a.volume_bytes - options.coding.cluster_bits;
+    options.clusters = static_cast<int>(
+        std::clamp<std::size_t>(bake.volume->visibility.size() / kProbesOfCluster, kMinClusters, 256));
     options.bases_count = true;
     options.seed = a.options.compress.seed;
     options.threads = a.options.compress.threads;
@@ -523,7 +525,7 @@ Json result_json(const CompressStatistics& s, const CompressOptions& options, co
         {"terms", terms_figures(transfer.layout())},
         {"receivers", receivers},
         {"clusters", s.clusters},
-        {"components_most", bases.max_components()},
+        {"components_max", bases.max_components()},
         {"components_mean", s.mean_components},
         {"predictors", predictors_in_words(bases)},
         {"shader_operations", s.operations()},
@@ -638,13 +640,11 @@ void choose_for_texels(const CompressArguments& a, SearchOptions& options) {
     if (a.predictors_given && options.compress.predictors != PredictorChoice::none)
         throw Error("--predictors: texels know neither normals nor positions; leave it out, or say none");
     if (options.compress.coding.format != WeightFormat::packed)
-        throw Error("--weights: those of texels are words of images; leave it out, or say packed");
+        throw Error("--bits float does not support lightmaps: weights of texels are integers");
     if (a.writing.reorder)
-        throw Error("--reorder is for vertices: texels stay where they are");
+        throw Error("--reorder does not support lightmaps: it changes the order of vertices");
     if (!a.writing.fallback.empty())
-        throw Error(
-            "--fallback writes colors of vertices, and the light of this file is in texels: leave it out, "
-            "or bake at vertices");
+        throw Error("--fallback does not support lightmaps: it writes vertex colors; bake without --texels");
     options.compress.predictors = PredictorChoice::none;
     options.choose_predictors = false;
 }
@@ -666,7 +666,7 @@ std::vector<Path> check_files(const CompressArguments& a) {
 void check_components(const CompressArguments& a, const TransferView& transfer) {
     const int asked = a.options.compress.coding.components;
     if (a.components_given && asked > static_cast<int>(transfer.dimension()))
-        throw Error(fmt::format("components must lie in 0..{}, the dimension of the transfer vectors, not {}",
+        throw Error(fmt::format("--components must be in 0..{}, the length of a transfer vector, not {}",
                                 transfer.dimension(), asked));
 }
 
@@ -692,8 +692,8 @@ void run(CompressArguments a, Session& session) {
         load_fallback(a.writing.fallback, transfer.layout().order, a.metric.light_options, threads);
     if (fallback && holds_instances(bake.document))
         throw Error(a.baked.string() +
-                    ": --fallback writes colors of vertices, and instances share theirs: leave "
-                    "it out, or bake with --instances own");
+                    ": --fallback does not support shared instances: it writes vertex colors; bake with "
+                    "--instances own");
     std::optional<SceneSurface> surface = surface_of(bake, options);
     std::vector<Lighting> skies = given_lights(a.metric, transfer.layout(), threads);
     ErrorTerms terms = error_terms(a.metric, skies, transfer, surface->areas, threads);
@@ -748,36 +748,41 @@ void add_compress(CLI::App& app, Session& session) {
     });
     command->add_option("baked", a.baked, "output of prt bake")->required()->check(named);
     add_output(command, a.output, "compressed .glb to write");
-    add_sizes(command, a.options);
-    command->add_flag("--best-effort", a.best_effort, "write the nearest where nothing keeps the budget");
+    add_preset(command, a.options);
+    add_goals(command, a.options);
+    command->add_flag("--best-effort", a.best_effort, "write the closest result if nothing meets the goal");
     add_metric(command, a.metric);
     command
         ->add_option("--seam-weight", a.options.compress.seam_weight,
-                     "what jumps of the error along mesh edges cost, 0: nothing")
+                     "weight of error jumps along mesh edges; 0: off")
         ->capture_default_str()
         ->check(real_in(0, kMaxSeamWeight));
     command->add_flag("--combine-direct", a.writing.whole,
-                      "direct and indirect light as one: smaller, for who does not light suns apart");
+                      "merge direct and indirect transfer: smaller, no sharp shadows of suns");
     command
-        ->add_option(
-            "--fallback", a.writing.fallback,
-            "light (.exr, .hdr, .png, .jpg, .json) that viewers without PRT show the model in: as COLOR_0 "
-            "of unlit materials")
+        ->add_option("--fallback", a.writing.fallback,
+                     "light for viewers without PRT support, as vertex colors\n"
+                     "FILE: environment (.exr, .hdr, .png, .jpg) or light (.json)")
         ->check(named)
         ->type_name("FILE");
-    add_volume_sizes(command, a);
-    command->add_flag("--reorder", a.writing.reorder, "put the vertices of a cluster side by side");
+    Suboptions("--volume", "", "size of a baked volume", nullptr)
+        .key("bytes", "N", "bytes per probe: 4, 8, 12, 16, 20, 24 or 28 [16]",
+             [&a](const std::string& text) {
+                 const std::optional<int> bytes = whole_number(text);
+                 if (!bytes || *bytes < 4 || *bytes > 28 || *bytes % 4 != 0)
+                     throw CLI::ValidationError("--volume",
+                                                "bytes=" + text + ": expected a multiple of 4 from 4 to 28");
+                 a.volume_bytes = *bytes;
+             })
+        .add(command);
+    command->add_flag("--reorder", a.writing.reorder, "sort vertices by cluster");
     command->add_flag("--meshopt", a.writing.meshopt,
-                      "make the file small: vertex data through EXT_meshopt_compression, packed weights "
-                      "in our own code where that is smaller");
-    command->add_option("--seed", a.options.compress.seed, "seed of the clustering")
-        ->capture_default_str()
-        ->check(seed());
+                      "compress the file: EXT_meshopt_compression, entropy-coded weights");
+    add_seed(command, a.options.compress.seed);
     add_reading(command, a.reading);
     add_threads(command, a.options.compress.threads);
     command
-        ->add_option("--trace", a.reports.trace,
-                     "write how the result came about: a line of JSON for each round, split, merge and trial")
+        ->add_option("--trace", a.reports.trace, "log each round, split, merge and trial as a line of JSON")
         ->check(named)
         ->type_name("FILE.jsonl");
     add_json(command, a.reports.json);

@@ -88,15 +88,15 @@ std::vector<Path> check(const EvaluateArguments& a) {
     if (a.shipped.empty() && !a.measures.sweep && !a.measures.budget && !a.measures.volume)
         throw CLI::ValidationError(
             "evaluate", "compares two files: prt evaluate BAKED.glb SHIPPED.glb; or measures what the "
-                        "compressor makes of one: prt evaluate BAKED.glb --sweep; or where the error of a "
-                        "picture comes from: prt evaluate BAKED.glb [SHIPPED.glb] --budget");
+                        "compressor makes of one: prt evaluate BAKED.glb --measure sweep; or where the error "
+                        "of a picture comes from: prt evaluate BAKED.glb [SHIPPED.glb] --measure budget");
     if (a.measures.budget && a.rotations != 1)
-        throw CLI::ValidationError("--rotations", "a budget is under each light as it stands: use --rotate");
+        throw CLI::ValidationError("--rotations", "cannot be combined with --measure budget; use --rotate");
     std::vector<Path> inputs = a.lights;
     inputs.insert(inputs.end(), {a.baked, a.shipped});
     return check_outputs({{a.files.json, "--json", {".json"}},
-                          {a.files.html, "--html", {".html", ".htm"}},
-                          {a.files.csv, "--csv", {".csv"}}},
+                          {a.files.html, "--report", {".html", ".htm"}},
+                          {a.files.csv, "--report", {".csv"}}},
                          inputs);
 }
 
@@ -141,6 +141,29 @@ void run(EvaluateArguments a, Session& session) {
     publish(report, a.files, session);
 }
 
+enum class Measure { sweep, budget, volume };
+constexpr Choice<Measure> kMeasures[] = {
+    {"sweep", Measure::sweep, "error against bytes and shader cost, for several methods; takes minutes"},
+    {"budget", Measure::budget, "causes of the error over the surface, with advice; bakes once more"},
+    {"volume", Measure::volume, "error of the volume against path tracing, by distance from surfaces"}};
+
+void add_measures(CLI::App* command, EvaluateArguments::Measures& measures) {
+    command
+        ->add_option_function<std::vector<std::string>>(
+            "--measure",
+            [&measures](const std::vector<std::string>& names) {
+                for (const std::string& name : names) {
+                    const Measure measure = chosen("--measure", kMeasures, name);
+                    measures.sweep = measures.sweep || measure == Measure::sweep;
+                    measures.budget = measures.budget || measure == Measure::budget;
+                    measures.volume = measures.volume || measure == Measure::volume;
+                }
+            },
+            "further measurements; repeat the option for each" + explained(kMeasures))
+        ->allow_extra_args(false) // one each time, so that the files may follow
+        ->type_name(names_of(kMeasures));
+}
+
 } // namespace
 
 void add_evaluate(CLI::App& app, Session& session) {
@@ -151,32 +174,14 @@ void add_evaluate(CLI::App& app, Session& session) {
     command->add_option("baked", a.baked, "output of prt bake, the reference")->required()->check(named);
     command->add_option("shipped", a.shipped, "output of prt compress, or another bake of the same scene")
         ->check(named);
-    command
-        ->add_option("--lights", a.lights,
-                     "environment (.exr, .hdr, .png, .jpg) or light (.json), repeated for each of several; "
-                     "otherwise a uniform light, an overcast sky and a sun")
-        ->allow_extra_args(false) // one each time, so that the files may follow
-        ->check(named)
-        ->type_name("FILE");
+    add_lights(command, a.lights, "lights under which errors are measured")
+        ->default_str("uniform, overcast, sun");
     add_light_options(command, a.light_options);
-    add_suns(
-        command, a.suns,
-        "find suns in the images, so many or as many as pay, and measure transfer that keeps direct light "
-        "apart without their direct light, too: as it is lit beside shadow maps",
-        "auto");
-    command->add_option("--rotations", a.rotations, "turn each light about +Y by this many equal angles")
+    add_suns(command, a.suns, "suns in the images; also measures light without their direct term", "auto");
+    command->add_option("--rotations", a.rotations, "number of rotations of each light about +Y")
         ->capture_default_str()
         ->check(CLI::Range(1, 64));
-    command->add_flag(
-        "--sweep", a.measures.sweep,
-        "error against size and shader cost of this compressor and of those it came from; minutes");
-    command->add_flag(
-        "--budget", a.measures.budget,
-        "take the error over the surface, against path tracing, apart by its causes: light, bounces, "
-        "vertices, rays, bytes; and say what to change. Bakes once more");
-    command->add_flag("--volume", a.measures.volume,
-                      "measure the volume at places in free space, against path tracing, by their distance "
-                      "from surfaces");
+    add_measures(command, a.measures);
     add_no_shadow(command, a.no_shadow);
     add_reading(command, a.reading);
     add_threads(command, a.threads);

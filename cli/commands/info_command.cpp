@@ -104,7 +104,7 @@ void add_compressed(const CompressedTransfer& compressed, Report& report) {
                            {"terms", terms_figures(t.bases.layout)},
                            {"clusters", t.bases.clusters()},
                            {"components_least", *least},
-                           {"components_most", *most},
+                           {"components_max", *most},
                            {"weights", t.receivers.format == WeightFormat::packed ? "packed" : "float"},
                            {"bytes_bound_per_vertex", bytes_per_receiver(t)},
                            {"bits_used_per_vertex", bits_per_receiver(t)},
@@ -115,7 +115,7 @@ void add_compressed(const CompressedTransfer& compressed, Report& report) {
     const std::string own = "clustered_pca/";
     report.sentences.push_back(fmt::format(
         "clustered PCA: order {{{0}order}}, {1}, {2} x {{{0}components_least}} to "
-        "{{{0}components_most}} components, {{{0}weights}} weights",
+        "{{{0}components_max}} components, {{{0}weights}} weights",
         own, terms_in_words(t.bases.layout), counted(own + "clusters", t.bases.clusters(), "cluster")));
     report.sentences.push_back(fmt::format(
         "{{{0}bytes_bound_per_vertex}} bytes per vertex to bind ({{{0}bits_used_per_vertex}} bits in use)",
@@ -164,7 +164,7 @@ void add_stored_lobes(const StoredLobes& lobes, Report& report) {
                            {"bounces", lobes.record.bounces},
                            {"seed", lobes.record.seed}}}});
     report.sentences.push_back(
-        fmt::format("lobes that turn with the skin: order {{lobes/order}}, {} and "
+        fmt::format("lobes that rotate with the skin: order {{lobes/order}}, {} and "
                     "{{lobes/bytes_bound_per_vertex}} bytes per vertex, {{lobes/profiles}} profiles",
                     counted("lobes/lobes_per_vertex", model.lobes, "lobe")));
     report.sentences.push_back(fmt::format(
@@ -223,7 +223,7 @@ void run(InfoArguments a, Session& session) {
                    model.compressed_volume->order, report);
     if (!model.occluders.empty()) {
         add_figures(report, {{"occlusion_volumes", model.occluders.size()}});
-        report.sentences.push_back("{occlusion_volumes} nodes say what they block around them");
+        report.sentences.push_back("{occlusion_volumes} nodes have an occlusion volume");
     }
     if (model.lobes)
         add_stored_lobes(*model.lobes, report);
@@ -243,14 +243,11 @@ void run(InfoArguments a, Session& session) {
 } // namespace
 
 void add_info(CLI::App& app, Session& session) {
-    CLI::App* command = app.add_subcommand("info", "Say what a glTF file holds");
+    CLI::App* command = app.add_subcommand("info", "List the contents of a glTF file");
     auto& a = arguments_for<InfoArguments>(command,
                                            [&session](const InfoArguments& given) { run(given, session); });
     command->add_option("file", a.file, "any .gltf or .glb")->required()->check(named);
-    command->add_flag(
-        "--check", a.check,
-        "also list what a bake or an importer would stumble over, with remedies: status 1 where "
-        "there is something");
+    command->add_flag("--check", a.check, "list problems with remedies; status 1 if there are any");
     add_reading(command, a.reading);
     add_json(command, a.json);
 }

@@ -11,6 +11,7 @@
 #include "prt/lobe_gltf.h"
 #include "prt/support/error.h"
 #include "prt/support/stopwatch.h"
+#include "suboptions.h"
 
 #include <fmt/core.h>
 
@@ -143,7 +144,7 @@ void measure_frames(const LobesArguments& a, const AnimatedScene& model, const M
 }
 
 void run(LobesArguments a, Session& session) {
-    choose_gpu(a.bake.tracer);
+    check_device(a.bake.tracer);
     a.reading.outputs =
         check_outputs({{a.output, "--output", {".glb"}}, {a.json, "--json", {".json"}}}, {a.model});
     a.bake.bad_textures = a.reading.bad_textures;
@@ -174,28 +175,30 @@ void run(LobesArguments a, Session& session) {
     publish(report, a.json, session);
 }
 
-void add_what(CLI::App* command, LobesArguments& a) {
-    command->add_option("--lobes", a.fit.lobes, "lobes of a vertex, four bytes each")
+void add_quality(CLI::App* command, LobesArguments& a) {
+    command->add_option("--lobes", a.fit.lobes, "lobes per vertex, 1 to 3, four bytes each")
         ->capture_default_str()
         ->check(CLI::Range(std::size_t{1}, kMaxLobes));
-    command->add_option("--order", a.bake.order, "bands of a lobe")
+    command->add_option("--order", a.bake.order, "SH order of a lobe, 2 to 4")
         ->capture_default_str()
         ->check(CLI::Range(2, kMaxLobeOrder));
-    command
-        ->add_option("--poses", a.poses,
-                     "poses to fit to beside that of the file, evenly over the animations")
-        ->capture_default_str()
-        ->check(CLI::Range(1, 4096));
-    command->add_option("--animation", a.animation, "the animation to take poses from; otherwise all");
-    command
-        ->add_option("--frames", a.frames,
-                     "frames, evenly over the animations, to measure against bakes of their own; 0: none")
-        ->capture_default_str()
-        ->check(CLI::Range(0, 4096));
+    Suboptions("--poses", "N", "poses of the animations for the fit, besides the pose of the file",
+               [&a](const std::string& text) {
+                   const std::optional<int> poses = whole_number(text);
+                   if (!poses || *poses < 1 || *poses > 4096)
+                       throw CLI::ValidationError("--poses", "'" + text + "' is not a number in 1..4096");
+                   a.poses = *poses;
+               })
+        .whole_number("frames", 0, 4096, "frames that are baked to measure the error; 0: none [6]",
+                      [&a](int frames) { a.frames = frames; })
+        .key("animation", "NAME", "animation of the poses [all]",
+             [&a](const std::string& name) { a.animation = name; })
+        .add(command)
+        ->default_str("8");
     command->add_option("--rays", a.bake.rays, "rays per vertex and pose")
         ->capture_default_str()
         ->check(CLI::Range(1, kMaxRays));
-    command->add_option("--bounces", a.bake.bounces, "bounces between the surfaces of the model")
+    command->add_option("--bounces", a.bake.bounces, "bounces of light between the surfaces of the model")
         ->capture_default_str()
         ->check(CLI::Range(0, kMaxBounces));
 }
@@ -203,19 +206,17 @@ void add_what(CLI::App* command, LobesArguments& a) {
 } // namespace
 
 void add_lobes(CLI::App& app, Session& session) {
-    CLI::App* command = app.add_subcommand(
-        "lobes", "Write transfer that turns with a skin: zonal lobes of vertices, fitted to poses");
+    CLI::App* command =
+        app.add_subcommand("lobes", "Bake zonal lobes for skinned meshes, which rotate with the skin");
     auto& a = arguments_for<LobesArguments>(command,
                                             [&session](const LobesArguments& given) { run(given, session); });
     command->add_option("model", a.model, "glTF 2.0 model with animations, .gltf or .glb")
         ->required()
         ->check(named);
     add_output(command, a.output, "model to write, .glb");
-    add_what(command, a);
-    add_backend(command, a.bake.tracer.backend,
-                "gpu: Vulkan 1.2 of any kind; auto: a hardware GPU, else the CPU");
-    add_gpu(command, a.bake.tracer.gpu);
-    command->add_option("--seed", a.bake.seed, "seed of the samples")->capture_default_str()->check(seed());
+    add_quality(command, a);
+    add_device(command, a.bake.tracer);
+    add_seed(command, a.bake.seed);
     add_reading(command, a.reading);
     add_threads(command, a.bake.threads);
     add_json(command, a.json);

@@ -22,10 +22,10 @@ void run(MakeArguments a, Session& session) {
     std::vector<Path> inputs = r.lights;
     inputs.push_back(r.scene);
     r.reading.outputs = check_outputs({{r.output, "--output", {".glb"}},
-                                       {r.baked, "--baked", {".glb"}},
+                                       {r.baked, "--keep-bake", {".glb"}},
                                        {a.files.json, "--json", {".json"}},
-                                       {a.files.html, "--html", {".html", ".htm"}},
-                                       {a.files.csv, "--csv", {".csv"}}},
+                                       {a.files.html, "--report", {".html", ".htm"}},
+                                       {a.files.csv, "--report", {".csv"}}},
                                       inputs);
     Report report;
     report.title = "Made of " + r.scene.filename().string();
@@ -39,7 +39,7 @@ void run(MakeArguments a, Session& session) {
 void add_make(CLI::App& app, Session& session) {
     CLI::App* command = app.add_subcommand(
         "make",
-        "Bake and compress a scene for skies, spending rays, bands, bounces and bytes where they pay");
+        "Bake and compress a scene; chooses order, rays, bounces, mesh and bytes for an error or a size");
     auto options_of_lights = std::make_shared<std::vector<const CLI::Option*>>();
     auto& a = arguments_for<MakeArguments>(command, [&session, options_of_lights](MakeArguments given) {
         for (const CLI::Option* option : *options_of_lights)
@@ -50,34 +50,25 @@ void add_make(CLI::App& app, Session& session) {
     MakeRequest& r = a.request;
     command->add_option("scene", r.scene, "glTF 2.0 scene, .gltf or .glb")->required()->check(named);
     add_output(command, r.output, "compressed .glb to write");
-    command
-        ->add_option(
-            "--lights", r.lights,
-            "environment (.exr, .hdr, .png, .jpg) or light (.json) that it will stand in; repeat it for "
-            "each of several")
-        ->required()
-        ->allow_extra_args(false) // one each time, so that the scene may follow
-        ->check(named)
-        ->type_name("FILE");
+    add_lights(command, r.lights, "lights in which the model is used")->required();
     CLI::Option* error =
         command
             ->add_option(
                 "--max-error", r.goal.max_error,
-                "error over the surface at most, against path tracing under these lights, in all; the "
-                "fewest bytes that keep it, then the least time")
+                "smallest file with at most this error\nrelative L2 over the surface, against path tracing\n"
+                "default: 0.03, or 1.2 times the error of the highest order if that is larger")
             ->check(above_zero())
-            ->default_str("0.03, or a fifth more than the highest order leaves");
+            ->default_str("0.03");
     command
         ->add_option("--bytes-per-vertex", r.goal.bytes_per_vertex,
-                     "the best of at most this size, with bases")
+                     "smallest error with at most this size, bases included")
         ->check(above_zero())
         ->excludes(error);
-    command
-        ->add_option("--seconds", r.goal.seconds,
-                     "about how long it may take: fewer rays and tries; what must be, takes its time")
+    command->add_option("--seconds", r.goal.seconds, "approximate time limit, seconds: fewer rays and trials")
         ->check(above_zero());
-    command->add_flag("--best-effort", r.goal.best_effort, "write the nearest where nothing keeps the error");
-    command->add_option("--baked", r.baked, "keep the bake, too")->check(named)->type_name("FILE.glb");
+    command->add_flag("--best-effort", r.goal.best_effort,
+                      "write the closest result if nothing meets the goal");
+    command->add_option("--keep-bake", r.baked, "also write the bake")->check(named)->type_name("FILE.glb");
     add_lamp_scale(command, r.reading.lamp_scale);
     add_no_shadow(command, r.no_shadow);
     add_back_sides(command, r.back_sides);

@@ -73,7 +73,7 @@ void report_suns(const SunSplit& split, Report& report) {
             degrees_across(sun), 100 * split.energy_shares[i]));
     }
     report.sentences.emplace_back(
-        split.suns.empty() ? "no sun stands apart; light in shadows errs by {error_without_suns:.1f%}"
+        split.suns.empty() ? "no sun is separate; the error of light in shadows is {error_without_suns:.1f%}"
                            : "the coefficients hold the other {remainder_energy_share:.1f%}; light in "
                              "shadows errs by {error_with_suns:.1f%}, by {error_without_suns:.1f%} "
                              "without suns apart");
@@ -120,7 +120,8 @@ void run(const ProjectArguments& a, Session& session) {
 } // namespace
 
 void add_project(CLI::App& app, Session& session) {
-    CLI::App* command = app.add_subcommand("project", "Project an environment map into SH lighting");
+    CLI::App* command =
+        app.add_subcommand("project", "Project an environment map to SH coefficients and suns");
     auto& a = arguments_for<ProjectArguments>(
         command, [&session](const ProjectArguments& given) { run(given, session); });
     command
@@ -130,13 +131,10 @@ void add_project(CLI::App& app, Session& session) {
         ->required()
         ->check(named);
     add_output(command, a.output, "light to write, .json");
-    command->add_option("--order", a.order, "SH order N, 1..10")
+    command->add_option("--order", a.order, "SH order N, 1 to 10: N² coefficients")
         ->capture_default_str()
         ->check(CLI::Range(1, kMaxOrder));
-    add_suns(command, a.suns,
-             "find suns in the image, so many or as many as pay, write them apart, and the rest as "
-             "coefficients",
-             "0");
+    add_suns(command, a.suns, "suns in the image, written separately from the coefficients", "0");
     add_light_options(command, a.light_options);
     add_threads(command, a.threads);
     add_json(command, a.json);

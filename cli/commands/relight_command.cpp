@@ -24,11 +24,16 @@
 namespace prt::cli {
 namespace {
 
-/// --unlit
-struct UnlitArguments {
-    bool chosen = false;
-    Exposure exposure;
+enum class ColorKind {
+    radiance, ///< for albedo 1
+    albedo,   ///< radiance times base color
+    unlit,    ///< with an exposure, for unlit materials
 };
+constexpr Choice<ColorKind> kColors[] = {
+    {"radiance", ColorKind::radiance, "radiance for albedo 1, linear, float32"},
+    {"albedo", ColorKind::albedo, "radiance times the base color, linear, float32"},
+    {"unlit", ColorKind::unlit,
+     "16-bit colors of unlit materials with an exposure, for Blender and other viewers"}};
 
 struct RelightArguments {
     Path model, environment, output, json;
@@ -36,8 +41,8 @@ struct RelightArguments {
     LampChoice lamps;
     int rays = 256; ///< for each vertex and sun
     LightOptions light_options;
-    bool albedo = false;
-    UnlitArguments unlit;
+    ColorKind colors = ColorKind::radiance;
+    Exposure exposure; ///< for unlit colors
     ReadingOptions reading;
     int threads = 0;
 };
@@ -82,14 +87,15 @@ bool is_together(const SceneFile& model) {
 void check_model(const RelightArguments& a, const SceneFile& model) {
     if (!model.record())
         throw Error(a.model.string() + ": holds no transfer; run prt bake first");
-    check_of_vertices(model, a.model, "relight writes colors of vertices: prt render shows it");
+    check_of_vertices(model, a.model, "relight writes vertex colors; use prt render");
     if (a.environment.empty() && layout_of(model).lamps() == 0)
-        throw Error(a.model.string() + ": has no lamps, and without --env nothing lights it");
+        throw Error(a.model.string() + ": has no lamps; light it with --lights");
     if (is_together(model)) {
         if (a.suns.count.value_or(0) > 0)
             throw Error(a.model.string() + ": " + kNoDirectTerm + ", or light it with --suns 0");
-        print_notices(a.model.string(), {"keeps no direct light apart: suns are lit with the sky, and no "
-                                         "shadow is sharp"});
+        print_notices(a.model.string(),
+                      {"has no separate direct transfer: suns are part of the sky and have no "
+                       "sharp shadows"});
     }
 }
 
@@ -123,20 +129,20 @@ float choose_exposure(const Exposure& exposure, std::span<const glm::vec3> radia
 void write_unlit_light(const RelightArguments& a, const Surfaces& surfaces,
                        std::span<const glm::vec3> radiance, SceneFile& model, Report& report) {
     const float exposure =
-        choose_exposure(a.unlit.exposure, radiance, base_colors(surfaces), receiver_areas(model.scene));
+        choose_exposure(a.exposure, radiance, base_colors(surfaces), receiver_areas(model.scene));
     const std::size_t shown = write_unlit(model.document, model.scene, radiance, exposure);
     std::vector<float> brightest;
     for (const glm::vec3& color : radiance)
         brightest.push_back(exposure * std::max({color.r, color.g, color.b}));
     const auto clipped = std::ranges::count_if(brightest, [](float value) { return value > 1; });
     add_figures(report, {{"exposure_stops", std::log2(static_cast<double>(exposure))},
-                         {"exposure_automatic", a.unlit.exposure.automatic},
+                         {"exposure_automatic", a.exposure.automatic},
                          {"unlit_primitives", shown},
                          {"clipped_vertices", clipped}});
     report.sentences.insert(report.sentences.begin() + 1,
                             fmt::format("unlit materials, exposure {{exposure_stops:+.2f}} stops{}: "
                                         "{{clipped_vertices}} vertices are clipped at 1",
-                                        a.unlit.exposure.automatic ? " (auto)" : ""));
+                                        a.exposure.automatic ? " (auto)" : ""));
 }
 
 Report report_of(const RelightArguments& a, std::size_t suns, std::span<const glm::vec3> radiance,
@@ -148,9 +154,9 @@ Report report_of(const RelightArguments& a, std::size_t suns, std::span<const gl
                          {"suns", suns},
                          {"mean_radiance", {mean.r, mean.g, mean.b}}});
     report.sentences = {
-        fmt::format("{{output}}: radiance of {{receivers}} vertices{}, {{suns}} suns apart, mean "
+        fmt::format("{{output}}: radiance of {{receivers}} vertices{}, {{suns}} separate suns, mean "
                     "{{mean_radiance/0:.4g}} {{mean_radiance/1:.4g}} {{mean_radiance/2:.4g}}",
-                    a.albedo ? "" : " for albedo 1"),
+                    a.colors == ColorKind::albedo ? "" : " for albedo 1"),
         "{bytes_file} bytes on disk; {seconds:.2f} s"};
     return report;
 }
@@ -167,7 +173,7 @@ void run(RelightArguments a, Session& session) {
                               : load_light(a.environment, model.order(), suns, a.light_options, a.threads);
     std::vector<Texture> textures = about(a.model, [&] {
         return load_textures(model.scene, a.reading.bad_textures,
-                             a.albedo ? TextureNeeds::all : TextureNeeds::shadows);
+                             a.colors == ColorKind::albedo ? TextureNeeds::all : TextureNeeds::shadows);
     });
     const std::vector<bool> solid = solid_materials(model);
     ProgressBar bar = session.progress_bar("relighting");
@@ -177,13 +183,13 @@ void run(RelightArguments a, Session& session) {
     const TraceScene scene(model.scene, std::move(textures), {.solid = solid, .threads = a.threads});
     if (suns_are_separate)
         add_suns(scene, light.split.suns, {.rays = a.rays, .threads = a.threads}, bar.progress(), radiance);
-    if (a.albedo) {
+    if (a.colors == ColorKind::albedo) {
         const std::vector<glm::vec3> colors = base_colors(scene.surfaces());
         for (std::size_t p = 0; p < radiance.size(); ++p)
             radiance[p] *= colors[p];
     }
     Report report = report_of(a, light.split.suns.size(), radiance, receiver_areas(model.scene));
-    if (a.unlit.chosen)
+    if (a.colors == ColorKind::unlit)
         write_unlit_light(a, scene.surfaces(), radiance, model, report);
     else
         write_vertex_colors(model.document, model.scene, radiance);
@@ -196,33 +202,19 @@ void run(RelightArguments a, Session& session) {
 
 void add_relight(CLI::App& app, Session& session) {
     CLI::App* command =
-        app.add_subcommand("relight", "Write the radiance of every vertex under an environment as colors");
-    auto& a = arguments_for<RelightArguments>(
-        command, [&session](const RelightArguments& given) { run(given, session); });
+        app.add_subcommand("relight", "Write the radiance of every vertex under a light as colors");
+    auto& a = arguments_for<RelightArguments>(command, [command, &session](const RelightArguments& given) {
+        if (command->count("--exposure") > 0 && given.colors != ColorKind::unlit)
+            throw CLI::ValidationError("--exposure", "needs --colors unlit");
+        run(given, session);
+    });
     command->add_option("model", a.model, "baked or compressed .glb")->required()->check(named);
-    command
-        ->add_option("--env", a.environment,
-                     "environment (.exr, .hdr, .png, .jpg) or light (.json); without it the sky is dark and "
-                     "lamps alone light the model")
-        ->check(named)
-        ->type_name("FILE");
-    add_output(command, a.output, "model to write, .glb: COLOR_0 is the radiance, linear, float32");
-    add_suns(command, a.suns,
-             "find suns in the image, so many or as many as pay, and shadow them by rays; those of a light "
-             "file are lit so, too",
-             "auto");
+    add_light(command, a.environment);
+    add_output(command, a.output, "model to write, .glb; COLOR_0 is the light");
+    add_suns(command, a.suns, "suns in the light, shadowed by rays", "auto", &a.rays);
     add_lamps(command, a.lamps);
-    command->add_option("--sun-rays", a.rays, "rays from a vertex to each sun")
-        ->capture_default_str()
-        ->check(CLI::Range(1, 1 << 20));
-    auto* albedo =
-        command->add_flag("--albedo", a.albedo, "multiply by the base color; else radiance is for albedo 1");
-    auto* unlit = command
-                      ->add_flag("--unlit", a.unlit.chosen,
-                                 "unlit materials and 16-bit colors with an exposure, for Blender and other "
-                                 "viewers, which multiply by the base color")
-                      ->excludes(albedo);
-    add_exposure(command, a.unlit.exposure)->needs(unlit);
+    choice(command, "--colors", a.colors, kColors, "values of COLOR_0", "radiance");
+    add_exposure(command, a.exposure);
     add_light_options(command, a.light_options);
     add_reading(command, a.reading);
     add_threads(command, a.threads);

@@ -76,9 +76,18 @@ struct RenderArguments {
     bool traced() const { return look.paths > 0; }
 };
 
-const std::map<std::string, Show> kShows = {
-    {"lit", Show::lit}, {"clusters", Show::clusters}, {"error", Show::error}, {"ao", Show::ao}};
-const std::map<std::string, ToneMap> kToneMaps = {{"filmic", ToneMap::filmic}, {"srgb", ToneMap::srgb}};
+constexpr Choice<Show> kShows[] = {
+    {"lit", Show::lit, "the lit model"},
+    {"clusters", Show::clusters, "a color for each cluster"},
+    {"error", Show::error,
+     "error against --baked (contrast; white: 10 %) or --path-trace (HDR-FLIP; white: 1)"},
+    {"ao", Show::ao, "ambient occlusion"}};
+constexpr Choice<ToneMap> kToneMaps[] = {{"filmic", ToneMap::filmic, "with shoulder and toe"},
+                                         {"srgb", ToneMap::srgb, "sRGB curve, clipped at 1"}};
+constexpr Choice<Backend> kDevices[] = {
+    {"auto", Backend::automatic, "a hardware GPU if there is one, else the CPU"},
+    {"cpu", Backend::cpu, "rays"},
+    {"gpu", Backend::gpu, "OpenGL 4.5, hardware or software"}};
 
 constexpr int kUnshadowedOrder = 6;
 
@@ -91,7 +100,7 @@ std::unique_ptr<GlContext> choose_backend(Backend backend, bool shadows_on_cpu) 
     if (context && backend == Backend::automatic && shadows_on_cpu)
         return nullptr;
     if (!context && backend == Backend::gpu)
-        throw Error("there is no OpenGL 4.5 for --backend gpu (" + why + ")");
+        throw Error("--device gpu needs OpenGL 4.5 (" + why + "); use --device cpu");
     return context;
 }
 
@@ -109,8 +118,7 @@ std::string why_together(const RenderArguments& a, const SceneFile& model, const
     if (model.record() && layout_of(model).has(TermKind::combined))
         return a.model.string() + ": " + kNoDirectTerm;
     if (a.backend == Backend::gpu && has_unnamed_media(model, solid))
-        return "--backend gpu does not know media of --subsurface, which suns light through transfer alone; "
-               "draw with --backend cpu";
+        return "--device gpu does not support media of --subsurface with separate suns; use --device cpu";
     return {};
 }
 
@@ -128,7 +136,7 @@ LoadedLight load_lit(const RenderArguments& a, const SceneFile& model, const std
     if (why.empty() || light.split.suns.empty())
         return light;
     print_notices(a.environment.string(),
-                  {fmt::format("its suns ({}) are lit with the sky, and no shadow of theirs is sharp: {}",
+                  {fmt::format("its suns ({}) are part of the sky and have no sharp shadows: {}",
                                light.split.suns.size(), why)});
     return together(std::move(light));
 }
@@ -276,8 +284,8 @@ void light_in_shader(const RenderArguments& a, const SceneFile& model, const Lig
     } else {
         print_notices(
             a.model.string(),
-            {fmt::format("has more than {} components, which do not fit the vertex attributes; exit "
-                         "radiance is formed on the CPU",
+            {fmt::format("has more than {} components, which do not fit into the vertex attributes; the CPU "
+                         "computes exit radiance",
                          max_vertex_components(bases))});
     }
 }
@@ -395,7 +403,7 @@ Report report_of(const RenderArguments& a, const Picture& picture, const Rendere
                          {"look_at_metres", {target.x, target.y, target.z}}});
     std::string sentence = "{output}: {width_pixels} x {height_pixels}, {seconds:.3f} s, {renderer}";
     if (!picture.suns.empty())
-        sentence += ", {suns} suns apart";
+        sentence += picture.suns.size() == 1 ? ", {suns} separate sun" : ", {suns} separate suns";
     if (rendered.noise)
         sentence += add_traced(a, rendered, report);
     if (rendered.exposure) {
@@ -412,10 +420,9 @@ Report report_of(const RenderArguments& a, const Picture& picture, const Rendere
 void check_together(const RenderArguments& a) {
     const bool error = a.look.show == Show::error;
     if ((error && a.baked.empty() == !a.traced()) || (!error && !a.baked.empty()))
-        throw CLI::ValidationError("--show error",
-                                   "goes with --baked FILE or with --path-trace N, one of them");
+        throw CLI::ValidationError("--show error", "needs either --baked FILE or --path-trace N");
     if (a.traced() && !error && a.look.show != Show::lit)
-        throw CLI::ValidationError("--path-trace", "goes with --show lit and --show error");
+        throw CLI::ValidationError("--path-trace", "needs --show lit or --show error");
 }
 
 /// Reads the model. Lobes are converted to transfer if it has no other.
@@ -424,7 +431,7 @@ SceneFile load_model(const RenderArguments& a) {
     if (!model.record() && model.lobes)
         model.baked = lobes_as_transfer(model);
     if (!model.record() && (!a.traced() || a.error() == ErrorOf::traced))
-        print_notices(a.model.string(), {"holds no transfer: its sky casts no shadows"});
+        print_notices(a.model.string(), {"has no transfer: the sky casts no shadows"});
     return model;
 }
 
@@ -447,10 +454,11 @@ SceneLamps traced_lamps(const RenderArguments& a, const SceneFile& model, const 
 /// Prints a notice about media that path tracing ignores.
 void note_media(const RenderArguments& a, const std::vector<bool>& solid) {
     if (a.traced() && std::ranges::count(solid, true) > 0)
-        print_notices(a.model.string(),
-                      {fmt::format("{} of its materials have a medium inside, which path tracing does not "
-                                   "enter: they are opaque in the reference",
-                                   std::ranges::count(solid, true))});
+        print_notices(
+            a.model.string(),
+            {fmt::format("{} of its materials have subsurface scattering, which path tracing does not "
+                         "support: they are opaque in the reference",
+                         std::ranges::count(solid, true))});
 }
 
 /// Colors of the model: numbers that a picture refers to.
@@ -541,53 +549,35 @@ void run(RenderArguments a, Session& session) {
 } // namespace
 
 void add_render(CLI::App& app, Session& session) {
-    CLI::App* command = app.add_subcommand("render", "Draw a file under an environment, without a window");
+    CLI::App* command = app.add_subcommand("render", "Draw a picture of a file under a light");
     auto& a = arguments_for<RenderArguments>(
         command, [&session](const RenderArguments& given) { run(given, session); });
-    command
-        ->add_option("model", a.model, "any .gltf or .glb: compressed, baked, or neither (then unshadowed)")
+    command->add_option("model", a.model, ".gltf or .glb; without transfer, the sky casts no shadows")
         ->required()
         ->check(named);
-    command
-        ->add_option("--env", a.environment,
-                     "environment (.exr, .hdr, .png, .jpg) or light (.json); without it the sky is dark and "
-                     "lamps alone light the model")
-        ->check(named)
-        ->type_name("FILE");
+    add_light(command, a.environment);
     add_output(command, a.output, "picture to write, .png or .exr");
     add_view(command, a.view);
-    add_backend(command, a.backend,
-                "gpu: OpenGL 4.5 of any kind; cpu: ray casting; auto: a hardware GPU, else the CPU");
-    choice(command, "--show", a.look.show, kShows,
-           "lit; the clusters; the error against --baked (contrast; white: 10 %) or --path-trace (HDR-FLIP; "
-           "white: 1); "
-           "ambient occlusion",
-           "lit");
-    command->add_option("--baked", a.baked, "the bake that --show error compares with")
+    choice(command, "--device", a.backend, kDevices, "processor that draws", "auto");
+    choice(command, "--show", a.look.show, kShows, "content of the picture", "lit");
+    command->add_option("--baked", a.baked, "bake, the reference of --show error")
         ->type_name("FILE")
         ->check(named);
     command
-        ->add_option(
-            "--path-trace", a.look.paths,
-            "trace N paths a pixel instead: the reference, with the sky, suns, lamps and all bounces")
+        ->add_option("--path-trace", a.look.paths, "draw by path tracing with N paths per pixel, all bounces")
         ->type_name("N")
         ->check(CLI::Range(2, 1 << 20));
     add_exposure(command, a.look.exposure);
-    choice(command, "--tone-map", a.look.tone_map, kToneMaps, "tone curve of .png", "filmic");
+    choice(command, "--tone-map", a.look.tone_map, kToneMaps, "tone curve of .png files", "filmic");
     command->add_option("--samples", a.view.samples, "samples per pixel along each axis")
         ->capture_default_str()
         ->check(CLI::Range(1, 16));
-    command->add_flag("!--no-background", a.look.background, "do not show the environment behind the scene");
+    command->add_flag("!--no-background", a.look.background,
+                      "draw a black background instead of the environment");
     add_light_options(command, a.light_options);
-    add_suns(command, a.lights.suns,
-             "find suns in the image, so many or as many as pay, and light every pixel by them with sharp "
-             "shadows; those of a light file are lit so, too; 0: all light is in the sky",
-             "auto");
+    add_suns(command, a.lights.suns, "suns in the light, drawn with sharp shadows", "auto");
     add_lamps(command, a.lights.lamps);
     add_lamp_scale(command, a.lights.lamp_scale);
-    command->add_option("--sun-rays", a.lights.sun_rays, "rays from a pixel to each sun")
-        ->capture_default_str()
-        ->check(CLI::Range(1, 1 << 20));
     add_reading(command, a.reading);
     add_threads(command, a.threads);
     add_json(command, a.json);

@@ -22,22 +22,38 @@
 namespace prt::cli {
 namespace {
 
+enum class Stage { vertex, compute, fragment, instances, volume, volume_compute, occluders, lobes };
+
 struct ShaderArguments {
     Path model, output;
     ShaderLanguage language = ShaderLanguage::glsl450;
     std::optional<ConstantSource> constants; ///< unset: the best option of the language
-    bool compute = false, fragment = false, volume = false, occluders = false, lobes = false,
-         instances = false;
+    Stage stage = Stage::vertex;
     ReadingOptions reading;
+
+    bool computes() const { return stage == Stage::compute || stage == Stage::volume_compute; }
 };
 
-const std::map<std::string, ShaderLanguage> kLanguages = {{"glsl450", ShaderLanguage::glsl450},
-                                                          {"glsl330", ShaderLanguage::glsl330},
-                                                          {"essl300", ShaderLanguage::essl300},
-                                                          {"vulkan", ShaderLanguage::vulkan}};
-const std::map<std::string, ConstantSource> kConstants = {{"buffer", ConstantSource::buffer},
-                                                          {"block", ConstantSource::block},
-                                                          {"texture", ConstantSource::texture}};
+constexpr Choice<ShaderLanguage> kLanguages[] = {
+    {"glsl450", ShaderLanguage::glsl450, "OpenGL 4.5"},
+    {"glsl330", ShaderLanguage::glsl330, "OpenGL 3.3"},
+    {"essl300", ShaderLanguage::essl300, "OpenGL ES 3.0, WebGL 2"},
+    {"vulkan", ShaderLanguage::vulkan, "GLSL for SPIR-V, and from there for HLSL"}};
+constexpr Choice<ConstantSource> kConstants[] = {
+    {"buffer", ConstantSource::buffer, "storage buffer"},
+    {"block", ConstantSource::block, "uniform block"},
+    {"texture", ConstantSource::texture, "float texture; available in all languages"}};
+constexpr Choice<Stage> kStages[] = {
+    {"vertex", Stage::vertex,
+     "relights vertices; for a lightmap, the compute or fragment shader of its texels"},
+    {"compute", Stage::compute, "computes the constants of a frame"},
+    {"fragment", Stage::fragment, "relights the texels of a lightmap by drawing"},
+    {"instances", Stage::instances, "vertex shader of instances that share transfer"},
+    {"volume", Stage::volume, "functions that look up the volume, for any language"},
+    {"volume-compute", Stage::volume_compute, "computes the texture that the volume functions read"},
+    {"occluders", Stage::occluders, "functions for contact shadows of moving objects, for any language"},
+    {"lobes", Stage::lobes, "functions that relight the lobes of prt lobes, for any language"}};
+
 /// Returns storage buffers if the language has them, otherwise a texture, which always has space.
 ConstantSource constants_for(ShaderLanguage language) {
     const bool old = language == ShaderLanguage::glsl330 || language == ShaderLanguage::essl300;
@@ -63,7 +79,8 @@ void warn_of_large_blocks(const Path& model, const ClusteredTransfer& transfer) 
 void write_lightmap_shader(const ShaderArguments& a, const ClusteredTransfer& transfer,
                            ConstantSource constants, Session& session) {
     const bool old = constants_for(a.language) == ConstantSource::texture;
-    const LightmapPass pass = a.fragment || old ? LightmapPass::fragment : LightmapPass::compute;
+    const LightmapPass pass =
+        a.stage == Stage::fragment || old ? LightmapPass::fragment : LightmapPass::compute;
     if (constants == ConstantSource::block)
         warn_of_large_blocks(a.model, transfer);
     session.write(a.output, lightmap_shader(transfer, pass, constants, a.language));
@@ -78,15 +95,16 @@ void write_volume_shader(const ShaderArguments& a, const SceneFile& model, Sessi
         throw Error(a.model.string() +
                     ": holds no compressed volume; run prt bake --volume and prt compress first");
     const CompressedVolume& volume = *model.compressed_volume;
-    session.write(a.output, a.compute ? volume_shader(volume, a.language)
-                                      : volume_functions(volume, VolumeFormat::rgba16, model.scene.origin));
+    session.write(a.output, a.computes()
+                                ? volume_shader(volume, a.language)
+                                : volume_functions(volume, VolumeFormat::rgba16, model.scene.origin));
     const VolumeAtlas atlas = atlas_of(volume.grid, volume.order);
     const glm::ivec3 texels = atlas.light_texels();
     print(fmt::format("{}: {}; light in a texture of {} x {} x {} texels RGBA16F\n",
                       printable(a.output.string()),
-                      a.compute ? fmt::format("a compute shader, {} x {} x {} groups", atlas.bricks.x,
-                                              atlas.bricks.y, atlas.bricks.z)
-                                : "functions to put behind the version line of a shader",
+                      a.computes() ? fmt::format("a compute shader, {} x {} x {} groups", atlas.bricks.x,
+                                                 atlas.bricks.y, atlas.bricks.z)
+                                   : "functions to put behind the version line of a shader",
                       texels.x, texels.y, texels.z));
 }
 
@@ -131,7 +149,8 @@ glm::dvec3 origin_of(const SceneFile& model) {
 
 void write_instance_shader(const ShaderArguments& a, const SceneFile& model, Session& session) {
     if (!model.instanced)
-        throw Error(a.model.string() + ": has no instances that share transfer, which --instances is for");
+        throw Error(a.model.string() + ": has no instances that share transfer, which --stage instances "
+                                       "needs; bake with --instances shared");
     const ConstantSource constants = a.constants.value_or(constants_for(a.language));
     const ClusteredTransfer& transfer = model.instanced->compressed->transfer;
     session.write(a.output, instance_shader(transfer, constants, a.language, origin_of(model)));
@@ -143,35 +162,38 @@ void write_instance_shader(const ShaderArguments& a, const SceneFile& model, Ses
 void run(ShaderArguments a, Session& session) {
     a.reading.outputs = check_outputs({{a.output, "--output"}}, {a.model});
     const SceneFile model = load_scene_file(a.model, a.reading);
-    if (a.lobes)
+    if (a.stage == Stage::lobes)
         return write_lobe_shader(a, model, session);
-    if (a.occluders)
+    if (a.stage == Stage::occluders)
         return write_occluder_shader(a, model, session);
-    if (a.volume || (model.compressed_volume && !model.compressed))
+    if (a.stage == Stage::volume || a.stage == Stage::volume_compute ||
+        (model.compressed_volume && !model.compressed))
         return write_volume_shader(a, model, session);
     const std::optional<CompressedTransfer>& compressed =
         model.instanced ? model.instanced->compressed : model.compressed;
     if (!compressed)
         throw Error(a.model.string() + ": holds no compressed transfer; run prt compress first");
     const ClusteredTransfer& transfer = compressed->transfer;
-    if (a.instances)
+    if (a.stage == Stage::instances)
         return write_instance_shader(a, model, session);
     const ConstantSource constants = a.constants.value_or(constants_for(a.language));
-    if (a.fragment && !model.lightmap)
-        throw Error(a.model.string() + ": holds no lightmap, which --fragment is for");
-    if (model.lightmap && !a.compute)
+    if (a.stage == Stage::fragment && !model.lightmap)
+        throw Error(a.model.string() +
+                    ": holds no lightmap, which --stage fragment needs; bake with --texels");
+    if (model.lightmap && !a.computes())
         return write_lightmap_shader(a, transfer, constants, session);
-    const std::string source = a.compute ? constants_shader(transfer, a.language)
-                                         : relight_shader(transfer, constants, a.language, origin_of(model));
-    if (!a.compute && constants == ConstantSource::block)
+    const std::string source = a.computes()
+                                   ? constants_shader(transfer, a.language)
+                                   : relight_shader(transfer, constants, a.language, origin_of(model));
+    if (!a.computes() && constants == ConstantSource::block)
         warn_of_large_blocks(a.model, transfer);
     session.write(a.output, source);
     print(fmt::format("{}: {} clusters, {} rows of constants{}\n", printable(a.output.string()),
                       transfer.bases.clusters(), constant_rows(transfer.bases),
-                      clusters_are_alike(transfer.bases) && !a.compute
+                      clusters_are_alike(transfer.bases) && !a.computes()
                           ? "; all clusters are divided alike: no loop, no table of clusters"
                           : ""));
-    if (!a.compute)
+    if (!a.computes())
         print("to bind (kind, location or binding, name, type, content; - by name):\n" +
               binding_table(relight_bindings(transfer, constants, a.language), "  "));
 }
@@ -179,45 +201,15 @@ void run(ShaderArguments a, Session& session) {
 } // namespace
 
 void add_shader(CLI::App& app, Session& session) {
-    CLI::App* command = app.add_subcommand("shader", "Write the shader that relights a compressed model");
+    CLI::App* command = app.add_subcommand("shader", "Write the shaders that relight a compressed model");
     auto& a = arguments_for<ShaderArguments>(
         command, [&session](const ShaderArguments& given) { run(given, session); });
     command->add_option("model", a.model, "output of prt compress")->required()->check(named);
     add_output(command, a.output, "GLSL to write");
-    choice(command, "--language", a.language, kLanguages,
-           "vulkan is GLSL to compile to SPIR-V, and from there to HLSL", "glsl450");
-    choice(command, "--constants", a.constants, kConstants,
-           "where the constants are: a storage buffer, a uniform block or a float texture",
-           "buffer, texture where the language has no buffers");
-    command->add_flag("--compute", a.compute,
-                      "the compute shader that forms the constants instead of the vertex shader");
-    command
-        ->add_flag("--fragment", a.fragment,
-                   "of a lightmap: a fragment shader to draw over a map where a compute shader could do it")
-        ->excludes("--compute");
-    command
-        ->add_flag(
-            "--instances", a.instances,
-            "the vertex shader of instances that share transfer; that of all other meshes is the usual one")
-        ->excludes("--compute")
-        ->excludes("--fragment");
-    command->add_flag("--volume", a.volume,
-                      "the functions that look its volume up, for every language; with --compute the compute "
-                      "shader that forms what they read");
-    command
-        ->add_flag(
-            "--occluders", a.occluders,
-            "the functions that darken what moving objects come near to, for every language; behind those "
-            "of the volume where the file has one")
-        ->excludes("--compute")
-        ->excludes("--fragment");
-    command
-        ->add_flag("--lobes", a.lobes,
-                   "the functions that light what prt lobes wrote, for every language; behind those of the "
-                   "volume where the file has one")
-        ->excludes("--compute")
-        ->excludes("--fragment")
-        ->excludes("--occluders");
+    choice(command, "--language", a.language, kLanguages, "shading language", "glsl450");
+    choice(command, "--constants", a.constants, kConstants, "storage of the constants",
+           "buffer if the language has it");
+    choice(command, "--stage", a.stage, kStages, "which shader to write", "vertex");
     add_reading(command, a.reading);
 }
 

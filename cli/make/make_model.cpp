@@ -14,6 +14,7 @@
 #include "prt/levels.h"
 #include "prt/refine.h"
 #include "prt/search.h"
+#include "prt/support/counted.h"
 #include "prt/support/error.h"
 #include "prt/support/stopwatch.h"
 #include "shell_word.h"
@@ -125,13 +126,16 @@ private:
             plan_.error =
                 std::max(kUsualError, std::sqrt(kAboveRest * std::max(errors.light(kMaxOrder), 0.0)));
         for (const int order : {2, 4, 6, 8, 10})
-            tried_.push_back(fmt::format("order {}: light {}", order, percent(errors.light(order))));
+            tried_.push_back(fmt::format("order {}: error of light {}", order, percent(errors.light(order))));
         for (const int bounces : {0, 1, 2, 4})
-            tried_.push_back(
-                fmt::format("{} bounces: bounces {}", bounces, percent(errors.bounces(bounces))));
+            tried_.push_back(fmt::format("{}: error of bounces {}", counted(bounces, "bounce"),
+                                         percent(errors.bounces(bounces))));
         plan_.cut = choose_truncation(errors, allowed());
         check_lamps_end();
-        check_possible(plan_.cut.squared, fmt::format("what {} bands cannot hold", plan_.cut.order));
+        check_possible(plan_.cut.squared, fmt::format("the truncation to order {} and {}", plan_.cut.order,
+                                                      plan_.cut.bounces == kEndlessBounces
+                                                          ? "all bounces"
+                                                          : counted(plan_.cut.bounces, "bounce")));
     }
 
     /// Limits the bounces where light of lamps would grow without end.
@@ -142,12 +146,12 @@ private:
         BakeOptions options = bake_options(kRays);
         options.order = 1;
         try {
-            baked(options, "looking at lamps");
+            baked(options, "checking lamps");
         } catch (const EndlessLampLight&) {
             plan_.cut.bounces = kManyBounces;
             notices_.push_back(
-                fmt::format("light of lamps has no end in a closed room that reflects all of it: baked "
-                            "with {} bounces",
+                fmt::format("infinite bounces do not converge, because a closed room reflects all light of "
+                            "lamps; the bake has {} bounces",
                             kManyBounces));
         }
     }
@@ -155,10 +159,10 @@ private:
     /// Throws `Error` if the allowed error is used up before compression.
     void check_possible(double squared, const std::string& cause) const {
         if (r_.goal.max_error && squared > kMaxUncompressedShare * allowed() && !r_.goal.best_effort)
-            throw Error(
-                fmt::format("nothing keeps {} under these lights: {} is {} already (--best-effort makes the "
-                            "nearest)",
-                            percent(allowed()), cause, percent(squared)));
+            throw Error(fmt::format(
+                "an error of {} cannot be reached under these lights: the error of {} is {} already; raise "
+                "--max-error, or get the closest result with --best-effort",
+                percent(allowed()), cause, percent(squared)));
     }
 
     BakeOptions bake_options(int rays) const {
@@ -183,10 +187,10 @@ private:
         const Stopwatch stopwatch;
         BakeOptions options = bake_options(kTrialRays);
         options.lamps.mode = LampMode::none;
-        const BakeResult first = baked(options, "baking a trial");
+        const BakeResult first = baked(options, "trial bake 1 of 2");
         plan_.fit = options.fit = first.baked.record.fitted ? FitMode::surface : FitMode::vertex;
         options.seed = 1;
-        trial_ = baked(options, "baking another").baked.transfer;
+        trial_ = baked(options, "trial bake 2 of 2").baked.transfer;
         TrialBake trial{mean_budget(budgets(*reference_,
                                             {.baked = first.baked.transfer,
                                              .repeated = trial_,
@@ -195,8 +199,9 @@ private:
                                             r_.threads)
                                         .relative),
                         stopwatch.seconds() / (2 * kTrialRays)};
-        tried_.push_back(fmt::format("{} vertices of {} rays, {}: vertices {}, rays {}", scene_.receivers(),
-                                     kTrialRays, plan_.fit == FitMode::surface ? "fitted" : "as they are",
+        tried_.push_back(fmt::format("trial bake, {}, {} rays each, {}: error of vertices {}, of rays {}",
+                                     counted(scene_.receivers(), "vertex", "vertices"), kTrialRays,
+                                     plan_.fit == FitMode::surface ? "fitted" : "not fitted",
                                      percent(trial.budget.of(ErrorCause::vertices).value),
                                      percent(trial.budget.of(ErrorCause::rays).value)));
         return trial;
@@ -219,8 +224,8 @@ private:
         if (!(target > 0))
             return false;
         const RefineResult result = refine(scene_, options, {.target = target}, progress.range(0.1, 1));
-        tried_.push_back(
-            fmt::format("prt bake --refine {:.3g}: {} vertices", target, result.statistics.after.vertices));
+        tried_.push_back(fmt::format("prt bake --refine {:.3g}: {}", target,
+                                     counted(result.statistics.after.vertices, "vertex", "vertices")));
         if (result.statistics.rounds == 0)
             return false;
         plan_.refine = target;
@@ -244,7 +249,7 @@ private:
             before_bytes += trial.budget.of(cause).value;
         if (aims_by_itself())
             plan_.error = std::max(kUsualError, std::sqrt(kAboveRest * before_bytes));
-        check_possible(before_bytes, fmt::format("light ({}) with what vertices leave between them ({})",
+        check_possible(before_bytes, fmt::format("light and bounces ({}), vertices ({}) and rays",
                                                  percent(plan_.cut.squared),
                                                  percent(trial.budget.of(ErrorCause::vertices).value)));
     }
@@ -259,8 +264,7 @@ private:
         note_lights(result.baked.transfer);
         if (has_levels(document_))
             notices_.emplace_back(
-                "coarser levels of detail get no light: prt bake and prt compress give them "
-                "some");
+                "coarser levels of detail have no transfer; to bake them, use prt bake and prt compress");
         write_transfer(document_, scene_, result.baked);
         const std::vector<std::byte> file = encode_glb(document_);
         session_.write(r_.baked, file);
@@ -298,7 +302,7 @@ private:
         ProgressBar bar = session_.progress_bar("compressing");
         SearchResult found = compress_within(transfer(), surface.view(), options, bar.progress());
         if (!found.kept && bytes)
-            throw Error(fmt::format("nothing is as small as {} bytes per vertex; the least is {:.2f}", *bytes,
+            throw Error(fmt::format("--bytes-per-vertex {} cannot be reached; the minimum is {:.2f}", *bytes,
                                     found.result.statistics.bytes_with_bases(transfer().receivers())));
         Compressed one{std::move(found.result.transfer),
                        found.result.statistics,
@@ -312,11 +316,11 @@ private:
                                .bounces = plan_.cut.bounces,
                                .alike = plan_.rays == kTrialRays},
                               r_.threads);
-        tried_.push_back(fmt::format("prt compress {} {:.4g}: {:.2f} bytes per vertex, bytes {}, in all {}",
-                                     max_error ? "--max-error" : "--bytes-per-vertex", one.asked,
-                                     one.statistics.bytes_with_bases(transfer().receivers()),
-                                     percent(mean_budget(one.budgets.relative).of(ErrorCause::bytes).value),
-                                     percent(one.total())));
+        tried_.push_back(fmt::format(
+            "prt compress {} {:.4g}: {:.2f} bytes per vertex, error of bytes {}, total {}",
+            max_error ? "--max-error" : "--bytes-per-vertex", one.asked,
+            one.statistics.bytes_with_bases(transfer().receivers()),
+            percent(mean_budget(one.budgets.relative).of(ErrorCause::bytes).value), percent(one.total())));
         return one;
     }
 
@@ -351,7 +355,8 @@ private:
         }
         if (r_.goal.max_error && best->total() > allowed() && !r_.goal.best_effort)
             throw Error(fmt::format(
-                "nothing keeps {} under these lights; the nearest has {} (--best-effort makes it)",
+                "an error of {} cannot be reached under these lights; the closest result has {}; raise "
+                "--max-error, or get this result with --best-effort",
                 percent(allowed()), percent(best->total())));
         return std::move(*best);
     }
@@ -399,15 +404,15 @@ private:
                              {"clusters", best.statistics.clusters},
                              {"bytes_bound_per_vertex", best.statistics.bytes_per_receiver},
                              {"bytes_bound_per_vertex_with_bases", size(best)},
-                             {"error_aimed_at", plan_.error},
+                             {"target_error", plan_.error},
                              {"total_error", mean.total.root()},
                              {"total_error_low", std::sqrt(std::max(mean.total.low, 0.0))},
                              {"total_error_high", std::sqrt(std::max(mean.total.high, 0.0))},
                              {"total_contrast_error", visible.total.root()},
                              {"bytes_file", bytes},
                              {"seconds", watch_.seconds()},
-                             {"tried", tried_},
-                             {"by_hand", by_hand(best)},
+                             {"trials", tried_},
+                             {"commands", by_hand(best)},
                              {"notices", notices_}});
         for (Table& table : budget_tables(lights_, best.budgets))
             report.tables.push_back(std::move(table));
@@ -417,21 +422,21 @@ private:
     void say(const ErrorBudget& mean, const ErrorBudget& visible, Report& report) const {
         auto& lines = report.sentences;
         lines.push_back(
-            fmt::format("{{output}}: {{receivers}} vertices, order {{order}}, {{rays_per_receiver}} rays, "
-                        "{{bounces}} bounces, {}; "
-                        "{{bytes_bound_per_vertex}} bytes per vertex to bind, "
+            fmt::format("{{output}}: {{receivers:#vertex|vertices}}, order {{order}}, "
+                        "{{rays_per_receiver:#ray}} per vertex, {{bounces:#bounce}}, {}; "
+                        "{{bytes_bound_per_vertex}} bytes of attributes per vertex, "
                         "{{bytes_bound_per_vertex_with_bases:.2f}} with the bases; {{seconds:.1f}} s",
-                        plan_.fit == FitMode::surface ? "fitted to the surface" : "measured at vertices"));
-        lines.push_back("over the surface " + budget_in_words(mean, visible, lights_.size()) +
-                        "; 95 % interval of the total {total_error_low:.2f%} .. {total_error_high:.2f%}");
+                        plan_.fit == FitMode::surface ? "fitted to the surface" : "sampled at vertices"));
+        lines.push_back("over the surface: " + budget_in_words(mean, visible, lights_.size()) +
+                        "; 95 % interval of the total {total_error_low:.2f%} to {total_error_high:.2f%}");
         if (!r_.goal.bytes_per_vertex && mean.total.value > allowed())
-            lines.emplace_back("that is more than was aimed at, {error_aimed_at:.2f%}");
+            lines.emplace_back("this exceeds the target of {target_error:.2f%}");
         for (std::size_t i = 0; i < notices_.size(); ++i)
             lines.push_back(fmt::format("{{notices/{}}}", i));
         for (std::size_t i = 0; i < tried_.size(); ++i)
-            lines.push_back(fmt::format("tried: {{tried/{}}}", i));
-        lines.emplace_back("the same by hand: {by_hand/0}");
-        lines.emplace_back("                  {by_hand/1}");
+            lines.push_back(fmt::format("trial: {{trials/{}}}", i));
+        lines.emplace_back("equivalent commands: {commands/0}");
+        lines.emplace_back("                     {commands/1}");
     }
 
     const MakeRequest& r_;
@@ -454,7 +459,7 @@ void check_shine(const MakeRequest& request, const std::vector<ReferenceLight>& 
     };
     if (std::ranges::none_of(lights, shines))
         throw Error(request.lights.front().string() +
-                    ": is black, and errors are relative to the light there is");
+                    ": is black, so no relative error can be measured; use a brighter light");
 }
 
 } // namespace

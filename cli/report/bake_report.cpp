@@ -3,6 +3,7 @@
 #include "report/bake_report.h"
 
 #include "options.h"
+#include "prt/support/counted.h"
 #include "prt/support/printable.h"
 #include "report/publish.h"
 
@@ -39,22 +40,23 @@ Json refinement_json(const RefineStatistics& s, double target) {
 void add_refinement_sentences(const RefineStatistics& s, Report& report) {
     report.sentences.push_back(
         s.rounds == 0
-            ? "refined: no triangle is split; between vertices direct light errs by "
+            ? "refinement: no triangle was split; interpolation error of direct light "
               "{refine_error_relative_l2:.3f%}"
-            : "refined in {refine_rounds} rounds, {refine_seconds:.3f} s: from {vertices_before} vertices to "
-              "{vertices_after}, from {triangles_before} triangles to {triangles_after}; between vertices "
-              "direct light errs by {refine_error_relative_l2:.3f%}, before by "
-              "{refine_error_before_relative_l2:.3f%}");
+            : "refined in {refine_rounds:#round}, {refine_seconds:.3f} s: {vertices_before} to "
+              "{vertices_after:#vertex|vertices}, {triangles_before} to {triangles_after:#triangle}; "
+              "interpolation error of direct light {refine_error_before_relative_l2:.3f%} before, "
+              "{refine_error_relative_l2:.3f%} after");
     if (s.end == RefineEnd::vertices)
-        report.sentences.push_back("--refine asked for {refine_target_relative_l2:.3f%}, for which "
-                                   "--most-vertices is too few");
+        report.sentences.push_back("--refine: the target {refine_target_relative_l2:.3f%} was not reached "
+                                   "within the vertex limit; raise it with --refine E,vertices=N");
     if (s.end == RefineEnd::edges)
-        report.sentences.push_back("--refine asked for {refine_target_relative_l2:.3f%}: what is left is in "
-                                   "triangles too small to split");
+        report.sentences.push_back("--refine: the target {refine_target_relative_l2:.3f%} was not reached; "
+                                   "the remaining error is in triangles that are too small to split");
 }
 
 Json error_json(const BakeErrors::Error& error) {
-    Json json = {{"relative_l2", nullptr}, {"standard_error", nullptr}, {"of_scene", error.of_scene}};
+    Json json = {
+        {"relative_l2", nullptr}, {"standard_error", nullptr}, {"relative_to_scene", error.of_scene}};
     if (error.known) {
         json["relative_l2"] = error.relative_l2;
         json["standard_error"] = error.standard_error;
@@ -85,7 +87,7 @@ std::string worst_objects(const BakeErrors& errors, Error&& error) {
     std::vector<std::string> words;
     for (const auto& [here, name] : worst)
         if (words.size() < kNamed)
-            words.push_back(here > kMaxShown ? fmt::format("'{}' over 1000 %", printable(name))
+            words.push_back(here > kMaxShown ? fmt::format("'{}' above 1000 %", printable(name))
                                              : fmt::format("'{}' {:.2g} %", printable(name), 100 * here));
     if (worst.size() > kNamed)
         words.push_back(fmt::format("{} more", worst.size() - kNamed));
@@ -101,8 +103,8 @@ Json errors_json(const BakeErrors& errors) {
                            {"points", node.points},
                            {"sky", error_json(node.sky)},
                            {"lamps", error_json(node.lamps)},
-                           {"backs", error_json(node.backs)},
-                           {"backs_by_lamps", error_json(node.backs_by_lamps)}});
+                           {"back_sides", error_json(node.backs)},
+                           {"back_sides_lamps", error_json(node.backs_by_lamps)}});
     constexpr double kBacksDiffer = 0.1;
     const std::string worse = worst_objects(errors, [&](const BakeErrors::Node& node) {
         return std::max(above(node.sky, 2 * errors.sky.relative_l2 + kVisible),
@@ -116,12 +118,12 @@ Json errors_json(const BakeErrors& errors) {
             {"direct", error_json(errors.direct)},
             {"indirect", error_json(errors.indirect)},
             {"lamps", error_json(errors.lamps)},
-            {"backs", error_json(errors.backs)},
-            {"backs_by_lamps", error_json(errors.backs_by_lamps)},
+            {"back_sides", error_json(errors.backs)},
+            {"back_sides_lamps", error_json(errors.backs_by_lamps)},
             {"each_lamp", lamps},
             {"objects", objects},
-            {"much_worse", worse},
-            {"much_worse_behind", behind}};
+            {"worst_objects", worse},
+            {"worst_back_sides", behind}};
 }
 
 void add_error_sentences(const Json& errors, Report& report) {
@@ -129,24 +131,25 @@ void add_error_sentences(const Json& errors, Report& report) {
     if (known("sky"))
         report.sentences.push_back(
             known("indirect") && errors["indirect"]["relative_l2"] > 0
-                ? "error over the surface: {errors/sky/relative_l2:.2f%} of the sky's light (± "
-                  "{errors/sky/standard_error:.2f%}); direct {errors/direct/relative_l2:.2f%}, bounced "
+                ? "error of sky light over the surface: {errors/sky/relative_l2:.2f%} (± "
+                  "{errors/sky/standard_error:.2f%}); direct {errors/direct/relative_l2:.2f%}, indirect "
                   "{errors/indirect/relative_l2:.2f%}"
-                : "error over the surface: {errors/sky/relative_l2:.2f%} of the sky's light (± "
+                : "error of sky light over the surface: {errors/sky/relative_l2:.2f%} (± "
                   "{errors/sky/standard_error:.2f%})");
     if (known("lamps"))
         report.sentences.emplace_back(
-            "error over the surface: {errors/lamps/relative_l2:.2f%} of the light of "
-            "lamps (± {errors/lamps/standard_error:.2f%})");
+            "error of lamp light over the surface: {errors/lamps/relative_l2:.2f%} (± "
+            "{errors/lamps/standard_error:.2f%})");
     if (errors["points"] == 0)
         report.sentences.emplace_back(
-            "error over the surface: not measured, all of it is over media or sealed in");
-    if (!errors["much_worse"].get<std::string>().empty())
-        report.sentences.emplace_back("objects with much larger errors: {errors/much_worse}");
-    if (!errors["much_worse_behind"].get<std::string>().empty())
+            "error over the surface: not measured, because every surface encloses a medium or is inside "
+            "geometry");
+    if (!errors["worst_objects"].get<std::string>().empty())
+        report.sentences.emplace_back("objects with much larger errors: {errors/worst_objects}");
+    if (!errors["worst_back_sides"].get<std::string>().empty())
         report.sentences.emplace_back(
-            "seen from behind, two-sided surfaces show the light of their fronts, which errs there: "
-            "{errors/much_worse_behind}; each side of a wall with a thickness has its own");
+            "the back sides of double-sided surfaces show the light of the front sides; errors there: "
+            "{errors/worst_back_sides}; model walls with a thickness for separate light on both sides");
 }
 
 Json noise_json(const BakeNoise& noise) {
@@ -160,17 +163,18 @@ Json noise_json(const BakeNoise& noise) {
 void add_noise_sentences(const BakeOutcome& baked, Report& report) {
     const BakeNoise& noise = baked.result.noise;
     if (baked.options.target_error)
-        report.sentences.emplace_back("error of rays: {target_error_relative_l2:.3f%} of the direct light "
-                                      "asked for, {sampling_error_relative_l2:.3f%} estimated");
+        report.sentences.emplace_back("sampling error of direct light: target "
+                                      "{target_error_relative_l2:.3f%}, estimate "
+                                      "{sampling_error_relative_l2:.3f%}");
     else if (!baked.result.errors && !noise.filtered && baked.result.statistics.sampling_error > 0)
         report.sentences.emplace_back(
-            "error of the direct light: {sampling_error_relative_l2:.3f%} estimated");
+            "sampling error of direct light: estimate {sampling_error_relative_l2:.3f%}");
     if (noise.sky > 0)
-        report.sentences.emplace_back("noise of rays: {noise/sky:.2f%} of the sky's light; direct "
-                                      "{noise/direct:.2f%}, bounced {noise/indirect:.2f%}");
+        report.sentences.emplace_back("sampling noise of sky light: {noise/sky:.2f%}; direct "
+                                      "{noise/direct:.2f%}, indirect {noise/indirect:.2f%}");
     if (!noise.lamps.empty())
         report.sentences.push_back(fmt::format(
-            "noise of rays in bounces of lamps: at most {{noise/lamps/{}:.2f%}} of the light of one",
+            "sampling noise of bounced lamp light: at most {{noise/lamps/{}:.2f%}} of the light of one lamp",
             std::ranges::max_element(noise.lamps) - noise.lamps.begin()));
 }
 
@@ -178,7 +182,7 @@ Json statistics_json(const BakeStatistics& s) {
     return {{"receivers", s.receivers.all},
             {"receivers_traced", s.receivers.traced},
             {"back_sides", s.receivers.back_sides},
-            {"receivers_sealed", s.receivers.sealed},
+            {"receivers_enclosed", s.receivers.sealed},
             {"receivers_refilled", s.receivers.refilled},
             {"rays", s.rays},
             {"device", s.device},
@@ -213,18 +217,18 @@ void add_sentences(const BakeOutcome& baked, const Json& statistics, Report& rep
     const BakeStatistics& s = result.statistics;
     const bool raster = baked.options.tracer.method == BakeMethod::raster;
     const auto say = [&](std::string sentence) { report.sentences.push_back(std::move(sentence)); };
-    say(fmt::format("{{output}}: {{receivers}} receivers, {{triangles}} triangles, order {{order}}, "
-                    "{}, {{bake/rays_per_receiver}} {} each, {{bake/bounces}} bounces",
-                    terms_in_words(result.baked.transfer.layout), raster ? "directions" : "rays"));
-    say(fmt::format("{} on the {}: {{device}}", raster ? "depth maps" : "rays",
+    say(fmt::format("{{output}}: {{receivers:#receiver}}, {{triangles:#triangle}}, order {{order}}, {}, "
+                    "{{bake/rays_per_receiver:#{}}} per receiver, {{bake/bounces:#bounce}}",
+                    terms_in_words(result.baked.transfer.layout), raster ? "direction" : "ray"));
+    say(fmt::format("{} on the {}: {{device}}", raster ? "depth maps" : "ray tracing",
                     result.baked.record.backend == Backend::cpu ? "CPU" : "GPU"));
     if (s.receivers.all > s.receivers.traced)
-        say(fmt::format("{} receivers are on no surface and have zero transfer",
-                        s.receivers.all - s.receivers.traced));
+        say(counted(s.receivers.all - s.receivers.traced, "receiver is", "receivers are") +
+            " on no surface; the transfer there is zero");
     for (std::size_t i = 0; i < s.notices.size(); ++i)
         say(fmt::format("{{notices/{}}}", i));
     say(fmt::format("{{seconds:.3f}} s: build {{seconds_build:.3f}}, trace {{seconds_trace:.3f}}, accumulate "
-                    "{{seconds_accumulate:.3f}}, transfer {{seconds_transfer:.3f}}, transport "
+                    "{{seconds_accumulate:.3f}}, GPU copies {{seconds_transfer:.3f}}, transport "
                     "{{seconds_transport:.3f}}; {{rays_per_second:.2fM}} million {}/s",
                     raster ? "tests" : "rays"));
     add_noise_sentences(baked, report);
@@ -233,21 +237,22 @@ void add_sentences(const BakeOutcome& baked, const Json& statistics, Report& rep
     if (baked.refinement)
         add_refinement_sentences(*baked.refinement, report);
     else if (s.fit.between > 0 || s.fit.samples > 0)
-        say(fmt::format(
-            "between vertices direct light would err by {{interpolation_error_relative_l2:.3f%}}: {}",
-            s.fit.samples > 0 ? "vertices are fitted to {samples_per_receiver} samples of the surface each"
-                              : "it is measured at vertices"));
+        say(fmt::format("interpolation error of direct light sampled at vertices: "
+                        "{{interpolation_error_relative_l2:.3f%}}; {}",
+                        s.fit.samples > 0
+                            ? "vertices are fitted to {samples_per_receiver:#sample} of the surface each"
+                            : "light is sampled at the vertices"));
     if (s.gather.entries > 0)
-        say("bounces: {gather_entries} pairs of receivers that light each other, {gather_bytes:.1fM} MB; at "
-            "most {remaining_energy:.2g%} of a receiver's light is missing");
+        say("bounce matrix: {gather_entries:#link} between receivers, {gather_bytes:.1fM} MB; "
+            "omitted bounces: at most {remaining_energy:.2g%} of the largest transfer");
     if (s.gather.bytes_moved > 0)
-        say("the GPU applied them: {gather_bytes_moved:.1fM} MB went to it and came back");
+        say("the GPU computed the bounces; {gather_bytes_moved:.1fM} MB were copied to it and back");
     if (s.lamps.count > 0)
-        say("lamps: {lamps}, of {lamp_lights} lights and {lamp_triangles} triangles that shine");
-    say("{mean_visibility:.1f%} of the light of a uniform sky arrives, on average");
+        say("{lamps:#lamp}: {lamp_lights:#light} and {lamp_triangles:#emissive triangle}");
+    say("mean visibility of the sky: {mean_visibility:.1f%} (uniform sky, without bounces)");
     if (s.mean_visibility < kDark && !baked.no_shadow && s.lamps.count == 0)
-        say("hardly any light comes in: where a shell round the scene, as an outline or a sky, keeps it out, "
-            "--no-shadow MATERIAL lets it pass");
+        say("almost no light enters the scene; if a sky dome or an outline shell blocks it, use --no-shadow "
+            "MATERIAL");
 }
 
 } // namespace

@@ -15,8 +15,8 @@ std::vector<ChartSeries> curves(const BenchResult& result, X&& x, Y&& y) {
         ChartSeries curve{series.name(), {}};
         for (const BenchRun& run : series.runs)
             curve.points.push_back({x(run), y(run),
-                                    fmt::format("{} per receiver: {:.4g} s, {:.3f} %", run.rays, run.seconds,
-                                                100 * run.relative_l2)});
+                                    fmt::format("{} per receiver: {:.4g} s, error {:.3f} %", run.rays,
+                                                run.seconds, 100 * run.relative_l2)});
         if (!curve.points.empty())
             all.push_back(std::move(curve));
     }
@@ -27,36 +27,33 @@ std::vector<ChartSeries> curves(const BenchResult& result, X&& x, Y&& y) {
 Table runs_table(const BenchResult& result) {
     Table table{"runs", "Runs", "", {}, {}};
     table.columns = {{"series", "backend, method"},
-                     {"rays", "per receiver"},
-                     {"seconds", "seconds", Unit::seconds},
+                     {"rays", "rays per receiver"},
+                     {"seconds", "total time", Unit::seconds},
                      {"seconds_build", "build", Unit::seconds},
                      {"seconds_trace", "trace", Unit::seconds},
                      {"seconds_accumulate", "accumulate", Unit::seconds},
-                     {"seconds_transfer", "transfer", Unit::seconds},
+                     {"seconds_transfer", "GPU copies", Unit::seconds},
                      {"rays_per_second", "rays/s"},
                      {"relative_l2", "error at vertices", Unit::percent},
                      {"contrast", "contrast error at vertices", Unit::percent},
-                     {"surface_l2", "over the surface", Unit::percent}};
+                     {"surface_l2", "error over the surface", Unit::percent}};
     for (const BenchSeries& series : result.series)
         for (const BenchRun& r : series.runs)
             table.rows.push_back({series.name(), r.rays, r.seconds, r.seconds_build, r.stages.trace,
                                   r.stages.accumulate, r.stages.transfer, r.rays_per_second, r.relative_l2,
                                   r.contrast, r.surface_l2});
     table.about =
-        "build: hierarchy, upload, shaders. trace: rays, or drawing depth maps; on the GPU with the "
-        "spherical "
-        "harmonics, which are summed on chip. accumulate: spherical harmonics on the CPU, depth tests with "
-        "method raster. transfer: to and from the GPU. Rays or depth tests per second, all work counted. "
-        "Contrast error: at each vertex relative to its own transfer and a tenth of the logarithmic mean of "
-        "all. "
-        "Fitted: vertices have the "
-        "values whose interpolation comes nearest to samples of the surface; at the vertices themselves that "
-        "is farther off.";
-    table.charts = {{"seconds, all work counted", "error at vertices, %",
+        "Build: acceleration structure, upload, shaders. Trace: tracing rays or drawing depth maps; on the "
+        "GPU this includes the sums of spherical harmonics. Accumulate: sums of spherical harmonics on the "
+        "CPU; depth tests with method raster. GPU copies: copies to and from the GPU. Rays/s: rays or depth "
+        "tests per second of total time. Contrast error: error at each vertex relative to its own transfer "
+        "plus a tenth of the logarithmic mean of all. Fitted: vertex values are a least-squares fit to "
+        "samples of the surface; this increases the error at the vertices themselves.";
+    table.charts = {{"total time, s", "error at vertices, %",
                      curves(
                          result, [](const BenchRun& r) { return r.seconds; },
                          [](const BenchRun& r) { return 100 * r.relative_l2; })},
-                    {"seconds, all work counted", "error over the surface, %",
+                    {"total time, s", "error over the surface, %",
                      curves(
                          result, [](const BenchRun& r) { return r.seconds; },
                          [](const BenchRun& r) { return 100 * r.surface_l2; })},
@@ -77,8 +74,8 @@ Report bench_report(const BenchResult& result) {
         {{"receivers", "receivers"}, result.receivers},
         {{"triangles", "triangles"}, result.triangles},
         {{"order", "order"}, result.order},
-        {{"reference_rays", "rays of the reference, of another seed"}, result.reference_rays},
-        {{"reference_receivers", "receivers that errors are over"}, result.reference_receivers}};
+        {{"reference_rays", "rays per receiver of the reference (another seed)"}, result.reference_rays},
+        {{"reference_receivers", "receivers with measured errors"}, result.reference_receivers}};
     for (const BenchSeries& series : result.series)
         report.origin.emplace_back(series.name(), series.device);
     report.tables.push_back(runs_table(result));

@@ -16,7 +16,7 @@ Json percentiles(std::vector<double> errors) {
     const auto at = [&](double share) {
         return errors[static_cast<std::size_t>(std::lround(share * static_cast<double>(errors.size() - 1)))];
     };
-    return {{"median", at(0.5)}, {"percentile_90", at(0.9)}, {"percentile_99", at(0.99)}, {"most", at(1)}};
+    return {{"median", at(0.5)}, {"percentile_90", at(0.9)}, {"percentile_99", at(0.99)}, {"max", at(1)}};
 }
 
 Report instance_report(const InstanceOutcome& outcome) {
@@ -42,11 +42,11 @@ Report instance_report(const InstanceOutcome& outcome) {
                          {"instances",
                           {{"meshes", baked.meshes.meshes.size()},
                            {"shared", baked.bake.instances.factors.size()},
-                           {"baked_alone", baked.baked_alone},
+                           {"baked_separately", baked.baked_alone},
                            {"mirrored", baked.meshes.mirrored},
-                           {"uneven", baked.meshes.uneven},
-                           {"bent", baked.meshes.bent},
-                           {"in_the_open", s.alone},
+                           {"nonuniform_scale", baked.meshes.uneven},
+                           {"deformed", baked.meshes.bent},
+                           {"unoccluded", s.alone},
                            {"error_allowed_relative_l2", outcome.error},
                            {"lights", s.lights},
                            {"error_relative_l2", percentiles(baked.bake.errors)},
@@ -54,22 +54,22 @@ Report instance_report(const InstanceOutcome& outcome) {
                            {"errors_before_relative_l2", baked.first_errors},
                            {"errors_relative_l2", baked.bake.errors}}}});
     report.sentences = {
-        fmt::format("{{output}}: {{receivers}} vertices of {{triangles}} triangles by transfer of "
-                    "{{receivers_stored}}, order {{order}}, {}, {{bake/rays_per_receiver}} rays each, "
-                    "{{bake/bounces}} bounces",
-                    terms_in_words(transfer.transfer.layout)),
-        "{instances/shared} instances share that of {instances/meshes} meshes; {instances/baked_alone} would "
-        "err by "
-        "more than {instances/error_allowed_relative_l2:.1f%} and are baked alone",
-        "their light errs by {instances/error_relative_l2/median:.2f%} in the middle, "
-        "{instances/error_relative_l2/percentile_99:.2f%} at the 99th of a hundred, "
-        "{instances/error_relative_l2/most:.2f%} at most (soft skies and {instances/lights} given ones, at "
-        "the samples)"};
+        fmt::format(
+            "{{output}}: {{receivers:#vertex|vertices}}, {{triangles:#triangle}}, transfer stored for "
+            "{{receivers_stored:#vertex|vertices}}, order {{order}}, {}, {{bake/rays_per_receiver:#ray}} "
+            "per vertex, {{bake/bounces:#bounce}}",
+            terms_in_words(transfer.transfer.layout)),
+        "shared transfer: {instances/meshes:#mesh|meshes}, {instances/shared:#instance}; baked separately "
+        "because of an error above {instances/error_allowed_relative_l2:.1f%}: "
+        "{instances/baked_separately:#instance}",
+        "error of shared transfer: median {instances/error_relative_l2/median:.2f%}, 99th percentile "
+        "{instances/error_relative_l2/percentile_99:.2f%}, maximum {instances/error_relative_l2/max:.2f%} "
+        "(at the samples, under soft skies and {instances/lights:#given light})"};
     for (std::size_t i = 0; i < s.notices.size(); ++i)
         report.sentences.push_back(fmt::format("{{notices/{}}}", i));
     report.sentences.emplace_back(
-        "{seconds:.3f} s: {receivers_traced} vertices and {samples_traced} samples of "
-        "instances, {rays} rays");
+        "{seconds:.3f} s: {receivers_traced:#vertex|vertices} and {samples_traced:#sample} of instances, "
+        "{rays:#ray}");
     return report;
 }
 
@@ -82,8 +82,8 @@ void add_instance_constants(const std::vector<RelitInstance>& instances, Json fi
     figures["bytes_constants_per_instance"] = bytes / instances.size();
     add_figures(report, {{"instances", std::move(figures)}});
     report.sentences.emplace_back(
-        "GPU: {instances/bytes_constants_per_instance} bytes of constants of an instance per lighting, "
-        "{instances/bytes_constants} of all; fewer clusters take less (prt compress --clusters)");
+        "GPU memory for each lighting: {instances/bytes_constants_per_instance} bytes of constants per "
+        "instance, {instances/bytes_constants} in total; fewer clusters (prt compress --clusters) need less");
 }
 
 } // namespace prt::cli

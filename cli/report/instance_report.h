@@ -23,7 +23,7 @@ Report instance_report(const InstanceOutcome& outcome);
 /// Adds `figures` of instances of compressed transfer, and the size of their constants.
 void add_instance_constants(const std::vector<RelitInstance>& instances, Json figures, Report& report);
 
-/// Returns {"median", "percentile_90", "percentile_99", "most"} of errors, which must not be empty.
+/// Returns {"median", "percentile_90", "percentile_99", "max"} of errors, which must not be empty.
 Json percentiles(std::vector<double> errors);
 
 } // namespace prt::cli

@@ -36,12 +36,12 @@ Json all_json(const LevelBake& bake) {
     for (const LevelOutcome& o : bake.levels)
         list.push_back({{"level", o.level},
                         {"name", o.name},
-                        {"of", o.of},
+                        {"level_0", o.of},
                         {"triangles", o.triangles},
                         {"vertices", o.vertices},
                         {"samples", o.samples},
                         {"rms_distance_metres", o.rms_distance},
-                        {"largest_distance_metres", o.largest_distance},
+                        {"max_distance_metres", o.largest_distance},
                         {"diagonal_metres", o.diagonal},
                         {"relative_l2", o.squares.relative_l2()}});
     return list;
@@ -51,8 +51,7 @@ std::string how_found(const LeveledScene& scene) {
     const auto named = std::ranges::count_if(scene.nodes, &LeveledNode::by_name);
     if (named == 0)
         return "MSFT_lod";
-    return static_cast<std::size_t>(named) == scene.nodes.size() ? "by their names"
-                                                                 : "MSFT_lod, and by their names";
+    return static_cast<std::size_t>(named) == scene.nodes.size() ? "node names" : "MSFT_lod and node names";
 }
 
 } // namespace
@@ -64,9 +63,9 @@ void add_level_bake(const BakedLevels& levels, Report& report) {
                             {"nodes", sum.nodes},
                             {"triangles", sum.triangles},
                             {"vertices", sum.vertices},
-                            {"largest_distance_metres", sum.farthest},
+                            {"max_distance_metres", sum.farthest},
                             {"relative_l2", sum.squares.relative_l2()},
-                            {"worst_relative_l2", sum.worst}});
+                            {"max_relative_l2", sum.worst}});
     const std::size_t count = by_level.size();
     add_figures(report, {{"levels",
                           {{"mode", to_string(levels.mode)},
@@ -76,16 +75,15 @@ void add_level_bake(const BakedLevels& levels, Report& report) {
                            {"seconds", levels.bake.seconds},
                            {"notices", levels.bake.notices}}}});
     report.sentences.push_back(
-        fmt::format("levels of detail ({}) of {{levels/nodes}} node{}: {}", how_found(levels.scene),
-                    levels.scene.nodes.size() == 1 ? "" : "s",
-                    levels.mode == LevelMode::ignore ? "they get no transfer"
+        fmt::format("levels of detail (from {}) of {{levels/nodes:#node}}: {}", how_found(levels.scene),
+                    levels.mode == LevelMode::ignore ? "coarser levels have no transfer"
                     : levels.mode == LevelMode::own
-                        ? "each is baked in the place of level 0, in {levels/seconds:.3f} s"
-                        : "level 0 is baked, and its light carried over in {levels/seconds:.3f} s"));
+                        ? "each level is baked in place of level 0, in {levels/seconds:.3f} s"
+                        : "level 0 is baked; coarser levels are fitted to it in {levels/seconds:.3f} s"));
     for (std::size_t i = 0; i < count; ++i)
         report.sentences.push_back(fmt::format(
-            "level {{levels/by_level/{0}/level}}: {{levels/by_level/{0}/triangles}} triangles, "
-            "{{levels/by_level/{0}/vertices}} vertices; all over its surface it differs from level 0 by "
+            "level {{levels/by_level/{0}/level}}: {{levels/by_level/{0}/triangles:#triangle}}, "
+            "{{levels/by_level/{0}/vertices:#vertex|vertices}}; difference from level 0 over its surface: "
             "{{levels/by_level/{0}/relative_l2:.3f%}} (relative L2 of the transfer)",
             i));
     for (std::size_t i = 0; i < levels.bake.notices.size(); ++i)

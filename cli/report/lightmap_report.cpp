@@ -2,6 +2,7 @@
 
 #include "report/lightmap_report.h"
 
+#include "prt/support/counted.h"
 #include "report/publish.h"
 
 #include <fmt/ranges.h>
@@ -15,7 +16,7 @@ Json statistics_json(const LightmapStatistics& s) {
     return {{"texels", s.texels.all},
             {"receivers", s.texels.receivers},
             {"texels_measured", s.texels.measured},
-            {"texels_sealed", s.texels.sealed},
+            {"texels_enclosed", s.texels.sealed},
             {"sources", s.sources},
             {"rays", s.rays},
             {"device", s.device},
@@ -46,10 +47,9 @@ std::string maps_in_words(const LightmapLayout& layout) {
         sizes.push_back(fmt::format("{} x {}", map.width, map.height));
     if (sizes.size() > 4) {
         sizes.resize(3);
-        sizes.emplace_back("others");
+        sizes.emplace_back("and others");
     }
-    return fmt::format("{} map{}, {}", layout.maps.size(), layout.maps.size() == 1 ? "" : "s",
-                       fmt::join(sizes, ", "));
+    return fmt::format("{}, {}", counted(layout.maps.size(), "map"), fmt::join(sizes, ", "));
 }
 
 Report lightmap_report(const LightmapOutcome& baked) {
@@ -70,26 +70,26 @@ Report lightmap_report(const LightmapOutcome& baked) {
     add_figures(report, statistics);
     add_figures(report, {{"bytes_file", baked.bytes}});
     report.sentences = {
-        fmt::format("{{output}}: {}, {{texels_measured}} texels on {{triangles}} triangles, order {{order}}, "
-                    "{}, {{bake/rays_per_receiver}} rays each, {{bake/bounces}} bounces",
+        fmt::format("{{output}}: {}, {{texels_measured:#texel}} on {{triangles:#triangle}}, order {{order}}, "
+                    "{}, {{bake/rays_per_receiver:#ray}} per texel, {{bake/bounces:#bounce}}",
                     maps_in_words(lightmap.layout), terms_in_words(lightmap.baked.transfer.layout)),
-        fmt::format("rays on the {}: {{device}}",
+        fmt::format("ray tracing on the {}: {{device}}",
                     lightmap.baked.record.backend == Backend::cpu ? "CPU" : "GPU")};
     for (std::size_t i = 0; i < s.notices.size(); ++i)
         report.sentences.push_back(fmt::format("{{notices/{}}}", i));
     if (s.sources > 0)
         report.sentences.emplace_back(
-            "light bounced between {sources} vertices, of the mesh and between them");
+            "bounces are computed at {sources:#vertex|vertices}: those of the mesh, and added ones");
     report.sentences.emplace_back("{seconds:.3f} s: vertices {seconds_sources:.3f}, texels "
-                                  "{seconds_texels:.3f}; {rays_per_second:.2fM} "
-                                  "million rays/s");
+                                  "{seconds_texels:.3f}; {rays_per_second:.2fM} million rays/s");
     report.sentences.emplace_back(s.denoised
-                                      ? "noise of rays: {sampling_error_relative_l2:.2f%} of the sky's light"
-                                      : "error of the direct light: {sampling_error_relative_l2:.3f%} "
-                                        "estimated");
-    report.sentences.emplace_back("jumps of visibility across seams of {seam_before_rms:.4f} are now "
-                                  "{seam_rms:.5f}, root mean square");
-    report.sentences.emplace_back("{mean_visibility:.1f%} of the light of a uniform sky arrives, on average");
+                                      ? "sampling noise of sky light: {sampling_error_relative_l2:.2f%}"
+                                      : "sampling error of direct light: estimate "
+                                        "{sampling_error_relative_l2:.3f%}");
+    report.sentences.emplace_back("jumps of visibility across seams: {seam_before_rms:.4f} before the seams "
+                                  "were closed, {seam_rms:.5f} after (root mean square)");
+    report.sentences.emplace_back(
+        "mean visibility of the sky: {mean_visibility:.1f%} (uniform sky, without bounces)");
     return report;
 }
 

@@ -18,7 +18,7 @@ struct LightmapOutcome {
 
 Report lightmap_report(const LightmapOutcome& baked);
 
-/// Its maps: [{"width": 512, "height": 512}, ...]
+/// Returns the sizes of the maps: [{"width": 512, "height": 512}, ...]
 Json maps_figures(const LightmapLayout& layout);
 /// "2 maps, 512 x 512 and 256 x 256"
 std::string maps_in_words(const LightmapLayout& layout);

@@ -142,7 +142,7 @@ function draw(report) {
     document.body.append(...titled(title, ...charts.map(chart), ...stacks.map(bars), table(rows, true)));
     if (about) document.body.append(element("p", {}, [about]));
   }
-  for (const note of report.notes) document.body.append(element("p", {}, [`Left out: ${note}.`]));
+  for (const note of report.notes) document.body.append(element("p", {}, [`Omitted: ${note}.`]));
 }
 
 draw(JSON.parse(document.getElementById("report").textContent));

@@ -2,6 +2,7 @@
 
 #include "report/publish.h"
 
+#include "prt/support/counted.h"
 #include "terminal.h"
 
 #include <fmt/chrono.h>
@@ -59,7 +60,7 @@ std::string terms_in_words(const TransferLayout& layout) {
                                           to_string(term.kind))
                             : fmt::format("{} of {}", term.channels, to_string(term.kind)));
     if (const std::size_t lamps = layout.lamps(); lamps > 0)
-        words.push_back(fmt::format("{} lamp{}", lamps, lamps == 1 ? "" : "s"));
+        words.push_back(counted(lamps, "lamp"));
     return fmt::format("{}", fmt::join(words, ", "));
 }
 

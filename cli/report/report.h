@@ -93,7 +93,8 @@ struct Report {
     std::vector<std::string> notices;
     /// Lines of text shown on the terminal instead of all members above. "{key}" and "{key:format}" are
     /// figures of the JSON; '/' accesses members of lists and objects. A format is one of fmt's; a following
-    /// '%' or 'M' means per cent or millions.
+    /// '%' or 'M' means per cent or millions. "{key:#sun}" is a number with its noun, "1 sun" or "2 suns";
+    /// "{key:#vertex|vertices}" has an irregular plural.
     std::vector<std::string> sentences;
 };
 

@@ -105,7 +105,7 @@ Json report_json(const Report& report) {
         }
     }
     if (!report.notes.empty())
-        json["left_out"] = report.notes;
+        json["omitted"] = report.notes;
     if (!report.notices.empty())
         json["notices"] = report.notices;
     return json;

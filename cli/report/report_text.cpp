@@ -7,6 +7,8 @@
 
 #include <algorithm>
 #include <sstream>
+#include <string_view>
+#include <utility>
 
 namespace prt::cli {
 namespace {
@@ -63,12 +65,26 @@ std::string table_text(const Table& table) {
     return table.about.empty() ? text : text + wrapped(table.about, "    ");
 }
 
+/// Returns a number with its noun. `nouns`: "sun", or "vertex|vertices" if the plural is irregular.
+std::string with_noun(std::string number, std::string_view nouns) {
+    const std::size_t bar = std::min(nouns.find('|'), nouns.size());
+    const bool one = number == "1";
+    if (one || bar == nouns.size())
+        return number.append(" ").append(nouns.substr(0, bar)).append(one ? "" : "s");
+    return number.append(" ").append(nouns.substr(bar + 1));
+}
+
 /// A figure in a sentence.
 std::string in_words(const Json& value, std::string format) {
-    if (value.is_string())
-        return printable(value.get<std::string>());
+    const bool noun = format.starts_with('#');
+    if (value.is_string()) {
+        std::string text = printable(value.get<std::string>());
+        return noun ? with_noun(std::move(text), format.substr(1)) : text;
+    }
     if (format.empty())
         return value.dump();
+    if (noun)
+        return with_noun(value.dump(), format.substr(1));
     const char last = format.back();
     const double scale = last == '%' ? 100 : last == 'M' ? 1e-6 : 1;
     if (scale != 1)
@@ -148,7 +164,7 @@ std::string report_text(const Report& report) {
         if (rows_for_people(table) > 0)
             text += table_text(table);
     for (const std::string& note : report.notes)
-        text += "  left out: " + printable(note) + "\n";
+        text += "  omitted: " + printable(note) + "\n";
     return text;
 }
 

@@ -43,8 +43,8 @@ Chart chart(const std::vector<SweepPoint>& points, const char* x_title, Cost&& c
         ChartSeries curve{method, {}, method == kOurs};
         for (const SweepPoint& p : frontier(points, method, cost))
             curve.points.push_back({cost(p), 100 * p.lit_rms,
-                                    fmt::format("{}: {:.2f} bytes, {:.2f} operations, {:.3f} %", p.setting,
-                                                p.bytes(), p.mean_components, 100 * p.lit_rms)});
+                                    fmt::format("{}: {:.2f} bytes, {:.2f} operations, lit_rms {:.3f} %",
+                                                p.setting, p.bytes(), p.mean_components, 100 * p.lit_rms)});
         series.push_back(std::move(curve));
     }
     return {x_title, "lit_rms, %", std::move(series)};
@@ -58,7 +58,7 @@ template <class Limits>
 Table best_table(const Sweep& sweep, const std::vector<SweepPoint>& points, const Limits& limits,
                  const char* unit, Best best) {
     Table table;
-    table.columns.push_back({"method", "lit_rms at most", Unit::plain});
+    table.columns.push_back({"method", "method", Unit::plain});
     for (const auto limit : limits) {
         table.columns.push_back(
             {"", fmt::format("{:g} {}", static_cast<double>(limit), unit), Unit::percent});
@@ -106,17 +106,18 @@ void add_sweep(const Sweep& sweep, Report& report) {
     Table bytes = best_table(sweep, sweep.by_bytes, kSweepBytes, "bytes", best_by_bytes);
     bytes.title = "Error at equal bytes";
     bytes.about =
-        "Bytes per vertex: payload as a game binds it, in whole 32-bit words, and all tables over the "
-        "vertices. All methods are counted alike. Jumps: of the differences of the error between the two "
-        "ends "
-        "of an edge, over the mean radiance, 99 % are below.";
-    bytes.charts = {chart(sweep.by_bytes, "bytes per vertex, bases counted in", bytes_of)};
+        "Values: lit_rms and jumps of the best setting with at most this size. Bytes per vertex: attributes "
+        "in whole 32-bit words, plus all tables divided by the number of vertices; the rule is the same for "
+        "all methods. Jumps: difference of the error between the two ends of an edge, relative to the mean "
+        "radiance, 99th percentile.";
+    bytes.charts = {chart(sweep.by_bytes, "bytes per vertex, bases included", bytes_of)};
     Table ops = best_table(sweep, sweep.by_components, kSweepComponents, "operations", best_by_components);
     ops.title = "Error at equal shader operations";
     ops.about = fmt::format(
-        "Multiply-adds of a colour per vertex, on average. Clustered methods of the literature "
-        "have {} clusters, or one for {} vertices where that is fewer; prtkit has any number that "
-        "takes no more bytes than classic CPCA at the same operations.",
+        "Values: as above, with at most this number of operations. Operations: mean number of multiply-adds "
+        "of a colour per vertex. Clustered methods of the literature use {} clusters, or one per {} "
+        "vertices if that is fewer; prtkit uses any number of clusters that needs no more bytes than "
+        "classic CPCA with the same operations.",
         kSweepClusters, kMinReceiversPerCluster);
     ops.charts = {chart(sweep.by_components, "multiply-adds per vertex", ops_of)};
     report.tables.push_back(std::move(bytes));

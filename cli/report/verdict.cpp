@@ -20,19 +20,19 @@ struct Cause {
 Cause greatest(const Verdict& v) {
     const Cause causes[] = {{v.visible, v.visible_under},
                             {2 * v.lit_rms, "under " + v.under},
-                            {v.jumps / 2, "jumps between neighbours, " + v.jumps_under},
-                            {v.seam_99 / 2, "seams between clusters, the largest at " + v.seam_at}};
+                            {v.jumps / 2, "jumps between neighbouring vertices, " + v.jumps_under},
+                            {v.seam_99 / 2, "seams between clusters, largest at " + v.seam_at}};
     return *std::ranges::max_element(causes, {}, &Cause::error);
 }
 
 std::string judgement(const Verdict& v) {
     const Cause cause = greatest(v);
     if (cause.error > 5 * kVisible)
-        return "visibly wrong: " + cause.words;
+        return "clearly visible difference from the bake: " + cause.words;
     if (cause.error > kVisible)
-        return "visible on close comparison: " + cause.words;
-    return std::string("looks the same as the bake") +
-           (v.seam.value_or(0) > kVisible ? ", but for single edges between clusters" : "");
+        return "visible difference when switching between bake and file: " + cause.words;
+    return std::string("no visible difference from the bake") +
+           (v.seam.value_or(0) > kVisible ? ", except at single edges between clusters" : "");
 }
 
 /// Two digits: 0.94 %, 2.1 %, 15 %.
@@ -46,11 +46,11 @@ std::string short_percent(double share) {
 std::string in_one_line(const Verdict& v) {
     std::string line;
     if (v.bytes_per_vertex)
-        line = fmt::format("{} bytes a vertex, ", *v.bytes_per_vertex);
-    line += fmt::format("{} under {}", short_percent(v.lit_rms), v.under);
-    line += fmt::format("; 95 % of the area within {} of what is seen", short_percent(v.visible));
+        line = fmt::format("{} bytes per vertex, ", *v.bytes_per_vertex);
+    line += fmt::format("lit_rms {} under {}", short_percent(v.lit_rms), v.under);
+    line += fmt::format("; contrast error up to {} on 95 % of the area", short_percent(v.visible));
     if (v.seam)
-        line += fmt::format("; worst seam {}", short_percent(*v.seam));
+        line += fmt::format("; largest seam {}", short_percent(*v.seam));
     return line + ": " + judgement(v);
 }
 

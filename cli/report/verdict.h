@@ -23,9 +23,10 @@ struct Verdict {
     std::string seam_at;        ///< position of the maximum
 };
 
-/// Returns one line: "4 bytes a vertex, 0.9 % under these 3 lights; 95 % of the area within 1.1 % of what is
-/// seen; worst seam 2 %: looks the same as the bake". Otherwise it ends in "visible on close comparison: "
-/// (above `kVisible`) or "visibly wrong: " (above five times `kVisible`) and the cause: "lamp LampTable".
+/// Returns one line: "4 bytes per vertex, lit_rms 0.9 % under these 3 lights; contrast error up to 1.1 % on
+/// 95 % of the area; largest seam 2 %: no visible difference from the bake". Above `kVisible` it ends in
+/// "visible difference when switching between bake and file: ", above five times `kVisible` in "clearly
+/// visible difference from the bake: ", followed by the cause: "lamp LampTable".
 std::string in_one_line(const Verdict& verdict);
 
 } // namespace prt::cli

@@ -115,8 +115,8 @@ struct Regression {
     Eigen::MatrixXd residual; ///< covariance, lower triangle
 };
 
-/// Computes least squares with V (V² + ridge²)^-1 in place of V^-1: clusters whose predictors hardly vary
-/// learn nothing from them, and others lose nothing.
+/// Computes the least-squares regression with V (V² + ridge²)^-1 instead of V^-1. Clusters whose predictors
+/// hardly vary then do not use them; other clusters are almost unchanged.
 Regression regression_of(const Covariance& joint, const ClusterMoments::View& moments) {
     const auto d = static_cast<Eigen::Index>(moments.dimension),
                g = static_cast<Eigen::Index>(moments.predictors);

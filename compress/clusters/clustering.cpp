@@ -63,7 +63,7 @@ void converge(const ClusterRounds& rounds, const ClusteringSchedule& schedule, c
     state = std::move(best);
 }
 
-/// Performs rounds, then moves while they pay off, then rounds again.
+/// Performs rounds, then moves while they reduce the cost, then rounds again.
 void improve(const ClusterRounds& rounds, const ClusteringSchedule& schedule, const RateBudget& rate_budget,
              const Progress& progress, ClusterState& state, std::vector<double>& history) {
     converge(rounds, schedule, rate_budget, progress.range(0, tuning::kFirstRoundsAt), state, &history);

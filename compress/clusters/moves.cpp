@@ -32,7 +32,7 @@ public:
     std::vector<PossibleSplit> splits(double least) const;
     /// Returns merges of every cluster with its nearest neighbours, smallest loss first.
     std::vector<PossibleMerge> merges() const;
-    /// Moves points in `next` while pairs of a split and a merge pay off. Returns whether any did.
+    /// Moves points in `next` while pairs of a split and a merge reduce the cost. Returns whether any did.
     bool apply(const std::vector<PossibleSplit>& splits, const std::vector<PossibleMerge>& merges,
                std::vector<std::uint32_t>& next) const;
     /// Splits clusters, largest gain first, until there are `wanted`. Returns the resulting number.

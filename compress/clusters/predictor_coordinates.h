@@ -13,8 +13,8 @@ namespace prt {
 /// Predictor coordinates of all receivers, and their scales as weights. Keeps references to the surface.
 struct PredictorCoordinates {
     std::vector<Predictor> predictors;
-    std::vector<std::span<const glm::vec3>>
-        attributes; ///< [predictors][receivers], relative to their origins
+    /// [predictors][receivers], relative to their origins.
+    std::vector<std::span<const glm::vec3>> attributes;
 
     std::size_t count() const { return 3 * predictors.size(); }
     float value(std::size_t receiver, std::size_t g) const {

@@ -31,8 +31,8 @@ struct AlternationOptions {
 void encode_all(const PointBlocks& points, const AlternationOptions& options, CodedClusters& coded);
 
 /// Alternates before bases are rounded, until the error hardly decreases: for clusters that were found in
-/// another space, at most `rounds` times. Clusters whose points others serve nearly as well take half of the
-/// points of clusters with large errors, and become their neighbours among the candidates.
+/// another space, at most `rounds` times. Clusters whose points other clusters represent nearly as well are
+/// moved: they take half of the points of clusters with large errors, and become candidates next to these.
 void settle(const PointBlocks& points, std::span<const float> significance, const AlternationOptions& options,
             int rounds, CodedClusters& coded);
 

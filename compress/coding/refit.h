@@ -6,8 +6,8 @@
 
 namespace prt {
 
-/// Computes means and rows that fit the codes best, by least squares weighted by the significance of the
-/// points.
+/// Updates means and rows of `clusters` to those that fit the codes best, by least squares weighted by the
+/// significance of the points.
 void refit(const PointBlocks& points, std::span<const float> significance, const Codes& codes,
            QuantisedClusters& clusters, int threads);
 

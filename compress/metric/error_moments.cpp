@@ -237,7 +237,7 @@ double lit_rms(const ErrorMoments& moments, const LightingView& lighting) {
 
 double expected_lit_rms(const ErrorMoments& moments, const LightMetric& metric) {
     if (metric.layout != moments.layout)
-        throw Error("the metric is of another layout than the transfer");
+        throw Error("the metric and the transfer have different orders or terms");
     const auto sum_with = [&](const std::vector<double>& of_transfer) {
         return Eigen::Map<const Eigen::VectorXd>(metric.moments.data(),
                                                  static_cast<Eigen::Index>(metric.moments.size()))

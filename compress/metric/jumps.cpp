@@ -93,7 +93,7 @@ ClusterJumps::ClusterJumps(const TransferView& reference, const ReceiverSurface&
                            const LightMetric& metric, int threads)
     : reference_(reference), surface_(surface), threads_(threads) {
     if (reference.layout() != metric.layout)
-        throw Error("the metric has another order or other terms than the transfer");
+        throw Error("the metric and the transfer have different orders or terms");
     const Eigen::MatrixXd factor = factor_of(metric);
     Lights lights{factor.cast<float>(), factor.rows(), {}};
     lights.adapt_to(reference, surface.areas, threads);

@@ -207,7 +207,7 @@ LightMetric metric_of_lights(std::span<const Lighting> lights, const TransferLay
                 1 / (light_energy * rotations), metric);
     }
     if (!(matrix_of(metric).trace() > 0))
-        throw Error("the lights to compress for are all black");
+        throw Error("all lights to compress for are black");
     add_natural_share(metric);
     return metric;
 }

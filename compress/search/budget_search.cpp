@@ -140,8 +140,8 @@ double BudgetSearch::walk(const PayloadConfig& start) {
 }
 
 /// Tries the other value of `bases_count`: if bases outweigh weights, or operations are limited, the better
-/// choice is not known in advance. Also tries other predictors: they pay off if their rows are cheap compared
-/// with the weights of all receivers, but operations may be better spent on components.
+/// choice is not known in advance. Also tries other predictors: they help if their rows are small compared
+/// with the weights of all receivers, but components may use the operations better.
 void BudgetSearch::vary() {
     const SearchTrial& best = trials_.best()->trial;
     const bool other_way = budget_.operations ||

@@ -2,6 +2,7 @@
 #include "prt/search.h"
 
 #include "compress_options.h"
+#include "prt/support/counted.h"
 #include "prt/support/error.h"
 #include "prt/support/stopwatch.h"
 #include "search/budget_search.h"
@@ -16,23 +17,25 @@ namespace {
 
 void check_budget(const SearchOptions& o, const ReceiverSurface& surface) {
     for (const auto& [value, name] :
-         {std::pair(o.budget.max_error, "error"), std::pair(o.budget.max_jump, "jumps"),
+         {std::pair(o.budget.max_error, "the error"), std::pair(o.budget.max_jump, "jumps"),
           std::pair(o.budget.bytes_per_vertex, "bytes per vertex"),
           std::pair(o.budget.operations, "shader operations")})
         if (value && !(*value > 0 && std::isfinite(*value)))
-            throw Error("a budget of " + std::to_string(*value) + " " + name + " makes no sense");
+            throw Error(std::string("the budget for ") + name + " must be finite and greater than 0, not " +
+                        std::to_string(*value));
     if (!o.budget.any())
-        throw Error("there is no budget to search for");
+        throw Error("a search needs a budget: a maximum error, bytes per vertex or shader operations");
     if (!o.budget.aims())
-        throw Error(
-            "one cluster jumps nowhere: a limit on jumps needs one on the error, bytes or operations");
+        throw Error("--max-jump alone is met by a single cluster; add --max-error, --bytes-per-vertex or "
+                    "--shader-ops");
     if (!o.budget.skies.empty() && !o.budget.max_error)
-        throw Error("skies are given for a promise without an error");
+        throw Error("skies for the error are given, but no maximum error");
     if (!o.budget.skies_of_jumps.empty() && !o.budget.max_jump)
-        throw Error("skies are given for a limit on jumps without the limit");
+        throw Error("skies for jumps are given, but no maximum jump");
     const int rows = predictor_rows_of(o.compress.predictors, surface);
     if (!o.choose_predictors && o.budget.operations && rows > *o.budget.operations)
-        throw Error("the predictors alone take " + std::to_string(rows) + " shader operations");
+        throw Error("the predictors alone need " + counted(rows, "shader operation") +
+                    "; increase --shader-ops or use --predictors none");
 }
 
 /// Builds the task with its metric. The metric is expensive and shared by all trials.

@@ -5,6 +5,7 @@
 
 #include "prt/error_measures.h"
 #include "prt/search.h"
+#include "prt/support/counted.h"
 #include "prt/support/stopwatch.h"
 
 #include <algorithm>
@@ -206,8 +207,8 @@ private:
                 continue;
             if (!(reference.mean_components > 0)) {
                 sweep_.left_out.push_back(
-                    "nothing at the operations of classic CPCA with " + reference.setting +
-                    ": it has a cluster for every receiver there, or they are all alike");
+                    "no point for the operations of classic CPCA with " + reference.setting +
+                    ": it has one cluster per receiver, or all receivers have the same transfer");
                 continue;
             }
             Budget budget;
@@ -230,9 +231,9 @@ private:
         const SearchResult found = compress_within(transfer_, surface_, o, progress);
         const CompressStatistics& s = found.result.statistics;
         if (found.kept)
-            points.push_back(measured(std::to_string(s.clusters) + " clusters", found.result));
+            points.push_back(measured(counted(s.clusters, "cluster"), found.result));
         else
-            sweep_.left_out.push_back("nothing keeps " + words + ", the nearest has " +
+            sweep_.left_out.push_back("no setting meets " + words + "; the closest has " +
                                       short_number(s.bytes_with_bases(transfer_.receivers())) +
                                       " bytes and " + short_number(s.operations()) + " operations");
     }

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
-# Makes the pictures of README.md and docs/viewer.md anew, from the example scenes, with the programs of build/release
-# (or of the folder that is given) and Chromium: docs/images/make.sh [BUILD]
-# What is baked stays in build/pictures for the next time: remove it after a change of the baker.
+# Renders the pictures of README.md, docs/integration.md and docs/viewer.md from the example scenes, with the programs
+# of build/release (or of the given folder) and Chromium: docs/images/make.sh [BUILD]
+# Bakes remain in build/pictures for the next time: remove them after a change of the baker.
 # The pictures of docs/comparison.md come from examples/comparison.
 set -euo pipefail
 cd "$(dirname "$0")/../.."

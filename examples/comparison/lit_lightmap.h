@@ -18,7 +18,7 @@ struct LitLightmap {
 };
 
 /// Cuts `scene` into charts of one map of `size` texels along each side, bakes it to order `order` with
-/// endless bounces, and compresses it to eight bytes a texel.
+/// endless bounces, and compresses it to eight bytes per texel.
 LitLightmap make_lightmap(const std::filesystem::path& scene, int size, int order, int rays);
 
 } // namespace comparison

@@ -60,26 +60,30 @@ struct Arguments {
 void add_options(CLI::App& app, Arguments& arguments) {
     comparison::Options& options = arguments.options;
     app.add_option("scenes", arguments.scenes, "glTF scenes")->required();
-    app.add_option("--sky", arguments.skies, "environment maps; pictures are under the first")->required();
-    app.add_option("-o,--output", arguments.output, "the page, Markdown")->required();
-    app.add_option("--images", arguments.images, "folder for its pictures, beside the page")->required();
-    app.add_option("--note", arguments.note, "last line of the page: where scenes and skies are from");
-    app.add_option("--json", arguments.json, "all figures");
-    app.add_option("--passes", options.passes, "paths per pixel of each reference")
+    app.add_option("--sky", arguments.skies, "environment maps; the pictures show the first one")->required();
+    app.add_option("-o,--output", arguments.output, "output page, Markdown")->required();
+    app.add_option("--images", arguments.images, "output folder for the pictures of the page")->required();
+    app.add_option("--note", arguments.note, "last line of the page: sources of the scenes and skies");
+    app.add_option("--json", arguments.json, "output file for all figures, JSON");
+    app.add_option("--passes", options.passes, "number of paths per pixel of each reference")
         ->check(CLI::Range(1, 1 << 16))
         ->capture_default_str();
-    app.add_option("--rays", options.bake_rays, "of the bake, per vertex")
+    app.add_option("--rays", options.bake_rays, "number of rays per vertex of the bake")
         ->check(CLI::Range(1, 1 << 20))
         ->capture_default_str();
-    app.add_option("--width", options.width, "pixels")->check(CLI::Range(16, 8192))->capture_default_str();
-    app.add_option("--height", options.height, "pixels")->check(CLI::Range(16, 8192))->capture_default_str();
+    app.add_option("--width", options.width, "width of the pictures in pixels")
+        ->check(CLI::Range(16, 8192))
+        ->capture_default_str();
+    app.add_option("--height", options.height, "height of the pictures in pixels")
+        ->check(CLI::Range(16, 8192))
+        ->capture_default_str();
 }
 
 void run(const Arguments& arguments) {
     std::string why;
     const auto context = prt::GlContext::create(prt::GlDevice::any, &why);
     if (!context)
-        throw prt::Error("there is no OpenGL 4.5 (" + why + ")");
+        throw prt::Error("OpenGL 4.5 is not available (" + why + ")");
     std::vector<comparison::Sky> skies;
     for (const auto& sky : arguments.skies)
         skies.push_back(comparison::load_sky(sky));

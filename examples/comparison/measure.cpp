@@ -162,7 +162,7 @@ private:
         bake_options.repairs.bad_textures = prt::BadTextures::ignore;
         bake_options.lamps.mode = prt::LampMode::none; // references are lit by skies alone
         prt::Transfer split = prt::bake(model_->scene, bake_options).baked.transfer;
-        const prt::Transfer raw = prt::as_combined(split); // all light is in one sky, suns too
+        const prt::Transfer raw = prt::as_combined(split); // all light is in one sky, including suns
         result_.channels = raw.layout.channels();
         for (const int order : kOrders) {
             const prt::Transfer transfer = viewer::truncated(raw, order);
@@ -227,7 +227,7 @@ private:
         say_("lightmap");
         const LitLightmap lit = make_lightmap(model_->path, options_.lightmap_size,
                                               kOrders[std::size(kOrders) - 1], options_.bake_rays);
-        Row whole{.method = "lightmap, 8 bytes a texel",
+        Row whole{.method = "lightmap, 8 bytes per texel",
                   .bytes_per_vertex = lit.bytes_per_texel,
                   .errors = {},
                   .picture = {}};

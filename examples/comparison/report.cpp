@@ -94,7 +94,7 @@ double mean(const Row& row) {
 
 /// Mean error over the skies of the methods that matter, a scene a column.
 std::string summary(const std::vector<SceneResult>& scenes) {
-    std::string table = "Mean error over the skies; the tables below have each.\n\n| method |";
+    std::string table = "Mean error over all skies. The tables below list each sky.\n\n| method |";
     for (const SceneResult& scene : scenes)
         table += " " + scene.name + " |";
     table += "\n| --- |";
@@ -114,25 +114,23 @@ std::string summary(const std::vector<SceneResult>& scenes) {
 
 std::string explanation(const SceneResult& scene, const Options& options) {
     return fmt::format(
-        "Made by `prt-comparison` (at the end). Error: relative L2 of exit radiance, base colour 1, "
-        "over all pixels that show the "
-        "scene, {} x {}, against path tracing under the whole environment map with endless "
-        "bounces. Two independent references "
-        "of {} paths per pixel are taken, so that their noise does not count: the mean of (p - "
-        "a)(p - b). FLIP: mean HDR-FLIP of the whole picture against the mean of both, 67 pixels per degree; "
-        "0 is the same, the "
-        "noise of the references counts. Bytes are those of a "
-        "vertex beside position and normal, the bases of the compressed shared out; raw transfer "
-        "as float16; AO, of direct light, 8 bits; of lightmaps ({} x {} texels on charts of their own, drawn "
-        "by rays, not timed) those of a texel. Times "
-        "are of {}: drawing a frame, and what a change of the light takes once. All methods but "
-        "PRT light by three bands "
-        "of the environment, as games do. SSAO has 16 samples and the best of five radii for "
-        "each scene. Rows with a sun by shadow map or by rays have the brightest sun of the sky, where it "
-        "has "
-        "one, taken out of it (`--suns 1`) and added at each pixel: their pictures are those of `prt "
-        "render`, and "
-        "not timed. The bake has {} rays, endless bounces.\n",
+        "The page is written by `prt-comparison`; the command is at the end.\n\n"
+        "* Error: relative L2 error of exit radiance for base color 1, over all pixels that show the scene, "
+        "{} x {} pixels, against path tracing with the whole environment map and endless bounces. Two "
+        "independent references of {} paths per pixel are used, so that their noise cancels: the squared "
+        "error is the mean of (p - a)(p - b).\n"
+        "* FLIP: mean HDR-FLIP of the whole picture against the mean of both references, 67 pixels per "
+        "degree; 0 means equal. It includes the noise of the references.\n"
+        "* Bytes: per vertex, in addition to position and normal. Compressed transfer includes its bases, "
+        "divided by the number of vertices. Raw transfer is float16. AO covers direct light and has 8 bits. "
+        "Lightmaps ({} x {} texels, separate charts, drawn by rays, not timed) have bytes per texel.\n"
+        "* Times: measured on {}, for a frame and for one change of the lighting.\n"
+        "* Lighting: all methods except PRT use three bands of the environment, as games do. SSAO uses 16 "
+        "samples and the best of five radii for each scene.\n"
+        "* Rows with a sun by shadow map or by rays: the brightest sun of the sky, if it has one, is removed "
+        "from it (`--suns 1`) and added at each pixel. Their pictures are those of `prt render` and are not "
+        "timed.\n"
+        "* Bake: {} rays per vertex, endless bounces.\n",
         options.width, options.height, options.passes, options.lightmap_size, options.lightmap_size,
         scene.device, options.bake_rays);
 }
@@ -155,7 +153,7 @@ std::string table(const SceneResult& scene, const std::vector<Sky>& skies) {
             table += fmt::format(" {:.2f} % | {:.3f} |", 100 * error.relative_l2, error.flip_mean);
         table += milliseconds(row.frame_milliseconds, 1) + milliseconds(row.relight_milliseconds, 3) + "\n";
     }
-    table += "\nNoise of a reference:";
+    table += "\nNoise of one reference:";
     for (std::size_t i = 0; i < skies.size(); ++i)
         table += fmt::format("{} {:.2f} %", i > 0 ? "," : "", 100 * scene.reference_noise[i]);
     return table + ".\n";
@@ -165,12 +163,12 @@ std::string section(const SceneResult& scene, const std::vector<Sky>& skies, con
     std::string text =
         fmt::format("\n## {}\n\n{} vertices, {} triangles, {}.\n\n", scene.name, scene.vertices,
                     scene.triangles, scene.channels == 1 ? "one channel" : "three channels");
-    text += fmt::format("![{}: reference and methods, and their errors]({}/{}.png)\n\n", scene.name, images,
+    text += fmt::format("![{}: reference, methods and their errors]({}/{}.png)\n\n", scene.name, images,
                         scene.name);
     text += "*Path tracing";
     for (const Row* row : shown(scene))
         text += "; " + row->method;
-    text += fmt::format(". Under {}; below, the error (white: {:.0f} % of the mean).*\n\n",
+    text += fmt::format(". Environment: {}. Lower row: the error (white: {:.0f} % of the mean).*\n\n",
                         skies.front().name, 100 * kWhite);
     return text + table(scene, skies);
 }
@@ -203,11 +201,11 @@ void write_pictures(const std::vector<SceneResult>& scenes, const Options& optio
 
 std::string report(const std::vector<SceneResult>& scenes, const std::vector<Sky>& skies,
                    const Options& options, const std::string& images, const std::string& note) {
-    std::string page = "# What precomputed transfer is worth\n\n";
+    std::string page = "# Precomputed radiance transfer compared with other methods\n\n";
     page += summary(scenes) + explanation(scenes.front(), options);
     for (const SceneResult& scene : scenes)
         page += section(scene, skies, images);
-    page += "\n## Made by\n\n    prt-comparison";
+    page += "\n## Command\n\n    prt-comparison";
     for (const SceneResult& scene : scenes)
         page += " " + scene.name + ".glb";
     for (const Sky& sky : skies)

@@ -11,7 +11,8 @@ uniform float sun_radius; // penumbra radius per distance from the blocker
 // Returns the visible fraction of the sun: 16 taps over the penumbra of a blocker halfway to the near side of
 // the map. `bias` and positions are in units of the map.
 float sun_visibility(float bias) {
-    float radius = max(0.5 * sun_radius * sun_position.z, 1.0 / float(textureSize(shadow_map, 0).x)), open = 0.0;
+    float radius = max(0.5 * sun_radius * sun_position.z, 1.0 / float(textureSize(shadow_map, 0).x)),
+          open = 0.0;
     for (int i = 0; i < 16; ++i) {
         float angle = 2.4 * float(i);
         vec2 tap = radius * sqrt((float(i) + 0.5) / 16.0) * vec2(cos(angle), sin(angle));

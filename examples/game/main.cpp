@@ -59,7 +59,7 @@ World load(const char* model, const char* sky) {
     prt::Scene scene = prt::extract_scene(document);
     auto compressed = prt::read_clustered(document, scene);
     if (!compressed)
-        throw std::runtime_error("the model is not compressed");
+        throw std::runtime_error("the model contains no compressed transfer; run prt compress first");
     const prt::TransferLayout& layout = compressed->transfer.bases.layout;
     const int suns = layout.has(prt::TermKind::direct) ? 1 : 0;
     const prt::SunSplit split =
@@ -85,7 +85,7 @@ GLuint compile(GLenum stage, const std::string& source) {
     GLint compiled = 0;
     glGetShaderiv(name, GL_COMPILE_STATUS, &compiled);
     if (!compiled)
-        throw std::runtime_error("a shader does not compile");
+        throw std::runtime_error("the driver cannot compile a shader");
     return name;
 }
 
@@ -97,7 +97,7 @@ GLuint link(const std::string& vertex, const std::string& fragment) {
     GLint linked = 0;
     glGetProgramiv(program, GL_LINK_STATUS, &linked);
     if (!linked)
-        throw std::runtime_error("a program does not link");
+        throw std::runtime_error("the driver cannot link a program");
     return program;
 }
 
@@ -130,7 +130,8 @@ const void* offset(std::size_t bytes) {
     return reinterpret_cast<const void*>(bytes);
 }
 
-/// Attributes of packed weights, in the bound buffer: words, four an attribute, that hold the cluster, too.
+/// Attributes of packed weights, in the bound buffer: four words per attribute; they also contain the
+/// cluster.
 void attach_words(const prt::ClusteredReceivers& receivers, std::size_t first) {
     const std::size_t stride = receivers.stride();
     for (int word = 0; word < receivers.words; word += 4) {
@@ -341,7 +342,7 @@ void save(const char* picture) {
     for (std::size_t y = 0; y < kHeight; ++y)
         std::copy_n(&pixels[(kHeight - 1 - y) * kWidth], kWidth, &upright[y * kWidth]);
     if (glGetError() != GL_NO_ERROR)
-        throw std::runtime_error("OpenGL has noted an error");
+        throw std::runtime_error("OpenGL reports an error");
     prt::write_png(picture, kWidth, kHeight, upright);
 }
 
@@ -356,7 +357,7 @@ int main(int argc, char** argv) {
         const World world = load(argv[1], argv[2]);
         const auto context = prt::GlContext::create(prt::GlDevice::any);
         if (!context)
-            throw std::runtime_error("no OpenGL");
+            throw std::runtime_error("OpenGL 4.5 is not available");
         play(world, argc > 4 ? std::max(1, std::atoi(argv[4])) : 60);
         save(argv[3]);
     } catch (const std::exception& error) {

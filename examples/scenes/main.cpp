@@ -108,12 +108,12 @@ void write(const std::filesystem::path& folder, std::span<char* const> names) {
 }
 
 void print_usage(std::FILE* to) {
-    std::fprintf(
-        to, "usage: example_scenes FOLDER [NAME...]\nWithout names all but city, forest and street. Scenes:");
+    std::fprintf(to, "usage: example_scenes FOLDER [NAME...]\nWithout names: all scenes except city, forest "
+                     "and street. Scenes:");
     for (const NamedScene& scene : kScenes)
         std::fprintf(to, " %s", scene.name.data());
     for (const CountedScene& scene : kCountedScenes)
-        std::fprintf(to, " %s[:COUNT, otherwise %d]", scene.name.data(), scene.usual);
+        std::fprintf(to, " %s[:COUNT, default %d]", scene.name.data(), scene.usual);
     std::fprintf(to, "; skies:");
     for (const NamedSky& sky : kSkies)
         std::fprintf(to, " %s", sky.name.data());
@@ -133,7 +133,7 @@ int main(int argc, char** argv) {
     }
     for (const char* name : arguments.subspan(1))
         if (!is_known(name)) {
-            std::fprintf(stderr, "example_scenes: error: there is no scene or sky %s\n", name);
+            std::fprintf(stderr, "example_scenes: error: no scene or sky has the name %s\n", name);
             return 2;
         }
     try {

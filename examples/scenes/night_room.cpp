@@ -31,7 +31,7 @@ void add_ceiling_lamp(Fixtures& to, const glm::vec3& position) {
         {"LampCeiling", position + glm::vec3(0, 0.02f, 0), kWarm, 16, 12, {0, -1, 0}, 0.6f, 1.15f});
 }
 
-/// Adds an emissive cloth shade on a turned foot, on a round table.
+/// Adds an emissive cloth shade on a lathed foot, on a round table.
 void add_table_lamp(Fixtures& to, const glm::vec3& floor) {
     constexpr float kTable = 0.72f;
     append(to.table, lathe(floor,

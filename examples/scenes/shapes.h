@@ -1,6 +1,6 @@
 #pragma once
 
-// Architectural and turned surfaces with vertices about kShapeSpacing from each other.
+// Architectural surfaces and surfaces of revolution, with vertices about kShapeSpacing from each other.
 
 #include "mesh.h"
 

@@ -9,20 +9,20 @@
 #include <exception>
 
 int main(int argc, char** argv) {
-    CLI::App app("Looks at models lit by precomputed radiance transfer, and by what else games use.\n"
-                 "In the window, H shows the keys.",
-                 "prt-viewer");
+    CLI::App app(
+        "Shows models lit by precomputed radiance transfer, and by other methods of games for comparison.\n"
+        "Key H shows the keys.",
+        "prt-viewer");
     std::vector<std::filesystem::path> files;
     std::filesystem::path script;
     int width = 1280, height = 720;
     app.add_option("files", files,
-                   "models (.glb, .gltf: raw, baked or compressed) and environments (.hdr, .exr)");
-    app.add_option("--headless", script,
-                   "carry out the steps of this JSON file without a window (docs/viewer.md)");
-    app.add_option("--width", width, "of the window, pixels")
+                   "models (.glb, .gltf: unbaked, baked or compressed) and environments (.hdr, .exr)");
+    app.add_option("--headless", script, "run the steps of this JSON file without a window (docs/viewer.md)");
+    app.add_option("--width", width, "width of the window in pixels")
         ->check(CLI::Range(64, 16384))
         ->capture_default_str();
-    app.add_option("--height", height, "of the window, pixels")
+    app.add_option("--height", height, "height of the window in pixels")
         ->check(CLI::Range(64, 16384))
         ->capture_default_str();
     try {

@@ -51,14 +51,14 @@ void write_text(const std::string& text, char* source, std::size_t* size) {
     const std::size_t room = source ? *size : 0;
     *size = text.size() + 1;
     if (room < *size)
-        throw TooSmall("the shader takes " + std::to_string(*size) + " bytes");
+        throw TooSmall("the shader needs " + std::to_string(*size) + " bytes");
     std::memcpy(source, text.c_str(), *size);
 }
 
 ShaderLanguage language_of(int language) {
     static_assert(static_cast<int>(ShaderLanguage::vulkan) == PRT_VULKAN);
     if (language < PRT_GLSL450 || language > PRT_VULKAN)
-        throw Error("there is no such shader language");
+        throw Error("the shader language is unknown");
     return static_cast<ShaderLanguage>(language);
 }
 

@@ -66,7 +66,7 @@ template <class... Pointers>
 void check_pointers(const Pointers*... pointers) {
     const bool any_null = (... || (pointers == nullptr));
     if (any_null)
-        throw Error("a pointer is null");
+        throw Error("a required pointer is null");
 }
 
 /// Returns the number of coefficients of an order. Throws `Error` if the order is invalid.

@@ -24,13 +24,14 @@ constexpr std::size_t kMaxCoefficients = prt::kMaxOrder * prt::kMaxOrder;
 /// Checks the coefficients of an input or output function.
 void check_function(const float* function, std::size_t count) {
     if (!finite(function, count))
-        throw Error("the coefficients of a function must be finite, and its products no larger than floats");
+        throw Error(
+            "the coefficients of a function must be finite, and products of them must fit into a float");
 }
 
 glm::vec3 direction_of(const float* xyz) {
     const double length = glm::length(glm::dvec3(glm::make_vec3(xyz)));
     if (!(length > 0 && std::isfinite(length)))
-        throw Error("a direction is wanted, not a vector of length " + std::to_string(length));
+        throw Error("a direction has length " + std::to_string(length) + ", but must be finite and not 0");
     return glm::make_vec3(xyz);
 }
 

@@ -4,6 +4,7 @@
 
 #include "prt/instance_shader.h"
 #include "prt/instances_gltf.h"
+#include "prt/support/counted.h"
 
 #include <glm/gtc/matrix_transform.hpp>
 #include <glm/gtc/type_ptr.hpp>
@@ -47,7 +48,7 @@ std::vector<prt_shared_instances::Range> ranges_of(const prt::InstancedModel& mo
 prt_model* prt::c::make_instanced(const GltfDocument& document, const std::string& name) {
     InstancedModel model = read_instanced(document, extract_scene(document), name);
     if (!model.compressed)
-        throw Error(name + ": holds no compressed transfer; run prt compress first");
+        throw Error(name + ": contains no compressed transfer; run prt compress first");
     sort_by_mesh(model.instances);
     InstanceRelighter relighter(model.compressed->transfer, relit_instances(model));
     std::vector<glm::vec4> worlds;
@@ -88,7 +89,7 @@ prt_status prt_instances_of_mesh(const prt_model* model, size_t mesh, size_t* fi
         check_pointers(model, first, count);
         const auto& of_meshes = instances_of(*model).of_meshes;
         if (mesh >= of_meshes.size())
-            throw Error("the model has " + std::to_string(of_meshes.size()) + " meshes");
+            throw Error("the model has only " + prt::counted(of_meshes.size(), "mesh", "meshes"));
         *first = of_meshes[mesh].first;
         *count = of_meshes[mesh].count;
     });
@@ -106,7 +107,7 @@ prt_status prt_instances_update_constants(const prt_model* model, int order, con
             lighting.suns = prt::Light{order, {light.suns.begin(), light.suns.end()}};
         relighter.update(lighting, {reinterpret_cast<glm::vec4*>(constants), relighter.size()}, threads);
         if (!within(kMaxConstant, constants, 4 * relighter.size()))
-            throw Error("the light is too bright for the model: constants pass 1e30");
+            throw Error("the light is too bright for the model: constants exceed 1e30");
     });
 }
 

@@ -8,6 +8,7 @@
 #include "prt/sh.h"
 #include "prt/sh_rotation.h"
 #include "prt/sun.h"
+#include "prt/support/counted.h"
 
 #include <glm/geometric.hpp>
 #include <glm/gtc/type_ptr.hpp>
@@ -29,7 +30,7 @@ std::size_t pixel_count(int width, int height) {
     const auto columns = static_cast<std::size_t>(width), rows = static_cast<std::size_t>(height);
     if (rows > kMax / columns)
         throw Error("an image of " + std::to_string(width) + " x " + std::to_string(height) +
-                    " pixels is larger than memory can be");
+                    " pixels does not fit into memory");
     return columns * rows;
 }
 
@@ -44,7 +45,7 @@ void check_colors(const float* light, std::size_t count) {
 
 glm::vec3 color(const float* rgb) {
     if (!finite(rgb, 3))
-        throw Error("a colour of light must be finite");
+        throw Error("the color of a light must be finite");
     return vec3(rgb);
 }
 
@@ -61,7 +62,7 @@ Light light_from(int order, const float* from) {
 
 prt::LatLongCenter center_of(int center) {
     if (center != PRT_CENTER_Z && center != PRT_CENTER_X)
-        throw Error("a lat-long image is centered on +Z or +X");
+        throw Error("the center of a lat-long image must be +Z or +X");
     return center == PRT_CENTER_X ? prt::LatLongCenter::x : prt::LatLongCenter::z;
 }
 
@@ -154,7 +155,8 @@ prt_status prt_light_from_light_file(int order, const char* path, float* sky, pr
         as_file([&] { file = prt::read_light_file(path, order); });
         *count = file.suns.size();
         if (room < file.suns.size())
-            throw TooSmall("the light file has " + std::to_string(file.suns.size()) + " suns");
+            throw TooSmall("there is not enough room for " + prt::counted(file.suns.size(), "sun") +
+                           " of the light file");
         put(file.sky, sky);
         for (std::size_t i = 0; i < file.suns.size(); ++i) {
             const prt::Sun& sun = file.suns[i];
@@ -174,7 +176,7 @@ prt_status prt_light_suns(int order, const prt_sun* suns, size_t count, float* l
             const glm::dvec3 towards(vec3(suns[i].towards));
             const double length = glm::length(towards);
             if (!(length > 0 && std::isfinite(length)))
-                throw Error("a sun needs a direction");
+                throw Error("the direction of a sun must be finite and not 0");
             all = prt::sum(all, prt::as_light({.towards = glm::vec3(towards / length),
                                                .irradiance = color(suns[i].irradiance),
                                                .half_angle = static_cast<double>(suns[i].half_angle)},

@@ -4,6 +4,7 @@
 
 #include "prt/instances_gltf.h"
 #include "prt/shader_source.h"
+#include "prt/support/counted.h"
 
 #include <glm/gtc/type_ptr.hpp>
 
@@ -15,7 +16,7 @@
 
 prt::ConstantSource prt::c::source_of(int constants) {
     if (constants < PRT_CONSTANTS_IN_BUFFER || constants > PRT_CONSTANTS_IN_TEXTURE)
-        throw Error("there is no such place for constants");
+        throw Error("the kind of storage for constants is unknown");
     return static_cast<ConstantSource>(constants);
 }
 
@@ -34,7 +35,7 @@ prt_model* make_model(const prt::GltfDocument& document, const std::string& name
     prt::Scene scene = prt::extract_scene(document);
     auto compressed = prt::read_clustered(document, scene);
     if (!compressed)
-        throw Error(name + ": holds no compressed transfer; run prt compress first");
+        throw Error(name + ": contains no compressed transfer; run prt compress first");
     prt::ClusterLighting relighter(compressed->transfer);
     auto layouts = prt::cluster_layouts(compressed->transfer.bases);
     return new prt_model{std::move(scene), std::move(compressed->transfer), std::move(relighter),
@@ -114,7 +115,7 @@ prt_status prt_model_lamp_name(const prt_model* model, size_t lamp, const char**
         check_pointers(model, name);
         const std::span<const prt::TransferTerm> lamps = model->relighter.layout().lamp_terms();
         if (lamp >= lamps.size())
-            throw Error("the model has " + std::to_string(lamps.size()) + " lamps");
+            throw Error("the model has only " + prt::counted(lamps.size(), "lamp"));
         *name = lamps[lamp].name.c_str();
     });
 }
@@ -123,7 +124,8 @@ prt_status prt_model_get_mesh(const prt_model* model, size_t mesh, prt_mesh* out
     return guarded(message, [&] {
         check_pointers(model, out);
         if (mesh >= model->scene.primitives.size())
-            throw Error("the model has " + std::to_string(model->scene.primitives.size()) + " meshes");
+            throw Error("the model has only " +
+                        prt::counted(model->scene.primitives.size(), "mesh", "meshes"));
         const prt::Primitive& primitive = model->scene.primitives[mesh];
         const prt::VertexArray& vertices = model->scene.vertex_arrays[primitive.vertices];
         *out = {};
@@ -154,7 +156,7 @@ prt_status prt_model_update_constants_separate(const prt_model* model, int order
         model->relighter.update(lighting_of({order, sky, suns, lamps}, model->relighter.layout().lamps()),
                                 {reinterpret_cast<glm::vec4*>(constants), rows});
         if (!within(kMaxConstant, constants, 4 * rows))
-            throw Error("the light is too bright for the model: constants pass 1e30");
+            throw Error("the light is too bright for the model: constants exceed 1e30");
     });
 }
 

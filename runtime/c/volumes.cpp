@@ -2,6 +2,7 @@
 
 #include "boundary.h"
 #include "prt/gltf.h"
+#include "prt/support/counted.h"
 #include "prt/volume_gltf.h"
 #include "prt/volume_relighter.h"
 #include "prt/volume_shader.h"
@@ -40,7 +41,7 @@ prt_volume* make_volume(const prt::GltfDocument& document, const std::string& na
     const prt::Scene scene = prt::extract_scene(document);
     auto volume = prt::read_compressed_volume(document, scene);
     if (!volume)
-        throw Error(name + ": holds no compressed volume; run prt bake --volume and prt compress first");
+        throw Error(name + ": contains no compressed volume; run prt bake --volume and prt compress first");
     return new prt_volume(scene.origin, std::move(*volume));
 }
 
@@ -131,7 +132,7 @@ prt_status prt_volume_update_constants(const prt_volume* volume, const prt_light
             const glm::dvec3 towards(lighting->sun[0], lighting->sun[1], lighting->sun[2]);
             const double length = glm::length(towards);
             if (!(length > 0 && std::isfinite(length)))
-                throw Error("a sun needs a direction");
+                throw Error("the direction of a sun must be finite and not 0");
             sun = glm::vec3(towards / length);
         }
         const std::size_t rows = volume->relighter.rows();
@@ -140,7 +141,7 @@ prt_status prt_volume_update_constants(const prt_volume* volume, const prt_light
                         volume->relighter.layout().lamps()),
             sun, {reinterpret_cast<glm::vec4*>(constants), rows});
         if (!within(kMaxConstant, constants, 4 * rows))
-            throw Error("the light is too bright for the volume: constants pass 1e30");
+            throw Error("the light is too bright for the volume: constants exceed 1e30");
     });
 }
 
@@ -149,7 +150,8 @@ prt_status prt_volume_update_light(const prt_volume* volume, const float* consta
     return guarded(message, [&] {
         check_pointers(volume, constants, texels);
         if (first > last || last > volume->relighter.probes())
-            throw Error("the volume has " + std::to_string(volume->relighter.probes()) + " probes");
+            throw Error("the range of probes is invalid: the volume has " +
+                        prt::counted(volume->relighter.probes(), "probe"));
         volume->relighter.update_probes(checked_constants(*volume, constants), first, last,
                                         {static_cast<std::byte*>(texels), volume->relighter.bytes()});
     });
@@ -182,7 +184,7 @@ prt_status prt_volume_irradiance(const prt_volume* volume, const float* incident
         mix(*volume, incident, *point, light);
         const double length = glm::length(glm::dvec3(glm::make_vec3(point->normal)));
         if (!(length > 0.99 && length < 1.01))
-            throw Error("irradiance is that of a surface: its normal must be of length 1");
+            throw Error("irradiance needs a surface normal of length 1");
         const glm::vec3 found = prt::irradiance_of(light, glm::make_vec3(point->normal));
         std::copy_n(glm::value_ptr(found), 3, irradiance);
     });

@@ -159,7 +159,7 @@ SunSplit find_suns(const Environment& environment, const SunOptions& options) {
     check_order(options.order);
     check_environment(environment);
     if (options.count && *options.count < 0)
-        throw Error("suns are counted from 0, not " + std::to_string(*options.count));
+        throw Error("the number of suns must not be negative, but is " + std::to_string(*options.count));
     Search search(environment, options);
     if (options.count)
         for (int k = 0; k < *options.count && search.add(); ++k) {

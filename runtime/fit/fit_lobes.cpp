@@ -126,11 +126,11 @@ void fit_vertex(int order, std::span<const double> target, const LobeFitOptions&
 void check_targets(const LobeTargets& targets, const LobeFitOptions& options) {
     if (targets.order < 2 || targets.order > kMaxLobeOrder || options.lobes < 1 ||
         options.lobes > kMaxLobes || options.profiles < 1 || options.profiles > kMaxProfiles)
-        throw Error("lobes are 1 to 3 of order 2 to 4, with 1 to 256 profiles");
+        throw Error("lobes must have order 2..4, with 1..3 lobes per vertex and 1..256 profiles");
     if (targets.vectors.size() != targets.areas.size() * targets.coefficients())
-        throw Error("there are transfer vectors of another number of vertices than there are areas");
+        throw Error("the numbers of transfer vectors and areas differ");
     if (!std::ranges::all_of(targets.vectors, [](double v) { return std::isfinite(v); }))
-        throw Error("transfer that lobes shall be fitted to is not finite");
+        throw Error("lobes cannot be fitted: the transfer is not finite");
 }
 
 } // namespace

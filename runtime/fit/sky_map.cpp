@@ -57,7 +57,7 @@ void check_pixels(const Image& image) {
     for (const glm::vec3& pixel : image.pixels)
         for (int c = 0; c < 3; ++c)
             if (!(pixel[c] >= 0 && std::isfinite(pixel[c])))
-                throw Error("suns are looked for in radiance, and a pixel is negative or not finite");
+                throw Error("suns cannot be found in the image: a pixel is negative or not finite");
 }
 
 } // namespace

@@ -10,11 +10,12 @@ namespace prt {
 
 struct Spot {
     glm::dvec3 towards{0}; ///< unit, its center
-    double radius = 0;     ///< radians, of a disc with the solid angle of the region above half of the peak
-    double peak = 0;       ///< brightness
-    double sky = 0;        ///< brightness of the surroundings
-    double excess = 0;     ///< brightness above the sky, integrated over the region above half of the peak
-    double spread = 0;     ///< radians, root mean square distance of the excess from the center
+    /// Radius of a disc with the solid angle of the region above half of the peak, radians.
+    double radius = 0;
+    double peak = 0;   ///< brightness
+    double sky = 0;    ///< brightness of the surroundings
+    double excess = 0; ///< brightness above the sky, integrated over the region above half of the peak
+    double spread = 0; ///< root mean square distance of the excess from the center, radians
 };
 
 /// Returns the spot that contains `texel`; empty if it is wider than `widest`, elongated or fragmented, or
@@ -33,7 +34,7 @@ std::optional<Spot> strongest_spot(const SkyMap& map, double widest, std::span<c
 
 /// Extent of a spot with its halo, and the background color.
 struct Aperture {
-    double radius = 0; ///< radians about the center that contain its light
+    double radius = 0; ///< radius about the center that contains its light, radians
     glm::dvec3 sky{0}; ///< the surrounding color
 };
 

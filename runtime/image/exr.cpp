@@ -58,7 +58,7 @@ void insert_rgb(Imf::FrameBuffer& buffer, const Imf::ChannelList& channels, cons
             continue; // remains zero
         if (const Imf::Channel* channel = channels.findChannel(name);
             channel && (channel->xSampling != 1 || channel->ySampling != 1))
-            throw Error("its channel " + printable(name, 60) + " is subsampled");
+            throw Error("its channel " + printable(name, 60) + " is subsampled, which is not supported");
         buffer.insert(name, Imf::Slice::Make(Imf::FLOAT, &(*base)[c], strip, sizeof(glm::vec3),
                                              sizeof(glm::vec3) *
                                                  static_cast<std::size_t>(strip.max.x - strip.min.x + 1)));
@@ -150,21 +150,21 @@ void position_in_display(ExrFile& file, const Imf::Header& header, std::size_t f
         std::copy_n(image.pixels.begin() + row, right - left + 1, placed.pixels.begin() + to);
     }
     file.notices.push_back("its " + std::to_string(image.width) + " x " + std::to_string(image.height) +
-                           " pixels are placed in its display window of " + std::to_string(width) + " x " +
-                           std::to_string(height) + "; what they leave is black");
+                           " pixels are placed in the display window of " + std::to_string(width) + " x " +
+                           std::to_string(height) + "; the remaining pixels are black");
     image = std::move(placed);
 }
 
 /// Applies the header's attributes to the pixels of `result`.
 void apply_header(ExrFile& result, const Imf::Header& header, std::size_t file_bytes) {
     if (header.hasType() && Imf::isDeepData(header.type()))
-        result.notices.emplace_back("is a deep EXR: the samples of each pixel are composited by depth");
+        result.notices.emplace_back("is a deep EXR; the samples of each pixel are composited by depth");
     if (Imf::hasChromaticities(header))
         convert_primaries(result.image, Imf::chromaticities(header));
     if (Imf::hasEnvmap(header)) {
         const int envmap = Imf::envmap(header);
         if (envmap != Imf::ENVMAP_LATLONG && envmap != Imf::ENVMAP_CUBE)
-            throw Error("its attribute envmap has the unknown value " + std::to_string(envmap));
+            throw Error("its envmap attribute has the unknown value " + std::to_string(envmap));
         result.layout = envmap == Imf::ENVMAP_CUBE ? EnvironmentLayout::cube : EnvironmentLayout::lat_long;
     }
     position_in_display(result, header, file_bytes);

@@ -3,6 +3,7 @@
 
 #include "image_limits.h"
 #include "prt/environment.h"
+#include "prt/support/counted.h"
 #include "prt/support/error.h"
 #include "prt/support/printable.h"
 
@@ -153,15 +154,15 @@ void skip_header(std::string_view& rest) {
         const std::string_view type = take_text(rest);
         std::uint32_t size = 0;
         if (rest.size() < sizeof(size))
-            throw Error("is a damaged EXR: it ends within its header");
+            throw Error("is a damaged EXR: it ends inside its header");
         std::memcpy(&size, rest.data(), sizeof(size));
         rest.remove_prefix(sizeof(size));
         if (size > rest.size())
-            throw Error("is a damaged EXR: an attribute claims " + std::to_string(size) + " bytes, of " +
-                        std::to_string(rest.size()) + " that are left");
+            throw Error("is a damaged EXR: an attribute claims " + std::to_string(size) +
+                        " bytes, but only " + std::to_string(rest.size()) + " remain");
         if (!has_size_of_its_type(type, rest.substr(0, size)))
-            throw Error("is a damaged EXR: an attribute of type '" + printable(type) + "' has " +
-                        std::to_string(size) + " bytes");
+            throw Error("is a damaged EXR: an attribute of type '" + printable(type) +
+                        "' has the wrong size, " + counted(size, "byte"));
         rest.remove_prefix(size);
     }
     rest.remove_prefix(std::min(rest.size(), std::size_t{1}));
@@ -196,8 +197,8 @@ void check_chunk_tables(const Headers& headers, std::size_t file_bytes) {
         chunks += static_cast<std::uint64_t>(std::max(count, 0));
     }
     if (chunks > file_bytes / 8)
-        throw Error("claims " + std::to_string(chunks) + " chunks of pixels, more than a file of " +
-                    std::to_string(file_bytes) + " bytes can hold");
+        throw Error("claims " + std::to_string(chunks) + " chunks of pixels, more than fit into a file of " +
+                    std::to_string(file_bytes) + " bytes");
 }
 
 /// Throws unless a file of `file_bytes` may allocate memory for the pixels of a part.

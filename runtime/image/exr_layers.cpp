@@ -78,21 +78,21 @@ std::vector<ExrLayer> color_layers(std::span<const Imf::Header> parts) {
 ExrLayer choose_layer(const std::vector<ExrLayer>& layers, const std::string& wanted,
                       std::vector<std::string>& notices) {
     if (layers.empty())
-        throw Error("it has none of the channels R, G, B and Y");
+        throw Error("it has no channel R, G, B or Y");
     const auto chosen = std::find_if(layers.begin(), layers.end(), [&](const ExrLayer& layer) {
         return wanted.empty() ? layer.plain && layer.part == 0 : layer.name == wanted;
     });
     if (chosen == layers.end() && !wanted.empty())
-        throw Error("it has no layer '" + printable(wanted, 60) + "' with colors, but " + names_of(layers));
+        throw Error("it has no color layer '" + printable(wanted, 60) + "'; its color layers are " +
+                    names_of(layers));
     if (chosen == layers.end() && layers.size() > 1)
-        throw Error("it has several layers with colors: choose one of " + names_of(layers) +
-                    " by --layer NAME");
+        throw Error("it has several color layers: " + names_of(layers) + "; choose one with --layer NAME");
     const ExrLayer& layer = chosen == layers.end() ? layers.front() : *chosen;
     if (wanted.empty() && layers.size() > 1)
-        notices.push_back("has " + std::to_string(layers.size()) + " layers with colors: " +
-                          names_of(layers) + "; the first is read, --layer NAME reads another");
+        notices.push_back("has " + std::to_string(layers.size()) + " color layers: " + names_of(layers) +
+                          "; the first is read, choose another with --layer NAME");
     else if (wanted.empty() && !layer.plain)
-        notices.push_back("its only layer with colors, '" + printable(layer.name, 60) + "', is read");
+        notices.push_back("its only color layer, '" + printable(layer.name, 60) + "', is read");
     return layer;
 }
 

@@ -20,7 +20,7 @@ public:
     bool read(char to[], int count) override {
         if (count < 0 || position_ > file_.size() ||
             static_cast<std::size_t>(count) > file_.size() - position_)
-            throw Iex::InputExc("it ends too early");
+            throw Iex::InputExc("the data ends too early");
         std::memcpy(to, file_.data() + position_, static_cast<std::size_t>(count));
         position_ += static_cast<std::size_t>(count);
         return position_ < file_.size();

@@ -29,9 +29,10 @@ EnvironmentLayout layout_of(const Image& image, std::optional<EnvironmentLayout>
     if (image.height == 6 * image.width)
         return EnvironmentLayout::cube;
     throw Error(
-        "is no environment map: it is " + std::to_string(image.width) + " x " + std::to_string(image.height) +
-        " pixels and has no envmap attribute (a lat-long map is twice as wide as high, a cube map six "
-        "square faces in a column; otherwise its layout has to be said)");
+        "the layout of the environment map is unknown: it has " + std::to_string(image.width) + " x " +
+        std::to_string(image.height) +
+        " pixels and no envmap attribute; use an image that is twice as wide as high (lat-long) or six "
+        "square faces in a column (cube map), or choose the layout with --env-layout");
 }
 
 /// Converts 8-bit sRGB to linear radiance up to 1.
@@ -61,7 +62,7 @@ AnyImage read_radiance(std::span<const std::byte> file) {
     RadianceImage radiance = decode_hdr(file);
     AnyImage result{std::move(radiance.image), {}};
     if (radiance.factor != glm::dvec3(1))
-        result.notices.emplace_back("its EXPOSURE and COLORCORR are divided out of its pixels");
+        result.notices.emplace_back("its pixels are divided by its EXPOSURE and COLORCORR");
     return result;
 }
 
@@ -73,14 +74,14 @@ AnyImage read_any(const std::filesystem::path& path, const std::string& layer) {
             return {std::move(exr.image), exr.layout, false, std::move(exr.notices)};
         }
         if (!layer.empty())
-            throw Error("is no EXR, and has no layers: leave out --layer");
+            throw Error("is not an EXR file and has no layers; remove --layer");
         if (is_hdr(file))
             return read_radiance(file);
         if (is_png(file) || is_jpeg(file))
             return {read_low_dynamic_range(file), {}, true};
         if (is_lfs_pointer(file))
             throw Error(kLfsRemedy);
-        throw Error("is no image that is read here: OpenEXR, Radiance HDR, PNG and JPEG are");
+        throw Error("is not an image in a supported format (OpenEXR, Radiance HDR, PNG, JPEG)");
     } catch (const Error& error) {
         throw Error(path.string() + ": " + error.what());
     }
@@ -120,7 +121,7 @@ Image read_faces(const std::string& pattern, const std::string& layer, Environme
         const Image image = std::move(file.image);
         if (image.width != image.height || (column.width != 0 && image.width != column.width))
             throw Error(path + ": is " + std::to_string(image.width) + " x " + std::to_string(image.height) +
-                        " pixels, but the faces of a cube map are squares of one size");
+                        " pixels, but the faces of a cube map must be squares of the same size");
         column.width = image.width;
         column.height += image.height;
         column.pixels.insert(column.pixels.end(), image.pixels.begin(), image.pixels.end());
@@ -134,7 +135,8 @@ std::optional<EnvironmentLayout> unfold_cross(EnvironmentFile& file) {
     if (!faces)
         return std::nullopt;
     file.environment.image = std::move(*faces);
-    file.notices.emplace_back("is read as a cube map, by its shape; --env-layout reads it otherwise");
+    file.notices.emplace_back(
+        "is read as a cube map because of its shape; choose another layout with --env-layout");
     return EnvironmentLayout::cube_faces;
 }
 

@@ -65,8 +65,8 @@ public:
             bytes_ += buffer_.size() - stream_.avail_out;
             ended_ = result == Z_STREAM_END;
             if (bytes_ > most || (result != Z_OK && result != Z_STREAM_END && result != Z_BUF_ERROR))
-                throw Error(
-                    "is a damaged PNG: its pixels cannot be inflated, or are more than its header says");
+                throw Error("is a damaged PNG: its pixels cannot be decompressed, or there are more than its "
+                            "header declares");
             if (result == Z_BUF_ERROR)
                 break; // needs more input
         }
@@ -100,7 +100,8 @@ void check_png_chunks(std::span<const std::byte> file) {
     while (const auto chunk = next_chunk(rest)) {
         const bool critical = (chunk->type[0] & 0x20) == 0; // section 5.4
         if (critical && chunk->type != "IHDR" && chunk->type != "PLTE" && chunk->type != "IDAT")
-            throw Error("is a damaged PNG: it has a critical chunk '" + printable(chunk->type) + "'");
+            throw Error("is a damaged PNG: it has an unknown critical chunk '" + printable(chunk->type) +
+                        "'");
     }
 }
 
@@ -116,7 +117,7 @@ void check_png(std::span<const std::byte> file, ImageSize size) {
     auto rest = file.subspan(kPngMagic.size());
     while (const auto chunk = next_chunk(rest)) {
         if (chunk->length > chunk->data.size())
-            throw Error("is a damaged PNG: a chunk reaches beyond its end");
+            throw Error("is a damaged PNG: a chunk reaches beyond the end of the file");
         if (chunk->type != "IDAT")
             continue;
         const std::size_t left_out = std::min(header, chunk->data.size());

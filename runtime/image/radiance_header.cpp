@@ -48,7 +48,8 @@ double multiplier(std::string_view& rest, std::string_view line) {
         word.remove_prefix(1);
     const std::optional<double> value = number_of<double>(word);
     if (!value || !(*value > 0) || !std::isfinite(*value))
-        throw Error("is a damaged Radiance HDR: '" + printable(line, 60) + "' has no positive number");
+        throw Error("is a damaged Radiance HDR: '" + printable(line, 60) +
+                    "' does not have a positive number");
     return *value;
 }
 
@@ -68,7 +69,7 @@ void read_variable(std::string_view line, RadianceHeader& header) {
         const std::string_view format = take_word(value);
         if (format != "32-bit_rle_rgbe" && format != "32-bit_rle_xyze")
             throw Error("is a damaged or unsupported Radiance HDR: its format is '" + printable(format, 60) +
-                        "', neither 32-bit_rle_rgbe nor 32-bit_rle_xyze");
+                        "', not 32-bit_rle_rgbe or 32-bit_rle_xyze");
         header.xyz = format == "32-bit_rle_xyze";
     }
 }
@@ -84,7 +85,7 @@ Axis take_axis(std::string_view& rest, std::string_view line) {
     if (axis.size() != 2 || (axis[0] != '+' && axis[0] != '-') || (axis[1] != 'X' && axis[1] != 'Y') ||
         !length || *length < 0)
         throw Error("is a damaged Radiance HDR: '" + printable(line, 60) +
-                    "' is no resolution such as -Y 512 +X 1024");
+                    "' is not a resolution such as -Y 512 +X 1024");
     return {axis[0], axis[1], *length};
 }
 
@@ -118,7 +119,7 @@ RadianceHeader read_radiance_header(std::span<const std::byte> file) {
         read_variable(*line, header);
     line = line ? take_line(rest) : std::nullopt;
     if (!line)
-        throw Error("is a damaged Radiance HDR: it ends within its header");
+        throw Error("is a damaged Radiance HDR: it ends inside its header");
     read_resolution(*line, header);
     header.bytes = file.size() - rest.size();
     return header;

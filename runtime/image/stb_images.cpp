@@ -64,7 +64,7 @@ const stbi_uc* stb_bytes(std::span<const std::byte> file) {
 
 int stb_size(std::span<const std::byte> file) {
     if (file.size() > INT_MAX)
-        throw Error("the image is larger than 2 GB");
+        throw Error("is larger than 2 GB");
     return static_cast<int>(file.size());
 }
 
@@ -157,7 +157,7 @@ RadianceImage decode_hdr(std::span<const std::byte> file) {
 
 ImageSize size_by_stb(std::span<const std::byte> file) {
     if (!is_png(file) && !is_jpeg(file) && !is_hdr(file)) // stb reads more formats, with less validation
-        throw Error("is no image that is read here: PNG, JPEG, WebP and AVIF are");
+        throw Error("is not an image in a supported format (PNG, JPEG, WebP, AVIF)");
     if (is_hdr(file))
         return read_radiance_header(file).size;
     if (is_png(file))

@@ -44,7 +44,7 @@ void check_avif(avifResult result) {
 AvifDecoder parsed_avif(std::span<const std::byte> file) {
     AvifDecoder decoder(avifDecoderCreate());
     if (!decoder)
-        throw Error("there is not enough memory for an AVIF");
+        throw Error("there is not enough memory to read an AVIF");
     decoder->maxThreads = 1;
     decoder->ignoreExif = decoder->ignoreXMP = AVIF_TRUE;
     decoder->strictFlags = AVIF_STRICT_DISABLED; // accepts the files that browsers show
@@ -68,7 +68,7 @@ ImageSize webp_size(std::span<const std::byte> file) {
     if (WebPGetFeatures(bytes_of(file), file.size(), &features) != VP8_STATUS_OK)
         throw Error("is a damaged or unsupported WebP");
     if (features.has_animation)
-        throw Error("is an animated WebP, which is not read: take one of its frames");
+        throw Error("is an animated WebP, which is not supported; extract one of its frames");
     // For lossless images the decoder holds all pixels, twice if they are transformed.
     check_image_size(features.width, features.height, 3 * sizeof(glm::u8vec4), file.size());
     return {features.width, features.height};
@@ -79,7 +79,8 @@ Image8 decode_webp(std::span<const std::byte> file) {
     if (!WebPDecodeRGBAInto(bytes_of(file), file.size(), reinterpret_cast<std::uint8_t*>(image.pixels.data()),
                             image.pixels.size() * sizeof(glm::u8vec4),
                             image.width * static_cast<int>(sizeof(glm::u8vec4))))
-        throw Error("is a damaged WebP: it ends before its last pixel, or is not what it claims");
+        throw Error(
+            "is a damaged WebP: it ends before its last pixel, or its format differs from its header");
     return image;
 }
 
@@ -93,7 +94,7 @@ Image8 decode_avif(std::span<const std::byte> file) {
     check_avif(avifDecoderNextImage(decoder.get()));
     if (decoder->image->width != static_cast<std::uint32_t>(image.width) ||
         decoder->image->height != static_cast<std::uint32_t>(image.height))
-        throw Error("is a damaged AVIF: it has another size than it claims");
+        throw Error("is a damaged AVIF: its size differs from its header");
     avifRGBImage pixels;
     avifRGBImageSetDefaults(&pixels, decoder->image);
     pixels.format = AVIF_RGB_FORMAT_RGBA;

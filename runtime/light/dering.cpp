@@ -211,7 +211,7 @@ void check_brightness(const Light& light) {
     check_finite(light.coefficients);
     for (const glm::vec3& v : light.coefficients)
         if (std::max({std::abs(v.r), std::abs(v.g), std::abs(v.b)}) > kBrightest)
-            throw Error("lighting of more than 1e37 cannot be deringed");
+            throw Error("lighting with coefficients greater than 1e37 cannot be deringed");
 }
 
 } // namespace

@@ -120,11 +120,12 @@ Light disc_light(int order, const glm::vec3& center, const glm::vec3& normal, do
         throw Error("the radius of a disc light must be positive and finite");
     const double length = glm::length(glm::dvec3(normal));
     if (!(length > 0 && std::isfinite(length)))
-        throw Error("a disc light needs a normal, not a vector of length " + std::to_string(length));
+        throw Error("the normal of a disc light has length " + std::to_string(length) +
+                    ", but must be finite and not 0");
     const glm::dvec3 n = glm::dvec3(normal) / length, c(center);
     const double height = -glm::dot(n, c);
     if (!std::isfinite(height))
-        throw Error("the centre of a disc light must be finite");
+        throw Error("the center of a disc light must be finite");
     Light light{order,
                 std::vector<glm::vec3>(static_cast<std::size_t>(coefficient_count(order)), glm::vec3(0))};
     if (!(height > 0)) // the origin is behind the disc

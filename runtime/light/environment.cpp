@@ -1,6 +1,7 @@
 // Environment maps: checks, repair of pixels, and view directions of pixels.
 #include "prt/environment.h"
 
+#include "prt/support/counted.h"
 #include "prt/support/error.h"
 
 #include <glm/geometric.hpp>
@@ -110,10 +111,10 @@ std::size_t repair_pixels(Image& image, BadPixels policy) {
         return 0;
     if (policy == BadPixels::error) {
         const auto width = static_cast<std::size_t>(image.width);
-        throw Error(std::to_string(count) +
-                    " pixels are negative, infinite or not a number, the first at x " +
+        throw Error(counted(count, "pixel is", "pixels are") +
+                    " negative, infinite or not a number; the first is at x " +
                     std::to_string(first % width) + ", y " + std::to_string(first / width) +
-                    " (they can be read as black or clamped)");
+                    " (--bad-pixels reads them as black or clamps them)");
     }
     for (glm::vec3& pixel : image.pixels) {
         if (!is_bad(pixel))
@@ -188,17 +189,17 @@ void check_environment(const Environment& environment) {
         throw Error("the environment has no pixels");
     const std::string size = std::to_string(image.width) + " x " + std::to_string(image.height);
     if (image.pixels.size() != static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height))
-        throw Error("the environment is " + size + " pixels but holds " +
+        throw Error("the environment is " + size + " pixels, but has data for " +
                     std::to_string(image.pixels.size()));
     switch (environment.layout) {
     case EnvironmentLayout::cube:
     case EnvironmentLayout::cube_faces:
         if (image.height % 6 != 0 || image.height / 6 != image.width)
-            throw Error("is " + size + " pixels, but a cube map has six square faces in a column");
+            throw Error("is " + size + " pixels, but a cube map must have six square faces in a column");
         break;
     case EnvironmentLayout::angular:
         if (image.width != image.height)
-            throw Error("is " + size + " pixels, but an angular map is square");
+            throw Error("is " + size + " pixels, but an angular map must be square");
         break;
     case EnvironmentLayout::lat_long:
         break;
@@ -211,9 +212,8 @@ Image resampled_lat_long(const Environment& environment) {
     const bool lat_long = environment.layout == EnvironmentLayout::lat_long;
     if (lat_long && environment.center == LatLongCenter::z)
         return image;
-    // A face of a cube spans a quarter turn, an angular map a full turn, the height of the result half a
-    // turn. If the width of a lat-long image is a multiple of four, the rotation by a quarter is exact in
-    // pixels.
+    // A face of a cube spans 90 degrees, an angular map 360 degrees, the height of the result 180 degrees. If
+    // the width of a lat-long image is a multiple of four, the rotation by 90 degrees is exact in pixels.
     const int height = lat_long                                           ? image.height
                        : environment.layout == EnvironmentLayout::angular ? std::max(1, image.width / 2)
                                                                           : 2 * image.width;

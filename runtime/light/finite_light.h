@@ -20,8 +20,7 @@ inline bool is_finite(const glm::vec3& color) {
 /// float.
 inline void check_finite(std::span<const glm::vec3> coefficients) {
     if (!std::ranges::all_of(coefficients, is_finite))
-        throw Error(
-            "the coefficients of the light are not finite: its color is not, or too large for floats");
+        throw Error("the coefficients of the light are not finite: its color is not finite or too large");
 }
 
 /// Returns `light` after the check.

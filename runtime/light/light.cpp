@@ -32,7 +32,8 @@ Light zonal_light(int order, const glm::vec3& axis, const glm::vec3& scale,
     check_order(order);
     const double length = glm::length(glm::dvec3(axis));
     if (!(length > 0 && std::isfinite(length)))
-        throw Error("a light needs a direction, not a vector of length " + std::to_string(length));
+        throw Error("the direction of the light has length " + std::to_string(length) +
+                    ", but must be finite and not 0");
     Light light{order, std::vector<glm::vec3>(static_cast<std::size_t>(coefficient_count(order)))};
     std::array<double, kMaxOrder * kMaxOrder> basis{};
     evaluate_sh(order, glm::dvec3(axis) / length, std::span<double>(basis));
@@ -59,7 +60,7 @@ void check_light(const Light& light) {
     for (const glm::vec3& coefficient : light.coefficients)
         for (int c = 0; c < 3; ++c)
             if (!(std::abs(coefficient[c]) <= kMaxLight))
-                throw Error("its light is brighter than what is computed with: a coefficient is beyond 1e18");
+                throw Error("the light is too bright: a coefficient is not in -1e18..1e18");
 }
 
 Light constant_light(int order, const glm::vec3& radiance) {
@@ -72,7 +73,7 @@ Light directional_light(int order, const glm::vec3& towards, const glm::vec3& ir
 
 Light cone_light(int order, const glm::vec3& axis, double half_angle, const glm::vec3& radiance) {
     if (!(half_angle >= 0 && half_angle <= pi * (1 + 1e-7))) // pi as a float is larger than pi
-        throw Error("the half angle of a cone of light lies in 0..pi radians, not " +
+        throw Error("the half angle of a cone light must be in 0..pi radians, not " +
                     std::to_string(half_angle));
     std::array<double, kMaxOrder + 1> legendre{}, slope{}; // P_l and P_l' at cos half_angle
     const double t = std::cos(half_angle), sine = std::sin(half_angle),
@@ -123,7 +124,7 @@ Light scaled_to_exit_radiance(const Light& light, const glm::vec3& normal, const
     Light result = light;
     for (int c = 0; c < 3; ++c) {
         if (!(now[c] > 0))
-            throw Error("the light does not reach a receiver of that normal: it cannot be scaled");
+            throw Error("the light cannot be scaled: it does not reach a receiver with this normal");
         for (glm::vec3& v : result.coefficients)
             v[c] *= static_cast<float>(static_cast<double>(exit_radiance[c]) / now[c]);
     }
@@ -134,8 +135,8 @@ namespace {
 
 void check_same_order(const Light& a, const Light& b) {
     if (a.order != b.order)
-        throw Error("lightings of orders " + std::to_string(a.order) + " and " + std::to_string(b.order) +
-                    " do not go together");
+        throw Error("the lightings have different orders: " + std::to_string(a.order) + " and " +
+                    std::to_string(b.order));
 }
 
 } // namespace

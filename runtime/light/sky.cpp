@@ -28,9 +28,9 @@ double perez(const std::array<double, 5>& p, double cos_zenith, double gamma) {
 
 PreethamSky::PreethamSky(double t, const glm::dvec3& sun) : sun_(sun) {
     if (!(t >= 1.7 && t <= 10))
-        throw Error("turbidity must lie in 1.7..10, not " + std::to_string(t));
+        throw Error("turbidity must be in 1.7..10, not " + std::to_string(t));
     if (!(std::abs(glm::length(sun) - 1) < 1e-3) || !(sun.y >= 0))
-        throw Error("the sun of an analytic sky must be a unit direction above the horizon");
+        throw Error("the sun direction of an analytic sky must have length 1 and point above the horizon");
     const double theta_sun = std::acos(std::clamp(sun.y, 0.0, 1.0));
     luminance_ = {0.1787 * t - 1.4630, -0.3554 * t + 0.4275, -0.0227 * t + 5.3251, 0.1206 * t - 2.5771,
                   -0.0670 * t + 0.3703};

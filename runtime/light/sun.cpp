@@ -35,7 +35,8 @@ std::array<double, kMaxOrder> disc_factors(double half_angle) {
 
 Light as_light(const Sun& sun, int order) {
     if (!(sun.half_angle >= 0 && sun.half_angle <= 0.5 * std::numbers::pi))
-        throw Error("the half angle of a sun lies in 0..pi/2 radians, not " + std::to_string(sun.half_angle));
+        throw Error("the half angle of a sun must be in 0..pi/2 radians, not " +
+                    std::to_string(sun.half_angle));
     Light result = directional_light(order, sun.towards, sun.irradiance);
     const auto factors = disc_factors(sun.half_angle);
     for (int l = 0; l < order; ++l)

@@ -66,11 +66,12 @@ CameraFrame camera_frame(const Camera& camera) {
         if (!(std::abs(camera.position[axis]) <= kFarthestCamera &&
               std::abs(camera.target[axis]) <= kFarthestCamera))
             throw Error(
-                "the camera, or what it looks at, is not finite or farther than 1e18 m from the scene");
+                "the position or the target of the camera is not finite or more than 1e18 m from the origin");
     const glm::dvec3 view(camera.target - camera.position);
     const glm::dvec3 side = glm::cross(view, glm::dvec3(camera.up));
     if (!(glm::length(side) > 0))
-        throw Error("the camera looks straight up, straight down, or at itself");
+        throw Error(
+            "the camera must not look straight up or down, and its target must differ from its position");
     CameraFrame frame;
     frame.forward = glm::normalize(view);
     frame.right = glm::normalize(side);

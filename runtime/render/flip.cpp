@@ -247,9 +247,9 @@ SeenPicture seen_picture(const Image& image, const FlipOptions& options) {
 
 void check_sizes(const Image& reference, const Image& test) {
     if (reference.width != test.width || reference.height != test.height)
-        throw Error("pictures of different sizes cannot be compared");
+        throw Error("the pictures cannot be compared: their sizes differ");
     if (reference.pixels.empty())
-        throw Error("a picture without pixels cannot be compared");
+        throw Error("the pictures cannot be compared: they have no pixels");
 }
 
 /// Returns the tone curve of HDR-FLIP: the fit of Narkowicz (2016) after a factor of 0.6.
@@ -311,7 +311,7 @@ std::vector<float> hdr_flip(const Image& reference, const Image& test, const Fli
     for (const Image* image : {&reference, &test})
         for (const glm::vec3& pixel : image->pixels)
             if (!std::isfinite(pixel.r + pixel.g + pixel.b))
-                throw Error("a picture with values that are not finite cannot be compared");
+                throw Error("the pictures cannot be compared: a pixel is not finite");
     const FlipExposures exposures = flip_exposures(reference);
     std::vector<float> greatest(reference.pixels.size(), 0.0f);
     for (int i = 0; i < exposures.count; ++i) {

@@ -24,11 +24,11 @@ std::vector<std::byte> word_png(const LightmapSize& size, std::span<const std::u
 /// Throws `Error` unless the image has the format and size of the words of a map; called before decoding.
 void check_word_image(std::span<const std::byte> png, const LightmapSize& size) {
     if (!is_png_of_bytes(png))
-        throw Error("is no PNG of 8 bits in each of red, green, blue and alpha");
+        throw Error("is not a PNG with 8 bits per channel and channels red, green, blue and alpha");
     const ImageSize found = image_size(png);
     if (found.width != size.width || found.height != size.height)
         throw Error("has " + std::to_string(found.width) + " x " + std::to_string(found.height) +
-                    " pixels for a lightmap of " + std::to_string(size.width) + " x " +
+                    " pixels, but the lightmap has " + std::to_string(size.width) + " x " +
                     std::to_string(size.height) + " texels");
 }
 
@@ -62,7 +62,7 @@ std::vector<std::uint32_t> words_of_map(const CompressedLightmap& lightmap, std:
 void write_lightmap(GltfDocument& document, const Scene& scene, const CompressedLightmap& lightmap) {
     const ClusteredReceivers& receivers = lightmap.compressed.transfer.receivers;
     if (receivers.format != WeightFormat::packed)
-        throw Error("weights of texels are words of images: they have to be packed");
+        throw Error("the weights of texels must be packed; compress with --bits N");
     EncodedLightmap encoded{{lightmap.layout, {lightmap.compressed.transfer, lightmap.compressed.record}},
                             {}};
     for (std::size_t m = 0; m < lightmap.layout.maps.size(); ++m)

@@ -96,7 +96,7 @@ void check_format(std::span<const std::byte> file) {
                                                         : nullptr;
     if (format)
         throw Error("is " + std::string(format) +
-                    ", which is not read, and no PNG, JPEG, WebP or AVIF stands beside it");
+                    ", which is not supported, and the texture has no PNG, JPEG, WebP or AVIF as a fallback");
 }
 
 } // namespace
@@ -167,9 +167,9 @@ void check_memory(const Scene& scene, const std::map<int, TextureEncoding>& imag
             } catch (const Error&) { // reported, or ignored, when the image is decoded
             }
     if (texels * kBytesPerTexel > kFree + kPerByte * bytes)
-        throw Error("its images claim " + std::to_string(texels) + " pixels in files of " +
-                    std::to_string(bytes) +
-                    " bytes: together they are given 192 MB of memory and 64 bytes for each byte of a file");
+        throw Error(
+            "its images claim " + std::to_string(texels) + " pixels in files of " + std::to_string(bytes) +
+            " bytes; the limit for the memory of all images is 192 MB plus 64 times their file sizes");
 }
 
 } // namespace
@@ -185,14 +185,14 @@ std::vector<Texture> load_textures(const Scene& scene, BadTextures bad, TextureN
         const EncodedImage& encoded_image = there ? scene.images[static_cast<std::size_t>(image)] : nothing;
         try {
             if (encoded_image.bytes.empty())
-                throw Error(encoded_image.trouble.empty() ? "is not there" : encoded_image.trouble);
+                throw Error(encoded_image.trouble.empty() ? "does not exist" : encoded_image.trouble);
             check_format(encoded_image.bytes);
             textures[static_cast<std::size_t>(image)] =
                 make_texture(decode_image(encoded_image.bytes), encoding);
         } catch (const Error& error) {
             if (bad == BadTextures::error)
                 throw Error(encoded_image.name + " " + error.what() +
-                            "; its pixels are needed here, unless --bad-textures ignore is given");
+                            "; ignore such textures with --bad-textures ignore");
         }
     }
     return textures;

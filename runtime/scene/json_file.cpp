@@ -2,6 +2,7 @@
 
 #include "prt/json_file.h"
 
+#include "prt/support/counted.h"
 #include "prt/support/error.h"
 #include "prt/support/file.h"
 #include "prt/support/json_tree.h"
@@ -27,9 +28,9 @@ Json read_json(const std::filesystem::path& path) {
     try { // the words of the library name its inner parts
         return parse_json_tree<Json>({begin, file.size()});
     } catch (const Json::parse_error& error) {
-        throw Error("is no JSON from byte " + std::to_string(error.byte) + " on");
+        throw Error("is not valid JSON: the error is at byte " + std::to_string(error.byte));
     } catch (const Json::exception&) {
-        throw Error("holds a number beyond those of doubles");
+        throw Error("contains a number that does not fit into a double");
     }
 }
 
@@ -42,7 +43,7 @@ const Json& member(const Json& object, const char* key) {
 double number(const Json& object, const char* key) {
     const Json& value = member(object, key);
     if (!value.is_number())
-        throw Error(quoted(key) + " is no number");
+        throw Error(quoted(key) + " is not a number");
     return value.get<double>();
 }
 
@@ -52,24 +53,24 @@ double number_in(const Json& object, const char* key, double low, double high) {
         return value;
     std::ostringstream range;
     range.precision(5);
-    range << quoted(key) << " is not in " << low << ".." << high;
+    range << quoted(key) << " is not in the range " << low << ".." << high;
     throw Error(range.str());
 }
 
 std::vector<float> numbers(const Json& object, const char* key, std::size_t count) {
     const Json& list = member(object, key);
     if (!list.is_array())
-        throw Error(quoted(key) + " is no list of numbers");
+        throw Error(quoted(key) + " is not a list of numbers");
     if (list.size() != count)
-        throw Error(quoted(key) + " has " + std::to_string(list.size()) + " numbers and needs " +
+        throw Error(quoted(key) + " has " + counted(list.size(), "number") + ", but needs " +
                     std::to_string(count));
     std::vector<float> values;
     for (const Json& value : list) {
         if (!value.is_number())
-            throw Error(quoted(key) + " is no list of numbers");
+            throw Error(quoted(key) + " is not a list of numbers");
         values.push_back(value.get<float>());
         if (!std::isfinite(values.back()))
-            throw Error(quoted(key) + " holds what is no finite float");
+            throw Error(quoted(key) + " contains a number that is not a finite float");
     }
     return values;
 }
@@ -83,7 +84,7 @@ glm::vec3 direction_of(const Json& object, const char* key) {
     const glm::dvec3 towards(vector_of(object, key));
     const double length = glm::length(towards);
     if (!(length > 0))
-        throw Error(quoted(key) + " is no direction");
+        throw Error(quoted(key) + " is not a direction: its length is 0 or not finite");
     return glm::vec3(towards / length);
 }
 

@@ -30,7 +30,7 @@ Sun sun_of(const Json& entry) {
 
 std::vector<Sun> suns_of(const Json& list) {
     if (!list.is_array())
-        throw Error("\"suns\" is no list");
+        throw Error("\"suns\" is not a list");
     std::vector<Sun> suns;
     for (std::size_t i = 0; i < list.size(); ++i)
         try {
@@ -47,7 +47,7 @@ int order_of(const Json& file) {
     if (order >= 1 && order <= kMaxOrder && order == std::floor(order))
         return static_cast<int>(order);
     std::ostringstream text;
-    text << "\"order\" is " << order << ", no whole number in 1.." << kMaxOrder;
+    text << "\"order\" is " << order << ", but must be an integer in 1.." << kMaxOrder;
     throw Error(text.str());
 }
 
@@ -77,11 +77,11 @@ LightFile read_light_file(const std::filesystem::path& path) {
     try {
         const Json file = json::read_json(path);
         if (!file.is_object() || !file.contains("prtkit_light") || file["prtkit_light"] != 1)
-            throw Error("is JSON, but no light of prt project");
+            throw Error("is JSON, but not a light file; create one with prt project");
         LightFile light{coefficients_of(file), {}};
         if (file.contains("lights"))
             throw Error(
-                "has its suns as \"lights\", as an older version of prt wrote them; project the image again");
+                "is from an older version of prt, which wrote suns as \"lights\"; run prt project again");
         if (file.contains("suns"))
             light.suns = suns_of(file["suns"]);
         check_light(all_light(light));

@@ -1,5 +1,5 @@
-// Smooth normals for meshes that have none. Thürmer and Wüthrich, "Computing Vertex Normals from Polygonal
-// Facets", 1998: weights by angles.
+// Computes smooth normals for meshes without normals. Thürmer and Wüthrich, "Computing Vertex Normals from
+// Polygonal Facets", 1998: weights by angles.
 
 #include "smooth_normals.h"
 
@@ -16,7 +16,8 @@
 namespace prt {
 namespace {
 
-/// Pairs of triangles at one edge that are compared: more than two meet where surfaces touch or lie twice.
+/// Maximum number of triangles at one edge that are compared. More than two meet where surfaces touch or are
+/// duplicated.
 constexpr std::size_t kMaxNeighbours = 8;
 
 /// An edge of a triangle between two positions, `low` < `high`, and the corners at them.
@@ -26,7 +27,7 @@ struct Edge {
     std::pair<std::uint32_t, std::uint32_t> ends() const { return {low, high}; }
 };
 
-/// For each vertex the first one at the same position.
+/// Returns for each vertex the first vertex at the same position.
 std::vector<std::uint32_t> welded(std::span<const glm::vec3> positions) {
     std::vector<std::uint32_t> order(positions.size()), first(positions.size());
     std::iota(order.begin(), order.end(), 0u);
@@ -51,7 +52,7 @@ public:
             corner = parents_[corner] = parents_[parents_[corner]];
         return corner;
     }
-    /// The smaller root stays: results do not depend on the order.
+    /// Joins two sets. The smaller root is kept, so that results do not depend on the order.
     void join(std::size_t a, std::size_t b) {
         a = find(a);
         b = find(b);
@@ -75,9 +76,10 @@ public:
         sum_angles();
         SmoothVertices result;
         result.triangles.resize(triangles_.size());
-        std::map<std::pair<std::uint32_t, std::size_t>, std::uint32_t> numbers; // of vertex and set
-        std::vector<std::uint32_t> any(positions_.size(), kNone);               // a number of each vertex
-        for (const bool flat : {false, true}) // triangles without area last: they take what is there
+        std::map<std::pair<std::uint32_t, std::size_t>, std::uint32_t>
+            numbers;                                              // new vertex for each vertex and set
+        std::vector<std::uint32_t> any(positions_.size(), kNone); // one new vertex for each vertex
+        for (const bool flat : {false, true}) // triangles without area last: they use existing normals
             for (std::size_t corner = 0; corner < 3 * triangles_.size(); ++corner) {
                 if ((faces_[corner / 3] == glm::dvec3(0)) != flat)
                     continue;
@@ -106,7 +108,7 @@ private:
     std::uint32_t vertex_of(std::size_t corner) const {
         return triangles_[corner / 3][static_cast<int>(corner % 3)];
     }
-    /// Returns the normal of the triangle, or +Z if it has none: for sets whose normals cancel.
+    /// Returns the normal of the triangle, or +Z if it has no area. Used for sets whose normals cancel.
     glm::vec3 face_or_up(std::size_t corner) const {
         const glm::dvec3 face = faces_[corner / 3];
         return face == glm::dvec3(0) ? glm::vec3(0, 0, 1) : glm::vec3(face);
@@ -147,9 +149,9 @@ private:
 
     std::span<const glm::vec3> positions_;
     std::span<const glm::uvec3> triangles_;
-    std::vector<glm::dvec3> faces_; ///< [triangles] unit normals, zero where they have no area
-    CornerSets sets_;               ///< of corners, which lie at one position
-    std::vector<glm::dvec3> sums_;  ///< [corners] at the root of each set
+    std::vector<glm::dvec3> faces_; ///< [triangles] unit normals; zero for triangles without area
+    CornerSets sets_;               ///< sets of corners at one position that share a normal
+    std::vector<glm::dvec3> sums_;  ///< [corners] sum of normals, stored at the root of each set
 };
 
 } // namespace

@@ -73,10 +73,10 @@ void make_rotation(const glm::dmat3& r, glm::dmat3& result) {
     if (made_rotation(r, result))
         return;
     if (!Deviation(r).within(kRotationTolerance))
-        throw Error("a matrix that scales, shears or is not finite is no rotation of lighting");
+        throw Error("the matrix is not a rotation: it scales, shears or is not finite");
     if (glm::dot(glm::cross(r[0], r[1]), r[2]) < 0)
         throw Error(
-            "a mirrored matrix is no rotation: take the mirroring out of it, and bake the mirrored mesh");
+            "the matrix is not a rotation: it mirrors; remove the mirroring and bake the mirrored mesh");
     do {
         const glm::dmat3 before = result;
         result = nearer_rotation(before, Deviation(before));

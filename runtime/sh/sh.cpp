@@ -17,7 +17,7 @@ using std::numbers::pi;
 
 void check_order(int order) {
     if (order < 1 || order > kMaxOrder)
-        throw Error("order " + std::to_string(order) + " is outside 1.." + std::to_string(kMaxOrder));
+        throw Error("order " + std::to_string(order) + " is not in 1.." + std::to_string(kMaxOrder));
 }
 
 namespace {

@@ -84,7 +84,7 @@ Light d3dx_directional_light(int order, const glm::vec3& towards, const glm::vec
 
 Light d3dx_cone_light(int order, const glm::vec3& axis, double half_angle, const glm::vec3& intensity) {
     if (!(half_angle > 0))
-        throw Error("the half angle of a cone of D3DX is more than 0");
+        throw Error("the half angle of a D3DX cone light must be greater than 0");
     const double sine = std::sin(std::min(half_angle, 0.5 * std::numbers::pi));
     return cone_light(order, axis, half_angle, intensity / static_cast<float>(sine * sine));
 }

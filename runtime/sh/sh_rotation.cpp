@@ -1,5 +1,5 @@
-// Rotates SH: bands 1 and 2 directly, higher bands by rotations about z and quarter turns (docs/math.md, eq.
-// 4).
+// Rotates SH: bands 1 and 2 directly, higher bands by rotations about z and by 90 degrees about x
+// (docs/math.md, eq. 4).
 #include "prt/sh_rotation.h"
 
 #include "prt/sh.h"
@@ -39,8 +39,8 @@ template <class Value>
     }
 }
 
-/// Multiplies row `Row` of a band's quarter turn about x, or of its inverse, with `c`. Zero factors cost no
-/// time.
+/// Multiplies row `Row` of a band's rotation by 90 degrees about x, or of its inverse, with `c`. Zero factors
+/// cost no time.
 template <bool Inverse, std::size_t L, std::size_t Row, class Value, std::size_t... Column>
 [[gnu::always_inline]] inline Value rotated_row(const Value* c, std::index_sequence<Column...>) {
     Value sum{};
@@ -306,7 +306,7 @@ void set_rotations(int order, const glm::dmat3& r, Rotations& rotations) {
 
 glm::dmat3 matrix_of(const glm::dquat& q) {
     if (!(std::abs(glm::dot(q, q) - 1) <= kRotationTolerance))
-        throw Error("a quaternion whose length is not 1 is no rotation");
+        throw Error("the quaternion is not a rotation: its length is not 1");
     return glm::mat3_cast(glm::normalize(q));
 }
 

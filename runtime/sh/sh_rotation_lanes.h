@@ -11,8 +11,8 @@
 
 namespace prt {
 
-/// Bands 2 to 5, one per lane. Indexed by k = l - |m|, the quarter turns of all bands have their zeros at the
-/// same indices.
+/// Bands 2 to 5, one per lane. Indexed by k = l - |m|, the rotations of all bands by 90 degrees have their
+/// zeros at the same indices.
 using Bands [[gnu::vector_size(sizeof(double) * 4)]] = double;
 inline constexpr std::size_t kLanes = 4, kFirstLane = 2, kDegrees = kFirstLane + kLanes;
 inline constexpr int kLaneOrder = static_cast<int>(kDegrees);
@@ -27,7 +27,7 @@ constexpr std::size_t row_in_band(std::size_t l, bool minus, std::size_t k) {
     return minus ? k : 2 * l - k;
 }
 
-/// Returns an element of the quarter turn of band l.
+/// Returns an element of the rotation of band l by 90 degrees about x.
 template <bool Inverse>
 constexpr double lane_factor(std::size_t l, bool to_minus, std::size_t to, bool from_minus,
                              std::size_t from) {

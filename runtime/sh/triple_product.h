@@ -51,7 +51,7 @@ private:
                  {2, {{{c / 2, 2, 0, 0}, {-c / 2, 0, 2, 0}}}}}};
     }
 
-    /// Returns n!! of odd n, 1 for -1.
+    /// Returns the double factorial n!! for odd n, and 1 for n = -1.
     static constexpr double odd_factorial(int n) {
         double product = 1;
         for (; n > 1; n -= 2)

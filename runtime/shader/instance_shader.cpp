@@ -10,10 +10,12 @@ namespace prt {
 std::string instance_defines(const ClusteredTransfer& transfer, ConstantSource constants,
                              ShaderLanguage language, const glm::dvec3& seen_from) {
     if (constants == ConstantSource::block)
-        throw Error("constants of instances are more than a uniform block holds: use a buffer or a texture");
+        throw Error(
+            "the constants of instances do not fit into a uniform block; use --constants buffer or texture");
     if (transfer.receivers.format != WeightFormat::packed &&
         std::ranges::max(transfer.bases.components) > kMaxInstancedWeights)
-        throw Error("instances have attributes where those of more than 24 weights would be");
+        throw Error("instances support at most 24 float weights per vertex; compress with fewer components "
+                    "or --bits N");
     return relight_defines(transfer, constants, language, seen_from) + "#define PRT_INSTANCES\n";
 }
 

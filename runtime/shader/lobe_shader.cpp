@@ -10,8 +10,8 @@ std::string lobe_defines(const LobeModel& model, int light_order) {
     check_lobes(model);
     const int order = light_order == 0 ? model.order : light_order;
     if (order < 2 || order > kMaxLobeOrder)
-        throw Error("lobes are lit by light of 2 to " + std::to_string(kMaxLobeOrder) + " bands, not " +
-                    std::to_string(order));
+        throw Error("the order of the light for lobes must be in 2.." + std::to_string(kMaxLobeOrder) +
+                    ", not " + std::to_string(order));
     return define("PRT_LOBES", model.lobes) + define("PRT_LOBE_ORDER", static_cast<std::size_t>(order));
 }
 

@@ -38,7 +38,7 @@ void append_weights(const ClusteredReceivers& receivers, std::vector<ShaderBindi
 }
 
 void append_attributes(const ClusteredTransfer& transfer, std::vector<ShaderBinding>& bindings) {
-    const std::string vector = " in the frame of the bake: 3 x FLOAT, " + offset_and_stride(0, 12);
+    const std::string vector = " in the coordinate frame of the bake: 3 x FLOAT, " + offset_and_stride(0, 12);
     bindings.push_back({.kind = BindingKind::attribute,
                         .name = "position",
                         .type = "vec3",
@@ -80,13 +80,13 @@ ShaderBinding table_binding(ConstantSource source, const char* name, const char*
 void append_tables(const ClusteredTransfer& transfer, ConstantSource source, ShaderLanguage language,
                    std::vector<ShaderBinding>& bindings) {
     const bool numbered = has_binding_numbers(language), texture = source == ConstantSource::texture;
-    const std::string rows_of_texels = ", " + std::to_string(kConstantTextureWidth) + " a row";
+    const std::string rows_of_texels = ", " + std::to_string(kConstantTextureWidth) + " per row";
     ShaderBinding constants =
         table_binding(source, "prt_constants", "PrtConstants", numbered ? PRT_BINDING_CONSTANTS : -1, false);
     constants.type += texture ? "" : "vec4[]";
     constants.content = std::to_string(constant_rows(transfer.bases)) +
                         (texture ? " texels RGBA32F" + rows_of_texels : " vec4") +
-                        " of ClusterLighting::update, new for each lighting";
+                        " from ClusterLighting::update, updated for each lighting";
     bindings.push_back(constants);
     if (clusters_are_alike(transfer.bases))
         return;
@@ -95,7 +95,7 @@ void append_tables(const ClusteredTransfer& transfer, ConstantSource source, Sha
     clusters.type += texture ? "" : "uvec4[]";
     clusters.content = std::to_string(transfer.bases.clusters()) +
                        (texture ? " texels RGBA32UI" + rows_of_texels : " uvec4") +
-                       " of cluster_layouts, constant";
+                       " from cluster_layouts, constant";
     bindings.push_back(clusters);
 }
 
@@ -113,12 +113,12 @@ std::vector<ShaderBinding> relight_bindings(const ClusteredTransfer& transfer, C
     bindings.push_back({.kind = vulkan ? BindingKind::push_constant : BindingKind::uniform,
                         .name = "view_projection",
                         .type = "mat4",
-                        .content = "from the frame of `position` to clip space"});
+                        .content = "from the coordinate frame of `position` to clip space"});
     bindings.push_back({.kind = BindingKind::output,
                         .name = "radiance",
                         .type = "vec3",
                         .number = vulkan ? 0 : -1,
-                        .content = "exit radiance for albedo 1, to the fragment shader"});
+                        .content = "exit radiance for albedo 1, read by the fragment shader"});
     return bindings;
 }
 

@@ -19,7 +19,7 @@ constexpr int kMaxWeightVectors = 12, kMaxWords = 8;
 void append_file(const std::string& name, std::set<std::string>& included, std::string& source) {
     const auto found = embedded_files().find(name);
     if (found == embedded_files().end())
-        throw Error("the shader " + name + " is not embedded");
+        throw Error("the shader file " + name + " does not exist");
     if (!included.insert(name).second)
         return;
     std::istringstream lines(found->second);
@@ -64,16 +64,17 @@ std::string weight_defines(const ClusteredTransfer& transfer) {
     const ClusteredReceivers& receivers = transfer.receivers;
     if (receivers.format == WeightFormat::packed) {
         if (receivers.words > kMaxWords)
-            throw Error(std::to_string(receivers.words) + " words of packed weights do not fit the " +
-                        std::to_string(kMaxWords) + " of the vertex attributes");
+            throw Error(std::to_string(receivers.words) +
+                        " words of packed weights are needed, but the vertex attributes have only " +
+                        std::to_string(kMaxWords));
         return define("PRT_PACKED_WORDS", static_cast<std::size_t>(receivers.words)) +
                define("PRT_CLUSTER_BITS", static_cast<std::size_t>(receivers.cluster_bits));
     }
     const int most = max_vertex_components(transfer.bases),
               components = std::max(receivers.components, transfer.bases.max_components());
     if (components > most)
-        throw Error(std::to_string(components) + " components do not fit the " + std::to_string(most) +
-                    " of the vertex attributes");
+        throw Error(std::to_string(components) +
+                    " components are needed, but the vertex attributes have only " + std::to_string(most));
     return define("PRT_WEIGHT_VECTORS", static_cast<std::size_t>(receivers.components / 4));
 }
 
@@ -127,7 +128,7 @@ std::string relight_defines(const ClusteredTransfer& transfer, ConstantSource co
     case ConstantSource::buffer:
         if (language == ShaderLanguage::glsl330 || language == ShaderLanguage::essl300)
             throw Error(
-                "OpenGL 3.3 and OpenGL ES 3.0 have no storage buffers: take constants from a block or a "
+                "OpenGL 3.3 and OpenGL ES 3.0 do not support storage buffers; use --constants block or "
                 "texture");
         return text + "#define PRT_CONSTANTS_BUFFER\n";
     case ConstantSource::block:
@@ -144,10 +145,11 @@ std::string relight_shader(const ClusteredTransfer& transfer, ConstantSource con
                            ShaderLanguage language, const glm::dvec3& seen_from) {
     const std::string defines = relight_defines(transfer, constants, language, seen_from);
     const std::string table = binding_table(relight_bindings(transfer, constants, language), "//   ");
-    return shader_source("prt_relight.vert",
-                         "// To bind (kind, location or binding, name, type, content; - by name):\n" + table +
-                             defines,
-                         language);
+    return shader_source(
+        "prt_relight.vert",
+        "// Bindings (kind, location or binding number, name, type, content; -: bound by name):\n" + table +
+            defines,
+        language);
 }
 
 std::string term_defines(const TransferLayout& layout) {
@@ -173,7 +175,8 @@ std::string term_defines(const TransferLayout& layout) {
 
 std::string constants_shader(const ClusteredTransfer& transfer, ShaderLanguage language) {
     if (language != ShaderLanguage::glsl450 && language != ShaderLanguage::vulkan)
-        throw Error("OpenGL 3.3 and OpenGL ES 3.0 have no compute shaders: form the constants on the CPU");
+        throw Error(
+            "OpenGL 3.3 and OpenGL ES 3.0 do not support compute shaders; compute the constants on the CPU");
     return shader_source(
         "prt_constants.comp",
         define("PRT_ROWS", constant_rows(transfer.bases)) + term_defines(transfer.bases.layout), language);
@@ -183,7 +186,7 @@ std::string lightmap_shader(const ClusteredTransfer& transfer, LightmapPass pass
                             ShaderLanguage language) {
     if (pass == LightmapPass::compute && language != ShaderLanguage::glsl450 &&
         language != ShaderLanguage::vulkan)
-        throw Error("OpenGL 3.3 and OpenGL ES 3.0 have no compute shaders: take the fragment shader");
+        throw Error("OpenGL 3.3 and OpenGL ES 3.0 do not support compute shaders; use the fragment shader");
     return shader_source(pass == LightmapPass::compute ? "prt_lightmap.comp" : "prt_lightmap.frag",
                          relight_defines(transfer, constants, language), language);
 }

@@ -26,7 +26,8 @@ std::string volume_functions(const CompressedVolume& volume, VolumeFormat format
 
 std::string volume_shader(const CompressedVolume& volume, ShaderLanguage language, VolumeFormat format) {
     if (language != ShaderLanguage::glsl450 && language != ShaderLanguage::vulkan)
-        throw Error("OpenGL 3.3 and OpenGL ES 3.0 have no compute shaders: form the texture on the CPU");
+        throw Error(
+            "OpenGL 3.3 and OpenGL ES 3.0 do not support compute shaders; compute the texture on the CPU");
     return shader_source(
         "prt_volume.comp",
         relight_defines(volume.compressed.transfer, ConstantSource::buffer, language) +

@@ -35,7 +35,7 @@ InputFile::InputFile(const std::filesystem::path& path)
         return;
     }
     ::close(descriptor_);
-    throw Error(known && S_ISDIR(status.st_mode) ? "is a directory" : "is neither a regular file nor a pipe");
+    throw Error(known && S_ISDIR(status.st_mode) ? "is a folder" : "is not a regular file or a pipe");
 }
 
 InputFile::~InputFile() {
@@ -51,7 +51,7 @@ std::size_t InputFile::read_some(std::byte* to, std::size_t size) {
             return static_cast<std::size_t>(count);
         }
         if (count == 0 && waited > kPatience)
-            throw Error("nobody writes to this pipe");
+            throw Error("no data arrives from this pipe");
         if (count < 0 && errno == EAGAIN) {
             begun_ = true;
             pollfd wait{descriptor_, POLLIN, 0};
@@ -68,7 +68,7 @@ std::vector<std::byte> InputFile::read_all() {
     const std::size_t most = (pipe_ ? 1 : 4) * kGigabyte;
     const auto check = [&](std::size_t size) {
         if (size > most)
-            throw Error(pipe_ ? "is a pipe of more than 1 GB" : "is larger than 4 GB");
+            throw Error(pipe_ ? "is a pipe with more than 1 GB of data" : "is larger than 4 GB");
     };
     check(size_);
     std::vector<std::byte> bytes;

@@ -155,7 +155,7 @@ OutputFile::OutputFile(Path path) : path_(std::move(path)), target_(followed(pat
     std::error_code error;
     const auto status = std::filesystem::status(target_, error);
     if (std::filesystem::is_directory(status))
-        throw Error(path_.string() + ": is a folder and cannot be written as a file");
+        throw Error(path_.string() + ": is a folder; the output must be a file");
     if (status.type() == std::filesystem::file_type::none)
         fail(error.value()); // for example, a name that is too long
     stream_ = is_descriptor(target_) ||

@@ -44,7 +44,7 @@ std::vector<float> steps_of(const CodedBases& coded, std::size_t clusters) {
         for (int i = 0; i < coded.exponents.axes[g] && group_of.size() <= axes; ++i)
             group_of.push_back(g);
     if (groups > 0 && (group_of.size() != axes || coded.exponents.code.drops.size() != groups))
-        throw Error("the steps of the bases are of another number of axes");
+        throw Error("the steps of the bases do not match the number of axes");
     std::vector<std::int32_t> exponents;
     if (groups > 0)
         exponents = decode_rows(coded.exponents.code, clusters);
@@ -63,7 +63,7 @@ std::vector<float> decode_bases(const CodedBases& coded, const std::vector<int>&
     const std::size_t axes = coded.scales.size(), dimension = coded.origin.size();
     if (coded.axes.drops.size() != dimension || coded.values.drops.size() != axes ||
         (!coded.units.empty() && coded.units.size() != dimension))
-        throw Error("the code of the bases has columns of another number");
+        throw Error("the code of the bases has the wrong number of columns");
     std::size_t rows = 0;
     for (const int m : components)
         rows += 1 + predictor_rows + static_cast<std::size_t>(m);

@@ -18,7 +18,8 @@ public:
           dimension_(transfer.bases.dimension()),
           max_components_(static_cast<std::size_t>(transfer.bases.max_components())) {}
 
-    /// Writes the vectors of receivers from `first` on to `to` [..][dimension], whose size sets their number.
+    /// Writes the vectors of consecutive receivers, starting at `first`, to `to` [n][dimension]. The size of
+    /// `to` determines their number n.
     void read(std::size_t first, std::span<float> to) const;
 
 private:

@@ -276,10 +276,10 @@ public:
             cluster = decoder_.read_plain(cluster_bits_);
         else
             throw Error("the coded words are damaged: receiver " + std::to_string(v) +
-                        " has the cluster of a neighbor that does not exist");
+                        " takes the cluster of a neighbor that does not exist");
         if (cluster >= clusters_)
-            throw Error("the coded words are damaged: receiver " + std::to_string(v) + " is in cluster " +
-                        std::to_string(cluster) + " of " + std::to_string(clusters_));
+            throw Error("the coded words are damaged: receiver " + std::to_string(v) + " has cluster " +
+                        std::to_string(cluster) + ", but there are only " + std::to_string(clusters_));
         packer_.add(cluster, cluster_bits_);
         return fields_.clusters[v] = static_cast<std::uint16_t>(cluster);
     }
@@ -350,7 +350,7 @@ std::vector<RansSlot> slots_of(std::span<const std::int32_t> frequencies) {
         for (std::uint32_t symbol = 0; symbol < own.size(); ++symbol) {
             const std::int32_t frequency = own[symbol];
             if (frequency < 0 || static_cast<std::size_t>(frequency) > end - slot)
-                throw Error("the coded words are damaged: the frequencies have another sum than " +
+                throw Error("the coded words are damaged: the sum of the frequencies is not " +
                             std::to_string(kFrequencyTotal));
             for (std::uint32_t i = 0; i < static_cast<std::uint32_t>(frequency); ++i)
                 slots[slot++] = RansSlot(symbol, static_cast<std::uint32_t>(frequency), i);
@@ -360,7 +360,7 @@ std::vector<RansSlot> slots_of(std::span<const std::int32_t> frequencies) {
                 slots[slot++] = RansSlot(0, kFrequencyTotal, i);
         }
         if (slot != end)
-            throw Error("the coded words are damaged: the frequencies have another sum than " +
+            throw Error("the coded words are damaged: the sum of the frequencies is not " +
                         std::to_string(kFrequencyTotal));
     }
     return slots;
@@ -393,7 +393,7 @@ std::vector<std::span<const std::byte>> split_blocks(std::span<const std::byte> 
         rest = rest.subspan(length);
     }
     if (!rest.empty())
-        throw Error("the coded words are damaged");
+        throw Error("the coded words are damaged: there are bytes after the last block");
     return blocks;
 }
 
@@ -405,7 +405,7 @@ Fields unpacked(const WordLayout& layout, std::span<const std::uint32_t> words) 
         const std::byte* own = bytes + v * stride * 4;
         const std::uint32_t cluster = load<std::uint32_t>(own) & ((1u << layout.cluster_bits) - 1);
         if (cluster >= layout.clusters.size())
-            throw Error("receiver " + std::to_string(v) + " is in no cluster");
+            throw Error("receiver " + std::to_string(v) + " has a cluster that does not exist");
         fields.clusters[v] = static_cast<std::uint16_t>(cluster);
         auto position = static_cast<std::size_t>(layout.cluster_bits);
         for (std::size_t j = 0; j < layout.clusters[cluster].components; ++j) {
@@ -451,7 +451,8 @@ std::vector<EarlierNeighbors> earlier_neighbors(std::span<const std::uint32_t> t
         const auto [low, high] = std::minmax({triangles[t], triangles[t + 1], triangles[t + 2]});
         const std::uint32_t middle = triangles[t] ^ triangles[t + 1] ^ triangles[t + 2] ^ low ^ high;
         if (high >= receivers)
-            throw Error("a triangle has vertex " + std::to_string(high) + " of " + std::to_string(receivers));
+            throw Error("a triangle refers to vertex " + std::to_string(high) + ", but there are only " +
+                        std::to_string(receivers));
         add(middle, low);
         add(high, low);
         add(high, middle);
@@ -495,7 +496,7 @@ std::vector<std::uint32_t> decode_words(const WordCode& code, const WordLayout& 
                                         std::span<const EarlierNeighbors> neighbors, int threads) {
     if (code.frequencies.drops.size() != kColumns)
         throw Error("the frequencies of the coded words have " +
-                    std::to_string(code.frequencies.drops.size()) + " columns, not " +
+                    std::to_string(code.frequencies.drops.size()) + " columns, but must have " +
                     std::to_string(kColumns));
     const std::vector<RansSlot> slots = slots_of(decode_rows(code.frequencies, kRows));
     const std::vector<std::span<const std::byte>> blocks = split_blocks(code.bits, neighbors.size());

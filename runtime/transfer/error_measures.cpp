@@ -24,12 +24,12 @@ double ratio(double error, double reference) {
 void check_finite(std::span<const glm::vec3> radiance) {
     for (const glm::vec3& r : radiance)
         if (!std::isfinite(r.x) || !std::isfinite(r.y) || !std::isfinite(r.z))
-            throw Error("exit radiance is not finite, so that no error can be told");
+            throw Error("the error cannot be measured: exit radiance is not finite");
 }
 
 void check_finite(std::span<const float> numbers, const char* what) {
     if (!std::all_of(numbers.begin(), numbers.end(), [](float v) { return std::isfinite(v); }))
-        throw Error(std::string(what) + " are not finite, so that no error can be told");
+        throw Error(std::string("the error cannot be measured: ") + what + " are not finite");
 }
 
 /// Returns whether the terms have the same kinds and names; the number of channels may differ.

@@ -107,9 +107,10 @@ std::span<const float> InstanceModes::matrix(std::size_t mode) const {
 
 std::array<Lighting, kInstanceModes> InstanceModes::lightings(const Lighting& lighting) const {
     if (!lighting.lamps.empty())
-        throw Error("instances that share their transfer know no lamps");
+        throw Error(
+            "instances with shared transfer do not support lamps; use --lamps none or --instances own");
     if (lighting.sky.order < order_ || (lighting.suns && lighting.suns->order < order_))
-        throw Error("the lighting has fewer bands than the transfer of instances");
+        throw Error("the order of the lighting is lower than the order of the transfer");
     const std::size_t count = level_.size();
     const auto through = [&](std::size_t mode, const Light& light) {
         Light result{order_, std::vector<glm::vec3>(count, glm::vec3(0))};
@@ -140,7 +141,7 @@ std::array<Lighting, kInstanceModes> InstanceModes::lightings(const Lighting& li
 SharedTransfer::SharedTransfer(const Transfer& transfer, const glm::dvec3& up, int threads)
     : layout_(transfer.layout), modes_(transfer.layout.order, up) {
     if (layout_.lamps() > 0 || layout_.outputs != 1)
-        throw Error("transfer of lamps is not shared by instances");
+        throw Error("instances with shared transfer do not support lamps");
     const std::size_t dimension = layout_.dimension(), count = modes_.level().size(),
                       receivers = transfer.receivers();
     passing_.resize(receivers * kPassingModes * dimension);

@@ -3,6 +3,7 @@
 
 #include "prt/instance_relighter.h"
 
+#include "prt/support/counted.h"
 #include "prt/support/error.h"
 #include "prt/support/parallel.h"
 
@@ -70,15 +71,15 @@ InstanceRelighter::InstanceRelighter(const ClusteredTransfer& transfer,
       rotations_(instance_rotations(rotations_of(instances), yaws)),
       instances_(instances.begin(), instances.end()), of_(rotations_.rotations.size()) {
     if (transfer.bases.layout.outputs != 1 || transfer.bases.layout.lamps() > 0)
-        throw Error("transfer of lamps is not shared by instances");
+        throw Error("instances with shared transfer do not support lamps");
     for (std::size_t i = 0; i < instances_.size(); ++i) {
         of_[rotations_.of[i]].push_back(static_cast<std::uint32_t>(i));
         begins_.push_back(size_);
         size_ += 3 * std::size_t{instances_[i].rows.count};
     }
     if (size_ * sizeof(glm::vec4) > std::numeric_limits<std::uint32_t>::max())
-        throw Error("constants of " + std::to_string(instances_.size()) + " instances take " +
-                    std::to_string(size_ * sizeof(glm::vec4) >> 20) + " MB: more than a buffer holds");
+        throw Error("the constants of " + counted(instances_.size(), "instance") + " need " +
+                    std::to_string(size_ * sizeof(glm::vec4) >> 20) + " MB, but a buffer is limited to 4 GB");
 }
 
 std::vector<glm::vec4> InstanceRelighter::table() const {

@@ -98,7 +98,7 @@ CodedFactors coded(std::span<const InstanceFactors> factors) {
         const std::array<float, kInstanceNumbers> numbers = numbers_of(instance);
         for (std::size_t j = 0; j < kInstanceNumbers; ++j) {
             if (!(std::abs(numbers[j]) <= kMaxInstanceFactor))
-                throw Error("factors of instances are not finite, or beyond 60000");
+                throw Error("a factor of an instance is not finite or not in -60000..60000");
             result.scales[j] = std::max(result.scales[j], std::abs(numbers[j] - open[j]) / kMax);
         }
     }

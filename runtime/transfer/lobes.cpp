@@ -64,21 +64,21 @@ void LobeModel::decode(std::size_t vertex, std::span<Lobe> to) const {
 
 void check_lobes(const LobeModel& model) {
     if (model.order < 2 || model.order > kMaxLobeOrder)
-        throw Error("lobes have order 2 to " + std::to_string(kMaxLobeOrder) + ", not " +
+        throw Error("the order of lobes must be in 2.." + std::to_string(kMaxLobeOrder) + ", not " +
                     std::to_string(model.order));
     if (model.lobes < 1 || model.lobes > kMaxLobes)
-        throw Error("a vertex has 1 to " + std::to_string(kMaxLobes) + " lobes, not " +
+        throw Error("the number of lobes per vertex must be in 1.." + std::to_string(kMaxLobes) + ", not " +
                     std::to_string(model.lobes));
     if (model.profiles.empty() || model.profiles.size() > kMaxProfiles)
-        throw Error("lobes have 1 to " + std::to_string(kMaxProfiles) + " profiles, not " +
+        throw Error("the number of lobe profiles must be in 1.." + std::to_string(kMaxProfiles) + ", not " +
                     std::to_string(model.profiles.size()));
     for (const LobeProfile& profile : model.profiles)
         for (const float gain : profile)
             if (!(std::abs(gain) <= kMaxGain))
-                throw Error("a profile of lobes holds a number that is not finite or too large");
+                throw Error("a lobe profile contains a number that is not finite or too large");
     for (const LobeWord& word : model.words)
         if (word[2] >= model.profiles.size())
-            throw Error("a lobe has profile " + std::to_string(word[2]) + " of " +
+            throw Error("a lobe has profile " + std::to_string(word[2]) + ", but there are only " +
                         std::to_string(model.profiles.size()));
 }
 

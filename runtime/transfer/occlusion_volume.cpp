@@ -92,7 +92,7 @@ void check_occlusion_volume(const OcclusionVolume& volume) {
         if (!(volume.high[a] > volume.low[a]) || !std::isfinite(volume.high[a] - volume.low[a]))
             throw Error("the box of an occlusion volume is empty or not finite");
     if (!(volume.reach > 0) || !std::isfinite(volume.reach))
-        throw Error("the reach of an occlusion volume is no length");
+        throw Error("the reach of an occlusion volume must be finite and greater than 0");
 }
 
 glm::vec3 PlacedOccluder::center() const {

@@ -49,8 +49,8 @@ void unpack_clusters(std::size_t clusters, std::size_t first, std::size_t count,
         const auto word = load<std::uint32_t>(receivers.weights.data() + p * receivers.stride());
         const std::uint32_t k = word & ((1u << receivers.cluster_bits) - 1);
         if (k >= clusters)
-            throw Error(std::string(what) + " " + std::to_string(p - first) + " is in cluster " +
-                        std::to_string(k) + " of " + std::to_string(clusters));
+            throw Error(std::string(what) + " " + std::to_string(p - first) + " has cluster " +
+                        std::to_string(k) + ", but there are only " + std::to_string(clusters));
         receivers.clusters[p] = static_cast<std::uint16_t>(k);
     }
 }

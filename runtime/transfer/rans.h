@@ -36,10 +36,8 @@ public:
         : bits_(symbol | frequency << 8 | offset << 20) {}
     std::uint32_t symbol() const { return bits_ & 0xff; }
     std::uint32_t frequency() const { return bits_ >> 8 & 0xfff; }
-    std::uint32_t offset() const {
-        return bits_ >> 20;
-    } ///< distance of the slot from the first slot of its
-      ///< symbol
+    /// Distance of the slot from the first slot of its symbol.
+    std::uint32_t offset() const { return bits_ >> 20; }
 
 private:
     std::uint32_t bits_ = 0;

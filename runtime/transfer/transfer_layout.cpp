@@ -2,6 +2,7 @@
 #include "prt/transfer_layout.h"
 
 #include "prt/sh.h"
+#include "prt/support/counted.h"
 #include "prt/support/error.h"
 #include "prt/support/printable.h"
 
@@ -15,33 +16,34 @@ namespace {
 void check_bands(std::span<const glm::vec3> light, const TransferLayout& layout) {
     const auto count = static_cast<std::size_t>(coefficient_count(layout.order));
     if (light.size() < count)
-        throw Error("the lighting has " + std::to_string(light.size()) + " coefficients, transfer of order " +
+        throw Error("the lighting has " + counted(light.size(), "coefficient") + ", but transfer of order " +
                     std::to_string(layout.order) + " needs " + std::to_string(count));
 }
 
 void check_strengths(std::span<const glm::vec3> lamps, const TransferLayout& layout) {
     if (!lamps.empty() && lamps.size() != layout.lamps())
-        throw Error("the lighting has " + std::to_string(lamps.size()) + " strengths, the transfer has " +
-                    std::to_string(layout.lamps()) + " lamps");
+        throw Error("the lighting has " + std::to_string(lamps.size()) +
+                    " lamp strengths, but the transfer has " + counted(layout.lamps(), "lamp"));
 }
 
 void check_lamps(const TransferLayout& layout) {
     if (layout.lamps() > kMaxLamps)
-        throw Error("the transfer has " + std::to_string(layout.lamps()) + " lamps, more than " +
+        throw Error("the transfer has " + std::to_string(layout.lamps()) + " lamps; the limit is " +
                     std::to_string(kMaxLamps));
-    constexpr const char* kNames = "lamps of transfer have names, and other terms have none";
+    constexpr const char* kNames =
+        "each lamp of the transfer must have a name, and other terms must not have one";
     for (const TransferTerm& term : layout.distant_terms()) {
         if (!term.name.empty())
             throw Error(kNames);
         if (!term.members.empty())
-            throw Error("a term of transfer that is no lamp has members");
+            throw Error("a term of the transfer has members, but is not a lamp");
     }
     std::set<std::string> names;
     for (const TransferTerm& term : layout.lamp_terms()) {
         if (term.name.empty())
             throw Error(kNames);
         if (!names.insert(term.name).second)
-            throw Error("two lamps of the transfer are called '" + printable(term.name) + "'");
+            throw Error("two lamps of the transfer have the name '" + printable(term.name) + "'");
     }
 }
 
@@ -117,20 +119,20 @@ void check_layout(const TransferLayout& layout) {
     if (layout.terms.empty())
         throw Error("the transfer has no terms");
     if (layout.outputs != 1 && layout.outputs != 4 && layout.outputs != 9 && layout.outputs != 16)
-        throw Error("transfer has " + std::to_string(layout.outputs) +
-                    " outputs, only 1, 4, 9 or 16 make sense");
+        throw Error("the transfer has " + std::to_string(layout.outputs) +
+                    " outputs, but must have 1, 4, 9 or 16");
     for (std::size_t i = 0; i < layout.terms.size(); ++i) {
         const TransferTerm& term = layout.terms[i];
         if (term.channels != 1 && term.channels != 3)
             throw Error(std::string("term '") + to_string(term.kind) + "' has " +
-                        std::to_string(term.channels) + " channels, only 1 or 3 make sense");
+                        std::to_string(term.channels) + " channels, but must have 1 or 3");
         if (term.kind == TermKind::lamp)
             continue;
         if (i > 0 && !(layout.terms[i - 1].kind < term.kind))
-            throw Error(std::string("term '") + to_string(term.kind) + "' stands behind term '" +
+            throw Error(std::string("term '") + to_string(term.kind) + "' must not follow term '" +
                         to_string(layout.terms[i - 1].kind) + "'");
         if (term.kind == TermKind::combined && i > 0)
-            throw Error("term 'combined' stands beside other terms of the same light");
+            throw Error("term 'combined' must be the only term of distant light");
     }
     check_lamps(layout);
 }

@@ -4,6 +4,7 @@
 
 #include "prt/cluster_lighting.h"
 #include "prt/sh.h"
+#include "prt/support/counted.h"
 #include "prt/support/error.h"
 #include "prt/volume_weights.h"
 
@@ -95,10 +96,10 @@ bool has_corner(const VolumeBrick& brick, const glm::ivec3& corner) {
 
 void check_grid(const VolumeGrid& grid) {
     if (!(grid.spacing > 0) || !(grid.spacing < 1e18f) || !(glm::length(grid.origin) < 1e30f))
-        throw Error("the spacing or the origin of a volume is no usable number");
+        throw Error("the spacing or the origin of a volume is not finite, too large or not positive");
     if (glm::any(glm::lessThan(grid.size, glm::ivec3(1))) ||
         glm::any(glm::greaterThan(grid.size, glm::ivec3(kMaxBricksAlong))))
-        throw Error("a volume is 1 to " + std::to_string(kMaxBricksAlong) + " bricks long");
+        throw Error("each side of a volume must have 1.." + std::to_string(kMaxBricksAlong) + " bricks");
     if (grid.bricks.empty())
         throw Error("a volume has no bricks");
     for (const VolumeBrick& brick : grid.bricks)
@@ -106,7 +107,7 @@ void check_grid(const VolumeGrid& grid) {
             glm::any(glm::lessThan(brick.position, glm::ivec3(0))) ||
             glm::any(glm::greaterThanEqual(brick.position, grid.size)) ||
             brick.position % (1 << brick.level) != glm::ivec3(0))
-            throw Error("a brick lies where its volume has none");
+            throw Error("a brick is outside its volume, or its level or position is invalid");
     index_of(grid);
 }
 
@@ -181,8 +182,8 @@ VolumeCorners corners_in(const VolumeGrid& grid, const VolumeProbes& probes, std
 VolumeLookup::VolumeLookup(const VolumeGrid& grid, std::span<const ProbeVisibility> visibility)
     : grid_(grid), probes_(probes_of(grid)), index_(index_of(grid)) {
     if (visibility.size() != probes_.size())
-        throw Error("a volume of " + std::to_string(probes_.size()) + " probes has " +
-                    std::to_string(visibility.size()) + " visibility distances");
+        throw Error("the volume has " + counted(probes_.size(), "probe") + ", but visibility distances for " +
+                    std::to_string(visibility.size()));
     for (std::size_t p = 0; p < visibility.size(); ++p) {
         auto& nearness = nearness_.emplace_back();
         const auto distances =

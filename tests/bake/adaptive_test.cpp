@@ -50,7 +50,7 @@ TEST(TargetError, IsReachedAndSoIsTheEstimate) {
     }
 }
 
-TEST(TargetError, TakesFewerRaysThanTheSameForAll) {
+TEST(TargetError, NeedsFewerRaysThanUniformSampling) {
     const Scene scene = balls_over_floor();
     BakeOptions options = cpu_options();
     options.repairs.denoise = false;
@@ -63,7 +63,7 @@ TEST(TargetError, TakesFewerRaysThanTheSameForAll) {
               error_against_reference(scene, uniform.baked.transfer));
 }
 
-TEST(TargetError, OfOpenReceiversTakesTheFirstRaysOnly) {
+TEST(TargetError, OpenReceiversNeedOnlyTheFirstRays) {
     BakeOptions options = cpu_options();
     options.target_error = 1e-6;
     const BakeResult result = bake(test::SceneBuilder().floor({0, 0, 0}, 1, 4).build(), options);
@@ -71,7 +71,7 @@ TEST(TargetError, OfOpenReceiversTakesTheFirstRaysOnly) {
     EXPECT_EQ(result.statistics.rays, 64 * result.statistics.receivers.traced);
 }
 
-TEST(TargetError, ThatIsLooseTakesNoRaysButTheFirst) {
+TEST(TargetError, LooseTargetsNeedOnlyTheFirstRays) {
     BakeOptions options = cpu_options();
     options.order = 2;
     options.target_error = 10;
@@ -82,7 +82,7 @@ TEST(TargetError, ThatIsLooseTakesNoRaysButTheFirst) {
     EXPECT_LE(statistics.rays, 64 * statistics.receivers.traced + 128 * 32);
 }
 
-TEST(TargetError, ThatTheFirstRaysReachToTheLastDigitTakesNoMore) {
+TEST(TargetError, ExactlyReachedTargetsNeedNoMoreRays) {
     // For about every other seed a sample has a larger error than predicted: the prediction then requires no
     // more rays.
     BakeOptions options = cpu_options();
@@ -141,7 +141,7 @@ TEST(SamplingError, IsEstimatedForEveryBake) {
     }
 }
 
-TEST(Storage, IsFloat16WhereSamplingErrsTenTimesAsMuch) {
+TEST(Storage, IsFloat16ForTenTimesLargerSamplingError) {
     const Scene scene = balls_over_floor();
     BakeOptions options = cpu_options();
     options.rays = 256;
@@ -161,7 +161,7 @@ TEST(Storage, IsFloat16WhereSamplingErrsTenTimesAsMuch) {
                 relative_l2(result.baked.transfer, rounded, receiver_areas(scene)), 1e-9);
 }
 
-TEST(SamplingError, OfFixedRaysIsNeitherLowNorScattered) {
+TEST(SamplingError, IsUnbiasedForFixedRays) {
     const Scene scene = balls_over_floor();
     const std::vector<float> areas = receiver_areas(scene);
     const auto baked = [&](int rays, std::uint64_t seed) {

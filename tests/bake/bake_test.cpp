@@ -36,13 +36,13 @@ Transfer bake_with(int rays, std::uint64_t seed, int threads = 0, bool denoise =
     return bake(sphere_over_floor(), options).baked.transfer;
 }
 
-TEST(Bake, IsTheSameToTheByteForAnyNumberOfThreads) {
+TEST(Bake, IsByteIdenticalForAllThreadCounts) {
     const Transfer one = bake_with(1500, 3, 1);
     EXPECT_EQ(one.vectors, bake_with(1500, 3, 2).vectors);
     EXPECT_EQ(one.vectors, bake_with(1500, 3, 5).vectors);
 }
 
-TEST(Bake, SeedsChangeTheNoiseAndNothingElse) {
+TEST(Bake, SeedsChangeOnlyTheNoise) {
     const Transfer a = bake_with(1024, 1), b = bake_with(1024, 1ull << 40);
     EXPECT_GT(distance(a, b), 1e-5);
     EXPECT_LT(distance(a, b), 0.03);
@@ -57,13 +57,13 @@ TEST(Bake, ErrorFallsFasterThanRandomSampling) {
     EXPECT_LT(many, 0.01);
 }
 
-TEST(Bake, NumbersOfRaysThatAreNoPowerOfTwoAreFair) {
+TEST(Bake, HasNoBiasForRayCountsOtherThanPowersOfTwo) {
     const Transfer reference = bake_with(1 << 15, 99);
     for (const int rays : {1, 3, 17, 100, 1000, 1025, 3000})
         EXPECT_LT(distance(reference, bake_with(rays, 4)), 1.2 / std::sqrt(rays)) << rays;
 }
 
-TEST(Bake, ReportsWhatItDid) {
+TEST(Bake, ReportsStatistics) {
     BakeOptions options;
     options.rays = 64;
     const Scene scene = sphere_over_floor();
@@ -75,7 +75,7 @@ TEST(Bake, ReportsWhatItDid) {
     EXPECT_EQ(result.baked.record.receivers, receivers_id(scene));
 }
 
-TEST(Bake, RefusesWhatItCannotDo) {
+TEST(Bake, RejectsUnsupportedOptions) {
     BakeOptions options;
     const Scene scene = sphere_over_floor();
     for (const int order : {0, 11, -1}) {
@@ -103,7 +103,7 @@ TEST(Bake, RefusesWhatItCannotDo) {
     }
 }
 
-TEST(Bake, TellsWhatDepthMapsCannotDo) {
+TEST(Bake, ReportsLimitsOfDepthMaps) {
     // Options are checked first, so this also holds on machines without a GPU.
     BakeOptions raster;
     raster.tracer.method = BakeMethod::raster;
@@ -117,7 +117,7 @@ TEST(Bake, TellsWhatDepthMapsCannotDo) {
     };
     BakeOptions options = raster;
     options.tracer.backend = Backend::cpu;
-    expect_refusal(options, "no CPU backend");
+    expect_refusal(options, "needs a GPU");
     options = raster;
     for (const int bounces : {1, 2, kEndlessBounces}) {
         options.bounces = bounces;
@@ -125,7 +125,7 @@ TEST(Bake, TellsWhatDepthMapsCannotDo) {
     }
     options = raster;
     options.target_error = 0.1;
-    expect_refusal(options, "the same directions everywhere");
+    expect_refusal(options, "does not support --target-error");
     options = raster;
     for (const int resolution : {15, 16385}) {
         options.tracer.raster_resolution = resolution;
@@ -146,7 +146,7 @@ TEST(Bake, StopsWhenAsked) {
     EXPECT_THROW(bake(sphere_over_floor(), options, progress), Cancelled);
 }
 
-TEST(Bake, ProgressRunsFromNothingToAll) {
+TEST(Bake, ReportsProgressFromZeroToOne) {
     double last = -1;
     BakeOptions options;
     options.rays = 4096;

@@ -60,7 +60,7 @@ double cap_transfer(int l, double c) {
     return 2 * inner * std::sqrt((2 * l + 1) / (4 * pi));
 }
 
-TEST(DiscBlocker, TakesItsCapAway) {
+TEST(DiscBlocker, BlocksItsCap) {
     const float height = 2, radius = 1.5f;
     const Scene disc = test::SceneBuilder().disc({0, 0, height}, {0, 0, -1}, radius, 2000).build();
     const auto t = transfer_at(disc, {0, 0, 0}, {0, 0, 1}, 8, 1 << 18);
@@ -107,7 +107,7 @@ TEST(EndlessWall, BlocksHalfOfTheSky) {
     }
 }
 
-TEST(Uniform, LightOfRadianceOneGivesVisibility) {
+TEST(Uniform, LightOfRadianceOneEqualsVisibility) {
     // A receiver in the middle of a square pit of slope 45 degrees sees sin²(45°) = half of the
     // cosine-weighted sky of a cone; a pyramid with many sides approximates a cone.
     test::SceneBuilder builder;
@@ -125,7 +125,7 @@ TEST(Uniform, LightOfRadianceOneGivesVisibility) {
                 1e-4); // the wall of height 1 at distance 1 leaves the cone of 45 degrees open
 }
 
-TEST(FootOfAWall, SeesHalfTheSkyWhateverTheSidesOfTheWall) {
+TEST(WallFoot, SeesHalfTheSkyForAllWallSides) {
     // Vertices of the floor are in the plane of the wall, exactly or up to rounding.
     for (const bool double_sided : {false, true})
         for (const float shift : {0.0f, 0.1f, 1000.3f}) {

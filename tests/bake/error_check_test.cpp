@@ -57,7 +57,7 @@ double lit_by_point(const glm::dvec3& light, const glm::dvec3& p) {
     return to.y / (std::numbers::pi * std::pow(glm::length(to), 3));
 }
 
-TEST(BakeErrors, OfALampAreThoseOfInterpolation) {
+TEST(BakeErrors, EqualTheInterpolationErrorOfALamp) {
     Scene scene = test::join(
         {SceneBuilder().floor({0, 0, 0}, 2, 2).build(), SceneBuilder().floor({6, 0, 0}, 2, 24).build()});
     PunctualLight light;
@@ -80,7 +80,7 @@ TEST(BakeErrors, OfALampAreThoseOfInterpolation) {
 }
 
 /// A floor at the foot of a long wall of height 1 sees (1 + x / sqrt(x² + 1)) / 2 of a uniform sky.
-TEST(BakeErrors, OfASkyAreThoseOfInterpolation) {
+TEST(BakeErrors, EqualTheInterpolationErrorOfASky) {
     const Scene wall = SceneBuilder().quad({0, 0, 1000}, {0, 0, -1000}, {0, 1, -1000}, {0, 1, 1000}).build();
     for (const int cells : {2, 4}) {
         const Scene scene = test::join({SceneBuilder().floor({2.001f, 0, 0}, 2, cells).build(), wall});
@@ -101,7 +101,7 @@ TEST(BakeErrors, OfASkyAreThoseOfInterpolation) {
 
 /// The noise of few rays is the difference from a bake with many rays. The mesh is so fine that interpolation
 /// adds no error.
-TEST(BakeErrors, KnowTheNoiseOfRays) {
+TEST(BakeErrors, IncludeTheNoiseOfRays) {
     const Scene scene = SceneBuilder().floor({0, 0, 0}, 1, 24).sphere({0, 0.7f, 0}, 0.4f, 24).build();
     const auto transfer = [&](int rays, std::uint64_t seed) {
         BakeOptions options = measured(3, rays);
@@ -137,7 +137,7 @@ TEST(BakeErrors, KnowTheNoiseOfRays) {
 }
 
 /// Between two plates as fine as that no bounce is missing or counted twice.
-TEST(BakeErrors, CountBouncesAsTheBakeDoes) {
+TEST(BakeErrors, CountBouncesLikeTheBake) {
     const Scene ceiling = SceneBuilder().quad({-1, 1, -1}, {1, 1, -1}, {1, 1, 1}, {-1, 1, 1}).build();
     Scene plates =
         test::painted(test::join({SceneBuilder().floor({0, 0, 0}, 1, 12).build(), ceiling}), glm::vec3(0.8f));
@@ -161,7 +161,7 @@ Scene wall() {
 }
 
 /// The back of a sheet in the open shows the lobe of its front: T_lm of odd bands has the wrong sign.
-TEST(BakeErrors, OfBacksAreThoseOfTheWrongSide) {
+TEST(BakeErrors, IncludeBacksLitFromTheWrongSide) {
     const Scene sheet = test::painted(wall(), glm::vec3(0.5f), true);
     const BakeErrors errors = errors_of(sheet, measured(2, 1024));
     const double t0 = 0.2820948, t1 = 0.4886025 * 2 / 3;

@@ -62,7 +62,7 @@ TEST(HardCase, DegenerateDuplicatedAndNeedleTrianglesDoNoHarm) {
 
 /// A triangle without area is on a floor. Two of its corners are at corners of the floor and take their
 /// light; the third is at no other vertex and stays black.
-TEST(HardCase, VerticesWithoutAreaTakeTheLightOfTheirPosition) {
+TEST(HardCase, VerticesWithoutAreaGetTheLightOfTheirPosition) {
     for (const FitMode fit : {FitMode::vertex, FitMode::surface}) {
         BakeOptions options;
         options.order = 3;
@@ -146,7 +146,7 @@ TEST(HardCase, SmallObjectsFarOutKeepTheirShadows) {
     EXPECT_LT(std::sqrt(squared / norm), 0.03);
 }
 
-TEST(HardCase, ObjectsTooSmallForTheirDistanceAreNamed) {
+TEST(HardCase, ObjectsTooSmallForTheirDistanceAreReported) {
     for (const auto& [size, distance, too_small] :
          {std::tuple{0.04f, 6000.0f, true}, {0.04f, 60.0f, false}, {1.0f, 6000.0f, false}}) {
         // The far triangle is a separate object, far larger than its rounding.
@@ -160,7 +160,8 @@ TEST(HardCase, ObjectsTooSmallForTheirDistanceAreNamed) {
         EXPECT_EQ(notice.has_value(), too_small) << size << " " << distance;
         if (notice) {
             EXPECT_EQ(notice->substr(0, 10), "1 object i");
-            EXPECT_NE(notice->find("object is 0.04 m in size and 6000 m"), std::string::npos) << *notice;
+            EXPECT_NE(notice->find("object has a size of 0.04 m and is 6000 m"), std::string::npos)
+                << *notice;
         }
     }
 }

@@ -69,7 +69,7 @@ void expect_radiance(const Scene& scene, const BakeOptions& options,
 }
 
 /// R = I cos / (pi d²).
-TEST(Lamps, OfPointsFallOffByTheSquare) {
+TEST(Lamps, PointsFollowTheInverseSquareLaw) {
     const glm::dvec3 at(0.3, 1.5, -0.2), intensity(2, 1, 0.5);
     expect_radiance(
         floor_under({point("lamp", glm::vec3(at), glm::vec3(intensity))}), lamp_options(),
@@ -81,7 +81,7 @@ TEST(Lamps, OfPointsFallOffByTheSquare) {
 }
 
 /// A sphere lights points outside it like a point light at its center.
-TEST(Lamps, OfRadiusAreAsBrightAsPoints) {
+TEST(Lamps, SpheresAreAsBrightAsPoints) {
     BakeOptions options = lamp_options();
     options.lamps.radius = 0.4;
     const glm::dvec3 at(0.3, 1.5, -0.2);
@@ -94,7 +94,7 @@ TEST(Lamps, OfRadiusAreAsBrightAsPoints) {
         2e-4); // 64 points of a spiral
 }
 
-TEST(Lamps, EndWhereTheirRangeEnds) {
+TEST(Lamps, EndAtTheirRange) {
     PunctualLight light = point("lamp", {0, 1, 0});
     light.range = 1.5f;
     expect_radiance(
@@ -109,7 +109,7 @@ TEST(Lamps, EndWhereTheirRangeEnds) {
 
 /// The intensity is full within the inner cone and zero outside the outer one; in between it is the square of
 /// a function linear in the cosine.
-TEST(Lamps, OfSpotsEndSoftlyAtTheirCone) {
+TEST(Lamps, SpotsFadeAtTheirCone) {
     PunctualLight light = point("lamp", {0, 2, 0});
     light.kind = PunctualKind::spot;
     light.direction = {0, -1, 0};
@@ -131,7 +131,7 @@ TEST(Lamps, OfSpotsEndSoftlyAtTheirCone) {
     EXPECT_GT(between, 0);
 }
 
-TEST(Lamps, FarAwayLightEverythingAlike) {
+TEST(Lamps, FarAwayLightUniformly) {
     PunctualLight light = point("lamp", {0, 0, 0}, glm::vec3(3));
     light.kind = PunctualKind::directional;
     light.direction = glm::normalize(glm::vec3(0.5f, -1, 0));
@@ -164,7 +164,7 @@ Scene floor_with(Scene shining, const glm::vec3& radiance, bool double_sided = f
 }
 
 /// E = pi L sin² of its half angle times the cosine, while all of it is above the horizon.
-TEST(Lamps, ThatAreSpheresShineAsTheirSolidAngle) {
+TEST(Lamps, SpheresFollowTheirSolidAngle) {
     BakeOptions options = lamp_options();
     options.lamps.rays = 256;
     expect_radiance(
@@ -191,7 +191,7 @@ double of_polygon(const std::vector<glm::dvec3>& corners, const glm::dvec3& p) {
     return std::abs(sum) / (2 * std::numbers::pi);
 }
 
-TEST(Lamps, ThatArePolygonsShineByLambertsFormula) {
+TEST(Lamps, PolygonsFollowLambertsFormula) {
     for (const double height : {1.5, 0.3, 0.02}) { // nearer than its triangles are large, too
         BakeOptions options = lamp_options();
         options.lamps.rays = 1024;
@@ -210,7 +210,7 @@ TEST(Lamps, ThatArePolygonsShineByLambertsFormula) {
 
 /// A floor meets a wall that shines: at the edge half of the sky of a vertex is wall, of which all are seen
 /// edge on from the wall's own plane.
-TEST(Lamps, LightWhatStandsInTheirPlane) {
+TEST(Lamps, LightReceiversInTheirPlane) {
     Scene wall = SceneBuilder()
                      .quad({-50, 0, 0}, {50, 0, 0}, {50, 100, 0}, {-50, 100, 0}) // faces +z
                      .build();
@@ -230,7 +230,7 @@ TEST(Lamps, LightWhatStandsInTheirPlane) {
 }
 
 /// An emitter with opacity one quarter emits a quarter, and one that is cut out emits nothing.
-TEST(Lamps, ShineByAsMuchOfThemAsIsThere) {
+TEST(Lamps, EmitByTheirOpacity) {
     Scene scene = floor_with(SceneBuilder().floor({0, 1, 0}, 0.7f, 2).build(), glm::vec3(2), true);
     const auto whole = lit_by_lamps(scene, lamp_options());
     Material& sign = scene.materials[scene.primitives[1].material];
@@ -244,7 +244,7 @@ TEST(Lamps, ShineByAsMuchOfThemAsIsThere) {
     EXPECT_EQ(none[40].x, 0);
 }
 
-TEST(Lamps, ShineFromTheirFrontAlone) {
+TEST(Lamps, EmitOnlyFromTheFront) {
     const Scene ceiling = floor_with(SceneBuilder().floor({0, 1, 0}, 0.7f, 2).build(), glm::vec3(2));
     const auto lit = lit_by_lamps(ceiling, lamp_options());
     for (const glm::vec3& r : lit)
@@ -284,7 +284,7 @@ TEST(Lamps, FillAClosedRoomByAllBounces) {
 }
 
 /// Each lamp is a part, by its name, and a group is the sum of its members.
-TEST(Lamps, OfAGroupAreTheirSum) {
+TEST(Lamps, GroupsAreSums) {
     Scene scene = test::join({SceneBuilder().floor({0, 0, 0}, 2, 8).build(),
                               SceneBuilder().sphere({0.5f, 0.7f, 0}, 0.3f, 8).build()});
     scene = test::painted(std::move(scene), {0.8f, 0.5f, 0.2f});
@@ -306,7 +306,7 @@ TEST(Lamps, OfAGroupAreTheirSum) {
         EXPECT_LT(glm::distance(a[p], b[p]), 1e-5f * (1 + glm::length(a[p])));
 }
 
-TEST(Lamps, IndirectAreAllWithoutDirectLight) {
+TEST(Lamps, IndirectModeOmitsDirectLight) {
     Scene scene = test::painted(test::join({SceneBuilder().floor({0, 0, 0}, 2, 8).build(),
                                             SceneBuilder().sphere({0.5f, 0.7f, 0}, 0.3f, 8).build()}),
                                 glm::vec3(0.5f));
@@ -326,7 +326,7 @@ TEST(Lamps, IndirectAreAllWithoutDirectLight) {
     EXPECT_EQ(bake(scene, options).baked.transfer.layout.lamps(), 0u);
 }
 
-TEST(Lamps, AtHardPlacesAreFinite) {
+TEST(Lamps, AreFiniteAtExtremePositions) {
     Scene scene = test::join(
         {SceneBuilder().floor({0, 0, 0}, 2, 8).build(), SceneBuilder().sphere({0, 1, 0}, 0.3f, 16).build()});
     scene.lights = {point("on a vertex", {0, 0, 0}), point("in a wall", {0, 1, 0})};
@@ -352,7 +352,7 @@ std::string error_of(const Scene& scene, const BakeOptions& options) {
     return "no error";
 }
 
-TEST(Lamps, ThatCannotBeAreRefused) {
+TEST(Lamps, InvalidLampsAreRejected) {
     const Scene scene = floor_under({point("lamp", {0, 1, 0})});
     BakeOptions options = lamp_options();
     options.lamps.groups = {{"group", "Lantern*"}};
@@ -372,19 +372,19 @@ TEST(Lamps, ThatCannotBeAreRefused) {
 }
 
 /// Light without absorption would grow without bound.
-TEST(Lamps, OfWhiteClosedRoomsAreRefusedButForANumberOfBounces) {
+TEST(Lamps, InWhiteClosedRoomsNeedAFiniteNumberOfBounces) {
     Scene room = closed_room(12, glm::vec3(1));
     room.primitives[0].node_name = "White room";
     for (const float intensity : {1e-4f, 1.0f}) {
         room.lights = {point("lamp", {0, 0, 0}, glm::vec3(intensity))};
         const std::string error = error_of(room, lamp_options(kEndlessBounces));
-        EXPECT_NE(error.find("without end"), std::string::npos);
+        EXPECT_NE(error.find("does not converge"), std::string::npos);
         EXPECT_NE(error.find("White room"), std::string::npos);
         EXPECT_EQ(error_of(room, lamp_options(3)), "no error");
     }
 }
 
-TEST(Lamps, WithTheNameOfAnothersGroupAreRefused) {
+TEST(Lamps, NamesOfOtherGroupsAreRejected) {
     const Scene scene = floor_under({point("Lantern", {0, 1, 0}), point("Bulb", {1, 1, 0})});
     BakeOptions options = lamp_options();
     options.lamps.groups = {{"Lantern", "Bulb"}};

@@ -39,7 +39,7 @@ std::vector<TermKind> kinds_of(const Transfer& transfer) {
 
 const std::vector<TermKind> kDirectAlone = {TermKind::direct}, kBoth = {TermKind::direct, TermKind::indirect};
 
-TEST(BakedParts, AreThoseThatTheSceneNeeds) {
+TEST(BakedTerms, FollowTheSceneContent) {
     const Scene grey = ball_over(glm::vec3(0.5f)), red = ball_over({0.9f, 0.2f, 0.1f});
     EXPECT_EQ(kinds_of(terms_of(grey, 0)), kDirectAlone);
     const Transfer bounced = terms_of(grey, 1), colored = terms_of(red, 1);
@@ -54,7 +54,7 @@ TEST(BakedParts, AreThoseThatTheSceneNeeds) {
 
 /// Bounces follow one ray in four, while direct light uses all rays: they are equal to those of a bake
 /// without bounces.
-TEST(BakedParts, DirectLightIsThatOfABakeWithoutBounces) {
+TEST(BakedTerms, DirectLightEqualsABakeWithoutBounces) {
     const Scene scene = ball_over({0.9f, 0.2f, 0.1f});
     // The filter looks at all light.
     const Transfer direct = terms_of(scene, 0, {}, false);
@@ -70,7 +70,7 @@ TEST(BakedParts, DirectLightIsThatOfABakeWithoutBounces) {
 }
 
 /// A closed white box with a hole: all incoming light spreads until R is 1, independent of the first hit.
-TEST(BakedParts, OfAFurnaceAddUpToTheSky) {
+TEST(BakedTerms, SumToTheSkyInAFurnace) {
     const Transfer both = terms_of(
         test::painted(test::SceneBuilder().bowl({0, 0, 0}, 1, 12, 3).build(), glm::vec3(1)), kEndlessBounces);
     ASSERT_EQ(kinds_of(both), kBoth);
@@ -92,7 +92,7 @@ TEST(BakedParts, OfAFurnaceAddUpToTheSky) {
 
 /// Half of the light on the front of a thin leaf comes from behind and is red: direct light has three
 /// channels.
-TEST(BakedParts, DirectLightHasTheColorOfTheSheetThatItComesThrough) {
+TEST(BakedTerms, DirectLightHasTheColorOfTransmittingSheets) {
     Scene leaf = test::painted(test::SceneBuilder().floor({0, 0, 0}, 1, 2).build(), {0.8f, 0.4f, 0.2f}, true);
     leaf.materials[0].transmission.factor = 0.5f;
     leaf.materials[0].transmission.color = {0.5f, 1, 1};
@@ -108,7 +108,7 @@ TEST(BakedParts, DirectLightHasTheColorOfTheSheetThatItComesThrough) {
 
 /// All light of a medium has passed through it: none of it is direct, and objects next to it keep their
 /// direct light.
-TEST(BakedParts, LightThroughMediaIsIndirect) {
+TEST(BakedTerms, LightThroughMediaIsIndirect) {
     const Scene floor = test::painted(test::SceneBuilder().floor({0, 0, 0}, 2, 6).build(), glm::vec3(0.5f)),
                 ball =
                     test::painted(test::SceneBuilder().sphere({0, 0.8f, 0}, 0.5f, 10).build(), glm::vec3(1));

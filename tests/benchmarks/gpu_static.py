@@ -1,10 +1,10 @@
 #!/usr/bin/env python3
-"""Compares what AMD's compiler makes of the baker's kernels with what it made of them before.
+"""Compares the output of AMD's compiler for the baker's kernels with stored results.
 
 gpu_static.py KERNEL_COST DRIVERS [--write] [--results FILE]
-KERNEL_COST is the program of that name; DRIVERS a folder of tests/support/fetch_drivers.sh. No GPU is needed. Prints what
-differs; status 1 where a kernel has fewer subgroups on a SIMD, spills, or takes 5 % more cycles. --write keeps the new
-figures. One note on a change goes by hand into the list "changes" of FILE.
+KERNEL_COST: the program of that name; DRIVERS: a folder of tests/support/fetch_drivers.sh. Needs no GPU. Prints differences;
+the exit status is 1 if a kernel has fewer subgroups per SIMD, more spills, or 5 % more cycles. --write stores the new
+figures. Add a note about each change by hand to the list "changes" of FILE.
 """
 import argparse
 import json

@@ -125,7 +125,7 @@ int main() {
                           {PRT_CONSTANT_SUMMED, summed}});
         std::puts(all.dump(1).c_str());
         std::fflush(stdout);
-        _exit(0); // hardware that is not there does not tear down well
+        _exit(0); // absent hardware cannot be shut down cleanly
     } catch (const std::exception& error) {
         std::fprintf(stderr, "kernel_cost: %s\n", error.what());
         return 1;

@@ -2,8 +2,8 @@
 """Measures runtime, baker and compressor, and writes the figures as JSON.
 
 measure.py BUILD [-o FILE] [--repeat N]
-BUILD is a build folder of preset dev. Each figure is the least of N runs, in seconds. The machine should do nothing else.
-Without -o the file is results/MACHINE-COMMIT.json beside this script.
+BUILD is a build folder of preset dev. Each figure is the minimum of N runs, in seconds. Use an idle machine.
+Default of -o: results/MACHINE-COMMIT.json in the folder of this script.
 """
 import argparse
 import datetime
@@ -79,8 +79,8 @@ def main():
     with tempfile.TemporaryDirectory() as folder:
         folder = pathlib.Path(folder)
         output_of(build / "examples/scenes/example_scenes", folder)
-        for rotation in range(arguments.repeat):
-            print(f"run {turn + 1} of {arguments.repeat}", file=sys.stderr)
+        for i in range(arguments.repeat):
+            print(f"run {i + 1} of {arguments.repeat}", file=sys.stderr)
             for name, value in {**runtime_figures(build), **program_figures(build, folder)}.items():
                 seconds[name] = min(value, seconds.get(name, value))
 

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
-"""Gives all instances of a file the factors of the open: what sharing transfer is without them.
+"""Sets the factors of all instances of a file to those of unoccluded instances, to measure shared transfer without factors.
 
-    prt bake forest.glb -o shared.glb --instances shared --instance-error 1
+    prt bake forest.glb -o shared.glb --instances shared,error=1
     python3 tests/benchmarks/open_instances.py shared.glb open.glb
     prt evaluate own.glb open.glb
 """

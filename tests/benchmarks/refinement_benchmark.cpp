@@ -18,7 +18,7 @@
 
 namespace {
 
-/// Every triangle cut in four at the middles of its edges.
+/// Splits every triangle into four at the midpoints of its edges.
 prt::Scene split_evenly(const prt::Scene& scene) {
     prt::Refinement even = prt::no_refinement(scene);
     std::vector<std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t>> middles(

@@ -73,7 +73,7 @@ void basis_in_batches(State& state) {
 }
 BENCHMARK(basis_in_batches);
 
-/// From a matrix to rotated RGB coefficients.
+/// Measures rotation of RGB coefficients, from a matrix.
 void rotate_rgb(State& state) {
     const glm::dmat3 rotation = glm::mat3_cast(glm::angleAxis(0.7, glm::normalize(glm::dvec3(1, 2, 3))));
     auto light = random_light();
@@ -94,7 +94,7 @@ void rotate_rgb_prepared(State& state) {
 }
 BENCHMARK(rotate_rgb_prepared);
 
-/// From a matrix to one rotated function, as DirectXMath's XMSHRotate.
+/// Measures rotation of one function, from a matrix, like DirectXMath's XMSHRotate.
 void rotate_one(State& state) {
     const int order = static_cast<int>(state.range(0));
     const auto count = static_cast<std::size_t>(coefficient_count(order));
@@ -120,7 +120,7 @@ void product(State& state) {
 }
 BENCHMARK(product)->ArgName("order")->Arg(3)->Arg(6);
 
-/// A sun over a sky: cost of a new sky.
+/// Measures the cost of a new sky: a sun over a sky.
 void dering(State& state) {
     const int order = static_cast<int>(state.range(0));
     const Light light = sum(directional_light(order, glm::normalize(glm::vec3(1, 2, 3)), glm::vec3(3)),
@@ -130,7 +130,7 @@ void dering(State& state) {
 }
 BENCHMARK(dering)->ArgName("order")->Arg(3)->Arg(6)->Arg(10)->Unit(benchmark::kMicrosecond);
 
-/// `run` receivers one after the other are of one cluster: with --reorder all that it has, else a few.
+/// `run`: number of consecutive receivers of one cluster: all with --reorder, otherwise a few.
 ClusteredTransfer clustered(int clusters, int components, const TransferLayout& layout, std::size_t receivers,
                             std::size_t run) {
     ClusteredTransfer t;
@@ -151,7 +151,7 @@ ClusteredTransfer clustered(int clusters, int components, const TransferLayout& 
     return t;
 }
 
-/// Four channels: grey direct light, and three of indirect light. Lamps have three channels each.
+/// Layout of four channels: grey direct light, and three of indirect light. Lamps have three channels each.
 void constants(State& state) {
     const auto channels = static_cast<int>(state.range(0));
     TransferLayout layout = channels == 4
@@ -183,12 +183,12 @@ void evaluate_vertices(State& state) {
         evaluate(transfer, out, radiance, 1);
         benchmark::ClobberMemory();
     }
-    // Cluster and weights in, radiance out.
+    // Bytes read (cluster and weights) and written (radiance).
     state.SetBytesProcessed(state.iterations() * static_cast<std::int64_t>(kVertices * (2 + 8 + 12)));
 }
 BENCHMARK(evaluate_vertices)->ArgName("run")->Arg(4000)->Arg(4);
 
-/// A map of 1 024² texels, two words each, in squares of `side` texels of one cluster.
+/// Returns a map of 1 024² texels, two words each, in squares of `side` texels of one cluster.
 CompressedLightmap lightmap_of(int side) {
     constexpr int kSide = 1024;
     CompressedLightmap lightmap{{{{kSide, kSide}}, {}}, {}};
@@ -213,7 +213,7 @@ CompressedLightmap lightmap_of(int side) {
     return lightmap;
 }
 
-/// All levels, from formed constants.
+/// Measures all levels, from given constants.
 void relight_lightmap(State& state) {
     const CompressedLightmap lightmap = lightmap_of(static_cast<int>(state.range(0)));
     const ClusterLighting constants(lightmap.compressed.transfer);
@@ -260,7 +260,7 @@ CompressedVolume volume_of() {
     return volume;
 }
 
-/// Constants and all texels.
+/// Measures the update of constants and of all texels.
 void relight_volume(State& state) {
     const CompressedVolume volume = volume_of();
     const VolumeRelighter relighter(volume);
@@ -282,7 +282,7 @@ BENCHMARK(relight_volume)
     ->Unit(benchmark::kMillisecond)
     ->UseRealTime();
 
-/// Looks up positions distributed over the volume, one by one.
+/// Measures lookups at positions distributed over the volume, one by one.
 void look_up_volume(State& state) {
     const CompressedVolume volume = volume_of();
     const VolumeLookup lookup(volume.grid, volume.visibility);
@@ -320,7 +320,7 @@ void project_lat_long(State& state) {
 }
 BENCHMARK(project_lat_long)->ArgName("threads")->Arg(1)->Arg(2)->Unit(benchmark::kMillisecond)->UseRealTime();
 
-/// Per pixel, by layout: 0 lat-long, 1 cube, 2 cube-faces, 3 angular.
+/// Measures the projection per pixel, by layout: 0 lat-long, 1 cube, 2 cube-faces, 3 angular.
 void project_pixels(State& state) {
     const auto layout = static_cast<EnvironmentLayout>(state.range(0));
     const int width = layout == EnvironmentLayout::lat_long  ? 1024

@@ -1,4 +1,4 @@
-// Size and decoding speed of the packed words of shipped files: words_benchmark SHIPPED.glb ...
+// Measures size and decoding speed of the packed words of shipped files: words_benchmark SHIPPED.glb ...
 #include "prt/coded_words.h"
 #include "prt/gltf.h"
 #include "prt/support/error.h"
@@ -50,12 +50,12 @@ void measure(const char* path) {
         neighbor_seconds = std::min(neighbor_seconds, first);
         seconds = std::min(seconds, watch.seconds());
         if (decoded != given.words)
-            throw Error(std::string(path) + ": is not decoded to what was coded");
+            throw Error(std::string(path) + ": decoded words differ from the coded ones");
     }
     const double bytes = 4 * static_cast<double>(given.words.size());
     const std::size_t frequencies = coded_bytes(code.frequencies);
     std::printf(
-        "%s: %zu vertices, %.0f bytes coded in %zu and %zu of frequencies: %.3f; %.0f MB/s, %.0f ns a "
+        "%s: %zu vertices, %.0f bytes coded in %zu and %zu of frequencies: %.3f; %.0f MB/s, %.0f ns per "
         "vertex, of which neighbors %.0f\n",
         path, receivers, bytes, code.bits.size(), frequencies,
         static_cast<double>(code.bits.size() + frequencies) / bytes, 1e-6 * bytes / seconds,

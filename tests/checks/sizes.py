@@ -2,8 +2,8 @@
 """Checks that functions, classes and parameter lists stay small.
 
 sizes.py REPOSITORY [--list N]
-Measures by universal-ctags. Lines of a function are those from its name to its closing brace. Constants of a class are
-no data members. --list prints the N largest of each kind and per folder.
+Uses universal-ctags. The lines of a function are counted from its name to its closing brace. Constants of a class do not
+count as data members. --list prints the N largest of each kind and per folder.
 """
 import argparse
 import json
@@ -14,12 +14,12 @@ import sys
 from collections import Counter, defaultdict
 
 FOLDERS = ("runtime", "bake", "compress", "cli", "examples", "tests")
-MOST_LINES = 60  # per function
-MOST_LINES_OF_99_PERCENT = 45  # limit for 99 % of the functions of a folder
-MOST_MEMBERS = 12
-MOST_PARAMETERS = 7
-PARAMETERS_GIVEN = {"keep_encoded",  # by tinygltf, which calls it
-                    "prt_light_from_lat_long"}  # by C, which has no spans
+MAX_LINES = 60  # per function
+MAX_LINES_OF_99_PERCENT = 45  # limit for 99 % of the functions of a folder
+MAX_MEMBERS = 12
+MAX_PARAMETERS = 7
+FIXED_SIGNATURES = {"keep_encoded",  # callback of tinygltf
+                    "prt_light_from_lat_long"}  # C has no spans
 
 
 def tags(root):
@@ -35,7 +35,7 @@ def tags(root):
 
 
 def parameter_count(signature):
-    """Counts what commas part at the outermost level of `(a, b<c, d>, e = {f, g})`."""
+    """Returns the number of parameters of a signature such as `(a, b<c, d>, e = {f, g})`."""
     inside = signature[signature.index("(") + 1:signature.rindex(")")].replace("->", "").strip()
     if inside in ("", "void"):
         return 0
@@ -48,7 +48,7 @@ def parameter_count(signature):
 
 
 def largest_allowed(sizes):
-    """The size that 99 % of them do not pass."""
+    """Returns the size that 99 % of `sizes` do not exceed."""
     return sorted(sizes)[math.ceil(0.99 * len(sizes)) - 1] if sizes else 0
 
 
@@ -62,12 +62,12 @@ def main():
     members = Counter()
     parameters = []
     for tag in tags(arguments.repository.resolve()):
-        place = f"{tag['path']}:{tag['line']} {tag['name']}"
+        position = f"{tag['path']}:{tag['line']} {tag['name']}"
         folder = tag["path"].split("/")[0]
         if tag["kind"] == "function":
-            lines[folder].append((tag.get("end", tag["line"]) - tag["line"] + 1, place))
-        if tag["kind"] in ("function", "prototype") and "signature" in tag and tag["name"] not in PARAMETERS_GIVEN:
-            parameters.append((parameter_count(tag["signature"]), place))
+            lines[folder].append((tag.get("end", tag["line"]) - tag["line"] + 1, position))
+        if tag["kind"] in ("function", "prototype") and "signature" in tag and tag["name"] not in FIXED_SIGNATURES:
+            parameters.append((parameter_count(tag["signature"]), position))
         if tag["kind"] == "member" and "static" not in tag.get("properties", ""):
             members[f"{tag['path']} {tag['scope']}"] += 1
 
@@ -78,16 +78,16 @@ def main():
         common = largest_allowed([size for size, _ in found])
         if arguments.list:
             print(f"{folder}: {len(found)} functions, 99 % at most {common} lines, longest {max(found)[0]}")
-            for size, place in sorted(found, reverse=True)[:arguments.list]:
-                print(f"    {size} {place}")
-        if common > MOST_LINES_OF_99_PERCENT:
-            wrong.append(f"{folder}: more than 1 % of the functions are longer than {MOST_LINES_OF_99_PERCENT} lines ({common})")
-        wrong += [f"{place}: {size} lines, at most {MOST_LINES}" for size, place in found if size > MOST_LINES]
+            for size, position in sorted(found, reverse=True)[:arguments.list]:
+                print(f"    {size} {position}")
+        if common > MAX_LINES_OF_99_PERCENT:
+            wrong.append(f"{folder}: more than 1 % of the functions are longer than {MAX_LINES_OF_99_PERCENT} lines ({common})")
+        wrong += [f"{position}: {size} lines, at most {MAX_LINES}" for size, position in found if size > MAX_LINES]
     if arguments.list:
         print("members:", *[f"    {count} {name}" for name, count in members.most_common(arguments.list)], sep="\n")
-        print("parameters:", *[f"    {count} {place}" for count, place in sorted(parameters, reverse=True)[:arguments.list]], sep="\n")
-    wrong += [f"{name}: {count} data members, at most {MOST_MEMBERS}" for name, count in members.items() if count > MOST_MEMBERS]
-    wrong += [f"{place}: {count} parameters, at most {MOST_PARAMETERS}" for count, place in parameters if count > MOST_PARAMETERS]
+        print("parameters:", *[f"    {count} {position}" for count, position in sorted(parameters, reverse=True)[:arguments.list]], sep="\n")
+    wrong += [f"{name}: {count} data members, at most {MAX_MEMBERS}" for name, count in members.items() if count > MAX_MEMBERS]
+    wrong += [f"{position}: {count} parameters, at most {MAX_PARAMETERS}" for count, position in parameters if count > MAX_PARAMETERS]
     print(*wrong, sep="\n", end="\n" if wrong else "")
     return 1 if wrong else 0
 

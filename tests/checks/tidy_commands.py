@@ -1,12 +1,12 @@
 #!/usr/bin/env python3
-"""Writes the compile commands of the sources that clang-tidy is to read.
+"""Writes the compile commands of the sources that clang-tidy checks.
 
 tidy_commands.py BUILD OUTPUT [BASE]
-BUILD: a build folder with compile_commands.json. OUTPUT: folder for a compile_commands.json of its own.
-BASE: a commit; only sources whose code changed since then, and one source for each header whose code changed. All without
-it. Comments are no code, unless they contain NOLINT.
-Tests are left out: the warnings of two compilers cover them, and reading them takes as long as all others.
-A joined source (CMAKE_UNITY_BUILD) stands for its members where MANY of them changed, as its headers are read once.
+BUILD: a build folder with compile_commands.json. OUTPUT: folder for the new compile_commands.json.
+BASE: a commit; selects only sources whose code changed since then, and one source for each header whose code changed.
+Default: all sources. Comments do not count as code unless they contain NOLINT.
+Tests are excluded: two compilers already warn about them, and checking them takes as long as all other sources.
+A joined source (CMAKE_UNITY_BUILD) replaces its members if MANY of them changed, because it reads headers once.
 """
 import json
 import pathlib
@@ -15,11 +15,11 @@ import subprocess
 import sys
 
 FOLDERS = {"runtime", "bake", "compress", "cli", "examples", "shaders"}
-MANY = 3  # members of a joined source: from here on it is cheaper to read the joined source
+MANY = 3  # number of changed members from which the joined source is cheaper to check
 
 
 def members(source):
-    """The sources that a joined source includes; itself if it is none."""
+    """Returns the sources that a joined source includes; for other sources the source itself."""
     if "/Unity/" not in source.as_posix():
         return [source.resolve()]
     return [pathlib.Path(name).resolve() for name in re.findall(r'^#include "(.*)"$', source.read_text(), re.M)]
@@ -33,7 +33,7 @@ def changed_files(root, base):
 
 
 def text_at(root, base, name):
-    """The text of a file in a commit; empty if it does not exist there."""
+    """Returns the text of a file in a commit; empty if it does not exist there."""
     return subprocess.run(["git", "show", f"{base}:{name}"], cwd=root, capture_output=True, text=True).stdout
 
 
@@ -41,7 +41,7 @@ TOKEN = re.compile(r'"(?:\\.|[^"\\\n])*"|\'(?:\\.|[^\'\\\n])*\'|//[^\n]*|/\*.*?\
 
 
 def code_of(text):
-    """A source without comments and white space."""
+    """Returns a source without comments and white space."""
     def kept(match):
         token = match[0]
         return token if token[0] in "\"'" or "NOLINT" in token else ""
@@ -49,7 +49,7 @@ def code_of(text):
 
 
 def with_includers(root, changed, sources):
-    """Adds, for each changed header that no changed source includes, one source that includes it, directly or not."""
+    """Returns the changed sources, and one direct or indirect includer of each changed header that they do not include."""
     files = [path for folder in FOLDERS for path in (root / folder).rglob("*") if path.suffix in (".cpp", ".h")]
     by_name = {}
     for file in files:

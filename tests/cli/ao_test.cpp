@@ -1,9 +1,9 @@
 // Tests ambient occlusion through the program: written data and rejected input.
 
 #include "demanding_file.h"
+#include "pipeline.h"
 #include "prt/gltf.h"
 #include "prt/image_file.h"
-#include "road.h"
 
 #include <gtest/gtest.h>
 
@@ -12,7 +12,7 @@
 namespace prt::test {
 namespace {
 
-class Occlusion : public Road {
+class Occlusion : public Pipeline {
 protected:
     void SetUp() override {
         demanding_file().write(folder / "d.glb");
@@ -45,7 +45,7 @@ Image8 image_named(const std::filesystem::path& path, const std::string& name) {
     return {};
 }
 
-TEST_F(Occlusion, OfVerticesShadesTheirColors) {
+TEST_F(Occlusion, VerticesBecomeVertexColors) {
     ASSERT_EQ(ao({}).status, 0);
     const Scene scene = written();
     for (const VertexArray& vertices : scene.vertex_arrays) {
@@ -57,7 +57,7 @@ TEST_F(Occlusion, OfVerticesShadesTheirColors) {
 }
 
 /// A closed room of four triangles that look inwards is black: the notice names the option that helps.
-TEST_F(Occlusion, OfClosedRoomsIsBlackAndSaysWhatToDo) {
+TEST_F(Occlusion, ClosedRoomsAreBlackWithARemedy) {
     GlbFile room = triangle_file();
     const auto position =
         room.accessor(std::vector<float>{0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1}, kFloat, "VEC3", 3);
@@ -77,7 +77,7 @@ TEST_F(Occlusion, OfClosedRoomsIsBlackAndSaysWhatToDo) {
     EXPECT_TRUE(read_json(folder / "o.json")["notices"].empty());
 }
 
-TEST_F(Occlusion, HasAttributesOfItsOwn) {
+TEST_F(Occlusion, UsesCustomAttributes) {
     const Outcome outcome = ao({"--attribute", "_AO", "--bent-normals", "--fit", "vertex"});
     ASSERT_EQ(outcome.status, 0) << outcome.err;
     written();
@@ -91,7 +91,7 @@ TEST_F(Occlusion, HasAttributesOfItsOwn) {
         }
 }
 
-TEST_F(Occlusion, OfTexelsIsTheOcclusionTextureOfUnwrappedSurfaces) {
+TEST_F(Occlusion, TexelsBecomeOcclusionTextures) {
     const Outcome outcome = ao({"--size", "48", "--unwrap", "--bent-normals"});
     ASSERT_EQ(outcome.status, 0) << outcome.err;
     EXPECT_NE(outcome.err.find("TEXCOORD_1 has"), std::string::npos) << outcome.err;
@@ -122,7 +122,7 @@ TEST_F(Occlusion, OfTexelsIsTheOcclusionTextureOfUnwrappedSurfaces) {
     EXPECT_NE(again.err.find("has TEXCOORD_1 already"), std::string::npos) << again.err;
 }
 
-TEST_F(Occlusion, OfEachObjectHasAMaterialOfItsOwn) {
+TEST_F(Occlusion, EachObjectHasItsMaterial) {
     ASSERT_EQ(ao({"--size", "32", "--unwrap", "--atlas", "each"}).status, 0);
     written();
     EXPECT_EQ(read_json(folder / "o.json")["textures"], 2);
@@ -135,7 +135,7 @@ TEST_F(Occlusion, OfEachObjectHasAMaterialOfItsOwn) {
     EXPECT_NE(textures.at(0), textures.at(1));
 }
 
-TEST_F(Occlusion, IsTheSameWhateverTheThreads) {
+TEST_F(Occlusion, DoesNotDependOnThreads) {
     const auto bytes = [&](const char* threads) {
         EXPECT_EQ(ao({"--size", "32", "--unwrap", "--falloff", "2:97,300:3", "--threads", threads}).status,
                   0);
@@ -144,12 +144,12 @@ TEST_F(Occlusion, IsTheSameWhateverTheThreads) {
     EXPECT_EQ(bytes("1"), bytes("3"));
 }
 
-TEST_F(Occlusion, TakesAFinerModel) {
+TEST_F(Occlusion, UsesAHighPolyModel) {
     EXPECT_EQ(ao({"--size", "32", "--unwrap", "--casters", at("d.glb"), "--reach", "0.1"}).status, 0);
     written();
 }
 
-TEST_F(Occlusion, RefusesWhatItCannotDo) {
+TEST_F(Occlusion, RejectsUnsupportedOptions) {
     triangle_file().write(folder / "t.glb");
     const struct {
         std::vector<std::string> options;

@@ -1,10 +1,10 @@
 // Both sides of double-sided surfaces, from the command line to the file.
 
+#include "pipeline.h"
 #include "prt/encode_glb.h"
 #include "prt/gltf.h"
 #include "prt/levels.h"
 #include "prt/support/file.h"
-#include "road.h"
 #include "support/glb_file.h"
 #include "support/scene_builder.h"
 
@@ -23,7 +23,7 @@ GlbFile roof_file() {
     return file;
 }
 
-class BackSides : public Road {
+class BackSides : public Pipeline {
 protected:
     Outcome bake(const char* scene, const char* output, std::vector<std::string> options = {}) {
         options.insert(options.begin(), {"bake", at(scene), "-o", at(output), "--order", "2", "--rays", "64",
@@ -32,14 +32,15 @@ protected:
     }
 };
 
-TEST_F(BackSides, GetVerticesWhereLightReachesThem) {
+TEST_F(BackSides, GetVerticesIfLightReachesThem) {
     roof_file().write(folder / "roof.glb");
     const std::size_t fronts = extract_scene(load_gltf(folder / "roof.glb")).receivers();
     const Outcome baked = bake("roof.glb", "b.glb");
     ASSERT_EQ(baked.status, 0) << baked.err;
-    EXPECT_NE(baked.err.find("the backs of 18 double-sided triangles: 54 more vertices"), std::string::npos)
+    EXPECT_NE(baked.err.find("the back sides of 18 double-sided triangles; 54 vertices were added"),
+              std::string::npos)
         << baked.err;
-    EXPECT_EQ(baked.out.find("seen from behind"), std::string::npos) << baked.out;
+    EXPECT_EQ(baked.out.find("show the light of the front sides"), std::string::npos) << baked.out;
     EXPECT_EQ(read_json(folder / "b.json")["receivers"], fronts + 54);
     const GltfDocument document = load_gltf(folder / "b.glb");
     const Scene scene = extract_scene(document);
@@ -63,26 +64,26 @@ TEST_F(BackSides, GetVerticesWhereLightReachesThem) {
     EXPECT_NE(validator_errors(folder / "b.glb"), 1);
 }
 
-TEST_F(BackSides, ShowTheLightOfTheFrontWhereTheyShareIt) {
+TEST_F(BackSides, ShareTheLightOfTheFront) {
     roof_file().write(folder / "roof.glb");
     const Outcome baked = bake("roof.glb", "b.glb", {"--back-sides", "shared"});
     ASSERT_EQ(baked.status, 0) << baked.err;
-    EXPECT_EQ(baked.err.find("the backs of"), std::string::npos) << baked.err;
-    EXPECT_NE(baked.out.find("seen from behind"), std::string::npos) << baked.out;
+    EXPECT_EQ(baked.err.find("the back sides of"), std::string::npos) << baked.err;
+    EXPECT_NE(baked.out.find("show the light of the front sides"), std::string::npos) << baked.out;
     EXPECT_EQ(extract_scene(load_gltf(folder / "b.glb")).receivers(),
               extract_scene(load_gltf(folder / "roof.glb")).receivers());
 }
 
-TEST_F(BackSides, HaveChartsOfTheirOwnInALightmap) {
+TEST_F(BackSides, HaveSeparateLightmapCharts) {
     roof_file().write(folder / "roof.glb");
     const Outcome baked = bake("roof.glb", "b.glb", {"--size", "64", "--unwrap"});
     ASSERT_EQ(baked.status, 0) << baked.err;
-    EXPECT_NE(baked.err.find("the backs of 18"), std::string::npos) << baked.err;
+    EXPECT_NE(baked.err.find("the back sides of 18"), std::string::npos) << baked.err;
     EXPECT_EQ(extract_scene(load_gltf(folder / "b.glb")).triangles(), 32u + 2 * 18);
 }
 
 /// Both sides are split in the same way: every triangle of the roof still has its opposite.
-TEST_F(BackSides, AreRefinedAlike) {
+TEST_F(BackSides, AreRefinedLikeFronts) {
     roof_file().write(folder / "roof.glb");
     const Outcome baked = bake("roof.glb", "b.glb", {"--refine", "0.005"});
     ASSERT_EQ(baked.status, 0) << baked.err;
@@ -108,7 +109,7 @@ TEST_F(BackSides, AreRefinedAlike) {
 }
 
 /// A variant that culls back faces keeps the mesh unchanged, also if flat normals split its vertices.
-TEST_F(BackSides, StayWhereAVariantCullsThem) {
+TEST_F(BackSides, AreKeptIfAVariantCullsThem) {
     GlbFile file = triangle_file();
     const std::size_t tent = file.accessor(
         std::vector<float>{-1, 0.5f, 1, 0, 1, 1, 1, 0.5f, 1, -1, 0.5f, -1, 0, 1, -1, 1, 0.5f, -1}, kFloat,
@@ -129,7 +130,7 @@ TEST_F(BackSides, StayWhereAVariantCullsThem) {
     file.write(folder / "roof.glb");
     const Outcome baked = bake("roof.glb", "b.glb");
     ASSERT_EQ(baked.status, 0) << baked.err;
-    EXPECT_EQ(baked.err.find("the backs of"), std::string::npos) << baked.err;
+    EXPECT_EQ(baked.err.find("the back sides of"), std::string::npos) << baked.err;
     const Scene before = extract_scene(load_gltf(folder / "roof.glb")),
                 after = extract_scene(load_gltf(folder / "b.glb"));
     EXPECT_EQ(after.vertex_arrays[0].positions, before.vertex_arrays[0].positions);
@@ -138,17 +139,17 @@ TEST_F(BackSides, StayWhereAVariantCullsThem) {
 }
 
 /// The underside of the roof is not as open as its top.
-TEST_F(BackSides, HaveOcclusionOfTheirOwn) {
+TEST_F(BackSides, HaveSeparateOcclusion) {
     roof_file().write(folder / "roof.glb");
     const Outcome ao = prt({"ao", at("roof.glb"), "-o", at("b.glb"), "--rays", "64", "--attribute", "_AO"});
     ASSERT_EQ(ao.status, 0) << ao.err;
-    EXPECT_NE(ao.err.find("the backs of 18 "), std::string::npos) << ao.err;
+    EXPECT_NE(ao.err.find("the back sides of 18 "), std::string::npos) << ao.err;
     EXPECT_EQ(extract_scene(load_gltf(folder / "b.glb")).triangles(), 32u + 2 * 18);
     EXPECT_NE(validator_errors(folder / "b.glb"), 1);
 }
 
 /// Both levels get back sides, with equal kinds of light.
-TEST_F(BackSides, AreThoseOfCoarserLevels) {
+TEST_F(BackSides, ExistInCoarserLevels) {
     GlbFile file = roof_file();
     file.json["meshes"].push_back(file.json["meshes"][0]);
     file.json["nodes"].push_back({{"name", "coarse"}, {"mesh", 1}});
@@ -158,14 +159,14 @@ TEST_F(BackSides, AreThoseOfCoarserLevels) {
     for (const char* mode : {"carry", "own"}) {
         const Outcome baked = bake("roof.glb", "b.glb", {"--levels", mode});
         ASSERT_EQ(baked.status, 0) << mode << baked.err;
-        EXPECT_NE(baked.err.find("the backs of 36 "), std::string::npos) << baked.err;
+        EXPECT_NE(baked.err.find("the back sides of 36 "), std::string::npos) << baked.err;
         const LeveledScene levels = extract_levels(load_gltf(folder / "b.glb"));
         EXPECT_EQ(levels.scene.receivers(), 2 * levels.finest_receivers) << mode;
     }
 }
 
 /// The underside of the roof is unshadowed if its material casts no shadow, also in texels.
-TEST_F(BackSides, SeeThroughWhatStopsNoLight) {
+TEST_F(BackSides, SeeThroughMaterialsWithoutShadow) {
     scene_file(SceneBuilder().floor({0, 1, 0}, 1, 3).sphere({0, 1, 0}, 3, 8).build())
         .write(folder / "plain.glb");
     GlbFile file = read_glb(folder / "plain.glb");
@@ -180,7 +181,8 @@ TEST_F(BackSides, SeeThroughWhatStopsNoLight) {
                 options.insert(options.end(), shell.begin(), shell.end());
             const Outcome baked = bake("closed.glb", "b.glb", options);
             ASSERT_EQ(baked.status, 0) << baked.err;
-            EXPECT_EQ(baked.err.find("the backs of ") != std::string::npos, open) << in_texels << baked.err;
+            EXPECT_EQ(baked.err.find("the back sides of ") != std::string::npos, open)
+                << in_texels << baked.err;
         }
 }
 

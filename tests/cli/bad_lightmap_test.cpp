@@ -1,8 +1,8 @@
 // Tests files with invalid lightmaps: each is rejected with a one-line error, and invalid JSON is also
 // rejected by the schemas of docs/format.md. Valid files are accepted by both.
 
+#include "pipeline.h"
 #include "prt/image_file.h"
-#include "road.h"
 #include "support/lightmap_model.h"
 #include "support/random_lightmap.h"
 
@@ -94,15 +94,15 @@ std::vector<Damage> damages_to_maps() {
     return {
         {"version", [](GlbFile& f) { extension(f)["version"] = 9; }, "has version 9", kRefuses},
         {"order", [](GlbFile& f) { extension(f)["order"] = 11; }, "order is 11", kRefuses},
-        {"no_terms", [](GlbFile& f) { extension(f)["terms"] = Json::array(); }, "part", kRefuses},
+        {"no_terms", [](GlbFile& f) { extension(f)["terms"] = Json::array(); }, "terms", kRefuses},
         {"no_maps", [](GlbFile& f) { extension(f).erase("maps"); }, "maps", kRefuses},
         {"empty_maps", [](GlbFile& f) { extension(f)["maps"] = Json::array(); },
-         "the maps are no list, or none", kRefuses},
+         "the list of maps is missing or empty", kRefuses},
         {"maps_by_name",
          [](GlbFile& f) {
              extension(f)["maps"] = {{"a", map(f)}, {"b", map(f)}};
          },
-         "the maps are no list", kRefuses},
+         "the list of maps is missing or empty", kRefuses},
         {"map_of_nothing", [](GlbFile& f) { extension(f)["maps"][0] = nullptr; }, "", kRefuses},
         {"width_0", [](GlbFile& f) { map(f)["width"] = 0; }, "width of a map is 0", kRefuses},
         {"height_negative", [](GlbFile& f) { map(f)["height"] = -8; }, "height of a map is -8", kRefuses},
@@ -119,7 +119,7 @@ std::vector<Damage> damages_to_maps() {
                  extension(f)["maps"].back()["width"] = extension(f)["maps"].back()["height"] = 16384;
              }
          },
-         "lightmaps would take"},
+         "lightmaps would need"},
         {"map_out_of_range", [](GlbFile& f) { position(f)["map"] = 2; }, "the map is 2"},
         {"map_negative", [](GlbFile& f) { position(f)["map"] = -1; }, "the map is -1", kRefuses},
         {"no_map", [](GlbFile& f) { position(f).erase("map"); }, "map", kRefuses},
@@ -140,8 +140,8 @@ std::vector<Damage> damages_to_raw() {
     constexpr Schema kRefuses = Schema::refuses;
     return {
         {"texels_not_ascending", [](GlbFile& f) { put(f, "texels", 1, 0u); }, "not in ascending order"},
-        {"texel_beyond", [](GlbFile& f) { put(f, "texels", 44, 68u); }, "beyond the maps"},
-        {"texels_of_bytes", [](GlbFile& f) { cut(f, "texels", 7); }, "no whole numbers of four bytes"},
+        {"texel_beyond", [](GlbFile& f) { put(f, "texels", 44, 68u); }, "outside the maps"},
+        {"texels_of_bytes", [](GlbFile& f) { cut(f, "texels", 7); }, "not 32-bit integers"},
         {"texels_without_view", [](GlbFile& f) { extension(f)["raw"]["texels"].erase("bufferView"); },
          "bufferView", kRefuses},
         {"no_receivers", [](GlbFile& f) { cut(f, "texels", 0); }, ""},
@@ -149,11 +149,12 @@ std::vector<Damage> damages_to_raw() {
         {"no_areas", [](GlbFile& f) { extension(f)["raw"].erase("areas"); }, "areas", kRefuses},
         {"area_negative", [](GlbFile& f) { put(f, "areas", 3, -1e-6f); }, "an area is negative"},
         {"area_nan", [](GlbFile& f) { put(f, "areas", 3, std::numeric_limits<float>::quiet_NaN()); },
-         "the areas hold values that are not finite"},
+         "the areas contain values that are not finite"},
         {"areas_of_halves", [](GlbFile& f) { extension(f)["raw"]["areas"]["componentType"] = 5131; },
          "component type 5131", kRefuses},
-        {"seam_beyond", [](GlbFile& f) { put(f, "seams", 1, 45u); }, "a seam names receiver 45 of 45"},
-        {"seam_of_one", [](GlbFile& f) { cut(f, "seams", 4); }, "no pairs"},
+        {"seam_beyond", [](GlbFile& f) { put(f, "seams", 1, 45u); },
+         "a seam refers to receiver 45, but there are only 45"},
+        {"seam_of_one", [](GlbFile& f) { cut(f, "seams", 4); }, "not pairs"},
         {"vector_nan", [](GlbFile& f) { put(f, "vectors", 0, std::numeric_limits<float>::quiet_NaN()); },
          "not finite"},
         {"vectors_short", [](GlbFile& f) { cut(f, "vectors", 64); }, "vectors of texels need"},
@@ -166,10 +167,10 @@ std::vector<Damage> damages_to_raw() {
 
 std::vector<Damage> damages_to_images() {
     constexpr Schema kRefuses = Schema::refuses;
-    constexpr const char* kNoPng = "word 0 of map 0 is no PNG of 8 bits";
+    constexpr const char* kNoPng = "word 0 of map 0 is not a PNG with 8 bits";
     return {
         {"image_of_another_size", [](GlbFile& f) { put_pixels(f, 7, 6, {}); },
-         "has 7 x 6 pixels for a lightmap of 8 x 6 texels"},
+         "has 7 x 6 pixels, but the lightmap has 8 x 6 texels"},
         {"image_of_the_other_map", [](GlbFile& f) { map(f)["images"][0] = 2; }, "has 5 x 4 pixels"},
         {"image_jpeg",
          [](GlbFile& f) { put_image(f, bytes_of("\xff\xd8\xff\xe0 and more, behind the mark of a JPEG")); },
@@ -196,18 +197,18 @@ std::vector<Damage> damages_to_images() {
         {"image_in_words", [](GlbFile& f) { map(f)["images"][0] = "word"; }, "an image of a map is",
          kRefuses},
         {"no_images_at_all", [](GlbFile& f) { f.json.erase("images"); },
-         "the images of the maps are not there"},
+         "the file has no images for the maps"},
         {"no_images", [](GlbFile& f) { map(f).erase("images"); }, "images", kRefuses},
-        {"no_words", [](GlbFile& f) { map(f)["images"] = Json::array(); }, "a map has 0 images for 2 words",
-         kRefuses},
+        {"no_words", [](GlbFile& f) { map(f)["images"] = Json::array(); },
+         "a map has 0 images, but a texel has 2 words", kRefuses},
         {"fewer_words_in_a_map", [](GlbFile& f) { map(f)["images"].erase(1); },
-         "a map has 1 images for 2 words"},
+         "a map has 1 image, but a texel has 2 words"},
         {"more_words",
          [](GlbFile& f) {
              for (Json& m : extension(f)["maps"])
                  m["images"].push_back(m["images"][0]);
          },
-         "a map has 3 images for 2 words"},
+         "a map has 3 images, but a texel has 2 words"},
     };
 }
 
@@ -218,7 +219,7 @@ std::vector<Damage> damages_to_clusters() {
          [](GlbFile& f) {
              put_pixels(f, 8, 6, {15, 0, 0, 0});
          },
-         "texel 0 is in cluster 15 of 11"},
+         "texel 0 has cluster 15, but there are only 11"},
         {"no_components", [](GlbFile& f) { extension(f).erase("components"); }, "components", kRefuses},
         {"no_bases", [](GlbFile& f) { extension(f).erase("bases"); }, "bases", kRefuses},
         {"no_packing", [](GlbFile& f) { extension(f).erase("packing"); }, "packing", kRefuses},
@@ -228,18 +229,18 @@ std::vector<Damage> damages_to_clusters() {
          [](GlbFile& f) {
              extension(f)["predictors"] = {{{"kind", "normal"}, {"scale", {1, 1, 1}}}};
          },
-         "texels have no predictors", kRefuses},
+         "texels do not support them", kRefuses},
         {"raw_too",
          [](GlbFile& f) {
              extension(f)["raw"] = {{"texels", {{"bufferView", 0}}},
                                     {"areas", {{"bufferView", 0}}},
                                     {"vectors", {{"bufferView", 0}}}};
          },
-         "raw vectors or clusters, not both", kRefuses},
+         "both raw vectors and clusters", kRefuses},
     };
 }
 
-class BadLightmaps : public Road {
+class BadLightmaps : public Pipeline {
 protected:
     std::string write(const GlbFile& file, const std::string& name) {
         file.write(folder / (name + ".glb"));
@@ -288,21 +289,21 @@ protected:
     }
 };
 
-TEST_F(BadLightmaps, AreRefusedForTheirMaps) {
+TEST_F(BadLightmaps, AreRejectedForInvalidMaps) {
     expect_refused(raw_file(), damages_to_maps());
     expect_refused(shipped_file(), damages_to_maps());
 }
 
-TEST_F(BadLightmaps, AreRefusedForWhatWasBaked) {
+TEST_F(BadLightmaps, AreRejectedForInvalidBakes) {
     expect_refused(raw_file(), damages_to_raw());
 }
 
-TEST_F(BadLightmaps, AreRefusedForTheirWords) {
+TEST_F(BadLightmaps, AreRejectedForInvalidWords) {
     expect_refused(shipped_file(), damages_to_images());
     expect_refused(shipped_file(), damages_to_clusters());
 }
 
-TEST_F(BadLightmaps, AreNotThoseThatAreRight) {
+TEST_F(BadLightmaps, AcceptsValidLightmaps) {
     std::vector<std::string> files = {write(raw_file(), "raw"), write(shipped_file(), "shipped"),
                                       write(shipped_file(true), "alike")};
     const Outcome compressed = prt({"compress", at("raw.glb"), "-o", at("coded.glb"), "--clusters", "3"});

@@ -31,7 +31,7 @@ protected:
         const Json report = read_json(folder / "report.json")["check"];
         EXPECT_EQ(outcome.status, report["findings"].empty() ? 0 : 1) << outcome.err;
         for (const Json& finding : report["findings"])
-            EXPECT_NE(outcome.out.find("check: " + finding["what"].get<std::string>() + "; " +
+            EXPECT_NE(outcome.out.find("check: " + finding["problem"].get<std::string>() + "; " +
                                        finding["remedy"].get<std::string>()),
                       std::string::npos)
                 << outcome.out;
@@ -45,7 +45,7 @@ protected:
 /// Expects one finding, which contains `words`.
 void expect_one(const Json& report, const std::string& words) {
     ASSERT_EQ(report["findings"].size(), 1u) << report;
-    EXPECT_NE(report["findings"][0]["what"].get<std::string>().find(words), std::string::npos) << report;
+    EXPECT_NE(report["findings"][0]["problem"].get<std::string>().find(words), std::string::npos) << report;
     EXPECT_FALSE(report["findings"][0]["remedy"].get<std::string>().empty());
 }
 
@@ -59,21 +59,21 @@ GlbFile with_material(const Json& material) {
 
 const Json kTextured = {{"pbrMetallicRoughness", {{"baseColorTexture", {{"index", 0}}}}}};
 
-TEST_F(Check, FindsNothingInAPlainModel) {
+TEST_F(Check, AcceptsAPlainModel) {
     const Json report = check(triangle_file());
     EXPECT_TRUE(report["findings"].empty()) << report;
     EXPECT_NE(report["checked"].get<std::string>().find("texture coordinates"), std::string::npos);
 }
 
-TEST_F(Check, FindsImagesThatCannotBeRead) {
+TEST_F(Check, FindsUnreadableImages) {
     GlbFile missing = with_material(kTextured), damaged = missing;
     missing.json["images"] = {{{"uri", "gone.png"}}};
     expect_one(check(missing), "image 0 'gone.png' cannot be read");
     damaged.json["images"] = {{{"uri", "data:image/png;base64,AAAA"}}};
-    expect_one(check(damaged), "is needed and cannot be decoded");
+    expect_one(check(damaged), "is needed, but cannot be decoded");
 }
 
-TEST_F(Check, FindsExtensionsThatAreNotRead) {
+TEST_F(Check, FindsUnsupportedExtensions) {
     GlbFile file = triangle_file();
     file.json["extensionsUsed"] = {"VENDOR_wind", "KHR_materials_unlit"};
     expect_one(check(file), "the extension VENDOR_wind is not read");
@@ -93,21 +93,22 @@ TEST_F(Check, FindsLampsWithoutEffect) {
     }
     const Json report = check(file);
     ASSERT_EQ(report["findings"].size(), 3u) << report;
-    EXPECT_EQ(report["findings"][0]["what"], "light 0 'lost' is at no node");
-    EXPECT_NE(report["findings"][1]["what"].get<std::string>().find("is black"), std::string::npos);
-    EXPECT_NE(report["findings"][2]["what"].get<std::string>().find("ends at 2 m"), std::string::npos);
+    EXPECT_EQ(report["findings"][0]["problem"], "light 0 'lost' is not used by any node");
+    EXPECT_NE(report["findings"][1]["problem"].get<std::string>().find("is black"), std::string::npos);
+    EXPECT_NE(report["findings"][2]["problem"].get<std::string>().find("has a range of 2 m"),
+              std::string::npos);
 }
 
-TEST_F(Check, FindsCoordinatesThatNoLightmapFits) {
+TEST_F(Check, FindsCoordinatesUnfitForLightmaps) {
     for (const auto& [uv, words] : {std::pair(std::vector<float>{0, 0, 3.5f, 0, 0, 1}, "crosses the border"),
-                                    std::pair(std::vector<float>{0, 0, 0, 0, 0, 0}, "a line or a point")}) {
+                                    std::pair(std::vector<float>{0, 0, 0, 0, 0, 0}, "covers no area")}) {
         GlbFile file = triangle_file();
         Json& attributes = file.json["meshes"][0]["primitives"][0]["attributes"];
         for (const char* set : {"TEXCOORD_0", "TEXCOORD_1"})
             attributes[set] = file.accessor(uv, kFloat, "VEC2", 2);
         const Json report = check(file);
         expect_one(report, words);
-        EXPECT_NE(report["findings"][0]["remedy"].get<std::string>().find("--unwrap"), std::string::npos);
+        EXPECT_NE(report["findings"][0]["remedy"].get<std::string>().find("unwrap"), std::string::npos);
     }
 }
 
@@ -131,14 +132,14 @@ GlbFile tetrahedron(bool inwards, int points) {
     return file;
 }
 
-TEST_F(Check, FindsClosedSurfacesThatFaceInwardsAndTrianglesWithoutArea) {
+TEST_F(Check, FindsInvertedClosedSurfacesAndTrianglesWithoutArea) {
     EXPECT_TRUE(check(tetrahedron(false, 0))["findings"].empty());
     expect_one(check(tetrahedron(true, 0)), "is closed and faces inwards");
     expect_one(check(tetrahedron(false, 2)), "2 triangles have no area");
 }
 
 /// gltfpack and others move vertices of a shipped file.
-TEST_F(Check, FindsVerticesThatWereChangedAfterABake) {
+TEST_F(Check, FindsVerticesChangedAfterABake) {
     triangle_file().write(folder / "scene.glb");
     ASSERT_EQ(prt({"bake", at("scene.glb"), "-o", at("baked.glb"), "--rays", "4", "--order", "2"}).status, 0);
     GlbFile baked = read_glb(folder / "baked.glb");
@@ -149,10 +150,10 @@ TEST_F(Check, FindsVerticesThatWereChangedAfterABake) {
     const float moved = 1.001f;
     std::memcpy(&baked.binary[baked.json["bufferViews"][view].value("byteOffset", std::size_t{0}) + 12],
                 &moved, 4);
-    expect_one(check(baked), "not those that were baked");
+    expect_one(check(baked), "differ from those that were baked");
 }
 
-TEST_F(Check, MissingImagesStopOnlyWhatNeedsTheirPixels) {
+TEST_F(Check, MissingImagesFailOnlyUsersOfTheirPixels) {
     GlbFile file = with_material(kTextured);
     file.json["images"] = {{{"uri", "gone.png"}}};
     file.write(folder / "scene.glb");
@@ -170,7 +171,7 @@ TEST_F(Check, MissingImagesStopOnlyWhatNeedsTheirPixels) {
     };
     const Outcome refused = prt(with({"1"}));
     EXPECT_EQ(refused.status, 1);
-    EXPECT_NE(refused.err.find("scene.glb: image 0 'gone.png' cannot be read: there is no such file"),
+    EXPECT_NE(refused.err.find("scene.glb: image 0 'gone.png' cannot be read: the file does not exist"),
               std::string::npos)
         << refused.err;
     EXPECT_NE(refused.err.find("--bad-textures ignore"), std::string::npos) << refused.err;
@@ -180,7 +181,7 @@ TEST_F(Check, MissingImagesStopOnlyWhatNeedsTheirPixels) {
     EXPECT_EQ(prt({"relight", baked, "--env", light, "-o", lit, "--albedo"}).status, 1);
 }
 
-TEST_F(Check, CommandsThatPassTransferOnRefuseItWhereItIsDamaged) {
+TEST_F(Check, CommandsThatCopyTransferRejectDamage) {
     triangle_file().write(folder / "scene.glb");
     ASSERT_EQ(prt({"bake", at("scene.glb"), "-o", at("baked.glb"), "--rays", "4", "--order", "2"}).status, 0);
     GlbFile damaged = read_glb(folder / "baked.glb");
@@ -189,7 +190,7 @@ TEST_F(Check, CommandsThatPassTransferOnRefuseItWhereItIsDamaged) {
     for (const char* command : {"ao", "lobes"}) {
         const Outcome outcome = prt({command, at("baked.glb"), "-o", at("out.glb"), "--rays", "4"});
         EXPECT_EQ(outcome.status, 1);
-        EXPECT_NE(outcome.err.find("baked.glb: receivers of the bake is no hash"), std::string::npos)
+        EXPECT_NE(outcome.err.find("baked.glb: \"receivers\" of the bake is not a hash"), std::string::npos)
             << outcome.err;
         EXPECT_FALSE(std::filesystem::exists(folder / "out.glb"));
     }

@@ -1,8 +1,8 @@
 // prt compress --fallback: other viewers have a lit picture, and prt has the one that it had.
 
+#include "pipeline.h"
 #include "prt/image_file.h"
 #include "prt/support/file.h"
-#include "road.h"
 #include "support/glb_file.h"
 #include "support/scene_builder.h"
 
@@ -11,7 +11,7 @@
 namespace prt::test {
 namespace {
 
-class FallbackRoad : public Road {
+class FallbackFiles : public Pipeline {
 protected:
     void SetUp() override {
         scene_file(SceneBuilder().floor({0, 0, 0}, 2, 6).sphere({0, 0.8f, 0}, 0.7f, 8).build())
@@ -29,14 +29,14 @@ protected:
     }
 };
 
-TEST_F(FallbackRoad, IsWrittenAndChangesNoPictureOfPrt) {
+TEST_F(FallbackFiles, IsWrittenAndChangesNoPictureOfPrt) {
     ASSERT_EQ(compress("plain.glb", {}).status, 0);
     const std::vector<std::vector<std::string>> ways = {{}, {"--meshopt"}, {"--reorder"}};
     for (std::vector<std::string> way : ways) {
         way.insert(way.end(), {"--fallback", at("sky.exr")});
         const Outcome outcome = compress("shown.glb", way);
         ASSERT_EQ(outcome.status, 0) << outcome.err;
-        EXPECT_NE(outcome.out.find("viewers without PRT show it as sky.exr lights it, at exposure "),
+        EXPECT_NE(outcome.out.find("viewers without PRT show the model lit by sky.exr, at exposure "),
                   std::string::npos)
             << outcome.out;
         const double exposure = read_json(folder / "c.json")["fallback"]["exposure"];
@@ -56,7 +56,7 @@ TEST_F(FallbackRoad, IsWrittenAndChangesNoPictureOfPrt) {
     }
 }
 
-TEST_F(FallbackRoad, IsNotInBakesOfItsFile) {
+TEST_F(FallbackFiles, IsNotInBakesOfItsFile) {
     ASSERT_EQ(compress("shown.glb", {"--fallback", at("sky.exr")}).status, 0);
     ASSERT_EQ(prt({"bake", at("shown.glb"), "-o", at("again.glb"), "--rays", "4"}).status, 0);
     const std::string text = read_glb(folder / "again.glb").json.dump();
@@ -64,7 +64,7 @@ TEST_F(FallbackRoad, IsNotInBakesOfItsFile) {
         EXPECT_EQ(text.find(word), std::string::npos) << word;
 }
 
-TEST_F(FallbackRoad, IsRefusedBeforeWorkBegins) {
+TEST_F(FallbackFiles, IsRejectedBeforeWorkBegins) {
     const Outcome outcome = compress("shown.glb", {"--fallback", at("gone.exr")});
     EXPECT_EQ(outcome.status, 1);
     EXPECT_NE(outcome.err.find("gone.exr"), std::string::npos) << outcome.err;

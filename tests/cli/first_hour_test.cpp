@@ -87,7 +87,7 @@ TEST_F(FirstHour, OutputsAreCheckedBeforeWorkBegins) {
     expect_line(with({"-o", at("b"), "--json", at("b")}), 1, "would be one file");
 }
 
-TEST_F(FirstHour, EveryCommandThatWritesChecksItsOutputs) {
+TEST_F(FirstHour, EveryWritingCommandChecksItsOutputs) {
     bake_and_compress();
     write_exr(folder / "e.exr", {4, 2, std::vector<glm::vec3>(8, glm::vec3(1))});
     expect_line({"compress", at("b.glb"), "-o", at("c.png")}, 1, ".glb");
@@ -103,7 +103,7 @@ TEST_F(FirstHour, EveryCommandThatWritesChecksItsOutputs) {
     expect_line({"info", at("c.glb"), "--json", at("no/i.json")}, 1, "no/i.json");
 }
 
-TEST_F(FirstHour, OtherFormatsAreToldToExportGltf) {
+TEST_F(FirstHour, OtherFormatsSuggestGltfExport) {
     folder.file("m.obj", "v 0 0 0\nf 1 1 1\n");
     folder.file("m.ply", "ply\nformat ascii 1.0\n");
     folder.file("m.fbx", "Kaydara FBX Binary  ");
@@ -116,7 +116,7 @@ TEST_F(FirstHour, OtherFormatsAreToldToExportGltf) {
     expect_line({"bake", at("wrong.gltf"), "-o", at("o.glb")}, 1, "wrong.gltf");
 }
 
-TEST_F(FirstHour, CommandsThatAreMissingOrMisspeltAreNamed) {
+TEST_F(FirstHour, MissingAndMisspeltCommandsAreReported) {
     expect_line({"bak", at("t.glb")}, 2, "did you mean bake?");
     expect_line({"evalaute"}, 2, "did you mean evaluate?");
     expect_line({"frobnicate"}, 2, "compress");
@@ -127,14 +127,21 @@ TEST_F(FirstHour, CommandsThatAreMissingOrMisspeltAreNamed) {
         EXPECT_NE(alone.out.find(command), std::string::npos);
 }
 
-TEST_F(FirstHour, OptionsThatAreMisspeltAreNamedAlone) {
+TEST_F(FirstHour, MisspeltOptionsAreReportedAlone) {
     expect_line({"bake", "--ray", "5", at("t.glb"), "-o", at("o.glb")}, 2, "'--ray'; did you mean --rays?");
     expect_line({"bake", at("t.glb"), "--ordre=5", "-o", at("o.glb")}, 2, "'--ordre'; did you mean --order?");
     expect_line({"--versoin"}, 2, "'--versoin'; did you mean --version?");
     expect_line({"bake", at("t.glb"), "-o", ""}, 2, "--output: the name of the file is empty");
 }
 
-TEST_F(FirstHour, OptionsMayStandBeforeTheFilesThatFollow) {
+TEST_F(FirstHour, NounsAgreeWithTheirNumbers) {
+    const Outcome outcome = prt({"bake", at("t.glb"), "-o", at("b.glb"), "--rays", "16", "--bounces", "1"});
+    ASSERT_EQ(outcome.status, 0) << outcome.err;
+    EXPECT_NE(outcome.out.find(": 3 receivers, 1 triangle, order 6, "), std::string::npos) << outcome.out;
+    EXPECT_NE(outcome.out.find(", 16 rays per receiver, 1 bounce\n"), std::string::npos) << outcome.out;
+}
+
+TEST_F(FirstHour, OptionsMayPrecedeFiles) {
     bake_and_compress();
     write_png(folder / "sky.png", 4, 2, std::vector<glm::u8vec3>(8, glm::u8vec3(188)));
     ASSERT_EQ(prt({"project", at("sky.png"), "-o", at("l.json")}).status, 0);
@@ -146,7 +153,7 @@ TEST_F(FirstHour, OptionsMayStandBeforeTheFilesThatFollow) {
     EXPECT_EQ(compressed.status, 0) << compressed.err;
 }
 
-TEST_F(FirstHour, ShadersTakeWhatTheirLanguageHas) {
+TEST_F(FirstHour, ShadersAcceptOnlySupportedFeaturesOfTheirLanguage) {
     bake_and_compress();
     for (const char* language : {"essl300", "glsl330"}) {
         const Outcome outcome = prt({"shader", at("c.glb"), "-o", at("s.vert"), "--language", language});
@@ -175,12 +182,14 @@ TEST_F(FirstHour, TheVerdictFallsWithTheErrorAndItsFiguresAreExplained) {
         return prt({"evaluate", at("b.glb"), at("c.glb")}).out;
     };
     const std::string mean = verdict_of("1", "0"), all = verdict_of("1", "9");
-    EXPECT_NE(mean.find("visibly wrong"), std::string::npos) << mean; // every vertex has the mean's light
-    EXPECT_NE(all.find("looks the same as the bake"), std::string::npos) << all; // all data are included
-    EXPECT_NE(all.find("lit_rms: relative L2"), std::string::npos) << all;       // the meaning of the columns
+    EXPECT_NE(mean.find("clearly visible difference"), std::string::npos)
+        << mean; // every vertex has the mean's light
+    EXPECT_NE(all.find("no visible difference from the bake"), std::string::npos)
+        << all;                                                            // all data are included
+    EXPECT_NE(all.find("lit_rms: relative L2"), std::string::npos) << all; // the meaning of the columns
 }
 
-TEST_F(FirstHour, SmallMeshesAreToldThatSizesAreFitted) {
+TEST_F(FirstHour, SmallMeshesReportFittedSizes) {
     test::scene_file(test::SceneBuilder().floor({0, -0.5f, 0}, 1.5f, 10).sphere({0, 0, 0}, 0.5f, 12).build())
         .write(folder / "small.glb");
     ASSERT_EQ(prt({"bake", at("small.glb"), "-o", at("b.glb"), "--rays", "64"}).status, 0);
@@ -195,20 +204,20 @@ TEST_F(FirstHour, SmallMeshesAreToldThatSizesAreFitted) {
     EXPECT_GT(nlohmann::json::parse(text("c.json"))["components_mean"], 1);
 }
 
-TEST_F(FirstHour, AnEvaluationBeginsWithAVerdictAndEveryFileHoldsItsFigures) {
+TEST_F(FirstHour, EvaluationsBeginWithAVerdictAndAllReportsContainTheFigures) {
     bake_and_compress();
     const Outcome outcome = prt({"evaluate", at("b.glb"), at("c.glb"), "--json", at("e.json"), "--html",
                                  at("e.html"), "--csv", at("e.csv")});
     ASSERT_EQ(outcome.status, 0) << outcome.err;
     const std::string verdict = outcome.out.substr(0, outcome.out.find('\n'));
-    EXPECT_TRUE(verdict.starts_with("4 bytes a vertex, ")) << verdict; // a lone triangle is exact
-    EXPECT_NE(verdict.find("looks the same as the bake"), std::string::npos) << verdict;
+    EXPECT_TRUE(verdict.starts_with("4 bytes per vertex, ")) << verdict; // a lone triangle is exact
+    EXPECT_NE(verdict.find("no visible difference from the bake"), std::string::npos) << verdict;
     const auto json = nlohmann::json::parse(text("e.json"));
     EXPECT_EQ(json["verdict"], verdict);
     EXPECT_EQ(json["bytes_bound_per_vertex"], 4);
     const std::string page = text("e.html"), csv = text("e.csv");
     for (const char* term :
-         {"b.glb", "c.glb", "prt evaluate", "prefers-color-scheme", "UTC", "Before", "After"})
+         {"b.glb", "c.glb", "prt evaluate", "prefers-color-scheme", "UTC", "Bake, under", "Shipped file"})
         EXPECT_NE(page.find(term), std::string::npos) << term;
     EXPECT_NE(page.find(verdict), std::string::npos);
     EXPECT_EQ(page.find("{{"), std::string::npos);
@@ -246,8 +255,9 @@ TEST_F(FirstHour, AMeshWithoutNormalsReportsHowItsVerticesGrow) {
     GlbFile file = triangle_file();
     file.json["meshes"][0]["primitives"][0]["attributes"].erase("NORMAL");
     file.write(folder / "t.glb");
-    for (const auto& [option, words] : {std::pair("--fit=auto", "gets flat ones: 3 vertices became 3"),
-                                        std::pair("--smooth-normals=30", "gets smooth ones where")}) {
+    for (const auto& [option, words] :
+         {std::pair("--fit=auto", "flat shading is used: 3 vertices become 3"),
+          std::pair("--smooth-normals=30", "normals are created, smooth across edges")}) {
         const Outcome outcome =
             prt({"bake", at("t.glb"), "-o", at("n.glb"), "--rays", "16", "--order", "2", option});
         EXPECT_EQ(outcome.status, 0);
@@ -256,7 +266,7 @@ TEST_F(FirstHour, AMeshWithoutNormalsReportsHowItsVerticesGrow) {
     expect_line({"bake", at("t.glb"), "-o", at("m.glb"), "--smooth-normals", "181"}, 2, "--smooth-normals");
 }
 
-TEST_F(FirstHour, UniformBlocksLargerThanGuaranteedAreSaid) {
+TEST_F(FirstHour, LargeUniformBlocksAreReported) {
     const std::string baked = fixture("knot.baked.glb");
     for (const auto& [clusters, large] : {std::pair("20", false), std::pair("1100", true)}) {
         ASSERT_EQ(

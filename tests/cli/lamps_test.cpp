@@ -39,7 +39,7 @@ GlbFile floor_with_lamps() {
     return file;
 }
 
-class LampsOnTheRoad : public testing::Test {
+class LampCommands : public testing::Test {
 protected:
     void SetUp() override {
         floor_with_lamps().write(folder / "s.glb");
@@ -73,7 +73,7 @@ protected:
     TemporaryFolder folder;
 };
 
-TEST_F(LampsOnTheRoad, AreScaledInTheFileToo) {
+TEST_F(LampCommands, AreScaledInTheFile) {
     bake("scaled.glb", {"--lamp-scale", "0.25"});
     const Scene before = extract_scene(load_gltf(folder / "b.glb")),
                 after = extract_scene(load_gltf(folder / "scaled.glb"));
@@ -87,7 +87,7 @@ TEST_F(LampsOnTheRoad, AreScaledInTheFileToo) {
     EXPECT_EQ(prt({"bake", at("s.glb"), "-o", at("n.glb"), "--lamp-scale", "-1"}).status, 2);
 }
 
-TEST_F(LampsOnTheRoad, OfPhotometricUnitsAreNoticed) {
+TEST_F(LampCommands, PhotometricUnitsAreReported) {
     GlbFile bright = floor_with_lamps();
     bright.json["extensions"]["KHR_lights_punctual"]["lights"][0]["intensity"] = 2 * 683;
     bright.write(folder / "s.glb");
@@ -116,7 +116,7 @@ TEST_F(LampsOnTheRoad, OfPhotometricUnitsAreNoticed) {
 }
 
 /// A dim lamp over a floor of two triangles, a bright one over a fine floor.
-TEST_F(LampsOnTheRoad, NameObjectsThatErrMuchMore) {
+TEST_F(LampCommands, ObjectsWithHighErrorAreReported) {
     GlbFile file = scene_file(SceneBuilder().floor({8, 0, 0}, 2, 24).build());
     const Scene coarse = SceneBuilder().floor({0, 0, 0}, 2, 1).build();
     const VertexArray& floor = coarse.vertex_arrays[0];
@@ -155,11 +155,11 @@ TEST_F(LampsOnTheRoad, NameObjectsThatErrMuchMore) {
     const auto& fine = errors["objects"][0];
     EXPECT_EQ(fine["name"], "Fine");
     EXPECT_LT(fine["lamps"]["relative_l2"], 0.02);
-    EXPECT_TRUE(fine["backs"]["relative_l2"].is_null());          // one-sided
+    EXPECT_TRUE(fine["back_sides"]["relative_l2"].is_null());     // one-sided
     EXPECT_GT(errors["objects"][1]["lamps"]["relative_l2"], 0.5); // the middle is brightest, corners far away
 }
 
-TEST_F(LampsOnTheRoad, AloneHaveNoBudgetOfTheSky) {
+TEST_F(LampCommands, OnlyLampsHaveNoSkyBudget) {
     GlbFile file = scene_file(SceneBuilder().bowl({0, 0, 0}, 1, 6, 0).build());
     file.json["extensionsUsed"].push_back("KHR_lights_punctual");
     file.json["extensions"]["KHR_lights_punctual"]["lights"] = {{{"type", "point"}, {"intensity", 1}}};
@@ -169,11 +169,11 @@ TEST_F(LampsOnTheRoad, AloneHaveNoBudgetOfTheSky) {
     bake("n.glb", {});
     const Outcome outcome = prt({"evaluate", at("n.glb"), "--budget"});
     EXPECT_EQ(outcome.status, 1);
-    EXPECT_NE(outcome.err.find("none of it reaches this scene"), std::string::npos) << outcome.err;
+    EXPECT_NE(outcome.err.find("the transfer has no distant light"), std::string::npos) << outcome.err;
 }
 
 // White would turn every triangle into a lamp.
-TEST_F(LampsOnTheRoad, WhoseTexturesAreMissingAreDark) {
+TEST_F(LampCommands, WhoseTexturesAreMissingAreDark) {
     GlbFile file = scene_file(SceneBuilder().floor({0, 0, 0}, 1, 6).build());
     const std::array<std::byte, 4> damaged{};
     file.json["textures"] = {{{"source", add_image(file, damaged, "image/webp")}}};
@@ -189,7 +189,7 @@ TEST_F(LampsOnTheRoad, WhoseTexturesAreMissingAreDark) {
         prt({"render", at("dark.glb"), "-o", at("p.png"), "--size", "32x32", "--backend", "cpu"}).status, 1);
 }
 
-TEST_F(LampsOnTheRoad, LightAsTheirStrengthsSay) {
+TEST_F(LampCommands, ScaleWithTheirStrengths) {
     ASSERT_EQ(
         prt({"compress", at("b.glb"), "-o", at("c.glb"), "--weights", "float", "--clusters", "16"}).status,
         0);
@@ -214,7 +214,7 @@ TEST_F(LampsOnTheRoad, LightAsTheirStrengthsSay) {
     }
 }
 
-TEST_F(LampsOnTheRoad, AreGroupedOrLeftOut) {
+TEST_F(LampCommands, AreGroupedOrOmitted) {
     bake("g.glb", {"--lamp-group", "all of them=Lamp.*"});
     EXPECT_EQ(lamps_of("g.glb"), std::vector<std::string>{"all of them"});
     bake("n.glb", {"--lamps", "none"});
@@ -224,7 +224,7 @@ TEST_F(LampsOnTheRoad, AreGroupedOrLeftOut) {
         EXPECT_LT(glm::distance(together.colors[p], separate.colors[p]), 1e-5f);
 }
 
-TEST_F(LampsOnTheRoad, AloneLightAPicture) {
+TEST_F(LampCommands, CanBeTheOnlyLight) {
     const Outcome outcome =
         prt({"render", at("b.glb"), "-o", at("p.png"), "--backend", "cpu", "--json", at("r.json")});
     ASSERT_EQ(outcome.status, 0) << outcome.err;
@@ -234,16 +234,16 @@ TEST_F(LampsOnTheRoad, AloneLightAPicture) {
 }
 
 /// An older version wrote these lamps, without light of their suns.
-TEST_F(LampsOnTheRoad, ThatAreSunsOfAnOlderVersionAreRefused) {
+TEST_F(LampCommands, SunsOfOlderVersionsAreRejected) {
     GlbFile file = read_glb(folder / "b.glb");
     file.json["extensions"]["PRTKIT_transfer"]["terms"].back()["towards"] = {0, 1, 0};
     file.write(folder / "old.glb");
     const Outcome outcome = prt({"info", at("old.glb")});
     EXPECT_EQ(outcome.status, 1);
-    EXPECT_NE(outcome.err.find("bake the scene again"), std::string::npos) << outcome.err;
+    EXPECT_NE(outcome.err.find("run prt bake again"), std::string::npos) << outcome.err;
 }
 
-TEST_F(LampsOnTheRoad, ThatAreWrongAreSaidSoInALine) {
+TEST_F(LampCommands, InvalidLampsAreReportedInOneLine) {
     bake("n.glb", {"--lamps", "none"});
     folder.file("unknown.json", R"({"Lamp.blue": 1})");
     folder.file("negative.json", R"({"Lamp.white": -1})");
@@ -259,12 +259,11 @@ TEST_F(LampsOnTheRoad, ThatAreWrongAreSaidSoInALine) {
     const auto strengths = [&](const char* file) {
         return std::vector<std::string>{"relight", at("b.glb"), "-o", at("no.glb"), "--lamps", at(file)};
     };
-    refused(strengths("unknown.json"), 1,
-            "no lamp of the model is called 'Lamp.blue'; there are: Lamp.white");
+    refused(strengths("unknown.json"), 1, "the model has no lamp 'Lamp.blue'; its lamps are: Lamp.white");
     refused(strengths("negative.json"), 1, "the strength of 'Lamp.white'");
     refused(strengths("word.json"), 1, "the strength of 'Lamp.white'");
-    refused(strengths("list.json"), 1, "no object of lamps");
-    refused(strengths("nan.json"), 1, "no JSON from byte");
+    refused(strengths("list.json"), 1, "a JSON object with a strength for each lamp");
+    refused(strengths("nan.json"), 1, "not valid JSON: the error is at byte");
     refused(strengths("missing.json"), 1, "missing.json");
     refused({"relight", at("n.glb"), "-o", at("no.glb")}, 1, "has no lamps, and without --env");
     refused({"bake", at("s.glb"), "-o", at("no.glb"), "--lamp-group", "Lantern"}, 2, "NAME=PATTERN");

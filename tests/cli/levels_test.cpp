@@ -1,8 +1,8 @@
 // Tests levels of detail through the program: baked, compressed, reported, evaluated and drawn; and rejected
 // input.
 
+#include "pipeline.h"
 #include "prt/levels.h"
-#include "road.h"
 #include "support/level_file.h"
 #include "support/scene_builder.h"
 
@@ -15,7 +15,7 @@
 namespace prt::test {
 namespace levels_of_files {
 
-class LevelsOfDetail : public Road {
+class LevelsOfDetail : public Pipeline {
 protected:
     /// A ball with a dent, of some 2 000 triangles.
     GlbFile ball() const {
@@ -57,7 +57,7 @@ void write_light(const std::filesystem::path& path) {
 
 constexpr float kShares[] = {0.5f, 0.1f};
 
-TEST_F(LevelsOfDetail, GoAllTheRoad) {
+TEST_F(LevelsOfDetail, WorkInAllCommands) {
     write(ball(), "ball.glb");
     write(with_levels(ball(), kShares), "levels.glb");
     write(with_levels(ball(), kShares, LevelsBy::names), "names.glb");
@@ -69,7 +69,7 @@ TEST_F(LevelsOfDetail, GoAllTheRoad) {
     const nlohmann::json levels = read_json(folder / "bake.json")["levels"];
     EXPECT_EQ(levels["mode"], "carry");
     ASSERT_EQ(levels["by_level"].size(), 2u);
-    EXPECT_EQ(levels["all"][1]["of"], "node 0 'ball'");
+    EXPECT_EQ(levels["all"][1]["level_0"], "node 0 'ball'");
     EXPECT_GT(levels["by_level"][0]["relative_l2"], 0);
     EXPECT_LT(levels["by_level"][0]["relative_l2"], levels["by_level"][1]["relative_l2"]);
     EXPECT_LT(levels["by_level"][1]["relative_l2"], 0.2);
@@ -96,7 +96,7 @@ TEST_F(LevelsOfDetail, GoAllTheRoad) {
     EXPECT_EQ(prt({"shader", at("shipped.glb"), "-o", at("shader")}).status, 0);
 }
 
-TEST_F(LevelsOfDetail, AreDrawnAndLitAsLevel0) {
+TEST_F(LevelsOfDetail, AreDrawnAndLitLikeLevel0) {
     write(with_levels(ball(), kShares), "levels.glb");
     write_light(folder / "sky.json");
     ASSERT_EQ(bake("levels.glb", "baked.glb").status, 0);
@@ -118,7 +118,7 @@ TEST_F(LevelsOfDetail, AreDrawnAndLitAsLevel0) {
     EXPECT_GT(levels.scene.receivers(), levels.finest_receivers);
 }
 
-TEST_F(LevelsOfDetail, AreBakedAsIsAskedFor) {
+TEST_F(LevelsOfDetail, AreBakedOnRequest) {
     write(with_levels(ball(), kShares), "levels.glb");
     ASSERT_EQ(bake("levels.glb", "own.glb", {"--levels", "own", "--json", at("own.json")}).status, 0);
     ASSERT_EQ(bake("levels.glb", "carry.glb", {"--levels", "carry"}).status, 0);
@@ -138,7 +138,7 @@ TEST_F(LevelsOfDetail, AreBakedAsIsAskedFor) {
     EXPECT_NE(texels.err.find("get no lightmap"), std::string::npos) << texels.err;
 }
 
-TEST_F(LevelsOfDetail, ThatDoNotFitAreRefused) {
+TEST_F(LevelsOfDetail, MismatchesAreRejected) {
     GlbFile file = with_levels(ball(), kShares);
     GlbFile far = file;
     far.json["nodes"][2]["translation"] = {5, 0, 0};
@@ -148,7 +148,7 @@ TEST_F(LevelsOfDetail, ThatDoNotFitAreRefused) {
     expect_refused(large, "level 1 of node 0 'ball'");
     GlbFile missing = file;
     missing.json["nodes"][0]["extensions"]["MSFT_lod"]["ids"] = {1, 9};
-    expect_refused(missing, "names node 9, which is not there");
+    expect_refused(missing, "refers to node 9, which does not exist");
     expect_refused(file, "--instances shared does not know", {"--instances", "shared"});
     write(far, "far.glb");
     EXPECT_EQ(bake("far.glb", "ignored.glb", {"--levels", "ignore"}).status, 0);

@@ -1,8 +1,8 @@
 // Tests lightmaps through the program: baked, compressed, reported and drawn; and rejected input.
 
+#include "pipeline.h"
 #include "prt/image_file.h"
 #include "prt/lightmap_file.h"
-#include "road.h"
 #include "support/glb_file.h"
 #include "support/lightmap_model.h"
 #include "support/scene_builder.h"
@@ -16,7 +16,7 @@
 namespace prt::test {
 namespace {
 
-class Lightmaps : public Road {
+class Lightmaps : public Pipeline {
 protected:
     static constexpr const char* kScene = "plain_room.glb";
 
@@ -52,7 +52,7 @@ Scene cube() {
 
 // Faces that touch their neighbours cost a few rays more each, not a thousand. Each block is a node: in one
 // mesh, two faces at one position would be the sides of a wall.
-TEST_F(Lightmaps, OfBlocksThatTouchTakeTheRaysThatWereAsked) {
+TEST_F(Lightmaps, TouchingBlocksUseTheRequestedRays) {
     GlbFile file = scene_file(cube());
     file.json["nodes"] = nlohmann::json::array();
     for (int i = 0; i < 12; ++i) {
@@ -65,10 +65,10 @@ TEST_F(Lightmaps, OfBlocksThatTouchTakeTheRaysThatWereAsked) {
     ASSERT_EQ(baked.status, 0) << baked.err;
     const nlohmann::json report = read_json(folder / "b.json");
     EXPECT_LT(report["rays"].get<double>(), 1.2 * 64 * report["texels_measured"].get<double>());
-    EXPECT_GT(report["texels_sealed"], 10000); // out of 180 000
+    EXPECT_GT(report["texels_enclosed"], 10000); // out of 180 000
 }
 
-TEST_F(Lightmaps, GoAllTheRoad) {
+TEST_F(Lightmaps, WorkInAllCommands) {
     ASSERT_EQ(bake({"--size", "128", "--unwrap", "--bounces", "1", "--json", at("bake.json")}).status, 0);
     EXPECT_GT(read_json(folder / "bake.json")["texels_measured"], 1000);
     ASSERT_EQ(prt({"compress", at("baked.glb"), "-o", at("shipped.glb"), "--clusters", "8", "--bits", "56",
@@ -126,7 +126,7 @@ TEST_F(Lightmaps, AreDecodedFromTheFormatPageWithTheSameError) {
     }
 }
 
-TEST_F(Lightmaps, HaveShadersThatCompile) {
+TEST_F(Lightmaps, ShadersCompile) {
     ASSERT_EQ(bake({"--size", "64", "--unwrap"}).status, 0);
     ASSERT_EQ(prt({"compress", at("baked.glb"), "-o", at("shipped.glb")}).status, 0);
     const struct {
@@ -149,7 +149,7 @@ TEST_F(Lightmaps, HaveShadersThatCompile) {
     }
 }
 
-TEST_F(Lightmaps, LeaveNothingBehindWhereVerticesAreBakedAgain) {
+TEST_F(Lightmaps, AreRemovedByAVertexBake) {
     ASSERT_EQ(bake({"--size", "64", "--unwrap"}).status, 0);
     ASSERT_EQ(prt({"compress", at("baked.glb"), "-o", at("shipped.glb")}).status, 0);
     ASSERT_EQ(prt({"bake", at("shipped.glb"), "-o", at("again.glb"), "--rays", "16"}).status, 0);
@@ -160,7 +160,7 @@ TEST_F(Lightmaps, LeaveNothingBehindWhereVerticesAreBakedAgain) {
 }
 
 // Receivers are texels, and there are fewer of them than vertices: code must not index them by vertex.
-TEST_F(Lightmaps, ShowSunsWhereVerticesAreMoreThanTexels) {
+TEST_F(Lightmaps, ShowSunsForMoreVerticesThanTexels) {
     GlbFile floor = mapped_floor(60);
     floor.json["meshes"][0]["primitives"].erase(1);
     floor.write(folder / kScene);
@@ -187,7 +187,7 @@ TEST_F(Lightmaps, ShowSunsWhereVerticesAreMoreThanTexels) {
     EXPECT_NEAR(brightness[0], brightness[1], 0.02 * brightness[1]);
 }
 
-TEST_F(Lightmaps, AreRefusedWhereTheyCannotBe) {
+TEST_F(Lightmaps, AreRejectedIfUnsupported) {
     expect_refused(bake({"--size", "64"}), "has no TEXCOORD_1");
     expect_refused(bake({"--unwrap"}), "--unwrap is for textures");
     expect_refused(bake({"--size", "64", "--unwrap", "--refine", "0.1"}), "--refine is for vertices");
@@ -206,7 +206,7 @@ TEST_F(Lightmaps, AreRefusedWhereTheyCannotBe) {
     expect_refused(compress({"--fallback", at("sky.exr")}), "the light of this file is in texels");
     EXPECT_FALSE(std::filesystem::exists(folder / "shipped.glb"));
     expect_refused(prt({"relight", at("baked.glb"), "--env", at("sky.exr"), "-o", at("r.glb")}),
-                   "holds a lightmap");
+                   "contains a lightmap");
 }
 
 } // namespace

@@ -1,8 +1,8 @@
 // Tests prt lobes: transfer that rotates with a skin, and rejected input.
 
+#include "pipeline.h"
 #include "prt/image_file.h"
 #include "prt/lobe_gltf.h"
-#include "road.h"
 #include "support/glb_file.h"
 
 #include <glm/geometric.hpp>
@@ -16,7 +16,7 @@
 namespace prt::test {
 namespace {
 
-class LobesCommand : public Road {
+class LobesCommand : public Pipeline {
 protected:
     void SetUp() override { copy_examples(folder.path(), {"figure"}); }
     Outcome lobes(const char* model, std::vector<std::string> options = {}) {
@@ -56,7 +56,7 @@ TEST_F(LobesCommand, WritesLobesAndMeasuresThemOverFrames) {
     EXPECT_EQ(prt({"shader", at("figure.glb"), "-o", at("x.glsl"), "--lobes"}).status, 1);
 }
 
-TEST_F(LobesCommand, GivesTheSameBytesForAnyNumberOfThreads) {
+TEST_F(LobesCommand, IsByteIdenticalForAllThreadCounts) {
     const std::vector<std::string> options = {"--rays",   "16", "--poses", "2",
                                               "--frames", "0",  "--lobes", "1"};
     std::vector<std::string> one = options;
@@ -112,15 +112,16 @@ TEST_F(LobesCommand, AreRenderedInThePoseOfTheFile) {
     EXPECT_GT(difference(open), 2 * difference(posed));
 }
 
-TEST_F(LobesCommand, RefusesWhatDoesNotMove) {
+TEST_F(LobesCommand, RejectsStaticModels) {
     GlbFile still = read_glb(folder / "figure.glb");
     still.json.erase("animations");
     still.write(folder / "still.glb");
-    expect_refusal("still.glb", "has no animation to take poses from");
-    expect_refusal("figure.glb", "has no animation 'fly'; it has walk, idle, dance", {"--animation", "fly"});
+    expect_refusal("still.glb", "has no animation, but poses need one");
+    expect_refusal("figure.glb", "has no animation 'fly'; available: walk, idle, dance",
+                   {"--animation", "fly"});
 }
 
-TEST_F(LobesCommand, RefusesASkinWithoutWeights) {
+TEST_F(LobesCommand, RejectsASkinWithoutWeights) {
     GlbFile bare = read_glb(folder / "figure.glb");
     for (auto& mesh : bare.json["meshes"])
         for (auto& primitive : mesh["primitives"])
@@ -130,7 +131,7 @@ TEST_F(LobesCommand, RefusesASkinWithoutWeights) {
     expect_refusal("bare.glb", "mesh 0 primitive 0 has a skin, but no weights");
 }
 
-TEST_F(LobesCommand, RefusesAnimationsThatAreNoNumbers) {
+TEST_F(LobesCommand, RejectsNonFiniteAnimations) {
     GlbFile bad = read_glb(folder / "figure.glb");
     const std::size_t output = bad.json["animations"][0]["samplers"][0]["output"];
     const std::size_t view = bad.json["accessors"][output]["bufferView"];
@@ -141,7 +142,7 @@ TEST_F(LobesCommand, RefusesAnimationsThatAreNoNumbers) {
     expect_refusal("bad.glb", "not finite");
 }
 
-TEST_F(LobesCommand, RefusesOptionsOutOfRange) {
+TEST_F(LobesCommand, RejectsOptionsOutOfRange) {
     for (const auto& options : std::vector<std::vector<std::string>>{
              {"--lobes", "4"}, {"--lobes", "0"}, {"--order", "6"}, {"--poses", "0"}, {"--rays", "-1"}})
         EXPECT_EQ(lobes("figure.glb", options).status, 2) << options[0];

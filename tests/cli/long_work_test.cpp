@@ -1,6 +1,6 @@
 // Tests commands that take minutes: stopped by Ctrl-C, or rejected before they start.
 
-#include "road.h"
+#include "pipeline.h"
 
 #include <chrono>
 #include <csignal>
@@ -13,7 +13,7 @@ namespace prt::test {
 namespace {
 
 /// A command that takes minutes.
-class LongWork : public Road, public testing::WithParamInterface<std::vector<const char*>> {};
+class LongWork : public Pipeline, public testing::WithParamInterface<std::vector<const char*>> {};
 INSTANTIATE_TEST_SUITE_P(Phases, LongWork,
                          testing::Values(std::vector<const char*>{"--rays", "1000000"},
                                          std::vector<const char*>{"--rays", "1000000", "--bounces", "1"},
@@ -34,7 +34,7 @@ bool minds_interrupts(pid_t process) {
     return false;
 }
 
-TEST_P(LongWork, IsEndedByCtrlCAndLeavesNothing) {
+TEST_P(LongWork, StopsAtCtrlCWithoutOutput) {
     copy_examples(folder.path(), {"room"});
     const std::size_t before = folder.files();
     const std::string scene = at("room.glb"), output = at("b.glb");
@@ -61,7 +61,7 @@ TEST_P(LongWork, IsEndedByCtrlCAndLeavesNothing) {
     EXPECT_TRUE(WIFEXITED(status) && WEXITSTATUS(status) == 1);
     EXPECT_EQ(folder.files(), before);
 }
-TEST_F(Road, TooLargeABakeIsRefusedWithItsSize) {
+TEST_F(Pipeline, LargeBakesAreRejectedWithTheirSize) {
     copy_examples(folder.path(), {"room"});
     const Outcome bake =
         prt({"bake", at("room.glb"), "-o", at("b.glb"), "--rays", "16777216", "--bounces", "1"});

@@ -1,6 +1,6 @@
 // Tests prt make and prt evaluate --budget, from the command line to the file.
 
-#include "road.h"
+#include "pipeline.h"
 #include "support/glb_file.h"
 
 #include <algorithm>
@@ -22,7 +22,7 @@ std::vector<std::string> arguments_of(const std::string& line) {
     return arguments;
 }
 
-class Make : public Road {
+class Make : public Pipeline {
 protected:
     void SetUp() override { copy_examples(folder.path(), {"knot", "sky"}); }
     Outcome make(std::vector<std::string> options) const {
@@ -32,7 +32,7 @@ protected:
     }
 };
 
-TEST_F(Make, KeepsTheErrorAndSaysHowToDoTheSameByHand) {
+TEST_F(Make, MeetsTheErrorAndReportsEquivalentCommands) {
     const Outcome made = make({"--max-error", "0.1", "--baked", at("b.glb")});
     ASSERT_EQ(made.status, 0) << made.err;
     const auto report = read_json(folder / "m.json");
@@ -40,7 +40,7 @@ TEST_F(Make, KeepsTheErrorAndSaysHowToDoTheSameByHand) {
     EXPECT_LE(report["total_error_low"], report["total_error"]);
     EXPECT_GE(report["total_error_high"], report["total_error"]);
     const std::string baked = bytes_of(folder / "b.glb"), shipped = bytes_of(folder / "s.glb");
-    for (const std::string line : report["by_hand"]) {
+    for (const std::string line : report["commands"]) {
         const Outcome step = prt(arguments_of(line));
         ASSERT_EQ(step.status, 0) << line << '\n' << step.err;
     }
@@ -63,24 +63,24 @@ TEST_F(Make, KeepsTheErrorAndSaysHowToDoTheSameByHand) {
     EXPECT_NE(bytes_of(folder / "e.html").find("\"bars\""), std::string::npos);
 }
 
-TEST_F(Make, KeepsBytes) {
+TEST_F(Make, KeepsTheByteLimit) {
     ASSERT_EQ(make({"--bytes-per-vertex", "4.5", "--max-error", "0.1"}).status, 2);
     const Outcome made = make({"--bytes-per-vertex", "4.5", "--seconds", "5"});
     ASSERT_EQ(made.status, 0) << made.err;
     EXPECT_LE(read_json(folder / "m.json")["bytes_bound_per_vertex_with_bases"], 4.5);
     const Outcome none = make({"--bytes-per-vertex", "1", "--seconds", "5"});
     EXPECT_EQ(none.status, 1);
-    EXPECT_NE(none.err.find("nothing is as small as 1 bytes"), std::string::npos) << none.err;
+    EXPECT_NE(none.err.find("--bytes-per-vertex 1 cannot be reached"), std::string::npos) << none.err;
 }
 
-TEST_F(Make, SaysWhatKeepsAnErrorFromBeingMet) {
+TEST_F(Make, ReportsWhyAnErrorIsNotMet) {
     const Outcome none = make({"--max-error", "0.001", "--seconds", "5"});
     EXPECT_EQ(none.status, 1);
-    EXPECT_NE(none.err.find("nothing keeps 0.10 %"), std::string::npos) << none.err;
+    EXPECT_NE(none.err.find("an error of 0.10 % cannot be reached"), std::string::npos) << none.err;
     EXPECT_FALSE(std::filesystem::exists(folder / "s.glb"));
 }
 
-TEST_F(Make, TellsBouncesThatWereNotBaked) {
+TEST_F(Make, ReportsMissingBounces) {
     ASSERT_EQ(prt({"bake", at("knot.glb"), "-o", at("b.glb"), "--order", "4", "--rays", "64"}).status, 0);
     const Outcome evaluated =
         prt({"evaluate", at("b.glb"), "--budget", "--lights", at("sky.exr"), "--json", at("e.json")});
@@ -91,13 +91,13 @@ TEST_F(Make, TellsBouncesThatWereNotBaked) {
     EXPECT_LT(report["total_error_with_advice"], 0.1);
 }
 
-TEST_F(Road, RefusesBudgetsOfWhatPathsCannotTell) {
+TEST_F(Pipeline, RejectsBudgetsBeyondPathTracing) {
     triangle_file().write(folder / "t.glb");
     ASSERT_EQ(prt({"bake", at("t.glb"), "-o", at("b.glb"), "--rays", "64", "--subsurface", "marble"}).status,
               0);
     const Outcome medium = prt({"evaluate", at("b.glb"), "--budget"});
     EXPECT_EQ(medium.status, 1);
-    EXPECT_NE(medium.err.find("comes out of a medium"), std::string::npos) << medium.err;
+    EXPECT_NE(medium.err.find("passes through a medium"), std::string::npos) << medium.err;
     EXPECT_EQ(std::count(medium.err.begin(), medium.err.end(), '\n'), 1) << medium.err;
     EXPECT_EQ(prt({"evaluate", at("b.glb"), "--budget", "--rotations", "4"}).status, 2);
     EXPECT_EQ(prt({"make", at("t.glb"), "-o", at("s.glb")}).status, 2); // lights are required

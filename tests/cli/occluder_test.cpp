@@ -1,8 +1,8 @@
 // Tests prt ao --volume: occlusion by moving parts, and rejected input.
 
+#include "pipeline.h"
 #include "prt/gltf.h"
 #include "prt/occluder_gltf.h"
-#include "road.h"
 
 #include <gtest/gtest.h>
 
@@ -11,7 +11,7 @@
 namespace prt::test {
 namespace {
 
-class OccluderCommand : public Road {
+class OccluderCommand : public Pipeline {
 protected:
     void SetUp() override { copy_examples(folder.path(), {"figure"}); }
     Outcome ao(const std::vector<std::string>& options) {
@@ -21,22 +21,22 @@ protected:
     }
 };
 
-TEST_F(OccluderCommand, WritesVolumesAndSaysHowFarTheyAreOff) {
+TEST_F(OccluderCommand, WritesVolumesAndReportsTheirError) {
     const Outcome outcome = ao({"--rays", "32", "--json", at("ao.json")});
     ASSERT_EQ(outcome.status, 0) << outcome.err;
     EXPECT_EQ(validator_errors(folder / "out.glb"), 0);
     const nlohmann::json figures = read_json(folder / "ao.json");
-    EXPECT_EQ(read_occluders(load_gltf(folder / "out.glb")).size(), figures["parts"]);
+    EXPECT_EQ(read_occluders(load_gltf(folder / "out.glb")).size(), figures["objects"]);
     EXPECT_GT(figures["floor_mean_blocked"], figures["floor_mean_error"]);
     EXPECT_LT(figures["mean_error"], 0.05);
     // Later commands keep the occluders.
     ASSERT_EQ(prt({"bake", at("out.glb"), "-o", at("baked.glb"), "--rays", "8", "--order", "2"}).status, 0);
-    EXPECT_EQ(read_occluders(load_gltf(folder / "baked.glb")).size(), figures["parts"]);
+    EXPECT_EQ(read_occluders(load_gltf(folder / "baked.glb")).size(), figures["objects"]);
     const Outcome info = prt({"info", at("baked.glb")});
     EXPECT_NE(info.out.find("block around them"), std::string::npos) << info.out;
 }
 
-TEST_F(OccluderCommand, RefusesWhatIsOfSurfaces) {
+TEST_F(OccluderCommand, RejectsSurfaceOptions) {
     for (const auto& options : std::vector<std::vector<std::string>>{{"--size", "64"},
                                                                      {"--attribute", "_AO"},
                                                                      {"--bent-normals"},

@@ -75,7 +75,7 @@ TEST_F(Output, ArgumentsOutOfRangeAreWrongUsage) {
     EXPECT_EQ(folder.files(), 1u);
 }
 
-TEST_F(Output, StandardStreamsThatAreClosedOrFullShowInTheStatus) {
+TEST_F(Output, ClosedOrFullStandardStreamsSetTheStatus) {
     for (const char* closed : {">&-", ">/dev/full", ">&- 2>&- <&-", ">/dev/full 2>/dev/full"}) {
         const Outcome outcome = shell(bake("--json out.json " + std::string(closed)));
         EXPECT_EQ(outcome.status, 1) << closed << outcome.err;
@@ -89,14 +89,14 @@ TEST_F(Output, StandardStreamsThatAreClosedOrFullShowInTheStatus) {
     EXPECT_EQ(shell(PRT_PROGRAM " --help >/dev/full").status, 1);
 }
 
-TEST_F(Output, AReportThatCannotBeWrittenTakesTheOutputBack) {
+TEST_F(Output, FailedReportsRemoveTheOutput) {
     folder.file("out.glb", "old");
     EXPECT_EQ(shell(bake("--json /dev/full")).status, 1);
     EXPECT_EQ(text_in(folder / "out.glb"), "old");
     EXPECT_EQ(folder.files(), 2u);
 }
 
-TEST_F(Output, StreamsAreWrittenToAndStay) {
+TEST_F(Output, StreamsAreWrittenAndKept) {
     ASSERT_TRUE(std::filesystem::is_symlink("/dev/stdout"));
     const Outcome outcome = shell(PRT_PROGRAM " info good.glb --json /dev/stdout >both && cat both");
     EXPECT_EQ(outcome.status, 0) << outcome.err;
@@ -115,7 +115,7 @@ TEST_F(Output, StreamsAreWrittenToAndStay) {
     EXPECT_TRUE(std::filesystem::is_fifo(folder / "pipe"));
 }
 
-TEST_F(Output, NothingThatATerminalActsOnIsPrinted) {
+TEST_F(Output, TerminalControlCharactersAreNotPrinted) {
     GlbFile file = triangle_file();
     file.json["images"] = {{{"uri", "no\nsuch\x1b]0;title\x07\xc2\x9b.png"}}};
     file.json["textures"] = {{{"source", 0}}};
@@ -143,7 +143,7 @@ TEST_F(Output, NothingThatATerminalActsOnIsPrinted) {
     EXPECT_NE(plain.err.find("Bäume 木 🌲.glb"), std::string::npos) << plain.err;
 }
 
-TEST_F(Output, OfTwoThatWriteOneFileOneIsWhole) {
+TEST_F(Output, ConcurrentWritersLeaveOneCompleteFile) {
     ASSERT_EQ(shell(bake("")).status, 0);
     const std::string one = text_in(folder / "out.glb");
     ASSERT_EQ(shell(bake("--seed 7")).status, 0);
@@ -157,7 +157,7 @@ TEST_F(Output, OfTwoThatWriteOneFileOneIsWhole) {
     }
 }
 
-TEST_F(Output, ACancelledPictureLeavesNothing) {
+TEST_F(Output, CancelledPicturesLeaveNoFile) {
     ASSERT_EQ(shell(bake("")).status, 0);
     folder.file("light.json", R"({"prtkit_light": 1, "order": 2,
                                   "coefficients": {"red": [1, 0, 0, 0], "green": [1, 0, 0, 0],
@@ -183,7 +183,7 @@ std::vector<std::string> limits() {
     return list;
 }
 
-TEST_F(Output, LittleOfEverythingIsEnoughOrOneLine) {
+TEST_F(Output, LimitedResourcesSufficeOrAreReportedInOneLine) {
     for (const std::string& limit : limits()) {
         std::filesystem::remove(folder / "out.glb");
         const Outcome outcome = shell(limit + "; " + bake(""));

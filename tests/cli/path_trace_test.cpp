@@ -1,8 +1,8 @@
 // prt render --path-trace: closed forms, and the pictures of the demo against it.
 
+#include "pipeline.h"
 #include "prt/image_file.h"
 #include "prt/support/file.h"
-#include "road.h"
 #include "support/glb_file.h"
 #include "support/scene_builder.h"
 
@@ -18,7 +18,7 @@
 namespace prt::test {
 namespace {
 
-class PathTraced : public Road {
+class PathTraced : public Pipeline {
 protected:
     void SetUp() override {
         scene_file(SceneBuilder().floor({0, 0, 0}, 2, 8).build()).write(folder / "floor.glb");
@@ -44,7 +44,7 @@ protected:
     }
 };
 
-TEST_F(PathTraced, FloorsAreAsBrightAsTheirLight) {
+TEST_F(PathTraced, FloorsMatchTheirLight) {
     // Under radiance 0.7 a floor of albedo 1 reflects 0.7; a sun of irradiance 2 at 60 degrees adds 2 cos 60
     // / pi.
     EXPECT_NEAR(seen("floor.glb", {"--env", at("even.exr")}).g, 0.7, 0.01);
@@ -59,7 +59,7 @@ TEST_F(PathTraced, FloorsAreAsBrightAsTheirLight) {
     EXPECT_NEAR(lit.g, 0.5 / std::numbers::pi, 1e-3);
 }
 
-TEST_F(PathTraced, LampsOfASceneWithoutTransferShine) {
+TEST_F(PathTraced, LampsOfASceneWithoutTransferEmit) {
     GlbFile file = scene_file(SceneBuilder().floor({0, 0, 0}, 2, 8).build());
     file.json["extensionsUsed"] = {"KHR_lights_punctual"};
     file.json["extensions"]["KHR_lights_punctual"]["lights"] = {
@@ -99,7 +99,7 @@ TEST_F(PathTraced, ErrorsAreSmallForABakeAndGreatWithoutShadows) {
     EXPECT_EQ(decode_image(read_file(folder / "e.png")).width, 64);
 }
 
-TEST_F(PathTraced, OptionsThatDoNotGoTogetherAreRefused) {
+TEST_F(PathTraced, IncompatibleOptionsAreRejected) {
     for (const std::vector<std::string>& wrong :
          {std::vector<std::string>{"--show", "error"},
           {"--show", "ao", "--path-trace", "8"},
@@ -127,14 +127,14 @@ std::vector<DemoPicture> demo_pictures() {
     const std::regex line_form(R"(^((?:\w+=\S+ )*)(road|made) (\w+)(.*)$)"),
         sky_update(R"(sky=out/scenes/(\w+)\.exr)");
     for (std::string line; std::getline(script, line);) {
-        std::smatch terms;
-        if (!std::regex_match(line, terms, line_form))
+        std::smatch match;
+        if (!std::regex_match(line, match, line_form))
             continue;
-        DemoPicture picture{.name = terms[3], .way = terms[2], .preset = {}, .camera = {}};
-        const std::string variables = terms[1];
+        DemoPicture picture{.name = match[3], .way = match[2], .preset = {}, .camera = {}};
+        const std::string variables = match[1];
         if (std::smatch sky; std::regex_search(variables, sky, sky_update))
             picture.sky = sky[1];
-        std::istringstream rest(terms[4].str());
+        std::istringstream rest(match[4].str());
         if (picture.way == "road")
             rest >> picture.bounces >> picture.preset;
         for (std::string word; rest >> word;)
@@ -144,14 +144,14 @@ std::vector<DemoPicture> demo_pictures() {
     return pictures;
 }
 
-class DemoPictures : public Road, public testing::WithParamInterface<DemoPicture> {};
+class DemoPictures : public Pipeline, public testing::WithParamInterface<DemoPicture> {};
 INSTANTIATE_TEST_SUITE_P(All, DemoPictures, testing::ValuesIn(demo_pictures()),
                          [](const auto& picture) { return picture.param.name; });
 
 // Means over blocks of 8 x 8 pixels against path tracing, of pictures a twelfth as wide as the demo's. Bakes
 // measure 3 to 7 %, noise of 64 paths included; the night room of a compressor that destroys faint light 27
 // %.
-TEST_P(DemoPictures, LookAsPathTracing) {
+TEST_P(DemoPictures, MatchPathTracing) {
     const DemoPicture& picture = GetParam();
     copy_examples(folder.path(), {picture.name, picture.sky});
     const std::string scene = at((picture.name + ".glb").c_str()), sky = at((picture.sky + ".exr").c_str());

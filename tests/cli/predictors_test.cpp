@@ -98,7 +98,7 @@ TEST_F(Predicted, ModelsAreLitByTheWebsDecoder) {
     EXPECT_LT(first_number(decoder.out), 1e-5);
 }
 
-TEST_F(Predicted, ModelsSayWhatTheirPredictorsCost) {
+TEST_F(Predicted, ModelsReportTheCostOfPredictors) {
     const Outcome info = prt({"info", at("c.glb"), "--json", at("i.json")});
     ASSERT_EQ(info.status, 0) << info.err;
     EXPECT_NE(info.out.find("predictors: normal and position: 6 rows in each cluster"), std::string::npos)

@@ -1,8 +1,8 @@
 // prt bake --refine, from the command line to the file.
 
+#include "pipeline.h"
 #include "prt/encode_glb.h"
 #include "prt/gltf.h"
-#include "road.h"
 #include "support/glb_file.h"
 
 #include <algorithm>
@@ -10,7 +10,7 @@
 namespace prt::test {
 namespace {
 
-TEST_F(Road, RefinesAndSaysWhatItDid) {
+TEST_F(Pipeline, RefinementIsReported) {
     copy_examples(folder.path(), {"plain_room"});
     const Outcome bake = prt({"bake", at("plain_room.glb"), "-o", at("b.glb"), "--order", "3", "--rays", "64",
                               "--refine", "0.1", "--json", at("b.json"), "--backend", "cpu"});
@@ -33,18 +33,18 @@ TEST_F(Road, RefinesAndSaysWhatItDid) {
         GTEST_SKIP() << "gltf-validator is not installed";
 }
 
-TEST_F(Road, KeepsToTheVerticesThatARefinementMayHave) {
+TEST_F(Pipeline, RefinementKeepsTheVertexLimit) {
     copy_examples(folder.path(), {"plain_room"});
     const Outcome bake = prt({"bake", at("plain_room.glb"), "-o", at("b.glb"), "--order", "3", "--rays", "64",
                               "--refine", "0.05", "--most-vertices", "600", "--backend", "cpu"});
     ASSERT_EQ(bake.status, 0) << bake.err;
-    EXPECT_NE(bake.out.find("--most-vertices is too few"), std::string::npos) << bake.out;
+    EXPECT_NE(bake.out.find("within the vertex limit"), std::string::npos) << bake.out;
     const std::size_t vertices = extract_scene(load_gltf(folder / "b.glb")).receivers();
     EXPECT_LE(vertices, 600);
     EXPECT_GT(vertices, 580);
 }
 
-TEST_F(Road, RefusesRefinementOfWhatItCannotMeasure) {
+TEST_F(Pipeline, RejectsUnsupportedRefinement) {
     triangle_file().write(folder / "t.glb");
     const auto bake = [&](std::vector<std::string> options) {
         options.insert(options.begin(), {"bake", at("t.glb"), "-o", at("b.glb")});

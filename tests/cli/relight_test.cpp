@@ -67,7 +67,7 @@ TEST_F(Relight, LightsMediaBySunsOnce) {
     EXPECT_NEAR(brightest.g, 0.4f, 0.05f);
 }
 
-TEST_F(Relight, MultipliesByTheBaseColorWhereItIsAsked) {
+TEST_F(Relight, MultipliesByTheBaseColorOnRequest) {
     GlbFile file = scene_file(SceneBuilder().floor({0, 0, 0}, 1, 2).build());
     file.json["materials"] = {{{"pbrMetallicRoughness", {{"baseColorFactor", {0.5, 0.25, 1, 1}}}}}};
     file.json["meshes"][0]["primitives"][0]["material"] = 0;
@@ -122,7 +122,7 @@ TEST_F(Relight, FindsSunsInImages) {
     EXPECT_LT(separate[0].x, 0.9f); // colors that are read end at 1
 }
 
-TEST_F(Relight, SaysWhatItCannotDo) {
+TEST_F(Relight, ReportsUnsupportedInput) {
     const auto refused = [&](const std::vector<std::string>& arguments, int status, const char* words) {
         std::vector<std::string> all = {"relight", "-o", at("no.glb")};
         all.insert(all.end(), arguments.begin(), arguments.end());
@@ -136,7 +136,7 @@ TEST_F(Relight, SaysWhatItCannotDo) {
     refused({at("b.glb"), "--env", at("sun.json"), "--suns", "17"}, 2, "17");
     refused({at("b.glb"), "--env", at("sun.json"), "--sun-rays", "0"}, 2, "--sun-rays");
     ASSERT_EQ(prt({"compress", at("b.glb"), "-o", at("w.glb"), "--combine-direct"}).status, 0);
-    refused({at("w.glb"), "--env", at("sun.json"), "--suns", "1"}, 1, "no direct light apart");
+    refused({at("w.glb"), "--env", at("sun.json"), "--suns", "1"}, 1, "no separate direct term");
     const Outcome merged = prt({"relight", at("w.glb"), "--env", at("sun.json"), "-o", at("lit.glb")});
     EXPECT_EQ(merged.status, 0);
     EXPECT_NE(merged.err.find("no direct light apart"), std::string::npos) << merged.err;

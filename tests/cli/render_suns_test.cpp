@@ -65,7 +65,7 @@ protected:
 };
 
 /// The shadow of the roof starts at x = 1; pixels of 3 cm resolve it.
-TEST_F(RenderSuns, ShadowsThemSharplyByRaysAndByMaps) {
+TEST_F(RenderSuns, HaveSharpShadowsByRaysAndMaps) {
     for (const auto& [model, by] : {std::pair("s.glb", "cpu"), // without transfer
                                     {"b.glb", "cpu"},
                                     {"c.glb", "cpu"},
@@ -83,7 +83,7 @@ TEST_F(RenderSuns, ShadowsThemSharplyByRaysAndByMaps) {
     }
 }
 
-TEST_F(RenderSuns, LightsWithTheSkyWhatIsNotApart) {
+TEST_F(RenderSuns, LightCombinedTransferWithTheSky) {
     const Image separate = rendered({at("b.glb"), "--env", at("sun.json")}),
                 together = rendered({at("b.glb"), "--env", at("sun.json"), "--suns", "0"});
     EXPECT_LT(separate.at(44, 16).g, 1e-6f);
@@ -91,7 +91,7 @@ TEST_F(RenderSuns, LightsWithTheSkyWhatIsNotApart) {
     for (const char* sky : {"sun.json", "sunny.exr"}) {
         const Outcome outcome = render({at("w.glb"), "--env", at(sky), "-o", at("w.exr")});
         EXPECT_EQ(outcome.status, 0) << outcome.err;
-        EXPECT_NE(outcome.err.find("keeps no direct light apart"), std::string::npos) << outcome.err;
+        EXPECT_NE(outcome.err.find("has no separate direct term"), std::string::npos) << outcome.err;
         const Image none = rendered({at("w.glb"), "--env", at(sky), "--suns", "0"});
         EXPECT_EQ(load_environment(folder / "w.exr").environment.image.pixels, none.pixels) << sky;
     }
@@ -100,7 +100,7 @@ TEST_F(RenderSuns, LightsWithTheSkyWhatIsNotApart) {
 }
 
 /// If the whole floor is marble, the sun and its shadow come only through transfer.
-TEST_F(RenderSuns, LightsMediaThroughTransfer) {
+TEST_F(RenderSuns, LightMediaThroughTransfer) {
     ASSERT_EQ(prt({"bake", at("s.glb"), "-o", at("m.glb"), "--rays", "256", "--order", "4", "--subsurface",
                    "marble"})
                   .status,
@@ -114,13 +114,13 @@ TEST_F(RenderSuns, LightsMediaThroughTransfer) {
 }
 
 /// A sky without suns is lit as it was before there were any.
-TEST_F(RenderSuns, LeavesPlainSkiesAlone) {
+TEST_F(RenderSuns, DoNotChangePlainSkies) {
     const Image found = rendered({at("c.glb"), "--env", at("plain.exr")}),
                 none = rendered({at("c.glb"), "--env", at("plain.exr"), "--suns", "0"});
     EXPECT_EQ(found.pixels, none.pixels);
 }
 
-TEST_F(RenderSuns, TellsThem) {
+TEST_F(RenderSuns, AreReported) {
     const Outcome outcome = render(
         {at("c.glb"), "--env", at("sunny.exr"), "-o", at("p.png"), "--json", at("r.json"), "--suns", "2"});
     EXPECT_EQ(outcome.status, 0) << outcome.err;
@@ -129,7 +129,7 @@ TEST_F(RenderSuns, TellsThem) {
 }
 
 /// If all light comes from a sun, the picture has the usual brightness.
-TEST_F(RenderSuns, ExposesForThem) {
+TEST_F(RenderSuns, CountForTheExposure) {
     const Outcome outcome =
         render({at("s.glb"), "--env", at("sun.json"), "-o", at("p.png"), "--json", at("r.json")});
     EXPECT_EQ(outcome.status, 0) << outcome.err;
@@ -139,7 +139,7 @@ TEST_F(RenderSuns, ExposesForThem) {
 
 /// Under a sky with only a sun, transfer contributes only bounced light, and here there is none; relative to
 /// the light of the whole sun its error is zero, and the verdict reports this.
-TEST_F(RenderSuns, AreApartInTheVerdict) {
+TEST_F(RenderSuns, AreSeparateInTheVerdict) {
     const auto rows = [&](const char* shipped, const char* sky) {
         const Outcome outcome =
             prt({"evaluate", at("b.glb"), at(shipped), "--lights", at(sky), "--json", at("r.json")});
@@ -152,21 +152,22 @@ TEST_F(RenderSuns, AreApartInTheVerdict) {
     };
     const auto sun = rows("c.glb", "sun.json");
     EXPECT_GT(sun["sun.json"]["lit_rms"], 0);
-    EXPECT_FALSE(sun["sun.json"]["judged"]);
-    EXPECT_EQ(sun["sun.json, suns apart"]["lit_rms"], 0);
-    EXPECT_EQ(sun["sun.json, suns apart"]["separate_suns"], 1);
-    EXPECT_TRUE(sun["sun.json, suns apart"]["judged"]);
-    EXPECT_NE(sun["verdict"].get<std::string>().find("0.00 % under sun.json, suns apart"), std::string::npos)
+    EXPECT_FALSE(sun["sun.json"]["in_verdict"]);
+    EXPECT_EQ(sun["sun.json, separate suns"]["lit_rms"], 0);
+    EXPECT_EQ(sun["sun.json, separate suns"]["separate_suns"], 1);
+    EXPECT_TRUE(sun["sun.json, separate suns"]["in_verdict"]);
+    EXPECT_NE(sun["verdict"].get<std::string>().find("0.00 % under sun.json, separate suns"),
+              std::string::npos)
         << sun["verdict"];
     const auto sky = rows("c.glb", "sunny.exr");
-    EXPECT_LT(sky["sunny.exr, suns apart"]["lit_rms"], sky["sunny.exr"]["lit_rms"]);
-    EXPECT_FALSE(rows("c.glb", "plain.exr").contains("plain.exr, suns apart"));
+    EXPECT_LT(sky["sunny.exr, separate suns"]["lit_rms"], sky["sunny.exr"]["lit_rms"]);
+    EXPECT_FALSE(rows("c.glb", "plain.exr").contains("plain.exr, separate suns"));
     const auto whole = rows("w.glb", "sunny.exr");
-    EXPECT_FALSE(whole.contains("sunny.exr, suns apart"));
-    EXPECT_TRUE(whole["sunny.exr"]["judged"]);
+    EXPECT_FALSE(whole.contains("sunny.exr, separate suns"));
+    EXPECT_TRUE(whole["sunny.exr"]["in_verdict"]);
 }
 
-TEST_F(RenderSuns, SaysWhatItCannotDo) {
+TEST_F(RenderSuns, ReportUnsupportedInput) {
     const auto refused = [&](std::vector<std::string> arguments, int status, const char* words) {
         arguments.insert(arguments.begin(), "render");
         arguments.insert(arguments.end(), {"-o", at("no.png")});
@@ -175,7 +176,7 @@ TEST_F(RenderSuns, SaysWhatItCannotDo) {
         EXPECT_NE(outcome.err.find(words), std::string::npos) << outcome.err;
         EXPECT_FALSE(std::filesystem::exists(folder / "no.png"));
     };
-    refused({at("w.glb"), "--env", at("sun.json"), "--suns", "1"}, 1, "no direct light apart");
+    refused({at("w.glb"), "--env", at("sun.json"), "--suns", "1"}, 1, "no separate direct term");
     std::ifstream file(folder / "sun.json");
     nlohmann::json five = nlohmann::json::parse(file);
     five["suns"] = std::vector<nlohmann::json>(5, five["suns"][0]);

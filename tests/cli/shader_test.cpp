@@ -89,7 +89,7 @@ TEST_P(Shader, CompilesInEveryLanguage) {
         }
 }
 
-TEST_P(Shader, ConstantsAreFormedByComputeShaders) {
+TEST_P(Shader, ConstantsAreComputedByComputeShaders) {
     for (const std::string language : {"glsl450", "vulkan"}) {
         const Outcome outcome =
             prt({"shader", at("c.glb"), "-o", at("s.comp"), "--compute", "--language", language});
@@ -141,7 +141,7 @@ TEST_F(VolumeShader, HasOneLookupForEveryLanguage) {
     }
 }
 
-TEST_F(VolumeShader, FormsLightByCompute) {
+TEST_F(VolumeShader, ComputesLightInComputeShaders) {
     std::mt19937 random(2);
     for (const bool alike : {false, true}) {
         with_volume(triangle_file(), random_volume(3, alike, random)).write(folder / "v.glb");

@@ -18,7 +18,7 @@
 namespace prt::test {
 namespace {
 
-class Parts : public testing::Test {
+class TransferTerms : public testing::Test {
 protected:
     void SetUp() override {
         scene_file(SceneBuilder().floor({0, 0, 0}, 1, 6).sphere({0, 0.6f, 0}, 0.4f, 8).build())
@@ -40,7 +40,7 @@ protected:
                          whole = {{{"kind", "combined"}, {"channels", 1}}};
 };
 
-TEST_F(Parts, OfABakeWithBouncesAreKeptByTheCompressor) {
+TEST_F(TransferTerms, AreKeptByTheCompressor) {
     EXPECT_EQ(figures_of({"info", at("b.glb")})["transfer"]["terms"], both);
     EXPECT_EQ(figures_of({"compress", at("b.glb"), "-o", at("c.glb")})["terms"], both);
     EXPECT_EQ(figures_of({"info", at("c.glb")})["clustered_pca"]["terms"], both);
@@ -48,7 +48,7 @@ TEST_F(Parts, OfABakeWithBouncesAreKeptByTheCompressor) {
 
 /// A model compressed for a light with its suns has a smaller error under it than one compressed for natural
 /// light, with separate suns and with all light in the sky.
-TEST_F(Parts, AreCompressedForLightsWithTheirSunsApartToo) {
+TEST_F(TransferTerms, AreCompressedForLightsWithSeparateSuns) {
     Light sky = hemisphere_light(3, {0, 1, 0}, glm::vec3(0.3f, 0.4f, 0.6f), glm::vec3(0.1f));
     nlohmann::json light = {{"prtkit_light", 1}, {"order", 3}};
     for (const auto& [c, name] : {std::pair(0, "red"), std::pair(1, "green"), std::pair(2, "blue")})
@@ -75,7 +75,7 @@ TEST_F(Parts, AreCompressedForLightsWithTheirSunsApartToo) {
                   1.05 * error_of({"--metric", "natural"}, lighting));
 }
 
-TEST_F(Parts, AreMadeOneWhereTheUserAsksForIt) {
+TEST_F(TransferTerms, AreCombinedOnRequest) {
     EXPECT_EQ(figures_of({"compress", at("b.glb"), "-o", at("c.glb"), "--combine-direct"})["terms"], whole);
     EXPECT_EQ(figures_of({"info", at("c.glb")})["clustered_pca"]["terms"], whole);
     // The bake represents equal light in other terms: all errors come from coding.

@@ -1,9 +1,9 @@
 // Tests volumes through the program: baked, compressed, reported and evaluated; and rejected input.
 
+#include "pipeline.h"
 #include "prt/gltf.h"
 #include "prt/volume_gltf.h"
 #include "prt/volume_relighter.h"
-#include "road.h"
 #include "support/glb_file.h"
 #include "support/random_volume.h"
 #include "support/volume_model.h"
@@ -17,7 +17,7 @@
 namespace prt::test {
 namespace {
 
-class Volumes : public Road {
+class Volumes : public Pipeline {
 protected:
     static constexpr const char* kScene = "plain_room.glb";
 
@@ -35,7 +35,7 @@ protected:
     }
 };
 
-TEST_F(Volumes, GoAllTheRoad) {
+TEST_F(Volumes, WorkInAllCommands) {
     ASSERT_EQ(bake({"--volume", "1", "--bounces", "1", "--json", at("bake.json")}).status, 0);
     const nlohmann::json baked_figures = read_json(folder / "bake.json")["volume"];
     EXPECT_GT(baked_figures["probes"], 400);
@@ -80,7 +80,7 @@ TEST_F(Volumes, GoAllTheRoad) {
     }
 }
 
-TEST_F(Volumes, GoWithASecondBake) {
+TEST_F(Volumes, AreRemovedByASecondBake) {
     ASSERT_EQ(bake({"--volume-probes", "400"}).status, 0);
     EXPECT_TRUE(read_volume(load_gltf(folder / "baked.glb"), extract_scene(load_gltf(folder / "baked.glb"))));
     ASSERT_EQ(prt({"bake", at("baked.glb"), "-o", at("again.glb"), "--rays", "8"}).status, 0);
@@ -88,7 +88,7 @@ TEST_F(Volumes, GoWithASecondBake) {
     EXPECT_FALSE(read_volume(again, extract_scene(again)));
 }
 
-TEST_F(Volumes, StandBesideLightmaps) {
+TEST_F(Volumes, CombineWithLightmaps) {
     ASSERT_EQ(bake({"--volume", "2", "--size", "64", "--unwrap"}).status, 0);
     ASSERT_EQ(
         prt({"compress", at("baked.glb"), "-o", at("shipped.glb"), "--clusters", "4", "--bits", "24"}).status,
@@ -98,9 +98,9 @@ TEST_F(Volumes, StandBesideLightmaps) {
     EXPECT_EQ(validator_errors(folder / "shipped.glb"), 0);
 }
 
-TEST_F(Volumes, RefuseWhatMakesNone) {
-    expect_refused(bake({"--volume", "1e-3"}), "make it smaller");
-    expect_refused(bake({"--volume", "1e-7"}), "closer than positions");
+TEST_F(Volumes, RejectInvalidOptions) {
+    expect_refused(bake({"--volume", "1e-3"}), "use smaller bounds");
+    expect_refused(bake({"--volume", "1e-7"}), "below the precision of positions");
     expect_refused(bake({"--volume-order", "2"}), "say --volume");
     expect_refused(bake({"--volume", "1", "--volume-bounds", "1,1,1,0,0,0"}), "two corners");
     expect_refused(bake({"--volume", "0.05", "--memory-limit", "40MB"}), "memory");
@@ -134,7 +134,7 @@ void write_textures(const CompressedVolume& volume, const std::filesystem::path&
     file.write(reinterpret_cast<const char*>(texels.data()), static_cast<std::streamsize>(texels.size()));
 }
 
-TEST_F(Road, VolumesHaveTheSameTexturesInTheWeb) {
+TEST_F(Pipeline, VolumesHaveTheSameTexturesInTheWeb) {
     if (std::string(PRT_NODE).empty())
         GTEST_SKIP() << "node is not installed";
     const std::string script = (std::filesystem::path(PRT_DECODE).parent_path() / "update_web.mjs").string();

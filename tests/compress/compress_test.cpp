@@ -126,7 +126,7 @@ TEST(Compress, DirectionsAreOrthogonalInTheMetric) {
                 EXPECT_NEAR(product(first[k] + i, first[k] + j) / length, i == j ? 1 : 0, 1e-5);
 }
 
-TEST(Compress, MoreClustersOrComponentsNeverHurtMuchAndQuantisingCostsLittle) {
+TEST(Compress, MoreClustersOrComponentsDoNotHurtAndQuantizationCostsLittle) {
     std::vector<std::size_t> truth;
     Transfer t = synthetic(1500, 20, 6, truth);
     const Transfer noise = random_transfer(1500, 4, 1, 77);
@@ -180,7 +180,7 @@ TEST(Compress, QuantisationErrorIsHalfAStepAtMost) {
     }
 }
 
-TEST(Compress, EveryFormatIsTheSameForAnyNumberOfThreads) {
+TEST(Compress, EveryFormatIsIndependentOfThreads) {
     const Transfer t = random_transfer(700, 4, 1, 22);
     std::vector<Edge> edges;
     for (std::uint32_t p = 1; p < 700; ++p)
@@ -202,7 +202,7 @@ TEST(Compress, EveryFormatIsTheSameForAnyNumberOfThreads) {
     }
 }
 
-TEST(Compress, IsTheSameForAnyNumberOfThreads) {
+TEST(Compress, DoesNotDependOnThreads) {
     const Transfer t = random_transfer(1000, 5, 1, 21);
     const CompressResult one = run(t, 12, 5, WeightFormat::packed, 1);
     for (const int threads : {2, 5}) {
@@ -252,7 +252,7 @@ TEST(HardCase, ZeroTransferStaysZero) {
         EXPECT_EQ(v, 0);
 }
 
-TEST(HardCase, AHugeOutlierIsKeptAndSpoilsNothing) {
+TEST(HardCase, HugeOutliersAreKeptWithoutHarm) {
     std::vector<std::size_t> truth;
     Transfer t = synthetic(300, 3, 2, truth);
     for (float& v : t.vector(17))
@@ -265,7 +265,7 @@ TEST(HardCase, AHugeOutlierIsKeptAndSpoilsNothing) {
             EXPECT_NEAR(decoded.vector(p)[i], t.vector(p)[i], 1e-3f);
 }
 
-TEST(HardCase, AxesThatVanishBesideOthersAreLeftOut) {
+TEST(HardCase, NegligibleAxesAreOmitted) {
     Transfer t = zero_transfer(3, 1, 3);
     t.vector(0)[1] = -256;
     t.vector(1)[3] = 1.4e-5f;
@@ -310,7 +310,7 @@ TEST(HardCase, ReceiversWithoutAreaDoNotCountButAreCoded) {
 }
 
 /// Tests the longest possible vectors, without an axis to omit.
-TEST(Compress, TakesAllNumbersOfColoredPartsOfOrderTenAndAllLamps) {
+TEST(Compress, AcceptsColoredTermsOfOrderTenWithAllLamps) {
     TransferLayout layout{10, {{TermKind::direct, 3}, {TermKind::indirect, 3}}};
     for (std::size_t k = 0; k < kMaxLamps; ++k)
         layout.terms.push_back({TermKind::lamp, 3, "lamp " + std::to_string(k)});
@@ -383,7 +383,7 @@ TEST(Compress, KeepsFaintLightOfLampsFarBelowTheirBrightest) {
               std::max(result.statistics.lit_rms, result.statistics.lamp_contrast));
 }
 
-TEST(Compress, RefusesWhatItCannotDo) {
+TEST(Compress, RejectsUnsupportedOptions) {
     Transfer t = random_transfer(10, 3, 1, 1);
     EXPECT_THROW(run(t, 0, 4), Error);
     EXPECT_THROW(run(t, 70000, 4), Error);
@@ -414,7 +414,7 @@ TEST(Compress, RefusesWhatItCannotDo) {
     EXPECT_THROW(compress(fine, {std::vector<float>(9, 1.0f)}, options), Error);
 }
 
-TEST(Compress, RefusesAreasTransferAndEdgesThatCannotBe) {
+TEST(Compress, RejectsInvalidAreasTransferAndEdges) {
     const Transfer fine = random_transfer(10, 3, 1, 1);
     const std::vector<float> ones(10, 1.0f);
     // for example of triangles whose corners overflow floats
@@ -432,7 +432,7 @@ TEST(Compress, RefusesAreasTransferAndEdgesThatCannotBe) {
         EXPECT_THROW(compress(fine, {ones, std::vector{edge}}, {}), Error) << edge.first;
 }
 
-TEST(Compress, OfTheLargestTransferAndAreasIsFinite) {
+TEST(Compress, IsFiniteForTheLargestTransferAndAreas) {
     Transfer t = random_transfer(40, 3, 1, 1);
     const auto expect_finite = [](const CompressResult& result) {
         EXPECT_TRUE(std::isfinite(result.statistics.lit_rms));

@@ -45,7 +45,7 @@ struct Waves {
     }
 };
 
-TEST(ManyReceivers, AreTheSameForAnyNumberOfThreadsAndHoweverTheyAreStored) {
+TEST(ManyReceivers, DoNotDependOnThreadsOrStorage) {
     const Waves waves;
     const CompressResult one = waves.compressed(waves.floats, 1), other = waves.compressed(waves.stored, 3);
     EXPECT_EQ(one.transfer.bases.rows, other.transfer.bases.rows);

@@ -66,7 +66,7 @@ CompressOptions with(PredictorChoice predictors, int clusters, const WeightCodin
     return options;
 }
 
-TEST(CompressPredictors, TransferThatIsLinearInThemNeedsNoComponents) {
+TEST(CompressPredictors, LinearTransferNeedsNoComponents) {
     Predicted scene = scattered(600, 4, 1);
     std::mt19937 random(2);
     std::normal_distribution<float> normal;
@@ -93,7 +93,7 @@ TEST(CompressPredictors, TransferThatIsLinearInThemNeedsNoComponents) {
     }
 }
 
-TEST(CompressPredictors, HalveTheErrorOfReceiversInTheOpen) {
+TEST(CompressPredictors, HalveTheErrorOfOpenReceivers) {
     const Predicted scene = open_sphere(4000);
     const auto error = [&](PredictorChoice predictors) {
         return error_of(scene, compress(scene.transfer, scene.surface(), with(predictors, 64, {.bits = 18})));
@@ -101,7 +101,7 @@ TEST(CompressPredictors, HalveTheErrorOfReceiversInTheOpen) {
     EXPECT_LT(error(PredictorChoice::normal), 0.5 * error(PredictorChoice::none));
 }
 
-TEST(CompressPredictors, CodesAreTheNearestThatTheirClustersHave) {
+TEST(CompressPredictors, CodesAreTheNearestOfTheirClusters) {
     // Each point's code in its cluster is as good as coding the residual of the predictors again, and the
     // reported error is that of the decoded transfer.
     const Predicted scene = open_sphere(700);
@@ -116,7 +116,7 @@ TEST(CompressPredictors, CodesAreTheNearestThatTheirClustersHave) {
     EXPECT_NEAR(result.statistics.lit_rms, error_of(scene, result), 1e-4 * result.statistics.lit_rms);
 }
 
-TEST(CompressPredictors, AreTheSameForAnyNumberOfThreads) {
+TEST(CompressPredictors, DoNotDependOnThreads) {
     const Predicted scene = open_sphere(900);
     std::vector<ClusteredTransfer> results;
     for (const int threads : {1, 3}) {
@@ -129,7 +129,7 @@ TEST(CompressPredictors, AreTheSameForAnyNumberOfThreads) {
     EXPECT_EQ(results[0].receivers.weights, results[1].receivers.weights);
 }
 
-TEST(CompressPredictors, ThatTellNothingAreHarmless) {
+TEST(CompressPredictors, UselessPredictorsAreHarmless) {
     Predicted scene = open_sphere(500);
     const double without =
         error_of(scene, compress(scene.transfer, scene.surface(), with(PredictorChoice::none, 16, {})));
@@ -191,7 +191,7 @@ Predicted walls(std::size_t count) {
 }
 
 /// Normals of few receivers can produce slopes of any size, while all share one rounding step.
-TEST(CompressPredictors, NormalsThatHardlyDifferSpoilNoRounding) {
+TEST(CompressPredictors, NearlyEqualNormalsDoNotHarmRounding) {
     const Predicted scene = walls(110);
     CompressOptions options = with(PredictorChoice::normal, 100, {.bits = 33});
     options.metric = plain_metric(scene.transfer.layout);
@@ -213,7 +213,7 @@ TEST(CompressPredictors, ShaderOperationsAreCountedWithThem) {
     }
 }
 
-TEST(CompressPredictors, OfAnotherNumberOrNotFiniteAreRefused) {
+TEST(CompressPredictors, WrongCountsAndNonFiniteValuesAreRejected) {
     Predicted scene = open_sphere(20);
     scene.normals.pop_back();
     EXPECT_THROW(compress(scene.transfer, scene.surface(), {}), Error);

@@ -110,7 +110,7 @@ struct Tried {
     }
 };
 
-TEST(Search, KeepsTheErrorThatWasAskedFor) {
+TEST(Search, KeepsTheRequestedError) {
     const Tried scene(700, 1, 1);
     for (const double error : {0.1, 0.01}) {
         const SearchResult found = scene.within({error, {}, {}});
@@ -122,7 +122,7 @@ TEST(Search, KeepsTheErrorThatWasAskedFor) {
 
 /// Three random vectors, randomly mixed: one cluster with three components represents them, and more clusters
 /// only reduce the bits of weights.
-TEST(Search, FindsFewClustersWhereTransferHasFewDimensions) {
+TEST(Search, FindsFewClustersForFewDimensions) {
     Transfer transfer = zero_transfer(5, 1, 500);
     std::mt19937 random(9);
     std::normal_distribution<float> normal;
@@ -145,7 +145,7 @@ TEST(Search, FindsFewClustersWhereTransferHasFewDimensions) {
 
 /// Transfer of one vector with both signs is dark at some rotation of every sky, and any error relative to
 /// the light is infinite there.
-TEST(Search, KeepsAnErrorWhereLightVanishesAtSomeTurn) {
+TEST(Search, KeepsAnErrorLimitIfLightVanishesAtSomeRotation) {
     Transfer signs = zero_transfer(4, 1, 300), constant = signs;
     std::mt19937 random(4);
     std::normal_distribution<float> normal;
@@ -165,7 +165,7 @@ TEST(Search, KeepsAnErrorWhereLightVanishesAtSomeTurn) {
     }
 }
 
-TEST(Search, KeepsTheErrorAtEveryTurnOfSkiesThatWereGiven) {
+TEST(Search, KeepsTheErrorAtEveryRotationOfGivenSkies) {
     const Tried scene(700, 1, 1);
     const std::vector<Lighting> days = members_of_family(LightFamily::outdoor, 4);
     Budget budget{.max_error = 0.02};
@@ -213,7 +213,7 @@ TEST(Search, KeepsTheErrorUnderSkiesDrawnFromTheFamily) {
     }
 }
 
-TEST(Search, OrdersPromisesByHowNearTheyAreToTheirLimits) {
+TEST(Search, OrdersLimitsByRemainingSlack) {
     const Budget budget{.max_error = 0.1, .operations = 8.0, .max_jump = 0.05};
     const SearchTrial trial{.lit_rms = 0.03,
                             .worst_lit_rms = 0.04,
@@ -292,7 +292,7 @@ TEST(Search, LimitsJumpsAcrossClusters) {
     EXPECT_THROW(compress_within(transfer, surface, options), Error);
 }
 
-TEST(Search, RefusesPredictorsThatTakeMoreOperationsThanThereMayBe) {
+TEST(Search, RejectsPredictorsBeyondTheOperationLimit) {
     const Tried scene(100, 1, 1);
     const std::vector<glm::vec3> normals = lattice(100);
     SearchOptions options;
@@ -305,7 +305,7 @@ TEST(Search, RefusesPredictorsThatTakeMoreOperationsThanThereMayBe) {
     EXPECT_EQ(found.result.statistics.operations(), 3);
 }
 
-TEST(Search, KeepsTheBytesThatWereAskedFor) {
+TEST(Search, KeepsTheRequestedBytes) {
     const Tried scene(700, 3, 2);
     for (const double bytes : {7.0, 12.5}) {
         const SearchResult found = scene.within({{}, bytes, {}});
@@ -316,7 +316,7 @@ TEST(Search, KeepsTheBytesThatWereAskedFor) {
     }
 }
 
-TEST(Search, KeepsTheOperationsThatWereAskedFor) {
+TEST(Search, KeepsTheRequestedOperations) {
     const Tried scene(600, 1, 3);
     for (const double ops : {0.5, 3.0}) {
         const SearchResult found = scene.within({{}, {}, ops});
@@ -326,7 +326,7 @@ TEST(Search, KeepsTheOperationsThatWereAskedFor) {
     }
 }
 
-TEST(Search, KeepsThreePromisesAtOnceOrSaysThatItCannot) {
+TEST(Search, KeepsThreeLimitsOrReportsFailure) {
     const Tried scene(600, 1, 4);
     const SearchResult loose = scene.within({0.05, 12.0, 8.0});
     EXPECT_TRUE(loose.kept);
@@ -338,7 +338,7 @@ TEST(Search, KeepsThreePromisesAtOnceOrSaysThatItCannot) {
     EXPECT_GT(tight.result.transfer.receivers.size(), 0u); // the nearest there is
 }
 
-TEST(Search, FloatsKeepPromisesToo) {
+TEST(Search, FloatWeightsKeepLimits) {
     const Tried scene(500, 1, 5);
     const SearchResult found = scene.within({0.03, {}, {}}, WeightFormat::float32);
     EXPECT_TRUE(found.kept);
@@ -368,7 +368,7 @@ TEST(Search, IsMonotoneInEveryBudget) {
     }
 }
 
-TEST(Search, IsNeverWorseThanTheMethodsItComesFromAtTheirSize) {
+TEST(Search, IsNeverWorseThanRelatedMethodsAtEqualSize) {
     for (const unsigned seed : {11u, 13u}) {
         const int channels = seed == 13 ? 3 : 1;
         const Tried scene(600, channels, seed);
@@ -385,7 +385,7 @@ TEST(Search, IsNeverWorseThanTheMethodsItComesFromAtTheirSize) {
     }
 }
 
-TEST(Search, FindsOnSmallMeshesWhatAGridByHandFinds) {
+TEST(Search, MatchesAGridSearchOnSmallMeshes) {
     const Tried prop(prop_transfer());
     struct Cell {
         double bytes, error;
@@ -417,7 +417,7 @@ TEST(Search, FindsOnSmallMeshesWhatAGridByHandFinds) {
     }
 }
 
-TEST(Search, OperationsAloneAreSpentAsWellAsByHand) {
+TEST(Search, OperationBudgetMatchesManualSettings) {
     const Tried scene(2500, 1, 7);
     const SearchResult alone = scene.within({{}, {}, 2.0});
     EXPECT_LE(alone.result.statistics.operations(), 2);
@@ -443,7 +443,7 @@ TEST(Presets, FillTheirWords) {
 }
 
 /// Half of the receivers are equal, so that clusters need no directions there.
-TEST(Presets, OfFixedBitsAreDividedAlikeInAllClusters) {
+TEST(Presets, FixedBitsHaveOneLayoutForAllClusters) {
     Transfer transfer = smooth_transfer(600, 1, 4);
     for (std::size_t p = 0; p < 300; ++p)
         std::ranges::copy(transfer.vector(0), transfer.vector(p).begin());
@@ -474,7 +474,7 @@ TEST(Search, PresetsFitSmallMeshes) {
     EXPECT_EQ(whole.result.transfer.receivers.cluster_bits, 8);
 }
 
-TEST(Search, KeepsBudgetsThatOnlyFewerDirectionsKeep) {
+TEST(Search, KeepsBudgetsThatNeedFewerDirections) {
     const Tried prop(prop_transfer()), ten(10, 3, 9);
     for (const Tried* scene : {&prop, &ten})
         for (const int components : {0, 1, 3}) {
@@ -491,7 +491,7 @@ TEST(Search, KeepsBudgetsThatOnlyFewerDirectionsKeep) {
         }
 }
 
-TEST(Search, WeightsThatAreNotPackedFitSmallMeshesToo) {
+TEST(Search, FloatWeightsFitSmallMeshes) {
     const Tried prop(prop_transfer());
     CompressOptions floats;
     floats.coding.format = WeightFormat::float32;
@@ -503,7 +503,7 @@ TEST(Search, WeightsThatAreNotPackedFitSmallMeshesToo) {
     EXPECT_LT(found.result.statistics.lit_rms, 0.03);
 }
 
-TEST(Search, TakesAsLongAsAllOfItsTries) {
+TEST(Search, ReportsTheTimeOfAllTrials) {
     const SearchResult found = Tried(300, 1, 10).within({{}, 12.0, {}});
     double seconds = 0;
     for (const SearchTrial& trial : found.trials)
@@ -512,7 +512,7 @@ TEST(Search, TakesAsLongAsAllOfItsTries) {
     EXPECT_GE(found.result.statistics.seconds, seconds);
 }
 
-TEST(Search, RefusesBudgetsThatMakeNoSense) {
+TEST(Search, RejectsInvalidBudgets) {
     const Tried scene(50, 1, 1);
     EXPECT_THROW(scene.within({}), Error);
     EXPECT_THROW(scene.within({0.0, {}, {}}), Error);

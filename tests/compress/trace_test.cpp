@@ -58,7 +58,7 @@ double light_seen(const Transfer& t) {
     return sum;
 }
 
-TEST(Trace, TellsHowTheResultCameAbout) {
+TEST(Trace, RecordsTheSteps) {
     const Transfer t = curved_sheets(1200);
     const std::vector<float> areas(t.receivers(), 1.0f);
     CompressOptions options{.clusters = 24, .coding = {.components = 3}};
@@ -131,7 +131,7 @@ TEST(Trace, NoClusterMovesTwiceInASweep) {
     }
 }
 
-TEST(Trace, TellsOfEveryTrialOfASearch) {
+TEST(Trace, RecordsEveryTrialOfASearch) {
     const Transfer t = curved_sheets(300);
     std::vector<CompressEvent> events;
     SearchOptions options;

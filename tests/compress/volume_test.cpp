@@ -69,7 +69,7 @@ Lighting some_light(std::uint32_t seed) {
 class CompressedVolumes : public testing::TestWithParam<int> {};
 INSTANTIATE_TEST_SUITE_P(Orders, CompressedVolumes, testing::Values(2, 3, 4));
 
-TEST_P(CompressedVolumes, OfFewDirectionsLoseOnlyWhatBitsDo) {
+TEST_P(CompressedVolumes, LoseOnlyQuantizationErrorInFewDimensions) {
     const BakedVolume volume = smooth_volume(GetParam(), 0);
     CompressOptions options;
     options.clusters = 2;
@@ -84,7 +84,7 @@ TEST_P(CompressedVolumes, OfFewDirectionsLoseOnlyWhatBitsDo) {
         EXPECT_LT(error_under(volume, result.volume, some_light(seed)), 3e-3);
 }
 
-TEST_P(CompressedVolumes, ErrAsIsExpected) {
+TEST_P(CompressedVolumes, HaveTheExpectedError) {
     const BakedVolume volume = smooth_volume(GetParam(), 0.2f);
     CompressOptions options;
     options.clusters = 1;
@@ -102,7 +102,7 @@ TEST_P(CompressedVolumes, ErrAsIsExpected) {
     EXPECT_NEAR(std::sqrt(square), result.statistics.lit_rms, 0.12 * result.statistics.lit_rms);
 }
 
-TEST(CompressedVolumes, EvaluateWhatTheyDecodeTo) {
+TEST(CompressedVolumes, EvaluateTheirDecodedTransfer) {
     const BakedVolume volume = smooth_volume(3, 0.3f);
     CompressOptions options;
     options.clusters = 3;

@@ -99,7 +99,7 @@ TEST(ImageCorpus, RadiancePcondColorCorrection) {
     EXPECT_EQ(file.notices.size(), 1u);
 }
 
-TEST(ImageCorpus, RadianceExposureThatIsNoneIsRefused) {
+TEST(ImageCorpus, InvalidRadianceExposureIsRejected) {
     for (const char* line : {"EXPOSURE=0", "EXPOSURE=-1", "EXPOSURE=bright", "EXPOSURE=", "EXPOSURE=inf"})
         EXPECT_THROW(read("a.hdr", radiance(lines({line, kRgbe}), "-Y 2 +X 4")), Error) << line;
 }
@@ -189,7 +189,7 @@ TEST(ImageCorpus, KritaLayersExr) {
                                {"sun.R", 4}, {"sun.G", 5}, {"sun.B", 6}};
     std::size_t notices = 0;
     EXPECT_EQ(first_pixel(channels, "sun", notices), glm::vec3(4, 5, 6));
-    EXPECT_NE(refusal_of(channels, "").find("'sky', 'sun' by --layer NAME"), std::string::npos)
+    EXPECT_NE(refusal_of(channels, "").find("'sky', 'sun'; choose one with --layer NAME"), std::string::npos)
         << refusal_of(channels, "");
     EXPECT_NE(refusal_of(channels, "moon").find("'sky', 'sun'"), std::string::npos);
 }
@@ -221,7 +221,7 @@ TEST(ImageCorpus, OverscanOfASkyExr) {
     EXPECT_EQ(std::count(image.pixels.begin(), image.pixels.end(), glm::vec3(5)), kWidth * kHeight);
 }
 
-TEST(ImageCorpus, NukePartsExr) {
+TEST(ImageCorpus, NukeMultipartExr) {
     const test::TemporaryFolder folder;
     std::vector<Imf::Header> headers;
     for (const char* name : {"beauty", "sky"}) {

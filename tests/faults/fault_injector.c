@@ -2,7 +2,7 @@
 // resources, or the process is killed there.
 //
 //   PRT_FAULT=KIND:N[:all|:kill]  KIND is write, open, rename, sync, map, allocate or thread; N starts at 1.
-//                                 all: later calls fail, too.
+//                                 all: later calls also fail.
 //   PRT_FAULT_COUNTS=FILE         writes the number of calls of each kind: "write 12\n" ...
 //   PRT_FAULT_WITHOUT=WHAT        features that the file system does not support: tmpfile (O_TMPFILE),
 //                                 exchange (renameat2), or both

@@ -50,7 +50,7 @@ void collect(Json& value, std::vector<Json*>& all) {
             collect(member, all);
 }
 
-/// A member at random, as often in a short list of the extension as in a long one.
+/// Returns a random member; short and long lists of the extension have equal probability.
 Json& member_of(Json& value, Random& random) {
     Json* at = &value;
     while (at->is_structured() && !at->empty() && random() % 5 != 0)
@@ -116,7 +116,7 @@ void lengthen_list(GlbFile& file, Random& random) {
     }
 }
 
-/// Maps of other sizes and other words, images of other pixels, primitives elsewhere.
+/// Changes sizes and words of maps, pixels of images, and map references of primitives.
 void change_maps(GlbFile& file, Random& random) {
     Json& maps = extension(file).at("maps");
     Json& map = maps[below(maps.size(), random)];
@@ -182,7 +182,7 @@ void change_predictors(GlbFile& file, Random& random) {
     }
 }
 
-/// The bytes of a view that are there.
+/// Returns the existing bytes of a view.
 std::span<std::byte> view_bytes(GlbFile& file, std::size_t view) {
     const Json& json = file.json["bufferViews"].at(view);
     const std::size_t size = file.binary.size(),
@@ -191,7 +191,7 @@ std::span<std::byte> view_bytes(GlbFile& file, std::size_t view) {
         .subspan(begin, std::min<std::size_t>(json.value("byteLength", 0u), size - begin));
 }
 
-/// A view that the extension names, or an image, which has words then.
+/// Returns a view or an image with words that the extension references.
 std::size_t own_view(GlbFile& file, Random& random) {
     std::vector<Json*> all;
     std::vector<std::size_t> views;
@@ -241,7 +241,7 @@ void change_own_floats(GlbFile& file, Random& random) {
     put_strange_floats(view_bytes(file, own_view(file, random)), random);
 }
 
-/// Views cut, moved, laid over each other and out of the buffer.
+/// Shortens and moves views, so that they overlap or leave the buffer.
 void change_view(GlbFile& file, Random& random) {
     const std::size_t at =
         random() % 3 ? own_view(file, random) : below(file.json["bufferViews"].size(), random);

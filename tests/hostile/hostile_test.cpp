@@ -56,7 +56,7 @@ bool use_in_c(std::span<const std::byte> bytes) {
     prt_message message = {};
     if (prt_model_load_memory(bytes.data(), bytes.size(), &model, &message) != PRT_OK) {
         fuzz::expect_plain(message.text);
-        fuzz::expect(model == nullptr, "a model that is refused is there");
+        fuzz::expect(model == nullptr, "a rejected model is not null");
         return false;
     }
     prt_model_info info;
@@ -72,7 +72,7 @@ bool use_in_c(std::span<const std::byte> bytes) {
     return true;
 }
 
-/// Whether it was read.
+/// Returns true if the file was read by all interfaces that support it.
 bool is_read(const std::string& file) {
     const std::span<const std::byte> bytes = std::as_bytes(std::span(file));
     bool read = true, of_vertices = true; // the C interface supports only vertices
@@ -86,12 +86,12 @@ bool is_read(const std::string& file) {
     return read;
 }
 
-TEST(HostileShippedFiles, AreReadWhereNothingIsDamaged) {
+TEST(HostileShippedFiles, AreReadWithoutDamage) {
     for (const ShippedFile& shipped : shipped_files())
         EXPECT_TRUE(is_read(shipped.file.bytes())) << shipped.name;
 }
 
-TEST(HostileShippedFiles, AreRefusedInALineOrDecodedToFiniteNumbers) {
+TEST(HostileShippedFiles, AreRejectedInOneLineOrDecodedToFiniteNumbers) {
     const std::vector<ShippedFile> files = shipped_files();
     const std::uint32_t first = number_from("PRTKIT_HOSTILE_FIRST", 0),
                         cases = number_from("PRTKIT_HOSTILE_CASES", 1200);
@@ -105,7 +105,7 @@ TEST(HostileShippedFiles, AreRefusedInALineOrDecodedToFiniteNumbers) {
             ADD_FAILURE() << error.what();
         }
     }
-    // Both ways are taken.
+    // Some files are read, others are rejected.
     EXPECT_GT(read, cases / 20);
     EXPECT_LT(read, cases - cases / 4);
     rusage usage = {};

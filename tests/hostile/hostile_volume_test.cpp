@@ -14,13 +14,13 @@
 namespace prt::test {
 namespace {
 
-/// Whether it was read.
+/// Returns true if the volume was read.
 bool use(const std::string& file) {
     prt_volume* volume = nullptr;
     prt_message message = {};
     if (prt_volume_load_memory(file.data(), file.size(), &volume, &message) != PRT_OK) {
         fuzz::expect_plain(message.text);
-        fuzz::expect(volume == nullptr, "a volume that is refused is there");
+        fuzz::expect(volume == nullptr, "a rejected volume is not null");
         return false;
     }
     prt_volume_info info;
@@ -45,13 +45,13 @@ bool use(const std::string& file) {
         for (int a = 0; a < 3; ++a)
             point.position[a] = info.corner[a] + 7.5f * info.spacing * static_cast<float>((i + a) % 4 - 1);
         if (prt_volume_incident(volume, incident.data(), &point, found.data(), &message) == PRT_OK)
-            fuzz::expect_finite(std::span<const float>(found), "light of a place");
+            fuzz::expect_finite(std::span<const float>(found), "light at a position");
     }
     prt_volume_destroy(volume);
     return true;
 }
 
-TEST(HostileVolumes, AreRefusedInALineOrFormedToFiniteNumbers) {
+TEST(HostileVolumes, AreRejectedInOneLineOrComputedToFiniteNumbers) {
     const std::vector<ShippedFile> files = volume_files();
     for (const ShippedFile& shipped : files)
         EXPECT_TRUE(use(shipped.file.bytes()));
@@ -65,7 +65,7 @@ TEST(HostileVolumes, AreRefusedInALineOrFormedToFiniteNumbers) {
             ADD_FAILURE() << error.what();
         }
     }
-    // Both ways are taken.
+    // Some files are read, others are rejected.
     EXPECT_GT(read, static_cast<int>(kCases / 20));
     EXPECT_LT(read, static_cast<int>(kCases - kCases / 5));
 }

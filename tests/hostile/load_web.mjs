@@ -17,7 +17,7 @@ const { PrtkitPlugin, PrtkitVolume, projectEquirectangular } = await import(path
 
 const [folder, verbose] = process.argv.slice(2);
 const white = projectEquirectangular(new DataTexture(new Float32Array([1, 1, 1, 1]), 1, 1, RGBAFormat, FloatType));
-globalThis.createImageBitmap ??= async () => ({}); // node decodes no images
+globalThis.createImageBitmap ??= async () => ({}); // node cannot decode images
 const SECONDS = 20; // normal files need milliseconds
 
 /** Returns the first error of a volume; null if it is valid. */
@@ -42,22 +42,22 @@ function wrongModel(gltf) {
   let wrong = null;
   gltf.scene.traverse(({ geometry }) => {
     const attributes = geometry?.attributes ?? {};
-    for (const name of ["prt_position", "prt_normal", "prt_weights_0", "prt_weights_1"])
+    for (const name of ["prt_baked_position", "prt_baked_normal", "prt_weights_0", "prt_weights_1"])
       if (attributes[name] && !Array.from(attributes[name].array).every(Number.isFinite)) wrong = `${name} is not finite`;
     const words = attributes.prt_words_0 ?? attributes.prt_cluster;
     const mask = clusters.widths ? 2 ** clusters.clusterBits - 1 : 0xffffffff;
     for (let v = 0; words && v < words.count; ++v)
-      if ((words.getX(v) & mask) >>> 0 >= clusters.components.length) wrong = `vertex ${v} is in no cluster`;
+      if ((words.getX(v) & mask) >>> 0 >= clusters.components.length) wrong = `vertex ${v} names a cluster that does not exist`;
   });
   return wrong;
 }
 
-/** Returns the error in the way a file is rejected; null if there is none. */
+/** Returns what is wrong with a rejection by `error`, or null. */
 function wrongRefusal(error) {
-  if (!(error instanceof Error)) return "what is thrown is no Error";
+  if (!(error instanceof Error)) return "throws a value that is not an Error";
   const inOurs = /examples\/web\/src/.test(error.stack.split("\n").find((line) => line.trim().startsWith("at ")) ?? "");
   const ours = /^PRTKIT_(clustered_pca|lightmap|transfer_volume|occlusion_volume): [^\n]+$/.test(error.message);
-  return inOurs && !ours ? `says ${error.name}: ${error.message}` : null;
+  return inOurs && !ours ? `throws ${error.name}: ${error.message}` : null;
 }
 
 process.on("unhandledRejection", () => {}); // GLTFLoader leaves some unhandled when it fails
@@ -73,7 +73,7 @@ for (const name of files) {
     wrong = wrongModel(await loader.parseAsync(bytes.buffer.slice(bytes.byteOffset, bytes.byteOffset + bytes.length), ""));
     ++read;
   } catch (error) {
-    wrong = name.startsWith("whole") ? `is refused: ${error}` : wrongRefusal(error);
+    wrong = name.startsWith("whole") ? `is rejected: ${error}` : wrongRefusal(error);
     if (wrong && verbose) wrong += `\n${error.stack}`;
   }
   if (performance.now() - begin > 1000 * SECONDS) wrong = "takes too long";

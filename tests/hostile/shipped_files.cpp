@@ -27,17 +27,17 @@ const TransferLayout kSky{3, {{TermKind::direct, 1}, {TermKind::indirect, 3}}};
 const TransferLayout kLamps{
     2, {{TermKind::combined, 1}, {TermKind::lamp, 3, "lantern"}, {TermKind::lamp, 1, "window"}}};
 
-/// How a file is made.
+/// Options of a file.
 struct Recipe {
     std::string name;
     TransferLayout layout;
     CompressOptions options;
-    bool position_alone = false; ///< a predictor that the compressor never chooses alone
+    bool position_alone = false; ///< only a position predictor, which the compressor never chooses
     GlbFile scene = {};
     bool has_fallback = false;
 };
 
-/// A ball on a floor.
+/// Returns a ball on a floor.
 GlbFile smooth_scene() {
     return scene_file(SceneBuilder().floor({0, 0, 0}, 2, 3).sphere({0.3f, 1, 0}, 0.8f, 4).build());
 }
@@ -95,7 +95,7 @@ GlbFile made(const Recipe& recipe) {
     return read_glb(folder / "shipped.glb");
 }
 
-/// Words over coded bases with a lamp, and over plain ones.
+/// Adds words over coded bases with a lamp, and over plain bases.
 std::vector<ShippedFile> lightmap_files() {
     const GlbFile scene = mapped_floor(2);
     const LightmapLayout layout = layout_of_floor({12, 10}, {9, 7});

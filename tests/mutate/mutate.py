@@ -1,14 +1,14 @@
 #!/usr/bin/env python3
-"""Runs prt on models that are wrong in one or a few places, and says where it breaks.
+"""Runs prt on models with one or a few errors, and reports failures.
 
 mutate.py PRT SCENE.glb... [--cases N] [--first I] [--seed S] [--jobs J] [--keep FOLDER]
-The scenes are baked and compressed first; then every case changes one of all these files (mutations.py) and gives it to
-one command. Case I of seed S is always the same. A case is right where
-- the status is 0 or 1, with no report of a sanitizer, in bounded time and memory;
-- 1: one line on stderr says why, and no output is left;
-- 0: what was written is read again, and every figure is finite;
-- and all that is printed are printable characters, with no name of a library's inner part.
-Otherwise it is printed, and its file stays in --keep. Status 1 where there is one.
+The scenes are baked and compressed first. Then every case changes one of these files (mutations.py) and passes it to one
+command. Case I of seed S is always the same. A case passes if
+- the status is 0 or 1, without a sanitizer report, in bounded time and memory;
+- with status 1, one line on stderr gives the reason, and no output remains;
+- with status 0, the output can be read again, and every figure is finite;
+- the program prints only printable characters and no internal name of a library.
+Other cases are printed, and their files are stored in --keep. The exit status is 1 if a case fails.
 """
 import argparse
 import concurrent.futures
@@ -29,7 +29,7 @@ ENVIRONMENT = dict(os.environ, UBSAN_OPTIONS="print_stacktrace=1",
 INNER = re.compile(r"std::|vector::|basic_string|\[json\.exception|terminate called|Assertion|Sanitizer|runtime error")
 NO_NUMBER = re.compile(r"(?<![\w./-])-?(nan|inf)(?![\w./-])")
 NULLS = {"seam_position_metres", "relative_l2", "standard_error"}  # null if there is no seam, or no light to compare with
-LIGHT = {"prtkit_light": 1, "order": 3, "coefficients": {channel: [3] + [0.1] * 8 for channel in ("red", "green", "blue")}}  # that bakes want
+LIGHT = {"prtkit_light": 1, "order": 3, "coefficients": {channel: [3] + [0.1] * 8 for channel in ("red", "green", "blue")}}  # of the same order as the bakes
 
 # Commands for each kind of file: {file} is the changed one, {baked} and {shipped} are the original files.
 SCENE = [["info", "{file}"],
@@ -37,7 +37,7 @@ SCENE = [["info", "{file}"],
          ["bake", "{file}", "-o", "out.glb", "--rays", "4", "--order", "2", "--backend", "cpu", "--bounces", "1"],
          ["render", "{file}", "--env", "light.json", "-o", "out.exr", "--size", "16x8", "--samples", "1", "--backend", "cpu"]]
 COMPRESS = ["compress", "{file}", "-o", "out.glb"]
-# Commands that pass on what is in a file.
+# Commands that copy the content of a file.
 AO = ["ao", "{file}", "-o", "out.glb", "--rays", "4", "--backend", "cpu"]
 PASS_ON = [AO, AO + ["--volume"], AO + ["--size", "32", "--unwrap"],
            ["lobes", "{file}", "-o", "out.glb", "--rays", "4", "--poses", "1", "--frames", "1", "--backend", "cpu"]]
@@ -62,7 +62,7 @@ SHIPMENTS = [["--meshopt"], ["--preset", "custom", "--weights", "float", "--clus
 
 
 class Bases:
-    """The files that cases are made of: scenes, their bakes, and what these were compressed to."""
+    """The source files of cases: scenes, their bakes and their compressed files."""
 
     def __init__(self, program, scenes, folder):
         self.files = []
@@ -80,7 +80,7 @@ class Bases:
             self.add_kept(program, scene, folder)
 
     def add_kept(self, program, scene, folder):
-        """Files of occlusion volumes and, where something moves, of lobes."""
+        """Adds files with occlusion volumes and, for animated scenes, with lobes."""
         for name, options in (("volume", ["ao", "--volume"]), ("lobes", ["lobes", "--poses", "1", "--frames", "0"])):
             path = folder / f"{scene.stem}.{name}.glb"
             done = subprocess.run([program, options[0], scene, "-o", path, *options[1:], "--rays", "4", "--backend", "cpu"], check=False,
@@ -89,7 +89,7 @@ class Bases:
                 self.files.append((path.read_bytes(), KEPT, {}))
 
     def add_lightmap(self, program, scene, folder):
-        """Files of texels, where the scene's materials can have them."""
+        """Adds lightmap files if the materials of the scene support them."""
         names = {name: str(folder / f"{scene.stem}.texels.{name}.glb") for name in ("baked", "shipped")}
         bake = [program, "bake", scene, "-o", names["baked"], "--size", "32", "--unwrap", "--rays", "4", "--order", "2", "--backend", "cpu"]
         if subprocess.run(bake, check=False, env=ENVIRONMENT, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL).returncode != 0:
@@ -104,7 +104,7 @@ class Bases:
 
 
 def run(program, arguments, folder):
-    """Status, stdout and stderr; the status is -1 where time is over."""
+    """Returns status, stdout and stderr; the status is -1 after the time limit."""
     try:
         done = subprocess.run([program, *arguments], cwd=folder, env=ENVIRONMENT, capture_output=True, timeout=SECONDS,
                               stdin=subprocess.DEVNULL)
@@ -114,27 +114,27 @@ def run(program, arguments, folder):
 
 
 def wrong_text(data):
-    """What is wrong with a text for people; nothing where all is right."""
+    """Returns the first error of a text for users, or None."""
     try:
         text = data.decode()
     except UnicodeDecodeError:
-        return "prints what is no UTF-8"
+        return "prints text that is not UTF-8"
     odd = [c for c in text.replace("\n", "") if not c.isprintable()]
     if odd:
         return f"prints {odd[0]!r}"
     inner = INNER.search(text)
-    return f"says '{inner.group()}'" if inner else None
+    return f"prints '{inner.group()}'" if inner else None
 
 
 def shortened(error):
-    """The lines of a report that say what is wrong and where in our sources; else its end."""
+    """Returns the lines of a report with the error and its position in our sources, or the end of the report."""
     lines = [line for line in error.decode(errors="backslashreplace").splitlines()
              if re.search(r"prt: error|ERROR:|runtime error|SUMMARY|terminate called|Assertion| in prt::", line)]
     return "\n    ".join(line.strip()[:240] for line in lines[:8]) or error.decode(errors="backslashreplace")[-500:]
 
 
 def nulls(report, name=""):
-    """The names of members that are null."""
+    """Yields the names of members that are null."""
     if report is None:
         yield name
     for key, value in report.items() if isinstance(report, dict) else enumerate(report) if isinstance(report, list) else ():
@@ -142,16 +142,16 @@ def nulls(report, name=""):
 
 
 def numbers_are_finite(path):
-    """Every figure of a report is there and finite: JSON has null for those that are not."""
+    """Raises ValueError if a figure of a report is missing or not finite (null in JSON)."""
     def refuse(word):
-        raise ValueError(f"{path.name} holds {word}")
+        raise ValueError(f"{path.name} contains {word}")
     report = json.loads(path.read_text(encoding="utf-8"), parse_constant=refuse)
     for name in set(nulls(report)) - NULLS:
         refuse(f"null for {name}")
 
 
 def wrong_output(program, folder):
-    """What is wrong with what a command that says 0 has written."""
+    """Returns the first error of the output of a command with status 0, or None."""
     try:
         for path in folder.glob("*.report.json"):
             numbers_are_finite(path)
@@ -166,7 +166,7 @@ def wrong_output(program, folder):
 
 
 def finding(program, arguments, folder, before):
-    """Runs a command; what is wrong, or nothing."""
+    """Runs a command and returns its error, or None."""
     status, out, error = run(program, arguments, folder)
     if status not in (0, 1):
         return "takes too long" if status == -1 else f"ends with {status}: " + shortened(error)
@@ -181,13 +181,13 @@ def finding(program, arguments, folder, before):
         return None
     lines = [line for line in error.decode().splitlines() if line.startswith("prt: error")]
     if len(lines) != 1 or not error.endswith((lines[0] + "\n").encode()):
-        return f"says {len(lines)} lines of error: {error.decode()}"
+        return f"prints {len(lines)} error lines: {error.decode()}"
     left = sorted(path.name for path in folder.iterdir() if path.name not in before)
     return f"leaves {left} with status 1: {lines[0]}" if left else None
 
 
 def check_case(program, bases, seed, case, keep):
-    """Makes a case and checks it; the line to print where it is a finding."""
+    """Creates and checks a case. Returns the line to print if it fails, else None."""
     choose = random.Random(f"{seed} {case}")
     data, commands, names = choose.choice(bases.files)
     command = choose.choice(commands)
@@ -202,7 +202,7 @@ def check_case(program, bases, seed, case, keep):
         before = {"case.glb", "light.json"}
         wrong = finding(program, arguments, folder, before)
         if wrong is None and (folder / "case.glb").read_bytes() != changed:
-            wrong = "has changed its input"
+            wrong = "changed its input"
     if wrong is None:
         return None
     if keep:

@@ -1,5 +1,5 @@
-"""Changes to a glTF file that leave most of it right: numbers, types, indices, counts, strides, cycles, members that are
-gone or doubled, extensions, strings, data and the container. Each takes a random.Random and a Model and changes it."""
+"""Changes a glTF file but keeps most of it valid: numbers, types, indices, counts, strides, cycles, missing and duplicate
+members, extensions, strings, data and the container. Each function takes a random.Random and a Model and changes the model."""
 import base64
 import copy
 import json
@@ -26,7 +26,7 @@ EXTENSIONS = ["KHR_draco_mesh_compression", "EXT_meshopt_compression", "EXT_mesh
 
 
 class Model:
-    """A .glb taken apart; `text` stands for the JSON where it is not to be written from `json`."""
+    """A parsed .glb; `text`, if set, replaces the JSON written from `json`."""
 
     def __init__(self, data):
         length, = struct.unpack_from("<I", data, 12)
@@ -45,18 +45,18 @@ class Model:
         return self.container(b"glTF" + struct.pack("<II", 2, 12 + len(chunks)) + chunks)
 
 
-def places(value, path=()):
-    """Every member below `value`: its holder, its key, and the last name on the way to it."""
+def members(value, path=()):
+    """Yields every member below `value`: its container, its key, and the last name of its path."""
     items = value.items() if isinstance(value, dict) else enumerate(value) if isinstance(value, list) else ()
     for key, member in items:
         name = key if isinstance(key, str) else path
         yield value, key, name
-        yield from places(member, name)
+        yield from members(member, name)
 
 
 def chosen(random, model, wanted=lambda member, name: True):
-    """A member at random of those that are wanted; nothing where there is none."""
-    found = [place for place in places(model.json) if wanted(place[0][place[1]], place[2])]
+    """Returns a random member among those `wanted`, or None."""
+    found = [slot for slot in members(model.json) if wanted(slot[0][slot[1]], slot[2])]
     return random.choice(found) if found else None
 
 
@@ -65,65 +65,65 @@ def is_number(member, _=None):
 
 
 def change_number(random, model):
-    place = chosen(random, model, is_number)
-    if place:
-        holder, key, _ = place
+    slot = chosen(random, model, is_number)
+    if slot:
+        holder, key, _ = slot
         old = holder[key]
         holder[key] = random.choice([old + 1, old - 1, -old, 2 * old, old / 2, old + 0.5, random.choice(STRANGE_NUMBERS)])
 
 
 def change_size(random, model):
-    place = chosen(random, model, lambda member, name: is_number(member) and name in SIZES)
-    if place:
-        holder, key, _ = place
+    slot = chosen(random, model, lambda member, name: is_number(member) and name in SIZES)
+    if slot:
+        holder, key, _ = slot
         holder[key] = random.choice([holder[key] + random.choice([-4, -3, -1, 1, 3, 4]), 0, -1, 1, holder[key] * 1000,
                                      random.choice(STRANGE_NUMBERS)])
 
 
 def change_index(random, model):
-    place = chosen(random, model, lambda member, name: is_number(member) and name in INDICES)
-    if place:
-        place[0][place[1]] = random.choice([random.randrange(12), -1, 1 << 31])
+    slot = chosen(random, model, lambda member, name: is_number(member) and name in INDICES)
+    if slot:
+        slot[0][slot[1]] = random.choice([random.randrange(12), -1, 1 << 31])
 
 
 def change_type(random, model):
-    place = chosen(random, model)
-    if place:
-        place[0][place[1]] = random.choice([None, True, False, 0, 1.5, "", "text", [], {}, [[]], [{}], {"a": 1}, [0] * 20])
+    slot = chosen(random, model)
+    if slot:
+        slot[0][slot[1]] = random.choice([None, True, False, 0, 1.5, "", "text", [], {}, [[]], [{}], {"a": 1}, [0] * 20])
 
 
 def change_string(random, model):
-    place = chosen(random, model, lambda member, name: isinstance(member, str))
-    if place:
-        place[0][place[1]] = random.choice(STRANGE_STRINGS)
+    slot = chosen(random, model, lambda member, name: isinstance(member, str))
+    if slot:
+        slot[0][slot[1]] = random.choice(STRANGE_STRINGS)
 
 
 def add_name(random, model):
-    place = chosen(random, model, lambda member, name: isinstance(member, dict))
-    if place:
-        place[0][place[1]][random.choice(["name", "uri", "mimeType"])] = random.choice(STRANGE_STRINGS)
+    slot = chosen(random, model, lambda member, name: isinstance(member, dict))
+    if slot:
+        slot[0][slot[1]][random.choice(["name", "uri", "mimeType"])] = random.choice(STRANGE_STRINGS)
 
 
 def delete_member(random, model):
-    place = chosen(random, model)
-    if place:
-        del place[0][place[1]]
+    slot = chosen(random, model)
+    if slot:
+        del slot[0][slot[1]]
 
 
 def double_member(random, model):
-    place = chosen(random, model, lambda member, name: isinstance(member, list))
-    if place and place[0][place[1]]:
-        members = place[0][place[1]]
+    slot = chosen(random, model, lambda member, name: isinstance(member, list))
+    if slot and slot[0][slot[1]]:
+        members = slot[0][slot[1]]
         members.insert(random.randrange(len(members) + 1), copy.deepcopy(random.choice(members)))
 
 
 def double_key(random, model):
-    place = chosen(random, model, lambda member, name: isinstance(name, str))
+    slot = chosen(random, model, lambda member, name: isinstance(name, str))
     text = json.dumps(model.json, ensure_ascii=False)
     braces = [i for i, c in enumerate(text) if c == "{"]
-    if place and braces:
+    if slot and braces:
         at = random.choice(braces) + 1
-        again = json.dumps(place[2]) + ":" + json.dumps(place[0][place[1]], ensure_ascii=False)
+        again = json.dumps(slot[2]) + ":" + json.dumps(slot[0][slot[1]], ensure_ascii=False)
         model.text = text[:at] + again + ("" if text[at:].lstrip().startswith("}") else ",") + text[at:]
 
 
@@ -147,10 +147,10 @@ def add_extension(random, model):
         if isinstance(model.json["extensionsRequired"], list):
             model.json["extensionsRequired"].append(name)
         return
-    place = chosen(random, model, lambda member, name: isinstance(member, dict))
+    slot = chosen(random, model, lambda member, name: isinstance(member, dict))
     source = chosen(random, model, lambda member, name: isinstance(member, dict))
-    if place:
-        extensions = place[0][place[1]].setdefault("extensions", {})
+    if slot:
+        extensions = slot[0][slot[1]].setdefault("extensions", {})
         if isinstance(extensions, dict):
             extensions[name] = random.choice([{}, [], 1, copy.deepcopy(source[0][source[1]]),
                                               {"bufferView": random.randrange(8), "attributes": {"POSITION": random.randrange(4)}}])
@@ -182,7 +182,7 @@ def change_floats(random, model):
 
 
 def scale_floats(random, model):
-    """Takes a whole view of floats to another scale."""
+    """Multiplies a whole view of floats by a scale."""
     listed = model.json.get("bufferViews")
     views = [view for view in listed if isinstance(view, dict)] if isinstance(listed, list) else []
     if not views:
@@ -225,7 +225,7 @@ def break_container(random, model):
 
 
 def as_text(random, model):
-    """A .gltf, its buffer in a URI."""
+    """Converts the model to a .gltf with its buffer in a URI."""
     buffers = model.json.get("buffers")
     if isinstance(buffers, list) and buffers and isinstance(buffers[0], dict):
         buffers[0]["uri"] = "data:application/octet-stream;base64," + base64.b64encode(model.binary).decode()
@@ -239,7 +239,7 @@ RARE = [nest, change_floats, change_floats, scale_floats, change_bytes, cut_bina
 
 
 def mutate(random, data):
-    """A changed copy of the bytes of a .glb."""
+    """Returns a changed copy of the bytes of a .glb."""
     model = Model(data)
     for _ in range(random.choice([1, 1, 1, 2, 3])):
         random.choice(STRUCTURE)(random, model)

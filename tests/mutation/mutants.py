@@ -1,5 +1,5 @@
-"""Small changes that make code wrong, each of one token (R. DeMillo, R. Lipton, F. Sayward, "Hints on Test Data
-Selection", 1978: tests that see the small ones see most of the large ones)."""
+"""Generates small errors in code, each of one token (R. DeMillo, R. Lipton, F. Sayward, "Hints on Test Data
+Selection", 1978: tests that detect small errors detect most large ones)."""
 import re
 from typing import NamedTuple
 
@@ -20,8 +20,8 @@ class Mutant(NamedTuple):
         return source[:self.begin] + self.after + source[end:]
 
 
-# Operators with a blank on both sides, as the formatter writes them; pointers, references and templates have
-# none.
+# Operators with a blank on both sides, as the formatter writes them; pointers, references and templates have no
+# blanks.
 OPERATORS = {"+": "-", "-": "+", "*": "/", "/": "*", "%": "*", "+=": "-=", "-=": "+=", "*=": "/=", "/=": "*=",
              "&&": "||", "||": "&&", "&": "|", "|": "&", "<<": ">>", ">>": "<<",
              "<": "<=", "<=": "<", ">": ">=", ">=": ">", "==": "!=", "!=": "==", "===": "!==", "!==": "==="}
@@ -32,7 +32,7 @@ SKIPPED_BEFORE = {"template", "using", "namespace", "typename", "case"}
 
 
 def changed_number(text):
-    """One more, and from 1 on as often one less in the end: twice as much where it has a point."""
+    """Returns an integer plus one, or a decimal number times two (1 for 0); None for hexadecimal floats."""
     match = re.fullmatch(r"(\d+)([uUlLn]*)", text)
     if match:
         return f"{int(match[1]) + 1}{match[2]}"
@@ -49,7 +49,7 @@ def fewer(text):
 
 
 def changes(token, before, spaced):
-    """What a token may become. `before`: the text of the token before it; `spaced`: blanks stand round it."""
+    """Returns the replacements of a token. `before`: text of the previous token; `spaced`: has blanks on both sides."""
     text = token.text
     if token.kind == "number":
         return [change for change in (changed_number(text), fewer(text)) if change is not None]
@@ -67,7 +67,7 @@ def changes(token, before, spaced):
 
 
 def mutants(path, source):
-    """All of a file, in its order."""
+    """Yields all mutants of a file, in order."""
     before = ""
     for token in tokens(source):
         spaced = source[token.begin - 1:token.begin].isspace() and source[token.end:token.end + 1].isspace()

@@ -1,10 +1,11 @@
 #!/usr/bin/env python3
-"""Makes the code wrong in one place at a time and tells which tests see it.
+"""Inserts one error into the code at a time and reports the tests that detect it.
 
 mutate.py REPOSITORY BUILD_DIR LOG.jsonl PATH ... [--count N] [--seed S]
-PATH: files or folders of the repository. Mutants are drawn from all of theirs, by the seed alone. One line of LOG each:
-where, what became what, and "killed" (by which test), "survived", "timed out" or "did not compile". Mutants that LOG has
-are not run again. The file is put back after each, also on Ctrl-C; take a copy of the repository to work beside it.
+PATH: files or folders of the repository. Mutants are drawn from all of them; the draw depends only on the seed. LOG gets one
+line per mutant: its position, the old and new text, and "killed" (by which test), "survived", "timed out" or "did not
+compile". Mutants in LOG are not run again. The file is restored after each mutant, also after Ctrl-C; use a copy of the
+repository, so that you can work in the original meanwhile.
 """
 import argparse
 import contextlib
@@ -23,10 +24,10 @@ from collections import Counter
 from mutants import mutants
 from targets import SUFFIXES, suites_of
 
-LONGEST_BUILD = 1800  # seconds
-# a test is stopped after this multiple of its normal time, but not before this number of seconds
-TIMES_NORMAL, LEAST_LIMIT = 5, 60
-MOST_MEMORY = 8 << 30  # bytes of a test program: a mutant may request any amount
+MAX_BUILD_SECONDS = 1800
+# A test is stopped after this multiple of its normal time, but not before this number of seconds.
+TIMES_NORMAL, MIN_LIMIT = 5, 60
+MAX_MEMORY = 8 << 30  # bytes of a test program: a mutant may request any amount
 
 
 def files_of(root, paths):
@@ -40,7 +41,7 @@ def files_of(root, paths):
 
 @contextlib.contextmanager
 def mutated(root, mutant):
-    """The repository with the mutant in it. What is put back is newer than what was built from the mutant."""
+    """Applies the mutant for the time of the context. The restored source is newer than the build of the mutant."""
     path = root / mutant.path
     source = path.read_bytes().decode("utf-8")
     try:
@@ -51,7 +52,7 @@ def mutated(root, mutant):
 
 
 def run(command, limit, **options):
-    """Exit status and output, with all of its processes ended; no status where it takes too long."""
+    """Returns exit status and output, and ends all processes of the command. The status is None after the time limit."""
     with subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, errors="replace",
                           start_new_session=True, **options) as process:
         try:
@@ -65,11 +66,11 @@ def run(command, limit, **options):
 
 
 def limit_memory():
-    resource.setrlimit(resource.RLIMIT_AS, (MOST_MEMORY, MOST_MEMORY))
+    resource.setrlimit(resource.RLIMIT_AS, (MAX_MEMORY, MAX_MEMORY))
 
 
 def failed_test(output):
-    """The first that failed, or the last that was begun."""
+    """Returns the first failed test, or the last one that was started."""
     failed = re.search(r"^\[  FAILED  \] ([^\s,]+)|^not ok \d+ - (.*)", output, re.MULTILINE)
     if failed:
         return failed[1] or failed[2]
@@ -78,7 +79,7 @@ def failed_test(output):
 
 
 class Tests:
-    """Builds and runs them."""
+    """Builds and runs test suites."""
 
     def __init__(self, root, build):
         self.root, self.build = root, build
@@ -87,16 +88,16 @@ class Tests:
     def built(self, suite):
         if suite.program == "node":
             return True
-        return run(["ninja", "-C", str(self.build), suite.program], LONGEST_BUILD)[0] == 0
+        return run(["ninja", "-C", str(self.build), suite.program], MAX_BUILD_SECONDS)[0] == 0
 
     def run_suite(self, suite):
         command = suite.command(self.build, self.root)
-        # node reserves more than it uses
+        # node reserves more memory than it uses
         options = {} if suite.program == "node" else {"preexec_fn": limit_memory}
-        return run(command, self.limits.get(suite, LONGEST_BUILD), **options)
+        return run(command, self.limits.get(suite, MAX_BUILD_SECONDS), **options)
 
     def measure(self, suite):
-        """Runs it on what is right: it must pass, and tells how long it takes."""
+        """Runs a suite without a mutant, which must pass, and measures its time."""
         if suite in self.limits:
             return
         if not self.built(suite):
@@ -105,7 +106,7 @@ class Tests:
         status, output = self.run_suite(suite)
         if status != 0:
             sys.exit(f"{suite.program} fails without a mutant: {failed_test(output)}\n{output[-2000:]}")
-        self.limits[suite] = max(LEAST_LIMIT, TIMES_NORMAL * (time.monotonic() - begin))
+        self.limits[suite] = max(MIN_LIMIT, TIMES_NORMAL * (time.monotonic() - begin))
 
     def judge(self, mutant):
         suites = suites_of(mutant.path)

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Shows that mutants are made where code is, are told apart by tests, and leave nothing behind."""
+"""Tests that only code is mutated, that results are correct, and that files are restored."""
 import json
 import pathlib
 import signal
@@ -38,14 +38,14 @@ def changes(source):
 
 
 class Mutants(unittest.TestCase):
-    def test_leave_out_what_is_no_code(self):
+    def test_exclude_comments_strings_and_assertions(self):
         self.assertEqual(changes(TOY), [("!", ""), ("+", "-")])
 
     def test_change_operators_signs_constants_members_and_comparisons(self):
         self.assertEqual(changes("x = -a.u * 0.5f;"), [("-", ""), ("u", "v"), ("*", "/"), ("0.5f", "1.0f")])
         self.assertEqual(changes("i < n && v[1]"), [("<", "<="), ("&&", "||"), ("1", "2"), ("1", "0")])
 
-    def test_know_templates_pointers_and_references(self):
+    def test_exclude_templates_pointers_and_references(self):
         self.assertEqual(changes("std::vector<float*> f(const A& a, B&& b, C* c);"), [])
         self.assertEqual(changes('R"(a + b)" "a + b" \'+\''), [])
 
@@ -78,13 +78,13 @@ class Run(unittest.TestCase):
         self.assertEqual(process.returncode, 0)
         return output, [json.loads(line) for line in (self.root / "log.jsonl").read_text(encoding="utf-8").splitlines()]
 
-    def test_tells_results_and_puts_the_file_back(self):
+    def test_reports_results_and_restores_the_file(self):
         _, lines = self.mutate()
         self.assertEqual([(line["line"], line["before"], line["result"], line.get("by")) for line in lines],
                          [(7, "!", "did not compile", None), (9, "+", "killed", "Sum.Adds")])
         self.assertEqual(self.source.read_text(encoding="utf-8"), TOY)
 
-    def test_goes_on_where_it_was(self):
+    def test_continues_an_interrupted_run(self):
         self.mutate()
         log = self.root / "log.jsonl"
         first = log.read_text(encoding="utf-8").splitlines()[0]
@@ -92,7 +92,7 @@ class Run(unittest.TestCase):
         _, lines = self.mutate()
         self.assertEqual([line["before"] for line in lines], ["!", "+"])
 
-    def test_puts_the_file_back_when_it_is_stopped(self):
+    def test_restores_the_file_when_stopped(self):
         for stop in (signal.SIGINT, signal.SIGTERM):
             self.write(self.root / "build/tests/runtime_tests", PROGRAM.format(root=self.root).replace("exit 1", "sleep 600"))
             with self.start() as process:

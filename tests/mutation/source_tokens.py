@@ -1,7 +1,7 @@
-"""Cuts C++, GLSL and JavaScript into tokens: as much of their grammar as changing a token needs.
+"""Splits C++, GLSL and JavaScript into tokens; knows only as much grammar as mutation needs.
 
-What a change could not be seen through is left out: comments, strings, preprocessor lines, assertions, and
-what is thrown.
+Omits code in which tests cannot detect a change: comments, strings, preprocessor lines, assertions and thrown
+exceptions.
 """
 import re
 from typing import NamedTuple
@@ -14,7 +14,7 @@ class Token(NamedTuple):
     end: int
 
 
-# In the order that they are tried.
+# Alternatives in the order in which they are tried.
 PATTERNS = re.compile(r"""
     (?P<skipped> //[^\n]*(?:\\\n[^\n]*)* | /\*.*?\*/
                # a preprocessor line with its continuation lines
@@ -30,14 +30,14 @@ OPENING, CLOSING = "([{", ")]}"
 
 
 def tokens(source):
-    """All tokens but what is left out, in order."""
+    """Returns all tokens in order, except omitted ones."""
     result = [Token(match.lastgroup, match.group(), match.start(), match.end())
               for match in PATTERNS.finditer(source) if match.group("skipped") is None]
     return list(without_messages(result))
 
 
 def without_messages(all_tokens):
-    """Leaves out assertions (`assert(...)`, `static_assert(...)`) and what is thrown, to its semicolon."""
+    """Omits assertions (`assert(...)`, `static_assert(...)`) and throw statements up to their semicolon."""
     end_at = None  # end of the omitted part, at its depth
     depth = 0
     for token in all_tokens:

@@ -1,4 +1,4 @@
-"""Which tests can see what is wrong in a file. Cheap ones stand first: the rest is not built where these fail."""
+"""Maps files to the tests that can detect their errors. Cheap tests come first; if they fail, the others are not built."""
 from typing import NamedTuple
 
 SUFFIXES = {".cpp", ".h", ".c", ".glsl", ".vert", ".frag", ".comp", ".js"}
@@ -14,12 +14,12 @@ class Suite(NamedTuple):
         return [str(build / "tests" / self.program), f"--gtest_filter={self.filter}", "--gtest_fail_fast", "--gtest_brief=1"]
 
 
-# Tests of seconds, and of minutes.
+# Tests that take seconds, then tests that take minutes.
 RUNTIME = Suite("runtime_tests", "-*Suns*:*Skies*:Sky.AgreesWithAFiner*")
 SMALL_ORDERS = Suite("runtime_tests", "*Sh*-All/ShOrder.*/6:All/ShOrder.*/7:All/ShOrder.*/8:All/ShOrder.*/9")
 COMPRESS = Suite("compress_tests", "-Search*:Sweep*")
 BAKE = Suite("bake_tests", "HitPoint*:Textures*:Glass*:Cut*:Blended*:Bad*:Leaf*:Metal*:Disc*:*Degrees*:*Orders*:Sobol*:Uniform*:Tangent*:"
-             "AddBasis*:Direct*:InsideG*:Shell*:Ray*:BackFaces*:Channels*:Hard*:FootOf*:Reduced*:Dipole*:MeasuredM*:SphereB*:White*:Bounces*:Memory*")
+             "AddBasis*:Direct*:InsideG*:Shell*:Ray*:BackFaces*:Channels*:Hard*:WallFoot*:Reduced*:Dipole*:MeasuredM*:SphereB*:White*:Bounces*:Memory*")
 BOUNCES = Suite("bake_tests", "ColorB*:*PinHole*:ParallelPlates*:SphericalBowl*:Subsurface*:SmoothBoxes*:SealedIn*:OneSidedC*")
 WHOLE_BAKE = Suite("bake_tests", "PathTracer*:EndlessWall*:OneSided*:Bake*:Storage*:Diffusion*:SamplingError*:TargetError*")
 DIFFUSION = Suite("bake_tests", "Diffusion*")
@@ -47,12 +47,12 @@ SUITES = {
     "bake/pictures/": [Suite("bake_tests", "PathTracer*:DistantLight*:Storage*"), RENDER],
     "shaders/": [RENDER, GPU],
     "shaders/viewer_": [Suite("viewer_tests")],
-    # Only the package of the web page is tested here: the rest is tested in Chromium.
-    **{f"examples/web/src/{name}.js": [Suite("node")] for name in ("PrtkitLoader", "PrtkitModel", "clusteredPca", "sphericalHarmonics", "turns")},
+    # Only the modules of the package are tested here; Chromium tests the others.
+    **{f"examples/web/src/{name}.js": [Suite("node")] for name in ("PrtkitLoader", "PrtkitModel", "clusteredPca", "sphericalHarmonics", "rotations")},
 }
 
 
 def suites_of(path):
-    """In the order that they are run; none where the table does not know the file."""
+    """Returns the suites of a file in the order of execution; empty for unknown files."""
     folders = [folder for folder in SUITES if path.startswith(folder)]
     return SUITES[max(folders, key=len)] if folders else []

@@ -22,6 +22,6 @@ build loader "$tests/package/loader/main.cpp" prtkit-gltf prtkit-shader
 "$folder/loader" "$model"
 build user "$tests/package/main.cpp" prtkit-compress prtkit-bake prtkit-gl
 "$folder/user"
-for module in "$libdir"/pkgconfig/prtkit*.pc; do # the other libraries are there under their names
+for module in "$libdir"/pkgconfig/prtkit*.pc; do # checks that all other libraries exist
     build module "$tests/package/bare.cpp" "$(basename "$module" .pc)" prtkit
 done

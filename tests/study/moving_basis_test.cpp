@@ -57,7 +57,7 @@ constexpr MovingBasisSchedule exactly(int rounds) {
     return {.multipliers = {}, .weight_multiplier = 0, .rounds = rounds};
 }
 
-TEST(SparseGrid, InterpolatesWhatIsLinearAndHasTheNodesThatAreNeeded) {
+TEST(SparseGrid, InterpolatesLinearFunctionsWithTheRequiredNodes) {
     const std::vector<glm::vec3> positions = sample_positions(300);
     const SparseGrid grid = sparse_grid(positions, 0.3);
     EXPECT_EQ(grid.nodes_of_box, 8u * 5 * 5);
@@ -74,7 +74,7 @@ TEST(SparseGrid, InterpolatesWhatIsLinearAndHasTheNodesThatAreNeeded) {
     EXPECT_EQ(sparse_grid(std::vector<glm::vec3>(5, glm::vec3(1, 2, 3)), 1).nodes.size(), 1u);
 }
 
-TEST(SparseGrid, AFinerGridTakesTheValuesOver) {
+TEST(SparseGrid, FinerGridsInheritValues) {
     const std::vector<glm::vec3> positions = sample_positions(400);
     const SparseGrid coarse = sparse_grid(positions, 1), fine = sparse_grid(positions, 0.5);
     const GridPoints points = points_on(coarse, positions, 0);
@@ -98,7 +98,7 @@ TEST(MovingBasis, FindsAMovingBasis) {
     }
 }
 
-TEST(MovingBasis, WhatIsLinearInSpaceNeedsNoWeights) {
+TEST(MovingBasis, LinearTransferNeedsNoWeights) {
     const std::vector<glm::vec3> positions = sample_positions(200);
     GridPoints points = points_of(positions, 3);
     for (Index p = 0; p < points.values.rows(); ++p) {
@@ -127,7 +127,7 @@ TEST(MovingBasis, NormalisingChangesNoValue) {
     EXPECT_TRUE(std::is_sorted(energies.rbegin(), energies.rend()));
 }
 
-TEST(MovingBasis, CountsBitsOfRowsByWhatTheyReach) {
+TEST(MovingBasis, CountsBitsOfRowsByTheirReach) {
     // At either end of an edge 1/2 and -1/2, plus or minus 1/10: a squared error of 1/100 remains. The step
     // that adds a fifth of it is sqrt(12/500) = 0.155, three of which are 1/2: -3 .. 3 have 3 bits, at 2
     // nodes.
@@ -184,7 +184,7 @@ TEST(MovingBasis, KeepsToItsBytesAndNodes) {
     EXPECT_EQ(blend->result.mean_components, 8);
 }
 
-TEST(MovingBasis, IsTheSameWhateverTheNumberOfThreads) {
+TEST(MovingBasis, DoesNotDependOnThreads) {
     const std::vector<glm::vec3> positions = sample_positions(3000);
     Transfer transfer = zero_transfer(3, 1, 3000);
     std::mt19937 random(1);
@@ -202,7 +202,7 @@ TEST(MovingBasis, IsTheSameWhateverTheNumberOfThreads) {
     EXPECT_EQ(one->result.table_bytes, three->result.table_bytes);
 }
 
-TEST(MovingBasis, TakesDegenerateTransfer) {
+TEST(MovingBasis, AcceptsDegenerateTransfer) {
     std::mt19937 random(1);
     std::normal_distribution<float> normal;
     Transfer any = zero_transfer(2, 1, 50), constant = any;

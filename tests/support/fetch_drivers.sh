@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# fetch_drivers.sh FOLDER: unpacks newer graphics drivers than those of the system, for tests, without
-# installing them: from Debian's backports, by the machine's Debian sources. FOLDER then contains
+# fetch_drivers.sh FOLDER: unpacks newer graphics drivers than those of the system for tests, without installing
+# them. Takes them from Debian's backports, with the machine's Debian sources. FOLDER then contains
 #   lavapipe.json   a software device for Vulkan with ray queries
 #   radeon.json     AMD's driver, which also compiles for absent chips (RADV_FORCE_FAMILY)
 #   lib             their libraries, for LD_LIBRARY_PATH
@@ -13,7 +13,7 @@ address=$(cat /etc/apt/sources.list /etc/apt/sources.list.d/*.sources 2>/dev/nul
 # shellcheck source=/dev/null
 suite=$(. /etc/os-release && echo "${VERSION_CODENAME:-}")
 if [ -z "$address" ] || [ -z "$suite" ]; then
-    echo "fetch_drivers.sh: this machine names no Debian sources" >&2
+    echo "fetch_drivers.sh: this machine has no Debian sources" >&2
     exit 1
 fi
 printf 'deb %s %s main\ndeb %s %s-backports main\n' "$address" "$suite" "$address" "$suite" >"$folder/sources.list"

@@ -67,19 +67,19 @@ class Glb {
   }
 }
 
-/// Numbers of a transfer vector.
-const columnsOf = (part, order) => (part.kind === "lamp" ? 1 : order * order);
-const dimensionOf = ({ order, parts }) =>
-  parts.reduce((sum, part) => sum + part.channels * columnsOf(part, order), 0);
+/// Returns the number of values of a term, and of a transfer vector.
+const columnsOf = (term, order) => (term.kind === "lamp" ? 1 : order * order);
+const dimensionOf = ({ order, terms }) =>
+  terms.reduce((sum, term) => sum + term.channels * columnsOf(term, order), 0);
 
-/// Vectors [receivers][S] of a buffer view.
+/// Returns the vectors [receivers][S] of a buffer view.
 function rawVectors(glb, extension, view) {
   const dimension = dimensionOf(extension);
   const values = glb.floats(view);
   return Array.from({ length: values.length / dimension }, (_, p) => values.slice(p * dimension, (p + 1) * dimension));
 }
 
-/// Bits of bytes, lowest first.
+/// Reads bits of bytes, lowest first.
 class Bits {
   constructor(bytes) {
     this.bytes = bytes;
@@ -93,7 +93,7 @@ class Bits {
   }
 }
 
-/// Numbers of an arithmetically coded buffer view, row by row.
+/// Returns the numbers of an arithmetically coded buffer view, row by row.
 function codedRows(glb, code, rows) {
   const bytes = [...glb.bytes(code.bufferView)];
   const nextByte = () => {
@@ -190,7 +190,7 @@ function packedCodes(glb, { components, packing }) {
   };
 }
 
-/// Cluster and weights of every vertex of a primitive.
+/// Returns cluster and weights of every vertex of a primitive.
 function vertexCodes(glb, extension, primitive) {
   const groups = [];
   while (`_PRT_WEIGHTS_${groups.length}` in primitive.attributes)
@@ -206,7 +206,7 @@ function vertexCodes(glb, extension, primitive) {
   return groups[0].map((_, p) => codeOf(groups.flatMap((group) => group[p])));
 }
 
-/// The bytes of the words of every texel, map behind map.
+/// Returns the bytes of the words of every texel, one map after the other.
 function texelBytes(glb, { maps }) {
   const { PNG } = require(resolve(process.argv[4], "pngjs"));
   return maps.flatMap(({ width, height, images }) => {
@@ -214,7 +214,7 @@ function texelBytes(glb, { maps }) {
       const { bufferView, mimeType } = glb.json.images[i];
       const image = PNG.sync.read(glb.bytes(bufferView));
       if (mimeType !== "image/png" || image.width !== width || image.height !== height || image.depth !== 8 || !image.alpha)
-        throw new Error(`image ${i} is no PNG of words`);
+        throw new Error(`image ${i} is not a PNG of words`);
       return image.data;
     });
     return Array.from({ length: width * height }, (_, t) => words.flatMap((data) => [...data.subarray(4 * t, 4 * t + 4)]));
@@ -240,7 +240,7 @@ function decodedVectors(glb, primitive) {
   });
 }
 
-/// A third of the triangles' areas at each vertex. The scene's nodes must not move their meshes.
+/// Returns a third of the triangles' areas at each vertex. The scene's nodes must not transform their meshes.
 function areas(glb, primitive) {
   const positions = glb.accessor(primitive.attributes.POSITION);
   const indices = glb.accessor(primitive.indices).flat();
@@ -255,7 +255,7 @@ function areas(glb, primitive) {
   return result;
 }
 
-/// Area, vector and decoded vector of every vertex.
+/// Returns area, vector and decoded vector of every vertex.
 function vertices(baked, shipped) {
   return baked.primitives().flatMap((primitive, i) => {
     const weights = areas(baked, primitive);
@@ -281,43 +281,44 @@ function texels(baked, shipped) {
 const baked = new Glb(process.argv[2]);
 const shipped = new Glb(process.argv[3]);
 const ofTexels = baked.json.extensions.PRTKIT_lightmap;
-const { order, parts } = ofTexels ?? baked.json.extensions.PRTKIT_transfer;
-const channels = Math.max(...parts.map((part) => part.channels));
+const { order, terms } = ofTexels ?? baked.json.extensions.PRTKIT_transfer;
+const channels = Math.max(...terms.map((term) => term.channels));
 
-/// E[ a·b ] of the light in band l on two parts under natural light: docs/math.md, section 4.
+/// Returns E[ a·b ] of the light in band l on two terms under natural light: docs/math.md, section 4.
 function power(l, kindA, kindB) {
   const falling = (p, fall) => (l === 0 ? 1 : p * l ** -fall);
-  if (parts.filter(({ kind }) => kind !== "lamp").length === 1) return falling(0.28, 0.6);
+  if (terms.filter(({ kind }) => kind !== "lamp").length === 1) return falling(0.28, 0.6);
   return falling(0.24, 0.85) + (kindA === "direct" || kindB === "direct" ? 0.05 : 0.1);
 }
 
-/// A vector by colour and part: [colours][parts][columns].
+/// Returns a vector by colour and term: [colours][terms][columns].
 function byColor(vector) {
   return Array.from({ length: channels }, (_, c) => {
     let at = 0;
-    return parts.map((part) => {
-      const columns = columnsOf(part, order);
-      const from = at + Math.min(c, part.channels - 1) * columns;
-      at += part.channels * columns;
+    return terms.map((term) => {
+      const columns = columnsOf(term, order);
+      const from = at + Math.min(c, term.channels - 1) * columns;
+      at += term.channels * columns;
       return vector.slice(from, from + columns);
     });
   });
 }
 
-/// The squares of a vector's numbers, a grey part counted for each colour, and its expected square of light.
+/// Returns the sum of squares of a vector, with a grey term counted for each colour, its expected square of light, and
+/// the sums of squares by lamp.
 function costs(vector) {
   let squares = 0;
   let lit = 0;
   const byLamps = new Map();
   for (const of of byColor(vector))
-    parts.forEach((a, p) =>
+    terms.forEach((a, p) =>
       of[p].forEach((value, i) => {
         squares += value ** 2;
         if (a.kind === "lamp") {
           byLamps.set(p, (byLamps.get(p) ?? 0) + value ** 2); // each lamp separately, at its own strength
           return;
         }
-        parts.forEach((b, q) => {
+        terms.forEach((b, q) => {
           if (b.kind !== "lamp") lit += value * of[q][i] * power(Math.floor(Math.sqrt(i)), a.kind, b.kind);
         });
       }),
@@ -326,7 +327,7 @@ function costs(vector) {
 }
 
 const sums = { error: 0, norm: 0, litError: 0, litNorm: 0 };
-const lamps = new Map(); // by part: its error and norm
+const lamps = new Map(); // by term: its error and norm
 for (const { area, vector, decoded } of ofTexels ? texels(baked, shipped) : vertices(baked, shipped)) {
   const [error, litError, lampError] = costs(vector.map((value, k) => value - decoded[k]));
   const [norm, litNorm, lampNorm] = costs(vector);
@@ -341,7 +342,7 @@ for (const { area, vector, decoded } of ofTexels ? texels(baked, shipped) : vert
     lamps.set(lamp, sum);
   }
 }
-// All lamps together cost as much as the sky, and each as much as the others, if both have light.
+// All lamps together have the weight of the sky, and equal weights among each other, if both have light.
 const shining = [...lamps.values()].filter(({ norm }) => norm > 0);
 const all = sums.litNorm > 0 ? sums.litNorm : shining.reduce((sum, { norm }) => sum + norm, 0);
 for (const { error, norm } of shining) {

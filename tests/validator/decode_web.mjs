@@ -1,7 +1,7 @@
-// The decoder of examples/web against vectors:
+// Compares the decoder of examples/web with vectors:
 //   node decode_web.mjs BAKED SHIPPED
-// prints the largest difference, over vertices and colours, between the exit radiance of SHIPPED, by the constants that
-// its shader reads, and that of the vectors in BAKED, under a light of arbitrary coefficients; over the largest radiance.
+// Prints the maximum difference, over vertices and colours, between the exit radiance of SHIPPED from the constants of its
+// shader and that of the vectors in BAKED, under a light of arbitrary coefficients, relative to the maximum radiance.
 import { readFileSync } from "node:fs";
 import { decodeClusters, updateConstants, lightColumns, shaderRows } from "../../examples/web/src/clusteredPca.js";
 

@@ -23,7 +23,7 @@ try {
 /// Returns the errors of a value by the schema of this title; a value without a schema is an error.
 function wrong(title, value) {
   const validate = check.get(title);
-  if (!validate) return [`there is no schema '${title}'`];
+  if (!validate) return [`the schema '${title}' is missing`];
   return validate(value) ? [] : validate.errors.map(({ instancePath, message }) => `${title}: ${instancePath} ${message}`);
 }
 

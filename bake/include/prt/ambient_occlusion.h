@@ -10,11 +10,13 @@
 
 namespace prt {
 
+/// Settings of `ambient_occlusion` and `occlusion_maps`.
 struct OcclusionOptions {
     int rays = 1024;                    ///< rays per receiver
     std::optional<double> target_error; ///< see BakeOptions::target_error
-    FitMode fit = FitMode::automatic;   ///< positions where visibility is measured
-    TracerChoice tracer;                ///< tracer, including its distance fall-off
+    /// Points where visibility is measured: vertices, or points between them.
+    FitMode fit = FitMode::automatic;
+    TracerChoice tracer; ///< tracer, including its distance fall-off
     Repairs repairs;
     BakeMemory memory;
     int threads = 0; ///< number of threads; 0: all
@@ -24,13 +26,14 @@ struct OcclusionOptions {
 /// Ambient visibility and bent normals, one entry per receiver.
 struct AmbientVisibility {
     std::vector<float> ambient;          ///< cosine-weighted visible share of a uniform sky, 0..1
-    std::vector<glm::vec3> bent_normals; ///< unit, mean direction of the visible light
+    std::vector<glm::vec3> bent_normals; ///< unit; mean unoccluded direction, weighted by the cosine
 };
 
-/// Converts transfer of order 2 with one channel. If no light arrives, the bent normal is the entry of
-/// `normals`, or +Y if `normals` is empty.
+/// Computes ambient visibility and bent normals from transfer of order 2 with one channel. A receiver that no
+/// light reaches gets its entry of `normals` [receivers] as bent normal, or +Y if `normals` is empty.
 AmbientVisibility ambient_visibility_of(const Transfer& transfer, std::span<const glm::vec3> normals = {});
 
+/// Result of `ambient_occlusion`.
 struct OcclusionResult {
     AmbientVisibility ambient_visibility; ///< [receivers]
     BakeStatistics statistics;

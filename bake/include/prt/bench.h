@@ -12,12 +12,13 @@
 
 namespace prt {
 
+/// Settings of the comparison.
 struct BenchOptions {
     int order = 6;
     int fewest_rays = 64, max_rays = 4096; ///< rays per receiver, doubled from the minimum to the maximum
     int raster_resolution = 1024;
     std::string gpu = {};    ///< TracerChoice::gpu
-    double max_seconds = 60; ///< maximum time of a run; longer runs are skipped
+    double max_seconds = 60; ///< maximum time of a run in seconds; longer runs are skipped
     int threads = 0;
     std::uint64_t seed = 0;
     BadTextures bad_textures = BadTextures::error;
@@ -34,10 +35,11 @@ struct BenchRun {
     double surface_l2 = 0;  ///< relative L2 error over the surface, interpolated between vertices
 };
 
+/// Runs of one backend and method.
 struct BenchSeries {
     Backend backend = Backend::cpu;
     BakeMethod method = BakeMethod::trace;
-    bool fitted = false; ///< fitted to samples of the surface
+    bool fitted = false; ///< vertex values are fitted to samples of the surface
     Traversal traversal = Traversal::automatic;
     std::string device = {};
     std::vector<BenchRun> runs = {};
@@ -51,6 +53,7 @@ struct BenchSeries {
     }
 };
 
+/// Result of the comparison.
 struct BenchResult {
     std::string scene;
     std::size_t receivers = 0, triangles = 0;
@@ -61,7 +64,8 @@ struct BenchResult {
     std::vector<BenchSeries> series;
 };
 
-/// Measures direct light. Errors are measured at an even sample of the receivers. Throws `Cancelled`.
+/// Bakes direct light with every backend and method. Measures errors at receivers that are chosen evenly.
+/// Throws `Cancelled` after a stop request.
 BenchResult run_bench(const std::string& name, const Scene& scene, const BenchOptions& options,
                       const Progress& progress);
 

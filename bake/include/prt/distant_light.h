@@ -1,6 +1,6 @@
 #pragma once
 
-// Distant light that rays evaluate by direction. SH lighting is an approximation of it.
+// Distant light that rays evaluate by direction. SH lighting approximates it.
 
 #include "prt/environment.h"
 #include "prt/sun.h"
@@ -12,7 +12,7 @@
 
 namespace prt {
 
-/// An environment and suns, for evaluation and for sampling in proportion to luminance. Immutable and
+/// An environment and suns that can be evaluated, and sampled in proportion to luminance. Immutable,
 /// thread-safe.
 class DistantLight {
 public:
@@ -24,10 +24,11 @@ public:
         glm::vec3 direction, radiance;
         float density; ///< per steradian; 0 where the environment is black
     };
-    /// Returns a random direction for a point `u` of the unit square.
+    /// Returns the sample of the environment for a random point `u` of the unit square.
     Sample sample(const glm::vec2& u) const;
+    /// Returns the radiance of the environment, without suns, in unit direction `direction`.
     glm::vec3 radiance(const glm::vec3& direction) const;
-    /// Probability density of `sample` at `direction`, per steradian.
+    /// Returns the probability density of `sample` in `direction`, per steradian.
     float density(const glm::vec3& direction) const;
     const std::vector<Sun>& suns() const { return suns_; }
     const Image& environment() const { return environment_; }

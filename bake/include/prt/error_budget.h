@@ -25,7 +25,7 @@ inline constexpr std::size_t kErrorCauses = 5;
 /// Returns the name in reports: "light", "bounces", "vertices", "rays" or "bytes".
 const char* to_string(ErrorCause cause);
 
-/// Reference value of squared errors.
+/// Level to which squared errors are relative.
 enum class BudgetMeasure {
     relative, ///< mean squared radiance of the surface; the three channels have equal weights
     /// (Y + Y_a)² at each point, with channels weighted as in luminance: contrast errors (docs/math.md, eq.
@@ -42,51 +42,53 @@ struct SquaredError {
     double root() const;
 };
 
+/// Error of a model, split into its causes.
 struct ErrorBudget {
-    std::array<SquaredError, kErrorCauses> causes; ///< [ErrorCause] error if the cause were the only one
-    /// Interaction of the causes, twice the sum of their products: `total` minus the sum of `causes`.
+    std::array<SquaredError, kErrorCauses> causes; ///< [ErrorCause] error if this cause were the only one
+    /// Interaction of the causes: twice the sum of the products of their errors, which is `total` minus the
+    /// sum of `causes`.
     SquaredError together;
     SquaredError total; ///< total error, measured independently of `causes`
 
     SquaredError& of(ErrorCause cause) { return causes[static_cast<std::size_t>(cause)]; }
     const SquaredError& of(ErrorCause cause) const { return causes[static_cast<std::size_t>(cause)]; }
+    /// Returns the sum of `causes`.
     double sum() const;
 };
 
-/// Exit radiance under one lighting, interpolated to points, without direct light of suns that the renderer
-/// adds.
+/// Exit radiance under one lighting, interpolated to points, [points] each. Direct light of suns that the
+/// renderer adds is not included.
 struct InterpolatedRadiance {
     std::vector<glm::vec3> baked;
     std::vector<glm::vec3> repeated; ///< radiance from the same bake with another seed
     std::vector<glm::vec3> shipped;  ///< radiance after compression; equal to `baked` if nothing is
                                      ///< compressed
-    bool alike = true;               ///< `repeated` has the same number of rays as `baked`; otherwise it may
-                                     ///< have fewer
+    bool alike = true; ///< true: `repeated` has the same number of rays as `baked`; false: it may have fewer
 };
 
-/// Computes the error of each stage. The stages are replaced by the truth one after the other: the light of
-/// the bands by the path tracer's light (light), the baked bounces by all bounces (bounces), interpolated
-/// radiance by radiance at the points (vertices), the bake by an independent bake (rays), and the compressed
-/// bake by the uncompressed one (bytes); docs/math.md, section 16. `cut`: order and bounces of the bake.
+/// Computes the error of each cause (docs/math.md, section 16) as a difference of two radiances: `light`
+/// between the bands of the order and the exact light, `bounces` between the baked bounces and all bounces,
+/// `vertices` between interpolated radiance and radiance at the points, `rays` between two independent bakes,
+/// `bytes` between the compressed and the uncompressed bake. `cut`: order and bounces of the bake.
 ErrorBudget error_budget(const SurfacePoints& points, const SurfaceRadiance& reference,
                          const BandTruncation& cut, const InterpolatedRadiance& radiance,
                          BudgetMeasure measure = BudgetMeasure::relative);
 
-/// Error that `cut` would leave because of its order, with all bounces.
+/// Returns the error that the order of `cut` causes, with all bounces.
 SquaredError light_error(const SurfacePoints& points, const SurfaceRadiance& reference,
                          const BandTruncation& cut);
-/// Error that `cut` would leave because of its number of bounces.
+/// Returns the error that the number of bounces of `cut` causes.
 SquaredError bounces_error(const SurfacePoints& points, const SurfaceRadiance& reference,
                            const BandTruncation& cut);
 
-/// Squared relative interpolation error if all triangles were split at the midpoints of their edges and the
-/// light at their corners were exact. `corners` is the radiance at the corners of `quarters` [3 points].
-/// `points` are those of `reference`.
+/// Returns the relative interpolation error that would remain if all triangles were split at the midpoints of
+/// their edges and the light at all corners were exact. `corners`: radiance at `quarters.corners` [3 points];
+/// `reference`: radiance at `points`.
 SquaredError split_error(const SurfacePoints& points, const SurfaceRadiance& reference,
                          const QuarterCorners& quarters, const SurfaceRadiance& corners,
                          const BandTruncation& cut);
 
-/// Mean over several lights.
+/// Returns the mean of the budgets of several lights.
 ErrorBudget mean_budget(std::span<const ErrorBudget> budgets);
 
 } // namespace prt

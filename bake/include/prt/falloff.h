@@ -1,6 +1,6 @@
 #pragma once
 
-// Distance beyond which surfaces block less light. Experimental.
+// Distance fall-off of occlusion: distant surfaces block less light. Experimental.
 
 #include <limits>
 #include <vector>
@@ -9,7 +9,8 @@ namespace prt {
 
 /// Share of light that passes a surface hit by a ray, as a function of the distance: obscurance (S. Zhukov,
 /// A. Iones and G. Kronin, "An Ambient Light Illumination Model", 1998) with exponential terms, 1 -
-/// exp(log(1/2) x / d) each. Distant surfaces then darken less, and the inside of closed rooms is not black.
+/// exp(log(1/2) x / d) each. With it, distant surfaces darken less, and the inside of closed rooms is not
+/// black.
 struct Falloff {
     struct Term {
         double half_distance; ///< distance in metres at which half of the light passes
@@ -18,9 +19,9 @@ struct Falloff {
     std::vector<Term> terms;                                   ///< empty: no light passes
     double farthest = std::numeric_limits<double>::infinity(); ///< metres; beyond it all light passes
 
-    /// Returns true if surfaces block at any distance.
+    /// Returns whether surfaces block all light at every distance.
     bool blocks_everywhere() const;
-    /// Share of light that passes a surface at `distance` metres, 0..1.
+    /// Returns the share of light that passes a surface at `distance` metres, 0..1.
     double passes(double distance) const;
 };
 

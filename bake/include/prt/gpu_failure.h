@@ -4,7 +4,7 @@
 
 namespace prt {
 
-/// A GPU failed while it worked, for a reason outside of the work itself: a CPU can continue.
+/// A GPU failed during the work, for a reason that is not in the work itself. The work can continue on a CPU.
 struct GpuFailure : Error {
     using Error::Error;
 };
@@ -12,14 +12,16 @@ struct GpuFailure : Error {
 struct GpuLost : GpuFailure {
     using GpuFailure::GpuFailure;
 };
+/// The device has too little memory.
 struct GpuMemoryError : GpuFailure {
     using GpuFailure::GpuFailure;
 };
-/// A device ends long loops early, so that its results are wrong.
+/// The device ends long loops early, so that its results are wrong.
 struct GpuLoopsCutShort : GpuFailure {
     GpuLoopsCutShort()
-        : GpuFailure("the GPU ends long loops before their time, so that what it computes is wrong (software "
-                     "devices of older drivers do): bake on the CPU") {}
+        : GpuFailure(
+              "the GPU ends long loops early, so its results are wrong (known from software devices of "
+              "older drivers); bake on the CPU with --device cpu") {}
 };
 
 } // namespace prt

@@ -12,6 +12,7 @@
 
 namespace prt {
 
+/// Measurements of a lightmap bake.
 struct LightmapStatistics {
     struct Texels {
         std::size_t all = 0;       ///< texels of all maps
@@ -21,9 +22,9 @@ struct LightmapStatistics {
                                    ///< texels
     };
     Texels texels;
-    std::size_t sources = 0; ///< vertices that bounced light comes from: vertices of the scene, and added
-                             ///< vertices between them
-    std::size_t rays = 0;    ///< all traced rays
+    /// Number of vertices that reflect light: vertices of the scene, and vertices added between them.
+    std::size_t sources = 0;
+    std::size_t rays = 0; ///< all traced rays
     std::string device;
     struct Seconds {
         double sources = 0, texels = 0, all = 0;
@@ -41,6 +42,7 @@ struct LightmapStatistics {
     double rays_per_second() const { return static_cast<double>(rays) / seconds.all; }
 };
 
+/// Result of a lightmap bake.
 struct LightmapBake {
     BakedLightmap lightmap;
     LightmapStatistics statistics;
@@ -48,15 +50,15 @@ struct LightmapBake {
 
 /// Bakes transfer of the texels of `atlases` (from plan_atlases or from an unwrapping), which contain every
 /// primitive once. The value of a texel is the mean over its part of the surface, with at most options.rays
-/// rays. Light bounces between vertices, including added vertices where the mesh is coarser than the texels,
-/// and from there to the texels; options.fit applies to those vertices. A finer model casts and bounces light
-/// instead of the scene. Throws the same errors as `bake`, and an `Error` for surfaces that light passes
-/// through or into, which are supported at vertices only.
+/// rays. Light bounces between vertices, and from there to the texels; options.fit applies to these vertices.
+/// For this, edges longer than eight texels are split. A finer model blocks and reflects light instead of the
+/// scene. Throws the errors of `bake`, and `Error` for surfaces that transmit light or contain a medium,
+/// which only vertices support.
 LightmapBake bake_lightmap(const Scene& scene, const std::vector<Atlas>& atlases, const BakeOptions& options,
                            const FinerModel& finer = {}, const Progress& progress = {});
 
-/// Finds jumps across the seams of the lightmap of `scene` with receivers `texels`, at least two per texel
-/// along each seam. The compressor weighs them. A baked lightmap has almost no jumps.
+/// Returns points on the UV seams of `scene`, at least two per texel along each seam, whose jumps the
+/// compressor minimises. `texels`: receivers of the lightmap. A baked lightmap has almost no jumps.
 std::vector<SeamJump> seam_jumps(const Scene& scene, const LightmapLayout& layout,
                                  std::span<const std::uint32_t> texels);
 

@@ -10,20 +10,20 @@
 
 namespace prt {
 
-/// Selects a tracer.
+/// Settings that select a tracer.
 struct TracerChoice {
     Backend backend = Backend::automatic;
     BakeMethod method = BakeMethod::trace;
     int raster_resolution = 1024; ///< texels along each side of a depth map
-    /// GPU to trace on: its number among gpu_devices(), or a part of its name; empty: the best device.
+    /// GPU to trace on: its index in gpu_devices(), or a part of its name; empty: the best device.
     std::string gpu = {};
     Traversal traversal = Traversal::automatic;
     Falloff falloff = {}; ///< distance fall-off of occlusion; ray tracing only
 };
 
-/// Creates the tracer for `choice`. With Backend::automatic it runs on a hardware GPU if there is one with
-/// enough memory for the scene, and continues on the CPU if the GPU is lost; otherwise it runs on the CPU.
-/// Keeps a reference to `scene`. Throws `Error` if the backend is not available.
+/// Creates the tracer for `choice`. With Backend::automatic it runs on a hardware GPU with enough memory for
+/// the scene, if there is one, otherwise on the CPU; if the GPU is lost, it continues on the CPU. Keeps a
+/// reference to `scene`. Throws `Error` if the backend is not available.
 std::unique_ptr<Tracer> make_tracer(const TraceScene& scene, const TracerChoice& choice = {});
 
 } // namespace prt

@@ -14,8 +14,8 @@ namespace prt {
 /// Occlusion of one texture, row by row from the top.
 struct OcclusionMap {
     Atlas atlas;
-    AmbientVisibility
-        ambient_visibility;           ///< [texels]; texels between charts take the values of their neighbours
+    /// [texels]; texels between charts take the values of their neighbours.
+    AmbientVisibility ambient_visibility;
     std::size_t measured = 0;         ///< texels on surfaces
     std::size_t sealed = 0;           ///< measured texels inside geometry; they take the values of their
                                       ///< neighbours
@@ -23,6 +23,7 @@ struct OcclusionMap {
                                       ///< closed, root mean square
 };
 
+/// Measurements of `occlusion_maps`.
 struct OcclusionMapsStatistics {
     std::size_t rays = 0;
     std::string device;
@@ -30,9 +31,9 @@ struct OcclusionMapsStatistics {
     std::vector<std::string> notices;
 };
 
-/// A finer model that casts shadows instead of the scene.
+/// A high-poly model that blocks and reflects light instead of the scene.
 struct FinerModel {
-    const Scene* scene = nullptr; ///< null: the scene itself casts shadows
+    const Scene* scene = nullptr; ///< null: the scene itself blocks light
     double reach = 0;             ///< maximum distance between the finer surface and the scene's surface,
                                   ///< metres
 };
@@ -40,10 +41,10 @@ struct FinerModel {
 /// Throws `Error` if the distance of a finer model is invalid.
 void check_finer(const FinerModel& finer);
 
-/// Passes the maps of `atlases` (from plan_atlases or from an unwrapping) to `take`, one after the other. The
-/// value of a texel is the mean over its part of the surface, with at most options.rays rays. If a finer
-/// model has a surface above or below the texel, the value is the light that arrives there. Throws the same
-/// errors as `bake`.
+/// Computes the maps of `atlases` (from plan_atlases or from an unwrapping) and passes them to `take` one
+/// after the other. The value of a texel is the mean over its part of the surface, with at most options.rays
+/// rays. If the finer model has a surface above or below the texel, the value is measured there. Throws the
+/// same errors as `bake`.
 OcclusionMapsStatistics occlusion_maps(const Scene& scene, const std::vector<Atlas>& atlases,
                                        const OcclusionOptions& options,
                                        const std::function<void(OcclusionMap)>& take,

@@ -1,7 +1,7 @@
 #pragma once
 
-// The reference (docs/math.md, section 11): draws the camera's view by path tracing, without spherical
-// harmonics and without interpolation between vertices.
+// The reference renderer (docs/math.md, section 11): path tracing, without spherical harmonics and without
+// interpolation between vertices.
 
 #include "prt/bake.h"
 #include "prt/camera.h"
@@ -16,16 +16,18 @@
 
 namespace prt {
 
+/// Settings of a path-traced picture.
 struct PathTraceOptions {
     Camera camera;
     int width = 640, height = 360;
-    int bounces = kEndlessBounces; ///< bounces between surfaces; endless: until Russian roulette ends the
-                                   ///< path
-    /// Multiply by the base color of visible surfaces; otherwise show exit radiance for albedo 1.
+    int bounces = kEndlessBounces; ///< maximum number of bounces between surfaces; kEndlessBounces: Russian
+                                   ///< roulette ends the path
+    /// True: multiply by the base color of visible surfaces; false: show exit radiance for albedo 1.
     bool textured = true;
-    bool background = true; ///< show the environment behind the scene; otherwise black
-    bool shining = true;    ///< show the emission of surfaces; otherwise only the light that they reflect
-    /// Rays through random points of each pixel; otherwise through its center.
+    bool background = true; ///< true: show the environment behind the scene; false: black
+    /// True: show the emission of surfaces; false: show only the light that they reflect.
+    bool shining = true;
+    /// True: rays through random points of each pixel; false: through its center.
     bool antialiased = true;
     std::uint64_t seed = 0;
 
@@ -38,19 +40,19 @@ struct PathTraceOptions {
 /// not enter media.
 class PathTracer {
 public:
-    /// Keeps references to all arguments except the options. `lamps` add to `light`; null: all lamps are
-    /// dark.
+    /// Keeps references to all arguments except the options. `lamps`: lamps whose light is added; null: all
+    /// lamps are dark.
     PathTracer(const TraceScene& scene, const DistantLight& light, const PathTraceOptions& options,
                const SceneLamps* lamps = nullptr);
 
-    /// Traces one more path for every pixel. Throws `Cancelled` within a row when asked to stop; finished
-    /// rows count. `threads` 0: all.
+    /// Traces one more path for every pixel on `threads` threads (0: all). A stop request is checked before
+    /// each row: `Cancelled` is then thrown, and rows that are complete keep their new path.
     void add_pass(int threads = 0, std::stop_token stop = {});
     int passes() const { return passes_; }
 
-    /// Mean of all passes: linear radiance, [height][width].
+    /// Returns the mean of all passes: linear radiance, [height][width].
     Image image() const;
-    /// Whether the ray through the center of each pixel hits a surface that the camera sees. [height][width]
+    /// Returns whether the ray through the center of each pixel hits a visible surface, [height][width].
     std::vector<bool> surface_mask() const;
 
 private:
@@ -70,8 +72,8 @@ struct PathTracedPicture {
     std::vector<bool> surfaces;  ///< see `PathTracer::surface_mask`
 };
 
-/// Traces `paths` paths per pixel, rounded up to an even number. `scene`, `light` and `lamps` are those of
-/// `PathTracer`. Throws `Cancelled`.
+/// Renders a picture with `paths` paths per pixel, rounded up to an even number. Other arguments are those of
+/// `PathTracer`. Throws `Cancelled` after a stop request.
 PathTracedPicture path_traced(const TraceScene& scene, const DistantLight& light,
                               const PathTraceOptions& options, int paths, const SceneLamps* lamps = nullptr,
                               const Progress& progress = {});

@@ -1,7 +1,7 @@
 #pragma once
 
-// Transfer of an animated model: baked in poses and expressed in the frames of its vertices, in which lobes
-// are fitted (docs/math.md, section 21). Experimental.
+// Transfer of an animated model: baked in several poses, then transformed to the frames of its vertices, in
+// which lobes are fitted (docs/math.md, section 21). Experimental.
 
 #include "prt/animation.h"
 #include "prt/bake.h"
@@ -23,16 +23,17 @@ struct ModelPose {
     std::vector<glm::dmat4> nodes;
 };
 
-/// Returns the pose of the file and `count` poses, evenly spaced over all animations one after another, in
-/// the middle of equal time intervals. `only`: name of the animation to use; empty: all. Throws `Error` if
-/// there is no such animation, and for a count below 1.
+/// Returns 1 + `count` poses: the pose of the file, then `count` poses at the centers of equal time intervals
+/// over all animations, one animation after another. `only`: name of the animation to use; empty: all. Throws
+/// `Error` if there is no such animation, and for a count below 1.
 std::vector<ModelPose> poses_of(const AnimatedScene& model, int count, const std::string& only = {});
 
-/// Returns `count` poses without the pose of the file, evenly spaced over all animations one after another,
-/// starting at the beginning. For one animation of two seconds, 6 poses are every tenth of its 60 frames.
-/// Arguments and errors are those of `poses_of`.
+/// Returns `count` poses at the beginnings of equal time intervals over all animations, one animation after
+/// another. For one animation of two seconds, 6 poses are every tenth of its 60 frames. Arguments and errors
+/// are those of `poses_of`.
 std::vector<ModelPose> frames_of(const AnimatedScene& model, int count, const std::string& only = {});
 
+/// Settings for each pose.
 struct PoseBakeOptions {
     int order = 4;
     int rays = 256; ///< rays per vertex and pose
@@ -43,20 +44,21 @@ struct PoseBakeOptions {
     std::uint64_t seed = 0;
 };
 
-/// Self-transfer of one pose: the model alone, lit from all directions.
+/// Transfer of the model in one pose, without surroundings.
 struct PoseTransfer {
     Transfer transfer;        ///< `combined` transfer with one channel or three, in world space
-    std::vector<float> areas; ///< m²; 0 for vertices that are sealed in, which nobody sees
-    std::vector<bool> sealed;
+    std::vector<float> areas; ///< m²; 0 for sealed vertices, which are never visible
+    std::vector<bool> sealed; ///< [vertices] whether the vertex is inside geometry
     std::size_t rays = 0;
 };
-/// Bakes the self-transfer of `pose`. Throws `Error` for vertices that are too far away, and the errors of
-/// `bake`.
+/// Bakes the transfer of the model in `pose`. Throws `Error` for vertices beyond kFarthestVertex, and the
+/// errors of `bake`.
 PoseTransfer bake_pose(const AnimatedScene& model, const ModelPose& pose, const PoseBakeOptions& options,
                        const Progress& progress = {});
 
-/// Transforms between world space in a pose and the frame of each vertex's normal. The rotation is the one
-/// nearest to the vertex matrix (its polar factor). A matrix that mirrors is mirrored here, too.
+/// Transforms transfer between world space in a pose and the frame of each vertex, in which the mesh stores
+/// its normal. The frame is rotated by the rotation nearest to the vertex matrix (its polar factor), and is
+/// mirrored if the matrix mirrors.
 class VertexFrames {
 public:
     VertexFrames(const AnimatedScene& model, const ModelPose& pose);
@@ -73,27 +75,29 @@ private:
     std::vector<bool> mirrored_;        ///< mirrored vertices: w becomes -w after the rotation
 };
 
-/// Grey transfer of many poses in the frames of the vertices: the mean over poses and channels.
+/// Grey transfer in the frames of the vertices: the mean over poses and channels.
 struct MeanTransfer {
     int order = 0;
     std::vector<double> vectors; ///< [vertices][order²] mean over the poses
     std::vector<double> rest;    ///< [vertices][order²] vectors of the first pose
-    /// m², mean over the poses; for vertices that all poses hide, a hundredth of their area.
+    /// m², mean over the poses; for vertices that are sealed in all poses, a hundredth of their area.
     std::vector<float> areas;
     std::size_t rays = 0;
-    std::size_t hidden = 0; ///< vertices that every pose seals in; they take the light of their neighbours
+    /// Vertices that are sealed in all poses; they take the transfer of their neighbours.
+    std::size_t hidden = 0;
 
     std::size_t coefficients() const { return static_cast<std::size_t>(order * order); }
     std::size_t vertices() const { return areas.size(); }
 };
 
-/// Averages the poses in the vertex frames. A pose counts at a vertex unless the vertex is sealed in. In
-/// rotating frames the sum of squared differences between one vector and those of all poses equals the
-/// squared difference to their mean plus a constant, so that a fit to the mean is a fit to all poses.
+/// Bakes all poses and averages their transfer in the vertex frames. Poses in which a vertex is sealed do not
+/// count for it. A fit to this mean is a fit to all poses, because in the vertex frames the sum of squared
+/// differences to the vectors of all poses is the squared difference to their mean plus a constant.
 MeanTransfer mean_of_poses(const AnimatedScene& model, std::span<const ModelPose> poses,
                            const PoseBakeOptions& options, const Progress& progress = {});
 
-/// Writes the mean over the channels of a `combined` vector to `grey`.
+/// Writes the mean over the channels of `receiver`'s vector to `grey` [order²]. `transfer` has a single
+/// `combined` term.
 void grey_vector(const Transfer& transfer, std::size_t receiver, std::span<double> grey);
 
 } // namespace prt

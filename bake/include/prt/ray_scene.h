@@ -1,6 +1,6 @@
 #pragma once
 
-// Ray queries against the triangles of a scene on the CPU, by Embree.
+// Ray queries against the triangles of a scene on the CPU, with Embree.
 
 #include "prt/receivers.h"
 #include "prt/scene.h"
@@ -21,10 +21,10 @@ namespace prt {
 
 class OppositeTriangles;
 
-/// A ray or a segment of it.
+/// A ray, or a segment of one.
 struct Ray {
     glm::vec3 origin, direction;
-    float from = 0; ///< distance in lengths of `direction`
+    float from = 0; ///< begin and end of the segment, in lengths of `direction`
     float to = std::numeric_limits<float>::infinity();
 };
 
@@ -45,38 +45,39 @@ public:
     RayScene(RayScene&&) noexcept;
     ~RayScene();
 
-    /// Returns the nearest triangle along the ray, or nothing. For a pair of opposite triangles it returns
-    /// the one that faces the ray.
+    /// Returns the nearest hit along the ray; no value if there is none. For a pair of opposite triangles it
+    /// is a hit of the one that faces the ray.
     std::optional<RayHit> nearest(const Ray& ray) const;
-    /// Returns the nearest triangle for which `accepts` returns true.
+    /// Returns the nearest hit of a triangle for which `accepts` returns true; no value if there is none.
     std::optional<RayHit> nearest(const Ray& ray,
                                   const std::function<bool(unsigned triangle)>& accepts) const;
+    /// Returns whether the ray hits any triangle.
     bool occluded(const Ray& ray) const;
 
     /// Pairs of opposite triangles. Code that reads hits from `handle()` must apply them.
     const OppositeTriangles& opposites() const { return *opposites_; }
 
-    /// RTCScene, for packets of rays.
+    /// Embree's RTCScene, for packets of rays.
     RTCSceneTy* handle() const { return scene_.get(); }
 
-    /// Distance by which to move a ray's origin off the surface at `position` so that the surface does not
-    /// block the ray: 2^-24 (12 c + 16 l). Here c is the largest coordinate of `position`, and l is the
-    /// largest distance on one axis to a corner of any triangle that contains `position` (docs/math.md,
-    /// section 2).
+    /// Returns the distance by which a ray's origin must be moved off the surface at `position` so that the
+    /// surface does not block the ray: 2^-24 (12 c + 16 l). Here c is the largest coordinate of `position`,
+    /// and l is the largest distance on one axis to a corner of any triangle that contains `position`
+    /// (docs/math.md, section 2).
     float surface_offset(const glm::vec3& position) const;
-    /// First term of `surface_offset`: 2^-24 · 12 c.
+    /// Returns the first term of `surface_offset`: 2^-24 · 12 c, with c the largest coordinate of `position`.
     static float coordinate_offset(const glm::vec3& position);
 
-    /// Quick upper bound of `surface_offset` for any point of triangle `id` alone, for a ray that ends there
-    /// after `distance`.
+    /// Returns a quick upper bound of `surface_offset` for all points of triangle `id`, considering no other
+    /// triangle, for a ray of length `distance` that ends there.
     float triangle_offset(unsigned id, float distance = 0) const;
 
-    /// Replaces `ids` by the triangles whose boxes are within `distance` of `position`.
+    /// Writes the triangles whose bounding boxes are within `distance` of `position` to `ids`.
     void triangles_near(const glm::vec3& position, float distance, std::vector<unsigned>& ids) const;
 
-    /// Origin of the rays of receivers[index]: off the surface by Receivers::starts. If this point is on
-    /// another surface, for example on a wall in the middle of a floor, it moves to the front of that
-    /// surface.
+    /// Returns the origin of the rays of receivers[index]: its position, moved off the surface by
+    /// Receivers::starts. If this point is on another surface, for example on a wall in the middle of a
+    /// floor, it is moved to the front of that surface.
     glm::vec3 ray_origin(const Receivers& receivers, std::uint32_t index) const;
 
     struct Triangle {

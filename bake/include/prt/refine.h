@@ -9,11 +9,12 @@
 
 namespace prt {
 
+/// Settings of the refinement.
 struct RefineOptions {
-    double target = 0.02; ///< target relative L2 error of direct light over the surface, by interpolation
-                          ///< only
-    /// Maximum number of vertices of the finer scene; 0: four times the number in the scene, but at least 20
-    /// 000.
+    /// Target for the interpolation error of direct light over the surface, relative L2.
+    double target = 0.02;
+    /// Maximum number of vertices of the finer scene; 0: four times the number in the scene, but at least
+    /// 20000.
     std::size_t max_vertices = 0;
 };
 
@@ -21,15 +22,16 @@ struct RefineOptions {
 enum class RefineEnd {
     target,   ///< the target is reached
     vertices, ///< the maximum number of vertices is reached
-    edges,    ///< the remaining error is in triangles whose edges are too short to split
+    edges,    ///< the remaining error is in triangles with edges that are too short to split
 };
 
+/// Measurements of a refinement.
 struct RefineStatistics {
     RefineEnd end = RefineEnd::target;
     int rounds = 0; ///< rounds of splitting
     struct Size {
         std::size_t vertices = 0, triangles = 0;
-        double error = 0; ///< relative L2 error over the surface, by interpolation only
+        double error = 0; ///< interpolation error over the surface, relative L2
     };
     Size before, after;
     int rays_per_point = 0;
@@ -37,16 +39,17 @@ struct RefineStatistics {
     double seconds = 0;
 };
 
+/// Result of `refine`.
 struct RefineResult {
     Refinement refinement;
     RefineStatistics statistics;
 };
 
-/// Finds triangles of `scene` to split, so that direct light that is fitted to vertices and interpolated over
-/// triangles matches the light at test points between the vertices. Points have their own rays. Traced light
-/// is kept from round to round, about 2.4 kB per vertex at order 6. `options` are those of the bake that
-/// follows. Deterministic in the same way as `bake`. Throws `Error` for options that are invalid or that
-/// require another measure of light, and `Cancelled` when asked to stop.
+/// Chooses triangles of `scene` to split. Direct light is fitted to vertices, interpolated over triangles,
+/// and compared with light at test points between the vertices, which is traced with separate rays. Traced
+/// light is kept between rounds, which takes about 2.4 kB per vertex at order 6. `options` are those of the
+/// bake that follows. Deterministic in the same way as `bake`. Throws `Error` for options that are invalid or
+/// not supported by refinement, and `Cancelled` after a stop request.
 RefineResult refine(const Scene& scene, const BakeOptions& options, const RefineOptions& how,
                     const Progress& progress = {});
 

@@ -1,6 +1,6 @@
 #pragma once
 
-// Repeats a bake with another seed: the difference is the noise of rays. Experimental.
+// Repeats a bake with another seed. The difference of both is the noise of rays. Experimental.
 
 #include "prt/baked_transfer.h"
 #include "prt/lightmap.h"
@@ -9,13 +9,13 @@
 
 namespace prt {
 
-/// Bakes `scene` again with the options of `record`, with other rays and without lamps. Throws `Error` if the
-/// result differs from `baked` by more than noise: then an option that the record does not contain was
-/// different.
+/// Bakes `scene` again with the options of `record`, but with other rays and without lamps. Throws `Error` if
+/// the result differs from `baked` by more than noise, because an option that the record does not contain was
+/// then different.
 Transfer repeated_bake(const Scene& scene, const Transfer& baked, const BakeRecord& record, int threads,
                        const Progress& progress = {});
 
-/// Bakes a lightmap without a finer model again with other rays. Returns the transfer of its receivers in
+/// Bakes `lightmap` again with other rays, without a finer model. Returns the transfer of its receivers in
 /// their order. Throws `Error` if the result differs by more than noise.
 Transfer repeated_lightmap(const Scene& scene, const BakedLightmap& lightmap, int threads,
                            const Progress& progress = {});

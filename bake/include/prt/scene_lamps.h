@@ -1,7 +1,7 @@
 #pragma once
 
-// Lamps of a scene for path tracing, implemented independently of the baker's: paths sample a light by one
-// ray, and emissive surfaces by points on them and by hitting them. Experimental.
+// Lamps of a scene for path tracing, implemented independently of the baker. Paths sample a punctual light by
+// one ray. They sample emissive surfaces by rays to points on them, and by rays that hit them. Experimental.
 
 #include "prt/trace_scene.h"
 #include "prt/transfer_layout.h"
@@ -14,48 +14,50 @@
 
 namespace prt {
 
-/// Returns a part for each lamp of a scene without transfer: lights and emissive materials, by name.
+/// Returns one term for each lamp of a scene that has no transfer: its lights and emissive materials, by
+/// name.
 std::vector<TransferTerm> lamps_of(const Scene& scene);
 
 /// Samples the lamps of a scene. Thread-safe.
 class SceneLamps {
 public:
-    /// Uses the lamps of the scene that are in `lamps`, by their name or as members, each multiplied by its
-    /// strength, [lamps]. Other lamps are dark. Keeps a reference to `scene`. Throws `Error` if the number of
-    /// strengths differs from the number of lamps.
+    /// Selects the lights and materials of the scene that are members of `lamps` and multiplies each by the
+    /// strength of its lamp, `strengths` [lamps]. All others are dark. Keeps a reference to `scene`. Throws
+    /// `Error` if the number of strengths differs from the number of lamps.
     SceneLamps(const TraceScene& scene, std::span<const TransferTerm> lamps,
                std::span<const glm::vec3> strengths);
 
     bool has_lights() const { return !lights_.empty(); }
     bool has_surfaces() const { return !shining_.empty(); }
 
-    /// Light of a sample without occlusion, divided by the probability of the sample.
+    /// A sample of the light of lamps.
     struct Sample {
         glm::vec3 towards{0, 1, 0}; ///< unit
-        glm::vec3 way{0};           ///< vector to the point that the light comes from, or direction towards a
-                                    ///< distant light
-        float reach = 1;            ///< length of the shadow ray in lengths of `way`: 1, or infinite for
-                                    ///< distant lights
-        glm::vec3 irradiance{0};    ///< irradiance of a receiver that faces the light
-        float density = 0;          ///< density of the direction over the sphere; 0: no other technique finds
-                                    ///< this light
+        glm::vec3 way{0}; ///< vector to the point that emits the light, or direction towards a distant light
+        float reach = 1;  ///< length of the shadow ray in lengths of `way`: 1, or infinite for
+                          ///< distant lights
+        glm::vec3 irradiance{0}; ///< unoccluded irradiance of a receiver that faces the light, divided by the
+                                 ///< probability of the sample
+        float density = 0; ///< probability density of the direction over the sphere; 0: other techniques
+                           ///< cannot sample this light
 
-        /// Weight by the balance heuristic, if directions of density `other` find this light too.
+        /// Returns the weight of the sample by the balance heuristic. `other`: probability density of the
+        /// other technique that also samples this light.
         float balance(float other) const { return density > 0 ? density / (density + other) : 1.0f; }
     };
-    /// Samples one of the punctual lights, mostly in proportion to their irradiance at `position`. The lights
-    /// have no extent.
+    /// Samples one of the punctual lights, with a probability that is mostly proportional to its irradiance
+    /// at `position`. The lights have no extent.
     Sample sample_light(const glm::vec3& position, float u) const;
     /// Samples a point on emissive surfaces in proportion to their power; the sample is black if `position`
     /// is behind a single-sided surface.
     Sample sample_surface(const glm::vec3& position, const glm::vec2& u) const;
-    /// Share of the light of a sample that reaches `position` along the shadow ray.
+    /// Returns the share of the light of a sample that reaches `position` along the shadow ray, 0..1.
     float open(const glm::vec3& position, const Sample& sample) const;
 
-    /// Radiance that a point of a triangle emits towards the viewer, on its front or back.
+    /// Returns the radiance that a point emits on the front of its triangle, or on the back if `back`.
     glm::vec3 radiance(const SurfacePoint& point, bool back) const;
-    /// Density of `sample_surface` for a direction that hits the triangle at `distance` with this cosine to
-    /// its normal.
+    /// Returns the probability density of `sample_surface` over the sphere for a direction that hits
+    /// `triangle` at `distance`. `cosine`: cosine of the angle to its normal.
     float density(std::uint32_t triangle, float distance, float cosine) const;
 
 private:

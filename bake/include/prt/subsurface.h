@@ -20,8 +20,8 @@ struct Medium {
     double ior = 1.3;         ///< index of refraction
 };
 
-/// Valid range of the coefficients of a medium, in 1/m of the scene's unit: scattering from the minimum to
-/// the maximum, absorption from 0 to the maximum. The densest measured medium has 2e4.
+/// Limits for the coefficients of a medium, in 1 / unit of the scene: scattering is between both, absorption
+/// between 0 and the maximum. The densest measured medium has 2e4.
 inline constexpr double kMinScattering = 1e-9, kMaxCoefficient = 1e9;
 
 /// A measured medium of Jensen et al. 2001, figure 5: "marble", "skin1", "whole-milk" and others.
@@ -29,12 +29,13 @@ struct NamedMedium {
     std::string_view name;
     Medium medium;
 };
+/// Returns the measured media.
 std::span<const NamedMedium> measured_media();
 
-/// Returns the medium that a glTF material describes: KHR_materials_volume with a thickness and an
-/// attenuation, on a surface that transmits diffuse light (KHR_materials_diffuse_transmission). The
-/// attenuation is sigma_t'; the base color is the reflectance of a thick slab, from which the dipole's albedo
-/// follows. Returns nothing if the material has no such medium.
+/// Returns the medium of a glTF material: KHR_materials_volume with a thickness and an attenuation, on a
+/// surface that transmits diffuse light (KHR_materials_diffuse_transmission). The attenuation is sigma_t'.
+/// The base color is the reflectance of a thick slab, which determines the albedo of the dipole. Returns no
+/// value if the material has no such medium.
 std::optional<Medium> medium_of(const Material& material);
 
 /// The dipole for one color, on the surface of a half space.
@@ -43,13 +44,16 @@ public:
     /// Coefficients in 1/m.
     Dipole(double scattering, double absorption, double ior);
 
-    /// Diffuse reflectance Rd at `distance` metres from where the light enters, 1/m² (eq. 4 of the paper).
+    /// Returns the diffuse reflectance Rd at `distance` metres from the point where the light enters, 1/m²
+    /// (eq. 4 of the paper).
     double reflectance(double distance) const;
-    /// Integral of Rd over the disc of radius `radius`; infinity: over the plane, which is the diffuse
-    /// albedo.
+    /// Returns the integral of Rd over a disc of radius `radius` metres. For an infinite radius it is the
+    /// diffuse albedo.
     double inside(double radius) const;
+    /// Integral of Rd over the plane: the diffuse albedo.
     double total() const { return total_; }
-    /// sigma_tr, 1/m: light far away decreases as exp(-sigma_tr r).
+    /// Effective transport coefficient sigma_tr, 1/m: at a large distance r, light decreases as exp(-sigma_tr
+    /// r).
     double falloff() const { return falloff_; }
     /// Depth of the real source below the surface in metres, one mean free path: Rd is smooth on this scale.
     double depth() const { return real_depth_; }

@@ -1,7 +1,7 @@
 #pragma once
 
-// Properties of the surfaces that rays hit: how every triangle of a scene covers, reflects and transmits
-// light.
+// Properties of the surfaces that rays hit: coverage, reflection, transmission and emission of every triangle
+// of a scene.
 
 #include "prt/scene.h"
 #include "prt/texture.h"
@@ -21,13 +21,13 @@ struct SurfacePoint {
     float footprint;        ///< area over which textures are filtered, m²
 };
 
-/// Lambertian scattering of a surface: of the irradiance on one side, `reflected` leaves on the same side and
-/// `transmitted` on the other. Linear Rec. 709.
+/// Lambertian scattering of a surface, linear Rec. 709: the fraction of the irradiance on one side that
+/// leaves on the same side (`reflected`), and the fraction that leaves on the other side (`transmitted`).
 struct Scattering {
     glm::vec3 reflected, transmitted;
 };
 
-/// Properties that at least one surface of a scene has.
+/// Properties of a scene; each is true if at least one surface has it.
 struct SurfaceTraits {
     bool alpha = false;        ///< lets rays pass: cut out, blended, or glass
     bool textured = false;     ///< has a texture to filter
@@ -44,7 +44,7 @@ public:
 
     const Scene& scene() const { return scene_; }
     std::size_t triangles() const { return triangles_.size(); }
-    /// Receivers (vertices) at the corners of the triangle.
+    /// Returns the receivers (vertices) at the corners of the triangle.
     const glm::uvec3& corners(std::uint32_t triangle) const { return triangles_[triangle].corners; }
     std::size_t primitive(std::uint32_t triangle) const { return triangles_[triangle].primitive; }
     const Material& material(std::uint32_t triangle) const {
@@ -52,30 +52,32 @@ public:
     }
 
     const SurfaceTraits& traits() const { return traits_; }
-    /// Returns true if the texture has no color, or if there is no texture.
+    /// Returns whether all texels of the texture are grey; true if there is no texture.
     bool is_grey(const TextureUse& use) const;
-    /// Whether the triangle emits light; false if the texture of its emission is missing.
+    /// Returns whether the triangle emits light; false if the texture of its emission is missing.
     bool emits(std::uint32_t triangle) const;
 
-    /// Returns true if the texture is loaded and `vertices` have coordinates for it.
+    /// Returns whether the texture is loaded and `vertices` have coordinates for it.
     bool has_texture(const VertexArray& vertices, const TextureUse& use) const;
+    /// Returns whether no ray passes the surface.
     bool opaque(std::uint32_t triangle) const { return kinds_[triangles_[triangle].primitive].opaque; }
-    /// Returns true if both sides of the surface scatter light.
+    /// Returns whether both sides of the surface scatter light.
     bool two_sided(std::uint32_t triangle) const { return kinds_[triangles_[triangle].primitive].two_sided; }
-    /// Returns true if diffuse light passes the surface.
+    /// Returns whether the surface transmits diffuse light as a thin sheet.
     bool transmits(std::uint32_t triangle) const { return kinds_[triangles_[triangle].primitive].thin; }
-    /// Returns true if there is a medium inside that all light leaving the surface has passed.
+    /// Returns whether there is a medium inside, through which all light that leaves the surface has passed.
     bool solid(std::uint32_t triangle) const { return kinds_[triangles_[triangle].primitive].solid; }
-    /// Share of a ray that the surface stops: 1 if it is opaque, 0 if it is cut out, alpha if it is blended,
-    /// multiplied by the share that glass does not transmit. Cut-outs use the finest level of the texture,
-    /// because rays average by themselves.
+    /// Returns the share of a ray that the surface stops: 1 if it is opaque, 0 if it is cut out, alpha if it
+    /// is blended; this is multiplied by the share that glass does not transmit. Cut-outs use the finest
+    /// level of the texture, because many rays average it.
     float coverage(const SurfacePoint& point) const;
+    /// Returns the scattering at a point.
     Scattering scattering(const SurfacePoint& point) const;
-    /// Scattering of all points of the triangle; nothing if it varies.
+    /// Returns the scattering of all points of the triangle; no value if it varies.
     std::optional<Scattering> constant_scattering(std::uint32_t triangle) const {
         return kinds_[triangles_[triangle].primitive].constant;
     }
-    /// Radiance that the surface emits.
+    /// Returns the radiance that the surface emits.
     glm::vec3 emission(const SurfacePoint& point) const;
     glm::vec3 base_color(const SurfacePoint& point) const { return glm::vec3(base_color(point, false)); }
 

@@ -10,13 +10,14 @@
 
 namespace prt {
 
-/// Selects the surfaces that share a texture.
+/// Assignment of surfaces to textures.
 enum class AtlasMode {
     automatic, ///< all surfaces if their charts do not overlap, otherwise one texture per object
     one,       ///< one texture for all surfaces
     each,      ///< one texture per object, that is, per node of the file
 };
 
+/// Settings of textures.
 struct TexelOptions {
     int size = 0;         ///< texels per side; 0: from `per_metre`
     double per_metre = 0; ///< mean number of texels per metre
@@ -36,13 +37,13 @@ struct Atlas {
     std::size_t texels() const { return static_cast<std::size_t>(width) * static_cast<std::size_t>(height); }
 };
 
-/// Size of the atlas as stored in a lightmap layout.
+/// Returns the size of the atlas as a lightmap layout stores it.
 inline LightmapSize size_of(const Atlas& atlas) {
     return {atlas.width, atlas.height, atlas.repeats};
 }
 
-/// Plans the textures. Throws `Error` if coordinates are missing or cross a border, if charts of one texture
-/// overlap, and if a texture would be too large.
+/// Returns the textures for all surfaces of `scene`. Throws `Error` if texture coordinates are missing or
+/// cross a border, if charts of one texture overlap, and if a texture would be too large.
 std::vector<Atlas> plan_atlases(const Scene& scene, const TexelOptions& options);
 
 } // namespace prt

@@ -9,8 +9,9 @@
 
 namespace prt {
 
+/// Settings of `TraceScene`.
 struct TraceSceneOptions {
-    /// [materials] materials with a medium inside, which are not thin sheets; empty: none.
+    /// [materials] whether the material has a medium inside and is not a thin sheet; empty: false for all.
     std::vector<bool> solid = {};
     int threads = 0; ///< number of threads for building and tracing; 0: all
 };
@@ -31,7 +32,7 @@ public:
     const std::vector<Texture>& textures() const { return textures_; }
     const Surfaces& surfaces() const { return surfaces_; }
     int threads() const { return threads_; }
-    /// Hierarchy of triangles, built on the first call. Throws `Error` when memory runs out.
+    /// Returns the hierarchy of triangles, which the first call builds. Throws `Error` if memory runs out.
     const RayScene& rays() const {
         std::call_once(built_, [this] { rays_.emplace(scene_, threads_); });
         return *rays_;

@@ -11,15 +11,17 @@
 
 namespace prt {
 
+/// New texture coordinates of a scene.
 struct Unwrapping {
     std::vector<VertexSplit> primitives; ///< [scene's primitives]
-    std::vector<Atlas> atlases;          ///< the caller sets their set of coordinates
+    std::vector<Atlas> atlases;          ///< the textures; the caller sets their `uv_set`
     std::size_t charts = 0;
     double texels_per_metre = 0; ///< minimum over all textures
 };
 
-/// Cuts surfaces into charts by the axis that they mainly face, so that no chart overlaps itself, and packs
-/// the charts with at least two texels between them. Throws `Error` if a texture is too small for the charts.
+/// Cuts surfaces into charts whose triangles face mainly along the same axis, so that no chart overlaps
+/// itself, and packs the charts with at least two texels between them. Throws `Error` if a texture is too
+/// small for the charts.
 Unwrapping unwrap(const Scene& scene, const TexelOptions& options);
 
 } // namespace prt

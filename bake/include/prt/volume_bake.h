@@ -12,26 +12,27 @@
 
 namespace prt {
 
-/// Minimum number of rays per probe at which a fit has a lower error than the same rays at probes only: with
-/// fewer rays the light at fit points is mostly noise (docs/benchmarks.md, "Volumes").
+/// Minimum number of rays per probe at which a fit to points between probes reduces the error. With fewer
+/// rays, the light at these points is mostly noise (docs/benchmarks.md, "Volumes").
 constexpr int kRaysWorthAFit = 2048;
 
+/// Settings of a volume bake.
 struct VolumeOptions {
-    double spacing = 1;                ///< distance of the finest probes, metres
-    std::size_t probes = 0;            ///< maximum number of probes; the spacing follows from it; 0: by
-                                       ///< `spacing`
+    double spacing = 1;     ///< distance of the finest probes, metres
+    std::size_t probes = 0; ///< maximum number of probes, which determines the spacing; 0: use `spacing`
     std::optional<Bounds> bounds = {}; ///< empty: the bounds of the scene
-    /// Target relative L2 error of transfer between probes over the whole volume, with bands weighted by 1 /
-    /// (l + 1)². It is reached with the smallest number of smaller cells, placed where the error is largest,
-    /// down to a quarter of `spacing`. 0: the sizes of cells depend on the surfaces only.
+    /// Target for the relative L2 error of transfer between probes over the whole volume, with bands weighted
+    /// by 1 / (l + 1)². Cells are split where the error is largest until the target is reached, down to a
+    /// quarter of `spacing`. 0: the sizes of cells depend only on the surfaces.
     double error = 0;
     int order = 3; ///< order of incident light, 2 to 4
-    /// Number of points per probe where light between probes is measured and to which probes are fitted. 0:
-    /// probes hold the light that arrives at their positions. Empty: 1 from `kRaysWorthAFit` rays on,
-    /// otherwise 0.
+    /// Number of points per probe at which light between probes is measured; probes are fitted to it. 0: no
+    /// fit, probes store the light at their positions. Without a value: 1 if there are at least
+    /// `kRaysWorthAFit` rays, otherwise 0.
     std::optional<double> fit_points = {};
 };
 
+/// Measurements of a volume bake.
 struct VolumeStatistics {
     struct Probes {
         std::size_t all = 0, moved = 0, hanging = 0;
@@ -52,22 +53,24 @@ struct VolumeStatistics {
     double rays_per_second() const { return static_cast<double>(rays) / seconds.all; }
 };
 
+/// Result of a volume bake.
 struct VolumeBake {
     BakedVolume volume;
     VolumeStatistics statistics;
 };
 
-/// Bakes the incident light at probes, with `options.rays` rays each. Light bounces between the vertices of
-/// the scene. Throws the same errors as `bake`, and an `Error` for invalid volume options.
+/// Bakes the transfer of incident light at probes, with `options.rays` rays each. Light bounces between the
+/// vertices of the scene. Throws the errors of `bake`, and `Error` for invalid volume options.
 VolumeBake bake_volume(const Scene& scene, const VolumeOptions& volume, const BakeOptions& options,
                        const Progress& progress = {});
 
-/// Incident light measured at positions in the same way as at probes.
+/// Transfer of incident light at positions.
 struct PlacedLight {
-    Transfer transfer;        ///< receivers are coefficients: [places][order²]
-    std::vector<float> backs; ///< [places] share of rays that end at back faces
+    Transfer transfer;        ///< receivers are coefficients of incident light: [positions][order²]
+    std::vector<float> backs; ///< [positions] share of rays that end at back faces
 };
-/// Measures incident light at `positions`, up to `order`. Light bounces as in `bake_volume`.
+/// Bakes the transfer of incident light of `order` bands at `positions`, in the same way as `bake_volume`
+/// does at probes. Throws the errors of `bake`.
 PlacedLight bake_positions(const Scene& scene, std::span<const glm::vec3> positions, int order,
                            const BakeOptions& options, const Progress& progress = {});
 

@@ -41,8 +41,9 @@ DepthMaps::DepthMaps(const RasterScene& scene, const Bounds& bounds, int resolut
     GLint largest = 0;
     glGetIntegerv(GL_MAX_TEXTURE_SIZE, &largest);
     if (resolution > largest)
-        throw Error("depth maps of " + std::to_string(resolution) + " texels are larger than the " +
-                    std::to_string(largest) + " of this GPU");
+        throw Error("depth maps with " + std::to_string(resolution) +
+                    " texels per side exceed the limit of " + std::to_string(largest) +
+                    " of this GPU; use a lower resolution");
     maps_ = make_map(GL_TEXTURE_2D_ARRAY);
     glTextureStorage3D(maps_.name(), 1, GL_DEPTH_COMPONENT32F, resolution, resolution,
                        static_cast<GLsizei>(blends ? 1 : kMax));
@@ -63,7 +64,7 @@ void DepthMaps::make_layers() {
     }
     layers.coverage = make_map(GL_TEXTURE_2D);
     glTextureStorage2D(layers.coverage.name(), 1, GL_R32F, resolution_, resolution_);
-    check_gl("the layers");
+    check_gl("the depth layers");
     layers.target = make_framebuffer();
     glNamedFramebufferTexture(layers.target.name(), GL_COLOR_ATTACHMENT0, layers.coverage.name(), 0);
     layers.program =

@@ -10,7 +10,7 @@ namespace prt {
 GatherBlocks::GatherBlocks(const VulkanDevice& device, GpuQueue& queue, const GatherOperator& gather,
                            const Room& room)
     : device_(device), queue_(queue), gather_(gather),
-      staging_(device, StagedWrites::kBytes, GpuMemory::upload, "rows on their way") {
+      staging_(device, StagedWrites::kBytes, GpuMemory::upload, "rows in transfer") {
     cut(room.block);
     std::size_t bytes = 0;
     for (Block& block : blocks_) {

@@ -124,7 +124,7 @@ void GlRasterizer::trace(const Receivers& receivers, std::span<const std::uint32
                          const TraceOptions& options, std::span<float> vectors, const HitSink& sink,
                          const Progress& progress) {
     if (sink)
-        throw Error("depth maps do not tell what light would meet");
+        throw Error("--method raster cannot report ray hits; use --method trace");
     Stopwatch transfer;
     Batch batch(scene_, receivers, indices, options);
     seconds_.transfer += transfer.seconds();

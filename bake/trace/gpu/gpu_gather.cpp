@@ -137,7 +137,7 @@ GpuGather::GpuGather(const VulkanDevice& device, GpuQueue& queue, const GatherOp
                      const GatherBlocks::Room& room)
     : device_(device), queue_(queue), gather_(gather), blocks_(device, queue, gather, room),
       reflectance_(upload_reflectance(device, queue, gather)),
-      unused_(device, 0, GpuMemory::device, "what is not used") {}
+      unused_(device, 0, GpuMemory::device, "unused bindings") {}
 
 GpuGather::~GpuGather() {
     queue_.wait_for_all();

@@ -37,7 +37,7 @@ private:
     /// sums.
     struct Task {
         std::size_t first, end, from = 0;
-        bool add = false; ///< add to the total, too
+        bool add = false; ///< also add to the total
     };
 
     Values& values(int order, bool with_total);

@@ -65,8 +65,8 @@ void GpuScene::build_nodes(const VulkanDevice& device, GpuQueue& queue, const Tr
 void GpuScene::upload_tables(const VulkanDevice& device, GpuQueue& queue, const TraceScene& scene,
                              std::span<const std::uint32_t> slots) {
     std::vector<std::uint32_t> asked(slots.begin(), slots.end());
-    for (std::uint32_t t = 0; t < scene.surfaces().triangles();
-         ++t) // lamps that cast no shadow may be cut out, too
+    // Lamps that cast no shadow may also be cut out.
+    for (std::uint32_t t = 0; t < scene.surfaces().triangles(); ++t)
         if (!scene.surfaces().opaque(t) && !scene.surfaces().material(t).casts_shadow)
             asked.push_back(t);
     alpha_ = make_alpha_tables(scene, asked);

@@ -21,10 +21,8 @@ public:
     bool has_alpha() const { return has_alpha_; }
     const AlphaTables& alpha() const { return alpha_; }
     std::size_t bytes() const; ///< bytes in the device's memory
-    std::size_t copies() const {
-        return copies_;
-    } ///< number of instances of meshes that are stored once,
-      ///< including the first instances
+    /// Number of instances of meshes that are stored once, including the first instances.
+    std::size_t copies() const { return copies_; }
     /// Resources for a tracing kernel, in addition to the kernel's own.
     GpuResources resources() const;
     /// Specialisation constants of the scene.

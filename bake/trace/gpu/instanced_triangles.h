@@ -21,8 +21,8 @@ struct InstancedTriangles {
 
     explicit InstancedTriangles(const TraceScene& scene);
 
-    std::vector<std::uint32_t>
-        slots; ///< [slots] triangle of the scene: first triangles without instances, then mesh by mesh
+    /// [slots] triangle of the scene: first triangles without instances, then mesh by mesh.
+    std::vector<std::uint32_t> slots;
     std::vector<glm::vec3> positions;                ///< positions of the vertices of these triangles
     std::vector<glm::uvec3> corners;                 ///< [slots] indices into `positions`
     std::vector<AccelerationStructure::Mesh> meshes; ///< the first mesh has the triangles without instances

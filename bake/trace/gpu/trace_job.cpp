@@ -49,7 +49,7 @@ void TraceResults::add_sums(Position at, const TracePiece& piece, int threads) {
     const std::size_t numbers = coefficients_ + (control_.empty() ? 0 : 1);
     if (!std::ranges::all_of(piece.sums().first(push.receivers * numbers),
                              [](float v) { return std::isfinite(v); }))
-        throw GpuFailure("the GPU computes numbers that are none: its driver fails on this scene");
+        throw GpuFailure("the GPU returns numbers that are not finite: its driver fails with this scene");
     parallel_for(push.receivers, 64, threads, [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i) {
             const float* const sums = &piece.sums()[i * numbers];

@@ -16,12 +16,11 @@ TracePiece::TracePiece(const VulkanDevice& device, const GpuScene& scene, const 
     const std::size_t rows_of_alpha = alpha ? room.rows : 0, threads = hits ? rows_of_alpha * PRT_BEAM : 0;
     buffers_ = {
         .receivers = mirrored(room.receivers * sizeof(gpu::Receiver), GpuMemory::upload, "the receivers"),
-        .sum_rows = mirrored(sums ? room.receivers * sizeof(gpu::SumRow) : 0, GpuMemory::upload,
-                             "what receivers are added to"),
+        .sum_rows =
+            mirrored(sums ? room.receivers * sizeof(gpu::SumRow) : 0, GpuMemory::upload, "the rows of sums"),
         .sums = mirrored(room.receivers * kernels.numbers() * sizeof(float), GpuMemory::download,
                          "the sums over rays"),
-        .hits =
-            mirrored(hits ? room.hits * sizeof(gpu::HitRecord) : 0, GpuMemory::download, "what rays meet"),
+        .hits = mirrored(hits ? room.hits * sizeof(gpu::HitRecord) : 0, GpuMemory::download, "the ray hits"),
         .state = mirrored(2 * sizeof(std::uint32_t), GpuMemory::download, "the number of hits"),
         .blocked_rays = mirrored(room.rows * sizeof(std::uint32_t), GpuMemory::download, "the blocked rays"),
         .blocked = {device, room.rows * PRT_BEAM * sizeof(std::uint32_t), GpuMemory::device,

@@ -46,15 +46,15 @@ public:
             return uploaded(device, queue, std::as_bytes(std::span(values)), what);
         };
         buffers_.lights = upload(tables_.lights, "the lights");
-        buffers_.triangles = upload(tables_.triangles, "the triangles that shine");
-        buffers_.images = upload(tables_.images, "the textures that shine");
-        buffers_.texels = upload(tables_.texels, "the texels that shine");
+        buffers_.triangles = upload(tables_.triangles, "the emissive triangles");
+        buffers_.images = upload(tables_.images, "the emissive textures");
+        buffers_.texels = upload(tables_.texels, "the emissive texels");
         constexpr const char* kReceivers = "the receivers of lamps";
         const std::size_t bytes = receivers * sizeof(gpu::LampReceiver), sums = receivers * sizeof(glm::vec4);
         buffers_.staging = {device, bytes, GpuMemory::upload, kReceivers};
         buffers_.receivers = {device, bytes, GpuMemory::device, kReceivers};
-        buffers_.sums = {device, sums, GpuMemory::device, "light of lamps"};
-        buffers_.read_back = {device, sums, GpuMemory::download, "light of lamps"};
+        buffers_.sums = {device, sums, GpuMemory::device, "the light of lamps"};
+        buffers_.read_back = {device, sums, GpuMemory::download, "the light of lamps"};
         GpuResources resources = scene.resources();
         resources.buffers.merge(
             std::map<std::uint32_t, const GpuBuffer*>{{PRT_BINDING_PUNCTUAL_LIGHTS, &buffers_.lights},
@@ -123,7 +123,7 @@ private:
     };
 
     /// Maximum number of rays from a receiver to a lamp: the rays of each light are rounded up. At least one,
-    /// so that dark receivers are written, too.
+    /// so that dark receivers are also written.
     std::uint32_t max_rays(const LampTables::Ranges& ranges) const {
         const auto spread = static_cast<std::uint32_t>(task_.options.rays);
         return std::max(

@@ -37,10 +37,8 @@ public:
     std::unique_ptr<VectorSums> vector_sums(int order, std::span<const float> weights) override;
     const VulkanDevice& vulkan() const { return device_; }
     std::size_t scene_bytes() const { return scene_on_gpu_.bytes(); } ///< bytes in the device's memory
-    std::size_t copies() const {
-        return scene_on_gpu_.copies();
-    } ///< number of instances of meshes that
-      ///< are stored once
+    /// Number of instances of meshes that are stored once.
+    std::size_t copies() const { return scene_on_gpu_.copies(); }
 
 private:
     class Sums;

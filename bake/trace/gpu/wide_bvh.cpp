@@ -216,7 +216,7 @@ WideBvh build_wide_bvh(const std::vector<glm::vec3>& positions, const std::vecto
     arguments.createLeaf = create_leaf;
     auto* root = static_cast<BuildNode*>(rtcBuildBVH(&arguments));
     if (!root)
-        throw Error("the bounding volume hierarchy cannot be built: not enough memory");
+        throw Error("there is not enough memory for the bounding volume hierarchy");
     return converter.convert(root);
 }
 

@@ -21,15 +21,16 @@
 
 namespace prt {
 
-/// Maximum size of packed weights: eight 32-bit words per receiver, minus the cluster with up to 16 bits: 240
-/// bits, 30 bytes.
+/// Maximum size of packed weights with their cluster: eight 32-bit words per receiver.
 inline constexpr int kMaxPackedWords = 8;
+/// Maximum number of bits of the packed weights of a receiver: 240, because the cluster takes up to 16 bits
+/// of the words.
 inline constexpr int kMaxPackedBits = 32 * kMaxPackedWords - 16;
 
-/// Maximum transfer coefficient that can be compressed. A real one is 1 if all light arrives, and a few
-/// hundred behind nearly black sheets. Squares of values up to this limit can be summed in floats.
+/// Maximum magnitude of a transfer coefficient that can be compressed. Real coefficients are at most about 1,
+/// and a few hundred behind nearly black sheets. Squares of values up to this limit can be summed in floats.
 inline constexpr float kMaxInputTransfer = 1e12f;
-/// Maximum multiplier of seams.
+/// Maximum of CompressOptions::seam_weight.
 inline constexpr double kMaxSeamWeight = 1e6;
 
 /// Storage of a receiver's weights.
@@ -41,43 +42,47 @@ struct WeightCoding {
 
     // Packed weights only:
 
-    /// Total bits of a receiver's weights, at most kMaxPackedBits. Every cluster distributes them by
-    /// variance.
+    /// Number of bits for all weights of a receiver, at most kMaxPackedBits. Each cluster distributes them
+    /// over its components by variance.
     int bits = 24;
-    /// Bits of each component, 1..16, identical in all clusters; replaces `bits`.
+    /// Number of bits of each component, 1..16, identical in all clusters; if not empty, replaces `bits`.
     std::vector<int> fixed_bits = {};
-    /// Bits of the cluster index; 0: the minimum.
+    /// Number of bits of the cluster index; 0: the minimum for the number of clusters.
     int cluster_bits = 0;
 };
 
-/// Returns a coding with one 32-bit word per vertex: 8 bits of cluster, 24 bits of weights, which every
-/// cluster distributes separately.
+/// Returns a coding with one 32-bit word per vertex: 8 bits for the cluster and 24 bits for weights, which
+/// each cluster distributes separately.
 WeightCoding preset_u32();
-/// Returns a coding with two words per vertex: 8 bits of cluster, 56 bits of weights.
+/// Returns a coding with two 32-bit words per vertex: 8 bits for the cluster and 56 bits for weights, which
+/// each cluster distributes separately.
 WeightCoding preset_u64();
-/// Return codings with one and two words, and the same bit widths in all clusters, for shaders without a
-/// loop: four weights of 7, 6, 6 and 5 bits; nine weights of 9, 8, 7, 7, 6, 6, 5, 4 and 4 bits.
+/// Returns a coding with one 32-bit word per vertex and the same bit widths in all clusters, for shaders
+/// without a loop: four weights of 7, 6, 6 and 5 bits.
 WeightCoding preset_u32x4();
+/// Returns a coding with two 32-bit words per vertex and the same bit widths in all clusters, for shaders
+/// without a loop: nine weights of 9, 8, 7, 7, 6, 6, 5, 4 and 4 bits.
 WeightCoding preset_u64x9();
 
-/// Predictors (prt/clustered_bases.h), selected by the attributes that the renderer has. Each predictor costs
-/// three multiply-adds in the vertex shader, and three rows per cluster.
+/// Predictors to use (prt/clustered_bases.h), by the vertex attributes that the renderer has. Each predictor
+/// costs three multiply-adds in the vertex shader, and three rows per cluster.
 enum class PredictorChoice { none, normal, normal_and_position };
 
+/// Settings of the compressor.
 struct CompressOptions {
     int clusters = 256;
     WeightCoding coding = {};
-    /// Maximum mean number of components per receiver, if clusters may differ: the cost in the vertex shader
-    /// in addition to predictors. 0: no limit.
+    /// Maximum mean number of components per receiver, which is the cost in the vertex shader in addition to
+    /// predictors. Clusters may then have different numbers of components. 0: no limit.
     double mean_components = 0;
     PredictorChoice predictors = PredictorChoice::normal;
-    /// Squared error that rounding the bases may add, as a fraction of the existing error; 0: bases are
-    /// float32. Without a value: 0.1. Ignored for float weights, whose bases are float32.
+    /// Squared error that rounding of the bases may add, as a fraction of the squared error without it. 0:
+    /// bases are float32. Without a value: 0.1. Ignored for float weights, whose bases are always float32.
     std::optional<double> basis_share = {};
-    /// Packed weights: count the bases in the size, so that clusters omit directions that cost more than they
-    /// save.
+    /// For packed weights: include the bytes of the bases in the cost. Clusters then omit directions whose
+    /// bytes reduce the error more if they are spent on other clusters.
     bool bases_count = false;
-    /// Cost of an error; without a value: the outdoor family, `balanced`.
+    /// Cost of an error. Without a value: the metric of LightFamily::outdoor, `balanced`.
     std::optional<LightMetric> metric = {};
     /// mu of docs/math.md, eq. 28: the cost of a jump of the error along a mesh edge, relative to the error
     /// itself.
@@ -87,13 +92,14 @@ struct CompressOptions {
     CompressTrace trace = {}; ///< receives progress events; does not change results
 };
 
+/// Measurements of a compression.
 struct CompressStatistics {
-    /// Expected lit_rms under the metric after each round of clustered PCA at the full number of components,
-    /// before weights are quantised.
+    /// Expected `lit_rms` under the metric after each round of clustered PCA with the full number of
+    /// components, before weights are quantised.
     std::vector<double> lit_rms_by_iteration;
     double lit_rms = 0; ///< expected lit_rms of the result under the metric
-    /// Contrast error of lamps, each alone: root mean square over receivers and lamps (prt/error_measures.h).
-    /// 0 without lamps, and for probes.
+    /// Contrast error (prt/error_measures.h) under each lamp alone, root mean square over receivers and
+    /// lamps. 0 without lamps, and for probes.
     double lamp_contrast = 0;
     /// Contrast error under skies, relative to the mean light of a receiver; 0 for probes and for transfer of
     /// lamps alone.
@@ -106,27 +112,31 @@ struct CompressStatistics {
     std::size_t bits_per_receiver = 0;  ///< number of used bits
     std::size_t basis_bytes = 0;        ///< size of all bases, and of the layout of packed weights
 
-    /// The error that budgets limit.
+    /// Returns the error that budgets limit: the maximum of the three errors.
     double error() const { return std::max({lit_rms, lamp_contrast, sky_contrast}); }
-    /// Mean number of terms that the vertex shader adds to the cluster mean.
+    /// Returns the mean number of rows that the vertex shader multiplies by a weight and adds to the cluster
+    /// mean.
     double operations() const { return mean_components + predictor_rows; }
+    /// Returns the size per receiver in bytes, including the bases.
     double bytes_with_bases(std::size_t receivers) const {
         return static_cast<double>(bytes_per_receiver) +
                static_cast<double>(basis_bytes) / static_cast<double>(receivers);
     }
 };
 
+/// Result of the compressor.
 struct CompressResult {
     ClusteredTransfer transfer;
     CompressStatistics statistics;
 };
 
-/// Compresses `transfer` on `surface`. The result depends only on the seed, not on the number of threads.
-/// Thread-safe. Throws `Error` for options out of range, transfer above `kMaxInputTransfer`, areas, normals
-/// and positions that are not finite and edges of receivers that do not exist; throws `Cancelled`. Memory in
-/// addition to the arguments, per receiver: two bytes for every coefficient and predictor coordinate that
-/// carries error (four bytes for fewer than 65 536 receivers), three times its code, and about a hundred
-/// bytes. Transfer is read block by block. Time: proportional to receivers × clusters × components.
+/// Compresses `transfer`, whose receivers are described by `surface`. The result does not depend on the
+/// number of threads. Thread-safe. Throws `Error` for options out of range, transfer above
+/// `kMaxInputTransfer`, areas, normals and positions that are not finite, and edges of receivers that do not
+/// exist; throws `Cancelled` after a stop request. Reads transfer block by block. Memory in addition to the
+/// arguments, per receiver: two bytes (four bytes below 65 536 receivers) for every coefficient and predictor
+/// coordinate that contributes to the error, three times the size of its code, and about a hundred bytes.
+/// Time: proportional to receivers × clusters × components.
 CompressResult compress(const TransferView& transfer, const ReceiverSurface& surface,
                         const CompressOptions& options, const Progress& progress = {});
 

@@ -21,8 +21,8 @@ struct ClusteringRound {
     double cost;
 };
 
-/// Split of a cluster: points beyond its mean along the first direction move to `into`, which a merge has
-/// emptied.
+/// Split of a cluster: points on one side of its mean along the first direction move to `into`, which a merge
+/// has emptied.
 struct ClusterSplit {
     std::size_t cluster, into;
     double gain; ///< expected decrease of the cost
@@ -34,8 +34,8 @@ struct ClusterMerge {
     double loss; ///< expected increase of the cost
 };
 
-/// A sweep of the splits and merges since the previous event of this type, after some rounds; kept if the
-/// cost decreased.
+/// Result of the splits and merges since the previous event of this type, after some rounds of clustering.
+/// They are kept if the cost decreased.
 struct MovesTried {
     double cost_before, cost_after;
     bool kept;
@@ -43,13 +43,13 @@ struct MovesTried {
 
 /// A round of alternation between codes and clusters.
 struct CodingRound {
-    bool rounded; ///< with bases rounded as in the file; only such results may be kept
+    bool rounded; ///< true: bases are rounded as in the file; only such results may be kept
     double error; ///< squared error, weighted as in docs/math.md, eq. 28c: close to the squared lit_rms
 };
 
 /// One trial of a search for a budget (`prt/search.h`), reported after the events of its compression.
 struct SearchTrial {
-    bool draft = false;                  ///< few rounds and no seams; the final error is estimated
+    bool draft = false;                  ///< true: few rounds without seams; the final error is estimated
     int clusters = 0, payload_bytes = 0; ///< `bytes_per_receiver`
     double lit_rms = 0;       ///< expected under the metric, or the maximum contrast error if that is larger
     double worst_lit_rms = 0; ///< maximum of `lit_rms` and the errors under the skies of the budget
@@ -61,6 +61,7 @@ struct SearchTrial {
     double seconds = 0;
 };
 
+/// Any event of the compressor.
 using CompressEvent = std::variant<ClustersSeeded, ClusteringRound, ClusterSplit, ClusterMerge, MovesTried,
                                    CodingRound, SearchTrial>;
 

@@ -12,8 +12,8 @@
 
 namespace prt {
 
-/// Contrast jump that is invisible on a surface of uniform color: on a head under a sunset, 8 % show nothing,
-/// 11 % the first blotches.
+/// Contrast jump that is invisible on a surface of uniform color. On a head under a sunset, nothing is
+/// visible at 8 %, and the first blotches appear at 11 %.
 inline constexpr double kUnseenJump = 0.05;
 
 /// Number of equally spaced rotations about +Y under which skies are evaluated.
@@ -24,16 +24,16 @@ inline constexpr int kRotationsOfJumps = 24;
 /// Keeps references to `reference` and to the data of `surface`.
 class ClusterJumps {
 public:
-    /// Uses root mean squares under the mean lighting of `metric`. Throws `Error` if layouts or numbers of
-    /// receivers differ.
+    /// Measures root mean square jumps over the lightings of `metric`. Throws `Error` if layouts or numbers
+    /// of receivers differ.
     ClusterJumps(const TransferView& reference, const ReceiverSurface& surface, const LightMetric& metric,
                  int threads = 0);
-    /// Uses each of `skies` alone, at each of its rotations.
+    /// Measures jumps under each of `skies` alone, at each of its kRotationsOfJumps rotations.
     ClusterJumps(const TransferView& reference, const ReceiverSurface& surface,
                  std::span<const Lighting> skies, int threads = 0);
     ~ClusterJumps();
 
-    /// Returns the 99th percentile of the jumps by area, the maximum over all lights. `clusters` is
+    /// Returns the 99th percentile of the jumps, weighted by area: the maximum over all lights. `clusters` is
     /// [receivers]. Returns 0 without edges between clusters. Throws `Error` if layouts or numbers of
     /// receivers differ.
     double percentile_99(const TransferView& approximation, std::span<const std::uint16_t> clusters) const;

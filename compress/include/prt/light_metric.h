@@ -10,16 +10,16 @@
 
 namespace prt {
 
-/// Second moments of the light that a transfer vector is multiplied with, C[i][j] = E[ L[i] L[j] ], summed
-/// over the three colors; a single channel is used for all of them. The expected squared error of exit
-/// radiance of a transfer error d is d^T C d (docs/math.md, eq. 22).
+/// Second moments of the light L that a transfer vector is multiplied with: C[i][j] = E[ L[i] L[j] ], summed
+/// over the three colors. A term with a single channel is used for all three. The expected squared error of
+/// exit radiance of a transfer error d is d^T C d (docs/math.md, eq. 22).
 struct LightMetric {
     TransferLayout layout;
     std::vector<double> moments; ///< [dimension][dimension], symmetric, positive definite
 };
 
-/// Returns the metric that weighs all coefficients equally: the relative error equals `relative_l2` of the
-/// transfer vectors.
+/// Returns the metric in which all coefficients have the same weight. The relative error is then
+/// `relative_l2` of the transfer vectors.
 LightMetric plain_metric(const TransferLayout& layout);
 
 /// Returns the metric of average lighting, indoors and outdoors, with all 3D rotations equally likely: the
@@ -36,30 +36,31 @@ enum class LightFamily {
     day,     ///< clear skies at different hours
 };
 
-/// Returns the mean over a family, each lighting scaled to the same mean square over open receivers. If
-/// direct light is a separate term, suns are separate in half of the cases. A hundredth of the power is
-/// `natural_metric`. Takes 0.1 to 0.3 s, because analytic skies are integrated.
+/// Returns the mean over the lightings of a family, each scaled to the same mean square over unoccluded
+/// receivers. If direct light is a separate term, suns are separate in half of the cases. A hundredth of the
+/// power is `natural_metric`. Takes 0.1 to 0.3 s, because analytic skies are integrated.
 LightMetric metric_of_family(LightFamily family, const TransferLayout& layout);
 
-/// Returns sample lightings of a family, with separate suns; lightings in between are similar to one of them.
-/// Empty for `natural`.
+/// Returns typical lightings of a family, with separate suns; other lightings of the family are similar to
+/// one of them. Empty for `natural`.
 std::vector<Lighting> members_of_family(LightFamily family, int order);
 
-/// Returns the mean over `lights`, each scaled to the same energy and rotated about +Y by every angle. A
-/// hundredth of the power is `natural_metric`, so that no error is free. Throws `Error` if a light has fewer
-/// bands than the layout, or all are black.
+/// Returns the mean over `lights`, each scaled to the same energy, and over all rotations about +Y. A
+/// hundredth of the power is `natural_metric`, so that every error has a cost. Throws `Error` if a light has
+/// fewer bands than the layout, or all are black.
 LightMetric metric_of_lights(std::span<const Lighting> lights, const TransferLayout& layout);
-/// Returns the mean over lights with all light in one sky.
+/// Returns the metric of skies without separate suns: the mean over `lights`, scaled and rotated as for
+/// `Lighting`.
 LightMetric metric_of_lights(std::span<const Light> lights, const TransferLayout& layout);
 
-/// Scales the lamps of a metric so that each has the same cost as the others on `transfer`, and all together
-/// the cost of distant light if there is any. An error then counts equally by day and by night and for any
-/// dimming, however bright the lamps are relative to the sky and each other.
+/// Returns `metric` with its lamps scaled: on `transfer` each lamp has the same cost, and all lamps together
+/// have the cost of distant light, if there is any. An error then has the same weight by day, by night and
+/// for any dimming, for any brightness of the lamps relative to the sky and to each other.
 LightMetric balanced(LightMetric metric, const TransferView& transfer, std::span<const float> areas,
                      int threads = 0);
 
-/// Returns sqrt( E sum_p a_p |R_p - R'_p|² / E sum_p a_p |R_p|² ), with the expectation over the lightings of
-/// `metric`: the `lit_rms` over all of them. Throws `Error` if layouts or numbers of receivers differ.
+/// Returns the expected `lit_rms` over the lightings of `metric`: sqrt( E sum_p a_p |R_p - R'_p|² / E sum_p
+/// a_p |R_p|² ). Throws `Error` if layouts or numbers of receivers differ.
 double expected_lit_rms(const TransferView& reference, const TransferView& approximation,
                         std::span<const float> areas, const LightMetric& metric, int threads = 0);
 

@@ -1,7 +1,6 @@
 #pragma once
 
-// Receiver data in addition to transfer: the weight of errors, neighbours, and the attributes that a renderer
-// has.
+// Data of receivers in addition to transfer: areas, neighbours, and attributes that a renderer has.
 
 #include "prt/lightmap.h"
 #include "prt/mesh_edges.h"
@@ -14,17 +13,18 @@
 
 namespace prt {
 
-/// View of the data of receivers. Keeps references.
+/// Non-owning view of the data of receivers.
 struct ReceiverSurface {
-    std::span<const float> areas;     ///< [receivers] weight of an error; 0: ignored
-    std::span<const Edge> edges = {}; ///< required if seams have a multiplier
-    /// [receivers], or empty if the renderer does not have them: unit or zero; metres, relative to
-    /// Scene::origin.
+    std::span<const float> areas; ///< [receivers] weight of an error; 0: ignored
+    /// Edges between receivers; required if CompressOptions::seam_weight is not 0.
+    std::span<const Edge> edges = {};
+    /// [receivers], or empty if the renderer does not have them. `normals`: unit or zero. `positions`:
+    /// metres, relative to Scene::origin.
     std::span<const glm::vec3> normals = {}, positions = {};
-    std::span<const SeamJump> jumps = {}; ///< jumps at UV seams of lightmaps that are minimised
+    std::span<const SeamJump> jumps = {}; ///< points on UV seams of lightmaps, whose jumps are minimised
 };
 
-/// The surface of a scene whose receivers are its vertices.
+/// Data of the vertices of a scene as receivers.
 struct SceneSurface {
     std::vector<float> areas;
     std::vector<Edge> edges;

@@ -1,6 +1,6 @@
 #pragma once
 
-// Rate-distortion comparison of this compressor with reference methods.
+// Comparison of this compressor with reference methods: error against size (rate and distortion).
 
 #include "prt/baselines.h"
 #include "prt/compress.h"
@@ -13,6 +13,7 @@
 
 namespace prt {
 
+/// Error and size of one method at one setting.
 struct SweepPoint {
     std::string method, setting;
     double payload_bytes = 0;   ///< per receiver, as a game binds it: whole 32-bit words
@@ -20,44 +21,47 @@ struct SweepPoint {
     double mean_components = 0; ///< per receiver; each costs one multiply-add of a color
     double lit_rms = 0;         ///< root mean square over the lights of the sweep
     double relative_l2 = 0;
-    /// 99th percentile of the jumps of error along all edges (`EdgeJumps`), within or across clusters; root
-    /// mean square over the lights. 0 if the surface has no edges.
+    /// 99th percentile of the jumps of the error along all edges (`EdgeJumps`), inside clusters and between
+    /// them; root mean square over the lights. 0 if the surface has no edges.
     double jumps = 0;
     double seconds = 0;
 
     double bytes() const { return payload_bytes + table_bytes; }
 };
 
+/// Result of a comparison.
 struct Sweep {
-    std::vector<SweepPoint> by_bytes; ///< every method at suitable sizes
-    /// The clustered methods of the literature with `kSweepClusters` clusters, or one per
-    /// `kMinReceiversPerCluster` receivers if that is fewer. prtkit with any number of clusters that needs
-    /// no more bytes than classic CPCA with the same number of components.
+    std::vector<SweepPoint> by_bytes; ///< all methods, each at suitable sizes
+    /// The clustered methods at the same numbers of components. Methods of the literature have
+    /// `kSweepClusters` clusters, or one per `kMinReceiversPerCluster` receivers if that is fewer. prtkit has
+    /// any number of clusters that needs no more bytes than classic CPCA with the same number of components.
     std::vector<SweepPoint> by_components;
     std::vector<std::string> left_out; ///< missing points of prtkit, with reasons
 };
 
-inline constexpr int kSweepClusters = 256; ///< fits one byte
+/// Maximum number of clusters of the methods of the literature; their index fits one byte.
+inline constexpr int kSweepClusters = 256;
 /// Minimum number of receivers per cluster for the methods of the literature. Chosen by hand.
 inline constexpr std::size_t kMinReceiversPerCluster = 8;
 /// Budgets of the sweep, bytes per receiver including bases: at most one, one, two and three words.
 inline constexpr double kSweepBytes[] = {5, 7, 9, 13};
-/// Components per receiver.
+/// Numbers of components per receiver in the sweep.
 inline constexpr int kSweepComponents[] = {1, 2, 4, 8};
 
 /// The tables of a sweep that a point belongs to.
 enum class SweepTables { both, by_bytes, by_components };
 
-/// Coded transfer of a candidate, and its setting.
+/// Result of a candidate, and its setting.
 struct CandidateResult {
     std::string setting; ///< see `SweepPoint::setting`
     BaselineResult coded;
 };
 
-/// A method supplied by the caller, at one setting.
+/// A method that the caller supplies, at one setting.
 struct SweepCandidate {
     std::string method;
-    /// Codes and decodes. Returns no value if the method has no code at this setting.
+    /// Function that codes and decodes the transfer. Returns no value if the method does not support this
+    /// setting.
     std::function<std::optional<CandidateResult>(const Progress&)> run;
     SweepTables tables = SweepTables::both;
 };
@@ -68,11 +72,14 @@ Sweep sweep(const Transfer& transfer, const ReceiverSurface& surface, std::span<
             const CompressOptions& options, std::span<const SweepCandidate> others = {},
             const Progress& progress = {});
 
-/// Returns the best point of `method` with at most `bytes` per receiver; null if absent.
+/// Returns the point of `method` with the lowest error among points with at most `bytes` per receiver; null
+/// if there is none.
 const SweepPoint* best_by_bytes(const Sweep& sweep, const std::string& method, double bytes);
-/// Returns the best point of `method` with at most `components`; null if absent.
+/// Returns the point of `method` with the lowest error among points with at most `components`; null if there
+/// is none.
 const SweepPoint* best_by_components(const Sweep& sweep, const std::string& method, double components);
 
+/// Names of methods in `SweepPoint::method`: this compressor, and clustered PCA as published.
 inline constexpr const char* kOurs = "prtkit";
 inline constexpr const char* kClassic = "classic CPCA";
 

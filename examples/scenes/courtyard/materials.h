@@ -25,7 +25,7 @@ struct Courtyard {
     std::vector<GltfLight> lamps;
 };
 
-/// Gives every mesh its color and picture.
+/// Assigns a color and an image to every mesh.
 ExampleScene finished(const Courtyard& courtyard);
 
 } // namespace examples

@@ -1,6 +1,7 @@
 #pragma once
 
-// The joints of the figure and their rest positions: it stands with its arms slightly away from its body.
+// The joints of the figure and their rest positions: a standing person with the arms slightly away from the
+// body.
 
 #include "skeleton.h"
 

@@ -1,4 +1,5 @@
-// A person who walks, stands and dances: limbs of elliptical sections on a skeleton.
+// A person with animations for walking, standing and dancing. Limbs have elliptical sections around a
+// skeleton.
 
 #include "example_scenes.h"
 #include "figure/body.h"

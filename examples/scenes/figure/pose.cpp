@@ -23,7 +23,7 @@ glm::quat bone_rotation(const glm::vec3& along, const glm::vec3& sideways) {
 glm::vec3 knee_between(const glm::vec3& hip, const glm::vec3& ankle, const glm::vec3& sideways) {
     const float distance = glm::distance(hip, ankle);
     if (distance >= kThigh + kShin)
-        throw std::logic_error("the figure's leg is too short for its step");
+        throw std::logic_error("a leg of the figure is too short for the step");
     const glm::vec3 down = (ankle - hip) / distance;
     const float along = (kThigh * kThigh - kShin * kShin + distance * distance) / (2 * distance);
     return hip + along * down + std::sqrt(kThigh * kThigh - along * along) * glm::cross(sideways, -down);

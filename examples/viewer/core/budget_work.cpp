@@ -37,8 +37,8 @@ void check_no_media(const prt::Scene& scene) {
     for (const prt::Material& material : scene.materials)
         if (prt::medium_of(material))
             throw prt::Error("light of the material '" + material.name +
-                             "' comes out of a medium, which the path tracer that a budget is measured by "
-                             "does not enter");
+                             "' comes from inside a medium, which the path tracer of the error budget "
+                             "does not support");
 }
 
 /// Returns the factors by which `windowed` scales the bands.
@@ -85,8 +85,8 @@ std::vector<glm::vec3> total_colors(const Model& model, const prt::SurfacePoints
     for (std::size_t p = 0; p < points.size(); ++p) {
         const glm::dvec3 a(reference.truth(0)[p]), b(reference.truth(1)[p]), sun(reference.suns()[p]),
             at_point(shown[p]);
-        squared.push_back(glm::dot(at_point - a, at_point - b)); // The noise of `a` and `b` is independent,
-                                                                 // so the product has no bias.
+        squared.push_back(glm::dot(at_point - a, at_point - b)); // unbiased, because the
+                                                                 // noise of `a` and `b` is independent
         norm += static_cast<double>(points.receivers.areas[p]) * glm::dot(a + sun, b + sun);
         area += static_cast<double>(points.receivers.areas[p]);
     }
@@ -141,7 +141,7 @@ void find_budget(Channel& channel, const BudgetSubject& subject) {
     check_no_media(model.scene);
     const int order = loaded.compressed ? loaded.compressed->bases.layout.order : loaded.raw->layout.order;
     const auto again = repeated(channel, subject);
-    channel.enter(Stage::measuring, "following paths from the surface");
+    channel.enter(Stage::measuring, "tracing paths from the surface");
     const bool separate = subject.version.separate_suns && loaded.raw->layout.has(prt::TermKind::direct);
     const prt::ReferenceLight light =
         separate ? subject.rig.separate_reference_light() : subject.rig.reference_light();
@@ -150,7 +150,7 @@ void find_budget(Channel& channel, const BudgetSubject& subject) {
     const prt::SurfacePoints points =
         prt::surface_points(*model.trace, {.threads = threads}, {{}, progress.stop});
     if (points.size() == 0)
-        throw prt::Error("the model has no surface that light reaches, so that there is no error to measure");
+        throw prt::Error("no light reaches a surface of the model, so no error can be measured");
     const prt::SurfaceRadiance reference(
         *model.trace, points, light, {.max_paths = kMaxPaths, .noise = kNoise, .threads = threads}, progress);
 

@@ -23,7 +23,8 @@ struct BudgetSubject {
 void find_budget(Channel& channel, const BudgetSubject& subject);
 
 /// Message shown if only a lightmap is open: a budget is measured for vertices only.
-inline constexpr const char* kMeasuredOfVertices = "measured of vertices alone; open these, too";
+inline constexpr const char* kMeasuredOfVertices =
+    "only vertices can be measured; also open a file with vertex transfer";
 
 /// Total error of `SurfaceBudget` (relative L2) that is drawn white.
 inline constexpr double kWhiteSurfaceError = 0.3;

@@ -46,7 +46,7 @@ void Jobs::start(JobKind kind, std::function<void(Channel&)> work) {
             work(channel);
         } catch (const prt::Cancelled&) {
             throw;
-        } catch (const std::exception& error) { // catches std::bad_alloc too, from a file that is too large
+        } catch (const std::exception& error) { // also std::bad_alloc of a file that is too large
             channel.post(Failure{kind, error.what()});
         }
     });

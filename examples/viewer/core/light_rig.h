@@ -33,12 +33,12 @@ struct WindowName {
     const char *id, *title, *tip; ///< id for scripts; title and tip for the panel
 };
 inline constexpr std::array<WindowName, 4> kWindows = {
-    {{prt::Window::automatic, "auto", "auto: no negative light",
-      "The least filter of the bands under which no light is negative."},
+    {{prt::Window::automatic, "auto", "automatic (no negative light)",
+      "Weakest filter of the bands that makes no light negative."},
      {prt::Window::none, "none", "none",
-      "The bands as they are: sharpest, with dark and coloured rings about strong lights."},
-     {prt::Window::hann, "hann", "Hann", "Fades the bands out by a raised cosine, whatever the light."},
-     {prt::Window::lanczos, "lanczos", "Lanczos", "Fades the bands out by a sinc, whatever the light."}}};
+      "Unfiltered bands: sharpest, with dark and coloured rings around strong lights."},
+     {prt::Window::hann, "hann", "Hann", "Fades the bands with a raised cosine, independent of the light."},
+     {prt::Window::lanczos, "lanczos", "Lanczos", "Fades the bands with a sinc, independent of the light."}}};
 
 struct RigLight {
     LightKind kind = LightKind::sun;

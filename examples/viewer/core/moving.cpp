@@ -73,7 +73,7 @@ void Moving::set_figure(const FigureFile& file) {
 void Moving::choose(const FigureChoice& choice, const std::shared_ptr<const Model>& model) {
     choice_ = choice;
     if (file_.figure && !animation())
-        throw prt::Error(file_.path.string() + ": has no animation called '" + choice.animation + "'");
+        throw prt::Error(file_.path.string() + ": has no animation '" + choice.animation + "'");
     seconds_ = 0;
     place_figures(model);
 }

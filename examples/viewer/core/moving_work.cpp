@@ -60,7 +60,7 @@ void bake_in_stages(Channel& channel, const std::shared_ptr<const Model>& model)
 
 std::vector<prt::NodeOccluder> measured_occluders(Channel& channel, const prt::GltfDocument& document,
                                                   const prt::Scene& scene) {
-    channel.enter(Stage::occlusion, "what the figure blocks");
+    channel.enter(Stage::occlusion, "measuring occlusion of the figure");
     prt::OccluderOptions options;
     options.rays = kOccluderRays;
     options.repairs.bad_textures = prt::BadTextures::ignore;
@@ -109,7 +109,7 @@ void find_volume(Channel& channel, const std::shared_ptr<const Model>& model) {
     const prt::GltfDocument document = prt::load_gltf(model->path);
     const prt::Scene scene = prt::extract_scene(document);
     if (prt::receivers_id(scene) != model->receivers_id)
-        throw prt::Error(model->path.string() + ": has changed since it was opened");
+        throw prt::Error(model->path.string() + ": the file has changed since it was opened");
     if (auto volume = prt::read_compressed_volume(document, scene))
         return channel.post(
             FoundVolume{model, std::make_shared<const prt::CompressedVolume>(std::move(*volume)), 0});

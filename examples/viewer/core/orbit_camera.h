@@ -13,7 +13,7 @@ public:
     explicit OrbitCamera(const prt::Camera& camera);
 
     /// Rotates the camera. `rotations` is the pointer movement as a fraction of the window height; one height
-    /// rotates by half a turn.
+    /// rotates by 180 degrees.
     void orbit(const glm::vec2& rotations);
     /// Moves the target with the pointer; `way` is the pointer movement as a fraction of the window height.
     void pan(const glm::vec2& way);

@@ -53,13 +53,13 @@ prt::CompressResult compressed_as(const CompressionSettings& how, const LoadedMo
 std::string add_lightmap(LoadedModel& loaded, const LoadedModel& other) {
     if (*loaded.lightmap.layout() != *other.lightmap.layout() ||
         loaded.model->receivers_id != other.model->receivers_id)
-        return "its lightmap has other maps than that of ";
+        return "its maps differ from those of ";
     if (!loaded.lightmap.compressed && other.lightmap.compressed)
         loaded.set(other.lightmap.compressed);
     else if (!loaded.lightmap.baked && other.lightmap.baked)
         loaded.set(other.lightmap.baked);
     else
-        return "adds no transfer to ";
+        return "contains no additional transfer for ";
     return "";
 }
 
@@ -87,8 +87,8 @@ std::string add_transfer(LoadedModel& loaded, LoadedModel other) {
     if (loaded.of_texels() && same_surface)
         return add_lightmap(loaded, other);
     if (loaded.model->receivers_id != other.model->receivers_id)
-        return "is another scene than ";
-    return add_vertices(loaded, std::move(other)) ? "" : "adds no transfer to ";
+        return "contains a different scene than ";
+    return add_vertices(loaded, std::move(other)) ? "" : "contains no additional transfer for ";
 }
 
 /// Adds `other` to the open scene: its transfer if the receivers are equal, otherwise the whole model as the
@@ -97,7 +97,7 @@ std::string add_model(OpenModels& open, LoadedModel other) {
     if (open.first.receivers() == other.receivers())
         return add_transfer(open.first, std::move(other));
     if (open.first.model->surface_id != other.model->surface_id)
-        return "is another scene than ";
+        return "contains a different scene than ";
     if (open.beside.model)
         return add_transfer(open.beside, std::move(other));
     open.beside = std::move(other);
@@ -153,7 +153,7 @@ void save_compressed(const LoadedModel& loaded, const std::filesystem::path& out
     prt::GltfDocument document = prt::load_gltf(model.path);
     const prt::Scene scene = prt::extract_scene(document);
     if (prt::receivers_id(scene) != model.receivers_id)
-        throw prt::Error(model.path.string() + ": has changed since it was opened");
+        throw prt::Error(model.path.string() + ": the file has changed since it was opened");
     if (loaded.of_texels())
         prt::write_lightmap(document, scene, *loaded.lightmap.compressed);
     else

@@ -73,7 +73,8 @@ void Viewer::open(const std::vector<std::filesystem::path>& paths) {
         else if (is_environment(path))
             environments.push_back(path);
         else
-            message(path.string() + ": is neither a model (.glb, .gltf) nor an environment map (.hdr, .exr)");
+            message(path.string() +
+                    ": the file is neither a model (.glb, .gltf) nor an environment map (.hdr, .exr)");
     }
     if (!environments.empty())
         jobs_.read_environments(environments);
@@ -103,14 +104,14 @@ void Viewer::measure_budget() {
     if (!can_measure())
         return message(document_.loaded.of_texels()
                            ? kMeasuredOfVertices
-                           : "the error over the surface is measured of a bake, once it is there");
+                           : "the error over the surface needs a bake: open its file, or wait for the bake");
     gpu_->budget = lampless();
     jobs_.find_budget(document_, lighting_.rig, lampless());
 }
 
 void Viewer::save(std::filesystem::path output) {
     if (!can_save())
-        return message("there is nothing compressed yet to save");
+        return message("no compressed transfer is available yet");
     if (output.empty())
         output = shipped_path(document_.model()->path);
     jobs_.save(document_, output);
@@ -183,7 +184,7 @@ std::unique_ptr<GpuModel> Viewer::uploaded(const LoadedModel& loaded) {
              compressed->bases.max_components() <= prt::max_vertex_components(compressed->bases))
         model->set_compressed(*compressed);
     else if (compressed)
-        message("the compressed transfer has more components than a vertex has attributes");
+        message("the compressed transfer has too many components for vertex attributes");
     return model;
 }
 

@@ -119,12 +119,11 @@ std::string Viewer::left_out(const SidePicture& picture) const {
     const PictureKind kind = picture.kind;
     const bool transfer = kind == PictureKind::prt || kind == PictureKind::prt_compressed;
     if (!transfer && !shows_numbers(kind) && any_shines(settings.lit.lamps))
-        return kind == PictureKind::reference ? "without lamps and what shines"
-                                              : "without the light of lamps";
+        return kind == PictureKind::reference ? "without lamps and emission" : "without lamps";
     if (kind == PictureKind::surface_error && !budget_is_current())
-        return "of another light or transfer";
+        return "measured with other light or transfer";
     if (kind != PictureKind::reference && gpu_model(picture).takes_suns_as_sky(kind))
-        return "no direct light is kept apart, so that suns are lit as sky";
+        return "the transfer has no direct term: suns are part of the sky";
     return "";
 }
 
@@ -138,8 +137,8 @@ std::string Viewer::never_shown(const SidePicture& wanted) const {
                            wanted.kind == PictureKind::seams || wanted.kind == PictureKind::surface_error;
     if (!needs_raw || loaded.raw)
         return "";
-    return loaded.of_texels() ? "the file holds a compressed lightmap only; open its bake, too"
-                              : "the file holds compressed transfer only; bake to see it";
+    return loaded.of_texels() ? "the file contains only a compressed lightmap; also open its bake"
+                              : "the file contains only compressed transfer; bake again to see it";
 }
 
 Viewer::Shown Viewer::shown(const SidePicture& wanted) const {
@@ -148,12 +147,12 @@ Viewer::Shown Viewer::shown(const SidePicture& wanted) const {
     if (wanted.kind == PictureKind::reference || gpu_model(wanted).can_draw(wanted.kind))
         return {wanted.kind, left_out(wanted)};
     const std::string why = never_shown(wanted);
-    return {PictureKind::unshadowed, why.empty() ? "not there yet" : why};
+    return {PictureKind::unshadowed, why.empty() ? "not available yet" : why};
 }
 
 void Viewer::draw_sides(const std::array<SidePicture, 2>& pictures, const FrameView& view) {
     const LoadedModel* const lightmap = document_.lightmap();
-    // the difference would be a grid, too
+    // the difference would also show the grid
     const bool grid = settings.drawing.texel_grid && lightmap && !settings.difference;
 
     const int width = seen_.size.x,

@@ -12,7 +12,7 @@ void Viewer::open_figure(const std::filesystem::path& path) {
 
 void Viewer::choose_figure(const FigureChoice& choice) {
     if (!document_.moving.figure() || !document_.model())
-        throw prt::Error("there is no figure in a scene");
+        throw prt::Error("no figure is open");
     document_.moving.choose(choice, document_.loaded.model);
 }
 

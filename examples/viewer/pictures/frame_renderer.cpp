@@ -43,7 +43,7 @@ prt::GlObject make_framebuffer(std::initializer_list<const prt::GlObject*> color
         glNamedFramebufferTexture(name, GL_DEPTH_ATTACHMENT, depth->name(), 0);
     glNamedFramebufferDrawBuffers(name, static_cast<GLsizei>(attachments.size()), attachments.data());
     if (glCheckNamedFramebufferStatus(name, GL_FRAMEBUFFER) != GL_FRAMEBUFFER_COMPLETE)
-        throw prt::Error("this device cannot draw into the textures that the viewer needs");
+        throw prt::Error("the device cannot render to the texture formats of the viewer");
     return framebuffer;
 }
 
@@ -80,7 +80,7 @@ void FrameRenderer::resize(const FrameSize& size) {
     glGetIntegerv(GL_MAX_TEXTURE_SIZE, &largest);
     const int width = size.width * size.samples, height = size.height * size.samples;
     if (width > largest || height > largest)
-        throw prt::Error("this device draws pictures of at most " + std::to_string(largest) +
+        throw prt::Error("the device supports pictures of at most " + std::to_string(largest) +
                          " pixels along a side");
     gbuffer_.base = make_target(GL_SRGB8_ALPHA8, width, height);
     gbuffer_.normal = make_target(GL_RG16, width, height);

@@ -71,8 +71,8 @@ void GpuModel::set_instanced(std::shared_ptr<const prt::InstancedModel> instance
     light_instances();
 }
 
-/// Removes the programs that depend on the kind of transfer; programs of compressed transfer depend on its
-/// layout, too.
+/// Removes the programs that depend on the kind of transfer; programs of compressed transfer also depend on
+/// its layout.
 void GpuModel::take_raw(Raw raw) {
     raw_.emplace(std::move(raw));
     std::erase_if(programs_.surfaces,

@@ -50,7 +50,7 @@ public:
     void set_numbers(PictureKind kind, std::span<const glm::vec3> colors);
     /// The light must have the maximum order of the transfers, at least three bands. `suns` are shadowed per
     /// pixel if the picture's transfer has a separate direct term, and in pictures without transfer. `lamps`
-    /// are matched by name with those of each transfer, and scale emission, too; `lighting` needs no lamps.
+    /// are matched by name with those of each transfer, and also scale emission; `lighting` needs no lamps.
     void set_lighting(const prt::Lighting& lighting, std::span<const prt::Sun> suns,
                       const LampSettings& lamps = {});
     /// Sets a sky only: no lamp is on.

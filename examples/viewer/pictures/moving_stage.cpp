@@ -208,7 +208,7 @@ void MovingStage::draw(const MovingPass& pass) {
     }
     if (shows_probes())
         draw_probes(pass);
-    prt::check_gl("what moves");
+    prt::check_gl("drawing moving objects");
 }
 
 void MovingStage::draw_probes(const MovingPass& pass) {

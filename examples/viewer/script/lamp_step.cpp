@@ -16,12 +16,12 @@ namespace {
 float strength_of(const nlohmann::json& value, const std::string& name) {
     const float strength = value.is_number() ? value.get<float>() : -1;
     if (!(strength >= 0 && strength <= kMaxLampStrength))
-        throw prt::Error(fmt::format("the strength of '{}' is neither a number in 0..1e9 nor three of them",
+        throw prt::Error(fmt::format("the strength of '{}' is not a number or three numbers in 0..1e9",
                                      prt::printable(name)));
     return strength;
 }
 
-/// Turns `lamp` on with this strength. The slider shows the largest channel.
+/// Switches `lamp` on with this strength. The slider shows the largest channel.
 void set_strength(LampControl& lamp, const glm::vec3& strength) {
     lamp.on = true;
     lamp.strength = std::max({strength.r, strength.g, strength.b});
@@ -45,7 +45,7 @@ std::string names_of(const std::vector<LampControl>& lamps) {
 
 void set_strengths(std::vector<LampControl>& lamps, const nlohmann::json& json) {
     if (!json.is_object())
-        throw prt::Error("lamps are an object of names and strengths");
+        throw prt::Error("lamps must be an object of names and strengths");
     std::vector<LampControl> changed = lamps;
     if (json.contains("*"))
         for (LampControl& lamp : changed)
@@ -55,8 +55,8 @@ void set_strengths(std::vector<LampControl>& lamps, const nlohmann::json& json) 
             continue;
         const auto lamp = std::ranges::find(changed, name, &LampControl::name);
         if (lamp == changed.end())
-            throw prt::Error(fmt::format("no lamp of the model is called '{}'; there are: {}",
-                                         prt::printable(name), names_of(changed)));
+            throw prt::Error(fmt::format("the model has no lamp '{}'; its lamps: {}", prt::printable(name),
+                                         names_of(changed)));
         set_strength(*lamp, color_of(value, name));
     }
     lamps = std::move(changed);

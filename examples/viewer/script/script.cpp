@@ -54,14 +54,14 @@ template <class Table>
 const auto& named(const Table& table, const std::string& id, const char* what) {
     const auto row = std::ranges::find_if(table, [&](const auto& r) { return r.id == id; });
     if (row == std::end(table))
-        throw prt::Error(fmt::format("there is no {} called '{}'", what, id));
+        throw prt::Error(fmt::format("unknown {} '{}'", what, id));
     return *row;
 }
 
 void take_number(const Json& json, const Command& command, float& value) {
     const auto number = json.get<float>();
     if (command.range.strict && !(number >= command.range.low && std::isfinite(number)))
-        throw prt::Error(fmt::format("{} is a finite number from {} on, not {}", command.id,
+        throw prt::Error(fmt::format("{} must be a finite number of at least {}, not {}", command.id,
                                      command.range.low, json.dump()));
     value = number;
 }
@@ -125,7 +125,7 @@ void Player::make_context() {
     std::string why;
     context = prt::GlContext::create(prt::GlDevice::any, &why);
     if (!context)
-        throw prt::Error("there is no OpenGL 4.5 (" + why + ")");
+        throw prt::Error("OpenGL 4.5 is not available (" + why + ")");
     screen = std::make_unique<Offscreen>(size.x, size.y);
     if (!viewer) {
         viewer = std::make_unique<Viewer>();
@@ -160,7 +160,7 @@ void Player::wait(const std::function<bool()>& done, const char* what) {
 void set_size(Player& player, const Json& json) {
     player.size = {json.at(0).get<int>(), json.at(1).get<int>()};
     if (player.size.x < 1 || player.size.y < 1)
-        throw prt::Error("a size is above 0");
+        throw prt::Error("a size must be above 0");
     player.screen = std::make_unique<Offscreen>(player.size.x, player.size.y);
 }
 
@@ -179,7 +179,7 @@ void wait(Player& player, const Json& json) {
     }
     const std::string what = json.get<std::string>();
     if (what != "work" && what != "numbers" && what != "budget")
-        throw prt::Error("what to wait for is work, numbers, a budget or a reference");
+        throw prt::Error("wait expects work, numbers, a budget or a reference");
     const Jobs& jobs = player.viewer->jobs();
     const auto busy = [&] {
         return what == "work" ? jobs.busy()
@@ -248,7 +248,7 @@ void set_figure(Player& player, const Json& json) {
     viewer.choose_figure(figure_choice(json));
     const double seconds = json.value("seconds", 0.0);
     if (!(seconds >= 0 && seconds <= 3600))
-        throw prt::Error("a figure walks for 0 to 3600 seconds at once");
+        throw prt::Error("the seconds of a figure must be 0 to 3600");
     viewer.walk_figure(seconds);
 }
 
@@ -290,7 +290,7 @@ void press_keys(Player& player, const Json& json) {
         if (key == '\x1b')
             player.interface->close();
         else if (!player.controls->key(key))
-            throw prt::Error(fmt::format("there is no key '{}'", key));
+            throw prt::Error(fmt::format("unknown key '{}'", key));
 }
 
 /// Moves the pointer; over a panel, waits long enough for the tooltip.
@@ -343,10 +343,11 @@ void expect_message(Player& player, const Json& json) {
     Viewer& viewer = *player.viewer;
     const auto part = json.get<std::string>();
     player.wait([&] { return !viewer.messages().empty() || !viewer.jobs().busy(); }, "a message");
-    const std::string last = viewer.messages().empty() ? "" : " but: " + viewer.messages().back();
+    const std::string last =
+        viewer.messages().empty() ? "" : "; the last message is: " + viewer.messages().back();
     if (std::ranges::none_of(viewer.messages(),
                              [&](const std::string& text) { return text.find(part) != std::string::npos; }))
-        throw prt::Error("no message says '" + part + "'" + last);
+        throw prt::Error("no message contains '" + part + "'" + last);
     viewer.dismiss_messages();
 }
 
@@ -376,7 +377,7 @@ void write_budget(Player& player, const Json& json) {
     player.wait([&] { return !viewer.jobs().busy(JobKind::budget); }, "the budget");
     player.fail_on_message();
     if (!viewer.budget_is_current())
-        throw prt::Error("the budget is of another light");
+        throw prt::Error("the budget was measured with other light");
     write(player.path(json), budget_json(viewer.document().budget->errors));
 }
 
@@ -415,7 +416,7 @@ constexpr Step kSteps[] = {{"size", set_size},
 
 void run(Player& player, const Json& step) {
     if (!step.is_object() || step.size() != 1)
-        throw prt::Error("a step is an object with one member, not " + step.dump());
+        throw prt::Error("a step must be an object with one member, not " + step.dump());
     named(kSteps, step.begin().key(), "step").run(player, step.begin().value());
 }
 
@@ -425,7 +426,7 @@ Json read_steps(const std::filesystem::path& script) {
     try {
         Json steps = Json::parse(text, text + bytes.size());
         if (!steps.is_array())
-            throw prt::Error(script.string() + ": is no array of steps");
+            throw prt::Error(script.string() + ": the file must contain an array of steps");
         return steps;
     } catch (const Json::exception& error) {
         throw prt::Error(script.string() + ": " + prt::one_line(error.what()));

@@ -24,12 +24,13 @@ struct Row {
     ImU32 color;
 };
 const std::array<Row, prt::kErrorCauses> kRows = {{
-    {prt::ErrorCause::light, "What the bands of the order cannot hold of the light.",
+    {prt::ErrorCause::light, "Light beyond the spherical harmonic bands of this order.",
      IM_COL32(240, 196, 60, 255)},
     {prt::ErrorCause::bounces, "Bounces that were not baked.", IM_COL32(226, 106, 60, 255)},
-    {prt::ErrorCause::vertices, "Light between vertices is interpolated.", IM_COL32(96, 168, 224, 255)},
-    {prt::ErrorCause::rays, "Noise of the bake, by a bake with another seed.", IM_COL32(150, 150, 160, 255)},
-    {prt::ErrorCause::bytes, "What compression costs.", IM_COL32(126, 196, 108, 255)},
+    {prt::ErrorCause::vertices, "Interpolation of light between vertices.", IM_COL32(96, 168, 224, 255)},
+    {prt::ErrorCause::rays, "Noise of the bake, measured by a bake with another seed.",
+     IM_COL32(150, 150, 160, 255)},
+    {prt::ErrorCause::bytes, "Error of compression.", IM_COL32(126, 196, 108, 255)},
 }};
 
 std::string percent(double share) {
@@ -50,8 +51,8 @@ void draw_bar(const prt::ErrorBudget& errors) {
         left = right;
     }
     ImGui::Dummy(size);
-    tip("Squared errors of the causes, which add up to that of the total but for what they do to each "
-        "other.");
+    tip("Squared errors by cause. Their sum differs from the total by their mutual "
+        "effects.");
 }
 
 void draw_row(const Row& row, const prt::SquaredError& error) {
@@ -67,15 +68,13 @@ void show_errors(const Viewer& viewer, const prt::ErrorBudget& errors) {
     draw_bar(errors);
     for (const Row& row : kRows)
         draw_row(row, errors.of(row.cause));
-    line("total", percent(errors.total.root()),
-         "Relative L2 of light all over the surface against path tracing.");
-    line("its 95 % interval",
-         fmt::format("{:.2f} .. {:.2f} %", 100 * std::sqrt(std::max(errors.total.low, 0.0)),
-                     100 * std::sqrt(std::max(errors.total.high, 0.0))));
+    line("total", percent(errors.total.root()), "Relative L2 error over the surface against path tracing.");
+    line("95 % interval", fmt::format("{:.2f} .. {:.2f} %", 100 * std::sqrt(std::max(errors.total.low, 0.0)),
+                                      100 * std::sqrt(std::max(errors.total.high, 0.0))));
     if (!viewer.budget_is_current())
-        ImGui::TextWrapped("Of another light or transfer: measure again.");
+        ImGui::TextWrapped("Measured with other light or transfer: measure again.");
     if (any_shines(viewer.settings.lit.lamps))
-        ImGui::TextWrapped("Without the light of lamps.");
+        ImGui::TextWrapped("Lamps are not included.");
 }
 
 } // namespace
@@ -90,11 +89,11 @@ void budget_panel(Viewer& viewer) {
     } else if (viewer.can_measure()) {
         if (ImGui::SmallButton("measure"))
             viewer.measure_budget();
-        tip("Takes the error over the surface apart by its causes, under this light, against path tracing.");
+        tip("Measures the error over the surface against path tracing under this light, by cause.");
     } else {
         const bool of_texels = viewer.document().loaded.of_texels();
         ImGui::PushTextWrapPos();
-        ImGui::TextDisabled("%s", of_texels ? kMeasuredOfVertices : "there is no bake to measure");
+        ImGui::TextDisabled("%s", of_texels ? kMeasuredOfVertices : "no bake is open");
         ImGui::PopTextWrapPos();
     }
     if (viewer.document().budget)

@@ -84,20 +84,21 @@ Legend legend_of(const Viewer& viewer, const SidePicture& picture) {
     switch (picture.kind) {
     case PictureKind::clusters:
         return {false, "", "",
-                fmt::format("{} clusters, a colour each",
+                fmt::format("{} clusters, one colour each",
                             loaded.compressed ? loaded.compressed->bases.clusters() : 0)};
     case PictureKind::components:
         return {true, "0",
                 fmt::format("{}", loaded.compressed ? loaded.compressed->bases.max_components() : 0),
-                fmt::format("components of the {} cluster", loaded.of_texels() ? "texel's" : "vertex'")};
+                fmt::format("components of the cluster of a {}", loaded.of_texels() ? "texel" : "vertex")};
     case PictureKind::error:
-        return {true, "0", fmt::format("{:.0f} %", 100 * prt::kWhiteError), "contrast error, this light"};
+        return {true, "0", fmt::format("{:.0f} %", 100 * prt::kWhiteError),
+                "contrast error under this light"};
     case PictureKind::seams:
         return {true, "0", fmt::format("{:.0f} %", 100 * prt::kWhiteSeam),
-                "jump of contrast between clusters; blue: inside one"};
+                "step of contrast between clusters; blue: inside a cluster"};
     case PictureKind::surface_error:
         return {true, "0", fmt::format("{:.0f} %", 100 * kWhiteSurfaceError),
-                "of the mean radiance (RMS), by path tracing"};
+                "error relative to the RMS radiance, by path tracing"};
     default:
         return {};
     }

@@ -42,7 +42,7 @@ void choose_texel_grid(Viewer& viewer) {
     ImGui::BeginDisabled(!there);
     control(viewer.settings, setting("texel_grid"));
     ImGui::EndDisabled();
-    show_reason_disabled(there ? "" : "no lightmap is open (prt bake --size)");
+    show_reason_disabled(there ? "" : "no lightmap is open (prt bake --texels)");
 }
 
 void picture_panel(Viewer& viewer) {
@@ -54,14 +54,14 @@ void picture_panel(Viewer& viewer) {
         controls(s, {"white"});
     controls(s, {"exposure_stops"});
     line("metered", fmt::format("{:+.2f} stops", viewer.lighting().meter.stops()),
-         "What exposure 0 stands for: prt render --exposure takes the sum.");
+         "Automatic exposure. Pass the sum with the setting above to prt render --exposure.");
     controls(s, {"background", "textured"});
     controls(s, {"deferred", "dithered", "culling"});
     choose_texel_grid(viewer);
     ImGui::SameLine();
     if (ImGui::SmallButton("reset camera"))
         viewer.reset_camera();
-    tip("The whole model, from where it was first seen. Key R.");
+    tip("Shows the whole model from the initial camera. Key R.");
     if (is_ssao(s.left) || is_ssao(s.right))
         for (const char* id : {"ssao_radius", "ssao_bias", "ssao_intensity", "ssao_samples"})
             controls(s, {id});
@@ -69,7 +69,7 @@ void picture_panel(Viewer& viewer) {
 
 std::string sky_name(const Viewer& viewer) {
     if (viewer.lights.day)
-        return "a clear day";
+        return "clear day";
     const std::string environment = viewer.lighting().rig.environment_name();
     return viewer.lights.environment_on && !environment.empty() ? environment : "none";
 }
@@ -79,11 +79,11 @@ void choose_sky(Viewer& viewer) {
     const std::string current = sky_name(viewer);
     const bool open = ImGui::BeginCombo("sky", current.c_str(), ImGuiComboFlags_HeightLarge);
     if (!open)
-        tip("A day whose hour can be set, no sky, or an environment map. Drop .hdr and .exr files to add "
-            "some. Key N.");
+        tip("Clear day with a variable hour, no sky, or an environment map. Drop .hdr and .exr files to "
+            "add them. Key N.");
     if (!open)
         return;
-    if (ImGui::Selectable("a clear day", l.day))
+    if (ImGui::Selectable("clear day", l.day))
         l.day = true;
     if (ImGui::Selectable("none", !l.day && !l.environment_on))
         l.day = l.environment_on = false;
@@ -101,8 +101,8 @@ void choose_window(prt::Window& window) {
     const auto current = std::ranges::find(kWindows, window, &WindowName::window);
     const bool open = ImGui::BeginCombo("window", current->title);
     if (!open)
-        tip("Spherical harmonics ring about strong lights; a window over their bands tames that. The "
-            "reference needs none.");
+        tip("Window over the bands: reduces ringing of spherical harmonics around strong lights. The "
+            "reference does not use it.");
     if (!open)
         return;
     for (const WindowName& name : kWindows) {
@@ -117,24 +117,24 @@ void choose_window(prt::Window& window) {
 bool light_controls(RigLight& light) {
     ImGui::Separator();
     check(std::ranges::find(kLights, light.kind, &LightName::kind)->id, light.on,
-          "On or off. Drag its handle to move it.");
+          "Switches the light. Drag its handle to move it.");
     ImGui::SameLine();
     ImGui::ColorEdit3("##colour", &light.color.x, ImGuiColorEditFlags_NoInputs | ImGuiColorEditFlags_Float);
     ImGui::SameLine();
     const bool remove = ImGui::SmallButton("remove");
-    tip("Takes this light out.");
+    tip("Removes this light.");
     ImGui::SliderFloat("strength", &light.strength, 0, 30, "%.2f", ImGuiSliderFlags_Logarithmic);
-    tip("Over the mean radiance of the sky.");
+    tip("Relative to the mean radiance of the sky.");
     if (light.kind == LightKind::cone) {
         ImGui::SliderAngle("half angle", &light.size, 1, 90);
-        tip("From the middle of the cone to its edge, seen from the model.");
+        tip("Angle from the axis of the cone to its edge, seen from the model.");
     }
     if (light.kind == LightKind::sphere) {
         ImGui::SliderFloat("radius", &light.size, 0.02f, 1.5f);
-        tip("Of the sphere, in radii of the scene.");
+        tip("Radius of the sphere, in radii of the scene.");
         ImGui::SliderFloat("distance", &light.distance, 1.6f, 8);
-        tip("To its centre, in radii of the scene. It lights as from afar: every vertex sees it in one "
-            "direction.");
+        tip("Distance to its center, in radii of the scene. The light is distant: all vertices see it in "
+            "the same direction.");
     }
     return !remove;
 }
@@ -146,22 +146,22 @@ void light_panel(Viewer& viewer) {
         auto hour = static_cast<float>(l.time.hour), turbidity = static_cast<float>(l.time.turbidity);
         if (ImGui::SliderFloat("hour", &hour, 0, 24, "%.1f"))
             l.time.hour = static_cast<double>(hour);
-        tip("Of the equinox at 45 degrees north; the sun is in the south, +Z, at 12.");
+        tip("Hour of the equinox at 45 degrees north; at 12 the sun is in the south (+Z).");
         if (ImGui::SliderFloat("haze", &turbidity, 2, 10, "%.1f"))
             l.time.turbidity = static_cast<double>(turbidity);
-        tip("Turbidity of the air: 2 clear, 10 hazy.");
+        tip("Turbidity of the air; 2: clear, 10: hazy.");
         control(viewer.settings, *std::ranges::find(commands(), ' ', &Command::key));
     }
     control(viewer.settings, setting("separate_suns"));
     choose_window(l.window);
-    ImGui::SliderAngle("turned", &l.rotation, -180, 180);
-    tip("The sky about the vertical. Drag the picture with the right button.");
+    ImGui::SliderAngle("rotation", &l.rotation, -180, 180);
+    tip("Rotation of the sky about the vertical axis. Drag the picture with the right button.");
     ImGui::TextDisabled("add");
     for (const auto& [kind, name] : kLights) {
         ImGui::SameLine();
         if (ImGui::SmallButton(name))
             l.lights.push_back(make_light(kind));
-        tip("Adds a distant light of this shape, to be dragged by its handle.");
+        tip("Adds a distant light of this shape. Drag its handle to move it.");
     }
     for (std::size_t i = 0; i < l.lights.size(); ++i) {
         ImGui::PushID(static_cast<int>(i));
@@ -177,15 +177,15 @@ void light_panel(Viewer& viewer) {
 /// Shows the controls of a lamp's strength and color.
 void lamp_controls(LampControl& lamp) {
     constexpr float kBrightest = 10; // maximum of the slider; a script may exceed it
-    check("##on", lamp.on, "On or off.");
+    check("##on", lamp.on, "Switches the lamp.");
     ImGui::SameLine();
     ImGui::ColorEdit3("##colour", &lamp.color.x, ImGuiColorEditFlags_NoInputs | ImGuiColorEditFlags_Float);
-    tip("What the light of this lamp is multiplied with.");
+    tip("Color factor on the light of this lamp.");
     ImGui::SameLine();
     ImGui::SetNextItemWidth(scaled(110)); // leaves equal space for the name
     ImGui::SliderFloat(lamp.name.c_str(), &lamp.strength, 0, std::max(kBrightest, lamp.strength), "%.2f",
                        ImGuiSliderFlags_Logarithmic | ImGuiSliderFlags_AlwaysClamp);
-    tip("Strength; 1 is as in the scene.");
+    tip("Strength; 1: as in the scene.");
 }
 
 void lamp_panel(Viewer& viewer) {
@@ -203,31 +203,30 @@ void compression_controls(Viewer& viewer) {
         ImGui::ProgressBar(static_cast<float>(viewer.jobs().share()), {-1, 0}, viewer.jobs().label().c_str());
     if (!viewer.jobs().busy() && viewer.document().model()) {
         ImGui::BeginDisabled(!viewer.can_bake());
-        if (ImGui::SmallButton("bake anew"))
+        if (ImGui::SmallButton("bake again"))
             viewer.bake_anew();
         ImGui::EndDisabled();
         show_reason_disabled(
-            viewer.can_bake() ? "" : "the viewer bakes vertices; lightmaps are baked by prt bake --size");
-        tip("Traces the model again with three bounces, though its file holds transfer.");
+            viewer.can_bake() ? "" : "the viewer bakes only vertices; bake lightmaps with prt bake --texels");
+        tip("Bakes the model again with three bounces; ignores the transfer of its file.");
     }
     if (viewer.can_save()) {
         if (!viewer.jobs().busy())
             ImGui::SameLine();
         if (ImGui::SmallButton("save"))
             viewer.save();
-        tip("Writes the model with its compressed transfer beside its file, as NAME.shipped.glb; nothing is "
-            "overwritten. "
-            "Key S.");
+        tip("Writes the model with its compressed transfer to NAME.shipped.glb in its folder; existing files "
+            "are not overwritten. Key S.");
     }
     if (!viewer.document().raw())
         return;
     ImGui::SliderInt("order", &viewer.compression.order, 1, viewer.document().raw_order());
-    tip("Bands of spherical harmonics that are kept: more show sharper shadows.");
+    tip("Number of spherical harmonic bands; more give sharper shadows.");
     ImGui::SliderInt("clusters", &viewer.compression.clusters, 1, 1024, "%d", ImGuiSliderFlags_Logarithmic);
-    tip("Groups of receivers with a basis of their own: more are closer, and larger in the file and per "
-        "frame. 256 with 4 components is the preset u32, which gives small models fewer.");
+    tip("Number of groups of receivers with a separate basis. More reduce the error; file and time per frame "
+        "grow. Preset u32: 256 with 4 components, fewer for small models.");
     ImGui::SliderInt("components", &viewer.compression.components, 0, 16);
-    tip("Weights per vertex: more are closer, and take more bytes and shader time.");
+    tip("Weights per vertex. More reduce the error, and need more bytes and shader time.");
 }
 
 /// Shows the figures of transfer; `receiver` is the name of one receiver.
@@ -235,12 +234,12 @@ void transfer_lines(const TransferFigures& t, const char* receiver, std::size_t 
     if (t.bytes_per_receiver > 0)
         line(fmt::format("bytes per {}", receiver).c_str(),
              fmt::format("{:.0f}, {:.2f} with bases", t.bytes_per_receiver, t.bytes_with_bases),
-             "Of compressed transfer, without and with what all share.");
+             "Compressed transfer per receiver, without and with the shared bases.");
     if (t.clusters > 0)
         line("clusters in use", fmt::format("{}", t.clusters));
     if (t.raw_bytes > 0)
         line("uncompressed",
-             fmt::format("{:.0f} a {}",
+             fmt::format("{:.0f} bytes per {}",
                          static_cast<double>(t.raw_bytes) / static_cast<double>(baked_receivers), receiver));
 }
 
@@ -250,12 +249,12 @@ void lightmap_lines(const LightmapFigures& f) {
     for (std::size_t m = 0; m < std::min(f.maps.size(), kMaxNamed); ++m)
         maps += fmt::format("{}{} x {}", m == 0 ? "" : ", ", f.maps[m].width, f.maps[m].height);
     line(f.maps.size() == 1 ? "lightmap" : "lightmaps", maps + (f.maps.size() > kMaxNamed ? ", ..." : ""),
-         "Texels along the sides.");
+         "Width and height in texels.");
     if (f.receivers > 0)
         line("texels",
              fmt::format("{}, {:.0f} % used", f.texels,
                          100 * static_cast<double>(f.receivers) / static_cast<double>(f.texels)),
-             "All, and how many of them surfaces read.");
+             "Number of all texels, and the percentage on surfaces.");
     else
         line("texels", fmt::format("{}", f.texels));
     transfer_lines(f.transfer, "texel", f.receivers);
@@ -263,21 +262,22 @@ void lightmap_lines(const LightmapFigures& f) {
 
 void instance_lines(const InstanceFigures& f) {
     line("instances", fmt::format("{} of {} meshes", f.instances, f.meshes),
-         "They share the transfer of their mesh.");
-    line("bytes an instance",
+         "Instances that share the transfer of their mesh.");
+    line("bytes per instance",
          fmt::format("{}, {:.0f}, {:.0f}", f.bytes_in_file, f.bytes_of_constants, f.bytes_of_radiance),
-         "In the file; of constants for a lighting; of its vertices' radiance, which a frame reads.");
+         "Bytes in the file; bytes of constants; bytes of vertex radiance, which a frame reads.");
 }
 
 void figure_lines(const Figures& f) {
     line("frame",
          fmt::format("{:.1f} ms, {:.0f}/s", f.milliseconds.frame, 1e3 / std::max(f.milliseconds.frame, 1e-3)),
-         "From one frame to the next.");
-    line("GPU, frame", fmt::format("{:.2f} ms", f.milliseconds.gpu), "Both pictures and what is over them.");
+         "Time from one frame to the next.");
+    line("GPU, frame", fmt::format("{:.2f} ms", f.milliseconds.gpu),
+         "GPU time of both pictures and their overlays.");
     line("GPU, vertices", fmt::format("{:.3f} ms", f.milliseconds.vertices),
-         "The vertex stage of the right picture.");
+         "GPU time of the vertex stage of the right picture.");
     line("constants", fmt::format("{:.3f} ms", f.milliseconds.constants),
-         "Forming and uploading the constants of all clusters when the light changes.");
+         "Time to compute and upload the constants of all clusters after a change of light.");
     line("vertices", fmt::format("{}", f.receivers));
     line("triangles", fmt::format("{} of {}", f.triangles_drawn, f.triangles));
     transfer_lines(f.transfer, "vertex", f.receivers);
@@ -297,7 +297,7 @@ void transfer_panel(Viewer& viewer) {
 std::string volume_words(const Viewer& viewer) {
     const FoundVolume& found = viewer.document().moving.volume();
     if (!found.volume)
-        return "none yet";
+        return "not available yet";
     const std::string probes = fmt::format("{} probes", found.volume->visibility.size());
     return found.rays > 0 ? fmt::format("{}, {} rays", probes, found.rays) : probes;
 }
@@ -308,12 +308,12 @@ void moving_panel(Viewer& viewer) {
     controls(viewer.settings, {"figure", "walks"});
     controls(viewer.settings, {"walk_speed"});
     ImGui::EndDisabled();
-    show_reason_disabled(there ? "" : "drop an animated model beside the scene");
+    show_reason_disabled(there ? "" : "drop an animated model to add a figure");
     controls(viewer.settings, {"spheres", "probes", "contact"});
     if (viewer.jobs().busy(JobKind::volume))
         ImGui::ProgressBar(static_cast<float>(viewer.jobs().share(JobKind::volume)), {-1, 0},
                            viewer.jobs().label(JobKind::volume).c_str());
-    line("volume", volume_words(viewer), "What lights all that moves.");
+    line("volume", volume_words(viewer), "Volume that lights the moving objects.");
 }
 
 void lobe_panel(const Viewer& viewer) {
@@ -336,11 +336,11 @@ void lobe_panel(const Viewer& viewer) {
 void help_window(bool& open) {
     ImGui::SetNextWindowPos({scaled(340), scaled(40)}, ImGuiCond_FirstUseEver);
     if (ImGui::Begin("Help", &open, ImGuiWindowFlags_AlwaysAutoResize)) {
-        line("left drag", "turn; on a light or the split: move it");
-        line("right drag", "turn the environment");
-        line("middle drag, wheel", "move, zoom");
-        line("drop files", "models and environments");
-        line("Escape", "closes what is open");
+        line("left drag", "orbit; on a light or the split: move it");
+        line("right drag", "rotate the environment");
+        line("middle drag, wheel", "pan, zoom");
+        line("drop files", "open models and environments");
+        line("Escape", "close list, messages or help");
         for (const Command& command : commands())
             if (*command.help != 0)
                 line(command.key == ' ' ? "Space" : std::string(1, command.key).c_str(), command.help);
@@ -395,7 +395,7 @@ void draw_panels(Viewer& viewer) {
                 lamp_panel(viewer);
             if (ImGui::CollapsingHeader("Transfer", ImGuiTreeNodeFlags_DefaultOpen))
                 transfer_panel(viewer);
-            if (viewer.document().model() && ImGui::CollapsingHeader("What moves"))
+            if (viewer.document().model() && ImGui::CollapsingHeader("Moving objects"))
                 moving_panel(viewer);
             if (viewer.document().model() && ImGui::CollapsingHeader("Budget"))
                 budget_panel(viewer);

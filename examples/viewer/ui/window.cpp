@@ -25,7 +25,7 @@ namespace {
 struct Glfw {
     Glfw() {
         if (!glfwInit())
-            throw prt::Error("there is no display; --headless SCRIPT needs none");
+            throw prt::Error("no display is available; use --headless SCRIPT");
     }
     ~Glfw() { glfwTerminate(); }
     Glfw(const Glfw&) = delete;
@@ -48,7 +48,7 @@ Window create_window(int width, int height) {
         window.reset(glfwCreateWindow(width, height, "prtkit", nullptr, nullptr));
     }
     if (!window)
-        throw prt::Error("this display has no OpenGL 4.5");
+        throw prt::Error("the display does not support OpenGL 4.5");
     return window;
 }
 
@@ -211,7 +211,7 @@ private:
         make_window();
         viewer_->restore_gpu();
         make_interface();
-        viewer_->message("the graphics driver was reset; everything was uploaded again");
+        viewer_->message("the graphics driver was reset; all data was uploaded again");
     }
 
     int width_, height_;

@@ -1,11 +1,11 @@
-// Computes constants of instances that share the transfer of their mesh, which their shader reads in place of
-// those of the model (shaders/prt_instances.glsl), as prt::InstanceRelighter does. They are linear in the
+// Computes constants of instances that share the transfer of their mesh, which their shader reads instead of
+// those of the model (shaders/prt_instances.glsl), like prt::InstanceRelighter. They are linear in the
 // position within the box of the mesh, so that a row needs three vectors, not one. Does not use three.js.
 
 import { updateConstants, lightColumns } from "./clusteredPca.js";
 import { ADDED_BANDS, ADDED_MODES, InstanceModes, instanceRotations, PASSING_MODES, responsesOf } from "./instanceModes.js";
 import { rotationMatrices, rotatedBands } from "./sphericalHarmonics.js";
-import { updateAtYaw, polarRows, termsOf, rotationTerms, yawSeries } from "./yawHarmonics.js";
+import { updateAtYaw, polarRows, rotationTerms, seriesSize, yawSeries } from "./yawHarmonics.js";
 
 /** Number of rotations about +Y for which light is computed: at most 0.7 degrees off. */
 const YAWS = 256;
@@ -87,18 +87,17 @@ export class InstanceRelighter {
     this.responses = responsesOf(clusters, rows);
     this.constantsOfModes = Array.from({ length: PASSING_MODES }, () => new Float64Array(4 * clusters.rowCount));
     const { order, rowCount } = clusters;
-    const rotations = instanceRotations(instances.map(({ rotation }) => rotation), yaws);
-    const { rotations, of } = rotations;
-    this.rotations = rotations.map((rotation, t) => {
-      const yaw = rotations.yaws[t];
+    const found = instanceRotations(instances.map(({ rotation }) => rotation), yaws);
+    this.rotations = found.rotations.map((rotation, t) => {
+      const yaw = found.yaws[t];
       const bands = rotationMatrices(ADDED_BANDS, rotation);
       return { rotation, bands, instances: [], terms: yaw === null ? null : rotationTerms(order, yaw) };
     });
     const isUpright = this.rotations.some(({ terms }) => terms);
     this.polarRows = isUpright ? polarRows(clusters, rows) : null;
-    this.series = this.constantsOfModes.map(() => (isUpright ? new Float64Array(3 * termsOf(order) * rowCount) : null));
-    of.forEach((rotation, i) => this.rotations[rotation].instances.push(i));
-    /** First constant of each instance, in vectors of four, and total size. */
+    this.series = this.constantsOfModes.map(() => (isUpright ? new Float64Array(3 * seriesSize(order) * rowCount) : null));
+    found.of.forEach((rotation, i) => this.rotations[rotation].instances.push(i));
+    /** First constant of each instance, and total size, in vectors of four. */
     this.begins = new Float64Array(instances.length);
     this.size = 0;
     instances.forEach(({ rows: { length } }, i) => {
@@ -107,8 +106,8 @@ export class InstanceRelighter {
     });
   }
 
-  /** Attributes of instances [first, first + count): the middle of the box of each and one over its half widths; in w where its
-   * constants begin, 16 bits in each. */
+  /** Returns the attributes of instances [first, first + count): the center of the box and one over its half widths; in w the
+   * index of the first constant, 16 bits in each. */
   table(first, count) {
     const [low, high] = [new Float32Array(4 * count), new Float32Array(4 * count)];
     for (let i = 0; i < count; ++i) {
@@ -137,10 +136,10 @@ export class InstanceRelighter {
     if (terms) return this.constantsOfModes.forEach((constants, m) => updateAtYaw(this.series[m], terms, first, end, constants));
     const matrices = rotationMatrices(clusters.order, rotation);
     const size = rows.length / clusters.rowCount;
-    const term = { ...clusters, rowCount: end - first };
+    const range = { ...clusters, rowCount: end - first };
     this.constantsOfModes.forEach((constants, m) => {
       const columns = lightColumns(clusters, rotatedBands(matrices, skies[m]), suns ? rotatedBands(matrices, suns[m]) : null);
-      updateConstants(term, rows.subarray(first * size, end * size), columns, constants.subarray(4 * first, 4 * end));
+      updateConstants(range, rows.subarray(first * size, end * size), columns, constants.subarray(4 * first, 4 * end));
     });
   }
 

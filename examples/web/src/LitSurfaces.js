@@ -5,7 +5,7 @@ import { LitTransfer } from "./LitTransfer.js";
 export class LitSurfaces extends LitTransfer {
   constructor(clusters, root) {
     super(clusters, root);
-    this.volume = null; // PrtkitVolume, where the file has probes, too
+    this.volume = null; // PrtkitVolume, if the file also has probes
   }
 
   setLight(light, angle = 0, suns = null, lamps = {}) {

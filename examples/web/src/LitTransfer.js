@@ -4,7 +4,7 @@ import { Vector3 } from "three";
 import { lightColumns } from "./clusteredPca.js";
 import { checkSunLights, sunsOf } from "./directionalSuns.js";
 import { lightOfSuns } from "./lightFile.js";
-import { shownBy, rotationForModel, rotateIntoModel } from "./turns.js";
+import { shownBy, rotationForModel, rotationIntoModel } from "./rotations.js";
 import { warnOfUnusedLights } from "./unusedLights.js";
 
 /** Base class; derived classes implement `update(sky, suns)`, with coefficients in the space of the bake. */
@@ -33,7 +33,7 @@ export class LitTransfer {
    * [red, green, blue]; other lamps keep the strength of the scene.
    */
   setLight(light, angle = 0, suns = null, lamps = {}) {
-    if (Array.isArray(suns)) throw new Error("prtkit: setLight takes suns as lightOfSuns returns them; setSky takes an array of lights");
+    if (Array.isArray(suns)) throw new Error("prtkit: setLight takes the result of lightOfSuns as suns; only setSky takes an array of lights");
     this.checkOrders(light, suns);
     this.setStrengths(lamps);
     this.sky = null;
@@ -69,11 +69,11 @@ export class LitTransfer {
     this.sky.shown = now;
     const rotation = rotationForModel(scene, this.root);
     const seen = (source) => source.rotated(rotation).times(strength).coefficients();
-    const ownLight = own && lightOfSuns(own, this.order).rotated(rotateIntoModel(this.root)).coefficients();
+    const ownLight = own && lightOfSuns(own, this.order).rotated(rotationIntoModel(this.root)).coefficients();
     this.update(seen(light), ownLight ?? (suns ? seen(suns) : null));
   }
 
-  /** Warns on the console of lights in `scene`, the one that is drawn, that do not light this; once after each change of light. */
+  /** Warns on the console of lights in the drawn `scene` that do not light this; once after each change of light. */
   checkLights(scene) {
     if (this.areLightsChecked || !scene) return;
     this.areLightsChecked = true;
@@ -86,7 +86,7 @@ export class LitTransfer {
       if (order < this.order) throw new RangeError(`the light has order ${order}, the model needs ${this.order}`);
   }
 
-  /** The colours that light the parts: lightColumns. */
+  /** Returns the colours that multiply the terms; see lightColumns. */
   columns(sky, suns) {
     const strengths = [...this.strengths.values()].flatMap(({ value }) => value.toArray());
     return lightColumns(this.clusters, sky, suns, strengths);
@@ -106,7 +106,7 @@ export class LitTransfer {
     for (const [name, strength] of given) {
       if (!this.strengths.has(name)) throw new RangeError(`there is no lamp "${name}"`);
       if (strength?.length !== 3 || ![...strength].every((value) => value >= 0 && value < Infinity))
-        throw new RangeError(`the strength of lamp "${name}" is neither a number nor three, or below zero`);
+        throw new RangeError(`the strength of lamp "${name}" is not one or three numbers of at least zero`);
     }
     for (const { value } of this.strengths.values()) value.set(1, 1, 1);
     for (const [name, strength] of given) this.strengths.get(name).value.set(...strength);

@@ -5,7 +5,7 @@ import { BufferGeometry, InstancedBufferAttribute, InstancedMesh, Matrix4 } from
 import { bakedFrame } from "./bakedFrame.js";
 import { InstanceRelighter, rowsOf } from "./InstanceRelighter.js";
 import { FACTORS } from "./instanceModes.js";
-import { evenRotation, factorsOf, movingNodes, positionsOf } from "./instanceNodes.js";
+import { evenRotation, factorsOf, movingNodes, matricesOf } from "./instanceNodes.js";
 import { clustersTextureOf, constantsTextureOf, tablesOf, widthFor } from "./tables.js";
 import { expect, INSTANCES } from "./wholeExtension.js";
 
@@ -21,7 +21,7 @@ function shared(source) {
   return geometry;
 }
 
-/** Numbers of the clusters of all vertices. */
+/** Yields the indices of the clusters of all vertices. */
 function* clustersOfVertices({ attributes: { position, prt_words_0: words, prt_cluster: cluster } }, { clusterBits }) {
   for (let v = 0; v < position.count; ++v)
     yield words ? words.array[v * words.itemSize] & (2 ** clusterBits - 1) : cluster.getX(v);
@@ -46,7 +46,7 @@ function groupsOf(nodes, json) {
   return [...groups.values()];
 }
 
-/** The objects of nodes, by their numbers. */
+/** Returns the objects of nodes by node index. */
 function objectsOf(gltf, { associations }) {
   const objects = new Map();
   gltf.scene.traverse((object) => {
@@ -63,13 +63,13 @@ async function instancesOf({ nodes, moves }, objects, factors, boxes, parser) {
   for (const node of nodes) {
     const object = objects.get(node.node);
     if (!object) continue; // in a different scene
-    const points = await positionsOf(node, parser, count - node.first);
-    points.forEach((point, i) => {
-      const world = object.matrixWorld.clone().multiply(point);
+    const matrices = await matricesOf(node, parser, count - node.first);
+    matrices.forEach((matrix, i) => {
+      const world = object.matrixWorld.clone().multiply(matrix);
       const rotation = evenRotation(world);
-      expect(rotation, `node ${node.node} draws an instance that it mirrors or scales unevenly`, INSTANCES);
+      expect(rotation, `node ${node.node} mirrors an instance or scales it non-uniformly`, INSTANCES);
       const own = factors.subarray(FACTORS * (node.first + i), FACTORS * (node.first + i + 1));
-      instances.push({ matrix: moves ? point : world, rotation, factors: own, box: boxes[node.box] });
+      instances.push({ matrix: moves ? matrix : world, rotation, factors: own, box: boxes[node.box] });
     });
   }
   return instances;
@@ -88,7 +88,7 @@ export class PrtkitInstances {
     for (const group of groupsOf(nodes, parser.json)) {
       const instances = await instancesOf(group, objects, factors, extension.boxes, parser);
       count += instances.length;
-      expect(count <= extension.count, "more instances are drawn than have factors", INSTANCES);
+      expect(count <= extension.count, "there are more instances than factors", INSTANCES);
       if (instances.length === 0) continue;
       const loaded = await parser.getDependency("mesh", group.mesh);
       const primitives = (loaded.isGroup ? loaded.children : [loaded]).map((mesh, primitive) => ({ mesh, primitive }));
@@ -109,7 +109,7 @@ export class PrtkitInstances {
     /** Instances that are drawn. */
     this.count = all.length;
     const size = 3 * all.reduce((sum, instance) => sum + instance.rows.length, 0);
-    expect(size <= MOST_TEXELS, `constants of ${all.length} instances would take ${Math.round((16 * size) / 1e6)} MB`, INSTANCES);
+    expect(size <= MOST_TEXELS, `constants of ${all.length} instances need ${Math.round((16 * size) / 1e6)} MB`, INSTANCES);
     /** Bytes of constants on the device, on average. */
     this.constantsBytesPerInstance = this.count > 0 ? (16 * size) / this.count : 0;
     this.relighter = new InstanceRelighter(clusters, rows, all);
@@ -156,12 +156,12 @@ export class PrtkitInstances {
     }
   }
 
-  /** Returns the transfer of a mesh, if it is one of these. */
+  /** Returns the transfer of a mesh; undefined for other meshes. */
   transferOf(mesh) {
     return this.transfers.get(mesh);
   }
 
-  /** The constants of all of them, for coefficients in the frame of the bake. */
+  /** Computes the constants of all instances from coefficients in the space of the bake. */
   update(sky, suns) {
     this.relighter.update(sky, suns, this.constantsTexture.image.data);
     this.constantsTexture.needsUpdate = true;
@@ -173,7 +173,7 @@ export class PrtkitInstances {
     const { maxTextureSize } = renderer.capabilities;
     const { width, height } = this.constantsTexture.image;
     if (Math.max(width, height) > maxTextureSize)
-      throw new Error(`prtkit: constants of ${this.count} instances want a texture of ${width} x ${height}, and this device has ${maxTextureSize}`);
+      throw new Error(`prtkit: constants of ${this.count} instances need a texture of ${width} x ${height} texels; this device supports at most ${maxTextureSize}`);
     this.renderers.add(renderer);
   }
 

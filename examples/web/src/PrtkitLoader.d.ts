@@ -21,7 +21,7 @@ export class ShLight {
   /** Returns this light multiplied by a factor. */
   times(factor: number): ShLight;
   /**
-   * Returns the light under the weakest filter that makes it nowhere negative: for lights of few bands, once
+   * Returns the light under the weakest filter that makes it nowhere negative if for lights of few bands, once
    * for each.
    */
   deringed(): ShLight;
@@ -121,17 +121,17 @@ export class PrtkitLobes extends LitTransfer {
 }
 
 /**
- * Parts of a file that occlude surfaces near them (PRTKIT_occlusion_volume): `gltf.userData.prtkitOccluders`.
+ * Objects of a file that occlude surfaces near them (PRTKIT_occlusion_volume): `gltf.userData.prtkitOccluders`.
  */
 export class PrtkitOccluders {
-  /** Number of visible parts. */
+  /** Number of visible occluders. */
   readonly count: number;
-  /** Updates the positions of the parts; `PrtkitModel` calls it before it is drawn. */
+  /** Updates the positions of the occluders; `PrtkitModel` calls it before it is drawn. */
   update(): void;
   dispose(): void;
 }
 
-/** The probes of a file, in addition to its surfaces or alone: `gltf.userData.prtkit.volume`. */
+/** Probes of a file, with or without surfaces: `gltf.userData.prtkit.volume`. */
 export class PrtkitVolume extends LitTransfer {
   /** Number of bands of incident light at probes. */
   readonly incidentOrder: 2 | 3 | 4;
@@ -151,7 +151,7 @@ export class PrtkitVolume extends LitTransfer {
   readonly isSettled: boolean;
   /** Completes the computation now. */
   settle(): this;
-  /** Return the position of a probe in the world of the file, and whether it is inside geometry. */
+  /** Position of a probe in world space of the file, and whether it is inside geometry. */
   positionOfProbe(probe: number): Vector3;
   isSealed(probe: number): boolean;
   /** Inputs of custom shaders: the uniforms that `volumeShader` reads, and its defines. */
@@ -159,14 +159,14 @@ export class PrtkitVolume extends LitTransfer {
   readonly defines: Record<string, number>;
   /** Updates light and position before a custom shader is drawn. */
   readonly beforeRender: (renderer: unknown) => void;
-  /** The light of the probes. */
+  /** Light of the probes. */
   readonly texture: Data3DTexture;
   /** Frees the textures on the device. */
   dispose(): void;
 }
 
 /**
- * GLSL that looks a volume up, for custom fragment shaders (GLSL ES 3.0): prt_volume_irradiance and the other
+ * GLSL for lookups in a volume, for custom fragment shaders (GLSL ES 3.0): prt_volume_irradiance and the other
  * functions of shaders/prt_volume.glsl, for a position and a normal transformed by prtToVolume.
  */
 export const volumeShader: string;
@@ -179,13 +179,13 @@ export class PrtkitPlugin implements GLTFLoaderPlugin {
   afterRoot(gltf: GLTF): Promise<void>;
 }
 
-/** A disc of uniform radiance far away. */
+/** A distant disc of uniform radiance. */
 export interface Sun {
   /** Unit direction to its center. */
   towards: number[];
   /** Irradiance on a receiver that faces it: red, green, blue. */
   irradiance: number[];
-  /** Radians; 0: it has no extent. */
+  /** Angular radius in radians; 0: a point. */
   halfAngle: number;
 }
 
@@ -212,7 +212,7 @@ export class SunLights extends Group {
    */
   fit(object: Object3D | Box3): this;
   /** Rotates the suns about +Y by `angle` radians, as `setLight` does with the light. */
-  rotation(angle: number): this;
+  rotate(angle: number): this;
   /**
    * Rotates and dims the suns in every frame as `scene` does its environment, as `setSky` does with the
    * light.
@@ -250,7 +250,7 @@ export function lightFromProbe(probe: Pick<LightProbe, "sh"> & { intensity?: num
 
 /**
  * Returns a copy in half floats for `scene.background` and `scene.environment`, limited to 65504, because a
- * brighter texel would make materials lit by the environment black. `center: "z"`: rotated, so that three
- * shows it where it lights.
+ * brighter texel would make materials lit by the environment black. `center: "z"`: the image is rotated, so that three
+ * shows it in the directions from which it lights.
  */
 export function halfFloatSky(texture: DataTexture, layout?: EquirectangularLayout): DataTexture;

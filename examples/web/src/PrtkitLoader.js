@@ -11,7 +11,7 @@
 // With separate suns, from a light file of `prt project --suns auto`:
 //
 //   const { sky, suns } = readLightFile(await (await fetch("light.json")).json());
-//   const lights = new SunLights(suns).fit(gltf.scene).turn(angle);
+//   const lights = new SunLights(suns).fit(gltf.scene).rotate(angle);
 //   scene.add(lights);
 //   prtkit.setLight(sky.deringed(), angle, lightOfSuns(suns, prtkit.order));
 //
@@ -50,7 +50,7 @@ export { ShLight } from "./sphericalHarmonics.js";
 export { SunLights } from "./SunLights.js";
 export { VOLUME as volumeShader } from "./transferShader.js";
 
-/** For `GLTFLoader.register`. Files without transfer load as ever. */
+/** For `GLTFLoader.register`. Files without transfer load as usual. */
 export class PrtkitPlugin {
   constructor(parser) {
     this.parser = parser;
@@ -66,22 +66,22 @@ export class PrtkitPlugin {
     await decodeVertices(this.parser, (list) => this.viewsOf(list, VERTICES));
     const { [VERTICES]: vertices, [LOBES]: lobes } = json.extensions ?? {};
     if (vertices) this.instances = takeInstancesAside(json);
-    const isDrawn = (have, name) => expect(!have || this.canShare, "WebGPURenderer does not draw them yet; use WebGLRenderer and prtkit-web", name);
+    const isDrawn = (have, name) => expect(!have || this.canShare, "WebGPURenderer is not supported; use WebGLRenderer and prtkit-web", name);
     isDrawn(this.instances.length > 0, INSTANCES);
     isDrawn(lobes, LOBES);
   }
 
   async afterRoot(gltf) {
     const { [VERTICES]: vertices, [TEXELS]: texels, [PROBES]: probes, [LOBES]: lobes } = this.parser.json.extensions ?? {};
-    expect(!vertices || !texels, "the file has the transfer of texels, too");
-    expect(!lobes || !(vertices || texels), "the file has transfer that does not turn with a skin, too", LOBES);
+    expect(!vertices || !texels, "the file also has transfer of texels");
+    expect(!lobes || !(vertices || texels), "the file also has transfer that does not rotate with a skin", LOBES);
     const name = [vertices && VERTICES, texels && TEXELS, probes && PROBES, lobes && LOBES].find(Boolean);
     expect(!name || gltf.scene, "the file has no scene", name);
-    const terms = await occludersOf(this.parser, gltf, (list) => this.viewsOf(list, OCCLUDERS));
-    if (terms.length > 0) gltf.userData.prtkitOccluders = new PrtkitOccluders(terms);
+    const occluders = await occludersOf(this.parser, gltf, (list) => this.viewsOf(list, OCCLUDERS));
+    if (occluders.length > 0) gltf.userData.prtkitOccluders = new PrtkitOccluders(occluders);
     const volume = probes ? await this.volume(probes, gltf.scene) : null;
     if (vertices || texels) gltf.userData.prtkit = Object.assign(await this.surfaces(vertices, texels, gltf), { volume });
-    else if (lobes) gltf.userData.prtkit = Object.assign(await this.rotating(lobes, gltf), { volume });
+    else if (lobes) gltf.userData.prtkit = Object.assign(await this.lobesModel(lobes, gltf), { volume });
     else if (volume) gltf.userData.prtkit = volume;
     if (gltf.userData.prtkit) gltf.scenes.forEach(noteLightsOfFile);
   }
@@ -96,11 +96,11 @@ export class PrtkitPlugin {
     return model;
   }
 
-  /** The instances of the file, which are drawn from now on. */
+  /** Creates the instances of the file. */
   async sharing(gltf, model, definesOf) {
     const { parser } = this;
     const extension = parser.json.extensions[INSTANCES];
-    expect(model.lamps.length === 0, "transfer of lamps is not shared by instances", INSTANCES);
+    expect(model.lamps.length === 0, "instances with shared transfer do not support lamps", INSTANCES);
     const { bufferView } = extension.factors;
     const bytes = (await this.viewsOf([bufferView], INSTANCES)).get(bufferView);
     gltf.scene.updateMatrixWorld(true);
@@ -109,7 +109,7 @@ export class PrtkitPlugin {
   }
 
   /** Returns the model of lobes that rotate with a skin. */
-  async rotating(extension, gltf) {
+  async lobesModel(extension, gltf) {
     checkLobes(extension);
     const { bufferView } = extension.profiles;
     const model = new PrtkitLobes(extension, (await this.viewsOf([bufferView], LOBES)).get(bufferView));
@@ -123,7 +123,7 @@ export class PrtkitPlugin {
     return new PrtkitVolume(volumeOf(extension, (i) => bytes.get(i)), root, this);
   }
 
-  /** The bytes of buffer views; three knows best whether they are there. */
+  /** Returns the bytes of buffer views; three reports missing ones. */
   async viewsOf(list, name) {
     const views = new Map();
     for (const i of list)
@@ -151,7 +151,7 @@ export class PrtkitPlugin {
 
   /** Checks the renderer before a mesh is drawn: a different renderer would ignore its light. */
   checkRenderer(renderer) {
-    if (!renderer.isWebGLRenderer) throw new Error("prtkit: WebGPURenderer wants the plug-in of prtkit-web/webgpu");
+    if (!renderer.isWebGLRenderer) throw new Error("prtkit: WebGPURenderer needs PrtkitPlugin of prtkit-web/webgpu");
   }
 
   /** Assigns transfer to the meshes of `gltf`. `of(mesh, primitive)` returns their transfer. */

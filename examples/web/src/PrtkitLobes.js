@@ -13,9 +13,9 @@ const holds = (value, what) => expect(value, what, LOBES);
  * view.
  */
 export function profilesOf({ order, profiles: { count } }, bytes) {
-  holds(bytes.byteLength === 4 * order * count, `the profiles are not ${count} of ${order} floats`);
+  holds(bytes.byteLength === 4 * order * count, `the profiles are not ${count} times ${order} floats`);
   const gains = new Float32Array(bytes.buffer.slice(bytes.byteOffset, bytes.byteOffset + bytes.byteLength));
-  holds(gains.every((gain) => Math.abs(gain) <= LARGEST_GAIN), `profiles are not finite, or beyond ${LARGEST_GAIN}`);
+  holds(gains.every((gain) => Math.abs(gain) <= LARGEST_GAIN), `gains of profiles are not finite or exceed ${LARGEST_GAIN}`);
   return Float32Array.from({ length: 4 * count }, (_, i) => (i % 4 < order ? gains[order * (i >> 2) + (i % 4)] : 0));
 }
 
@@ -25,8 +25,8 @@ function convertLobes(geometry, { lobes, profiles: { count } }) {
     const attribute = geometry.getAttribute(`_prt_lobe_${k}`);
     const { array } = attribute?.data ?? attribute ?? {};
     const isRight = array instanceof Uint8Array && attribute.itemSize === 4 && attribute.count === geometry.getAttribute("position")?.count;
-    holds(isRight && !attribute.normalized, `a primitive lacks _PRT_LOBE_${k} of four bytes for its vertices`);
-    for (let v = 0; v < attribute.count; ++v) holds(attribute.getZ(v) < count, `vertex ${v} has a profile that is not there`);
+    holds(isRight && !attribute.normalized, `a primitive has no _PRT_LOBE_${k} of four bytes for each vertex`);
+    for (let v = 0; v < attribute.count; ++v) holds(attribute.getZ(v) < count, `vertex ${v} names a profile that does not exist`);
     geometry.deleteAttribute(`_prt_lobe_${k}`);
     geometry.setAttribute(`prt_lobe_${k}`, attribute);
   }

@@ -20,17 +20,17 @@ export class PrtkitModel extends LitSurfaces {
     this.bytesPerVertex = 0;
     this.texels = 0;
     this.bytesPerTexel = 0;
-    this.maps = null; // RelitMaps, where texels have the transfer
-    this.instances = null; // PrtkitInstances, where some share the transfer of their mesh
+    this.maps = null; // RelitMaps, if texels have the transfer
+    this.instances = null; // PrtkitInstances, if instances share the transfer of their mesh
     this.occluders = null; // PrtkitOccluders
-    this.occludedAt = -1; // picture
+    this.occludedAt = -1; // frame
     this.occluderUniforms = {
       prt_occluder_texture: { value: null },
       prtOccluderRows: { value: [] },
       prtOccluderCount: { value: 0 },
       prtOccluderReach: { value: null },
     };
-    this.canOcclude = true; // by WebGLRenderer
+    this.canOcclude = true; // WebGLRenderer only
     this.beforeRender = (renderer, scene, camera, geometry, object) => {
       this.instances?.checkSize(renderer);
       this.followSky();
@@ -42,12 +42,12 @@ export class PrtkitModel extends LitSurfaces {
 
   /** Sets the occluders near the surfaces: PrtkitOccluders, or null. */
   setOccluders(occluders) {
-    if (!this.canOcclude) throw new Error("prtkit: what moves takes no light with WebGPURenderer");
+    if (!this.canOcclude) throw new Error("prtkit: WebGPURenderer does not support occluders");
     this.occluders = occluders;
     this.occludedAt = -1;
   }
 
-  /** Occluders are in shaders only while there are some. */
+  /** Adds occluders to the shaders only while some exist. */
   followOccluders(renderer, object) {
     const { occluders } = this;
     for (const material of object ? [object.material].flat() : []) {
@@ -63,7 +63,7 @@ export class PrtkitModel extends LitSurfaces {
     [texture.value, rows.value, count.value, reach.value] = [occluders.texture, occluders.rows, occluders.count, occluders.reach];
   }
 
-  /** The constants of all clusters, for coefficients in the frame of the bake. */
+  /** Computes the constants of all clusters from coefficients in the space of the bake. */
   update(sky, suns) {
     updateConstants(this.clusters, this.rows, this.columns(sky, suns), this.constantsTexture.image.data);
     this.constantsTexture.needsUpdate = true;

@@ -1,4 +1,4 @@
-// Occlusion of baked surfaces by moving objects near them: PRTKIT_occlusion_volume, from `prt ao --volume`.
+// Occlusion of baked surfaces by moving objects near them: PRTKIT_occlusion_volume, from `prt ao --occluders`.
 
 import { ByteType, Data3DTexture, LinearFilter, Matrix3, RGBAFormat, Vector3, Vector4 } from "three";
 import { checkOccluder, expect, OCCLUDERS } from "./wholeExtension.js";
@@ -8,10 +8,10 @@ const BYTES = 4 * SIDE ** 3;
 /** Equal to the value in shared_layout.h. */
 export const MOST_OCCLUDERS = 32;
 
-/** Returns the occluding parts of a file: [{ object, low, high, reach, texels }]. */
+/** Returns the occluders of a file: [{ object, low, high, reach, texels }]. */
 export async function occludersOf({ json, associations }, gltf, viewsOf) {
   const { nodes: all = [] } = json;
-  expect(Array.isArray(all), "nodes are no list", OCCLUDERS);
+  expect(Array.isArray(all), "nodes is not a list", OCCLUDERS);
   const nodes = all.map((node) => node?.extensions?.[OCCLUDERS]);
   if (nodes.every((extension) => extension === undefined)) return [];
   expect(gltf.scene, "the file has no scene", OCCLUDERS);
@@ -29,7 +29,7 @@ export async function occludersOf({ json, associations }, gltf, viewsOf) {
     expect(texels.byteLength === BYTES, `node ${node} has ${texels.byteLength} bytes of texels, not ${BYTES}`, OCCLUDERS);
     if (objects.has(node)) found.push({ object: objects.get(node), low: min, high: max, reach, texels });
   }
-  expect(found.length <= MOST_OCCLUDERS, `there are ${found.length} parts, more than ${MOST_OCCLUDERS}`, OCCLUDERS);
+  expect(found.length <= MOST_OCCLUDERS, `there are ${found.length} occluders; at most ${MOST_OCCLUDERS} are supported`, OCCLUDERS);
   return found;
 }
 
@@ -39,7 +39,7 @@ function isShown(object) {
   return true;
 }
 
-/** Writes the placement of a part as five rows of the shader: prt::placed. Returns the center of its reach. */
+/** Writes the transform of an occluder as five rows of the shader: prt::placed. Returns the center of its reach. */
 function updateRows({ object, low, high, reach }, slot, rows) {
   const linear = new Matrix3().setFromMatrix4(object.matrixWorld);
   const scale = Math.cbrt(Math.abs(linear.determinant()));
@@ -68,7 +68,7 @@ export class PrtkitOccluders {
     this.reach = new Vector4(); // a sphere that contains all reaches
   }
 
-  /** Updates the positions of the parts; invisible parts do not occlude. */
+  /** Updates the positions of the occluders; invisible ones do not occlude. */
   update() {
     this.count = 0;
     const centres = this.parts.flatMap((part, slot) => (isShown(part.object) ? [updateRows(part, slot, this.rows.slice(5 * this.count++))] : []));

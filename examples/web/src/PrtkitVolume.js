@@ -20,7 +20,7 @@ import { VolumeRelighter } from "./VolumeRelighter.js";
 import { positionOf, SIDE } from "./volumeGrid.js";
 import { atlasOf, indexTexels, visibilityTexels } from "./volumeTextures.js";
 
-/** Products with the light that are formed in a frame, and probes: some 4 ms each. */
+/** Number of products with the light and of probes that are computed in one frame: about 4 ms each. */
 const PRODUCTS_AT_ONCE = 3e6;
 const PROBES_AT_ONCE = 6144;
 
@@ -31,7 +31,7 @@ function texture3d(data, size, format, type) {
 }
 
 /**
- * Returns the unit direction of most light of the suns, which for one sun is its direction; null without
+ * Returns the unit direction from which most light of the suns comes: for one sun its direction; null without
  * light.
  */
 function directionOf(coefficients) {
@@ -85,9 +85,9 @@ export class PrtkitVolume extends LitTransfer {
       prtSkyLight: { value: Array.from({ length: order * order }, () => new Vector3()) },
       prtSeparateSuns: { value: false },
     };
-    this.asked = null; // light that is to be formed
+    this.asked = null; // requested light that is not computed yet
     this.steps = null; // steps of the light being computed
-    this.isFormed = false; // any light
+    this.hasLight = false; // any light
     this.frame = -1;
     this.renderers = new WeakSet(); // renderers whose textures are large enough
     this.tables = null; // tables of nodes
@@ -98,7 +98,7 @@ export class PrtkitVolume extends LitTransfer {
     this.updateTransform();
   }
 
-  /** Returns this volume: files have it in addition to transfer of surfaces, or alone. */
+  /** Returns this volume, for symmetry with a model. */
   get volume() {
     return this;
   }
@@ -128,7 +128,7 @@ export class PrtkitVolume extends LitTransfer {
     return new Vector3(...positionOf(this.source.grid, probe));
   }
 
-  /** True if a probe is inside geometry, and gives no light. */
+  /** True if a probe is inside geometry and has no light. */
   isSealed(probe) {
     return this.source.visibility.subarray(6 * probe, 6 * probe + 6).every((visibility) => visibility === 0);
   }
@@ -147,12 +147,12 @@ export class PrtkitVolume extends LitTransfer {
     this.asked = { columns: this.columns(sky, suns), sun: separate ? directionOf(suns) : null, separate, open };
   }
 
-  /** True if the light set last is the one drawn: a change takes a few frames. */
+  /** True if the last light that was set is drawn: a change takes a few frames. */
   get isSettled() {
     return !this.asked && !this.steps;
   }
 
-  /** Forms the light that was set at once. */
+  /** Computes the light that was set immediately. */
   settle() {
     this.followSky();
     while (!this.isSettled) this.step();
@@ -171,7 +171,7 @@ export class PrtkitVolume extends LitTransfer {
   /** Replaces the shown light by the computed one. */
   show({ separate, open }) {
     this.steps = null;
-    this.isFormed = true;
+    this.hasLight = true;
     [this.spare, this.texture.image.data] = [this.texture.image.data, this.spare];
     this.texture.needsUpdate = true;
     this.uniforms.prtSeparateSuns.value = separate;
@@ -184,26 +184,26 @@ export class PrtkitVolume extends LitTransfer {
     this.uniforms.prtToVolume.value.copy(this.root.matrixWorld).invert().premultiply(origin);
   }
 
-  /** Throws where a device has no textures as long as the volume's: guaranteed are 256 texels. */
+  /** Throws if the device does not support textures of the volume's size; 256 texels per side are guaranteed. */
   checkSize(renderer) {
     if (this.renderers.has(renderer)) return;
     const { device, gl = renderer.getContext?.() } = renderer.backend ?? {};
     const most = device?.limits.maxTextureDimension3D ?? gl?.getParameter(gl.MAX_3D_TEXTURE_SIZE);
     const { width, height, depth } = this.texture.image;
     const longest = Math.max(width, height, depth, ...this.source.grid.size);
-    if (longest > most) throw new Error(`prtkit: a volume is ${longest} texels long, longer than this device has textures (${most})`);
+    if (longest > most) throw new Error(`prtkit: the volume needs a texture with a side of ${longest} texels; this device supports at most ${most}`);
     this.renderers.add(renderer);
   }
 
-  /** Before anything is drawn by it: a step for each picture, all of them before the first. */
+  /** Called before an object is drawn: computes one step per frame, and all steps before the first frame. */
   advance(renderer) {
-    const { frame, calls } = renderer.info.render; // WebGPURenderer counts calls alone
+    const { frame, calls } = renderer.info.render; // WebGPURenderer counts only calls
     if ((frame ?? calls) === this.frame) return;
     this.frame = frame ?? calls;
     this.checkSize(renderer);
     this.updateTransform();
     this.followSky();
-    if (!this.isFormed) this.settle();
+    if (!this.hasLight) this.settle();
     else if (!this.isSettled) this.step();
   }
 

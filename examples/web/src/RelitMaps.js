@@ -1,4 +1,4 @@
-// Lightmaps of a model as textures of radiance, which are drawn anew when its light has changed.
+// Lightmaps of a model as textures of radiance, which are drawn again after its light has changed.
 
 import { ClampToEdgeWrapping, HalfFloatType, LinearFilter, LinearMipmapLinearFilter, RepeatWrapping, WebGLRenderTarget } from "three";
 
@@ -24,7 +24,7 @@ export class RelitMaps {
     this.computed = new Map(); // by renderer, the version of the constants that its textures are of
   }
 
-  /** The radiance of map `i`, looked up by the coordinates of that number. */
+  /** Returns the radiance texture of map `i`; `texCoord`: index of its texture coordinates. */
   texture(i, texCoord) {
     const key = `${i} ${texCoord}`;
     if (!this.targets.has(key)) {

@@ -1,7 +1,7 @@
 // The suns of a light file as three's directional lights, with shadow maps fitted to the lit objects.
 
 import { Box3, DirectionalLight, Group, Vector3 } from "three";
-import { environmentRotation, shownBy, turnedBy } from "./turns.js";
+import { environmentRotation, shownBy, rotatedBy } from "./rotations.js";
 
 const RADIUS_AT = 0.1; // equal to the value in sunLight.glsl
 const MARGIN = 2; // texels of a map beyond the fitted box
@@ -20,7 +20,7 @@ function lightOf({ irradiance }, mapSize) {
 }
 
 /**
- * To be added to the scene itself. Other materials of the scene are lit by them as by any light.
+ * Add it directly to the scene. It lights other materials of the scene like any light.
  */
 export class SunLights extends Group {
   /** `suns`: see readLightFile. `mapSize`: texels along each side of a shadow map. */
@@ -42,14 +42,14 @@ export class SunLights extends Group {
    */
   fit(object) {
     const box = object.isBox3 ? object.clone() : new Box3().setFromObject(object);
-    if (box.isEmpty()) throw new RangeError("there is nothing to fit shadow maps to");
+    if (box.isEmpty()) throw new RangeError("shadow maps cannot be fitted to an empty box");
     this.box = box;
     this.updateTransform();
     return this;
   }
 
   /** Rotates the suns about +Y by `angle` radians, as `setLight` does with the light. */
-  rotation(angle) {
+  rotate(angle) {
     const [c, s] = [Math.cos(angle), Math.sin(angle)];
     this.scene = null;
     this.rotated = [c, 0, -s, 0, 1, 0, s, 0, c];
@@ -96,7 +96,7 @@ export class SunLights extends Group {
     this.lights.forEach((light, i) => {
       const { towards, halfAngle } = this.suns[i];
       light.target.position.copy(centre);
-      light.position.fromArray(turnedBy(this.rotated, towards));
+      light.position.fromArray(rotatedBy(this.rotated, towards));
       light.position.multiplyScalar(2 * radius).add(centre);
       fitShadow(light.shadow, light.position, this.box, Math.tan(Math.min(halfAngle, 1.5)));
     });
@@ -123,7 +123,7 @@ function fitShadow(shadow, from, box, tangent) {
     low.min(at);
     high.max(at);
   }
-  // The middle of the box is in the middle. Square, for three's filters know one radius for both axes.
+  // The center of the box is centered. Square, because three's filters use one radius for both axes.
   const half = Math.max(high.x, high.y, 1e-6) / (1 - (2 * MARGIN) / mapSize.x);
   Object.assign(camera, { left: -half, right: half, bottom: -half, top: half });
   const slack = 1e-3 * (high.z - low.z) + 1e-6;
@@ -133,7 +133,7 @@ function fitShadow(shadow, from, box, tangent) {
 
   const texel = (2 * half) / mapSize.x;
   shadow.radius = (tangent * RADIUS_AT * (camera.far - camera.near)) / texel;
-  // For three's filters, which compare their taps with one depth. A tap at a distance of r texels of size t,
+  // Bias for three's filters, which compare their taps with one depth. A tap at a distance of r texels of size t,
   // along a slope of angle a to the light, is r t tan(a) deeper; an offset d along the normal compensates
   // this if d >= r t sin(a); taps are in a square.
   shadow.normalBias = Math.SQRT2 * (shadow.radius + 1) * texel;

@@ -58,8 +58,8 @@ export class VolumeRelighter {
     const { order, outputs, firstRows, rowCount } = clusters;
     const [begin, end] = [first, last].map((k) => firstRows[k] ?? rowCount);
     const size = rows.length / rowCount;
-    const term = { ...clusters, rowCount: end - begin };
-    const colors = updateConstants(term, rows.subarray(begin * size, end * size), columns, new Float64Array(4 * (end - begin) * outputs));
+    const range = { ...clusters, rowCount: end - begin };
+    const colors = updateConstants(range, rows.subarray(begin * size, end * size), columns, new Float64Array(4 * (end - begin) * outputs));
     const basis = sun && direct ? evaluateSh(order, ...sun) : [];
     for (let r = begin; r < end; ++r) {
       for (let o = 0; o < outputs; ++o)

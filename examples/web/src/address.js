@@ -1,6 +1,6 @@
 // Stores the state of the page in its address: a link shows the same state.
 
-/** Numbers of the address, or undefined. */
+/** Returns the numbers of a parameter of the address, or undefined. */
 export function vectorOf(asked, name) {
   return asked.get(name)?.split(",").map(Number);
 }

@@ -5,8 +5,8 @@ import { BufferAttribute, Matrix3, Matrix4, Vector3 } from "three";
 import { expect, LARGEST_WEIGHT } from "./wholeExtension.js";
 
 /**
- * Returns the cofactors of a matrix, which rotate normals, scaled to a safe range of floats; works without an
- * inverse, too.
+ * Returns the cofactors of a matrix, which rotate normals, scaled to a safe range of floats; also works without an
+ * inverse.
  */
 export function normalMatrix(matrix) {
   const [x, y, z] = [0, 1, 2].map((column) => new Vector3().setFromMatrixColumn(matrix, column));
@@ -16,7 +16,7 @@ export function normalMatrix(matrix) {
   return new Matrix3().fromArray(cofactors.map((value) => (largest > 0 ? (side * value) / largest : 0)));
 }
 
-/** The matrix of vertex `v` of a skinned mesh in the pose that its bones have. */
+/** Returns the matrix of vertex `v` of a skinned mesh in the current pose of its bones. */
 function skinMatrix({ geometry, skeleton }, v) {
   const { skinIndex, skinWeight } = geometry.attributes;
   const sum = new Matrix4().multiplyScalar(0);
@@ -67,7 +67,7 @@ function lacksNormals({ attributes: { normal, position } }) {
   return false;
 }
 
-/** A vector of length 1; zero where that is not to be had. */
+/** Returns the vector with length 1, or zero if it cannot be normalised. */
 function unitOrZero(vector) {
   const length = vector.length();
   return length > 0 && length < Infinity ? vector.divideScalar(length) : vector.set(0, 0, 0);
@@ -128,7 +128,7 @@ export function bakedFrame(mesh, predictors, world = mesh.matrixWorld) {
   const origin = new Vector3(...(position?.origin ?? [0, 0, 0]));
   const defines = {};
   if (hasNormals) defines.PRT_PREDICTOR_NORMAL = 1;
-  // The matrix, or the attribute, has taken it off already, in doubles.
+  // The matrix or the attribute already subtracts the origin, in double precision.
   if (position) Object.assign(defines, { PRT_PREDICTOR_POSITION: 1, PRT_PREDICTOR_ORIGIN: "vec3(0.0)" });
   const toBake = new Matrix4().makeTranslation(origin.clone().negate()).multiply(world);
   const moves = mesh.isSkinnedMesh || mesh.morphTargetInfluences?.some((influence) => influence !== 0);

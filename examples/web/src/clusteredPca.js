@@ -3,14 +3,14 @@
 import { codedRows } from "./codedRows.js";
 import { checkExtension, expect, LARGEST_TRANSFER } from "./wholeExtension.js";
 
-/** Bits of a byte array, lowest first. */
+/** Reads bits of a byte array, lowest first. */
 class BitReader {
   constructor(bytes) {
     this.bytes = bytes;
     this.position = 0;
   }
   read(width) {
-    expect(this.position + width <= 8 * this.bytes.length, "the bits end too early");
+    expect(this.position + width <= 8 * this.bytes.length, "the bit stream ends too early");
     let value = 0;
     let taken = 0;
     while (taken < width) {
@@ -26,20 +26,20 @@ class BitReader {
 
 /** Returns `count` finite floats with absolute values up to `largest`. */
 function floats(bytes, count, largest, what) {
-  expect(bytes.byteLength === 4 * count, `${what} have another size than ${count} floats`);
+  expect(bytes.byteLength === 4 * count, `${what} do not contain ${count} floats`);
   const values = new Float32Array(bytes.buffer.slice(bytes.byteOffset, bytes.byteOffset + bytes.byteLength));
   checkMagnitudes(values, largest, what);
   return values;
 }
 
 function checkMagnitudes(values, largest, what) {
-  expect(values.every((value) => Math.abs(value) <= largest), `${what} are not finite, or beyond ${largest}`);
+  expect(values.every((value) => Math.abs(value) <= largest), `${what} are not finite or exceed ${largest}`);
 }
 
-/** Colours that light a term: the coefficients of a sky, or the one strength of a lamp. */
+/** Number of light columns of a term: the coefficients of a sky, or the one strength of a lamp. */
 const columnsOf = (order, { kind }) => (kind === "lamp" ? 1 : order * order);
 
-/** Numbers of a row: for each output a transfer vector, its terms one behind the other, each [channels][columns]. */
+/** Size of a row: for each output a transfer vector, its terms one after the other, each [channels][columns]. */
 const dimensionOf = ({ order, terms, outputs = 1 }) =>
   outputs * terms.reduce((sum, term) => sum + term.channels * columnsOf(order, term), 0);
 
@@ -77,7 +77,7 @@ export function clustersOf(extension, view, outputs = 1) {
   return { ...clusters, rows, widths, clusterBits: packing ? packing.clusterBits : 0 };
 }
 
-/** Bits of the packed weights of each cluster. */
+/** Returns the widths, in bits, of the packed weights of each cluster. */
 export function packedWidths({ components, packing }, view) {
   const bits = new BitReader(view(packing.bufferView));
   return components.map((m) => Array.from({ length: m }, () => bits.read(4) + 1));
@@ -89,10 +89,10 @@ export function packedWidths({ components, packing }, view) {
  */
 function checkRows(rows, axes, dimension, bytes) {
   const values = rows * (axes + 3 * dimension) + axes * dimension;
-  expect(4 * values <= 256e6 + 64 * bytes, `the bases would take ${Math.round((4 * values) / 1e6)} MB`);
+  expect(4 * values <= 256e6 + 64 * bytes, `the bases would need ${Math.round((4 * values) / 1e6)} MB`);
 }
 
-/** The step of each axis in each cluster, [clusters][axes]: one for all, or times powers of two. */
+/** Returns the step of each axis in each cluster, [clusters][axes]: one for all, or multiplied by powers of two. */
 function stepsOf({ step, steps }, clusterCount, axisCount, view) {
   const result = new Float64Array(clusterCount * axisCount).fill(steps ? steps.least : step);
   if (!steps) return result;
@@ -109,9 +109,9 @@ function stepsOf({ step, steps }, clusterCount, axisCount, view) {
 function decodedRows({ order, terms, outputs, components, predictors, firstRows, rowCount }, bases, view) {
   const dimension = dimensionOf({ order, terms, outputs });
   const axisCount = bases.values.drops.length;
-  expect(bases.axes.drops.length === dimension, "the sizes of the coded bases do not fit together");
-  const numbers = (term, count, largest, what) => floats(view(bases[term].bufferView), count, largest, what);
-  const origin = numbers("origin", dimension, LARGEST_TRANSFER, "the numbers of the origin");
+  expect(bases.axes.drops.length === dimension, "the sizes of the coded bases are inconsistent");
+  const numbers = (name, count, largest, what) => floats(view(bases[name].bufferView), count, largest, what);
+  const origin = numbers("origin", dimension, LARGEST_TRANSFER, "the values of the origin");
   const scales = numbers("scales", axisCount, Number.MAX_VALUE, "the scales");
   const units = bases.units ? numbers("units", dimension, Number.MAX_VALUE, "the units") : new Float32Array(dimension).fill(1);
   const codes = [bases.axes, bases.values].map(({ bufferView }) => view(bufferView));
@@ -168,7 +168,7 @@ export function shaderRows(clusters) {
   return result;
 }
 
-/** The table that the shader finds clusters in: first row, components, widths of weights 0..7 and 8..15. */
+/** Returns the table of clusters for the shader: first row, components, widths of weights 0..7 and 8..15. */
 export function clusterTable(clusters) {
   const { components, firstRows, widths } = clusters;
   const table = new Uint32Array(4 * components.length);

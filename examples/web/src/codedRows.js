@@ -58,7 +58,7 @@ function numberOf(decoder, width, own) {
   return sign * ((top << (below - 1)) | decoder.plain(below - 1));
 }
 
-/** Numbers [rows][drops.length]. */
+/** Returns the numbers [rows][drops.length]. */
 export function codedRows(bytes, drops, rows) {
   // Each row has at least four bits: a short file cannot contain many rows.
   expect(drops.length === 0 || rows / 2 <= bytes.length, "the coded rows end too early");

@@ -1,4 +1,4 @@
-// Coded words of vertices in a file that GLTFLoader is about to read: they become attributes as any others.
+// Decodes words of vertices before GLTFLoader reads a file: they become ordinary attributes.
 
 import { packedWidths } from "./clusteredPca.js";
 import { codedWords, earlierNeighbors } from "./codedWords.js";
@@ -9,17 +9,17 @@ const STRIP = 5;
 const FAN = 6;
 const BYTES_PER_VERTEX = 120; // memory per vertex in addition to its words
 
-/** Corners of the triangles of a primitive, each three in any order. */
+/** Returns the corners of the triangles of a primitive, each three in any order. */
 async function trianglesOf(parser, { indices, mode }, count) {
   const accessor = indices === undefined ? null : await parser.getDependency("accessor", indices);
   const list = Array.from({ length: accessor ? accessor.count : count }, (_, i) => (accessor ? accessor.getX(i) : i));
-  expect(list.every((index) => index < count), `an index of a primitive is beyond its ${count} vertices`);
+  expect(list.every((index) => index < count), `an index of a primitive exceeds its ${count} vertices`);
   if (mode === STRIP) return list.slice(2).flatMap((last, i) => [list[i], list[i + 1], last]);
   if (mode === FAN) return list.slice(2).flatMap((last, i) => [list[0], list[i + 1], last]);
   return list.slice(0, list.length - (list.length % 3));
 }
 
-/** Primitives with coded words: { primitive, first, count }. */
+/** Returns the primitives with coded words: { primitive, first, count }. */
 function codedPrimitives(json, vertices) {
   const coded = [];
   for (const { primitives } of json.meshes ?? [])
@@ -27,7 +27,7 @@ function codedPrimitives(json, vertices) {
       const first = primitive.extensions?.[VERTICES]?.firstVertex;
       if (first === undefined) continue;
       const count = json.accessors?.[primitive.attributes.POSITION]?.count;
-      expect(Number.isInteger(first) && first >= 0 && first + count <= vertices, `the coded words of a primitive are beyond the ${vertices} of the file`);
+      expect(Number.isInteger(first) && first >= 0 && first + count <= vertices, `a primitive uses coded words beyond the ${vertices} of the file`);
       coded.push({ primitive, first, count });
     }
   return coded;
@@ -46,7 +46,7 @@ export async function decodeVertices(parser, views) {
   const words = wordsOf(clusters);
   const all = bytes.get(bufferView);
   expect(frequencies.byteLength <= all.length, "the frequencies of the coded words end too early");
-  expect(vertices * (BYTES_PER_VERTEX + 16 * words) <= 256e6 + 64 * all.length, `${vertices} coded vertices take too much memory`);
+  expect(vertices * (BYTES_PER_VERTEX + 16 * words) <= 256e6 + 64 * all.length, `${vertices} coded vertices need too much memory`);
   const primitives = codedPrimitives(json, vertices);
   const triangles = [];
   for (const { primitive, first, count } of primitives)

@@ -21,7 +21,7 @@ const CONTEXTS = firstContext(SYMBOL_BITS + 1);
 const rowsOf = (context) => (context >= firstContext(6) ? 4 : context >= firstContext(5) ? 2 : 1);
 const ROWS = Array.from({ length: CONTEXTS }, (_, context) => rowsOf(context)).reduce((sum, rows) => sum + rows);
 
-/** The symbol, its frequency and the number within it of each slot of each context: [contexts][TOTAL][3]. */
+/** Returns for each slot of each context the symbol, its frequency and the slot's offset in it: [contexts][TOTAL][3]. */
 function slotsOf(bytes, drops) {
   expect(drops.length === COLUMNS, `the frequencies of the coded words have ${drops.length} columns, not ${COLUMNS}`);
   const frequencies = codedRows(bytes, drops, ROWS);
@@ -31,7 +31,7 @@ function slotsOf(bytes, drops) {
     const own = frequencies.subarray(COLUMNS * row, COLUMNS * (row + rowsOf(context)));
     row += rowsOf(context);
     const sum = own.reduce((total, frequency) => (frequency < 0 ? NaN : total + frequency), 0);
-    expect(sum === 0 || sum === TOTAL, `${DAMAGED}: the frequencies have another sum than ${TOTAL}`);
+    expect(sum === 0 || sum === TOTAL, `${DAMAGED}: the sum of the frequencies is not ${TOTAL}`);
     if (sum === 0) own[0] = TOTAL; // unused
     let slot = context * TOTAL;
     own.forEach((frequency, symbol) => {
@@ -47,7 +47,7 @@ class RansDecoder {
     this.bytes = bytes;
     this.slots = slots;
     this.position = 0;
-    this.rotation = 0;
+    this.current = 0;
     this.states = Array.from({ length: STATES }, () => {
       const low = this.unit();
       return low + 65536 * this.unit();
@@ -58,20 +58,20 @@ class RansDecoder {
     this.position += 2;
     return this.position <= this.bytes.length ? this.bytes[at] | (this.bytes[at + 1] << 8) : 0;
   }
-  takeTurns(state) {
-    this.states[this.rotation] = state < LEAST_STATE ? state * 65536 + this.unit() : state;
-    this.rotation = (this.rotation + 1) % STATES;
+  advance(state) {
+    this.states[this.current] = state < LEAST_STATE ? state * 65536 + this.unit() : state;
+    this.current = (this.current + 1) % STATES;
   }
   symbol(context) {
-    const state = this.states[this.rotation];
+    const state = this.states[this.current];
     const at = 3 * (context * TOTAL + (state & (TOTAL - 1)));
     const frequency = this.slots[at + 1];
-    this.takeTurns(frequency * (state >>> FREQUENCY_BITS) + this.slots[at + 2]);
+    this.advance(frequency * (state >>> FREQUENCY_BITS) + this.slots[at + 2]);
     return this.slots[at];
   }
   plain(width) {
-    const state = this.states[this.rotation];
-    this.takeTurns(state >>> width);
+    const state = this.states[this.current];
+    this.advance(state >>> width);
     return state & ((1 << width) - 1);
   }
   endsWell() {
@@ -102,7 +102,7 @@ export function earlierNeighbors(triangles, vertices) {
   return neighbors;
 }
 
-/** The bytes of each block. */
+/** Returns the bytes of each block. */
 function blocksOf(bytes, count) {
   const tooEarly = "the coded words end too early";
   expect(4 * count <= bytes.length, tooEarly);
@@ -114,7 +114,7 @@ function blocksOf(bytes, count) {
   return blocks;
 }
 
-/** The vertices that predict vertex v, which is not the first of its block, the context of its cluster, and the distinct clusters of them. */
+/** Returns the vertices that predict vertex `v` (not the first of its block), the context of its cluster, and their distinct clusters. */
 function prediction(clusters, neighbors, v) {
   const by = [];
   for (let i = 3 * v; i < 3 * v + 3 && neighbors[i] < v; ++i) by.push(neighbors[i]);

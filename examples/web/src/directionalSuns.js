@@ -2,7 +2,7 @@
 
 import { Vector3 } from "three";
 
-/** Whether three draws by `light`: it and all that it is in are visible, up to `scene`. */
+/** True if three uses `light`: the light and all its ancestors up to `scene` are visible. */
 function isIn(scene, light) {
   for (let at = light; at?.visible; at = at.parent) if (at === scene) return true;
   return false;
@@ -12,10 +12,10 @@ function isIn(scene, light) {
 export function checkSunLights(lights) {
   for (const light of lights)
     if (!light?.isDirectionalLight)
-      throw new Error(`prtkit: suns is an array of DirectionalLights, or what lightOfSuns returns; it holds ${light?.type ?? typeof light}`);
+      throw new Error(`prtkit: suns must be an array of DirectionalLights or the result of lightOfSuns; it contains ${light?.type ?? typeof light}`);
 }
 
-/** The suns of `lights`, as lightOfSuns takes them, in directions of the world; without those that three does not draw by. */
+/** Returns `lights` as suns for lightOfSuns, in world directions; omits lights that three does not use. */
 export function sunsOf(lights, scene) {
   return lights
     .filter((light) => isIn(scene, light))

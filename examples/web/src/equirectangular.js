@@ -1,4 +1,4 @@
-// Equirectangular textures of HDRLoader and EXRLoader: how they light, and how three shows them.
+// Projects equirectangular textures of HDRLoader and EXRLoader, and converts them for display by three.
 
 import {
   DataTexture,
@@ -10,7 +10,7 @@ import {
 } from "three";
 import { MAX_ORDER, projectLatLong } from "./sphericalHarmonics.js";
 
-/** How the texels of an equirectangular texture are stored. */
+/** Returns the storage layout of the texels of an equirectangular texture. */
 export function texels(texture) {
   const { width, height, data } = texture.image;
   const stride = texture.format === RGBAFormat ? 4 : data.length / (width * height);
@@ -50,7 +50,7 @@ export function halfFloatSky(texture, { center = "x" } = {}) {
       const right = (y * width + ((x - whole + width) % width)) * stride;
       const left = (y * width + ((x - whole - 1 + width) % width)) * stride;
       for (let c = 0; c < 3; ++c) {
-        // Widths that are no multiple of four: between two columns.
+        // If the width is not a multiple of four, interpolates between two columns.
         const here = finite(value(data[right + c]));
         halves[at + c] = DataUtils.toHalfFloat(part === 0 ? here : (1 - part) * here + part * finite(value(data[left + c])));
       }

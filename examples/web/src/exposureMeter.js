@@ -5,7 +5,7 @@ import { FloatType, NearestFilter, WebGLRenderTarget } from "three";
 const SIZE = 48; // pixels along each side
 const MEAN_SHOWN = 0.22;
 
-/** Draws into a small target and reads it back. Not possible on devices that cannot draw floats. */
+/** Draws into a small target and reads it back. Needs a device that can draw floats. */
 export class ExposureMeter {
   constructor(renderer) {
     this.renderer = renderer;

@@ -1,5 +1,5 @@
-// Baked light that a file has for viewers without PRT (docs/format.md, "Fallback"): colours of vertices, and materials that
-// are unlit for it.
+// Removes baked light for viewers without PRT (docs/format.md, "Fallback"): vertex colours, and materials that
+// are unlit because of it.
 
 import { VERTICES } from "./wholeExtension.js";
 

@@ -1,4 +1,4 @@
-// 16 bits of IEEE 754.
+// Half floats: 16 bits, IEEE 754.
 
 /** Returns the number with these bits. */
 export function halfFloat(bits) {
@@ -21,7 +21,7 @@ export function halvesOf(values, halves) {
     const sign = (word[0] >>> 16) & 0x8000;
     const magnitude = word[0] & 0x7fffffff;
     if (magnitude < 0x38800000) {
-      number[0] = Math.abs(number[0]) + 0.5; // its last bit is the step of the smallest half floats
+      number[0] = Math.abs(number[0]) + 0.5; // the last bit is now the step of the smallest half floats
       halves[i] = sign | (word[0] - 0x3f000000);
     } else halves[i] = sign | ((magnitude - 0x38000000 + 0xfff + ((magnitude >>> 13) & 1)) >>> 13);
   }

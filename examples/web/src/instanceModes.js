@@ -1,19 +1,19 @@
 // Lighting of instances that share the transfer of their mesh (docs/format.md, PRTKIT_instances): its modes,
-// and the rotations for which it is computed, as prt::InstanceModes and prt::instance_rotations do. Does not use
+// and the rotations for which it is computed, like prt::InstanceModes and prt::instance_rotations. Does not use
 // three.js.
 
 import { evaluateSh, gaussLegendre } from "./sphericalHarmonics.js";
 
 const ABOVE_BANDS = 3;
 const ABOVE_MODES = ABOVE_BANDS ** 2;
-/** Light from above the horizon times √(4π) Y of three bands; that from below. */
+/** Modes of transmitted light: light from above the horizon times √(4π) Y of three bands, and light from below. */
 export const PASSING_MODES = ABOVE_MODES + 1;
 export const ADDED_BANDS = 2;
-/** Light reflected by level ground, times √(4π) Y of two bands. */
+/** Modes of reflected light: light of level ground times √(4π) Y of two bands. */
 export const ADDED_MODES = ADDED_BANDS ** 2;
-/** Numbers of an instance: ten rows of four numbers, four colours. */
+/** Number of factors of an instance: ten rows of four numbers, and four colours. */
 export const FACTORS = 4 * PASSING_MODES + 3 * ADDED_MODES;
-/** Makes the constant mode 1. */
+/** Scales the constant mode to 1. */
 const SCALE = Math.sqrt(4 * Math.PI);
 
 /** Modes as linear operators on the coefficients of light, in the world's axes with +Y up. */
@@ -28,7 +28,7 @@ export class InstanceModes {
     const heights = gaussLegendre(order + 1);
     const around = 2 * order + 2;
     const bands = Math.max(order, ABOVE_BANDS);
-    const basis = new Float64Array(bands * bands); // a basis of fewer bands is its first part
+    const basis = new Float64Array(bands * bands); // a basis of fewer bands is its beginning
     for (let h = 0; h <= order; ++h)
       for (let a = 0; a < around; ++a) {
         const y = 0.5 * (heights.nodes[h] + 1);

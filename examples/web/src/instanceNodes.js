@@ -6,7 +6,7 @@ import { FACTORS } from "./instanceModes.js";
 import { checkInstanceNode, checkInstances, expect, INSTANCES } from "./wholeExtension.js";
 
 const GPU = "EXT_mesh_gpu_instancing";
-/** Numbers by which all light passes evenly, from above the horizon and from below: in the open they are 1, all others 0. */
+/** Factors that transmit all light uniformly from above and below the horizon: 1 for an unoccluded instance; all others are 0. */
 const EVEN = [3, 39];
 const ROUNDING = 1e-5; // tolerance of an element, relative to the scale: matrices in files are floats
 
@@ -14,7 +14,7 @@ const holds = (value, what) => expect(value, what, INSTANCES);
 
 /**
  * Removes meshes and instances of shared transfer from the nodes of `json`, a whole glTF, before three reads
- * it. Returns [{ node, mesh, first, box, attributes }] with the accessors of its instances, null if the node
+ * it. Returns [{ node, mesh, first, box, attributes }]; `attributes`: the accessors of its instances, null if the node
  * is a single instance.
  */
 export function takeInstancesAside(json) {
@@ -22,7 +22,7 @@ export function takeInstancesAside(json) {
   if (extension === undefined) return [];
   checkInstances(extension);
   const { nodes = [] } = json;
-  holds(Array.isArray(nodes), "nodes are no list");
+  holds(Array.isArray(nodes), "nodes is not a list");
   const shared = [];
   const sharedMeshes = new Set();
   for (const [node, drawing] of nodes.entries()) {
@@ -30,14 +30,14 @@ export function takeInstancesAside(json) {
     const own = extensions?.[INSTANCES];
     if (own === undefined) continue;
     checkInstanceNode(own, node, extension.count, extension.boxes.length);
-    holds(json.meshes?.[mesh], `node ${node} draws no mesh`);
+    holds(json.meshes?.[mesh], `node ${node} has no mesh`);
     holds(skin === undefined, `node ${node} has a skin`);
     shared.push({ node, mesh, first: own.first, box: own.box, attributes: extensions[GPU]?.attributes ?? null });
     sharedMeshes.add(mesh);
   }
   nodes.forEach((drawing, node) => {
     const isAlone = !sharedMeshes.has(drawing?.mesh) || drawing.extensions?.[INSTANCES] !== undefined;
-    holds(isAlone, `node ${node} draws a mesh that instances share, and is none`);
+    holds(isAlone, `node ${node} uses a mesh with shared transfer, but is not an instance`);
   });
   for (const { node } of shared) {
     delete nodes[node].mesh;
@@ -46,7 +46,7 @@ export function takeInstancesAside(json) {
   return shared;
 }
 
-/** Puts them back, as the file has them. */
+/** Restores the original JSON. */
 export function putInstancesBack({ nodes }, shared) {
   for (const { node, mesh, attributes } of shared) {
     nodes[node].mesh = mesh;
@@ -59,7 +59,7 @@ export function putInstancesBack({ nodes }, shared) {
  * differences from an unoccluded instance.
  */
 export function factorsOf({ count, factors: { scales } }, bytes) {
-  holds(bytes.byteLength === FACTORS * count, `the factors are not those of ${count} instances`);
+  holds(bytes.byteLength === FACTORS * count, `the factors do not have the size of ${count} instances`);
   const { buffer, byteOffset, byteLength } = bytes;
   const open = Float64Array.from(scales, (_, j) => Number(EVEN.includes(j)));
   const steps = new Int8Array(buffer, byteOffset, byteLength);
@@ -86,28 +86,28 @@ export function evenRotation({ elements: e }) {
 const SIZES = { TRANSLATION: 3, ROTATION: 4, SCALE: 3 };
 
 /** Returns the matrices of the instances of a node, in its space, at most `most`; `parser`: of GLTFLoader. */
-export async function positionsOf({ node, attributes }, parser, most) {
+export async function matricesOf({ node, attributes }, parser, most) {
   if (attributes === null) return [new Matrix4()];
   const read = {};
   for (const [name, size] of Object.entries(SIZES)) {
     if (attributes[name] === undefined) continue;
     const claimed = parser.json.accessors?.[attributes[name]]?.count; // the data may be missing
-    holds(claimed >= 1 && claimed <= most, `node ${node} draws no instances, or more than have factors`);
+    holds(claimed >= 1 && claimed <= most, `node ${node} has no instances, or more than there are factors`);
     try {
       read[name] = await parser.getDependency("accessor", attributes[name]);
     } catch (error) {
       throw new Error(`${INSTANCES}: accessor ${attributes[name]} cannot be read`, { cause: error });
     }
-    holds(read[name]?.itemSize === size, `${name} of node ${node} is no vector of ${size}`);
+    holds(read[name]?.itemSize === size, `${name} of node ${node} is not a vector of ${size}`);
   }
   const counts = Object.values(read).map(({ count }) => count);
-  holds(counts.length > 0 && counts.every((count) => count === counts[0]), `the instances of node ${node} have attributes of different length, or none`);
-  const [point, rotation, scale] = [new Vector3(), new Quaternion(), new Vector3(1, 1, 1)];
+  holds(counts.length > 0 && counts.every((count) => count === counts[0]), `instance attributes of node ${node} are missing or have different lengths`);
+  const [position, rotation, scale] = [new Vector3(), new Quaternion(), new Vector3(1, 1, 1)];
   return Array.from({ length: counts[0] }, (_, i) => {
-    if (read.TRANSLATION) point.fromBufferAttribute(read.TRANSLATION, i);
+    if (read.TRANSLATION) position.fromBufferAttribute(read.TRANSLATION, i);
     if (read.ROTATION) rotation.fromBufferAttribute(read.ROTATION, i).normalize();
     if (read.SCALE) scale.fromBufferAttribute(read.SCALE, i);
-    return new Matrix4().compose(point, rotation, scale);
+    return new Matrix4().compose(position, rotation, scale);
   });
 }
 

@@ -1,4 +1,4 @@
-// Light files of `prt project` (docs/format.md). No three.js here.
+// Reads light files of `prt project` (docs/format.md). Does not use three.js.
 
 import { evaluateSh, MAX_ORDER, ShLight } from "./sphericalHarmonics.js";
 
@@ -7,10 +7,10 @@ const areFinite = (values, count) =>
 
 function sunOf({ towards, irradiance, half_angle_radians: halfAngle }) {
   if (!areFinite(towards, 3) || !areFinite(irradiance, 3) || !irradiance.every((value) => value >= 0))
-    throw new Error("light file: a sun's towards or irradiance is wrong");
+    throw new Error("light file: towards or irradiance of a sun is invalid");
   const length = Math.hypot(...towards);
   if (!(length > 0) || !Number.isFinite(halfAngle) || halfAngle < 0 || halfAngle > Math.PI / 2)
-    throw new Error("light file: a sun's direction or half angle is wrong");
+    throw new Error("light file: direction or half angle of a sun is invalid");
   return { towards: towards.map((value) => value / length), irradiance: [...irradiance], halfAngle };
 }
 
@@ -20,13 +20,13 @@ function sunOf({ towards, irradiance, half_angle_radians: halfAngle }) {
  */
 export function readLightFile(json) {
   if (json?.prtkit_light !== 1) throw new Error("light file: prtkit_light is not 1");
-  if (json.lights !== undefined) throw new Error("light file: is of a former version; run prt project again");
+  if (json.lights !== undefined) throw new Error("light file: the version is no longer supported; run prt project again");
   const { order, coefficients, suns = [] } = json;
   if (!Number.isInteger(order) || order < 1 || order > MAX_ORDER) throw new Error(`light file: order ${order} is not 1..10`);
   const colors = ["red", "green", "blue"].map((name) => coefficients?.[name]);
   if (!colors.every((values) => areFinite(values, order * order)))
     throw new Error(`light file: red, green and blue are not ${order * order} numbers each`);
-  if (!Array.isArray(suns)) throw new Error("light file: suns are not a list");
+  if (!Array.isArray(suns)) throw new Error("light file: suns is not a list");
   const values = Float64Array.from({ length: 3 * order * order }, (_, i) => colors[i % 3][Math.floor(i / 3)]);
   return { sky: ShLight.fromCoefficients(order, values), suns: suns.map(sunOf) };
 }

@@ -1,10 +1,10 @@
-// Light probes of three as light for transfer.
+// Converts light probes of three to light for transfer.
 
 import { MAX_ORDER, ShLight } from "./sphericalHarmonics.js";
 
 /**
- * The light of a LightProbe, or of any with `sh.coefficients`, times its intensity: radiance in three bands, the others being
- * zero up to `order`. Three's basis is prtkit's without the Condon-Shortley phase: odd m have the other sign.
+ * Returns the light of a LightProbe, or of any object with `sh.coefficients`, times its intensity: three bands; the others are
+ * zero up to `order`. Three's basis is prtkit's without the Condon-Shortley phase: odd m have the opposite sign.
  */
 export function lightFromProbe({ sh, intensity = 1 }, order = MAX_ORDER) {
   const coefficients = new Float64Array(3 * order * order);

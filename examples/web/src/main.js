@@ -83,12 +83,12 @@ async function start() {
     const phone = matchMedia("(pointer: coarse)").matches;
     picture = new Picture(canvas, { shadowMapSize: phone ? 1024 : 2048 });
   } catch {
-    throw new Error("This page needs WebGL 2, which this browser does not offer.");
+    throw new Error("This page needs WebGL 2, which this browser does not support.");
   }
   globalThis.prtkitPicture = picture; // for tests
   canvas.addEventListener("webglcontextlost", (event) => {
     event.preventDefault();
-    say("The graphics driver was reset; waiting for it.");
+    say("The graphics driver was reset. The picture returns when it is available again.");
   });
   canvas.addEventListener("webglcontextrestored", () => {
     say("");
@@ -111,14 +111,14 @@ async function start() {
     const ofVertices = () => ({
       vertices: prtkit.vertices.toLocaleString("en"),
       "bytes per vertex": (bytesPerVertexWithBases ?? prtkit.bytesPerVertex).toFixed(2),
-      "of them attributes": prtkit.bytesPerVertex,
+      "attribute bytes per vertex": prtkit.bytesPerVertex,
     });
     const ofTexels = () => ({ texels: prtkit.texels.toLocaleString("en"), "bytes per texel": prtkit.bytesPerTexel });
     const { instances } = prtkit;
     const ofInstances = () => ({
       instances: instances.count.toLocaleString("en"),
       "bytes per instance": instances.bytesPerInstance,
-      "of its constants": Math.round(instances.constantsBytesPerInstance).toLocaleString("en"),
+      "constant bytes per instance": Math.round(instances.constantsBytesPerInstance).toLocaleString("en"),
     });
     figures({
       ...(prtkit.maps ? ofTexels() : ofVertices()),
@@ -160,7 +160,7 @@ async function start() {
     const { before } = model();
     element("compare").disabled = !before;
     element("lossless").textContent = before
-      ? `left: ${before.bytes} bytes a vertex, ${(100 * before.litRms).toFixed(2)} % off the bake; right: as chosen`
+      ? `left: ${before.bytes} bytes per vertex, error ${(100 * before.litRms).toFixed(2)} %; right: the selected quality`
       : "";
     const comparing = Boolean(before) && element("compare").checked;
     element("split").hidden = element("lossless").hidden = !comparing;
@@ -197,12 +197,12 @@ async function start() {
     if (lamps.length === 0) picture.setDaylight(1);
   }
 
-  /** Enables the controls of moving objects if the model supports them, otherwise shows the reason. */
+  /** Enables the controls of moving objects, or shows why the model does not support them. */
   function showMoving() {
     const { volume } = picture.gltf.userData.prtkit;
     element("moving").disabled = !volume;
     element("unmoving").hidden = Boolean(volume);
-    element("unmoving").textContent = "This model has no volume to light what moves: bake it with prt bake --volume.";
+    element("unmoving").textContent = "This model has no volume for moving objects: bake it with prt bake --volume.";
   }
 
   /** Loads the figure when it is first requested. */
@@ -210,7 +210,7 @@ async function start() {
     picture.setMoving("figure", shown);
     if (!shown || !figure || setFigure.isLoaded) return;
     setFigure.isLoaded = true;
-    await loading("somebody who walks", (progress) => picture.moving.load(figure, progress));
+    await loading("walking figure", (progress) => picture.moving.load(figure, progress));
     picture.draw();
   }
 
@@ -225,7 +225,7 @@ async function start() {
     fill(
       element("quality"),
       model().levels.map(({ title, bytesPerVertexWithBases: bytes }) =>
-        bytes === undefined ? title : `${title}: ${bytes.toFixed(1)} bytes a vertex`,
+        bytes === undefined ? title : `${title}: ${bytes.toFixed(1)} bytes per vertex`,
       ),
       Math.min(chosen, model().levels.length - 1),
     );
@@ -272,7 +272,7 @@ async function start() {
         if (/\.glb$/i.test(file.name)) await openModel(file);
         else if (isImage(file)) await openSky({ image: file, light: files.find((other) => isLight(other) && ofOne(other, file)) });
         else if (isLight(file)) await openSky({ light: file });
-        else throw new Error("is neither a model (.glb) nor a sky (.hdr, .exr) nor its light (.json)");
+        else throw new Error("the file is neither a model (.glb) nor a sky (.hdr, .exr) nor a light file (.json)");
       } catch (error) {
         throw new Error(`${file.name}: ${error.message}`);
       }
@@ -330,11 +330,11 @@ async function start() {
   element("compare").onchange = guarded(showBefore);
   picture.controls.addEventListener("end", showAddress);
   canvas.addEventListener("pointerup", showAddress);
-  element("turning").addEventListener("change", showAddress);
+  element("rotating").addEventListener("change", showAddress);
   element("link").onclick = guarded(async () => {
     await navigator.clipboard.writeText(location.href);
     element("link").textContent = "Copied";
-    setTimeout(() => (element("link").textContent = "Copy a link to this"), 2000);
+    setTimeout(() => (element("link").textContent = "Copy a link to this view"), 2000);
   });
   element("files").onchange = guarded(() => openFiles([...element("files").files]));
 
@@ -373,13 +373,13 @@ const ROTATION_PER_SECOND = Math.PI / 12;
 function rotateLightByItself(picture) {
   let before = null;
   const step = (now) => {
-    if (!element("turning").checked) return;
+    if (!element("rotating").checked) return;
     // A slow frame, or a hidden page, does not cause a jump.
     if (before !== null) rotateLight(picture, picture.angle + ROTATION_PER_SECOND * Math.min((now - before) / 1000, 0.1));
     before = now;
     requestAnimationFrame(step);
   };
-  element("turning").onchange = () => {
+  element("rotating").onchange = () => {
     before = null;
     requestAnimationFrame(step);
   };

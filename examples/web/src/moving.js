@@ -18,15 +18,15 @@ import { Walk } from "./walk.js";
 
 const RADIUS = 0.25; // metres
 const ASIDE = 0.75; // distance from the figure, on both sides
-const HIGH = 1.2; // over the ground
+const HIGH = 1.2; // metres above the ground
 const PROBE_SHARE = 0.06; // fraction of the minimum distance of probes
-const USUAL_SPEED = 1.2; // metres a second
+const USUAL_SPEED = 1.2; // metres per second
 
 function ball(color, metalness, roughness) {
   return new Mesh(new SphereGeometry(RADIUS, 48, 32), new MeshStandardMaterial({ color, metalness, roughness }));
 }
 
-/** A small sphere at each of `probes`. */
+/** Returns small spheres at `probes`. */
 function spheresAt(volume, probes, material) {
   const size = PROBE_SHARE * volume.source.grid.spacing;
   const spheres = new InstancedMesh(new IcosahedronGeometry(size, 2), material, probes.length);

@@ -28,7 +28,7 @@ const transmission = uniform(new Vector4()).onObjectUpdate(({ material }) => mat
 const emission = materialEmissive.mul(strength); // one node for all, so that they share programs
 const baseColor = property("vec3", "prtBaseColor");
 
-/** Brings the model's light up to date before anything that it lights is drawn. */
+/** Updates the model's light before an object with it is drawn. */
 class LightNode extends LightingNode {
   constructor(model) {
     super();
@@ -142,8 +142,8 @@ const lit = (Base) =>
      */
     customProgramCacheKey() {
       const { model, defines, traits, lightMap } = this._transfer;
-      const terms = [(model.constantsTexture ?? model.texture).id, JSON.stringify(defines), traits?.lit, traits?.transmission.w > 0, lightMap?.channel];
-      return `${super.customProgramCacheKey()}:prtkit:${terms.join(":")}`;
+      const key = [(model.constantsTexture ?? model.texture).id, JSON.stringify(defines), traits?.lit, traits?.transmission.w > 0, lightMap?.channel];
+      return `${super.customProgramCacheKey()}:prtkit:${key.join(":")}`;
     }
 
     setupEnvironment(builder) {
@@ -178,7 +178,7 @@ const lit = (Base) =>
       const { model, defines, traits, source } = this._transfer;
       if (source) return moving(super.setupLightingModel(builder), { volume: model, reflects: this._reflects });
       if (builder.renderer.backend.isWebGPUBackend && defines.PRT_WEIGHT_VECTORS > 5)
-        throw new Error("prtkit: WebGPU has no room for so many weights of a vertex: run prt compress with fewer components, or packed");
+        throw new Error("prtkit: WebGPU does not support this many weights per vertex: run prt compress with fewer --components, or with packed weights (--bits N)");
       return relit(super.setupLightingModel(builder), {
         radiance: this.isMapped ? materialLightMap.div(Math.PI) : radianceOfVertices(model, defines),
         reflects: this._reflects,

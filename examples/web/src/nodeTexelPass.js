@@ -6,7 +6,7 @@ import { radianceOfWords } from "./radianceNodes.js";
 
 const LARGEST_HALF = 65504; // filters and mipmaps would spread larger values
 
-/** The word that a texel has in an image. */
+/** Returns the word of a texel in an image. */
 function wordOf(image, texel) {
   const bytes = uvec4(textureLoad(image, texel).mul(255).add(0.5)).toVar();
   return bytes.x.bitOr(bytes.y.shiftLeft(8)).bitOr(bytes.z.shiftLeft(16)).bitOr(bytes.w.shiftLeft(24));
@@ -37,7 +37,7 @@ export class NodeTexelPass {
     const { device, gl } = renderer.backend;
     const most = device?.limits.maxTextureDimension2D ?? gl?.getParameter(gl.MAX_TEXTURE_SIZE);
     if (Math.max(map.width, map.height) > most)
-      throw new Error(`prtkit: a lightmap of ${map.width} x ${map.height} texels is larger than this device has textures (${most})`);
+      throw new Error(`prtkit: a lightmap has ${map.width} x ${map.height} texels; this device supports at most ${most} along each side`);
     const state = RendererUtils.resetRendererState(renderer);
     renderer.setRenderTarget(target);
     this.quad.material = this.material(map);

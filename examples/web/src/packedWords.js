@@ -1,5 +1,5 @@
 /**
- * Returns the number of 32-bit words of packed weights per vertex, texel or probe: that of the cluster with
+ * Returns the number of 32-bit words of packed weights per vertex, texel or probe: the number of the cluster with the
  * most bits.
  */
 export const wordsOf = ({ widths, clusterBits }) =>

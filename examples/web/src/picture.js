@@ -57,7 +57,7 @@ async function loadModel(url, progress) {
   throw new Error(
     gltf.parser.json.extensions?.PRTKIT_transfer
       ? `PRTKIT_transfer: ${AS_BAKED}`
-      : "is not baked, and holds no transfer: run prt bake and prt compress, or prt make",
+      : "the file has no transfer: run prt bake and prt compress, or prt make",
   );
 }
 
@@ -307,7 +307,7 @@ export class Picture {
       for (const { userData } of this.before ? [this.gltf, this.before] : [this.gltf])
         userData.prtkit.setLight(sky.times(this.daylight), this.angle, suns?.times(this.daylight) ?? null, this.lamps);
     }
-    this.sunLights?.rotation(this.angle).dim(this.daylight);
+    this.sunLights?.rotate(this.angle).dim(this.daylight);
     this.draw();
   }
 
@@ -339,7 +339,7 @@ export class Picture {
     this.draw();
   }
 
-  /** The field of view is that of the shorter side: on a phone the model fits the width. */
+  /** Applies the field of view to the shorter side: on a phone the model fits the width. */
   fitFieldOfView() {
     const half = Math.tan((0.5 * this.fieldOfView * Math.PI) / 180);
     this.camera.fov = (2 * Math.atan(half / Math.min(1, this.camera.aspect)) * 180) / Math.PI;
@@ -383,7 +383,7 @@ export class Picture {
     return (this.moving.isWalking || this.dance !== null) && !this.still;
   }
 
-  /** A slow picture, or a hidden page, does not cause a jump. */
+  /** Advances the animation; a slow frame or a hidden page does not cause a jump. */
   move(now) {
     if (this.isMoving && this.movedAt !== null) {
       const seconds = Math.min((now - this.movedAt) / 1000, 0.1);

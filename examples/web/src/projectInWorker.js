@@ -16,7 +16,7 @@ export async function projectInWorker(texture, order = MAX_ORDER, { center = "x"
   try {
     const answer = await new Promise((resolve, reject) => {
       worker.onmessage = ({ data }) => resolve(data);
-      worker.onerror = () => reject(new Error("prtkit: projectionWorker.js does not start; is it served beside the plug-in?"));
+      worker.onerror = () => reject(new Error("prtkit: projectionWorker.js does not start; is it served from the folder of the plug-in?"));
       worker.postMessage({ image: { ...image, center, half: texture.type === HalfFloatType }, order });
     });
     if (answer.error) throw new RangeError(answer.error);

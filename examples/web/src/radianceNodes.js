@@ -84,7 +84,7 @@ const normalToBake = ofMaterial(new Matrix3(), "prtNormalToBake");
 
 /** Returns position and normal of a vertex in the space of the bake, as in transferVertex.glsl. */
 function bakedFrameOf(defines) {
-  if (defines.PRT_BAKED_ATTRIBUTES) return { point: attribute("prt_position", "vec3"), normal: attribute("prt_normal", "vec3") };
+  if (defines.PRT_BAKED_ATTRIBUTES) return { point: attribute("prt_baked_position", "vec3"), normal: attribute("prt_baked_normal", "vec3") };
   const rotated = normalToBake.mul(normalGeometry);
   return { point: toBake.mul(positionGeometry).xyz, normal: rotated.mul(rotated.dot(rotated).max(1e-30).inverseSqrt()) };
 }
@@ -103,7 +103,7 @@ function predictorsOf({ constantsTexture }, defines) {
 
 const TYPES = ["uint", "uvec2", "uvec3", "uvec4"];
 
-/** The words of a vertex, from the attributes of vertexWeights.js. */
+/** Returns the words of a vertex, from the attributes of vertexWeights.js. */
 function wordsOfVertex(count) {
   const inAttribute = (i) => Math.min(4, count - 4 * i);
   return Array.from({ length: count }, (_, j) => {
@@ -113,7 +113,7 @@ function wordsOfVertex(count) {
   });
 }
 
-/** Radiance of the vertices of a geometry with these `defines`, interpolated. */
+/** Returns the interpolated radiance of the vertices of a geometry with these `defines`. */
 export function radianceOfVertices(model, defines) {
   const predictors = predictorsOf(model, defines);
   const packed = defines.PRT_PACKED_WORDS;

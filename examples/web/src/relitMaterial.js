@@ -84,7 +84,7 @@ export function relitMaterial(source, transfer) {
 function takesVolume({ isMeshStandardMaterial, isMeshLambertMaterial, isMeshPhongMaterial, isMeshToonMaterial, lights, type }) {
   if (isMeshStandardMaterial || isMeshLambertMaterial) return true;
   if (isMeshPhongMaterial || isMeshToonMaterial || lights === true)
-    throw new Error(`prtkit: a volume lights MeshStandardMaterial, MeshPhysicalMaterial and MeshLambertMaterial, not ${type}`);
+    throw new Error(`prtkit: a volume does not light ${type}; use MeshStandardMaterial, MeshPhysicalMaterial or MeshLambertMaterial`);
   return false;
 }
 
@@ -96,7 +96,7 @@ export function transferOfVolume(source, volume) {
 }
 
 /** Returns the transfer of a moving object with the lobes of the transfer `lobes`. */
-const rotating = (transfer, { uniforms: { prt_lobe_profiles }, defines: { PRT_LOBES } }) => ({
+const withLobes = (transfer, { uniforms: { prt_lobe_profiles }, defines: { PRT_LOBES } }) => ({
   ...transfer,
   uniforms: { ...transfer.uniforms, prt_lobe_profiles },
   defines: { ...transfer.defines, PRT_LOBES },
@@ -113,8 +113,8 @@ export function movingMaterial(source, volume, copied) {
   const own = transfer?.source ?? transfer?.own ?? source;
   if (!takesVolume(own)) return source;
   const lit = transferOfVolume(own, volume);
-  return copied(own, lobes ? rotating(lit, lobes) : lit);
+  return copied(own, lobes ? withLobes(lit, lobes) : lit);
 }
 
-/** `source` lit by the transfer of a volume, by WebGLRenderer; its own shader is kept. */
+/** Returns `source` lit by a volume, for WebGLRenderer; custom shader changes are kept. */
 export const copiedMaterial = (source, transfer) => light(source.clone(), transfer);

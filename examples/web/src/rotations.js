@@ -5,7 +5,7 @@ import { Euler, Matrix4, REVISION, Vector3 } from "three";
 const upperLeft = ({ elements: e }) => [e[0], e[1], e[2], e[4], e[5], e[6], e[8], e[9], e[10]];
 const transposed = (m) => [m[0], m[3], m[6], m[1], m[4], m[7], m[2], m[5], m[8]];
 
-/** The product a b of two matrices. */
+/** Returns the product a b of two matrices. */
 function product(a, b) {
   return Array.from({ length: 9 }, (_, i) => {
     const [column, row] = [Math.floor(i / 3), i % 3];
@@ -43,17 +43,17 @@ export function shownBy(scene) {
 }
 
 /** Returns the rotation from world directions to those of `root`, the model as baked. */
-export const rotateIntoModel = (root) => transposed(worldRotation(root));
+export const rotationIntoModel = (root) => transposed(worldRotation(root));
 
 /**
  * Returns the rotation from the directions of the image to those of `root`, the model as baked, which may be
  * rotated since.
  */
 export function rotationForModel(scene, root) {
-  return product(rotateIntoModel(root), environmentRotation(shownBy(scene).euler));
+  return product(rotationIntoModel(root), environmentRotation(shownBy(scene).euler));
 }
 
 /** Returns the vector `v` [3] rotated by a matrix. */
-export function turnedBy(m, [x, y, z]) {
+export function rotatedBy(m, [x, y, z]) {
   return [m[0] * x + m[3] * y + m[6] * z, m[1] * x + m[4] * y + m[7] * z, m[2] * x + m[5] * y + m[8] * z];
 }

@@ -1,11 +1,11 @@
-// A picture of light that is known by spherical harmonics alone, to be shown behind the model.
+// Computes an image of light given only as spherical harmonics, to be shown behind the model.
 
 import { DataTexture, FloatType, RGBAFormat } from "three";
 import { evaluateSh } from "./sphericalHarmonics.js";
 
 const HEIGHT = 64;
 
-/** Lat-long, +Z in the middle, as HDRLoader's textures: negative radiance is black. */
+/** Returns a lat-long image, +Z in the middle, in the layout of HDRLoader; negative radiance becomes black. */
 export function skyImage(light) {
   const { order } = light;
   const coefficients = light.coefficients();

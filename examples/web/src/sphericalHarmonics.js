@@ -26,7 +26,7 @@ function legendre(order, z, out) {
 }
 
 /**
- * The order² basis values in the unit direction (x, y, z).
+ * Returns the order² basis values in the unit direction (x, y, z).
  */
 export function evaluateSh(order, x, y, z, out = new Float64Array(order * order)) {
   legendre(order, z, out);
@@ -43,7 +43,7 @@ export function evaluateSh(order, x, y, z, out = new Float64Array(order * order)
   return out;
 }
 
-/** Nodes and weights of Gauss-Legendre quadrature on [-1, 1]. */
+/** Returns nodes and weights of Gauss-Legendre quadrature on [-1, 1]. */
 export function gaussLegendre(count) {
   const nodes = new Float64Array(count);
   const weights = new Float64Array(count);
@@ -66,7 +66,7 @@ export function gaussLegendre(count) {
 }
 
 /**
- * Returns for each band l the matrix M_ij = ∫ Y_i(w) Y_j(turn(w)) dw, by an exact quadrature: light of
+ * Returns for each band l the matrix M_ij = ∫ Y_i(w) Y_j(rotation(w)) dw, by an exact quadrature: light of
  * coefficients L is M L in axes that `rotation` maps to those of L. `rotation(x, y, z)`: the direction [3] after a
  * rotation.
  */
@@ -195,9 +195,9 @@ export class ShLight {
     const rings = gaussLegendre(order);
     const basis = new Float64Array(order * order);
     for (let r = 0; r < order; ++r)
-      for (let rotation = 0; rotation < 2 * order; ++rotation) {
+      for (let column = 0; column < 2 * order; ++column) {
         const z = rings.nodes[r];
-        const phi = (Math.PI * rotation) / order;
+        const phi = (Math.PI * column) / order;
         const [x, y] = [Math.sqrt(1 - z * z) * Math.cos(phi), Math.sqrt(1 - z * z) * Math.sin(phi)];
         const weight = (rings.weights[r] * Math.PI) / order;
         const radiance = [0, 0, 0];
@@ -220,7 +220,7 @@ export class ShLight {
     return new ShLight(this.order, this.polar.map((value) => factor * value));
   }
 
-  /** Returns the light under the weakest filter that makes its radiance nowhere negative: `deringFactors`. */
+  /** Returns the light under the weakest filter that makes its radiance nowhere negative if `deringFactors`. */
   deringed() {
     const factors = deringFactors(this.order, this.polar);
     const band = (i) => Math.floor(Math.sqrt(Math.floor(i / 3) + 0.5));
@@ -234,7 +234,7 @@ export class ShLight {
   }
 }
 
-/** Azimuth, from +Z towards +X, of the middle of a lat-long image that faces that axis. */
+/** Azimuth, from +Z towards +X, of the centre of a lat-long image that faces that axis. */
 const CENTER_AZIMUTH = { x: Math.PI / 2, z: 0 };
 
 /**
@@ -247,7 +247,7 @@ const CENTER_AZIMUTH = { x: Math.PI / 2, z: 0 };
 export function projectLatLong(image, order) {
   const { width, height, data, stride = 4, topFirst = true, value = (v) => v, center = "z" } = image;
   if (!(order >= 1 && order <= MAX_ORDER)) throw new RangeError(`order ${order} is outside 1..${MAX_ORDER}`);
-  if (!(center in CENTER_AZIMUTH)) throw new RangeError(`the centre looks at "x" or "z", not "${center}"`);
+  if (!(center in CENTER_AZIMUTH)) throw new RangeError(`center must be "x" or "z", not "${center}"`);
   const middle = CENTER_AZIMUTH[center];
   // ∫ cos(m phi) and sin(m phi) over the columns, with azimuth decreasing by 2 pi: [2 order - 1][width]
   const columns = Array.from({ length: 2 * order - 1 }, () => new Float64Array(width));
@@ -312,12 +312,12 @@ export function projectLatLong(image, order) {
  */
 function radianceOnGrid(order, shares, rows) {
   const columns = 2 * rows;
-  const rotations = new Float64Array(2 * order * columns); // cos(m phi), sin(m phi)
+  const harmonics = new Float64Array(2 * order * columns); // cos(m phi), sin(m phi)
   for (let m = 0; m < order; ++m)
     for (let x = 0; x < columns; ++x) {
       const phi = (Math.PI * (x + 0.5)) / rows;
-      rotations[2 * m * columns + x] = Math.cos(m * phi);
-      rotations[(2 * m + 1) * columns + x] = Math.sin(m * phi);
+      harmonics[2 * m * columns + x] = Math.cos(m * phi);
+      harmonics[(2 * m + 1) * columns + x] = Math.sin(m * phi);
     }
   const basis = new Float64Array(order * order);
   const values = new Float64Array(columns);
@@ -328,7 +328,7 @@ function radianceOnGrid(order, shares, rows) {
   for (let y = 0; y < rows; ++y) {
     const theta = (Math.PI * (y + 0.5)) / rows;
     const sine = Math.sin(theta);
-    evaluateSh(order, sine, 0, Math.cos(theta), basis); // at azimuth 0: the Legendre part
+    evaluateSh(order, sine, 0, Math.cos(theta), basis); // at azimuth 0: the Legendre factor
     lowest.fill(Infinity);
     for (let channel = 0; channel < 3; ++channel) {
       values.fill(0);
@@ -340,7 +340,7 @@ function radianceOnGrid(order, shares, rows) {
           if (m > 0) sines += basis[index(l, m)] * shares[3 * index(l, -m) + channel];
         }
         for (let x = 0, at = 2 * m * columns; x < columns; ++x)
-          values[x] += cosine * rotations[at + x] + sines * rotations[at + columns + x];
+          values[x] += cosine * harmonics[at + x] + sines * harmonics[at + columns + x];
       }
       for (let x = 0; x < columns; ++x) {
         if (values[x] < lowest[x]) lowest[x] = values[x];
@@ -390,7 +390,7 @@ function solveSymmetric(matrix, right) {
 }
 
 /**
- * The factors h that minimise sum weights[l] (1 - h[l])², l > 0, with row[0] + sum h[l] row[l] >= 0 for all `rows`: the
+ * Returns the factors h that minimise sum weights[l] (1 - h[l])², l > 0, with row[0] + sum h[l] row[l] >= 0 for all `rows`, by the
  * active-set method of Lawson and Hanson on the dual.
  */
 function leastChange(order, weights, rows, tolerance) {

@@ -1,6 +1,6 @@
-// How much of three's directional lights arrives at a surface that transfer lights from the sky. Included into the
+// Visibility of three's directional lights at surfaces that transfer lights from the sky. Included into the
 // fragment shader of three's materials, before main; sunLoop.glsl shades by it. Names without prt are three's own.
-// Define PRT_PACKED_SHADOW_MAPS where three packs depths into colors.
+// Define PRT_PACKED_SHADOW_MAPS if three packs depths into colors.
 
 uniform bool prtSeparateSuns;
 uniform vec4 prtTransmission; // color of transmitted light through a thin sheet, and its fraction
@@ -18,8 +18,8 @@ uniform mat4 directionalShadowMatrix[NUM_DIR_LIGHT_SHADOWS];
 // plane of the surface, so that a slope does not shadow itself.
 
 const int kPrtSearch = 24, kPrtTaps = 32;
-const float kPrtSteepest = 50.0; // beyond, a plane that is interpolated from its pixels is not to be trusted
-const float kPrtRadiusAt = 0.1;  // SunLights: shadow.radius is that of a blocker so far off, as a share of the depth
+const float kPrtSteepest = 50.0; // planes interpolated from pixels are unreliable at steeper slopes
+const float kPrtRadiusAt = 0.1;  // shadow.radius of SunLights is for a blocker at this fraction of the depth range
 
 float prtMapDepth(sampler2D map, ivec2 texel) {
   vec4 stored = texelFetch(map, clamp(texel, ivec2(0), textureSize(map, 0) - 1), 0);
@@ -41,8 +41,8 @@ vec2 prtSpiral(int i, float turn) {
   return vec2(cos(angle), sin(angle));
 }
 
-// Returns the mean distance of blockers over the disc of the sun, as a fraction of the map's depth; negative:
-// there are none. `spread`: radius of the sun in texels per unit of depth. Each doubling of the radius has an
+// Returns the mean distance of blockers over the disc of the sun, as a fraction of the map's depth; negative if
+// none exist. `spread`: radius of the sun in texels per unit of depth. Each doubling of the radius has an
 // equal number of taps: blockers next to the surface are found near the center, distant ones anywhere.
 float prtBlockerDistance(sampler2D map, vec3 point, vec2 slope, float spread, float turn) {
   float away = 0.0, found = 0.0;
@@ -64,7 +64,7 @@ float prtBlockerDistance(sampler2D map, vec3 point, vec2 slope, float spread, fl
 // Returns the visible fraction of a sun at a position in the world. `face`: unit normal of the triangle, on
 // the lit side.
 float prtVisibility(sampler2D map, mat4 toMap, DirectionalLightShadow sun, vec3 at, vec3 face) {
-  // Rows of the matrix are orthogonal: an orthographic camera's. Texels along the first two, the depth along the third.
+  // The rows of the matrix of an orthographic camera are orthogonal: two in texels, the third is the depth.
   mat3 axes = transpose(mat3(toMap));
   axes[0] *= sun.shadowMapSize.x;
   axes[1] *= sun.shadowMapSize.y;
@@ -101,13 +101,13 @@ float prtVisibility(sampler2D map, mat4 toMap, DirectionalLightShadow sun, vec3 
 }
 
 #define PRT_VISIBILITY(i)                                                                                              \
-  prtVisibility(directionalShadowMap[i], directionalShadowMatrix[i], directionalLightShadows[i], prtPosition,             \
+  prtVisibility(directionalShadowMap[i], directionalShadowMatrix[i], directionalLightShadows[i], prtPosition,          \
                 towardsSun* worldFace)
 
 #else
 
-// Other types of shadow maps: three's own filter, with three's bias. Maps hold the lit sides of baked meshes, too,
-// which three leaves out by default: the filter needs the offset along the normal of SunLights.js at least.
+// Other types of shadow maps use three's filter with three's bias. Maps also contain the lit sides of baked meshes,
+// which three omits by default: the filter needs at least the normal offset of SunLights.js.
 
 float prtNormalBias(mat4 toMap, DirectionalLightShadow sun) {
   float texel = inversesqrt(dot(transpose(mat3(toMap))[0], transpose(mat3(toMap))[0])) / sun.shadowMapSize.x;
@@ -119,8 +119,8 @@ float prtNormalBias(mat4 toMap, DirectionalLightShadow sun) {
             directionalLightShadows[i].shadowIntensity, directionalLightShadows[i].shadowBias,                         \
             directionalLightShadows[i].shadowRadius,                                                                   \
             directionalShadowMatrix[i] *                                                                               \
-                vec4(prtPosition + prtNormalBias(directionalShadowMatrix[i], directionalLightShadows[i]) * towardsSun *   \
-                                    worldFace,                                                                         \
+                vec4(prtPosition + prtNormalBias(directionalShadowMatrix[i], directionalLightShadows[i]) *             \
+                                       towardsSun * worldFace,                                                         \
                      1.0))
 
 #endif

@@ -1,6 +1,6 @@
-// Directional lights of three, each shaded as the material has it where it arrives; diffusely through thin sheets
-// (docs/math.md, eq. 38). Included into the fragment shader of three's materials, behind its own lights; prtFace: the
-// unit normal of the triangle, on the side that shows.
+// Shades three's directional lights with the model of the material where they are visible; diffusely through thin
+// sheets (docs/math.md, eq. 38). Included into the fragment shader of three's materials, after its own lights; prtFace:
+// the unit normal of the triangle, on the visible side.
 #if defined(PRT_SUNS) && NUM_DIR_LIGHTS > 0
 
 if (prtSeparateSuns) {

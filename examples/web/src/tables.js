@@ -7,7 +7,7 @@ const WIDTH = 256;
 
 /** Returns the shader defines of tables with `width` texels per row. */
 export const tablesOf = (width) => ({ PRT_CONSTANTS_TEXTURE: 1, PRT_TEXTURE_WIDTH: width });
-/** Defines of a model's tables. */
+/** Returns the defines of a model's tables. */
 export const TABLES = tablesOf(WIDTH);
 
 /** Returns the width of an approximately square table for `count` vectors. */
@@ -26,6 +26,6 @@ function tableTexture(count, data, format, type, width) {
 /** Returns a table of `count` constants, which are zero. */
 export const constantsTextureOf = (count, width = WIDTH) => tableTexture(count, new Float32Array(0), RGBAFormat, FloatType, width);
 
-/** The table of clusters. */
+/** Returns the table of clusters. */
 export const clustersTextureOf = (clusters, width = WIDTH) =>
   tableTexture(clusters.components.length, clusterTable(clusters), RGBAIntegerFormat, UnsignedIntType, width);

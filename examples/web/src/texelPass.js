@@ -27,7 +27,7 @@ export class TexelPass {
   draw(renderer, target, { width, height, words }) {
     const { maxTextureSize } = renderer.capabilities;
     if (Math.max(width, height) > maxTextureSize)
-      throw new Error(`prtkit: a lightmap of ${width} x ${height} texels is larger than this device has textures (${maxTextureSize})`);
+      throw new Error(`prtkit: a lightmap has ${width} x ${height} texels; this device supports at most ${maxTextureSize} along each side`);
     this.quad.material.uniforms.prt_word_images.value = words;
     const before = [renderer.getRenderTarget(), renderer.getActiveCubeFace(), renderer.getActiveMipmapLevel()];
     const isImmersive = renderer.xr.enabled;

@@ -1,4 +1,4 @@
-// Models with transfer of texels: PRTKIT_lightmap.
+// Loads models with transfer of texels: PRTKIT_lightmap.
 
 import { clustersOf } from "./clusteredPca.js";
 import { wordsOf } from "./packedWords.js";
@@ -10,12 +10,12 @@ import { wordTexture } from "./wordImages.js";
 
 const holds = (value, what) => expect(value, what, TEXELS);
 
-/** The coordinates of a mesh that its primitive names, by their number. */
+/** Returns the index of the texture coordinates that a primitive names, after checks. */
 function coordinatesOf({ geometry }, { texCoord }) {
-  holds(Number.isInteger(texCoord) && texCoord >= 0, "the coordinates of a primitive are no number");
-  holds(texCoord < 4, `a primitive has its map at TEXCOORD_${texCoord}: three has four, up to TEXCOORD_3`);
+  holds(Number.isInteger(texCoord) && texCoord >= 0, "texCoord of a primitive is not an integer of at least 0");
+  holds(texCoord < 4, `a primitive uses TEXCOORD_${texCoord} for its map; three supports TEXCOORD_0 to TEXCOORD_3`);
   const name = texCoord === 0 ? "uv" : `uv${texCoord}`;
-  holds(geometry.hasAttribute(name), `a primitive lacks TEXCOORD_${texCoord}, where its map is`);
+  holds(geometry.hasAttribute(name), `a primitive has no TEXCOORD_${texCoord}, which its map uses`);
   return texCoord;
 }
 
@@ -41,7 +41,7 @@ export async function transferOfTexels(extension, views, root, parser, passOf) {
   const of = (mesh, primitive) => {
     const placed = primitive?.extensions?.[TEXELS];
     if (placed === undefined) return null;
-    holds(maps[placed?.map] !== undefined, "a primitive names a map that is not there");
+    holds(maps[placed?.map] !== undefined, "a primitive names a map that does not exist");
     return { uniforms: {}, defines: { PRT_LIGHTMAP: 1 }, lightMap: model.maps.texture(placed.map, coordinatesOf(mesh, placed)) };
   };
   return { model, of };

@@ -1,5 +1,5 @@
 // Adds transfer to the shaders of three's lit materials in `onBeforeCompile`: exit radiance, or the light of
-// a volume, replaces three's diffuse ambient light, and separate suns are added. All else is three's:
+// a volume, replaces three's diffuse ambient light, and separate suns are added. Three computes the rest:
 // specular reflection, normal maps, coats, shadows, fog, tone mapping.
 
 import { ShaderChunk } from "three";
@@ -23,7 +23,7 @@ export const PACKED_SHADOW_MAPS = ShaderChunk.shadowmap_pars_fragment.includes("
  */
 function replaced(text, pattern, replacement) {
   const result = text.replace(pattern, replacement);
-  if (result === text) throw new Error(`prtkit: this release of three has no ${pattern} in its shaders`);
+  if (result === text) throw new Error(`prtkit: this release of three is not supported: its shaders do not contain ${pattern}`);
   return result;
 }
 
@@ -35,7 +35,7 @@ const LIGHTS = replaced(
   "vec3 irradiance = vec3( 0.0 );",
 );
 
-// Without the terms that three adds after ambient light. A light map belongs to the user, and is kept.
+// Omits the terms that three adds after ambient light. A light map belongs to the user and is kept.
 const NO_IRRADIANCE = `
   irradiance = vec3( 0.0 );
   totalEmissiveRadiance *= prtStrength;
@@ -49,13 +49,13 @@ const OCCLUDERS = `
 #define PRT_OCCLUDER_COUNT prtOccluderCount
 uniform vec4 prtOccluderRows[ 5 * PRT_MAX_OCCLUDERS ];
 uniform int prtOccluderCount;
-uniform vec4 prtOccluderReach; // a sphere, out of which none takes any
+uniform vec4 prtOccluderReach; // a sphere; outside it no occluder has an effect
 ${occluders}
 #endif`;
 
 // Lookup of a volume for custom shaders: the uniforms of PrtkitVolume.
 export const VOLUME = `
-#define PRT_VOLUME_ORIGIN vec3( 0.0 ) // prtToVolume has taken it off
+#define PRT_VOLUME_ORIGIN vec3( 0.0 ) // prtToVolume already subtracts it
 #define PRT_VOLUME_SPACING prtVolumeSpacing
 #define PRT_VOLUME_SIZE prtVolumeSize
 #define PRT_VOLUME_FIRST prtVolumeFirst
@@ -86,7 +86,7 @@ const INCIDENT = `
 // bounces (docs/math.md, section 6).
 const TRANSFER = `
 #ifdef PRT_LIGHTMAP
-  vec3 prtRadiance = RECIPROCAL_PI * irradiance; // of three's light map, which is the transfer's
+  vec3 prtRadiance = RECIPROCAL_PI * irradiance; // of three's light map, which contains the transfer
   irradiance = vec3( 0.0 );
 #endif
   vec3 prtDiffuse = max( prtRadiance, vec3( 0.0 ) );
@@ -106,14 +106,14 @@ const TRANSFER = `
 // The transfer includes ambient occlusion; three's occlusion texture is applied only to specular light.
 const OCCLUSION = replaced(ShaderChunk.aomap_fragment, "reflectedLight.indirectDiffuse *= ambientOcclusion;", "");
 
-// A vertex without a normal has that of its triangle.
+// A vertex without a normal uses the normal of its triangle.
 const FACE_NORMAL = `
-  vec3 prtFace = normalize( cross( dFdx( vViewPosition ), dFdy( vViewPosition ) ) ); // on the side that shows
+  vec3 prtFace = normalize( cross( dFdx( vViewPosition ), dFdy( vViewPosition ) ) ); // on the visible side
   if ( ! ( dot( normal, normal ) > 0.5 ) ) normal = prtFace;`;
 
 const include = (name) => `#include <${name}>`;
 
-/** Common changes: `vertex` and `fragment` before main, `lights` after three's lights. */
+/** Applies common changes: `vertex` and `fragment` before main, `lights` after three's lights. */
 function addLight(shader, { vertex, fragment, lights }) {
   const add = (stage, name, text) => (shader[stage] = replaced(shader[stage], include(name), text));
   const addFragment = (name, text) => add("fragmentShader", name, text);

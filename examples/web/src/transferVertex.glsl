@@ -4,7 +4,7 @@
 // PRT_LIGHTMAP if texels have the transfer, PRT_VOLUME if probes have it, not vertices; PRT_LOBES if vertices
 // have it as lobes.
 #if defined(PRT_LOBES)
-// Behind prt_lobes.glsl.
+// Included after prt_lobes.glsl.
 in vec4 prt_lobe_0;
 #if PRT_LOBES > 1
 in vec4 prt_lobe_1;
@@ -46,7 +46,7 @@ vec3 prtBakedNormal() {
   return prt_baked_normal;
 }
 #elif defined(PRT_INSTANCES)
-// Its own frame is that of the bake of a mesh that instances share.
+// A mesh that instances share was baked in its own space.
 vec3 prtBakedPosition() {
   return position;
 }
@@ -86,7 +86,7 @@ uniform mat4 prtToVolume;
 centroid out vec3 prtVolumePosition; // from the origin of the volume
 #endif
 
-// `transformed`: the vertex as its skin and its morph targets have moved it.
+// `transformed`: the vertex after skinning and morph targets.
 void prtLight(vec3 transformed) {
 #if !defined(PRT_LIGHTMAP) && !defined(PRT_VOLUME) && !defined(PRT_LOBES)
 #ifdef PRT_INSTANCES

@@ -1,21 +1,21 @@
-// Lights of a user's own scene that do not light baked meshes: they are named on the console.
+// Warns on the console of lights of a user's scene that do not light baked meshes.
 
-const silent = new WeakSet(); // warned of, or baked
+const silent = new WeakSet(); // lights that were reported, or baked
 
-/** Lights that the loader made of a file with transfer: they are lamps of the bake. */
+/** Excludes the lights that the loader created from a file with transfer: they are lamps of the bake. */
 export function noteLightsOfFile(root) {
   root.traverse((object) => object.isLight && silent.add(object));
 }
 
-/** The reason why `light` does not light baked meshes as it does others; null: it does. `suns`: as of setSky. */
+/** Returns the reason why `light` does not light baked meshes like other meshes, or null. `suns`: see setSky. */
 export function whyUnused(light, suns) {
-  if (!light.isDirectionalLight) return "does not light baked meshes: they have the sky, suns, and the lamps that were baked";
-  if (!suns) return "does not light baked meshes: name it in setSky(light, scene, { suns: [...] })";
-  if (Array.isArray(suns) && !suns.includes(light)) return "lights baked meshes without bounces: name it in suns of setSky, too";
+  if (!light.isDirectionalLight) return "does not light baked meshes: only the sky, suns and baked lamps do";
+  if (!suns) return "does not light baked meshes: pass it in setSky(light, scene, { suns: [...] })";
+  if (Array.isArray(suns) && !suns.includes(light)) return "lights baked meshes without bounces: also pass it in suns of setSky";
   return null;
 }
 
-/** Warns of each such light of `scene` once. */
+/** Warns once of each such light of `scene`. */
 export function warnOfUnusedLights(scene, suns) {
   scene.traverseVisible((light) => {
     if (!light.isLight || !(light.intensity > 0) || silent.has(light)) return;

@@ -1,4 +1,4 @@
-// Models with transfer of vertices: PRTKIT_clustered_pca.
+// Loads models with transfer of vertices: PRTKIT_clustered_pca.
 
 import { bakedFrame } from "./bakedFrame.js";
 import { decodeClusters } from "./clusteredPca.js";

@@ -4,7 +4,7 @@ import { BufferAttribute } from "three";
 import { wordsOf } from "./packedWords.js";
 import { expect, LARGEST_WEIGHT } from "./wholeExtension.js";
 
-/** Bytes of accessors of VEC4 of bytes, one after the other for each vertex, as 32-bit words [vertices][groups]. */
+/** Returns the bytes of accessors of VEC4 of bytes, one after the other for each vertex, as 32-bit words [vertices][groups]. */
 function packedWords(groups) {
   const count = groups[0].count;
   const words = new Uint32Array(count * groups.length);
@@ -20,13 +20,13 @@ function packedWords(groups) {
 function wordAttribute(words, stride, first) {
   const size = Math.min(4, stride - first);
   const count = words.length / stride;
-  const term = new Uint32Array(count * size);
+  const own = new Uint32Array(count * size);
   for (let v = 0; v < count; ++v)
-    for (let w = 0; w < size; ++w) term[v * size + w] = words[v * stride + first + w];
-  return new BufferAttribute(term, size);
+    for (let w = 0; w < size; ++w) own[v * size + w] = words[v * stride + first + w];
+  return new BufferAttribute(own, size);
 }
 
-/** The first `count` groups of weights, taken out of a geometry with all of them. */
+/** Returns the first `count` groups of weights, and removes all groups from the geometry. */
 function takeGroups(geometry, count) {
   const groups = [];
   for (let i = 0; geometry.hasAttribute(`_prt_weights_${i}`); ++i) {
@@ -39,7 +39,7 @@ function takeGroups(geometry, count) {
   expect(
     groups.every((group) => group.itemSize === 4 && group.count === vertices) &&
       arrays.every((array) => array.constructor === arrays[0].constructor),
-    "the weights have another type or number than the vertices",
+    "the weights do not match the vertices in type or number",
   );
   return groups.slice(0, count);
 }
@@ -49,17 +49,17 @@ function convertWords(geometry, clusters) {
   const count = wordsOf(clusters);
   expect(count <= 8, `a vertex has ${count} words of packed weights, more than 8`);
   const groups = takeGroups(geometry, count);
-  expect((groups[0].data ?? groups[0]).array instanceof Uint8Array, "the packed weights are no unsigned bytes");
+  expect((groups[0].data ?? groups[0]).array instanceof Uint8Array, "the packed weights are not unsigned bytes");
   const words = packedWords(groups);
   const mask = 2 ** clusters.clusterBits - 1;
   for (let i = 0; i < words.length; i += count)
-    expect((words[i] & mask) < clusters.components.length, `vertex ${i / count} is in no cluster`);
+    expect((words[i] & mask) < clusters.components.length, `vertex ${i / count} names a cluster that does not exist`);
   geometry.setAttribute("prt_words_0", wordAttribute(words, count, 0));
   if (count > 4) geometry.setAttribute("prt_words_1", wordAttribute(words, count, 4));
   return { PRT_PACKED_WORDS: count, PRT_CLUSTER_BITS: clusters.clusterBits };
 }
 
-/** Integers of earlier versions, which were normalised. */
+/** Attributes of earlier versions: normalised integers. */
 const REMOVED = new Map([[Int8Array, "snorm8"], [Int16Array, "snorm16"]]);
 
 /** Converts vertices with a cluster and float weights. Returns their defines. */
@@ -67,16 +67,16 @@ function convertWeights(geometry, { components }) {
   const groups = takeGroups(geometry, Math.ceil(Math.max(...components) / 4));
   expect(groups.length <= 12, "a vertex has more than 48 components");
   const cluster = geometry.getAttribute("_prt_cluster");
-  expect(cluster?.count === geometry.getAttribute("position").count, "a primitive lacks _PRT_CLUSTER for its vertices");
+  expect(cluster?.count === geometry.getAttribute("position").count, "a primitive has no _PRT_CLUSTER for each vertex");
   const numbers = Uint32Array.from({ length: cluster.count }, (_, v) => cluster.getX(v));
   const outside = numbers.findIndex((number) => number >= components.length);
-  expect(outside < 0, `vertex ${outside} is in no cluster`);
+  expect(outside < 0, `vertex ${outside} names a cluster that does not exist`);
   for (const group of groups) {
     const { array } = group.data ?? group;
     const removed = REMOVED.get(array.constructor);
     expect(!removed, `weights '${removed}' are not supported: compress again with prt compress`);
-    expect(array instanceof Float32Array, "the weights are no floats");
-    expect(array.every((weight) => Math.abs(weight) <= LARGEST_WEIGHT), `the weights are not finite, or beyond ${LARGEST_WEIGHT}`);
+    expect(array instanceof Float32Array, "the weights are not floats");
+    expect(array.every((weight) => Math.abs(weight) <= LARGEST_WEIGHT), `the weights are not finite or exceed ${LARGEST_WEIGHT}`);
   }
   geometry.deleteAttribute("_prt_cluster");
   geometry.setAttribute("prt_cluster", new BufferAttribute(numbers, 1));
@@ -84,7 +84,7 @@ function convertWeights(geometry, { components }) {
   return { PRT_WEIGHT_VECTORS: groups.length };
 }
 
-/** Bytes of a geometry's attributes that are ours, for each vertex. */
+/** Returns the bytes per vertex of the attributes of transfer. */
 const bytesOf = ({ attributes }) =>
   Object.entries(attributes)
     .filter(([name]) => /^prt_(words|cluster|weights)/.test(name))

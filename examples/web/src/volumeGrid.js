@@ -14,10 +14,10 @@ export const NO_BRICK = 0xffffffff;
 
 /** Throws if a volume would need more memory than is allowed for a file of `bytes`. */
 function checkMemory(taken, bytes) {
-  holds(taken <= 256e6 + 64 * bytes, `the volume would take ${Math.round(taken / 1e6)} MB`);
+  holds(taken <= 256e6 + 64 * bytes, `the volume would need ${Math.round(taken / 1e6)} MB`);
 }
 
-/** Numbers of bricks [size z][size y][size x]: which brick is where. */
+/** Returns the index of the brick of each cell, [size z][size y][size x]. */
 function indexOf({ size, bricks }) {
   const index = new Uint32Array(size[0] * size[1] * size[2]).fill(NO_BRICK);
   for (let b = 0; b < bricks.length / 4; ++b) {
@@ -33,14 +33,14 @@ function indexOf({ size, bricks }) {
   return index;
 }
 
-/** Corner `i` of brick `b`, in finest cells. */
+/** Returns corner `i` of brick `b`, in finest cells. */
 function cornerOf(bricks, b, i) {
   const width = 2 ** bricks[4 * b + 3];
   const steps = [i % SIDE, Math.floor(i / SIDE) % SIDE, Math.floor(i / SIDE ** 2)];
   return steps.map((step, axis) => CELLS * bricks[4 * b + axis] + width * step);
 }
 
-/** Corners that bricks share are one probe, numbered in the order in which they come first. */
+/** Returns the probes: corners that bricks share are one probe, numbered in the order of their first use. */
 function probesOf(bricks) {
   const ofBrick = new Uint32Array((BRICK_PROBES * bricks.length) / 4);
   const corners = [];
@@ -71,18 +71,18 @@ function probesOf(bricks) {
  */
 export function gridOf({ origin, spacing, size }, numbers, bytes) {
   checkMemory(16 * size[0] * size[1] * size[2], bytes);
-  holds(numbers.byteLength > 0 && numbers.byteLength % 8 === 0, "the bricks are no groups of eight bytes");
+  holds(numbers.byteLength > 0 && numbers.byteLength % 8 === 0, "the bricks are not groups of eight bytes");
   checkMemory((numbers.byteLength / 8) * BRICK_PROBES * 64, bytes);
   const bricks = new Uint16Array(numbers.buffer.slice(numbers.byteOffset, numbers.byteOffset + numbers.byteLength));
   for (let i = 0; i < bricks.length; i += 4) {
     const level = bricks[i + 3];
     const isInside = level <= MOST_LEVEL && size.every((most, axis) => bricks[i + axis] < most && bricks[i + axis] % 2 ** level === 0);
-    holds(isInside, "a brick lies where the volume has none");
+    holds(isInside, "a brick is outside the volume");
   }
   return { origin, spacing, size, bricks, index: indexOf({ size, bricks }), ...probesOf(bricks) };
 }
 
-/** Metres, in the world of the file. */
+/** Returns the position of a probe in metres, in world space of the file. */
 export function positionOf({ origin, spacing, corners }, probe) {
   return origin.map((least, axis) => least + spacing * corners[3 * probe + axis]);
 }

@@ -1,11 +1,11 @@
-// Light of a volume in three's materials: incident light at a pixel, and its mirrored part. Included into the
+// Light of a volume in three's materials: incident light at a pixel, and its mirrored light. Included into the
 // fragment shader, before main, after prt_volume.glsl. Names without prt are three's.
 
-uniform mat4 prtToVolume;                          // from the world, with the volume's origin taken off
+uniform mat4 prtToVolume;                          // from the world; relative to the volume's origin
 uniform vec3 prtSkyLight[PRT_VOLUME_COEFFICIENTS]; // light of the sky only, without occlusion
 centroid in vec3 prtVolumePosition;
 
-// A direction of the camera's space in the frame of the volume.
+// Transforms a direction from camera space to the space of the volume.
 vec3 prtTowards(vec3 direction) {
   return normalize(mat3(prtToVolume) * inverseTransformDirection(direction, viewMatrix));
 }

@@ -1,5 +1,5 @@
-// shaders/prt_volume.glsl and volumeLight.glsl in three's node language, for WebGPURenderer: names are theirs. All is built where
-// a lighting model adds up, within its flow.
+// shaders/prt_volume.glsl and volumeLight.glsl in three's node language, for WebGPURenderer, with the same names. Nodes are created
+// while a lighting model is evaluated, within its flow.
 
 import {
   cameraViewMatrix,
@@ -40,7 +40,7 @@ function tableOf({ image: { data, width, height, depth }, format, type }) {
   return { texture, entry };
 }
 
-/** A texel of a 3D texture at integer coordinates: three has no node for it. */
+/** A texel of a 3D texture at integer coordinates; three has no node for it. */
 class TexelNode extends Texture3DNode {
   static get type() {
     return "PrtTexelNode";
@@ -56,7 +56,7 @@ class TexelNode extends Texture3DNode {
 }
 const texel = (texture, at) => new TexelNode(texture, at).setSampler(false);
 
-/** Numbers and textures of a volume. */
+/** Returns the textures and parameters of a volume. */
 function tablesOf(volume) {
   const { uniforms, source, atlas } = volume;
   volume.tables ??= [uniforms.prt_volume_visibility.value, uniforms.prt_volume_index.value].map(tableOf);
@@ -79,12 +79,12 @@ const AXES = ["x", "y", "z"];
 /** Changes `brick` to the one that contains a position inside the volume, if there is one. */
 function findBrick({ index, spacing, size }, position, brick) {
   const bricks = position.div(4 * spacing);
-  const point = ivec3(bricks.floor()).clamp(ivec3(0), ivec3(...size).sub(1)).toVar();
-  const entry = index(point).x.toVar();
+  const cell = ivec3(bricks.floor()).clamp(ivec3(0), ivec3(...size).sub(1)).toVar();
+  const entry = index(cell).x.toVar();
   If(entry.notEqual(uint(0xffffffff)), () => {
     brick.level.assign(int(entry.bitAnd(uint(3))));
     brick.slot.assign(int(entry.shiftRight(uint(2))));
-    for (const axis of AXES) brick.point[axis].assign(point[axis].shiftRight(brick.level).shiftLeft(brick.level));
+    for (const axis of AXES) brick.first[axis].assign(cell[axis].shiftRight(brick.level).shiftLeft(brick.level));
   });
 }
 
@@ -105,16 +105,16 @@ function visibilityOf(visibility, from) {
 }
 
 /** Returns the eight probes around a position: { texel, weights }. */
-function findPosition(tables, position, normal) {
+function findProbes(tables, position, normal) {
   const { spacing, size, first, bricks } = tables;
   const most = vec3(...size.map((n) => 4 * spacing * n));
   const cellOf = (level) => float(uint(1).shiftLeft(uint(level))).mul(spacing);
-  const brick = { point: ivec3(...first.slice(0, 3)).toVar(), level: int(first[3]).toVar(), slot: int(0).toVar() };
+  const brick = { first: ivec3(...first.slice(0, 3)).toVar(), level: int(first[3]).toVar(), slot: int(0).toVar() };
   const inside = position.clamp(vec3(0), most).toVar();
   findBrick(tables, inside, brick);
   const seen = inside.add(normal.mul(cellOf(brick.level).mul(0.25))).clamp(vec3(0), most).toVar();
   findBrick(tables, seen, brick);
-  const at = seen.sub(vec3(brick.point).mul(4 * spacing)).div(cellOf(brick.level)).toVar();
+  const at = seen.sub(vec3(brick.first).mul(4 * spacing)).div(cellOf(brick.level)).toVar();
   const within = at.clamp(vec3(0), vec3(4)).toVar();
   const low = ivec3(within).min(ivec3(3)).toVar();
   const over = within.sub(vec3(low)).toVar();
@@ -132,7 +132,7 @@ function findPosition(tables, position, normal) {
 
 /** Returns the coefficients of incident light at a position. */
 function incidentOf(tables, position, normal) {
-  const { least, weights } = findPosition(tables, position, normal);
+  const { least, weights } = findProbes(tables, position, normal);
   const { light, bricks, coefficients } = tables;
   const numbers = Array.from({ length: Math.ceil((3 * coefficients) / 4) }, (_, plane) =>
     CORNERS.map(([x, y, z], i) => texel(light, least.add(ivec3(x, y, z + SIDE * bricks[2] * plane))).mul(weights[i]))

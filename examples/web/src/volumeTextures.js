@@ -26,11 +26,11 @@ export function atlasOf({ bricks }, order) {
   return { bricks: [x, y, z], planes: Math.ceil((3 * order ** 2 + 1) / 4), texels: SIDE ** 3 * x * y * z };
 }
 
-/** Texel of corner `i` of brick `b` in a plane. */
+/** Returns the texel of corner `i` of brick `b` in a plane. */
 export function texelOf({ bricks: [x, y] }, b, i) {
-  const point = [b % x, Math.floor(b / x) % y, Math.floor(b / (x * y))];
+  const brick = [b % x, Math.floor(b / x) % y, Math.floor(b / (x * y))];
   const step = [i % SIDE, Math.floor(i / SIDE) % SIDE, Math.floor(i / SIDE ** 2)];
-  const [u, v, w] = point.map((n, axis) => SIDE * n + step[axis]);
+  const [u, v, w] = brick.map((n, axis) => SIDE * n + step[axis]);
   return (w * SIDE * y + v) * SIDE * x + u;
 }
 
@@ -41,8 +41,8 @@ export function texelOf({ bricks: [x, y] }, b, i) {
 function seesCell(visibility, probe, step, width) {
   let passed = 0; // at the opposite corner; a surface is at 1
   for (let axis = 0; axis < 3; ++axis) {
-    const visibility = visibility[6 * probe + 2 * axis + ((step >> axis) & 1 ? 0 : 1)] / 255;
-    passed = Math.max(passed, visibility > 0 ? 1 / (VISIBILITY_CELLS * width * visibility ** 2) : BLIND);
+    const distance = visibility[6 * probe + 2 * axis + ((step >> axis) & 1 ? 0 : 1)] / 255;
+    passed = Math.max(passed, distance > 0 ? 1 / (VISIBILITY_CELLS * width * distance ** 2) : BLIND);
   }
   return passed <= VISIBILITY_FULL - ROOM;
 }

@@ -1,4 +1,4 @@
-// Transfer of probes: PRTKIT_transfer_volume. No three.js here.
+// Decodes transfer of probes: PRTKIT_transfer_volume. Does not use three.js.
 
 import { clustersOf } from "./clusteredPca.js";
 import { wordsOf } from "./packedWords.js";
@@ -9,11 +9,11 @@ const holds = (value, what) => expect(value, what, PROBES);
 
 const viewed = (Type, bytes) => new Type(bytes.buffer.slice(bytes.byteOffset, bytes.byteOffset + bytes.byteLength));
 
-/** Throws unless `words`, of which a probe has `stride`, name clusters that are there. */
+/** Throws if `words`, `stride` for each probe, name a cluster that does not exist. */
 function checkWords(words, stride, { clusterBits, components }) {
   const mask = 2 ** clusterBits - 1;
   for (let at = 0; at < words.length; at += stride)
-    holds((words[at] & mask) < components.length, `probe ${at / stride} is in no cluster`);
+    holds((words[at] & mask) < components.length, `probe ${at / stride} names a cluster that does not exist`);
 }
 
 /**
@@ -27,13 +27,13 @@ export function volumeOf(extension, view) {
   const grid = gridOf(extension, view(extension.bricks.bufferView), bytes);
   const probes = grid.levels.length;
   const visibility = view(extension.visibility.bufferView);
-  holds(visibility.byteLength === 6 * probes, `there are ${probes} probes, and visibility for ${visibility.byteLength / 6}`);
+  holds(visibility.byteLength === 6 * probes, `visibility has values for ${visibility.byteLength / 6} probes, not ${probes}`);
   const order = extension.incidentOrder;
   const clusters = inNameOf(PROBES, () => clustersOf(extension, view, order * order));
   const stride = wordsOf(clusters);
   holds(stride <= 8, `a probe has ${stride} words of packed weights, more than 8`);
   const packed = view(extension.words.bufferView);
-  holds(packed.byteLength === 4 * stride * probes, `the words are not those of ${probes} probes`);
+  holds(packed.byteLength === 4 * stride * probes, `the words do not have the size of ${probes} probes`);
   const words = viewed(Uint32Array, packed);
   checkWords(words, stride, clusters);
   return { grid, order, clusters, visibility: viewed(Uint8Array, visibility), words, stride };

@@ -1,4 +1,4 @@
-// A way round a scene, on its ground.
+// A closed path through a scene, on its ground.
 
 import { Box3, CatmullRomCurve3, Raycaster, Vector3 } from "three";
 

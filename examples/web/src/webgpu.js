@@ -9,7 +9,7 @@ import { PrtkitPlugin as ForWebGL } from "./PrtkitLoader.js";
 
 export * from "./PrtkitLoader.js";
 
-/** For `GLTFLoader.register`: materials are nodes. */
+/** For `GLTFLoader.register`; creates node materials. */
 export class PrtkitPlugin extends ForWebGL {
   constructor(parser) {
     super(parser);
@@ -30,6 +30,6 @@ export class PrtkitPlugin extends ForWebGL {
   }
 
   checkRenderer(renderer) {
-    if (renderer.isWebGLRenderer) throw new Error("prtkit: WebGLRenderer wants the plug-in of prtkit-web");
+    if (renderer.isWebGLRenderer) throw new Error("prtkit: WebGLRenderer needs PrtkitPlugin of prtkit-web");
   }
 }

@@ -10,7 +10,7 @@ export const OCCLUDERS = "PRTKIT_occlusion_volume";
 export const INSTANCES = "PRTKIT_instances";
 export const LOBES = "PRTKIT_lobes";
 /** Error message for a file that is not compressed. */
-export const AS_BAKED = "holds transfer as it was baked; make it one to ship: prt compress baked.glb -o shipped.glb";
+export const AS_BAKED = "the file is an uncompressed bake; compress it: prt compress baked.glb -o shipped.glb";
 
 /** Throws an Error with `what` unless `holds`. `name`: the extension with the error. */
 export function expect(holds, what, name = VERTICES) {
@@ -26,7 +26,7 @@ export function inNameOf(name, work) {
   }
 }
 
-/** Limit for scales of predictors and float weights, and for metres of a vertex from the origin of the world. */
+/** Limit for scales of predictors, for float weights, and for the distance of a vertex from the world origin in metres. */
 export const LARGEST_WEIGHT = 1e9;
 /** Limit for values of bases. */
 export const LARGEST_TRANSFER = 1e6;
@@ -76,58 +76,58 @@ function arePredictors(predictors) {
 /** True if there is one step for all axes, or one per group of axes in each cluster. */
 function checkSteps({ step, steps, values }) {
   const least = steps === undefined ? step : steps?.least;
-  expect(Number.isFinite(least) && least >= 0, "the step of the bases is no number from 0 on");
+  expect(Number.isFinite(least) && least >= 0, "the step of the bases is not a number of at least 0");
   if (steps === undefined) return;
-  expect(step === undefined, "the bases have one step and many");
+  expect(step === undefined, "the bases have both step and steps");
   const axes = Array.isArray(steps.axes) ? steps.axes : [];
   const total = axes.reduce((sum, count) => (isWhole(count, 0, 65536) ? sum + count : NaN), 0);
   expect(
     areRows(steps) && steps.drops.length === axes.length && total === values.drops.length,
-    "the steps of the bases are of another number of axes",
+    "the steps of the bases do not match their axes",
   );
 }
 
 function checkBases(bases) {
-  expect(isObject(bases), "there are no bases");
-  if (bases.values === undefined) return expect(areFloats(bases), "the bases are no floats");
-  expect(areRows(bases.values) && areRows(bases.axes), "the rows of the coded bases are wrong");
+  expect(isObject(bases), "bases are missing");
+  if (bases.values === undefined) return expect(areFloats(bases), "the bases are not floats");
+  expect(areRows(bases.values) && areRows(bases.axes), "the rows of the coded bases are invalid");
   expect(
     areFloats(bases.origin) && areFloats(bases.scales) && (bases.units === undefined || areFloats(bases.units)),
-    "what the coded bases are of are no floats",
+    "origin, scales or units of the coded bases are not floats",
   );
   checkSteps(bases);
 }
 
 function checkPacking({ packing, components }) {
   if (packing === undefined) return;
-  expect(isView(packing) && isWhole(packing.clusterBits, 0, 16), "the packing is wrong");
-  expect(components.length <= 2 ** packing.clusterBits, "the clusters do not fit their bits");
+  expect(isView(packing) && isWhole(packing.clusterBits, 0, 16), "packing is invalid");
+  expect(components.length <= 2 ** packing.clusterBits, "clusterBits cannot number all clusters");
   expect(components.every((m) => m <= 16), "a cluster has more than 16 packed components");
   const { words } = packing;
   if (words === undefined) return;
   const { frequencies } = words;
-  expect(isView(words) && isWhole(words.vertices, 1, 2 ** 31 - 1), "the coded words are wrong");
-  expect(isWhole(frequencies?.byteLength, 0, 2 ** 31 - 1) && areDrops(frequencies.drops), "the frequencies of the coded words are wrong");
+  expect(isView(words) && isWhole(words.vertices, 1, 2 ** 31 - 1), "the coded words are invalid");
+  expect(isWhole(frequencies?.byteLength, 0, 2 ** 31 - 1) && areDrops(frequencies.drops), "the frequencies of the coded words are invalid");
 }
 
 /** Throws an Error with the reason for an invalid object at the top level of a glTF. */
 export function checkExtension(extension) {
-  expect(isObject(extension), "the extension is no object");
+  expect(isObject(extension), "the extension is not an object");
   const { version } = extension;
-  expect(version === 8, `version ${version} is not known, only 8; compress the model again`);
+  expect(version === 8, `version ${version} is not supported, only 8; compress the model again`);
   checkClusters(extension);
 }
 
 /** Validates the common members of vertices and texels. */
 function checkClusters(extension) {
   const { order, terms, components, predictors, centers } = extension;
-  expect(isWhole(order, 1, 10) && areTerms(terms), "order or parts are wrong");
-  expect(terms.every(({ towards }) => towards === undefined), 'a sun is among the lamps of the terms ("towards"), as older versions wrote it; bake the scene again');
-  expect(Array.isArray(components) && isWhole(components.length, 1, 65536), "the components are no list of 1 to 65536");
-  expect(components.every((m) => isWhole(m, 0, 600)), "the components of a cluster are wrong");
+  expect(isWhole(order, 1, 10) && areTerms(terms), "order or terms are invalid");
+  expect(terms.every(({ towards }) => towards === undefined), 'a lamp term has "towards", because older versions stored suns as lamps; bake the scene again');
+  expect(Array.isArray(components) && isWhole(components.length, 1, 65536), "components is not a list of 1 to 65536 numbers");
+  expect(components.every((m) => isWhole(m, 0, 600)), "a cluster does not have 0 to 600 components");
   if (predictors !== undefined) {
-    expect(arePredictors(predictors) && predictors.length > 0, "the predictors are wrong");
-    expect(areRows(centers) && centers.drops.length === 3 * predictors.length, "the centers are not those of the predictors");
+    expect(arePredictors(predictors) && predictors.length > 0, "the predictors are invalid");
+    expect(areRows(centers) && centers.drops.length === 3 * predictors.length, "the centers do not match the predictors");
   }
   checkBases(extension.bases);
   checkPacking(extension);
@@ -145,19 +145,19 @@ const isMap = (map) =>
 /** Validates PRTKIT_lightmap in a glTF with `images` images; see checkExtension. */
 export function checkLightmap(extension, images) {
   const holds = (value, what) => expect(value, what, TEXELS);
-  holds(isObject(extension), "the extension is no object");
+  holds(isObject(extension), "the extension is not an object");
   const { version, raw, predictors, packing, maps } = extension;
-  holds(version === 2, `version ${version} is not known, only 2; compress the model again`);
+  holds(version === 2, `version ${version} is not supported, only 2; compress the model again`);
   holds(raw === undefined, AS_BAKED);
   inNameOf(TEXELS, () => checkClusters(extension));
-  holds(predictors === undefined, "texels have no predictors");
+  holds(predictors === undefined, "texels do not support predictors");
   holds(packing !== undefined, "the weights of texels are not packed");
-  holds(Array.isArray(maps) && maps.length > 0 && maps.every(isMap), "the maps are wrong");
-  holds(isWhole(maps[0].images.length, 1, 8), "a texel has no words, or more than 8");
+  holds(Array.isArray(maps) && maps.length > 0 && maps.every(isMap), "the maps are invalid");
+  holds(isWhole(maps[0].images.length, 1, 8), "a texel does not have 1 to 8 words");
   for (const map of maps)
     holds(
       map.images.length === maps[0].images.length && map.images.every((image) => isWhole(image, 0, images - 1)),
-      "the images of the maps are not there, or not as many for each",
+      "an image of a map does not exist, or maps have different numbers of images",
     );
 }
 
@@ -166,28 +166,28 @@ const areNumbers = (v) => Array.isArray(v) && v.length === 3 && v.every((x) => N
 /** Validates PRTKIT_transfer_volume; see checkExtension. */
 export function checkVolume(extension) {
   const holds = (value, what) => expect(value, what, PROBES);
-  holds(isObject(extension), "the extension is no object");
+  holds(isObject(extension), "the extension is not an object");
   const { version, raw, predictors, packing, incidentOrder, origin, spacing, size, bricks, visibility, words } = extension;
-  holds(version === 2, `version ${version} is not known, only 2; compress the model again`);
+  holds(version === 2, `version ${version} is not supported, only 2; compress the model again`);
   holds(raw === undefined, AS_BAKED);
   holds(isWhole(incidentOrder, 2, 4), "the order of incident light is not 2 to 4");
-  holds(areNumbers(origin) && spacing > 0 && spacing < 1e18, "the spacing or the origin is no usable number");
+  holds(areNumbers(origin) && spacing > 0 && spacing < 1e18, "the spacing or the origin is invalid");
   holds(Array.isArray(size) && size.length === 3 && size.every((n) => isWhole(n, 1, 1024)), "the size is not 1 to 1024 bricks along each axis");
   inNameOf(PROBES, () => checkClusters(extension));
-  holds(predictors === undefined, "probes have no predictors");
+  holds(predictors === undefined, "probes do not support predictors");
   holds(packing !== undefined, "the weights of probes are not packed");
-  holds([bricks, visibility, words].every(isView), "bricks, visibility or words are not there");
+  holds([bricks, visibility, words].every(isView), "bricks, visibility or words are missing");
 }
 
 /** Validates PRTKIT_occlusion_volume of a node. */
 export function checkOccluder(extension) {
   const holds = (value, what) => expect(value, what, OCCLUDERS);
-  holds(isObject(extension), "the extension is no object");
+  holds(isObject(extension), "the extension is not an object");
   const { version, min, max, reach, texels } = extension;
-  holds(version === 1, `version ${version} is not known, only 1; make it again`);
-  holds(areNumbers(min) && areNumbers(max) && min.every((low, axis) => low < max[axis]), "the box is none");
-  holds(reach > 0 && reach < 1e30, "the reach is no number above 0");
-  holds(isView(texels), "the texels are not there");
+  holds(version === 1, `version ${version} is not supported, only 1; run prt ao again`);
+  holds(areNumbers(min) && areNumbers(max) && min.every((low, axis) => low < max[axis]), "the box is invalid");
+  holds(reach > 0 && reach < 1e30, "the reach is not a number above 0");
+  holds(isView(texels), "texels are missing");
 }
 
 const MOST_INSTANCES = 1_000_000;
@@ -196,33 +196,33 @@ const LARGEST_SCALE = 500; // scale of a byte of factors
 /** Validates PRTKIT_instances at the top level; see checkExtension. */
 export function checkInstances(extension) {
   const holds = (value, what) => expect(value, what, INSTANCES);
-  holds(isObject(extension), "the extension is no object");
+  holds(isObject(extension), "the extension is not an object");
   const { version, count, factors, boxes } = extension;
-  holds(version === 2, `version ${version} is not known, only 2; bake the model again`);
-  holds(isWhole(count, 1, MOST_INSTANCES), `the count is none from 1 to ${MOST_INSTANCES}`);
-  holds(isView(factors), "the factors are not there");
+  holds(version === 2, `version ${version} is not supported, only 2; bake the model again`);
+  holds(isWhole(count, 1, MOST_INSTANCES), `the count is not 1 to ${MOST_INSTANCES}`);
+  holds(isView(factors), "factors are missing");
   const { scales } = factors;
   const areScales = Array.isArray(scales) && scales.length === FACTORS && scales.every((scale) => scale >= 0 && scale <= LARGEST_SCALE && typeof scale === "number");
   holds(areScales, `the scales of the factors are not ${FACTORS} numbers from 0 to ${LARGEST_SCALE}`);
-  holds(Array.isArray(boxes) && boxes.length > 0, "there are no boxes");
+  holds(Array.isArray(boxes) && boxes.length > 0, "boxes are missing");
   for (const box of boxes)
-    holds(areThree(box?.middle) && areThree(box.half) && box.half.every((width) => Math.fround(width) > 0), "a box is none");
+    holds(areThree(box?.middle) && areThree(box.half) && box.half.every((width) => Math.fround(width) > 0), "a box is invalid");
 }
 
 /** Validates the extension of node `n`, with `count` instances and `boxes` boxes in the file. */
 export function checkInstanceNode(extension, n, count, boxes) {
   const isRight = isObject(extension) && isWhole(extension.first, 0, count - 1) && isWhole(extension.box, 0, boxes - 1);
-  expect(isRight, `node ${n} has an instance or a box that is not there`, INSTANCES);
+  expect(isRight, `node ${n} names an instance or a box that does not exist`, INSTANCES);
 }
 
 /** Validates PRTKIT_lobes; see checkExtension. */
 export function checkLobes(extension) {
   const holds = (value, what) => expect(value, what, LOBES);
-  holds(isObject(extension), "the extension is no object");
+  holds(isObject(extension), "the extension is not an object");
   const { version, order, lobes, profiles } = extension;
-  holds(version === 1, `version ${version} is not known, only 1; run prt lobes again`);
-  holds(isWhole(order, 2, 4) && isWhole(lobes, 1, 3), "the order is not 2 to 4, or a vertex has not 1 to 3 lobes");
-  holds(areFloats(profiles) && isWhole(profiles.count, 1, 256), "the profiles are not 1 to 256 of floats");
+  holds(version === 1, `version ${version} is not supported, only 1; run prt lobes again`);
+  holds(isWhole(order, 2, 4) && isWhole(lobes, 1, 3), "the order is not 2 to 4, or the number of lobes is not 1 to 3");
+  holds(areFloats(profiles) && isWhole(profiles.count, 1, 256), "the profiles are not 1 to 256 profiles of floats");
 }
 
 /** Returns the buffer views of a validated extension. */
@@ -230,5 +230,5 @@ export function viewsOf({ packing, centers, predictors, bases, bricks, visibilit
   const { origin, units, scales, steps, axes, values } = bases;
   const coded = values ? [origin, units, scales, steps, axes, values] : [bases];
   const used = [packing, predictors && centers, ...coded, bricks, visibility, words];
-  return used.filter((term) => term !== undefined).map(({ bufferView }) => bufferView);
+  return used.filter((view) => view !== undefined).map(({ bufferView }) => bufferView);
 }

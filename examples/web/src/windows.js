@@ -3,12 +3,12 @@
 
 import { ShLight } from "./sphericalHarmonics.js";
 
-/** The first bands of a light. */
+/** Returns the first bands of a light. */
 export function truncated(light, order) {
   return new ShLight(order, light.polar.slice(0, 3 * order * order));
 }
 
-/** The light with band l times factor(l / order). */
+/** Returns the light with band l multiplied by factor(l / order). */
 function faded(light, factor) {
   const polar = light.polar.map((value, i) => value * factor(Math.floor(Math.sqrt(Math.floor(i / 3) + 0.5)) / light.order));
   return new ShLight(light.order, polar);
@@ -16,7 +16,7 @@ function faded(light, factor) {
 
 /** Title of each window by name, and a function that applies it to a light. */
 export const WINDOWS = {
-  auto: { title: "auto: no negative light", apply: (light) => light.deringed() },
+  auto: { title: "automatic (no negative light)", apply: (light) => light.deringed() },
   none: { title: "none", apply: (light) => light },
   hann: { title: "Hann", apply: (light) => faded(light, (x) => 0.5 + 0.5 * Math.cos(Math.PI * x)) },
   lanczos: {

@@ -19,12 +19,12 @@ async function imageBytes(parser, i) {
 function checkHeader(bytes, { width, height }, i) {
   const header = bytes.byteLength >= 26 ? new DataView(bytes) : null;
   const isPng = header?.getUint32(0) === 0x89504e47 && header.getUint32(12) === 0x49484452;
-  expect(isPng && header.getUint16(24) === 0x0806, `image ${i} is no PNG of four channels of 8 bits`, TEXELS);
-  expect(header.getUint32(16) === width && header.getUint32(20) === height, `image ${i} has another size than its map`, TEXELS);
+  expect(isPng && header.getUint16(24) === 0x0806, `image ${i} is not a PNG with four channels of 8 bits`, TEXELS);
+  expect(header.getUint32(16) === width && header.getUint32(20) === height, `image ${i} does not have the size of its map`, TEXELS);
 }
 
 async function decoded(bytes, i) {
-  expect(typeof createImageBitmap === "function", "there is nothing here that decodes images", TEXELS);
+  expect(typeof createImageBitmap === "function", "createImageBitmap is missing, so images cannot be decoded", TEXELS);
   const asTheyAre = { premultiplyAlpha: "none", colorSpaceConversion: "none", imageOrientation: "none" };
   try {
     return await createImageBitmap(new Blob([bytes], { type: "image/png" }), asTheyAre);

@@ -4,7 +4,7 @@
 
 import { polarMatrices, ShLight } from "./sphericalHarmonics.js";
 
-/** Rows [rowCount] of parts, about the polar axis +Y. */
+/** Returns `rows` [rowCount] for coefficients whose polar axis is +Y. */
 export function polarRows({ order, terms }, rows) {
   const matrices = polarMatrices(order);
   const count = order * order;
@@ -20,25 +20,25 @@ export function polarRows({ order, terms }, rows) {
   return result;
 }
 
-/** Numbers of a series. */
-export const termsOf = (order) => 2 * order - 1;
+/** Number of values in a series. */
+export const seriesSize = (order) => 2 * order - 1;
 
-/** 1, cos(yaw), sin(yaw), cos(2 yaw), .. */
+/** Returns 1, cos(yaw), sin(yaw), cos(2 yaw), .. */
 export function rotationTerms(order, yaw) {
-  const terms = Float64Array.of(1, ...new Array(termsOf(order) - 1).fill(0));
+  const terms = Float64Array.of(1, ...new Array(seriesSize(order) - 1).fill(0));
   for (let m = 1; m < order; ++m) [terms[2 * m - 1], terms[2 * m]] = [Math.cos(m * yaw), Math.sin(m * yaw)];
   return terms;
 }
 
 /**
- * Computes the series of each row and colour, [rows][3][termsOf(order)], of light in spaces rotated by a yaw:
+ * Computes the series of each row and colour, [rows][3][seriesSize(order)], of light in spaces rotated by a yaw:
  * `rows` of polarRows; coefficients [order²][3] of `sky`, for direct terms, and of all light, for the other
  * terms.
  */
 export function yawSeries({ order, terms, rowCount }, rows, sky, all, series) {
   const [direct, rest] = [sky, all].map((light) => ShLight.fromCoefficients(order, light).polar);
   const count = order * order;
-  const terms = termsOf(order);
+  const size = seriesSize(order);
   series.fill(0);
   let at = 0;
   for (let r = 0; r < rowCount; ++r)
@@ -46,7 +46,7 @@ export function yawSeries({ order, terms, rowCount }, rows, sky, all, series) {
       const light = kind === "direct" ? direct : rest;
       for (let c = 0; c < 3; ++c) {
         const own = at + (channels === 3 ? c * count : 0);
-        const to = (3 * r + c) * terms;
+        const to = (3 * r + c) * size;
         for (let l = 0; l < order; ++l) {
           const middle = l * l + l;
           series[to] += rows[own + middle] * light[3 * middle + c];

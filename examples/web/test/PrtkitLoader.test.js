@@ -58,29 +58,29 @@ const loading = (attributes, extension) => {
   return new PrtkitPlugin(parser).afterRoot(gltf);
 };
 
-test("weights that are not those of the vertices are refused with a reason", async () => {
+test("weights that do not match the vertices are rejected with a reason", async () => {
   const bytes = (...values) => new BufferAttribute(new Uint8Array(values), 4);
-  await assert.rejects(loading({ _prt_weights_0: bytes(1, 2, 3, 4) }, packed), /another type or number/);
+  await assert.rejects(loading({ _prt_weights_0: bytes(1, 2, 3, 4) }, packed), /in type or number/);
   await assert.rejects(loading({ _prt_other: bytes(0, 0, 0, 0, 0, 0, 0, 0) }, packed), /0 groups of weights, not 1/);
   const floats = new BufferAttribute(new Float32Array(8), 4);
-  await assert.rejects(loading({ _prt_weights_0: floats }, packed), /no unsigned bytes/);
+  await assert.rejects(loading({ _prt_weights_0: floats }, packed), /not unsigned bytes/);
   const two = { ...packed, packing: { clusterBits: 3, bufferView: 1 } };
-  await assert.rejects(loading({ _prt_weights_0: bytes(0, 0, 0, 0, 5, 0, 0, 0) }, two), /vertex 1 is in no cluster/);
+  await assert.rejects(loading({ _prt_weights_0: bytes(0, 0, 0, 0, 5, 0, 0, 0) }, two), /vertex 1 names a cluster that does not exist/);
 });
 
-test("clusters and weights that are none are refused with a reason", async () => {
+test("invalid clusters and weights are rejected with a reason", async () => {
   const plain = { ...packed, packing: undefined };
   const cluster = (...values) => new BufferAttribute(new Uint8Array(values), 1);
   const weights = (value) => new BufferAttribute(new Float32Array(8).fill(value), 4);
-  await assert.rejects(loading({ _prt_weights_0: weights(0) }, plain), /lacks _PRT_CLUSTER/);
-  await assert.rejects(loading({ _prt_weights_0: weights(0), _prt_cluster: cluster(0) }, plain), /lacks _PRT_CLUSTER/);
-  await assert.rejects(loading({ _prt_weights_0: weights(0), _prt_cluster: cluster(0, 1) }, plain), /vertex 1 is in no cluster/);
+  await assert.rejects(loading({ _prt_weights_0: weights(0) }, plain), /has no _PRT_CLUSTER/);
+  await assert.rejects(loading({ _prt_weights_0: weights(0), _prt_cluster: cluster(0) }, plain), /has no _PRT_CLUSTER/);
+  await assert.rejects(loading({ _prt_weights_0: weights(0), _prt_cluster: cluster(0, 1) }, plain), /vertex 1 names a cluster that does not exist/);
   for (const wrong of [NaN, 2e9])
     await assert.rejects(loading({ _prt_weights_0: weights(wrong), _prt_cluster: cluster(0, 0) }, plain), /weights are not finite/);
   for (const [Stored, reason] of [
     [Int8Array, /weights 'snorm8' are not supported: compress again with prt compress/],
     [Int16Array, /weights 'snorm16' are not supported: compress again with prt compress/],
-    [Uint8Array, /the weights are no floats/],
+    [Uint8Array, /the weights are not floats/],
   ]) {
     const integers = new BufferAttribute(new Stored(8), 4, true);
     await assert.rejects(loading({ _prt_weights_0: integers, _prt_cluster: cluster(0, 0) }, plain), reason);
@@ -108,7 +108,7 @@ test("packed weights become words, and the material keeps its colour", async () 
   assert.ok(Math.abs(constants[4] - ((2 * 0.5) / 255) * l0) < 1e-6);
 });
 
-test("weights that are not packed stay as they are, beside the cluster", async () => {
+test("unpacked weights are unchanged, in addition to the cluster", async () => {
   const { packing: _packing, ...extension } = packed;
   const weights = new BufferAttribute(new Float32Array(8), 4);
   const cluster = new BufferAttribute(new Uint8Array([0, 0]), 1);
@@ -119,7 +119,7 @@ test("weights that are not packed stay as they are, beside the cluster", async (
   assert.equal(gltf.userData.prtkit.bytesPerVertex, 4 + 16); // a word, and one weight in a vector of four
 });
 
-test("bytes of a vertex are those of the attributes that are bound", async () => {
+test("bytes per vertex are those of the bound attributes", async () => {
   const { packing: _packing, ...extension } = { ...packed, components: [5], bases: { bufferView: 0, componentType: 5126 } };
   const attributes = {
     _prt_weights_0: new BufferAttribute(new Float32Array(8), 4),
@@ -135,7 +135,7 @@ test("bytes of a vertex are those of the attributes that are bound", async () =>
   assert.equal(gltf.userData.prtkit.bytesPerVertex, 4 + 2 * 4 * 4);
 });
 
-test("tables longer than a row of their texture go on in the next", async () => {
+test("tables longer than a texture row continue in the next row", async () => {
   const count = 300; // clusters without components: one row of constants each
   const { packing: _packing, ...extension } = { ...packed, components: new Array(count).fill(0) };
   const cluster = new BufferAttribute(new Uint16Array([0, count - 1]), 1);
@@ -154,7 +154,7 @@ test("tables longer than a row of their texture go on in the next", async () => 
   }
 });
 
-test("files without the extension are left alone", async () => {
+test("files without the extension are unchanged", async () => {
   const { gltf, parser, mesh } = scene({}, null);
   const { material } = mesh;
   await new PrtkitPlugin(parser).afterRoot(gltf);
@@ -162,7 +162,7 @@ test("files without the extension are left alone", async () => {
   assert.equal(gltf.userData.prtkit, undefined);
 });
 
-test("a light of fewer bands than the model is refused", async () => {
+test("a light of fewer bands than the model is rejected", async () => {
   const bytes = new BufferAttribute(new Uint8Array(8), 4);
   const { gltf, parser } = scene({ _prt_weights_0: bytes }, packed);
   await new PrtkitPlugin(parser).afterRoot(gltf);
@@ -180,7 +180,7 @@ function compiled({ onBeforeCompile, isMeshLambertMaterial }) {
   return shader;
 }
 
-test("the shader is that of the runtime, and the material three's", async () => {
+test("the shader contains the runtime's functions and three's material", async () => {
   const bytes = new BufferAttribute(new Uint8Array(8), 4);
   const { gltf, parser, mesh } = scene({ _prt_weights_0: bytes }, packed);
   await new PrtkitPlugin(parser).afterRoot(gltf);
@@ -188,9 +188,9 @@ test("the shader is that of the runtime, and the material three's", async () => 
   assert.match(shader.vertexShader, /vec3 prt_exit_radiance\(vec3 position, vec3 normal\)/);
   assert.match(shader.vertexShader, /prtRadiance = prt_exit_radiance\(prtBakedPosition\(\), prtBakedNormal\(\)\);/);
   assert.doesNotMatch(shader.vertexShader, /#include "/);
-  // Behind skins and morph targets, which move where a pixel is looked for in a shadow map.
+  // After skins and morph targets, which move the lookup of a pixel in a shadow map.
   assert.match(shader.vertexShader, /#include <skinning_vertex>[^]*prtLight\( transformed \);/);
-  // Only suns are added by three's lights, and there is no ambient light.
+  // Three's lights add only suns; ambient light is omitted.
   assert.doesNotMatch(shader.fragmentShader, /#if \( NUM_\w+_LIGHTS > 0 \) && defined\( RE_Direct/);
   assert.doesNotMatch(shader.fragmentShader, /getAmbientLightIrradiance/);
   assert.doesNotMatch(shader.fragmentShader, /indirectDiffuse \*= ambientOcclusion/);
@@ -199,7 +199,7 @@ test("the shader is that of the runtime, and the material three's", async () => 
     assert.ok(shader.fragmentShader.includes(`#include <${chunk}>`), chunk);
 });
 
-test("a clone of a material is lit as it is, and has its own colour", async () => {
+test("a clone of a material is lit equally and keeps its own colour", async () => {
   const { gltf, parser, mesh } = scene({ _prt_weights_0: new BufferAttribute(new Uint8Array(8), 4) }, packed);
   await new PrtkitPlugin(parser).afterRoot(gltf);
   const clone = mesh.material.clone().clone();
@@ -213,7 +213,7 @@ test("a clone of a material is lit as it is, and has its own colour", async () =
   assert.equal(gltf.scene.clone().children[0].material, mesh.material);
 });
 
-test("materials keep what three shades by; unlit ones are matte", async () => {
+test("materials keep the properties that three uses; unlit ones become matte", async () => {
   for (const [material, type] of [
     [new MeshPhysicalMaterial({ clearcoat: 0.5, roughness: 0.3 }), "MeshPhysicalMaterial"],
     [new MeshBasicMaterial({ color: 0x0000ff }), "MeshLambertMaterial"],
@@ -229,7 +229,7 @@ test("materials keep what three shades by; unlit ones are matte", async () => {
   }
 });
 
-test("what is disposed of frees its tables", async () => {
+test("dispose frees the tables", async () => {
   const { gltf, parser } = scene({ _prt_weights_0: new BufferAttribute(new Uint8Array(8), 4) }, packed);
   await new PrtkitPlugin(parser).afterRoot(gltf);
   const freed = [];
@@ -239,7 +239,7 @@ test("what is disposed of frees its tables", async () => {
   assert.deepEqual(freed, ["constantsTexture", "clustersTexture"]);
 });
 
-test("two models have each its own light", async () => {
+test("two models have separate lights", async () => {
   const models = [];
   for (const factor of [1, 3]) {
     const { gltf, parser, mesh } = scene({ _prt_weights_0: new BufferAttribute(new Uint8Array(8), 4) }, packed);
@@ -250,7 +250,7 @@ test("two models have each its own light", async () => {
   assert.ok(Math.abs(models[1] / models[0] - 3) < 1e-6);
 });
 
-test("predictors are given the frame of the bake, by each mesh's node", async () => {
+test("predictors get the space of the bake from the node of each mesh", async () => {
   const predictors = [{ kind: "normal", scale: [1, 2, 3] }, { kind: "position", origin: [1, 2, 3], scale: [1, 1, 1] }];
   const extension = { ...packed, predictors, centers: { bufferView: 2, drops: [0, 0, 0, 0, 0, 0] } };
   const { gltf, parser, mesh } = scene({ _prt_weights_0: new BufferAttribute(new Uint8Array(8), 4) }, extension);
@@ -274,7 +274,7 @@ test("predictors are given the frame of the bake, by each mesh's node", async ()
 
 const separate = { ...packed, terms: [{ kind: "direct", channels: 1 }] };
 
-test("suns of three's light what keeps direct light apart, while they are apart", async () => {
+test("directional lights light models with a direct term while suns are separate", async () => {
   const light = white();
   const weights = () => ({ _prt_weights_0: new BufferAttribute(new Uint8Array(8), 4) });
   for (const [extension, lit] of [[separate, true], [packed, false]]) {
@@ -305,7 +305,7 @@ const WITH_LAMPS = {
   bases: { bufferView: 0, componentType: 5126 },
 };
 
-test("lamps are dimmed and coloured by name, and so is what shines", async () => {
+test("lamps and emissive materials are dimmed and coloured by name", async () => {
   const attributes = () => ({ _prt_cluster: new BufferAttribute(new Uint8Array(2), 1) });
   const { gltf, parser, mesh } = scene(attributes(), WITH_LAMPS, { name: "Sign" });
   mesh.material.emissive.setRGB(0.5, 0.25, 1);
@@ -326,7 +326,7 @@ test("lamps are dimmed and coloured by name, and so is what shines", async () =>
   model.setLight(white(), 0, null, { Sign: [1, 0, 0.5], Lantern: 2 });
   lit(6 + 5, 6, 6 + 5.5);
   assert.deepEqual(prtStrength.value.toArray(), [1, 0, 0.5]);
-  model.setLight(white(), 0, null, { Lantern: 0 }); // the other shines as in the scene again
+  model.setLight(white(), 0, null, { Lantern: 0 }); // the other lamp has the strength of the scene again
   lit(5, 7, 11);
   assert.deepEqual(prtStrength.value.toArray(), [1, 1, 1]);
   assert.equal(mesh.material.emissiveIntensity, 8);
@@ -336,7 +336,7 @@ test("lamps are dimmed and coloured by name, and so is what shines", async () =>
   lit(5, 7, 11); // a rejected light changes nothing
 });
 
-test("what shines is dimmed with the group that it is a member of", async () => {
+test("emissive materials are dimmed with their group", async () => {
   const [sky, lantern, sign] = WITH_LAMPS.terms;
   const terms = [sky, lantern, { ...sign, name: "Street", members: ["Tube", "material 0"] }];
   for (const [material, expected] of [["Tube", 0.5], ["", 0.5], ["Street", 1], ["Lantern", 2]]) {
@@ -349,7 +349,7 @@ test("what shines is dimmed with the group that it is a member of", async () => 
   }
 });
 
-test("suns go through thin sheets, not into media, and past glass", async () => {
+test("suns pass through thin sheets and glass, not into media", async () => {
   const sheet = { KHR_materials_diffuse_transmission: { diffuseTransmissionFactor: 0.25, diffuseTransmissionColorFactor: [1, 0.5, 0] } };
   const wax = { ...sheet, KHR_materials_volume: { thicknessFactor: 1, attenuationDistance: 0.1 } };
   const glass = { KHR_materials_transmission: { transmissionFactor: 0.9 } };
@@ -381,8 +381,8 @@ test("half floats and three channels are read", () => {
  */
 function threeTexel([x, y, z], width, height) {
   const text = ShaderChunk.common.replace(/\s+/g, " ");
-  assert.ok(text.includes("float u = atan( dir.z, dir.x ) * RECIPROCAL_PI2 + 0.5;"), "three looks up u otherwise");
-  assert.ok(text.includes("float v = asin( clamp( dir.y, - 1.0, 1.0 ) ) * RECIPROCAL_PI + 0.5;"), "three looks up v otherwise");
+  assert.ok(text.includes("float u = atan( dir.z, dir.x ) * RECIPROCAL_PI2 + 0.5;"), "three looks up u differently");
+  assert.ok(text.includes("float v = asin( clamp( dir.y, - 1.0, 1.0 ) ) * RECIPROCAL_PI + 0.5;"), "three looks up v differently");
   const u = Math.atan2(z, x) / (2 * Math.PI) + 0.5;
   const v = Math.asin(y) / Math.PI + 0.5; // from the last row of a texture that is flipped
   return [Math.floor(u * width), height - 1 - Math.floor(v * height)];
@@ -408,7 +408,7 @@ function mainDirection(light, angle) {
 
 const unit = (d) => d.map((value) => value / Math.hypot(...d));
 
-test("light comes from where three shows the texel", () => {
+test("light comes from the direction in which three shows the texel", () => {
   for (const direction of [[1, 0, 0], [0, 0, 1], [-1, 0, 0.01], [0, 0, -1], [0.3, 0.5, -0.8], [-0.7, -0.6, 0.4]].map(unit)) {
     const found = mainDirection(projectEquirectangular(brightTowards(direction), 4));
     const cosine = found[0] * direction[0] + found[1] * direction[1] + found[2] * direction[2];
@@ -416,14 +416,14 @@ test("light comes from where three shows the texel", () => {
   }
 });
 
-test("images of OpenEXR's layout look at +Z in their middle", () => {
+test("the centre of images in OpenEXR's layout faces +Z", () => {
   const texture = brightTowards([1, 0, 0]); // three's middle
   const found = mainDirection(projectEquirectangular(texture, 4, { center: "z" }));
   assert.ok(found[2] > 0.998, `${found}`);
   assert.throws(() => projectEquirectangular(texture, 4, { center: "y" }), RangeError);
 });
 
-test("a sky for three's own materials is finite in half floats", () => {
+test("a sky for three's materials is finite in half floats", () => {
   const sun = brightTowards(unit([0.1, 1, 0]), 118735);
   const sky = halfFloatSky(sun);
   const values = [...sky.image.data].map(DataUtils.fromHalfFloat);
@@ -435,7 +435,7 @@ test("a sky for three's own materials is finite in half floats", () => {
     assert.ok(Math.abs(value - dim[i]) < 1e-6));
 });
 
-test("a sky of OpenEXR's layout is shown where it lights", () => {
+test("a sky in OpenEXR's layout is shown in the directions from which it lights", () => {
   for (const width of [128, 126]) {
     const texture = brightTowards([1, 0, 0], 100, width); // in the middle
     const lit = mainDirection(projectEquirectangular(texture, 4, { center: "z" }));

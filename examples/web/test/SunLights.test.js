@@ -11,23 +11,23 @@ const near = (actual, expected, tolerance, what = "") =>
 const sun = { towards: [0.48, 0.6, -0.64], irradiance: [3, 2, 1], halfAngle: 0.0046 };
 const direction = (light) => light.position.clone().sub(light.target.position).normalize();
 
-test("a sun is a directional light of its irradiance, which turns as the light does", () => {
+test("a sun is a directional light with its irradiance and rotates with the light", () => {
   const lights = new SunLights([{ ...sun, towards: [0, 0, 1] }]);
   const [light] = lights.lights;
   assert.ok(light.isDirectionalLight && light.castShadow);
   assert.deepEqual(light.color.clone().multiplyScalar(light.intensity).toArray().map((v) => Math.round(1e6 * v) / 1e6), [3, 2, 1]);
   near(direction(light).z, 1, 1e-12);
-  lights.rotation(Math.PI / 2);
+  lights.rotate(Math.PI / 2);
   near(direction(light).x, 1, 1e-12); // after a quarter rotation, light from +Z comes from +X
   assert.equal(lights.dim(0.5).dim(0.25).lights[0].intensity, 0.75);
   assert.equal(new SunLights([{ ...sun, irradiance: [0, 0, 0] }]).lights[0].intensity, 0);
 });
 
-test("a shadow map sees the box that it is fitted to from anywhere, and is filled by it", () => {
+test("a shadow map contains its box from every direction and is filled by it", () => {
   const box = new Box3(new Vector3(-4, 0, -10), new Vector3(4, 4, 1));
   for (const towards of [sun.towards, [0, 1, 0], [0, -1, 0], [1, 0, 0], [-0.6, 0.8, 0]])
     for (const angle of [0, 0.7, 3]) {
-      const lights = new SunLights([{ ...sun, towards }]).fit(box).rotation(angle);
+      const lights = new SunLights([{ ...sun, towards }]).fit(box).rotate(angle);
       lights.updateMatrixWorld(true);
       const [light] = lights.lights;
       light.shadow.updateMatrices(light); // three's renderer does this
@@ -45,7 +45,7 @@ test("a shadow map sees the box that it is fitted to from anywhere, and is fille
     }
 });
 
-test("the radius of a shadow is the sun's, at a tenth of the depth", () => {
+test("the shadow radius is the sun's at a tenth of the depth", () => {
   const box = new Box3(new Vector3(-1, -1, -1), new Vector3(1, 1, 1));
   const [{ shadow }] = new SunLights([{ ...sun, towards: [0, 1, 0], halfAngle: 0.02 }], { mapSize: 1000 }).fit(box).lights;
   const texel = (shadow.camera.right - shadow.camera.left) / 1000;
@@ -54,7 +54,7 @@ test("the radius of a shadow is the sun's, at a tenth of the depth", () => {
   assert.equal(new SunLights([{ ...sun, halfAngle: 0 }]).lights[0].shadow.radius, 0);
 });
 
-test("what is fitted to may be an object that stands anywhere; nothing is refused", () => {
+test("shadow maps fit objects at any position; an empty object is rejected", () => {
   const mesh = new Mesh(new BoxGeometry(2, 2, 2));
   mesh.position.set(100, 0, 0);
   const lights = new SunLights([sun]).fit(new Scene().add(mesh));

@@ -40,11 +40,11 @@ function placed(mesh, matrix) {
 
 const rotation = new Quaternion().setFromAxisAngle(new Vector3(0.6, 0.8, 0), 1.2);
 
-test("without predictors the shader is given nothing", () => {
+test("without predictors the shader has no inputs", () => {
   assert.deepEqual(bakedFrame(new Mesh(geometryOf()), []), { defines: {}, uniforms: {} });
 });
 
-test("places and normals are those of the file's world, also of nodes that mirror and stretch", () => {
+test("positions and normals are in world space of the file, also under mirroring and stretching nodes", () => {
   for (const scale of [[1, 1, 1], [2, 3, 0.5], [-1, 1, 1], [1e-6, 2e-6, 1e-6]]) {
     const matrix = new Matrix4().compose(new Vector3(5, 6, 7), rotation, new Vector3(...scale));
     const mesh = placed(new Mesh(geometryOf()), matrix);
@@ -66,7 +66,7 @@ test("places and normals are those of the file's world, also of nodes that mirro
   }
 });
 
-test("what the program does with the model later changes nothing", () => {
+test("later transforms of the model do not change the baked frame", () => {
   const mesh = placed(new Mesh(geometryOf()), new Matrix4().makeTranslation(1, 0, 0));
   const frame = bakedFrame(mesh, PREDICTORS);
   const [before] = inShader(mesh, frame, 1);
@@ -75,13 +75,13 @@ test("what the program does with the model later changes nothing", () => {
   near(inShader(mesh, frame, 1)[0], before);
 });
 
-test("predictors of one kind want no more than that", () => {
+test("predictors of one kind need only their own inputs", () => {
   const defines = (predictors) => bakedFrame(new Mesh(geometryOf()), predictors).defines;
   assert.deepEqual(defines([PREDICTORS[0]]), { PRT_PREDICTOR_NORMAL: 1 });
   assert.deepEqual(defines([PREDICTORS[1]]), { PRT_PREDICTOR_POSITION: 1, PRT_PREDICTOR_ORIGIN: "vec3(0.0)" });
 });
 
-test("places far from the origin of their mesh keep their digits", () => {
+test("positions far from the origin of their mesh keep their precision", () => {
   const far = new Vector3(1e6, -2e6, 5e5);
   const predictors = [{ kind: "position", origin: far.toArray(), scale: [1, 1, 1] }];
   // The node contains the offset, and the matrix removes it.
@@ -89,14 +89,14 @@ test("places far from the origin of their mesh keep their digits", () => {
   const frame = bakedFrame(byNode, predictors);
   assert.ok(!frame.defines.PRT_BAKED_ATTRIBUTES);
   near(inShader(byNode, frame, 2)[0], new Vector3(...POSITIONS[2]));
-  // By the attributes: a matrix of floats could not.
+  // The attributes are used: a matrix of floats is not precise enough.
   const byAttributes = placed(new Mesh(geometryOf(POSITIONS.map((p) => p.map((x, i) => x + far.getComponent(i))))), new Matrix4());
   const other = bakedFrame(byAttributes, predictors);
   assert.ok(other.defines.PRT_BAKED_ATTRIBUTES);
   near(inShader(byAttributes, other, 2)[0], new Vector3(...POSITIONS[2]));
 });
 
-test("vertices without a normal take that of their triangles", () => {
+test("vertices without a normal use the normals of their triangles", () => {
   for (const mirror of [1, -1])
     for (const normals of [null, [[0, 0, 1], [0, 0, 0], [0, 0, 1]]]) {
       const mesh = placed(new Mesh(geometryOf(POSITIONS, normals)), new Matrix4().makeScale(mirror, 1, 1));
@@ -108,7 +108,7 @@ test("vertices without a normal take that of their triangles", () => {
   near(inShader(collapsed, bakedFrame(collapsed, PREDICTORS), 1)[1], new Vector3());
 });
 
-test("normals that floats cannot make unit are made so before, or are the triangles'", () => {
+test("normals that floats cannot normalise are normalised at load time or replaced by triangle normals", () => {
   const tiny = [0, 1e-30, 0];
   const huge = [0, 0, 1e30];
   for (const [third, expected] of [[tiny, [0, 1, 0]], [huge, [0, 0, 1]], [[NaN, 0, 0], null], [[0, Infinity, 0], null]]) {
@@ -120,14 +120,14 @@ test("normals that floats cannot make unit are made so before, or are the triang
   }
 });
 
-test("places that numbers do not hold are refused", () => {
+test("positions outside the range of floats are rejected", () => {
   for (const wrong of [NaN, Infinity, 2e9]) {
     const far = [POSITIONS[0], POSITIONS[1], [0, wrong, 0]];
     assert.throws(() => bakedFrame(placed(new Mesh(geometryOf(far)), new Matrix4()), PREDICTORS), /vertex 2 is farther/);
   }
 });
 
-test("skinned meshes are taken in the pose of the file, morphed ones at its weights", () => {
+test("skinned meshes use the pose of the file, morphed meshes its weights", () => {
   const geometry = geometryOf();
   geometry.setAttribute("skinIndex", new BufferAttribute(new Uint16Array([0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0]), 4));
   geometry.setAttribute("skinWeight", new BufferAttribute(new Float32Array([1, 0, 0, 0, 1, 0, 0, 0, 0.5, 0.5, 0, 0]), 4));

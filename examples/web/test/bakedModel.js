@@ -46,7 +46,7 @@ export function wordsAt(u, v, i) {
   return [Number(bits & 0xffffffffn), Number(bits >> 32n)];
 }
 
-/** Widths less one, four bits each. */
+/** Widths minus one, four bits each. */
 function packedWidths() {
   const codes = WIDTHS.flat().map((width) => width - 1);
   return Uint8Array.from({ length: Math.ceil(codes.length / 2) }, (_, i) => codes[2 * i] | ((codes[2 * i + 1] ?? 0) << 4));

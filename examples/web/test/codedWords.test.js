@@ -5,7 +5,7 @@ import { test } from "node:test";
 import { codedWords, earlierNeighbors } from "../src/codedWords.js";
 import { encodedRows } from "./encodedRows.js";
 
-/** Bytes of steps [frequency, first slot, bits], as docs/format.md undoes them: from the last to the first. */
+/** Returns the bytes of steps [frequency, first slot, bits], encoded in reverse order of docs/format.md. */
 function encodedSteps(steps) {
   const units = [];
   const states = [65536, 65536, 65536, 65536];
@@ -34,7 +34,7 @@ function evenFrequencies() {
   const add = (bits, contexts, symbols) => {
     for (let c = 0; c < contexts; ++c)
       for (let first = 0; first < symbols; first += 16)
-        rows.push([12, Array.from({ length: 16 }, (_, s) => (USED[bits].includes(c) && first + s < symbols ? 1024 / symbols : 0))]); // a context that is not used has but one symbol
+        rows.push([12, Array.from({ length: 16 }, (_, s) => (USED[bits].includes(c) && first + s < symbols ? 1024 / symbols : 0))]); // an unused context has only one symbol
   };
   add(0, 9, 4);
   for (let bits = 1; bits <= 6; ++bits) add(bits, bits + 3, 2 ** bits);
@@ -58,24 +58,24 @@ const STEPS = [
   [even(0, 4), even(1, 8), even(0, 64), plain(1, 2)], // by 0 and 1: 5 - 1, 195 - 1
   [even(3, 4), plain(1, 2), even(2, 4)], // a different cluster: 2 + 1
   [even(0, 4), even(4, 8), even(0, 64), plain(3, 2)], // by 2 and 1, not by 3: 4 + 2, 192 - 2
-  [even(0, 4), even(2, 8), even(0, 64), plain(0, 2)], // no triangle: by the one before
+  [even(0, 4), even(2, 8), even(0, 64), plain(0, 2)], // no triangle: by the previous vertex
   [even(0, 4), even(5, 8), even(0, 64), plain(0, 2)], // by 0, 1 and 2: 4 - 3, 195
 ].flat();
 
-/** The one block of so few vertices, behind its length. */
+/** Returns the only block of these few vertices, after its length. */
 const block = (bytes) => Uint8Array.from([bytes.length & 255, bytes.length >> 8, 0, 0, ...bytes]);
 const decoded = ({ bits = encodedSteps(STEPS), ...change } = {}) =>
   codedWords({ frequencies: evenFrequencies(), drops: DROPS, bits: block(bits), ...change }, CLUSTERS, earlierNeighbors(TRIANGLES, 7));
 
-test("neighbours are the first three that precede a vertex", () => {
+test("neighbours are the first three vertices before a vertex", () => {
   assert.deepEqual([...earlierNeighbors(TRIANGLES, 7)], [0, 0, 0, 0, 1, 1, 0, 1, 2, 1, 2, 3, 2, 3, 1, 5, 5, 5, 0, 1, 2]);
 });
 
-test("coded words are decoded as they are by hand", () => {
+test("coded words are decoded like an example by hand", () => {
   assert.deepEqual([...decoded()], WORDS);
 });
 
-test("damaged words are refused", () => {
+test("damaged words are rejected", () => {
   const bits = encodedSteps(STEPS);
   assert.throws(() => decoded({ bits: bits.subarray(0, bits.length - 2) }), /coded words are damaged/);
   assert.throws(() => decoded({ bits: Uint8Array.from([...bits, 0, 0]) }), /coded words are damaged/);
@@ -84,7 +84,7 @@ test("damaged words are refused", () => {
   for (const [wrong, message] of [[[1, 2, 3], /end too early/], [block(bits).subarray(0, 20), /end too early/], [[...block(bits), 0], /damaged/]])
     assert.throws(() => codedWords({ ...code, bits: Uint8Array.from(wrong) }, CLUSTERS, earlierNeighbors(TRIANGLES, 7)), message);
   assert.throws(() => decoded({ drops: [0] }), /1 columns, not 16/);
-  assert.throws(() => decoded({ frequencies: encodedRows(DROPS, new Array(83).fill([3, new Array(16).fill(1)])) }), /another sum than 1024/);
+  assert.throws(() => decoded({ frequencies: encodedRows(DROPS, new Array(83).fill([3, new Array(16).fill(1)])) }), /sum of the frequencies is not 1024/);
   const cluster = encodedSteps([plain(3, 2), ...STEPS.slice(1)]);
   assert.throws(() => decoded({ bits: cluster }), /vertex 0 is in cluster 3 of 2/);
   const neighbor = encodedSteps([...STEPS.slice(0, 4), even(2, 4), ...STEPS.slice(5)]);

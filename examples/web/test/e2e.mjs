@@ -1,4 +1,4 @@
-// Tests the built page in headless Chromium: its pictures against those of `prt render`, its controls, its
+// Tests the built page in headless Chromium: compares its pictures with `prt render`, and tests its controls and
 // messages.
 //   node test/e2e.mjs [FOLDER for screenshots] [PATTERN of the names of checks, default all]
 // Needs `npm run build`, a chromium (CHROMIUM, default /usr/bin/chromium), and prt (PRT, default
@@ -42,7 +42,7 @@ async function check(name, body) {
   if (!new RegExp(pattern).test(name)) return;
   ++checked;
   const page = await browser.newPage({ viewport: { width, height } });
-  page.setDefaultTimeout(120_000); // a busy machine is not a fault of the page
+  page.setDefaultTimeout(120_000); // a busy machine must not fail the test
   const errors = [];
   page.on("pageerror", (error) => errors.push(error.message));
   page.on("console", (line) => line.type() === "error" && errors.push(line.text()));
@@ -99,7 +99,7 @@ const difference = (page, a, b) =>
 const { models, skies } = JSON.parse(readFileSync(join(distFolder, "models/models.json"), "utf8"));
 const exampleSky = join(distFolder, skies[0].file);
 
-/** The picture of prt with the page's exposure; its own may be a little off it (METERED stops). */
+/** Returns the picture of prt with the page's exposure; prt's own exposure may differ by METERED stops. */
 async function render(page, file, angle, { position, target, fieldOfView }, { sky = exampleSky, window = "auto", suns = "0" } = {}) {
   const output = join(work, "reference.png");
   const json = join(work, "reference.json");
@@ -116,7 +116,7 @@ async function render(page, file, angle, { position, target, fieldOfView }, { sk
   return dataUrl(output);
 }
 
-// Skies are shown as three shows them, with +X in the middle; prt has +Z there.
+// The page shows skies with +X in the middle, like three; prt shows +Z there.
 const THREE_ROTATION = 90;
 
 const standardCamera = { position: [3.2, 2.6, 6.4], target: [0, 0.4, 0], fieldOfView: 35 };
@@ -128,7 +128,7 @@ const query = (view) => ({
   suns: 0,
 });
 
-/** The radiance of vertices that prt wrote as colors: for each mesh and primitive its vec3 floats. */
+/** Returns the radiance of vertices that prt wrote as colors: vec3 floats for each mesh and primitive. */
 function vertexColors(path) {
   const bytes = readFileSync(path);
   const jsonBytes = bytes.readUInt32LE(12);
@@ -242,7 +242,7 @@ const viewOf = ({ camera, shares }) => ({ fieldOfView: 35, ...(camera ?? standar
 
 for (const [i, model] of poseless.filter(({ shares }) => !shares).entries())
   for (const angle of [25 + 40 * i, 200])
-    await check(`${model.name}, rotated by ${angle}: suns light as prt relight does by rays`, async (page, errors) => {
+    await check(`${model.name}, rotated by ${angle}: suns light like prt relight by rays`, async (page, errors) => {
       const view = viewOf(model);
       const { file } = normal(model);
       await page.goto(url({ model: model.name, quality: 1, angle, ...query(view), suns: 1 }));
@@ -262,7 +262,7 @@ for (const [i, model] of poseless.filter(({ shares }) => !shares).entries())
 
 for (const [i, model] of poseless.entries())
   for (const [quality, level] of model.levels.entries())
-    await check(`${model.name}, ${level.title}: the picture is that of prt render`, async (page, errors) => {
+    await check(`${model.name}, ${level.title}: the picture equals that of prt render`, async (page, errors) => {
       const view = viewOf(model);
       const angle = 40 * i - 30 + 75 * quality;
       await page.goto(url({ model: model.name, quality, angle, ...query(view) }));
@@ -280,7 +280,7 @@ for (const [i, model] of poseless.entries())
     });
 
 for (const [i, model] of poseless.entries())
-  await check(`${model.name}: with suns separate the picture is that of prt render by rays`, async (page, errors) => {
+  await check(`${model.name}: with separate suns the picture equals that of prt render by rays`, async (page, errors) => {
     const view = viewOf(model);
     const angle = 15 + 50 * i;
     await page.goto(url({ model: model.name, quality: 1, angle, ...query(view), suns: 1 }));
@@ -347,7 +347,7 @@ const onlyWarmSky = async (page) => {
   await page.route("**/warm.hdr", (route) => route.fulfill({ body: readFileSync(warmSky) }));
 };
 
-await check("a Radiance sky lights as prt render does", async (page, errors) => {
+await check("a Radiance sky lights like prt render", async (page, errors) => {
   await onlyWarmSky(page);
   await page.goto(url({ model: "knot", angle: 25, ...query(standardCamera) }));
   await picture(page);
@@ -358,7 +358,7 @@ await check("a Radiance sky lights as prt render does", async (page, errors) => 
   assert.ok(d.mean < 2 * MEAN_TOLERANCE, `mean difference ${d.mean}`); // a few texels fill the background
 });
 
-await check("the sky is where three's own background has it", async (page, errors) => {
+await check("the sky has the orientation of three's background", async (page, errors) => {
   await onlyWarmSky(page);
   const upwards = { position: [1, 0.5, 6], target: [0, 2.2, 0], fieldOfView: 70 }; // the warm side is in view
   const angle = 20; // rotation of the light, equal to three's rotation
@@ -387,12 +387,12 @@ await check("the sky is where three's own background has it", async (page, error
   const rotated = (await difference(page, before, await canvas(page))).mean;
   console.log(`  mean ${same.toFixed(3)} of 255, rotated the other way ${rotated.toFixed(3)}`);
   assert.deepEqual(errors, []);
-  assert.ok(same < 2, `mean difference ${same}`); // three keeps it as a cube map
+  assert.ok(same < 2, `mean difference ${same}`); // three converts it to a cube map
   assert.ok(rotated > 5 * same);
 });
 
 for (const window of ["none", "hann", "lanczos"])
-  await check(`window ${window}: the picture is that of prt render`, async (page, errors) => {
+  await check(`window ${window}: the picture equals that of prt render`, async (page, errors) => {
     await page.goto(url({ model: "knot", window, ...query(standardCamera) }));
     await picture(page);
     const d = await difference(page, await canvas(page),
@@ -401,7 +401,7 @@ for (const window of ["none", "hann", "lanczos"])
     assert.deepEqual(errors, []);
   });
 
-await check("dragging with the right button turns the light", async (page, errors) => {
+await check("dragging with the right button rotates the light", async (page, errors) => {
   await page.goto(url({ model: "knot", ...query(standardCamera) }));
   await picture(page);
   const before = await canvas(page);
@@ -421,11 +421,11 @@ await check("dragging with the right button turns the light", async (page, error
   assert.deepEqual(errors, []);
 });
 
-await check("the panel chooses model and quality, and shows bytes", async (page, errors) => {
+await check("the panel selects model and quality, and shows bytes", async (page, errors) => {
   await page.goto(url({ model: "knot" }));
   await picture(page);
   const words = await page.locator("#quality option").allTextContents();
-  ["small", "normal", "fine"].forEach((word, i) => assert.match(words[i], new RegExp(`^${word}: [0-9.]+ bytes a vertex$`)));
+  ["small", "normal", "fine"].forEach((word, i) => assert.match(words[i], new RegExp(`^${word}: [0-9.]+ bytes per vertex$`)));
   const bytes = () => page.locator("#figures dd").nth(1).innerText();
   const first = Number(await bytes());
   assert.ok(first > 4 && first < 40, `bytes per vertex ${first}`);
@@ -452,7 +452,7 @@ const dropped = (page, files) =>
     Object.entries(files).map(([name, path]) => [name, readFileSync(path).toString("base64")]),
   );
 
-await check("files that are dropped are shown and listed", async (page, errors) => {
+await check("dropped files are shown and listed", async (page, errors) => {
   await page.goto(url({ model: "knot", panel: 0 }));
   await picture(page);
   let count = await drawn(page);
@@ -525,7 +525,7 @@ function lampScene(path, lights) {
   writeFileSync(path, JSON.stringify(json));
 }
 
-await check("lamps light as in prt, and are dimmed", async (page, errors) => {
+await check("lamps light like prt and can be dimmed", async (page, errors) => {
   const bulb = { type: "point", name: "Bulb", color: [1, 0.9, 0.7], intensity: 2 };
   const red = { type: "point", name: "Red", color: [1, 0.1, 0.05], intensity: 1.5 };
   const prtRun = (...options) => execFileSync(prt, options, { stdio: "ignore" });
@@ -561,7 +561,7 @@ await check("lamps light as in prt, and are dimmed", async (page, errors) => {
   assert.deepEqual(errors, []);
 });
 
-await check("suns go back into the sky, and come out of it", async (page, errors) => {
+await check("suns can be merged into the sky and separated again", async (page, errors) => {
   const view = { ...query(standardCamera), model: "knot", angle: 70 };
   await page.goto(url({ ...view, suns: 1 }));
   await picture(page);
@@ -581,7 +581,7 @@ await check("suns go back into the sky, and come out of it", async (page, errors
   assert.deepEqual(errors, []);
 });
 
-await check("a light file is dropped with its sky or alone", async (page, errors) => {
+await check("a light file can be dropped with its sky or alone", async (page, errors) => {
   const lightFile = join(work, "warm.json");
   execFileSync(prt, ["project", warmSky, "-o", lightFile, "--env-center", "x", "--suns", "0"], { stdio: "ignore" });
   const light = JSON.parse(readFileSync(lightFile, "utf8"));
@@ -624,7 +624,7 @@ await check("a light file is dropped with its sky or alone", async (page, errors
   assert.deepEqual(errors, []);
 });
 
-await check("the light turns by itself", async (page, errors) => {
+await check("the light rotates continuously", async (page, errors) => {
   await page.goto(url({ model: "knot" }));
   await picture(page);
   const angle = () => page.evaluate(() => globalThis.prtkitPicture.angle);
@@ -633,18 +633,18 @@ await check("the light turns by itself", async (page, errors) => {
     return Math.atan2(position.x - target.position.x, position.z - target.position.z);
   });
   const [before, sunBefore] = [await angle(), await lightAngle()];
-  await page.locator("#turning").check();
+  await page.locator("#rotating").check();
   await page.waitForFunction((from) => globalThis.prtkitPicture.angle > from + 0.1, before);
-  await page.locator("#turning").uncheck();
+  await page.locator("#rotating").uncheck();
   const count = await drawn(page);
   await page.waitForTimeout(300);
-  assert.ok((await drawn(page)) <= count + 1, "it goes on");
+  assert.ok((await drawn(page)) <= count + 1, "the rotation continues");
   const rotated = (await lightAngle()) - sunBefore - ((await angle()) - before);
-  assert.ok(Math.abs(Math.sin(rotated / 2)) < 1e-6, "suns turn with the sky");
+  assert.ok(Math.abs(Math.sin(rotated / 2)) < 1e-6, "suns rotate with the sky");
   assert.deepEqual(errors, []);
 });
 
-await check("somebody walks through a model with a volume, and casts a shadow; one without says so", async (page, errors) => {
+await check("a figure walks through a model with a volume and casts a shadow; a model without volume shows a message", async (page, errors) => {
   await page.goto(url({ model: "tree", figure: 1, suns: 1, panel: 1 }));
   await page.waitForFunction(() => globalThis.prtkitPicture?.moving.mixer && globalThis.prtkitPicture.moving.metres > 0.1);
   const shown = await page.evaluate(() => {
@@ -653,7 +653,7 @@ await check("somebody walks through a model with a volume, and casts a shadow; o
     const [foot, ground] = [moving.parts.figure.position, moving.walk.at(moving.metres)];
     let lit = 0;
     moving.parts.figure.traverse(({ material, castShadow }) => (lit += material?._transfer?.model === moving.volume && castShadow ? 1 : 0));
-    return { separate: foot.distanceTo(ground), lit, computed: moving.volume.isFormed };
+    return { separate: foot.distanceTo(ground), lit, computed: moving.volume.hasLight };
   });
   assert.ok(shown.separate < 1e-6 && shown.lit > 0 && shown.computed, JSON.stringify(shown));
   if (screenshots) await page.screenshot({ path: join(screenshots, "figure.png") });
@@ -684,7 +684,7 @@ await check("somebody walks through a model with a volume, and casts a shadow; o
   assert.deepEqual(errors, []);
 });
 
-await check("on a phone the panel leaves the model free", async (page, errors) => {
+await check("on a phone the panel does not cover the model", async (page, errors) => {
   await page.setViewportSize({ width: 390, height: 844 });
   await page.goto(url({ model: "knot" }));
   await picture(page);
@@ -692,7 +692,7 @@ await check("on a phone the panel leaves the model free", async (page, errors) =
     await page.evaluate((value) => (document.querySelector("#panel").open = value), open);
     await page.waitForTimeout(200);
     const [panel, view] = [await page.locator("#panel").boundingBox(), await page.locator("#view").boundingBox()];
-    assert.ok(panel.y >= view.y + view.height - 1, "the panel lies over the picture");
+    assert.ok(panel.y >= view.y + view.height - 1, "the panel covers the picture");
     assert.ok(view.height > (open ? 0.5 : 0.9) * 844 && view.width === 390, `the picture has ${view.width} x ${view.height}`);
     assert.ok(await page.evaluate(() => document.documentElement.scrollWidth <= innerWidth));
     // The drawing has the shape of its element, and all corners of the model are in it.
@@ -717,7 +717,7 @@ await check("on a phone the panel leaves the model free", async (page, errors) =
   assert.deepEqual(errors, []);
 });
 
-await check("says that it is loading, and what", async (page) => {
+await check("the page shows what it is loading", async (page) => {
   let release;
   const held = new Promise((resolve) => (release = resolve));
   await page.route("**/*.glb", async (route) => {
@@ -742,7 +742,7 @@ await check("says that it is loading, and what", async (page) => {
   assert.ok(shares[0] === 0 && Math.max(...shares) > 0.4, `the bar is at ${[...new Set(shares)]}`);
 });
 
-await check("before and after compression lie side by side", async (page, errors) => {
+await check("the models before and after compression are shown side by side", async (page, errors) => {
   const view = { model: "knot", quality: 0, angle: 30, ...query(standardCamera) };
   const shownAt = async (more) => {
     await page.goto(url({ ...view, ...more }));
@@ -760,13 +760,13 @@ await check("before and after compression lie side by side", async (page, errors
   const separate = (await difference(page, after, before)).mean;
   const d = await difference(page, before, await render(page, models[0].before.file, 30, standardCamera));
   const half = await difference(page, before, await shownAt({ split: 0.5 }));
-  console.log(`  before and after ${separate.toFixed(3)} of 255 separate, half of each ${half.mean.toFixed(3)}`);
+  console.log(`  before and after ${separate.toFixed(3)} of 255, half of each ${half.mean.toFixed(3)}`);
   assert.ok(separate > 0.05 && half.mean > 0.2 * separate && half.mean < 0.8 * separate, `${half.mean} of ${separate}`);
   assert.ok(d.mean < MEAN_TOLERANCE, `mean difference ${d.mean}`);
   assert.deepEqual(errors, []);
 });
 
-await check("the address is a link to what is shown", async (page, errors) => {
+await check("the address links to the current view", async (page, errors) => {
   await page.goto(url({ model: "tree", panel: 1 }));
   await picture(page);
   await page.waitForSelector("#loading", { state: "hidden" });
@@ -795,13 +795,13 @@ await check("the address is a link to what is shown", async (page, errors) => {
   assert.deepEqual(errors, []);
 });
 
-await check("a model that is missing gives a message", async (page) => {
+await check("a missing model shows a message", async (page) => {
   await page.route("**/*.glb", (route) => route.fulfill({ status: 404, body: "" }));
   await page.goto(url({ model: "knot" }));
   await page.waitForSelector("#message:not([hidden])");
 });
 
-await check("a model without transfer gives a message", async (page) => {
+await check("a model without transfer shows a message", async (page) => {
   const json = JSON.stringify({ asset: { version: "2.0" }, scenes: [{ nodes: [] }], scene: 0 });
   const text = Buffer.from(json.padEnd(Math.ceil(json.length / 4) * 4));
   const head = Buffer.alloc(20);
@@ -811,10 +811,10 @@ await check("a model without transfer gives a message", async (page) => {
   await page.route("**/*.glb", (route) => route.fulfill({ body: Buffer.concat([head, text]) }));
   await page.goto(url({ model: "knot" }));
   await page.waitForSelector("#message:not([hidden])");
-  assert.match(await page.locator("#message").innerText(), /is not baked.*prt bake/);
+  assert.match(await page.locator("#message").innerText(), /has no transfer.*prt bake/);
 });
 
-await check("a model with lightmaps is dropped, on a phone, too", async (page, errors) => {
+await check("a model with lightmaps can be dropped, also on a phone", async (page, errors) => {
   await page.setViewportSize({ width: 390, height: 844 });
   const lightmaps = join(work, "lightmaps.glb");
   writeFileSync(lightmaps, bakedModel("texels"));
@@ -828,21 +828,21 @@ await check("a model with lightmaps is dropped, on a phone, too", async (page, e
   const [names, values] = await Promise.all(["dt", "dd"].map((part) => page.locator(`#figures ${part}`).allInnerTexts()));
   assert.deepEqual(names.slice(0, 2), ["texels", "bytes per texel"]);
   assert.deepEqual(values.slice(0, 2), ["8,384", "8"]);
-  assert.ok(await page.evaluate(() => document.documentElement.scrollWidth <= 390), "nothing hangs over the side");
+  assert.ok(await page.evaluate(() => document.documentElement.scrollWidth <= 390), "the page is not wider than the screen");
   if (screenshots) await page.screenshot({ path: join(screenshots, "phone-lightmaps.png") });
   const before = await canvas(page);
   const next = await drawn(page);
   await page.evaluate(() => globalThis.prtkitPicture.setAngle(2));
   await picture(page, next);
-  assert.ok((await difference(page, before, await canvas(page))).mean > 0.3, "light turns");
+  assert.ok((await difference(page, before, await canvas(page))).mean > 0.3, "light rotates");
   assert.deepEqual(errors, []);
 });
 
-await check("lightmaps of prt: the picture is that of prt render", async (page, errors) => {
+await check("lightmaps of prt: the picture equals that of prt render", async (page, errors) => {
   const [scene, baked, shipped] = ["scene", "baked", "shipped"].map((name) => join(work, `${name}.glb`));
   writeFileSync(scene, bakedModel("vertices", (json) => {
     delete json.extensions;
-    // Coats and metals are three's own matter.
+    // Only three renders coats and metals.
     json.materials = json.materials.map(({ extensions: _, pbrMetallicRoughness, ...material }) => ({
       ...material,
       pbrMetallicRoughness: { ...pbrMetallicRoughness, metallicFactor: 0 },
@@ -880,7 +880,7 @@ for (const [name, extensions] of Object.entries({
   PRTKIT_transfer: { PRTKIT_transfer: { version: 5 } },
   PRTKIT_lightmap: { PRTKIT_lightmap: { version: 2, raw: {} } },
 }))
-  await check(`a raw bake with ${name} gives the command that ships it`, async (page) => {
+  await check(`a raw bake with ${name} shows the command that compresses it`, async (page) => {
     const raw = join(work, "raw.glb");
     writeFileSync(raw, bakedModel("vertices", (json) => (json.extensions = extensions)));
     await page.goto(url({ model: "knot" }));

@@ -1,6 +1,6 @@
 // An encoder of the "coded rows" of docs/format.md, for tests.
 
-/** Bytes of rows, each [level, numbers]. */
+/** Returns the bytes of rows, each [level, numbers]. */
 export function encodedRows(drops, rows) {
   const bytes = [];
   let low = 0;

@@ -31,7 +31,7 @@ function load(plugged) {
   return loader.parseAsync(file.buffer.slice(file.byteOffset, file.byteOffset + file.length), "");
 }
 
-test("a fallback is not there with the plug-in", async () => {
+test("the plug-in ignores the fallback", async () => {
   const { scene, userData } = await load(true);
   const [floor, ball, lantern] = scene.children;
   for (const { material } of [floor, ball, lantern]) assert.ok(material.isMeshStandardMaterial && material.defines.PRT_PACKED_WORDS);
@@ -42,7 +42,7 @@ test("a fallback is not there with the plug-in", async () => {
   assert.ok(userData.prtkit.vertices > 0);
 });
 
-test("a fallback is what is shown without the plug-in", async () => {
+test("without the plug-in the fallback is shown", async () => {
   const { scene } = await load(false);
   const [floor, ball, lantern] = scene.children;
   for (const { material, geometry } of [floor, ball]) {

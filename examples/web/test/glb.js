@@ -4,7 +4,7 @@ import { crc32, deflateSync } from "node:zlib";
 /** Buffer views and accessors of one file, one behind the other. */
 export class Binary {
   constructor() {
-    this.terms = [];
+    this.chunks = [];
     this.length = 0;
     this.bufferViews = [];
     this.accessors = [];
@@ -13,7 +13,7 @@ export class Binary {
   view(bytes, more = {}) {
     const padding = (4 - (bytes.byteLength % 4)) % 4;
     this.bufferViews.push({ buffer: 0, byteOffset: this.length, byteLength: bytes.byteLength, ...more });
-    this.terms.push(Buffer.from(bytes.buffer, bytes.byteOffset, bytes.byteLength), Buffer.alloc(padding));
+    this.chunks.push(Buffer.from(bytes.buffer, bytes.byteOffset, bytes.byteLength), Buffer.alloc(padding));
     this.length += bytes.byteLength + padding;
     return this.bufferViews.length - 1;
   }
@@ -31,7 +31,7 @@ export class Binary {
     const chunk = Buffer.from(text.padEnd(Math.ceil(text.length / 4) * 4));
     const head = (...words) => Buffer.from(Uint32Array.of(...words).buffer);
     const bytes = 12 + 8 + chunk.length + 8 + this.length;
-    return Buffer.concat([head(0x46546c67, 2, bytes, chunk.length, 0x4e4f534a), chunk, head(this.length, 0x004e4942), ...this.terms]);
+    return Buffer.concat([head(0x46546c67, 2, bytes, chunk.length, 0x4e4f534a), chunk, head(this.length, 0x004e4942), ...this.chunks]);
   }
 }
 

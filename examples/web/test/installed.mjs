@@ -11,7 +11,7 @@ import { join } from "node:path";
 import { fileURLToPath } from "node:url";
 import { chromium } from "playwright-core";
 import { build, createServer, preview } from "vite";
-import { environmentRotation, turnedBy } from "../src/turns.js";
+import { environmentRotation, rotatedBy } from "../src/rotations.js";
 import { distFolder } from "../tools/folders.mjs";
 import { ballScene } from "./ballScene.js";
 
@@ -74,7 +74,7 @@ const percent = (x) => `${(100 * x).toFixed(2)} %`;
 
 const view = { model: "model.glb", sky: "sky.exr", position: [3.2, 2.6, 6.4], towards: [0, 0.4, 0], fieldOfView: 35 };
 
-await check("built and developed by Vite, a worker projects, and the picture is the same", async () => {
+await check("Vite build and development server: a worker projects, and the pictures are equal", async () => {
   const other = await openPage(developed);
   const [a, b] = [await ask("likePrt", view), await ask("likePrt", view, other)];
   await other.close();
@@ -82,7 +82,7 @@ await check("built and developed by Vite, a worker projects, and the picture is 
   assert.ok(a.some((value, i) => i % 4 === 0 && value > 0.1) && most < 1e-3, `${most}`);
 });
 
-await check("the picture is that of prt render", async () => {
+await check("the picture equals that of prt render", async () => {
   const shown = await ask("likePrt", view);
   const output = join(folder, "prt.png");
   run(prt, "render", served("model.glb"), "--env", served("sky.exr"), "-o", output, "--backend", "cpu", "--size", "320x180", "--samples", "3",
@@ -107,9 +107,9 @@ await check("the picture is that of prt render", async () => {
   return `mean ${mean.toFixed(3)} of 255, with the sky`;
 });
 
-// Three's own diffuse light is a blurred environment: exact where that is even, a few percent off where it is not.
+// Three's diffuse light is a blurred environment: exact for a uniform one, a few percent off for others.
 for (const [metalness, side, rotation, most] of [[0, 0, [0, 0, 0], 0.01], [0.5, 0, [0, 0, 0], 0.01], [0, 0.3, [0, 0, 0], 0.05], [0, 0.3, [0.4, -0.7, 1.1], 0.05]])
-  await check(`an open ball of metalness ${metalness}, sky uneven by ${side} and rotated by ${rotation}, is as three lights it`, async () => {
+  await check(`an unoccluded ball of metalness ${metalness} in a sky uneven by ${side}, rotated by ${rotation}, matches three's lighting`, async () => {
     const { own, rotated, others } = await ask("ball", { model: "ball.glb", rotation, metalness, side });
     assert.ok(own.rms < most, JSON.stringify(own));
     assert.ok(rotated.rms < 0.01, `the model rotated: ${rotated.rms}`);
@@ -117,7 +117,7 @@ for (const [metalness, side, rotation, most] of [[0, 0, [0, 0, 0], 0.01], [0.5, 
     return `${percent(own.rms)} rms, means ${own.ratio.toFixed(4)} times; rotated itself ${percent(rotated.rms)}`;
   });
 
-await check("backgrounds are turned as is counted on", async () => {
+await check("backgrounds rotate as expected", async () => {
   const revision = Number.parseInt(JSON.parse(readFileSync(join(three, "package.json"), "utf8")).version.split(".")[1]);
   const { Euler } = await import("three");
   const [x, y] = [90, 20];
@@ -126,13 +126,13 @@ await check("backgrounds are turned as is counted on", async () => {
   const [azimuth, theta] = [2 * Math.PI * ((x + 0.5) / 128 - 0.5), (Math.PI * (y + 0.5)) / 64];
   const direction = [Math.sin(theta) * Math.cos(azimuth), Math.cos(theta), Math.sin(theta) * Math.sin(azimuth)];
   for (const rotation of [[0, 0, 0], [0, 1, 0], [0.4, -0.7, 1.1]]) {
-    const seen = turnedBy(environmentRotation(new Euler(...rotation), revision), direction);
+    const seen = rotatedBy(environmentRotation(new Euler(...rotation), revision), direction);
     assert.ok((await ask("inTheMiddle", { rotation, direction: seen, at: [x, y] })) > 10, `${rotation}`);
     assert.ok((await ask("inTheMiddle", { rotation, direction: seen.map((v) => -v), at: [x, y] })) < 1, `${rotation}`);
   }
 });
 
-await check("instances and clones are lit alike, with shadows and fog", async () => {
+await check("instances and clones have equal light, with shadows and fog", async () => {
   const { instances, unshadowed, fog } = await ask("copies", { model: "model.glb" });
   assert.ok(instances.rms < 0.01, `instances: ${instances.rms}`);
   assert.ok(unshadowed.ratio > 1.03, `shadows take ${unshadowed.ratio}`);

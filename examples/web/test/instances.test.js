@@ -77,7 +77,7 @@ function modesInFrame(order, sky, suns, rotation) {
   return modes;
 }
 
-test("modes are products with functions of the direction, and level ground is lit by a clamped cosine", () => {
+test("modes are products with functions of direction; level ground receives a clamped cosine", () => {
   for (const order of [1, 2, 3, 5, 8]) {
     const sky = lightOf(order, 3).coefficients();
     const modes = new InstanceModes(order);
@@ -95,14 +95,14 @@ test("modes are products with functions of the direction, and level ground is li
   above.forEach((value, i) => near(value + below[i], white[i], 1e-12));
 });
 
-test("turns about +Y fall into bins, others are their own", () => {
+test("rotations about +Y fall into bins, others stay separate", () => {
   const rotation = (quaternion) => new Matrix3().setFromMatrix4(new Matrix4().makeRotationFromQuaternion(quaternion)).elements;
   const yaw = (angle) => rotation(new Quaternion().setFromAxisAngle(new Vector3(0, 1, 0), angle));
   const step = (2 * Math.PI) / 64;
   const leaning = rotation(new Quaternion(0.48, 0.36, 0, 0.8));
   const { rotations, of } = instanceRotations([yaw(0), yaw(0.4 * step), yaw(-0.4 * step), yaw(0.6 * step), leaning, yaw(2 * Math.PI - 0.1 * step), leaning], 64);
   assert.deepEqual([...of], [0, 0, 0, 1, 2, 0, 2]);
-  [0, 1].forEach((rotation, i) => rotations[i].forEach((value, e) => near(value, yaw(rotation * step)[e], 1e-12)));
+  [0, 1].forEach((steps, i) => rotations[i].forEach((value, e) => near(value, yaw(steps * step)[e], 1e-12)));
   assert.deepEqual(rotations[2], leaning);
   assert.equal(instanceRotations([yaw(0), yaw(0.4 * step)], 0).rotations.length, 2);
 });
@@ -190,7 +190,7 @@ function expectedOf(prtkit, mesh, v, modes, numbers, box) {
 }
 
 for (const by of ["vertices", "weights"])
-  test(`instances are lit as the page of the format says: ${by}`, async () => {
+  test(`instances are lit as docs/format.md defines: ${by}`, async () => {
     const { scene, userData } = await load(instanceModel(by));
     const { prtkit } = userData;
     const { meshes } = prtkit.instances;
@@ -218,7 +218,7 @@ for (const by of ["vertices", "weights"])
     }
   });
 
-test("an instance in the open has the light of its mesh", async () => {
+test("an unoccluded instance has the light of its mesh", async () => {
   const { userData } = await load(instanceModel("vertices", (json, binary) => {
     json.extensions.PRTKIT_instances.factors.bufferView = binary.view(new Int8Array(52 * COUNT));
   }));
@@ -235,7 +235,7 @@ test("an instance in the open has the light of its mesh", async () => {
     }
 });
 
-test("each primitive is drawn at once, where its nodes are", async () => {
+test("each primitive is drawn once, at the positions of its nodes", async () => {
   const { scene, userData, parser } = await load(instanceModel());
   const drawn = [];
   scene.traverse((object) => object.isMesh && drawn.push(object));
@@ -265,7 +265,7 @@ test("each primitive is drawn at once, where its nodes are", async () => {
   for (const mesh of instances.meshes) assert.ok(mesh.castShadow && mesh.receiveShadow && mesh.material.defines.PRT_SUNS);
 });
 
-test("what animations move is drawn in its node", async () => {
+test("animated instances are drawn in their node", async () => {
   const { scene, userData } = await load(instanceModel("vertices", (json, binary) => {
     const sampler = { input: binary.accessor(new Float32Array([0, 1]), "SCALAR", { min: [0], max: [1] }), output: binary.accessor(new Float32Array(6), "VEC3") };
     json.animations = [{ samplers: [sampler], channels: [{ sampler: 0, target: { node: 3, path: "translation" } }] }];
@@ -278,7 +278,7 @@ test("what animations move is drawn in its node", async () => {
   assert.ok(one !== other && one.attributes.position === other.attributes.position && one.attributes.prt_instance_0 !== other.attributes.prt_instance_0);
 });
 
-test("light that changes is formed anew, also as the model is turned", async () => {
+test("changed light is computed again, also after rotation of the model", async () => {
   const { scene, userData } = await load(instanceModel());
   const { prtkit } = userData;
   const texture = prtkit.instances.constantsTexture;
@@ -298,7 +298,7 @@ test("light that changes is formed anew, also as the model is turned", async () 
   rotated.forEach((value, i) => near(texture.image.data[i], 2 * value, 1e-5));
 });
 
-test("the shader is that of the runtime for instances, and others have none of it", async () => {
+test("only instances use the runtime's shader for instances", async () => {
   const { scene, userData } = await load(instanceModel("weights"));
   const compiled = ({ material }) => {
     const shader = { uniforms: {}, vertexShader: ShaderLib.physical.vertexShader, fragmentShader: ShaderLib.physical.fragmentShader };
@@ -309,7 +309,7 @@ test("the shader is that of the runtime for instances, and others have none of i
   const { vertexShader, uniforms } = compiled(mesh);
   assert.match(vertexShader, /vec3 prt_instance_radiance\(vec4 instance_0, vec4 instance_1, vec3 position, vec3 normal\)/);
   assert.match(vertexShader, /prtRadiance = prt_instance_radiance\(prt_instance_0, prt_instance_1, prtBakedPosition\(\), prtBakedNormal\(\)\);/);
-  assert.equal(vertexShader.match(/vec3 prt_exit_radiance\(/g).length, 3); // once for each way that weights lie
+  assert.equal(vertexShader.match(/vec3 prt_exit_radiance\(/g).length, 3); // once for each layout of weights
   assert.equal(uniforms.prt_constants.value, userData.prtkit.instances.constantsTexture);
   assert.equal(mesh.material.defines.PRT_PREDICTOR_ORIGIN, `vec3(${[0.1, 0.2, -0.1].map(Math.fround).join(", ")})`);
   const floor = scene.children.find(({ isMesh, isInstancedMesh }) => isMesh && !isInstancedMesh);
@@ -317,19 +317,19 @@ test("the shader is that of the runtime for instances, and others have none of i
   assert.equal(compiled(floor).uniforms.prt_constants.value, userData.prtkit.constantsTexture);
 });
 
-test("tables are freed, and textures that a device does not have are refused", async () => {
+test("tables are freed, and textures too large for the device are rejected", async () => {
   const { prtkit } = (await load(instanceModel())).userData;
   const freed = [];
   const { constantsTexture, clustersTextures } = prtkit.instances;
   for (const texture of [constantsTexture, ...clustersTextures]) texture.addEventListener("dispose", () => freed.push(texture));
-  assert.throws(() => prtkit.instances.checkSize({ capabilities: { maxTextureSize: 64 } }), /constants of 6 instances want a texture of 256 x/);
+  assert.throws(() => prtkit.instances.checkSize({ capabilities: { maxTextureSize: 64 } }), /constants of 6 instances need a texture of 256 x/);
   prtkit.instances.checkSize({ capabilities: { maxTextureSize: 4096 } });
   prtkit.dispose();
   assert.deepEqual(freed, [constantsTexture, ...clustersTextures]);
 });
 
-test("WebGPURenderer does not draw them", async () => {
-  await assert.rejects(load(instanceModel(), NodePlugin), /^Error: PRTKIT_instances: WebGPURenderer does not draw them yet; use WebGLRenderer/);
+test("WebGPURenderer is rejected", async () => {
+  await assert.rejects(load(instanceModel(), NodePlugin), /^Error: PRTKIT_instances: WebGPURenderer is not supported; use WebGLRenderer/);
 });
 
 const extensionOf = (json) => json.extensions.PRTKIT_instances;
@@ -337,51 +337,51 @@ const nodeOf = (json, n = 1) => json.nodes[n].extensions.PRTKIT_instances;
 const gpuOf = (json) => json.nodes[1].extensions.EXT_mesh_gpu_instancing.attributes;
 
 for (const [what, change, message] of [
-  ["another version", (json) => (extensionOf(json).version = 1), /version 1 is not known, only 2/],
-  ["no object", (json) => (json.extensions.PRTKIT_instances = []), /is no object/],
-  ["a count of zero", (json) => (extensionOf(json).count = 0), /the count is none/],
-  ["a count without end", (json) => (extensionOf(json).count = 1e7), /the count is none/],
-  ["fewer factors", (json) => (extensionOf(json).count = 7), /the factors are not those of 7/],
-  ["no factors", (json) => delete extensionOf(json).factors, /the factors are not there/],
-  ["a view that is not there", (json) => (extensionOf(json).factors.bufferView = 999), /buffer view 999 cannot be read/],
-  ["factors of floats", (json, binary) => (extensionOf(json).factors.bufferView = binary.view(Float32Array.from(bytes()))), /the factors are not those of 6/],
+  ["another version", (json) => (extensionOf(json).version = 1), /version 1 is not supported, only 2/],
+  ["not an object", (json) => (json.extensions.PRTKIT_instances = []), /is not an object/],
+  ["a count of zero", (json) => (extensionOf(json).count = 0), /the count is not 1 to/],
+  ["a count that is too large", (json) => (extensionOf(json).count = 1e7), /the count is not 1 to/],
+  ["fewer factors", (json) => (extensionOf(json).count = 7), /the factors do not have the size of 7/],
+  ["no factors", (json) => delete extensionOf(json).factors, /factors are missing/],
+  ["a missing view", (json) => (extensionOf(json).factors.bufferView = 999), /buffer view 999 cannot be read/],
+  ["factors of floats", (json, binary) => (extensionOf(json).factors.bufferView = binary.view(Float32Array.from(bytes()))), /the factors do not have the size of 6/],
   ["no scales", (json) => delete extensionOf(json).factors.scales, /the scales of the factors are not 52 numbers from 0 to 500/],
   ["fewer scales", (json) => (extensionOf(json).factors.scales = SCALES.slice(1)), /the scales of the factors are not 52/],
   ["a scale below zero", (json) => (extensionOf(json).factors.scales = SCALES.with(7, -0.01)), /the scales of the factors are not 52/],
   ["a scale that is too large", (json) => (extensionOf(json).factors.scales = SCALES.with(51, 501)), /the scales of the factors are not 52/],
   ["a scale that is not finite", (json) => (extensionOf(json).factors.scales = SCALES.with(0, NaN)), /the scales of the factors are not 52/],
-  ["a scale that is no number", (json) => (extensionOf(json).factors.scales = SCALES.with(0, "1")), /the scales of the factors are not 52/],
-  ["no boxes", (json) => (extensionOf(json).boxes = []), /there are no boxes/],
-  ["a flat box", (json) => (extensionOf(json).boxes = [{ middle: [0, 0, 0], half: [1, 0, 1] }]), /a box is none/],
-  ["a box that is none", (json) => (extensionOf(json).boxes = [null]), /a box is none/],
-  ["an instance that is not there", (json) => (nodeOf(json, 4).first = 6), /node 4 has an instance or a box that is not there/],
-  ["a box that is not there", (json) => (nodeOf(json).box = 2), /node 1 has an instance or a box/],
-  ["a node that is none", (json) => (json.nodes[1].extensions.PRTKIT_instances = 3), /node 1 has an instance or a box/],
-  ["more drawn than there are", (json) => (nodeOf(json).first = 3), /node 1 draws no instances, or more/],
-  ["the same ones by many", (json) => {
+  ["a scale that is not a number", (json) => (extensionOf(json).factors.scales = SCALES.with(0, "1")), /the scales of the factors are not 52/],
+  ["no boxes", (json) => (extensionOf(json).boxes = []), /boxes are missing/],
+  ["a flat box", (json) => (extensionOf(json).boxes = [{ middle: [0, 0, 0], half: [1, 0, 1] }]), /a box is invalid/],
+  ["an invalid box", (json) => (extensionOf(json).boxes = [null]), /a box is invalid/],
+  ["a missing instance", (json) => (nodeOf(json, 4).first = 6), /node 4 names an instance or a box that does not exist/],
+  ["a missing box", (json) => (nodeOf(json).box = 2), /node 1 names an instance or a box/],
+  ["an invalid node", (json) => (json.nodes[1].extensions.PRTKIT_instances = 3), /node 1 names an instance or a box/],
+  ["more instances than factors", (json) => (nodeOf(json).first = 3), /node 1 has no instances, or more/],
+  ["instances of several nodes", (json) => {
     json.nodes.push({ mesh: 1, extensions: structuredClone(json.nodes[1].extensions) });
     json.scenes[0].nodes.push(5);
-  }, /more instances are drawn than have factors/],
-  ["no mesh", (json) => delete json.nodes[1].mesh, /node 1 draws no mesh/],
-  ["a mesh that is not there", (json) => (json.nodes[1].mesh = 77), /node 1 draws no mesh/],
-  ["a mesh that others draw", (json) => {
+  }, /there are more instances than factors/],
+  ["no mesh", (json) => delete json.nodes[1].mesh, /node 1 has no mesh/],
+  ["a missing mesh", (json) => (json.nodes[1].mesh = 77), /node 1 has no mesh/],
+  ["a mesh that other nodes draw", (json) => {
     json.nodes.push({ mesh: 1 });
     json.scenes[0].nodes.push(5);
-  }, /node 5 draws a mesh that instances share, and is none/],
+  }, /node 5 uses a mesh with shared transfer, but is not an instance/],
   ["a skin", (json) => (json.nodes[1].skin = 0), /node 1 has a skin/],
-  ["a mirror", (json) => (json.nodes[3].scale = [-1, 1, 1]), /node 3 draws an instance that it mirrors/],
-  ["an uneven scale", (json) => (json.nodes[2].scale = [1, 2, 1]), /node 3 draws an instance that it mirrors or scales unevenly/],
-  ["a scale of zero", (json, binary) => (gpuOf(json).SCALE = binary.accessor(new Float32Array(12), "VEC3")), /node 1 draws an instance that it mirrors/],
-  ["attributes of unlike length", (json, binary) => (gpuOf(json).SCALE = binary.accessor(new Float32Array(6).fill(1), "VEC3")), /attributes of different length/],
-  ["no attributes", (json) => (json.nodes[1].extensions.EXT_mesh_gpu_instancing.attributes = {}), /attributes of different length, or none/],
-  ["attributes of another type", (json, binary) => (gpuOf(json).ROTATION = binary.accessor(new Float32Array(12), "VEC3")), /ROTATION of node 1 is no vector of 4/],
-  ["an accessor that is not there", (json) => (gpuOf(json).SCALE = 999), /node 1 draws no instances, or more/],
-  ["instances without end", (json) => (json.accessors = undefined, gpuOf(json).SCALE = -1), /node 1 draws no instances, or more/],
+  ["a mirror", (json) => (json.nodes[3].scale = [-1, 1, 1]), /node 3 mirrors an instance/],
+  ["an uneven scale", (json) => (json.nodes[2].scale = [1, 2, 1]), /node 3 mirrors an instance or scales it non-uniformly/],
+  ["a scale of zero", (json, binary) => (gpuOf(json).SCALE = binary.accessor(new Float32Array(12), "VEC3")), /node 1 mirrors an instance/],
+  ["attributes of different lengths", (json, binary) => (gpuOf(json).SCALE = binary.accessor(new Float32Array(6).fill(1), "VEC3")), /have different lengths/],
+  ["no attributes", (json) => (json.nodes[1].extensions.EXT_mesh_gpu_instancing.attributes = {}), /attributes of node 1 are missing/],
+  ["attributes of another type", (json, binary) => (gpuOf(json).ROTATION = binary.accessor(new Float32Array(12), "VEC3")), /ROTATION of node 1 is not a vector of 4/],
+  ["a missing accessor", (json) => (gpuOf(json).SCALE = 999), /node 1 has no instances, or more/],
+  ["too many instances", (json) => (json.accessors = undefined, gpuOf(json).SCALE = -1), /node 1 has no instances, or more/],
   ["a lamp", (json) => {
     json.extensions.PRTKIT_clustered_pca.terms = [{ kind: "indirect", channels: 3 }, ...[0, 1, 2, 3].map((i) => ({ kind: "lamp", channels: 1, name: `lamp ${i}` }))];
-  }, /transfer of lamps is not shared/],
+  }, /do not support lamps/],
 ])
-  test(`${what}: refused with a reason`, async () => {
+  test(`${what}: rejected with a reason`, async () => {
     await assert.rejects(load(instanceModel("vertices", change)), (error) => {
       assert.match(error.message, /^PRTKIT_instances: /);
       assert.match(error.message, message);

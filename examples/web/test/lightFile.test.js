@@ -17,7 +17,7 @@ const file = (changes = {}) => ({
   ...changes,
 });
 
-test("the coefficients of a light file are those of its sky", () => {
+test("a light file contains the coefficients of its sky", () => {
   const { sky, suns } = readLightFile(file());
   assert.equal(sky.order, 3);
   sky.coefficients().forEach((value, i) => near(value, [1, -4, 0.5][i % 3] + Math.floor(i / 3), 1e-12, `coefficient ${i}`));
@@ -25,7 +25,7 @@ test("the coefficients of a light file are those of its sky", () => {
   assert.deepEqual(readLightFile(file({ suns: undefined })).suns, []);
 });
 
-test("what makes no sense in a light file is refused", () => {
+test("invalid light files are rejected", () => {
   const sun = file().suns[0];
   const bad = [
     null,
@@ -86,7 +86,7 @@ test("suns are discs of uniform radiance", () => {
   }
 });
 
-test("suns add up, and one without extent is a direction", () => {
+test("suns add up, and a sun without extent is a direction", () => {
   const a = { towards: [0, 1, 0], irradiance: [1, 2, 3], halfAngle: 0 };
   const b = { towards: [0.6, 0, 0.8], irradiance: [3, 1, 0], halfAngle: 0.2 };
   const both = lightOfSuns([a, b], 6).coefficients();

@@ -28,7 +28,7 @@ function load(change = () => {}) {
 }
 const extensionOf = (json) => json.extensions.PRTKIT_lightmap;
 
-test("materials have a light map that is drawn, looked up by the coordinates that the file names", async () => {
+test("materials have a rendered light map with the texture coordinates of the file", async () => {
   const { scene, userData } = await load();
   const { prtkit } = userData;
   assert.equal(prtkit.texels, MAPS[0].width * MAPS[0].height + MAPS[1].width * MAPS[1].height);
@@ -56,15 +56,15 @@ test("images of words are decoded without conversion", async () => {
     for (const texture of words) assert.ok(!texture.flipY && !texture.generateMipmaps && !texture.premultiplyAlpha);
 });
 
-test("images beside the file are read, too", async () => {
+test("separate image files are read", async () => {
   const { userData } = await load((json, binary) => {
-    const bytes = binary.terms[2 * json.images[1].bufferView];
+    const bytes = binary.chunks[2 * json.images[1].bufferView];
     json.images[1] = { uri: `data:image/png;base64,${bytes.toString("base64")}` };
   });
   assert.equal(userData.prtkit.maps.maps[0].words.length, 2);
 });
 
-test("maps are drawn where their light is new to a renderer", async () => {
+test("maps are drawn again for each renderer after a change of light", async () => {
   const { userData } = await load();
   const { prtkit } = userData;
   const drawn = [];
@@ -85,7 +85,7 @@ test("maps are drawn where their light is new to a renderer", async () => {
   assert.equal(drawn.length, 3);
 });
 
-test("maps are drawn again when a device that was lost is there again", async () => {
+test("maps are drawn again after a lost device is restored", async () => {
   const { userData } = await load();
   const { prtkit } = userData;
   let drawn = 0;
@@ -99,28 +99,28 @@ test("maps are drawn again when a device that was lost is there again", async ()
 });
 
 const refusals = {
-  "another version": [(json) => (extensionOf(json).version = 2), /version 2 is not known, only 1; compress the model again/],
-  "a raw bake": [(json) => (extensionOf(json).raw = {}), /holds transfer as it was baked; make it one to ship: prt compress/],
-  "predictors": [(json) => Object.assign(extensionOf(json), { predictors: [{ kind: "normal", scale: [1, 1, 1] }], centers: { bufferView: 0, drops: [0, 0, 0] } }), /texels have no predictors/],
+  "another version": [(json) => (extensionOf(json).version = 1), /version 1 is not supported, only 2; compress the model again/],
+  "a raw bake": [(json) => (extensionOf(json).raw = {}), /the file is an uncompressed bake; compress it: prt compress/],
+  "predictors": [(json) => Object.assign(extensionOf(json), { predictors: [{ kind: "normal", scale: [1, 1, 1] }], centers: { bufferView: 0, drops: [0, 0, 0] } }), /texels do not support predictors/],
   "weights that are not packed": [(json) => delete extensionOf(json).packing, /not packed/],
-  "no maps": [(json) => (extensionOf(json).maps = []), /the maps are wrong/],
-  "a map without a size": [(json) => delete extensionOf(json).maps[0].width, /the maps are wrong/],
-  "maps of different words": [(json) => extensionOf(json).maps[1].images.pop(), /not as many for each/],
-  "an image that is not there": [(json) => (extensionOf(json).maps[0].images[0] = 99), /images of the maps are not there/],
+  "no maps": [(json) => (extensionOf(json).maps = []), /the maps are invalid/],
+  "a map without a size": [(json) => delete extensionOf(json).maps[0].width, /the maps are invalid/],
+  "maps of different words": [(json) => extensionOf(json).maps[1].images.pop(), /different numbers of images/],
+  "a missing image": [(json) => (extensionOf(json).maps[0].images[0] = 99), /an image of a map does not exist/],
   "too many words": [(json) => extensionOf(json).maps.forEach(({ images }) => images.push(images[0])), /a texel has 3 words, not 2/],
   "too few words": [(json) => extensionOf(json).maps.forEach(({ images }) => images.pop()), /a texel has 1 words, not 2/],
-  "damaged bases": [(json) => (extensionOf(json).bases.bufferView = 0), /the bases have another size/],
-  "a buffer view that is not there": [(json) => (extensionOf(json).bases.bufferView = 999), /buffer view 999 cannot be read/],
-  "an image of another size": [(json) => (extensionOf(json).maps[0].width = 64), /image 1 has another size than its map/],
-  "an image that is no PNG": [(json) => (json.images[1].bufferView = extensionOf(json).bases.bufferView), /image 1 is no PNG of four channels of 8 bits/],
-  "a short image": [(json, binary) => (json.images[1].bufferView = binary.view(png(96, 64, new Uint8Array(4 * 96 * 64)).subarray(0, 20))), /image 1 is no PNG/],
-  "a map that is not there": [(json) => (json.meshes[0].primitives[0].extensions.PRTKIT_lightmap.map = 7), /names a map that is not there/],
-  "coordinates that three has not": [(json) => (json.meshes[0].primitives[0].extensions.PRTKIT_lightmap.texCoord = 4), /at TEXCOORD_4: three has four/],
-  "coordinates that are not there": [(json) => (json.meshes[0].primitives[0].extensions.PRTKIT_lightmap.texCoord = 2), /lacks TEXCOORD_2/],
-  "transfer of vertices beside it": [(json) => (json.extensions.PRTKIT_clustered_pca = {}), /transfer of texels, too/],
+  "damaged bases": [(json) => (extensionOf(json).bases.bufferView = 0), /the bases do not contain \d+ floats/],
+  "a missing buffer view": [(json) => (extensionOf(json).bases.bufferView = 999), /buffer view 999 cannot be read/],
+  "an image of another size": [(json) => (extensionOf(json).maps[0].width = 64), /image 1 does not have the size of its map/],
+  "an image that is not a PNG": [(json) => (json.images[1].bufferView = extensionOf(json).bases.bufferView), /image 1 is not a PNG with four channels of 8 bits/],
+  "a short image": [(json, binary) => (json.images[1].bufferView = binary.view(png(96, 64, new Uint8Array(4 * 96 * 64)).subarray(0, 20))), /image 1 is not a PNG/],
+  "a missing map": [(json) => (json.meshes[0].primitives[0].extensions.PRTKIT_lightmap.map = 7), /names a map that does not exist/],
+  "coordinates that three does not support": [(json) => (json.meshes[0].primitives[0].extensions.PRTKIT_lightmap.texCoord = 4), /uses TEXCOORD_4 for its map; three supports/],
+  "missing coordinates": [(json) => (json.meshes[0].primitives[0].extensions.PRTKIT_lightmap.texCoord = 2), /has no TEXCOORD_2/],
+  "transfer of vertices and texels": [(json) => (json.extensions.PRTKIT_clustered_pca = {}), /also has transfer of texels/],
 };
 for (const [what, [change, message]] of Object.entries(refusals))
-  test(`${what}: refused with a reason`, async () => {
+  test(`${what}: rejected with a reason`, async () => {
     await assert.rejects(load(change), (error) => {
       assert.match(error.message, /^PRTKIT_(lightmap|clustered_pca): /);
       assert.match(error.message, message);
@@ -128,11 +128,11 @@ for (const [what, [change, message]] of Object.entries(refusals))
     });
   });
 
-test("an image that cannot be decoded is named", async () => {
+test("an image that cannot be decoded is reported", async () => {
   globalThis.createImageBitmap = async () => {
     throw new Error("broken");
   };
   await assert.rejects(load(), /PRTKIT_lightmap: image \d cannot be decoded/);
   globalThis.createImageBitmap = undefined;
-  await assert.rejects(load(), /PRTKIT_lightmap: there is nothing here that decodes images/);
+  await assert.rejects(load(), /PRTKIT_lightmap: createImageBitmap is missing, so images cannot be decoded/);
 });

@@ -15,7 +15,7 @@ const load = (file, Plugin = PrtkitPlugin) => {
 const light = ShLight.fromCoefficients(4, Array.from({ length: 48 }, (_, i) => Math.cos(3 * i + 1) + (i < 3 ? 3 : 0)));
 const meshOf = ({ scene }) => scene.getObjectByProperty("isSkinnedMesh", true);
 
-test("lobes and their profiles are what the file has", async () => {
+test("lobes and profiles equal those of the file", async () => {
   for (const order of [2, 4]) {
     const gltf = await load(lobeModel(order));
     const { prtkit } = gltf.userData;
@@ -31,7 +31,7 @@ test("lobes and their profiles are what the file has", async () => {
   }
 });
 
-test("light is that of the world, however the model is turned; suns that are apart are not in it", async () => {
+test("light is in world space for every rotation of the model and excludes separate suns", async () => {
   const gltf = await load(lobeModel());
   const { prtkit } = gltf.userData;
   const given = () => prtkit.uniforms.prtLobeLight.value.flatMap((value) => value.toArray());
@@ -51,14 +51,14 @@ test("light is that of the world, however the model is turned; suns that are apa
   assert.throws(() => prtkit.setLight(ShLight.fromCoefficients(2, new Float64Array(12))), RangeError);
 });
 
-test("the shader turns axes with the skin, in three's own", async () => {
+test("the shader rotates axes with three's skin matrix", async () => {
   const gltf = await load(lobeModel(3));
   const { material } = meshOf(gltf);
   assert.deepEqual([material.defines.PRT_LOBES, material.defines.PRT_LOBE_ORDER], [2, 3]);
   const shader = { uniforms: {}, vertexShader: ShaderLib.physical.vertexShader, fragmentShader: ShaderLib.physical.fragmentShader };
   material.onBeforeCompile(shader);
   assert.match(shader.vertexShader, /mat3 prt_lobe_rotation\(mat3 m\)/);
-  // Behind three's matrix of the skin, and where the vertex is known.
+  // After three's skin matrix and the position of the vertex.
   assert.match(shader.vertexShader, /#include <skinnormal_vertex>[^]*prtMoved \* mat3\( skinMatrix \)[^]*prtRadiance = prtLobeRadiance\( prt_lobe_rotation\( prtMoved \), vec3\( 0\.0 \) \);/);
   assert.match(shader.vertexShader, /PRT_LOBE_PROFILE\(i\) texelFetch\( prt_lobe_profiles/);
   assert.doesNotMatch(shader.vertexShader, /vec3 prt_exit_radiance/);
@@ -75,36 +75,36 @@ test("tables are freed", async () => {
   assert.equal(freed, 1);
 });
 
-test("WebGPURenderer does not draw them", async () => {
-  await assert.rejects(load(lobeModel(), NodePlugin), /^Error: PRTKIT_lobes: WebGPURenderer does not draw them yet; use WebGLRenderer/);
+test("WebGPURenderer is rejected", async () => {
+  await assert.rejects(load(lobeModel(), NodePlugin), /^Error: PRTKIT_lobes: WebGPURenderer is not supported; use WebGLRenderer/);
 });
 
 const lobesOf = (json) => json.extensions.PRTKIT_lobes;
 
 for (const [what, change, message] of [
-  ["another version", (json) => (lobesOf(json).version = 2), /version 2 is not known/],
-  ["no object", (json) => (json.extensions.PRTKIT_lobes = 7), /is no object/],
+  ["another version", (json) => (lobesOf(json).version = 2), /version 2 is not supported/],
+  ["not an object", (json) => (json.extensions.PRTKIT_lobes = 7), /is not an object/],
   ["too many bands", (json) => (lobesOf(json).order = 5), /the order is not 2 to 4/],
-  ["too many lobes", (json) => (lobesOf(json).lobes = 4), /the order is not 2 to 4, or a vertex has not 1 to 3 lobes/],
-  ["a lobe more than vertices have", (json) => (lobesOf(json).lobes = 3), /a primitive lacks _PRT_LOBE_2/],
-  ["profiles without end", (json) => (lobesOf(json).profiles.count = 257), /the profiles are not 1 to 256/],
-  ["fewer profiles", (json) => (lobesOf(json).profiles.count = 8), /the profiles are not 8 of 4 floats/],
-  ["profiles that are not there", (json) => (lobesOf(json).profiles.bufferView = 99), /buffer view 99 cannot be read/],
+  ["too many lobes", (json) => (lobesOf(json).lobes = 4), /the order is not 2 to 4, or the number of lobes is not 1 to 3/],
+  ["more lobes than vertices have", (json) => (lobesOf(json).lobes = 3), /a primitive has no _PRT_LOBE_2/],
+  ["too many profiles", (json) => (lobesOf(json).profiles.count = 257), /the profiles are not 1 to 256/],
+  ["fewer profiles", (json) => (lobesOf(json).profiles.count = 8), /the profiles are not 8 times 4 floats/],
+  ["missing profiles", (json) => (lobesOf(json).profiles.bufferView = 99), /buffer view 99 cannot be read/],
   ["profiles that are not finite", (json, binary) => {
     lobesOf(json).profiles.bufferView = binary.view(new Float32Array(4 * PROFILES).fill(NaN));
   }, /profiles are not finite/],
-  ["a profile that is not there", (json, binary) => {
+  ["a missing profile", (json, binary) => {
     lobesOf(json).profiles = { bufferView: binary.view(new Float32Array(4)), count: 1 };
-  }, /vertex \d+ has a profile that is not there/],
+  }, /vertex \d+ names a profile that does not exist/],
   ["lobes of floats", (json, binary) => {
     json.meshes[0].primitives[0].attributes._PRT_LOBE_0 = binary.accessor(new Float32Array(16 * ACROSS * DOWN), "VEC4");
-  }, /a primitive lacks _PRT_LOBE_0 of four bytes/],
+  }, /a primitive has no _PRT_LOBE_0 of four bytes/],
   ["fewer lobes", (json, binary) => {
     json.meshes[0].primitives[0].attributes._PRT_LOBE_0 = binary.accessor(new Uint8Array(16), "VEC4");
-  }, /a primitive lacks _PRT_LOBE_0 of four bytes/],
-  ["transfer of one pose, too", (json) => (json.extensions.PRTKIT_clustered_pca = {}), /the file has transfer that does not rotation/],
+  }, /a primitive has no _PRT_LOBE_0 of four bytes/],
+  ["additional transfer of one pose", (json) => (json.extensions.PRTKIT_clustered_pca = {}), /the file also has transfer that does not rotate/],
 ])
-  test(`${what}: refused with a reason`, async () => {
+  test(`${what}: rejected with a reason`, async () => {
     await assert.rejects(load(lobeModel(4, change)), (error) => {
       assert.match(error.message, /^PRTKIT_lobes: /);
       assert.match(error.message, message);
@@ -112,7 +112,7 @@ for (const [what, change, message] of [
     });
   });
 
-test("a bake without lobes is what it was", async () => {
+test("a bake without lobes is unchanged", async () => {
   const { userData } = await load(bakedModel("vertices", (json) => {
     json.materials = json.materials.map(({ normalTexture: _, ...material }) => material);
     delete json.images;

@@ -1,4 +1,4 @@
-// A file with occluding parts and synthetic texels; and their occlusion, computed in plain JavaScript.
+// A file with occluders and synthetic texels; and their occlusion, computed in plain JavaScript.
 import { Matrix4, Vector3 } from "three";
 import { Binary } from "./glb.js";
 
@@ -49,7 +49,7 @@ function filtered(texels, at) {
 }
 
 /**
- * Returns the part of the cosine-weighted hemisphere about `normal` that an evenly blocked cap covers, by a
+ * Returns the fraction of the cosine-weighted hemisphere about `normal` that an evenly blocked cap covers, by a
  * grid of directions.
  */
 function capCosine(towards, share, normal) {
@@ -73,7 +73,7 @@ function capCosine(towards, share, normal) {
 }
 
 /**
- * Returns the fraction of uniform light that remains at a receiver with one part at `matrix`, as defined in
+ * Returns the fraction of uniform light that remains at a receiver with one occluder at `matrix`, as defined in
  * docs/format.md.
  */
 function leftBy({ min, max, reach }, texels, matrix, position, normal) {
@@ -101,7 +101,7 @@ function leftBy({ min, max, reach }, texels, matrix, position, normal) {
   return 1 - (blocked / share) * capCosine(rotated.normalize().toArray(), share, normal);
 }
 
-/** Returns the fraction that remains with all parts, at the matrices `moved`. */
+/** Returns the fraction that remains with all occluders, at the matrices `moved`. */
 export function leftAt(moved, position, normal) {
   return BOXES.reduce((left, box, i) => left * leftBy(box, texelsOf(i), new Matrix4().fromArray(moved[i]), position, normal), 1);
 }

@@ -36,7 +36,7 @@ function near(computed, direction, irradiance) {
     irradiance.forEach((e, c) => assert.ok(Math.abs(computed[3 * i + c] - e * value) < 1e-9, `coefficient ${i}, channel ${c}`)));
 }
 
-test("a DirectionalLight is a sun from its own direction, however the sky is turned", () => {
+test("a DirectionalLight is a sun from its own direction for every rotation of the sky", () => {
   const scene = new Scene();
   const sun = sunIn(scene);
   scene.backgroundRotation.set(0.3, 1, 0);
@@ -46,7 +46,7 @@ test("a DirectionalLight is a sun from its own direction, however the sky is tur
   near(model.computed.suns, [2 / 3, 2 / 3, 1 / 3], [3, 1.5, 0.75]);
 });
 
-test("a DirectionalLight is followed: its direction, its strength, whether it is visible, and how the model is turned", () => {
+test("a model follows direction, strength and visibility of a DirectionalLight, and its own rotation", () => {
   const scene = new Scene();
   const sun = sunIn(scene);
   const root = new Group();
@@ -56,7 +56,7 @@ test("a DirectionalLight is followed: its direction, its strength, whether it is
   sun.intensity = 1;
   model.followSky();
   near(model.computed.suns, [0, 0, 1], [1, 0.5, 0.25]);
-  root.rotation.y = Math.PI / 2; // what was +X of the model looks at -Z
+  root.rotation.y = Math.PI / 2; // +X of the model now faces -Z
   root.updateMatrixWorld(true);
   model.followSky();
   near(model.computed.suns, [-1, 0, 0], [1, 0.5, 0.25]);
@@ -66,18 +66,18 @@ test("a DirectionalLight is followed: its direction, its strength, whether it is
   sun.visible = true;
   scene.remove(sun);
   model.followSky();
-  assert.ok(model.computed.suns.every((value) => value === 0), "three does not draw by it");
+  assert.ok(model.computed.suns.every((value) => value === 0), "three does not use it");
 });
 
-test("suns that are no DirectionalLights are refused with words", () => {
+test("suns other than DirectionalLights are rejected with a reason", () => {
   const scene = new Scene();
   const model = new Recorded();
   for (const wrong of [new PointLight(), {}, null, "sun"])
-    assert.throws(() => model.setSky(dark, scene, { suns: [wrong] }), /suns is an array of DirectionalLights/);
-  assert.throws(() => model.setLight(dark, 0, [sunIn(scene)]), /setSky takes an array of lights/);
+    assert.throws(() => model.setSky(dark, scene, { suns: [wrong] }), /suns must be an array of DirectionalLights/);
+  assert.throws(() => model.setLight(dark, 0, [sunIn(scene)]), /only setSky takes an array of lights/);
 });
 
-/** The warnings while `work` is done. */
+/** Returns the warnings during `work`. */
 function warningsOf(work) {
   const { warn } = console;
   const found = [];
@@ -90,7 +90,7 @@ function warningsOf(work) {
   return found;
 }
 
-test("each light that does not light baked meshes is named once", () => {
+test("each light that does not light baked meshes is reported once", () => {
   const scene = new Scene();
   const sun = Object.assign(sunIn(scene), { name: "Sun" });
   const file = new Group().add(Object.assign(new PointLight(), { name: "Lantern" }));
@@ -104,7 +104,7 @@ test("each light that does not light baked meshes is named once", () => {
   model.setSky(dark, scene);
   const found = drawn();
   assert.equal(found.length, 2);
-  assert.match(found.join("\n"), /DirectionalLight "Sun" does not light baked meshes: name it in setSky\(light, scene, \{ suns/);
+  assert.match(found.join("\n"), /DirectionalLight "Sun" does not light baked meshes: pass it in setSky\(light, scene, \{ suns/);
   assert.match(found.join("\n"), /AmbientLight "Around" does not light baked meshes/);
   model.setSky(dark, scene);
   assert.deepEqual(drawn(), []);
@@ -114,30 +114,30 @@ test("each light that does not light baked meshes is named once", () => {
   const third = sunIn(scene);
   model.setSky(dark, scene, { suns: [sun, other, third] });
   assert.deepEqual(drawn(), []);
-  model.setLight(dark, 0, dark); // those of SunLights
+  model.setLight(dark, 0, dark); // suns of SunLights
   assert.deepEqual(drawn(), []);
 });
 
 for (const [what, json] of Object.entries({
-  "nodes that are no list": { nodes: { a: 1 }, extensions: {} },
+  "nodes that are not a list": { nodes: { a: 1 }, extensions: {} },
   "no scene, but occluders": { nodes: [{ extensions: { PRTKIT_occlusion_volume: {} } }], extensions: {} },
   "no scene, but transfer": { nodes: [], extensions: { PRTKIT_clustered_pca: {} } },
 }))
-  test(`${what}: an Error with words`, async () => {
+  test(`${what}: an Error with a reason`, async () => {
     const parser = { json, associations: new Map() };
     await assert.rejects(new PrtkitPlugin(parser).afterRoot({ scenes: [], scene: undefined, userData: {} }), (error) => {
-      assert.ok(error.constructor === Error && /^PRTKIT_\w+: (nodes are no list|the file has no scene)$/.test(error.message), `${error}`);
+      assert.ok(error.constructor === Error && /^PRTKIT_\w+: (nodes is not a list|the file has no scene)$/.test(error.message), `${error}`);
       return true;
     });
   });
 
-test("nodes of shared instances that are no list: an Error with words", async () => {
+test("nodes of shared instances that are not a list: an Error with a reason", async () => {
   const json = { nodes: 3, extensions: { PRTKIT_clustered_pca: {}, PRTKIT_instances: { version: 1, count: 1, boxes: [{ middle: [0, 0, 0], half: [1, 1, 1] }], factors: { bufferView: 0 } } } };
   const plugin = new PrtkitPlugin({ json });
   await assert.rejects(plugin.beforeRoot(), (error) => error.constructor === Error && /^PRTKIT_instances: /.test(error.message));
 });
 
-test("a file without a scene and without transfer loads as ever", async () => {
+test("a file without a scene and without transfer loads as usual", async () => {
   const gltf = { scenes: [], scene: undefined, userData: {} };
   await new PrtkitPlugin({ json: { asset: {} }, associations: new Map() }).afterRoot(gltf);
   assert.deepEqual(gltf.userData, {});

@@ -40,7 +40,7 @@ const server = await createServer({
 process.on("exit", () => rmSync(server.config.cacheDir, { recursive: true, force: true }));
 await server.listen();
 const errors = [];
-// The last but one comes from three itself, about its clones, since release 187.
+// The last but one is a warning of three about its clones, since release 187.
 const UNHEARD = /GPU stall|WebGPU is not available|iridescenceThicknessRange|does not light baked meshes/;
 /** A floor that light passes, and a ball that is unlit. */
 function leafy(json) {
@@ -65,7 +65,7 @@ async function opened(...options) {
       "--disable-component-update", "--disable-sync", "--no-first-run", ...options],
   });
   const page = await browser.newPage({ viewport: { width: 320, height: 240 } });
-  page.setDefaultTimeout(120_000); // a busy machine is not a fault of the page
+  page.setDefaultTimeout(120_000); // a busy machine must not fail the test
   page.on("pageerror", (error) => errors.push(error.message));
   page.on("console", (line) => ["error", "warning"].includes(line.type()) && !UNHEARD.test(line.text()) && errors.push(line.text()));
   await page.route("**/*.glb", (route) => route.fulfill({ body: models[new URL(route.request().url()).pathname.split("/").pop()] }));
@@ -79,7 +79,7 @@ const onWebgl = await opened();
 const { ask } = onWebgl;
 const onWebgpu = await opened("--enable-unsafe-webgpu", "--use-webgpu-adapter=swiftshader");
 
-/** Both pictures above each other, in the folder PICTURES. */
+/** Writes both pictures, one above the other, to the folder PICTURES. */
 function savePicture(name, ...pictures) {
   const bytes = Uint8Array.from(pictures.flat());
   writeFileSync(join(process.env.PICTURES, `${name.replace(/\W+/g, "_")}.png`), png(320, 240 * pictures.length, bytes));
@@ -100,7 +100,7 @@ async function check(name, body) {
 
 const light = [3, 2.5, 2, 0.4, 0.2, -0.3, -0.2, 0.5, 0.1, 0.6, -0.4, 0.3];
 
-await check("texels have the radiance of their words, drawn once for every light", async () => {
+await check("texels have the radiance of their words, drawn once for each light", async () => {
   const lamps = { Lantern: [0.5, 0.25, 2] };
   const found = await ask("texels", { model: "texels.glb", light, lamps });
   const { extension, view } = extensionOf(models["texels.glb"], "PRTKIT_lightmap");
@@ -127,10 +127,10 @@ await check("texels have the radiance of their words, drawn once for every light
   assert.ok(most < 1e-5 && mostHalf < 2 ** -10, `${most}, ${mostHalf}`);
   assert.ok(seen.size > 4 * 250, `${seen.size} values of bytes`);
   const first = DataUtils.fromHalfFloat(found.doubled[0]);
-  assert.ok(first !== DataUtils.fromHalfFloat(found.maps[0].halves[0]), "another light is drawn");
+  assert.ok(first !== DataUtils.fromHalfFloat(found.maps[0].halves[0]), "a different light is drawn");
   assert.deepEqual([found.targets, found.once, found.unchanged, found.afterChange >= 6], [3, 3, 3, true]);
-  assert.ok(found.same, "the first picture is the second");
-  assert.ok(found.again, "what is disposed of is made again");
+  assert.ok(found.same, "the first picture equals the second");
+  assert.ok(found.again, "disposed maps are created again");
   return `${most.toExponential(1)} off in floats, ${mostHalf.toExponential(1)} in half floats`;
 });
 
@@ -157,16 +157,16 @@ const cases = {
   "suns with shadows, and an environment": { suns: true, shadows: true, environment: true, but: "webgpu" },
   "suns through sheets from below, and an unlit ball": { suns: "from below", model: "leaf" },
   "fog": { suns: true, fog: true, picture: "radiance" }, // three mixes it in before or behind the tone curve
-  "other lights, which add nothing": { others: true },
+  "other lights, which must not add light": { others: true },
   "cloned materials": { change: "clone", environment: true },
   // Earlier releases of WebGPURenderer rotate reflections opposite to backgrounds.
-  ...(revision >= 184 ? { "a turned environment": { environment: true, probed: true, change: "metal" } } : {}),
+  ...(revision >= 184 ? { "a rotated environment": { environment: true, probed: true, change: "metal" } } : {}),
   "metals": { change: "metal" },
   "instances": { copies: "instances", suns: true },
   "clones": { copies: "clones" },
   "a light probe": { probed: true },
-  "another model with its own light": { besides: true },
-  "what moves through a volume, in an environment with suns": { model: "moving", environment: true, suns: true, change: "moving" },
+  "a second model with its own light": { besides: true },
+  "a moving object in a volume, with environment and suns": { model: "moving", environment: true, suns: true, change: "moving" },
 };
 const other = { vertices: "texels.glb", texels: "vertices.glb" };
 const given = (by, { model, besides, ...options }) => ({
@@ -185,7 +185,7 @@ const agree = (a, b) => {
 async function checkRenderers(by, what, options) {
   const pages = [["nodes", onWebgl, "picture"], ["webgpu", onWebgpu, "radiance"]];
   for (const [api, { ask: askThere }, usual] of pages.filter(([name]) => name !== options.but))
-    await check(`${by}, ${what}: WebGPURenderer on ${api === "webgpu" ? "WebGPU" : "WebGL"} draws what WebGLRenderer draws`, async () => {
+    await check(`${by}, ${what}: WebGPURenderer on ${api === "webgpu" ? "WebGPU" : "WebGL"} draws the same as WebGLRenderer`, async () => {
       const picture = options.picture ?? usual;
       const asked = given(by, options);
       const [expected, shown] = [await ask(picture, { api: "webgl", ...asked }), await askThere(picture, { api, ...asked })];
@@ -195,27 +195,27 @@ async function checkRenderers(by, what, options) {
 }
 
 for (const by of ["vertices", "texels"]) for (const [what, options] of Object.entries(cases)) await checkRenderers(by, what, options);
-await checkRenderers("weights", "predictors of places, too", { suns: true });
+await checkRenderers("weights", "predictors of position and normal", { suns: true });
 
 for (const by of ["vertices", "texels"])
   for (const api of ["webgl", "nodes"])
-    await check(`${by}, ${api}: instances are lit as clones are`, async () => {
+    await check(`${by}, ${api}: instances are lit like clones`, async () => {
       const [instances, clones] = [await ask("picture", { api, ...given(by, { copies: "instances", suns: true }) }),
         await ask("picture", { api, ...given(by, { copies: "clones", suns: true }) })];
       return agree(instances, clones);
     });
 
-await check("texels: without an environment, the picture is that of three's own light map", async () => {
+await check("texels: without an environment the picture equals that of three's light map", async () => {
   const [ours, own] = [await ask("picture", { api: "webgl", ...given("texels", { change: "matte" }) }), await ask("picture", { api: "webgl", ...given("texels", { change: "three's own" }) })];
   const { mean } = compared(ours, own);
-  // Later releases subtract reflected light, though there is none.
+  // Later releases subtract reflected light although it is zero.
   assert.ok(mean < (revision < 184 ? 0.1 : 1), `mean ${mean} of 255`);
   return `mean ${mean.toFixed(3)} of 255`;
 });
 
 const [across, down] = [48, 40];
 const volumeLight = Array.from({ length: 27 }, (_, i) => Math.cos(3 * i + 1) + (i < 3 ? 3 : 0));
-/** Through both bricks and between probes, beyond the box, and where there is no brick. */
+/** Squares through both bricks and between probes, outside the box, and outside all bricks. */
 const points = [
   { point: [-0.53, 0.61, -0.37], rotation: [0.3, 0.5, 0.1] },
   { point: [0.31, 0.13, -0.91], rotation: [-1.2, 0.2, 2.1] },
@@ -254,7 +254,7 @@ async function offPlain(askThere, asked, expected) {
 
 for (const [api, askThere] of [["webgl", ask], ["nodes", ask], ["webgpu", onWebgpu.ask]]) {
   const matte = { api, model: "volume.glb", material: "matte", kind: "plain" };
-  await check(`${api}: what a volume lights has the light of its point, as plain numbers have it`, async () => {
+  await check(`${api}: objects in a volume have the light of their position, equal to plain JavaScript`, async () => {
     const found = [];
     for (const floats of [true, false])
       for (const point of points) found.push(await offPlain(askThere, { ...matte, floats, ...point }, (incident, normal) => sumOf(incident, normal)));
@@ -263,7 +263,7 @@ for (const [api, askThere] of [["webgl", ask], ["nodes", ask], ["webgpu", onWebg
     assert.ok(Math.max(...found.slice(0, 4)) < 1e-5 && Math.max(...found.slice(4)) < 2 ** -8, found.join());
     return `${Math.max(...found.slice(0, 4)).toExponential(1)} off in floats, ${Math.max(...found.slice(4)).toExponential(1)} in half floats`;
   });
-  await check(`${api}: skins, morphs, instances and a scene that is moved are lit where they are`, async () => {
+  await check(`${api}: skins, morphs, instances and a moved scene are lit at their positions`, async () => {
     for (const kind of ["skinned", "morphed", "instances"]) {
       const off = await offPlain(askThere, { ...matte, floats: true, kind, ...points[0] }, (incident, normal) => sumOf(incident, normal));
       assert.ok(off < 1e-5, `${kind}: ${off}`);
@@ -271,7 +271,7 @@ for (const [api, askThere] of [["webgl", ask], ["nodes", ask], ["webgpu", onWebg
     const off = await offPlain(askThere, { ...matte, floats: true, moved: { point: [0.5, -0.25, 2], rotation: [0.4, 1.3, -0.6] }, ...points[1] }, (incident, normal) => sumOf(incident, normal));
     assert.ok(off < 1e-5, `moved: ${off}`);
   });
-  await check(`${api}: chrome mirrors what comes in from there`, async () => {
+  await check(`${api}: chrome mirrors incident light`, async () => {
     const off = await offPlain(askThere, { ...matte, material: "chrome", floats: true, ...points[1] }, (incident, normal, mirrored) =>
       sumOf(incident, mirrored, [1, 1, 1, 1]));
     assert.ok(off < 0.02, `${off}`); // error of three's fit for multiple scattering
@@ -279,7 +279,7 @@ for (const [api, askThere] of [["webgl", ask], ["nodes", ask], ["webgpu", onWebg
   });
 }
 
-await check("what passes over baked surfaces takes as much of their light as plain numbers say", async () => {
+await check("occluders darken baked surfaces as plain JavaScript computes", async () => {
   const moved = [
     { point: [0.2, 0.7, -0.3], rotation: [0.3, 1.1, -0.2], scale: 1 },
     { point: [-0.6, 0.3, 0.5], rotation: [0, -0.4, 0], scale: 1.5 },
@@ -303,7 +303,7 @@ await check("what passes over baked surfaces takes as much of their light as pla
   return `${most.toExponential(1)} off, the darkest is ${least.toFixed(2)}`;
 });
 
-await check("lobes turn with the skin, and have the light of the world, as plain numbers have it", async () => {
+await check("lobes rotate with the skin in world-space light, equal to plain JavaScript", async () => {
   const size = [96, 96];
   let [most, seen] = [0, 0];
   for (const order of [2, 3, 4])
@@ -325,7 +325,7 @@ await check("lobes turn with the skin, and have the light of the world, as plain
   return `${most.toExponential(1)} off`;
 });
 
-await check("lobes have the light of the volume where they are, as plain numbers have it", async () => {
+await check("lobes have the light of the volume at their position, equal to plain JavaScript", async () => {
   const size = [480, 480];
   const { extension, view } = extensionOf(models["volume.glb"], "PRTKIT_transfer_volume");
   const volume = volumeOf(extension, view);
@@ -355,7 +355,7 @@ await check("lobes have the light of the volume where they are, as plain numbers
   return `${most.toExponential(1)} off`;
 });
 
-await check("a DirectionalLight of the user's own, with three's default bias, has no more shadow grain than with three alone", async () => {
+await check("a user's DirectionalLight with three's default bias has no more shadow grain than without the plug-in", async () => {
   const [columns, rows] = [320, 240];
   const ofLight = async (asked) => {
     const [shadowed, open] = [await ask("picture", { ...asked, shadows: true }), await ask("picture", { ...asked, shadows: false })];
@@ -364,7 +364,7 @@ await check("a DirectionalLight of the user's own, with three's default bias, ha
   const asked = { api: "webgl", model: "vertices.glb", light, suns: "own" };
   const alone = await ofLight({ ...asked, change: "alone" });
   const baked = await ofLight(asked);
-  // Pixels that three alone shows in full light, as it does what is next to them.
+  // Pixels that three alone shows fully lit, like their neighbours.
   const around = [-2, -1, 0, 1, 2].flatMap((y) => [-2, -1, 0, 1, 2].map((x) => 4 * (y * columns + x)));
   let [count, ofBaked, ofAlone] = [0, 0, 0];
   for (let y = 2; y < rows - 2; ++y)
@@ -382,10 +382,10 @@ await check("a DirectionalLight of the user's own, with three's default bias, ha
   return `high-pass rms ${rms.toFixed(3)} of 255, three alone ${rmsAlone.toFixed(3)}`;
 });
 
-await check("the plug-in of the other renderer is refused", async () => {
+await check("the plug-in for the other renderer is rejected", async () => {
   for (const by of ["vertices", "texels"]) {
-    await assert.rejects(ask("picture", { api: "webgl", ...given(by, { wrong: true }) }), /WebGLRenderer wants the plug-in of prtkit-web$/m);
-await assert.rejects(ask("picture", { api: "nodes", ...given(by, { wrong: true }) }), /WebGPURenderer wants the plug-in of prtkit-web\/webgpu/);
+    await assert.rejects(ask("picture", { api: "webgl", ...given(by, { wrong: true }) }), /WebGLRenderer needs PrtkitPlugin of prtkit-web$/m);
+await assert.rejects(ask("picture", { api: "nodes", ...given(by, { wrong: true }) }), /WebGPURenderer needs PrtkitPlugin of prtkit-web\/webgpu/);
   }
 });
 

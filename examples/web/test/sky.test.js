@@ -22,7 +22,7 @@ import { lightFromProbe, PrtkitModel, projectEquirectangular, projectInWorker, S
 import { decodeClusters } from "../src/clusteredPca.js";
 import { halfFloat } from "../src/halfFloat.js";
 import { evaluateSh, ShLight } from "../src/sphericalHarmonics.js";
-import { environmentRotation, turnedBy } from "../src/turns.js";
+import { environmentRotation, rotatedBy } from "../src/rotations.js";
 
 const near = (actual, expected, tolerance, what = "") =>
   assert.ok(Math.abs(actual - expected) <= tolerance, `${what} ${actual} is not within ${tolerance} of ${expected}`);
@@ -48,25 +48,25 @@ function lightFrom(d, order = 2) {
   return ShLight.fromCoefficients(order, Float64Array.from({ length: 3 * order * order }, (_, i) => basis[Math.floor(i / 3)]));
 }
 
-test("a turn of the environment about +Y is the angle of setLight, in all releases of three", () => {
+test("a rotation of the environment about +Y equals the angle of setLight, in all releases of three", () => {
   for (const revision of [180, 187]) {
-    const rotated = turnedBy(environmentRotation(new Euler(0, Math.PI / 2, 0), revision), [0, 0, 1]);
+    const rotated = rotatedBy(environmentRotation(new Euler(0, Math.PI / 2, 0), revision), [0, 0, 1]);
     allNear(rotated, [1, 0, 0], 1e-12, revision);
   }
 });
 
-test("three looks up environments as is counted on", () => {
+test("three looks up environments as expected", () => {
   // The lookup is a matrix times the direction; the matrix has changed with release 184, which e2e.mjs tests.
   assert.match(ShaderChunk.envmap_physical_pars_fragment, /envMapRotation \* worldNormal/);
   const euler = new Euler(0.4, -0.7, 1.1);
   const d = [0.36, 0.48, 0.8];
-  const later = turnedBy(environmentRotation(euler, 187), d);
+  const later = rotatedBy(environmentRotation(euler, 187), d);
   allNear(new Vector3(...d).applyEuler(euler).toArray(), later, 1e-12, "release 187");
-  const lookup = new Vector3(...turnedBy(environmentRotation(euler, 180), d)).applyEuler(new Euler(-0.4, 0.7, -1.1));
+  const lookup = new Vector3(...rotatedBy(environmentRotation(euler, 180), d)).applyEuler(new Euler(-0.4, 0.7, -1.1));
   allNear(lookup.toArray(), d, 1e-12, "release 180");
 });
 
-test("a sky turns and dims with its scene, by itself", () => {
+test("a sky follows rotation and intensity of its scene", () => {
   const root = new Object3D();
   const model = modelTowardsX(root);
   const scene = new Scene();
@@ -74,7 +74,7 @@ test("a sky turns and dims with its scene, by itself", () => {
   near(redOf(model), expectedRed(0), 1e-6);
   scene.backgroundRotation.y = Math.PI / 2;
   model.beforeRender();
-  near(redOf(model), expectedRed(1), 1e-6, "turned");
+  near(redOf(model), expectedRed(1), 1e-6, "rotated");
   scene.environment = new Texture(); // it has a separate rotation
   model.beforeRender();
   near(redOf(model), expectedRed(0), 1e-6, "environment");
@@ -84,14 +84,14 @@ test("a sky turns and dims with its scene, by itself", () => {
   near(redOf(model), 3 * expectedRed(-1), 1e-6, "dimmed");
   const { version } = model.constantsTexture;
   model.beforeRender();
-  assert.equal(model.constantsTexture.version, version, "nothing has changed, and it was formed again");
+  assert.equal(model.constantsTexture.version, version, "light is not computed again without a change");
   model.setLight(lightFrom([1, 0, 0])); // ends it
   scene.environmentRotation.y = 1;
   model.beforeRender();
   near(redOf(model), expectedRed(1), 1e-6, "by hand");
 });
 
-test("a model that is turned sees the sky turned back", () => {
+test("a rotated model sees the sky rotated back", () => {
   const root = new Object3D();
   const model = modelTowardsX(root);
   model.setSky(lightFrom([0, 1, 0]), new Scene());
@@ -104,7 +104,7 @@ test("a model that is turned sees the sky turned back", () => {
   near(redOf(model), expectedRed(1), 1e-6);
 });
 
-test("suns follow the scene as the light does", () => {
+test("suns follow the scene like the light", () => {
   const scene = new Scene();
   scene.environment = new Texture();
   const towards = [0.48, 0.6, -0.64];
@@ -115,11 +115,11 @@ test("suns follow the scene as the light does", () => {
   scene.updateMatrixWorld();
   const [light] = suns.lights;
   const direction = light.position.clone().sub(light.target.position).normalize().toArray();
-  allNear(direction, turnedBy(environmentRotation(scene.environmentRotation), towards), 1e-9, "direction");
+  allNear(direction, rotatedBy(environmentRotation(scene.environmentRotation), towards), 1e-9, "direction");
   near(light.intensity, 1.5, 1e-12);
 });
 
-test("a light probe lights by the radiance that three has in it", () => {
+test("a light probe lights with the radiance that three evaluates", () => {
   const probe = new LightProbe(new SphericalHarmonics3(), 2);
   probe.sh.coefficients.forEach((c, i) => c.set(Math.sin(i + 1), Math.cos(i), 0.1 * i));
   const light = lightFromProbe(probe);
@@ -140,7 +140,7 @@ test("a probe of one colour is a sky of that colour", () => {
   near(light.meanLuminance(), new Color(1, 2, 3).toArray().reduce((sum, v, c) => sum + v * [0.2126, 0.7152, 0.0722][c], 0), 1e-9);
 });
 
-test("half floats of a worker are those of three", () => {
+test("half floats of a worker equal those of three", () => {
   for (let bits = 0; bits < 65536; bits += 7)
     if (((bits >> 10) & 31) !== 31) assert.equal(halfFloat(bits), DataUtils.fromHalfFloat(bits), `${bits}`);
   assert.equal(halfFloat(0xfc00), -Infinity);
@@ -173,7 +173,7 @@ async function withWorker(body) {
   }
 }
 
-test("a worker projects as the caller does, where there is one", async () => {
+test("a worker, if available, projects like the caller", async () => {
   const values = [1, 2, 3, 1, 5, 4, 3, 1];
   const textures = [
     new DataTexture(new Float32Array(values), 2, 1, RGBAFormat, FloatType),

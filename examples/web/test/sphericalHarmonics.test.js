@@ -33,7 +33,7 @@ function imageOf(width, height, radiance) {
   return { width, height, data };
 }
 
-test("the first functions are those of the convention", () => {
+test("the first basis functions follow the convention", () => {
   const d = [0.36, -0.48, 0.8];
   const y = evaluateSh(3, ...d);
   near(y[0], 0.282094791774, 1e-9);
@@ -64,7 +64,7 @@ test("an image of one pixel is a constant light", () => {
 });
 
 test("light from a direction comes from that direction", () => {
-  // Linear in x, y and z: bands 0 and 1 alone, in closed form.
+  // Linear in x, y and z: only bands 0 and 1, in closed form.
   const light = projectLatLong(
     imageOf(256, 128, ([x, y, z]) => [1 + x, 1 + y, 1 + z]),
     4,
@@ -80,7 +80,7 @@ test("light from a direction comes from that direction", () => {
   for (let i = 12; i < c.length; ++i) near(c[i], 0, 1e-3);
 });
 
-test("a turned light is the light of the turned image", () => {
+test("a rotated light equals the light of the rotated image", () => {
   const sky = ([x, y, z]) => [Math.exp(2 * x - y), Math.exp(z + 0.5 * x * y), Math.max(0, y)];
   const angle = 1.234;
   const [c, s] = [Math.cos(angle), Math.sin(angle)];
@@ -93,27 +93,27 @@ test("a turned light is the light of the turned image", () => {
   expected.forEach((value, i) => near(rotated[i], value, 2e-3, `coefficient ${i}`));
 });
 
-test("a quarter turn brings light from +Z to +X", () => {
+test("a quarter rotation moves light from +Z to +X", () => {
   const light = projectLatLong(imageOf(64, 32, ([, , z]) => [z > 0.9 ? 1 : 0, 0, 0]), 3);
   const c = light.coefficients(Math.PI / 2);
   assert.ok(-c[9] > 0.1, "light from +X");
   near(c[6], 0, 1e-6);
 });
 
-test("rows may come from below", () => {
+test("rows may start at the bottom", () => {
   const image = imageOf(16, 8, ([x, y]) => [1 + y, x + 2, 0.5]);
   const flipped = new Float32Array(image.data.length);
   for (let y = 0; y < 8; ++y) flipped.set(image.data.subarray(64 * y, 64 * (y + 1)), 64 * (7 - y));
   assert.deepEqual(projectLatLong({ ...image, data: flipped, topFirst: false }, 4).polar, projectLatLong(image, 4).polar);
 });
 
-test("orders outside 1..10 are refused", () => {
+test("orders outside 1..10 are rejected", () => {
   const white = imageOf(2, 1, () => [1, 1, 1]);
   for (const order of [0, 11, NaN]) assert.throws(() => projectLatLong(white, order), RangeError);
   for (const order of [1, 10]) assert.equal(projectLatLong(white, order).coefficients().length, 3 * order ** 2);
 });
 
-test("coefficients do not change the light", () => {
+test("conversion to coefficients keeps the light", () => {
   const light = new ShLight(2, Float64Array.from({ length: 12 }, (_, i) => i));
   const before = [...light.polar];
   light.coefficients(1);
@@ -157,12 +157,12 @@ test("a deringed sun is nowhere negative and keeps its energy and most of its co
   }
 });
 
-test("light that is nowhere negative stays as it is", () => {
+test("light that is nowhere negative is unchanged", () => {
   const light = projectLatLong(imageOf(32, 16, (d) => [2 + d[0], 2, 2 + d[1]]), 5);
   assert.deepEqual(light.deringed().coefficients(0.4), light.coefficients(0.4));
 });
 
-test("turning the light does not change the factors", () => {
+test("rotation of the light does not change the factors", () => {
   const order = 6;
   const straight = deringFactors(order, sunAndSky(order, [0, 0, 1], [0.1, 0.1, 0.2]));
   for (let k = 0; k < 12; ++k) {
@@ -184,13 +184,13 @@ test("light of one band and its mean is dimmed until its darkest direction is bl
   }
 });
 
-test("light with next to no mean is nowhere negative, and dering comes to an end", () => {
+test("light with a tiny mean becomes nonnegative, and deringing ends", () => {
   const light = Float64Array.from({ length: 108 }, (_, i) => (i < 3 ? 1 : 100 * Math.sin(i * i)));
   const least = leastRadiance(6, light, deringFactors(6, light));
   assert.ok(least >= 0, `${least}`);
 });
 
-test("a channel without a mean to speak of is left out of dering", () => {
+test("a channel with a negligible mean is excluded from deringing", () => {
   const sun = sunAndSky(3, [0.48, 0.6, -0.64], [0.1, 0.1, 0.1]);
   const white = sun.map((_, i) => sun[i - (i % 3)]);
   const factors = deringFactors(3, white);
@@ -200,7 +200,7 @@ test("a channel without a mean to speak of is left out of dering", () => {
   }
 });
 
-test("a turned light is what its directions say, whatever the rotation", () => {
+test("a rotated light has rotated directions for every rotation", () => {
   const [a, b, c] = [unit([1, 2, -2]), unit([2, 1, 2]), unit([-2, 2, 1])]; // columns
   for (const matrix of [[...a, ...b, ...c], [...a, ...b, ...c.map((value) => -value)]]) {
     const light = new ShLight(7, Float64Array.from({ length: 147 }, (_, i) => Math.sin(i * i)));
@@ -213,7 +213,7 @@ test("a turned light is what its directions say, whatever the rotation", () => {
   }
 });
 
-test("a turn about +Y is the same by its matrix as by its angle", () => {
+test("a rotation about +Y by matrix equals that by angle", () => {
   const light = new ShLight(4, Float64Array.from({ length: 48 }, (_, i) => Math.cos(i * i)));
   const [cosine, sine] = [Math.cos(0.7), Math.sin(0.7)];
   const rotated = light.rotated([cosine, 0, -sine, 0, 1, 0, sine, 0, cosine]).coefficients();

@@ -1,4 +1,4 @@
-// Compiled, never run: the declarations fit three's.
+// Compiled, never run: checks that the declarations match three's.
 import { DirectionalLight, FloatType, Group, LightProbe, Mesh, Scene, ShaderMaterial } from "three";
 import { GLTFLoader } from "three/examples/jsm/loaders/GLTFLoader.js";
 import { HDRLoader } from "three/examples/jsm/loaders/HDRLoader.js";
@@ -24,7 +24,7 @@ export async function show(scene: Scene): Promise<number> {
   const sky = await new HDRLoader().setDataType(FloatType).loadAsync("sky.hdr");
   const light: ShLight = projectEquirectangular(sky, 6);
   projectEquirectangular(sky, 6, { center: "z" });
-  // @ts-expect-error there is no third layout
+  // @ts-expect-error only two layouts exist
   projectEquirectangular(sky, 6, { center: "y" });
   scene.background = scene.environment = halfFloatSky(sky, { center: "z" });
   const model: PrtkitModel = gltf.userData.prtkit;
@@ -33,14 +33,14 @@ export async function show(scene: Scene): Promise<number> {
   model.setLight(1);
   scene.add(gltf.scene);
   const lighting = readLightFile(await (await fetch("light.json")).json());
-  const suns = new SunLights(lighting.suns, { mapSize: 1024 }).fit(gltf.scene).rotation(1);
+  const suns = new SunLights(lighting.suns, { mapSize: 1024 }).fit(gltf.scene).rotate(1);
   scene.add(suns);
   model.setLight(lighting.sky.deringed(), 1, lightOfSuns(lighting.suns, model.order));
   model.setLight(lighting.sky, 1, null, { [model.lamps[0]]: 0.5, Sign: [1, 0.5, 0] });
   model.setSky(await projectInWorker(sky, 6, { center: "z" }), scene, { suns: lightOfSuns(lighting.suns) });
   model.setSky(lightFromProbe(new LightProbe()).rotated([1, 0, 0, 0, 1, 0, 0, 0, 1]), scene);
   model.setSky(light, scene, { suns: [new DirectionalLight()] });
-  // @ts-expect-error other lights are no suns
+  // @ts-expect-error other lights cannot be suns
   model.setSky(light, scene, { suns: [new LightProbe()] });
   suns.follow(scene).lights[0].shadow.autoUpdate = false;
   const volume: PrtkitVolume | null = model.volume;

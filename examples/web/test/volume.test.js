@@ -1,4 +1,4 @@
-// Files with PRTKIT_transfer_volume: reading, forming, textures and materials against plain arithmetic. renderers.mjs draws.
+// Files with PRTKIT_transfer_volume: tests of reading, computing, textures and materials against plain arithmetic. renderers.mjs draws them.
 import assert from "node:assert/strict";
 import { test } from "node:test";
 import {
@@ -36,7 +36,7 @@ const readVolume = (options, change) => {
 const coefficients = Array.from({ length: 27 }, (_, i) => Math.cos(3 * i + 1) + (i < 3 ? 3 : 0));
 const light = ShLight.fromCoefficients(3, coefficients);
 
-/** Four numbers of a plane at the first texel of a probe. */
+/** Returns the four numbers of a plane at the first texel of a probe. */
 function numbersAt(volume, probe) {
   const { atlas, source: { grid }, texture } = volume;
   const e = grid.ofBrick.indexOf(probe);
@@ -45,7 +45,7 @@ function numbersAt(volume, probe) {
   return texture.image.data instanceof Uint16Array ? values.map(halfFloat) : values;
 }
 
-test("half floats are the nearest ones", () => {
+test("half floats are rounded to nearest", () => {
   const bits = Array.from({ length: 0x7c00 }, (_, i) => i);
   const exact = bits.map(halfFloat);
   assert.deepEqual([...halvesOf(exact, new Uint16Array(bits.length))], bits);
@@ -55,7 +55,7 @@ test("half floats are the nearest ones", () => {
   assert.deepEqual([...halvesOf([1e9, -Infinity], new Uint16Array(2))], [0x7bff, 0xfbff]);
 });
 
-test("probes are the corners of all bricks, shared ones once, in their order", () => {
+test("probes are the corners of all bricks in order, shared corners once", () => {
   const { grid } = readVolume();
   assert.equal(grid.levels.length, PROBES);
   const seen = new Map();
@@ -72,7 +72,7 @@ test("probes are the corners of all bricks, shared ones once, in their order", (
   });
 });
 
-test("what comes in at probes is what the words say, of every part, in half floats and in floats", () => {
+test("incident light at probes follows the words for every term, in half floats and floats", () => {
   for (const incidentOrder of [2, 3, 4])
     for (const floats of [false, true]) {
       const volume = readVolume({ incidentOrder });
@@ -91,7 +91,7 @@ test("what comes in at probes is what the words say, of every part, in half floa
     }
 });
 
-test("a probe in the open has the light as it is, and sees the sun", () => {
+test("an unoccluded probe has the unchanged light and sees the sun", () => {
   const volume = new PrtkitVolume(readVolume({ open: true }), new Group(), new PrtkitPlugin(), { floats: true });
   const towards = [0.48, 0.8, 0.36];
   volume.setLight(light, 0, lightOfSuns([{ towards, irradiance: [5, 4, 3], halfAngle: 0 }], 3));
@@ -109,7 +109,7 @@ test("a probe in the open has the light as it is, and sees the sun", () => {
   assert.equal(volume.uniforms.prtSeparateSuns.value, false);
 });
 
-test("how much of the sun probes see is their direct transfer to it", () => {
+test("sun visibility of probes is their direct transfer towards it", () => {
   const volume = readVolume();
   const shown = new PrtkitVolume(volume, new Group(), new PrtkitPlugin(), { floats: true });
   const towards = [-0.6, 0.48, 0.64];
@@ -117,19 +117,19 @@ test("how much of the sun probes see is their direct transfer to it", () => {
   shown.settle();
   const basis = evaluateSh(3, ...towards);
   const one = lightColumns(volume.clusters, new Float64Array(27).map((_, i) => basis[Math.floor(i / 3)]), null, [0, 0, 0]);
-  one.fill(0, 27); // direct light alone
+  one.fill(0, 27); // direct light only
   for (let probe = 0; probe < PROBES; ++probe) {
     const expected = Math.min(Math.max(incidentAt(volume, probe, one)[0][0] / basis[0], 0), 1);
     assert.ok(Math.abs(numbersAt(shown, probe)[27] - expected) < 1e-5);
   }
 });
 
-test("a change of light takes several pictures, in which the former light is shown", () => {
+test("a change of light takes several frames, which show the previous light", () => {
   const volume = new PrtkitVolume(readVolume(), new Group(), new PrtkitPlugin());
   const renderer = { info: { render: { frame: 0 } } };
   const draw = () => (++renderer.info.render.frame, volume.beforeRender(renderer));
   volume.setLight(light);
-  draw(); // the first is whole
+  draw(); // the first frame is complete
   assert.ok(volume.isSettled);
   const before = numbersAt(volume, 5);
   volume.setLight(light.times(2));
@@ -142,15 +142,15 @@ test("a change of light takes several pictures, in which the former light is sho
   assert.notDeepEqual(numbersAt(volume, 5), before);
 });
 
-test("a device whose textures are too small is told so", () => {
+test("devices with textures that are too small are rejected", () => {
   const volume = new PrtkitVolume(readVolume(), new Group(), new PrtkitPlugin());
   const gl = { MAX_3D_TEXTURE_SIZE: 7, getParameter: (name) => (name === 7 ? 32 : 0) };
   volume.setLight(light);
   const renderer = { info: { render: { frame: 1 } }, getContext: () => gl };
-  assert.throws(() => volume.beforeRender(renderer), /a volume is 35 texels long, longer than this device has textures \(32\)/);
+  assert.throws(() => volume.beforeRender(renderer), /the volume needs a texture with a side of 35 texels; this device supports at most 32/);
 });
 
-test("a volume goes beside the transfer of surfaces, and is lit with it", async () => {
+test("a volume and transfer of surfaces are lit together", async () => {
   const { userData } = await load(bakedModel("vertices", (json, binary) => {
     delete json.textures;
     json.materials = json.materials.map(({ normalTexture: _, ...material }) => material);
@@ -167,13 +167,13 @@ test("a volume goes beside the transfer of surfaces, and is lit with it", async 
   assert.equal(prtkit.constantsTexture.version, before);
 });
 
-test("a file may have a volume alone", async () => {
+test("a file may contain only a volume", async () => {
   const { userData } = await load(volumeModel());
   assert.equal(userData.prtkit.volume, userData.prtkit);
   assert.deepEqual(userData.prtkit.lamps, ["Lantern"]);
 });
 
-test("materials of what moves are copies that keep their own shader, and so do their clones", () => {
+test("materials of moving objects are copies that keep custom shaders, also after cloning", () => {
   const volume = new PrtkitVolume(readVolume(), new Group(), new PrtkitPlugin());
   const compiled = [];
   const source = new MeshStandardMaterial({ color: 0x336699 });
@@ -195,7 +195,7 @@ test("materials of what moves are copies that keep their own shader, and so do t
     const shader = { uniforms: {}, vertexShader: ShaderLib.physical.vertexShader, fragmentShader: ShaderLib.physical.fragmentShader };
     material.onBeforeCompile(shader, null);
     assert.match(shader.fragmentShader, /prt_volume_incident\( prtVolumePosition/);
-    assert.match(shader.fragmentShader, /#include <aomap_fragment>/); // its own occlusion is its own
+    assert.match(shader.fragmentShader, /#include <aomap_fragment>/); // its own occlusion is kept
     assert.equal(shader.uniforms.prt_volume_light.value, volume.texture);
   }
   assert.equal(compiled.length, 3);
@@ -207,10 +207,10 @@ test("materials of what moves are copies that keep their own shader, and so do t
   second.light(character); // it has moved into the second volume
   assert.equal(box.material._transfer.model, second);
   assert.equal(box.material._transfer.source, source);
-  assert.throws(() => volume.light(new Mesh(new BoxGeometry(), new MeshPhongMaterial())), /not MeshPhongMaterial/);
+  assert.throws(() => volume.light(new Mesh(new BoxGeometry(), new MeshPhongMaterial())), /does not light MeshPhongMaterial/);
 });
 
-test("what a lobe keeps of the bands is what its integral says, and at roughness 1 the cosine", async () => {
+test("band factors of mirrored light match the GGX integral, and the cosine at roughness 1", async () => {
   const { default: text } = await import("../src/volumeLight.glsl.js");
   const less = text.match(/vec3 less = vec3\(([^)]*)\) \+ a \* vec3\(([^)]*)\)/).slice(1).map((list) => list.split(",").map(Number));
   const legendre = [(x) => x, (x) => (3 * x * x - 1) / 2, (x) => (5 * x ** 3 - 3 * x) / 2];
@@ -232,7 +232,7 @@ test("what a lobe keeps of the bands is what its integral says, and at roughness
   }
 });
 
-test("textures are laid out as docs and shader say", () => {
+test("textures have the layout of docs and shader", () => {
   const bricks = (count) => ({ bricks: new Uint16Array(4 * count) });
   assert.deepEqual(atlasOf(bricks(1), 3).bricks, [1, 1, 1]);
   assert.deepEqual(atlasOf(bricks(52), 3).bricks, [26, 2, 1]);
@@ -247,14 +247,14 @@ test("textures are laid out as docs and shader say", () => {
 
 const occluderIn = (json) => json.nodes[1].extensions.PRTKIT_occlusion_volume;
 const wrongOccluders = {
-  "another version": [(e) => (e.version = 2), /version 2 is not known, only 1/],
-  "a box turned inside out": [(e) => ([e.min, e.max] = [e.max, e.min]), /the box is none/],
-  "no reach": [(e) => delete e.reach, /the reach is no number above 0/],
-  "no texels": [(e) => delete e.texels, /the texels are not there/],
+  "another version": [(e) => (e.version = 2), /version 2 is not supported, only 1/],
+  "a box with min above max": [(e) => ([e.min, e.max] = [e.max, e.min]), /the box is invalid/],
+  "no reach": [(e) => delete e.reach, /the reach is not a number above 0/],
+  "no texels": [(e) => delete e.texels, /texels are missing/],
   "short texels": [(e, binary) => (e.texels = { bufferView: binary.view(new Int8Array(7)) }), /node 1 has 7 bytes of texels, not 2048/],
 };
 for (const [what, [change, message]] of Object.entries(wrongOccluders))
-  test(`occluders: ${what}: refused with a reason`, async () => {
+  test(`occluders: ${what}: rejected with a reason`, async () => {
     await assert.rejects(load(occluderModel((json, binary) => change(occluderIn(json), binary))), (error) => {
       assert.match(error.message, /^PRTKIT_occlusion_volume: /);
       assert.match(error.message, message);
@@ -262,7 +262,7 @@ for (const [what, [change, message]] of Object.entries(wrongOccluders))
     });
   });
 
-test("parts take light where they are, while they are shown", async () => {
+test("occluders darken surfaces at their positions while they are visible", async () => {
   const { scene, userData } = await load(occluderModel());
   const { prtkitOccluders: occluders } = userData;
   scene.children[0].position.set(1, 2, 3);
@@ -273,7 +273,7 @@ test("parts take light where they are, while they are shown", async () => {
   [0, 1, 2].forEach((a) => assert.ok(Math.abs(occluders.rows[a].w + [1, 2, 3][a] + (low[a] + high[a]) / 2) < 1e-9));
   assert.ok(Math.abs(occluders.rows[3].w - BOXES[0].reach) < 1e-12);
   for (let i = 0; i < 2; ++i) {
-    const at = (a) => -occluders.rows[5 * i + a].w; // unturned parts
+    const at = (a) => -occluders.rows[5 * i + a].w; // occluders without rotation
     const away = Math.hypot(at(0) - occluders.reach.x, at(1) - occluders.reach.y, at(2) - occluders.reach.z);
     assert.ok(away + occluders.rows[5 * i + 3].w <= occluders.reach.w + 1e-9);
   }
@@ -284,28 +284,28 @@ test("parts take light where they are, while they are shown", async () => {
 
 const extensionIn = (json) => json.extensions.PRTKIT_transfer_volume;
 const refusals = {
-  "another version": [(e) => (e.version = 2), /version 2 is not known, only 1; compress the model again/],
-  "a raw bake": [(e) => (e.raw = {}), /holds transfer as it was baked; make it one to ship: prt compress/],
-  "an order that there is not": [(e) => (e.incidentOrder = 5), /the order of incident light is not 2 to 4/],
-  "no spacing": [(e) => (e.spacing = 0), /the spacing or the origin is no usable number/],
-  "an origin that is no list": [(e) => (e.origin = 3), /the spacing or the origin is no usable number/],
-  "too many bricks along": [(e) => (e.size = [1025, 1, 1]), /the size is not 1 to 1024 bricks/],
-  "more than memory has": [(e) => (e.size = [1024, 1024, 1024]), /the volume would take 17180 MB/],
-  "predictors": [(e) => Object.assign(e, { predictors: [{ kind: "normal", scale: [1, 1, 1] }], centers: { ...e.words, drops: [0, 0, 0] } }), /probes have no predictors/],
+  "another version": [(e) => (e.version = 1), /version 1 is not supported, only 2; compress the model again/],
+  "a raw bake": [(e) => (e.raw = {}), /the file is an uncompressed bake; compress it: prt compress/],
+  "an order outside the range": [(e) => (e.incidentOrder = 5), /the order of incident light is not 2 to 4/],
+  "no spacing": [(e) => (e.spacing = 0), /the spacing or the origin is invalid/],
+  "an origin that is not a list": [(e) => (e.origin = 3), /the spacing or the origin is invalid/],
+  "too many bricks along an axis": [(e) => (e.size = [1025, 1, 1]), /the size is not 1 to 1024 bricks/],
+  "more than the memory limit": [(e) => (e.size = [1024, 1024, 1024]), /the volume would need 17180 MB/],
+  "predictors": [(e) => Object.assign(e, { predictors: [{ kind: "normal", scale: [1, 1, 1] }], centers: { ...e.words, drops: [0, 0, 0] } }), /probes do not support predictors/],
   "weights that are not packed": [(e) => delete e.packing, /the weights of probes are not packed/],
-  "no words": [(e) => delete e.words, /bricks, visibility or words are not there/],
-  "bricks that are no groups": [(e, binary) => (e.bricks = { bufferView: binary.view(new Uint8Array(9)) }), /no groups of eight bytes/],
-  "a brick outside": [(e, binary) => (e.bricks = { bufferView: binary.view(Uint16Array.of(3, 0, 0, 0)) }), /a brick lies where the volume has none/],
-  "a brick off its level": [(e, binary) => (e.bricks = { bufferView: binary.view(Uint16Array.of(1, 0, 0, 1)) }), /a brick lies where the volume has none/],
+  "no words": [(e) => delete e.words, /bricks, visibility or words are missing/],
+  "bricks that are not groups of eight bytes": [(e, binary) => (e.bricks = { bufferView: binary.view(new Uint8Array(9)) }), /not groups of eight bytes/],
+  "a brick outside the volume": [(e, binary) => (e.bricks = { bufferView: binary.view(Uint16Array.of(3, 0, 0, 0)) }), /a brick is outside the volume/],
+  "a brick off its level": [(e, binary) => (e.bricks = { bufferView: binary.view(Uint16Array.of(1, 0, 0, 1)) }), /a brick is outside the volume/],
   "bricks that overlap": [(e, binary) => (e.bricks = { bufferView: binary.view(Uint16Array.of(0, 0, 0, 1, 1, 1, 1, 0)) }), /two bricks overlap/],
-  "visibility of other probes": [(e, binary) => (e.visibility = { bufferView: binary.view(new Uint8Array(12)) }), /there are 241 probes, and visibility for 2/],
-  "words of other probes": [(e, binary) => (e.words = { bufferView: binary.view(new Uint8Array(12)) }), /the words are not those of 241 probes/],
-  "a probe in no cluster": [(e, binary) => (e.words = { bufferView: binary.view(new Uint32Array(2 * PROBES).fill(3)) }), /probe 0 is in no cluster/],
-  "bases of one output": [(e, binary) => (e.bases.bufferView = binary.view(new Float32Array(11 * 39))), /the bases have another size than 3861 floats/],
-  "a buffer view that is not there": [(e) => (e.words.bufferView = 99), /buffer view 99 cannot be read/],
+  "visibility for other probes": [(e, binary) => (e.visibility = { bufferView: binary.view(new Uint8Array(12)) }), /visibility has values for 2 probes, not 241/],
+  "words for other probes": [(e, binary) => (e.words = { bufferView: binary.view(new Uint8Array(12)) }), /the words do not have the size of 241 probes/],
+  "a probe with a missing cluster": [(e, binary) => (e.words = { bufferView: binary.view(new Uint32Array(2 * PROBES).fill(3)) }), /probe 0 names a cluster that does not exist/],
+  "bases of one output": [(e, binary) => (e.bases.bufferView = binary.view(new Float32Array(11 * 39))), /the bases do not contain 3861 floats/],
+  "a missing buffer view": [(e) => (e.words.bufferView = 99), /buffer view 99 cannot be read/],
 };
 for (const [what, [change, message]] of Object.entries(refusals))
-  test(`${what}: refused with a reason`, async () => {
+  test(`${what}: rejected with a reason`, async () => {
     const file = volumeModel({}, (json, binary) => change(extensionIn(json), binary));
     await assert.rejects(load(file), (error) => {
       assert.match(error.message, /^PRTKIT_transfer_volume: /);

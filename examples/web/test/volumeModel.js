@@ -44,7 +44,7 @@ function packedWidths() {
   return Uint8Array.from({ length: Math.ceil(codes.length / 2) }, (_, i) => codes[2 * i] | ((codes[2 * i + 1] ?? 0) << 4));
 }
 
-/** Words of probes, each in a cluster that there is. */
+/** Returns words of probes, each in an existing cluster. */
 function randomWords() {
   const next = random(5);
   for (let i = 0; i < 9; ++i) next();
@@ -54,7 +54,7 @@ function randomWords() {
   });
 }
 
-/** Probes that see all around, some less far, and some that are inside of something. */
+/** Returns visibility distances: full ones, some shorter ones, and some inside geometry. */
 function visibilityOf(open) {
   const next = random(3);
   return Uint8Array.from({ length: 6 * PROBES }, (_, i) => {
@@ -63,7 +63,7 @@ function visibilityOf(open) {
   });
 }
 
-/** The extension, in `binary`. */
+/** Returns the extension, with its data in `binary`. */
 export function volumeExtension(binary, { incidentOrder = 3, open = false } = {}) {
   const outputs = incidentOrder ** 2;
   const view = (array) => ({ bufferView: binary.view(array) });
@@ -82,7 +82,7 @@ export function volumeExtension(binary, { incidentOrder = 3, open = false } = {}
   };
 }
 
-/** A file with a volume alone. */
+/** Returns a file that contains only a volume. */
 export function volumeModel(options = {}, change = () => {}) {
   const binary = new Binary();
   const json = { scene: 0, scenes: [{ nodes: [] }], extensions: {} };
@@ -91,16 +91,16 @@ export function volumeModel(options = {}, change = () => {}) {
   return binary.file(json);
 }
 
-/** Coefficients of the light that comes in at a probe, [order²][3], under `columns` (lightColumns): the words as docs/format.md
- * has them, one output after the other. */
+/** Returns the coefficients of incident light at a probe, [order²][3], under `columns` (lightColumns), from the words as
+ * docs/format.md defines them, one output after the other. */
 export function incidentAt({ clusters, words, stride }, probe, columns) {
   const own = [...words.subarray(stride * probe, stride * (probe + 1))];
   const { rowCount, outputs, rows } = clusters;
   const size = rows.length / (rowCount * outputs);
   return Array.from({ length: outputs }, (_, o) => {
-    const term = new Float32Array(rowCount * size);
-    for (let r = 0; r < rowCount; ++r) term.set(rows.subarray((r * outputs + o) * size, (r * outputs + o + 1) * size), r * size);
-    return radianceOfWords({ ...clusters, rows: term }, columns, own);
+    const outputRows = new Float32Array(rowCount * size);
+    for (let r = 0; r < rowCount; ++r) outputRows.set(rows.subarray((r * outputs + o) * size, (r * outputs + o + 1) * size), r * size);
+    return radianceOfWords({ ...clusters, rows: outputRows }, columns, own);
   });
 }
 
@@ -135,8 +135,8 @@ export function weightsAt({ grid, visibility }, position, normal) {
     const trilinear = step.reduce((product, s, a) => product * (s ? at[a] - low[a] : 1 - at[a] + low[a]), 1);
     const passed = biased.reduce((sum, x, a) => {
       const from = x - (origin[a] + spacing * corners[3 * probe + a]);
-      const visibility = visibility[6 * probe + 2 * a + (from > 0 ? 1 : 0)];
-      return sum + Math.abs(from) / Math.max(4 * spacing * 2 ** levels[probe] * (visibility / 255) ** 2, 1e-18);
+      const distance = visibility[6 * probe + 2 * a + (from > 0 ? 1 : 0)];
+      return sum + Math.abs(from) / Math.max(4 * spacing * 2 ** levels[probe] * (distance / 255) ** 2, 1e-18);
     }, 0);
     const t = clamp((passed - 0.9) / 0.3, 0, 1);
     return [probe, trilinear * Math.max(1 - t * t * (3 - 2 * t), 1e-4)];

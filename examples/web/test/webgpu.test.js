@@ -7,14 +7,14 @@ import { bakedModel } from "./bakedModel.js";
 
 async function load(by) {
   const file = bakedModel(by, (json) => {
-    delete json.textures; // which node does not decode
+    delete json.textures; // node does not decode images
     json.materials = json.materials.map(({ normalTexture: _, ...material }) => material);
   });
   const loader = new GLTFLoader().register((parser) => new PrtkitPlugin(parser));
   return loader.parseAsync(file.buffer.slice(file.byteOffset, file.byteOffset + file.length), "");
 }
 
-test("materials are nodes that keep what three shades by, and so are their clones", async () => {
+test("node materials and their clones keep the properties that three uses", async () => {
   const { scene, userData } = await load("vertices");
   const [floor, ball, lantern] = scene.children.map(({ material }) => material);
   assert.ok([floor, ball, lantern].every(({ isNodeMaterial }) => isNodeMaterial));
@@ -28,16 +28,16 @@ test("materials are nodes that keep what three shades by, and so are their clone
   assert.equal(userData.prtkit.vertices, 25 * 25 + 41 * 25 + 25 * 17);
 });
 
-test("programs of different models are different", async () => {
+test("different models have different programs", async () => {
   const [a, b] = await Promise.all([load("vertices"), load("vertices")]);
   const key = ({ scene }) => scene.children[0].material.customProgramCacheKey();
   assert.notEqual(key(a), key(b));
 });
 
-test("more weights than WebGPU has room for are refused", async () => {
+test("more weights than WebGPU supports are rejected", async () => {
   const { scene } = await load("weights");
   const { material } = scene.children[0];
   material._transfer.defines.PRT_WEIGHT_VECTORS = 6;
   const builder = { renderer: { backend: { isWebGPUBackend: true } } };
-  assert.throws(() => material.setupLightingModel(builder), /no room for so many weights.*fewer components, or packed/);
+  assert.throws(() => material.setupLightingModel(builder), /this many weights per vertex.*fewer --components/);
 });

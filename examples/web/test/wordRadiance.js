@@ -1,7 +1,7 @@
 // Computes radiance of packed words in plain JavaScript, as defined in docs/format.md, for comparison with
 // shaders.
 
-/** Red, green and blue of the texel with `words` under the colours `columns` (lightColumns) that light the parts. */
+/** Returns red, green and blue of the texel with `words` under the colours `columns` of all terms (lightColumns). */
 export function radianceOfWords({ terms, order, components, firstRows, rows, widths, clusterBits }, columns, words) {
   const bits = words.reduce((sum, word, j) => sum | (BigInt(word) << BigInt(32 * j)), 0n);
   const take = (at, width) => Number((bits >> BigInt(at)) & ((1n << BigInt(width)) - 1n));

@@ -1,4 +1,4 @@
-// Makes the page's models with prt: public/models/ and public/skies/. Scenes and sky are the example ones;
+// Makes the page's models with prt: public/models/ and public/skies/. Uses the example scenes and sky;
 // add others with
 //   npm run models -- scene.glb sky.hdr
 // PRT_RAYS and PRT_SCENES (knot,tree) reduce the work for tests. An interrupted run continues: bakes stay in
@@ -17,10 +17,10 @@ const rays = process.env.PRT_RAYS ?? "1024";
 const extra = process.argv.slice(2);
 const manifest = join(publicFolder, "models/models.json");
 
-if (existsSync(manifest) && extra.length === 0) process.exit(0); // made before
+if (existsSync(manifest) && extra.length === 0) process.exit(0); // already made
 for (const program of [prt, exampleScenes])
   if (!existsSync(program)) {
-    console.error(`make-models: error: ${program}: is not there; run ./demo.sh, or say where with PRT and PRT_EXAMPLE_SCENES`);
+    console.error(`make-models: error: ${program}: does not exist; run ./demo.sh, or set PRT and PRT_EXAMPLE_SCENES`);
     process.exit(1);
   }
 
@@ -37,9 +37,9 @@ if (!existsSync(join(work, "sky.exr"))) run(exampleScenes, work, ...specs, ...(n
 const levels = [
   { name: "u32", title: "small", options: ["--preset", "u32"] },
   { name: "u64", title: "normal", options: ["--preset", "u64"] },
-  { name: "u128", title: "fine", options: ["--clusters", "64", "--components", "16", "--bits", "122"] }, // with the cluster four words
+  { name: "u128", title: "fine", options: ["--clusters", "64", "--components", "16", "--bits", "122"] }, // four words with the cluster
 ];
-/** Close to the bake: the maximum number of components of a shader, not rounded. */
+/** Options of a model close to the bake: the maximum number of components of a shader, without rounding. */
 const asBaked = ["--weights", "float", "--clusters", "16", "--components", "48", "--predictors", "none", "--seam-weight", "0"];
 const cameras = {
   room: { position: [1.2, 1.9, 4.2], target: [0, 1.8, -5], fieldOfView: 45 },
@@ -58,7 +58,7 @@ const walks = {
   night_room: { spacing: 0.5, way: { points: [[0, -1.2], [0.9, -3.5], [0.4, -7.2], [-0.4, -7.4], [-0.9, -4.8], [-0.6, -2.2]], from: 2 } },
   courtyard: { spacing: 1, way: { points: [[2.6, 0.5], [1.6, -4.4], [-1.8, -4.8], [-3, 0], [-0.5, 3]], from: 2 } },
 };
-const large = new Set(["courtyard", "forest"]); // fewer rays and one file, otherwise it would take an hour
+const large = new Set(["courtyard", "forest"]); // fewer rays and one file, because all would take an hour
 /**
  * Models whose instances share transfer, in few clusters, because each instance has constants for all
  * clusters of its mesh.
@@ -135,4 +135,4 @@ const figure = "models/figure.glb";
 run(prt, "ao", join(work, "figure.glb"), "-o", join(publicFolder, figure), "--volume");
 writeFileSync(manifest, JSON.stringify({ models, skies: skyEntries, figure }, null, 2));
 rmSync(work, { recursive: true });
-console.log(`${publicFolder}: models and skies are there`);
+console.log(`${publicFolder}: models and skies are complete`);

@@ -1,4 +1,4 @@
-// A picture of the built page in headless Chromium.
+// Takes a picture of the built page in headless Chromium.
 //   node tools/screenshot.mjs OUTPUT.png [QUERY] [WIDTHxHEIGHT]
 import { fileURLToPath } from "node:url";
 import { chromium } from "playwright-core";

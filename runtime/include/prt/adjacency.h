@@ -9,7 +9,7 @@
 
 namespace prt {
 
-/// Two receivers that share a triangle; first < second.
+/// Edge between two neighbouring receivers, such as two vertices of one triangle; first < second.
 struct Edge {
     std::uint32_t first, second;
     friend bool operator==(const Edge&, const Edge&) = default;
@@ -31,6 +31,7 @@ public:
     std::span<const std::uint32_t> of(std::size_t receiver) const {
         return std::span(neighbours_).subspan(first_[receiver], degree(receiver));
     }
+    /// Returns the number of neighbours of `receiver`.
     std::size_t degree(std::size_t receiver) const { return first_[receiver + 1] - first_[receiver]; }
     /// Index of the first neighbour of `receiver` in the concatenated lists, for arrays with one value per
     /// neighbour.

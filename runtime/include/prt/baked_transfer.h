@@ -17,13 +17,15 @@ enum class Backend {
     gpu, ///< Vulkan 1.2
 };
 
+/// Method that samples the visibility of the surroundings.
 enum class BakeMethod {
     trace,  ///< ray tracing
     raster, ///< depth maps from many directions (Hill 2004): direct light, GPU only
 };
 
-/// Returns the identifier used in files and reports: "auto", "cpu", "gpu"; "trace", "raster".
+/// Returns the identifier used in files and reports: "auto", "cpu" or "gpu".
 const char* to_string(Backend backend);
+/// Returns the identifier used in files and reports: "trace" or "raster".
 const char* to_string(BakeMethod method);
 
 /// Settings and results of a bake; written to the file and shown by `prt info`.
@@ -31,8 +33,8 @@ struct BakeRecord {
     int bounces = 0;      ///< number of bounces computed
     bool endless = false; ///< true: all bounces are included, and `bounces` is the number of solver
                           ///< iterations
-    int rays = 0;         ///< per receiver, the mean if it varies; number of directions for
-                          ///< BakeMethod::raster
+    int rays = 0; ///< number of rays per receiver, or its mean if it varies; for BakeMethod::raster the
+                  ///< number of directions
     std::uint64_t seed = 0;
     BakeMethod method = BakeMethod::trace;
     Backend backend = Backend::cpu;
@@ -44,14 +46,17 @@ struct BakeRecord {
 /// Number format of raw transfer in a file.
 enum class TransferStorage { float32, float16 };
 
+/// Returns the identifier used in files and reports: "float32" or "float16".
 const char* to_string(TransferStorage storage);
 
+/// Raw transfer, with the record of its bake.
 struct BakedTransfer {
     Transfer transfer; ///< receivers in the order of the scene's vertex arrays
     BakeRecord record;
     TransferStorage storage = TransferStorage::float32;
 };
 
+/// Compressed transfer, with the record of its bake.
 struct CompressedTransfer {
     ClusteredTransfer transfer;
     BakeRecord record;

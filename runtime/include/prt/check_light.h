@@ -6,7 +6,7 @@
 
 namespace prt {
 
-/// Maximum magnitude of a coefficient. Sums of squares of such lights still fit a float.
+/// Maximum magnitude of a lighting coefficient. Sums of squares of such coefficients still fit a float.
 inline constexpr float kMaxLight = 1e18f;
 
 /// Throws `Error` unless every coefficient is a number from -kMaxLight to kMaxLight.

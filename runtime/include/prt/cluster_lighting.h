@@ -1,12 +1,12 @@
 #pragma once
 
-// The per-frame work of a game: computes the constants of all clusters for a lighting.
+// The per-frame work of a game: computes the shader constants of all clusters for a lighting.
 //
-//     ClusterLighting relighter(transfer);                       // once per model
+//     ClusterLighting relighter(transfer);                      // once per model
 //     std::vector<glm::vec4> constants(relighter.rows());
 //     relighter.update(light, constants);                         // when the lighting changes
-//     relighter.update({sky.coefficients, suns.coefficients}, constants); // or: the renderer shadows suns
-//     itself
+//     // If the renderer shadows the suns itself, pass sky and suns separately:
+//     relighter.update({sky.coefficients, suns.coefficients}, constants);
 //
 // Several models can share a lighting; each has its own relighter. For a rotated model the lighting must be
 // rotated by the inverse: `ShRotation(order, inverse of the model's rotation).apply(light, rotated)`.
@@ -39,8 +39,8 @@ public:
     /// order of `ClusterLayout::first_row`, times the number of outputs.
     std::size_t rows() const { return rows_; }
 
-    /// Writes (r, g, b, 0) for every row to `constants` [rows]. Allocates nothing. Throws `Error` if
-    /// `lighting` has too few bands.
+    /// Computes the constants for `lighting` and writes (r, g, b, 0) for every row to `constants` [rows].
+    /// Allocates nothing. Throws `Error` if `lighting` has too few bands.
     void update(const LightingView& lighting, std::span<glm::vec4> constants) const;
     /// Writes only the rows from `first` up to `last`, to spread the work over threads or frames. `first` is
     /// rounded down and `last` up to a multiple of 16.
@@ -57,7 +57,7 @@ private:
     std::vector<float> matrix_;
 };
 
-/// Computes a + share (b - a) for all constants; `out` may be `a` or `b`.
+/// Blends the constants of two lightings: out = a + share (b - a). `out` may be `a` or `b`.
 void blend_constants(std::span<const glm::vec4> a, std::span<const glm::vec4> b, float share,
                      std::span<glm::vec4> out);
 

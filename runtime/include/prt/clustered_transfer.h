@@ -1,7 +1,7 @@
 #pragma once
 
-// Compressed transfer (clustered PCA; Sloan, Hall, Hart and Snyder 2003): data in memory, per frame and per
-// receiver.
+// Compressed transfer (clustered PCA; Sloan, Hall, Hart and Snyder 2003): its data in memory, and the work
+// per frame and per receiver.
 //
 // Each frame, or each time the lighting changes:
 //     relighter.update(light, constants);                       // M_k·L and B_kj·L: prt/cluster_lighting.h
@@ -25,8 +25,9 @@
 
 namespace prt {
 
-/// Storage format of weights. Packed: cluster and weights share 32-bit words; a weight of b bits holds q = 0
-/// .. 2^b - 1 and means (2 q - (2^b - 1)) / (2^b - 1). Floats show the error without that rounding.
+/// Storage format of weights. `packed`: cluster and weights share 32-bit words; a weight of b bits is stored
+/// as an integer q = 0 .. 2^b - 1 and has the value (2 q - (2^b - 1)) / (2^b - 1). `float32`: weights are not
+/// rounded, to measure the error without that rounding.
 enum class WeightFormat { float32, packed };
 
 /// Cluster and weights of each receiver, ready for upload.
@@ -38,7 +39,7 @@ struct ClusteredReceivers {
     std::vector<std::uint16_t> clusters; ///< [receivers]; packed: copy of the clusters in the words, for use
                                          ///< on the CPU
     std::vector<std::byte> weights; ///< [receivers][components] floats, unused ones 0; or [receivers][words]
-    /// [receivers][predictor rows]: predictor coordinates relative to their origins. A vertex shader gets
+    /// [receivers][predictor rows] predictor coordinates relative to their origins. A vertex shader takes
     /// them from the mesh.
     std::vector<float> predictors;
 
@@ -47,49 +48,54 @@ struct ClusteredReceivers {
     std::size_t stride() const;
 };
 
+/// Compressed transfer: the bases of all clusters, and the cluster and weights of each receiver.
 struct ClusteredTransfer {
     ClusteredBases bases;
     ClusteredReceivers receivers;
 };
 
-/// Writes the weights of a receiver to `weights` [m_k], each in [-1, 1] unless the format is float32.
+/// Writes the weights of `receiver` to `weights` [m_k]. Packed weights are in [-1, 1]. `layouts` is the
+/// result of `cluster_layouts`.
 void decode_weights(const ClusteredTransfer& transfer, std::span<const ClusterLayout> layouts,
                     std::size_t receiver, std::span<float> weights);
 
-/// Packs a cluster and the integers q of its weights into `words`, with the bit widths of `layout`.
+/// Packs a cluster index and the weights `values`, as integers q, into `words` with the bit widths of
+/// `layout`.
 void pack_words(std::uint32_t cluster, int cluster_bits, const ClusterLayout& layout,
                 std::span<const std::uint32_t> values, std::span<std::uint32_t> words);
 
 /// Reads the clusters of `count` packed receivers, starting at `first`, from their words. Throws `Error` if a
-/// cluster does not exist: "vertex 3 is in cluster 9 of 8", with `what` = "vertex".
+/// cluster does not exist. `what` names a receiver in that message: "vertex 3 is in cluster 9 of 8".
 void unpack_clusters(std::size_t clusters, std::size_t first, std::size_t count, const char* what,
                      ClusteredReceivers& receivers);
 
-/// Number of bytes that a game binds per receiver. Packed: whole 32-bit words. Floats: the cluster, padded to
-/// four bytes as glTF requires for vertex attributes, and the weights as vectors of four.
+/// Returns the number of bytes that a game binds per receiver. Packed: whole 32-bit words. Floats: the
+/// cluster, padded to four bytes as glTF requires for vertex attributes, and the weights as vectors of four.
 std::size_t bytes_per_receiver(const ClusteredTransfer& transfer);
 
-/// Maximum number of used bits per receiver over all clusters. The remaining bits are zero:
-/// EXT_meshopt_compression removes them on disk, but they remain in a vertex buffer.
+/// Returns the number of used bits per receiver, the maximum over all clusters. All other bits are zero.
+/// EXT_meshopt_compression removes them on disk; in a vertex buffer they remain.
 std::size_t bits_per_receiver(const ClusteredTransfer& transfer);
 
-/// Number of rows of constants: for each cluster one mean, three rows per predictor, and m_k basis
+/// Returns the number of rows of constants: per cluster one mean, three rows per predictor, and m_k basis
 /// directions.
 std::size_t constant_rows(const ClusteredBases& bases);
 
-/// Computes the exit radiance for albedo 1 of every receiver from the constants, `radiance` [receivers], as
-/// the vertex shader does. Transfer with several outputs requires packed weights; `radiance` is then
-/// [receivers][outputs].
+/// Computes the exit radiance of every receiver for albedo 1 from the result of `ClusterLighting::update`, as
+/// the vertex shader does, and writes it to `radiance` [receivers]. Transfer with several outputs requires
+/// packed weights; `radiance` is then [receivers][outputs].
 void evaluate(const ClusteredTransfer& transfer, std::span<const glm::vec4> constants,
               std::span<glm::vec3> radiance, int threads = 0);
 
-/// Computes the constants and evaluates them, [receivers].
+/// Computes the exit radiance of every receiver for albedo 1 under `lighting`, [receivers]. Throws `Error` if
+/// the lighting has too few bands.
 std::vector<glm::vec3> exit_radiance(const ClusteredTransfer& transfer, const Lighting& lighting,
                                      int threads = 0);
-/// Computes exit radiance with all light in one sky, [receivers].
+/// Computes the exit radiance of every receiver for albedo 1, [receivers], under the sky `light` without
+/// separate suns; lamps have the strength 1.
 std::vector<glm::vec3> exit_radiance(const ClusteredTransfer& transfer, const Light& light, int threads = 0);
 
-/// Decompresses to transfer vectors.
+/// Returns the decompressed transfer vectors.
 Transfer decode(const ClusteredTransfer& transfer, int threads = 0);
 
 } // namespace prt

@@ -24,10 +24,10 @@ struct WordLayout {
 /// Up to three receivers before receiver v that predict it; unused entries are v.
 using EarlierNeighbors = std::array<std::uint32_t, 3>;
 
-/// Returns the earlier neighbours of each of `receivers` vertices along the edges of `triangles`
-/// [triangles][3]: the first three distinct ones in its block with a smaller index, in the order of the
-/// triangles; of one triangle, the smaller index first. Throws `Error` if a triangle has a vertex that does
-/// not exist.
+/// Returns for each of `receivers` vertices up to three earlier neighbours: the first distinct vertices with
+/// a smaller index that share a triangle with it and are in the same block of receivers. They are in the
+/// order of `triangles` [triangles][3]; within one triangle the smaller index is first. Throws `Error` if a
+/// triangle has a vertex that does not exist.
 std::vector<EarlierNeighbors> earlier_neighbors(std::span<const std::uint32_t> triangles,
                                                 std::size_t receivers);
 
@@ -45,9 +45,9 @@ bool can_code_words(const WordLayout& layout, std::span<const std::uint32_t> wor
 WordCode encode_words(const WordLayout& layout, std::span<const EarlierNeighbors> neighbors,
                       std::span<const std::uint32_t> words);
 
-/// Decodes the words [receivers][layout.words] without loss. Throws `Error` if the code is damaged. A few
-/// bytes can encode any number of equal receivers, and callers must limit that number. Blocks of 16384
-/// receivers are decoded on `threads` threads (0: all).
+/// Decodes the words [receivers][layout.words] without loss. Throws `Error` if the code is damaged. Callers
+/// must limit the number of receivers, because a few bytes can encode any number of equal ones. Blocks of
+/// 16384 receivers are decoded on `threads` threads (0: all).
 std::vector<std::uint32_t> decode_words(const WordCode& code, const WordLayout& layout,
                                         std::span<const EarlierNeighbors> neighbors, int threads = 0);
 

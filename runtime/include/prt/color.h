@@ -16,6 +16,7 @@ Real luminance(const glm::vec<3, Real>& rgb) {
     return glm::dot(rgb, glm::vec<3, Real>(kLuminance));
 }
 
+/// Returns whether red, green and blue are equal.
 inline bool is_grey(const glm::vec3& rgb) {
     return rgb.r == rgb.g && rgb.g == rgb.b;
 }

@@ -17,6 +17,7 @@ struct Image {
     int width = 0, height = 0;
     std::vector<glm::vec3> pixels; ///< [height][width]
 
+    /// Returns the pixel in column `x` of row `y`.
     const glm::vec3& at(int x, int y) const {
         return pixels[static_cast<std::size_t>(y) * static_cast<std::size_t>(width) +
                       static_cast<std::size_t>(x)];
@@ -24,6 +25,7 @@ struct Image {
     glm::vec3& at(int x, int y) { return const_cast<glm::vec3&>(static_cast<const Image&>(*this).at(x, y)); }
 };
 
+/// Mapping from the pixels of an environment map to directions.
 enum class EnvironmentLayout {
     lat_long, ///< any size; top row +Y; `LatLongCenter` defines the center column
     cube,     ///< OpenEXR: faces +X -X +Y -Y +Z -Z in a column, border texels centered on the cube's edges
@@ -42,6 +44,7 @@ enum class LatLongCenter {
     x, ///< +X, and -Z is a quarter of the width to the left: three.js, glTF viewers, Blender
 };
 
+/// An environment map: radiance from every direction.
 struct Environment {
     Image image;
     EnvironmentLayout layout = EnvironmentLayout::lat_long;
@@ -59,8 +62,8 @@ enum class BadPixels {
     clamp, ///< NaN and negative become 0, +infinity the largest finite value of the image
 };
 
-/// Repairs pixels with a NaN, infinite or negative component as `policy` specifies. Returns their number.
-/// Throws `Error` under `BadPixels::error` if there are any.
+/// Repairs pixels that have a NaN, infinite or negative component, as `policy` specifies. Returns the number
+/// of these pixels. Throws `Error` under `BadPixels::error` if there are any.
 std::size_t repair_pixels(Image& image, BadPixels policy);
 
 /// Returns the unit direction at pixel position (x, y), where pixel i covers [i, i + 1]; the center looks at
@@ -85,16 +88,19 @@ glm::dvec3 angular_direction(double u, double v);
 /// Returns bilinearly filtered radiance in unit direction `direction`. The environment must pass
 /// `check_environment`. A direction that is not finite yields the radiance of an arbitrary pixel.
 glm::vec3 sample(const Environment& environment, const glm::vec3& direction);
+/// Returns bilinearly filtered radiance of a lat-long image whose center looks at +Z, in unit direction
+/// `direction`.
 glm::vec3 sample_lat_long(const Image& image, const glm::vec3& direction);
 
 /// Returns the environment as a lat-long image whose center looks at +Z. An environment in that layout is
-/// copied; others are resampled by `sample` at about their resolution. Throws as `check_environment`.
+/// copied; others are resampled by `sample` at about their resolution. Throws the errors of
+/// `check_environment`.
 Image resampled_lat_long(const Environment& environment);
 
 /// Projects the environment, piecewise constant over its texels, into SH. The basis is integrated over each
 /// texel instead of evaluated at its center, so that an image of one pixel is exactly a constant light. Sums
-/// are in double, row by row in a fixed order: the result does not depend on `threads` (0: all). Throws as
-/// `check_environment` and `check_light`.
+/// are in double, row by row in a fixed order: the result does not depend on `threads` (0: all). Throws the
+/// errors of `check_environment` and `check_light`.
 Light project(const Environment& environment, int order, int threads = 0);
 
 } // namespace prt

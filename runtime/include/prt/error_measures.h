@@ -1,7 +1,7 @@
 #pragma once
 
-// The error measures of docs/math.md, section 6. They throw `Error` for numbers that are not finite. A
-// relative error is infinite if the reference is black and the error is not zero. Experimental.
+// The error measures of docs/math.md, section 6. All functions throw `Error` for numbers that are not finite.
+// A relative error is infinite if the reference is black and the error is not zero. Experimental.
 
 #include "prt/adjacency.h"
 #include "prt/light.h"
@@ -13,15 +13,16 @@
 
 namespace prt {
 
-/// Returns sqrt( sum_p a_p |T_p - T'_p|² / sum_p a_p |T_p|² ); 0 when both sums are zero. A grey transfer is
-/// compared with a colored one as three equal channels. Transfers with different terms are compared after
-/// `as_combined`. Throws `Error` if receivers, orders or lamps differ.
+/// Returns the relative L2 error of transfer vectors, weighted by area: sqrt( sum_p a_p |T_p - T'_p|² / sum_p
+/// a_p |T_p|² ); 0 if both sums are zero. A grey transfer is compared with a colored one as three equal
+/// channels. Transfers with different terms are compared after `as_combined`. Throws `Error` if receivers,
+/// orders or lamps differ.
 double relative_l2(const TransferView& reference, const TransferView& approximation,
                    std::span<const float> areas);
 
-/// Returns sqrt( sum_p a_p c_p² / sum_p a_p ), c_p = |T_p - T'_p| / (|T_p| + T_a) with T_a the adaptation to
-/// |T_p|: the expected contrast error under light with independent coefficients of equal variance. Channels
-/// and errors as for `relative_l2`.
+/// Returns the expected contrast error under light with independent coefficients of equal variance: sqrt(
+/// sum_p a_p c_p² / sum_p a_p ), c_p = |T_p - T'_p| / (|T_p| + T_a). T_a is the `adaptation_luminance` of all
+/// |T_p|. Treats channels and throws `Error` like `relative_l2`.
 double transfer_contrast(const TransferView& reference, const TransferView& approximation,
                          std::span<const float> areas);
 
@@ -39,7 +40,7 @@ inline constexpr double kAdaptationShare = 0.1;
 /// of it. Returns 0 if nothing is lit.
 double adaptation_luminance(std::span<const double> luminances, std::span<const float> areas);
 
-/// Jumps of an error along edges. The weight of an edge is the area of its two ends.
+/// Statistics of the jumps of an error along edges. The weight of an edge is the area of its two ends.
 struct EdgeJumps {
     std::size_t edges = 0;
     double rms = 0;
@@ -51,18 +52,19 @@ struct EdgeJumps {
 EdgeJumps edge_jumps(std::span<const Edge> edges, std::span<const double> jumps,
                      std::span<const float> areas);
 
-/// Contrast errors of receivers, with Y_a as in `VisibleError`; infinite if there is an error and no light at
-/// all.
+/// Contrast errors of receivers (docs/math.md, eq. 33b), with Y the luminance of R and Y_a the adaptation
+/// luminance. Infinite where there is an error although no receiver is lit.
 struct ContrastErrors {
     double adaptation = 0;          ///< Y_a; 0 if nothing is lit
     std::vector<double> magnitudes; ///< [receivers] |R - R'| / (Y + Y_a), channels weighted as in luminance
     std::vector<double> luminances; ///< [receivers] (Y - Y') / (Y + Y_a)
 };
-/// Computes contrast errors. `shown` is the radiance of the picture, if it is not `reference` alone.
+/// Computes contrast errors of exit radiance `approximation` against `reference`, all [receivers]. `shown`:
+/// total radiance of the picture, from which Y and Y_a are computed; empty: `reference`.
 ContrastErrors contrast_errors(std::span<const glm::vec3> reference, std::span<const glm::vec3> approximation,
                                std::span<const float> areas, std::span<const glm::vec3> shown = {});
 
-/// Errors as a viewer sees them: contrast c = |R - R'| / (Y + Y_a), channels weighted as in luminance, with Y
+/// Errors as a person sees them: contrast c = |R - R'| / (Y + Y_a), channels weighted as in luminance, with Y
 /// the luminance of R and Y_a a tenth of its logarithmic mean over the lit area (docs/math.md, eq. 33b).
 /// Percentiles are weighted by area.
 struct VisibleError {
@@ -73,6 +75,7 @@ struct VisibleError {
     EdgeJumps seams = {};            ///< jumps of (Y - Y') / (Y + Y_a) along edges between two clusters
 };
 
+/// Errors of exit radiance under one lighting, weighted by area.
 struct LitError {
     double rms = 0;            ///< `lit_rms`
     double mean = 0;           ///< mean R, weighted by area, over the channels
@@ -87,7 +90,7 @@ struct LitError {
     VisibleError visible;
 };
 
-/// Reference level to which errors of exit radiance are relative.
+/// Levels of the reference to which errors of exit radiance are relative.
 struct LitScale {
     double mean_square = 0; ///< mean of |R|² over the receivers, weighted by area, summed over three channels
     double mean = 0;        ///< mean of R over the channels, weighted by area
@@ -98,10 +101,10 @@ struct LitScale {
 /// Computes the means of `reference`; `shown` is left empty.
 LitScale lit_scale(std::span<const glm::vec3> reference, std::span<const float> areas);
 
-/// Computes errors of exit radiance `approximation` against `reference`, both [receivers]. If `clusters`
-/// [receivers] is present, jumps are measured along `edges`. Errors are relative to `scale` instead of
-/// `reference` if it is set: this is for one of many lights, under which almost nothing may be lit.
-/// `darker_half_rms` ignores `scale`.
+/// Computes errors of exit radiance `approximation` against `reference`, both [receivers]. Measures jumps
+/// along `edges` if `clusters` [receivers] has a value. Errors are relative to the level of `scale` if it is
+/// set, otherwise to that of `reference`. Set `scale` if the lighting is one of many and may leave almost
+/// everything dark. `darker_half_rms` ignores `scale`.
 LitError lit_error(std::span<const glm::vec3> reference, std::span<const glm::vec3> approximation,
                    std::span<const float> areas, std::span<const Edge> edges,
                    std::optional<std::span<const std::uint16_t>> clusters,

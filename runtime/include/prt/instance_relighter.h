@@ -39,9 +39,9 @@ struct RelitInstance {
 /// Computes constants for instances. Immutable, thread-safe.
 class InstanceRelighter {
 public:
-    /// `yaws`: number of rotations about +Y for which the lighting is rotated; upright instances are rounded
-    /// to the nearest one. 0: each distinct rotation is used exactly. Throws `Error` for transfer of lamps or
-    /// of several outputs, and for constants of more than 4 GB.
+    /// Copies the required data. `yaws`: number of equally spaced rotations about +Y; an upright instance
+    /// uses the nearest one for its lighting. 0: each distinct rotation is used exactly. Throws `Error` for
+    /// transfer of lamps or of several outputs, and for constants of more than 4 GB.
     InstanceRelighter(const ClusteredTransfer& transfer, std::span<const RelitInstance> instances,
                       int yaws = 64);
 
@@ -49,11 +49,12 @@ public:
     std::size_t size() const { return size_; }
     /// Maximum error of the rotation of an instance's lighting, in degrees.
     double max_degrees() const { return rotations_.max_degrees; }
-    /// Returns the attributes of each instance, [instances][2]: the center of its box, and the inverse half
-    /// widths. The two w hold the offset of its constants, 16 bits each.
+    /// Returns the attributes of each instance, [instances][2]: in xyz the center of its box, then the
+    /// inverse half widths. The offset of its constants is split: the first w is the value of its low 16
+    /// bits, the second w that of its high 16 bits, both as floats.
     std::vector<glm::vec4> table() const;
-    /// Writes the constants of all instances, [size()]. Throws `Error` for lamps, and if the lighting has
-    /// fewer bands than the transfer.
+    /// Computes the constants of all instances for `lighting` and writes them to `constants` [size()]. Throws
+    /// `Error` for lamps, and if the lighting has fewer bands than the transfer.
     void update(const Lighting& lighting, std::span<glm::vec4> constants, int threads = 0) const;
 
 private:
@@ -62,7 +63,7 @@ private:
     InstanceRotations rotations_;
     std::vector<RelitInstance> instances_;
     std::vector<std::size_t> begins_;            ///< [instances] index of their first constant
-    std::vector<std::vector<std::uint32_t>> of_; ///< [turns] instances with each rotation
+    std::vector<std::vector<std::uint32_t>> of_; ///< [rotations] instances with each rotation
     std::size_t size_ = 0;
 };
 

@@ -9,7 +9,7 @@
 // Each frame:
 //     modes.lightings(lighting)                      // once for all instances
 // Then per vertex:
-//     R = sum over modes of factor(instance, place) R_mode
+//     R = sum over modes of factor(instance, position) R_mode
 // R_mode is the vertex's exit radiance under the lighting of that mode, rotated into the frame of the
 // instance. prt/instance_relighter.h folds the factors into constants for shaders. Experimental.
 
@@ -54,8 +54,9 @@ struct InstanceFactors {
 /// Returns the factors of an unoccluded instance: it is lit exactly as its mesh was baked.
 InstanceFactors open_factors();
 
-/// Converts factors to numbers [kInstanceNumbers]: first passing, then added.
+/// Returns the factors as one array of numbers: first `passing`, then `added`.
 std::array<float, kInstanceNumbers> numbers_of(const InstanceFactors& factors);
+/// Returns the factors from an array of `numbers_of`, [kInstanceNumbers].
 InstanceFactors factors_of(std::span<const float> numbers);
 
 /// Factors in bytes, as stored in files: number j is that of `open_factors` plus scales[j] times its byte.
@@ -63,9 +64,10 @@ struct CodedFactors {
     std::array<float, kInstanceNumbers> scales{}; ///< not negative
     std::vector<std::int8_t> bytes;               ///< [instances][kInstanceNumbers]
 };
-/// Rounds factors to the nearest code. Throws `Error` for factors that are not finite or exceed
-/// `kMaxInstanceFactor`.
+/// Codes the factors of all instances, each rounded to the nearest step. Throws `Error` for factors that are
+/// not finite or exceed `kMaxInstanceFactor`.
 CodedFactors coded(std::span<const InstanceFactors> factors);
+/// Returns the factors of all instances.
 std::vector<InstanceFactors> decoded(const CodedFactors& coded);
 
 /// Bounding box of a mesh in the frame of the mesh.
@@ -107,8 +109,8 @@ private:
 /// Transfer of a mesh under each mode.
 class SharedTransfer {
 public:
-    /// `transfer` has the receivers of the mesh, in the frame of the mesh, as has `up`. Throws `Error` for
-    /// lamps and for several outputs.
+    /// Precomputes the modes. `transfer`: transfer of the mesh's receivers. `transfer` and `up` are in the
+    /// frame of the mesh. Throws `Error` for lamps and for several outputs.
     SharedTransfer(const Transfer& transfer, const glm::dvec3& up, int threads = 0);
 
     const TransferLayout& layout() const { return layout_; }
@@ -124,7 +126,7 @@ public:
     }
     std::span<const float> level() const { return modes_.level(); }
     /// Computes the transfer vector of a receiver for given mode factors in axes of the mesh. The added modes
-    /// go into the last part, because reflected light is not direct.
+    /// go into the last term, because reflected light is not direct; they are left out if that is `direct`.
     void sum(std::size_t receiver, std::span<const glm::vec3> factors, std::span<float> vector) const;
 
 private:
@@ -134,9 +136,11 @@ private:
     std::vector<std::array<glm::vec3, kAddedModes>> responses_;
 };
 
-/// Converts factors from axes of the world to axes of the mesh, or back. `rotation` maps the mesh's frame to
-/// the world's.
+/// Converts factors from axes of the world to axes of the mesh. `rotation` maps the mesh's frame to the
+/// world's.
 InstanceFactors in_axes_of_mesh(const InstanceFactors& factors, const glm::dmat3& rotation);
+/// Converts factors from axes of the mesh to axes of the world. `rotation` maps the mesh's frame to the
+/// world's.
 InstanceFactors in_axes_of_world(const InstanceFactors& factors, const glm::dmat3& rotation);
 
 /// Position and factors of one instance of a mesh.
@@ -160,15 +164,16 @@ struct InstanceRotations {
     double max_degrees = 0;            ///< maximum angle between an instance's rotation and its assigned
                                        ///< rotation
 };
-/// Groups rotations. Rotations about +Y are rounded to `bins` evenly spaced yaws. All others, and all if
-/// `bins` is 0, share a rotation only if they differ by at most `degrees`.
+/// Groups rotations. Rotations about +Y are rounded to `bins` equally spaced ones. Other rotations share an
+/// entry only if they differ by at most `degrees`; so do all rotations if `bins` is 0.
 InstanceRotations instance_rotations(std::span<const glm::dmat3> rotations, int bins, double degrees = 0.01);
 
 /// Rotates the lightings of all modes into the mesh frame of a rotation, for the constants of instances.
 std::array<Lighting, kInstanceModes> rotated_into(const glm::dmat3& rotation,
                                                   std::array<Lighting, kInstanceModes> lightings);
 
-/// Computes the exit radiance of a vertex for albedo 1; `of_modes` is its radiance under each mode.
+/// Computes the exit radiance of a vertex for albedo 1. `position`: relative position in the box; `of_modes`:
+/// exit radiance of the vertex under each mode.
 glm::vec3 exit_radiance(const InstanceFactors& factors, const glm::vec3& position,
                         std::span<const glm::vec3, kInstanceModes> of_modes);
 

@@ -17,6 +17,7 @@ struct Light {
     std::vector<glm::vec3> coefficients; ///< [order²] of RGB
 };
 
+/// Filter that scales the bands of a lighting to reduce ringing: `windowed`.
 enum class Window { none, hann, lanczos, automatic };
 
 /// Returns light of radiance `radiance` from every direction.
@@ -68,12 +69,12 @@ glm::vec3 radiance(const Light& light, const glm::vec3& direction);
 /// Returns the first `order` bands of `light`. Throws `Error` if `light` has fewer.
 Light truncated(const Light& light, int order);
 
-/// Returns `light` rotated about +Y by `angle` radians, counter-clockwise seen from above: after a quarter
-/// turn, light from +Z comes from +X.
+/// Returns `light` rotated about +Y by `angle` radians, counter-clockwise seen from above: a rotation by pi/2
+/// moves light from +Z to +X.
 Light rotated_about_y(const Light& light, double angle);
 
-/// Scales the bands by a window. Hann and Lanczos use width `order`; `automatic` is the weakest filter for
-/// which the radiance is nowhere negative, possibly none: `deringed` of prt/dering.h.
+/// Returns `light` with its bands scaled by a window. Hann and Lanczos use width `order`. `automatic` is the
+/// weakest filter that makes the radiance non-negative everywhere, possibly none: `deringed` of prt/dering.h.
 Light windowed(const Light& light, Window window);
 
 } // namespace prt

@@ -33,7 +33,7 @@ struct LightmapPlacement {
 /// Layout of all lightmaps; texels are numbered map by map.
 struct LightmapLayout {
     std::vector<LightmapSize> maps;
-    std::vector<LightmapPlacement> positions; ///< [primitives of the scene]
+    std::vector<LightmapPlacement> positions; ///< [primitives of the scene] map and UV set of each
 
     std::size_t texels() const;
     /// Returns the number of the first texel of each map, and the total number of texels: [maps + 1].
@@ -41,8 +41,8 @@ struct LightmapLayout {
     friend bool operator==(const LightmapLayout&, const LightmapLayout&) = default;
 };
 
-/// Lightmaps as produced by a bake. Receivers are the texels that charts touch, and the adjacent texels that
-/// filters read.
+/// Lightmaps as a bake produces them. Receivers are the texels that charts touch, and the adjacent texels
+/// that bilinear filters read.
 struct BakedLightmap {
     LightmapLayout layout;
     std::vector<std::uint32_t> texels; ///< [receivers] in ascending order
@@ -55,7 +55,7 @@ struct BakedLightmap {
     BakedTransfer baked;
 };
 
-/// Lightmaps as loaded by a game. Receivers are all texels.
+/// Lightmaps as a game loads them. Receivers are all texels.
 struct CompressedLightmap {
     LightmapLayout layout;
     CompressedTransfer compressed;
@@ -68,12 +68,13 @@ struct SeamJump {
     std::array<float, 8> weights;
 };
 
-/// Returns the pairs of receivers whose light must match: adjacent texels, and the two sides of seams.
+/// Returns the pairs of receivers whose light must match: adjacent ones among `texels` [receivers], and the
+/// pairs of `seams`.
 std::vector<Edge> lightmap_edges(const LightmapLayout& layout, std::span<const std::uint32_t> texels,
                                  std::span<const Edge> seams);
 
-/// Returns for every texel of a map the index of a near entry in `texels`, which are numbered from the first
-/// texel of the map; [size.texels()]. A texel in `texels` returns its own index. Returns 0 everywhere if
+/// Returns for each texel of a map the index of a nearby entry of `texels`, [size.texels()]. Entries are
+/// texel numbers within the map. A texel that is in `texels` gets its own index. Returns 0 everywhere if
 /// `texels` is empty.
 std::vector<std::uint32_t> nearest_receivers(const LightmapSize& size, std::span<const std::uint32_t> texels);
 
@@ -82,6 +83,8 @@ struct BilinearTexels {
     std::uint32_t texels[4]; ///< number within the map
     double weights[4];
 };
+/// Returns the texels of the bilinear sample at (x, y), in texels from the corner of the map; texel i has its
+/// center at i + 0.5. Positions outside the map repeat if `size.repeats`, otherwise they are clamped.
 BilinearTexels bilinear_texels(const LightmapSize& size, double x, double y);
 
 } // namespace prt

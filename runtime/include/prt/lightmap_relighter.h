@@ -2,14 +2,13 @@
 
 // The per-lighting work of a game with lightmaps: computes the radiance of all texels in a texture format.
 //
-//     LightmapRelighter relighter(lightmap, LightmapFormat::rgb9e5);         // once per model
+//     LightmapRelighter relighter(lightmap, LightmapFormat::rgb9e5);    // once per model
 //     std::vector<std::byte> texels(relighter.bytes(map));
-//     constants.update(light, formed);                                   // prt/cluster_lighting.h
-//     relighter.update(map, formed, texels);                                // when the lighting changes;
-//     then upload
+//     clusters.update(light, constants);        // ClusterLighting of prt/cluster_lighting.h
+//     relighter.update(map, constants, texels); // when the lighting changes; then upload
 //
-// Bind the texture to the lightmap slot of an engine. It holds exit radiance for albedo 1, to be multiplied
-// with the albedo. Slots that expect irradiance need pi times the value. Experimental.
+// Bind the texture to the lightmap slot of an engine. It contains exit radiance for albedo 1; the shader
+// multiplies it by the albedo. Slots that expect irradiance need pi times the value. Experimental.
 
 #include "prt/lightmap.h"
 
@@ -30,6 +29,7 @@ enum class LightmapFormat {
     rgba16,    ///< half floats, alpha 1, up to 65 504
 };
 
+/// Returns the size of a texel in bytes.
 std::size_t bytes_per_texel(LightmapFormat format);
 
 /// Mip level of a texture: half the size of the previous level, rounded down, at least 1.
@@ -45,9 +45,9 @@ public:
     /// Keeps a reference to `lightmap`, whose weights must be packed.
     LightmapRelighter(const CompressedLightmap& lightmap, LightmapFormat format);
 
-    /// Mip levels from full size down to one texel.
+    /// Returns the mip levels of a map, from full size down to one texel.
     std::span<const LightmapLevel> levels(std::size_t map) const { return levels_[map]; }
-    /// Size of all levels of a map in bytes.
+    /// Returns the size of all levels of a map in bytes.
     std::size_t bytes(std::size_t map) const;
 
     /// Writes all levels, in order and row by row, to `texels` [bytes(map)]. Each texel of a level is the
@@ -61,6 +61,7 @@ public:
     /// `update_smaller_levels` for the remaining levels when all rows are written.
     void update_rows(std::size_t map, std::span<const glm::vec4> constants, int first, int last,
                      std::span<std::byte> texels) const;
+    /// Computes all levels from the third on, after `update_rows` has written all rows of the first two.
     void update_smaller_levels(std::size_t map, std::span<std::byte> texels) const;
 
 private:

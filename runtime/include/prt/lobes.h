@@ -5,11 +5,11 @@
 // radiance transfer", 2005). Fitted by prt/lobe_fit.h, written to files by prt/lobe_gltf.h, and evaluated
 // here and by shaders/prt_lobes.glsl. Experimental.
 //
-//     const glm::mat3 turn = axis_rotation(skin_matrix);               // of the vertex, in this frame
+//     const glm::mat3 rotation = axis_rotation(skin_matrix); // blended skin matrix of the vertex
 //     std::array<Lobe, kMaxLobes> lobes;
 //     model.decode(vertex, lobes);
 //     for (Lobe& lobe : lobes)
-//         lobe.axis = rotated_axis(lobe.axis, turn);
+//         lobe.axis = rotated_axis(lobe.axis, rotation);
 //     const glm::vec3 radiance = albedo * lobe_radiance(lobes, light, model.order);
 
 #include "prt/support/glm_layout.h"
@@ -25,10 +25,11 @@
 
 namespace prt {
 
+/// Maximum number of lobes per vertex, and of profiles per model.
 inline constexpr std::size_t kMaxLobes = 3, kMaxProfiles = 256;
 /// Maximum number of bands of a lobe: a vec4 in shaders, and the maximum order of incident light of a volume.
 inline constexpr int kMaxLobeOrder = 4;
-/// Maximum magnitude of a profile coefficient in files; the sum of all bounces is a small number.
+/// Maximum magnitude of a profile coefficient in files. Valid values are far smaller, even with all bounces.
 inline constexpr float kMaxGain = 1e3f;
 
 /// Response of a lobe to the light of each band, 0 beyond the order. The cosine lobe of an unoccluded
@@ -49,6 +50,7 @@ using LobeWord = std::array<std::uint8_t, 4>;
 /// independent unit vectors"). Byte 127 is 0 and 254 is 1, so that the six axes are exact. The maximum error
 /// is 0.95 degrees.
 std::array<std::uint8_t, 2> coded_axis(const glm::vec3& unit);
+/// Returns the unit vector of `coded_axis`.
 glm::vec3 decoded_axis(std::uint8_t x, std::uint8_t y);
 
 /// The lobes of all vertices of a file.
@@ -59,6 +61,7 @@ struct LobeModel {
     std::vector<LobeWord> words; ///< [vertices][lobes], axes in the frame of the vertex normals
 
     std::size_t vertices() const { return lobes == 0 ? 0 : words.size() / lobes; }
+    /// Returns the lobe of a stored word.
     Lobe decode(const LobeWord& word) const;
     /// Writes the lobes of a vertex to `to`, [lobes or more]; additional entries have zero profiles.
     void decode(std::size_t vertex, std::span<Lobe> to) const;

@@ -34,20 +34,24 @@ struct BlockedCap {
     float density = 0;          ///< blocked fraction of the cap, 0..1
 };
 
-/// Builds the cap from the blocked fraction of all directions, 0..1, and from `blocked_direction`, the mean
-/// blocked direction over (1 - blocked): length 1 for a full cap, less for scattered occluders.
+/// Builds the cap from `blocked`, the blocked fraction of all directions, 0..1, and from `blocked_direction`,
+/// the mean of the blocked directions divided by 1 - blocked. The latter has length 1 if the blocked
+/// directions fill a cap, and is shorter if they are scattered.
 BlockedCap cap_of(float blocked, const glm::vec3& blocked_direction);
 
 /// Returns the fraction of uniform incident light, 0..1, that the cap blocks for a receiver with the given
 /// unit normal, weighted by the cosine. The part of the cap below the horizon blocks nothing.
 float blocked_cosine(const BlockedCap& cap, const glm::vec3& normal);
 
-/// Returns the blocked fraction of a sun with that half angle, in radians. The border of the cap is soft,
-/// because it is not an outline of the object.
+/// Returns the fraction of a sun that the cap blocks, 0..1. `towards_sun`: unit direction to its center;
+/// `half_angle`: its half angle in radians. The border of the cap is soft, because it is not an outline of
+/// the object.
 float blocked_sun(const BlockedCap& cap, const glm::vec3& towards_sun, float half_angle);
 
-/// Stored point of a volume: blocked direction · 127, and 254 sqrt(blocked) - 127.
+/// Stored values at one point of a volume, as signed bytes: 127 times each component of `blocked_direction`,
+/// then 127 (2 sqrt(blocked) - 1).
 using OccluderTexel = std::array<std::int8_t, 4>;
+/// Returns the stored values for the arguments of `cap_of`.
 OccluderTexel occluder_texel(float blocked, const glm::vec3& blocked_direction);
 
 /// Occlusion volume in the frame of an object.
@@ -72,15 +76,16 @@ struct PlacedOccluder {
     float reach() const { return half.w; }
 };
 
-/// Transforms an occluder. `to_world` rotates, translates and scales the object's frame. Under non-uniform
-/// scale the directions are approximate: `blocked_direction` transforms like a normal.
+/// Returns the occluder `volume` at its position in the world. `to_world` rotates, translates and scales the
+/// object's frame; `slot` is the index in `occluder_texture`. Under non-uniform scale the blocked directions
+/// are approximate, because they are transformed like normals.
 PlacedOccluder placed(const OcclusionVolume& volume, const glm::mat4& to_world, std::size_t slot);
 
-/// Returns the directions that the object blocks at a position in the world.
+/// Returns the cap of directions that the object blocks as seen from `position` in the world.
 BlockedCap blocked_at(const OcclusionVolume& volume, const PlacedOccluder& where, const glm::vec3& position);
 
-/// Returns the occluders whose reach intersects a box, nearest to its center first, at most `most`: the list
-/// of a frame for the geometry in the box. Indices into `placed`.
+/// Returns the indices in `placed` of up to `most` occluders whose reach intersects the box from `low` to
+/// `high`, nearest to its center first. The shader gets this list when the geometry in the box is drawn.
 std::vector<std::uint32_t> occluders_near(std::span<const PlacedOccluder> placed, const glm::vec3& low,
                                           const glm::vec3& high, std::size_t most);
 

@@ -32,9 +32,11 @@ void clamped_cosine_lobe(int order, const glm::dvec3& normal, std::span<double> 
 /// Returns the convolution factor A_l / pi of the clamped cosine for band l, any l >= 0.
 double clamped_cosine_factor(int l);
 
-/// Return the factor of band l of windows that reduce ringing (Sloan 2008, "Stupid SH Tricks"). `width` is
-/// the band at which the factor reaches 0.
+/// Returns the factor of band l of the Hann window, which reduces ringing (Sloan 2008, "Stupid SH Tricks").
+/// `width` is the band at which the factor reaches 0.
 double hann_window(int l, double width);
+/// Returns the factor of band l of the Lanczos window, which reduces ringing (Sloan 2008, "Stupid SH
+/// Tricks"). `width` is the band at which the factor reaches 0.
 double lanczos_window(int l, double width);
 
 } // namespace prt

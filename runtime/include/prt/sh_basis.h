@@ -13,6 +13,7 @@ namespace prt {
 /// Maximum order N; bands are l = 0..N-1.
 inline constexpr int kMaxOrder = 10;
 
+/// Returns the number of coefficients of `order` bands, order².
 constexpr int coefficient_count(int order) {
     return order * order;
 }

@@ -19,23 +19,25 @@ void flip_condon_shortley(int order, std::span<glm::vec3> coefficients);
 /// Returns the nine coefficients of three.js's `SphericalHarmonics3` for `LightProbe`: radiance, no
 /// Condon-Shortley phase. Throws `Error` for lighting of fewer than three bands.
 std::array<glm::vec3, 9> to_three_js(const Light& light);
+/// Returns three bands of lighting from the coefficients of three.js.
 Light from_three_js(const std::array<glm::vec3, 9>& coefficients);
 
 /// Returns `irradianceCoefficients` of glTF's `EXT_lights_image_based`: irradiance instead of radiance
 /// (convolved with the clamped cosine), no Condon-Shortley phase, in the order L00, L1-1, L10, L11, L2-2, ..
-/// L22, which prtkit uses too. Throws as `to_three_js`.
+/// L22, which is also the order of prtkit. Throws `Error` for lighting of fewer than three bands.
 std::array<glm::vec3, 9> to_gltf_irradiance(const Light& light);
-/// Returns three bands of radiance: the irradiance coefficients divided by the convolution factors.
+/// Returns three bands of lighting from the irradiance coefficients of glTF, by division by the convolution
+/// factors.
 Light from_gltf_irradiance(const std::array<glm::vec3, 9>& coefficients);
 
-/// Returns D3DX's `D3DXSHEvalDirectionalLight` with its scale (docs/conventions.md): a receiver of albedo 1
-/// that faces the light has exit radiance `intensity`, evaluated with `order` bands.
+/// Returns the light of D3DX's `D3DXSHEvalDirectionalLight`, with its scale (docs/conventions.md): a receiver
+/// of albedo 1 that faces the light has exit radiance `intensity`, evaluated with `order` bands.
 Light d3dx_directional_light(int order, const glm::vec3& towards, const glm::vec3& intensity);
-/// Returns D3DX's `D3DXSHEvalConeLight`: radiance intensity / sin²(min(half_angle, pi/2)). With all bands, a
-/// receiver of albedo 1 that faces the light would have exit radiance `intensity`. Throws as `cone_light`,
-/// and for a half angle of 0.
+/// Returns the light of D3DX's `D3DXSHEvalConeLight`: radiance intensity / sin²(min(half_angle, pi/2)). With
+/// all bands, a receiver of albedo 1 that faces the light would have exit radiance `intensity`. Throws the
+/// errors of `cone_light`, and `Error` for a half angle of 0.
 Light d3dx_cone_light(int order, const glm::vec3& axis, double half_angle, const glm::vec3& intensity);
-/// Returns D3DX's `D3DXSHEvalHemisphereLight`: 3/2 of the radiance of `hemisphere_light`.
+/// Returns the light of D3DX's `D3DXSHEvalHemisphereLight`: 3/2 of the radiance of `hemisphere_light`.
 Light d3dx_hemisphere_light(int order, const glm::vec3& up, const glm::vec3& top, const glm::vec3& bottom);
 
 } // namespace prt

@@ -20,10 +20,10 @@ inline constexpr double kRotationTolerance = 2e-3;
 
 /// Rotates SH vectors: for a function f with coefficients c, the result has f'(w) = f(R^-1 w). Bands 1 and 2
 /// are a vector and a quadratic form, which R rotates directly. For higher bands R is decomposed into R_z R_y
-/// R_z, and R_y into quarter turns about x and another R_z (docs/math.md, eq. 4). Rotations about z are
-/// products with cosines and sines; the quarter turns are constant and three quarters of their elements are
-/// zero. All arithmetic is in double, so that ten thousand steps lose no visible precision. Small, allocates
-/// nothing, thread-safe; serves every order up to that of the constructor.
+/// R_z, and R_y into rotations by 90 degrees about x and another R_z (docs/math.md, eq. 4). Rotations about z
+/// are products with cosines and sines; the rotations by 90 degrees are constant matrices, and three quarters
+/// of their elements are zero. All arithmetic is in double, so that ten thousand steps lose no visible
+/// precision. Small, allocates nothing, thread-safe; serves every order up to that of the constructor.
 class ShRotation {
 public:
     /// Throws `Error` for an order outside 1..kMaxOrder and for matrices that are not rotations within
@@ -41,7 +41,7 @@ public:
     /// Rotates [order²] coefficients; `in` and `out` may be the same.
     void apply(std::span<const float> in, std::span<float> out) const;
     void apply(std::span<const double> in, std::span<double> out) const;
-    /// Rotates RGB coefficients [order²] in place: three functions for little more than the cost of one.
+    /// Rotates RGB coefficients [order²] in place. Three channels together cost little more than one.
     void apply(std::span<glm::vec3> coefficients) const;
     /// Rotates RGB coefficients [order²]; `in` and `out` may be the same.
     void apply(std::span<const glm::vec3> in, std::span<glm::vec3> out) const;

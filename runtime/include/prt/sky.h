@@ -14,7 +14,8 @@ namespace prt {
 class PreethamSky {
 public:
     /// `turbidity` is 2 (clear) to 10 (haze), the range for which the model was fitted; values from 1.7 are
-    /// accepted. `sun` is the unit direction to the sun, not below the horizon. Throws `Error` otherwise.
+    /// accepted. `sun` is the unit direction to the sun, not below the horizon. Throws `Error` for other
+    /// values.
     PreethamSky(double turbidity, const glm::dvec3& sun);
 
     /// Returns the radiance in unit direction `direction`; black below the horizon.

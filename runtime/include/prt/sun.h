@@ -18,10 +18,10 @@ struct Sun {
     double half_angle = 0;         ///< radians
 };
 
-/// Returns a sun as SH coefficients (docs/math.md, eq. 14), for transfer after at least one bounce. Throws
-/// `Error` for a half angle outside 0..pi/2 and for values that are not finite.
+/// Returns a sun as SH coefficients (docs/math.md, eq. 14), for `Lighting::suns`. Throws `Error` for a half
+/// angle outside 0..pi/2 and for values that are not finite.
 Light as_light(const Sun& sun, int order);
-/// Returns the sum of the suns.
+/// Returns the sum of all `suns` as SH coefficients, for `Lighting::suns`.
 Light as_light(std::span<const Sun> suns, int order);
 
 } // namespace prt

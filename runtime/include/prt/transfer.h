@@ -13,8 +13,8 @@
 
 namespace prt {
 
-/// Maximum magnitude of a transfer coefficient in files. Light after many bounces adds up to a small number;
-/// for much larger values the squares and sums of lit values would overflow a float.
+/// Maximum magnitude of a transfer coefficient in files. Valid coefficients are far smaller, even with many
+/// bounces. With much larger values, squares and sums of lit values would overflow a float.
 inline constexpr float kMaxTransfer = 1e6f;
 
 /// The transfer vectors of a list of receivers: exit radiance of a Lambertian receiver of albedo rho is R_c =
@@ -33,32 +33,36 @@ struct Transfer {
     }
 };
 
+/// Returns transfer of `receivers` receivers with all coefficients 0.
 inline Transfer zero_transfer(TransferLayout layout, std::size_t receivers) {
     Transfer transfer{std::move(layout), {}};
     transfer.vectors.resize(receivers * transfer.dimension());
     return transfer;
 }
-/// Returns zero transfer with a single term.
+/// Returns transfer with a single term and all coefficients 0.
 inline Transfer zero_transfer(int order, int channels, std::size_t receivers) {
     return zero_transfer(layout_of_one(order, channels), receivers);
 }
 
-/// Returns the sum over all terms of one transfer vector [layout.dimension()], lit by `columns`, the result
-/// of `light_columns`. The single channel of a grey term is used for all colors.
+/// Returns the exit radiance for albedo 1 of one transfer vector [layout.dimension()]: the sum over its
+/// terms. `columns` is the result of `light_columns`. The single channel of a grey term is used for all
+/// colors.
 glm::vec3 exit_radiance(std::span<const float> transfer, const TransferLayout& layout,
                         std::span<const glm::vec3> columns);
 
 /// Computes the exit radiance of every receiver for albedo 1, [receivers]. Throws `Error` if the lighting has
 /// too few bands.
 std::vector<glm::vec3> exit_radiance(const Transfer& transfer, const Lighting& lighting, int threads = 0);
-/// Computes exit radiance with all light in one sky, [receivers].
+/// Computes the exit radiance of every receiver for albedo 1, [receivers], under the sky `light` without
+/// separate suns; lamps have the strength 1.
 std::vector<glm::vec3> exit_radiance(const Transfer& transfer, const Light& light, int threads = 0);
 
-/// Merges all terms of distant light into one, with three channels if any term has color. Sky and suns then
-/// light the same term. Lamps are unchanged.
+/// Returns the layout with all terms of distant light merged into one, which has three channels if any of
+/// them has color. Sky and suns then light the same term. Lamps are unchanged.
 TransferLayout as_combined(const TransferLayout& layout);
+/// Returns transfer with all terms of distant light merged into one.
 Transfer as_combined(const Transfer& transfer, int threads = 0);
-/// Merges the terms of one vector [layout.dimension()].
+/// Returns one vector [layout.dimension()] with all terms of distant light merged into one.
 std::vector<float> as_combined(std::span<const float> transfer, const TransferLayout& layout);
 
 /// Returns the area-weighted mean of T_0 / Y_00, summed over all terms except lamps and averaged over the

@@ -1,6 +1,7 @@
 #pragma once
 
-// Layout of a transfer vector: terms that respond to different light, stored one after another. Experimental.
+// Layout of a transfer vector. Its terms respond to different kinds of light and are stored one after
+// another. Experimental.
 
 #include "prt/light.h"
 #include "prt/sh_basis.h"
@@ -24,6 +25,7 @@ enum class TermKind {
 /// Returns the identifier used in files and reports: "direct", "indirect", "combined", "lamp".
 const char* to_string(TermKind kind);
 
+/// One term of a transfer vector.
 struct TransferTerm {
     TermKind kind = TermKind::combined;
     int channels = 1;      ///< 1: grey, the same for red, green and blue; else 3
@@ -39,8 +41,8 @@ struct TransferTerm {
 /// Maximum number of lamps of a layout; a group with any number of lights counts once.
 inline constexpr std::size_t kMaxLamps = 64;
 
-/// A transfer vector is the concatenation of its terms, each [channels][columns_of(term)]. With several
-/// outputs, it is one such vector per output.
+/// Layout of a transfer vector: the concatenation of its terms, each [channels][columns_of(term)]. With
+/// several outputs the vector contains one such concatenation per output.
 struct TransferLayout {
     int order = 0;
     std::vector<TransferTerm> terms = {}; ///< at most one of each kind except lamps, in the order of
@@ -65,13 +67,14 @@ struct TransferLayout {
     std::size_t dimension() const;
     /// Returns the layout of the vector of one output.
     TransferLayout of_one_output() const { return {order, terms}; }
-    /// Number of light colors that a transfer vector is multiplied with.
+    /// Number of light colors that one output of a transfer vector is multiplied with.
     std::size_t columns() const;
-    /// Return the terms of distant light, and the lamps, which follow them.
+    /// Returns the terms of distant light, which are the first.
     std::span<const TransferTerm> distant_terms() const;
+    /// Returns the terms of lamps, which are the last.
     std::span<const TransferTerm> lamp_terms() const;
     std::size_t lamps() const { return lamp_terms().size(); }
-    /// Number of coefficients that distant light is multiplied with; they are the first of each output.
+    /// Number of coefficients of the terms of distant light in one output; they are its first ones.
     std::size_t distant_numbers() const;
 
     friend bool operator==(const TransferLayout&, const TransferLayout&) = default;
@@ -84,7 +87,8 @@ TransferLayout layout_of_one(int order, int channels, TermKind kind = TermKind::
 /// and `TransferLayout`.
 void check_layout(const TransferLayout& layout);
 
-/// The lighting of a frame. `sky` lights `direct` transfer; `sky` and `suns` light all other distant terms.
+/// The lighting of a frame. The `direct` term is lit by `sky` only; all other terms of distant light are lit
+/// by `sky` and `suns`.
 struct Lighting {
     Light sky;
     /// Suns that the renderer adds to direct light with sharp shadows, as the sum of their `as_light`.
@@ -112,10 +116,10 @@ struct LightingView {
     }
 };
 
-/// Maximum number of coefficients of one output of a transfer vector that `check_layout` accepts, and maximum
-/// number of its light columns.
+/// Maximum number of coefficients of one output of a transfer vector that `check_layout` accepts.
 inline constexpr std::size_t kMaxTransferNumbers = // per output
     6 * static_cast<std::size_t>(coefficient_count(kMaxOrder)) + 3 * kMaxLamps;
+/// Maximum number of light colors that one output of a transfer vector is multiplied with.
 inline constexpr std::size_t kMaxLightColumns =
     2 * static_cast<std::size_t>(coefficient_count(kMaxOrder)) + kMaxLamps;
 

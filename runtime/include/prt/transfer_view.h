@@ -1,7 +1,7 @@
 #pragma once
 
-// Uniform access to transfer vectors stored as floats, as in a file, or compressed. Code that reads block by
-// block needs no float copy of all vectors. Experimental.
+// Uniform access to transfer vectors that are stored as floats, as float16, or compressed. Code that reads
+// them block by block needs no float copy of all vectors. Experimental.
 
 #include "prt/clustered_transfer.h"
 #include "prt/transfer.h"
@@ -14,7 +14,8 @@
 
 namespace prt {
 
-/// Transfer as stored in a file. float16 needs half the memory and converts to float exactly.
+/// Transfer as stored in a file: floats, or float16, which needs half the memory and converts to float
+/// exactly.
 struct StoredTransfer {
     TransferLayout layout;
     std::vector<float> floats;         ///< [receivers][layout.dimension()], or empty
@@ -23,10 +24,11 @@ struct StoredTransfer {
     std::size_t receivers() const;
 };
 
-/// Reads transfer vectors from any of these sources. Keeps a reference to its source. Thread-safe.
+/// Reads transfer vectors from any source. Keeps a reference to the source. Thread-safe.
 class TransferView {
 public:
-    /// Writes the vectors of receivers from `first` on to `to` [..][dimension], whose size sets their number.
+    /// Function that writes the vectors of consecutive receivers, starting at `first`, to `to`
+    /// [n][dimension]. The size of `to` determines their number n.
     using Read = std::function<void(std::size_t first, std::span<float> to)>;
 
     TransferView(const Transfer& transfer);
@@ -38,6 +40,7 @@ public:
     const TransferLayout& layout() const { return layout_; }
     std::size_t dimension() const { return dimension_; }
     std::size_t receivers() const { return receivers_; }
+    /// Reads the vectors of receivers first, first + 1, ... into `to` [n][dimension()].
     void read(std::size_t first, std::span<float> to) const { read_(first, to); }
 
 private:
@@ -46,9 +49,10 @@ private:
     Read read_;
 };
 
-/// Applies `as_combined` of prt/transfer.h to each vector.
+/// Returns a view that applies `as_combined` of prt/transfer.h to each vector.
 TransferView as_combined(TransferView transfer);
-/// Reorders receivers: receiver order[p] becomes receiver p. Keeps `order` [receivers].
+/// Returns a view in another order: its receiver p is receiver order[p] of `transfer`. `order` is
+/// [receivers].
 TransferView in_order(TransferView transfer, std::vector<std::uint32_t> order);
 
 } // namespace prt

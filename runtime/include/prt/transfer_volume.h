@@ -28,6 +28,7 @@ inline constexpr int kMaxBricksAlong = 1024;
 /// Maximum number of bands of incident light; the minimum is 2.
 inline constexpr int kMaxIncidentOrder = 4;
 
+/// A brick of probes.
 struct VolumeBrick {
     glm::ivec3 position{0}; ///< minimum corner, in finest bricks; a multiple of 2^level
     int level = 0;          ///< its cells are 2^level times as wide as the finest
@@ -35,7 +36,8 @@ struct VolumeBrick {
     friend bool operator==(const VolumeBrick&, const VolumeBrick&) = default;
 };
 
-/// Layout of the probes: bricks that do not overlap, in a box of finest bricks.
+/// Layout of the probes: bricks that do not overlap, inside a box. Sizes and positions are in units of bricks
+/// of the finest level (level 0).
 struct VolumeGrid {
     glm::vec3 origin{0}; ///< minimum corner, metres, in the frame of Scene::origin
     float spacing = 1;   ///< distance of the finest probes, metres
@@ -48,8 +50,8 @@ struct VolumeGrid {
 /// Throws `Error` if bricks are outside the box or overlap, or if the box is too large.
 void check_grid(const VolumeGrid& grid);
 
-/// The probes of a grid; bricks share probes at common corners. Order: brick by brick, x varies fastest, then
-/// y, then z.
+/// The probes of a grid, each once; bricks share probes at common corners. Probes are ordered brick by brick;
+/// in a brick x varies fastest, then y, then z.
 struct VolumeProbes {
     /// Hanging node: a probe of fine cells on the face of a coarse brick that has no probe there. Its light
     /// must be interpolated from the coarse probes, or it would jump across the face.
@@ -65,6 +67,7 @@ struct VolumeProbes {
 
     std::size_t size() const { return corners.size(); }
 };
+/// Returns the probes of a grid.
 VolumeProbes probes_of(const VolumeGrid& grid);
 
 /// Returns the position of a corner in metres.
@@ -72,16 +75,20 @@ inline glm::vec3 position_of(const VolumeGrid& grid, const glm::ivec3& corner) {
     return grid.origin + grid.spacing * glm::vec3(corner);
 }
 
-/// Visibility distance of a probe along -x, +x, -y, +y, -z, +z: 255 · sqrt(distance / (kVisibilityCells
-/// cells)), with cells of the probe's level. 0: the probe is inside geometry. A point at offset d from the
-/// probe is hidden if |d_a| / distance_a exceeds 1 on any axis (docs/math.md, section 19).
+/// Visibility distances of a probe along -x, +x, -y, +y, -z, +z, each stored as 255 · sqrt(distance /
+/// (kVisibilityCells · c)), where c is the width of a cell of the probe's level. 0: the probe is inside
+/// geometry. A point at offset d from the probe is hidden if |d_a| / distance_a exceeds 1 on any axis
+/// (docs/math.md, section 19).
 using ProbeVisibility = std::array<std::uint8_t, 6>;
+/// Largest stored visibility distance, in cells of the probe's level.
 inline constexpr float kVisibilityCells = 4;
 
+/// Codes visibility distances in metres. `cell`: width of a cell of the probe's level, metres.
 ProbeVisibility visibility_of(const std::array<float, 6>& distances, float cell);
+/// Returns the visibility distances in metres. `cell`: width of a cell of the probe's level, metres.
 std::array<float, 6> distances_of(const ProbeVisibility& visibility, float cell);
 
-/// Volume as produced by a bake.
+/// Volume as a bake produces it.
 struct BakedVolume {
     VolumeGrid grid;
     int order = 3;                           ///< order of incident light
@@ -92,7 +99,7 @@ struct BakedVolume {
     std::size_t coefficients() const { return static_cast<std::size_t>(coefficient_count(order)); }
 };
 
-/// Volume as loaded by a game: receivers are probes, with order² outputs each.
+/// Volume as a game loads it: receivers are probes, with order² outputs each.
 struct CompressedVolume {
     VolumeGrid grid;
     int order = 3;
@@ -100,8 +107,8 @@ struct CompressedVolume {
     CompressedTransfer compressed;
 };
 
-/// Computes the coefficients of incident light, [probes][order²], as `exit_radiance` of the raw transfer
-/// does.
+/// Computes the coefficients of incident light at every probe, [probes][order²]. `exit_radiance` returns the
+/// same for raw transfer.
 std::vector<glm::vec3> incident_light(const CompressedVolume& volume, const Lighting& lighting,
                                       int threads = 0);
 
@@ -117,11 +124,13 @@ public:
     VolumeLookup(const VolumeGrid& grid, std::span<const ProbeVisibility> visibility);
 
     const VolumeProbes& probes() const { return probes_; }
-    /// Returns the probes for `position` in metres, clamped to the volume. `normal` is the normal of the lit
-    /// surface (zero: none): the lookup is offset along it.
+    /// Returns the probes for `position` in metres, clamped to the volume. `normal` is the unit normal of the
+    /// lit surface, along which the lookup is offset; zero: no offset.
     VolumeCorners find(const glm::vec3& position, const glm::vec3& normal = glm::vec3(0)) const;
-    /// Index of the brick at each cell of the grid, [size.z][size.y][size.x]; kNoBrick if absent.
+    /// Value of `index()` where there is no brick.
     static constexpr std::uint32_t kNoBrick = ~0u;
+    /// Returns the index of the brick at each position of a finest brick, [size.z][size.y][size.x]; kNoBrick
+    /// if there is none.
     std::span<const std::uint32_t> index() const { return index_; }
 
 private:
@@ -131,12 +140,14 @@ private:
     std::vector<std::array<float, 6>> nearness_; ///< [probes] 1 / distance, per metre
 };
 
-/// Interpolates incident light, [probes][coefficients], at a position; `light` is [coefficients].
+/// Interpolates `incident` [probes][coefficients] with the weights of `corners`; writes `light`
+/// [coefficients].
 void mix_incident(const VolumeCorners& corners, std::span<const glm::vec3> incident,
                   std::span<glm::vec3> light);
 
-/// Returns irradiance over pi of a surface with unit normal `normal`, from 4, 9 or 16 coefficients of
-/// incident light: exit radiance for albedo 1 (Ramamoorthi and Hanrahan 2001). Clamped to 0.
+/// Returns irradiance divided by pi, which is exit radiance for albedo 1, of a surface with unit normal
+/// `normal` (Ramamoorthi and Hanrahan 2001). `incident` has 4, 9 or 16 coefficients. The result is clamped to
+/// 0.
 glm::vec3 irradiance_of(std::span<const glm::vec3> incident, const glm::vec3& normal);
 
 } // namespace prt

@@ -21,6 +21,7 @@
 
 namespace prt {
 
+/// Format of the light texture.
 enum class VolumeFormat {
     rgba16, ///< half floats, -65 504 to 65 504
     rgba32, ///< floats, which some GPUs cannot filter
@@ -41,13 +42,15 @@ public:
     /// Size of the light texture in bytes.
     std::size_t bytes() const;
 
-    /// Writes the constants of ClusterLighting to `constants` [rows]. Writes the visibility of a sun in unit
-    /// direction `sun` to `w` of output 0: 0 without a sun, or without a `direct` term, since the transfer
-    /// then includes suns. Throws `Error` as ClusterLighting.
+    /// Computes the constants as ClusterLighting does and writes them to `constants` [rows]. The `w` of the
+    /// constants of output 0 is the visibility of a sun in unit direction `sun`. It is 0 without a sun, and
+    /// without a `direct` term, because all transfer then includes suns. Throws `Error` if the lighting has
+    /// too few bands.
     void update_constants(const LightingView& lighting, const std::optional<glm::vec3>& sun,
                           std::span<glm::vec4> constants) const;
 
-    /// Writes the texels of all probes to `texels` [bytes()]; texels outside bricks are not changed.
+    /// Computes the texels of all probes and writes them to `texels` [bytes()]. Texels outside bricks are not
+    /// changed.
     void update(std::span<const glm::vec4> constants, std::span<std::byte> texels, int threads = 0) const;
     /// Writes the texels of probes [first, last), to spread the work over threads or frames.
     void update_probes(std::span<const glm::vec4> constants, std::size_t first, std::size_t last,

@@ -15,16 +15,16 @@ namespace prt {
 
 /// Offset of the lookup along the normal of a lit surface, in cells.
 inline constexpr float kNormalBias = 0.25f;
-/// The weight of a probe falls from 1 to its minimum between these multiples of the visibility distance.
+/// Multiples of the visibility distance between which the weight of a probe falls from 1 to its minimum.
 inline constexpr float kVisibilityFull = 0.8f, kVisibilityNone = 1.03f;
-/// Minimum weight of a hidden probe at the visibility distance, decreasing with distance, so that weights
-/// never sum to zero. If all probes are hidden, the least hidden ones dominate.
+/// Minimum weight of a hidden probe at the visibility distance. Farther away it decreases, but never to zero,
+/// so that weights never sum to zero. If all probes are hidden, the least hidden ones dominate.
 inline constexpr float kHiddenWeight = 1e-4f;
 /// Inverse visibility distance, per metre, of a probe inside geometry.
 inline constexpr float kInvalidNearness = 1e18f;
 
-/// Returns the visibility weight of a probe for a point at offset `from`. `nearness` is 1 / visibility
-/// distance along -x, +x, -y, ..
+/// Returns the visibility weight of a probe, 0..1, for a point at offset `from` from the probe, metres.
+/// `nearness` is 1 / visibility distance along -x, +x, -y, +y, -z, +z, per metre.
 inline float visibility_weight(const std::array<float, 6>& nearness, const glm::vec3& from) {
     float passed = 0; // 1: at the distance of the surface
     for (int a = 0; a < 3; ++a)

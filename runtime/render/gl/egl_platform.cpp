@@ -142,7 +142,7 @@ std::unique_ptr<GlPlatform> make_egl_platform(GlDevice device, std::string& trie
         if (auto platform = on_display(EGL_PLATFORM_DEVICE_EXT, candidate, "a software device", tried))
             return platform;
     if (tried.empty())
-        tried = "EGL offers no device";
+        tried = "EGL has no device";
     return nullptr;
 }
 

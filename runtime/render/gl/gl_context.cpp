@@ -41,7 +41,7 @@ GlContext::~GlContext() = default;
 
 void GlContext::make_current() const {
     if (!platform_->make_current())
-        throw Error("the OpenGL context of " + renderer_ + " is lost");
+        throw Error("the OpenGL context on " + renderer_ + " was lost");
 }
 
 } // namespace prt

@@ -25,8 +25,7 @@ GLuint compile(GLenum stage, const std::string& file, const std::string& defines
     GLsizei length = 0;
     glGetShaderInfoLog(shader, static_cast<GLsizei>(log.size()), &length, log.data());
     glDeleteShader(shader);
-    throw Error("the driver does not compile " + file + ": " +
-                log.substr(0, static_cast<std::size_t>(length)));
+    throw Error("the driver cannot compile " + file + ": " + log.substr(0, static_cast<std::size_t>(length)));
 }
 
 void attach(const GlObject& program, GLenum stage, const std::string& file, const std::string& defines) {
@@ -44,7 +43,7 @@ void link(const GlObject& program, const std::string& files) {
     std::string log(4096, '\0');
     GLsizei length = 0;
     glGetProgramInfoLog(program.name(), static_cast<GLsizei>(log.size()), &length, log.data());
-    throw Error("the driver does not link " + files + ": " + log.substr(0, static_cast<std::size_t>(length)));
+    throw Error("the driver cannot link " + files + ": " + log.substr(0, static_cast<std::size_t>(length)));
 }
 
 } // namespace
@@ -147,11 +146,11 @@ void set_uniform(const GlObject& program, const char* name, float value) {
 void check_gl(const char* what) {
     const GLenum error = glGetError();
     if (error == GL_OUT_OF_MEMORY)
-        throw GpuOutOfMemory(std::string("the GPU has no memory for ") + what);
+        throw GpuOutOfMemory(std::string("the GPU does not have enough memory for ") + what);
     if (error == GL_CONTEXT_LOST)
-        throw Error(std::string("the GPU was lost at ") + what + ": its driver was reset");
+        throw Error(std::string("the GPU was lost because its driver was reset (in ") + what + ")");
     if (error != GL_NO_ERROR)
-        throw Error(std::string("OpenGL error ") + std::to_string(error) + " at " + what);
+        throw Error(std::string("OpenGL error ") + std::to_string(error) + " in " + what);
 }
 
 } // namespace prt

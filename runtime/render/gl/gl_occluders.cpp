@@ -2,6 +2,7 @@
 
 #include "prt/gl_occluders.h"
 
+#include "prt/support/counted.h"
 #include "prt/support/error.h"
 #include "shared_layout.h"
 
@@ -34,9 +35,9 @@ GlOccluders::GlOccluders(std::span<const OcclusionVolume> volumes)
     GLint most = 0;
     glGetIntegerv(GL_MAX_3D_TEXTURE_SIZE, &most);
     if (depth > most)
-        throw Error("occlusion volumes of " + std::to_string(volumes.size()) + " parts want a texture of " +
-                    std::to_string(depth) + " texels; the device has up to " + std::to_string(most) +
-                    " along a side");
+        throw Error(counted(volumes.size(), "occlusion volume needs", "occlusion volumes need") +
+                    " a 3D texture of depth " + std::to_string(depth) + ", but the limit of this device is " +
+                    std::to_string(most));
     GLuint name = 0;
     glCreateTextures(GL_TEXTURE_3D, 1, &name);
     texture_ = GlObject(GlKind::texture, name);

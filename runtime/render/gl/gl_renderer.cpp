@@ -29,8 +29,8 @@ struct Target {
         GLint largest = 0;
         glGetIntegerv(GL_MAX_TEXTURE_SIZE, &largest);
         if (width > largest || height > largest)
-            throw Error("the picture with its samples is " + std::to_string(width) + " x " +
-                        std::to_string(height) + ", but this device draws at most " +
+            throw Error("the picture with all samples has " + std::to_string(width) + " x " +
+                        std::to_string(height) + " pixels, but the limit of this device is " +
                         std::to_string(largest) + " x " + std::to_string(largest));
         color = make_texture_2d(1, GL_RGBA32F, width, height);
         depth = make_texture_2d(1, GL_DEPTH_COMPONENT32F, width, height);
@@ -38,7 +38,7 @@ struct Target {
         glNamedFramebufferTexture(framebuffer.name(), GL_COLOR_ATTACHMENT0, color.name(), 0);
         glNamedFramebufferTexture(framebuffer.name(), GL_DEPTH_ATTACHMENT, depth.name(), 0);
         if (glCheckNamedFramebufferStatus(framebuffer.name(), GL_FRAMEBUFFER) != GL_FRAMEBUFFER_COMPLETE)
-            throw Error("this device cannot draw into float textures");
+            throw Error("this device cannot render to float textures");
     }
 
     Image read() const {

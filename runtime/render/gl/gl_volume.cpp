@@ -27,9 +27,9 @@ GlObject make_texture_3d(GLenum format, const glm::ivec3& size, GLint filter) {
     GLint most = 0;
     glGetIntegerv(GL_MAX_3D_TEXTURE_SIZE, &most);
     if (size.x > most || size.y > most || size.z > most)
-        throw Error("a volume wants a texture of " + std::to_string(size.x) + " x " + std::to_string(size.y) +
-                    " x " + std::to_string(size.z) + " texels; the device has up to " + std::to_string(most) +
-                    " along a side");
+        throw Error("the volume needs a texture of " + std::to_string(size.x) + " x " +
+                    std::to_string(size.y) + " x " + std::to_string(size.z) +
+                    " texels, but the limit of this device is " + std::to_string(most) + " per side");
     GLuint name = 0;
     glCreateTextures(GL_TEXTURE_3D, 1, &name);
     GlObject texture(GlKind::texture, name);
@@ -100,7 +100,7 @@ void GlVolume::upload(std::span<const std::byte> texels) {
     glPixelStorei(GL_UNPACK_ALIGNMENT, 4);
     glTextureSubImage3D(light_.name(), 0, 0, 0, 0, size.x, size.y, size.z, GL_RGBA,
                         format_ == VolumeFormat::rgba16 ? GL_HALF_FLOAT : GL_FLOAT, texels.data());
-    check_gl("light of a volume");
+    check_gl("the light of a volume");
 }
 
 void GlVolume::bind() const {

@@ -48,7 +48,7 @@ std::unique_ptr<GlPlatform> make_glfw_platform(GlDevice device, std::string& tri
     auto platform = std::make_unique<GlfwPlatform>(window);
     if (device == GlDevice::hardware &&
         is_software_renderer(reinterpret_cast<const char*>(glGetString(GL_RENDERER))))
-        return failed("software only");
+        return failed("only software rendering");
     return platform;
 }
 

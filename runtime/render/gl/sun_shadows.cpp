@@ -86,8 +86,8 @@ void SunShadows::resize(int size, int count) {
 
 void SunShadows::draw(std::span<const Sun> discs, const View& view, const Moving& moving) {
     if (discs.size() > kMaxShadowedSuns)
-        throw Error("OpenGL casts shadows of at most " + std::to_string(kMaxShadowedSuns) + " suns, not " +
-                    std::to_string(discs.size()));
+        throw Error("the OpenGL renderer supports shadows of at most " + std::to_string(kMaxShadowedSuns) +
+                    " suns, not " + std::to_string(discs.size()));
     if (size_ > 0 && view == drawn_.view && moving.version == drawn_.moved &&
         std::ranges::equal(discs, drawn_.suns, same))
         return;

@@ -1,6 +1,8 @@
 // Reads accessors, including sparse ones and normalised integers, with checks of every index.
 #include "gltf/accessor.h"
 
+#include "prt/support/counted.h"
+
 #include <algorithm>
 #include <cstring>
 #include <limits>
@@ -33,15 +35,15 @@ struct StridedElements {
 /// Throws if the elements exceed the view.
 void check_fits(const StridedElements& e, const std::string& name) {
     if (e.stride < e.size)
-        throw Error(name + " has elements of " + std::to_string(e.size) + " bytes that lie " +
-                    std::to_string(e.stride) + " apart");
+        throw Error(name + " has elements of " + std::to_string(e.size) + " bytes, but a stride of only " +
+                    counted(e.stride, "byte"));
     if (e.count == 0)
         return;
     if (e.offset > e.view.size() || e.size > e.view.size() - e.offset ||
         (e.count - 1) > (e.view.size() - e.offset - e.size) / e.stride)
-        throw Error(name + " reaches outside its buffer view: " + std::to_string(e.count) + " elements of " +
-                    std::to_string(e.size) + " bytes from " + std::to_string(e.offset) + " on, in " +
-                    std::to_string(e.view.size()) + " bytes");
+        throw Error(name + " reaches outside its buffer view: " + counted(e.count, "element") + " of " +
+                    counted(e.size, "byte") + " at offset " + std::to_string(e.offset) +
+                    ", but the view has " + counted(e.view.size(), "byte"));
 }
 
 /// Returns the size of an element, also for component types of extensions that are never read.
@@ -81,8 +83,8 @@ void apply_sparse(const tinygltf::Model& model, const tinygltf::Accessor& access
         for (std::size_t i = 0; i < count; ++i) {
             const auto index = static_cast<std::size_t>(load<decltype(type)>(&indices[i * sizeof type]));
             if (index >= accessor.count)
-                throw Error(name + " replaces element " + std::to_string(index) + " of " +
-                            std::to_string(accessor.count));
+                throw Error(name + " is sparse and replaces element " + std::to_string(index) +
+                            ", but has only " + counted(accessor.count, "element"));
             std::memcpy(&elements[index * size], &values[i * size], size);
         }
     });
@@ -90,8 +92,8 @@ void apply_sparse(const tinygltf::Model& model, const tinygltf::Accessor& access
 
 void check_components(const tinygltf::Accessor& accessor, int components, const std::string& name) {
     if (component_count(accessor.type) != components)
-        throw Error(name + " has " + std::to_string(component_count(accessor.type)) + " components, " +
-                    std::to_string(components) + " are needed");
+        throw Error(name + " has " + counted(component_count(accessor.type), "component") + ", but " +
+                    std::to_string(components) + " are required");
 }
 
 template <class Stored>
@@ -121,10 +123,10 @@ int component_count(int type) {
 std::span<const unsigned char> buffer_view_bytes(const tinygltf::Model& model, int view) {
     const std::string name = "buffer view " + std::to_string(view);
     if (view < 0 || static_cast<std::size_t>(view) >= model.bufferViews.size())
-        throw Error(name + " is not there");
+        throw Error(name + " does not exist");
     const tinygltf::BufferView& v = model.bufferViews[static_cast<std::size_t>(view)];
     if (v.buffer < 0 || static_cast<std::size_t>(v.buffer) >= model.buffers.size())
-        throw Error(name + " names buffer " + std::to_string(v.buffer) + ", which is not there");
+        throw Error(name + " refers to buffer " + std::to_string(v.buffer) + ", which does not exist");
     const auto& data = model.buffers[static_cast<std::size_t>(v.buffer)].data;
     if (v.byteOffset > data.size() || v.byteLength > data.size() - v.byteOffset)
         throw Error(name + " reaches outside buffer " + std::to_string(v.buffer) + ", which has " +
@@ -134,7 +136,7 @@ std::span<const unsigned char> buffer_view_bytes(const tinygltf::Model& model, i
 
 const tinygltf::Accessor& get_accessor(const tinygltf::Model& model, int index) {
     if (index < 0 || static_cast<std::size_t>(index) >= model.accessors.size())
-        throw Error(accessor_name(index) + " is not there");
+        throw Error(accessor_name(index) + " does not exist");
     return model.accessors[static_cast<std::size_t>(index)];
 }
 
@@ -148,7 +150,7 @@ std::size_t check_accessor(const tinygltf::Model& model, int index) {
     if (!sparse.isSparse)
         return size;
     if (sparse.count < 0 || static_cast<std::size_t>(sparse.count) > accessor.count)
-        throw Error(name + " replaces more elements than it has");
+        throw Error(name + " is sparse and replaces more elements than it has");
     check_fits(replacements(model, accessor, sparse.indices, component_bytes(sparse.indices.componentType)),
                name);
     check_fits(replacements(model, accessor, sparse.values, size), name);
@@ -184,7 +186,7 @@ std::vector<std::uint32_t> read_unsigned(const tinygltf::Model& model, int index
     if (accessor.componentType != TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE &&
         accessor.componentType != TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT &&
         accessor.componentType != TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT)
-        throw Error(accessor_name(index) + " holds no unsigned integers");
+        throw Error(accessor_name(index) + " does not contain unsigned integers");
     const std::vector<std::byte> elements = read_elements(model, index);
     std::vector<std::uint32_t> values(accessor.count * static_cast<std::size_t>(components));
     with_component_type(accessor.componentType, [&](auto type) {

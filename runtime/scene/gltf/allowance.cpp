@@ -7,10 +7,10 @@ namespace prt {
 
 namespace {
 
-std::string megabytes(double bytes) { // no more digits than mean something
+std::string megabytes(double bytes) { // whole megabytes: more digits are meaningless
     constexpr double kMegabyte = 1e6;
     return bytes < 1e18 ? std::to_string(static_cast<unsigned long long>(bytes / kMegabyte)) + " MB"
-                        : std::string("a million million MB");
+                        : std::string("more than 1e12 MB");
 }
 
 double allowed(std::size_t file_bytes) {
@@ -19,8 +19,8 @@ double allowed(std::size_t file_bytes) {
 }
 
 std::string excess(double bytes, std::size_t file_bytes, const std::string& what) {
-    return what + " would take " + megabytes(bytes) + ", more than the " + megabytes(allowed(file_bytes)) +
-           " that a file of " + std::to_string(file_bytes) + " bytes may take";
+    return what + " would need " + megabytes(bytes) + " of memory; the limit for a file of " +
+           std::to_string(file_bytes) + " bytes is " + megabytes(allowed(file_bytes));
 }
 
 } // namespace
@@ -35,9 +35,9 @@ void check_scene_allowed(double bytes, const GltfContents& contents, const std::
     if (bytes <= (limit > 0 ? limit : allowed(contents.file_bytes)))
         return;
     if (limit > 0)
-        throw Error(what + " would take " + megabytes(bytes) + ", more than the limit of " +
-                    megabytes(limit));
-    throw Error(excess(bytes, contents.file_bytes, what) + ": allow more by --scene-limit");
+        throw Error(what + " would need " + megabytes(bytes) + " of memory; the limit is " +
+                    megabytes(limit) + ", raise it with --memory-limit");
+    throw Error(excess(bytes, contents.file_bytes, what) + "; raise it with --memory-limit");
 }
 
 } // namespace prt

@@ -14,7 +14,8 @@ namespace prt {
 /// product of numbers from the file, in double so that it cannot overflow.
 void check_allowed(double bytes, std::size_t file_bytes, const std::string& what);
 
-/// The same of what scenes take by repetition, which `GltfOptions::scene_limit` replaces where it is not 0.
+/// Throws `Error` if `what`, memory that a scene needs for repeated data, exceeds GltfOptions::scene_limit,
+/// or, if that is 0, the limit of `check_allowed`.
 void check_scene_allowed(double bytes, const GltfContents& contents, const std::string& what);
 
 } // namespace prt

@@ -17,8 +17,8 @@ void check_lengths(const tinygltf::Model& model, const Attributes& attributes, s
     for (const auto& [name, accessor] : attributes) {
         const std::size_t count = get_accessor(model, accessor).count;
         if (count != vertices)
-            throw Error(name + " has " + std::to_string(count) + " elements for " + std::to_string(vertices) +
-                        " vertices");
+            throw Error(name + " has " + std::to_string(count) + " elements, but the primitive has " +
+                        std::to_string(vertices) + " vertices");
     }
 }
 
@@ -46,7 +46,8 @@ void check_data(const GltfContents& contents) {
         const std::size_t bytes = check_accessor(model, static_cast<int>(a));
         if (model.accessors[a].bufferView < 0) // implicit zeros without data
             check_allowed(static_cast<double>(model.accessors[a].count) * static_cast<double>(bytes),
-                          contents.file_bytes, "accessor " + std::to_string(a) + " without data");
+                          contents.file_bytes,
+                          "accessor " + std::to_string(a) + ", which has no buffer view,");
     }
     for (std::size_t m = 0; m < model.meshes.size(); ++m)
         for (std::size_t p = 0; p < model.meshes[m].primitives.size(); ++p)

@@ -64,17 +64,17 @@ void check_whole(const Json& value, const std::string& name) {
     const std::uint64_t most = length ? std::uint64_t{1} << 53 : INT_MAX;
     if (!value.is_number_unsigned() || value.get<std::uint64_t>() > most)
         throw Error("is damaged glTF: " + name + " is " +
-                    value.dump(-1, ' ', true, Json::error_handler_t::replace) + ", no whole number of 0.." +
-                    std::to_string(most));
+                    value.dump(-1, ' ', true, Json::error_handler_t::replace) +
+                    ", but must be an integer in 0.." + std::to_string(most));
 }
 
 /// Checks a map from names to indices of accessors or other objects.
 void check_attributes(const Json& attributes) {
     if (!attributes.is_object())
-        throw Error("is damaged glTF: attributes are no object");
+        throw Error("is damaged glTF: attributes of a primitive are not an object");
     for (const auto& [name, value] : attributes.items()) {
         if (name.find('\0') != std::string::npos)
-            throw Error("is damaged glTF: the name of an attribute holds a zero");
+            throw Error("is damaged glTF: the name of an attribute contains a zero byte");
         check_whole(value, name);
     }
 }
@@ -136,10 +136,11 @@ const Json& list_of(const Json& owner, const char* name) {
 void check_list(const Json& owner, const char* name) {
     const Json& list = list_of(owner, name);
     if (!list.is_array())
-        throw Error(std::string("is damaged glTF: ") + name + " is no list");
+        throw Error(std::string("is damaged glTF: ") + name + " is not a list");
     for (const Json& element : list)
         if (!element.is_object())
-            throw Error(std::string("is damaged glTF: ") + name + " holds something that is no object");
+            throw Error(std::string("is damaged glTF: ") + name +
+                        " contains an element that is not an object");
 }
 
 /// Returns the memory that tinygltf needs for the primitives, in bytes.
@@ -190,7 +191,7 @@ void check_views(const Json& json) {
         const std::string name = "buffer view " + std::to_string(v);
         const auto buffer = views[v].at("buffer").get<std::size_t>();
         if (buffer >= buffers.size())
-            throw Error(name + " names buffer " + std::to_string(buffer) + ", which is not there");
+            throw Error(name + " refers to buffer " + std::to_string(buffer) + ", which does not exist");
         const auto size = buffers[buffer].at("byteLength").get<std::size_t>();
         const auto offset = views[v].value("byteOffset", std::size_t{0});
         if (offset > size || views[v].at("byteLength").get<std::size_t>() > size - offset)

@@ -32,15 +32,15 @@ void check_weight_accessor(const std::string& name, const tinygltf::Accessor& ac
         throw Error(name + " has component type " + std::to_string(accessor.componentType) + ", not " +
                     std::to_string(component_type(format)) + kCompressAgain);
     if (accessor.normalized)
-        throw Error(name + " is normalized" + kCompressAgain);
+        throw Error(name + " is normalized, but must not be" + kCompressAgain);
     if (accessor.type != TINYGLTF_TYPE_VEC4 || accessor.count != vertices)
-        throw Error(name + " is no VEC4 for each vertex" + kCompressAgain);
+        throw Error(name + " is not one VEC4 per vertex" + kCompressAgain);
 }
 
 /// Returns the accessor of an attribute. Throws `Error` if it is missing.
 int accessor_of(const Json& attributes, const std::string& name) {
     if (!attributes.contains(name))
-        throw Error("lacks " + name + kCompressAgain);
+        throw Error("has no attribute " + name + kCompressAgain);
     return attributes.at(name).get<int>();
 }
 
@@ -55,7 +55,8 @@ void check_extension_is_kept(const GltfContents& contents) {
         const Json& attributes = primitive.value("attributes", Json::object());
         for (auto it = attributes.begin(); it != attributes.end(); ++it)
             if (it.key().starts_with("_PRT_WEIGHTS_") || it.key() == "_PRT_CLUSTER")
-                throw Error("has " + it.key() + ", but no extension " + kClusteredExtension + kCompressAgain);
+                throw Error("has attribute " + it.key() + ", but not the extension " + kClusteredExtension +
+                            kCompressAgain);
     });
 }
 
@@ -98,12 +99,12 @@ void read_clusters(const GltfContents& contents, const Json& attributes, std::si
                    std::span<std::uint16_t> to) {
     const auto values = read_unsigned(contents.model, accessor_of(attributes, "_PRT_CLUSTER"), 1);
     if (values.size() != to.size())
-        throw Error("_PRT_CLUSTER has " + std::to_string(values.size()) + " elements for " +
+        throw Error("_PRT_CLUSTER has " + std::to_string(values.size()) + " elements, but there are " +
                     std::to_string(to.size()) + " vertices");
     for (std::size_t i = 0; i < values.size(); ++i) {
         if (values[i] >= clusters)
-            throw Error("vertex " + std::to_string(i) + " is in cluster " + std::to_string(values[i]) +
-                        " of " + std::to_string(clusters));
+            throw Error("vertex " + std::to_string(i) + " has cluster " + std::to_string(values[i]) +
+                        ", but there are only " + std::to_string(clusters));
         to[i] = static_cast<std::uint16_t>(values[i]);
     }
 }

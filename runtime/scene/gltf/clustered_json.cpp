@@ -28,16 +28,17 @@ void read_steps(const GltfContents& contents, const Json& json, CodedBases& code
     const Json& step = many ? json["steps"].at("least") : json.at("step");
     coded.step = step.is_number() ? step.get<float>() : -1.0f;
     if (!(coded.step >= 0) || !std::isfinite(coded.step))
-        throw Error("the step of the bases is " + step.dump() + ", no number from 0 on");
+        throw Error("the step of the bases is " + step.dump() +
+                    ", but must be a finite number of at least 0");
     if (!many)
         return;
     if (json.contains("step"))
-        throw Error("the bases have one step and many");
+        throw Error("the bases have both \"step\" and \"steps\"");
     coded.exponents.code = read_row_code(contents, json["steps"]);
     for (const Json& axes : json["steps"].at("axes"))
-        coded.exponents.axes.push_back(whole_number(axes, "a number of axes", 0, 1 << 16));
+        coded.exponents.axes.push_back(whole_number(axes, "the number of axes", 0, 1 << 16));
     if (coded.exponents.empty())
-        throw Error("the steps of the bases are of no axes");
+        throw Error("the list \"axes\" in \"steps\" of the bases is empty");
 }
 
 } // namespace
@@ -97,19 +98,20 @@ void read_packing(const GltfContents& contents, const Json& json, ClusteredTrans
     receivers.format = WeightFormat::packed;
     receivers.cluster_bits = whole_number(json.at("clusterBits"), "clusterBits", 0, 16);
     if (bases.clusters() > std::size_t{1} << receivers.cluster_bits)
-        throw Error(std::to_string(bases.clusters()) + " clusters do not fit " +
+        throw Error(std::to_string(bases.clusters()) + " clusters do not fit into " +
                     std::to_string(receivers.cluster_bits) + " bits");
     BitReader reader(std::as_bytes(buffer_view_bytes(contents.model, json.at("bufferView").get<int>())));
     const std::size_t directions = bases.first_rows().back() - bases.clusters() * bases.fixed_rows();
     std::size_t most = 0;
     for (const int components : bases.components) {
         if (components > kMaxPackedComponents)
-            throw Error("a cluster has " + std::to_string(components) + " packed components, of 0.." +
-                        std::to_string(kMaxPackedComponents));
+            throw Error("a cluster has " + std::to_string(components) +
+                        " packed components, but must have 0.." + std::to_string(kMaxPackedComponents));
         auto total = static_cast<std::size_t>(receivers.cluster_bits);
         for (int j = 0; j < components; ++j) {
             if (!reader.has(4))
-                throw Error("there are no bits for " + std::to_string(directions) + " packed components");
+                throw Error("the bit counts end before the last of " + std::to_string(directions) +
+                            " packed components");
             bases.bits.push_back(static_cast<std::uint8_t>(reader.read(4) + 1));
             total += bases.bits.back();
         }
@@ -126,7 +128,7 @@ ClusteredBases read_clusters_of(const Json& extension, std::size_t outputs) {
     for (const Json& count : extension.at("components"))
         bases.components.push_back(whole_number(count, "the number of a cluster's components", 0, most));
     if (bases.components.empty() || bases.components.size() > 65536)
-        throw Error("has " + std::to_string(bases.components.size()) + " clusters, of 1..65536");
+        throw Error("has " + std::to_string(bases.components.size()) + " clusters, but must have 1..65536");
     return bases;
 }
 

@@ -48,7 +48,7 @@ void for_each_pair(Contents& contents, Visit&& visit) {
 std::size_t vertex_count(const tinygltf::Model& model, const tinygltf::Primitive& primitive) {
     const auto position = primitive.attributes.find("POSITION");
     if (position == primitive.attributes.end())
-        throw Error("it has coded words and no POSITION");
+        throw Error("it has coded words, but no POSITION");
     return get_accessor(model, position->second).count;
 }
 
@@ -60,7 +60,7 @@ public:
              std::size_t count) {
         if (first > vertices_ || count > vertices_ - first)
             throw Error("its coded words " + std::to_string(first) + " to " + std::to_string(first + count) +
-                        " are beyond the " + std::to_string(vertices_) + " of the file");
+                        " reach beyond the " + std::to_string(vertices_) + " coded words of the file");
         for (const glm::uvec3& t : read_triangles(model, primitive, count))
             for (int i = 0; i < 3; ++i)
                 triangles_.push_back(static_cast<std::uint32_t>(first) + t[i]);

@@ -387,9 +387,9 @@ std::string in_plain_words(const std::exception& error) {
             &error)) // "[json.exception.type_error.302] type must be .."
         return "is damaged glTF: " + what.substr(what.starts_with("[json") ? what.find("] ") + 2 : 0);
     if (dynamic_cast<const std::out_of_range*>(&error))
-        return "is damaged glTF: an index points outside of what the file holds";
+        return "is damaged glTF: an index is out of range";
     if (dynamic_cast<const std::bad_alloc*>(&error) || dynamic_cast<const std::length_error*>(&error))
-        return "there is not enough memory to read it";
+        return "there is not enough memory to read the file";
     return what.empty() ? "is damaged glTF" : what;
 }
 

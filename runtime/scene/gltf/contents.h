@@ -32,8 +32,8 @@ struct DeduplicatedMesh {
 
 struct GltfContents {
     std::filesystem::path path;
-    tinygltf::Model
-        model; ///< model from the file; edits of `json` do not update it, but its views follow the bytes
+    /// Model from the file; edits of `json` do not update it, but its views follow the bytes.
+    tinygltf::Model model;
     Json json;
     std::vector<std::vector<std::byte>> images; ///< encoded, by image index; empty: cannot be read
     std::vector<std::string> image_troubles;    ///< why images cannot be read, by image index

@@ -1,4 +1,4 @@
-// Moves meshes whose instances share transfer to stand-in nodes, and back.
+// Moves meshes whose instances share transfer to proxy nodes, which draw each mesh once, and back.
 #include "gltf/deduplicated_meshes.h"
 
 #include "prt/support/error.h"
@@ -31,11 +31,11 @@ void deduplicate_meshes(GltfContents& contents) {
         if (!extension_of(nodes[n], kInstancesExtension))
             continue;
         if (!nodes[n].contains("mesh"))
-            throw Error("node " + std::to_string(n) + " has " + kInstancesExtension + " and no mesh");
+            throw Error("node " + std::to_string(n) + " has " + kInstancesExtension + ", but no mesh");
         const auto mesh = nodes[n]["mesh"].get<std::size_t>();
         const auto [found, is_new] = of_mesh.try_emplace(mesh, contents.separate.size());
         if (is_new)
-            contents.separate.push_back({mesh, {}}); // holds the mesh until the stand-in has an index
+            contents.separate.push_back({mesh, {}}); // stores the mesh until its proxy node has an index
         contents.separate[found->second].drawers.push_back(n);
         nodes[n].erase("mesh");
         contents.model.nodes[n].mesh = -1;

@@ -21,6 +21,7 @@
 #include "gltf/smooth_primitives.h"
 #include "gltf/supported_extensions.h"
 #include "prt/encode_glb.h"
+#include "prt/support/counted.h"
 #include "prt/support/error.h"
 #include "prt/support/file.h"
 #include "prt/support/lfs_pointer.h"
@@ -67,7 +68,8 @@ std::span<const std::byte> without_tile(std::span<const std::byte> file, std::ve
     };
     const bool batched = begins("b3dm"), instanced = begins("i3dm");
     if (begins("cmpt") || begins("pnts"))
-        throw Error("is a composite or a point cloud of 3D Tiles, no glTF: extract the models in it as .glb");
+        throw Error(
+            "is a composite or point cloud tile of 3D Tiles, not glTF; extract its models as .glb files");
     if (!batched && !instanced)
         return file;
     std::size_t begin = batched ? 28 : 32;
@@ -77,13 +79,13 @@ std::span<const std::byte> without_tile(std::span<const std::byte> file, std::ve
         begin += length;
     }
     if (begin >= file.size() || !is_glb(file.subspan(begin)))
-        throw Error("is a tile of 3D Tiles without a GLB in it");
+        throw Error("is a tile of 3D Tiles that does not contain a GLB");
     if (instanced)
         throw Error(
-            "is an instanced model of 3D Tiles (.i3dm), whose instances are not read: take the GLB that "
-            "begins at byte " +
+            "is an instanced model of 3D Tiles (.i3dm), whose instances are not supported; extract the GLB "
+            "that begins at byte " +
             std::to_string(begin));
-    notices.emplace_back("is a tile of 3D Tiles (.b3dm): the GLB in it is read");
+    notices.emplace_back("is a tile of 3D Tiles (.b3dm); only the GLB that it contains is read");
     return file.subspan(begin);
 }
 
@@ -98,8 +100,8 @@ void check_is_gltf(std::span<const std::byte> file, const std::filesystem::path&
     if (first != std::string_view::npos && text[first] == '{')
         return;
     const std::string_view format = other_format(path);
-    throw Error((format.empty() ? std::string("is no glTF") : "is " + std::string(format) + ", not glTF") +
-                ": export the scene as glTF 2.0 (.glb)");
+    throw Error((format.empty() ? std::string("is not glTF") : "is " + std::string(format) + ", not glTF") +
+                "; export the scene as glTF 2.0 (.glb)");
 }
 
 void check_required_extensions(const Json& json) {
@@ -117,10 +119,10 @@ void check_required_extensions(const Json& json) {
 bool accept_deviations(GltfContents& contents) {
     const std::size_t nulls = remove_nulls(contents.json);
     if (nulls > 0)
-        contents.notices.push_back(std::to_string(nulls) +
-                                   " members of its JSON are null: they are read as absent");
+        contents.notices.push_back(counted(nulls, "member of its JSON is null and is ignored",
+                                           "members of its JSON are null and are ignored"));
     if (extension_of(contents.json, kCesiumExtension))
-        contents.notices.emplace_back("its offset CESIUM_RTC is not applied: light does not depend on it");
+        contents.notices.emplace_back("the offset in CESIUM_RTC is ignored; it does not change the lighting");
     const bool meshopt = use_ext_meshopt(contents.json), spots = complete_spots(contents.json);
     return meshopt || spots || nulls > 0;
 }
@@ -144,7 +146,7 @@ void take_images(GltfContents& contents, const SideFiles& files) {
         if (image.bufferView >= 0) {
             const auto bytes = std::as_bytes(buffer_view_bytes(contents.model, image.bufferView));
             total += static_cast<double>(bytes.size()); // several images may use one view
-            check_allowed(2 * total, contents.file_bytes, "its images, still encoded,");
+            check_allowed(2 * total, contents.file_bytes, "the encoded images");
             contents.images[i].assign(bytes.begin(), bytes.end());
         }
         if (!contents.images[i].empty())
@@ -205,7 +207,8 @@ void join_buffers(GltfContents& contents) {
     for (tinygltf::BufferView& view : contents.model.bufferViews) {
         const auto buffer = static_cast<std::size_t>(view.buffer);
         if (view.buffer < 0 || buffer >= begin.size())
-            throw Error("a buffer view names buffer " + std::to_string(view.buffer) + ", which is not there");
+            throw Error("a buffer view refers to buffer " + std::to_string(view.buffer) +
+                        ", which does not exist");
         view.byteOffset += begin[buffer];
         view.buffer = 0;
     }

@@ -2,6 +2,7 @@
 #include "gltf/draco_mesh.h"
 
 #include "gltf/accessor.h"
+#include "prt/support/counted.h"
 #include "prt/support/error.h"
 
 #include <draco/compression/decode.h>
@@ -54,8 +55,8 @@ void check_claims(std::span<const unsigned char> bytes) {
     constexpr std::size_t kMaxTrianglesPerByte = 1024;
     const std::size_t triangles = claimed_triangles(bytes);
     if (triangles > std::max(kAlwaysFits, kMaxTrianglesPerByte * bytes.size()))
-        throw Error("its Draco data claims " + std::to_string(triangles) + " triangles in " +
-                    std::to_string(bytes.size()) + " bytes");
+        throw Error("its Draco data claims " + std::to_string(triangles) + " triangles, but has only " +
+                    counted(bytes.size(), "byte"));
 }
 
 /// Appends `value` to `to`.
@@ -107,7 +108,7 @@ DracoAttribute draco_attribute(const draco::Mesh& mesh, int id, int component_ty
         throw Error("its Draco data has no attribute " + std::to_string(id));
     if (attribute->num_components() != components)
         throw Error("its Draco data has " + std::to_string(attribute->num_components()) +
-                    " components of attribute " + std::to_string(id) + ", the accessor " +
+                    " components for attribute " + std::to_string(id) + ", but its accessor has " +
                     std::to_string(components));
     check_values(mesh, *attribute);
     DracoAttribute data;
@@ -118,7 +119,8 @@ DracoAttribute draco_attribute(const draco::Mesh& mesh, int id, int component_ty
         for (draco::PointIndex point(0); point < mesh.num_points(); ++point) {
             if (!attribute->ConvertValue(attribute->mapped_index(point), static_cast<std::int8_t>(components),
                                          element.data()))
-                throw Error("its Draco data does not fit the accessor of attribute " + std::to_string(id));
+                throw Error("its Draco data cannot be converted to the type of the accessor of attribute " +
+                            std::to_string(id));
             for (const auto value : element)
                 append(data.bytes, value);
             data.bytes.resize((data.bytes.size() + 3) / 4 * 4);

@@ -135,7 +135,7 @@ private:
     void set_view(std::size_t view, std::vector<std::byte> bytes, std::size_t stride) {
         bytes.resize(std::max<std::size_t>(bytes.size(), 4)); // glTF does not allow empty views
         total_ += static_cast<double>(bytes.size());
-        check_allowed(2 * total_, contents_.file_bytes, "its data, decompressed,"); // also while joined
+        check_allowed(2 * total_, contents_.file_bytes, "the decompressed Draco data"); // also while joined
         Json& json = contents_.json["bufferViews"].at(view);
         json["buffer"] = contents_.model.buffers.size();
         json["byteOffset"] = 0;
@@ -161,8 +161,9 @@ private:
             for (const auto& item : attributes.items()) {
                 const std::size_t count = contents_.model.accessors.at(item.value().get<std::size_t>()).count;
                 if (count != points)
-                    throw Error("its Draco data has " + std::to_string(points) + " vertices, and " +
-                                item.key() + " beside it " + std::to_string(count));
+                    throw Error("its Draco data has " + std::to_string(points) +
+                                " vertices, but its uncompressed attribute " + item.key() + " has " +
+                                std::to_string(count));
             }
         };
         check(position.json.at("attributes"));

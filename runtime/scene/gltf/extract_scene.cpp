@@ -13,6 +13,7 @@
 #include "gltf/skinning.h"
 #include "gltf/transformed_normal.h"
 #include "gltf/triangles.h"
+#include "prt/support/counted.h"
 #include "prt/support/error.h"
 #include "prt/support/printable.h"
 
@@ -40,8 +41,8 @@ std::vector<Vector> read_vectors(const tinygltf::Model& model, int accessor) {
 
 void check_count(std::size_t count, std::size_t vertices, const char* attribute) {
     if (count != vertices)
-        throw Error(std::string(attribute) + " has " + std::to_string(count) + " elements for " +
-                    std::to_string(vertices) + " vertices");
+        throw Error(std::string(attribute) + " has " + std::to_string(count) +
+                    " elements, but the primitive has " + counted(vertices, "vertex", "vertices"));
 }
 
 int attribute(const tinygltf::Primitive& primitive, const std::string& name) {
@@ -76,7 +77,7 @@ void check_position(const glm::dvec3& point, std::size_t vertex) {
     for (int axis = 0; axis < 3; ++axis)
         if (!(std::abs(point[axis]) <= kFarthestVertex))
             throw Error("the position of vertex " + std::to_string(vertex) +
-                        " is not finite, or farther than 1e9 m from the world's origin");
+                        " is not finite, or more than 1e9 m from the origin of the scene");
 }
 
 /// Adds the morph targets with the weights of the mesh or node (glTF 2.0, 3.7.2.2).
@@ -147,8 +148,9 @@ private:
         std::erase_if(nodes.levels, [&](NodeLevels& levels) {
             const std::string name = node_name(model_, levels.node);
             if (std::ranges::none_of(levels.finest, [&](int node) { return draws(node); })) {
-                nodes.notices.push_back(name + " has levels of detail and no triangles itself: they are left "
-                                               "as they are");
+                nodes.notices.push_back(name +
+                                        " has levels of detail, but no triangles: these levels are not "
+                                        "changed");
                 return true;
             }
             std::erase_if(levels.coarser, [&](const NodeLevels::Level& level) {
@@ -157,7 +159,7 @@ private:
                 if (empty)
                     nodes.notices.push_back(node_name(model_, level.node) + ", level " +
                                             std::to_string(level.number) + " of " + name +
-                                            ", has no triangles");
+                                            ", has no triangles and is ignored");
                 return empty;
             });
             return levels.coarser.empty();
@@ -199,8 +201,8 @@ private:
             return;
         }
         if (static_cast<std::size_t>(node.mesh) >= model_.meshes.size())
-            throw Error("node " + std::to_string(transform.node) + " names mesh " +
-                        std::to_string(node.mesh) + ", which is not there");
+            throw Error("node " + std::to_string(transform.node) + " refers to mesh " +
+                        std::to_string(node.mesh) + ", which does not exist");
         const tinygltf::Mesh& mesh = model_.meshes[static_cast<std::size_t>(node.mesh)];
         for (std::size_t i = 0; i < mesh.primitives.size(); ++i) {
             try {
@@ -332,39 +334,39 @@ private:
         if (material < 0)
             return scene_.materials.size() - 1;
         if (static_cast<std::size_t>(material) + 1 >= scene_.materials.size())
-            throw Error("material " + std::to_string(material) + " is not there");
+            throw Error("material " + std::to_string(material) + " does not exist");
         return static_cast<std::size_t>(material);
     }
 
     void add_notices() {
         if (!skins_.empty())
-            scene_.notices.emplace_back("skinned meshes are taken in the pose of the file");
+            scene_.notices.emplace_back("skinned meshes are read in the pose that the file stores");
         if (seen_.has_morphs)
-            scene_.notices.emplace_back("morph targets are taken at the weights of the file");
+            scene_.notices.emplace_back("morph targets are applied with the weights that the file stores");
         if (seen_.flat_primitives > 0)
-            scene_.notices.emplace_back(std::to_string(seen_.flat_primitives) +
-                                        (seen_.flat_primitives == 1 ? " primitive has no normals and gets"
-                                                                    : " primitives have no normals and get") +
-                                        " flat ones: " + std::to_string(seen_.vertices_before) +
-                                        " vertices became " + std::to_string(seen_.vertices_after) +
-                                        "; --smooth-normals 30 of prt bake, make and ao gives smooth ones");
+            scene_.notices.emplace_back(
+                counted(seen_.flat_primitives, "primitive has", "primitives have") +
+                " no normals; flat shading is used: " + std::to_string(seen_.vertices_before) +
+                " vertices become " + std::to_string(seen_.vertices_after) +
+                "; prt bake, make and ao create smooth normals with --smooth-normals 30");
         if (seen_.skipped_primitives > 0)
-            scene_.notices.emplace_back(std::to_string(seen_.skipped_primitives) +
-                                        " primitives of points, lines or nothing are left as they are");
+            scene_.notices.emplace_back(counted(seen_.skipped_primitives, "primitive without triangles is",
+                                                "primitives without triangles are") +
+                                        " not changed (points, lines or empty)");
         if (seen_.hidden_nodes > 0)
-            scene_.notices.emplace_back(std::to_string(seen_.hidden_nodes) +
-                                        " meshes are hidden (KHR_node_visibility) and left out");
+            scene_.notices.emplace_back(counted(seen_.hidden_nodes, "hidden mesh is", "hidden meshes are") +
+                                        " ignored (KHR_node_visibility)");
         if (seen_.coarser_levels > 0)
-            scene_.notices.emplace_back(std::to_string(seen_.coarser_levels) +
-                                        " nodes are coarser levels of detail of others (MSFT_lod or names), "
-                                        "cast no shadow and are not drawn");
+            scene_.notices.emplace_back(
+                counted(seen_.coarser_levels, "node is a coarser level", "nodes are coarser levels") +
+                " of detail (from MSFT_lod or node names): not drawn, and without shadows");
         if (!range_.notice().empty())
             scene_.notices.push_back(range_.notice());
         for (std::string& notice : unread_material_notices(model_, scene_))
             scene_.notices.push_back(std::move(notice));
         if (const std::size_t zero_normals = replace_zero_normals(scene_); zero_normals > 0)
-            scene_.notices.emplace_back(std::to_string(zero_normals) +
-                                        " vertices have no usable normal and get that of their triangles");
+            scene_.notices.emplace_back(counted(zero_normals, "vertex has", "vertices have") +
+                                        " no usable normal; the normal of the adjacent triangles is used");
     }
 
     /// Counts for notices to the user.

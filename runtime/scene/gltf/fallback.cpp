@@ -113,7 +113,7 @@ std::size_t add_colors(GltfContents& contents, const VertexArray& vertices,
                                   {"type", "VEC4"}});
 }
 
-/// Gives the primitives of `scene` the light as COLOR_0. Returns how many show it.
+/// Writes the light as COLOR_0 of the primitives of `scene`. Returns the number of primitives that show it.
 std::size_t show_light(GltfContents& contents, const Scene& scene, std::span<const glm::vec3> radiance,
                        float exposure, UnlitUse use) {
     const std::vector<Json*> primitives = make_meshes_unique(contents, scene);
@@ -148,7 +148,7 @@ std::size_t show_light(GltfContents& contents, const Scene& scene, std::span<con
 std::size_t write_into(GltfContents& contents, const Scene& scene, std::span<const glm::vec3> radiance,
                        float exposure) {
     if (!extension_of(contents.json, kClusteredExtension))
-        throw Error("only compressed transfer of vertices has a fallback");
+        throw Error("the file has no compressed transfer at vertices; a fallback needs it");
     const std::size_t count = show_light(contents, scene, radiance, exposure, UnlitUse::fallback);
     extensions_of(contents.json)[kClusteredExtension]["fallback"] = {{"exposure", exposure}};
     return count;
@@ -232,7 +232,7 @@ void set_fallback_aside(GltfContents& contents) {
         return;
     const Json& exposure = extension->at("fallback").at("exposure");
     if (!exposure.is_number() || !(exposure.get<double>() > 0))
-        throw Error("the exposure of the fallback is no number above 0");
+        throw Error("the exposure of the fallback is not a number greater than 0");
     contents.json["extensions"][kClusteredExtension].erase("fallback");
     const std::set<int> lit = lit_again(contents);
     for (std::size_t m = 0; m < contents.model.meshes.size(); ++m)

@@ -32,17 +32,17 @@ bool is_glb(std::span<const std::byte> file) {
 
 std::string_view glb_json(std::span<const std::byte> file) {
     if (file.size() < kHeader + kChunkHeader)
-        throw Error("the file ends inside the GLB header");
+        throw Error("is truncated: it ends inside the GLB header");
     if (word(file, 4) != 2)
-        throw Error("is a GLB of version " + std::to_string(word(file, 4)) + ", only 2 is supported");
+        throw Error("is a GLB of version " + std::to_string(word(file, 4)) + "; only version 2 is supported");
     const std::uint32_t total = word(file, 8), length = word(file, kHeader);
     if (total > file.size())
-        throw Error("is truncated: the GLB header says " + std::to_string(total) + " bytes, the file has " +
-                    std::to_string(file.size()));
+        throw Error("is truncated: the GLB header declares " + std::to_string(total) +
+                    " bytes, but the file has " + std::to_string(file.size()));
     if (word(file, kHeader + 4) != kJson)
         throw Error("its first GLB chunk is not JSON");
     if (length > file.size() - kHeader - kChunkHeader)
-        throw Error("is truncated: its JSON chunk passes the end of the file");
+        throw Error("is truncated: its JSON chunk reaches beyond the end of the file");
     return {reinterpret_cast<const char*>(file.data()) + kHeader + kChunkHeader, length};
 }
 
@@ -52,7 +52,7 @@ std::span<const std::byte> glb_binary(std::span<const std::byte> file) {
         return {};
     const std::size_t length = word(file, begin);
     if (word(file, begin + 4) != kBin || length > file.size() - begin - kChunkHeader)
-        throw Error("is truncated: its binary chunk passes the end of the file");
+        throw Error("is truncated: its binary chunk reaches beyond the end of the file");
     return file.subspan(begin + kChunkHeader, length);
 }
 
@@ -62,7 +62,7 @@ std::vector<std::byte> make_glb(std::string json, std::span<const std::byte> bin
     const std::size_t binary_chunk = binary.empty() ? 0 : kChunkHeader + binary.size() + padding;
     const std::size_t total = kHeader + kChunkHeader + json.size() + binary_chunk;
     if (total > UINT32_MAX)
-        throw Error("the result has " + std::to_string(total) + " bytes, more than the 4 GB a .glb can hold");
+        throw Error("the output has " + std::to_string(total) + " bytes, but a .glb file is limited to 4 GB");
     std::vector<std::byte> file;
     file.reserve(total);
     for (const std::size_t value :

@@ -38,7 +38,7 @@ double area_of_instances(const GltfContents& contents, const Json& node) {
     return 0;
 }
 
-/// Returns the area factor of each mesh, [stand-ins].
+/// Returns the area factor of each mesh, by the node that draws it in its own frame.
 std::map<int, double> areas_of_meshes(const GltfContents& contents) {
     std::map<int, double> of_node, of_stand_in;
     for (const NodeTransform& transform : world_transforms(contents.model))
@@ -50,7 +50,8 @@ std::map<int, double> areas_of_meshes(const GltfContents& contents) {
                     found->second * area_of_instances(contents, contents.json["nodes"][drawer]);
     for (const auto& [node, area] : of_stand_in)
         if (!(area <= kMaxArea))
-            throw Error("instances of the mesh of node " + std::to_string(node) + " are scaled beyond 1e9");
+            throw Error("instances of the mesh of node " + std::to_string(node) +
+                        " are too large: their scale exceeds 1e9");
     return of_stand_in;
 }
 

@@ -16,7 +16,8 @@ InstancedModel read_instanced(const GltfDocument& document, const Scene& scene,
     model.baked = read_transfer(separate, model.stored);
     model.compressed = read_clustered(separate, model.stored);
     if (!model.baked && !model.compressed)
-        throw Error(path.string() + ": its instances share transfer that it does not hold");
+        throw Error(path.string() +
+                    ": its instances share transfer, but the file contains no transfer; run prt bake again");
     model.instances = read_instances(document, scene, model.stored);
     return model;
 }

@@ -4,6 +4,7 @@
 #include "gltf/accessor.h"
 #include "gltf/allowance.h"
 #include "gltf/transfer_json.h"
+#include "prt/support/counted.h"
 #include "prt/support/error.h"
 
 #include <algorithm>
@@ -39,8 +40,8 @@ std::vector<float> read_attribute(const tinygltf::Model& model, int index, const
                        accessor.componentType == TINYGLTF_COMPONENT_TYPE_SHORT;
     if (accessor.componentType != TINYGLTF_COMPONENT_TYPE_FLOAT &&
         !(rotations && small && accessor.normalized))
-        throw Error(std::string(attribute.name) + " of its instances holds " +
-                    (rotations ? "neither floats nor normalized signed bytes or shorts" : "no floats"));
+        throw Error(std::string(attribute.name) + " of its instances must contain " +
+                    (rotations ? "floats, or normalized signed bytes or shorts" : "floats"));
     std::vector<float> values = read_floats(model, index, static_cast<int>(attribute.components));
     for (std::size_t first = 0; first < values.size(); first += attribute.components) {
         const std::span<const float> one = std::span(values).subspan(first, attribute.components);
@@ -49,7 +50,7 @@ std::vector<float> read_attribute(const tinygltf::Model& model, int index, const
         if (!std::ranges::all_of(one, [](float number) { return std::isfinite(number); }))
             throw Error(name + " is not finite");
         if (rotations && std::ranges::all_of(one, [](float number) { return number == 0; }))
-            throw Error(name + " is zero, and no rotation");
+            throw Error(name + " is not a rotation: all components are 0");
     }
     return values;
 }
@@ -63,14 +64,14 @@ std::vector<Attribute> read_attributes(const GltfContents& contents, const Json&
     for (const auto& item : references.items()) {
         const auto index = item.value().get<std::size_t>();
         if (index >= contents.model.accessors.size())
-            throw Error("accessor " + std::to_string(index) + " of its instances is not there");
+            throw Error("accessor " + std::to_string(index) + " of its instances does not exist");
         if (!std::exchange(first, false) && contents.model.accessors[index].count != count)
-            throw Error("its instances have attributes of different length");
+            throw Error("the attributes of its instances have different numbers of elements");
         count = contents.model.accessors[index].count;
     }
     if (count > kMaxInstances)
-        throw Error("has " + std::to_string(count) + " instances, and at most " +
-                    std::to_string(kMaxInstances) + " can be");
+        throw Error("has " + std::to_string(count) + " instances; at most " + std::to_string(kMaxInstances) +
+                    " are supported");
     for (Attribute& attribute : attributes)
         if (references.contains(attribute.name))
             attribute.values =
@@ -93,9 +94,10 @@ std::size_t expand(GltfContents& contents, std::size_t n, double& bytes) {
     if (const Json* found = extension_of(nodes[n], kInstancesExtension))
         shared = *found;
     const auto first =
-        shared.empty() ? std::size_t{0}
-                       : static_cast<std::size_t>(whole_number(shared.at("first"), "first of its instances",
-                                                               0, static_cast<int>(kMaxInstances) - 1));
+        shared.empty()
+            ? std::size_t{0}
+            : static_cast<std::size_t>(whole_number(shared.at("first"), "\"first\" of its instances", 0,
+                                                    static_cast<int>(kMaxInstances) - 1));
     for (const char* name : {kInstancingExtension, kInstancesExtension})
         nodes[n]["extensions"].erase(name);
     if (nodes[n]["extensions"].empty())
@@ -154,14 +156,14 @@ void expand_instances(GltfContents& contents) {
             throw Error("node " + std::to_string(n) + ": " + in_plain_words(error));
         }
         if (instances > kMaxInstances)
-            throw Error("has more than " + std::to_string(kMaxInstances) + " instances of meshes");
+            throw Error("has more than " + std::to_string(kMaxInstances) + " mesh instances");
     }
     if (!found)
         return;
     if (!kept)
         contents.drop_extension(kInstancingExtension);
-    contents.notices.push_back("its " + std::to_string(instances) +
-                               " instances (EXT_mesh_gpu_instancing) become nodes of their own");
+    contents.notices.push_back(counted(instances, "instance", "instances") + " of EXT_mesh_gpu_instancing " +
+                               (instances == 1 ? "becomes a separate node" : "become separate nodes"));
 }
 
 } // namespace prt

@@ -24,7 +24,7 @@ Json three(const glm::vec3& v) {
 
 glm::vec3 read_three(const Json& json) {
     if (json.size() != 3)
-        throw Error("a box of its instances has no three numbers");
+        throw Error("a box of its instances must have vectors of three numbers");
     return {json[0].get<float>(), json[1].get<float>(), json[2].get<float>()};
 }
 
@@ -32,7 +32,8 @@ InstanceBox read_box(const Json& json) {
     const InstanceBox box{read_three(json.at("middle")), read_three(json.at("half"))};
     for (int i = 0; i < 3; ++i)
         if (!(std::abs(box.middle[i]) <= 1e9f && box.half[i] > 0 && box.half[i] <= 1e9f))
-            throw Error("a box of its instances is none");
+            throw Error(
+                "a box of its instances is invalid: its center must be within 1e9, its half size in 0..1e9");
     return box;
 }
 
@@ -41,16 +42,17 @@ CodedFactors read_factors(const GltfContents& contents, const Json& json, std::s
     CodedFactors coded;
     const Json& scales = json.at("scales");
     if (scales.size() != kInstanceNumbers)
-        throw Error("the factors of its instances have no " + std::to_string(kInstanceNumbers) + " scales");
+        throw Error("the factors of its instances must have " + std::to_string(kInstanceNumbers) + " scales");
     for (std::size_t j = 0; j < kInstanceNumbers; ++j) {
         coded.scales[j] = scales[j].get<float>();
         if (!(coded.scales[j] >= 0 && coded.scales[j] <= kMaxScale))
-            throw Error("a scale of the factors of its instances is none");
+            throw Error("a scale of the factors of its instances is negative, not finite or too large");
     }
     const std::span<const unsigned char> bytes =
         buffer_view_bytes(contents.model, json.at("bufferView").get<int>());
     if (bytes.size() != count * kInstanceNumbers)
-        throw Error("the factors of its instances are not those of " + std::to_string(count));
+        throw Error("the factors of its instances have " + std::to_string(bytes.size()) +
+                    " bytes, but must have " + std::to_string(count * kInstanceNumbers));
     for (const unsigned char byte : bytes)
         coded.bytes.push_back(static_cast<std::int8_t>(byte));
     return coded;
@@ -59,7 +61,7 @@ CodedFactors read_factors(const GltfContents& contents, const Json& json, std::s
 StoredInstances read_stored(const GltfContents& contents) {
     const Json& extension = *find_extension(contents, kInstancesExtension, kInstancesVersion);
     const auto count = static_cast<std::size_t>(
-        whole_number(extension.at("count"), "count of instances", 1, kMaxSharedInstances));
+        whole_number(extension.at("count"), "the number of instances", 1, kMaxSharedInstances));
     StoredInstances stored{decoded(read_factors(contents, extension.at("factors"), count)), {}};
     if (extension.at("boxes").empty())
         throw Error("its instances have no boxes");
@@ -71,16 +73,18 @@ StoredInstances read_stored(const GltfContents& contents) {
 /// Returns the instance of a node's extension, without its vertex arrays.
 FileInstance read_instance(const StoredInstances& stored, int node, const Json& extension,
                            const glm::dmat4& world) {
-    const auto number =
-        static_cast<std::size_t>(whole_number(extension.at("first"), "first of node " + std::to_string(node),
-                                              0, static_cast<int>(stored.factors.size()) - 1));
+    const auto number = static_cast<std::size_t>(whole_number(extension.at("first"),
+                                                              "\"first\" of node " + std::to_string(node), 0,
+                                                              static_cast<int>(stored.factors.size()) - 1));
     const auto box =
-        static_cast<std::size_t>(whole_number(extension.at("box"), "box of node " + std::to_string(node), 0,
-                                              static_cast<int>(stored.boxes.size()) - 1));
+        static_cast<std::size_t>(whole_number(extension.at("box"), "\"box\" of node " + std::to_string(node),
+                                              0, static_cast<int>(stored.boxes.size()) - 1));
     const std::optional<MeshPlacement> placement = even_placement(node, world);
     if (!placement)
-        throw Error("node " + std::to_string(node) +
-                    " draws an instance that shares its transfer, and mirrors it or scales it unevenly");
+        throw Error(
+            "node " + std::to_string(node) +
+            " mirrors or non-uniformly scales an instance that shares its transfer; undo this, or bake "
+            "with --instances own");
     return {node, number, {stored.factors[number], placement->rotation, stored.boxes[box]}, {}, {}, world};
 }
 
@@ -118,7 +122,8 @@ std::vector<std::size_t> stored_arrays(const GltfContents& contents, const Scene
         }
         if (from >= stored.primitives.size() ||
             !same_vertices(scene, primitive.vertices, stored, stored.primitives[from].vertices))
-            throw Error(primitive_name(primitive) + " is not drawn as its transfer is stored");
+            throw Error(primitive_name(primitive) +
+                        " does not have the vertices for which its transfer is stored");
         result[primitive.vertices] = stored.primitives[from].vertices;
     }
     return result;

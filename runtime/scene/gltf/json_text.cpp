@@ -36,8 +36,8 @@ void check_depth(std::string_view text) {
         else if (c == '}' || c == ']')
             --level;
         if (level > kMaxLevels)
-            throw Error("nests its JSON deeper than " + std::to_string(kMaxLevels) + " levels at " +
-                        position_of(text, i + 1));
+            throw Error("contains JSON that is nested more than " + std::to_string(kMaxLevels) +
+                        " levels deep, at " + position_of(text, i + 1));
     }
 }
 
@@ -48,13 +48,13 @@ Json parse_json(std::string_view text) {
     try {
         Json json = parse_json_tree<Json>(text);
         if (!json.is_object() || !json.contains("asset") || !json["asset"].is_object())
-            throw Error("is JSON, but no glTF: it has no asset");
+            throw Error("is JSON, but not glTF: it has no \"asset\"");
         const std::string version = json["asset"].value("version", "");
         if (!version.starts_with("2."))
-            throw Error("is glTF of version '" + version + "', only 2 is supported");
+            throw Error("is glTF of version '" + version + "'; only version 2 is supported");
         return json;
     } catch (const nlohmann::json::parse_error& error) {
-        throw Error("is damaged: its JSON cannot be read at " + position_of(text, error.byte));
+        throw Error("is damaged: its JSON is invalid at " + position_of(text, error.byte));
     }
 }
 

@@ -52,7 +52,8 @@ private:
         for (const FoundLevels& levels : listed)
             if (level_of_[at(levels.node)] >= 0)
                 throw Error(node_name(model_, levels.node) + " is a level of detail of node " +
-                            std::to_string(level_of_[at(levels.node)]) + " and has levels of its own");
+                            std::to_string(level_of_[at(levels.node)]) +
+                            " and cannot have levels of detail itself");
         for (FoundLevels& levels : listed)
             if (in_scene_[at(levels.node)] && !levels.coarser.empty())
                 found_.push_back(std::move(levels));
@@ -65,8 +66,9 @@ private:
         std::vector<int> ids;
         for (const Json& id : extension["ids"]) {
             if (!id.is_number_unsigned() || id.get<std::uint64_t>() >= model_.nodes.size())
-                throw Error(what + " names node " + id.dump(-1, ' ', true, Json::error_handler_t::replace) +
-                            ", which is not there");
+                throw Error(what + " refers to node " +
+                            id.dump(-1, ' ', true, Json::error_handler_t::replace) +
+                            ", which does not exist");
             ids.push_back(id.get<int>());
         }
         return ids;
@@ -77,11 +79,12 @@ private:
         if (level_of_[at(level)] >= 0)
             throw Error(what + std::to_string(level_of_[at(level)]) +
                         (level_of_[at(level)] == node ? " twice" : " and of node " + std::to_string(node)) +
-                        ": each level needs a node of its own, which may share a mesh");
+                        "; each level needs a separate node, but nodes can share a mesh");
         for (int above = node; above >= 0; above = parent_[at(above)])
             if (above == level)
-                throw Error(what + std::to_string(node) +
-                            (above == node ? ", which it is" : ", and above it"));
+                throw Error(
+                    what + std::to_string(node) +
+                    (above == node ? ", which is the same node" : ", which is one of its descendants"));
         level_of_[at(level)] = node;
     }
 
@@ -106,9 +109,9 @@ private:
         const std::vector<int>& finest = levels.at(0);
         for (const auto& [level, nodes] : levels)
             if (nodes.size() != finest.size()) {
-                notices_.push_back("names of levels of detail say different numbers of " +
+                notices_.push_back("the node names give different numbers of levels of detail for " +
                                    node_name(model_, finest.front()) + " and " +
-                                   node_name(model_, nodes.front()) + ": they are taken for none");
+                                   node_name(model_, nodes.front()) + "; they are not read as levels");
                 return;
             }
         for (std::size_t i = 0; i < finest.size(); ++i) {
@@ -200,7 +203,7 @@ private:
             const bool visible = nodes[i].visible;
             for (const int child : model_.nodes[at(node)].children) {
                 if (child < 0 || at(child) >= model_.nodes.size())
-                    throw Error("node " + std::to_string(child) + " is not there");
+                    throw Error("node " + std::to_string(child) + " does not exist");
                 if (child == root)
                     throw Error("node " + std::to_string(child) + " has two parents or is its own ancestor");
                 if (coarser_[at(child)])

@@ -1,6 +1,7 @@
 // Reads and writes transfer of texels in glTF files: PRTKIT_lightmap of docs/format.md.
 
 #include "prt/lightmap_gltf.h"
+#include "prt/support/counted.h"
 
 #include "gltf/accessor.h"
 #include "gltf/allowance.h"
@@ -47,11 +48,13 @@ LightmapSize read_map(const Json& json) {
 
 LightmapPlacement read_position(const Json& json, const VertexArray& vertices, std::size_t maps) {
     const LightmapPlacement position{
-        static_cast<std::size_t>(whole_number(json.at("map"), "the map", 0, static_cast<int>(maps) - 1)),
+        static_cast<std::size_t>(
+            whole_number(json.at("map"), "the index of a map", 0, static_cast<int>(maps) - 1)),
         whole_number(json.at("texCoord"), "texCoord", 0, 1000)};
     const auto set = static_cast<std::size_t>(position.texcoord);
     if (set >= vertices.texcoords.size() || vertices.texcoords[set].empty())
-        throw Error("it has no TEXCOORD_" + std::to_string(position.texcoord) + ", which its lightmap uses");
+        throw Error("it has no TEXCOORD_" + std::to_string(position.texcoord) +
+                    ", but its lightmap needs it");
     return position;
 }
 
@@ -59,7 +62,7 @@ LightmapLayout read_layout_of_maps(const GltfContents& contents, const Scene& sc
     LightmapLayout layout;
     const Json& maps = extension.at("maps");
     if (!maps.is_array() || maps.empty())
-        throw Error("the maps are no list, or none");
+        throw Error("the list of maps is missing or empty");
     for (const Json& map : maps)
         layout.maps.push_back(read_map(map));
     check_allowed(8 * static_cast<double>(layout.texels()), contents.file_bytes, "its lightmaps");
@@ -82,7 +85,7 @@ std::vector<std::uint32_t> read_numbers(const GltfContents& contents, const Json
                                         const std::string& what) {
     const auto bytes = buffer_view_bytes(contents.model, json.at("bufferView").get<int>());
     if (bytes.size() % sizeof(std::uint32_t) != 0)
-        throw Error(what + " are no whole numbers of four bytes");
+        throw Error(what + " are not 32-bit integers: the size of their buffer view is not a multiple of 4");
     std::vector<std::uint32_t> numbers(bytes.size() / sizeof(std::uint32_t));
     if (!numbers.empty())
         std::memcpy(numbers.data(), bytes.data(), bytes.size());
@@ -96,10 +99,10 @@ Json write_numbers(GltfContents& contents, std::span<const std::uint32_t> number
 std::vector<std::uint32_t> read_texels(const GltfContents& contents, const Json& raw, std::size_t texels) {
     std::vector<std::uint32_t> numbers = read_numbers(contents, raw.at("texels"), "the texels");
     if (numbers.empty())
-        throw Error("no texel is a receiver");
+        throw Error("the list of texels is empty");
     for (std::size_t i = 0; i < numbers.size(); ++i)
         if (numbers[i] >= texels || (i > 0 && numbers[i] <= numbers[i - 1]))
-            throw Error("the texels are not in ascending order, or beyond the maps");
+            throw Error("the texels are not in ascending order, or an index is outside the maps");
     return numbers;
 }
 
@@ -108,12 +111,12 @@ std::vector<Edge> read_seams(const GltfContents& contents, const Json& raw, std:
         return {};
     const std::vector<std::uint32_t> numbers = read_numbers(contents, raw["seams"], "the seams");
     if (numbers.size() % 2 != 0)
-        throw Error("the seams are no pairs");
+        throw Error("the seams are not pairs: their number of texels is odd");
     std::vector<Edge> seams;
     for (std::size_t i = 0; i < numbers.size(); i += 2) {
         if (std::max(numbers[i], numbers[i + 1]) >= receivers)
-            throw Error("a seam names receiver " + std::to_string(std::max(numbers[i], numbers[i + 1])) +
-                        " of " + std::to_string(receivers));
+            throw Error("a seam refers to receiver " + std::to_string(std::max(numbers[i], numbers[i + 1])) +
+                        ", but there are only " + std::to_string(receivers));
         seams.push_back({numbers[i], numbers[i + 1]});
     }
     return unique_edges(std::move(seams));
@@ -187,10 +190,10 @@ std::vector<std::vector<std::byte>> read_images(const GltfContents& contents, co
     for (const Json& map : maps) {
         const Json& images = map.at("images");
         if (!images.is_array() || images.size() != words)
-            throw Error("a map has " + std::to_string(images.size()) + " images for " +
-                        std::to_string(words) + " words of a texel");
+            throw Error("a map has " + counted(images.size(), "image") + ", but a texel has " +
+                        std::to_string(words) + " words");
         if (contents.images.empty())
-            throw Error("the images of the maps are not there");
+            throw Error("the file has no images for the maps");
         for (const Json& image : images) {
             const int most = static_cast<int>(contents.images.size()) - 1;
             const auto& file =
@@ -214,7 +217,7 @@ EncodedLightmap read_encoded(const GltfContents& contents, const Scene& scene, c
     read_packing(contents, extension.at("packing"), transfer);
     const double bytes = static_cast<double>(transfer.receivers.stride() + sizeof(std::uint16_t));
     check_allowed(bytes * static_cast<double>(lightmap.layout.texels()), contents.file_bytes,
-                  "the words of its lightmaps");
+                  "the texels of its lightmaps");
     encoded.images =
         read_images(contents, extension["maps"], static_cast<std::size_t>(transfer.receivers.words));
     return encoded;
@@ -227,11 +230,11 @@ const Json* find_lightmap(const GltfContents& contents) {
     for (const char* other : {kTransferExtension, kClusteredExtension})
         if (extension && extension_of(contents.json, other))
             throw Error(std::string("has ") + kLightmapExtension + " and " + other +
-                        ": transfer of texels or of vertices, not both");
+                        "; a file can have transfer at texels or at vertices, not both");
     if (extension && extension->contains("raw") && extension->contains("components"))
-        throw Error("has raw vectors or clusters, not both");
+        throw Error("has both raw vectors and clusters");
     if (extension && extension->contains("predictors"))
-        throw Error("texels have no predictors");
+        throw Error("has predictors, but texels do not support them");
     return extension;
 }
 

@@ -3,6 +3,7 @@
 #include "gltf/lights.h"
 
 #include "gltf/transfer_json.h"
+#include "prt/support/counted.h"
 #include "prt/support/error.h"
 
 #include <glm/geometric.hpp>
@@ -25,7 +26,7 @@ double number(const Json& light, const char* key, double otherwise, double least
     if (!(value >= least && value <= most))
         throw Error(std::string(key) + " is " +
                     light[key].dump(-1, ' ', true, Json::error_handler_t::replace) +
-                    ", not within what can be");
+                    ", which is not in the valid range");
     return value;
 }
 
@@ -36,7 +37,7 @@ PunctualKind kind_of(const std::string& word) {
         return PunctualKind::spot;
     if (word == "directional")
         return PunctualKind::directional;
-    throw Error("its type is neither point nor spot nor directional");
+    throw Error("its type is not point, spot or directional");
 }
 
 glm::vec3 color_of(const Json& light) {
@@ -101,17 +102,17 @@ const Json* light_of(const GltfContents& contents, const Json& node, std::size_t
         static_cast<std::size_t>(whole_number(use->at("light"), "light", 0, std::numeric_limits<int>::max()));
     const Json* list = extension_of(contents.json, kPunctual);
     if (!list || !list->contains("lights") || index >= list->at("lights").size())
-        throw Error("light " + std::to_string(index) + " is not there");
+        throw Error("light " + std::to_string(index) + " does not exist");
     return &list->at("lights").at(index);
 }
 
 void add_notices(const LightDeviations& deviations, std::vector<std::string>& notices) {
     if (deviations.endless_ranges > 0)
-        notices.push_back(std::to_string(deviations.endless_ranges) +
-                          " lights have a range of 0 or beyond 1e30 m: they get no limit of range");
+        notices.push_back(counted(deviations.endless_ranges, "light has", "lights have") +
+                          " a range of 0 or more than 1e30 m; the range is ignored");
     if (deviations.hard_cones > 0)
-        notices.push_back(std::to_string(deviations.hard_cones) +
-                          " spots have an inner cone that is not within the outer one: they get a hard edge");
+        notices.push_back(counted(deviations.hard_cones, "spot light has", "spot lights have") +
+                          " an inner cone that is not inside the outer cone; its edge becomes hard");
 }
 
 } // namespace
@@ -166,10 +167,10 @@ std::vector<PunctualLight> read_lights(const GltfContents& contents, const std::
             const double length = glm::length(along);
             const bool aimed = light.kind != PunctualKind::point;
             if (aimed && !(length > 0 && std::isfinite(length)))
-                throw Error("its node has no direction");
+                throw Error("the transform of its node gives no direction");
             for (int axis = 0; axis < 3; ++axis)
                 if (!(std::abs(world_position[axis]) <= kFarthestVertex))
-                    throw Error("lies farther than 1e9 m from the world's origin");
+                    throw Error("its position is more than 1e9 m from the origin of the scene");
             if (aimed)
                 light.direction = glm::vec3(along / length);
             light.position = glm::vec3(world_position - origin);

@@ -43,8 +43,8 @@ void read_lobe_words(const GltfContents& contents, const Json& attributes, const
         if (description.type != TINYGLTF_TYPE_VEC4 ||
             description.componentType != TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE ||
             description.count != vertices.size())
-            throw Error(name + " is not four bytes for each of " + std::to_string(vertices.size()) +
-                        " vertices");
+            throw Error(name + " must have four unsigned bytes for each of " +
+                        std::to_string(vertices.size()) + " vertices");
         const std::vector<std::byte> bytes = read_elements(contents.model, accessor);
         for (std::size_t v = 0; v < vertices.size(); ++v)
             std::memcpy(&model.words[(vertices.first_receiver + v) * model.lobes + k],
@@ -64,7 +64,7 @@ Json profiles_json(GltfContents& contents, const LobeModel& model) {
 void read_profiles(const GltfContents& contents, const Json& json, LobeModel& model) {
     const auto order = static_cast<std::size_t>(model.order);
     model.profiles.resize(static_cast<std::size_t>(
-        whole_number(json.at("count"), "count of profiles", 1, static_cast<int>(kMaxProfiles))));
+        whole_number(json.at("count"), "the number of profiles", 1, static_cast<int>(kMaxProfiles))));
     const std::vector<float> gains =
         read_float_view(contents, json, model.profiles.size() * order, kMaxGain, "the profiles of lobes");
     for (std::size_t p = 0; p < model.profiles.size(); ++p)
@@ -79,7 +79,8 @@ LobeRecord read_lobe_record(const Json& json) {
     LobeRecord record{
         .poses = number("poses"), .rays = number("raysPerReceiver"), .bounces = number("bounces")};
     if (json.contains("seed") && !json["seed"].is_number_unsigned())
-        throw Error("seed of lobes is " + json["seed"].dump() + ", no whole number that fits");
+        throw Error("the seed of the lobes is " + json["seed"].dump() +
+                    ", but must be a 64-bit unsigned integer");
     record.seed = json.value("seed", std::uint64_t{0});
     return record;
 }
@@ -119,7 +120,7 @@ std::optional<StoredLobes> read_lobes(const GltfDocument& document, const Scene&
             return std::nullopt;
         StoredLobes stored;
         LobeModel& model = stored.model;
-        model.order = whole_number(extension->at("order"), "order of lobes", 2, kMaxLobeOrder);
+        model.order = whole_number(extension->at("order"), "the order of the lobes", 2, kMaxLobeOrder);
         model.lobes = static_cast<std::size_t>(
             whole_number(extension->at("lobes"), "lobes", 1, static_cast<int>(kMaxLobes)));
         read_profiles(contents, extension->at("profiles"), model);

@@ -32,7 +32,7 @@ std::map<int, std::size_t> copy_shared_meshes(GltfContents& contents, const Scen
             if (first->second == 0)
                 first->second = json_bytes(json["meshes"][mesh]);
             bytes += first->second;
-            check_allowed(bytes, contents.file_bytes, "what its meshes hold, once for each node,");
+            check_allowed(bytes, contents.file_bytes, "the JSON of its meshes, copied for each node,");
             Json copy = json["meshes"][mesh];
             mesh = json["meshes"].size();
             json["meshes"].push_back(std::move(copy));
@@ -64,7 +64,7 @@ std::vector<glm::vec3> flat_normals(const GltfContents& contents, const Json& po
     return normals;
 }
 
-/// Corners as the file has them, those of a mirrored node turned back.
+/// Returns the triangles with the winding order of the file, which extraction reverses for mirrored nodes.
 std::vector<glm::uvec3> in_file_order(const Primitive& primitive) {
     std::vector<glm::uvec3> triangles = primitive.triangles;
     if (primitive.mirrored)

@@ -2,6 +2,7 @@
 #include "gltf/material.h"
 
 #include "gltf/lights.h"
+#include "prt/support/counted.h"
 #include "prt/support/error.h"
 #include "prt/support/printable.h"
 
@@ -175,7 +176,8 @@ private:
             return {};
         for (int c = 0; c < 3; ++c)
             if (!(emission.radiance[c] >= 0 && emission.radiance[c] <= kMaxIntensity))
-                throw Error("the emission of material '" + printable(file.name) + "' is not in 0..1e9");
+                throw Error("the emission of material '" + printable(file.name) +
+                            "' is not in the range 0..1e9");
         emission.texture = texture_use(file.emissiveTexture);
         return emission;
     }
@@ -185,15 +187,15 @@ private:
         if (index < 0)
             return use;
         if (static_cast<std::size_t>(index) >= model_.textures.size())
-            throw Error("texture " + std::to_string(index) + " is not there");
+            throw Error("texture " + std::to_string(index) + " does not exist");
         const tinygltf::Texture& texture = model_.textures[static_cast<std::size_t>(index)];
         use.image = image_of(texture);
         if (use.image < 0) { // an image without data: `load_textures` reports it if its pixels are needed
             use.image = static_cast<int>(scene_.images.size());
             scene_.images.push_back({"the image of texture " + std::to_string(index), {}});
         } else if (static_cast<std::size_t>(use.image) >= model_.images.size()) {
-            throw Error("texture " + std::to_string(index) + " names image " + std::to_string(use.image) +
-                        ", which is not there");
+            throw Error("texture " + std::to_string(index) + " refers to image " + std::to_string(use.image) +
+                        ", which does not exist");
         }
         use.texcoord = texcoord;
         if (texture.sampler >= 0 && static_cast<std::size_t>(texture.sampler) < model_.samplers.size()) {
@@ -233,10 +235,6 @@ private:
     std::map<std::tuple<int, std::string, bool>, int> first_images_; ///< by source and kind
 };
 
-std::string counted(std::size_t count, const char* one, const char* many) {
-    return std::to_string(count) + " " + (count == 1 ? one : many);
-}
-
 } // namespace
 
 void read_materials(const tinygltf::Model& model, Scene& scene, UnitRange& range) {
@@ -260,7 +258,7 @@ std::vector<std::string> unread_material_notices(const tinygltf::Model& model, c
     std::vector<std::string> notices;
     if (bumpy > 0)
         notices.push_back(counted(bumpy, "material has a normal map", "materials have normal maps") +
-                          ": light is baked for the normals of the vertices");
+                          "; light is baked for the vertex normals, normal maps are ignored");
     return notices;
 }
 

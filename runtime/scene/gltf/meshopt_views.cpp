@@ -4,6 +4,7 @@
 
 #include "gltf/accessor.h"
 #include "gltf/allowance.h"
+#include "prt/support/counted.h"
 #include "prt/support/error.h"
 
 #include <meshoptimizer.h>
@@ -52,20 +53,21 @@ std::vector<unsigned char> decompressed(const MeshoptCode& code, std::span<const
     const auto& [count, stride, mode, filter] = code;
     const bool attributes = mode == "ATTRIBUTES";
     if (attributes ? stride == 0 || stride > 256 || stride % 4 != 0 : stride != 2 && stride != 4)
-        throw Error("has a stride of " + std::to_string(stride) + " bytes");
+        throw Error("has an invalid stride of " + counted(stride, "byte"));
     if (!attributes && mode != "TRIANGLES" && mode != "INDICES")
         throw Error("has the unknown mode '" + mode + "'");
     if (mode == "TRIANGLES" && count % 3 != 0)
-        throw Error("holds " + std::to_string(count) + " indices of triangles");
+        throw Error("contains triangles, but its number of indices, " + std::to_string(count) +
+                    ", is not a multiple of 3");
     // Every 16 elements of a byte each take at least one or two bits: a much larger count is invalid.
     if (count > source.size() * 1024)
-        throw Error("claims " + std::to_string(count) + " elements in " + std::to_string(source.size()) +
-                    " bytes");
+        throw Error("claims " + std::to_string(count) + " elements, but has only " +
+                    counted(source.size(), "byte"));
     // The upper half of the first byte identifies the codec, the lower half its version.
     constexpr unsigned char kAttributes = 0xa0;
     if (attributes && !source.empty() && (source[0] & 0xf0) == kAttributes && source[0] != kAttributes)
         throw Error("uses version " + std::to_string(source[0] & 0x0f) +
-                    " of the attribute codec, and this program decodes version 0: write it with "
+                    " of the attribute codec, but only version 0 is supported; write the file with "
                     "EXT_meshopt_compression or without compression");
     std::vector<unsigned char> result(count * stride);
     const int status =
@@ -82,7 +84,7 @@ std::vector<unsigned char> decompressed(const MeshoptCode& code, std::span<const
     else if (filter == "EXPONENTIAL" && stride % 4 == 0)
         meshopt_decodeFilterExp(result.data(), count, stride);
     else if (filter != "NONE")
-        throw Error("has the filter '" + filter + "', which does not go with it");
+        throw Error("has the filter '" + filter + "', which does not match its mode or stride");
     return result;
 }
 
@@ -252,12 +254,13 @@ void decompress_views(GltfContents& contents) {
             const auto source = buffer_view_bytes(contents.model, static_cast<int>(v));
             const MeshoptCode code = read_code(*extension);
             total += static_cast<double>(code.count) * static_cast<double>(code.stride);
-            check_allowed(2 * total, contents.file_bytes, "and those before it"); // also while joined
+            check_allowed(2 * total, contents.file_bytes,
+                          "and the compressed buffer views before it"); // also while joined
             tinygltf::Buffer buffer;
             buffer.data = decompressed(code, source);
             const auto length = views[v].at("byteLength").get<std::size_t>();
             if (length > buffer.data.size())
-                throw Error("has fewer bytes than it says");
+                throw Error("has fewer bytes than its byteLength declares");
             tinygltf::BufferView& view = contents.model.bufferViews[v];
             view.buffer = static_cast<int>(contents.model.buffers.size());
             view.byteOffset = 0;

@@ -48,7 +48,7 @@ Skinning read_skinning(const tinygltf::Model& model, const Json& attributes) {
         if (set == 0)
             skin.influences.resize(joints.size() * skin.sets);
         if (joints.size() != weights.size() || joints.size() * skin.sets != skin.influences.size())
-            throw Error("joints and weights have different numbers of elements");
+            throw Error("JOINTS and WEIGHTS have different numbers of elements");
         for (std::size_t i = 0; i < joints.size(); ++i)
             skin.influences[(i / 4 * skin.sets + set) * 4 + i % 4] = {joints[i],
                                                                       static_cast<double>(weights[i])};

@@ -29,7 +29,7 @@ std::vector<int> root_nodes(const tinygltf::Model& model) {
     if (!model.scenes.empty()) {
         const int scene = model.defaultScene < 0 ? 0 : model.defaultScene;
         if (static_cast<std::size_t>(scene) >= model.scenes.size())
-            throw Error("the default scene " + std::to_string(scene) + " is not there");
+            throw Error("the default scene " + std::to_string(scene) + " does not exist");
         return model.scenes[static_cast<std::size_t>(scene)].nodes;
     }
     std::vector<bool> is_child(model.nodes.size(), false);
@@ -65,7 +65,7 @@ NodeTree node_tree(const tinygltf::Model& model) {
     std::vector<bool> visited(model.nodes.size(), false);
     const auto add = [&](int node, int parent) {
         if (node < 0 || static_cast<std::size_t>(node) >= visited.size())
-            throw Error("node " + std::to_string(node) + " is not there");
+            throw Error("node " + std::to_string(node) + " does not exist");
         if (visited[static_cast<std::size_t>(node)])
             throw Error("node " + std::to_string(node) + " has two parents or is its own ancestor");
         visited[static_cast<std::size_t>(node)] = true;

@@ -38,7 +38,7 @@ void remove_occluders(GltfContents& contents) {
 glm::vec3 read_corner(const Json& json, const char* name) {
     const Json& corner = json.at(name);
     if (!corner.is_array() || corner.size() != 3)
-        throw Error(std::string(name) + " of an occlusion volume is no list of three numbers");
+        throw Error(std::string(name) + " of an occlusion volume is not a list of three numbers");
     return {corner[0].get<float>(), corner[1].get<float>(), corner[2].get<float>()};
 }
 
@@ -46,7 +46,8 @@ OcclusionVolume read_occluder(const GltfContents& contents, const Json& json) {
     const Json version = json.value("version", Json(0));
     if (!version.is_number_integer() || version != kOccluderVersion)
         throw Error(std::string(kOccluderExtension) + " has version " + version.dump() +
-                    ", this program reads " + std::to_string(kOccluderVersion));
+                    ", but this program reads version " + std::to_string(kOccluderVersion) +
+                    "; write the file again with this version of prt");
     OcclusionVolume volume;
     volume.low = read_corner(json, "min");
     volume.high = read_corner(json, "max");
@@ -54,8 +55,8 @@ OcclusionVolume read_occluder(const GltfContents& contents, const Json& json) {
     check_occlusion_volume(volume);
     const auto bytes = buffer_view_bytes(contents.model, json.at("texels").at("bufferView").get<int>());
     if (bytes.size() != sizeof volume.texels)
-        throw Error("an occlusion volume has " + std::to_string(bytes.size()) + " bytes of texels, not " +
-                    std::to_string(sizeof volume.texels));
+        throw Error("an occlusion volume has " + std::to_string(bytes.size()) +
+                    " bytes of texels, but must have " + std::to_string(sizeof volume.texels));
     std::memcpy(volume.texels.data(), bytes.data(), bytes.size());
     return volume;
 }

@@ -14,7 +14,7 @@ PredictorKind read_predictor_kind(const Json& json) {
         for (const PredictorKind kind : {PredictorKind::normal, PredictorKind::position})
             if (json == to_string(kind))
                 return kind;
-    throw Error("a predictor is of a kind that this program does not know");
+    throw Error("the kind of a predictor is unknown; it must be normal or position");
 }
 
 /// Reads three finite numbers with magnitudes of at most `largest`.
@@ -28,7 +28,7 @@ glm::dvec3 read_three(const Json& json, const std::string& name, double largest)
         good = good && std::abs(numbers[static_cast<int>(i)]) <= largest; // false for NaN
     }
     if (!good)
-        throw Error(name + " of a predictor is not three numbers of at most " +
+        throw Error(name + " of a predictor must be three numbers with absolute values of at most " +
                     std::to_string(static_cast<long long>(largest)));
     return numbers;
 }
@@ -38,7 +38,7 @@ Predictor read_predictor(const Json& json, const glm::dvec3& scene_origin) {
     predictor.scale = glm::vec3(read_three(json.at("scale"), "scale", static_cast<double>(kMaxFloatWeight)));
     for (int i = 0; i < 3; ++i)
         if (predictor.scale[i] == 0)
-            throw Error("scale of a predictor is zero, or too small for a float");
+            throw Error("the scale of a predictor is 0, or too small for a float");
     if (predictor.kind == PredictorKind::position)
         predictor.origin = glm::vec3(read_three(json.at("origin"), "origin", kFarthestVertex) - scene_origin);
     return predictor;
@@ -48,8 +48,8 @@ std::vector<std::int32_t> read_centers(const GltfContents& contents, const Json&
                                        const ClusteredBases& bases) {
     const RowCode code = read_row_code(contents, json);
     if (code.drops.size() != bases.predictor_rows())
-        throw Error("the centers have " + std::to_string(code.drops.size()) + " columns for " +
-                    std::to_string(bases.predictor_rows()) + " rows of predictors");
+        throw Error("the centers have " + std::to_string(code.drops.size()) +
+                    " columns, but the predictors have " + std::to_string(bases.predictor_rows()) + " rows");
     try {
         return decode_rows(code, bases.clusters());
     } catch (const Error& error) {
@@ -83,12 +83,12 @@ void read_predictors(const GltfContents& contents, const Scene& scene, const Jso
         return;
     const Json& predictors = extension["predictors"];
     if (!predictors.is_array() || predictors.empty() || predictors.size() > 2)
-        throw Error("predictors are no list of one or two");
+        throw Error("the predictors are not a list of one or two elements");
     for (const Json& predictor : predictors)
         bases.predictors.push_back(read_predictor(predictor, scene.origin));
     if (bases.predictors.size() == 2 && (bases.predictors[0].kind != PredictorKind::normal ||
                                          bases.predictors[1].kind != PredictorKind::position))
-        throw Error("two predictors are a normal and then a position");
+        throw Error("two predictors must be a normal and a position, in this order");
     bases.centers = read_centers(contents, extension.at("centers"), bases);
 }
 

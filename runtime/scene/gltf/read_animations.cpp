@@ -3,6 +3,7 @@
 
 #include "gltf/accessor.h"
 #include "gltf/allowance.h"
+#include "prt/support/counted.h"
 #include "prt/support/error.h"
 
 #include <algorithm>
@@ -31,18 +32,19 @@ Interpolation interpolation_of(const std::string& name) {
         return Interpolation::linear;
     if (name == "CUBICSPLINE")
         return Interpolation::cubic_spline;
-    throw Error("there is no interpolation '" + name + "'");
+    throw Error("its interpolation '" + name + "' is not LINEAR, STEP or CUBICSPLINE");
 }
 
 std::vector<float> read_times(const tinygltf::Model& model, int accessor) {
     std::vector<float> times = read_floats(model, accessor, 1);
     if (times.empty())
-        throw Error("it has no keys");
+        throw Error("it has no keyframes");
     for (std::size_t i = 0; i < times.size(); ++i)
         if (!std::isfinite(times[i]))
-            throw Error("the time of key " + std::to_string(i) + " is not finite");
+            throw Error("the time of keyframe " + std::to_string(i) + " is not finite");
     if (const auto falls = std::is_sorted_until(times.begin(), times.end()); falls != times.end())
-        throw Error("key " + std::to_string(falls - times.begin()) + " is earlier than the one before it");
+        throw Error("keyframe " + std::to_string(falls - times.begin()) +
+                    " is earlier than the previous one");
     return times;
 }
 
@@ -53,8 +55,9 @@ std::vector<glm::vec4> read_values(const tinygltf::Model& model, int accessor,
     const std::vector<float> numbers = read_floats(model, accessor, static_cast<int>(components));
     const std::size_t count = numbers.size() / components;
     if (count != of_key * channel.times.size())
-        throw Error("it has " + std::to_string(count) + " values for " +
-                    std::to_string(channel.times.size()) + " keys of " + std::to_string(of_key) + " each");
+        throw Error("it has " + counted(count, "value") + ", but its " +
+                    counted(channel.times.size(), "keyframe needs ", "keyframes need ") +
+                    std::to_string(of_key * channel.times.size()));
     std::vector<glm::vec4> values(count, glm::vec4(0));
     for (std::size_t i = 0; i < numbers.size(); ++i) {
         if (!std::isfinite(numbers[i]))
@@ -63,7 +66,8 @@ std::vector<glm::vec4> read_values(const tinygltf::Model& model, int accessor,
     }
     for (std::size_t key = 0; channel.part == AnimatedPart::rotation && key < channel.times.size(); ++key)
         if (values[of_key * key + of_key / 2] == glm::vec4(0))
-            throw Error("the rotation of key " + std::to_string(key) + " is 0");
+            throw Error("the rotation of keyframe " + std::to_string(key) +
+                        " is not a rotation: all components are 0");
     return values;
 }
 
@@ -77,11 +81,12 @@ std::optional<AnimationChannel> read_channel(const tinygltf::Model& model,
     const auto node = static_cast<std::size_t>(file.target_node),
                sampler_at = static_cast<std::size_t>(file.sampler);
     if (file.target_node < 0 || node >= model.nodes.size())
-        throw Error("it moves node " + std::to_string(file.target_node) + ", which is not there");
+        throw Error("it moves node " + std::to_string(file.target_node) + ", which does not exist");
     if (!model.nodes[node].matrix.empty())
-        throw Error("it moves node " + std::to_string(node) + ", which has a matrix");
+        throw Error("it moves node " + std::to_string(node) +
+                    ", which has a matrix; only translation, rotation and scale can be animated");
     if (file.sampler < 0 || sampler_at >= animation.samplers.size())
-        throw Error("its sampler " + std::to_string(file.sampler) + " is not there");
+        throw Error("its sampler " + std::to_string(file.sampler) + " does not exist");
     const tinygltf::AnimationSampler& sampler = animation.samplers[sampler_at];
     AnimationChannel channel{node, *part, interpolation_of(sampler.interpolation), {}, {}};
     channel.times = read_times(model, sampler.input);
@@ -111,7 +116,7 @@ void check_keys(const GltfContents& contents) {
                                                  std::pair(animation.samplers[sampler].output, kValue)})
                 bytes += size * static_cast<double>(get_accessor(contents.model, accessor).count);
         }
-    check_allowed(bytes, contents.file_bytes, "the keys of its animations, once for each channel,");
+    check_allowed(bytes, contents.file_bytes, "the keyframes of its animations, copied for each channel,");
 }
 
 } // namespace

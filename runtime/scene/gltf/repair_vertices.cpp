@@ -1,9 +1,10 @@
-// Normals and texture coordinates that no reader can use, replaced in the document.
+// Replaces unusable normals and texture coordinates in the document.
 #include "gltf/repair_vertices.h"
 
 #include "gltf/accessor.h"
 #include "gltf/allowance.h"
 #include "gltf/triangles.h"
+#include "prt/support/counted.h"
 #include "prt/support/error.h"
 #include "triangle_normal.h"
 
@@ -23,13 +24,13 @@ bool is_floats(const tinygltf::Model& model, int accessor, int type) {
     return a.componentType == TINYGLTF_COMPONENT_TYPE_FLOAT && a.type == type && a.count > 0;
 }
 
-/// Vectors of `width` floats, of which some are unusable.
+/// Values of an accessor, some of which are unusable.
 struct Damaged {
     std::vector<float> values;
-    std::vector<std::size_t> elements; ///< unusable ones
+    std::vector<std::size_t> elements; ///< indices of unusable elements
 };
 
-/// Returns null where all elements are usable.
+/// Returns the values of an accessor and its unusable elements; no value if all elements are usable.
 template <class IsUsable>
 std::optional<Damaged> find_damaged(const tinygltf::Model& model, int accessor, std::size_t width,
                                     IsUsable&& is_usable) {
@@ -42,7 +43,7 @@ std::optional<Damaged> find_damaged(const tinygltf::Model& model, int accessor, 
     return damaged;
 }
 
-/// Lets `accessor` refer to values of its own: it has none, or only some of them.
+/// Stores `values` in a new buffer view for `accessor`, which has no buffer view or is sparse.
 void give_own_values(GltfContents& contents, std::size_t accessor, std::span<const float> values) {
     const std::size_t view = contents.add_buffer_view(std::as_bytes(values));
     const Json& json = contents.json["bufferViews"][view];
@@ -60,11 +61,11 @@ void give_own_values(GltfContents& contents, std::size_t accessor, std::span<con
         of_file.erase(key);
 }
 
-/// Writes the damaged elements of `accessor`, by now usable, into the document.
+/// Writes the elements of `accessor` that were damaged and have been repaired into the document.
 void write_back(GltfContents& contents, int accessor, std::size_t width, const Damaged& damaged) {
     const auto index = static_cast<std::size_t>(accessor);
     const tinygltf::Accessor& model = contents.model.accessors[index];
-    for (const char* key : {"min", "max"}) // of what was replaced
+    for (const char* key : {"min", "max"}) // they belong to the replaced values
         contents.json["accessors"][index].erase(key);
     if (model.bufferView < 0 || model.sparse.isSparse) {
         give_own_values(contents, index, damaged.values);
@@ -77,7 +78,7 @@ void write_back(GltfContents& contents, int accessor, std::size_t width, const D
                     &damaged.values[i * width], size);
 }
 
-/// Zeroes texture coordinates that are not finite; returns how many.
+/// Sets texture coordinates that are not finite to zero. Returns their number.
 std::size_t repair_texcoords(GltfContents& contents, const tinygltf::Primitive& primitive) {
     std::size_t replaced = 0;
     for (const auto& [name, accessor] : primitive.attributes) {
@@ -101,7 +102,7 @@ int attribute(const tinygltf::Primitive& primitive, const char* name) {
     return found == primitive.attributes.end() ? -1 : found->second;
 }
 
-/// Normals that are unusable, by accessor, and the triangles around their vertices.
+/// Replaces unusable normals of accessors by the normals of the triangles around their vertices.
 class NormalRepair {
 public:
     explicit NormalRepair(GltfContents& contents) : contents_(contents) {}
@@ -120,7 +121,7 @@ public:
             add_triangles(primitive, position, found->second);
     }
 
-    /// Returns how many normals it has replaced.
+    /// Writes the new normals. Returns the number of replaced normals.
     std::size_t finish() {
         std::size_t replaced = 0;
         for (auto& [accessor, normals] : normals_) {
@@ -139,16 +140,18 @@ public:
 private:
     struct Normals {
         std::optional<Damaged> damaged;
-        std::vector<glm::dvec3> sums; ///< of the triangles at each vertex, by area
+        /// [vertices] sum of the normals of the triangles at each vertex, weighted by area.
+        std::vector<glm::dvec3> sums;
     };
 
     void add_triangles(const tinygltf::Primitive& primitive, int position, Normals& normals) {
-        constexpr double kElement = 64; // bytes of work, so that one accessor in many primitives has an end
+        // Work per element, counted in bytes: limits files that use one accessor in many primitives.
+        constexpr double kElement = 64;
         const std::vector<float> p = read_floats(contents_.model, position, 3);
         const std::size_t vertices = p.size() / 3;
         const std::vector<glm::uvec3> triangles = read_triangles(contents_.model, primitive, vertices);
         bytes_ += kElement * static_cast<double>(vertices + triangles.size());
-        check_allowed(bytes_, contents_.file_bytes, "what replaces its unusable normals");
+        check_allowed(bytes_, contents_.file_bytes, "the replacement of its unusable normals");
         normals.sums.resize(std::max(normals.sums.size(), normals.damaged->values.size() / 3));
         const auto at = [&](std::uint32_t i) { return glm::dvec3(p[3 * i], p[3 * i + 1], p[3 * i + 2]); };
         for (const glm::uvec3& t : triangles)
@@ -177,13 +180,12 @@ void repair_vertices(GltfContents& contents) {
                             error.what());
             }
     if (const std::size_t replaced = normals.finish(); replaced > 0)
-        contents.notices.push_back(std::to_string(replaced) +
-                                   " normals are zero or not finite and become those of their triangles, in "
-                                   "files that are written, too");
+        contents.notices.push_back(counted(replaced, "normal is", "normals are") +
+                                   " zero or not finite; the normal of the adjacent triangles is used, also "
+                                   "in the output");
     if (texcoords > 0)
-        contents.notices.push_back(std::to_string(texcoords) +
-                                   " texture coordinates are not finite and become 0, in files that are "
-                                   "written, too");
+        contents.notices.push_back(counted(texcoords, "texture coordinate is", "texture coordinates are") +
+                                   " not finite and set to 0, also in the output");
 }
 
 } // namespace prt

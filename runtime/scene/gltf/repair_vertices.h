@@ -4,9 +4,9 @@
 
 namespace prt {
 
-/// Replaces what no reader can use in vertices of floats: normals that are not finite or zero by those of the
-/// triangles of their primitives, and texture coordinates that are not finite by 0. Files that are written
-/// hold the same. Adds a notice for each.
+/// Replaces unusable float data of vertices in the document, and therefore also in files that are written
+/// from it. Normals that are zero or not finite become those of the triangles of their primitives; texture
+/// coordinates that are not finite become 0. Adds a notice for each kind.
 void repair_vertices(GltfContents& contents);
 
 } // namespace prt

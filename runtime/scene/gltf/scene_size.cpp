@@ -79,7 +79,7 @@ void check_scene_size(const GltfContents& contents, std::span<const NodeTransfor
         if (node.visible && mesh >= 0 && static_cast<std::size_t>(mesh) < of_mesh.size())
             bytes += of_mesh[static_cast<std::size_t>(mesh)];
     }
-    check_scene_allowed(bytes, contents, "the scene, with its instances and morph targets,");
+    check_scene_allowed(bytes, contents, "the scene (with instances and morph targets)");
 }
 
 } // namespace prt

@@ -135,7 +135,7 @@ private:
     const Json& material(std::size_t index) const {
         const Json& materials = contents_.json["materials"];
         if (index >= materials.size())
-            throw Error("there is no material " + std::to_string(index));
+            throw Error("material " + std::to_string(index) + " does not exist");
         return materials[index];
     }
 
@@ -189,7 +189,7 @@ private:
         return at;
     }
 
-    /// Makes the materials of these primitives single-sided; copies materials that others use too.
+    /// Makes the materials of these primitives single-sided; copies materials that others also use.
     void single_sided(const std::vector<JsonLocation>& primitives) {
         std::map<std::size_t, std::size_t> users;
         for_each_primitive(contents_.json, [&](Json& primitive) {

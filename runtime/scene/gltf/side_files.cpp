@@ -75,7 +75,7 @@ fs::path alike(const fs::path& folder, const std::string& name) {
         std::vector<fs::path> found;
         find_alike(folder, parts, found);
         if (found.size() > 1)
-            throw Error("there is no such file, and more than one is alike but for case: '" +
+            throw Error("the file does not exist, and several names differ only in case: '" +
                         found[0].filename().string() + "', '" + found[1].filename().string() + "'");
         if (!found.empty())
             return found[0].lexically_relative(folder);
@@ -110,7 +110,7 @@ tinygltf::FsCallbacks SideFiles::callbacks() {
 
 fs::path SideFiles::position_of(const std::string& name) {
     if (name.find('\0') != std::string::npos)
-        throw Error("is no name of a file");
+        throw Error("is not a valid file name");
     std::error_code error;
     const fs::path folder = fs::canonical(folder_, error);
     fs::path path = fs::weakly_canonical(folder / name, error);
@@ -120,16 +120,16 @@ fs::path SideFiles::position_of(const std::string& name) {
     if (!fs::exists(path) && is_below(path, folder) && searches_++ < kMaxSearches)
         if (const fs::path other = alike(folder, name); !other.empty()) {
             path = fs::weakly_canonical(folder / other, error);
-            notices_.insert("'" + printable(name) + "' is not there: '" + printable(other.string()) +
-                            "' is read");
+            notices_.insert("'" + printable(name) + "' does not exist; '" + printable(other.string()) +
+                            "' is read instead");
         }
     if (!options_.allow_outside && !is_below(path, folder))
-        throw Error("lies outside the folder of the scene, where only --allow-outside reads it");
+        throw Error("is outside the folder of the scene; allow this with --allow-outside");
     const fs::file_status status = fs::status(path, error);
     if (!fs::exists(status))
-        throw Error("there is no such file");
+        throw Error("the file does not exist");
     if (!fs::is_regular_file(status))
-        throw Error("is no regular file");
+        throw Error("is not a regular file");
     return path;
 }
 
@@ -143,8 +143,8 @@ void SideFiles::check_outputs() const {
         for (const fs::path& output : options_.outputs) {
             std::error_code error; // set if the output does not exist
             if (fs::equivalent(path, output, error))
-                throw Error("names " + path.string() +
-                            ", which this run would replace: give the output another name");
+                throw Error("reads " + path.string() +
+                            ", which the output would overwrite; choose another output name");
         }
 }
 
@@ -157,7 +157,8 @@ std::vector<unsigned char> SideFiles::read(const std::string& name) {
         bytes_there_ += size;
     constexpr std::uint64_t kFree = std::uint64_t{256} << 20, kTimes = 64;
     if (bytes_read_ > kFree + kTimes * bytes_there_)
-        throw Error("is named too often: files are read to 256 MB and 64 times their size in all");
+        throw Error(
+            "is referenced too often: the limit for all reads is 256 MB plus 64 times the size of the files");
     const std::vector<std::byte> bytes = read_file(path);
     if (is_lfs_pointer(bytes))
         throw Error(kLfsRemedy);

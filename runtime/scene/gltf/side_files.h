@@ -16,9 +16,9 @@
 namespace prt {
 
 /// Reads the files that the URIs of a scene name, for tinygltf. A scene may come from an untrusted source: it
-/// can access only regular files in its folder and subfolders, after resolving ".." and links, unless more is
-/// allowed. A name without a file is matched to the only file that differs in backslashes, case, escapes or a
-/// query.
+/// can access only regular files in its folder and subfolders, after resolving ".." and links, unless
+/// GltfOptions::allow_outside is set. A name without a file is matched to the only file that differs in
+/// backslashes, case, escapes or a query.
 class SideFiles {
 public:
     /// `scene`: path of the scene, of `scene_bytes`.

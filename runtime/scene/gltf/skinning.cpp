@@ -2,6 +2,7 @@
 #include "gltf/skinning.h"
 
 #include "gltf/accessor.h"
+#include "prt/support/counted.h"
 #include "prt/support/error.h"
 
 #include <glm/gtc/type_ptr.hpp>
@@ -20,16 +21,16 @@ void read_set(const tinygltf::Model& model, std::span<const int> accessors, std:
     const auto weights = read_floats(model, accessors[1], 4);
     const std::size_t numbers = moving.weights.size() / moving.influences * 4;
     if (indices.size() != numbers || weights.size() != numbers)
-        throw Error("JOINTS or WEIGHTS have another number of elements than POSITION");
+        throw Error("JOINTS or WEIGHTS and POSITION have different numbers of elements");
     for (std::size_t i = 0; i < numbers; ++i) {
         if (!(weights[i] >= 0 && std::isfinite(weights[i])))
-            throw Error("a weight of vertex " + std::to_string(i / 4) + " for its joints is " +
-                        std::to_string(weights[i]));
+            throw Error("a joint weight of vertex " + std::to_string(i / 4) + " is " +
+                        std::to_string(weights[i]) + ", but must be finite and not negative");
         if (weights[i] == 0)
             continue;
         if (indices[i] >= joints)
-            throw Error("joint " + std::to_string(indices[i]) + " is beyond the " + std::to_string(joints) +
-                        " of its skin");
+            throw Error("joint " + std::to_string(indices[i]) + " does not exist: the skin has " +
+                        counted(joints, "joint"));
         const std::size_t at = i / 4 * moving.influences + 4 * set + i % 4;
         moving.matrices[at] = indices[i];
         moving.weights[at] = weights[i];
@@ -52,22 +53,22 @@ std::vector<int> influence_accessors(const tinygltf::Primitive& primitive) {
 
 Skin read_skin(const tinygltf::Model& model, int index) {
     if (index < 0 || static_cast<std::size_t>(index) >= model.skins.size())
-        throw Error("skin " + std::to_string(index) + " is not there");
+        throw Error("skin " + std::to_string(index) + " does not exist");
     const tinygltf::Skin& file = model.skins[static_cast<std::size_t>(index)];
     std::vector<float> inverse_bind;
     if (file.inverseBindMatrices >= 0) {
         inverse_bind = read_floats(model, file.inverseBindMatrices, 16);
         if (inverse_bind.size() < 16 * file.joints.size())
-            throw Error("skin " + std::to_string(index) + " has " + std::to_string(file.joints.size()) +
-                        " joints, and " + std::to_string(inverse_bind.size() / 16) +
-                        " inverse bind matrices");
+            throw Error("skin " + std::to_string(index) + " has " + counted(file.joints.size(), "joint") +
+                        ", but " +
+                        counted(inverse_bind.size() / 16, "inverse bind matrix", "inverse bind matrices"));
     }
     Skin skin;
     for (std::size_t j = 0; j < file.joints.size(); ++j) {
         const int node = file.joints[j];
         if (node < 0 || static_cast<std::size_t>(node) >= model.nodes.size())
             throw Error("joint " + std::to_string(j) + " of skin " + std::to_string(index) + " is node " +
-                        std::to_string(node) + ", which is not there");
+                        std::to_string(node) + ", which does not exist");
         skin.joints.push_back(static_cast<std::size_t>(node));
         skin.inverse_bind.push_back(inverse_bind.empty() ? glm::dmat4(1)
                                                          : glm::dmat4(glm::make_mat4(&inverse_bind[j * 16])));

@@ -1,10 +1,11 @@
-// Gives primitives without normals smooth ones.
+// Adds smooth normals to primitives without normals.
 
 #include "gltf/smooth_primitives.h"
 
 #include "gltf/accessor.h"
 #include "gltf/make_meshes_unique.h"
 #include "gltf/triangles.h"
+#include "prt/support/counted.h"
 #include "smooth_normals.h"
 
 #include <sstream>
@@ -35,10 +36,9 @@ bool smooth_primitives(GltfContents& contents, double degrees) {
     if (primitives == 0)
         return false;
     std::ostringstream notice;
-    notice << primitives
-           << (primitives == 1 ? " primitive has no normals and gets" : " primitives have no normals and get")
-           << " smooth ones where triangles meet at " << degrees << " degrees or less: " << before
-           << " vertices became " << after;
+    notice << counted(primitives, "primitive has", "primitives have")
+           << " no normals; normals are created, smooth across edges of at most " << degrees
+           << " degrees: " << before << " vertices become " << after;
     contents.notices.push_back(notice.str());
     return true;
 }

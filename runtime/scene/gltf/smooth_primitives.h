@@ -4,7 +4,7 @@
 
 namespace prt {
 
-/// Gives primitives of triangles that have no normals smooth ones (smooth_vertices), in the JSON and the
+/// Adds smooth normals (smooth_vertices) to primitives of triangles without normals, in the JSON and the
 /// buffer, with a notice. Returns whether there were any.
 bool smooth_primitives(GltfContents& contents, double degrees);
 

@@ -1,4 +1,4 @@
-// Extensions of glTF that the reader knows.
+// Extensions of glTF that the reader supports.
 #include "gltf/supported_extensions.h"
 
 #include "gltf/contents.h"
@@ -14,8 +14,9 @@
 namespace prt {
 namespace {
 
-/// Names that may stand in extensionsRequired. Materials and lights change nothing but what is reflected;
-/// their base color is used. Textures of other formats are missed only where they are needed.
+/// Extensions that a file may list in extensionsRequired. Extensions of materials and lights change only
+/// reflection, and the base color is used instead. Missing textures of other formats are an error only if
+/// they are needed.
 constexpr std::array<std::string_view, 35> kSupportedExtensions = {
     kTransferExtension,
     kClusteredExtension,
@@ -51,7 +52,7 @@ constexpr std::array<std::string_view, 35> kSupportedExtensions = {
     "KHR_materials_variants",
     "KHR_materials_volume",
     "EXT_lights_image_based",
-    kCesiumExtension, // moves the whole scene: light stays
+    kCesiumExtension, // moves the whole scene, which does not change its light
 };
 
 std::string light_name(const Json& light, std::size_t index) {

@@ -6,7 +6,7 @@ namespace prt {
 
 inline constexpr const char* kCesiumExtension = "CESIUM_RTC";
 
-/// Whether `name` may stand in extensionsRequired.
+/// Returns whether a file may list `name` in extensionsRequired.
 bool is_supported_extension(std::string_view name);
 
 } // namespace prt

@@ -43,8 +43,8 @@ Json& own_extras(Json& material, std::size_t m) {
         at = &member(*at, key, Json::value_t::object);
         if (!at->is_object())
             throw Error("material " + std::to_string(m) +
-                        " has extras that are no object: bent normals have no "
-                        "place there");
+                        " has \"extras\" that are not an object, so bent normals cannot be "
+                        "stored in it");
     }
     return *at;
 }

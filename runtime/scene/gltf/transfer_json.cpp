@@ -24,21 +24,20 @@ Enum one_of(const Json& json, const char* key, std::initializer_list<Enum> value
     for (const Enum value : values)
         if (word == to_string(value))
             return value;
-    throw Error(std::string(key) + " of the bake is a word that this program does not know");
+    throw Error(std::string(key) + " of the bake has an unknown value");
 }
 
 TermKind read_kind(const std::string& word) {
     for (const TermKind kind : {TermKind::direct, TermKind::indirect, TermKind::combined, TermKind::lamp})
         if (word == to_string(kind))
             return kind;
-    throw Error("the transfer has a term of a kind that this program does not know");
+    throw Error("the transfer has a term of an unknown kind");
 }
 
 TransferTerm read_term(const Json& term) {
     if (term.contains("towards"))
-        throw Error(
-            "the transfer has a sun among its lamps (\"towards\"), which only older versions of prt know; "
-            "bake the scene again");
+        throw Error("the transfer has a sun among its lamps (\"towards\"), which is no longer supported; "
+                    "run prt bake again");
     return {read_kind(term.at("kind").get<std::string>()),
             whole_number(term.at("channels"), "channels", 1, 3), term.value("name", ""),
             term.value("members", std::vector<std::string>())};
@@ -52,7 +51,8 @@ Number count_or_zero(const Json& json, const char* key) {
     const Json& value = json[key];
     if (!value.is_number_integer() || value < 0 ||
         value.get<std::uint64_t>() > std::uint64_t{std::numeric_limits<Number>::max()})
-        throw Error(std::string(key) + " of the bake is " + value.dump() + ", no whole number that fits");
+        throw Error(std::string(key) + " of the bake is " + value.dump() +
+                    ", but must be an unsigned integer that fits");
     return value.get<Number>();
 }
 
@@ -62,7 +62,7 @@ std::string read_hash(const Json& json) {
         return {};
     std::string hash = json["receivers"];
     if (hash.size() != 16 || hash.find_first_not_of("0123456789abcdef") != std::string::npos)
-        throw Error("receivers of the bake is no hash of 16 hexadecimal digits");
+        throw Error("\"receivers\" of the bake is not a hash of 16 hexadecimal digits");
     return hash;
 }
 
@@ -73,7 +73,7 @@ std::span<const unsigned char> float_bytes(const GltfContents& contents, const J
     const auto bytes = buffer_view_bytes(contents.model, object.at("bufferView").get<int>());
     if (count > 0 && bytes.size() != count * size) // a larger view would have another layout; views cannot be
                                                    // empty
-        throw Error(what + " need " + std::to_string(count * size) + " bytes, but there are " +
+        throw Error(what + " need " + std::to_string(count * size) + " bytes, but the buffer view has " +
                     std::to_string(bytes.size()));
     return bytes;
 }
@@ -118,22 +118,23 @@ const Json* find_extension(const GltfContents& contents, const char* name, int e
         return nullptr;
     const Json version = extension->value("version", Json(0));
     if (!version.is_number_integer() || version != expected_version)
-        throw Error(std::string(name) + " has version " + version.dump() + ", this program reads " +
-                    std::to_string(expected_version));
+        throw Error(std::string(name) + " has version " + version.dump() +
+                    ", but this program reads version " + std::to_string(expected_version) +
+                    "; write the file again with this version of prt");
     return extension;
 }
 
 void check_one_to_one(const GltfContents& contents) {
     const bool told = extension_of(contents.json, kInstancesExtension) != nullptr;
     if (contents.separate.empty() && told)
-        throw Error("its instances share their transfer, which this reader does not expand");
+        throw Error("its instances share their transfer, which this function does not support");
     bool drawn = !contents.separate.empty();
     if (contents.json.contains("nodes"))
         for (const Json& node : contents.json["nodes"])
             drawn = drawn || extension_of(node, kInstancesExtension);
     if (drawn && !told)
         throw Error(std::string("nodes have ") + kInstancesExtension +
-                    ", and the file does not say what they share");
+                    ", but the file does not have this extension");
 }
 
 Json terms_json(const TransferLayout& layout) {
@@ -152,7 +153,7 @@ TransferLayout read_layout(const Json& extension) {
     TransferLayout layout{whole_number(extension.at("order"), "order", 1, kMaxOrder), {}};
     const Json& terms = extension.at("terms");
     if (!terms.is_array())
-        throw Error("terms of the transfer are no list");
+        throw Error("\"terms\" of the transfer is not a list");
     for (const Json& term : terms)
         layout.terms.push_back(read_term(term));
     check_layout(layout);
@@ -163,14 +164,14 @@ bool TransferOfVertices::is_new(const Primitive& primitive, const Json& said) {
     const auto [before, is_new] = said_.try_emplace(primitive.vertices, said);
     if (before->second != said)
         throw Error(primitive_name(primitive) +
-                    " has the vertices of another primitive, but not its transfer");
+                    " shares its vertices with another primitive, but not the transfer");
     return is_new;
 }
 
 int whole_number(const Json& value, const std::string& name, int least, int most) {
     if (!value.is_number_integer() || value < least || value > most)
         throw Error(name + " is " + value.dump(-1, ' ', true, Json::error_handler_t::replace) +
-                    ", no whole number of " + std::to_string(least) + ".." + std::to_string(most));
+                    ", but must be an integer in " + std::to_string(least) + ".." + std::to_string(most));
     return value.get<int>();
 }
 
@@ -178,8 +179,8 @@ void check_magnitudes(std::span<const float> values, float largest, const std::s
     if (!std::all_of(values.begin(), values.end(),
                      [&](float v) { return std::abs(v) <= largest; })) // rejects
                                                                        // NaN
-        throw Error(what + " hold values that are not finite" +
-                    (largest < 1e18f ? " or beyond " + std::to_string(static_cast<long long>(largest)) : ""));
+        throw Error(what + " contain values that are not finite" +
+                    (largest < 1e18f ? " or exceed " + std::to_string(static_cast<long long>(largest)) : ""));
 }
 
 const Json& primitive_json(const GltfContents& contents, const Primitive& primitive) {
@@ -201,8 +202,8 @@ void read_float_view(const GltfContents& contents, const Json& object, std::span
                      const std::string& what) {
     const int type = object.value("componentType", TINYGLTF_COMPONENT_TYPE_FLOAT);
     if (type != TINYGLTF_COMPONENT_TYPE_FLOAT && type != kHalfComponentType)
-        throw Error(what + " are of component type " + std::to_string(type) +
-                    ", neither 5126 (float32) nor 5131 (float16)");
+        throw Error(what + " have component type " + std::to_string(type) +
+                    ", but must have 5126 (float32) or 5131 (float16)");
     const auto bytes = float_bytes(contents, object, to.size(), what);
     if (is_half(object)) {
         for (std::size_t i = 0; i < to.size(); ++i) {
@@ -231,7 +232,7 @@ std::vector<float> read_float_view(const GltfContents& contents, const Json& obj
                                    float largest, const std::string& what) {
     const int type = object.value("componentType", TINYGLTF_COMPONENT_TYPE_FLOAT);
     if (type != TINYGLTF_COMPONENT_TYPE_FLOAT)
-        throw Error(what + " are of component type " + std::to_string(type) + ", not 5126 (float32)");
+        throw Error(what + " have component type " + std::to_string(type) + ", but must have 5126 (float32)");
     const auto bytes = float_bytes(contents, object, count, what);
     std::vector<float> values(count);
     if (count > 0)
@@ -264,7 +265,8 @@ RowCode read_row_code(const GltfContents& contents, const Json& json) {
 std::vector<std::uint8_t> read_drops(const Json& json) {
     std::vector<std::uint8_t> drops;
     for (const Json& drop : json.at("drops"))
-        drops.push_back(static_cast<std::uint8_t>(whole_number(drop, "a drop", 0, kMaxRowBits)));
+        drops.push_back(
+            static_cast<std::uint8_t>(whole_number(drop, "an element of \"drops\"", 0, kMaxRowBits)));
     return drops;
 }
 

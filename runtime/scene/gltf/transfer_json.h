@@ -32,7 +32,7 @@ Json terms_json(const TransferLayout& layout);
 /// Reads order and terms of an extension. Throws `Error` if they are invalid.
 TransferLayout read_layout(const Json& extension);
 
-/// Returns the JSON of a scene primitive, in a file that holds the scene one to one.
+/// Returns the JSON of a scene primitive, in a file in which each vertex is one vertex of the scene.
 const Json& primitive_json(const GltfContents& contents, const Primitive& primitive);
 std::string primitive_name(const Primitive& primitive);
 
@@ -78,7 +78,7 @@ Json write_half_view(GltfContents& contents, std::span<const float> values);
 Json write_row_code(GltfContents& contents, const RowCode& code);
 /// Reads a row code. Throws `Error` for invalid drops.
 RowCode read_row_code(const GltfContents& contents, const Json& json);
-/// Reads the drops only.
+/// Reads the member `drops` of a row code.
 std::vector<std::uint8_t> read_drops(const Json& json);
 
 /// Returns the result of `work` for the contents; adds the file name to errors.

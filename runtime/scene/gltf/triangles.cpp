@@ -2,6 +2,7 @@
 #include "gltf/triangles.h"
 
 #include "gltf/accessor.h"
+#include "prt/support/counted.h"
 #include "prt/support/error.h"
 
 #include <numeric>
@@ -25,8 +26,8 @@ std::vector<glm::uvec3> read_triangles(const tinygltf::Model& model, const tinyg
     }
     for (const std::uint32_t index : indices)
         if (index >= vertices)
-            throw Error("index " + std::to_string(index) + " is beyond its " + std::to_string(vertices) +
-                        " vertices");
+            throw Error("index " + std::to_string(index) + " is out of range: there are " +
+                        counted(vertices, "vertex", "vertices"));
 
     std::vector<glm::uvec3> triangles;
     const bool listed =

@@ -13,7 +13,8 @@ bool UnitRange::clamp_component(float& value) {
 std::string UnitRange::notice() const {
     std::string text;
     for (const auto& [name, count] : clamped_)
-        text += (text.empty() ? "clamped to 0..1: " : ", ") + name + " (" + std::to_string(count) + ")";
+        text +=
+            (text.empty() ? "values clamped to 0..1: " : ", ") + name + " (" + std::to_string(count) + ")";
     return text;
 }
 

@@ -1,6 +1,7 @@
 // Reads and writes transfer of probes in glTF files: PRTKIT_transfer_volume of docs/format.md.
 
 #include "prt/volume_gltf.h"
+#include "prt/support/counted.h"
 
 #include "gltf/accessor.h"
 #include "gltf/allowance.h"
@@ -32,7 +33,7 @@ std::vector<std::byte> bytes_of(const GltfContents& contents, const Json& json) 
 /// Converts an origin from the world to the frame of positions in `scene`.
 glm::vec3 read_origin(const Scene& scene, const Json& json) {
     if (!json.is_array() || json.size() != 3)
-        throw Error("the origin of the volume is no list of three numbers");
+        throw Error("the origin of the volume is not a list of three numbers");
     return glm::vec3(glm::dvec3(json[0].get<double>(), json[1].get<double>(), json[2].get<double>()) -
                      scene.origin);
 }
@@ -43,14 +44,14 @@ VolumeGrid read_grid(const GltfContents& contents, const Scene& scene, const Jso
     grid.spacing = json.at("spacing").get<float>();
     const Json& size = json.at("size");
     if (!size.is_array() || size.size() != 3)
-        throw Error("the size of the volume is no list of three numbers");
+        throw Error("the size of the volume is not a list of three numbers");
     for (int a = 0; a < 3; ++a)
         grid.size[a] =
             whole_number(size[static_cast<std::size_t>(a)], "the size of the volume", 1, kMaxBricksAlong);
     check_allowed(16.0 * grid.size.x * grid.size.y * grid.size.z, contents.file_bytes, "its volume");
     const std::vector<std::byte> bytes = bytes_of(contents, json.at("bricks"));
     if (bytes.size() % 8 != 0)
-        throw Error("the bricks of the volume are no groups of eight bytes");
+        throw Error("the size of the bricks of the volume is not a multiple of 8 bytes");
     std::vector<std::uint16_t> numbers(bytes.size() / 2);
     if (!bytes.empty())
         std::memcpy(numbers.data(), bytes.data(), bytes.size());
@@ -71,7 +72,7 @@ std::vector<ProbeVisibility> read_visibility(const GltfContents& contents, const
     const std::vector<std::byte> bytes = bytes_of(contents, json);
     std::vector<ProbeVisibility> visibility(probes);
     if (bytes.size() != probes * sizeof(ProbeVisibility))
-        throw Error("the volume has " + std::to_string(probes) + " probes, and visibility distances for " +
+        throw Error("the volume has " + std::to_string(probes) + " probes, but visibility distances for " +
                     std::to_string(bytes.size() / sizeof(ProbeVisibility)));
     if (!bytes.empty())
         std::memcpy(visibility.data(), bytes.data(), bytes.size());
@@ -111,7 +112,7 @@ std::size_t read_common(const GltfContents& contents, const Scene& scene, const 
 void write_words(GltfContents& contents, const Scene& scene, const CompressedVolume& volume) {
     const ClusteredTransfer& transfer = volume.compressed.transfer;
     if (transfer.receivers.format != WeightFormat::packed)
-        throw Error("weights of probes are words: they have to be packed");
+        throw Error("the weights of probes must be packed; compress with --bits N");
     write_common(contents, scene, volume, transfer.bases.layout);
     Json bases = write_bases(contents, transfer.bases), packing = write_packing(contents, transfer);
     const std::size_t view = contents.add_buffer_view(transfer.receivers.weights);
@@ -135,7 +136,8 @@ CompressedVolume read_words(const GltfContents& contents, const Scene& scene, co
     receivers.weights = bytes_of(contents, extension.at("words"));
     receivers.clusters.resize(probes);
     if (receivers.weights.size() != probes * receivers.stride())
-        throw Error("the words of the volume are not those of " + std::to_string(probes) + " probes");
+        throw Error("the size of the packed weights of the volume does not match its " +
+                    counted(probes, "probe"));
     unpack_clusters(transfer.bases.clusters(), 0, probes, "probe", receivers);
     return volume;
 }

@@ -103,7 +103,7 @@ std::vector<glm::vec3> normals_in(const AnimatedScene& model, const ModelPose& p
     return model.posed(pose.nodes, glm::dmat4(1)).vertex_arrays.at(0).normals;
 }
 
-TEST(Poses, LieInTheMiddlesOfEqualSpansBesideTheFilesOwn) {
+TEST(Poses, AreAtTheMiddlesOfEqualIntervalsPlusThePoseOfTheFile) {
     GlbFile file = bending(90);
     add_keys(file, "again", {0, 1}, {0, 0, 0, 1, 0, 0, 0, 1});
     const AnimatedScene model = animated(file);
@@ -121,7 +121,7 @@ TEST(Poses, LieInTheMiddlesOfEqualSpansBesideTheFilesOwn) {
     EXPECT_DOUBLE_EQ(frames[3].seconds, 1.5);
 }
 
-TEST(Poses, WithoutAnAnimationAreRefused) {
+TEST(Poses, WithoutAnAnimationAreRejected) {
     GlbFile file = bending(90);
     const AnimatedScene model = animated(file);
     EXPECT_THROW(poses_of(model, 3, "fly"), Error);
@@ -130,7 +130,7 @@ TEST(Poses, WithoutAnAnimationAreRefused) {
     EXPECT_THROW(poses_of(animated(file), 3), Error);
 }
 
-TEST(Poses, OfAnAnimationThatStandsStillAreOne) {
+TEST(Poses, StaticAnimationsHaveOnePose) {
     GlbFile file = bending(90);
     file.json["animations"].clear();
     add_keys(file, "one", {0}, {0, 0, 0, 1});
@@ -138,7 +138,7 @@ TEST(Poses, OfAnAnimationThatStandsStillAreOne) {
         EXPECT_EQ(pose.seconds, 0);
 }
 
-TEST(Poses, ThatTakeVerticesOutOfTheWorldAreRefused) {
+TEST(Poses, WithExtremeVerticesAreRejected) {
     GlbFile file = bending(90);
     const auto input = file.accessor(std::vector<float>{0, 1}, test::kFloat, "SCALAR", 1),
                output = file.accessor(std::vector<float>{1, 1, 1, 1e30f, 1, 1}, test::kFloat, "VEC3", 3);
@@ -150,12 +150,12 @@ TEST(Poses, ThatTakeVerticesOutOfTheWorldAreRefused) {
         bake_pose(model, poses_of(model, 1).back(), {.rays = 4});
         FAIL() << "it is baked";
     } catch (const Error& error) {
-        EXPECT_NE(std::string(error.what()).find("animation 'bend' takes vertices beyond"),
+        EXPECT_NE(std::string(error.what()).find("animation 'bend' moves vertices farther than"),
                   std::string::npos);
     }
 }
 
-TEST(VertexFrames, TakeCosineLobesOfNormalsToThoseBeforeTheSkin) {
+TEST(VertexFrames, MapCosineLobesToTheUnskinnedNormals) {
     GlbFile file = bending(70);
     file.json["nodes"][1]["scale"] = {-2, 2, 2}; // mirrored, and larger
     const AnimatedScene model = animated(file);
@@ -178,7 +178,7 @@ TEST(VertexFrames, TakeCosineLobesOfNormalsToThoseBeforeTheSkin) {
     }
 }
 
-TEST(PoseBake, LobesOfABentTubeTurnWithTheBend) {
+TEST(PoseBake, LobesRotateWithTheBend) {
     const AnimatedScene model = animated(bending(60));
     const PoseBakeOptions options{.rays = 4096, .bounces = 0};
     const MeanTransfer mean = mean_of_poses(model, poses_of(model, 1), options); // straight, and half bent
@@ -204,7 +204,7 @@ TEST(PoseBake, LobesOfABentTubeTurnWithTheBend) {
     EXPECT_GT(relative_l2(truth.transfer, still, truth.areas), 0.25);
 }
 
-TEST(PoseBake, MeansAreOfPosesThatShowAVertex) {
+TEST(PoseBake, MeansUseOnlyPosesThatShowAVertex) {
     const AnimatedScene model = animated(bending(60));
     const PoseBakeOptions options{.rays = 64, .bounces = 0};
     const std::vector<ModelPose> poses = poses_of(model, 2);
@@ -223,7 +223,7 @@ TEST(PoseBake, MeansAreOfPosesThatShowAVertex) {
         EXPECT_NEAR(all.vectors[i], sum[i], 1e-12);
 }
 
-TEST(PoseBake, NoVertexSendsOutMoreThanArrives) {
+TEST(PoseBake, NoVertexReflectsMoreThanItReceives) {
     const AnimatedScene model = animated(bending(150)); // white, and folded on itself
     const MeanTransfer mean =
         mean_of_poses(model, poses_of(model, 3), {.rays = 64, .bounces = kEndlessBounces});

@@ -73,7 +73,7 @@ protected:
 // spread.
 constexpr float kSpread = 0.3f, kRidged = kSpread / 6;
 
-TEST_F(InstanceFits, FindTheFactorsThatLightHas) {
+TEST_F(InstanceFits, FindTheFactorsOfTheLight) {
     const InstanceFactors wanted = draw.factors(kSpread);
     const std::vector<float> light = light_of(wanted);
     const InstanceFit fit(*shared, samples, kUp);
@@ -84,7 +84,7 @@ TEST_F(InstanceFits, FindTheFactorsThatLightHas) {
     EXPECT_GT(fit.error(*shared, {light, all}, {none, 0}, open_factors()), 0.1);
 }
 
-TEST_F(InstanceFits, AskNothingOfSamplesThatAreLeftOut) {
+TEST_F(InstanceFits, IgnoreOmittedSamples) {
     const InstanceFactors wanted = draw.factors(kSpread);
     std::vector<float> light = light_of(wanted);
     for (std::size_t s = 5; s < kSamples; s += 7) {
@@ -131,7 +131,7 @@ TEST_F(InstanceFits, ASampleOfTwiceTheAreaIsTwoSamples) {
                 1e-4);
 }
 
-TEST_F(InstanceFits, TakeTheNoiseOfRaysFromTheirErrors) {
+TEST_F(InstanceFits, SubtractRayNoiseFromErrors) {
     const InstanceFactors wanted = draw.factors(kSpread);
     const std::vector<float> exact = light_of(wanted);
     constexpr std::size_t kFirst = 3; // first sample that is traced twice
@@ -156,7 +156,7 @@ TEST_F(InstanceFits, TakeTheNoiseOfRaysFromTheirErrors) {
 }
 
 /// The error of the factors under one light equals the error of its coefficients applied to the difference.
-TEST_F(InstanceFits, ErrUnderTheWorstLight) {
+TEST_F(InstanceFits, ReportTheErrorUnderTheWorstLight) {
     const InstanceFactors wanted = draw.factors(kSpread), other = draw.factors(kSpread);
     const std::vector<float> light = light_of(wanted), modelled = light_of(other);
     const InstanceFit fit(*shared, samples, kUp);

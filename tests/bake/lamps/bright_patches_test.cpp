@@ -59,7 +59,7 @@ public:
 };
 
 /// Probabilities of all patches add up to 1, and `pick` follows them.
-TEST(BrightPatches, PicksByItsDensity) {
+TEST(BrightPatches, SampleTheStatedDensity) {
     const Patches all(room());
     for (const auto& [position, normal] :
          {std::pair(glm::dvec3(0, 0.001, 0), glm::dvec3(0, 1, 0)),
@@ -88,7 +88,7 @@ TEST(BrightPatches, PicksByItsDensity) {
 }
 
 /// A patch in the plane of a receiver does not light it, and is omitted unless other patches are near.
-TEST(BrightPatches, LeavesOutTheReceiversPlane) {
+TEST(BrightPatches, ExcludeTheReceiversPlane) {
     const Patches all(test::painted(test::join({SceneBuilder().floor({0, 0, 0}, 2, 40).build(),
                                                 SceneBuilder().sphere({0.5f, 1, 0.5f}, 0.4f, 16).build()}),
                                     glm::vec3(0.5f)));
@@ -187,12 +187,12 @@ TEST(BrightPatches, GatherTheLightOfASmallPanel) {
     }
 }
 
-TEST(BrightPatches, LightNothingThroughASheet) {
+TEST(BrightPatches, DoNotLightThroughASheet) {
     for (const float value : on_floor(small_panel(true), 1, FitMode::vertex))
         EXPECT_EQ(value, 0);
 }
 
-TEST(BrightPatches, AreNoneWhereNothingIsLit) {
+TEST(BrightPatches, AreEmptyWithoutLight) {
     const Patches dark(room(), false);
     EXPECT_TRUE(dark.patches->empty());
     const BrightPatches::Receiver receiver{glm::dvec3(0), glm::dvec3(0, 1, 0)};

@@ -93,7 +93,7 @@ void expect_carried_exactly(const Scene& scene) {
         }
 }
 
-TEST(Levels, OneThatIsIdenticalHasTheLightToRounding) {
+TEST(Levels, IdenticalLevelsHaveEqualLight) {
     expect_carried_exactly(SceneBuilder().sphere({0.3f, 0, 0}, 1, 9).build());
     expect_carried_exactly(SceneBuilder().floor({0, 0, 0}, 1, 6).build());
     expect_carried_exactly(box({1, 0.5f, 0.7f}));
@@ -101,7 +101,7 @@ TEST(Levels, OneThatIsIdenticalHasTheLightToRounding) {
     expect_carried_exactly(box({1, 0.01f, 1})); // hardly any thickness
 }
 
-TEST(Levels, OfAPlaneHaveWhatIsLinearToRounding) {
+TEST(Levels, KeepLinearFunctionsOnAPlane) {
     const auto linear = [](const glm::vec3& p, const glm::vec3&, std::size_t c) {
         return 0.3f + 0.2f * static_cast<float>(c) * p.x - 0.1f * p.z;
     };
@@ -121,7 +121,7 @@ TEST(Levels, OfAPlaneHaveWhatIsLinearToRounding) {
 /// Bound: the curvature of bands l = 1 and 2 of the cosine lobe, |Y''| <= l (l + 1) |Y|, times R²/2 with R
 /// the circumradius of the triangles, is the maximum distance to the nearest linear function; twice that for
 /// both meshes.
-TEST(Levels, OfASphereInTheOpenHaveTheLobesOfTheirNormals) {
+TEST(Levels, OnAnOpenSphereHaveTheLobesOfTheirNormals) {
     constexpr int kRows = 16, kFineRows = 64, kOrder = 3;
     const Scene fine = SceneBuilder().sphere({0, 0, 0}, 1, kFineRows).build(),
                 coarse = SceneBuilder().sphere({0, 0, 0}, 1, kRows).build();
@@ -149,7 +149,7 @@ TEST(Levels, OfASphereInTheOpenHaveTheLobesOfTheirNormals) {
 }
 
 /// Compares the nearest point with tests of all triangles, and with points distributed over them.
-TEST(Levels, NearestPlacesAreThoseOfBruteForce) {
+TEST(Levels, NearestPositionsMatchBruteForce) {
     const Scene scene = test::join(
         {SceneBuilder().sphere({0, 0, 0}, 1, 7).build(), box({0.4f, 0.05f, 2}), box({2, 0.3f, 0.2f}, 0.5f)});
     const TraceScene traced(scene);
@@ -190,7 +190,7 @@ TEST(Levels, NearestPlacesAreThoseOfBruteForce) {
 }
 
 /// The nearest of all is the back of the wall, which looks the other way.
-TEST(Levels, TakeLightOfTheSideThatTheyLookTo) {
+TEST(Levels, UseTheLightOfTheFacingSide) {
     const Scene wall = box({1, 0.01f, 1}), sheet = SceneBuilder().floor({0, -0.012f, 0}, 1, 2).build();
     const auto bright_above = [](const glm::vec3&, const glm::vec3& n, std::size_t) {
         return n.y > 0.5f ? 1.0f : 0.25f;
@@ -200,7 +200,7 @@ TEST(Levels, TakeLightOfTheSideThatTheyLookTo) {
         EXPECT_NEAR(bake.transfer.vector(wall.receivers() + v)[0], 1, 1e-5f);
 }
 
-TEST(Levels, ThatStandElsewhereAreRefused) {
+TEST(Levels, DisplacedLevelsAreRejected) {
     const Scene ball = SceneBuilder().sphere({0, 0, 0}, 1, 8).build();
     for (const Scene& level :
          {SceneBuilder().sphere({3, 0, 0}, 1, 6).build(), SceneBuilder().sphere({0, 0, 0}, 4, 6).build()}) {
@@ -212,7 +212,7 @@ TEST(Levels, ThatStandElsewhereAreRefused) {
 }
 
 /// A ball on the ground, and one inside of it.
-TEST(Levels, LookAsIfTheyWereBakedOnTheirOwn) {
+TEST(Levels, MatchASeparateBake) {
     const Scene ball = SceneBuilder().sphere({0, 1.1f, 0}, 1, 40).build(),
                 coarse = SceneBuilder().sphere({0, 1.1f, 0}, 0.97f, 14).build(),
                 ground = SceneBuilder().floor({0, 0, 0}, 4, 12).build();

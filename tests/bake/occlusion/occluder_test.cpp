@@ -30,7 +30,7 @@ float of_ball(float ratio, const glm::vec3& out, const glm::vec3& normal) {
     return blocked_cosine(cap_of(0.5f * (1 - std::sqrt(1 - ratio * ratio)), -out), normal);
 }
 
-TEST(Occluder, OfABallIsTheBall) {
+TEST(Occluder, MatchesABall) {
     const glm::vec3 center(2, 1, -3);
     const Scene scene = SceneBuilder().sphere(center, 0.5f, 24).build();
     const OccluderBake baked = bake_occluder(scene, glm::dmat4(1), {.rays = 128});
@@ -56,7 +56,7 @@ TEST(Occluder, OfABallIsTheBall) {
     EXPECT_GT(baked.mean_blocked, 0.04);
 }
 
-TEST(Occluder, FarAwayIsAlmostAllThereIsAndThenNothing) {
+TEST(Occluder, EffectVanishesAtADistance) {
     const Scene scene = SceneBuilder().sphere({0, 0, 0}, 0.5f, 24).build();
     const OccluderBake baked = bake_occluder(scene, glm::dmat4(1), {.rays = 128});
     const PlacedOccluder where = placed(baked.volume, glm::mat4(1), 0);
@@ -74,7 +74,7 @@ TEST(Occluder, FarAwayIsAlmostAllThereIsAndThenNothing) {
     EXPECT_LT(baked.volume.reach, 8); // (0.25 / 0.01)^(1/2) = 5
 }
 
-TEST(Occluder, OfATurnedAndScaledFrameIsTheSameInTheScene) {
+TEST(Occluder, DoesNotDependOnRotationAndScaleOfItsFrame) {
     const Scene scene = test::join({SceneBuilder().sphere({0.3f, 0.8f, 0}, 0.3f, 12).build(),
                                     SceneBuilder().sphere({-0.2f, 0.2f, 0.4f}, 0.2f, 12).build()});
     const glm::dmat4 frame = glm::scale(glm::rotate(glm::translate(glm::dmat4(1), {0.1, 0.5, 0.2}), 0.7,
@@ -97,7 +97,7 @@ TEST(Occluder, OfATurnedAndScaledFrameIsTheSameInTheScene) {
     EXPECT_LT(mean, 0.01);
 }
 
-TEST(Occluder, PartsTogetherDarkenTheFloorAsRaysSay) {
+TEST(Occluder, PiecesTogetherMatchRays) {
     const Scene left = SceneBuilder().sphere({-0.6f, 0.45f, 0}, 0.4f, 16).build(),
                 right = SceneBuilder().sphere({0.6f, 0.45f, 0}, 0.4f, 16).build();
     const Scene both = test::join({left, right});
@@ -111,7 +111,7 @@ TEST(Occluder, PartsTogetherDarkenTheFloorAsRaysSay) {
     EXPECT_NEAR(none.mean_error, floor.mean_blocked, 1e-3); // there is that much to be wrong about
 }
 
-TEST(Occluder, WithoutExtentOrScaleIsRefused) {
+TEST(Occluder, WithoutExtentOrScaleIsRejected) {
     const Scene scene = SceneBuilder().sphere({0, 0, 0}, 0.5f, 8).build();
     EXPECT_THROW(bake_occluder(scene, glm::dmat4(0)), Error);
 }

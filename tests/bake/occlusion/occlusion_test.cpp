@@ -41,7 +41,7 @@ Scene wall(float distance, float height) {
         .build();
 }
 
-TEST(AmbientOcclusion, OfAnOpenVertexIsOneAndLooksUp) {
+TEST(AmbientOcclusion, IsOneWithVerticalBentNormalAtOpenVertices) {
     const OcclusionResult result = ambient_occlusion(spot(), at_vertices(64));
     EXPECT_NEAR(result.ambient_visibility.ambient[0], 1, 1e-5);
     EXPECT_NEAR(result.ambient_visibility.bent_normals[0].y, 1, 1e-5);
@@ -56,7 +56,7 @@ TEST(AmbientOcclusion, UnderADiscIsItsFormFactor) {
     EXPECT_NEAR(result.ambient_visibility.bent_normals[0].y, 1, 2e-3);
 }
 
-TEST(AmbientOcclusion, BeforeAnEndlessWallIsThatOfItsHeight) {
+TEST(AmbientOcclusion, MatchesTheHeightOfAnEndlessWall) {
     for (const double elevation : {20.0, 60.0, 89.9}) {
         const double angle = elevation / 180 * std::numbers::pi;
         const float distance = 0.1f, height = distance * static_cast<float>(std::tan(angle));
@@ -113,7 +113,7 @@ TEST(Obscurance, UnderAPlaneIsTheIntegralOfTheFalloff) {
         }
 }
 
-TEST(Obscurance, OfAClosedRoomIsNotBlack) {
+TEST(Obscurance, ClosedRoomsAreNotBlack) {
     Scene room = SceneBuilder().bowl({0, 0, 0}, 2, 12, 0).build();
     EXPECT_EQ(ambient_occlusion(room, at_vertices(64)).ambient_visibility.ambient[20], 0);
     OcclusionOptions options = at_vertices(4096);
@@ -132,7 +132,7 @@ TEST(Obscurance, OfAClosedRoomIsNotBlack) {
     EXPECT_NEAR(mean, expected, 0.03 * expected); // twelve rows are not quite round
 }
 
-TEST(Obscurance, InsideSolidsIsThatOfNeighbours) {
+TEST(Obscurance, InsideSolidsComesFromNeighbors) {
     // A floor that passes through a closed block: receivers inside take the light of those outside.
     Scene floor = SceneBuilder().floor({0, 0, 0}, 2, 8).build(),
           block = SceneBuilder().sphere({0, 0, 0}, 0.8f, 16).build();
@@ -156,7 +156,7 @@ TEST(Falloff, PassesHalfAtItsDistance) {
     EXPECT_EQ((Falloff{.terms = {}, .farthest = 3}).passes(2.9), 0);
 }
 
-TEST(Falloff, RefusesDistancesThatAreNone) {
+TEST(Falloff, RejectsInvalidDistances) {
     const double nan = std::numeric_limits<double>::quiet_NaN();
     for (const Falloff& bad : {Falloff{.terms = {{0, 1}}}, Falloff{.terms = {{nan, 1}}},
                                Falloff{.terms = {{1, -1}}}, Falloff{.terms = {{1, 0}}},

@@ -67,7 +67,7 @@ PathTraceOptions looking(const glm::vec3& from, const glm::vec3& at) {
     return options;
 }
 
-TEST(DistantLight, SamplesItsDirectionsWithTheDensityThatItStates) {
+TEST(DistantLight, SamplesTheStatedDensity) {
     const DistantLight light(uneven_environment());
     // The mean of f / density over samples is the integral of f: here of 1 (4 pi), radiance, and a lobe.
     constexpr int kAlong = 1 << 16, kAcross = 4;
@@ -96,7 +96,7 @@ TEST(DistantLight, SamplesItsDirectionsWithTheDensityThatItStates) {
     EXPECT_NEAR(blue, expected, 0.002 * expected);
 }
 
-TEST(DistantLight, IsFoundFromTheBordersOfTheSquareToo) {
+TEST(DistantLight, IsSampledFromTheBordersOfTheSquare) {
     Image spot{4, 2, std::vector<glm::vec3>(8, glm::vec3(0))};
     spot.at(1, 0) = {3, 2, 1}; // an eighth of the sphere
     const DistantLight light(spot);
@@ -115,13 +115,13 @@ TEST(DistantLight, WithoutAnEnvironmentIsBlack) {
     EXPECT_EQ(light.density({1, 0, 0}), 0);
 }
 
-TEST(PathTracer, AnOpenFloorUnderUniformLightShinesAsTheLightDoes) {
+TEST(PathTracer, OpenFloorsHaveTheRadianceOfUniformLight) {
     const Traced traced(SceneBuilder().floor({0, 0, 0}, 2).build(), DistantLight(uniform_environment(0.7f)));
     const glm::dvec3 mean = traced.mean(looking({0, 2, 1}, {0, 0, 0}), 64);
     EXPECT_NEAR(mean.x, 0.7, 0.7 * 0.005);
 }
 
-TEST(PathTracer, ASunGivesIrradianceTimesCosineOverPi) {
+TEST(PathTracer, SunLightIsIrradianceTimesCosineOverPi) {
     const glm::vec3 towards = glm::normalize(glm::vec3(1, 2, 0));
     const Traced traced(SceneBuilder().floor({0, 0, 0}, 2).build(), DistantLight({}, {{towards, {3, 2, 1}}}));
     const glm::dvec3 mean = traced.mean(looking({0, 2, 1}, {0, 0, 0}), 1);
@@ -147,13 +147,13 @@ TEST(PathTracer, BouncesInABowlAreAGeometricSeries) {
     }
 }
 
-TEST(PathTracer, WhiteSurfacesUnderUniformLightAreWhiteWhateverTheGeometry) {
+TEST(PathTracer, WhiteSurfacesAreWhiteInUniformLight) {
     const Traced traced(test::painted(SceneBuilder().bowl({0, 0, 0}, 0.5f, 24, 6).build(), glm::vec3(1)),
                         DistantLight(uniform_environment(1)));
     EXPECT_NEAR(traced.mean(looking({0, 0.3f, 0}, {0.2f, -0.4f, 0}), 256).x, 1, 0.02);
 }
 
-TEST(PathTracer, BlendedSurfacesLetTheirShareThrough) {
+TEST(PathTracer, BlendedSurfacesTransmitTheirFraction) {
     Scene floor = test::painted(SceneBuilder().floor({0, 0, 0}, 50).build(), glm::vec3(0));
     Scene roof = test::painted(SceneBuilder().floor({0, 5, 0}, 5000).build(), glm::vec3(0), true);
     roof.materials[0].base_color.a = 0.25f;
@@ -162,7 +162,7 @@ TEST(PathTracer, BlendedSurfacesLetTheirShareThrough) {
     EXPECT_NEAR(traced.mean(looking({0, 2, 1}, {0, 0, 0}), 128).x, 0.75, 0.01);
 }
 
-TEST(PathTracer, ALeafPassesItsShareOfTheSunBehindIt) {
+TEST(PathTracer, LeavesTransmitTheirFractionOfTheSun) {
     constexpr float kPassed = 0.4f;
     Scene leaf = test::painted(SceneBuilder().floor({0, 0, 0}, 2).build(), glm::vec3(1), true);
     leaf.materials[0].transmission.factor = kPassed;

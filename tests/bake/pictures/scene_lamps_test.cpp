@@ -93,7 +93,7 @@ TEST(SceneLamps, APointLightFallsOffByTheSquare) {
     EXPECT_NEAR(lit.b, 0.5 * 1.5 / (pi * d * d * d), 1e-5);
 }
 
-TEST(SceneLamps, APointLightComesFromWhereItIs) {
+TEST(SceneLamps, PointLightsComeFromTheirPosition) {
     Scene scene = test::painted(SceneBuilder().floor({0, -9, 0}, 0.1f).build(), glm::vec3(0));
     scene.lights.push_back(point_light("lamp", {1, 2, -2}, glm::vec3(1)));
     const std::vector<glm::vec3> light = Night(scene).incident({0, 0, 0}, 4);
@@ -104,7 +104,7 @@ TEST(SceneLamps, APointLightComesFromWhereItIs) {
 }
 
 /// Two lights of which either is chosen by chance, one in the shadow.
-TEST(SceneLamps, OfSeveralLightsAllArrive) {
+TEST(SceneLamps, AllLightsContribute) {
     Scene scene = SceneBuilder().floor({0, 0, 0}, 5).floor({2, 1, 0}, 0.5f).build();
     scene.lights = {point_light("a", {0, 2, 0}, glm::vec3(1)), point_light("b", {4, 2, 0}, glm::vec3(40)),
                     point_light("c", {0, 1, 0}, glm::vec3(2)), point_light("off", {0, 1, 0}, glm::vec3(5))};
@@ -128,7 +128,7 @@ double form_factor(double a, double b) {
     return (a / x * std::atan(b / x) + b / y * std::atan(a / y)) / (2 * pi);
 }
 
-TEST(SceneLamps, AShiningSquareLightsAFloorByItsFormFactor) {
+TEST(SceneLamps, EmissiveSquareLightsAFloorByItsFormFactor) {
     SceneBuilder above;
     above.quad({-1, 1, -1}, {1, 1, -1}, {1, 1, 1}, {-1, 1, 1}); // looks down
     const Scene scene = test::join({test::painted(SceneBuilder().floor({0, 0, 0}, 9).build(), glm::vec3(0)),
@@ -145,7 +145,7 @@ TEST(SceneLamps, AShiningSquareLightsAFloorByItsFormFactor) {
 }
 
 /// A cone of half angle a: band 0 has Y_00 · 2 pi (1 - cos a), band 1 along the axis K pi sin² a.
-TEST(SceneLamps, AShiningSphereFillsACone) {
+TEST(SceneLamps, EmissiveSphereEqualsACone) {
     const Scene scene = shining(test::painted(SceneBuilder().sphere({0, 0, 4}, 1, 48).build(), glm::vec3(0)),
                                 "lamp", {1, 1, 2});
     const std::vector<glm::vec3> light = Night(scene).incident({0, 0, 0}, 8192);
@@ -159,7 +159,7 @@ TEST(SceneLamps, AShiningSphereFillsACone) {
 }
 
 /// Walls that shine and reflect: e / (1 - rho), everywhere and from everywhere.
-TEST(SceneLamps, AShiningFurnaceIsAsBrightAsItsBouncesAddUpTo) {
+TEST(SceneLamps, EmissiveFurnaceIsTheSumOfItsBounces) {
     SceneBuilder ball;
     ball.bowl({0, 0, 0}, 1, 12, 0);
     const Night night(shining(test::painted(ball.build(), glm::vec3(0.5f)), "lamp", glm::vec3(1)));
@@ -171,7 +171,7 @@ TEST(SceneLamps, AShiningFurnaceIsAsBrightAsItsBouncesAddUpTo) {
     EXPECT_NEAR(night.below({0, 0, 0}, 8192, kEndlessBounces).r, 1 + 2, 0.03);
 }
 
-TEST(SceneLamps, TheBakersLampsAreThoseOfTheReference) {
+TEST(SceneLamps, BakerLampsMatchTheReference) {
     SceneBuilder walls, lamp;
     walls.floor({0, 0, 0}, 3, 48);
     for (int i = 0; i < 256; ++i) {
@@ -209,7 +209,7 @@ TEST(SceneLamps, TheBakersLampsAreThoseOfTheReference) {
     EXPECT_LT(std::sqrt(error / norm), 0.01);
 }
 
-TEST(SceneLamps, NeedAStrengthEach) {
+TEST(SceneLamps, NeedOneStrengthEach) {
     const Scene scene = SceneBuilder().floor({0, 0, 0}, 1).build();
     const TraceScene traced(scene);
     EXPECT_THROW(SceneLamps(traced, lamps_called({"a", "b"}), std::vector(1, glm::vec3(1))), Error);

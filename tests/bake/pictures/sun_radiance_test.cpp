@@ -48,7 +48,7 @@ TEST(SunRadiance, OnAnOpenFloorFallsWithTheCosine) {
 /// A small sun on the horizon: its upper half shines on the floor. With x the height over the horizon as a
 /// share of the half angle a, the mean of the cosine over the disc is a times (1/pi) ∫ 2 x sqrt(1 - x²) dx =
 /// 2 a / (3 pi).
-TEST(SunRadiance, OfASunOnTheHorizonIsThatOfItsUpperHalf) {
+TEST(SunRadiance, SunOnTheHorizonUsesItsUpperHalf) {
     const Scene floor = test::SceneBuilder().floor({0, 0, 0}, 1, 2).build();
     const double half_angle = 0.02;
     for (const glm::vec3& r : lit_by(floor, {{1, 0, 0}, glm::vec3(1), half_angle}, 4096))
@@ -56,7 +56,7 @@ TEST(SunRadiance, OfASunOnTheHorizonIsThatOfItsUpperHalf) {
 }
 
 /// The edge of a large roof covers half of the sun.
-TEST(SunRadiance, HalfTheSunGivesHalfTheLight) {
+TEST(SunRadiance, HalfTheSunHasHalfTheLight) {
     const Scene floor = test::SceneBuilder().floor({0, 0, 0}, 0.01f, 1).build();
     const Scene roof = test::SceneBuilder().quad({0, 1, -5}, {0, 1, 5}, {5, 1, 5}, {5, 1, -5}).build();
     const Scene scene = test::join({floor, roof});
@@ -69,7 +69,7 @@ TEST(SunRadiance, HalfTheSunGivesHalfTheLight) {
 }
 
 /// A blended pane over all of the floor keeps back its alpha.
-TEST(SunRadiance, IsDimmedByWhatIsBlended) {
+TEST(SunRadiance, IsDimmedByBlendedSurfaces) {
     const Scene floor = test::SceneBuilder().floor({0, 0, 0}, 0.1f, 1).build();
     Scene pane = test::SceneBuilder().floor({0, 1, 0}, 4, 1).build();
     pane.materials[0].alpha_mode = AlphaMode::blend;
@@ -90,7 +90,7 @@ TEST(SunRadiance, ComesThroughALeaf) {
 }
 
 /// Transfer and rays agree for a sun wide enough for order 10.
-TEST(SunRadiance, OfAWideSunIsThatOfTransfer) {
+TEST(SunRadiance, WideSunMatchesTransfer) {
     const Scene scene = test::SceneBuilder().floor({0, 0, 0}, 2, 6).sphere({0, 0.8f, 0}, 0.5f, 10).build();
     const Sun sun{glm::normalize(glm::vec3(0.4f, 1, 0.2f)), glm::vec3(1), 0.6};
     BakeOptions options;

@@ -122,7 +122,7 @@ TEST(SunsInPictures, AddUp) {
 
 /// With base color 0.5 a leaf reflects 0.3 and transmits 0.4; as exit radiance for albedo 1 both are divided
 /// by the base color (docs/math.md, eq. 38).
-TEST(SunsInPictures, ShineThroughLeaves) {
+TEST(SunsInPictures, LightThroughLeaves) {
     Scene leaf = test::painted(SceneBuilder().floor({0, 0, 0}, 4, 1).build(), glm::vec3(0.5f), true);
     leaf.materials[0].transmission.factor = 0.4f;
     SunnyPicture shown(leaf);
@@ -139,7 +139,7 @@ TEST(SunsInPictures, ShineThroughLeaves) {
     }
 }
 
-TEST(SunsInPictures, AreDimmedByWhatIsBlended) {
+TEST(SunsInPictures, AreDimmedByBlendedSurfaces) {
     Scene pane = SceneBuilder().floor({0, 8, 0}, 4, 1).build(); // behind the camera
     pane.materials[0].alpha_mode = AlphaMode::blend;
     pane.materials[0].base_color.a = 0.25f;
@@ -168,7 +168,7 @@ TEST(SunsInPictures, DoNotLeakOverTheEdgeOfASurface) {
                glm::dvec3(std::cos(15 * pi / 180) / pi), 1e-5);
 }
 
-TEST(SunsInPictures, AreThoseOfThePathTracer) {
+TEST(SunsInPictures, MatchThePathTracer) {
     const Scene scene = SceneBuilder().floor({0, -0.5f, 0}, 2, 3).sphere({0, 0.3f, 0}, 0.5f, 8).build();
     const Sun sun{glm::normalize(glm::vec3(0.5f, 0.8f, 0.6f)), {3, 2, 1}, 0};
     SunnyPicture shown(scene);
@@ -189,7 +189,7 @@ TEST(SunsInPictures, AreThoseOfThePathTracer) {
     EXPECT_LE(differing, 2);
 }
 
-TEST(SunsInPictures, LightVerticesAsTheirReceiversAreLit) {
+TEST(SunsInPictures, LightVerticesLikeTheirReceivers) {
     const Scene scene = SceneBuilder().floor({0, -0.5f, 0}, 2, 9).sphere({0, 0.3f, 0}, 0.5f, 24).build();
     const Sun sun{glm::normalize(glm::vec3(0.5f, 0.8f, 0.6f)), glm::vec3(1), 0.08};
     SunnyPicture shown(scene);

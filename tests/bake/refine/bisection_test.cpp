@@ -159,7 +159,7 @@ TEST(Bisection, SplitsBothSidesOfASeam) {
     }
 }
 
-TEST(Bisection, KeepsAnglesHoweverOftenItIsDone) {
+TEST(Bisection, KeepsAnglesAfterRepetition) {
     const Scene one = SceneBuilder().triangle({0, 0, 0}, {3, 0, 0.2f}, {0.7f, 0, -1}).build();
     Scene finer = one;
     for (int round = 0; round < 12; ++round) { // towards one corner
@@ -180,7 +180,7 @@ TEST(Bisection, KeepsAnglesHoweverOftenItIsDone) {
     EXPECT_NEAR(area(finer), area(one), 1e-6);
 }
 
-TEST(Bisection, TakesWhatMeshesShouldNotHave) {
+TEST(Bisection, AcceptsDegenerateMeshes) {
     SceneBuilder builder;
     builder.quad({0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0});
     builder.quad({0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0});        // duplicated
@@ -208,7 +208,7 @@ TEST(Bisection, TakesWhatMeshesShouldNotHave) {
     EXPECT_GT(duplicated, 0);
 }
 
-TEST(Bisection, PartsFillTheirTriangles) {
+TEST(Bisection, PiecesFillTheirTriangles) {
     const Scene scene = SceneBuilder().floor({0, 0, 0}, 1, 2).build();
     const WeldedEdges edges = welded_edges(scene);
     for (const std::set<std::uint32_t>& slots :
@@ -238,7 +238,7 @@ TEST(Bisection, PartsFillTheirTriangles) {
     }
 }
 
-TEST(Bisection, InStepsIsOneRefinement) {
+TEST(Bisection, InStepsEqualsOneRefinement) {
     const Scene scene = floor_of_two();
     Refinement all = no_refinement(scene);
     Scene finer = scene;

@@ -35,7 +35,7 @@ Scene floor_to_refine() {
         .build();
 }
 
-TEST(Refine, LeavesAnOpenPlaneAsItIs) {
+TEST(Refine, KeepsAnOpenPlane) {
     const Scene scene = SceneBuilder().floor({0, 0, 0}, 1).build();
     const RefineResult result = refine(scene, options_of_order(4), {.target = 0.001});
     EXPECT_EQ(result.statistics.rounds, 0);
@@ -75,7 +75,7 @@ TEST(Refine, SplitsAlongTheShadow) {
     EXPECT_GT(near / 1, 3 * far / 7); // per metre across
 }
 
-TEST(Refine, KeepsTheLimitAndSaysSo) {
+TEST(Refine, KeepsAndReportsTheLimit) {
     const Scene scene = floor_to_refine();
     for (const std::size_t most : {21u, 40u, 123u}) {
         const RefineResult result =
@@ -114,7 +114,7 @@ TEST(Refine, IsNotDeceivedByTheNoiseOfFewRays) {
     }
 }
 
-TEST(Refine, TakesDarkAndDegenerateScenes) {
+TEST(Refine, AcceptsDarkAndDegenerateScenes) {
     SceneBuilder builder;
     builder.triangle({0, 0, 0}, {1, 0, 0}, {0, 0, 1}); // seen from below
     builder.triangle({0, 5, 0}, {0, 5, 0}, {0, 5, 0});
@@ -128,7 +128,7 @@ TEST(Refine, TakesDarkAndDegenerateScenes) {
     EXPECT_LE(dark.statistics.after.vertices, 1000);
 }
 
-TEST(Refine, RefusesWhatItCannotMeasure) {
+TEST(Refine, RejectsUnsupportedScenes) {
     const Scene scene = SceneBuilder().floor({0, 0, 0}, 1).build();
     BakeOptions raster = options_of_order(2), target = raster, vertex = raster;
     raster.tracer.method = BakeMethod::raster;
@@ -147,7 +147,7 @@ TEST(Refine, StopsWhenAsked) {
     EXPECT_THROW(refine(floor_to_refine(), options_of_order(3), {.target = 1e-3}, progress), Cancelled);
 }
 
-TEST(Refine, SaysHowFarItIsAndNeverLess) {
+TEST(Refine, ReportsMonotoneProgress) {
     double last = 0;
     bool falls = false;
     const auto report = [&](double share) {

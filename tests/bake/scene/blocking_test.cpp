@@ -52,7 +52,7 @@ double beside_square(double half) {
     return 1 - 4 / (2 * pi) * 2 * (half / a * std::atan(half / a));
 }
 
-TEST(OneSidedCanopy, LeavesTheMiddleOfTheFloorTheSkyBesideIt) {
+TEST(OneSidedCanopy, LeavesTheFloorTheSkyAroundIt) {
     const Scene scene = canopy();
     const BakeResult result = bake_kept(scene, Inside::refill);
     EXPECT_EQ(result.statistics.receivers.sealed, 0u);
@@ -66,11 +66,11 @@ TEST(OneSidedCanopy, LeavesTheMiddleOfTheFloorTheSkyBesideIt) {
     EXPECT_GT(middles, 3);
 }
 
-TEST(OneSidedCanopy, ErrsAsEstimated) {
+TEST(OneSidedCanopy, HasTheEstimatedError) {
     expect_error_as_estimated(canopy(), Inside::refill);
 }
 
-TEST(OneSidedSheets, ErrAsEstimated) {
+TEST(OneSidedSheets, HaveTheEstimatedError) {
     std::mt19937_64 random(3);
     std::uniform_real_distribution<float> unit(-1, 1);
     const auto vector = [&] { return glm::vec3(unit(random), unit(random), unit(random)); };
@@ -83,7 +83,7 @@ TEST(OneSidedSheets, ErrAsEstimated) {
     expect_error_as_estimated(builder.build(), Inside::refill);
 }
 
-TEST(OneSidedHull, HalfSunkInOneSidedTerrainErrsAsEstimated) {
+TEST(OneSidedHull, HalfSunkInOneSidedTerrainHasTheEstimatedError) {
     const Scene scene = SceneBuilder()
                             .floor({0, 0, 0}, 2, 8)
                             .transform([](const glm::vec3& p) {
@@ -105,7 +105,7 @@ TEST(OneSidedHull, HalfSunkInOneSidedTerrainErrsAsEstimated) {
     expect_error_as_estimated(scene);
 }
 
-TEST(SealedIn, ReceiversTakeTheLightOfTheirNeighboursOrStayDark) {
+TEST(SealedIn, ReceiversUseNeighborsOrStayDark) {
     const Scene scene = SceneBuilder().floor({0, 0, 0}, 1, 20).sphere({0, 0, 0}, 0.4f, 24).build();
     const auto under = [&](const BakeResult& result) {
         double least = 1, most = 0;
@@ -125,7 +125,7 @@ TEST(SealedIn, ReceiversTakeTheLightOfTheirNeighboursOrStayDark) {
     EXPECT_EQ(kept.statistics.receivers.refilled, 0u);
 }
 
-TEST(SealedIn, AHoleThatLetsLightInLeavesReceiversAsTheyAre) {
+TEST(SealedIn, ReceiversBehindAHoleAreNotSealed) {
     // A closed one-sided sphere around a floor, except for one quad, which admits about 0.3 % of the light.
     Scene scene = SceneBuilder().floor({0, 0, 0}, 1, 10).sphere({0, 0, 0}, 0.6f, 12).build();
     auto& triangles = scene.primitives[0].triangles;
@@ -139,7 +139,7 @@ TEST(SealedIn, AHoleThatLetsLightInLeavesReceiversAsTheyAre) {
         }
 }
 
-TEST(Shell, OfAMaterialThatCastsNoShadowLetsAllLightIn) {
+TEST(Shell, WithoutShadowTransmitsAllLight) {
     // An outline: a closed hull whose front faces point inwards.
     Scene hull = SceneBuilder().bowl({0, 0, 0}, 3, 8, 0).build();
     const Scene inside = SceneBuilder().floor({0, 0, 0}, 1, 4).sphere({0, 0.5f, 0}, 0.3f, 8).build();
@@ -161,7 +161,7 @@ TEST(Shell, OfAMaterialThatCastsNoShadowLetsAllLightIn) {
     }
 }
 
-TEST(FootOfAWall, InTheMiddleOfAFloorSeesItsFront) {
+TEST(WallFoot, SeesTheFrontInTheMiddleOfAFloor) {
     // Vertices of the floor are on the wall's lower edge, and the floor continues behind it: half of the sky
     // is visible, plus the part past the wall's ends.
     for (const bool closed : {false, true}) {
@@ -184,7 +184,7 @@ TEST(FootOfAWall, InTheMiddleOfAFloorSeesItsFront) {
     }
 }
 
-TEST(FootOfAWall, OfAGridThatSharesItsVerticesIsNotBlack) {
+TEST(WallFoot, IsNotBlackWithSharedVertices) {
     // The vertices' faces surround them, so that only the wall determines a side.
     Scene scene = SceneBuilder().floor({0, 0, 0}, 2, 4).build();
     VertexArray& vertices = scene.vertex_arrays[0];
@@ -235,10 +235,10 @@ Scene leaning_strip(double degrees) {
     return scene;
 }
 
-class LeaningNormal : public testing::TestWithParam<double> {};
-INSTANTIATE_TEST_SUITE_P(Degrees, LeaningNormal, testing::Values(10.0, 40.0, 50.0, 70.0, 85.0));
+class TiltedNormal : public testing::TestWithParam<double> {};
+INSTANTIATE_TEST_SUITE_P(Degrees, TiltedNormal, testing::Values(10.0, 40.0, 50.0, 70.0, 85.0));
 
-TEST_P(LeaningNormal, LosesWhatLiesBelowItsOwnFaceAndNoMore) {
+TEST_P(TiltedNormal, LosesOnlyTheSkyBelowItsFace) {
     // The plane cuts (1 - cos a) / 2 off the cosine-weighted hemisphere of a normal that leans by a.
     for (const bool double_sided : {false, true}) {
         const Scene scene = test::painted(leaning_strip(GetParam()), glm::vec3(1), double_sided);
@@ -307,11 +307,11 @@ Scene box_figure() {
     return scene;
 }
 
-TEST(SmoothBoxes, OfAFigureErrAsEstimated) {
+TEST(SmoothBoxes, FiguresHaveTheEstimatedError) {
     expect_error_as_estimated(box_figure(), Inside::refill);
 }
 
-TEST(RayStart, LiesAboveEveryFaceOfRandomFansWhateverTheNormal) {
+TEST(RayStart, IsAboveEveryFaceOfRandomFans) {
     std::mt19937_64 random(11);
     std::uniform_real_distribution<double> unit(-1, 1);
     int leaning = 0;

@@ -28,7 +28,7 @@ std::string notice_of(const std::vector<Material>& materials, bool with_bounces 
     return notices.empty() ? "" : notices[0].substr(0, notices[0].find(':'));
 }
 
-TEST(Glass, IsNamedWhereItIsTinted) {
+TEST(Glass, IsReportedIfTinted) {
     Material clear;
     clear.metal.factor = 0;
     clear.glass.factor = 0.5f;
@@ -39,15 +39,15 @@ TEST(Glass, IsNamedWhereItIsTinted) {
     textured.base_color_texture.image = 0;
     EXPECT_EQ(notice_of({clear}), "");
     for (const Material& tinted : {red, blue, textured}) {
-        EXPECT_EQ(notice_of({clear, tinted}, false), "1 material of tinted glass");
+        EXPECT_EQ(notice_of({clear, tinted}, false), "1 material is tinted glass");
         Material opaque = tinted;
         opaque.glass.factor = 0;
         EXPECT_EQ(notice_of({opaque}), "");
     }
-    EXPECT_EQ(notice_of({red, clear, blue}), "2 materials of tinted glass");
+    EXPECT_EQ(notice_of({red, clear, blue}), "2 materials are tinted glass");
 }
 
-TEST(Metal, IsNamedWhereItMirrorsAndLightBounces) {
+TEST(Metal, IsReportedIfItMirrorsWithBounces) {
     Material rough;
     rough.metal.factor = 0.5f;
     rough.metal.roughness = 1;
@@ -56,13 +56,13 @@ TEST(Metal, IsNamedWhereItMirrorsAndLightBounces) {
     textured.metal.texture.image = 0;
     EXPECT_EQ(notice_of({rough}), "");
     for (const Material& polished : {smooth, textured}) {
-        EXPECT_EQ(notice_of({rough, polished}), "1 material of metal");
+        EXPECT_EQ(notice_of({rough, polished}), "1 material is metallic");
         EXPECT_EQ(notice_of({polished}, false), "");
         Material other = polished;
         other.metal.factor = 0;
         EXPECT_EQ(notice_of({other}), "");
     }
-    EXPECT_EQ(notice_of({smooth, textured}), "2 materials of metal");
+    EXPECT_EQ(notice_of({smooth, textured}), "2 materials are metallic");
 }
 
 } // namespace

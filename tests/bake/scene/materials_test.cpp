@@ -67,7 +67,7 @@ TEST(CutOut, IsTheSameAsAModelledHole) {
     EXPECT_GT(a[0], whole[0] + 0.02f); // and the hole does let light in
 }
 
-TEST(Blended, SurfacesLetTheirShareThrough) {
+TEST(Blended, SurfacesTransmitTheirFraction) {
     Scene half = ceiling();
     half.materials[0].alpha_mode = AlphaMode::blend;
     half.materials[0].base_color.a = 0.25f;
@@ -134,7 +134,7 @@ TEST(Glass, PassesItsFactorTimesItsTextureTimesItsTint) {
         EXPECT_NEAR(static_cast<double>(both[k]), (1 - 0.25 * (1 - 0.27)) * lobe[k], 0.005) << k;
 }
 
-TEST(Glass, ReflectsDiffuselyWhatItsFactorLeaves) {
+TEST(Glass, ReflectsDiffuselyByOneMinusItsFactor) {
     Scene sheet = SceneBuilder().floor({0, 0, 0}, 1).build();
     sheet.vertex_arrays[0].texcoords = {std::vector<glm::vec2>(sheet.receivers(), {0.5f, 0.5f})};
     sheet.materials[0].glass.texture.image = 0;
@@ -176,7 +176,7 @@ TEST(Metal, ReflectsDiffuselyAsFarAsItIsRough) {
     EXPECT_NEAR(reflected(1, 1, {make_texture({1, 1, {{9, 51, 255, 9}}})}), 0.8f * 0.04f, 1e-5f);
 }
 
-TEST(Metal, BouncesByThatShareAndSaysSo) {
+TEST(Metal, BouncesItsDiffuseFractionWithANotice) {
     const auto bounced = [](float metallic, float roughness, std::size_t& notices) {
         Scene bowl = SceneBuilder().bowl({0, 0, 0}, 1, 12, 4).build();
         bowl.materials[0].metal.factor = metallic;
@@ -190,7 +190,7 @@ TEST(Metal, BouncesByThatShareAndSaysSo) {
             const BakeResult result = bake(bowl, options);
             notices = 0;
             for (const std::string& notice : result.statistics.notices)
-                notices += notice.find("1 material of metal") != std::string::npos;
+                notices += notice.find("1 material is metallic") != std::string::npos;
             return exit_radiance(result.baked.transfer, constant_light(1, glm::vec3(1)))[12 * 25].x;
         };
         const float direct = radiance(0);
@@ -216,7 +216,7 @@ Scene ceiling_without_its_image() {
     return scene;
 }
 
-TEST(BadTextures, StopOnlyABakeThatNeedsThem) {
+TEST(BadTextures, FailOnlyBakesThatUseThem) {
     BakeOptions options;
     options.order = 1;
     options.rays = 16;
@@ -232,9 +232,9 @@ TEST(BadTextures, StopOnlyABakeThatNeedsThem) {
     Scene scene = ceiling_without_its_image();
     EXPECT_EQ(message(scene), ""); // direct light, opaque
     scene.materials[1].alpha_mode = AlphaMode::mask;
-    EXPECT_EQ(message(scene), "image 0 'wood.ktx2' is KTX 2, which is not read, and no PNG, JPEG, WebP or "
-                              "AVIF stands beside it; its "
-                              "pixels are needed here, unless --bad-textures ignore is given");
+    EXPECT_EQ(message(scene),
+              "image 0 'wood.ktx2' is KTX 2, which is not supported, and the texture has no PNG, JPEG, WebP "
+              "or AVIF as a fallback; ignore such textures with --bad-textures ignore");
     scene.materials[1].alpha_mode = AlphaMode::opaque;
     options.bounces = 1;
     EXPECT_NE(message(scene), "");
@@ -244,7 +244,7 @@ TEST(BadTextures, StopOnlyABakeThatNeedsThem) {
     EXPECT_EQ(message(scene), "");
 }
 
-TEST(Leaf, TakesLightFromBehindThroughDiffuseTransmission) {
+TEST(Leaf, IsLitFromBehindByDiffuseTransmission) {
     // A single sheet: nothing is in front or behind, so both sides have their clamped-cosine lobe.
     Scene leaf = SceneBuilder().floor({0, 0, 0}, 1, 2).build();
     Material& m = leaf.materials[0];
@@ -295,7 +295,7 @@ TEST(Leaf, VariesFromVertexToVertex) {
         }
 }
 
-TEST(Leaf, NeedsChannelsWhereItColorsLight) {
+TEST(Leaf, NeedsChannelsForColoredLight) {
     Scene leaf = SceneBuilder().floor({0, 0, 0}, 1).build();
     leaf.materials[0].transmission.factor = 0.4f;
     const auto colors = [&](const glm::vec3& color) {
@@ -306,7 +306,7 @@ TEST(Leaf, NeedsChannelsWhereItColorsLight) {
     EXPECT_TRUE(colors({0.5f, 0.6f, 0.5f}));
 }
 
-TEST(Leaf, LightsWhatIsBelowIt) {
+TEST(Leaf, LightsSurfacesBelowIt) {
     // Over a floor hangs a large leaf in the sun: with transmission the floor's bounces see it shine.
     const auto floor_under_leaf = [](float factor) {
         Scene leaf = SceneBuilder().floor({0, 0.5f, 0}, 2, 8).build();
@@ -327,7 +327,7 @@ TEST(Leaf, LightsWhatIsBelowIt) {
     EXPECT_LT(with, 1);
 }
 
-TEST(Textures, MakeASurfaceVaryOnlyWhereTheyCount) {
+TEST(Textures, CauseVariationOnlyIfUsed) {
     const std::vector<Texture> textures = {numbers({1, 2, 3, 4})};
     const auto varies = [&](float transmission, void (*give_image)(Material&)) {
         Scene scene = ceiling();
@@ -346,7 +346,7 @@ TEST(Textures, MakeASurfaceVaryOnlyWhereTheyCount) {
     EXPECT_TRUE(varies(0, metal));
 }
 
-TEST(Textures, AreFilteredOverWhatARayStandsFor) {
+TEST(Textures, AreFilteredOverTheRayFootprint) {
     // A wall with a fine chequer of black and white is as bright as a grey one of the mean in linear light.
     Scene chequered = SceneBuilder().quad({-2, 0, -1}, {2, 0, -1}, {2, 4, -1}, {-2, 4, -1}).build();
     VertexArray& v = chequered.vertex_arrays[0];
@@ -371,7 +371,7 @@ TEST(Textures, AreFilteredOverWhatARayStandsFor) {
     EXPECT_TRUE(sharp < 0.35f || sharp > 0.65f) << sharp;
 }
 
-TEST(InsideGeometry, ABodyThatIsInsideAsAWholeStaysDark) {
+TEST(InsideGeometry, EnclosedBodiesStayDark) {
     const Scene scene = SceneBuilder().sphere({0, 0, 0}, 1, 12).sphere({0, 0, 0}, 0.3f, 6).build();
     BakeOptions options;
     options.rays = 64;
@@ -381,7 +381,7 @@ TEST(InsideGeometry, ABodyThatIsInsideAsAWholeStaysDark) {
     EXPECT_EQ(result.statistics.receivers.refilled, 0u);
 }
 
-TEST(Textures, ThatAreMissingAreNamedUnlessNobodyLooksAtThem) {
+TEST(Textures, MissingTexturesAreReportedIfUsed) {
     Scene scene = ceiling();
     scene.materials[0].base_color_texture.image = 0;
     scene.images.push_back({"image 0 'gone.png'", {}});

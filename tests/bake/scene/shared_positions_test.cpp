@@ -48,7 +48,7 @@ TEST(SharedPositions, HaveOneValue) {
 }
 
 /// Six triangles meet at a vertex inside the floor: the mean of six sets of rays has less noise than one.
-TEST(SharedPositions, HaveTheNoiseOfAllTheirRays) {
+TEST(SharedPositions, CombineAllTheirRays) {
     const Scene scene = floor_under_lid();
     // Corners of different triangles get different positions; 0.1 mm does not change their light.
     Scene separate = scene;
@@ -73,7 +73,7 @@ TEST(SharedPositions, HaveTheNoiseOfAllTheirRays) {
 }
 
 /// A sheet is on the edges in the middle of a floor.
-TEST(SharedPositions, AreNoneAcrossAWall) {
+TEST(SharedPositions, DoNotCrossAWall) {
     const Scene scene =
         test::painted(test::join({SceneBuilder().floor({0, 0, 0}, 2, 4).build(),
                                   SceneBuilder().quad({0, 0, 3}, {0, 0, -3}, {0, 5, -3}, {0, 5, 3}).build()}),

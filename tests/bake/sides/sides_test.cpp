@@ -54,7 +54,7 @@ glm::vec3 point_of(const Scene& scene, unsigned triangle, const glm::vec2& uv) {
     return (1 - uv.x - uv.y) * at[t.x] + uv.x * at[t.y] + uv.y * at[t.z];
 }
 
-TEST(OppositeTriangles, HaveTheSamePointWhateverCornerTheyBeginWith) {
+TEST(OppositeTriangles, HaveEqualPointsForAllFirstCorners) {
     const glm::vec3 corners[] = {{1, 2, 3}, {4, 1, 0}, {-2, 0, 5}};
     for (int start = 0; start < 3; ++start) {
         const Scene scene = SceneBuilder()
@@ -107,7 +107,7 @@ TEST(OppositeTriangles, GoInPairs) {
 }
 
 /// Two triangles of one side share the one of the other.
-TEST(OppositeTriangles, StandForSeveralWhereOneSideHasMore) {
+TEST(OppositeTriangles, RepresentSeveralTrianglesOfASide) {
     SceneBuilder builder;
     builder.triangle({0, 0, 0}, {1, 0, 0}, {0, 1, 0}).triangle({0, 0, 0}, {1, 0, 0}, {0, 1, 0});
     builder.triangle({0, 0, 0}, {0, 1, 0}, {1, 0, 0}).triangle({0, 0, 0}, {0, 0, 0}, {1, 0, 0});
@@ -133,7 +133,7 @@ double shown(const Transfer& transfer, std::size_t receiver) {
 
 /// White walls that are there twice reflect all of a uniform sky, inside and outside. A ray that took the
 /// back of one for a wall would lose it.
-TEST(WallsThatAreThereTwice, ReflectAllOfAUniformSky) {
+TEST(DuplicateWalls, ReflectAllOfAUniformSky) {
     BakeOptions options;
     options.order = 1;
     options.rays = 256;
@@ -147,7 +147,7 @@ TEST(WallsThatAreThereTwice, ReflectAllOfAUniformSky) {
 }
 
 /// No light enters, but no receiver is inside an object.
-TEST(WallsThatAreThereTwice, AreDarkInAClosedRoom) {
+TEST(DuplicateWalls, AreDarkInAClosedRoom) {
     BakeOptions options;
     options.order = 1;
     options.rays = 256;
@@ -171,23 +171,23 @@ Scene double_sided(const Scene& scene) {
     return test::painted(scene, glm::vec3(0.5f), /*double_sided=*/true);
 }
 
-TEST(SidesToSeparate, AreThoseOfAnOpenBox) {
+TEST(SidesToSeparate, IncludeAnOpenBox) {
     EXPECT_EQ(separated(double_sided(scene_of(kOpen))), 10u);
     EXPECT_TRUE(sides_to_separate(scene_of(kOpen), {}).empty()); // one-sided
 }
 
-TEST(SidesToSeparate, AreNoneWhereNoLightGetsIn) {
+TEST(SidesToSeparate, ExcludeClosedSpaces) {
     EXPECT_EQ(separated(double_sided(scene_of(kClosed))), 0u);
 }
 
 /// The bottom of the box and the floor under it are one plane.
-TEST(SidesToSeparate, AreNoneOfABoxThatStandsOnAFloor) {
+TEST(SidesToSeparate, ExcludeABoxOnAFloor) {
     EXPECT_EQ(separated(double_sided(
                   test::join({scene_of(kClosed), SceneBuilder().floor({0, 0, 0}, 5, 3).build()}))),
               0u);
 }
 
-TEST(SidesToSeparate, AreNoneOfGround) {
+TEST(SidesToSeparate, ExcludeGround) {
     EXPECT_EQ(separated(double_sided(SceneBuilder().floor({0, 0, 0}, 5, 3).build())), 0u);
 }
 
@@ -205,7 +205,7 @@ TEST(SidesToSeparate, AreLitByALampInside) {
 }
 
 /// An emissive sphere lights its room, and stays dark inside except for its emission.
-TEST(SidesToSeparate, AreLitByWhatShines) {
+TEST(SidesToSeparate, AreLitByEmission) {
     Scene scene =
         double_sided(test::join({scene_of(kClosed), SceneBuilder().sphere({0, 1, 0}, 0.1f, 4).build()}));
     scene.materials[1].double_sided = false;
@@ -213,7 +213,7 @@ TEST(SidesToSeparate, AreLitByWhatShines) {
     EXPECT_EQ(separated(scene), 12u);
 }
 
-TEST(SidesToSeparate, AreThoseOfThePiecesThatAreLitAlone) {
+TEST(SidesToSeparate, IncludeOnlyLitPieces) {
     SceneBuilder builder;
     add(builder, kClosed);
     add(builder, {{4, 0, -1}, {6, 2, 1}, true});
@@ -225,7 +225,7 @@ TEST(SidesToSeparate, AreThoseOfThePiecesThatAreLitAlone) {
 }
 
 /// The back is the side that is seen.
-TEST(SidesToSeparate, AreThoseWithALitBackAlone) {
+TEST(SidesToSeparate, IncludeOnlyLitBacks) {
     const Scene ground =
         SceneBuilder().quad({-1, 0, -1}, {1, 0, -1}, {1, 0, 1}, {-1, 0, 1}).build(); // looks down
     EXPECT_EQ(separated(double_sided(ground)), 2u);
@@ -253,7 +253,7 @@ TEST(SidesToSeparate, AreLitThroughASmallWindow) {
 
 /// A box connected to a plain that is invisible from below: the triangles of the plain in a common patch with
 /// the box get back sides, too.
-TEST(SidesToSeparate, AreThoseOfABoxOnAPlain) {
+TEST(SidesToSeparate, IncludeABoxOnAPlain) {
     SceneBuilder builder;
     builder.floor({0, 0, 0}, 100, 40);
     add(builder, {{0, 0, 0}, {5, 2, 5}, true});
@@ -265,7 +265,7 @@ TEST(SidesToSeparate, AreThoseOfABoxOnAPlain) {
     EXPECT_LT(std::ranges::count(triangles, true), 100);
 }
 
-TEST(SidesToSeparate, LeaveOutWhatRaysPass) {
+TEST(SidesToSeparate, ExcludeTransparentSurfaces) {
     const Scene open = double_sided(scene_of(kOpen));
     for (const auto& change :
          {+[](Material& m) { m.alpha_mode = AlphaMode::blend; }, +[](Material& m) { m.glass.factor = 0.5f; },

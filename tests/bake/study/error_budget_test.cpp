@@ -69,7 +69,7 @@ std::vector<glm::vec3> at_points(const Lit& lit, const std::vector<float>& value
     return interpolated(lit.points, radiance);
 }
 
-TEST(SurfacePoints, LieOnTheirTrianglesAndStandForAllOfTheArea) {
+TEST(SurfacePoints, AreOnTheirTrianglesAndCoverTheArea) {
     const Scene scene = SceneBuilder().floor(glm::vec3(0), 2, 8).sphere(glm::vec3(0, 3, 0), 1, 12).build();
     const TraceScene traced(scene);
     const SurfacePoints points = surface_points(traced, {.count = 2000});
@@ -83,7 +83,7 @@ TEST(SurfacePoints, LieOnTheirTrianglesAndStandForAllOfTheArea) {
     EXPECT_NEAR(area, 16 + 4 * M_PI, 0.02 * (16 + 4 * M_PI)); // the sphere's facets have a little less
 }
 
-TEST(SurfacePoints, InsideOfABoxDoNotCount) {
+TEST(SurfacePoints, InsideABoxDoNotCount) {
     // A floor with a closed box on it: points under the box see only the insides of its walls.
     const Scene scene = SceneBuilder().floor(glm::vec3(0), 2, 8).sphere(glm::vec3(0, 0.2f, 0), 1, 16).build();
     const TraceScene traced(scene);
@@ -94,7 +94,7 @@ TEST(SurfacePoints, InsideOfABoxDoNotCount) {
     }
 }
 
-TEST(SurfacePoints, QuartersOfTrianglesHoldTheirPoints) {
+TEST(SurfacePoints, QuartersOfTrianglesContainTheirPoints) {
     const Lit lit(SceneBuilder().sphere(glm::vec3(0), 1, 6).build(), uniform(), 1);
     const QuarterCorners quarters = quarter_corners(lit.traced, lit.points);
     for (std::size_t p = 0; p < lit.points.size(); ++p) {
@@ -129,7 +129,7 @@ TEST(SurfaceRadiance, IsOneEverywhereInAWhiteWorldUnderUniformLight) {
     EXPECT_NEAR(bands / area, 1, 0.01);
 }
 
-TEST(ErrorBudget, OfLightIsWhatBandsLoseOfACap) {
+TEST(ErrorBudget, BandErrorIsTheTruncationErrorOfACap) {
     // Light from less than 60 degrees off the normal: an open floor receives 1 - cos² 60° = 0.75 of it, and N
     // bands produce the value of the clamped cosine's coefficients.
     const Lit lit(open_floor(), sky_of([](float y) { return y > 0.5f ? 1.0f : 0.0f; }), 1024);
@@ -146,7 +146,7 @@ TEST(ErrorBudget, OfLightIsWhatBandsLoseOfACap) {
     }
 }
 
-TEST(ErrorBudget, OfBouncesIsWhatIsMissing) {
+TEST(ErrorBudget, BounceErrorIsTheMissingLight) {
     // Each point of a bowl that is closed except for a hole reflects light: with albedo 1 all bounces give 1,
     // and no bounces give only direct light of the sky.
     const Lit lit(painted(SceneBuilder().bowl(glm::vec3(0), 1, 24, 6).build(), glm::vec3(1)), uniform(), 256);
@@ -206,7 +206,7 @@ TEST(ErrorBudget, FindsEachCauseOfAPaintedFloor) {
 }
 
 /// Under uniform light, eyes adapt to a tenth of it: contrast errors are those of luminance over 1.1.
-TEST(ErrorBudget, OfContrastIsOverTheLightAndWeightedAsLuminance) {
+TEST(ErrorBudget, ContrastErrorIsRelativeToLuminance) {
     const Lit lit(SceneBuilder().floor(glm::vec3(0), 2, 40).build(), uniform());
     const auto error = [&](const glm::vec3& by) {
         const std::vector<glm::vec3> off(lit.points.size(), glm::vec3(1) + by);
@@ -219,7 +219,7 @@ TEST(ErrorBudget, OfContrastIsOverTheLightAndWeightedAsLuminance) {
 }
 
 /// A black bowl is darker at larger depth: an equal error is more visible there.
-TEST(ErrorBudget, OfContrastCountsDimLight) {
+TEST(ErrorBudget, ContrastErrorCountsDimLight) {
     const Lit lit(painted(SceneBuilder().bowl(glm::vec3(0), 1, 24, 6).build(), glm::vec3(0)), uniform(),
                   2048);
     double expected = 0, area = 0, logarithms = 0;
@@ -241,7 +241,7 @@ TEST(ErrorBudget, OfContrastCountsDimLight) {
     EXPECT_NEAR(budget.total.root(), std::sqrt(expected), 0.02 * std::sqrt(expected));
 }
 
-TEST(ErrorBudget, IsNothingWhereNothingIsWrong) {
+TEST(ErrorBudget, IsZeroWithoutErrors) {
     const Lit lit(open_floor(), uniform());
     const std::vector<glm::vec3> one = all_points(lit.points, 1);
     const ErrorBudget budget = error_budget(lit.points, lit.reference, truncation_of(3), {one, one, one});
@@ -251,7 +251,7 @@ TEST(ErrorBudget, IsNothingWhereNothingIsWrong) {
     EXPECT_NEAR(budget.of(ErrorCause::vertices).value, 0, 1e-5);
 }
 
-TEST(ErrorBudget, LeavesSunsThatAreApartToTheRenderer) {
+TEST(ErrorBudget, ExcludesSeparateSuns) {
     // Only a separate sun: transfer is not used, and errors are relative to the light of the sun.
     ReferenceLight light = uniform();
     light.all = DistantLight(Image{1, 1, {glm::vec3(0)}}, {{glm::vec3(0, 1, 0), glm::vec3(2)}});
@@ -268,7 +268,7 @@ TEST(ErrorBudget, LeavesSunsThatAreApartToTheRenderer) {
     EXPECT_NEAR(budget.of(ErrorCause::light).value, 0, 1e-9);
 }
 
-TEST(ErrorBudget, OfSplitTrianglesIsNothingWhereLightIsEven) {
+TEST(ErrorBudget, SplitTrianglesHaveNoErrorInUniformLight) {
     // If the reference at corners and points is one function, light has no error however triangles are split:
     // an open floor under one sky.
     const Lit lit(open_floor(), uniform());
@@ -277,7 +277,7 @@ TEST(ErrorBudget, OfSplitTrianglesIsNothingWhereLightIsEven) {
     EXPECT_NEAR(split_error(lit.points, lit.reference, quarters, corners, truncation_of(2)).value, 0, 1e-4);
 }
 
-TEST(SurfaceRadiance, IsTheSameForAnyNumberOfThreads) {
+TEST(SurfaceRadiance, DoesNotDependOnThreads) {
     const Scene scene = SceneBuilder().floor(glm::vec3(0), 2, 8).sphere(glm::vec3(0, 1, 0), 0.8f, 8).build();
     const TraceScene traced(scene);
     const SurfacePoints points = surface_points(traced, {.count = 100});

@@ -82,7 +82,7 @@ Scene sheets(int count) {
     return test::painted(builder.build(), glm::vec3(1), true);
 }
 
-TEST(BoundedFit, UniformLightGivesNoLessThanNothingAndNoMoreThanItself) {
+TEST(BoundedFit, UniformLightStaysBetweenZeroAndOne) {
     for (const Scene& scene : {needles(300), sheets(40)})
         for (const int bounces : {0, 2, 8}) {
             const std::vector<glm::vec3> lit =
@@ -93,7 +93,7 @@ TEST(BoundedFit, UniformLightGivesNoLessThanNothingAndNoMoreThanItself) {
         }
 }
 
-TEST(BoundedFit, AllLightReturnsFromWhiteFurnaces) {
+TEST(BoundedFit, WhiteFurnaceKeepsAllLight) {
     const Scene bowl = test::painted(SceneBuilder().bowl({0, 0, 0}, 1, 8, 3).build(), glm::vec3(1), true);
     for (const Scene& scene : {needles(200), sheets(30), bowl}) {
         const std::vector<glm::vec3> lit =
@@ -152,7 +152,7 @@ Scene ground_and_outside() {
 }
 
 /// Tests that the floor of the room and the ground around it do not exchange light, in one node or in two.
-TEST(BoundedFit, DarkRoomsStayDarkOnGroundOfTheirLevel) {
+TEST(BoundedFit, DarkRoomsStayDarkNextToGroundOfEqualHeight) {
     Scene scene = test::join({dark_room(), ground_and_outside()});
     const std::size_t inside = scene.vertex_arrays[0].size();
     for (const bool one_node : {false, true}) {
@@ -187,7 +187,7 @@ Scene box_in_floor() {
     return scene;
 }
 
-TEST(BoundedFit, LampsGiveNoLessThanNothing) {
+TEST(BoundedFit, LampLightIsNonnegative) {
     const Scene scene = box_in_floor();
     for (const int bounces : {0, 1, 4, kEndlessBounces}) {
         const Transfer transfer = bake(scene, options_of(bounces, FitMode::surface, 64)).baked.transfer;
@@ -200,7 +200,7 @@ TEST(BoundedFit, LampsGiveNoLessThanNothing) {
     }
 }
 
-TEST(BoundedFit, LimitsTakeOnlyWhatIsTooMuch) {
+TEST(BoundedFit, LimitsRemoveOnlyExcessLight) {
     const TestValues tests = TestValues::of_lamps(2, 1, 4);
     ASSERT_EQ(tests.count(), 2u);
     // Two unknowns of samples in 0..1 (first lamp) and 5..6 (second).

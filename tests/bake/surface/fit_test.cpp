@@ -50,7 +50,7 @@ struct Fitted {
     FitEquations equations;
 };
 
-TEST(SurfaceSamples, StandForTheWholeSurfaceAndLieOnIt) {
+TEST(SurfaceSamples, CoverTheSurface) {
     const Fitted floor(SceneBuilder().floor({0, 0, 0}, 1, 3).floor({5, 1, 0}, 0.01f, 4).build(), 500);
     double area = 0;
     std::vector<int> of_triangle(floor.traced.surfaces().triangles());
@@ -68,7 +68,7 @@ TEST(SurfaceSamples, StandForTheWholeSurfaceAndLieOnIt) {
     EXPECT_NEAR(static_cast<double>(floor.samples.size()), 500, 20);
 }
 
-TEST(SurfaceSamples, LayersTakeEachSampleOnce) {
+TEST(SurfaceSamples, LayersContainEachSampleOnce) {
     const Scene scene = SceneBuilder().floor({0, 0, 0}, 1, 5).build();
     const TraceScene traced(scene);
     const SurfaceSamples samples =
@@ -84,7 +84,7 @@ TEST(SurfaceSamples, LayersTakeEachSampleOnce) {
     EXPECT_EQ(sum, samples.size());
 }
 
-TEST(SecondDifference, IsZeroWhereAFunctionIsLinearOverTheUnfoldedTriangles) {
+TEST(SecondDifference, IsZeroForLinearFunctionsOverUnfoldedTriangles) {
     // Folded by 90 degrees along z: the distance from the fold, seen along the surface.
     const std::vector<FitTriangle> triangles = {
         {{0, 1, 2}, {{{0, 0, 0}, {0, 0, 1}, {-2, 0, 0.3}}}},
@@ -108,7 +108,7 @@ TEST(SecondDifference, IsZeroWhereAFunctionIsLinearOverTheUnfoldedTriangles) {
     EXPECT_NEAR(second_difference({0, 0, 0, 0.5}), 0.8, 1e-6);
 }
 
-TEST(SecondDifference, IsOfEdgesThatTwoTrianglesShare) {
+TEST(SecondDifference, IsDefinedForEdgesOfTwoTriangles) {
     const std::array<glm::dvec3, 3> at = {{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}};
     EXPECT_EQ(second_differences_of(std::vector<FitTriangle>{{{0, 1, 2}, at}}).size(), 0);
     EXPECT_EQ(
@@ -119,7 +119,7 @@ TEST(SecondDifference, IsOfEdgesThatTwoTrianglesShare) {
               0); // duplicated
 }
 
-TEST(SecondDifference, IsNotThatOfEdgesWithoutLength) {
+TEST(SecondDifference, IgnoresEdgesWithoutLength) {
     // At the pole of a sphere whose vertices are not exactly equal: they differ by a denormal.
     const std::vector<FitTriangle> triangles = {{{0, 1, 2}, {{{0, 0, 0}, {3.3e-41, 0, 0}, {1, 1, 0}}}},
                                                 {{1, 0, 3}, {{{3.3e-41, 0, 0}, {0, 0, 0}, {1, -1, 0}}}}};
@@ -142,7 +142,7 @@ TEST_P(FitWeight, IsExactForLinearFunctions) {
 
 // On an even mesh the best continuous piecewise linear function is h²/6 below x² at every node: the residual,
 // (x - a)(b - x) - h²/6, is orthogonal to all hat functions.
-TEST(Fit, OfAParabolaIsBestOnAverage) {
+TEST(Fit, HasTheLeastSquaresErrorForAParabola) {
     constexpr int kCells = 12;
     const Fitted floor(SceneBuilder().floor({0, 0, 0}, 1, kCells).build(), 60000);
     const std::vector<float> values =
@@ -177,7 +177,7 @@ double squared_error(const Fitted& floor, std::span<const float> values,
     return sum;
 }
 
-TEST(Fit, OfAStepErrsLessThanItsValuesAtVertices) {
+TEST(Fit, HasLessErrorThanVertexValuesForAStep) {
     const Fitted floor(uneven_floor(9), 20000);
     const auto step = [](const glm::vec3& p) { return p.x + 0.3f * p.z > 0.1f ? 1.0 : 0.0; };
     std::vector<float> at_vertices;
@@ -187,7 +187,7 @@ TEST(Fit, OfAStepErrsLessThanItsValuesAtVertices) {
               0.85 * squared_error(floor, at_vertices, step));
 }
 
-TEST(Fit, OfAConstantIsExactOnAnyMesh) {
+TEST(Fit, IsExactForConstants) {
     SceneBuilder builder;
     builder.sphere({4, 0, 0}, 1, 6).floor({0, 0, 0}, 1, 3);
     builder.floor({0, 0, 0}, 1, 3);                                          // duplicated
@@ -223,7 +223,7 @@ TEST(Fit, DoesNotDependOnThreads) {
     EXPECT_EQ(one, many);
 }
 
-TEST(FitChoice, IsWhatErrsLess) {
+TEST(FitChoice, SelectsTheLowerError) {
     EXPECT_TRUE(choose_fit({.between = 0.05, .sampling = 0.002}, 1024, false).better);
     EXPECT_FALSE(choose_fit({.between = 0.005, .sampling = 0.02}, 1024, false).better);
     EXPECT_FALSE(choose_fit({}, 1024, false).better); // no error: the choice does not change

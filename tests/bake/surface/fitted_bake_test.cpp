@@ -29,7 +29,7 @@ BakeOptions fitted_options(int rays = 256) {
     return options;
 }
 
-TEST(FittedBake, IsTheLobeWhereNothingShadows) {
+TEST(FittedBake, IsTheCosineLobeWithoutShadows) {
     const Scene scene = uneven_floor(6);
     const BakeResult result = bake(scene, fitted_options());
     EXPECT_TRUE(result.baked.record.fitted);
@@ -50,7 +50,7 @@ Scene floor_with_wall() {
 }
 
 /// Near the wall it covers half of the hemisphere; far from it, almost nothing.
-TEST(FittedBake, ErrsLessBetweenVerticesThanOneAtVertices) {
+TEST(FittedBake, HasLessErrorBetweenVerticesThanAVertexBake) {
     const Scene scene = floor_with_wall();
     BakeOptions options = fitted_options(2048);
     const Transfer fitted = bake(scene, options).baked.transfer;
@@ -83,7 +83,7 @@ TEST(FittedBake, ErrsLessBetweenVerticesThanOneAtVertices) {
 }
 
 /// The first vertex at a position may belong only to triangles without area.
-TEST(FittedBake, HasNoUseForTheFirstOfVerticesWhereThatHasNoArea) {
+TEST(FittedBake, IgnoresFirstVerticesWithoutArea) {
     Scene scene = SceneBuilder().floor({0, 0, 0}, 1, 2).build();
     VertexArray& vertices = scene.vertex_arrays[0];
     vertices.positions.insert(vertices.positions.begin(), 3, vertices.positions[0]);
@@ -137,7 +137,7 @@ TEST(FittedBake, BouncesAreAGeometricSeries) {
 }
 
 // Normals of a coarse bowl send rays below the plane of their triangle: their hits count as light, too.
-TEST(FittedBake, OfAWhiteFurnaceIsOneOnCoarseHollowSurfaces) {
+TEST(FittedBake, IsOneInAWhiteFurnaceOnCoarseSurfaces) {
     const Scene bowl =
         test::painted(SceneBuilder().bowl({0, 0, 0}, 1, 8, 3).build(), glm::vec3(1), /*double_sided=*/true);
     BakeOptions options = fitted_options(512);
@@ -154,7 +154,7 @@ TEST(FittedBake, OfAWhiteFurnaceIsOneOnCoarseHollowSurfaces) {
 }
 
 /// A lamp at height h over a floor results in 1 / (pi h²) below it, and falls off as h / (pi d³).
-TEST(FittedBake, LampsLightAsTheyDoAndNeverTakeLightAway) {
+TEST(FittedBake, LampsMatchTheirLightAndStayNonnegative) {
     Scene scene = SceneBuilder().floor({0, 0, 0}, 2, 16).build();
     PunctualLight lamp;
     lamp.name = "lamp";
@@ -187,7 +187,7 @@ TEST(FittedBake, LightsThinSheetsFromBothSides) {
         EXPECT_NEAR(lit.x, 1.5f, 1e-4f);
 }
 
-TEST(FittedBake, TakesTheLightOfNeighboursInsideGeometry) {
+TEST(FittedBake, UsesNeighborsInsideGeometry) {
     // A box on a floor covers some of its cells: they see nothing.
     SceneBuilder builder;
     builder.floor({0, 0, 0}, 1, 20);
@@ -210,7 +210,7 @@ TEST(FittedBake, TakesTheLightOfNeighboursInsideGeometry) {
     EXPECT_TRUE(middle);
 }
 
-TEST(FittedBake, KnowsItsNoise) {
+TEST(FittedBake, EstimatesItsNoise) {
     const Scene scene = floor_with_wall();
     std::vector<Transfer> bakes;
     double estimated = 0;

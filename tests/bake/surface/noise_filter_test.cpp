@@ -54,7 +54,7 @@ Scene corner() {
     return scene;
 }
 
-TEST(NoiseFilter, TakesMostOfTheNoise) {
+TEST(NoiseFilter, RemovesMostNoise) {
     const Scene scene = corner();
     const std::vector<float> areas = receiver_areas(scene);
     const Transfer truth = indirect(scene, bounced(1 << 14, 9, false));
@@ -70,7 +70,7 @@ TEST(NoiseFilter, TakesMostOfTheNoise) {
     }
 }
 
-TEST(NoiseFilter, ChangesLittleWhereThereIsLittleNoise) {
+TEST(NoiseFilter, ChangesLittleWithoutNoise) {
     const Scene scene = corner();
     const std::vector<float> areas = receiver_areas(scene);
     const Transfer truth = indirect(scene, bounced(1 << 14, 9, false));
@@ -79,7 +79,7 @@ TEST(NoiseFilter, ChangesLittleWhereThereIsLittleNoise) {
 }
 
 /// Light of lamps without a bounce has no noise of hemisphere rays, and stays as it is, bit by bit.
-TEST(NoiseFilter, LeavesDirectLightOfLamps) {
+TEST(NoiseFilter, KeepsDirectLightOfLamps) {
     const Scene scene = corner();
     BakeOptions with = bounced(64, 1, true), without = bounced(64, 1, false);
     with.bounces = without.bounces = 0;
@@ -90,7 +90,7 @@ TEST(NoiseFilter, LeavesDirectLightOfLamps) {
 }
 
 /// Tests the noise of a sky, whose direct light has an edge where the ball touches the floor.
-TEST(NoiseFilter, TakesMostOfTheNoiseOfASky) {
+TEST(NoiseFilter, RemovesMostNoiseOfASky) {
     const Scene scene = corner();
     const std::vector<float> areas = receiver_areas(scene);
     for (const int bounces : {0, 2}) {

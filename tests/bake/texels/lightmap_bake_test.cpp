@@ -48,7 +48,7 @@ double sum_of(std::span<const float> values) {
     return std::accumulate(values.begin(), values.end(), 0.0);
 }
 
-TEST(LightmapBake, OfAnOpenFloorIsTheLobeOfItsNormal) {
+TEST(LightmapBake, OpenFloorHasTheLobeOfItsNormal) {
     const Scene scene = floor_map(SceneBuilder().floor({0, 0, 0}, 1).build());
     const LightmapBake baked = bake_lightmap(scene, {whole(scene, 8)}, options_of(4, 4096, 0));
     const BakedLightmap& map = baked.lightmap;
@@ -128,7 +128,7 @@ LookupErrors lookup_errors(int size, int rays) {
     return {std::sqrt(std::abs(sums[0] / points[0])), std::sqrt(std::abs(sums[1] / points[1]))};
 }
 
-TEST(LightmapBake, ComesToTheClosedFormAsTexelsGetFiner) {
+TEST(LightmapBake, ConvergesToTheClosedForm) {
     // Means over texels and lines between them err by the square of a texel: a quarter for half its side. In
     // the half texel along edges filters repeat the last, and err by a texel's side on a share of the floor
     // as large: half of it to the power 3/2 for the root mean square, 0.35.
@@ -144,7 +144,7 @@ TEST(LightmapBake, ComesToTheClosedFormAsTexelsGetFiner) {
     EXPECT_LT(coarse.inside, 2e-4);
 }
 
-TEST(LightmapBake, OfALampFallsWithTheSquareOfTheDistance) {
+TEST(LightmapBake, LampLightFollowsTheInverseSquareLaw) {
     Scene scene = floor_map(SceneBuilder().floor({0, 0, 0}, 1).build());
     scene.lights.push_back({.name = "lamp", .intensity = glm::vec3(3), .position = {0.3f, 0.7f, -0.2f}});
     const LightmapBake baked = bake_lightmap(scene, {whole(scene, 32)}, options_of(1, 64, 0));
@@ -204,7 +204,7 @@ TEST(LightmapBake, WithAllBouncesOfWhiteSurfacesIsOneEverywhere) {
         }
 }
 
-TEST(LightmapBake, JumpsForTheCompressorAreThoseThatItStitches) {
+TEST(LightmapBake, SeamEdgesMatchStitching) {
     const Charted bowl(SceneBuilder().bowl({0, 0, 0}, 1, 6, 2).build(), 96);
     const LightmapBake baked = bake_lightmap(bowl.scene, bowl.atlases, options_of(2, 64, 0));
     const BakedLightmap& map = baked.lightmap;
@@ -223,7 +223,7 @@ TEST(LightmapBake, JumpsForTheCompressorAreThoseThatItStitches) {
     EXPECT_GT(baked.statistics.seam_before, 1e-3);
 }
 
-TEST(LightmapBake, BouncesAsVerticesDo) {
+TEST(LightmapBake, BouncesLikeVertices) {
     // A wall next to a floor, both finely divided: at vertices of the floor both bakes agree.
     const Scene wall = SceneBuilder()
                            .floor({0, 0, 0}, 1, 16)
@@ -267,7 +267,7 @@ TEST(LightmapBake, BouncesAsVerticesDo) {
     EXPECT_LT(std::sqrt(error / norm), 0.02); // texels have a quarter of the rays at each of four positions
 }
 
-TEST(LightmapBake, IsTheSameForAnyNumberOfThreads) {
+TEST(LightmapBake, DoesNotDependOnThreads) {
     const Charted bowl(test::painted(SceneBuilder().bowl({0, 0, 0}, 1, 6, 2).build(), {0.7f, 0.4f, 0.2f}),
                        48);
     BakeOptions one = options_of(3, 64, 2), three = one;
@@ -357,7 +357,7 @@ TEST(LightmapBake, FiltersNoLightFromOneSurfaceToAnother) {
     }
 }
 
-TEST(LightmapBake, SaysWhereAFinerModelLiesElsewhere) {
+TEST(LightmapBake, ReportsMisplacedHighPolyModels) {
     const Scene scene = floor_map(SceneBuilder().floor({0, 0, 0}, 1).build());
     const auto bake_with = [&](const Scene& finer) {
         return bake_lightmap(scene, {whole(scene, 8)}, options_of(2, 8, 0), {&finer, 0.1});
@@ -368,7 +368,7 @@ TEST(LightmapBake, SaysWhereAFinerModelLiesElsewhere) {
               notices(SceneBuilder().floor({0, 0.05f, 0}, 1.01f, 4).build()));
 }
 
-TEST(LightmapBake, CannotHoldWhatIsKnownAtVerticesAlone) {
+TEST(LightmapBake, RejectsFeaturesKnownOnlyAtVertices) {
     const auto refused = [](Scene scene, BakeOptions options, const std::string& why) {
         scene = floor_map(std::move(scene));
         try {
@@ -382,10 +382,10 @@ TEST(LightmapBake, CannotHoldWhatIsKnownAtVerticesAlone) {
     Scene leaf = test::painted(floor, glm::vec3(0.5f), true);
     for (Material& material : leaf.materials)
         material.transmission.factor = 0.5f;
-    refused(leaf, options_of(2, 16, 1), "lets light through");
+    refused(leaf, options_of(2, 16, 1), "has diffuse transmission");
     BakeOptions medium = options_of(2, 16, 1);
     medium.subsurface.media = {{"", measured_media().front().medium}};
-    refused(floor, medium, "has a medium inside");
+    refused(floor, medium, "has subsurface scattering");
     BakeOptions adaptive = options_of(2, 16, 0);
     adaptive.target_error = 0.1;
     refused(floor, adaptive, "number of rays");

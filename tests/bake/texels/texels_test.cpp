@@ -63,7 +63,7 @@ glm::vec3 position_of_sample(const Scene& scene, const TexelSample& sample) {
     return p[t.x] * (1 - sample.uv.x - sample.uv.y) + p[t.y] * sample.uv.x + p[t.z] * sample.uv.y;
 }
 
-TEST(Texels, LieWhereTheirCoordinatesSay) {
+TEST(Texels, FollowTheirCoordinates) {
     const Scene scene = floor_at({0, 0}, 1);
     const Atlas atlas = atlas_of(scene, 8);
     const std::vector<TexelSample> samples = samples_of(scene, atlas);
@@ -75,7 +75,7 @@ TEST(Texels, LieWhereTheirCoordinatesSay) {
     }
 }
 
-TEST(Texels, ThatAChartTouchesHaveAPlaceOnIt) {
+TEST(Texels, TouchedByAChartHaveAPositionOnIt) {
     // Shapes smaller than the spacing of points in a texel, thinner than a texel, a line, a point; at the
     // border.
     const struct {
@@ -101,7 +101,7 @@ TEST(Texels, ThatAChartTouchesHaveAPlaceOnIt) {
     }
 }
 
-TEST(Texels, OfMirroredChartsAndOtherTilesAreFound) {
+TEST(Texels, IncludeMirroredChartsAndOtherTiles) {
     const Scene mirrored = mapped(SceneBuilder().floor({0, 0, 0}, 1).build(), [](const glm::vec3& p) {
         return glm::vec2(1 - p.x, p.z + 1) / 2.0f + glm::vec2(3, -2);
     });
@@ -111,7 +111,7 @@ TEST(Texels, OfMirroredChartsAndOtherTilesAreFound) {
     EXPECT_FALSE(atlas_of(floor_at({0, 0}, 1), 4).repeats);
 }
 
-TEST(Texels, WithoutAPlaceOfTheirOwnAreRefused) {
+TEST(Texels, InvalidCoordinatesAreRejected) {
     const auto refused = [](const Scene& scene, const TexelOptions& options, const std::string& why) {
         try {
             plan_atlases(scene, options);
@@ -124,20 +124,20 @@ TEST(Texels, WithoutAPlaceOfTheirOwnAreRefused) {
     refused(good, {.size = 8, .uv_set = 1}, "has no TEXCOORD_1");
     refused(floor_at({0.5f, 0}, 1), {.size = 8, .uv_set = 0}, "crosses the border");
     for (const TexelOptions& options : {TexelOptions{.per_metre = 8, .uv_set = 0}, {.size = 8, .uv_set = 0}})
-        refused(floor_at({0.5f, 0.5f}, 0), options, "is a line or a point");
+        refused(floor_at({0.5f, 0.5f}, 0), options, "covers no area");
     // Two layers of triangles far smaller than a texel.
     const Scene fine = floor_at({0, 0}, 1, 200);
     refused(test::join({fine, fine}), {.size = 8, .uv_set = 0, .atlases = AtlasMode::one},
-            "lies in two of them");
-    refused(good, {.per_metre = 1e5, .uv_set = 0}, "more than 8192");
-    refused(good, {.per_metre = 0, .uv_set = 0}, "finite and above 0");
+            "is covered more than once");
+    refused(good, {.per_metre = 1e5, .uv_set = 0}, "more than the limit of 8192");
+    refused(good, {.per_metre = 0, .uv_set = 0}, "finite and greater than 0");
     Scene twice = test::join({good, good});
     twice.primitives[1].node = twice.primitives[0].node;
     refused(twice, {.size = 8, .uv_set = 0, .atlases = AtlasMode::one}, "100.0 %");
     refused(twice, {.size = 8, .uv_set = 0}, "overlap");
 }
 
-TEST(Texels, OfObjectsThatOverlapHaveTexturesOfTheirOwn) {
+TEST(Texels, OverlappingObjectsHaveSeparateTextures) {
     Scene twice = test::join({floor_at({0, 0}, 1), floor_at({0, 0}, 1)});
     twice.primitives[1].node = 1;
     EXPECT_EQ(plan_atlases(twice, {.size = 8, .uv_set = 0}).size(), 2u);
@@ -148,7 +148,7 @@ TEST(Texels, OfObjectsThatOverlapHaveTexturesOfTheirOwn) {
     EXPECT_EQ(plan_atlases(beside, {.per_metre = 16, .uv_set = 0}).front().width, 64);
 }
 
-TEST(Texels, OfNeedlesAcrossTheTextureAreFew) {
+TEST(Texels, NeedlesHaveFewTexels) {
     // Lines from corner to corner: only the texels they touch are visited.
     const Scene scene = mapped(SceneBuilder().floor({0, 0, 0}, 1, 30).build(),
                                [](const glm::vec3& p) { return glm::vec2(0.5f + 0.45f * p.x); });
@@ -159,7 +159,7 @@ TEST(Texels, OfNeedlesAcrossTheTextureAreFew) {
     EXPECT_TRUE(seam_points(scene, atlas).empty());
 }
 
-TEST(Gutters, GoOnWhereTheTextureRepeats) {
+TEST(Gutters, WrapInRepeatingTextures) {
     Atlas atlas;
     atlas.width = atlas.height = 9;
     atlas.repeats = true;
@@ -173,7 +173,7 @@ TEST(Gutters, GoOnWhereTheTextureRepeats) {
     EXPECT_EQ(bilinear_at(atlas, {0, 4.5}).texels[0] % 9, 8u);
 }
 
-TEST(Gutters, HaveWhatIsNearest) {
+TEST(Gutters, CopyTheNearestTexel) {
     Atlas atlas;
     atlas.width = 9;
     atlas.height = 7;
@@ -243,7 +243,7 @@ double jump(const Atlas& atlas, const SeamPoint& point, std::span<const float> v
     return std::abs(sum);
 }
 
-TEST(Seams, AreClosedAndNothingElseChanges) {
+TEST(Seams, ClosingChangesOnlySeams) {
     const Scene scene = cut_floor();
     const Atlas atlas = atlas_of(scene, 64);
     const std::vector<SeamPoint> seams = seam_points(scene, atlas);
@@ -272,7 +272,7 @@ TEST(Seams, AreClosedAndNothingElseChanges) {
     EXPECT_LT(std::sqrt(squared / static_cast<double>(std::ranges::count(measured, true))), 0.03);
 }
 
-TEST(Seams, AreNotClosedWhereThatWouldFlattenCharts) {
+TEST(Seams, AreNotClosedAcrossFlattenedCharts) {
     // A ball over a plane in charts of a few texels each: truth is (1 + n.y) / 2.
     Scene scene = SceneBuilder().sphere({0, 0, 0}, 1, 12).build();
     const Unwrapping unwrapping = unwrap(scene, {.size = 26});
@@ -305,7 +305,7 @@ TEST(Seams, AreNotClosedWhereThatWouldFlattenCharts) {
     EXPECT_LT(error / static_cast<double>(std::ranges::count(measured, true)), 0.06);
 }
 
-TEST(Seams, EndWhereNormalsDiffer) {
+TEST(Seams, EndAtDifferentNormals) {
     // A floor and a wall that share an edge: light differs there.
     Scene scene = SceneBuilder()
                       .quad({-1, 0, -1}, {-1, 0, 1}, {1, 0, 1}, {1, 0, -1})
@@ -329,7 +329,7 @@ OcclusionMap map_of(const Scene& scene, const Atlas& atlas, const OcclusionOptio
     return found;
 }
 
-TEST(OcclusionMaps, ConvergeToThePointsThatTheyAreOf) {
+TEST(OcclusionMaps, ConvergeToPointOcclusion) {
     const Scene disc = SceneBuilder().disc({0, 0.6f, 0}, {0, -1, 0}, 0.8f, 256).build();
     Scene scene = test::join({floor_at({0, 0}, 1, 4), disc});
     scene.vertex_arrays[1].texcoords.assign(1, std::vector<glm::vec2>(scene.vertex_arrays[1].size()));
@@ -355,7 +355,7 @@ TEST(OcclusionMaps, ConvergeToThePointsThatTheyAreOf) {
     EXPECT_LT(error, 0.01);
 }
 
-TEST(OcclusionMaps, HaveWhatArrivesAtAFinerModel) {
+TEST(OcclusionMaps, HaveTheOcclusionOfAHighPolyModel) {
     // A plate for a floor with a pit in the middle, elsewhere in the file's world.
     const Scene plate = floor_at({0, 0}, 1);
     Scene fine =
@@ -389,7 +389,7 @@ TEST(OcclusionMaps, HaveWhatArrivesAtAFinerModel) {
     EXPECT_NEAR(at(0.1, 8, 8), 1, 1e-3); // out of reach: the plate itself
 }
 
-TEST(OcclusionMaps, LeaveOutWhatIsInsideSolids) {
+TEST(OcclusionMaps, ExcludeTexelsInsideSolids) {
     const Scene block = SceneBuilder().sphere({0, 0, 0}, 0.5f, 24).build();
     Scene scene = test::join({floor_at({0, 0}, 1, 4), block});
     const Atlas atlas = first_primitive(32);

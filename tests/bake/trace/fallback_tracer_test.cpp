@@ -85,7 +85,7 @@ private:
     BakePlan plan_ = plan_bake(traced_, media_, options_);
 };
 
-TEST(FallbackTracer, GoesOnWithTheCpu) {
+TEST(FallbackTracer, ContinuesOnTheCpu) {
     const Scene scene = test::SceneBuilder().floor({0, 0, 0}, 2, 6).sphere({0, 1, 0}, 0.5f, 8).build();
     const TraceScene traced(scene);
     const Receivers receivers = vertex_receivers(scene);
@@ -105,7 +105,7 @@ TEST(FallbackTracer, GoesOnWithTheCpu) {
     EXPECT_EQ(lit.backend(), Backend::cpu);
 }
 
-TEST(FallbackTracer, SumsAnewWhereSumsAreLost) {
+TEST(FallbackTracer, RepeatsLostSums) {
     const Fitted fitted;
     EmbreeTracer cpu(fitted.traced());
     const FittedLight expected = fitted.of(cpu);

@@ -87,7 +87,7 @@ constexpr std::size_t kAll = SIZE_MAX;
 const Case kCases[] = {{1, 6, false, {}},          {3, 2, false, {}},           {3, 4, true, {}},
                        {3, 3, true, {2048, kAll}}, {1, 10, false, {512, 3000}}, {3, 1, true, {1024, 0}}};
 
-TEST(GpuGather, IsTheProcessors) {
+TEST(GpuGather, MatchesCpu) {
     const VulkanDevice device(test::vulkan_choice());
     for (const Case& c : kCases) {
         const RandomGather random(c.channels, c.varies);

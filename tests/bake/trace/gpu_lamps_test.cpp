@@ -152,7 +152,7 @@ Scene all_kinds(const Material& screen) {
     return scene;
 }
 
-TEST(GpuLamps, OfPointsFallOffByTheSquare) {
+TEST(GpuLamps, PointsFollowTheInverseSquareLaw) {
     Scene floor = SceneBuilder().floor({0, 0, 0}, 2, 8).build();
     floor.lights = {bulb("bulb", {0.3f, 1.5f, -0.2f}, {2, 1, 0.5f})};
     LitScene scene(floor);
@@ -172,7 +172,7 @@ TEST(GpuLamps, OfPointsFallOffByTheSquare) {
 }
 
 /// E = pi L sin² of the half angle times the cosine.
-TEST(GpuLamps, ThatAreSpheresShineAsTheirSolidAngle) {
+TEST(GpuLamps, SpheresFollowTheirSolidAngle) {
     Scene ball = SceneBuilder().sphere({0, 1.2f, 0}, 0.5f, 20).build();
     ball.materials[0].emission.radiance = glm::vec3(4, 2, 1);
     LitScene scene(test::join({SceneBuilder().floor({0, 0, 0}, 2, 4).build(), ball}));
@@ -191,7 +191,7 @@ TEST(GpuLamps, ThatAreSpheresShineAsTheirSolidAngle) {
     expect_equal(scene, options);
 }
 
-TEST(GpuLamps, OfAllKindsAreTheCpus) {
+TEST(GpuLamps, MatchCpuForAllKinds) {
     std::vector<double> lit; // light through the screen
     for (const AlphaMode mode : {AlphaMode::opaque, AlphaMode::mask, AlphaMode::blend}) {
         LitScene scene(all_kinds(material(mode)), {dots()});
@@ -204,7 +204,7 @@ TEST(GpuLamps, OfAllKindsAreTheCpus) {
     EXPECT_GT(std::abs(lit[2] - lit[1]), 0.005 * lit[0]);
 }
 
-TEST(GpuLamps, OfRadiusAndInGroupsAreTheCpus) {
+TEST(GpuLamps, MatchCpuForRadiiAndGroups) {
     LitScene scene(all_kinds(material(AlphaMode::mask)), {dots()});
     LampOptions options;
     options.radius = 0.15;
@@ -214,7 +214,7 @@ TEST(GpuLamps, OfRadiusAndInGroupsAreTheCpus) {
 }
 
 /// A sign that is blended or glass shines by as much of it as is there, and lets light of others through.
-TEST(GpuLamps, ThatAreThereInPartAreTheCpus) {
+TEST(GpuLamps, MatchCpuForBlendedEmitters) {
     Material screen = material(AlphaMode::blend);
     screen.emission.radiance = {2, 1, 1};
     screen.glass = {0.6f, {}};
@@ -224,7 +224,7 @@ TEST(GpuLamps, ThatAreThereInPartAreTheCpus) {
 
 /// A floor meets a wall that shines: at the edge half of the sky of a vertex is wall, which it sees edge on,
 /// from a hair before it.
-TEST(GpuLamps, LightWhatStandsInTheirPlane) {
+TEST(GpuLamps, LightReceiversInTheirPlane) {
     for (const float rotation : {0.0f, 0.4f}) {
         const auto rotated = [rotation](const glm::vec3& p) {
             return glm::vec3(std::cos(rotation) * p.x + std::sin(rotation) * p.z, p.y,
@@ -247,7 +247,7 @@ TEST(GpuLamps, LightWhatStandsInTheirPlane) {
 }
 
 /// A lamp without an emissive triangle gets no data of the previous one.
-TEST(GpuLamps, OfBlackTexturesAreDark) {
+TEST(GpuLamps, WithBlackTexturesAreDark) {
     Material black = material(AlphaMode::opaque);
     black.emission.radiance = glm::vec3(1);
     black.emission.texture.image = 0;
@@ -269,7 +269,7 @@ TEST(GpuLamps, OfBlackTexturesAreDark) {
 }
 
 /// Ray indices continue through the dispatches of a lamp with many rays.
-TEST(GpuLamps, OfManyRaysAreTheCpus) {
+TEST(GpuLamps, MatchCpuForManyRays) {
     Scene floors = test::join(
         {SceneBuilder().floor({0, 0, 0}, 1, 2).build(), SceneBuilder().floor({0.1f, 0.3f, 0}, 0.2f).build()});
     floors.lights = {bulb("a", {0.2f, 0.7f, 0}), bulb("b", {-0.5f, 0.6f, 0.3f}, glm::vec3(3))};
@@ -281,7 +281,7 @@ TEST(GpuLamps, OfManyRaysAreTheCpus) {
     expect_equal(scene, options);
 }
 
-TEST(GpuLamps, FarFromTheMiddleAndTinyAreTheCpus) {
+TEST(GpuLamps, MatchCpuFarFromTheOriginAndTiny) {
     for (const auto& [size, offset] : {std::pair{1e-4f, 0.0f}, {1e3f, 0.0f}, {1.0f, 1e3f}}) {
         Scene scene = all_kinds(material(AlphaMode::opaque));
         const auto point = [s = size, o = offset](const glm::vec3& p) { return s * p + glm::vec3(o, 0, o); };
@@ -299,7 +299,7 @@ TEST(GpuLamps, FarFromTheMiddleAndTinyAreTheCpus) {
     }
 }
 
-TEST(GpuLamps, OfABakeAreTracedThere) {
+TEST(GpuLamps, AreTracedOnTheGpuInABake) {
     Scene scene = all_kinds(material(AlphaMode::opaque));
     scene.materials[1].base_color_texture.image = -1;
     scene.materials[2].emission.texture.image = -1;

@@ -115,7 +115,7 @@ void expect_same(const Summed::Result& expected, const Summed::Result& found) {
     EXPECT_LT(relative(expected.first, found.first), kGrazingRays);
 }
 
-TEST(GpuSums, AreThoseOfTheVectors) {
+TEST(GpuSums, MatchTheVectors) {
     Summed summed(test::balls_over_floor());
     for (const auto& [order, rays] : {std::pair{1, 64}, {6, 100}, {10, 64}, {3, 3000}}) {
         SCOPED_TRACE(order);
@@ -133,7 +133,7 @@ TEST(GpuSums, DoNotDependOnTheOrder) {
     EXPECT_EQ(found.signed_sums, small.on_gpu(options).signed_sums);
 }
 
-TEST(GpuSums, AddNothingTwiceWhereHitsHadNoRoom) {
+TEST(GpuSums, AddNoHitTwiceAfterBufferOverflow) {
     for (const std::size_t bytes : {2u << 10, 64u << 10, 64u << 20}) {
         SCOPED_TRACE(bytes);
         Summed summed(test::under_a_ceiling(AlphaMode::blend), bytes);

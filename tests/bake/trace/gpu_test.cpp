@@ -56,7 +56,7 @@ private:
     VulkanTracer gpu_;
 };
 
-TEST(GpuTrace, IsTheCpusToWhatGrazes) {
+TEST(GpuTrace, MatchesCpuExceptGrazingRays) {
     Pair pair(balls_over_floor());
     for (const auto& [order, rays] : {std::pair{1, 64}, {3, 100}, {6, 256}, {10, 64}, {4, 1500}, {3, 1}}) {
         const TraceOptions options{order, rays, 7, 0};
@@ -64,7 +64,7 @@ TEST(GpuTrace, IsTheCpusToWhatGrazes) {
     }
 }
 
-TEST(GpuTrace, MeetsWhatTheCpuMeets) {
+TEST(GpuTrace, HitsTheTrianglesOfTheCpu) {
     Pair pair(balls_over_floor());
     TraceOptions options{2, 96, 3, 0};
     for (const int stride : {1, 3}) {
@@ -97,7 +97,7 @@ TEST(GpuTrace, MeetsWhatTheCpuMeets) {
     }
 }
 
-TEST(GpuTrace, PassesSurfacesThatCastNoShadow) {
+TEST(GpuTrace, PassesSurfacesWithoutShadow) {
     Scene shell = SceneBuilder().sphere({0, 0, 0}, 5, 8).build();
     shell.materials[0].casts_shadow = false;
     Pair alone(balls_over_floor()), inside(test::join({balls_over_floor(), shell}));
@@ -118,7 +118,7 @@ double weight_of_hits(Pair& pair, Tracer& tracer, const TraceOptions& options) {
     return std::accumulate(sums.begin(), sums.end(), 0.0);
 }
 
-TEST(GpuTrace, GivesTheSameInSmallPieces) {
+TEST(GpuTrace, DoesNotDependOnBatchSize) {
     // A row or a few at a time; chunks of a receiver go to several pieces.
     for (const std::size_t bytes : {1u << 10, 40u << 10}) {
         Pair small(balls_over_floor(), {}, bytes);
@@ -138,7 +138,7 @@ TEST(GpuTrace, GivesTheSameInSmallPieces) {
     }
 }
 
-TEST(GpuTrace, GoesOnWhereHitsHadNoRoom) {
+TEST(GpuTrace, ContinuesAfterHitBufferOverflow) {
     for (const std::size_t bytes : {2u << 10, 64u << 10, 64u << 20}) {
         Pair blended(under_a_ceiling(AlphaMode::blend), {dotted_texture()}, bytes);
         const TraceOptions options{.order = 3, .rays = 200, .seed = 1};
@@ -150,7 +150,7 @@ TEST(GpuTrace, GoesOnWhereHitsHadNoRoom) {
     }
 }
 
-TEST(GpuTrace, PassesCutOutsAndBlendedSurfacesAsTheCpuDoes) {
+TEST(GpuTrace, PassesCutOutsAndBlendedSurfacesLikeTheCpu) {
     for (const AlphaMode mode : {AlphaMode::mask, AlphaMode::blend}) {
         Pair pair(under_a_ceiling(mode), {dotted_texture()});
         const TraceOptions options{4, 256, 1, 0};
@@ -162,7 +162,7 @@ TEST(GpuTrace, PassesCutOutsAndBlendedSurfacesAsTheCpuDoes) {
     }
 }
 
-TEST(GpuTrace, PassesGlassAsTheCpuDoes) {
+TEST(GpuTrace, PassesGlassLikeTheCpu) {
     for (const AlphaMode mode : {AlphaMode::opaque, AlphaMode::mask, AlphaMode::blend}) {
         Pair pair(under_glass(mode), glass_textures());
         const TraceOptions options{4, 256, 1, 0};
@@ -173,7 +173,7 @@ TEST(GpuTrace, PassesGlassAsTheCpuDoes) {
     }
 }
 
-TEST(GpuTrace, HasCopiesOfAMeshOnce) {
+TEST(GpuTrace, StoresCopiesOfAMeshOnce) {
     const TraceOptions options{.order = 4, .rays = 256, .seed = 1};
     constexpr int kCopies = 12;
     Pair alone(copies_over_floor(kCopies, true), {dotted_texture()}),
@@ -211,7 +211,7 @@ TEST(GpuTrace, MeetsTheSameTrianglesOfCopies) {
     EXPECT_LT(different, 1e-3 * all);
 }
 
-TEST(GpuTrace, TakesDegenerateTrianglesAsTheCpuDoes) {
+TEST(GpuTrace, HandlesDegenerateTrianglesLikeTheCpu) {
     constexpr std::size_t kFloor = 36; // vertices, which precede those of the triangles
     for (std::uint32_t seed = 0; seed < 6; ++seed) {
         Pair pair(degenerate_triangles(seed));
@@ -233,7 +233,7 @@ BakeResult bake_on(Backend backend, const Scene& scene, BakeOptions options) {
     return bake(scene, options, {}, MeasureErrors::yes);
 }
 
-TEST(GpuBake, OfEveryTransportIsTheCpus) {
+TEST(GpuBake, MatchesCpuForEveryTransport) {
     Scene leaf = under_a_ceiling(AlphaMode::opaque);
     for (Material& m : leaf.materials)
         m.base_color_texture.image = -1;
@@ -286,7 +286,7 @@ TEST(GpuTrace, MeetsTheFrontsOfOppositeTriangles) {
     EXPECT_GT(from_below, 100u);
 }
 
-TEST(GpuBake, OfATriangleThatVariesSendsWhatIsThere) {
+TEST(GpuBake, SamplesVaryingTriangles) {
     using test::Varying;
     for (const Varying varying : {Varying::light, Varying::texture, Varying::vertex_colors_of_the_back}) {
         const test::BounceError error = test::bounce_off_triangle(varying, Backend::gpu);

@@ -55,7 +55,7 @@ std::map<std::string, std::uint32_t> layout_of(std::span<const std::uint32_t> sp
     return layout;
 }
 
-TEST(GpuStructs, LieInMemoryAsKernelsReadThem) {
+TEST(GpuStructs, HaveTheMemoryLayoutOfKernels) {
     const std::map<std::string, std::uint32_t> trace = layout_of(bake_trace), lamps = layout_of(bake_lamps);
     const std::map<std::string, std::size_t> in_trace = {
         {"Receiver", sizeof(gpu::Receiver)},

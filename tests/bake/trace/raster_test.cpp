@@ -52,7 +52,7 @@ int layout_of(const GlObject& program, const char* variable, GLenum property) {
     return value;
 }
 
-TEST(GpuRaster, ReadsStructsAsTheyLieInMemory) {
+TEST(GpuRaster, ReadsStructsInMemoryLayout) {
     const auto context = GlContext::create(GlDevice::any);
     const GlObject raster = make_compute_program("bake_raster.comp", "#define PRT_ORDER 2\n");
     const auto expect = [&](const char* last, std::size_t offset, std::size_t size) {
@@ -100,7 +100,7 @@ Scene room_with_a_hole() {
     return builder.build();
 }
 
-TEST(GpuRaster, LeaksNothingWhereWallsMeetTheFloor) {
+TEST(GpuRaster, DoesNotLeakAtTheFootOfWalls) {
     Drawn pair(room_with_a_hole());
     const Transfer reference = pair.by_rays({3, 4096, 99, 0});
     const double raster = pair.distance(reference, pair.by_maps(512, {3, 512, 1, 0}));
@@ -117,7 +117,7 @@ TEST(GpuRaster, LeaksNothingWhereWallsMeetTheFloor) {
     EXPECT_NEAR(inside, truth, 0.15 * truth);
 }
 
-TEST(GpuRaster, PeelsGlassThatIsCutOut) {
+TEST(GpuRaster, PeelsCutOutGlass) {
     Drawn pair(under_glass(AlphaMode::mask), glass_textures());
     const Transfer reference = pair.by_rays({2, 1024, 99, 0});
     const double error = pair.distance(reference, pair.by_maps(128, {2, 128, 1, 0}));
@@ -137,13 +137,13 @@ TEST(GpuRaster, PeelsBlendedSurfacesAndDropsCutOuts) {
     }
 }
 
-TEST(GpuRaster, LeavesOpenReceiversTheirLobe) {
+TEST(GpuRaster, KeepsTheLobeOfOpenReceivers) {
     Drawn pair(SceneBuilder().floor({0, 0, 0}, 1, 4).build());
     const Transfer raster = pair.by_maps(64, {6, 64, 1, 0}), cpu = pair.by_rays({6, 64, 1, 0});
     EXPECT_LT(pair.distance(cpu, raster), 1e-6);
 }
 
-TEST(GpuRaster, PassesSurfacesThatCastNoShadow) {
+TEST(GpuRaster, PassesSurfacesWithoutShadow) {
     Scene shell = SceneBuilder().sphere({0, 0, 0}, 5, 8).build();
     shell.materials[0].casts_shadow = false;
     Drawn alone(balls_over_floor()), inside(join({balls_over_floor(), shell}));
@@ -168,7 +168,7 @@ TEST(GpuRaster, StopsWhenAsked) {
     EXPECT_THROW(bake(balls_over_floor(), options, progress), Cancelled);
 }
 
-TEST(GpuRaster, RefusesWhatDepthMapsCannotTell) {
+TEST(GpuRaster, RejectsOptionsBeyondDepthMaps) {
     BakeOptions options;
     options.tracer.method = BakeMethod::raster;
     options.tracer.backend = Backend::gpu;

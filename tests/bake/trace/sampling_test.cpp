@@ -87,7 +87,7 @@ TEST(Directions, AreUnitAboveTheSurfaceAndCosineDistributed) {
     }
 }
 
-TEST(Directions, AreAsLongAsFloatsCanSay) {
+TEST(Directions, HaveUnitLengthInFloatPrecision) {
     const SobolChunk chunk(1024);
     ChunkDirections d;
     for (std::uint32_t seed = 0; seed < 64; ++seed) {
@@ -100,7 +100,7 @@ TEST(Directions, AreAsLongAsFloatsCanSay) {
     }
 }
 
-TEST(Directions, OfAPacketStayTogether) {
+TEST(Directions, AreCoherentWithinAPacket) {
     const SobolChunk chunk(1024);
     ChunkDirections d;
     generate_directions(chunk, sobol_offset(0), 1234567, tangent_frame({0, 0, 1}), d);
@@ -114,7 +114,7 @@ TEST(Directions, OfAPacketStayTogether) {
     EXPECT_LT(spread / 1024, 0.25);
 }
 
-TEST(Directions, OfTwoSeedsDiffer) {
+TEST(Directions, DifferBetweenSeeds) {
     const SobolChunk chunk(64);
     ChunkDirections a, b;
     generate_directions(chunk, sobol_offset(0), 1, tangent_frame({0, 0, 1}), a);

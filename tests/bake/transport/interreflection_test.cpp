@@ -78,7 +78,7 @@ TEST(SphericalBowl, BouncesAreAGeometricSeries) {
     }
 }
 
-TEST(SphericalBowl, EndlessBouncesStopByThemselvesWhereLittleRemains) {
+TEST(SphericalBowl, EndlessBouncesConverge) {
     const BakeResult result = bake_bounces(make_bowl(0.8).scene, kEndlessBounces, 256);
     EXPECT_LT(result.statistics.remaining_energy, 1e-5);
     // Iterating bounces takes 31 steps until 0.8 · 0.854 to the power n is below 1e-5.
@@ -120,7 +120,7 @@ Scene rooms_with_pin_holes(int rooms, float hole, int cells) {
 class PinHole : public testing::TestWithParam<int> {};
 INSTANTIATE_TEST_SUITE_P(Rooms, PinHole, testing::Values(1, 2));
 
-TEST_P(PinHole, LeavesAWhiteRoomAsBrightAsTheSky) {
+TEST_P(PinHole, LightsAWhiteRoomLikeTheSky) {
     // Light gets out after thousands of bounces: some 0.01 / 24 of the walls is hole.
     const Scene scene = rooms_with_pin_holes(GetParam(), 0.05f, 6);
     const BakeResult result = bake_bounces(scene, kEndlessBounces, 1024, 2);
@@ -131,7 +131,7 @@ TEST_P(PinHole, LeavesAWhiteRoomAsBrightAsTheSky) {
         EXPECT_NEAR(radiance[p].x, 1, 1e-4f) << p;
 }
 
-TEST(SphericalBowl, EveryBandIsGatheredAlike) {
+TEST(SphericalBowl, EveryBandIsGatheredEqually) {
     // From the first bounce on the transfer is equal everywhere: the mean of the direct one.
     const Bowl bowl = make_bowl(1);
     const Transfer direct = bake_bounces(bowl.scene, 0, 4096).baked.transfer;
@@ -197,7 +197,7 @@ TEST(ParallelPlates, OneBounceIsTheIntegralOverTheOtherPlate) {
     EXPECT_GT(bounce, 0.2 * expected); // the bounce matters here
 }
 
-TEST(WhiteFurnace, IsExactlyOneWhateverTheGeometry) {
+TEST(WhiteFurnace, IsExactlyOneForAllGeometries) {
     // A bowl with things in it: a sphere, a sheet that is seen from both sides, needles, a pile of triangles.
     SceneBuilder things;
     things.sphere({0, -0.2f, 0}, 0.3f, 12).floor({0, 0.25f, 0.1f}, 0.3f, 6);
@@ -289,7 +289,7 @@ private:
     std::uniform_real_distribution<double> unit_{0, 1};
 };
 
-TEST(ColorBleeding, OfAWallOntoAFloorIsThatOfPathTracing) {
+TEST(ColorBleeding, MatchesPathTracing) {
     const float h = 1;
     const auto fine = [](const glm::vec3& corner, const glm::vec3& u, const glm::vec3& v) {
         SceneBuilder builder;
@@ -332,7 +332,7 @@ TEST(ColorBleeding, OfAWallOntoAFloorIsThatOfPathTracing) {
     EXPECT_GT(near.r, near.b + 0.02f);
 }
 
-TEST(HitPoint, OfATriangleThatVariesSendsWhatIsThere) {
+TEST(HitPoint, UsesVaryingTriangleProperties) {
     for (const test::Varying varying : test::kAllVarying) {
         const test::BounceError error = test::bounce_off_triangle(varying, Backend::cpu);
         EXPECT_LT(error.baked, 0.01) << varying; // 4 096 rays, codes of 8 bits
@@ -340,7 +340,7 @@ TEST(HitPoint, OfATriangleThatVariesSendsWhatIsThere) {
     }
 }
 
-TEST(Bounces, AreTheSameToTheByteForAnyNumberOfThreads) {
+TEST(Bounces, AreByteIdenticalForAllThreadCounts) {
     BakeOptions options;
     options.rays = 300;
     options.bounces = 2;
@@ -352,7 +352,7 @@ TEST(Bounces, AreTheSameToTheByteForAnyNumberOfThreads) {
     EXPECT_EQ(one, bake(scene, options).baked.transfer.vectors);
 }
 
-TEST(Bounces, OfAFileWithAlbedosAboveOneEndAtOne) {
+TEST(Bounces, ConvergeForAlbedosAboveOne) {
     // Nearly closed, and white by the clamp: under uniform light 1 the exit radiance is 1 for any number of
     // bounces.
     const Scene bowl = SceneBuilder().bowl({0, 0, 0}, 1, 8, 2).build();
@@ -375,7 +375,7 @@ TEST(Bounces, OfAFileWithAlbedosAboveOneEndAtOne) {
     }
 }
 
-TEST(Bounces, AreLeftOutWhereNothingScatters) {
+TEST(Bounces, AreSkippedWithoutScattering) {
     const Scene black = test::painted(SceneBuilder().bowl({0, 0, 0}, 1, 8, 2).build(), glm::vec3(0));
     const BakeResult result = bake_bounces(black, kEndlessBounces, 64);
     EXPECT_EQ(result.baked.record.bounces, 0);
@@ -387,7 +387,7 @@ TEST(Bounces, AreLeftOutWhereNothingScatters) {
     EXPECT_EQ(floor.statistics.gather.entries, 0u);
 }
 
-TEST(Channels, AreThreeOnlyWhereColoredLightBounces) {
+TEST(Channels, AreThreeOnlyForColoredBounces) {
     const Scene grey = make_bowl(0.5).scene;
     const Scene red = test::painted(grey, {0.9f, 0.1f, 0.1f});
     EXPECT_EQ(bake_bounces(grey, 1, 64).baked.transfer.layout.channels(), 1);
@@ -395,7 +395,7 @@ TEST(Channels, AreThreeOnlyWhereColoredLightBounces) {
     EXPECT_EQ(bake_bounces(red, 1, 64).baked.transfer.layout.channels(), 3);
 }
 
-TEST(BackFaces, ReflectWhereTheMaterialIsDoubleSidedAndBlockWhereNot) {
+TEST(BackFaces, ReflectIfDoubleSidedAndBlockOtherwise) {
     // A small roof that faces up over a floor: from below only its back is seen.
     const auto radiance = [](bool double_sided) {
         const Scene scene = test::painted(test::join({SceneBuilder().floor({0, 0, 0}, 1, 10).build(),
@@ -407,7 +407,7 @@ TEST(BackFaces, ReflectWhereTheMaterialIsDoubleSidedAndBlockWhereNot) {
     EXPECT_GT(radiance(true), radiance(false) + 0.03f);
 }
 
-TEST(Memory, IsEstimatedFirstAndTooMuchIsRefused) {
+TEST(Memory, IsEstimatedFirstAndLimited) {
     BakeOptions options;
     options.order = 10;
     EXPECT_GT(estimate_memory(options, 100'000'000, 200'000'000, 100), 1.2e11);
@@ -422,7 +422,7 @@ TEST(Memory, IsEstimatedFirstAndTooMuchIsRefused) {
     }
 }
 
-TEST(Memory, OfBouncesIsWhatRaysReallyMeet) {
+TEST(Memory, BouncesCountActualHits) {
     // A lamp's shade over a floor: one ray in fifty meets something, and one in four is followed.
     const Scene scene = SceneBuilder().floor({0, 0, 0}, 1, 40).floor({0, 0.5f, 0}, 0.1f).build();
     BakeOptions options;
@@ -434,7 +434,7 @@ TEST(Memory, OfBouncesIsWhatRaysReallyMeet) {
     EXPECT_NO_THROW(bake(scene, options));
 }
 
-TEST(Memory, OfAContainerIsItsLeastLimit) {
+TEST(Memory, ContainersHaveTheirSmallestLimit) {
     const test::TemporaryFolder folder;
     const auto write = [&](const char* name, const char* text) {
         std::filesystem::create_directories((folder.path() / name).parent_path());

@@ -39,7 +39,7 @@ std::vector<float> right_side() {
     return b;
 }
 
-TEST(Krylov, IsExactWhereOneStepSolvesAColumn) {
+TEST(Krylov, IsExactIfOneStepSolvesAColumn) {
     // Light that is fully absorbed, light that is almost fully reflected, and darkness.
     for (const std::vector<float>& factors :
          {std::vector<float>{0, 0, 0}, {1e-9F, 0.5F, 0}, {0, 0.99F, 1e-6F}}) {
@@ -55,7 +55,7 @@ TEST(Krylov, IsExactWhereOneStepSolvesAColumn) {
     }
 }
 
-TEST(Krylov, StopsWhereOnlyRoundingErrorsAreLeftOfADirection) {
+TEST(Krylov, StopsAtRoundingErrors) {
     // All elements are equal and are permuted cyclically: the norm of a column differs from 1 by up to an
     // epsilon, and its residual is parallel to itself.
     for (std::size_t rows = 1; rows < 200; ++rows) {

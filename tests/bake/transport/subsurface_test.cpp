@@ -41,7 +41,7 @@ TEST(Dipole, IntegratesToItsClosedForm) {
 }
 
 // Jensen, Marschner, Levoy and Hanrahan 2001, figure 5: reduced scattering and absorption per millimetre.
-TEST(MeasuredMedia, AreThoseOfThePaper) {
+TEST(MeasuredMedia, MatchThePaper) {
     struct Row {
         std::string_view name;
         glm::dvec3 scattering, absorption;
@@ -70,7 +70,7 @@ TEST(MeasuredMedia, AreThoseOfThePaper) {
     }
 }
 
-TEST(Dipole, OfMarbleHasTheReflectanceOfTheTable) {
+TEST(Dipole, MarbleHasTheTabulatedReflectance) {
     // Jensen et al. 2001, figure 5: diffuse reflectance of marble 0.83, 0.79, 0.75; of skin1 0.44, 0.22,
     // 0.13.
     const auto reflectance = [](const char* name, int c) {
@@ -88,7 +88,7 @@ TEST(Dipole, OfMarbleHasTheReflectanceOfTheTable) {
     EXPECT_NEAR(reflectance("skin1", 2), 0.13, 0.04);
 }
 
-TEST(ReducedAlbedo, GivesTheReflectanceAskedFor) {
+TEST(ReducedAlbedo, YieldsTheRequestedReflectance) {
     for (const double reflectance : {0.05, 0.3, 0.6, 0.95}) {
         const double albedo = reduced_albedo(reflectance, 1.5);
         EXPECT_NEAR(Dipole(albedo * 700, (1 - albedo) * 700, 1.5).total(), reflectance, 1e-9);
@@ -127,7 +127,7 @@ DiffusionOperator operator_on(const Plane& plane, const Medium& medium, double t
     return DiffusionOperator(plane.receivers, plane.triangles, medium, tolerance);
 }
 
-TEST(Diffusion, OfUniformLightIsUniformOnAPlane) {
+TEST(Diffusion, IsUniformOnAPlaneInUniformLight) {
     // Mean free paths far below, about and above the spacing of 1/32.
     const Plane square = plane(64);
     const Receivers& receivers = square.receivers;
@@ -147,7 +147,7 @@ TEST(Diffusion, OfUniformLightIsUniformOnAPlane) {
     }
 }
 
-TEST(Diffusion, OfAShadowsEdgeIsTheIntegralOfTheDipole) {
+TEST(Diffusion, IntegratesTheDipoleAtAShadowEdge) {
     const Plane square = plane(128);
     const Receivers& receivers = square.receivers;
     const double path = 0.03;
@@ -180,7 +180,7 @@ TEST(Diffusion, OfAShadowsEdgeIsTheIntegralOfTheDipole) {
     }
 }
 
-TEST(Diffusion, IsThatOfAMuchFinerTolerance) {
+TEST(Diffusion, MatchesAFinerTolerance) {
     const Plane square = plane(40);
     const Receivers& receivers = square.receivers;
     const Medium medium{glm::dvec3(20), glm::dvec3(1), 1.3};
@@ -194,7 +194,7 @@ TEST(Diffusion, IsThatOfAMuchFinerTolerance) {
         EXPECT_NEAR(groups[i], pairs[i], 5e-3f);
 }
 
-TEST(Diffusion, OverASpeckIsItsAreaTimesTheMiddleOfTheDipole) {
+TEST(Diffusion, OverATinyAreaIsAreaTimesTheDipoleCenter) {
     // A triangle with legs of a thousandth of a mean free path, over which the dipole hardly falls.
     const float leg = 1e-5f;
     Plane speck;
@@ -214,7 +214,7 @@ TEST(Diffusion, OverASpeckIsItsAreaTimesTheMiddleOfTheDipole) {
     }
 }
 
-TEST(Diffusion, FromAfarIsTheSumOverTrianglesByTheirArea) {
+TEST(Diffusion, SumsDistantTrianglesByArea) {
     // A dark triangle, and two distant ones, so near each other that they are merged.
     Plane scattered;
     const auto add = [&](float x, float leg) {
@@ -270,7 +270,7 @@ TEST(Subsurface, BlursShadowsAndKeepsTheirLight) {
     EXPECT_NEAR(soft_mean, sharp_mean, 0.1 * sharp_mean); // except for light lost over the floor's edge
 }
 
-TEST(Subsurface, OfBodiesSideBySideIsThatOfEachAlone) {
+TEST(Subsurface, AdjacentBodiesAreIndependent) {
     // In one plane, so that neither shades the other.
     const Scene small = test::SceneBuilder().floor({0, 0, 0}, 0.1f, 4).build(),
                 large = test::SceneBuilder().floor({1, 0, 0}, 0.2f, 3).build();
@@ -299,14 +299,14 @@ Transfer bake_medium(double scattering, double absorption) {
         .baked.transfer;
 }
 
-TEST(Subsurface, OfTheDensestAndThinnestMediaIsFinite) {
+TEST(Subsurface, IsFiniteForExtremeMedia) {
     for (const double scattering : {kMinScattering, kMaxCoefficient})
         for (const double absorption : {0.0, kMinScattering, kMaxCoefficient})
             for (const float v : bake_medium(scattering, absorption).vectors)
                 ASSERT_TRUE(std::isfinite(v)) << scattering << " " << absorption;
 }
 
-TEST(Subsurface, RefusesMediaThatCannotBe) {
+TEST(Subsurface, RejectsInvalidMedia) {
     const double nan = std::nan(""), infinity = std::numeric_limits<double>::infinity();
     for (const double bad : {-1.0, 2 * kMaxCoefficient, 1e41, infinity, nan}) {
         EXPECT_THROW(bake_medium(bad, 1), Error) << bad;

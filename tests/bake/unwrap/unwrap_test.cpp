@@ -71,7 +71,7 @@ Scene crumpled(std::uint32_t seed) {
 }
 
 /// A floor, and triangles of one place or one line at its corners and elsewhere.
-TEST(Unwrap, FacesWithoutAreaHaveNoChartsOfTheirOwn) {
+TEST(Unwrap, FacesWithoutAreaHaveNoCharts) {
     const Scene floor = SceneBuilder().floor({0, 0, 0}, 1, 4).build();
     const TexelOptions options{.size = 64};
     Scene scene = floor;
@@ -92,7 +92,7 @@ TEST(Unwrap, FacesWithoutAreaHaveNoChartsOfTheirOwn) {
         EXPECT_TRUE(uv.x > 0 && uv.x < 1 && uv.y > 0 && uv.y < 1) << uv.x << ' ' << uv.y;
 }
 
-TEST(Unwrap, SizesThatAreTooSmallForTheChartsAreRefusedWithOneThatIsNot) {
+TEST(Unwrap, SmallSizesAreRejectedWithASufficientOne) {
     Scene scene = SceneBuilder().floor({0, 0, 0}, 1, 1).build();
     VertexArray& vertices = scene.vertex_arrays[0];
     const std::vector<glm::vec3> positions = vertices.positions;
@@ -109,7 +109,7 @@ TEST(Unwrap, SizesThatAreTooSmallForTheChartsAreRefusedWithOneThatIsNot) {
         unwrap(scene, {.size = 32});
         FAIL();
     } catch (const Error& error) {
-        EXPECT_NE(std::string(error.what()).find("too small for 300 charts or more: give 256 texels"),
+        EXPECT_NE(std::string(error.what()).find("too small for at least 300 charts; use 256 or more"),
                   std::string::npos)
             << error.what();
     }
@@ -137,7 +137,7 @@ protected:
 };
 INSTANTIATE_TEST_SUITE_P(Scenes, Unwrapped, testing::Range(0, 6));
 
-TEST_P(Unwrapped, SurfacesHavePositionsOfTheirOwn) {
+TEST_P(Unwrapped, SurfacesHaveSeparatePositions) {
     const Scene before = scene();
     constexpr int kSize = 512;
     const Unwrapping unwrapping = unwrap(before, {.size = kSize});
@@ -171,7 +171,7 @@ TEST_P(Unwrapped, SurfacesHavePositionsOfTheirOwn) {
     }
 }
 
-TEST(Unwrap, MakesTexturesAsFineAsAsked) {
+TEST(Unwrap, TexturesHaveTheRequestedDensity) {
     const Scene floor = SceneBuilder().floor({0, 0, 0}, 1, 4).build();
     const Unwrapping unwrapping = unwrap(floor, {.per_metre = 32});
     EXPECT_EQ(unwrapping.charts, 1u);
@@ -183,7 +183,7 @@ TEST(Unwrap, MakesTexturesAsFineAsAsked) {
     EXPECT_THROW(unwrap(crumpled(1), {.size = 8}), Error);
 }
 
-TEST(Unwrap, GivesEachObjectATextureOfItsSize) {
+TEST(Unwrap, EachObjectGetsATextureOfItsSize) {
     Scene scene = test::join(
         {SceneBuilder().floor({0, 0, 0}, 8).build(), SceneBuilder().floor({0, 1, 0}, 0.25f).build()});
     scene.primitives[1].node = 1;
@@ -193,7 +193,7 @@ TEST(Unwrap, GivesEachObjectATextureOfItsSize) {
     EXPECT_LE(unwrapping.atlases[1].width, 16);
 }
 
-TEST(Unwrap, PacksRectanglesBesideEachOther) {
+TEST(Unwrap, PacksRectanglesWithoutOverlap) {
     std::mt19937 random(1);
     std::vector<glm::ivec2> sizes;
     for (int i = 0; i < 60; ++i)

@@ -55,7 +55,7 @@ SceneBuilder& add_box(SceneBuilder& builder, const glm::vec3& low, const glm::ve
     return builder;
 }
 
-TEST(VolumeBake, IsTheIdentityInTheOpen) {
+TEST(VolumeBake, IsTheIdentityWithoutOcclusion) {
     const Scene scene = SceneBuilder().floor({0, -1e6f, 0}, 0.1f).build();
     const VolumeBake bake = bake_volume(scene, probes(1, {{0, 0, 0}, {4, 4, 4}}), rays(64));
     const Transfer& t = bake.volume.baked.transfer;
@@ -95,7 +95,7 @@ TEST(VolumeBake, OverABlackFloorIsHalfOfTheIdentity) {
             EXPECT_NEAR(light.transfer.vector(r)[i], half_product(r % 9, i), 4e-3) << r << " " << i;
 }
 
-TEST(VolumeBake, OfAWhiteFurnaceIsOneEverywhere) {
+TEST(VolumeBake, IsOneInAWhiteFurnace) {
     SceneBuilder box;
     add_box(box, {-1, -1, -1}, {1, 1, 1}, 6, 3); // open above
     const Scene scene = test::painted(box.build(), glm::vec3(1));
@@ -144,7 +144,7 @@ TEST(VolumeBake, LightDoesNotComeThroughAThinWall) {
     }
 }
 
-TEST(VolumeBake, AFitErrsLessBetweenProbes) {
+TEST(VolumeBake, FitReducesTheErrorBetweenProbes) {
     SceneBuilder box;
     add_box(box, {-2, -1, -1}, {2, 1, 1}, 8, 0);
     const Scene scene = test::painted(box.build(), glm::vec3(0.6f));
@@ -178,7 +178,7 @@ TEST(VolumeBake, AFitErrsLessBetweenProbes) {
     EXPECT_LT(error(4), 0.95 * error(0));
 }
 
-TEST(VolumeBake, PointLampsShineFromWhereTheyAre) {
+TEST(VolumeBake, PointLampsLightFromTheirPositions) {
     Scene scene = SceneBuilder().floor({0, -50, 0}, 1).build();
     scene.lights.push_back({.name = "lamp", .intensity = {4, 2, 1}, .position = {3, 0, 0}});
     const std::vector<glm::vec3> positions = {{1, 0, 0}, {3, 2, 0}, {0, 0, 4}};
@@ -213,7 +213,7 @@ TEST(VolumeBake, DoesNotDependOnThreads) {
     EXPECT_EQ(one.volume.baked.transfer.vectors, three.volume.baked.transfer.vectors);
 }
 
-TEST(VolumeBake, CoarseBricksStandInTheOpen) {
+TEST(VolumeBake, UsesCoarseBricksInOpenSpace) {
     const Scene scene = SceneBuilder().floor({0, 0, 0}, 1).build();
     const VolumeBake bake = bake_volume(scene, probes(0.25, {{-4, -1, -4}, {4, 7, 4}}), rays(16));
     int finest = 0, coarsest = 0;
@@ -227,7 +227,7 @@ TEST(VolumeBake, CoarseBricksStandInTheOpen) {
     EXPECT_GT(bake.statistics.probes.hanging, 0u);
 }
 
-TEST(VolumeBake, TakesNoMoreProbesThanAsked) {
+TEST(VolumeBake, KeepsTheProbeLimit) {
     const Scene scene = SceneBuilder().floor({0, 0, 0}, 1).build();
     for (const std::size_t most : {125u, 1000u, 5000u}) {
         const VolumeOptions volume{
@@ -238,7 +238,7 @@ TEST(VolumeBake, TakesNoMoreProbesThanAsked) {
     }
 }
 
-TEST(VolumeBake, RefusesWhatMakesNoVolume) {
+TEST(VolumeBake, RejectsInvalidVolumes) {
     const Scene scene = SceneBuilder().floor({0, 0, 0}, 1).build();
     const Bounds box{{-1, 0, -1}, {1, 1, 1}};
     EXPECT_THROW(bake_volume(scene, probes(0, box), rays(8)), Error);
@@ -254,7 +254,7 @@ TEST(VolumeBake, RefusesWhatMakesNoVolume) {
 }
 
 // Paths share neither code nor samples with the bake.
-TEST(IncidentReference, IsWhatABakeOfManyRaysFinds) {
+TEST(IncidentReference, MatchesABakeWithManyRays) {
     SceneBuilder box;
     add_box(box, {-1, -1, -1}, {1, 1, 1}, 8, 3);
     const Scene scene = test::painted(box.build(), {0.7f, 0.5f, 0.3f});

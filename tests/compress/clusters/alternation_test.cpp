@@ -24,7 +24,7 @@ Transfer falling_spectrum(std::size_t receivers, unsigned seed) {
     return t;
 }
 
-TEST(Alternation, NeverLosesWhatARoundHasFound) {
+TEST(Alternation, KeepsTheBestRound) {
     constexpr std::size_t kReceivers = 300;
     const std::vector<float> significance(kReceivers, 1.0f / kReceivers);
     for (const unsigned seed : {1u, 2u, 3u, 4u}) {

@@ -46,7 +46,7 @@ bool finds_subspaces(unsigned seed, const ClusteringSchedule& schedule) {
     return cluster_points(points, significance, options, random, {}).cost < 1e-6;
 }
 
-TEST(Clustering, FindsSubspacesThatCrossByOneComponentAfterTheOther) {
+TEST(Clustering, FindsCrossingSubspacesComponentByComponent) {
     // All components at once, as published, end in a local optimum of every fourth scene or so.
     int grown = 0, at_once = 0;
     for (unsigned seed = 0; seed < 40; ++seed) {

@@ -50,7 +50,7 @@ double best_quantiser_error(int bits) {
     return quantiser_error(bits, std::exp(low));
 }
 
-TEST(ComponentPlan, ExpectsWhatTheBestUniformQuantiserLeaves) {
+TEST(ComponentPlan, PredictsTheBestUniformQuantizer) {
     for (int bits = 1; bits <= kMaxWeightBits; ++bits) {
         const ComponentPlan plan =
             plan_components(std::vector<double>{1.0}, 1, {.component_limit = 1, .bits = bits});

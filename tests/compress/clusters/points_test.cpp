@@ -35,7 +35,7 @@ struct Setting {
     }
 };
 
-TEST(Points, RoundingAddsTheErrorThatItSays) {
+TEST(Points, RoundingAddsTheReportedError) {
     const Setting setting;
     const PointBlocks exact = setting.points(0), rounded = setting.points(1);
     ASSERT_TRUE(exact.rounded.empty());
@@ -55,7 +55,7 @@ TEST(Points, RoundingAddsTheErrorThatItSays) {
     EXPECT_NEAR(error, rounded.rounding(), 0.05 * rounded.rounding()); // 45 000 draws, evenly over a step
 }
 
-TEST(Points, StayFloatsWhereRoundingWouldAddMoreThanItMay) {
+TEST(Points, RemainFloatsIfRoundingExceedsTheLimit) {
     const Setting setting;
     const double rounding = setting.points(1).rounding();
     EXPECT_TRUE(setting.points(1.01 * rounding).values.empty());
@@ -65,7 +65,7 @@ TEST(Points, StayFloatsWhereRoundingWouldAddMoreThanItMay) {
     EXPECT_EQ(exact.rounding(), 0);
 }
 
-TEST(Points, AreTheSameHoweverTheyAreRead) {
+TEST(Points, DoNotDependOnStorage) {
     const Setting setting;
     for (const double max_rounding : {0.0, 1.0}) {
         PointBlocks points = setting.points(max_rounding);

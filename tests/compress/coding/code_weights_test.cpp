@@ -46,7 +46,7 @@ void expect_kept(const QuantisedClusters& clusters, std::mt19937& random) {
         }
 }
 
-TEST(CodeWeights, KeepWhatLiesOnAGridExactly) {
+TEST(CodeWeights, KeepGridValuesExactly) {
     std::mt19937 random(1);
     expect_kept(
         some_clusters(9, random,
@@ -54,7 +54,7 @@ TEST(CodeWeights, KeepWhatLiesOnAGridExactly) {
         random);
 }
 
-TEST(CodeWeights, KeepFloatsWhereTheyMayBeAny) {
+TEST(CodeWeights, KeepFloatsWithoutQuantization) {
     std::mt19937 random(2);
     expect_kept(some_clusters(6, random, [](std::mt19937&) { return WeightGrid::any(); }), random);
 }

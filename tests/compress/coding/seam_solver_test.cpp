@@ -127,7 +127,7 @@ double min_energy(const SmallMesh& mesh, double seam_weight) {
     return (matrix * weights - right).squaredNorm();
 }
 
-TEST(SeamSolver, WeightsThatMayBeAnyReachTheLeastOfTheSum) {
+TEST(SeamSolver, ContinuousWeightsReachTheMinimum) {
     // Means are so far from each other that all receivers keep their cluster. Sweeps over single receivers
     // would converge slowly, because the seam weight couples neighbours.
     for (const std::size_t components : {1u, 2u}) {
@@ -144,7 +144,7 @@ TEST(SeamSolver, WeightsThatMayBeAnyReachTheLeastOfTheSum) {
     }
 }
 
-TEST(SeamSolver, NoReceiverAloneFindsACheaperCodeAfterwards) {
+TEST(SeamSolver, LeavesNoCheaperSingleCode) {
     // Clusters lie near each other, and weights have eight values, all of which are tried.
     SmallMesh mesh(60, 1, 0.5f, WeightGrid::of_bits(3));
     constexpr double kMultiplier = 2;
@@ -167,7 +167,7 @@ TEST(SeamSolver, NoReceiverAloneFindsACheaperCodeAfterwards) {
         EXPECT_NEAR(static_cast<double>(mesh.codes.errors[p]), mesh.error(mesh.codes, p).squaredNorm(), 1e-5);
 }
 
-TEST(SeamSolver, StretchesReachWhatAllTogetherDo) {
+TEST(SeamSolver, StretchesReachTheJointSolution) {
     // Continuous weights: solving all receivers together reaches the minimum; a stretch with fixed neighbours
     // misses it because of the coupling to them.
     constexpr double kMultiplier = 2;
@@ -184,7 +184,7 @@ TEST(SeamSolver, StretchesReachWhatAllTogetherDo) {
     EXPECT_LT(reached - least, 0.02 * (start - least));
 }
 
-TEST(SeamSolver, AReceiverStaysWhereNoOtherClusterIsCheaper) {
+TEST(SeamSolver, KeepsClustersWithoutCheaperAlternatives) {
     // All clusters are equal and have only a mean.
     SmallMesh mesh(12, 0, 0, WeightGrid::any());
     const std::vector<std::uint32_t> before = mesh.codes.clusters;

@@ -133,20 +133,20 @@ struct TwoCharts : Grid {
     }
 };
 
-TEST(Seams, OfLightmapsAreClosed) {
+TEST(Seams, LightmapSeamsAreClosed) {
     const TwoCharts charts;
     const TwoCharts::Closed open = charts.compressed({}), closed = charts.compressed(charts.jumps);
     EXPECT_LT(closed.jump, 0.7 * open.jump);
     EXPECT_LT(closed.lit_rms, 1.05 * open.lit_rms);
 }
 
-TEST(Seams, OfReceiversThatAreNotThereAreRefused) {
+TEST(Seams, MissingReceiversAreRejected) {
     const Grid grid;
     const SeamJump jump{{0, 1, 2, 3, 4, 5, 6, Grid::kSize * Grid::kSize}, {1}};
     EXPECT_THROW(compress(grid.transfer, {.areas = grid.areas, .jumps = {&jump, 1}}, {}), Error);
 }
 
-TEST(Seams, MeshEdgesAreThoseOfTheTrianglesOnce) {
+TEST(Seams, MeshEdgesAreUniqueTriangleEdges) {
     Scene scene;
     scene.vertex_arrays.resize(2);
     scene.vertex_arrays[0].positions.resize(4);

@@ -68,10 +68,10 @@ struct Case {
     }
 };
 
-class OfLayouts : public testing::TestWithParam<TransferLayout> {};
-INSTANTIATE_TEST_SUITE_P(Layouts, OfLayouts, testing::ValuesIn(kLayouts));
+class MomentsOfLayouts : public testing::TestWithParam<TransferLayout> {};
+INSTANTIATE_TEST_SUITE_P(Layouts, MomentsOfLayouts, testing::ValuesIn(kLayouts));
 
-TEST_P(OfLayouts, MomentsGiveTheErrorThatExitRadianceHas) {
+TEST_P(MomentsOfLayouts, MomentsMatchExitRadiance) {
     Case c(GetParam());
     const ErrorMoments moments = c.moments();
     for (int i = 0; i < 5; ++i) {
@@ -80,7 +80,7 @@ TEST_P(OfLayouts, MomentsGiveTheErrorThatExitRadianceHas) {
     }
 }
 
-TEST_P(OfLayouts, MomentsGiveTheErrorThatAMetricExpects) {
+TEST_P(MomentsOfLayouts, MomentsMatchTheMetric) {
     const Case c(GetParam());
     for (const LightMetric& metric : {natural_metric(GetParam()), plain_metric(GetParam())}) {
         const double expected = expected_lit_rms(c.reference, c.approximation, c.areas, metric);
@@ -88,7 +88,7 @@ TEST_P(OfLayouts, MomentsGiveTheErrorThatAMetricExpects) {
     }
 }
 
-TEST_P(OfLayouts, MomentsDoNotDependOnThreads) {
+TEST_P(MomentsOfLayouts, MomentsDoNotDependOnThreads) {
     const Case c(GetParam());
     const ErrorMoments one = c.moments(1), three = c.moments(3);
     EXPECT_EQ(one.errors, three.errors);
@@ -96,7 +96,7 @@ TEST_P(OfLayouts, MomentsDoNotDependOnThreads) {
 }
 
 /// Lamps keep their direction while the sky rotates.
-TEST_P(OfLayouts, NoTurnIsWorseThanTheWorstAndItIsFound) {
+TEST_P(MomentsOfLayouts, FindTheWorstRotation) {
     Case c(GetParam());
     const Lighting lighting = c.lighting();
     const ErrorMoments moments = c.moments();
@@ -117,7 +117,7 @@ TEST_P(OfLayouts, NoTurnIsWorseThanTheWorstAndItIsFound) {
 
 /// A receiver that sees only band 1 along X is dark if light comes along Z. In space, the mean square of a
 /// coefficient of band 1 is a third of its power.
-TEST(ErrorMomentsOverRotations, CompareWithATenthOfTheMeanOverAllRotationsInTheDark) {
+TEST(ErrorMomentsOverRotations, UseATenthOfTheMeanOverAllRotationsInTheDark) {
     const TransferLayout layout = layout_of_one(2, 1);
     Transfer reference = zero_transfer(layout, 1), approximation = reference;
     reference.vector(0)[3] = 2;
@@ -133,7 +133,7 @@ TEST(ErrorMomentsOverRotations, CompareWithATenthOfTheMeanOverAllRotationsInTheD
 }
 
 /// Light in bands that transfer does not have: errors are relative to float rounding only.
-TEST(ErrorMomentsOverRotations, AreFiniteWhereTransferHasOtherBandsThanTheLight) {
+TEST(ErrorMomentsOverRotations, AreFiniteForDifferentBandsOfTransferAndLight) {
     const TransferLayout layout = layout_of_one(2, 1);
     Transfer reference = zero_transfer(layout, 1), approximation = reference;
     reference.vector(0)[3] = 1;
@@ -143,7 +143,7 @@ TEST(ErrorMomentsOverRotations, AreFiniteWhereTransferHasOtherBandsThanTheLight)
     EXPECT_NEAR(lit_rms_over_rotations(moments, {constant_light(2, glm::vec3(1))}).worst, 0.01, 1e-5);
 }
 
-TEST(ErrorMomentsOverRotations, HaveTheMeanThatTheMetricOfThatLightExpects) {
+TEST(ErrorMomentsOverRotations, HaveTheMeanOfTheLightMetric) {
     Case c(kLayouts[2]);
     const Lighting lighting = c.lighting();
     const ErrorMoments moments = c.moments();
@@ -161,7 +161,7 @@ TEST(ErrorMomentsOverRotations, HaveTheMeanThatTheMetricOfThatLightExpects) {
     EXPECT_NEAR(lit_rms_over_rotations(moments, lighting).mean, mean, 1e-5 * mean);
 }
 
-TEST(ErrorMoments, AreInfiniteWhereOnlyErrorsShineAndZeroInTheDark) {
+TEST(ErrorMoments, AreInfiniteForErrorsWithoutLightAndZeroInTheDark) {
     const TransferLayout layout = layout_of_one(2, 1);
     Transfer dark = zero_transfer(layout, 3), lit = dark;
     std::ranges::fill(lit.vectors, 1.0f);
@@ -171,7 +171,7 @@ TEST(ErrorMoments, AreInfiniteWhereOnlyErrorsShineAndZeroInTheDark) {
     EXPECT_EQ(lit_rms(error_moments(dark, dark, areas), light), 0);
 }
 
-TEST(ErrorMoments, RefuseWhatDoesNotBelongTogether) {
+TEST(ErrorMoments, RejectMismatchedTransfers) {
     const std::vector<float> areas(3, 1.0f);
     const Transfer a = zero_transfer(2, 1, 3);
     EXPECT_THROW(error_moments(a, zero_transfer(2, 3, 3), areas), Error);

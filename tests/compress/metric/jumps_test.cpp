@@ -46,7 +46,7 @@ TEST(Jumps, AreThe99thPercentileByArea) {
     EXPECT_NEAR(pairs.jump(), 0.099 / 1.1, 1e-6);
 }
 
-TEST(Jumps, InsideClustersAndOfWhatBothEndsShareDoNotCount) {
+TEST(Jumps, IgnoreEdgesInsideClustersAndSharedErrors) {
     Pairs pairs;
     pairs.edges.push_back({0, 198}); // both of cluster 0
     pairs.approximation.vector(198)[0] = 9;
@@ -58,7 +58,7 @@ TEST(Jumps, InsideClustersAndOfWhatBothEndsShareDoNotCount) {
 
 /// Pairs whose errors are along X: light from X increases the error, and reduces the mean when it is rotated
 /// away.
-TEST(Jumps, UnderSkiesAreThoseOfTheWorstSkyAtItsWorstRotation) {
+TEST(Jumps, UnderSkiesUseTheWorstSkyAndRotation) {
     Pairs pairs;
     const auto along_x = [](const Transfer& from) {
         Transfer to = zero_transfer(2, 1, from.receivers());
@@ -87,7 +87,7 @@ TEST(Jumps, UnderSkiesAreThoseOfTheWorstSkyAtItsWorstRotation) {
 }
 
 /// With an equal error at less light, the 99th percentile is the pair of dark receivers.
-TEST(Jumps, CountAgainstTheLightOfTheirReceivers) {
+TEST(Jumps, AreRelativeToTheLightOfTheirReceivers) {
     Pairs pairs;
     for (const std::uint32_t p : {100u, 101u, 102u, 103u}) // errors of 0.050 and 0.051
         for (Transfer* transfer : {&pairs.reference, &pairs.approximation})
@@ -96,7 +96,7 @@ TEST(Jumps, CountAgainstTheLightOfTheirReceivers) {
     EXPECT_NEAR(pairs.jump(), 0.050 / (0.1 + adaptation), 1e-6);
 }
 
-TEST(Jumps, RefuseTransfersThatDoNotBelongTogether) {
+TEST(Jumps, RejectMismatchedTransfers) {
     Pairs pairs;
     pairs.clusters.pop_back();
     EXPECT_THROW(pairs.jump(), Error);

@@ -64,7 +64,7 @@ INSTANTIATE_TEST_SUITE_P(All, Family,
 INSTANTIATE_TEST_SUITE_P(All, UprightFamily,
                          testing::Values(LightFamily::outdoor, LightFamily::indoor, LightFamily::day));
 
-TEST_P(Family, CostsTheSameWhicheverWayASceneLooks) {
+TEST_P(Family, DoesNotDependOnSceneRotation) {
     const TransferLayout layout = of_two_terms(5);
     const LightMetric metric = metric_of_family(GetParam(), layout);
     const std::vector<double> error = random_vector(layout);
@@ -73,7 +73,7 @@ TEST_P(Family, CostsTheSameWhicheverWayASceneLooks) {
         EXPECT_NEAR(cost(metric, error, about({0, 1, 0}, angle)), straight, 1e-5 * straight); // float lights
 }
 
-TEST(NaturalFamily, CostsTheSameWhicheverWayIsUp) {
+TEST(NaturalFamily, DoesNotDependOnTheUpAxis) {
     const TransferLayout layout = of_two_terms(5);
     const LightMetric metric = metric_of_family(LightFamily::natural, layout);
     const std::vector<double> error = random_vector(layout);
@@ -125,7 +125,7 @@ TEST_P(UprightFamily, HasAMeanSquareOfOneOnOpenReceiversInDirectLight) {
 }
 
 /// Terms other than direct transfer additionally see only suns, and a sun has equal power in every band.
-TEST(OutdoorFamily, DiffersBetweenPartsByItsSuns) {
+TEST(OutdoorFamily, DiffersBetweenTermsByItsSuns) {
     const int order = 5;
     const Eigen::Index size = coefficient_count(order);
     const Eigen::MatrixXd c = matrix_of(
@@ -184,7 +184,7 @@ private:
     std::uniform_real_distribution<double> uniform_;
 };
 
-TEST_P(UprightFamily, ExpectsTheErrorThatItsDrawsHaveOnAverage) {
+TEST_P(UprightFamily, ExpectsTheMeanErrorOfItsDraws) {
     const TransferLayout layout = of_two_terms(4);
     constexpr std::size_t kCount = 30;
     Transfer a = zero_transfer(layout, kCount), b = a;
@@ -217,7 +217,7 @@ TEST(StandardSkies, HaveAMeanRadianceOfOne) {
 }
 
 /// Sky, sun and ground are consistent: a receiver facing down sees a fifth of the light on the ground.
-TEST(StandardSkies, ShineOntoTheGroundThatReflectsThem) {
+TEST(StandardSkies, LightTheReflectingGround) {
     const auto seen = [](const Light& light, const glm::dvec3& normal) {
         std::array<double, kMaxOrder * kMaxOrder> lobe{};
         clamped_cosine_lobe(kMaxOrder, normal, std::span<double>(lobe));

@@ -54,7 +54,7 @@ Light random_light(int order, std::mt19937& random) {
 class Metric : public testing::TestWithParam<int> {}; // channels
 INSTANTIATE_TEST_SUITE_P(Channels, Metric, testing::Values(1, 3));
 
-TEST_P(Metric, OfLightsIsTheMeanOfWhatEachTurnOfEachCosts) {
+TEST_P(Metric, LightMetricIsTheMeanOverLightsAndRotations) {
     // Compares with brute force: 360 rotations of two lights, weighted by their energy, and a hundredth of
     // natural light.
     const int channels = GetParam(), order = 4;
@@ -78,7 +78,7 @@ TEST_P(Metric, OfLightsIsTheMeanOfWhatEachTurnOfEachCosts) {
     EXPECT_NEAR(found, sums.rms(), 0.01 * found); // the hundredth
 }
 
-TEST_P(Metric, NaturalLightIsTheMeanOverRandomLightOfThatPower) {
+TEST_P(Metric, NaturalLightIsTheMeanOverRandomLight) {
     const int channels = GetParam(), order = 3;
     std::mt19937 random(9);
     const Transfer a = random_transfer(30, order, channels, 3), b = random_transfer(30, order, channels, 4);
@@ -97,7 +97,7 @@ TEST_P(Metric, NaturalLightIsTheMeanOverRandomLightOfThatPower) {
 
 /// Skies of steeper bands, and suns anywhere of one power in every band, which direct light is lit by half of
 /// the time.
-TEST(MetricOfTerms, OfTwoPartsIsTheMeanOverRandomSkiesWithSuns) {
+TEST(MetricOfTerms, TwoTermsUseTheMeanOverRandomSkiesWithSuns) {
     const TransferLayout layout{3, {{TermKind::direct, 1}, {TermKind::indirect, 3}}};
     std::mt19937 random(11);
     const Transfer a = random_transfer(30, layout, 11), b = random_transfer(30, layout, 111);
@@ -118,7 +118,7 @@ TEST(MetricOfTerms, OfTwoPartsIsTheMeanOverRandomSkiesWithSuns) {
     EXPECT_NEAR(found, sums.rms(), 0.02 * found); // 4000 lights: 1 to 2 %
 }
 
-TEST(MetricOfTerms, OfLightsWithSunsIsTheMeanOfWhatEachTurnOfEachCosts) {
+TEST(MetricOfTerms, LightsWithSunsUseTheMeanOverRotations) {
     const TransferLayout layout{4, {{TermKind::direct, 1}, {TermKind::indirect, 3}}};
     std::mt19937 random(12);
     const Lighting lighting{random_light(4, random), random_light(5, random)};
@@ -135,7 +135,7 @@ TEST(MetricOfTerms, OfLightsWithSunsIsTheMeanOfWhatEachTurnOfEachCosts) {
 }
 
 /// Each lamp shines separately, in addition to any sky.
-TEST(MetricOfTerms, OfLampsIsTheMeanOverTheirStrengths) {
+TEST(MetricOfTerms, LampsUseTheMeanOverStrengths) {
     const TransferLayout layout{
         2, {{TermKind::combined, 1}, {TermKind::lamp, 1, "white"}, {TermKind::lamp, 3, "red"}}};
     std::mt19937 random(14);
@@ -156,7 +156,7 @@ TEST(MetricOfTerms, OfLampsIsTheMeanOverTheirStrengths) {
 
 /// However bright lamps are: to lose them all is half of all there is, to lose the sky is, too, and each lamp
 /// counts as much as the other, unless it is dark.
-TEST(MetricOfTerms, BalancedCountsLampsTogetherAsMuchAsTheSky) {
+TEST(MetricOfTerms, BalancedGivesAllLampsTheWeightOfTheSky) {
     const TransferLayout layout{
         3,
         {{TermKind::direct, 1}, {TermKind::indirect, 3}, {TermKind::lamp, 1, "a"}, {TermKind::lamp, 3, "b"}}};
@@ -182,7 +182,7 @@ TEST(MetricOfTerms, BalancedCountsLampsTogetherAsMuchAsTheSky) {
     }
 }
 
-TEST(MetricOfTerms, PlainCountsAGreyPartForEachColor) {
+TEST(MetricOfTerms, PlainCountsAGreyTermForEachColor) {
     const TransferLayout layout{2, {{TermKind::direct, 1}, {TermKind::indirect, 3}}};
     Transfer a = zero_transfer(layout, 5), b = a;
     for (std::size_t i = 0; i < a.vectors.size(); ++i) {
@@ -202,7 +202,7 @@ TEST_P(Metric, PlainIsRelativeL2) {
                 relative_l2(a, b, areas), 1e-9);
 }
 
-TEST(LightMetric, RefusesWhatMakesNoSense) {
+TEST(LightMetric, RejectsInvalidInput) {
     std::mt19937 random(1);
     const std::vector<Light> low = {random_light(3, random)};
     EXPECT_THROW(metric_of_lights(low, layout_of_one(4, 1)), Error);

@@ -17,7 +17,7 @@ Transfer receivers_of(const std::vector<float>& light) {
     return {layout_of_one(1, 1), light};
 }
 
-TEST(SkyContrast, CostsFallWithTheLightThatIsThere) {
+TEST(SkyContrast, CostsDecreaseWithTheLight) {
     const Transfer t = receivers_of({1, 4, 0.25f});
     const std::vector<float> significance = {0.5f, 0.25f, 0.25f};
     const LightMetric metric{t.layout, {1}};
@@ -37,7 +37,7 @@ TEST(SkyContrast, IsTheRootOfTheMeanSquaredErrorOverTheLight) {
     EXPECT_NEAR(SkyContrast(t, significance, metric, 1).contrast(other), expected, 1e-6);
 }
 
-TEST(SkyContrast, OfDarknessIsZeroAndCostsAreOne) {
+TEST(SkyContrast, DarknessIsZeroWithCostsOfOne) {
     const Transfer t = receivers_of({0, 0});
     const std::vector<float> significance = {0.5f, 0.5f};
     const LightMetric metric{t.layout, {1}};

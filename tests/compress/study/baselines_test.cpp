@@ -20,7 +20,7 @@ Transfer random_transfer(std::size_t receivers) {
     return t;
 }
 
-TEST(Baselines, TruncationKeepsItsBandsToAByte) {
+TEST(Baselines, TruncationKeepsItsBandsInEightBits) {
     const Transfer t = random_transfer(100);
     const BaselineResult r = truncated_sh(t, 2);
     EXPECT_EQ(r.payload_bytes, 4);
@@ -29,7 +29,7 @@ TEST(Baselines, TruncationKeepsItsBandsToAByte) {
             EXPECT_NEAR(r.decoded.vector(p)[i], i < 4 ? t.vector(p)[i] : 0.0f, 4.0f / 127);
 }
 
-TEST(Baselines, AllComponentsLoseOnlyWhatEightBitsLose) {
+TEST(Baselines, WithAllComponentsHaveOnlyEightBitError) {
     const Transfer t = random_transfer(300);
     const std::vector<float> areas(300, 1.0f);
     const BaselineResult r = classic_cpca(t, areas, {.clusters = 1, .components = 9});
@@ -40,7 +40,7 @@ TEST(Baselines, AllComponentsLoseOnlyWhatEightBitsLose) {
     EXPECT_EQ(r.table_bytes, 10 * 9 * 2 + 9 * 4);
 }
 
-TEST(Baselines, CountsTheWholeWordsThatAGameBinds) {
+TEST(Baselines, CountBoundWords) {
     const Transfer t = random_transfer(600);
     const std::vector<float> areas(600, 1.0f);
     EXPECT_EQ(truncated_sh(t, 3).payload_bytes, 12);  // 9 bytes
@@ -53,7 +53,7 @@ TEST(Baselines, CountsTheWholeWordsThatAGameBinds) {
               4); // two bytes of cluster
 }
 
-TEST(Baselines, IteratingIsNoWorseThanPcaOnce) {
+TEST(Baselines, IterationIsNotWorseThanSinglePca) {
     const Transfer t = random_transfer(500);
     const std::vector<float> areas(500, 1.0f);
     for (const int components : {1, 3, 5})

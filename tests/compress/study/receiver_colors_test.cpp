@@ -11,7 +11,7 @@ namespace prt {
 namespace {
 
 /// Black, red, yellow and white, and no more beyond.
-TEST(ReceiverColors, OfHeatRunOverRedAndYellow) {
+TEST(ReceiverColors, HeatColorsPassThroughRedAndYellow) {
     const auto expect = [](double share, const glm::vec3& color) {
         EXPECT_LT(glm::distance(heat_color(share), color), 1e-6f) << share;
     };
@@ -25,7 +25,7 @@ TEST(ReceiverColors, OfHeatRunOverRedAndYellow) {
     expect(7, {1, 1, 1});
 }
 
-TEST(ReceiverColors, OfNumbersDifferMostOfAllFromThoseNextToThem) {
+TEST(ReceiverColors, AdjacentNumbersHaveDistinctColors) {
     constexpr std::size_t kLabels = 256;
     for (std::size_t a = 0; a < kLabels; ++a) {
         const glm::vec3 color = label_color(a);
@@ -39,7 +39,7 @@ TEST(ReceiverColors, OfNumbersDifferMostOfAllFromThoseNextToThem) {
     }
 }
 
-TEST(ReceiverColors, OfClustersAreThoseOfTheirNumbersAndOfComponentsTheirShareAsHeat) {
+TEST(ReceiverColors, ClustersHaveLabelColorsAndComponentsHeatColors) {
     ClusteredTransfer transfer;
     transfer.bases.components = {0, 4, 1};
     transfer.receivers.clusters = {2, 0, 1};
@@ -65,7 +65,7 @@ void expect_colors(const std::vector<glm::vec3>& colors, const std::vector<glm::
 /// A tenth of the logarithmic mean over the area.
 const double kAdaptation = 0.1 * std::exp((std::log(2) + 3 * std::log(6)) / 4);
 
-TEST(ReceiverColors, OfErrorsAreContrastAtTheAdaptation) {
+TEST(ReceiverColors, ErrorsShowAdaptedContrast) {
     ColoredMesh mesh;
     mesh.approximation[0] += glm::vec3(0.125f, -0.25f, 0);
     mesh.approximation[1] -= glm::vec3(0, 0.1f, 5);
@@ -77,7 +77,7 @@ TEST(ReceiverColors, OfErrorsAreContrastAtTheAdaptation) {
     expect_colors(error_colors(dark, dark, mesh.areas), dark);
 }
 
-TEST(ReceiverColors, OfSeamsAreTheLargestJumpIntoAnotherCluster) {
+TEST(ReceiverColors, SeamsShowTheLargestJumpToAnotherCluster) {
     ColoredMesh mesh;
     mesh.approximation[0] += glm::vec3(0.05f, 0, 0);
     mesh.approximation[1] -= glm::vec3(0.05f, 0, 0.01f);

@@ -88,7 +88,7 @@ TEST(Sweep, MeasuresEveryMethodAndOursIsNotWorse) {
         }
 }
 
-TEST(Sweep, MeasuresJumpsAlongAllEdgesAlike) {
+TEST(Sweep, MeasuresJumpsAlongAllEdges) {
     // Every other receiver is a quarter too bright: every edge jumps by that, in each of the two lights.
     const std::size_t count = 12;
     Transfer transfer = zero_transfer(1, 1, count), uneven = transfer;
@@ -113,7 +113,7 @@ TEST(Sweep, MeasuresJumpsAlongAllEdgesAlike) {
     EXPECT_NEAR(best_by_bytes(result, "bright", 3)->lit_rms, 0.25, 1e-6);
 }
 
-TEST(Sweep, OfFewReceiversSaysWhyOursIsMissingAndGivesMethodsNoClusterForEach) {
+TEST(Sweep, ReportsMissingRowsForFewReceivers) {
     constexpr std::size_t kReceivers = 20; // no bases fit five bytes
     Transfer few = zero_transfer(2, 1, kReceivers);
     std::copy_n(strip().vectors.begin(), few.vectors.size(), few.vectors.begin());

@@ -73,7 +73,7 @@ TEST(Comparison, MeasuresEveryMethodAndWritesItsPage) {
                 row("PRT, order 6, sun by rays").errors[0].relative_l2, 0.02);
     EXPECT_NEAR(row("PRT, 8 bytes, sun by shadow map").errors[0].relative_l2,
                 row("PRT, 8 bytes, sun by rays").errors[0].relative_l2, 0.02);
-    EXPECT_NEAR(row("lightmap, 8 bytes a texel").errors[0].relative_l2,
+    EXPECT_NEAR(row("lightmap, 8 bytes per texel").errors[0].relative_l2,
                 row("PRT, order 6").errors[0].relative_l2, 0.03);
     EXPECT_NEAR(row("lightmap, 8 bytes, sun by rays").errors[0].relative_l2,
                 row("PRT, order 6, sun by rays").errors[0].relative_l2, 0.03);

@@ -42,7 +42,7 @@ std::vector<glm::vec3> positions_at(const AnimatedScene& scene, double seconds) 
     return positions_of(scene, walk_of(scene), seconds);
 }
 
-TEST(ExampleFigure, IsSomebodyOfOrdinarySize) {
+TEST(ExampleFigure, HasHumanSize) {
     const AnimatedScene scene = figure();
     const Bounds box = bounds(scene.scene());
     EXPECT_NEAR(box.high.y - box.low.y, 1.8, 0.02);

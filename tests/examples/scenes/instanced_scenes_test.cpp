@@ -50,7 +50,7 @@ TEST(InstancedScenes, ATreeHasSomeSixHundredVertices) {
     EXPECT_LT(of_trees, 60 * 900u);
 }
 
-TEST(InstancedScenes, CountsThatAreNoneAreRefused) {
+TEST(InstancedScenes, InvalidCountsAreRejected) {
     const test::TemporaryFolder folder;
     for (const char* count : {"forest:0", "forest:-3", "forest:many", "forest:", "street:1e9", "oak:3"})
         EXPECT_NE(make(folder, count), 0) << count;

@@ -24,7 +24,7 @@ std::vector<std::string> collect_all(Work& work) {
     return all;
 }
 
-TEST(BackgroundWork, PostsWhatItFindsInOrder) {
+TEST(BackgroundWork, PostsFindingsInOrder) {
     Work work;
     work.start([](Work::Channel& channel) {
         for (const char* part : {"a", "b", "c"}) {
@@ -36,7 +36,7 @@ TEST(BackgroundWork, PostsWhatItFindsInOrder) {
     EXPECT_EQ(collect_all(work), (std::vector<std::string>{"a", "b", "c"}));
 }
 
-TEST(BackgroundWork, ThatMakesWayPostsNothingMore) {
+TEST(BackgroundWork, PostsNoFindingsAfterReplacement) {
     std::atomic<bool> begun = false; // outlives the work; the work's destructor waits for it
     Work work;
     work.start([&](Work::Channel& channel) {
@@ -52,7 +52,7 @@ TEST(BackgroundWork, ThatMakesWayPostsNothingMore) {
     EXPECT_EQ(collect_all(work), std::vector<std::string>{"second"});
 }
 
-TEST(BackgroundWork, ThatIsStoppedPostsNothingMore) {
+TEST(BackgroundWork, PostsNoFindingsAfterStop) {
     std::atomic<bool> begun = false; // outlives the work; the work's destructor waits for it
     Work work;
     work.start([&](Work::Channel& channel) {

@@ -33,7 +33,7 @@ prt::SurfacePoints kept(const prt::SurfacePoints& points, Keep&& keep) {
     return some;
 }
 
-TEST(SurfaceErrorColors, OfOneErrorAreOneColor) {
+TEST(SurfaceErrorColors, EqualErrorsHaveOneColor) {
     const auto model = floor_and_ball();
     const prt::SurfacePoints points = prt::surface_points(*model->trace, {.count = 8192, .threads = 2});
     const double error = 0.1, norm = 4;
@@ -44,7 +44,7 @@ TEST(SurfaceErrorColors, OfOneErrorAreOneColor) {
             ASSERT_NEAR(color[c], wanted[c], 1e-5f);
 }
 
-TEST(SurfaceErrorColors, AreMeansOfThePointsAboutAVertex) {
+TEST(SurfaceErrorColors, AreMeansOfPointsAroundAVertex) {
     const auto model = floor_and_ball();
     const prt::SurfacePoints points = prt::surface_points(*model->trace, {.count = 4096, .threads = 2});
     std::vector<double> squared;
@@ -61,7 +61,7 @@ TEST(SurfaceErrorColors, AreMeansOfThePointsAboutAVertex) {
     }
 }
 
-TEST(SurfaceErrorColors, ReachWhatHasNoPointsAlongEdgesAndLeaveTheRestBlue) {
+TEST(SurfaceErrorColors, SpreadAlongEdgesAndLeaveIsolatedVerticesBlue) {
     prt::Scene scene = prt::test::SceneBuilder().floor({0, 0, 0}, 1).build();
     scene.primitives[0].triangles[1] = {0, 2, 5}; // shares an edge; 3 and 4 are of no triangle then
     const auto model = make_model(std::move(scene), "floor.glb");

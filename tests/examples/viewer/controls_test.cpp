@@ -45,7 +45,7 @@ TEST(Screen, DirectionsOnASphereMeetThePixel) {
     EXPECT_NEAR(glm::length(d), 1, 1e-5f);
 }
 
-TEST(OrbitCamera, TurnsAboutItsTarget) {
+TEST(OrbitCamera, RotatesAboutItsTarget) {
     const prt::Camera before{{3, 2, 4}, {1, 1, 1}, {0, 1, 0}, 0.6f};
     OrbitCamera orbit(before);
     EXPECT_LT(glm::distance(orbit.camera().position, before.position), 1e-5f);
@@ -118,7 +118,7 @@ std::set<std::string> quoted(const std::string& text) {
     return words;
 }
 
-TEST(Commands, AreThoseOfTheDocumentation) {
+TEST(Commands, MatchTheDocumentation) {
     std::ifstream page(PRT_DOCS "/viewer.md");
     std::set<std::string> documented_keys, documented_ids;
     for (std::string line; std::getline(page, line);) {

@@ -37,7 +37,7 @@ bool is_outside(const glm::mat4& matrix, const prt::Scene& scene, const glm::uve
 
 using Triple = std::tuple<unsigned, unsigned, unsigned>;
 
-TEST(TriangleClusters, HoldEveryTriangleOnce) {
+TEST(TriangleClusters, ContainEveryTriangleOnce) {
     const prt::Scene before =
         prt::test::SceneBuilder().sphere({0, 0, 0}, 1, 70).floor({0, -1, 0}, 3, 80).build();
     const Clustered after;
@@ -64,12 +64,12 @@ TEST(TriangleClusters, HoldEveryTriangleOnce) {
     EXPECT_EQ(a, b);
 }
 
-TEST(TriangleClusters, OfNothingAreNone) {
+TEST(TriangleClusters, AreEmptyWithoutTriangles) {
     prt::Primitive empty;
     EXPECT_TRUE(make_triangle_clusters(empty, {}).empty());
 }
 
-TEST(FrustumPlanes, BoundWhatTheCameraSees) {
+TEST(FrustumPlanes, BoundTheView) {
     // 90 degrees wide and high, from the origin along -z, planes at 1 and 3.
     const prt::Camera camera{{0, 0, 0}, {0, 0, -1}, {0, 1, 0}, 1.57079633f};
     const glm::mat4 matrix = prt::view_projection(camera, {{-1, -1, -3 / 1.01f}, {1, 1, -1 / 0.99f}}, 1);
@@ -86,7 +86,7 @@ TEST(FrustumPlanes, BoundWhatTheCameraSees) {
     EXPECT_FALSE(inside({0, 0, 2})); // behind
 }
 
-TEST(Culling, NeverDropsATriangleThatMayBeSeenAndDropsMostOthers) {
+TEST(Culling, KeepsVisibleTrianglesAndDropsMostOthers) {
     const Clustered model;
     std::mt19937 random(1);
     std::uniform_real_distribution<float> uniform(-1, 1);

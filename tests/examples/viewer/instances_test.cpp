@@ -76,7 +76,7 @@ double difference(const prt::Image& a, const prt::Image& b) {
     return std::sqrt(wrong / all);
 }
 
-TEST_F(ViewerInstances, LookLikeTheirTransferVertexByVertex) {
+TEST_F(ViewerInstances, MatchTheirTransferPerVertex) {
     ASSERT_TRUE(loaded.instanced);
     EXPECT_FALSE(loaded.compressed);
     gpu->set_instanced(loaded.instanced);
@@ -93,7 +93,7 @@ TEST_F(ViewerInstances, LookLikeTheirTransferVertexByVertex) {
     EXPECT_EQ(gpu->instances()->figures().meshes, 1u);
 }
 
-TEST_F(ViewerInstances, AreLitAnewWhereTheLightChanges) {
+TEST_F(ViewerInstances, AreRelitAfterChangesOfLight) {
     gpu->set_instanced(loaded.instanced);
     gpu->set_raw(expanded_transfer());
     gpu->set_light(light);
@@ -104,7 +104,7 @@ TEST_F(ViewerInstances, AreLitAnewWhereTheLightChanges) {
     EXPECT_GT(difference(after, before), 0.1);
 }
 
-TEST_F(ViewerInstances, AreLitByTheirTurnedNormalsWithoutTransfer) {
+TEST_F(ViewerInstances, AreLitByRotatedNormalsWithoutTransfer) {
     gpu->set_light(light);
     const prt::Image one_by_one = drawn(PictureKind::unshadowed);
     gpu->set_instanced(loaded.instanced);
@@ -112,7 +112,7 @@ TEST_F(ViewerInstances, AreLitByTheirTurnedNormalsWithoutTransfer) {
     EXPECT_LT(difference(drawn(PictureKind::unshadowed), one_by_one), 2e-3);
 }
 
-TEST_F(ViewerInstances, ThatAreOutOfViewAreNotDrawn) {
+TEST_F(ViewerInstances, OutsideTheViewAreNotDrawn) {
     gpu->set_instanced(loaded.instanced);
     gpu->set_light(light);
     view.camera.position += 100.0f * (view.camera.position - view.camera.target);

@@ -42,7 +42,7 @@ prt::TransferLayout layout_with(const std::vector<std::string>& names) {
     return layout;
 }
 
-TEST(LampStrengths, AreThoseOfTheirNamesTimesThatOfAll) {
+TEST(LampStrengths, AreProductsOfOwnAndGlobalStrength) {
     LampSettings settings{
         .strength = 2,
         .each = {{.name = "b", .strength = 3, .color = {1, 0.5f, 0}}, {.name = "c", .on = false}}};
@@ -54,7 +54,7 @@ TEST(LampStrengths, AreThoseOfTheirNamesTimesThatOfAll) {
     EXPECT_FALSE(any_shines(settings));
 }
 
-TEST(LampStrengths, StayWhereTransferComesThatHasTheSameLamps) {
+TEST(LampStrengths, AreKeptForTransferWithTheSameLamps) {
     const prt::TransferLayout raw = layout_with({"a", "b"}), compressed = layout_with({"b", "c"});
     const prt::TransferLayout* both[] = {&raw, &compressed};
     const std::vector<LampControl> lamps = lamps_of(both, {{.name = "b", .strength = 5}, {.name = "gone"}});
@@ -136,7 +136,7 @@ protected:
     std::vector<float> alpha;
 };
 
-TEST_F(LampPictures, ChangeWithTheStrengthAsLightDoes) {
+TEST_F(LampPictures, ScaleWithTheStrength) {
     load(lit_scene());
     ASSERT_EQ(transfer.layout.lamps(), 2u);
     for (const PictureKind kind : {PictureKind::prt, PictureKind::prt_compressed})
@@ -181,7 +181,7 @@ TEST_F(LampPictures, AreSumsOverTheLampsByName) {
     }
 }
 
-TEST_F(LampPictures, ShowWhatShinesTimesItsStrengthInEveryKind) {
+TEST_F(LampPictures, ShowEmissionTimesStrengthInEveryKind) {
     load(shining_square({0.25f, 2, 0.5f}));
     ASSERT_EQ(transfer.layout.lamps(), 1u);
     for (const PictureKind kind : {PictureKind::unshadowed, PictureKind::ssao, PictureKind::ssao_normals,
@@ -214,7 +214,7 @@ void add_texture(prt::Scene& scene) {
     }
 }
 
-TEST_F(LampPictures, ShowTexturesOfWhatShinesAsTheRendererDoes) {
+TEST_F(LampPictures, ShowEmissiveTexturesLikeTheRenderer) {
     prt::Scene scene = shining_square({2, 3, 4});
     add_texture(scene);
     load(std::move(scene));
@@ -235,7 +235,7 @@ TEST_F(LampPictures, ShowTexturesOfWhatShinesAsTheRendererDoes) {
     }
 }
 
-TEST_F(LampPictures, OfASkyAloneShowNothingThatShines) {
+TEST_F(LampPictures, UnderASkyShowNoEmission) {
     load(shining_square({0.25f, 2, 0.5f}));
     gpu->set_light(sky);
     renderer->draw(1, PictureKind::prt, *gpu, settings, view, {0, kColumns});
@@ -302,22 +302,22 @@ TEST_F(ViewedLamp, IsSetByScripts) {
     EXPECT_EQ(picture("again.png").pixels, both.pixels);
 }
 
-TEST_F(ViewedLamp, IsRefusedWithTheReason) {
+TEST_F(ViewedLamp, IsRejectedWithTheReason) {
     const auto says = [&](const std::string& step, const char* part) {
         const std::string text = why(step);
         EXPECT_NE(text.find(part), std::string::npos) << step << ": " << text;
         EXPECT_NE(text.find("step 3: "), std::string::npos) << text;
     };
-    says(R"({"lamps": {"Lamp.c": 1}})", "no lamp of the model is called 'Lamp.c'; there are: Lamp.a, Lamp.b");
+    says(R"({"lamps": {"Lamp.c": 1}})", "the model has no lamp 'Lamp.c'; its lamps: Lamp.a, Lamp.b");
     for (const char* strength :
          {"-1", "-1e-9", "2e9", "1e39", "null", "\"NaN\"", "[1, 2]", "[1, 2, -3]", "[1, 2, null]", "true"}) {
-        says(std::string(R"({"lamps": {"Lamp.a": )") + strength + "}}",
-             "the strength of 'Lamp.a' is neither");
-        says(std::string(R"({"lamps": {"*": )") + strength + "}}", "the strength of '*' is neither");
+        says(std::string(R"({"lamps": {"Lamp.a": )") + strength + "}}", "the strength of 'Lamp.a' is not");
+        says(std::string(R"({"lamps": {"*": )") + strength + "}}", "the strength of '*' is not");
     }
-    says(R"({"lamps": 3})", "an object of names and strengths");
-    says(R"({"set": {"lamp_strength": -0.5}})", "lamp_strength is a finite number from 0 on, not -0.5");
-    says(R"({"set": {"lamp_strength": 1e39}})", "lamp_strength is a finite number");
+    says(R"({"lamps": 3})", "must be an object of names and strengths");
+    says(R"({"set": {"lamp_strength": -0.5}})",
+         "lamp_strength must be a finite number of at least 0, not -0.5");
+    says(R"({"set": {"lamp_strength": 1e39}})", "lamp_strength must be a finite number");
     says(R"({"set": {"lamp_strength": null}})", "must be number");
     // Values that JSON cannot represent do not reach the step.
     EXPECT_NE(why(R"({"lamps": {"*": NaN}})").find("script.json"), std::string::npos);
@@ -363,7 +363,7 @@ protected:
     std::unique_ptr<Viewer> viewer;
 };
 
-TEST_F(LampsOfTheViewer, AreListedAndGoWithTheModel) {
+TEST_F(LampsOfTheViewer, AreListedWhileTheModelIsOpen) {
     ASSERT_EQ(lamps().each.size(), 2u);
     EXPECT_EQ(lamps().each[0].name, "Lamp.a");
     EXPECT_EQ(lamps().each[1].name, "Lamp.b");
@@ -378,11 +378,11 @@ TEST_F(LampsOfTheViewer, AreListedAndGoWithTheModel) {
     EXPECT_TRUE(lamps().each.empty());
 }
 
-TEST_F(LampsOfTheViewer, AreSaidToBeMissingWherePicturesHaveNone) {
+TEST_F(LampsOfTheViewer, AreReportedAsMissingInPicturesWithoutLamps) {
     EXPECT_EQ(viewer->shown(PictureKind::prt).note, "");
     EXPECT_EQ(viewer->shown(PictureKind::prt_compressed).note, "");
-    EXPECT_EQ(viewer->shown(PictureKind::reference).note, "without lamps and what shines");
-    EXPECT_EQ(viewer->shown(PictureKind::unshadowed).note, "without the light of lamps");
+    EXPECT_EQ(viewer->shown(PictureKind::reference).note, "without lamps and emission");
+    EXPECT_EQ(viewer->shown(PictureKind::unshadowed).note, "without lamps");
     lamps().on = false;
     EXPECT_EQ(viewer->shown(PictureKind::reference).note, "");
     EXPECT_EQ(viewer->shown(PictureKind::unshadowed).note, "");
@@ -390,7 +390,7 @@ TEST_F(LampsOfTheViewer, AreSaidToBeMissingWherePicturesHaveNone) {
 
 // By day the exposure is fully automatic; at night brighter lamps look brighter: 0.6 of a stop is
 // compensated.
-TEST_F(LampsOfTheViewer, AreMeteredInFullByDayAndInPartAtNight) {
+TEST_F(LampsOfTheViewer, AreMeteredFullyByDayAndPartlyAtNight) {
     viewer->lights.day = viewer->lights.environment_on = false; // no night either
     frame();
     const float alone = stops();
@@ -406,7 +406,7 @@ TEST_F(LampsOfTheViewer, AreMeteredInFullByDayAndInPartAtNight) {
     EXPECT_NEAR(stops() - night, -0.6f, 0.1f);
 }
 
-TEST_F(LampsOfTheViewer, LightNumbersToo) {
+TEST_F(LampsOfTheViewer, LightNumberPictures) {
     viewer->settings.right = PictureKind::error;
     viewer->settings.split = 0;
     const auto error_picture = [&] {

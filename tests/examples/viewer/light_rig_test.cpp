@@ -79,7 +79,7 @@ INSTANTIATE_TEST_SUITE_P(All, RigLights,
                          testing::Values(LightKind::sun, LightKind::cone, LightKind::sphere,
                                          LightKind::hemisphere));
 
-TEST(LightRig, TurnsTheEnvironmentForBoth) {
+TEST(LightRig, RotatesTheEnvironmentForBandsAndRays) {
     LightRig rig;
     rig.set_environment(gradient());
     LightSettings settings = rig.settings();
@@ -93,7 +93,7 @@ TEST(LightRig, TurnsTheEnvironmentForBoth) {
     EXPECT_GT(relative_difference(rig.light(kOrder), rotated), 0.05);
 }
 
-TEST(LightRig, LetsTheSunRiseInTheEastAndStandInTheSouthAtNoon) {
+TEST(LightRig, SunRisesInTheEastAndIsSouthAtNoon) {
     LightRig rig;
     LightSettings settings = rig.settings();
     settings.day = true;
@@ -119,7 +119,7 @@ TEST(LightRig, TheSunOfTheDayIsHalfADegreeAcross) {
     EXPECT_NEAR(separate.suns[0].half_angle, 0.265 * std::numbers::pi / 180, 1e-12);
 }
 
-TEST(LightRig, DayFallsIntoABlueNightThatIsDarkerThanDusk) {
+TEST(LightRig, NightIsBlueAndDarkerThanDusk) {
     LightRig rig;
     LightSettings settings = rig.settings();
     const auto mean = [&](double hour) {
@@ -165,7 +165,7 @@ float min_over_mean(const prt::Light& light) {
     return least;
 }
 
-TEST(LightRig, LightIsNowhereNegativeUnlessAWindowIsChosenThatLetsIt) {
+TEST(LightRig, LightIsNonnegativeWithTheDefaultWindow) {
     LightRig rig; // a clear day
     LightSettings settings = rig.settings();
     for (const bool with_sun : {false, true}) {
@@ -187,7 +187,7 @@ prt::Light together(const SeparateLight& separate) {
     return prt::sum(separate.lighting.sky, *separate.lighting.suns);
 }
 
-TEST(LightRig, TakenApartIsTheSameLight) {
+TEST(LightRig, SeparateLightSumsToTheCombinedLight) {
     LightRig rig; // a clear day with its sun
     LightSettings settings = rig.settings();
     settings.window = prt::Window::none;
@@ -208,7 +208,7 @@ TEST(LightRig, TakenApartIsTheSameLight) {
     EXPECT_EQ(rig.separate_light(kOrder).suns.size(), 1U);
 }
 
-TEST(LightRig, KeepsTheStrongestSunsApartAndTheOthersInTheSky) {
+TEST(LightRig, SeparatesOnlyTheStrongestSuns) {
     LightRig rig;
     LightSettings settings = rig.settings();
     settings.day = settings.environment_on = false;
@@ -226,7 +226,7 @@ TEST(LightRig, KeepsTheStrongestSunsApartAndTheOthersInTheSky) {
     EXPECT_LT(relative_difference(together(separate), rig.light(kOrder)), 1e-6);
 }
 
-TEST(LightRig, FindsTheSunsOfAnEnvironmentAndTurnsThemWithIt) {
+TEST(LightRig, FindsAndRotatesTheSunsOfAnEnvironment) {
     const prt::test::TemporaryFolder folder;
     prt::Image image{256, 128, std::vector<glm::vec3>(std::size_t{256} * 128, glm::vec3(1))};
     const glm::dvec3 at = prt::lat_long_direction(256, 128, 100.5, 40.5);

@@ -126,7 +126,7 @@ double share_of_difference(const prt::Image& a, const prt::Image& b) {
     return difference / sum;
 }
 
-TEST_F(LightmapPictures, AreThoseThatPrtRenderDraws) {
+TEST_F(LightmapPictures, MatchPrtRender) {
     for (const PictureKind kind : {PictureKind::prt, PictureKind::prt_compressed}) {
         const std::vector<glm::vec3> texels = radiance(kind);
         const prt::Image expected = prt::render_gl(picture_by(texels), *context);
@@ -137,7 +137,7 @@ TEST_F(LightmapPictures, AreThoseThatPrtRenderDraws) {
     }
 }
 
-TEST_F(LightmapPictures, AreThoseOfRaysWhereATexelIsAsLargeAsPixels) {
+TEST_F(LightmapPictures, MatchRaysForTexelsOfPixelSize) {
     look_at_floor(2); // larger ones have no smaller levels, which rays do not know
     settings.drawing.textured = false;
     const std::vector<glm::vec3> texels = radiance(PictureKind::prt_compressed);
@@ -146,7 +146,7 @@ TEST_F(LightmapPictures, AreThoseOfRaysWhereATexelIsAsLargeAsPixels) {
     EXPECT_LT(share_of_difference(drawn(PictureKind::prt_compressed), expected), 0.01);
 }
 
-TEST_F(LightmapPictures, TakeUpAnotherLight) {
+TEST_F(LightmapPictures, FollowChangesOfLight) {
     const prt::Image before = drawn(PictureKind::prt);
     for (glm::vec3& c : lit.lighting.sky.coefficients)
         c *= 2.0f;
@@ -166,7 +166,7 @@ TEST_F(LightmapPictures, TakeUpAnotherLight) {
     EXPECT_GT(share_of_difference(before, twice), 0.1);
 }
 
-TEST_F(LightmapPictures, OfNumbersShowThoseOfTheTexelAtEachPixel) {
+TEST_F(LightmapPictures, NumbersShowTheTexelAtEachPixel) {
     look_at_floor(8);
     std::vector<glm::vec3> colors;
     for (std::size_t t = 0; t < loaded.lightmap.layout()->texels();
@@ -226,7 +226,7 @@ TEST_F(LightmapPictures, HaveAGridAtTheBordersOfTexels) {
         }
 }
 
-TEST_F(LightmapPictures, HaveNoGridWhereTexelsAreSmallerThanAFewPixels) {
+TEST_F(LightmapPictures, HaveNoGridForSmallTexels) {
     const auto changed = [&](float texel_pixels) {
         look_at_floor(texel_pixels);
         const prt::Image plain = drawn(PictureKind::unshadowed);
@@ -245,7 +245,7 @@ TEST_F(LightmapPictures, HaveNoGridWhereTexelsAreSmallerThanAFewPixels) {
     EXPECT_LT(faint, whole); // though there are more lines
 }
 
-TEST_F(LightmapPictures, KeepWhereSurfacesAreUnderTheGrid) {
+TEST_F(LightmapPictures, KeepDepthUnderTheGrid) {
     look_at_floor(10);
     std::vector<float> before, after;
     renderer->draw(1, PictureKind::prt, *gpu, settings.drawing, view, {0, kShot.x});
@@ -290,7 +290,7 @@ TEST_F(LightmapPictures, HaveLobesOfTheTexelUnderThePointer) {
     EXPECT_EQ(found->cluster, loaded.compressed->receivers.clusters[found->receiver]);
 }
 
-TEST_F(LightmapPictures, OfErrorsAreBrightestWhereATexelLostMost) {
+TEST_F(LightmapPictures, ErrorsAreBrightestAtTheWorstTexel) {
     const auto pictures = number_pictures(loaded, lit.lighting, {});
     ASSERT_EQ(pictures.size(), 4u);
     for (const auto& [kind, colors] : pictures)
@@ -323,7 +323,7 @@ prt::Scene floor_with_lamp() {
     return scene;
 }
 
-TEST_F(LightmapPictures, ShowLampsAndWhatShines) {
+TEST_F(LightmapPictures, ShowLampsAndEmission) {
     loaded = {};
     loaded.model = make_model(floor_with_lamp(), "test");
     const prt::Scene& scene = loaded.model->scene;

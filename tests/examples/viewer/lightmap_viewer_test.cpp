@@ -69,7 +69,7 @@ protected:
     std::unique_ptr<Offscreen> screen;
 };
 
-TEST_F(LightmapViewer, CompressesABakeAndSaysWhatItTakes) {
+TEST_F(LightmapViewer, CompressesABakeAndReportsItsSize) {
     open({files.raw()});
     EXPECT_EQ(message(), "");
     EXPECT_TRUE(viewer->document().loaded.of_texels());
@@ -112,7 +112,7 @@ TEST_F(LightmapViewer, SavesTheCompressedLightmap) {
     EXPECT_LT(again, 0.2);
 }
 
-TEST_F(LightmapViewer, PutsABakeAndItsCompressedFileTogether) {
+TEST_F(LightmapViewer, CombinesABakeAndItsCompressedFile) {
     for (const bool bake_first : {false, true})
         for (const bool at_once : {false, true}) {
             TearDown();
@@ -134,13 +134,13 @@ TEST_F(LightmapViewer, PutsABakeAndItsCompressedFileTogether) {
         }
 }
 
-TEST_F(LightmapViewer, SaysWhatALightmapAloneCannotShow) {
+TEST_F(LightmapViewer, ReportsPicturesThatNeedMoreThanALightmap) {
     open({files.shipped()});
     EXPECT_EQ(viewer->shown(PictureKind::prt_compressed).kind, PictureKind::prt_compressed);
-    EXPECT_EQ(viewer->shown(PictureKind::clusters).note, "not there yet");
+    EXPECT_EQ(viewer->shown(PictureKind::clusters).note, "not available yet");
     EXPECT_EQ(viewer->never_shown(PictureKind::clusters), "");
     for (const PictureKind kind : {PictureKind::prt, PictureKind::error, PictureKind::seams})
-        EXPECT_NE(viewer->never_shown(kind).find("open its bake, too"), std::string::npos)
+        EXPECT_NE(viewer->never_shown(kind).find("also open its bake"), std::string::npos)
             << name_of(kind).id;
     EXPECT_NE(viewer->never_shown(PictureKind::surface_error).find("of vertices"), std::string::npos);
     EXPECT_EQ(viewer->never_shown(PictureKind::reference), "");
@@ -182,7 +182,7 @@ TEST_F(LightmapViewer, ShowsVerticesAndALightmapSideBySide) {
         }
 }
 
-TEST_F(LightmapViewer, BakesVerticesToTheEndThoughALightmapIsOpenedMeanwhile) {
+TEST_F(LightmapViewer, CompletesAVertexBakeWhileALightmapIsOpened) {
     const std::filesystem::path lightmap = files.shipped();
     viewer->open({files.unbaked()});
     while (!viewer->document().raw() && viewer->jobs().busy())
@@ -211,19 +211,19 @@ TEST_F(LightmapViewer, HasNumbersOfBoth) {
     EXPECT_EQ(viewer->shown(right_picture(viewer->settings)).kind, PictureKind::error);
 }
 
-TEST_F(LightmapViewer, RefusesWhatDoesNotBelongToIt) {
+TEST_F(LightmapViewer, RejectsMismatchedFiles) {
     const std::filesystem::path shipped = files.shipped(), other = files.folder() / "other.glb";
     std::filesystem::copy_file(files.raw(32), files.folder() / "coarse.glb");
     prt::test::scene_file(prt::test::SceneBuilder().floor({0, 0, 0}, 1).build()).write(other);
     open({shipped, other});
-    EXPECT_NE(message().find("other.glb: is another scene than "), std::string::npos) << message();
+    EXPECT_NE(message().find("other.glb: contains a different scene than "), std::string::npos) << message();
     viewer->dismiss_messages();
     open({shipped, shipped});
-    EXPECT_NE(message().find("lightmap.shipped.glb: adds no transfer to "), std::string::npos) << message();
+    EXPECT_NE(message().find("lightmap.shipped.glb: contains no additional transfer for "), std::string::npos)
+        << message();
     viewer->dismiss_messages();
     open({shipped, files.folder() / "coarse.glb"});
-    EXPECT_NE(message().find("coarse.glb: its lightmap has other maps than that of "), std::string::npos)
-        << message();
+    EXPECT_NE(message().find("coarse.glb: its maps differ from those of "), std::string::npos) << message();
     viewer->dismiss_messages();
     // A damaged image names the file.
     prt::test::GlbFile damaged = prt::test::read_glb(shipped);

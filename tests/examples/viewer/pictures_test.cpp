@@ -152,7 +152,7 @@ struct SeparateSun {
 // Half precision of the target is 0.05 %, and both interpolate between vertices.
 constexpr double kSame = 0.003;
 
-TEST_F(ViewerPictures, OfRawTransferAreThoseOfCpp) {
+TEST_F(ViewerPictures, RawTransferMatchesCpp) {
     const prt::Transfer transfer = baked();
     gpu->set_raw(transfer);
     EXPECT_LT(mean_difference(drawn(PictureKind::prt), rays(prt::exit_radiance(transfer, light))), kSame);
@@ -166,14 +166,14 @@ TEST_F(ViewerPictures, OfRawTransferAreThoseOfCpp) {
     EXPECT_LT(mean_difference(drawn(PictureKind::prt), rays(prt::exit_radiance(transfer, light))), 0.006);
 }
 
-TEST_F(ViewerPictures, OfColoredTransferAreThoseOfCpp) {
+TEST_F(ViewerPictures, ColoredTransferMatchesCpp) {
     const prt::Transfer transfer = baked();
     ASSERT_EQ(transfer.layout.channels(), 3);
     gpu->set_raw(transfer);
     EXPECT_LT(mean_difference(drawn(PictureKind::prt), rays(prt::exit_radiance(transfer, light))), kSame);
 }
 
-TEST_F(ViewerPictures, OfTransferOfOneChannelAreThoseOfCpp) {
+TEST_F(ViewerPictures, SingleChannelTransferMatchesCpp) {
     const prt::Transfer colored = prt::as_combined(baked());
     prt::Transfer white = prt::zero_transfer(colored.layout.order, 1, colored.receivers());
     for (std::size_t p = 0; p < white.receivers(); ++p)
@@ -182,7 +182,7 @@ TEST_F(ViewerPictures, OfTransferOfOneChannelAreThoseOfCpp) {
     EXPECT_LT(mean_difference(drawn(PictureKind::prt), rays(prt::exit_radiance(white, light))), kSame);
 }
 
-TEST_F(ViewerPictures, OfRawTransferInPiecesAreTheSame) {
+TEST_F(ViewerPictures, RawTransferDoesNotDependOnRanges) {
     const prt::Transfer transfer = baked();
     gpu->set_raw(transfer);
     const prt::Image whole = drawn(PictureKind::prt);
@@ -192,7 +192,7 @@ TEST_F(ViewerPictures, OfRawTransferInPiecesAreTheSame) {
     EXPECT_EQ(drawn(PictureKind::prt).pixels, whole.pixels);
 }
 
-TEST_F(ViewerPictures, OfCompressedTransferAreThoseOfCpp) {
+TEST_F(ViewerPictures, CompressedTransferMatchesCpp) {
     const prt::ClusteredTransfer transfer = compressed(baked());
     gpu->set_compressed(transfer);
     const auto radiance = prt::exit_radiance(transfer, light);
@@ -201,7 +201,7 @@ TEST_F(ViewerPictures, OfCompressedTransferAreThoseOfCpp) {
     EXPECT_LT(mean_difference(drawn(PictureKind::prt_compressed), rays(radiance)), kSame);
 }
 
-TEST_F(ViewerPictures, OfUnshadowedIrradianceAreTheLobesOfTheNormals) {
+TEST_F(ViewerPictures, UnshadowedIrradianceUsesNormalLobes) {
     // Three bands per pixel against three bands per vertex; the sphere's facets are fine.
     const auto radiance = prt::exit_radiance(prt::unshadowed_transfer(model->scene, 3), light);
     EXPECT_LT(mean_difference(drawn(PictureKind::unshadowed), rays(radiance)), 0.005);
@@ -209,7 +209,7 @@ TEST_F(ViewerPictures, OfUnshadowedIrradianceAreTheLobesOfTheNormals) {
     EXPECT_LT(mean_difference(drawn(PictureKind::unshadowed), rays(radiance)), 0.006);
 }
 
-TEST_F(ViewerPictures, OfBakedOcclusionAreThoseOfTracedOcclusion) {
+TEST_F(ViewerPictures, BakedOcclusionMatchesTracedOcclusion) {
     gpu->set_occlusion(ambient_occlusion(*model, {}));
     gpu->set_light(prt::constant_light(6, glm::vec3(1))); // R is then the occlusion itself
     const prt::Image picture = drawn(PictureKind::baked_ao);
@@ -337,7 +337,7 @@ TEST_P(Ssao, LeavesAFlatPlaneOpen) {
     }
 }
 
-TEST_P(Ssao, DarkensACornerAndNothingFarFromIt) {
+TEST_P(Ssao, DarkensOnlyNearACorner) {
     load(corner());
     view.camera = {{0, 3, 9}, {0, 1, 0}, {0, 1, 0}, 0.6f};
     settings.drawing.ssao.radius = 0.6f / model->radius;
@@ -356,7 +356,7 @@ TEST_P(Ssao, DarkensACornerAndNothingFarFromIt) {
     EXPECT_LT(at_position(occlusion(), {0, 0, 0.7f}), at_position(values, {0, 0, 0.7f}) - 0.02f);
 }
 
-TEST_P(Ssao, MakesNoHaloesAboutWhatIsFarInFront) {
+TEST_P(Ssao, HasNoHaloesAroundDistantForeground) {
     // A wall, and a board two units before it.
     load(SceneBuilder()
              .quad({-8, -8, 0}, {8, -8, 0}, {8, 8, 0}, {-8, 8, 0})
@@ -369,7 +369,7 @@ TEST_P(Ssao, MakesNoHaloesAboutWhatIsFarInFront) {
         EXPECT_GT(at_position(values, {1.5f * x, 0, 0}), 0.9f) << x;
 }
 
-TEST_P(Ssao, IsMultipliedIntoTheIrradianceAndNothingElse) {
+TEST_P(Ssao, ScalesOnlyIrradiance) {
     load(corner());
     settings.drawing.textured = true;
     const prt::Image open = drawn(PictureKind::unshadowed), shaded = drawn(GetParam());
@@ -384,7 +384,7 @@ TEST_P(Ssao, IsMultipliedIntoTheIrradianceAndNothingElse) {
         }
 }
 
-TEST_F(ViewerPictures, OfNumbersAreTheirColors) {
+TEST_F(ViewerPictures, NumbersShowTheirColors) {
     const prt::ClusteredTransfer transfer = compressed(baked());
     const prt::Transfer raw = baked();
     const auto reference = prt::exit_radiance(raw, light),
@@ -404,7 +404,7 @@ TEST_F(ViewerPictures, OfNumbersAreTheirColors) {
     }
 }
 
-TEST_F(ViewerPictures, AreTheSameWithAndWithoutCulling) {
+TEST_F(ViewerPictures, DoNotDependOnCulling) {
     gpu->set_raw(baked());
     view.camera.target = {0.4f, -0.2f, 0};
     view.camera.position = {0.7f, 0, 1.1f};
@@ -417,7 +417,7 @@ TEST_F(ViewerPictures, AreTheSameWithAndWithoutCulling) {
     EXPECT_EQ(all.pixels, culled.pixels);
 }
 
-TEST_F(ViewerPictures, DifferenceIsTheSumOverThePixelsThatBothShow) {
+TEST_F(ViewerPictures, DifferenceSumsPixelsShownByBoth) {
     gpu->set_raw(baked());
     const prt::Image a = drawn(PictureKind::unshadowed, 0), b = drawn(PictureKind::prt, 1);
     double squared = 0, norm = 0, mean = 0, pixels = 0;
@@ -462,7 +462,7 @@ TEST_F(ViewerPictures, OnTheScreenAreToneMappedAsInCppAndSplit) {
         }
 }
 
-TEST_F(ViewerPictures, OfWiresAreDarkWhereTrianglesMeet) {
+TEST_F(ViewerPictures, WiresAreDarkAtTriangleEdges) {
     load(SceneBuilder().floor({0, 0, 0}, 1, 1).build()); // two triangles, one diagonal
     gpu->set_light(prt::constant_light(6, glm::vec3(1)));
     view.camera = {{0, 3, 0.01f}, {0, 0, 0}, {0, 0, -1}, 0.6f};
@@ -481,7 +481,7 @@ TEST_F(ViewerPictures, OfWiresAreDarkWhereTrianglesMeet) {
     EXPECT_LT(darkest, 0.5f);
 }
 
-TEST_F(ViewerPictures, OfSunsApartAreThoseOfTheRenderer) {
+TEST_F(ViewerPictures, SeparateSunsMatchTheRenderer) {
     const SeparateSun separate_light;
     const prt::Transfer transfer = baked();
     const prt::ClusteredTransfer small = compressed(transfer);
@@ -502,7 +502,7 @@ TEST_F(ViewerPictures, OfSunsApartAreThoseOfTheRenderer) {
     EXPECT_LT(mean_difference(drawn(PictureKind::prt), raw), kSame);
 }
 
-TEST_F(ViewerPictures, AddTheSameSunsToEveryWayToLightTheSky) {
+TEST_F(ViewerPictures, AddEqualSunsToEverySkyLighting) {
     const SeparateSun separate_light;
     prt::Lighting black = separate_light.lighting;
     for (glm::vec3& c : black.sky.coefficients)
@@ -518,7 +518,7 @@ TEST_F(ViewerPictures, AddTheSameSunsToEveryWayToLightTheSky) {
     EXPECT_LT(mean_difference(drawn(PictureKind::unshadowed), expected), kSame);
 }
 
-TEST_F(ViewerPictures, OfTransferInOnePartTakeSunsAsSky) {
+TEST_F(ViewerPictures, CombinedTransferUsesSunsAsSky) {
     const SeparateSun separate_light;
     const prt::Transfer transfer = baked();
     const prt::Transfer whole = prt::as_combined(transfer);

@@ -93,7 +93,7 @@ TEST_F(Script, OpensWaitsDrawsAndReports) {
     EXPECT_NE(picture("split.png").pixels, picture("panels.png").pixels);
 }
 
-TEST_F(Script, KeysAndThePointerDoWhatTheyDoInTheWindow) {
+TEST_F(Script, KeysAndPointerWorkAsInTheWindow) {
     run(R"([
         {"size": [320, 180]}, {"wait": "work"}, {"set": {"panels": false, "split": 0}},
         {"screenshot": "a.png"},
@@ -182,7 +182,7 @@ TEST_F(Script, TheScaleOfTheDisplayMakesPanelsLarger) {
     EXPECT_GT(at("two.png", 500, 30).b, 60);
 }
 
-TEST_F(Script, MeasuresWhereTheErrorOverTheSurfaceComesFrom) {
+TEST_F(Script, MeasuresTheErrorBudget) {
     run(R"([
         {"size": [160, 90]}, {"wait": "work"}, {"no_sky": []},
         {"set": {"panels": false, "split": 0, "background": false}},
@@ -219,26 +219,25 @@ TEST_F(Script, SavesTheCompressedModel) {
     EXPECT_GT(json("f.json")["bytes_per_vertex"].get<double>(), 0);
 }
 
-TEST_F(Script, SaysWhatIsWrongWithAScriptAndWhere) {
+TEST_F(Script, ReportsErrorsWithTheirStep) {
     EXPECT_NE(why("[{\"set\": ").find("script.json: "), std::string::npos);
     EXPECT_NE(why("{}").find("no array"), std::string::npos);
-    EXPECT_NE(why("[{\"draw\": 1}, {\"dance\": 1}]").find("step 2: there is no step called 'dance'"),
-              std::string::npos);
+    EXPECT_NE(why("[{\"draw\": 1}, {\"dance\": 1}]").find("step 2: unknown step 'dance'"), std::string::npos);
     EXPECT_NE(why("[{\"draw\": \"often\"}]").find("step 1: "), std::string::npos);
-    EXPECT_NE(why("[{\"set\": {\"left\": \"nothing\"}}]").find("no picture called 'nothing'"),
+    EXPECT_NE(why("[{\"set\": {\"left\": \"nothing\"}}]").find("unknown picture 'nothing'"),
               std::string::npos);
-    EXPECT_NE(why("[{\"light\": {\"kind\": \"torch\"}}]").find("no light called 'torch'"), std::string::npos);
+    EXPECT_NE(why("[{\"light\": {\"kind\": \"torch\"}}]").find("unknown light 'torch'"), std::string::npos);
     EXPECT_NE(why("[{\"keys\": \"\\u0001\"}]").find("no key"), std::string::npos);
     EXPECT_NE(why("[{\"size\": [0, 5]}]").find("above 0"), std::string::npos);
     EXPECT_NE(why("[7]").find("one member"), std::string::npos);
     EXPECT_THROW(run_script(folder / "missing.json", {}), prt::Error);
 }
 
-TEST_F(Script, FailsOnAMessageThatItDoesNotExpect) {
+TEST_F(Script, FailsOnUnexpectedMessages) {
     EXPECT_NE(why(R"([{"open": "missing.glb"}, {"wait": "work"}])").find("missing.glb"), std::string::npos);
     EXPECT_EQ(why(R"([{"open": "missing.glb"}, {"expect_message": "missing.glb"}, {"draw": 1}])"), "");
     EXPECT_NE(why(R"([{"open": "missing.glb"}, {"expect_message": "sunshine"}])")
-                  .find("no message says 'sunshine'"),
+                  .find("no message contains 'sunshine'"),
               std::string::npos);
 }
 

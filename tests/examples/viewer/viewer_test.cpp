@@ -114,7 +114,7 @@ protected:
     std::unique_ptr<Offscreen> screen;
 };
 
-TEST_F(ViewerTest, BakesWhatIsNotBakedAndShowsItBeforeItIsDone) {
+TEST_F(ViewerTest, BakesAndShowsIntermediateResults) {
     viewer->settings.right = PictureKind::prt;
     viewer->open({unbaked()});
     bool early = false;
@@ -135,13 +135,13 @@ TEST_F(ViewerTest, BakesWhatIsNotBakedAndShowsItBeforeItIsDone) {
     EXPECT_EQ(viewer->figures().transfer.order, 6);
 }
 
-TEST_F(ViewerTest, OpensCompressedFilesAndSaysWhatTheyLack) {
+TEST_F(ViewerTest, OpensCompressedFilesAndReportsMissingPictures) {
     viewer->settings.right = PictureKind::prt;
     open({shipped()});
     EXPECT_EQ(viewer->figures().transfer.order, 4);
     EXPECT_EQ(viewer->figures().transfer.bytes_per_receiver, 4);
     EXPECT_EQ(right(), PictureKind::unshadowed);
-    EXPECT_NE(viewer->shown(PictureKind::prt).note.find("bake to see it"), std::string::npos);
+    EXPECT_NE(viewer->shown(PictureKind::prt).note.find("bake again to see it"), std::string::npos);
     EXPECT_EQ(viewer->shown(PictureKind::prt_compressed).kind, PictureKind::prt_compressed);
     EXPECT_GT(viewer->figures().milliseconds.open, 0);
     viewer->bake_anew();
@@ -149,7 +149,7 @@ TEST_F(ViewerTest, OpensCompressedFilesAndSaysWhatTheyLack) {
     EXPECT_EQ(right(), PictureKind::prt);
 }
 
-TEST_F(ViewerTest, PutsABakeAndItsCompressedFileTogether) {
+TEST_F(ViewerTest, CombinesABakeAndItsCompressedFile) {
     for (const bool reordered : {false, true})
         for (const bool at_once : {false, true})
             for (const bool bake_first : {false, true}) {
@@ -175,15 +175,15 @@ TEST_F(ViewerTest, PutsABakeAndItsCompressedFileTogether) {
             }
 }
 
-TEST_F(ViewerTest, RefusesAnotherSceneForABake) {
+TEST_F(ViewerTest, RejectsADifferentSceneForABake) {
     const std::filesystem::path other = folder / "other.glb";
     prt::test::scene_file(SceneBuilder().floor({0, 0, 0}, 1).build()).write(other);
     open({shipped(), other});
     ASSERT_FALSE(viewer->messages().empty());
-    EXPECT_NE(viewer->messages().back().find("other.glb: is another scene"), std::string::npos);
+    EXPECT_NE(viewer->messages().back().find("other.glb: contains a different scene"), std::string::npos);
 }
 
-TEST_F(ViewerTest, SurvivesWhatIsBroken) {
+TEST_F(ViewerTest, SurvivesDamagedFiles) {
     const auto write = [&](const char* name, const std::string& text) { return folder.file(name, text); };
     std::string glb = prt::test::scene_file(SceneBuilder().floor({0, 0, 0}, 1).build()).bytes();
     const std::pair<std::filesystem::path, const char*> files[] = {
@@ -213,7 +213,7 @@ TEST_F(ViewerTest, SurvivesWhatIsBroken) {
     EXPECT_EQ(right(), PictureKind::prt_compressed);
 }
 
-TEST_F(ViewerTest, LightsSunsApartUnlessToldOtherwise) {
+TEST_F(ViewerTest, SeparatesSunsByDefault) {
     open({shipped()});
     viewer->settings.split = 0;
     const auto picture = [&] {
@@ -239,7 +239,7 @@ TEST_F(ViewerTest, LightsSunsApartUnlessToldOtherwise) {
     EXPECT_EQ(picture().pixels, night.pixels);
 }
 
-TEST_F(ViewerTest, SaysWhereTransferKeepsNoDirectLightApart) {
+TEST_F(ViewerTest, ReportsTransferWithoutDirectTerm) {
     prt::GltfDocument document = prt::load_gltf(unbaked());
     const prt::Scene scene = prt::extract_scene(document);
     prt::BakeOptions options;
@@ -250,14 +250,15 @@ TEST_F(ViewerTest, SaysWhereTransferKeepsNoDirectLightApart) {
     prt::save_glb(document, folder / "whole.glb");
     open({folder / "whole.glb"});
     EXPECT_EQ(viewer->shown(PictureKind::prt).kind, PictureKind::prt);
-    EXPECT_NE(viewer->shown(PictureKind::prt).note.find("no direct light is kept apart"), std::string::npos);
+    EXPECT_NE(viewer->shown(PictureKind::prt).note.find("the transfer has no direct term"),
+              std::string::npos);
     EXPECT_TRUE(viewer->shown(PictureKind::unshadowed).note.empty());
     viewer->settings.lit.separate_suns = false;
     frame();
     EXPECT_TRUE(viewer->shown(PictureKind::prt).note.empty());
 }
 
-TEST_F(ViewerTest, TakesEnvironments) {
+TEST_F(ViewerTest, OpensEnvironments) {
     open({shipped()});
     EXPECT_TRUE(viewer->lights.day);
     prt::write_exr(folder / "red.exr", {32, 16, std::vector<glm::vec3>(512, glm::vec3(1, 0, 0))},
@@ -274,7 +275,7 @@ TEST_F(ViewerTest, TakesEnvironments) {
     EXPECT_NEAR(image.at(kWidth / 2, kHeight - 4).r, 1, 0.3f);
 }
 
-TEST_F(ViewerTest, ListsEveryEnvironmentThatItIsGiven) {
+TEST_F(ViewerTest, ListsEveryEnvironment) {
     std::vector<std::filesystem::path> paths;
     for (const char* name : {"a.exr", "b.exr", "c.exr"}) {
         paths.push_back(folder / name);
@@ -291,7 +292,7 @@ TEST_F(ViewerTest, ListsEveryEnvironmentThatItIsGiven) {
     frame();
 }
 
-TEST_F(ViewerTest, GivesSmallModelsNoMoreBasesThanTheirWeightsAreWorth) {
+TEST_F(ViewerTest, LimitsTheBasesOfSmallModels) {
     open({baked(6)});
     const auto receivers = static_cast<double>(viewer->figures().receivers);
     EXPECT_LT(receivers, 1000);
@@ -300,7 +301,7 @@ TEST_F(ViewerTest, GivesSmallModelsNoMoreBasesThanTheirWeightsAreWorth) {
     EXPECT_LE(viewer->figures().transfer.bytes_with_bases, 4 + std::max(8.0, 4096 / receivers));
 }
 
-TEST_F(ViewerTest, SavesWhatItHasCompressedBesideTheModel) {
+TEST_F(ViewerTest, SavesTheCompressedModelInItsFolder) {
     open({baked()});
     viewer->compression = {3, 8, 2};
     frame();
@@ -359,7 +360,7 @@ TEST_F(ViewerTest, MetersTheModelAndNotTheSky) {
     EXPECT_NEAR(viewer->lighting().meter.stops(), std::log2(0.22 / 8), 0.03);
 }
 
-TEST_F(ViewerTest, CompressesAnewWhereSlidersSaySo) {
+TEST_F(ViewerTest, RecompressesAfterSliderChanges) {
     open({baked()});
     const double before = viewer->figures().transfer.bytes_with_bases;
     viewer->compression = {3, 8, 2};
@@ -376,7 +377,7 @@ TEST_F(ViewerTest, CompressesAnewWhereSlidersSaySo) {
     EXPECT_EQ(viewer->compression.order, 4);
 }
 
-TEST_F(ViewerTest, LosesItsContextAndGoesOn) {
+TEST_F(ViewerTest, RecoversFromAContextLoss) {
     open({baked(), shipped()});
     viewer->settings.split = 0;
     frame();
@@ -436,7 +437,7 @@ TEST_F(ViewerTest, ShowsTheReceiverUnderThePointer) {
     EXPECT_FALSE(viewer->hovered());
 }
 
-TEST_F(ViewerTest, LightsAreGrabbedAndMoved) {
+TEST_F(ViewerTest, LightsCanBeDragged) {
     open({shipped()});
     Controls controls(*viewer);
     viewer->lights.lights = {make_light(LightKind::sun)};
@@ -463,7 +464,7 @@ TEST_F(ViewerTest, LightsAreGrabbedAndMoved) {
     EXPECT_GT(glm::distance(before, viewer->camera.camera().position), 0.1f);
 }
 
-TEST_F(ViewerTest, LivesThroughSizesOfAllKinds) {
+TEST_F(ViewerTest, SupportsAllWindowSizes) {
     open({shipped()});
     for (const glm::ivec2 size : {glm::ivec2(1, 1), {7, 300}, {333, 2}, {640, 360}}) {
         const Offscreen other(size.x, size.y);
@@ -472,7 +473,7 @@ TEST_F(ViewerTest, LivesThroughSizesOfAllKinds) {
     }
 }
 
-TEST(Lobe, ReachesAsFarAsTheFunctionSays) {
+TEST(Lobe, HasTheRadiusOfTheFunction) {
     // Y_10 = 0.4886 z: two balls along z, red above.
     const std::vector<float> function = {0, 0, 1, 0};
     const ColoredMesh lobe = make_lobe(2, function, {1, 2, 3}, 0.5f, {0, 0, 1});

@@ -33,7 +33,7 @@ xdotool mousemove 500 200 mousedown 1 mousemove 560 240 mousemove 600 260 mouseu
 xdotool mousemove 500 200 click 4                                                   # nearer
 xdotool key d key d key w key h key h key Tab key Tab key g
 screenshot prtkit-2.png
-if cmp -s prtkit-1.png prtkit-2.png; then echo "nothing has changed"; exit 1; fi
+if cmp -s prtkit-1.png prtkit-2.png; then echo "the picture did not change"; exit 1; fi
 [ "$(size prtkit-1.png)" = 640x360 ]
 xdotool windowsize --sync "$window" 400 300
 sleep 0.5

@@ -128,11 +128,11 @@ const ExtremeCase kFunctions[] = {
 
 class CInterface : public testing::TestWithParam<ExtremeCase> {};
 INSTANTIATE_TEST_SUITE_P(Functions, CInterface, testing::ValuesIn(kFunctions), test::name_of);
-TEST_P(CInterface, WritesFiniteNumbersOrRefuses) {
+TEST_P(CInterface, WritesFiniteNumbersOrRejects) {
     test::expect_finite_or_refused(GetParam());
 }
 
-TEST(CModel, WritesFiniteNumbersOrRefuses) {
+TEST(CModel, WritesFiniteNumbersOrRejects) {
     const std::vector<std::byte> file = test::lit_model();
     prt_model* model = nullptr;
     prt_message message;

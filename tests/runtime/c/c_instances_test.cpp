@@ -30,7 +30,7 @@ protected:
     prt_instances_info info = {};
 };
 
-TEST_F(CInstances, AreThoseOfTheFile) {
+TEST_F(CInstances, MatchTheFile) {
     EXPECT_EQ(info.count, 3u);
     prt_model_info all = {};
     ASSERT_EQ(prt_model_get_info(model, &all, nullptr), PRT_OK);
@@ -82,7 +82,7 @@ TEST_F(CInstances, WriteTheirShader) {
               PRT_BAD_ARGUMENT);
 }
 
-TEST_F(CInstances, BadArgumentsAreRefused) {
+TEST_F(CInstances, BadArgumentsAreRejected) {
     std::size_t first = 0, count = 0;
     EXPECT_EQ(prt_instances_of_mesh(model, 2, &first, &count, nullptr), PRT_BAD_ARGUMENT);
     EXPECT_EQ(prt_instances_of_mesh(model, 0, nullptr, &count, nullptr), PRT_BAD_ARGUMENT);

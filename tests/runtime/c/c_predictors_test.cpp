@@ -48,7 +48,7 @@ protected:
     prt_vertex_inputs inputs = {};
 };
 
-TEST_F(CPredictors, EvaluateAsInCpp) {
+TEST_F(CPredictors, EvaluateLikeCpp) {
     make({PredictorKind::normal, PredictorKind::position});
     EXPECT_EQ(info.rows, 14u);
     EXPECT_EQ(inputs.normals, 1);
@@ -64,7 +64,7 @@ TEST_F(CPredictors, EvaluateAsInCpp) {
             EXPECT_NEAR(radiance[3 * p + static_cast<std::size_t>(c)], expected[p][c], 1e-5f);
 }
 
-TEST_F(CPredictors, ShadersTakeThePositionsOfMeshes) {
+TEST_F(CPredictors, ShadersUseMeshPositions) {
     make({PredictorKind::position});
     EXPECT_EQ(inputs.normals, 0);
     EXPECT_EQ(inputs.positions, 1);

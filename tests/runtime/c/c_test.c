@@ -245,7 +245,8 @@ static void test_relighting(const prt_model* model, const prt_model_info* info) 
         mean += radiance[3 * p] / (double)info->receivers;
     EXPECT(mean > 0.1 && mean < 1.1);
     prt_message message;
-    EXPECT(prt_model_update_constants(model, info->order - 1, light, constants, &message) == PRT_BAD_ARGUMENT);
+    EXPECT(prt_model_update_constants(model, info->order - 1, light, constants, &message) ==
+           PRT_BAD_ARGUMENT);
     free(radiance);
     free(constants);
     free(light);
@@ -265,7 +266,8 @@ static void test_separate_suns(const prt_model* model, const prt_model_info* inf
     EXPECT(prt_model_update_constants(model, info->order, sky, constants, NULL) == PRT_OK);
     EXPECT(prt_model_update_constants_separate(model, info->order, sky, sun, NULL, separate, NULL) == PRT_OK);
     EXPECT(memcmp(constants, separate, 4 * sizeof(float) * info->rows) == 0);
-    EXPECT(prt_model_update_constants_separate(model, info->order, sky, NULL, NULL, separate, NULL) == PRT_OK);
+    EXPECT(prt_model_update_constants_separate(model, info->order, sky, NULL, NULL, separate, NULL) ==
+           PRT_OK);
     EXPECT(memcmp(constants, separate, 4 * sizeof(float) * info->rows) == 0);
     sun[0] = INFINITY;
     prt_message message;

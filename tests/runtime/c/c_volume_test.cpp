@@ -55,7 +55,7 @@ protected:
     Light sky;
 };
 
-TEST_F(CVolume, SaysWhatItIs) {
+TEST_F(CVolume, ReportsItsProperties) {
     EXPECT_EQ(info.order, 3);
     EXPECT_EQ(info.incident_order, 3);
     EXPECT_EQ(info.probes, expected.visibility.size());
@@ -70,7 +70,7 @@ TEST_F(CVolume, SaysWhatItIs) {
     }
 }
 
-TEST_F(CVolume, FormsTheTexturesOfCpp) {
+TEST_F(CVolume, ComputesTheTexturesOfCpp) {
     const VolumeRelighter relighter(expected);
     const VolumeLookup lookup(expected.grid, expected.visibility);
     std::vector<glm::vec4> computed(relighter.rows());
@@ -90,7 +90,7 @@ TEST_F(CVolume, FormsTheTexturesOfCpp) {
     EXPECT_EQ(std::memcmp(textures.index_texels, index.data(), 4 * index.size()), 0);
 }
 
-TEST_F(CVolume, LightsAPositionAsCppDoes) {
+TEST_F(CVolume, LightsAPositionLikeCpp) {
     const std::vector<float> computed = constants();
     std::vector<float> incident(3 * 9 * info.probes);
     ASSERT_EQ(prt_volume_evaluate(volume, computed.data(), incident.data(), nullptr), PRT_OK);
@@ -125,7 +125,7 @@ TEST_F(CVolume, WritesItsShaders) {
     EXPECT_EQ(prt_volume_shader(volume, PRT_ESSL300, source.data(), &size, &message), PRT_BAD_ARGUMENT);
 }
 
-TEST_F(CVolume, RefusesWhatCannotBeComputed) {
+TEST_F(CVolume, RejectsInvalidArguments) {
     prt_message message;
     std::vector<float> computed = constants(), incident(3 * 9 * info.probes, 1.0f), light(27);
     const auto update = [&](const prt_lighting& lighting) {

@@ -1,6 +1,6 @@
 #!/bin/bash
-# check_symbols.sh NM LIBRARY LIST HEADER: the library exports what LIST names, with the versions of its symbols, and
-# nothing else; the header declares the same. A name that disappears breaks programs: it stays, or the SOVERSION changes.
+# check_symbols.sh NM LIBRARY LIST HEADER: checks that the library exports exactly the symbols and versions of LIST, and
+# that the header declares the same functions. A removed name breaks programs: keep it, or change the SOVERSION.
 set -euo pipefail
 nm=$1 library=$2 list=$3 header=$4
 exported=$("$nm" -D --defined-only --with-symbol-versions "$library" | awk '$2 != "A" { print $3 }' | sort)

@@ -56,11 +56,11 @@ INSTANTIATE_TEST_SUITE_P(Functions, EnvironmentMap,
                                          sampled("sample_cube_faces", EnvironmentLayout::cube_faces),
                                          sampled("sample_angular", EnvironmentLayout::angular)),
                          test::name_of);
-TEST_P(EnvironmentMap, IsFiniteOrRefused) {
+TEST_P(EnvironmentMap, IsFiniteOrRejected) {
     test::expect_finite_or_refused(GetParam());
 }
 
-TEST(EnvironmentMap, WithoutPixelsIsRefused) {
+TEST(EnvironmentMap, WithoutPixelsIsRejected) {
     EXPECT_THROW(project({}, 3), Error);
     EXPECT_THROW(resampled_lat_long({}), Error);
     EXPECT_THROW(project({{2, 1, {glm::vec3(1)}}}, 3), Error); // one of two

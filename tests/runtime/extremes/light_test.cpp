@@ -150,13 +150,13 @@ const ExtremeCase kChangers[] = {
 
 class MadeLight : public testing::TestWithParam<ExtremeCase> {};
 INSTANTIATE_TEST_SUITE_P(Functions, MadeLight, testing::ValuesIn(kMakers), test::name_of);
-TEST_P(MadeLight, IsFiniteOrRefused) {
+TEST_P(MadeLight, IsFiniteOrRejected) {
     test::expect_finite_or_refused(GetParam());
 }
 
 class ChangedLight : public testing::TestWithParam<ExtremeCase> {};
 INSTANTIATE_TEST_SUITE_P(Functions, ChangedLight, testing::ValuesIn(kChangers), test::name_of);
-TEST_P(ChangedLight, IsFiniteOrRefused) {
+TEST_P(ChangedLight, IsFiniteOrRejected) {
     test::expect_finite_or_refused(GetParam());
 }
 

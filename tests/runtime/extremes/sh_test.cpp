@@ -50,11 +50,11 @@ const ExtremeCase kRotations[] = {
 
 class Rotation : public testing::TestWithParam<ExtremeCase> {};
 INSTANTIATE_TEST_SUITE_P(Functions, Rotation, testing::ValuesIn(kRotations), test::name_of);
-TEST_P(Rotation, IsFiniteOrRefused) {
+TEST_P(Rotation, IsFiniteOrRejected) {
     test::expect_finite_or_refused(GetParam());
 }
 
-TEST(Order, OutsideItsRangeIsRefused) {
+TEST(Order, OutsideItsRangeIsRejected) {
     for (const int order : {INT_MIN, -1, 0, kMaxOrder + 1, INT_MAX}) {
         EXPECT_THROW(check_order(order), Error) << order;
         EXPECT_THROW(ShRotation(order, glm::dmat3(1)), Error) << order;
@@ -87,7 +87,7 @@ double arithmetic(int order, float x, float y) {
     return sum;
 }
 
-TEST(ShArithmetic, EndsWithinItsArraysWhateverTheNumbers) {
+TEST(ShArithmetic, StaysWithinItsArraysForAllNumbers) {
     test::for_each_extreme([](int order, float x, float y) { arithmetic(order, x, y); });
     for (const int order : {1, 10}) {
         EXPECT_TRUE(std::isfinite(arithmetic(order, 1e-45f, -0.0f)));

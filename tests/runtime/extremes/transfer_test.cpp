@@ -65,11 +65,11 @@ const ExtremeCase kMeasures[] = {
 
 class Measure : public testing::TestWithParam<ExtremeCase> {};
 INSTANTIATE_TEST_SUITE_P(Functions, Measure, testing::ValuesIn(kMeasures), test::name_of);
-TEST_P(Measure, IsFiniteOrRefused) {
+TEST_P(Measure, IsFiniteOrRejected) {
     test::expect_finite_or_refused(GetParam());
 }
 
-TEST(Measure, OfNothingIsNothing) {
+TEST(Measure, IsZeroWithoutReceivers) {
     EXPECT_EQ(lit_rms({}, {}, {}), 0);
     EXPECT_EQ(relative_l2(Transfer{}, Transfer{}, {}), 0);
     EXPECT_EQ(lit_error({}, {}, {}, {}, std::nullopt).rms, 0);
@@ -92,7 +92,7 @@ ClusteredTransfer clustered_of(int order, float value) {
     return transfer;
 }
 
-TEST(TransferArithmetic, EndsWithinItsArraysWhateverTheNumbers) {
+TEST(TransferArithmetic, StaysWithinItsArraysForAllNumbers) {
     test::for_each_extreme([](int order, float x, float y) {
         const ClusteredTransfer transfer = clustered_of(order, x);
         const ClusterLighting relighter(transfer);
@@ -107,7 +107,7 @@ TEST(TransferArithmetic, EndsWithinItsArraysWhateverTheNumbers) {
     });
 }
 
-TEST(TransferArithmetic, OfFiniteNumbersOfUsualSizeIsFinite) {
+TEST(TransferArithmetic, IsFiniteForCommonFiniteNumbers) {
     for (const int order : {1, 10})
         for (const float value : {1e-45f, -0.0f, 1.0f, 1e12f}) {
             const Light light = constant_light(order, glm::vec3(1e12f));
@@ -118,7 +118,7 @@ TEST(TransferArithmetic, OfFiniteNumbersOfUsualSizeIsFinite) {
         }
 }
 
-TEST(TransferArithmetic, OfNothingIsNothing) {
+TEST(TransferArithmetic, IsZeroForEmptyTransfer) {
     ClusteredTransfer nothing;
     nothing.bases.layout = layout_of_one(1, 1);
     const Light light = constant_light(1, glm::vec3(1));
@@ -127,7 +127,7 @@ TEST(TransferArithmetic, OfNothingIsNothing) {
     EXPECT_TRUE(exit_radiance(zero_transfer(1, 1, 0), light).empty());
 }
 
-TEST(CodedRows, OfRandomBitsAreRowsOrRefused) {
+TEST(CodedRows, DecodeOrRejectRandomBits) {
     std::mt19937 random(7);
     for (int round = 0; round < 2000; ++round) {
         RowCode code;

@@ -87,7 +87,7 @@ double largest_error(const Targets& targets, std::span<const Lobe> lobes, std::s
     return largest;
 }
 
-TEST(LobeFit, GradientsAreThoseOfTheBasis) {
+TEST(LobeFit, GradientsMatchTheBasis) {
     std::mt19937 random(3);
     for (int i = 0; i < 20; ++i) {
         const glm::dvec3 d = any_direction(random),
@@ -115,7 +115,7 @@ TEST(LobeFit, LobesOfAnOpenVertexAreItsCosineLobe) {
     }
 }
 
-TEST(LobeFit, InBytesAnOpenVertexIsOffByItsAxisAlone) {
+TEST(LobeFit, QuantizedOpenVerticesDifferOnlyByTheirAxis) {
     const Targets targets = open_vertices(200);
     const LobeFitOptions options{.lobes = 1};
     const LobeModel model = code_lobes(targets.view(), fit_lobes(targets.view(), options), options);
@@ -127,7 +127,7 @@ TEST(LobeFit, InBytesAnOpenVertexIsOffByItsAxisAlone) {
     }
 }
 
-TEST(LobeFit, MoreLobesComeNearer) {
+TEST(LobeFit, MoreLobesReduceTheError) {
     const Targets targets = shadowed_vertices(150);
     double before = 1;
     for (const std::size_t lobes : {1u, 2u, 3u}) {
@@ -140,7 +140,7 @@ TEST(LobeFit, MoreLobesComeNearer) {
     EXPECT_LT(before, 0.02);
 }
 
-TEST(LobeFit, TurnsWithItsTarget) {
+TEST(LobeFit, RotatesWithItsTarget) {
     const Targets targets = shadowed_vertices(40);
     const glm::dquat rotation = glm::angleAxis(2.1, glm::normalize(glm::dvec3(1, -2, 0.5)));
     Targets rotated = targets;
@@ -175,7 +175,7 @@ TEST(LobeFit, BytesCostLittleAndRespectTheFurnace) {
     }
 }
 
-TEST(LobeFit, IsTheSameForAnyNumberOfThreads) {
+TEST(LobeFit, DoesNotDependOnThreads) {
     const Targets targets = shadowed_vertices(300);
     LobeFitOptions options{.lobes = 2, .threads = 1};
     const LobeModel one = code_lobes(targets.view(), fit_lobes(targets.view(), options), options);
@@ -185,7 +185,7 @@ TEST(LobeFit, IsTheSameForAnyNumberOfThreads) {
     EXPECT_EQ(one.profiles, three.profiles);
 }
 
-TEST(LobeFit, TakesVerticesThatNoLightReaches) {
+TEST(LobeFit, AcceptsUnlitVertices) {
     Targets targets = shadowed_vertices(3);
     std::fill_n(targets.vectors.begin(), kCoefficients, 0.0);
     targets.areas[1] = 0;
@@ -198,7 +198,7 @@ TEST(LobeFit, TakesVerticesThatNoLightReaches) {
     EXPECT_EQ(code_lobes({4, {}, {}}, {}, {}).vertices(), 0u);
 }
 
-TEST(LobeFit, RefusesWhatItCannotFit) {
+TEST(LobeFit, RejectsInvalidInput) {
     Targets targets = shadowed_vertices(2);
     EXPECT_THROW(fit_lobes(targets.view(), {.lobes = 4}), Error);
     EXPECT_THROW(fit_lobes({3, targets.vectors, targets.areas}, {}), Error);

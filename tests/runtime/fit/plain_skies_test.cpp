@@ -47,7 +47,7 @@ TEST(PlainSkies, HaveNoSuns) {
 }
 
 /// No pixel is brighter than the others, so that even a requested number of suns is not found.
-TEST(PlainSkies, GiveNoSunsToThoseWhoAsk) {
+TEST(PlainSkies, YieldNoSunsForARequestedCount) {
     for (const float radiance : {0.0f, 1.0f}) {
         const SunSplit split = find_suns(image_of(64, 32, glm::vec3(radiance)), {.count = 3});
         EXPECT_TRUE(split.suns.empty());
@@ -64,7 +64,7 @@ TEST(PlainSkies, GiveNoSunsToThoseWhoAsk) {
 }
 
 /// A light of 24 degrees is no sun at order 10, which holds it; one as strong of a sixth of that is one.
-TEST(PlainSkies, MayHaveLightsThatTheOrderHolds) {
+TEST(PlainSkies, MayContainLightsWithinTheOrder) {
     for (const auto& [degrees, suns] : {std::pair(24.0, 0u), std::pair(4.0, 1u)}) {
         const test::PaintedDisc disc{glm::normalize(glm::dvec3(1, 2, 3)), 0.5 * degrees * pi / 180,
                                      glm::dvec3(2e4 / degrees / degrees)};
@@ -75,7 +75,7 @@ TEST(PlainSkies, MayHaveLightsThatTheOrderHolds) {
     }
 }
 
-TEST(PlainSkies, AreRefusedWhereTheyAreNone) {
+TEST(PlainSkies, InvalidSkiesAreRejected) {
     const Environment good = image_of(8, 4, glm::vec3(1));
     EXPECT_THROW(find_suns(good, {.order = 0}), Error);
     EXPECT_THROW(find_suns(good, {.order = 11}), Error);
@@ -88,7 +88,7 @@ TEST(PlainSkies, AreRefusedWhereTheyAreNone) {
     }
 }
 
-TEST(PlainSkies, AreFiniteOrRefusedWhateverTheyHold) {
+TEST(PlainSkies, AreFiniteOrRejected) {
     for (const float x : test::kExtremes)
         for (const float y : {0.0f, 1e-45f, 1e30f}) {
             Environment e = image_of(64, 32, glm::vec3(y));

@@ -59,7 +59,7 @@ constexpr SunSize kSizes[] = {{5, 256, 60}, {2, 512, 400}, {1, 1024, 1600}};
 class Suns : public testing::TestWithParam<Radiance> {};
 INSTANTIATE_TEST_SUITE_P(Skies, Suns, testing::Values(test::gradient_sky, test::cloudy_sky));
 
-TEST_P(Suns, AreFoundWhereverTheyStand) {
+TEST_P(Suns, AreFoundAtEveryPosition) {
     // In the open, at the seam and the poles of a lat-long image, at an edge and a corner of a cube's.
     for (const glm::dvec3& towards : {unit(0.4, 0.5, 0.7), unit(0.001, 0.3, -1), unit(0.002, 1, 0.001),
                                       unit(0, -1, 0), unit(1, 0.2, 1), unit(-1, 1, 1)})
@@ -88,7 +88,7 @@ TEST_P(Suns, AreFoundDownToAQuarterOfADegree) {
     }
 }
 
-TEST(Suns, StandWhereTheyDoBesideBrightClouds) {
+TEST(Suns, KeepTheirPositionNearBrightClouds) {
     // The sky rises tenfold from one side of the disc to the other, to the disc's own brightness.
     const PaintedDisc disc = disc_of(kSizes[0], unit(0.4, 0.5, 0.7));
     const glm::dvec3 aside = glm::normalize(glm::cross(disc.towards, glm::dvec3(0.3, 1, 0)));
@@ -115,7 +115,7 @@ TEST(Suns, NearEachOtherKeepTheirColors) {
         expect_found(split, disc);
 }
 
-TEST(Suns, OfANightAreItsFourLamps) {
+TEST(Suns, AreTheFourLampsOfANight) {
     std::vector<PaintedDisc> lamps;
     for (const glm::dvec3& towards :
          {unit(1, 0.5, 0), unit(-1, 0.6, 0.3), unit(0, 0.4, 1), unit(0.2, 0.5, -1)})
@@ -155,7 +155,7 @@ TEST(Suns, KeepTheirSizeInAHalo) {
     EXPECT_NEAR(split.suns[0].half_angle, disc.half_angle, 0.2 * disc.half_angle);
 }
 
-TEST(Suns, OfOneTexelAreNoLargerThanIt) {
+TEST(Suns, HaveAtMostTexelSizeForOneTexel) {
     for (const auto& [x, y] : {std::pair(20, 9), std::pair(0, 16), std::pair(63, 0), std::pair(5, 31)}) {
         Environment e;
         e.image = {64, 32, std::vector<glm::vec3>(64 * 32, glm::vec3(0.5f, 0.6f, 0.8f))};
@@ -171,7 +171,7 @@ TEST(Suns, OfOneTexelAreNoLargerThanIt) {
 }
 
 /// Compares band 0 by channel; in the other bands a disc replaces the removed pixels.
-TEST(Suns, AndRemainderAddUpToTheWhole) {
+TEST(Suns, SumWithTheRemainderToTheImage) {
     for (const EnvironmentLayout layout : {EnvironmentLayout::lat_long, EnvironmentLayout::cube,
                                            EnvironmentLayout::cube_faces, EnvironmentLayout::angular}) {
         const Environment e = painted_sky(
@@ -212,7 +212,7 @@ TEST(Suns, AreCones) {
     }
 }
 
-TEST(Suns, AreTheSameForAnyNumberOfThreads) {
+TEST(Suns, DoNotDependOnThreads) {
     const Environment e = painted_sky(EnvironmentLayout::lat_long, 256, 128, test::cloudy_sky,
                                       {{unit(1, 0.7, 0.2), 3 * kDegree, {80, 60, 20}}});
     const SunSplit one = find_suns(e, {.count = 1, .threads = 1}),

@@ -49,7 +49,7 @@ std::string hdr(bool runs) {
     return file;
 }
 
-TEST(HdrFile, CutAnywhereEndsAndIsRefused) {
+TEST(HdrFile, TruncationIsRejected) {
     const test::TemporaryFolder folder;
     for (const bool runs : {true, false}) {
         const std::string whole = hdr(runs);
@@ -59,13 +59,13 @@ TEST(HdrFile, CutAnywhereEndsAndIsRefused) {
     }
 }
 
-TEST(HdrFile, RunsOfNothingEnd) {
+TEST(HdrFile, EmptyRunsTerminate) {
     const test::TemporaryFolder folder;
     const std::string zeros = hdr_header("-Y 8 +X 16") + std::string("\x02\x02\x00\x10", 4);
     EXPECT_NE(refusal(folder.file("zeros.hdr", zeros + std::string(1000, '\0'))), "");
 }
 
-TEST(HdrFile, ClaimsAreHeldAgainstTheFile) {
+TEST(HdrFile, ClaimsAreCheckedAgainstTheFileSize) {
     const test::TemporaryFolder folder;
     EXPECT_NE(refusal(folder.file("large.hdr", hdr_header("-Y 8192 +X 16384"))).find("claims 16384 x 8192"),
               std::string::npos);
@@ -87,7 +87,7 @@ std::string exr_with(const test::TemporaryFolder& folder, const std::string& att
     return file;
 }
 
-TEST(ExrFile, ClaimsAreHeldAgainstTheFile) {
+TEST(ExrFile, ClaimsAreCheckedAgainstTheFileSize) {
     const test::TemporaryFolder folder;
     const std::string window("dataWindow\0box2i\0", 17);
     const std::size_t kWidth = 4 + 8,
@@ -109,14 +109,14 @@ TEST(ExrFile, ClaimsAreHeldAgainstTheFile) {
     EXPECT_LT(usage.ru_maxrss, 400'000) << "kilobytes";
 }
 
-TEST(ExrFile, IsToldByItsFirstFourBytes) {
+TEST(ExrFile, IsDetectedByItsFirstFourBytes) {
     const std::string file("\x76\x2f\x31\x01\x02", 5), other("\x76\x2f\x31\x02\x02", 5);
     for (std::size_t length = 0; length <= file.size(); ++length)
         EXPECT_EQ(is_exr(std::as_bytes(std::span(file)).first(length)), length >= 4) << length;
     EXPECT_FALSE(is_exr(std::as_bytes(std::span(other))));
 }
 
-TEST(ExrFile, CutAnywhereIsRefusedAndChangedAnywhereIsReadOrRefused) {
+TEST(ExrFile, TruncationIsRejectedAndChangedBytesAreReadOrRejected) {
     const test::TemporaryFolder folder;
     const std::string whole = exr_with(folder, std::string("screenWindowWidth\0float\0", 24), 4, 0x3f800000);
     EXPECT_EQ(refusal(folder.file("whole.exr", whole)), "");
@@ -128,7 +128,7 @@ TEST(ExrFile, CutAnywhereIsRefusedAndChangedAnywhereIsReadOrRefused) {
     }
 }
 
-TEST(Png, ClaimsAreHeldAgainstTheFile) {
+TEST(Png, ClaimsAreCheckedAgainstTheFileSize) {
     const test::TemporaryFolder folder;
     std::string file("\x89PNG\r\n\x1a\n\0\0\0\rIHDR\0\0\x40\0\0\0\x40\0\x08\x06\0\0\0....", 33);
     EXPECT_NE(refusal(folder.file("large.png", file)).find("claims 16384 x 16384"), std::string::npos);
@@ -162,7 +162,7 @@ TEST(ImageLimits, HoldToTheLastPixelAndByte) {
     EXPECT_THROW(check_image_size(1, 0, 1, 1), Error);
 }
 
-TEST(Png, OneThatInflatesToMoreThanItSaysIsRefused) {
+TEST(Png, ExcessiveInflatedDataIsRejected) {
     const std::string header =
         std::string("\x89PNG\r\n\x1a\n") + chunk("IHDR", std::string("\0\0\0\x10\0\0\0\x10\x08\2\0\0\0", 13));
     const std::string bomb = header + chunk("IDAT", inflating_zeros(1 << 20)) + chunk("IEND", "");
@@ -186,7 +186,7 @@ std::string stored(const std::string& bytes) {
         byte = 'x';
 }
 
-TEST(Png, HasNoBitDepthWhereItEndsBefore) {
+TEST(Png, HasNoBitDepthIfTruncated) {
     const std::string file =
         std::string("\x89PNG\r\n\x1a\n") + chunk("IHDR", std::string("\0\0\0\4\0\0\0\1\x10\2\0\0\0", 13));
     const auto bytes = std::as_bytes(std::span(file));
@@ -216,7 +216,7 @@ std::string segment(char marker, const std::string& contents) {
            contents;
 }
 
-TEST(Jpeg, MemoryThatWasNeverWrittenDoesNotShow) {
+TEST(Jpeg, UninitializedMemoryIsNotVisible) {
     const std::string start("\xff\xd8"), end("\xff\xd9");
     const std::string frame = segment('\xc0', std::string("\x08\0\x08\0\x08\1\1\x11\0", 9)); // 8 x 8, grey
     const std::string none = start + frame + end;
@@ -247,7 +247,7 @@ TEST(Png, BytesOfTheFileInMessagesArePrintable) {
         EXPECT_TRUE(c >= ' ' && c <= '~') << message;
 }
 
-TEST(Project, LightBeyondWhatIsComputedWithIsRefused) {
+TEST(Project, LightBeyondTheValidRangeIsRejected) {
     for (const EnvironmentLayout layout :
          {EnvironmentLayout::lat_long, EnvironmentLayout::angular, EnvironmentLayout::cube}) {
         const int height = layout == EnvironmentLayout::cube ? 48 : 8;
@@ -259,14 +259,14 @@ TEST(Project, LightBeyondWhatIsComputedWithIsRefused) {
     }
 }
 
-TEST(LoadEnvironment, ReadsPipesAndNothingThatNeverEnds) {
+TEST(LoadEnvironment, ReadsPipesAndRejectsEndlessFiles) {
     const test::TemporaryFolder folder;
     ASSERT_EQ(mkfifo((folder / "sky.hdr").c_str(), 0600), 0);
-    EXPECT_NE(refusal(folder / "sky.hdr").find("nobody writes"), std::string::npos);
+    EXPECT_NE(refusal(folder / "sky.hdr").find("no data arrives"), std::string::npos);
     std::thread writer([&] { std::ofstream(folder / "sky.hdr", std::ios::binary) << hdr(true); });
     EXPECT_EQ(refusal(folder / "sky.hdr"), "");
     writer.join();
-    EXPECT_NE(refusal("/dev/zero").find("neither a regular file nor a pipe"), std::string::npos);
+    EXPECT_NE(refusal("/dev/zero").find("not a regular file or a pipe"), std::string::npos);
 }
 
 } // namespace

@@ -23,7 +23,7 @@
 namespace prt {
 namespace {
 
-TEST(Cube, DirectionsAreThoseOfOpenExr) {
+TEST(Cube, DirectionsMatchOpenExr) {
     constexpr int kSize = 9;
     const Imath::Box2i window({0, 0}, {kSize - 1, 6 * kSize - 1});
     for (int face = 0; face < 6; ++face)
@@ -39,7 +39,7 @@ TEST(Cube, DirectionsAreThoseOfOpenExr) {
             }
 }
 
-TEST(LatLong, DirectionsAreThoseOfOpenExrButForItsHalfTexel) {
+TEST(LatLong, DirectionsMatchOpenExrExceptHalfATexel) {
     // OpenEXR puts the centers of the border texels on the border; with that undone both agree.
     constexpr int kWidth = 17, kHeight = 9;
     const Imath::Box2i window({0, 0}, {kWidth - 1, kHeight - 1});
@@ -79,7 +79,7 @@ INSTANTIATE_TEST_SUITE_P(
                     ExrKind{"grey_float_tiled", Imf::FLOAT, Imf::ZIP_COMPRESSION, true, true}),
     [](const auto& kind) { return kind.param.name; });
 
-TEST_P(Exr, OfAnyChannelTypeAndCompressionIsRead) {
+TEST_P(Exr, AllChannelTypesAndCompressionsAreRead) {
     const ExrKind kind = GetParam();
     const test::TemporaryFolder folder;
     const std::string path = (folder / "e.exr").string();
@@ -172,7 +172,7 @@ void write_channels(const std::string& path, const std::vector<const char*>& nam
     file.writePixels(2);
 }
 
-TEST(EnvironmentFile, OfColorsLuminanceAndChromaTheColorsCount) {
+TEST(EnvironmentFile, ColorsHavePriorityOverLuminanceChroma) {
     const test::TemporaryFolder folder;
     const std::string path = (folder / "channels.exr").string();
     const std::pair<std::vector<const char*>, glm::vec3> cases[] = {
@@ -261,7 +261,7 @@ TEST(EnvironmentFile, SixFacesMakeACube) {
                  Error);
 }
 
-TEST(EnvironmentFile, WhatIsNoImageIsNamed) {
+TEST(EnvironmentFile, NonImagesAreReported) {
     const test::TemporaryFolder folder;
     folder.file("text.hdr", "hello");
     folder.file("cut.hdr", "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 8 +X 16\nabc");
@@ -276,7 +276,7 @@ TEST(EnvironmentFile, WhatIsNoImageIsNamed) {
         }
 }
 
-TEST(EnvironmentFile, DamagedExrsAreRefusedOrFinite) {
+TEST(EnvironmentFile, DamagedExrsAreRejectedOrFinite) {
     const auto folder = test::shared_file("bad/exr");
     if (folder.empty())
         GTEST_SKIP() << "the damaged files are not here";
@@ -300,7 +300,7 @@ TEST(EnvironmentFile, DamagedExrsAreRefusedOrFinite) {
     EXPECT_LT(usage.ru_maxrss, 1'000'000) << "kilobytes";
 }
 
-TEST(EnvironmentFile, CubeAndLatLongOfOnePlaceGiveTheSameLight) {
+TEST(EnvironmentFile, CubeAndLatLongOfOneSceneMatch) {
     const auto lat_long = test::shared_file("env/KernerEnvLatLong.exr"),
                cube = test::shared_file("env/KernerEnvCube.exr");
     if (lat_long.empty() || cube.empty())
@@ -317,7 +317,7 @@ TEST(EnvironmentFile, CubeAndLatLongOfOnePlaceGiveTheSameLight) {
     EXPECT_LT(std::sqrt(difference / norm), 0.01);
 }
 
-TEST(EnvironmentFile, APhotographIsNoEnvironment) {
+TEST(EnvironmentFile, PhotographsAreRejected) {
     const auto photograph = test::shared_file("env/memorial.exr");
     if (photograph.empty())
         GTEST_SKIP() << "the photograph is not here";

@@ -87,7 +87,7 @@ int largest_difference(const Image8& image) {
     return largest;
 }
 
-TEST(WebImages, HaveThePixelsThatWereEncoded) {
+TEST(WebImages, RoundTripPixels) {
     EXPECT_EQ(largest_difference(decode_image(webp_file(true))), 0);
     EXPECT_LE(largest_difference(decode_image(webp_file(false))), 40); // its colors are of four pixels
     for (const std::uint32_t depth : {8u, 10u, 12u})
@@ -96,13 +96,13 @@ TEST(WebImages, HaveThePixelsThatWereEncoded) {
     EXPECT_EQ(image_size(avif_file(8)).height, kHeight);
 }
 
-TEST(WebImages, CutAnywhereAreRefused) {
+TEST(WebImages, TruncationIsRejected) {
     for (const std::vector<std::byte>& whole : {webp_file(true), webp_file(false), avif_file(8)})
         for (std::size_t length = 12; length < whole.size(); length += 7)
             EXPECT_THROW(decode_image(std::span(whole).first(length)), Error) << length;
 }
 
-TEST(WebImages, DamagedAnywhereEnd) {
+TEST(WebImages, DamagedFilesTerminate) {
     std::mt19937 random(4);
     for (const std::vector<std::byte>& whole : {webp_file(true), webp_file(false), avif_file(8)})
         for (int i = 0; i < 300; ++i) {
@@ -116,7 +116,7 @@ TEST(WebImages, DamagedAnywhereEnd) {
         }
 }
 
-TEST(WebImages, ClaimsAreHeldAgainstTheFile) {
+TEST(WebImages, ClaimsAreCheckedAgainstTheFileSize) {
     // The header of a lossless WebP that claims 16 384 pixels each way, in a few bytes.
     std::vector<std::byte> file = webp_file(true);
     const std::uint32_t size = 16383u | 16383u << 14;
@@ -127,7 +127,7 @@ TEST(WebImages, ClaimsAreHeldAgainstTheFile) {
 }
 
 /// libheif writes the brand of any still image first, and "avif" behind it.
-TEST(WebImages, OfAvifMayHaveAnotherBrandFirst) {
+TEST(WebImages, AvifMayHaveAnotherBrandFirst) {
     std::vector<std::byte> file = avif_file(8);
     const std::string_view brand = "mif1";
     std::memcpy(&file[8], brand.data(), brand.size());

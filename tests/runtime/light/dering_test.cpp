@@ -81,7 +81,7 @@ TEST(Dering, NoShadowedReceiverHasNegativeExitRadiance) {
     EXPECT_GE(darkest_quiet, -1e-6);
 }
 
-TEST(Dering, WhatIsNowhereNegativeStaysAsItIs) {
+TEST(Dering, NonnegativeLightIsUnchanged) {
     const Light sky = sum(overcast_sky(6, {1, 1, 2}), constant_light(6, glm::vec3(0.2f)));
     EXPECT_EQ(deringed(sky).coefficients, sky.coefficients);
     EXPECT_EQ(deringed(constant_light(3, {0, 1, 0})).coefficients, constant_light(3, {0, 1, 0}).coefficients);
@@ -91,7 +91,7 @@ TEST(Dering, WhatIsNowhereNegativeStaysAsItIs) {
 /// For a white sun of order 3 the filter is known: 1 + 3 a t + 5 b (3 t² - 1) / 2 >= 0 on [-1, 1], with
 /// minimum (1 - a)² 3 + (1 - b)² 5/4 (the powers of bands 1 and 2 have a ratio of 3 to 5, over l²). The
 /// minimum is inside the interval, at t = -a / (5 b), where 1 - 5 b / 2 - 3 a² / (10 b) = 0.
-TEST(Dering, FactorsOfASunAreThoseOfTheClosedForm) {
+TEST(Dering, FactorsOfASunMatchTheClosedForm) {
     double best_a = 0, best_b = 0, best = 1e9;
     for (int i = 1; i < 400000; ++i) {
         const double b = 0.4 * i / 400000, a = std::sqrt(10 * b * (1 - 2.5 * b) / 3);
@@ -111,7 +111,7 @@ TEST(Dering, FactorsOfASunAreThoseOfTheClosedForm) {
 
 /// Diffusion over the sphere, exp(-t l (l+1)), is the only window with a monotone effect, and was used
 /// before.
-TEST(Dering, KeepsMoreThanTheLeastDiffusionDoes) {
+TEST(Dering, KeepsMoreThanMinimumDiffusion) {
     const std::vector<glm::dvec3> directions = lattice(4000);
     for (const int order : {4, 6, 10}) {
         const Light sun = sunny(order, kTowards, {0.1f, 0.1f, 0.2f});
@@ -133,7 +133,7 @@ TEST(Dering, KeepsMoreThanTheLeastDiffusionDoes) {
     }
 }
 
-TEST(Dering, NoChannelCountsMoreThanAnother) {
+TEST(Dering, ChannelsHaveEqualWeight) {
     const Light light = sunny(6, kTowards, {0.05f, 0.1f, 0.2f});
     Light swapped = light;
     for (glm::vec3& c : swapped.coefficients)
@@ -143,7 +143,7 @@ TEST(Dering, NoChannelCountsMoreThanAnother) {
         EXPECT_NEAR(a[l], b[l], 1e-4) << l;
 }
 
-TEST(Dering, TurningTheLightDoesNotChangeTheFilter) {
+TEST(Dering, DoesNotDependOnRotation) {
     const Light light = sunny(6, kTowards, {0.05f, 0.1f, 0.2f});
     Light rotated = light;
     ShRotation(6, glm::angleAxis(1.1, glm::normalize(glm::dvec3(1, 2, 3)))).apply(rotated.coefficients);
@@ -153,7 +153,7 @@ TEST(Dering, TurningTheLightDoesNotChangeTheFilter) {
 }
 
 /// The remainder of a sky without its sun may have a channel that is negative on the whole.
-TEST(Dering, AChannelWithoutAPositiveMeanIsLeftOut) {
+TEST(Dering, ChannelsWithoutPositiveMeanAreIgnored) {
     Light light = sunny(5, kTowards, {0.1f, 0.1f, 0.1f});
     for (glm::vec3& c : light.coefficients)
         c.b = -c.b;

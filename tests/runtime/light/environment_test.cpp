@@ -35,7 +35,7 @@ TEST(LatLong, PositionUndoesDirection) {
         }
 }
 
-TEST(LatLong, SamplingAtATexelCenterGivesTheTexel) {
+TEST(LatLong, SamplingAtATexelCenterReturnsTheTexel) {
     Environment environment{{8, 4, {}}, EnvironmentLayout::lat_long};
     for (int i = 0; i < 32; ++i)
         environment.image.pixels.emplace_back(i, 2 * i, 3 * i);
@@ -47,7 +47,7 @@ TEST(LatLong, SamplingAtATexelCenterGivesTheTexel) {
         }
 }
 
-TEST(Cube, SamplingAtATexelGivesTheTexel) {
+TEST(Cube, SamplingAtATexelReturnsTheTexel) {
     constexpr int kSize = 5;
     Environment environment{{kSize, 6 * kSize, {}}, EnvironmentLayout::cube};
     for (int i = 0; i < 6 * kSize * kSize; ++i)
@@ -80,7 +80,7 @@ TEST(Cube, ResamplesToTheSamePicture) {
         }
 }
 
-TEST(LatLong, ImagesOfOtherLayoutsHaveAsManyPixelsToATurn) {
+TEST(LatLong, ImagesOfOtherLayoutsHaveEqualAngularResolution) {
     const auto size = [](EnvironmentLayout layout, int width, int height) {
         const auto pixels = static_cast<std::size_t>(width * height);
         const Image flat = resampled_lat_long(
@@ -102,7 +102,7 @@ INSTANTIATE_TEST_SUITE_P(Kinds, BadPixel,
                                          std::numeric_limits<float>::infinity(),
                                          -std::numeric_limits<float>::infinity(), -0.5f));
 
-TEST_P(BadPixel, IsAnErrorUnlessTheUserSaysOtherwise) {
+TEST_P(BadPixel, IsAnErrorUnlessIgnored) {
     Image image{3, 1, {glm::vec3(1), glm::vec3(4, GetParam(), 2), glm::vec3(7)}};
     try {
         repair_pixels(image, BadPixels::error);

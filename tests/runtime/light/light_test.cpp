@@ -64,7 +64,7 @@ TEST(Light, ConeAgreesWithQuadrature) {
     EXPECT_LT(error, 2e-3); // a cell is 2e-5 sr; about a thousand cells are on the rim
 }
 
-TEST(Light, ConeOfTheWholeSphereIsConstant) {
+TEST(Light, FullSphereConeIsConstant) {
     const Light cone = cone_light(10, {0, 1, 0}, pi, glm::vec3(1)),
                 constant = constant_light(10, glm::vec3(1));
     for (std::size_t i = 0; i < cone.coefficients.size(); ++i)
@@ -78,7 +78,7 @@ TEST(Light, OvercastSkyAgreesWithQuadrature) {
     EXPECT_LT(error, 2e-3);
 }
 
-TEST(Light, DirectionalLightGivesItsIrradianceToAFacingReceiver) {
+TEST(Light, DirectionalLightIlluminatesAFacingReceiver) {
     // Cut at ten bands the clamped cosine at its peak is the sum of A_l (2l+1) / (4 pi), with
     // A_l = pi (1, 2/3, 1/4, 0, -1/24, 0, 1/64, 0, -1/128): 1.4 % below the 1 of all bands.
     const double peak = (1 + 2 + 5 / 4.0 - 9 / 24.0 + 13 / 64.0 - 17 / 128.0) / 4;
@@ -93,7 +93,7 @@ TEST(Light, DirectionalLightGivesItsIrradianceToAFacingReceiver) {
     EXPECT_NEAR(sum, 5 * peak / pi, 1e-6);
 }
 
-TEST(Light, AQuarterTurnAboutYTakesLightFromZToX) {
+TEST(Light, QuarterRotationAboutYMovesLightFromZToX) {
     const Light from_z = cone_light(6, {0, 0, 1}, 0.3, glm::vec3(1)),
                 from_x = cone_light(6, {1, 0, 0}, 0.3, glm::vec3(1));
     const Light rotated = rotated_about_y(from_z, pi / 2);
@@ -118,7 +118,7 @@ float min_radiance(const Light& light) {
     return least;
 }
 
-TEST(Light, AutomaticWindowMakesASunNonNegativeAndLeavesASkyAlone) {
+TEST(Light, AutomaticWindowChangesASunButNotASky) {
     const glm::vec3 towards = glm::normalize(glm::vec3(1, 1, 1));
     const Light sun = directional_light(6, towards, glm::vec3(1));
     EXPECT_LT(min_radiance(sun), -0.1f * radiance(sun, towards).r);
@@ -130,12 +130,12 @@ TEST(Light, AutomaticWindowMakesASunNonNegativeAndLeavesASkyAlone) {
     EXPECT_EQ(windowed(sky, Window::automatic).coefficients, sky.coefficients);
 }
 
-TEST(Light, MoreBandsThanThereAreCannotBeHad) {
+TEST(Light, ExtractingMissingBandsIsAnError) {
     EXPECT_THROW(truncated(constant_light(3, glm::vec3(1)), 4), Error);
     EXPECT_EQ(truncated(constant_light(4, glm::vec3(1)), 3).coefficients.size(), 9u);
 }
 
-TEST(Light, SphereIsTheConeThatItFills) {
+TEST(Light, SphereEqualsItsCone) {
     const glm::vec3 center(1, 2, -2);
     EXPECT_LT(largest_difference(sphere_light(10, center, 1.5, {1, 2, 3}),
                                  cone_light(10, center / 3.0f, std::asin(0.5), {1, 2, 3})),
@@ -145,7 +145,7 @@ TEST(Light, SphereIsTheConeThatItFills) {
     EXPECT_THROW(directional_light(3, {0, 0, 0}, {1, 1, 1}), Error);
 }
 
-TEST(Light, HemisphereGoesOverFromTopToBottom) {
+TEST(Light, HemisphereBlendsFromTopToBottom) {
     const glm::vec3 up = glm::normalize(glm::vec3(1, 2, 3)), top(3, 2, 1), bottom(0.5f, 1, 0);
     const Light light = hemisphere_light(5, up, top, bottom);
     EXPECT_LT(glm::distance(radiance(light, up), top), 1e-5f);
@@ -201,7 +201,7 @@ TEST(Light, DiscAgreesWithQuadratureOverItsArea) {
     }
 }
 
-TEST(Light, DiscThatFacesTheReceiverIsACone) {
+TEST(Light, FacingDiscIsACone) {
     EXPECT_LT(largest_difference(disc_light(10, {0, 3, 0}, {0, -1, 0}, 3, {1, 2, 3}),
                                  cone_light(10, {0, 1, 0}, std::numbers::pi / 4, {1, 2, 3})),
               3e-6);
@@ -220,7 +220,7 @@ glm::vec3 tilted(const glm::vec3& center, double tilt, std::mt19937& random) {
 }
 
 /// To the rounding of their floats, which tilts them by some 1e-7.
-TEST(Light, DiscsThatFaceTheReceiverFromAnywhereAreCones) {
+TEST(Light, FacingDiscsAreConesFromAllDirections) {
     std::mt19937 random(7);
     std::normal_distribution<double> gauss;
     std::uniform_real_distribution<double> uniform;
@@ -239,7 +239,7 @@ TEST(Light, DiscsThatFaceTheReceiverFromAnywhereAreCones) {
     }
 }
 
-TEST(Light, DiscsThatNearlyFaceTheReceiverAgreeWithQuadrature) {
+TEST(Light, NearlyFacingDiscsMatchQuadrature) {
     std::mt19937 random(7);
     for (const double tilt : {0.0, 1e-15, 1e-9, 1e-7, 1e-6, 1e-5, 1e-4, 1e-3})
         for (const glm::vec3& c :
@@ -259,7 +259,7 @@ TEST(Light, DiscsThatNearlyFaceTheReceiverAgreeWithQuadrature) {
         1e-5);
 }
 
-TEST(Light, DiscIsDarkFromBehindAndRefusesNonsense) {
+TEST(Light, DiscIsDarkFromBehindAndRejectsInvalidInput) {
     for (const glm::vec3& c : disc_light(4, {0, 0, 2}, {0, 0, 1}, 1, {1, 1, 1}).coefficients)
         EXPECT_EQ(c, glm::vec3(0));
     EXPECT_THROW(disc_light(4, {0, 0, 2}, {0, 0, -1}, 0, {1, 1, 1}), Error);
@@ -355,7 +355,7 @@ TEST(Light, NarrowConesDoNotCancel) {
     }
 }
 
-TEST(Light, ConesOfNoAngleAreRefused) {
+TEST(Light, ConesWithoutAngleAreRejected) {
     for (const double half_angle : {-1.0, 4.0, 90.0, std::numeric_limits<double>::quiet_NaN()})
         EXPECT_THROW(cone_light(3, {0, 1, 0}, half_angle, {1, 1, 1}), Error) << half_angle;
     EXPECT_NO_THROW(cone_light(3, {0, 1, 0}, static_cast<double>(static_cast<float>(pi)), {1, 1, 1}));
@@ -375,7 +375,7 @@ TEST(ShConventions, LightsOfD3dxHaveItsNumbers) {
     EXPECT_THROW(d3dx_cone_light(3, n, 0, {1, 1, 1}), Error);
 }
 
-TEST(Light, ScaledLightGivesTheExitRadianceThatWasAskedFor) {
+TEST(Light, ScaledLightHasTheRequestedExitRadiance) {
     for (int order = 2; order <= 10; ++order) {
         const glm::vec3 n = glm::normalize(glm::vec3(1, 2, 3));
         const Light light = scaled_to_exit_radiance(directional_light(order, n, {1, 1, 1}), n, {1, 2, 3});

@@ -48,13 +48,13 @@ INSTANTIATE_TEST_SUITE_P(Sizes, ConstantImage,
                          testing::Values(Size{1, 1}, Size{2, 1}, Size{1, 7}, Size{13, 5}, Size{64, 32},
                                          Size{301, 97}));
 
-TEST_P(ConstantImage, ProjectsToAConstantLightWhateverItsSize) {
+TEST_P(ConstantImage, ProjectsToAConstantLightForAllSizes) {
     const auto [width, height] = GetParam();
     const Light light = project(lat_long(width, height, [](const auto&) { return glm::dvec3(1, 2, 3); }), 10);
     EXPECT_LT(largest_difference(light, constant_light(10, glm::vec3(1, 2, 3))), 3e-6); // floats of up to 10
 }
 
-TEST(ConstantCube, ProjectsToAConstantLightWhateverItsSize) {
+TEST(ConstantCube, ProjectsToAConstantLightForAllSizes) {
     for (const int size : {1, 2, 3, 16, 65}) {
         Environment environment{{size, 6 * size, {}}, EnvironmentLayout::cube};
         environment.image.pixels.assign(static_cast<std::size_t>(6 * size * size), glm::vec3(1, 2, 3));
@@ -88,7 +88,7 @@ TEST(Project, ImagesOfOneRowAndMoreColumnsThanABlock) {
     }
 }
 
-TEST(Project, BasisFunctionsComeBack) {
+TEST(Project, BasisFunctionsRoundTrip) {
     // Radiance 1 + Y_i: the coefficients are those of a constant, plus one at i.
     for (const int i : {1, 2, 3, 4, 7, 8, 11, 20, 35}) {
         const auto function = [&](const glm::dvec3& w) {
@@ -124,7 +124,7 @@ TEST(Project, ConeImageAgreesWithTheClosedForm) {
         EXPECT_NEAR(light.coefficients[i].r, closed_form.coefficients[i].r, 1e-3f) << i;
 }
 
-TEST(Project, HardEdgedConeImageAgreesToo) {
+TEST(Project, HardEdgedConeImageMatchesTheClosedForm) {
     const glm::dvec3 axis = glm::normalize(glm::dvec3(-0.3, 0.8, 0.2));
     const Environment image = lat_long(1024, 512, [&](const glm::dvec3& w) {
         return glm::dvec3(glm::dot(axis, w) > std::cos(0.7) ? 1.0 : 0.0);
@@ -134,7 +134,7 @@ TEST(Project, HardEdgedConeImageAgreesToo) {
               1e-3);
 }
 
-TEST(Project, ATexelSizedSunAndADimSkyAreKeptApart) {
+TEST(Project, SeparatesATexelSizedSunFromADimSky) {
     Environment environment = lat_long(512, 256, [](const auto&) { return glm::dvec3(1e-3); });
     environment.image.at(100, 40) = glm::vec3(1e5f);
     const double theta0 = std::numbers::pi * 40 / 256, theta1 = std::numbers::pi * 41 / 256;
@@ -172,7 +172,7 @@ TEST(Project, AnEnvironmentOfTheWrongShapeIsAnError) {
 }
 
 /// A hot texel in the middle of the image, seen by three ways of reading it.
-TEST(Project, TheCenterOfALatLongImageLooksWhereItIsToldTo) {
+TEST(Project, CenterOfALatLongImageFacesTheRequestedAxis) {
     for (const int width : {16, 18}) { // with and without a quarter in whole pixels
         Environment environment = lat_long(width, 9, [](const auto&) { return glm::dvec3(0); });
         environment.image.at(width / 2, 4) = environment.image.at(width / 2 - 1, 4) = glm::vec3(1);
@@ -236,7 +236,7 @@ TEST(OtherLayouts, ConstantImagesAreConstantLights) {
     }
 }
 
-TEST(OtherLayouts, BasisFunctionsComeBack) {
+TEST(OtherLayouts, BasisFunctionsRoundTrip) {
     for (const int i : {1, 2, 3, 4, 7, 11, 20, 35}) {
         const auto function = [&](const glm::dvec3& w) {
             std::array<double, 100> y{};
@@ -288,7 +288,7 @@ Light by_texels(const Environment& environment, int order) {
     return light;
 }
 
-TEST(OtherLayouts, NoiseIsProjectedAsTexelByTexel) {
+TEST(OtherLayouts, NoiseIsProjectedLikeSingleTexels) {
     std::mt19937 random(5);
     std::uniform_real_distribution<float> value(0, 2);
     for (const int size : {51, 64, 160})
@@ -306,7 +306,7 @@ TEST(OtherLayouts, NoiseIsProjectedAsTexelByTexel) {
         }
 }
 
-TEST(OtherLayouts, SamplingFindsWhatIsThere) {
+TEST(OtherLayouts, SamplingFindsTheTexel) {
     const auto function = [](const glm::dvec3& w) { return 1.0 + glm::dvec3(w); };
     const Environment faces = cube_faces(64, function), probe = angular(128, function);
     for (const glm::vec3 d : {glm::vec3(1, 2, 3), glm::vec3(-3, 0.1f, 0.2f), glm::vec3(0.1f, -1, 0.3f),

@@ -58,7 +58,7 @@ glm::dmat3 rgb_from_xyz() {
         glm::dmat3(primaries[0] * shares.x, primaries[1] * shares.y, primaries[2] * shares.z));
 }
 
-TEST(PreethamSky, IsThatOfThePapersTables) {
+TEST(PreethamSky, MatchesTheTablesOfThePaper) {
     const glm::dmat3 to_rgb = rgb_from_xyz();
     for (const double turbidity : {2.0, 3.5, 6.0})
         for (const double sun : {0.2, 0.7, 1.2}) {

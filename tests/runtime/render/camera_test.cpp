@@ -14,7 +14,7 @@
 namespace prt {
 namespace {
 
-TEST(Camera, AutomaticCameraSeesTheWholeScene) {
+TEST(Camera, AutomaticCameraContainsTheScene) {
     for (const float scale : {1e-6f, 1.0f, 1e6f})
         for (const float aspect : {0.5f, 1.0f, 2.4f}) {
             const Scene scene =
@@ -44,7 +44,7 @@ TEST(Camera, FrameAgreesWithTheMatrix) {
     EXPECT_NEAR(clip.y / clip.w, -0.5f, 1e-5f);
 }
 
-TEST(Camera, NearAndFarPlanesHoldAllCornersOfTheBox) {
+TEST(Camera, NearAndFarPlanesContainTheBox) {
     const Bounds box{{-1, -2, -3}, {2, 3, 1}};
     const auto corner = [&](int i) {
         return glm::vec3(i & 1 ? box.high.x : box.low.x, i & 2 ? box.high.y : box.low.y,
@@ -66,7 +66,7 @@ TEST(Camera, NearAndFarPlanesHoldAllCornersOfTheBox) {
     }
 }
 
-TEST(Camera, PixelsLookWhereTheProjectionPutsThem) {
+TEST(Camera, PixelRaysMatchTheProjection) {
     const Camera camera{{3, 2, 5}, {0.5f, -1, 0}, {0, 1, 0}, 0.8f};
     const glm::mat4 matrix = view_projection(camera, {glm::vec3(-1), glm::vec3(1)}, 1.5f);
     const CameraFrame frame = camera_frame(camera);

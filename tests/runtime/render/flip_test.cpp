@@ -54,7 +54,7 @@ double green_to_blue() {
     return std::abs(d.x) + std::hypot(d.y, d.z);
 }
 
-TEST(Flip, OfOnePictureIsZero) {
+TEST(Flip, IsZeroForEqualPictures) {
     const Image image = noise(20, 12, glm::vec3(0.4f), 0.3f, 1);
     for (const float value : flip(image, image))
         EXPECT_EQ(value, 0);
@@ -62,7 +62,7 @@ TEST(Flip, OfOnePictureIsZero) {
         EXPECT_EQ(value, 0);
 }
 
-TEST(Flip, OfPlainGreysFollowsTheirLightness) {
+TEST(Flip, PlainGreysFollowLightness) {
     const double most = std::pow(green_to_blue(), 0.7);
     for (const auto& [a, b] : {std::pair(0.2, 0.21), std::pair(0.5, 0.3), std::pair(0.0, 1.0)}) {
         const double error = std::pow(std::abs(lightness(a) - lightness(b)), 0.7);
@@ -75,12 +75,12 @@ TEST(Flip, OfPlainGreysFollowsTheirLightness) {
     }
 }
 
-TEST(Flip, OfGreenAndBlueIsOne) {
+TEST(Flip, GreenAndBlueDifferByOne) {
     for (const float value : flip(constant(7, 7, {0, 1, 0}), constant(7, 7, {0, 0, 1})))
         EXPECT_NEAR(value, 1, 1e-4);
 }
 
-TEST(Flip, SeesFineNoiseLessFromFarther) {
+TEST(Flip, FineNoiseIsLessVisibleFromFarther) {
     const Image plain = constant(96, 96, glm::vec3(0.5f)), noisy = noise(96, 96, glm::vec3(0.5f), 0.1f, 2);
     double before = 1;
     for (const float pixels_per_degree : {15.0f, 30.0f, 67.0f, 140.0f}) {
@@ -106,7 +106,7 @@ double filtered_at_middle(const std::vector<double>& plane, int size, int radius
     return sum;
 }
 
-TEST(Flip, OfGreysAgreesWithSumsOverThePlane) {
+TEST(Flip, GreysMatchIntegralsOverThePlane) {
     constexpr int kSize = 41;
     const double pixels_per_degree = 67;
     Image a = noise(kSize, kSize, glm::vec3(0.4f), 0.2f, 3), b = a;
@@ -183,7 +183,7 @@ TEST(HdrFlip, EndsForBlackAndNegativePictures) {
     EXPECT_LE(flip_exposures(spark).count, 20);
 }
 
-TEST(HdrFlip, RefusesOtherSizesAndWhatIsNotFinite) {
+TEST(HdrFlip, RejectsDifferentSizesAndNonFiniteValues) {
     const Image image = constant(4, 4, glm::vec3(1));
     EXPECT_THROW(hdr_flip(image, constant(4, 3, glm::vec3(1))), Error);
     EXPECT_THROW(hdr_flip(Image{}, Image{}), Error);

@@ -29,7 +29,7 @@ float largest_difference(const std::vector<glm::vec3>& a, const std::vector<glm:
 class LightmapPasses : public testing::TestWithParam<std::tuple<int, bool>> {};
 INSTANTIATE_TEST_SUITE_P(Words, LightmapPasses, testing::Combine(testing::Values(1, 2), testing::Bool()));
 
-TEST_P(LightmapPasses, OfComputeAndFragmentsIsThatOfCpp) {
+TEST_P(LightmapPasses, MatchCppInComputeAndFragmentShaders) {
     const auto context = GlContext::create(GlDevice::any);
     ASSERT_TRUE(context);
     std::mt19937 random(4);
@@ -44,7 +44,7 @@ TEST_P(LightmapPasses, OfComputeAndFragmentsIsThatOfCpp) {
         1e-5f);
 }
 
-TEST(LightmapPictures, AreTheSameByRaysAndByOpenGl) {
+TEST(LightmapPictures, MatchBetweenRaysAndOpenGl) {
     const auto context = GlContext::create(GlDevice::any);
     ASSERT_TRUE(context);
     Scene scene = test::SceneBuilder().floor({0, 0, 0}, 1).build();
@@ -74,7 +74,7 @@ TEST(LightmapPictures, AreTheSameByRaysAndByOpenGl) {
     EXPECT_LT(off / static_cast<double>(seen), 0.05); // half floats of up to 7, and eight bits between texels
 }
 
-TEST(LightmapLookup, FindsWhatTexelsOfAPlaceHold) {
+TEST(LightmapLookup, FindsTheTexelsOfAPosition) {
     Scene scene = test::SceneBuilder().floor({0, 0, 0}, 1).build();
     scene.vertex_arrays[0].texcoords.assign(1, {});
     for (const glm::vec3& p : scene.vertex_arrays[0].positions)

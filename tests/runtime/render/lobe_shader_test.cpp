@@ -201,7 +201,7 @@ INSTANTIATE_TEST_SUITE_P(All, LobeLanguages,
                          testing::Values(ShaderLanguage::glsl450, ShaderLanguage::glsl330,
                                          ShaderLanguage::essl300));
 
-TEST_P(LobeLanguages, LightAsCppDoes) {
+TEST_P(LobeLanguages, MatchCpp) {
     std::mt19937 random(6);
     std::vector<glm::vec3> light;
     for (int i = 0; i < 16; ++i)
@@ -219,7 +219,7 @@ TEST_P(LobeLanguages, LightAsCppDoes) {
     }
 }
 
-TEST(LobeShader, RefusesLightOfOtherOrders) {
+TEST(LobeShader, RejectsLightOfOtherOrders) {
     std::mt19937 random(7);
     EXPECT_THROW(lobe_defines(any_model(random, 4), 5), Error);
     EXPECT_THROW(lobe_defines({}, 3), Error);

@@ -187,7 +187,7 @@ INSTANTIATE_TEST_SUITE_P(All, OccluderLanguages,
                          testing::Values(ShaderLanguage::glsl450, ShaderLanguage::glsl330,
                                          ShaderLanguage::essl300));
 
-TEST_P(OccluderLanguages, BlockWhatCppBlocks) {
+TEST_P(OccluderLanguages, MatchCpp) {
     std::mt19937 random(5);
     const Objects objects = any_objects(random);
     std::vector<Position> positions;

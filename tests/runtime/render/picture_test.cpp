@@ -124,7 +124,7 @@ protected:
     std::unique_ptr<GlContext> context;
 };
 
-TEST_F(Pictures, OfCompressedTransferAgree) {
+TEST_F(Pictures, CompressedTransferMatches) {
     BakeOptions bake_options;
     bake_options.rays = 64;
     bake_options.repairs.bad_textures =
@@ -150,7 +150,7 @@ TEST_F(Pictures, OfCompressedTransferAgree) {
     EXPECT_GT(d.compared, 0.6); // most of the picture was compared
 }
 
-TEST_F(Pictures, OfColorsAgree) {
+TEST_F(Pictures, ColorsMatch) {
     std::vector<glm::vec3> colors;
     for (const glm::vec3& p : objects.scene.vertex_arrays[0].positions)
         colors.push_back(0.5f + 0.4f * glm::sin(p * 3.0f));
@@ -181,7 +181,7 @@ TEST_F(Pictures, ShowTheSceneUprightAndTheRightWayRound) {
             }
 }
 
-TEST_F(Pictures, SeeTheBackgroundWhereTheCameraLooks) {
+TEST_F(Pictures, ShowTheBackgroundInTheViewDirection) {
     const std::vector<glm::vec3> black(objects.scene.receivers(), glm::vec3(0));
     picture.radiance = black;
     picture.background.rotation = 0;
@@ -207,7 +207,7 @@ Scene coincident_sheets(bool front_first) {
     return front_first ? test::join({sheet(1), sheet(-1)}) : test::join({sheet(-1), sheet(1)});
 }
 
-TEST(RayRenderer, CoincidentSheetsShowTheOneThatFacesTheCamera) {
+TEST(RayRenderer, CoincidentSheetsShowTheFacingSheet) {
     for (const bool front_first : {true, false}) {
         const Scene scene = coincident_sheets(front_first);
         std::vector<glm::vec3> colors; // red for the sheets that face +Z, green for the others
@@ -228,7 +228,7 @@ TEST(RayRenderer, CoincidentSheetsShowTheOneThatFacesTheCamera) {
     }
 }
 
-TEST(RayRenderer, WhatIsCutOutDoesNotHideWhatLiesAtTheSamePlace) {
+TEST(RayRenderer, CutOutsDoNotHideCoincidentSurfaces) {
     const auto sheet = test::SceneBuilder().quad({-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}).build();
     Scene scene = test::join({sheet, sheet, sheet});
     for (const std::size_t cut : {0u, 2u}) {
@@ -245,7 +245,7 @@ TEST(RayRenderer, WhatIsCutOutDoesNotHideWhatLiesAtTheSamePlace) {
         ASSERT_LT(glm::distance(pixel, glm::vec3(1)), 1e-5f);
 }
 
-TEST(LightMeter, MeasuresWhatTheModelShowsAndNotTheSky) {
+TEST(LightMeter, MeasuresTheModelAndNotTheSky) {
     // A sheet of base color c before a bright sky: its left half emits 2 c, its right half 6 c.
     const glm::vec3 color(0.5f, 0.25f, 0.125f);
     const Scene scene = test::join(
@@ -279,7 +279,7 @@ TEST(LightMeter, MeasuresWhatTheModelShowsAndNotTheSky) {
         EXPECT_GE(receiver, behind);
 }
 
-TEST(LightMeter, MeasuresTheTexelsThatShow) {
+TEST(LightMeter, MeasuresVisibleTexels) {
     // Two triangles with a lightmap that is bright in the middle and dark at all corners.
     Scene scene = test::painted(
         test::SceneBuilder().quad({-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}).build(), glm::vec3(0.5f));
@@ -313,7 +313,7 @@ TEST(LightMeter, MeasuresTheTexelsThatShow) {
     EXPECT_NEAR(meter.luminance(radiance), shown.g / (480.0f * 480.0f * covered), 0.05f);
 }
 
-TEST(GlRenderer, RefusesPicturesLargerThanTheDevice) {
+TEST(GlRenderer, RejectsPicturesLargerThanTheDevice) {
     const auto context = GlContext::create(GlDevice::any);
     ASSERT_TRUE(context);
     const Scene scene = test::SceneBuilder().floor({0, 0, 0}, 1).build();

@@ -98,7 +98,7 @@ double visibility(const RayScene& rays, const Position& point, const Sun& sun) {
     return static_cast<double>(open) / kRays;
 }
 
-TEST_F(SunShadowPictures, OfAPlaneAreIrradianceOverPiTimesTheCosineTimesTheBaseColor) {
+TEST_F(SunShadowPictures, PlanesFollowLambertsLaw) {
     const glm::vec3 base(0.8f, 0.5f, 0.2f), irradiance(3, 2, 1);
     const Scene floor = test::painted(test::SceneBuilder().floor({0, 0, 0}, 20, 3).build(), base);
     for (const double elevation : {88.0, 45.0, 10.0, 2.0})
@@ -116,7 +116,7 @@ TEST_F(SunShadowPictures, OfAPlaneAreIrradianceOverPiTimesTheCosineTimesTheBaseC
         }
 }
 
-TEST_F(SunShadowPictures, OfASunBelowThePlaneAreBlack) {
+TEST_F(SunShadowPictures, SunsBelowThePlaneAreBlack) {
     const Scene floor = test::SceneBuilder().floor({0, 0, 0}, 20, 3).build();
     const Image image =
         lit(floor, {from(30, -5), glm::vec3(1), 0.005}, {.position = {0, 2, 6}, .target = {0, 0, 0}});
@@ -193,7 +193,7 @@ TEST_F(SunShadowPictures, FromInsideTheSceneAgreeWithRays) {
     EXPECT_LE(a.wrong, 0.0005 * a.compared);
 }
 
-TEST_F(SunShadowPictures, OfTwoSunsAreTheSumOfEach) {
+TEST_F(SunShadowPictures, TwoSunsAdd) {
     const Scene scene = playground();
     const Camera camera{.position = {2, 3.5f, 6}, .target = {0, 0.7f, 0}};
     const Sun suns[2] = {{from(-40, 50), {1, 0.5f, 0.25f}, 0.004}, {from(70, 30), {0.25f, 0.5f, 1}, 0.01}};
@@ -257,7 +257,7 @@ protected:
     }
 };
 
-TEST_F(BelowTheZenith, IsDarkUnderWhatIsOpaqueFromBothSides) {
+TEST_F(BelowTheZenith, IsDarkUnderOpaqueSurfaces) {
     EXPECT_EQ(through(pane(1)), 0);
     EXPECT_EQ(through(test::SceneBuilder() // its back faces the sun
                           .quad({-2, 1, -2}, {2, 1, -2}, {2, 1, 2}, {-2, 1, 2})
@@ -265,7 +265,7 @@ TEST_F(BelowTheZenith, IsDarkUnderWhatIsOpaqueFromBothSides) {
               0);
 }
 
-TEST_F(BelowTheZenith, IsOpenUnderWhatCastsNoShadow) {
+TEST_F(BelowTheZenith, IsOpenUnderSurfacesWithoutShadow) {
     Scene shell = pane(1);
     shell.materials[0].casts_shadow = false;
     EXPECT_NEAR(through(shell), 1, 1e-5);
@@ -281,7 +281,7 @@ TEST_F(BelowTheZenith, IsDimmedByAllBlendedLayersAndGlassTogether) {
     EXPECT_NEAR(through(glass), 0.4, 1e-3);
 }
 
-TEST_F(BelowTheZenith, IsNotDimmedByWhatIsBelowOrItself) {
+TEST_F(BelowTheZenith, IsNotDimmedByItselfOrSurfacesBelow) {
     EXPECT_NEAR(through(blended(-1, 0.5f)), 1, 1e-5);
     // fully lit; half of the visible light comes from the floor, dimmed
     Scene glass_floor = blended(0.01f, 0.5f);
@@ -301,7 +301,7 @@ TEST_F(BelowTheZenith, ShowsCutOutsByTheirTexture) {
     EXPECT_EQ(through(sheet, closed), 0);
 }
 
-TEST_F(SunShadowPictures, ShowThinSheetsLitFromBehindAndNoMediumAtAll) {
+TEST_F(SunShadowPictures, ShowTransmittingSheetsButNoMedia) {
     Scene sheet =
         test::painted(test::SceneBuilder().quad({-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}).build(),
                       {0.5f, 0.4f, 0.3f}, true);
@@ -326,7 +326,7 @@ TEST_F(SunShadowPictures, ShowThinSheetsLitFromBehindAndNoMediumAtAll) {
     EXPECT_EQ(middle(-slant), glm::vec3(0));
 }
 
-TEST_F(SunShadowPictures, OfMoreSunsThanThereAreMapsAreRefused) {
+TEST_F(SunShadowPictures, MoreSunsThanMapsAreRejected) {
     const Scene floor = test::SceneBuilder().floor({0, 0, 0}, 1, 1).build();
     const std::vector<Sun> suns(kMaxShadowedSuns + 1, {{0, 1, 0}, glm::vec3(1), 0});
     EXPECT_THROW(lit(floor, suns, {.position = {0, 1, 2}, .target = {0, 0, 0}}), Error);

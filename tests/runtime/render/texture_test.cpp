@@ -10,7 +10,7 @@
 namespace prt {
 namespace {
 
-TEST(Texture, NeedsAreThoseOfTheLightThatIsAsked) {
+TEST(Texture, NeedsDependOnTheRequestedLight) {
     Scene scene;
     for (int m = 0; m < 3; ++m) { // opaque, cut out, shining
         Material& material = scene.materials.emplace_back();

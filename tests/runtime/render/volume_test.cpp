@@ -271,7 +271,7 @@ INSTANTIATE_TEST_SUITE_P(All, VolumeLanguages,
                          testing::Values(ShaderLanguage::glsl450, ShaderLanguage::glsl330,
                                          ShaderLanguage::essl300));
 
-TEST_P(VolumeLanguages, FindWhatCppFinds) {
+TEST_P(VolumeLanguages, MatchCpp) {
     std::mt19937 random(11);
     for (const int order : {2, 3, 4}) {
         const CompressedVolume volume = random_volume(order, false, random);
@@ -291,7 +291,7 @@ TEST_P(VolumeLanguages, FindWhatCppFinds) {
     }
 }
 
-TEST_P(VolumeLanguages, FilterCellsThatAllProbesSee) {
+TEST_P(VolumeLanguages, FilterFullyVisibleCells) {
     std::mt19937 random(12);
     CompressedVolume volume = random_volume(3, true, random);
     std::ranges::fill(volume.visibility, ProbeVisibility{255, 255, 255, 255, 255, 255});
@@ -305,7 +305,7 @@ TEST_P(VolumeLanguages, FilterCellsThatAllProbesSee) {
 class VolumePass : public testing::TestWithParam<std::tuple<int, bool>> {};
 INSTANTIATE_TEST_SUITE_P(Orders, VolumePass, testing::Combine(testing::Values(2, 3, 4), testing::Bool()));
 
-TEST_P(VolumePass, FormsWhatCppForms) {
+TEST_P(VolumePass, MatchesCpp) {
     const auto context = GlContext::create(GlDevice::any);
     ASSERT_TRUE(context);
     const auto [order, alike] = GetParam();

@@ -109,7 +109,7 @@ TEST(Animation, HalfOfTheTimeIsHalfOfTheAngle) {
     }
 }
 
-TEST(Animation, RotationsTurnTheShortWay) {
+TEST(Animation, RotationsTakeTheShortestPath) {
     GlbFile file = test::triangle_file();
     std::vector<float> far = rotation(90);
     for (float& number : far)
@@ -120,7 +120,7 @@ TEST(Animation, RotationsTurnTheShortWay) {
     expect_near(glm::dvec3(nodes[0] * glm::dvec4(1, 0, 0, 0)), {std::sqrt(0.5), std::sqrt(0.5), 0});
 }
 
-TEST(Animation, StepsHoldAndLinesGoStraight) {
+TEST(Animation, StepAndLinearInterpolationFollowGltf) {
     GlbFile file = test::triangle_file();
     animate(file, {"translation", "STEP", {0, 1, 2}, {0, 0, 0, 4, 0, 0, 0, 8, 0}});
     animate(file, {"scale", "LINEAR", {0, 2}, {1, 1, 1, 3, 5, 1}});
@@ -165,7 +165,7 @@ TEST(Animation, SplinesOfRotationsAreUnit) {
     expect_near(glm::dvec3(nodes[0] * glm::dvec4(1, 0, 0, 0)), {std::sqrt(0.5), std::sqrt(0.5), 0});
 }
 
-TEST(Animation, ChildrenGoWithTheirParentsAndOthersStay) {
+TEST(Animation, ChildrenMoveWithTheirParents) {
     GlbFile file = test::triangle_file();
     file.json["nodes"] = {
         {{"mesh", 0}, {"children", {1}}}, {{"translation", {0, 2, 0}}}, {{"translation", {3, 0, 0}}}};
@@ -177,7 +177,7 @@ TEST(Animation, ChildrenGoWithTheirParentsAndOthersStay) {
     expect_near(position(nodes[2]), {3, 0, 0});
 }
 
-TEST(Skins, AJointTurnedByARightAngleTakesItsVerticesWithIt) {
+TEST(Skins, VerticesRotateWithTheirJoint) {
     GlbFile file = skinned_file();
     animate(file, {"rotation", "LINEAR", {0, 1}, joined({rotation(0), rotation(90)})}, 2);
     const AnimatedScene scene = animated(file);
@@ -195,7 +195,7 @@ TEST(Skins, AJointTurnedByARightAngleTakesItsVerticesWithIt) {
     expect_near(glm::dvec3(palette[1] * glm::dvec4(1, 0, 0, 1)), {1, 2, 0});
 }
 
-TEST(Skins, NormalsTurnWithTheirJointsAndLeanAgainstScales) {
+TEST(Skins, NormalsFollowJointsAndInverseScales) {
     GlbFile file = skinned_file();
     const float s = std::sqrt(0.5f);
     file.json["meshes"][0]["primitives"][0]["attributes"]["NORMAL"] =
@@ -229,7 +229,7 @@ void expect_rest_is_scene(const AnimatedScene& animated, const Scene& scene) {
     }
 }
 
-TEST(Skins, AtRestTheSceneIsAsItIsExtracted) {
+TEST(Skins, RestPoseMatchesTheExtractedScene) {
     GlbFile rotated = skinned_file();
     rotated.json["nodes"][2]["rotation"] = rotation(37);
     GlbFile flat = rotated;
@@ -247,7 +247,7 @@ TEST(Skins, AtRestTheSceneIsAsItIsExtracted) {
     }
 }
 
-TEST(Skins, ARealCharacterRestsAsItIsExtractedAndIsFiniteInAllItsMovements) {
+TEST(Skins, RealCharactersMatchTheRestPoseAndStayFinite) {
     const std::filesystem::path path = test::shared_file("mesh/RobotExpressive.glb");
     if (path.empty())
         GTEST_SKIP() << "no mesh/RobotExpressive.glb";
@@ -263,7 +263,7 @@ TEST(Skins, ARealCharacterRestsAsItIsExtractedAndIsFiniteInAllItsMovements) {
     }
 }
 
-TEST(Animation, WhatMovesNoNodeIsLeftOut) {
+TEST(Animation, ChannelsWithoutNodesAreIgnored) {
     GlbFile file = test::triangle_file();
     animate(file, {"translation", "LINEAR", {0, 1}, {0, 0, 0, 1, 0, 0}});
     file.json["animations"][0]["channels"][0]["target"] = {{"path", "pointer"}};
@@ -274,7 +274,7 @@ TEST(Animation, WhatMovesNoNodeIsLeftOut) {
     EXPECT_EQ(scene.pose(scene.animations()[0], 1), scene.rest());
 }
 
-TEST(BadAnimation, IsRefusedWithItsPosition) {
+TEST(BadAnimation, IsRejectedWithItsPosition) {
     const auto refused = [](const Keys& keys, int node = 0) {
         GlbFile file = test::triangle_file();
         animate(file, keys, node);
@@ -286,52 +286,52 @@ TEST(BadAnimation, IsRefusedWithItsPosition) {
         EXPECT_NE(text.find("moving.glb: animation 0 channel 0: "), std::string::npos) << text;
         EXPECT_EQ(text.find('\n'), std::string::npos);
     };
-    has(refused({"translation", "LINEAR", {0, kNan}, two}), "time of key 1 is not finite");
-    has(refused({"translation", "LINEAR", {1, 0.5f}, two}), "key 1 is earlier than the one before it");
+    has(refused({"translation", "LINEAR", {0, kNan}, two}), "time of keyframe 1 is not finite");
+    has(refused({"translation", "LINEAR", {1, 0.5f}, two}), "keyframe 1 is earlier than the previous one");
     has(refused({"translation", "LINEAR", {0, 1}, {0, 0, 0, 1, kNan, 0}}), "value 1 is not finite");
-    has(refused({"translation", "LINEAR", {0, 1, 2}, two}), "2 values for 3 keys");
-    has(refused({"translation", "CUBICSPLINE", {0, 1}, two}), "2 values for 2 keys of 3 each");
-    has(refused({"translation", "LINEAR", {}, {}}), "it has no keys");
-    has(refused({"translation", "LINEAR", {0, 1}, two}, 7), "moves node 7, which is not there");
-    has(refused({"rotation", "LINEAR", {0}, {0, 0, 0, 0}}), "rotation of key 0 is 0");
-    has(refused({"translation", "WOBBLE", {0, 1}, two}), "no interpolation 'WOBBLE'");
+    has(refused({"translation", "LINEAR", {0, 1, 2}, two}), "2 values, but its 3 keyframes need 3");
+    has(refused({"translation", "CUBICSPLINE", {0, 1}, two}), "2 values, but its 2 keyframes need 6");
+    has(refused({"translation", "LINEAR", {}, {}}), "it has no keyframes");
+    has(refused({"translation", "LINEAR", {0, 1}, two}, 7), "moves node 7, which does not exist");
+    has(refused({"rotation", "LINEAR", {0}, {0, 0, 0, 0}}), "rotation of keyframe 0 is not a rotation");
+    has(refused({"translation", "WOBBLE", {0, 1}, two}), "interpolation 'WOBBLE' is not LINEAR");
 }
 
-TEST(BadAnimation, OfWhatIsNotThereIsRefused) {
+TEST(BadAnimation, WithMissingTargetsIsRejected) {
     GlbFile file = test::triangle_file();
     animate(file, {"translation", "LINEAR", {0, 1}, {0, 0, 0, 1, 0, 0}});
     GlbFile output = file, input = file, sampler = file, matrix = file;
     output.json["animations"][0]["samplers"][0]["output"] = 99;
-    EXPECT_NE(refusal(output).find("accessor 99 is not there"), std::string::npos) << refusal(output);
+    EXPECT_NE(refusal(output).find("accessor 99 does not exist"), std::string::npos) << refusal(output);
     input.json["animations"][0]["samplers"][0]["input"] = 98;
-    EXPECT_NE(refusal(input).find("accessor 98 is not there"), std::string::npos) << refusal(input);
+    EXPECT_NE(refusal(input).find("accessor 98 does not exist"), std::string::npos) << refusal(input);
     sampler.json["animations"][0]["channels"][0]["sampler"] = 5;
-    EXPECT_NE(refusal(sampler).find("sampler 5 is not there"), std::string::npos) << refusal(sampler);
+    EXPECT_NE(refusal(sampler).find("sampler 5 does not exist"), std::string::npos) << refusal(sampler);
     matrix.json["nodes"][0]["matrix"] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
     EXPECT_NE(refusal(matrix).find("node 0, which has a matrix"), std::string::npos) << refusal(matrix);
 }
 
-TEST(BadSkin, IsRefusedWithItsPosition) {
+TEST(BadSkin, IsRejectedWithItsPosition) {
     GlbFile joint = skinned_file(), index = skinned_file(), skin = skinned_file(), bind = skinned_file();
     joint.json["skins"][0]["joints"] = {1, 44};
-    EXPECT_NE(refusal(joint).find("joint 1 of skin 0 is node 44, which is not there"), std::string::npos)
+    EXPECT_NE(refusal(joint).find("joint 1 of skin 0 is node 44, which does not exist"), std::string::npos)
         << refusal(joint);
     index.json["skins"][0]["joints"] = {1};
-    EXPECT_NE(refusal(index).find("joint 1 is beyond the 1 of its skin"), std::string::npos)
+    EXPECT_NE(refusal(index).find("joint 1 does not exist: the skin has 1 joint"), std::string::npos)
         << refusal(index);
     skin.json["nodes"][0]["skin"] = 3;
-    EXPECT_NE(refusal(skin).find("skin 3 is not there"), std::string::npos) << refusal(skin);
+    EXPECT_NE(refusal(skin).find("skin 3 does not exist"), std::string::npos) << refusal(skin);
     bind.json["skins"][0]["inverseBindMatrices"] = 77;
-    EXPECT_NE(refusal(bind).find("accessor 77 is not there"), std::string::npos) << refusal(bind);
+    EXPECT_NE(refusal(bind).find("accessor 77 does not exist"), std::string::npos) << refusal(bind);
     GlbFile few = skinned_file();
     few.json["skins"][0]["inverseBindMatrices"] = few.accessor(
         std::vector<float>{1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1}, test::kFloat, "MAT4", 16);
-    EXPECT_NE(refusal(few).find("2 joints, and 1 inverse bind"), std::string::npos) << refusal(few);
+    EXPECT_NE(refusal(few).find("2 joints, but 1 inverse bind"), std::string::npos) << refusal(few);
     for (const float weight : {std::nanf(""), -1.0f}) {
         GlbFile file = skinned_file();
         file.json["meshes"][0]["primitives"][0]["attributes"]["WEIGHTS_0"] = file.accessor(
             std::vector<float>{1, 0, 0, 0, weight, 0, 0, 0, 1, 0, 0, 0}, test::kFloat, "VEC4", 4);
-        EXPECT_NE(refusal(file).find("a weight of vertex 1"), std::string::npos) << refusal(file);
+        EXPECT_NE(refusal(file).find("a joint weight of vertex 1"), std::string::npos) << refusal(file);
     }
 }
 

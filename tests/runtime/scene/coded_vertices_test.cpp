@@ -113,7 +113,7 @@ ClusteredReceivers read(const std::filesystem::path& path) {
     return read_clustered(document, extract_scene(document))->transfer.receivers;
 }
 
-TEST(CodedVertices, ComeBackBitByBit) {
+TEST(CodedVertices, RoundTripExactly) {
     const Files files;
     const Json json = json_of(files.coded);
     EXPECT_EQ(json["extensions"][kExtension]["packing"]["words"]["vertices"], 2 * kSize * kSize);
@@ -128,7 +128,7 @@ TEST(CodedVertices, ComeBackBitByBit) {
     EXPECT_EQ(plain.size(), 2 * kSize * kSize);
 }
 
-TEST(CodedVertices, ReadAndSavedAgainArePlain) {
+TEST(CodedVertices, AreSavedAsPlainAttributes) {
     const Files files;
     save_glb(load_gltf(files.coded), files.folder / "again.glb");
     const Json json = json_of(files.folder / "again.glb");
@@ -143,13 +143,13 @@ TEST(CodedVertices, ReadAndSavedAgainArePlain) {
               std::filesystem::file_size(files.plain) + 200);
 }
 
-TEST(CodedVertices, StayAttributesWhereThoseAreSmaller) {
+TEST(CodedVertices, AreUsedOnlyIfSmallerThanAttributes) {
     const Files files(3); // smaller than the frequencies
     EXPECT_FALSE(json_of(files.coded)["extensions"][kExtension]["packing"].contains("words"));
     EXPECT_EQ(read(files.coded).weights, read(files.plain).weights);
 }
 
-TEST(CodedVertices, DamagedAreRefused) {
+TEST(CodedVertices, DamageIsRejected) {
     const Files files;
     std::ifstream stream(files.coded, std::ios::binary);
     const std::string good{std::istreambuf_iterator<char>(stream), {}};
@@ -174,7 +174,7 @@ TEST(CodedVertices, DamagedAreRefused) {
         return json["meshes"][0]["primitives"][2]["extensions"][kExtension]["firstVertex"];
     };
     expect_refused("vertices is 0", [&](Json& json) { words(json)["vertices"] = 0; });
-    expect_refused("would take", [&](Json& json) { words(json)["vertices"] = 2'000'000'000; });
+    expect_refused("would need", [&](Json& json) { words(json)["vertices"] = 2'000'000'000; });
     expect_refused("the coded words end too early",
                    [&](Json& json) { words(json)["vertices"] = 2 * kSize * kSize + 1; });
     expect_refused("beyond the", [&](Json& json) { words(json)["vertices"] = kSize * kSize; });
@@ -188,7 +188,7 @@ TEST(CodedVertices, DamagedAreRefused) {
 
 /// Words are predicted from neighbours: vertices in another order have other words, which ends in a damaged
 /// code.
-TEST(CodedVertices, OfAReorderedMeshAreRefusedWithTheRemedy) {
+TEST(CodedVertices, ReorderedMeshesAreRejectedWithTheRemedy) {
     const Files files;
     GlbFile file = test::read_glb(files.coded);
     std::vector<std::uint16_t> indices;
@@ -204,8 +204,9 @@ TEST(CodedVertices, OfAReorderedMeshAreRefusedWithTheRemedy) {
         load_gltf(files.folder / "reordered.glb");
         ADD_FAILURE() << "was read";
     } catch (const Error& error) {
-        EXPECT_NE(std::string(error.what()).find("another program has changed the file; run it before"),
-                  std::string::npos)
+        EXPECT_NE(
+            std::string(error.what()).find("another program has changed the file; run that program before"),
+            std::string::npos)
             << error.what();
     }
 }

@@ -169,7 +169,7 @@ std::multiset<std::array<std::uint32_t, 3>> triangles_of(const Primitive& primit
     return triangles;
 }
 
-TEST(Draco, GivesTheMeshBackWithinItsQuantisation) {
+TEST(Draco, RoundTripsWithinItsQuantization) {
     const Grid grid(12);
     const Scene plain = draco_scene(plain_file(grid));
     const VertexArray& truth = plain.vertex_arrays[0];
@@ -197,7 +197,7 @@ TEST(Draco, GivesTheMeshBackWithinItsQuantisation) {
         }
 }
 
-TEST(Draco, GoesWithMorphTargetsWhoseVerticesKeepTheirOrder) {
+TEST(Draco, SupportsMorphTargetsWithEqualVertexOrder) {
     const Grid grid(9);
     GlbFile plain = plain_file(grid), packed = draco_file(grid, {draco::MESH_SEQUENTIAL_ENCODING, 0});
     for (GlbFile* file : {&plain, &packed}) {
@@ -210,7 +210,7 @@ TEST(Draco, GoesWithMorphTargetsWhoseVerticesKeepTheirOrder) {
     EXPECT_EQ(a.vertex_arrays[0].normals, b.vertex_arrays[0].normals);
 }
 
-TEST(Draco, IsWrittenUncompressedAndTheCompressedBytesGo) {
+TEST(Draco, IsSavedUncompressedWithoutTheOldBytes) {
     const Grid grid(20);
     const test::TemporaryFolder folder;
     GlbFile file = draco_file(grid, {});
@@ -232,7 +232,7 @@ TEST(Draco, IsWrittenUncompressedAndTheCompressedBytesGo) {
     EXPECT_EQ(again.primitives[0].triangles, scene.primitives[0].triangles);
 }
 
-TEST(Draco, SharedDataIsDecodedForEveryPrimitiveThatUsesIt) {
+TEST(Draco, SharedDataIsDecodedForEveryPrimitive) {
     GlbFile file = draco_file(Grid(5), {});
     const auto other = file.view(compressed(Grid(8), {}));
     auto same = first_primitive(file), different = first_primitive(file);
@@ -252,7 +252,7 @@ TEST(Draco, SharedDataIsDecodedForEveryPrimitiveThatUsesIt) {
     EXPECT_EQ(scene.vertex_arrays[scene.primitives[2].vertices].positions, large.vertex_arrays[0].positions);
 }
 
-TEST(Draco, UncompressedDataBesideItIsUsedWhereItIsNotRequired) {
+TEST(Draco, UncompressedDataIsUsedIfTheExtensionIsOptional) {
     const Grid grid(6);
     GlbFile file = plain_file(grid);
     first_primitive(file)["extensions"]["KHR_draco_mesh_compression"] = {
@@ -287,14 +287,14 @@ TEST(Draco, DamageNamesThePrimitive) {
     };
     broken("no attribute 99", [](GlbFile&, auto& extension) { extension["attributes"]["POSITION"] = 99; });
     broken("components", [](GlbFile&, auto& extension) { extension["attributes"]["NORMAL"] = kTexcoordId; });
-    broken("buffer view 40 is not there", [](GlbFile&, auto& extension) { extension["bufferView"] = 40; });
-    broken("COLOR_0 beside it 3", [](GlbFile& file, auto&) {
+    broken("buffer view 40 does not exist", [](GlbFile&, auto& extension) { extension["bufferView"] = 40; });
+    broken("uncompressed attribute COLOR_0 has 3", [](GlbFile& file, auto&) {
         first_primitive(file)["attributes"]["COLOR_0"] =
             file.accessor(std::vector<float>(9, 0.5f), test::kFloat, "VEC3", 3);
     });
 }
 
-TEST(Draco, EveryTruncationIsRefused) {
+TEST(Draco, EveryTruncationIsRejected) {
     for (const int method : {draco::MESH_EDGEBREAKER_ENCODING, draco::MESH_SEQUENTIAL_ENCODING}) {
         GlbFile file = draco_file(Grid(3), {method, 11});
         const std::size_t size = file.json["bufferViews"][0]["byteLength"];
@@ -305,7 +305,7 @@ TEST(Draco, EveryTruncationIsRefused) {
     }
 }
 
-TEST(Draco, ClaimsBeyondTheDataAreRefusedBeforeMemoryIsTaken) {
+TEST(Draco, ClaimsBeyondTheDataAreRejectedBeforeAllocation) {
     for (const int method : {draco::MESH_EDGEBREAKER_ENCODING, draco::MESH_SEQUENTIAL_ENCODING}) {
         GlbFile file = draco_file(Grid(3), {method, 11});
         // After the header of 11 bytes: the traversal method, and the number of vertices (16), then that of

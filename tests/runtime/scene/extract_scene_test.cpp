@@ -65,14 +65,14 @@ glm::vec3 first_position(const GlbFile& file, std::size_t i) {
     return world(scene, scene.vertex_arrays[0], i);
 }
 
-TEST(Triangles, StripsFansListsIndexedOrNotCoverTheSquareFromTheFront) {
+TEST(Triangles, StripsFansAndListsCoverTheSquareFromTheFront) {
     EXPECT_FLOAT_EQ(signed_area(scene_of(strip_file(5, {}))), 1);
     EXPECT_FLOAT_EQ(signed_area(scene_of(strip_file(5, {0, 1, 2, 3}))), 1);
     EXPECT_FLOAT_EQ(signed_area(scene_of(strip_file(6, {0, 1, 3, 2}))), 1);
     EXPECT_FLOAT_EQ(signed_area(scene_of(strip_file(4, {0, 1, 2, 2, 1, 3}))), 1);
 }
 
-TEST(Triangles, PointsAndLinesAreLeftAloneWithANotice) {
+TEST(Triangles, PointsAndLinesAreIgnoredWithANotice) {
     GlbFile file = test::triangle_file();
     file.json["meshes"][0]["primitives"].push_back(primitive(file));
     file.json["meshes"][0]["primitives"][1]["mode"] = 1;
@@ -82,7 +82,7 @@ TEST(Triangles, PointsAndLinesAreLeftAloneWithANotice) {
     EXPECT_NE(scene.notices[0].find("points, lines"), std::string::npos);
 }
 
-TEST(Triangles, EmptyPrimitivesAreLeftAlone) {
+TEST(Triangles, EmptyPrimitivesAreIgnored) {
     GlbFile file = test::triangle_file();
     file.json["meshes"][0]["primitives"].push_back({{"attributes", nlohmann::ordered_json::object()}});
     file.json["meshes"][0]["primitives"].push_back(primitive(file));
@@ -93,7 +93,7 @@ TEST(Triangles, EmptyPrimitivesAreLeftAlone) {
     EXPECT_EQ(scene.notices.size(), 1u);
 }
 
-TEST(Indices, OfAllTypesAreRead) {
+TEST(Indices, AllTypesAreRead) {
     for (const int type : {test::kUnsignedByte, test::kUnsignedShort, test::kUnsignedInt}) {
         GlbFile file = test::triangle_file();
         const std::size_t size = type == test::kUnsignedByte ? 1 : type == test::kUnsignedShort ? 2 : 4;
@@ -105,7 +105,7 @@ TEST(Indices, OfAllTypesAreRead) {
     }
 }
 
-TEST(Nodes, HierarchyInstancesAndMirrorsPlaceTheMesh) {
+TEST(Nodes, HierarchyInstancesAndMirrorsTransformTheMesh) {
     GlbFile file = test::triangle_file();
     const double half = std::sqrt(0.5);
     file.json["nodes"] = {
@@ -155,7 +155,7 @@ TEST(Nodes, FarFromTheOriginLoseNoDigits) {
     EXPECT_NEAR(bounds(here).high.x - bounds(here).low.x, 1e-5f, 1e-11f);
 }
 
-TEST(Nodes, ShearedNormalsStayPerpendicular) {
+TEST(Nodes, ShearedNormalsRemainPerpendicular) {
     GlbFile file = test::triangle_file();
     file.json["nodes"][0]["matrix"] = {1, 0, 2, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1}; // x also moves z
     const Scene scene = scene_of(file);
@@ -202,7 +202,7 @@ TEST(Accessors, QuantisedAndInterleavedAttributesAreRead) {
     EXPECT_NEAR(v.texcoords[0][2].x, 0.5f, 1e-4f);
 }
 
-TEST(Normals, MissingOnesAreFlatAndSplitVerticesOnlyWhereFacesTurn) {
+TEST(Normals, MissingNormalsAreFlatAndSplitOnlyCreases) {
     GlbFile file = test::triangle_file();
     // Two coplanar triangles and one folded up, sharing vertices.
     const auto position = file.accessor(std::vector<float>{0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0, 0, 0, 1},
@@ -222,7 +222,7 @@ TEST(Normals, MissingOnesAreFlatAndSplitVerticesOnlyWhereFacesTurn) {
     }
 }
 
-TEST(Normals, ZeroOnesAreTakenFromTheTrianglesAndOthersMadeUnit) {
+TEST(Normals, ZeroNormalsComeFromTrianglesAndOthersAreNormalized) {
     GlbFile file = test::triangle_file();
     const auto nan = std::nanf("");
     primitive(file)["attributes"]["NORMAL"] =
@@ -265,7 +265,7 @@ TEST(Materials, FactorsTexturesAndModesAreRead) {
     EXPECT_EQ(m.base_color_texture.transform * glm::vec3(1, 1, 1), glm::vec2(2.5f, 1));
 }
 
-TEST(Skins, TakeThePoseOfTheFile) {
+TEST(Skins, UseThePoseOfTheFile) {
     GlbFile file = test::triangle_file();
     primitive(file)["attributes"]["JOINTS_0"] = file.accessor(
         std::vector<std::uint8_t>{0, 1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0}, test::kUnsignedByte, "VEC4", 4);
@@ -291,7 +291,7 @@ TEST(Skins, TakeThePoseOfTheFile) {
     EXPECT_EQ(scene.notices.size(), 1u);
 }
 
-TEST(Morphs, TakeTheWeightsOfTheFile) {
+TEST(Morphs, UseTheWeightsOfTheFile) {
     GlbFile file = test::triangle_file();
     primitive(file)["targets"] = {{{"POSITION", file.accessor(std::vector<float>{0, 0, 2, 0, 0, 0, 0, 0, 0},
                                                               test::kFloat, "VEC3", 3)}}};
@@ -303,7 +303,7 @@ TEST(Morphs, TakeTheWeightsOfTheFile) {
     EXPECT_EQ(first_position(file, 0), glm::vec3(0, 0, 0.5f));
 }
 
-TEST(Nodes, AreThoseOfTheDefaultSceneElseOfTheFirst) {
+TEST(Nodes, BelongToTheDefaultOrFirstScene) {
     GlbFile file = test::triangle_file();
     file.json["nodes"] = {{{"mesh", 0}}, {{"mesh", 0}}, {{"mesh", 0}}};
     file.json["scenes"] = {{{"nodes", {0, 1, 2}}}, {{"nodes", {1}}}};
@@ -315,7 +315,7 @@ TEST(Nodes, AreThoseOfTheDefaultSceneElseOfTheFirst) {
     EXPECT_THROW(scene_of(file), Error);
 }
 
-TEST(Nodes, OfAFileWithoutScenesAreAllThatHaveNoParent) {
+TEST(Nodes, WithoutScenesStartAtAllRoots) {
     GlbFile file = test::triangle_file();
     file.json["nodes"] = {{{"mesh", 0}}, {{"children", {2}}}, {{"mesh", 0}}, {{"mesh", 0}}};
     file.json.erase("scenes");
@@ -323,7 +323,7 @@ TEST(Nodes, OfAFileWithoutScenesAreAllThatHaveNoParent) {
     EXPECT_EQ(scene_of(file).triangles(), 3u);
 }
 
-TEST(VertexArrays, AreSharedByPrimitivesThatShareAccessors) {
+TEST(VertexArrays, AreSharedByPrimitivesWithEqualAccessors) {
     GlbFile file = test::triangle_file();
     file.json["meshes"][0]["primitives"].push_back(primitive(file));
     const Scene scene = scene_of(file);

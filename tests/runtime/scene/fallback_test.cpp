@@ -109,7 +109,7 @@ bool is_unlit(const GlbFile& file, const Json& primitive) {
                                                  .contains("KHR_materials_unlit");
 }
 
-TEST(Fallback, ShowsLightOnMaterialsThatSendItBack) {
+TEST(Fallback, ShowsLightOnReflectingMaterials) {
     std::size_t count = 0;
     const GlbFile file = with_fallback(shipped(scene_of_all_kinds()), &count);
     EXPECT_EQ(count, 3u);
@@ -140,7 +140,7 @@ TEST(Fallback, ShowsLightOnMaterialsThatSendItBack) {
     }
 }
 
-TEST(Fallback, IsNotThereForWhoReadsTheTransfer) {
+TEST(Fallback, IsIgnoredByReadersOfTransfer) {
     const GlbFile before = shipped(scene_of_all_kinds());
     const GltfDocument plain = document_of(before), document = document_of(with_fallback(before));
     const Scene expected = extract_scene(plain), scene = extract_scene(document);
@@ -157,7 +157,7 @@ TEST(Fallback, IsNotThereForWhoReadsTheTransfer) {
     EXPECT_EQ(light_of(document, scene), light_of(plain, expected));
 }
 
-TEST(Fallback, GoesWithTheTransfer) {
+TEST(Fallback, IsRemovedWithTheTransfer) {
     GltfDocument document = document_of(with_fallback(shipped(scene_of_all_kinds())));
     discard_transfer(document);
     const GlbFile file = test::glb_of(encode_glb(document));
@@ -172,7 +172,7 @@ TEST(Fallback, GoesWithTheTransfer) {
     EXPECT_EQ(file.binary, test::glb_of(encode_glb(plain)).binary);
 }
 
-TEST(Fallback, OfDamagedFilesIsRefusedOrAside) {
+TEST(Fallback, DamageIsRejectedOrIgnored) {
     const GlbFile right = with_fallback(shipped(scene_of_all_kinds()));
     for (const Json& exposure : {Json(0), Json(-1), Json("bright"), Json(nullptr)}) {
         GlbFile file = right;
@@ -196,7 +196,7 @@ TEST(Fallback, OfDamagedFilesIsRefusedOrAside) {
     EXPECT_THROW(write_fallback(bare, scene, std::vector<glm::vec3>(scene.receivers()), 1), Error);
 }
 
-TEST(Fallback, ExposureLeavesOutAFewBrightPlaces) {
+TEST(Fallback, ExposureIgnoresAFewBrightVertices) {
     std::vector<glm::vec3> radiance;
     std::vector<float> areas;
     for (int i = 1; i <= 1000; ++i) {

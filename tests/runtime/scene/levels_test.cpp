@@ -71,7 +71,7 @@ void expect_same(const Scene& a, const Scene& b) {
     }
 }
 
-TEST(LevelsInFiles, OutOfTheSceneStandBesideTheirNode) {
+TEST(LevelsInFiles, OutsideTheSceneUseTheParentOfTheirNode) {
     const GlbFile file = file_of({{{"translation", {10, 0, 0}}, {"children", {1}}},
                                   with_ids({{"translation", {1, 0, 0}}, {"name", "Rock"}}, {2, 3}),
                                   {{"translation", {1, 0, 0}}, {"name", "Rough"}},
@@ -107,7 +107,7 @@ TEST(LevelsInFiles, InTheSceneAreNotDrawnAndCastNoShadow) {
     EXPECT_NE(scene.notices[0].find("levels of detail"), std::string::npos);
 }
 
-TEST(LevelsInFiles, NamesOfSiblingsSayThemToo) {
+TEST(LevelsInFiles, AreDetectedFromSiblingNames) {
     for (const auto& names :
          std::vector<std::vector<std::string>>{{"Rock_LOD0", "Rock_LOD1", "Rock_LOD2"},
                                                {"rock lod_0", "Rock LOD_1", "ROCK lod_2"},
@@ -126,7 +126,7 @@ TEST(LevelsInFiles, NamesOfSiblingsSayThemToo) {
     }
 }
 
-TEST(LevelsInFiles, OtherNamesSayNothing) {
+TEST(LevelsInFiles, OtherNamesAreNotLevels) {
     for (const auto& names : std::vector<std::vector<std::string>>{{"Rock_LOD0", "Tree_LOD1"},
                                                                    {"Rock_LOD1", "Rock_LOD2"},
                                                                    {"explod0", "explod1"},
@@ -152,28 +152,30 @@ TEST(LevelsInFiles, CopiesOfOneNameArePairedInOrderOrNotAtAll) {
     EXPECT_EQ(odd.scene.primitives.size(), 3u);
 }
 
-TEST(LevelsInFiles, ThatContradictOneAnotherAreRefused) {
+TEST(LevelsInFiles, ContradictionsAreRejected) {
     const Json plain = Json::object();
     const auto expect = [](const GlbFile& file, const char* words) {
         const std::string line = error_of(file);
         EXPECT_NE(line.find(words), std::string::npos) << line;
         EXPECT_EQ(line.find('\n'), std::string::npos);
     };
-    expect(file_of({with_ids(plain, {7}), plain}, 1), "names node 7, which is not there");
-    expect(file_of({with_ids(plain, {-1}), plain}, 1), "names node -1, which is not there");
-    expect(file_of({with_ids(plain, {1.5}), plain}, 1), "which is not there");
+    expect(file_of({with_ids(plain, {7}), plain}, 1), "refers to node 7, which does not exist");
+    expect(file_of({with_ids(plain, {-1}), plain}, 1), "refers to node -1, which does not exist");
+    expect(file_of({with_ids(plain, {1.5}), plain}, 1), "which does not exist");
     expect(file_of({with_ids(plain, "1"), plain}, 1), "no list of ids");
-    expect(file_of({with_ids(plain, {0}), plain}, 1), "which it is");
+    expect(file_of({with_ids(plain, {0}), plain}, 1), "which is the same node");
     expect(file_of({with_ids(plain, {1, 1}), plain}, 1), "twice");
     expect(file_of({with_ids(plain, {2}), with_ids(plain, {2}), plain}, 2), "and of node 1");
-    expect(file_of({with_ids(plain, {1}), with_ids(plain, {2}), plain}, 1), "has levels of its own");
-    expect(file_of({with_ids(plain, {1}), with_ids(plain, {0}), plain}, 1), "has levels of its own");
-    expect(file_of({{{"children", {1}}}, with_ids(plain, {0})}, 1), "above it");
+    expect(file_of({with_ids(plain, {1}), with_ids(plain, {2}), plain}, 1),
+           "cannot have levels of detail itself");
+    expect(file_of({with_ids(plain, {1}), with_ids(plain, {0}), plain}, 1),
+           "cannot have levels of detail itself");
+    expect(file_of({{{"children", {1}}}, with_ids(plain, {0})}, 1), "which is one of its descendants");
     expect(file_of({with_ids(plain, {1}), {{"children", {1}}}}, 1), "its own ancestor");
-    expect(file_of({with_ids(plain, {1}), {{"children", {9}}}}, 1), "node 9 is not there");
+    expect(file_of({with_ids(plain, {1}), {{"children", {9}}}}, 1), "node 9 does not exist");
 }
 
-TEST(LevelsInFiles, WithoutTrianglesAreLeftOutAndTold) {
+TEST(LevelsInFiles, WithoutTrianglesAreOmittedWithANotice) {
     const Json empty = {{"children", Json::array()}};
     const LeveledScene levels =
         extract_levels(loaded(file_of({with_ids(Json::object(), {1, 2}), empty, Json::object()}, 1)));
@@ -187,7 +189,7 @@ TEST(LevelsInFiles, WithoutTrianglesAreLeftOutAndTold) {
     EXPECT_EQ(group.notices.size(), 1u);
 }
 
-TEST(LevelsInFiles, HaveTransferOfTheirOwnBesideThatOfTheScene) {
+TEST(LevelsInFiles, HaveSeparateTransfer) {
     GltfDocument document =
         loaded(file_of({with_ids(Json::object(), {1}), Json::object()}, 1)); // both with one mesh
     const LeveledScene levels = extract_levels(document);

@@ -43,7 +43,7 @@ std::string error_of(const GlbFile& file) {
     return "no error";
 }
 
-TEST(PunctualLights, StandWhereTheirNodesStand) {
+TEST(PunctualLights, HaveThePositionsOfTheirNodes) {
     // A quarter rotation about +X maps -Z to +Y.
     const double half = std::sqrt(0.5);
     const Scene scene =
@@ -81,13 +81,13 @@ TEST(PunctualLights, HaveTheDefaultsOfTheExtension) {
     EXPECT_EQ(scene_with_lights(with_light({{"type", "point"}})).lights.at(0).name, "light 0");
 }
 
-TEST(PunctualLights, OfHiddenNodesAreLeftOut) {
+TEST(PunctualLights, HiddenNodesAreIgnored) {
     const Scene scene = scene_with_lights(
         with_light({{"type", "point"}}, {{"extensions", {{"KHR_node_visibility", {{"visible", false}}}}}}));
     EXPECT_TRUE(scene.lights.empty());
 }
 
-TEST(PunctualLights, ThatCannotBeAreRefused) {
+TEST(PunctualLights, InvalidLightsAreRejected) {
     const std::pair<Json, const char*> kWrong[] = {
         {{{"type", "area"}}, "type"},
         {{{"type", "point"}, {"intensity", -1}}, "intensity"},
@@ -102,7 +102,7 @@ TEST(PunctualLights, ThatCannotBeAreRefused) {
             << light.dump() << ": " << error_of(with_light(light));
     GlbFile missing = with_light({{"type", "point"}});
     missing.json["nodes"].back()["extensions"]["KHR_lights_punctual"]["light"] = 7;
-    EXPECT_NE(error_of(missing).find("light 7 is not there"), std::string::npos);
+    EXPECT_NE(error_of(missing).find("light 7 does not exist"), std::string::npos);
     for (const Json& index : {Json(0.5), Json(-1), Json(1e30), Json("0")}) {
         missing.json["nodes"].back()["extensions"]["KHR_lights_punctual"]["light"] = index;
         EXPECT_NE(error_of(missing).find("light is " + index.dump()), std::string::npos) << error_of(missing);

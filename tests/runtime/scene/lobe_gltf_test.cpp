@@ -47,7 +47,7 @@ GlbFile with_lobes() {
     return test::glb_of(encode_glb(document));
 }
 
-TEST(LobesOfFiles, AreReadAsTheyWereWritten) {
+TEST(LobesOfFiles, RoundTrip) {
     const GltfDocument document = parsed(with_lobes());
     const std::optional<StoredLobes> read = read_lobes(document, extract_scene(document));
     const StoredLobes expected = any_lobes();
@@ -98,7 +98,7 @@ std::string error_of(const GlbFile& file) {
     return "no error";
 }
 
-TEST(LobesOfFiles, ThatAreDamagedAreRefused) {
+TEST(LobesOfFiles, DamageIsRejected) {
     const auto damaged = [](auto damage) {
         GlbFile file = with_lobes();
         damage(file.json["extensions"]["PRTKIT_lobes"],
@@ -111,19 +111,19 @@ TEST(LobesOfFiles, ThatAreDamagedAreRefused) {
         EXPECT_EQ(error.find('\n'), std::string::npos);
     };
     expect("PRTKIT_lobes has version 9", [](Json& e, Json&) { e["version"] = 9; });
-    expect("order of lobes", [](Json& e, Json&) { e["order"] = 5; });
+    expect("the order of the lobes", [](Json& e, Json&) { e["order"] = 5; });
     expect("lobes", [](Json& e, Json&) { e["lobes"] = 4; });
-    expect("count of profiles", [](Json& e, Json&) { e["profiles"]["count"] = 300; });
+    expect("the number of profiles", [](Json& e, Json&) { e["profiles"]["count"] = 300; });
     expect("the profiles of lobes", [](Json& e, Json&) { e["profiles"]["count"] = 2; });
     expect("4711", [](Json& e, Json&) { e["profiles"]["bufferView"] = 4711; });
     expect("memory.glb", [](Json& e, Json&) { e.erase("profiles"); });
     expect("poses", [](Json& e, Json&) { e["bake"]["poses"] = -1; });
     expect("mesh 0 primitive 0", [](Json&, Json& a) { a.erase("_PRT_LOBE_1"); });
-    expect("_PRT_LOBE_1 is not four bytes for each of 3 vertices",
+    expect("_PRT_LOBE_1 must have four unsigned bytes for each of 3 vertices",
            [](Json&, Json& a) { a["_PRT_LOBE_1"] = a["POSITION"]; });
 }
 
-TEST(LobesOfFiles, WithProfilesThatAreNotThereAreRefused) {
+TEST(LobesOfFiles, MissingProfilesAreRejected) {
     GlbFile file = with_lobes();
     const std::size_t accessor = file.json["meshes"][0]["primitives"][0]["attributes"]["_PRT_LOBE_0"];
     const std::size_t view = file.json["accessors"][accessor]["bufferView"];

@@ -44,7 +44,7 @@ std::size_t notices_with(const Scene& scene, const char* text) {
                       [&](const std::string& notice) { return notice.find(text) != std::string::npos; }));
 }
 
-TEST(Clamped, IsWhateverLiesOutsideItsRangeWithOneNotice) {
+TEST(Clamped, ValuesOutsideTheirRangeCauseOneNotice) {
     const float nan = std::nanf(""), infinity = std::numeric_limits<float>::infinity();
     GlbFile file = with_material(
         {{"pbrMetallicRoughness",
@@ -73,7 +73,7 @@ TEST(Clamped, IsWhateverLiesOutsideItsRangeWithOneNotice) {
     EXPECT_TRUE(parsed(with_material({{"name", "fine"}})).notices.empty());
 }
 
-TEST(SpecularGlossiness, GivesItsDiffuseColorAndNoMetal) {
+TEST(SpecularGlossiness, UsesItsDiffuseColorWithoutMetal) {
     GlbFile file =
         with_material({{"pbrMetallicRoughness", {{"baseColorFactor", {1, 0, 1, 1}}, {"metallicFactor", 1}}},
                        {"extensions",
@@ -91,7 +91,7 @@ TEST(SpecularGlossiness, GivesItsDiffuseColorAndNoMetal) {
     EXPECT_EQ(m.metal.factor, 0);
 }
 
-TEST(Metal, IsWhatTheFileSaysAndByDefaultRough) {
+TEST(Metal, UsesTheFactorsOfTheFileOrTheDefaults) {
     const Material m =
         only_material({{"pbrMetallicRoughness", {{"metallicFactor", 0.75}, {"roughnessFactor", 0.25}}}});
     EXPECT_EQ(m.metal.factor, 0.75f);
@@ -101,7 +101,7 @@ TEST(Metal, IsWhatTheFileSaysAndByDefaultRough) {
     EXPECT_EQ(unsaid.metal.roughness, 1);
 }
 
-TEST(Glass, IsNotOfMetal) {
+TEST(Glass, MetallicFactorDisablesTransmission) {
     const auto factor = [](double metallic) {
         return only_material(
                    {{"pbrMetallicRoughness", {{"metallicFactor", metallic}}},
@@ -113,7 +113,7 @@ TEST(Glass, IsNotOfMetal) {
     EXPECT_FLOAT_EQ(factor(1), 0);
 }
 
-TEST(Unread, NormalMapsAreNamedOnceAndOnlyWhereTheyAreUsed) {
+TEST(Unread, NormalMapsAreReportedOnceIfUsed) {
     const nlohmann::ordered_json special = {{"normalTexture", {{"index", 0}}}};
     GlbFile file = with_material(special);
     file.json["materials"].push_back(special);
@@ -129,7 +129,7 @@ TEST(Unread, NormalMapsAreNamedOnceAndOnlyWhereTheyAreUsed) {
     EXPECT_EQ(scene.notices.size(), 1u);
 }
 
-TEST(Textures, OfUnknownFormatOrWithoutImageAreLeftToWhoNeedsThem) {
+TEST(Textures, UnknownFormatsAndMissingImagesFailOnlyOnUse) {
     GlbFile file = with_material(
         {{"pbrMetallicRoughness",
           {{"baseColorTexture", {{"index", 0}}}, {"metallicRoughnessTexture", {{"index", 1}}}}}});
@@ -147,7 +147,7 @@ TEST(Textures, OfUnknownFormatOrWithoutImageAreLeftToWhoNeedsThem) {
     EXPECT_EQ(scene.images[1].name, "the image of texture 1");
 }
 
-TEST(Hidden, NodesAndAllBelowThemAreNoPartOfTheScene) {
+TEST(Hidden, NodesAndTheirDescendantsAreExcluded) {
     GlbFile file = test::triangle_file();
     const nlohmann::ordered_json hidden = {{"KHR_node_visibility", {{"visible", false}}}};
     file.json["nodes"] = {{{"mesh", 0}, {"translation", {1, 0, 0}}},
@@ -162,7 +162,7 @@ TEST(Hidden, NodesAndAllBelowThemAreNoPartOfTheScene) {
     ASSERT_EQ(scene.primitives.size(), 2u);
     EXPECT_EQ(scene.primitives[0].node, 0);
     EXPECT_EQ(scene.primitives[1].node, 5);
-    EXPECT_EQ(notices_with(scene, "3 meshes are hidden"), 1u);
+    EXPECT_EQ(notices_with(scene, "3 hidden meshes are ignored"), 1u);
 }
 
 /// Returns three instances of the triangle, moved, rotated and scaled, below a node that moves all up.
@@ -189,7 +189,7 @@ GlbFile three_instances() {
     return file;
 }
 
-TEST(Instances, AreNodesOfTheirOwnInTheScene) {
+TEST(Instances, AreSeparateNodesInTheScene) {
     const Scene scene = parsed(three_instances());
     ASSERT_EQ(scene.primitives.size(), 4u); // the child is there once
     const auto corner = [&](std::size_t primitive, std::size_t vertex) {
@@ -210,7 +210,7 @@ TEST(Instances, AreNodesOfTheirOwnInTheScene) {
     EXPECT_EQ(notices_with(scene, "its 3 instances"), 1u);
 }
 
-TEST(Instances, KeepTransferOfTheirOwnInTheFile) {
+TEST(Instances, KeepSeparateTransferInTheFile) {
     GltfDocument document = document_of(three_instances());
     const Scene scene = extract_scene(document);
     BakedTransfer baked;
@@ -228,7 +228,7 @@ TEST(Instances, KeepTransferOfTheirOwnInTheFile) {
     EXPECT_EQ(read_transfer(read, again)->transfer.vectors, baked.transfer.vectors);
 }
 
-TEST(Instances, ThatDoNotFitAreRefused) {
+TEST(Instances, MismatchesAreRejected) {
     const auto message = [](const auto& change) -> std::string {
         GlbFile file = three_instances();
         change(file, file.json["nodes"][0]["extensions"]["EXT_mesh_gpu_instancing"]["attributes"]);
@@ -241,7 +241,7 @@ TEST(Instances, ThatDoNotFitAreRefused) {
     };
     EXPECT_NE(message([](GlbFile& file, auto& attributes) {
                   attributes["SCALE"] = file.accessor(std::vector<float>(6, 1), test::kFloat, "VEC3", 3);
-              }).find("memory.glb: node 0: its instances have attributes of different length"),
+              }).find("memory.glb: node 0: the attributes of its instances have different numbers"),
               std::string::npos);
     EXPECT_NE(message([](GlbFile&, auto& attributes) { attributes["SCALE"] = 99; }).find("accessor 99"),
               std::string::npos);

@@ -79,7 +79,7 @@ nlohmann::ordered_json json_of(const std::string& bytes) {
     return nlohmann::ordered_json::parse(bytes.substr(20, length));
 }
 
-TEST(Meshopt, ComesBackBitByBitAndIsSmaller) {
+TEST(Meshopt, RoundTripsExactlyAndIsSmaller) {
     const Files files;
     EXPECT_LT(2 * std::filesystem::file_size(files.packed), std::filesystem::file_size(files.plain));
     const Scene a = extract_scene(load_gltf(files.source)), b = extract_scene(load_gltf(files.packed));
@@ -95,7 +95,7 @@ TEST(Meshopt, ComesBackBitByBitAndIsSmaller) {
     }
 }
 
-TEST(Meshopt, SaysThatItIsRequired) {
+TEST(Meshopt, IsListedAsRequired) {
     const Files files;
     const auto json = json_of(bytes_of(files.packed));
     EXPECT_EQ(json["extensionsRequired"], nlohmann::ordered_json::array({"EXT_meshopt_compression"}));
@@ -113,7 +113,7 @@ TEST(Meshopt, ReadAndSavedAgainIsPlain) {
     EXPECT_EQ(receivers_id(a), receivers_id(b));
 }
 
-TEST(Meshopt, DamagedDataIsRefused) {
+TEST(Meshopt, DamagedDataIsRejected) {
     const Files files;
     const std::string good = bytes_of(files.packed);
     std::uint32_t length = 0;
@@ -244,7 +244,7 @@ TEST(Meshopt, QuaternionsOfInstancesGetTheirLargestNumberBack) {
     EXPECT_LT(glm::distance(corner, glm::vec3(0, 0, -1)), 1e-4f);
 }
 
-TEST(Meshopt, FiltersOfAnotherStrideAreRefused) {
+TEST(Meshopt, FiltersOfAnotherStrideAreRejected) {
     for (const auto& [filter, stride] : {std::pair("OCTAHEDRAL", 12), std::pair("QUATERNION", 4)}) {
         GlbFile file = test::triangle_file();
         filtered_view(file, std::vector<std::uint32_t>(12, 1), static_cast<std::size_t>(stride), filter);

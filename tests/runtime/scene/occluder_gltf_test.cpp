@@ -59,13 +59,13 @@ std::vector<std::string> names_of(const std::vector<RigidPart>& parts) {
     return names;
 }
 
-TEST(RigidParts, OfWhatNothingMovesAreTheRoots) {
+TEST(RigidParts, StaticNodesFormRootParts) {
     EXPECT_EQ(names_of(terms_of(chain())), (std::vector<std::string>{"root"}));
     EXPECT_EQ(terms_of(chain())[0].scene.triangles(), 3u);
 }
 
 /// Each of them once: 12 500 parts of 12 500 materials took 22 GB.
-TEST(RigidParts, HoldTheMaterialsAndImagesThatTheyUse) {
+TEST(RigidParts, ContainTheirMaterialsAndImages) {
     GlbFile file = test::triangle_file();
     file.json["images"] = {{{"uri", "a.png"}}, {{"uri", "b.png"}}, {{"uri", "c.png"}}};
     file.json["textures"] = {{{"source", 0}}, {{"source", 1}}, {{"source", 2}}};
@@ -96,7 +96,7 @@ TEST(RigidParts, HoldTheMaterialsAndImagesThatTheyUse) {
     EXPECT_NE(parts[1].scene.images[0].name.find("b.png"), std::string::npos);
 }
 
-TEST(RigidParts, BeginAtNodesThatMove) {
+TEST(RigidParts, BeginAtMovingNodes) {
     GlbFile file = chain();
     rotation(file, 1);
     const std::vector<RigidPart> parts = terms_of(file);
@@ -105,7 +105,7 @@ TEST(RigidParts, BeginAtNodesThatMove) {
     EXPECT_EQ(parts[1].scene.triangles(), 2u);
 }
 
-TEST(RigidParts, AreInTheFrameOfTheirNode) {
+TEST(RigidParts, AreInTheSpaceOfTheirNode) {
     GlbFile file = chain();
     rotation(file, 1);
     const RigidPart arm = terms_of(file)[1];
@@ -117,7 +117,7 @@ TEST(RigidParts, AreInTheFrameOfTheirNode) {
     EXPECT_NEAR(least, 0, 1e-6); // the arm's own triangle begins where its node is
 }
 
-TEST(RigidParts, ThatAreSmallGoWithWhatCarriesThem) {
+TEST(RigidParts, SmallPartsJoinTheirParents) {
     GlbFile file = chain();
     rotation(file, 1);
     rotation(file, 2);
@@ -159,7 +159,7 @@ GlbFile skinned() {
     return file;
 }
 
-TEST(RigidParts, OfSkinsAreWhatJointsMoveMost) {
+TEST(RigidParts, FollowTheDominantJointsOfSkins) {
     const std::vector<RigidPart> parts = terms_of(skinned());
     ASSERT_EQ(names_of(parts), (std::vector<std::string>{"hip", "head"}));
     EXPECT_EQ(parts[0].scene.triangles(), 1u);
@@ -184,7 +184,7 @@ GlbFile with_occluders() {
     return test::glb_of(encode_glb(document));
 }
 
-TEST(Occluders, AreReadAsTheyWereWritten) {
+TEST(Occluders, RoundTrip) {
     const std::vector<NodeOccluder> read = read_occluders(parsed(with_occluders()));
     ASSERT_EQ(read.size(), 2u);
     EXPECT_EQ(read[0].node, 0);
@@ -220,7 +220,7 @@ std::string error_of(const GlbFile& file) {
     return "no error";
 }
 
-TEST(Occluders, ThatAreDamagedAreRefusedByTheirNode) {
+TEST(Occluders, DamageIsRejectedWithItsNode) {
     const auto damaged = [](const char* member, const Json& value) {
         GlbFile file = with_occluders();
         file.json["nodes"][2]["extensions"]["PRTKIT_occlusion_volume"][member] = value;
@@ -231,7 +231,8 @@ TEST(Occluders, ThatAreDamagedAreRefusedByTheirNode) {
     EXPECT_NE(damaged("max", {-5, 5, 6}).find("is empty or not finite"), std::string::npos);
     EXPECT_NE(damaged("reach", -1).find("reach"), std::string::npos);
     EXPECT_NE(damaged("reach", "far").find("node 2"), std::string::npos);
-    EXPECT_NE(damaged("texels", {{"bufferView", 0}}).find("bytes of texels, not 2048"), std::string::npos);
+    EXPECT_NE(damaged("texels", {{"bufferView", 0}}).find("bytes of texels, but must have 2048"),
+              std::string::npos);
     EXPECT_NE(damaged("texels", {{"bufferView", 4711}}).find("4711"), std::string::npos);
     EXPECT_NE(damaged("texels", Json::object()).find("node 2"), std::string::npos);
 }

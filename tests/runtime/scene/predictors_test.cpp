@@ -114,7 +114,7 @@ class PredictorsInFiles : public testing::TestWithParam<WeightFormat> {};
 INSTANTIATE_TEST_SUITE_P(Formats, PredictorsInFiles,
                          testing::Values(WeightFormat::float32, WeightFormat::packed));
 
-TEST_P(PredictorsInFiles, ComeBackAsTheyAre) {
+TEST_P(PredictorsInFiles, RoundTrip) {
     for (const glm::dvec3 point : {glm::dvec3(0), glm::dvec3(1e6, -2e6, 123456.75)})
         for (const std::vector<PredictorKind>& kinds : test::sets_of_predictors()) {
             const test::TemporaryFolder folder;
@@ -161,7 +161,7 @@ TEST(PredictorsInFile, OriginsArePositionsInItsWorld) {
     }
 }
 
-TEST(PredictorsInFile, FollowVerticesThatMove) {
+TEST(PredictorsInFile, FollowMovingVertices) {
     const test::TemporaryFolder folder;
     test::triangle_file().write(folder / "t.glb");
     Model model = read(folder / "t.glb");
@@ -183,7 +183,7 @@ TEST(PredictorsInFile, FollowVerticesThatMove) {
             EXPECT_EQ(after.vector(p)[i], before.vector(order[p])[i]);
 }
 
-TEST(PredictorsInFile, LeaveNothingBehind) {
+TEST(PredictorsInFile, AreRemovedCompletely) {
     const test::TemporaryFolder folder;
     test::triangle_file().write(folder / "t.glb");
     Model model = read(folder / "t.glb");
@@ -228,47 +228,47 @@ private:
     GlbFile good_;
 };
 
-TEST(PredictorsInFile, ThatMakeNoSenseAreRefusedInALine) {
+TEST(PredictorsInFile, InvalidPredictorsAreRejectedInOneLine) {
     using Json = nlohmann::ordered_json;
     const PredictedFile predicted_file(WeightFormat::packed);
     EXPECT_EQ(predicted_file.refusal([](Json&, GlbFile&) {}), "was read");
     const std::pair<const char*, std::function<void(Json&)>> changes[] = {
-        {"predictors are no list", [](Json& e) { e["predictors"] = "normal"; }},
-        {"predictors are no list", [](Json& e) { e["predictors"] = Json::array(); }},
-        {"predictors are no list", [](Json& e) { e["predictors"].push_back(e["predictors"][0]); }},
-        {"of a kind that this program", [](Json& e) { e["predictors"][0]["kind"] = "tangent"; }},
-        {"of a kind that this program", [](Json& e) { e["predictors"][0]["kind"] = 1; }},
-        {"a normal and then a position", [](Json& e) { e["predictors"][1] = e["predictors"][0]; }},
-        {"a normal and then a position", [](Json& e) { e["predictors"][0] = e["predictors"][1]; }},
-        {"a normal and then a position", [](Json& e) { std::swap(e["predictors"][0], e["predictors"][1]); }},
+        {"predictors are not a list", [](Json& e) { e["predictors"] = "normal"; }},
+        {"predictors are not a list", [](Json& e) { e["predictors"] = Json::array(); }},
+        {"predictors are not a list", [](Json& e) { e["predictors"].push_back(e["predictors"][0]); }},
+        {"kind of a predictor is unknown", [](Json& e) { e["predictors"][0]["kind"] = "tangent"; }},
+        {"kind of a predictor is unknown", [](Json& e) { e["predictors"][0]["kind"] = 1; }},
+        {"two predictors must be", [](Json& e) { e["predictors"][1] = e["predictors"][0]; }},
+        {"two predictors must be", [](Json& e) { e["predictors"][0] = e["predictors"][1]; }},
+        {"two predictors must be", [](Json& e) { std::swap(e["predictors"][0], e["predictors"][1]); }},
         {"is damaged glTF", [](Json& e) { e["predictors"][0].erase("kind"); }},
         {"is damaged glTF", [](Json& e) { e["predictors"][0].erase("scale"); }},
         {"is damaged glTF", [](Json& e) { e["predictors"][1].erase("origin"); }},
         {"is damaged glTF", [](Json& e) { e.erase("centers"); }},
-        {"scale of a predictor is not three", [](Json& e) { e["predictors"][0]["scale"] = 2; }},
-        {"scale of a predictor is not three",
+        {"scale of a predictor must be three", [](Json& e) { e["predictors"][0]["scale"] = 2; }},
+        {"scale of a predictor must be three",
          [](Json& e) {
              e["predictors"][0]["scale"] = {1, 2};
          }},
-        {"scale of a predictor is not three",
+        {"scale of a predictor must be three",
          [](Json& e) {
              e["predictors"][0]["scale"] = {1, 2, 3, 4};
          }},
-        {"scale of a predictor is not three", [](Json& e) { e["predictors"][0]["scale"][1] = "2"; }},
-        {"scale of a predictor is not three", [](Json& e) { e["predictors"][0]["scale"][1] = nullptr; }},
-        {"scale of a predictor is not three", [](Json& e) { e["predictors"][0]["scale"][1] = 1e300; }},
-        {"scale of a predictor is zero", [](Json& e) { e["predictors"][0]["scale"][2] = 0; }},
-        {"scale of a predictor is zero", [](Json& e) { e["predictors"][1]["scale"][2] = 1e-60; }},
-        {"origin of a predictor is not three", [](Json& e) { e["predictors"][1]["origin"][0] = 1e12; }},
-        {"origin of a predictor is not three", [](Json& e) { e["predictors"][1]["origin"].erase(0); }},
+        {"scale of a predictor must be three", [](Json& e) { e["predictors"][0]["scale"][1] = "2"; }},
+        {"scale of a predictor must be three", [](Json& e) { e["predictors"][0]["scale"][1] = nullptr; }},
+        {"scale of a predictor must be three", [](Json& e) { e["predictors"][0]["scale"][1] = 1e300; }},
+        {"scale of a predictor is 0", [](Json& e) { e["predictors"][0]["scale"][2] = 0; }},
+        {"scale of a predictor is 0", [](Json& e) { e["predictors"][1]["scale"][2] = 1e-60; }},
+        {"origin of a predictor must be three", [](Json& e) { e["predictors"][1]["origin"][0] = 1e12; }},
+        {"origin of a predictor must be three", [](Json& e) { e["predictors"][1]["origin"].erase(0); }},
         {"farther from the origin",
          [](Json& e) {
              e["predictors"][1]["origin"][0] = 1e9;
              e["predictors"][1]["scale"][0] = 1e3;
          }},
-        {"centers have 5 columns for 6", [](Json& e) { e["centers"]["drops"].erase(0); }},
-        {"a drop is 16", [](Json& e) { e["centers"]["drops"][0] = 16; }},
-        {"buffer view 999 is not there", [](Json& e) { e["centers"]["bufferView"] = 999; }},
+        {"5 columns, but the predictors have 6", [](Json& e) { e["centers"]["drops"].erase(0); }},
+        {"an element of \"drops\" is 16", [](Json& e) { e["centers"]["drops"][0] = 16; }},
+        {"buffer view 999 does not exist", [](Json& e) { e["centers"]["bufferView"] = 999; }},
     };
     for (std::size_t i = 0; i < std::size(changes); ++i) {
         const std::string said = predicted_file.refusal([&](Json& e, GlbFile&) { changes[i].second(e); });
@@ -288,7 +288,7 @@ TEST(PredictorsInFile, ThatMakeNoSenseAreRefusedInALine) {
     EXPECT_NE(predicted_file.refusal([](Json& e, GlbFile&) { e.erase("predictors"); }), "was read");
 }
 
-TEST(PredictorsInFile, RowsOfZerosAreNotAllocatedForNothing) {
+TEST(PredictorsInFile, RowsOfZerosAreNotAllocated) {
     const PredictedFile predicted_file(WeightFormat::float32);
     const auto many = [](nlohmann::ordered_json& e, GlbFile& file) {
         constexpr std::size_t kClusters = 65536, kDimension = 12, kAxes = 200;
@@ -308,7 +308,7 @@ TEST(PredictorsInFile, RowsOfZerosAreNotAllocatedForNothing) {
         e["bases"]["values"] = zero_rows(7 * kClusters, kAxes);
     };
     // Seven rows per cluster need 433 MB for 0.3 + 0.02 MB of file, one row needs 62 MB.
-    EXPECT_NE(predicted_file.refusal(many).find("its bases would take"), std::string::npos)
+    EXPECT_NE(predicted_file.refusal(many).find("its bases would need"), std::string::npos)
         << predicted_file.refusal(many);
 }
 

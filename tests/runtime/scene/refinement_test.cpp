@@ -106,7 +106,7 @@ TEST(RefinedFile, HasUnitNormalsAndTangents) {
     expect_same(finer.in_memory, finer.in_file);
 }
 
-TEST(RefinedFile, TakesTheFirstEndWhereNormalsAreOpposite) {
+TEST(RefinedFile, UsesTheFirstEndOfOppositeNormals) {
     GlbFile file = test::triangle_file();
     set(file, "NORMAL",
         file.accessor(std::vector<float>{1, 0, 0, -1, 0, 0, 0, 0, 1}, test::kFloat, "VEC3", 3));
@@ -115,7 +115,7 @@ TEST(RefinedFile, TakesTheFirstEndWhereNormalsAreOpposite) {
     expect_same(finer.in_memory, finer.in_file);
 }
 
-TEST(RefinedFile, KeepsTheTypesOfWhatIsQuantisedAndMakesPositionsFloats) {
+TEST(RefinedFile, KeepsQuantizedTypesExceptPositions) {
     GlbFile file = test::triangle_file();
     file.json["extensionsUsed"] = file.json["extensionsRequired"] = {"KHR_mesh_quantization"};
     const auto positions = file.accessor(std::vector<std::int16_t>{0, 0, 0, 0, 3, 0, 0, 0, 0, 3, 0, 0},
@@ -144,7 +144,7 @@ TEST(RefinedFile, KeepsTheTypesOfWhatIsQuantisedAndMakesPositionsFloats) {
     EXPECT_EQ(finer.element<std::uint16_t>("TEXCOORD_0", 1, 2), (std::vector<std::uint16_t>{65535, 101}));
 }
 
-TEST(RefinedFile, AveragesWhatApplicationsMeasureAndTakesTheFirstOfWhatTheyCount) {
+TEST(RefinedFile, AveragesFloatAttributesAndCopiesIntegerAttributes) {
     GlbFile file = test::triangle_file();
     set(file, "_HEAT", file.accessor(std::vector<float>{1, 4, 9}, test::kFloat, "SCALAR", 1));
     set(file, "_FEATURE_ID_0",
@@ -155,7 +155,7 @@ TEST(RefinedFile, AveragesWhatApplicationsMeasureAndTakesTheFirstOfWhatTheyCount
     EXPECT_EQ(finer.element<std::uint16_t>("_FEATURE_ID_0", 3, 1), std::vector<std::uint16_t>{3});
 }
 
-TEST(RefinedFile, AveragesMorphTargetsAndSparseOnesToo) {
+TEST(RefinedFile, AveragesMorphTargetsIncludingSparseOnes) {
     GlbFile file = test::triangle_file();
     const auto target = file.accessor(std::vector<float>{0, 0, 2, 0, 0, 0, 0, 0, 0}, test::kFloat, "VEC3", 3);
     const std::vector<std::uint8_t> at = {1};
@@ -208,7 +208,7 @@ TEST(RefinedFile, HasTheJointsOfBothEndsAndTheHeaviestFourOfThem) {
     EXPECT_NEAR(weights[0], 0.45 / 1.5, 1e-6);
 }
 
-TEST(RefinedFile, HasWholeNumbersForWeightsThatSumToOne) {
+TEST(RefinedFile, IntegerWeightsSumToOne) {
     const Finer finer(skinned<std::uint8_t>({1, 2, 3, 0, 4, 5, 6, 0, 1, 0, 0, 0},
                                             {85, 85, 85, 0, 85, 85, 85, 0, 255, 0, 0, 0},
                                             test::kUnsignedByte));
@@ -224,7 +224,7 @@ TEST(RefinedFile, KeepsVerticesWithoutWeights) {
     EXPECT_EQ(finer.element<float>("WEIGHTS_0", 3, 4), std::vector<float>(4, 0));
 }
 
-TEST(RefinedFile, SplitsStripsAndWhatIsTurned) {
+TEST(RefinedFile, SplitsStripsAndMirroredTriangles) {
     GlbFile file = test::triangle_file();
     primitive_in(file)["mode"] = 5;
     file.json["nodes"][0]["scale"] = {-1, 1, 1}; // the scene reverses the winding
@@ -245,7 +245,7 @@ TEST(RefinedFile, KeepsFlatNormalsOfPrimitivesWithoutAny) {
     EXPECT_TRUE(finer.in_file.vertex_arrays[0].source.empty());
 }
 
-TEST(RefinedFile, IsRefinedForEachNodeByItself) {
+TEST(RefinedFile, IsRefinedSeparatelyForEachNode) {
     GlbFile file = test::triangle_file();
     file.json["nodes"] = {{{"mesh", 0}}, {{"mesh", 0}, {"translation", {5, 0, 0}}}};
     file.json["scenes"][0]["nodes"] = {0, 1};
@@ -256,7 +256,7 @@ TEST(RefinedFile, IsRefinedForEachNodeByItself) {
     expect_same(finer.in_memory, finer.in_file);
 }
 
-TEST(RefinedFile, SharesVerticesOfSeveralPrimitivesAndLeavesPointsAlone) {
+TEST(RefinedFile, SharesVerticesOfSeveralPrimitivesAndKeepsPoints) {
     GlbFile file = test::triangle_file();
     primitive_in(file)["extras"] = {{"kept", true}};
     file.json["meshes"][0]["primitives"].push_back(primitive_in(file));

@@ -140,7 +140,7 @@ TEST(Reorder, ScenesOfTheSameNodesInAnotherOrderMatch) {
         EXPECT_EQ(position_of(scene, r), position_of(other, match[r])) << r;
 }
 
-TEST(VertexReuse, OfAStripOfTrianglesIsOneVertexEach) {
+TEST(VertexReuse, StripsReuseVerticesToOnePerTriangle) {
     Scene scene;
     scene.vertex_arrays.resize(1);
     scene.vertex_arrays[0].positions.resize(1002);

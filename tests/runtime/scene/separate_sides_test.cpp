@@ -63,7 +63,7 @@ struct Separated {
     GlbFile written;
 };
 
-TEST(SeparateSides, TurnAllThatLooksSomewhere) {
+TEST(SeparateSides, FlipAllDirectionalAttributes) {
     const Separated file(square_file(), {true, true});
     ASSERT_EQ(file.written.json["meshes"][0]["primitives"].size(), 1u);
     EXPECT_FALSE(file.double_sided(0));
@@ -114,7 +114,7 @@ GlbFile file_of_variants(bool double_sided) {
     return file;
 }
 
-TEST(SeparateSides, GoWithVariantsAndLeaveMaterialsToOthers) {
+TEST(SeparateSides, FollowVariantsAndKeepOtherMaterials) {
     GlbFile file = file_of_variants(true);
     Json plain = file.json["meshes"][0]["primitives"][0];
     plain.erase("extensions");
@@ -147,14 +147,14 @@ TEST(SeparateSides, GoWithVariantsAndLeaveMaterialsToOthers) {
               "/materials/3/alphaCutoff");
 }
 
-TEST(SeparateSides, LeaveOutWhatAVariantCulls) {
+TEST(SeparateSides, OmitSidesCulledByAVariant) {
     const Separated result(file_of_variants(false), {true, true});
     EXPECT_TRUE(result.double_sided(0));
     EXPECT_EQ(result.after.receivers(), result.before.receivers());
 }
 
 /// Nodes of one mesh, one of them mirrored, where one side of one of them is lit.
-TEST(SeparateSides, AreOfANode) {
+TEST(SeparateSides, BelongToANode) {
     GlbFile file = square_file();
     file.json["nodes"] = {{{"mesh", 0}}, {{"mesh", 0}, {"scale", {-1, 1, 1}}}};
     file.json["scenes"][0]["nodes"] = {0, 1};

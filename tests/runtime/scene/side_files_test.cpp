@@ -76,7 +76,7 @@ TEST_F(SideFile, InTheFolderAndBelowIsRead) {
     }
 }
 
-TEST_F(SideFile, OutsideTheFolderIsReadWhereThatIsAllowed) {
+TEST_F(SideFile, OutsideTheFolderIsReadIfAllowed) {
     for (const std::string& uri : {std::string("../secret.bin"), std::string("%2e%2e/secret.bin"),
                                    std::string("parts/../../secret.bin"), std::string("outward.bin"),
                                    std::string("up/secret.bin"), (folder / "secret.bin").string()}) {
@@ -88,7 +88,7 @@ TEST_F(SideFile, OutsideTheFolderIsReadWhereThatIsAllowed) {
     EXPECT_NE(refusal_of_buffer("../gone.bin").find("outside the folder"), std::string::npos);
 }
 
-TEST_F(SideFile, WhatIsNoRegularFileIsRefusedAtOnce) {
+TEST_F(SideFile, NonRegularFilesAreRejected) {
     for (const bool outside : {false, true})
         for (const char* uri :
              {"pipe.bin", ".", "parts", "%00", "gone.bin", "", "/dev/zero", "http://a.b/c"}) {
@@ -104,7 +104,7 @@ TEST_F(SideFile, OtherFoldersAreNotSearched) {
     fs::current_path(before);
 }
 
-TEST_F(SideFile, NamedTooOftenIsRefused) {
+TEST_F(SideFile, ExcessiveReferencesAreRejected) {
     fs::resize_file(folder / "scene/own.bin", 8 << 20);
     test::GlbFile file = test::triangle_file();
     for (int i = 0; i < 120; ++i)
@@ -112,16 +112,17 @@ TEST_F(SideFile, NamedTooOftenIsRefused) {
     EXPECT_NE(refusal(file, {}).find("too often"), std::string::npos);
 }
 
-TEST_F(SideFile, OneThatIsAnOutputIsRefused) {
+TEST_F(SideFile, OutputsAsInputsAreRejected) {
     for (const char* uri : {"own.bin", "inward.bin", "parts/../own.bin"}) {
         const GltfOptions options{.outputs = {folder / "gone.glb", folder / "scene/own.bin"}};
-        EXPECT_NE(refusal_of_buffer(uri, options).find("which this run would replace"), std::string::npos);
-        EXPECT_NE(refusal_of_image(uri, options).find("which this run would replace"), std::string::npos);
+        EXPECT_NE(refusal_of_buffer(uri, options).find("which the output would overwrite"),
+                  std::string::npos);
+        EXPECT_NE(refusal_of_image(uri, options).find("which the output would overwrite"), std::string::npos);
     }
     EXPECT_EQ(refusal_of_buffer("own.bin", {.outputs = {folder / "secret.bin", folder / "gone.glb"}}), "");
 }
 
-TEST_F(SideFile, AnImageThatSeveralNameIsOneTexture) {
+TEST_F(SideFile, SharedImagesAreOneTexture) {
     test::GlbFile file = test::triangle_file();
     file.json["images"] = {{{"uri", "own.bin"}}, {{"uri", "own.bin"}}, {{"uri", "inward.bin"}}};
     file.json["textures"] = {{{"source", 0}}, {{"source", 1}}, {{"source", 2}}};

@@ -57,7 +57,7 @@ GlbFile cube(unsigned cut) {
     return mesh_file(corners, indices);
 }
 
-TEST(SmoothNormals, OfACubeAreThoseOfItsDiagonalsHoweverFacesAreCut) {
+TEST(SmoothNormals, CubeNormalsDoNotDependOnTriangulation) {
     for (const unsigned cut : {0u, 63u, 21u, 5u}) {
         const Scene scene = smoothed(cube(cut), 90);
         const VertexArray& v = scene.vertex_arrays[0];
@@ -67,7 +67,7 @@ TEST(SmoothNormals, OfACubeAreThoseOfItsDiagonalsHoweverFacesAreCut) {
     }
 }
 
-TEST(SmoothNormals, EndWhereTheAngleIsWider) {
+TEST(SmoothNormals, EndAtTheCreaseAngle) {
     const Scene scene = smoothed(cube(21), 89);
     const VertexArray& v = scene.vertex_arrays[0];
     EXPECT_EQ(v.size(), 24u);
@@ -103,7 +103,7 @@ GlbFile sphere(int rows) {
     return mesh_file(positions, indices);
 }
 
-TEST(SmoothNormals, OfASphereAreRadialAlsoAtASeamOfVertices) {
+TEST(SmoothNormals, SphereNormalsAreRadialAtSeams) {
     for (const int rows : {16, 32}) {
         const Scene scene = smoothed(sphere(rows), 30);
         const VertexArray& v = scene.vertex_arrays[0];
@@ -116,7 +116,7 @@ TEST(SmoothNormals, OfASphereAreRadialAlsoAtASeamOfVertices) {
     }
 }
 
-TEST(SmoothNormals, ThatAreThereStay) {
+TEST(SmoothNormals, ExistingNormalsAreKept) {
     const GlbFile file = test::triangle_file();
     const Scene scene = smoothed(file, 30);
     EXPECT_TRUE(scene.notices.empty());
@@ -124,7 +124,7 @@ TEST(SmoothNormals, ThatAreThereStay) {
         EXPECT_EQ(smoothed(file, 30, instancing).vertex_arrays[0].size(), 3u);
 }
 
-TEST(SmoothNormals, AreThoseOfTheWorldUnderMirroredNodes) {
+TEST(SmoothNormals, AreInWorldSpaceUnderMirroredNodes) {
     GlbFile file = cube(0);
     file.json["nodes"][0]["scale"] = {-1, 1, 1};
     const Scene scene = smoothed(file, 90);
@@ -134,7 +134,7 @@ TEST(SmoothNormals, AreThoseOfTheWorldUnderMirroredNodes) {
 }
 
 /// A triangle that is a line takes part in nothing, and is kept.
-TEST(SmoothNormals, LeaveTrianglesWithoutAreaAlone) {
+TEST(SmoothNormals, IgnoreTrianglesWithoutArea) {
     const Scene scene =
         smoothed(mesh_file({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0.5f, 0, 0}}, {0, 1, 2, 0, 1, 3}), 180);
     ASSERT_EQ(scene.triangles(), 2u);
@@ -143,15 +143,16 @@ TEST(SmoothNormals, LeaveTrianglesWithoutAreaAlone) {
         EXPECT_EQ(normal, glm::vec3(0, 0, 1));
 }
 
-TEST(SmoothNormals, AndFlatOnesAreNoticesThatSayHowVerticesGrow) {
+TEST(SmoothNormals, NoticesReportTheGrowthOfVertices) {
     const Scene scene = smoothed(cube(0), 30);
     ASSERT_EQ(scene.notices.size(), 1u);
-    EXPECT_EQ(scene.notices[0], "1 primitive has no normals and gets smooth ones where triangles meet at 30 "
-                                "degrees or less: 8 vertices became 24");
+    EXPECT_EQ(scene.notices[0], "1 primitive has no normals; normals are created, smooth across edges of at "
+                                "most 30 degrees: 8 vertices become 24");
     const std::string bytes = cube(0).bytes();
     const Scene flat = extract_scene(parse_gltf(std::as_bytes(std::span(bytes)), "mesh.glb"));
     ASSERT_EQ(flat.notices.size(), 1u);
-    EXPECT_NE(flat.notices[0].find("8 vertices became 24; --smooth-normals 30"), std::string::npos)
+    EXPECT_NE(flat.notices[0].find("8 vertices become 24; prt bake, make and ao create smooth normals"),
+              std::string::npos)
         << flat.notices[0];
 }
 

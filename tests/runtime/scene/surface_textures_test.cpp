@@ -52,7 +52,7 @@ GlbFile shared_material() {
     return file;
 }
 
-TEST(SurfaceTextures, GiveEveryTextureAMaterial) {
+TEST(SurfaceTextures, AssignAMaterialToEveryTexture) {
     Written written(shared_material());
     const SurfaceTexture one{.primitives = {0}, .texcoord = 0, .occlusion = some_png(), .bent_normals = {}},
         other{.primitives = {1},
@@ -82,7 +82,7 @@ TEST(SurfaceTextures, GiveEveryTextureAMaterial) {
     EXPECT_EQ(sampler(b)["wrapT"], 10497);
 }
 
-TEST(SurfaceTextures, AreThoseOfVariantsToo) {
+TEST(SurfaceTextures, IncludeVariants) {
     GlbFile given = shared_material();
     given.json["meshes"][1]["primitives"].erase(1);
     given.json["materials"].push_back({{"name", "other"}, {"occlusionTexture", {{"index", 0}}}});
@@ -115,7 +115,7 @@ TEST(SurfaceTextures, AreThoseOfVariantsToo) {
     EXPECT_NE(textures[0], textures[1]);
 }
 
-TEST(SurfaceTextures, StayInTheMaterialThatNobodyElseHas) {
+TEST(SurfaceTextures, ReuseUnsharedMaterials) {
     GlbFile given = shared_material();
     given.json["meshes"][1]["primitives"].erase(1);
     given.json["meshes"][0]["primitives"][0].erase("material");
@@ -128,7 +128,7 @@ TEST(SurfaceTextures, StayInTheMaterialThatNobodyElseHas) {
     EXPECT_EQ(file.json["meshes"][0]["primitives"][0]["material"], 1);
 }
 
-TEST(SurfaceTextures, RefuseExtrasThatAreNoObject) {
+TEST(SurfaceTextures, RejectExtrasOtherThanObjects) {
     GlbFile given = shared_material();
     given.json["materials"][0]["extras"] = "a word";
     Written written(given);
@@ -153,7 +153,7 @@ TEST(VertexColors, AreShaded) {
     EXPECT_EQ(again.vertex_arrays[0].colors[1], glm::vec4(0.25f, 0.25f, 0.25f, 1));
 }
 
-TEST(VertexSplits, TakeAllThatVerticesHaveAlong) {
+TEST(VertexSplits, CopyAllAttributes) {
     GlbFile given = shared_material();
     given.json["meshes"][1]["primitives"].erase(1);
     given.json["nodes"][1]["scale"] = {-1, 1, 1}; // mirrored

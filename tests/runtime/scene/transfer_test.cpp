@@ -125,7 +125,7 @@ struct OnDisk {
     explicit OnDisk(const GlbFile& file) { file.write(source); }
 };
 
-TEST(TransferInGltf, RawVectorsComeBackExactly) {
+TEST(TransferInGltf, RawVectorsRoundTripExactly) {
     const OnDisk files(demanding_file());
     GltfDocument document = load_gltf(files.source);
     const Scene scene = extract_scene(document);
@@ -151,7 +151,7 @@ TEST(TransferInGltf, RawVectorsComeBackExactly) {
     EXPECT_FALSE(read_clustered(again, scene_again));
 }
 
-TEST(TransferInGltf, PartsComeBackAsTheyAre) {
+TEST(TransferInGltf, TermsRoundTrip) {
     const OnDisk files(demanding_file());
     GltfDocument document = load_gltf(files.source);
     const Scene scene = extract_scene(document);
@@ -170,7 +170,7 @@ TEST(TransferInGltf, PartsComeBackAsTheyAre) {
     EXPECT_EQ(read->transfer.vectors, baked.transfer.vectors);
 }
 
-TEST(TransferInGltf, VectorsOfAnotherLayoutAreRefused) {
+TEST(TransferInGltf, VectorsOfAnotherLayoutAreRejected) {
     const OnDisk files(demanding_file());
     GltfDocument document = load_gltf(files.source);
     const Scene scene = extract_scene(document);
@@ -187,7 +187,7 @@ TEST(TransferInGltf, VectorsOfAnotherLayoutAreRefused) {
     }
 }
 
-TEST(TransferInGltf, ReceiversAreTheSamePointsAfterwards) {
+TEST(TransferInGltf, ReceiversKeepTheirPositions) {
     const OnDisk files(demanding_file());
     GltfDocument document = load_gltf(files.source);
     const Scene scene = extract_scene(document);
@@ -208,7 +208,7 @@ TEST(TransferInGltf, ReceiversAreTheSamePointsAfterwards) {
     }
 }
 
-TEST(TransferInGltf, WhatIsUnknownSurvives) {
+TEST(TransferInGltf, UnknownContentIsKept) {
     const OnDisk files(demanding_file());
     GltfDocument document = load_gltf(files.source);
     const Scene scene = extract_scene(document);
@@ -230,7 +230,7 @@ INSTANTIATE_TEST_SUITE_P(
                     std::pair{WeightFormat::float32, 257}, std::pair{WeightFormat::float32, 1},
                     std::pair{WeightFormat::packed, 1}, std::pair{WeightFormat::packed, 300}));
 
-TEST_P(Weights, CompressedTransferComesBackExactly) {
+TEST_P(Weights, CompressedTransferRoundTripsExactly) {
     const auto [format, clusters] = GetParam();
     const OnDisk files(demanding_file());
     GltfDocument document = load_gltf(files.source);
@@ -251,7 +251,7 @@ TEST_P(Weights, CompressedTransferComesBackExactly) {
     EXPECT_EQ(read->record.receivers, c.record.receivers);
 }
 
-TEST(TransferInGltf, CompressingTakesTheRawVectorsOut) {
+TEST(TransferInGltf, CompressionRemovesRawVectors) {
     const OnDisk files(demanding_file());
     GltfDocument document = load_gltf(files.source);
     const Scene scene = extract_scene(document);
@@ -272,7 +272,7 @@ TEST(TransferInGltf, CompressingTakesTheRawVectorsOut) {
         EXPECT_EQ(again.vertex_arrays[a].positions, baked_scene.vertex_arrays[a].positions);
 }
 
-TEST(TransferInGltf, WritingTwiceIsWritingOnce) {
+TEST(TransferInGltf, WritingIsIdempotent) {
     const OnDisk files(demanding_file());
     for (int time = 0; time < 3; ++time) {
         GltfDocument document = load_gltf(time == 0 ? files.source : files.written);
@@ -328,7 +328,7 @@ nlohmann::ordered_json& extension(nlohmann::ordered_json& json) {
     return json["extensions"]["PRTKIT_clustered_pca"];
 }
 
-TEST(TransferInGltf, DamagedPackedTransferIsRefused) {
+TEST(TransferInGltf, DamagedPackedTransferIsRejected) {
     const Damage read_changed(WeightFormat::packed);
     EXPECT_NO_THROW(read_changed([](auto&) {}));
     EXPECT_THROW(read_changed([&](auto& j) { extension(j).erase("packing"); }), Error);
@@ -345,7 +345,7 @@ TEST(TransferInGltf, DamagedPackedTransferIsRefused) {
     EXPECT_THROW(read_changed([&](auto& j) { extension(j)["bases"]["scales"]["bufferView"] = 99; }), Error);
 }
 
-TEST(TransferInGltf, DamagedTransferIsRefused) {
+TEST(TransferInGltf, DamagedTransferIsRejected) {
     const Damage read_changed(WeightFormat::float32);
     EXPECT_NO_THROW(read_changed([](auto&) {}));
     EXPECT_THROW(read_changed([&](auto& j) { extension(j)["version"] = 99; }), Error);
@@ -390,9 +390,9 @@ std::string refusal(const Damage& read_changed, const std::function<void(GlbFile
 
 /// Other programs change files with data that they do not support: each change is refused with the reason and
 /// the remedy.
-TEST(TransferInGltf, ChangesOfOtherProgramsAreRefusedWithTheRemedy) {
+TEST(TransferInGltf, ChangesOfOtherProgramsAreRejectedWithTheRemedy) {
     const std::string remedy =
-        ": another program has changed the file; run it before prt bake, or run prt compress again";
+        ": another program has changed the file; run that program before prt bake, or run prt compress again";
     const auto attributes = [](GlbFile& file) -> nlohmann::ordered_json& {
         return file.json["meshes"][0]["primitives"][0]["attributes"];
     };
@@ -412,14 +412,14 @@ TEST(TransferInGltf, ChangesOfOtherProgramsAreRefusedWithTheRemedy) {
         });
         expect(format, "lacks _PRT_WEIGHTS_0",
                [&](GlbFile& file) { attributes(file).erase("_PRT_WEIGHTS_0"); });
-        expect(format, "_PRT_WEIGHTS_0, but no extension PRTKIT_clustered_pca", [&](GlbFile& file) {
+        expect(format, "_PRT_WEIGHTS_0, but not the extension PRTKIT_clustered_pca", [&](GlbFile& file) {
             file.json.erase("extensions");
             attributes(file).erase("_PRT_CLUSTER");
         });
     }
-    expect(WeightFormat::float32, "lacks _PRT_CLUSTER",
+    expect(WeightFormat::float32, "has no attribute _PRT_CLUSTER",
            [&](GlbFile& file) { attributes(file).erase("_PRT_CLUSTER"); });
-    expect(WeightFormat::float32, "_PRT_CLUSTER, but no extension PRTKIT_clustered_pca",
+    expect(WeightFormat::float32, "_PRT_CLUSTER, but not the extension PRTKIT_clustered_pca",
            [&](GlbFile& file) { file.json.erase("extensions"); });
     // Integers as floats, and as shares of their type.
     expect(WeightFormat::packed, "_PRT_WEIGHTS_0 has component type 5126, not 5121", [&](GlbFile& file) {
@@ -437,7 +437,7 @@ void put_float(GlbFile& file, const nlohmann::ordered_json& view, std::size_t in
     std::memcpy(&file.binary[offset + index * sizeof value], &value, sizeof value);
 }
 
-TEST(TransferInGltf, EverythingThatTheSchemaForbidsIsRefused) {
+TEST(TransferInGltf, SchemaViolationsAreRejected) {
     const Damage read_changed(WeightFormat::packed);
     const auto bases = [](auto& j) -> auto& {
         return extension(j)["bases"];
@@ -520,12 +520,12 @@ TEST(TransferInGltf, WeightsAndVectorsAreFiniteAndNotHuge) {
     }
 }
 
-TEST(TransferInGltf, WhatTheFileDoesNotHoldIsNotAllocated) {
+TEST(TransferInGltf, MissingDataIsNotAllocated) {
     const Damage read_plain(WeightFormat::float32), read_coded(WeightFormat::packed);
     const auto many_clusters = [](GlbFile& file) {
         extension(file.json)["components"] = std::vector<int>(65536, 27);
     };
-    EXPECT_NE(refusal(read_plain, many_clusters).find("bytes, but there are"), std::string::npos);
+    EXPECT_NE(refusal(read_plain, many_clusters).find("bytes, but the buffer view has"), std::string::npos);
     // A row of zeros has four bits and is decoded to one value per axis.
     const auto many_axes = [&](GlbFile& file) {
         auto& e = extension(file.json);
@@ -536,10 +536,10 @@ TEST(TransferInGltf, WhatTheFileDoesNotHoldIsNotAllocated) {
                                 {"bufferView", file.view(std::vector<std::byte>(17 * 2048 / 2))}};
         e["bases"]["scales"]["bufferView"] = file.view(std::vector<std::byte>(80000));
     };
-    EXPECT_NE(refusal(read_coded, many_axes).find("its bases would take"), std::string::npos);
+    EXPECT_NE(refusal(read_coded, many_axes).find("its bases would need"), std::string::npos);
 }
 
-TEST(TransferInGltf, DataThatTransferSharesWithGeometryStays) {
+TEST(TransferInGltf, DataSharedWithGeometryIsKept) {
     const OnDisk files(test::triangle_file());
     GltfDocument document = load_gltf(files.source);
     const Scene scene = extract_scene(document);

@@ -48,7 +48,7 @@ glm::dquat quaternion(double angle, const glm::dvec3& axis) {
     return glm::angleAxis(angle, glm::normalize(axis));
 }
 
-TEST(ShRotation, TwoTurnsAreOne) {
+TEST(ShRotation, TwoRotationsCompose) {
     const auto f = random_function(1);
     const glm::dquat a = quaternion(0.7, {1, 2, 3}), b = quaternion(2.9, {-1, 0.2, 0.4});
     EXPECT_LT(largest_difference(rotated(rotated(f, ShRotation(kOrder, a)), ShRotation(kOrder, b)),
@@ -61,7 +61,7 @@ TEST(ShRotation, TwoTurnsAreOne) {
 
 /// Compares with the function itself, for tilts whose axis is hardly visible in the matrix, and for half
 /// rotations.
-TEST(ShRotation, NearlyNoTiltAndHalfTurnsAreExact) {
+TEST(ShRotation, TinyTiltsAndHalfRotationsAreExact) {
     const auto f = random_function(2);
     for (const double tilt : {0.0, 1e-300, 1e-17, 1e-9, 1e-5, pi - 1e-9, pi}) {
         const glm::dmat3 r = glm::mat3_cast(quaternion(0.9, {0, 0, 1}) * quaternion(tilt, {1, 0.3, 0}));
@@ -81,7 +81,7 @@ TEST(ShRotation, NearlyNoTiltAndHalfTurnsAreExact) {
     }
 }
 
-TEST(ShRotation, AxesAreThoseOfTheQuaternion) {
+TEST(ShRotation, AxesMatchTheQuaternion) {
     const auto f = random_function(3);
     for (const double angle : {0.3, -2.0, 3.5}) {
         EXPECT_LT(largest_difference(rotated(f, ShRotation::about_x(kOrder, angle)),
@@ -116,7 +116,7 @@ TEST(ShRotation, FloatsAndColorsAreTheSame) {
 
 /// Bands are independent, so a rotation of fewer bands equals the first bands of one of more, and changes no
 /// further elements. Compared with the function itself.
-TEST(ShRotation, EveryOrderTurnsTheFunctionAndNothingElse) {
+TEST(ShRotation, RotatesTheFunctionInEveryOrder) {
     const glm::dmat3 r = glm::mat3_cast(quaternion(2.3, {0.3, -1, 0.7}));
     const glm::dvec3 w = glm::normalize(glm::dvec3(0.2, 0.9, -0.5)), before = glm::transpose(r) * w;
     const auto f = random_function(8);
@@ -141,7 +141,7 @@ TEST(ShRotation, EveryOrderTurnsTheFunctionAndNothingElse) {
     }
 }
 
-TEST(ShRotation, MatricesOfFloatsAreTakenApartAsRotations) {
+TEST(ShRotation, FloatMatricesAreDecomposedAsRotations) {
     std::mt19937 random(9);
     std::normal_distribution<double> normal;
     const auto f = random_function(10);
@@ -174,7 +174,7 @@ TEST(ShRotation, TenThousandComposedMatricesKeepTheNorm) {
     EXPECT_NEAR(after / before, 1, 1e-12); // the input is orthonormalised
 }
 
-TEST(ShRotation, WhatIsNoRotationIsRefused) {
+TEST(ShRotation, NonRotationsAreRejected) {
     const glm::dmat3 r = glm::mat3_cast(quaternion(0.4, {1, 1, 0}));
     EXPECT_THROW(ShRotation(3, 2.0 * r), Error);
     EXPECT_THROW(ShRotation(3, glm::dmat3(0)), Error);

@@ -151,7 +151,7 @@ TEST(ShRotation, TenThousandSmallStepsKeepTheNorm) {
     EXPECT_NEAR(std::sqrt(after / before), 1, 1e-5);
 }
 
-TEST(ShRotation, IdentityChangesNothing) {
+TEST(ShRotation, IdentityKeepsTheFunction) {
     std::vector<double> in(100), out(100);
     for (std::size_t i = 0; i < in.size(); ++i)
         in[i] = static_cast<double>(i) - 50;
@@ -173,7 +173,7 @@ TEST(Sh, WindowsAreASquaredCosineAndTheMeanOfACosine) {
         }
 }
 
-TEST(Sh, OrdersOutsideTheRangeAreRefused) {
+TEST(Sh, OrdersOutsideTheRangeAreRejected) {
     EXPECT_THROW(check_order(0), Error);
     EXPECT_THROW(check_order(11), Error);
     EXPECT_NO_THROW(check_order(1));

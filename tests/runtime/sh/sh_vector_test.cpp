@@ -132,7 +132,7 @@ TEST(ShVector, SumsAndScales) {
     EXPECT_EQ(sh_dot<float>(a, b), -2);
 }
 
-TEST(ShConventions, ThreeJsBasisGivesTheSameRadiance) {
+TEST(ShConventions, ThreeJsBasisHasEqualRadiance) {
     Light light{3, {}};
     for (int i = 0; i < 9; ++i)
         light.coefficients.emplace_back(1 + i, 2 - i, 0.5 * i);

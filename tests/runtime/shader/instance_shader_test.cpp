@@ -109,7 +109,7 @@ void expect_agreement(ShaderLanguage language, ConstantSource source) {
     }
 }
 
-TEST(InstanceShader, AgreesWithCppOnEveryModeAndTurn) {
+TEST(InstanceShader, MatchesCppForEveryModeAndRotation) {
     std::string why;
     const auto context = GlContext::create(GlDevice::any, &why);
     ASSERT_TRUE(context) << why;
@@ -117,14 +117,14 @@ TEST(InstanceShader, AgreesWithCppOnEveryModeAndTurn) {
     expect_agreement(ShaderLanguage::glsl330, ConstantSource::texture);
 }
 
-TEST(InstanceShader, AgreesWithCppInEs) {
+TEST(InstanceShader, MatchesCppInEs) {
     const test::EsContext context;
     if (!context.current())
         GTEST_SKIP() << "no OpenGL ES 3.0";
     expect_agreement(ShaderLanguage::essl300, ConstantSource::texture);
 }
 
-TEST(InstanceShader, BlocksAndManyWeightsAreRefused) {
+TEST(InstanceShader, BlocksAndManyWeightsAreRejected) {
     std::mt19937 random(3);
     ClusteredTransfer mesh = random_mesh(random);
     EXPECT_THROW(instance_shader(mesh, ConstantSource::block), Error);

@@ -34,7 +34,7 @@ packed=(PRT_COMPRESSED PRT_CONSTANTS_BUFFER "PRT_PACKED_WORDS 5" "PRT_CLUSTER_BI
 predictors=(PRT_PREDICTOR_NORMAL PRT_PREDICTOR_POSITION "PRT_PREDICTOR_ORIGIN vec3(1.0, 2.0, 3.0)")
 volume=("PRT_VOLUME_ORDER 3" PRT_VOLUME_LINEAR "PRT_VOLUME_ORIGIN vec3(1.0)" "PRT_VOLUME_SPACING 0.5" "PRT_VOLUME_SIZE ivec3(2)"
     "PRT_VOLUME_FIRST ivec4(0)" "PRT_VOLUME_BRICKS ivec3(2)")
-alike=("PRT_CLUSTER_ROWS 3" "PRT_SAME_WEIGHTS PRT_ADD(0u, PRT_BITS(8u, 16u)) PRT_ADD(1u, PRT_BITS(24u, 9u))")
+equal_clusters=("PRT_CLUSTER_ROWS 3" "PRT_SAME_WEIGHTS PRT_ADD(0u, PRT_BITS(8u, 16u)) PRT_ADD(1u, PRT_BITS(24u, 9u))")
 for file in *.vert *.frag *.comp; do
     case $file in
         bake_accumulate.comp | bake_blocked.comp | bake_energy.comp | bake_gather.comp | bake_lamps.comp | bake_trace.comp) ;; # the build compiles them
@@ -46,7 +46,7 @@ for file in *.vert *.frag *.comp; do
             ;;
         prt_lightmap.comp)
             compiles "$file" "${packed[@]}"
-            compiles "$file" "${packed[@]}" "${alike[@]}" "PRT_LIGHTMAP_FORMAT r11f_g11f_b10f"
+            compiles "$file" "${packed[@]}" "${equal_clusters[@]}" "PRT_LIGHTMAP_FORMAT r11f_g11f_b10f"
             ;;
         prt_instances.vert | viewer_lit_instances.vert)
             compiles "$file" "${packed[@]}" "${predictors[@]}" PRT_INSTANCES
@@ -56,7 +56,7 @@ for file in *.vert *.frag *.comp; do
             for order in 2 3 4; do
                 compiles "$file" "${packed[@]}" "PRT_VOLUME_ORDER $order"
             done
-            compiles "$file" "${packed[@]}" "${alike[@]}" "PRT_VOLUME_ORDER 3" "PRT_VOLUME_FORMAT rgba32f"
+            compiles "$file" "${packed[@]}" "${equal_clusters[@]}" "PRT_VOLUME_ORDER 3" "PRT_VOLUME_FORMAT rgba32f"
             ;;
         *.comp)
             compiles "$file" "PRT_ROWS 40" "PRT_NUMBERS 144" "PRT_FIRST_CHANNELS 1" "PRT_COEFFICIENTS 36"
@@ -66,11 +66,11 @@ for file in *.vert *.frag *.comp; do
         prt_relight.vert)
             compiles "$file" "${packed[@]}"
             compiles "$file" "${packed[@]}" "${predictors[@]}"
-            compiles "$file" "${packed[@]}" "${alike[@]}"
+            compiles "$file" "${packed[@]}" "${equal_clusters[@]}"
             ;;
         prt_lightmap.frag)
             compiles "$file" "${packed[@]}"
-            compiles "$file" "${packed[@]}" "${alike[@]}"
+            compiles "$file" "${packed[@]}" "${equal_clusters[@]}"
             compiles "$file" PRT_NORMALIZED_WORDS PRT_CONSTANTS_TEXTURE "PRT_TEXTURE_WIDTH 256" "PRT_PACKED_WORDS 1" "PRT_CLUSTER_BITS 8"
             ;;
         viewer_moving.* | viewer_probes.*)

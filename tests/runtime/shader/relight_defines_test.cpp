@@ -49,7 +49,7 @@ TEST(RelightDefines, NameThePredictorsOfAModel) {
     EXPECT_EQ(defines({PredictorKind::position}).find("NORMAL"), std::string::npos);
 }
 
-TEST(RelightDefines, SayTheOriginWithAllDigitsOfAFloat) {
+TEST(RelightDefines, ContainTheOriginInFullPrecision) {
     ClusteredTransfer t = transfer_of(4, {PredictorKind::position});
     for (const glm::vec3 origin : {glm::vec3(0), glm::vec3(1.0f / 3, -glm::pi<float>(), 1e-20f),
                                    glm::vec3(16777217, 0.1f, -123456.789f)}) {
@@ -77,7 +77,7 @@ ClusteredTransfer packed_transfer() {
     return t;
 }
 
-TEST(RelightDefines, SayWhereWeightsAreThatAllClustersDivideAlike) {
+TEST(RelightDefines, ContainTheLayoutOfEquallyDividedWeights) {
     const ClusteredTransfer packed = packed_transfer();
     EXPECT_TRUE(clusters_are_alike(packed.bases));
     const std::string text = relight_defines(packed);
@@ -92,7 +92,7 @@ TEST(RelightDefines, SayWhereWeightsAreThatAllClustersDivideAlike) {
         << plain;
 }
 
-TEST(RelightDefines, LeaveALoopWhereClustersDiffer) {
+TEST(RelightDefines, UseALoopForDifferentClusters) {
     for (const int which : {0, 1}) {
         ClusteredTransfer t = packed_transfer();
         if (which == 0)

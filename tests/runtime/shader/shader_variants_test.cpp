@@ -213,7 +213,7 @@ Names inputs_of_table(const std::vector<ShaderBinding>& bindings) {
 
 constexpr WeightFormat kFormats[] = {WeightFormat::packed, WeightFormat::float32};
 
-TEST_P(ShaderVariants, ComputeWhatCppComputes) {
+TEST_P(ShaderVariants, MatchCpp) {
     for (const WeightFormat format : kFormats) {
         const ClusteredTransfer transfer = compressed(format);
         EXPECT_FALSE(clusters_are_alike(transfer.bases));
@@ -221,7 +221,7 @@ TEST_P(ShaderVariants, ComputeWhatCppComputes) {
     }
 }
 
-TEST_P(ShaderVariants, ComputeItWithoutALoopWhereClustersAreAlike) {
+TEST_P(ShaderVariants, ComputeEqualClustersWithoutALoop) {
     Lighting lighting{random_light(), rotated_about_y(random_light(), 1)};
     lighting.lamps = {glm::vec3(0.5f, 1, 2), glm::vec3(3)};
     for (const WeightFormat format : kFormats) {
@@ -231,7 +231,7 @@ TEST_P(ShaderVariants, ComputeItWithoutALoopWhereClustersAreAlike) {
     }
 }
 
-TEST_P(ShaderVariants, HaveTheBindingsThatTheTableLists) {
+TEST_P(ShaderVariants, HaveTheBindingsOfTheTable) {
     const auto [language, constants] = GetParam();
     for (const Division division : {Division::of_their_own, Division::alike})
         for (const WeightFormat format : kFormats) {
@@ -249,7 +249,7 @@ TEST_P(ShaderVariants, HaveTheBindingsThatTheTableLists) {
         }
 }
 
-TEST(ConstantsShader, FormsWhatCppForms) {
+TEST(ConstantsShader, MatchesCpp) {
     const auto context = GlContext::create(GlDevice::any);
     ASSERT_TRUE(context);
     const Light light = random_light();

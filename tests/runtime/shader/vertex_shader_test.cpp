@@ -89,7 +89,7 @@ TEST_P(VertexShader, AgreesWithCppPerVertex) {
     }
 }
 
-TEST(GlTransfer, TooManyComponentsAreRefused) {
+TEST(GlTransfer, TooManyComponentsAreRejected) {
     const auto context = GlContext::create(GlDevice::any);
     ASSERT_TRUE(context);
     ClusteredTransfer transfer;

@@ -24,7 +24,7 @@ std::string text_of(const std::filesystem::path& path) {
     return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
 }
 
-TEST(ReadFile, NamesWhatIsWrong) {
+TEST(ReadFile, ReportsErrors) {
     const test::TemporaryFolder folder;
     folder.file("empty", "");
     for (const auto& path : {folder / "missing", folder.path(), folder / "empty"})
@@ -59,7 +59,7 @@ TEST(OutputFile, LeavesTheOldFileWhenAbandoned) {
     EXPECT_EQ(folder.files(), 1u);
 }
 
-TEST(OutputFile, RefusesFoldersAndNamesThatCannotBe) {
+TEST(OutputFile, RejectsFoldersAndInvalidNames) {
     const test::TemporaryFolder folder;
     EXPECT_THROW(OutputFile(folder.path()), Error);
     EXPECT_THROW(OutputFile(folder / "no/such/folder"), Error);
@@ -82,7 +82,7 @@ TEST(OutputFile, FollowsLinksInsteadOfReplacingThem) {
     EXPECT_EQ(std::to_integer<char>(read_file(folder / "target")[0]), 'n');
 }
 
-TEST(OutputFile, TakesTheLongestNameThatThereIs) {
+TEST(OutputFile, AcceptsTheLongestName) {
     const test::TemporaryFolder folder;
     for (const char* text : {"new", "newer"}) {
         OutputFile file(folder / std::string(255, 'n'));
@@ -94,7 +94,7 @@ TEST(OutputFile, TakesTheLongestNameThatThereIs) {
     EXPECT_EQ(folder.files(), 1u);
 }
 
-TEST(OutputFile, IsTakenBackUnlessItIsKept) {
+TEST(OutputFile, IsRemovedUnlessCommitted) {
     const test::TemporaryFolder folder;
     folder.file("old", "old");
     for (const char* name : {"old", "none"}) {
@@ -147,7 +147,7 @@ bool is_open(int descriptor) {
     return ::fcntl(descriptor, F_GETFD) >= 0;
 }
 
-TEST(OutputFile, IsTakenBackFromDescriptorZeroToo) {
+TEST(OutputFile, IsRemovedFromDescriptorZero) {
     const test::TemporaryFolder folder;
     const NoStandardInput closed;
     {
@@ -176,7 +176,7 @@ TEST(OutputFile, WritesIntoAStreamThroughDescriptorZero) {
     EXPECT_EQ(text_of(folder / "a"), "new");
 }
 
-TEST(OutputFile, RemovesWhatAKilledProcessLeftButNotWhatIsBeingWritten) {
+TEST(OutputFile, RemovesLeftoversOfKilledProcessesOnly) {
     const test::TemporaryFolder folder;
     const std::string begin = ".prtkit-af63dc4c8601ec8c-"; // Fowler-Noll-Vo hash of "a"
     folder.file(begin + "1-1", "left");

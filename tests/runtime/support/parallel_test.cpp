@@ -26,11 +26,11 @@ TEST(ParallelFor, VisitsEveryIndexOnceInAlignedBlocks) {
     }
 }
 
-TEST(ParallelFor, NothingToDoIsFine) {
+TEST(ParallelFor, EmptyRangesAreValid) {
     parallel_for(0, 16, 2, [](std::size_t, std::size_t) { FAIL(); });
 }
 
-TEST(ParallelFor, RethrowsWhatTheBodyThrows) {
+TEST(ParallelFor, RethrowsExceptionsOfTheBody) {
     EXPECT_THROW(parallel_for(100, 1, 3,
                               [](std::size_t begin, std::size_t) {
                                   if (begin == 42)

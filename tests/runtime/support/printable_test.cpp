@@ -12,7 +12,7 @@ TEST(Printable, LeavesTextOfAnyLanguage) {
         EXPECT_EQ(printable(text), text);
 }
 
-TEST(Printable, EscapesWhatATerminalActsOn) {
+TEST(Printable, EscapesTerminalControlCharacters) {
     EXPECT_EQ(printable("\x1b[31m"), "\\x1b[31m");
     EXPECT_EQ(printable(std::string_view("a\0\r\n\a\x7f", 6)), "a\\x00\\x0d\\x0a\\x07\\x7f");
     EXPECT_EQ(printable("\u009b2J"), "\\u009b2J");
@@ -21,7 +21,7 @@ TEST(Printable, EscapesWhatATerminalActsOn) {
     EXPECT_EQ(printable("\U000e0041"), "\\u0e0041");
 }
 
-TEST(Printable, EscapesBytesThatAreNoUtf8) {
+TEST(Printable, EscapesInvalidUtf8) {
     EXPECT_EQ(printable("\x9b"), "\\x9b");                   // no first byte
     EXPECT_EQ(printable("\xe2\x82"), "\\xe2\\x82");          // cut
     EXPECT_EQ(printable("\xc0\x9b"), "\\xc0\\x9b");          // longer than it must be
@@ -31,7 +31,7 @@ TEST(Printable, EscapesBytesThatAreNoUtf8) {
               "\\xffb");
 }
 
-TEST(Printable, CutsWhatIsEndless) {
+TEST(Printable, ShortensLongText) {
     const std::string text = printable(std::string(100'000, 'x'));
     EXPECT_LT(text.size(), 1010u);
     EXPECT_TRUE(text.ends_with(" ..."));

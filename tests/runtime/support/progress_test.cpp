@@ -9,7 +9,7 @@
 namespace prt {
 namespace {
 
-TEST(Progress, PartsOfPartsFillTheirShareOfTheWhole) {
+TEST(Progress, NestedPartsFillTheirShare) {
     std::vector<double> reported;
     const Progress whole{[&](double share) { reported.push_back(share); }, {}};
     const Progress range = whole.range(0.5, 1).range(0, 0.5); // outlives the range that it is of
@@ -20,7 +20,7 @@ TEST(Progress, PartsOfPartsFillTheirShareOfTheWhole) {
     EXPECT_FALSE(Progress{}.range(0, 0.5).report);
 }
 
-TEST(Progress, StopsThePartsAndReportsNothingMore) {
+TEST(Progress, StopsPartsWithoutFurtherReports) {
     std::stop_source source;
     bool reported = false;
     const Progress range = Progress{[&](double) { reported = true; }, source.get_token()}.range(0, 0.5);

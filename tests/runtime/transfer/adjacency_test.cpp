@@ -14,7 +14,7 @@ TEST(Edges, AreUniqueAscendingAndJoinTwoReceivers) {
     EXPECT_EQ(edges, (std::vector<Edge>{{0, 1}, {0, 3}, {1, 2}}));
 }
 
-TEST(Adjacency, HoldsBothEndsOfEveryEdgeAndNothingElse) {
+TEST(Adjacency, ContainsBothEndsOfEveryEdge) {
     std::vector<Edge> edges; // pairs of numbers below 30 with product 1 modulo 7
     for (std::uint32_t a = 0; a < 30; ++a)
         for (std::uint32_t b = a + 1; b < 30; ++b)

@@ -38,7 +38,7 @@ std::atomic<std::size_t> allocations = 0;
 namespace prt {
 namespace {
 
-TEST(Frame, AllocatesNothing) {
+TEST(Frame, DoesNotAllocate) {
     ClusteredTransfer transfer;
     transfer.bases.layout = layout_of_one(6, 1);
     transfer.bases.components.assign(40, 5);

@@ -85,7 +85,7 @@ TEST_P(Constants, AreDotProductsOfRowsAndLight) {
     }
 }
 
-TEST_P(Constants, HoldScalesAndCentersOfPredictors) {
+TEST_P(Constants, IncludeScalesAndCentersOfPredictors) {
     const auto [order, channels, format] = GetParam();
     ClusteredTransfer t = random_transfer(order, channels, format);
     const ClusteredTransfer plain = t;
@@ -141,7 +141,7 @@ TEST(ConstantsOfTerms, AreTheSumOfEachUnderItsLight) {
 }
 
 /// Compares with `exit_radiance` of the rows.
-TEST(ConstantsOfTerms, AreLitByLampsBesideTheSkyAndAlone) {
+TEST(ConstantsOfTerms, IncludeLampsWithAndWithoutSky) {
     for (const bool has_sky : {true, false}) {
         TransferLayout layout{4, {}};
         if (has_sky)
@@ -162,7 +162,7 @@ TEST(ConstantsOfTerms, AreLitByLampsBesideTheSkyAndAlone) {
     }
 }
 
-TEST_P(Constants, FormedInPartsAreTheSame) {
+TEST_P(Constants, DoNotDependOnRanges) {
     const auto [order, channels, format] = GetParam();
     const ClusterLighting relighter(random_transfer(order, channels, format));
     const Light light = random_light(order);
@@ -175,7 +175,7 @@ TEST_P(Constants, FormedInPartsAreTheSame) {
     EXPECT_EQ(whole, terms);
 }
 
-TEST(Constants, BlendAsTheLightsDo) {
+TEST(Constants, BlendLikeTheLights) {
     const ClusteredTransfer t = random_transfer(4, 1, WeightFormat::float32);
     const ClusterLighting relighter(t);
     const Light a = random_light(4), b = constant_light(4, {1, 2, 3});
@@ -189,7 +189,7 @@ TEST(Constants, BlendAsTheLightsDo) {
         EXPECT_LT(glm::distance(blend[i], of_blend[i]), 1e-4f);
 }
 
-TEST(Constants, LightOfFewerBandsIsRefused) {
+TEST(Constants, LightOfFewerBandsIsRejected) {
     const ClusterLighting relighter(random_transfer(4, 1, WeightFormat::float32));
     std::vector<glm::vec4> constants(relighter.rows());
     EXPECT_THROW(relighter.update(constant_light(3, {1, 1, 1}).coefficients, constants), Error);

@@ -87,7 +87,7 @@ TEST_P(Clustered, RadianceThroughConstantsEqualsDecodedTransferTimesLight) {
     }
 }
 
-TEST_P(Clustered, TransferIsDecodedAsTheFormulaSays) {
+TEST_P(Clustered, TransferIsDecodedByTheFormula) {
     for (const std::vector<PredictorKind>& predictors : test::sets_of_predictors()) {
         std::mt19937 random(8);
         ClusteredTransfer transfer = random_transfer(GetParam(), random);
@@ -124,7 +124,7 @@ TEST(Predictors, AddScaledCoordinatesLessTheCenterOfTheCluster) {
     EXPECT_EQ(bytes_per_receiver(t), 20u); // predictors need no bytes
 }
 
-TEST(ClusteredTransfer, PackedWeightsLieWhereTheFormatSays) {
+TEST(ClusteredTransfer, PackedWeightsFollowTheFormat) {
     ClusteredTransfer transfer;
     transfer.bases.layout = layout_of_one(1, 1);
     transfer.bases.components = {0, 4};
@@ -149,7 +149,7 @@ TEST(ClusteredTransfer, PackedWeightsLieWhereTheFormatSays) {
     EXPECT_EQ(bits_per_receiver(transfer), 32u);
 }
 
-TEST(ClusteredTransfer, BytesPerReceiverAreThoseOfTheArraysThatAreBound) {
+TEST(ClusteredTransfer, BytesPerReceiverCountBoundArrays) {
     std::mt19937 random(3);
     ClusteredTransfer packed = random_transfer({2, 1, WeightFormat::float32}, random);
     packed.receivers.format = WeightFormat::packed;
@@ -171,7 +171,7 @@ TEST(ClusteredTransfer, BytesPerReceiverAreThoseOfTheArraysThatAreBound) {
     EXPECT_EQ(bits_per_receiver(floats), 8u + 3 * 32);
 }
 
-TEST(ClusteredTransfer, ALightOfHigherOrderIsCutAndALowerOneRefused) {
+TEST(ClusteredTransfer, TruncatesHigherOrdersOfLightAndRejectsLowerOnes) {
     std::mt19937 random(1);
     const ClusteredTransfer transfer = random_transfer({3, 1, WeightFormat::float32}, random);
     const Light light = cone_light(6, {0, 1, 0}, 1, glm::vec3(1));
@@ -181,7 +181,7 @@ TEST(ClusteredTransfer, ALightOfHigherOrderIsCutAndALowerOneRefused) {
 }
 
 /// Against the definition, weight by weight.
-TEST(Evaluate, RunsOfAClusterAreWhatTheirReceiversAre) {
+TEST(Evaluate, RunsOfAClusterEqualSingleReceivers) {
     std::mt19937 random(11);
     std::normal_distribution<float> normal;
     std::uniform_real_distribution<float> unit(-1, 1);
@@ -224,7 +224,7 @@ TEST(Evaluate, RunsOfAClusterAreWhatTheirReceiversAre) {
     }
 }
 
-TEST(ClusteredTransfer, PackedWeightsComeBackAlsoAcrossWords) {
+TEST(ClusteredTransfer, PackedWeightsRoundTripAcrossWords) {
     // Directions are unit vectors and the mean is zero, so that the decoded values are the weights.
     ClusteredTransfer t;
     t.bases.layout = layout_of_one(3, 1);

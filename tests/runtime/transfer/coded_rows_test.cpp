@@ -15,7 +15,7 @@
 namespace prt {
 namespace {
 
-TEST(Bits, ComeBackInTheirOrder) {
+TEST(Bits, RoundTripInOrder) {
     std::mt19937 random(2);
     std::vector<std::pair<std::uint32_t, int>> numbers;
     BitWriter writer;
@@ -35,7 +35,7 @@ TEST(Bits, ComeBackInTheirOrder) {
     EXPECT_FALSE(reader.has(8));
 }
 
-TEST(CodedRows, ComeBackExactly) {
+TEST(CodedRows, RoundTripExactly) {
     std::mt19937 random(3);
     for (const std::size_t columns : {1u, 5u, 36u}) {
         std::vector<std::int32_t> values;
@@ -70,14 +70,14 @@ TEST(CodedRows, SmallColumnsCostLittle) {
     EXPECT_LT(8 * encode_rows(values, 12).bits.size(), plain + 200 * 5 + 700);
 }
 
-TEST(CodedRows, ZerosTakeTheirLevelsAlone) {
+TEST(CodedRows, ZerosNeedOnlyTheirLevels) {
     const std::vector<std::int32_t> zeros(70, 0);
     EXPECT_EQ(encode_rows(zeros, 7).bits.size(), 8u); // and the end of the stream
     EXPECT_EQ(decode_rows(encode_rows(zeros, 7), 10), zeros);
     EXPECT_TRUE(decode_rows(encode_rows({}, 0), 10).empty());
 }
 
-TEST(CodedRows, TakeLittleMoreThanTheirEntropy) {
+TEST(CodedRows, ApproachTheirEntropy) {
     // A Gaussian of deviation s in whole numbers has log2(s sqrt(2 pi e)) bits.
     std::mt19937 random(5);
     for (const double deviation : {2.0, 20.0}) {
@@ -92,7 +92,7 @@ TEST(CodedRows, TakeLittleMoreThanTheirEntropy) {
     }
 }
 
-TEST(CodedRows, CarriesRunThroughTheBytesBefore) {
+TEST(CodedRows, CarriesPropagateThroughPreviousBytes) {
     // Values that the models learn to expect, with one now and then that they do not.
     for (std::uint32_t seed = 0; seed < 200; ++seed) {
         std::mt19937 random(seed);
@@ -104,7 +104,7 @@ TEST(CodedRows, CarriesRunThroughTheBytesBefore) {
     }
 }
 
-TEST(CodedRows, ThatEndTooEarlyAreRefused) {
+TEST(CodedRows, TruncatedRowsAreRejected) {
     RowCode code = encode_rows(std::vector<std::int32_t>{100, -100, 7, 8}, 2);
     code.bits.pop_back();
     EXPECT_THROW(decode_rows(code, 2), Error);
@@ -160,7 +160,7 @@ TEST(CodedBases, AreTheOriginInMeansAndScaledSumsOfTheAxes) {
     EXPECT_THROW(decode_bases(other, components), Error);
 }
 
-TEST(CodedBases, HaveStepsOfTheirOwnInEachClusterAndGroupOfAxes) {
+TEST(CodedBases, HaveSeparateStepsPerClusterAndAxisGroup) {
     const std::vector<int> components = {1, 0};
     const std::vector<std::int32_t> axes = {1, 0, 0, 0, 1, 0, 0, 0, 1}, // three, each of one number
         values = {5, 6, 7, -1, -2, -3, 9, 10, 11};                      // mean, direction; mean

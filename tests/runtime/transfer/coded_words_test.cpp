@@ -81,7 +81,7 @@ Chain chain(std::size_t receivers, unsigned steps) {
     return chain;
 }
 
-TEST(CodedWords, ComeBackBitByBit) {
+TEST(CodedWords, RoundTripExactly) {
     std::mt19937 random(7);
     for (const std::size_t clusters : {1u, 2u, 7u, 300u})
         for (const auto& [components, widths] : {std::pair{std::size_t{5}, std::pair{1, 6}},
@@ -99,7 +99,7 @@ TEST(CodedWords, ComeBackBitByBit) {
                 }
 }
 
-TEST(CodedWords, OfSeveralBlocksAreTheSameForAnyNumberOfThreads) {
+TEST(CodedWords, BlocksDoNotDependOnThreads) {
     std::mt19937 random(8);
     const WordLayout layout = random_layout(40, 3, {1, 9}, random);
     const std::size_t receivers = 2 * 16384 + 1; // the last block has one
@@ -115,12 +115,12 @@ TEST(CodedWords, OfSeveralBlocksAreTheSameForAnyNumberOfThreads) {
     }
 }
 
-TEST(CodedWords, OfNoReceiversAreNone) {
+TEST(CodedWords, AreEmptyWithoutReceivers) {
     const Chain none = chain(0, 1);
     EXPECT_TRUE(decode_words(encode_words(none.layout, {}, {}), none.layout, {}).empty());
 }
 
-TEST(CodedWords, TakeLittleMoreThanTheirEntropy) {
+TEST(CodedWords, ApproachTheirEntropy) {
     constexpr std::size_t kReceivers = 20'000;
     for (const unsigned bits : {0u, 1u, 3u, 5u}) {
         const Chain given = chain(kReceivers, 1u << bits);
@@ -133,14 +133,14 @@ TEST(CodedWords, TakeLittleMoreThanTheirEntropy) {
     }
 }
 
-TEST(CodedWords, ArePredictedByThreeNeighborsThatPrecede) {
+TEST(CodedWords, ArePredictedByThreeEarlierNeighbors) {
     // Vertex 4 has all others as neighbours, 3 has three of them; a fourth neighbour is ignored.
     const std::vector<std::uint32_t> triangles = {0, 1, 4, 4, 2, 3, 3, 0, 2, 3, 3, 1};
     const std::vector<EarlierNeighbors> expected = {{0, 0, 0}, {0, 1, 1}, {0, 2, 2}, {2, 0, 1}, {0, 1, 2}};
     EXPECT_EQ(earlier_neighbors(triangles, 5), expected);
 }
 
-TEST(CodedWords, AreTheSameHoweverTrianglesAreRotated) {
+TEST(CodedWords, DoNotDependOnTriangleRotation) {
     std::mt19937 random(9);
     std::vector<std::uint32_t> triangles = random_triangles(100, 300, random);
     const auto neighbors = earlier_neighbors(triangles, 100);
@@ -152,7 +152,7 @@ TEST(CodedWords, AreTheSameHoweverTrianglesAreRotated) {
     EXPECT_THROW(earlier_neighbors(triangles, 50), Error);
 }
 
-TEST(CodedWords, CannotHoldBitsBehindTheWeights) {
+TEST(CodedWords, RejectBitsBehindTheWeights) {
     Chain given = chain(10, 4);
     EXPECT_TRUE(can_code_words(given.layout, given.words));
     given.words[7] |= 1u << 6;
@@ -162,7 +162,7 @@ TEST(CodedWords, CannotHoldBitsBehindTheWeights) {
     EXPECT_FALSE(can_code_words(layout, std::vector<std::uint32_t>{4, 5}));
 }
 
-TEST(CodedWords, CutShortOrPaddedAreRefused) {
+TEST(CodedWords, TruncatedOrPaddedWordsAreRejected) {
     const Chain given = chain(300, 16);
     const WordCode code = encode_words(given.layout, given.neighbors, given.words);
     for (std::size_t size = 0; size < code.bits.size() + 3; ++size) {
@@ -182,7 +182,7 @@ TEST(CodedWords, CutShortOrPaddedAreRefused) {
     EXPECT_THROW(decode_words(narrow, given.layout, given.neighbors), Error);
 }
 
-TEST(CodedWords, DamagedAreRefusedOrOtherWords) {
+TEST(CodedWords, DamageIsRejectedOrChangesWords) {
     std::mt19937 random(4);
     const WordLayout layout = random_layout(5, 6, {1, 9}, random);
     const auto words = random_words(layout, 200, 9000, random);

@@ -35,14 +35,14 @@ TEST(TransferContrast, IsOverTheTransferOfEachReceiver) {
     EXPECT_EQ(transfer_contrast(a, a, areas), 0);
 }
 
-TEST(RelativeL2, DifferentShapesAreRefused) {
+TEST(RelativeL2, DifferentShapesAreRejected) {
     const Transfer one = zero_transfer(1, 1, 1);
     EXPECT_THROW(relative_l2(one, zero_transfer(1, 1, 2), std::vector<float>{1}), Error);
     EXPECT_THROW(relative_l2(zero_transfer(1, 1, 4), zero_transfer(2, 1, 4), std::vector<float>(4, 1)),
                  Error);
 }
 
-TEST(RelativeL2, ComparesOtherPartsAsAWhole) {
+TEST(RelativeL2, ComparesOtherTermsCombined) {
     const Transfer both{{1, {{TermKind::direct, 1}, {TermKind::indirect, 3}}}, {1, 1, 2, 3}};
     const Transfer direct{layout_of_one(1, 1, TermKind::direct), {2}}, whole{layout_of_one(1, 3), {2, 3, 5}};
     EXPECT_NEAR(relative_l2(both, whole, std::vector<float>{1}), std::sqrt(1.0 / (4 + 9 + 16)), 1e-7);
@@ -73,7 +73,7 @@ TEST(LitError, HasTheDefinedMeasures) {
     EXPECT_NEAR(error.inner.max, 0.3 / 2, 1e-6); // 3-4
 }
 
-TEST(LitError, UnderALightThatReachesNothingIsOverTheScaleThatIsGiven) {
+TEST(LitError, UsesTheGivenScaleInTheDark) {
     // A sun below the floor: nothing is lit, and an error of a thousandth is infinite relative to the light.
     const std::vector<float> areas = {1, 3};
     const std::vector<glm::vec3> dark(2, glm::vec3(0)), lit = {glm::vec3(2), glm::vec3(0.4f)},
@@ -88,7 +88,7 @@ TEST(LitError, UnderALightThatReachesNothingIsOverTheScaleThatIsGiven) {
     EXPECT_EQ(found.mean, 0);
 }
 
-TEST(LitError, IsSeenAgainstTheLightThatIsThere) {
+TEST(LitError, IsRelativeToTheLocalLight) {
     // Five decades: every receiver has an error of a tenth of its light, and the darkest one the error of the
     // brightest.
     std::vector<glm::vec3> reference, approximation;
@@ -127,7 +127,7 @@ TEST(LitError, IsSeenAgainstTheLightThatIsThere) {
         1e-9);
 }
 
-TEST(LitError, OfAColourCountsAsItsLuminance) {
+TEST(LitError, CountsColorsByLuminance) {
     const std::vector<float> areas = {1};
     const std::vector<glm::vec3> grey = {glm::vec3(1)}, blue = {glm::vec3(1, 1, 2)};
     const VisibleError seen = lit_error(grey, blue, areas, {}, std::nullopt).visible;
@@ -135,7 +135,7 @@ TEST(LitError, OfAColourCountsAsItsLuminance) {
     EXPECT_NEAR(seen.mean, std::sqrt(0.0722) / 1.1, 1e-6);
 }
 
-TEST(LitError, OfTheDarkerHalfIsWhereTheThreeChannelsTogetherAreLeast) {
+TEST(LitError, DarkerHalfUsesTheSumOfChannels) {
     // Two receivers, one of 10 in one channel, the other of 2 in the next; both err by 1.
     for (const int channel : {0, 1, 2})
         for (const std::size_t bright : {0, 1}) {

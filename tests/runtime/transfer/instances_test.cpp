@@ -75,7 +75,7 @@ void expect_near(const std::vector<glm::vec3>& a, const std::vector<glm::vec3>& 
         EXPECT_LT(glm::distance(a[i], b[i]), tolerance * std::max(1.0f, glm::length(a[i]))) << i;
 }
 
-TEST(Instances, InTheOpenAnInstanceIsItsMesh) {
+TEST(Instances, UnoccludedInstancesMatchTheirMesh) {
     Draw draw;
     const Transfer transfer = draw.transfer(5);
     const std::vector<float> vectors =
@@ -84,7 +84,7 @@ TEST(Instances, InTheOpenAnInstanceIsItsMesh) {
         EXPECT_NEAR(vectors[i], transfer.vectors[i], 1e-5f);
 }
 
-TEST(Instances, ATurnedInstanceIsLitAsItsMeshByTurnedLight) {
+TEST(Instances, RotatedInstancesMatchTheMeshInRotatedLight) {
     Draw draw;
     const Transfer transfer = draw.transfer(6);
     const glm::dmat3 rotation = draw.rotation();
@@ -99,7 +99,7 @@ TEST(Instances, ATurnedInstanceIsLitAsItsMeshByTurnedLight) {
 }
 
 /// Lightings of modes, as in a shader, agree with modes of transfer, as defined by the file.
-TEST(Instances, ModesOfLightDoWhatModesOfTransferDo) {
+TEST(Instances, ModesOfLightEqualModesOfTransfer) {
     Draw draw;
     const Transfer transfer = draw.transfer(7);
     const Lighting lighting{draw.light(), draw.light()};
@@ -123,7 +123,7 @@ TEST(Instances, ModesOfLightDoWhatModesOfTransferDo) {
     expect_near(by_transfer, by_light, 2e-4f);
 }
 
-TEST(Instances, PassingModesAreIntegralsOverHalvesOfTheSphere) {
+TEST(Instances, TransmittedModesAreIntegralsOverHalfSpheres) {
     const glm::dvec3 up = glm::normalize(glm::dvec3(0.3, 0.8, -0.5));
     const InstanceModes modes(3, up);
     // Midpoints of a fine grid, because no quadrature is exact for a step.
@@ -148,7 +148,7 @@ TEST(Instances, PassingModesAreIntegralsOverHalvesOfTheSphere) {
         EXPECT_NEAR(modes.matrix(m)[2 * 9 + 7], sums[m], 2e-4) << m;
 }
 
-TEST(Instances, LightThatIsAddedIsThatOfLevelGround) {
+TEST(Instances, ReflectedLightIsThatOfLevelGround) {
     const auto lightings = InstanceModes(kOrder).lightings({constant_light(kOrder, glm::vec3(2, 1, 0.5f))});
     const glm::vec3 everywhere = radiance(lightings[kPassingModes].sky, glm::vec3(0, 0, 1));
     EXPECT_LT(glm::distance(everywhere, glm::vec3(2, 1, 0.5f)), 1e-5f);
@@ -156,7 +156,7 @@ TEST(Instances, LightThatIsAddedIsThatOfLevelGround) {
     EXPECT_NEAR(from_x.y, -std::sqrt(3.0f), 1e-5f);
 }
 
-TEST(Instances, FactorsTurnThereAndBack) {
+TEST(Instances, FactorRotationsAreInvertible) {
     Draw draw;
     const InstanceFactors factors = draw.factors();
     const glm::dmat3 rotation = draw.rotation();
@@ -166,7 +166,7 @@ TEST(Instances, FactorsTurnThereAndBack) {
         EXPECT_NEAR(again[i], before[i], 1e-5f);
 }
 
-TEST(Instances, FactorsInBytesAreNearAndExactInTheOpen) {
+TEST(Instances, ByteFactorsAreCloseAndExactIfUnoccluded) {
     Draw draw;
     std::vector<InstanceFactors> factors = {open_factors()};
     for (int i = 0; i < 50; ++i)
@@ -186,7 +186,7 @@ TEST(Instances, FactorsInBytesAreNearAndExactInTheOpen) {
     EXPECT_THROW(coded(factors), Error);
 }
 
-TEST(Instances, UprightOnesShareTheTurnsOfFewYaws) {
+TEST(Instances, UprightInstancesShareRotationsOfFewYaws) {
     std::vector<glm::dmat3> rotations;
     for (int i = 0; i < 100; ++i)
         rotations.push_back(glm::dmat3(glm::angleAxis(0.37 * i, glm::dvec3(0, 1, 0))));
@@ -235,7 +235,7 @@ std::vector<glm::vec4> constants_at(std::span<const glm::vec4> computed, const g
     return constants;
 }
 
-TEST(Instances, ConstantsAtAPlaceAreThoseOfTheModesTimesItsFactors) {
+TEST(Instances, ConstantsAreModesTimesFactors) {
     Draw draw;
     const ClusteredTransfer mesh = clustered_mesh(draw);
     const Lighting lighting{draw.light(), draw.light()};
@@ -272,7 +272,7 @@ TEST(Instances, ConstantsAtAPlaceAreThoseOfTheModesTimesItsFactors) {
     }
 }
 
-TEST(Instances, RelightersRefuseLamps) {
+TEST(Instances, RelightersRejectLamps) {
     Draw draw;
     ClusteredTransfer mesh = clustered_mesh(draw);
     mesh.bases.layout.terms.push_back({TermKind::lamp, 1, "Lantern"});
@@ -280,7 +280,7 @@ TEST(Instances, RelightersRefuseLamps) {
     EXPECT_THROW(InstanceRelighter(mesh, {}), Error);
 }
 
-TEST(Instances, LampsAreRefused) {
+TEST(Instances, LampsAreRejected) {
     TransferLayout layout = layout_of_one(3, 1);
     layout.terms.push_back({TermKind::lamp, 1, "Lantern"});
     EXPECT_THROW(SharedTransfer(zero_transfer(layout, 1), {0, 1, 0}), Error);

@@ -18,7 +18,7 @@
 namespace prt {
 namespace {
 
-TEST(BilinearTexels, SumToOneAndGiveLinearFunctionsBack) {
+TEST(BilinearTexels, SumToOneAndReproduceLinearFunctions) {
     const LightmapSize size{7, 5};
     for (double x = 0.5; x <= 6.5; x += 0.37)
         for (double y = 0.5; y <= 4.5; y += 0.29) {
@@ -35,7 +35,7 @@ TEST(BilinearTexels, SumToOneAndGiveLinearFunctionsBack) {
         }
 }
 
-TEST(BilinearTexels, LieInTheMapWhereverTheCoordinatesDo) {
+TEST(BilinearTexels, StayInTheMapForAllCoordinates) {
     constexpr double kInfinity = std::numeric_limits<double>::infinity();
     for (const bool repeats : {false, true})
         for (const double x :
@@ -50,14 +50,14 @@ TEST(BilinearTexels, LieInTheMapWhereverTheCoordinatesDo) {
     EXPECT_EQ(bilinear_texels({3, 3, true}, 9e15 + 1.5, 0.5).texels[0], 1u); // 9e15 is 3 times a whole number
 }
 
-TEST(BilinearTexels, EndAtTheBorderUnlessTheMapGoesOn) {
+TEST(BilinearTexels, EndAtTheBorderUnlessTheMapRepeats) {
     EXPECT_EQ(bilinear_texels({4, 4}, -3, 0.5).texels[0], 0u);
     EXPECT_EQ(bilinear_texels({4, 4}, 99, 3.5).texels[1], 15u);
     EXPECT_EQ(bilinear_texels({4, 4, true}, 0, 0.5).texels[0], 3u);
     EXPECT_EQ(bilinear_texels({4, 4, true}, 4.5, 0.5).texels[0], 0u);
 }
 
-TEST(NearestReceivers, AreTexelsThemselvesAndThoseBesideThem) {
+TEST(NearestReceivers, AreTexelsAndTheirNeighbors) {
     const std::vector<std::uint32_t> texels = {0, 15};
     const std::vector<std::uint32_t> nearest = nearest_receivers({4, 4}, texels);
     for (std::uint32_t t = 0; t < 16; ++t) {
@@ -127,7 +127,7 @@ struct Palette {
     }
 };
 
-TEST_P(Formats, HoldRadianceToTheirLastBit) {
+TEST_P(Formats, RoundRadianceCorrectly) {
     std::mt19937 random(5);
     std::uniform_real_distribution<float> exponent(-12, 15);
     std::vector<glm::vec3> colors;
@@ -143,7 +143,7 @@ TEST_P(Formats, HoldRadianceToTheirLastBit) {
     EXPECT_EQ(stored[3002], glm::vec3(0.5f, 0.25f, 2));
 }
 
-TEST_P(Formats, HoldNothingBelowZeroAndNoInfinity) {
+TEST_P(Formats, ClampNegativeAndInfiniteValues) {
     const float infinity = std::numeric_limits<float>::infinity();
     const std::vector<glm::vec3> stored =
         Palette({{-1, 2, -infinity}, {infinity, 1e30f, 70000}, {std::nanf(""), 0, 0}}).stored(GetParam());
@@ -156,7 +156,7 @@ TEST_P(Formats, HoldNothingBelowZeroAndNoInfinity) {
     EXPECT_EQ(stored[2], glm::vec3(0));
 }
 
-TEST_P(Formats, HaveSmallerLevelsThatAreMeans) {
+TEST_P(Formats, MipLevelsAreMeans) {
     std::mt19937 random(3);
     for (const LightmapSize& size : {LightmapSize{130, 66}, {1, 1}, {1, 9}, {5, 3}, {200, 1}}) {
         const CompressedLightmap lightmap = test::random_lightmap({size}, 1, false, random);
@@ -187,7 +187,7 @@ TEST_P(Formats, HaveSmallerLevelsThatAreMeans) {
     }
 }
 
-TEST_P(Formats, AreWhatEvaluationGives) {
+TEST_P(Formats, MatchEvaluation) {
     std::mt19937 random(8);
     const CompressedLightmap lightmap = test::random_lightmap({{67, 5}, {9, 33}}, 2, false, random);
     const ClusterLighting constants(lightmap.compressed.transfer);

@@ -37,7 +37,7 @@ LobeModel two_profiles() {
     return model;
 }
 
-TEST(Lobes, WordsAreThoseOfTheFormat) {
+TEST(Lobes, WordsFollowTheFormat) {
     const LobeModel model = two_profiles();
     // (190 - 127) / 127 and (64 - 127) / 127 result in z = 1/127.
     const Lobe lobe = model.decode(LobeWord{190, 64, 1, 51});
@@ -67,7 +67,7 @@ TEST(Lobes, TheSixAxesAreExactAndOthersWithinADegree) {
     EXPECT_GT(worst, std::cos(0.95f * 3.14159265f / 180));
 }
 
-TEST(Lobes, TurnAsNormalsDo) {
+TEST(Lobes, RotateLikeNormals) {
     std::mt19937 random(2);
     for (int i = 0; i < 50; ++i) {
         const glm::vec3 axis = any_direction(random);
@@ -83,7 +83,7 @@ TEST(Lobes, TurnAsNormalsDo) {
     expect_near(rotated_axis({0, 1, 0}, axis_rotation(glm::mat3(0))), {0, 1, 0});
 }
 
-TEST(Lobes, OfTheCosineLightAnOpenReceiver) {
+TEST(Lobes, CosineLobeLightsAnOpenReceiver) {
     std::mt19937 random(4);
     Light light{4, {}};
     for (int i = 0; i < 16; ++i)
@@ -107,7 +107,7 @@ TEST(Lobes, SendOutNoNegativeLight) {
     EXPECT_EQ(lobe_radiance({&dark, 1}, constant_light(4, glm::vec3(1)).coefficients, 4), glm::vec3(0));
 }
 
-TEST(Lobes, ThatMakeNoSenseAreRefused) {
+TEST(Lobes, InvalidLobesAreRejected) {
     const auto error_of = [](auto change) {
         LobeModel model = two_profiles();
         model.words = {{0, 0, 1, 0}, {0, 0, 0, 9}};
@@ -120,10 +120,12 @@ TEST(Lobes, ThatMakeNoSenseAreRefused) {
         return std::string();
     };
     EXPECT_EQ(error_of([](LobeModel&) {}), "");
-    EXPECT_NE(error_of([](LobeModel& m) { m.order = 5; }).find("order 2 to 4, not 5"), std::string::npos);
-    EXPECT_NE(error_of([](LobeModel& m) { m.lobes = 4; }).find("1 to 3 lobes, not 4"), std::string::npos);
-    EXPECT_NE(error_of([](LobeModel& m) { m.profiles.clear(); }).find("profiles, not 0"), std::string::npos);
-    EXPECT_NE(error_of([](LobeModel& m) { m.words[1][2] = 2; }).find("profile 2 of 2"), std::string::npos);
+    EXPECT_NE(error_of([](LobeModel& m) { m.order = 5; }).find("must be in 2..4, not 5"), std::string::npos);
+    EXPECT_NE(error_of([](LobeModel& m) { m.lobes = 4; }).find("must be in 1..3, not 4"), std::string::npos);
+    EXPECT_NE(error_of([](LobeModel& m) { m.profiles.clear(); }).find("must be in 1..256, not 0"),
+              std::string::npos);
+    EXPECT_NE(error_of([](LobeModel& m) { m.words[1][2] = 2; }).find("profile 2, but there are only 2"),
+              std::string::npos);
     for (const float bad : {std::numeric_limits<float>::quiet_NaN(), 1e4f})
         EXPECT_NE(error_of([&](LobeModel& m) { m.profiles[1][3] = bad; }).find("not finite or too large"),
                   std::string::npos);

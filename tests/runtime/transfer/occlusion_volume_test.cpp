@@ -42,7 +42,7 @@ OcclusionVolume ball(float radius) {
     return volume;
 }
 
-TEST(BlockedCap, OfTheMomentsOfACapIsThatCap) {
+TEST(BlockedCap, IsReconstructedFromMoments) {
     for (const double share : {0.01, 0.3, 0.5, 0.8, 0.99}) {
         // Brute force: the mean of directions in the cap about +z, over share (1 - share).
         const double mean =
@@ -56,7 +56,7 @@ TEST(BlockedCap, OfTheMomentsOfACapIsThatCap) {
     }
 }
 
-TEST(BlockedCap, ThatIsPartlyBlockedKeepsItsMoments) {
+TEST(BlockedCap, KeepsItsMomentsIfPartlyBlocked) {
     const BlockedCap cap = cap_of(0.2f, {0.3f, 0, 0});
     EXPECT_NEAR(cap.density * cap.share, 0.2, 1e-6);
     // Mean direction: density · share (1 - share).
@@ -64,13 +64,13 @@ TEST(BlockedCap, ThatIsPartlyBlockedKeepsItsMoments) {
     EXPECT_FLOAT_EQ(cap.towards.x, 1);
 }
 
-TEST(BlockedCap, OfNothingBlocksNothing) {
+TEST(BlockedCap, BlocksNoLightIfEmpty) {
     EXPECT_EQ(blocked_cosine(cap_of(0, {0, 0, 0}), {0, 1, 0}), 0);
     EXPECT_EQ(blocked_cosine(cap_of(0, {1, 0, 0}), {1, 0, 0}), 0);
     EXPECT_EQ(blocked_sun(cap_of(0, {1, 0, 0}), {1, 0, 0}, 0), 0);
 }
 
-TEST(BlockedCap, TakesTheCosineWeightedShareOfWhatIsAboveTheHorizon) {
+TEST(BlockedCap, BlocksTheCosineWeightedPartAboveTheHorizon) {
     for (const float share : {0.02f, 0.1f, 0.25f, 0.4f, 0.5f, 0.6f, 0.75f, 0.95f})
         for (double angle = 0; angle <= 180; angle += 15) {
             const glm::dvec3 normal(std::sin(angle * kPi / 180), 0, std::cos(angle * kPi / 180));
@@ -83,7 +83,7 @@ TEST(BlockedCap, TakesTheCosineWeightedShareOfWhatIsAboveTheHorizon) {
         }
 }
 
-TEST(BlockedCap, OfASphereStraightAboveIsItsFormFactor) {
+TEST(BlockedCap, HasTheFormFactorOfASphereAbove) {
     const double ratio = 0.6; // ratio of radius to distance: the form factor is its square
     const auto share = static_cast<float>(0.5 * (1 - std::sqrt(1 - ratio * ratio)));
     EXPECT_NEAR(blocked_cosine(cap_of(share, {0, 1, 0}), {0, 1, 0}), ratio * ratio, 1e-5);
@@ -101,7 +101,7 @@ TEST(BlockedCap, HidesASunInItsMiddleAndNotOneBehindTheReceiver) {
     }
 }
 
-TEST(OcclusionVolume, OfABallBlocksAsTheBallDoes) {
+TEST(OcclusionVolume, MatchesABall) {
     const OcclusionVolume volume = ball(0.5f);
     const glm::vec3 center(3, -2, 7);
     const PlacedOccluder where = placed(volume, glm::translate(glm::mat4(1), center), 0);
@@ -120,7 +120,7 @@ TEST(OcclusionVolume, OfABallBlocksAsTheBallDoes) {
     EXPECT_LT(error / 2000, 0.01); // texels as wide as the ball
 }
 
-TEST(OcclusionVolume, IsNothingFarAwayAndFadesThere) {
+TEST(OcclusionVolume, FadesToZeroAtADistance) {
     const OcclusionVolume volume = ball(0.5f);
     const PlacedOccluder where = placed(volume, glm::mat4(1), 0);
     float before = 1;
@@ -134,7 +134,7 @@ TEST(OcclusionVolume, IsNothingFarAwayAndFadesThere) {
     EXPECT_EQ(blocked_at(volume, where, {1e6f, 1e6f, 0}).density, 0);
 }
 
-TEST(OcclusionVolume, IsContinuousWhereItsBoxEnds) {
+TEST(OcclusionVolume, IsContinuousAtItsBoundary) {
     std::mt19937 random(2);
     OcclusionVolume volume = ball(0.5f);
     std::uniform_int_distribution<int> any(-127, 127);
@@ -151,7 +151,7 @@ TEST(OcclusionVolume, IsContinuousWhereItsBoxEnds) {
     }
 }
 
-TEST(OcclusionVolume, TurnsMovesAndScalesWithItsObject) {
+TEST(OcclusionVolume, TransformsWithItsObject) {
     std::mt19937 random(3);
     OcclusionVolume volume = ball(0.5f);
     volume.low = {-1, -2, -0.5f}; // no symmetry
@@ -171,12 +171,12 @@ TEST(OcclusionVolume, TurnsMovesAndScalesWithItsObject) {
     }
 }
 
-TEST(OcclusionVolume, OfAnObjectScaledToNothingBlocksNothing) {
+TEST(OcclusionVolume, ZeroScaleDoesNotBlock) {
     const PlacedOccluder where = placed(ball(1), glm::mat4(0), 0);
     EXPECT_EQ(blocked_at(ball(1), where, {0, 0, 0}).density, 0);
 }
 
-TEST(OcclusionVolume, BoxesThatAreNoneAreRefused) {
+TEST(OcclusionVolume, InvalidBoxesAreRejected) {
     OcclusionVolume volume = ball(1);
     check_occlusion_volume(volume);
     volume.high.y = volume.low.y;
@@ -189,7 +189,7 @@ TEST(OcclusionVolume, BoxesThatAreNoneAreRefused) {
     EXPECT_THROW(check_occlusion_volume(volume), Error);
 }
 
-TEST(OccluderList, HoldsTheNearestWhoseReachComesIntoABox) {
+TEST(OccluderList, ContainsTheNearestOccludersThatReachABox) {
     const OcclusionVolume volume = ball(0.5f); // reach 6
     std::vector<PlacedOccluder> all;
     for (const float x : {30.0f, 5.0f, 7.5f, 2.0f})

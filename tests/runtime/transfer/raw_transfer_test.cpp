@@ -27,7 +27,7 @@ TEST(RawTransfer, IsMultipliedWithTheLightOfItsChannel) {
               glm::vec3(13 + 75 + 32, 34 - 18 + 40, 63 + 88 + 23 - 48));
 }
 
-TEST(RawTransfer, LeavesOutBandsOfTheLightThatItDoesNotHave) {
+TEST(RawTransfer, IgnoresMissingBandsOfTheLight) {
     const Light light{2, {{1, 2, 3}, {9, 9, 9}, {9, 9, 9}, {9, 9, 9}}};
     EXPECT_EQ(exit_radiance(counted_transfer(1, 3, 1), light)[0], glm::vec3(1, 4, 9));
 }

@@ -37,7 +37,7 @@ Transfer transfer_of(const TransferLayout& layout, std::size_t receivers, unsign
     return transfer;
 }
 
-TEST(TransferLayout, CountsWhatItsPartsHold) {
+TEST(TransferLayout, CountsTheColumnsOfItsTerms) {
     const TransferLayout layout = direct_and_indirect(4, 1, 3);
     EXPECT_EQ(layout.channels(), 3);
     EXPECT_EQ(layout.dimension(), 64u);
@@ -47,7 +47,7 @@ TEST(TransferLayout, CountsWhatItsPartsHold) {
     EXPECT_EQ(layout_of_one(3, 1).dimension(), 9u);
 }
 
-TEST(TransferLayout, ThatMakesNoSenseIsRefused) {
+TEST(TransferLayout, InvalidLayoutsAreRejected) {
     EXPECT_NO_THROW(check_layout(direct_and_indirect(10, 3, 3)));
     EXPECT_NO_THROW(check_layout(layout_of_one(1, 1, TermKind::indirect)));
     for (const TransferLayout& layout :
@@ -67,7 +67,7 @@ TransferLayout with_two_lamps(int order) {
     return layout;
 }
 
-TEST(TransferLayout, OfLampsHasANumberForEachChannelOfEach) {
+TEST(TransferLayout, LampsHaveOneNumberPerChannel) {
     const TransferLayout layout = with_two_lamps(4), lamps{4, {layout.terms.end() - 2, layout.terms.end()}};
     EXPECT_NO_THROW(check_layout(layout));
     EXPECT_NO_THROW(check_layout(lamps)); // no sky light enters
@@ -95,7 +95,7 @@ TEST(TransferLayout, OfLampsHasANumberForEachChannelOfEach) {
     EXPECT_NO_THROW(check_layout(wrong));
 }
 
-TEST(LightColumns, OfLampsAreTheirStrengths) {
+TEST(LightColumns, LampColumnsAreTheirStrengths) {
     const TransferLayout layout = with_two_lamps(3);
     Lighting lighting{light_of(3, 1)};
     std::vector<glm::vec3> columns = light_columns(layout, lighting);
@@ -111,7 +111,7 @@ TEST(LightColumns, OfLampsAreTheirStrengths) {
     EXPECT_THROW(light_columns(layout, lighting), Error);
 }
 
-TEST(ExitRadiance, OfLampsIsTheirLightTimesTheirStrength) {
+TEST(ExitRadiance, ScalesWithLampStrength) {
     Transfer transfer = transfer_of(with_two_lamps(2), 3, 8);
     Lighting lighting{light_of(2, 1)};
     lighting.lamps = {{1, 2, 3}, {4, 5, 6}};
@@ -126,7 +126,7 @@ TEST(ExitRadiance, OfLampsIsTheirLightTimesTheirStrength) {
     }
 }
 
-TEST(AsWhole, LeavesLampsAsTheyAre) {
+TEST(CombinedTransfer, KeepsLamps) {
     const Transfer terms = transfer_of(with_two_lamps(3), 20, 9), whole = as_combined(terms);
     EXPECT_EQ(whole.layout.terms.size(), 3u);
     EXPECT_EQ(whole.layout.terms[0], (TransferTerm{TermKind::combined, 3}));
@@ -148,7 +148,7 @@ TEST(MeanVisibility, CountsNoLamps) {
     EXPECT_NEAR(mean_visibility(transfer, std::vector<float>{1}), 0.7 / kY00, 1e-6);
 }
 
-TEST(LightColumns, AreTheSkyForDirectLightAndTheSkyWithItsSunsForTheRest) {
+TEST(LightColumns, SunsAreExcludedOnlyFromDirectLight) {
     const Light sky = light_of(4, 1), suns = light_of(3, 2);
     for (const TransferLayout& layout :
          {direct_and_indirect(3, 1, 3), layout_of_one(3, 1, TermKind::direct),
@@ -167,7 +167,7 @@ TEST(LightColumns, AreTheSkyForDirectLightAndTheSkyWithItsSunsForTheRest) {
     EXPECT_THROW(light_columns(direct_and_indirect(5, 1, 1), {sky}), Error);
 }
 
-TEST(ExitRadiance, OfPartsIsTheSumOfEachUnderItsLight) {
+TEST(ExitRadiance, SumsTermsUnderTheirLight) {
     const Light sky = light_of(4, 3), suns = light_of(4, 4);
     for (const auto& [direct, indirect] : {std::pair(1, 3), std::pair(3, 1)}) {
         const Transfer both = transfer_of(direct_and_indirect(4, direct, indirect), 30, 5);
@@ -185,7 +185,7 @@ TEST(ExitRadiance, OfPartsIsTheSumOfEachUnderItsLight) {
     }
 }
 
-TEST(AsWhole, IsLitByOneSkyAsThePartsAre) {
+TEST(CombinedTransfer, EqualsTheSeparateTermsUnderOneSky) {
     const Light sky = light_of(5, 6);
     for (const auto& [direct, indirect] :
          {std::pair(1, 1), std::pair(1, 3), std::pair(3, 1), std::pair(3, 3)}) {
@@ -198,7 +198,7 @@ TEST(AsWhole, IsLitByOneSkyAsThePartsAre) {
     }
 }
 
-TEST(MeanVisibility, AddsUpTheParts) {
+TEST(MeanVisibility, SumsTheTerms) {
     Transfer transfer = zero_transfer(direct_and_indirect(1, 1, 3), 2);
     transfer.vectors = {0.5f, 0.1f, 0.2f, 0.3f, 0.25f, 0, 0, 0};
     for (float& v : transfer.vectors)
@@ -206,7 +206,7 @@ TEST(MeanVisibility, AddsUpTheParts) {
     EXPECT_NEAR(mean_visibility(transfer, std::vector<float>{3, 1}), (3 * (0.5 + 0.2) + 0.25) / 4, 1e-6);
 }
 
-TEST(RelativeL2, CountsAGreyPartForEachColorBesideAColoredOne) {
+TEST(RelativeL2, CountsAGreyTermForEachColorWithColoredTerms) {
     Transfer reference = zero_transfer(direct_and_indirect(1, 1, 3), 1), other = reference;
     reference.vectors = {2, 1, 1, 1};
     other.vectors = {2.5f, 1, 1, 1.25f};

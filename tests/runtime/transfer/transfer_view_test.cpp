@@ -44,7 +44,7 @@ TEST(TransferView, ReadsEveryFiniteHalfExactly) {
     }
 }
 
-TEST(TransferView, ReadsFloatsHoweverTheyAreHeld) {
+TEST(TransferView, ReadsFloatsOfAllStorages) {
     const Transfer transfer = random_transfer(kTwoTerms, 31);
     const StoredTransfer stored{kTwoTerms, transfer.vectors, {}};
     for (const std::size_t block : {1u, 7u, 31u}) {
@@ -53,7 +53,7 @@ TEST(TransferView, ReadsFloatsHoweverTheyAreHeld) {
     }
 }
 
-TEST(TransferView, ReadsPartsAsAWhole) {
+TEST(TransferView, ReadsTermsCombined) {
     const Transfer transfer = random_transfer(kTwoTerms, 31);
     const TransferView view = as_combined(TransferView(transfer));
     EXPECT_EQ(view.layout(), as_combined(kTwoTerms));

@@ -53,7 +53,7 @@ INSTANTIATE_TEST_SUITE_P(All, VolumeFormats,
                          testing::Combine(testing::Values(2, 3, 4),
                                           testing::Values(VolumeFormat::rgba16, VolumeFormat::rgba32)));
 
-TEST_P(VolumeFormats, HoldTheLightOfEveryProbeInEveryBrick) {
+TEST_P(VolumeFormats, ContainTheLightOfEveryProbeInEveryBrick) {
     const auto [order, format] = GetParam();
     std::mt19937 random(7);
     const CompressedVolume volume = test::random_volume(order, false, random);
@@ -76,7 +76,7 @@ TEST_P(VolumeFormats, HoldTheLightOfEveryProbeInEveryBrick) {
     }
 }
 
-TEST(VolumeRelighter, TellsHowMuchOfASunIsSeen) {
+TEST(VolumeRelighter, ComputesSunVisibility) {
     std::mt19937 random(8);
     const CompressedVolume volume = test::random_volume(3, true, random);
     const VolumeRelighter relighter(volume, VolumeFormat::rgba32);
@@ -103,7 +103,7 @@ TEST(VolumeRelighter, TellsHowMuchOfASunIsSeen) {
     EXPECT_GT(between, 3);
 }
 
-TEST(VolumeRelighter, GivesEachBrickTexelsOfItsOwn) {
+TEST(VolumeRelighter, GivesEachBrickSeparateTexels) {
     for (const int count : {1, 51, 52, 2601, 2602, 18000}) {
         VolumeGrid grid;
         grid.bricks.resize(static_cast<std::size_t>(count));
@@ -125,7 +125,7 @@ TEST(VolumeRelighter, GivesEachBrickTexelsOfItsOwn) {
     EXPECT_LT(texels.back(), atlas.texels_of_plane());
 }
 
-TEST(VisibilityTexels, SayWhichCellsAreSeenWhole) {
+TEST(VisibilityTexels, MarkFullyVisibleCells) {
     const VolumeGrid grid{
         .origin = glm::vec3(0), .spacing = 1, .size = {1, 1, 1}, .bricks = {{{0, 0, 0}, 0}}};
     const VolumeProbes probes = probes_of(grid);

@@ -41,7 +41,7 @@ float sum(const VolumeCorners& corners) {
     return std::accumulate(corners.weights.begin(), corners.weights.end(), 0.0f);
 }
 
-TEST(VolumeWeights, SumToOneWhateverProbesSee) {
+TEST(VolumeWeights, SumToOneForAllVisibilities) {
     std::mt19937 random(1);
     const CompressedVolume volume = test::random_volume(2, false, random, 2);
     const VolumeLookup lookup(volume.grid, volume.visibility);
@@ -53,7 +53,7 @@ TEST(VolumeWeights, SumToOneWhateverProbesSee) {
     }
 }
 
-TEST(VolumeWeights, AreThoseOfTheOpenWhereAllAreHidden) {
+TEST(VolumeWeights, IgnoreVisibilityIfAllProbesAreHidden) {
     const VolumeGrid grid{
         .origin = glm::vec3(0), .spacing = 1, .size = {1, 1, 1}, .bricks = {{{0, 0, 0}, 0}}};
     const std::vector<ProbeVisibility> open(kBrickProbes, kAllAround),
@@ -68,7 +68,7 @@ TEST(VolumeWeights, AreThoseOfTheOpenWhereAllAreHidden) {
     }
 }
 
-TEST(VolumeWeights, AreExactForLinearLightWhereNothingHides) {
+TEST(VolumeWeights, AreExactForLinearLightWithoutOcclusion) {
     const VolumeGrid grid = two_levels();
     const std::vector<ProbeVisibility> visibility(probes_of(grid).size(), kAllAround);
     const VolumeLookup lookup(grid, visibility);
@@ -88,7 +88,7 @@ TEST(VolumeWeights, AreExactForLinearLightWhereNothingHides) {
     }
 }
 
-TEST(VolumeWeights, OfASurfaceAreThoseOfAQuarterOfACellOffIt) {
+TEST(VolumeWeights, UseANormalOffsetOfAQuarterCell) {
     const VolumeGrid grid = two_levels();
     const std::vector<ProbeVisibility> visibility(probes_of(grid).size(), kAllAround);
     const VolumeLookup lookup(grid, visibility);
@@ -102,7 +102,7 @@ TEST(VolumeWeights, OfASurfaceAreThoseOfAQuarterOfACellOffIt) {
     }
 }
 
-TEST(VolumeWeights, OfPlacesOutsideAreThoseOfTheNearestInside) {
+TEST(VolumeWeights, ClampOutsidePositions) {
     const VolumeGrid grid{
         .origin = {1, 2, 3}, .spacing = 0.5f, .size = {2, 1, 1}, .bricks = {{{0, 0, 0}, 0}, {{1, 0, 0}, 0}}};
     const std::vector<ProbeVisibility> visibility(probes_of(grid).size(), kAllAround);
@@ -159,7 +159,7 @@ std::array<float, 6> distances_to_plane(const glm::vec3& n, float offset, const 
     return distances;
 }
 
-TEST(VisibilityWeight, HidesExactlyWhatIsOutsideTheBox) {
+TEST(VisibilityWeight, HidesExactlyTheOutsideOfTheBox) {
     std::mt19937 random(5);
     std::uniform_real_distribution<float> distance(0.2f, 3), share(-1, 1);
     for (int i = 0; i < 1000; ++i) {
@@ -181,7 +181,7 @@ TEST(VisibilityWeight, HidesExactlyWhatIsOutsideTheBox) {
     }
 }
 
-TEST(VolumeWeights, LeaveOutProbesBehindAWall) {
+TEST(VolumeWeights, ExcludeProbesBehindAWall) {
     const VolumeGrid grid{
         .origin = glm::vec3(0), .spacing = 1, .size = {1, 1, 1}, .bricks = {{{0, 0, 0}, 0}}};
     const VolumeProbes probes = probes_of(grid);
@@ -201,7 +201,7 @@ TEST(VolumeWeights, LeaveOutProbesBehindAWall) {
     }
 }
 
-TEST(ProbeVisibility, TellsDistancesToHalfAStep) {
+TEST(ProbeVisibility, MeasuresDistancesToHalfAStep) {
     for (const float cell : {0.25f, 3.0f})
         for (float share = 0; share <= 1; share += 0.01f) {
             const float distance = kVisibilityCells * cell * share;
@@ -217,7 +217,7 @@ TEST(ProbeVisibility, TellsDistancesToHalfAStep) {
     EXPECT_EQ(visibility_of(far, 1), kAllAround);
 }
 
-TEST(IncidentLight, IsThatOfTheTransferWhichWeightsStandFor) {
+TEST(IncidentLight, MatchesTheDecodedTransfer) {
     for (const int order : {2, 3, 4}) {
         std::mt19937 random(6);
         const CompressedVolume volume = test::random_volume(order, false, random);
@@ -248,7 +248,7 @@ TEST(IncidentLight, IsThatOfTheTransferWhichWeightsStandFor) {
     }
 }
 
-TEST(Irradiance, OfASkyWithoutAColorIsItsRadiance) {
+TEST(Irradiance, MatchesUniformAndCosineLight) {
     for (const int order : {2, 3, 4}) {
         const Light sky = constant_light(order, {1, 2, 3});
         EXPECT_LT(glm::distance(irradiance_of(sky.coefficients, {0, 0.6f, 0.8f}), {1, 2, 3}), 1e-5f);

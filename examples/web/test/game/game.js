@@ -1,4 +1,4 @@
-// A program that has installed the package: installed.mjs builds it with Vite and requests pictures.
+// An application of the installed package: installed.mjs builds it with Vite and requests pictures.
 import {
   AmbientLight,
   BasicShadowMap,
@@ -33,7 +33,7 @@ const target = new WebGLRenderTarget(width, height, { type: FloatType });
 const loader = new GLTFLoader().setMeshoptDecoder(MeshoptDecoder).register((parser) => new PrtkitPlugin(parser));
 const load = (url) => loader.loadAsync(url);
 
-/** The radiance of all pixels, RGBA. */
+/** Returns the radiance of all pixels, RGBA. */
 function radiance(scene, camera) {
   const pixels = new Float32Array(4 * width * height);
   renderer.setRenderTarget(target);
@@ -51,7 +51,7 @@ function cameraAt(position, towards, fieldOfView = 40) {
   return camera;
 }
 
-/** The root of the mean squared difference over that of `b`, and the ratio of the means, where both show something. */
+/** Returns the root mean squared difference relative to that of `b`, and the ratio of the means, over pixels where both are nonzero. */
 function compared(a, b) {
   let [difference, squares, sumA, sumB] = [0, 0, 0, 0];
   for (let i = 0; i < a.length; ++i) {
@@ -82,7 +82,7 @@ function skyTexture({ side = 0.3, at } = {}) {
   return texture;
 }
 
-/** By prt's own sky, as `prt render` shows it: the picture as a data URL, with exposure 1. */
+/** Returns the picture under prt's own sky, like `prt render` with exposure 1, as a data URL. */
 async function likePrt({ model, sky, position, towards, fieldOfView }) {
   const [gltf, image] = await Promise.all([load(model), new EXRLoader().setDataType(FloatType).loadAsync(sky)]);
   const scene = new Scene().add(gltf.scene);
@@ -91,7 +91,7 @@ async function likePrt({ model, sky, position, towards, fieldOfView }) {
   return [...radiance(scene, cameraAt(position, towards, fieldOfView))];
 }
 
-/** An open ball in a sky that is reflected, too: lit by transfer, and by three's own environment. */
+/** Compares an unoccluded ball, with a reflected sky, lit by transfer and by three's environment. */
 async function ball({ model, rotation, metalness, side }) {
   const gltf = await load(model);
   const scene = new Scene().add(gltf.scene);
@@ -105,7 +105,7 @@ async function ball({ model, rotation, metalness, side }) {
   const lit = radiance(scene, camera);
   gltf.scene.rotation.set(0.5, 0.9, -0.3); // a sphere looks the same after rotation
   const rotated = compared(radiance(scene, camera), lit);
-  scene.add(new AmbientLight(0xffffff, 3), new PointLight(0xffffff, 30).translateZ(3)); // which are in the sky, or lamps
+  scene.add(new AmbientLight(0xffffff, 3), new PointLight(0xffffff, 30).translateZ(3)); // their light must be in the sky or in lamps
   const others = compared(radiance(scene, camera), lit);
   gltf.scene.traverse((object) => {
     if (object.isMesh) object.material = new MeshStandardMaterial({ color: object.material.color, roughness: 1, metalness });

@@ -50,7 +50,7 @@ function camera() {
   return seen;
 }
 
-/** The bytes that a texture has on the device. */
+/** Returns the bytes of a texture on the device. */
 function bytesOf(texture, { width, height }) {
   const gl = renderer.getContext();
   const frame = gl.createFramebuffer();
@@ -120,12 +120,12 @@ async function texels({ model, light, lamps }) {
 const [columns, rows] = [320, 240];
 const renderers = new Map();
 
-/** By WebGLRenderer ("webgl"), or WebGPURenderer on WebGL ("nodes") or on WebGPU ("webgpu"). */
+/** Creates WebGLRenderer ("webgl"), or WebGPURenderer on WebGL ("nodes") or on WebGPU ("webgpu"). */
 async function rendererOf(api) {
   if (!renderers.has(api)) {
     const made = api === "webgl" ? new WebGLRenderer({ antialias: false }) : new WebGPURenderer({ antialias: false, forceWebGL: api === "nodes" });
     await made.init?.();
-    if (api === "webgpu" && !made.backend.isWebGPUBackend) throw new Error("there is no WebGPU");
+    if (api === "webgpu" && !made.backend.isWebGPUBackend) throw new Error("WebGPU is missing");
     made.setSize(columns, rows, false);
     made.toneMapping = ACESFilmicToneMapping;
     made.toneMappingExposure = 0.5;
@@ -237,7 +237,7 @@ async function sceneOf(api, { model, light, environment, suns, shadows, fog, oth
   return { scene, prtkit };
 }
 
-/** The pixels of the canvas, red, green, blue and alpha. */
+/** Returns the pixels of the canvas, red, green, blue and alpha. */
 async function picture({ api, ...asked }) {
   const drawing = await rendererOf(api);
   const { scene, prtkit } = await sceneOf(api, asked);
@@ -268,7 +268,7 @@ async function radiance({ api, ...asked }) {
   });
 }
 
-/** The half floats of the maps of a model, as WebGPURenderer has them after its first picture. */
+/** Returns the half floats of the maps of a model after the first picture of WebGPURenderer. */
 async function nodeTexels({ api, ...asked }) {
   const drawing = await rendererOf(api);
   const { scene, prtkit } = await sceneOf(api, asked);
@@ -343,7 +343,7 @@ async function lit({ api = "webgl", model, floats, kind, material, point, rotati
   const around = new Group().add(holder);
   const scene = new Scene().add(gltf.scene, around);
   for (const root of moved ? [gltf.scene, around] : []) {
-    root.position.fromArray(moved.point); // with all that is in it
+    root.position.fromArray(moved.point); // with all its children
     root.rotation.fromArray(moved.rotation);
   }
   volume.light(holder);
@@ -358,7 +358,7 @@ async function lit({ api = "webgl", model, floats, kind, material, point, rotati
 
 /**
  * Returns floats of a model's floor from above, 2 metres wide about `centre`, without and with the passing
- * object. `moved` contains position, rotation and scale of each part of `passer`.
+ * object. `moved` contains position, rotation and scale of each child of `passer`.
  */
 async function occluded({ model, passer, moved, centre, size: [width, height], light }) {
   const drawing = await rendererOf("webgl");
@@ -390,7 +390,7 @@ async function occluded({ model, passer, moved, centre, size: [width, height], l
 /**
  * Returns floats of a figure with lobes in a pose, from the front, 2 metres wide, from the bottom row up.
  * `pose`: Euler angles of its bones; `rotation`: rotation of the figure; `volume`: a file whose volume lights it;
- * otherwise the sky does.
+ * default: the sky.
  */
 async function posed({ model, volume, pose, rotation, light, size: [width, height] }) {
   const drawing = await rendererOf("webgl");

@@ -37,77 +37,94 @@ typedef struct prt_message {
     char text[256];
 } prt_message;
 
-/* A light is `order`, and an array of order*order colors (r, g, b) that the caller owns. All outputs are
- * finite. Inputs that are not finite, and results that overflow a float, return PRT_BAD_ARGUMENT; output
- * arrays are then unchanged. Directions are unit vectors. */
+/* Lights are passed as `order` and an array of order*order colors (r, g, b), which the caller owns. All
+ * outputs are finite. For inputs that are not finite, and results that overflow a float, functions return
+ * PRT_BAD_ARGUMENT and do not change output arrays. Directions are unit vectors. */
 
 /* Writes the order*order basis values in unit direction `direction` to `basis`. */
 PRT_API prt_status prt_sh_evaluate(int order, const float direction[3], float* basis, prt_message* message);
-/* Computes the product of two functions, truncated to `order` bands; `out` may be `a` or `b`. */
+/* Computes the product of two functions of one channel, truncated to `order` bands; `out` may be `a` or `b`.
+ */
 PRT_API prt_status prt_sh_multiply(int order, const float* a, const float* b, float* out,
                                    prt_message* message);
 /* Rotates functions of one channel by `rotation`, in column-major order (as in OpenGL); `out` may be `in`. */
 PRT_API prt_status prt_sh_rotate(int order, const float rotation[9], const float* in, float* out,
                                  prt_message* message);
 
+/* Writes light of radiance `radiance` from every direction to `light`. */
 PRT_API prt_status prt_light_constant(int order, const float radiance[3], float* light, prt_message* message);
+/* Writes a distant light without extent to `light`. `towards` points to the light; `irradiance` is that of a
+ * receiver that faces it. */
 PRT_API prt_status prt_light_directional(int order, const float towards[3], const float irradiance[3],
                                          float* light, prt_message* message);
+/* Writes light of radiance `radiance` inside the cone of half angle `half_angle` (radians, at most pi) about
+ * `axis` to `light`. */
 PRT_API prt_status prt_light_cone(int order, const float axis[3], float half_angle, const float radiance[3],
                                   float* light, prt_message* message);
+/* Writes the light of a sphere of radiance `radiance`, seen from the origin, to `light`. The origin must be
+ * outside the sphere. */
 PRT_API prt_status prt_light_sphere(int order, const float center[3], float radius, const float radiance[3],
                                     float* light, prt_message* message);
+/* Writes the light of a disc of radiance `radiance`, seen from the origin, to `light`. The disc emits to the
+ * side of its normal. */
 PRT_API prt_status prt_light_disc(int order, const float center[3], const float normal[3], float radius,
                                   const float radiance[3], float* light, prt_message* message);
+/* Writes light whose radiance changes from `bottom` to `top` linearly in the cosine to `up` to `light`. */
 PRT_API prt_status prt_light_hemisphere(int order, const float up[3], const float top[3],
                                         const float bottom[3], float* light, prt_message* message);
 /* Direction of the center column of a lat-long image: +Z as in OpenEXR, or +X as in three.js, glTF viewers
  * and Blender. */
 typedef enum prt_center { PRT_CENTER_Z = 0, PRT_CENTER_X = 1 } prt_center;
+/* A lat-long image. */
 typedef struct prt_image {
     int width, height;
     const float* pixels; /* (r, g, b), rows from the top */
 } prt_image;
-/* Projects a lat-long image. The top row is +Y, `center` is a prt_center. Bad pixels are an error. `threads`
- * 0: all. */
+/* Projects a lat-long image, whose top row is +Y, into `light`. `center` is a prt_center. Pixels that are
+ * negative or not finite are an error. `threads` 0: all. */
 PRT_API prt_status prt_light_from_lat_long(int order, const prt_image* image, int center, int threads,
                                            float* light, prt_message* message);
-/* Loads an environment map, .exr or .hdr. `center` is used for lat-long images only. */
+/* Loads an environment map, .exr or .hdr, and projects it into `light`. `center` is used for lat-long images
+ * only. */
 PRT_API prt_status prt_light_from_file(int order, const char* path, int center, float* light,
                                        prt_message* message);
-/* A sun: a disc of uniform radiance far away. */
+/* A sun: a distant disc of uniform radiance. */
 typedef struct prt_sun {
-    float towards[3];    /* unit, to its middle */
-    float irradiance[3]; /* on a receiver that faces it */
+    float towards[3];    /* unit direction to its center */
+    float irradiance[3]; /* irradiance of a receiver that faces it */
     float half_angle;    /* radians; 0: no extent */
 } prt_sun;
-/* Loads a light file of prt project (docs/format.md): the first `order` bands of its sky, and its suns, which
- * prt project --suns finds in an image. *count: capacity of `suns` on entry, number of suns in the file on
- * return. `suns` may be null if the capacity is 0. */
+/* Loads a light file of `prt project` (docs/format.md): the first `order` bands of its sky, and its suns.
+ * *count: capacity of `suns` on entry, number of suns in the file on return. `suns` may be null if the
+ * capacity is 0. */
 PRT_API prt_status prt_light_from_light_file(int order, const char* path, float* sky, prt_sun* suns,
                                              size_t* count, prt_message* message);
-/* Returns all suns as one light: `suns` of prt_model_update_constants_separate. */
+/* Writes the sum of all suns to `light`: the argument `suns` of prt_model_update_constants_separate. */
 PRT_API prt_status prt_light_suns(int order, const prt_sun* suns, size_t count, float* light,
                                   prt_message* message);
 /* Rotates all three channels by `rotation`, in column-major order, in place. For a rotated object, rotate its
  * lighting by the inverse. */
 PRT_API prt_status prt_light_rotate(int order, const float rotation[9], float* light, prt_message* message);
-/* Applies the weakest filter of the bands for which the light is nowhere negative, in place. Intended for
- * lights from images. Dering a light once, before rotating it. */
+/* Removes ringing from a light, in place: applies the weakest filter of the bands that makes the light
+ * non-negative in every direction. Intended for lights from images. Dering a light once, before rotating it.
+ */
 PRT_API prt_status prt_light_dering(int order, float* light, prt_message* message);
 
-/* A model written by prt compress. */
+/* A model that `prt compress` has written. */
 typedef struct prt_model prt_model;
 
+/* Loads a .glb file. Destroy the model with prt_model_destroy. */
 PRT_API prt_status prt_model_load(const char* path, prt_model** model, prt_message* message);
-/* Loads a .glb from memory, which may be freed afterwards. */
+/* Loads a .glb file from memory, which may be freed afterwards. Destroy the model with prt_model_destroy. */
 PRT_API prt_status prt_model_load_memory(const void* bytes, size_t size, prt_model** model,
                                          prt_message* message);
-PRT_API void prt_model_destroy(prt_model* model); /* null is allowed */
+/* Destroys a model; `model` may be null. */
+PRT_API void prt_model_destroy(prt_model* model);
 
-/* Values 1 and 2 were formats that have been removed. */
+/* Storage of weights. Values 1 and 2 belonged to formats that have been removed. */
 typedef enum prt_weight_format { PRT_FLOAT32 = 0, PRT_PACKED = 3 } prt_weight_format;
 
+/* Properties of a model. */
 typedef struct prt_model_info {
     int order, channels;
     size_t receivers; /* vertices of all meshes */
@@ -125,21 +142,23 @@ typedef struct prt_model_info {
 /* Returns the properties of a model. Pointers are valid as long as the model exists. */
 PRT_API prt_status prt_model_get_info(const prt_model* model, prt_model_info* out, prt_message* message);
 
-/* Mesh attributes that prt_exit_radiance(position, normal) of the vertex shader reads. */
+/* Mesh attributes that the function prt_exit_radiance(position, normal) of the vertex shader reads. */
 typedef struct prt_vertex_inputs {
     int normals, positions;    /* 1 if read, else 0 */
     float predictor_origin[3]; /* metres: PRT_PREDICTOR_ORIGIN for positions as in prt_mesh */
     double origin[3];          /* metres, in the file's world: origin of the positions in prt_mesh */
 } prt_vertex_inputs;
+/* Returns the mesh attributes that the vertex shader of a model reads. */
 PRT_API prt_status prt_model_get_vertex_inputs(const prt_model* model, prt_vertex_inputs* out,
                                                prt_message* message);
 
-/* Returns the number of lamps of the scene with separate strengths. */
+/* Returns the number of lamps of the scene; each has its own strength. */
 PRT_API prt_status prt_model_count_lamps(const prt_model* model, size_t* lamps, prt_message* message);
 /* Returns the name of a lamp, which is valid as long as the model exists. */
 PRT_API prt_status prt_model_lamp_name(const prt_model* model, size_t lamp, const char** name,
                                        prt_message* message);
 
+/* A mesh of a model. */
 typedef struct prt_mesh {
     size_t vertices;
     size_t first_receiver; /* receiver of the first vertex */
@@ -151,35 +170,39 @@ typedef struct prt_mesh {
     const uint32_t* index; /* triangles, counter-clockwise */
     float base_color[4];   /* linear */
 } prt_mesh;
+/* Returns mesh `mesh` of a model. Pointers are valid as long as the model exists. */
 PRT_API prt_status prt_model_get_mesh(const prt_model* model, size_t mesh, prt_mesh* out,
                                       prt_message* message);
 
-/* Writes the constants of all clusters, [rows][4]. Allocates nothing. Coefficients of the light are at most
- * 1e20, constants at most 1e30; if one is larger, PRT_BAD_ARGUMENT is returned, and `constants` may have been
- * written. */
+/* Computes the constants of all clusters for a light, [rows][4]. Allocates nothing. Coefficients of the light
+ * are at most 1e20, constants at most 1e30; if one is larger, the function returns PRT_BAD_ARGUMENT, and
+ * `constants` may have been changed. */
 PRT_API prt_status prt_model_update_constants(const prt_model* model, int order, const float* light,
                                               float* constants, prt_message* message);
-/* Writes the constants, [rows][4], for a sky and separate suns. The renderer adds the direct light of the
- * suns with sharp shadows; the model receives their light only after a bounce. `suns` may be null: no suns.
- * Only a model whose transfer stores direct light separately supports suns: info.has_direct_term. `lamps`:
- * strengths of the lamps, [lamps][3], at most 1e20; null: 1, as in the scene and as in
+/* Computes the constants for a sky and separate suns, [rows][4]. The renderer adds the direct light of the
+ * suns with sharp shadows; the constants contain their light only after a bounce. `suns` may be null: no
+ * suns. Only a model whose transfer stores direct light separately supports suns: info.has_direct_term.
+ * `lamps`: strengths of the lamps, [lamps][3], at most 1e20; null: 1, as in the scene and as in
  * prt_model_update_constants. */
 PRT_API prt_status prt_model_update_constants_separate(const prt_model* model, int order, const float* sky,
                                                        const float* suns, const float* lamps,
                                                        float* constants, prt_message* message);
-/* Computes exit radiance for albedo 1, [receivers][3], as the vertex shader does. Constants are at most 1e30.
- * */
+/* Computes exit radiance for albedo 1, [receivers][3], as the vertex shader does. Magnitudes of constants are
+ * at most 1e30. */
 PRT_API prt_status prt_model_evaluate(const prt_model* model, const float* constants, float* radiance,
                                       prt_message* message);
 
+/* Shading languages: OpenGL 4.5, OpenGL 3.3, OpenGL ES 3.0 and WebGL 2, Vulkan. */
 typedef enum prt_language { PRT_GLSL450 = 0, PRT_GLSL330 = 1, PRT_ESSL300 = 2, PRT_VULKAN = 3 } prt_language;
+/* Storage of the constants for a vertex shader. */
 typedef enum prt_constants {
     PRT_CONSTANTS_IN_BUFFER = 0,
     PRT_CONSTANTS_IN_BLOCK = 1,
     PRT_CONSTANTS_IN_TEXTURE = 2
 } prt_constants;
-/* Writes the vertex shader of the model for a prt_language and a prt_constants. *size: on input the size of
- * `source` including the final 0, on output the required size. Inputs of the shader: `position` at location
+/* Writes the source of the model's vertex shader to `source`. `language` is a prt_language, `constants` a
+ * prt_constants. *size: on entry the size of `source` in bytes including the final 0, on return the required
+ * size. Inputs of the shader: `position` at location
  * 0, prt_mesh.positions unchanged (view_projection holds the transform of the model); `normal` at location
  * 15, prt_mesh.normals, if prt_vertex_inputs.normals is set; weights from location 4: prt_words_* if packed,
  * else prt_weights_* with prt_cluster at location 3. */
@@ -199,30 +222,36 @@ typedef struct prt_instances_info {
 /* Returns the instances of a model. Pointers are valid as long as the model exists. */
 PRT_API prt_status prt_instances_get_info(const prt_model* model, prt_instances_info* out,
                                           prt_message* message);
-/* Returns the range of instances that draw a prt_mesh; *count 0: it is drawn once, like the meshes of other
- * models. */
+/* Returns the range of instances that draw mesh `mesh`. *count is 0 if the mesh is drawn once, like the
+ * meshes of models without instances. */
 PRT_API prt_status prt_instances_of_mesh(const prt_model* model, size_t mesh, size_t* first, size_t* count,
                                          prt_message* message);
-/* Writes the constants of all instances, [constants][4], which replace the constants of the model when
- * instances are drawn. Lighting as in prt_model_update_constants_separate, without lamps. `threads` 0: all.
+/* Computes the constants of all instances, [constants][4], which replace the constants of the model when
+ * instances are drawn. `sky` and `suns` are those of prt_model_update_constants_separate. `threads` 0: all.
  */
 PRT_API prt_status prt_instances_update_constants(const prt_model* model, int order, const float* sky,
                                                   const float* suns, int threads, float* constants,
                                                   prt_message* message);
-/* Writes the vertex shader of instances. Inputs in addition to those of prt_model_shader: worlds at locations
- * 10 to 12, tables at 13 and 14. Constants are in a buffer or a texture. *size as in prt_model_shader. */
+/* Writes the source of the vertex shader for instances. It has the inputs of prt_model_shader, and the rows
+ * of prt_instances_info.worlds at locations 10 to 12 and of prt_instances_info.tables at 13 and 14. Constants
+ * are in a buffer or a texture. *size is used as in prt_model_shader. */
 PRT_API prt_status prt_instances_shader(const prt_model* model, int language, int constants, char* source,
                                         size_t* size, prt_message* message);
 
-/* The volume of probes of a file written by prt compress, which lights objects that move through the scene.
+/* A volume of probes in a file of `prt compress`. It lights objects that move through the scene.
  * Experimental: prt_volume_* may change with any version. */
 typedef struct prt_volume prt_volume;
 
+/* Loads the volume of a .glb file. Destroy it with prt_volume_destroy. */
 PRT_API prt_status prt_volume_load(const char* path, prt_volume** volume, prt_message* message);
+/* Loads the volume of a .glb file in memory, which may be freed afterwards. Destroy it with
+ * prt_volume_destroy. */
 PRT_API prt_status prt_volume_load_memory(const void* bytes, size_t size, prt_volume** volume,
                                           prt_message* message);
-PRT_API void prt_volume_destroy(prt_volume* volume); /* null is allowed */
+/* Destroys a volume; `volume` may be null. */
+PRT_API void prt_volume_destroy(prt_volume* volume);
 
+/* Properties of a volume. */
 typedef struct prt_volume_info {
     int order;          /* order of the lighting */
     int incident_order; /* n = 2..4: a probe has n*n coefficients of incident light */
@@ -234,17 +263,19 @@ typedef struct prt_volume_info {
     float spacing;       /* metres, distance of the finest probes */
     double origin[3];    /* metres, in the file's world; see prt_vertex_inputs.origin */
 } prt_volume_info;
+/* Returns the properties of a volume. */
 PRT_API prt_status prt_volume_get_info(const prt_volume* volume, prt_volume_info* out, prt_message* message);
 
-/* The 3D textures of prt_volume.glsl: width, height, depth. Light is RGBA16F with linear filtering. The other
- * textures do not depend on the lighting and are not filtered. Pointers are valid as long as the volume
- * exists. */
+/* The 3D textures of prt_volume.glsl: their width, height and depth, and the texels of two of them. The light
+ * texture is RGBA16F with linear filtering. The other two do not depend on the lighting and are not filtered.
+ * Pointers are valid as long as the volume exists. */
 typedef struct prt_volume_textures {
     int light[3], visibility[3], index[3];
     size_t light_bytes;
     const uint32_t* visibility_texels; /* RG32UI */
     const uint32_t* index_texels;      /* R32UI */
 } prt_volume_textures;
+/* Returns the textures of a volume. */
 PRT_API prt_status prt_volume_get_textures(const prt_volume* volume, prt_volume_textures* out,
                                            prt_message* message);
 
@@ -256,38 +287,40 @@ typedef struct prt_lighting {
     const float* lamps; /* may be null */
     const float* sun;   /* direction to the sun whose visibility is computed; may be null */
 } prt_lighting;
-/* Writes the constants, [rows][4]. Allocates nothing. Limits as in prt_model_update_constants. */
+/* Computes the constants of a volume for a lighting, [rows][4]. Allocates nothing. Limits are those of
+ * prt_model_update_constants. */
 PRT_API prt_status prt_volume_update_constants(const prt_volume* volume, const prt_lighting* lighting,
                                                float* constants, prt_message* message);
-/* Writes the texels of probes `first` to `last` - 1 of the light texture to `texels` [light_bytes]. Threads
- * may process different probes at once. Allocates nothing. */
+/* Computes the texels of probes `first` to `last` - 1 of the light texture and writes them to `texels`
+ * [light_bytes]. Several threads may process different probes at once. Allocates nothing. */
 PRT_API prt_status prt_volume_update_light(const prt_volume* volume, const float* constants, size_t first,
                                            size_t last, void* texels, prt_message* message);
-/* Writes the incident light of the probes, [probes][n*n][3], for use without textures. */
+/* Computes the incident light at all probes, [probes][n*n][3], for use without textures. */
 PRT_API prt_status prt_volume_evaluate(const prt_volume* volume, const float* constants, float* incident,
                                        prt_message* message);
 
-/* A lit position. `normal` is the unit normal of its surface, or zero. */
+/* A position to light, in metres. `normal` is the unit normal of its surface, or zero. */
 typedef struct prt_volume_position {
     float position[3], normal[3];
 } prt_volume_position;
-/* Interpolates the light of the probes around a position, [n*n][3]; probes behind surfaces are excluded.
- * Allocates nothing. */
+/* Interpolates `incident`, the result of prt_volume_evaluate, at a position: `light` [n*n][3]. Probes behind
+ * surfaces are excluded. Allocates nothing. */
 PRT_API prt_status prt_volume_incident(const prt_volume* volume, const float* incident,
                                        const prt_volume_position* position, float* light,
                                        prt_message* message);
-/* Returns irradiance over pi of a surface with the normal of `position`; times the albedo this is exit
- * radiance.
- * */
+/* Computes irradiance divided by pi of a surface at `position` with its normal. Times the albedo, this is
+ * exit radiance. `incident` is the result of prt_volume_evaluate. */
 PRT_API prt_status prt_volume_irradiance(const prt_volume* volume, const float* incident,
                                          const prt_volume_position* position, float irradiance[3],
                                          prt_message* message);
 
-/* Writes the functions that look up a volume. Insert them after the version line of a shader in any language;
- * positions are relative to `origin`. *size as in prt_model_shader. */
+/* Writes the source of the GLSL functions that look up a volume. Insert them after the version line of a
+ * shader in any language. Positions are relative to prt_volume_info.origin. *size is used as in
+ * prt_model_shader. */
 PRT_API prt_status prt_volume_functions(const prt_volume* volume, char* source, size_t* size,
                                         prt_message* message);
-/* Writes the compute shader that computes the light texture: PRT_GLSL450 or PRT_VULKAN. */
+/* Writes the source of the compute shader that computes the light texture. `language` is PRT_GLSL450 or
+ * PRT_VULKAN. *size is used as in prt_model_shader. */
 PRT_API prt_status prt_volume_shader(const prt_volume* volume, int language, char* source, size_t* size,
                                      prt_message* message);
 

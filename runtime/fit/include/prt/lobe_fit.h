@@ -25,10 +25,11 @@ struct LobeTargets {
     }
 };
 
+/// Settings of the fit and of the coding.
 struct LobeFitOptions {
     std::size_t lobes = 2; ///< per vertex, 1..kMaxLobes
-    /// Weight of a squared error in each band: the mean square of the lighting there. Lobes rotate with the
-    /// surface, so that only lighting without a preferred orientation is meaningful.
+    /// Weight of a squared error in each band: the mean square of the lighting in that band. The lighting
+    /// must have no preferred orientation, because lobes rotate with the surface.
     std::array<double, kMaxLobeOrder> band_costs = {1, 1, 1, 1};
     std::size_t profiles = kMaxProfiles; ///< maximum number of shared profiles
     int rounds = 4;                      ///< alternations between words and profiles
@@ -41,16 +42,17 @@ struct LobeFitOptions {
 std::vector<Lobe> fit_lobes(const LobeTargets& targets, const LobeFitOptions& options = {},
                             const Progress& progress = {});
 
-/// Codes lobes as words of four bytes with shared profiles. Words and profiles are optimised alternately, so
-/// that the other lobes of a vertex compensate the rounding of one. Under uniform light no vertex reflects
-/// more than it receives. Throws `Error` as `fit_lobes`.
+/// Codes `fitted` [vertices][lobes] as words of four bytes with shared profiles. Optimises words and profiles
+/// alternately, so that the lobes of a vertex compensate each other's rounding. Under uniform light no vertex
+/// reflects more than it receives. Throws the errors of `fit_lobes`.
 LobeModel code_lobes(const LobeTargets& targets, std::span<const Lobe> fitted,
                      const LobeFitOptions& options = {}, const Progress& progress = {});
 
-/// Returns sqrt( sum_p a_p |T_p - T'_p|² / sum_p a_p |T_p|² ) in the metric of the fit.
+/// Returns the relative error of `lobes` [vertices][lobes]: sqrt( sum_p a_p |T_p - T'_p|² / sum_p a_p |T_p|²
+/// ), with bands weighted by `band_costs`.
 double lobe_error(const LobeTargets& targets, std::span<const Lobe> lobes, const LobeFitOptions& options);
 
-/// Returns the lobes of a model, [vertices][lobes].
+/// Returns all lobes of a model, [vertices][lobes].
 std::vector<Lobe> decoded(const LobeModel& model);
 
 } // namespace prt

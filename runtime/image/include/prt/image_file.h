@@ -1,6 +1,7 @@
 #pragma once
 
-// Reading and writing images: OpenEXR, Radiance HDR, PNG; PNG and JPEG textures. Stable.
+// Reads environment maps (OpenEXR, Radiance HDR, PNG, JPEG) and textures (PNG, JPEG), and writes OpenEXR and
+// PNG. Stable.
 
 #include "prt/environment.h"
 #include "prt/support/glm_layout.h"
@@ -16,6 +17,7 @@
 
 namespace prt {
 
+/// Settings for reading an environment map.
 struct EnvironmentOptions {
     /// Layout of an image whose file does not specify it (EXR attribute `envmap`). Without a value it follows
     /// from the aspect ratio, 2:1 or 1:6.
@@ -26,21 +28,23 @@ struct EnvironmentOptions {
     std::string layer = {};
 };
 
+/// An environment map as read from a file.
 struct EnvironmentFile {
     Environment environment;
     std::size_t repaired_pixels = 0;
-    /// True for eight bits per channel, read as sRGB: nothing exceeds 1, and suns and lamps are clipped.
+    /// True if the file has eight bits per channel, read as sRGB: no value exceeds 1, and suns and lamps are
+    /// clipped.
     bool low_dynamic_range = false;
     std::vector<std::string> notices; ///< messages for the user about how the file was read, one line each
 };
 
 /// Reads an environment map from OpenEXR (any channel type and compression, scanline or tiled, RGB, luminance
-/// or luminance-chroma; other primaries are converted; a crop of a 2:1 display window is placed in it),
-/// Radiance HDR (RGBE or XYZE, any orientation, EXPOSURE and COLORCORR divided out), or PNG and JPEG, which
-/// are read as sRGB. A path that contains "{face}" stands for six files, with px, nx, py, ny, pz and nz (or
-/// posx .., +x .., right, left, top, bottom, front, back) in its place, laid out as
-/// `EnvironmentLayout::cube_faces`. Throws `Error` with the file name for a file that is damaged or not an
-/// environment map. Sizes in headers are limited to 192 MB plus 64 bytes per byte of the file.
+/// or luminance-chroma; other primaries are converted; a crop of a 2:1 display window is inserted into that
+/// window), Radiance HDR (RGBE or XYZE, any orientation, EXPOSURE and COLORCORR divided out), or PNG and
+/// JPEG, which are read as sRGB. A path that contains "{face}" stands for six files with the layout
+/// `EnvironmentLayout::cube_faces`; "{face}" is replaced by px, nx, py, ny, pz and nz (or posx .., +x ..,
+/// right, left, top, bottom, front, back). Throws `Error` with the file name for a file that is damaged or
+/// not an environment map. The memory for the image is limited to 192 MB plus 64 bytes per byte of the file.
 EnvironmentFile load_environment(const std::filesystem::path& path, const EnvironmentOptions& options = {});
 
 /// 8-bit RGBA pixels as stored, without color conversion.

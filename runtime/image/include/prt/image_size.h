@@ -7,6 +7,7 @@
 
 namespace prt {
 
+/// Size of an image in pixels.
 struct ImageSize {
     int width = 0, height = 0;
 };

@@ -9,6 +9,7 @@
 
 namespace prt {
 
+/// Writes bit fields.
 class BitWriter {
 public:
     /// Appends the lowest `width` bits of `value`, width <= 32.
@@ -27,10 +28,13 @@ private:
     std::size_t position_ = 0;
 };
 
+/// Reads bit fields.
 class BitReader {
 public:
     explicit BitReader(std::span<const std::byte> bytes) : bytes_(bytes) {}
+    /// Returns whether `width` bits are left.
     bool has(int width) const { return position_ + static_cast<std::size_t>(width) <= bytes_.size() * 8; }
+    /// Reads the next `width` bits, width <= 32; they must exist.
     std::uint32_t read(int width) {
         std::uint32_t value = 0;
         for (int b = 0; b < width; ++b, ++position_)

@@ -20,10 +20,10 @@ std::vector<std::byte> read_file(const std::filesystem::path& path);
 /// it.
 std::filesystem::path followed(std::filesystem::path path);
 
-/// A file that appears under its name only when it is complete. Until then it has no name if the system
-/// supports that; otherwise it is a hidden file in the same folder, which the next writer removes if the
-/// process was killed. A link is followed, not replaced. A target that is not a regular file (a pipe,
-/// /dev/null, /dev/stdout) gets the bytes on `publish`.
+/// A file that appears under its name only when it is complete. Until then it has no name, if the system
+/// supports that. Otherwise it is a hidden file in the same folder; if the process is killed, the next writer
+/// removes it. A link is followed, not replaced. A target that is not a regular file (a pipe, /dev/null,
+/// /dev/stdout) gets the bytes on `publish`.
 class OutputFile {
 public:
     /// Throws `Error` if the path cannot be written: missing folder, no permission, or the path is a folder.
@@ -37,7 +37,7 @@ public:
     const std::filesystem::path& path() const { return path_; }
     /// Returns whether written data cannot be withdrawn: a pipe, a device, an open descriptor.
     bool is_stream() const { return stream_; }
-    /// Appends. Throws `Error` if the disk is full.
+    /// Appends data. Throws `Error` if the disk is full.
     void write(std::span<const std::byte> bytes);
     void write(std::string_view text) { write(std::as_bytes(std::span(text))); }
     /// Number of bytes written.
@@ -45,8 +45,10 @@ public:
 
     /// Flushes to disk. Throws `Error` on failure.
     void finish();
-    /// Renames the file into place. The old file is kept, and restored unless `keep()` follows.
+    /// Publishes the file under its name. A previous file with this name is set aside, and restored unless
+    /// `keep()` follows.
     void publish();
+    /// Accepts the published file and removes the old one.
     void keep() noexcept;
     /// Calls finish, publish and keep.
     void commit();

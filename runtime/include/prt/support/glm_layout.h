@@ -14,7 +14,7 @@
 namespace prt {
 
 #define PRT_GLM                                                                                              \
-    "prtkit was built with GLM's packed types: no GLM_FORCE_DEFAULT_ALIGNED_GENTYPES, see "                  \
+    "prtkit uses GLM's packed types: do not define GLM_FORCE_DEFAULT_ALIGNED_GENTYPES, see "                 \
     "docs/integration.md"
 static_assert(sizeof(glm::vec2) == 2 * sizeof(float) && sizeof(glm::vec3) == 3 * sizeof(float) &&
                   sizeof(glm::vec4) == 4 * sizeof(float) && sizeof(glm::uvec3) == 3 * sizeof(unsigned) &&
@@ -24,7 +24,7 @@ static_assert(alignof(glm::vec3) == alignof(float) && alignof(glm::vec4) == alig
                   alignof(glm::dvec3) == alignof(double),
               PRT_GLM);
 static_assert(offsetof(glm::dquat, w) == 3 * sizeof(double),
-              "prtkit was built with another order of GLM's quaternions: GLM_FORCE_QUAT_DATA_WXYZ");
+              "prtkit uses quaternions with w last: do not define GLM_FORCE_QUAT_DATA_WXYZ");
 #undef PRT_GLM
 
 } // namespace prt

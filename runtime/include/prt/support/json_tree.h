@@ -1,7 +1,7 @@
 #pragma once
 
-// Parsing JSON into trees that keep the order of keys, in time in proportion to the text. Not part of the
-// interface. The tree's own parser looks each key up among those before it.
+// Parses JSON into trees that keep the order of keys, in time proportional to the length of the text. The
+// parser of nlohmann-json compares each key with all keys before it. Not part of the interface.
 
 #include <algorithm>
 #include <cstddef>
@@ -13,8 +13,8 @@
 
 namespace prt {
 
-/// Builds a tree of `Json`, an nlohmann::ordered_json, from the events of its parser. A key that comes again
-/// has its last value at its first position, as by the parser of the tree.
+/// Builds a tree of `Json`, an nlohmann::ordered_json, from the events of its parser. A repeated key keeps
+/// its first position and gets its last value, as in the parser of nlohmann-json.
 template <class Json>
 class JsonTreeBuilder {
 public:
@@ -47,7 +47,7 @@ private:
     using Object = typename Json::object_t;
     struct Level {
         Json value;
-        std::string key = {}; ///< of the member that comes next
+        std::string key = {}; ///< key of the next member
     };
 
     bool add(Json&& value) {
@@ -108,7 +108,7 @@ private:
     std::vector<Level> open_;
 };
 
-/// Throws the exceptions of `Json::parse`.
+/// Returns the tree of `text`. Throws the exceptions of `Json::parse`.
 template <class Json>
 Json parse_json_tree(std::string_view text) {
     JsonTreeBuilder<Json> builder;

@@ -1,6 +1,6 @@
 #pragma once
 
-// Detection of Git LFS pointers: small files that stand in for files that were not fetched.
+// Detection of Git LFS pointers: small files that replace files which were not fetched.
 
 #include <cstddef>
 #include <cstring>
@@ -16,7 +16,8 @@ inline bool is_lfs_pointer(std::span<const std::byte> file) {
            std::memcmp(file.data(), kFirstLine.data(), kFirstLine.size()) == 0;
 }
 
+/// Message for the user after the name of such a file.
 inline constexpr const char* kLfsRemedy =
-    "is a pointer of Git LFS, not the file itself: fetch it by git lfs pull";
+    "is a Git LFS pointer, not the file itself; fetch the file with git lfs pull";
 
 } // namespace prt

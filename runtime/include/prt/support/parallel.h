@@ -7,7 +7,7 @@
 
 namespace prt {
 
-/// Number of threads for `requested`: the value itself, or the number of hardware threads if it is 0.
+/// Returns the number of threads to use: `requested`, or the number of hardware threads if it is 0.
 int thread_count(int requested);
 
 /// Calls `body(begin, end)` for consecutive blocks of at most `grain` indices that together cover [0, count),

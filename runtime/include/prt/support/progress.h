@@ -21,12 +21,14 @@ struct Progress {
         if (stop.stop_requested())
             throw Cancelled();
     }
+    /// Throws `Cancelled` after a stop request; otherwise reports `fraction`.
     void update(double fraction) const {
         check();
         if (report)
             report(fraction);
     }
-    /// Returns the progress of a step of the work that covers the fractions `from` .. `to` of the total.
+    /// Returns a `Progress` for one step of the work: its fractions 0..1 are reported as `from` .. `to` of
+    /// the total.
     Progress range(double from, double to) const {
         Progress range{{}, stop};
         if (report)

@@ -9,6 +9,7 @@ namespace prt {
 /// Measures the seconds since its construction with a monotonic clock.
 class Stopwatch {
 public:
+    /// Returns the seconds since the construction.
     double seconds() const { return std::chrono::duration<double>(Clock::now() - start_).count(); }
 
 private:

@@ -8,6 +8,7 @@
 
 namespace prt {
 
+/// Orthonormal frame at a surface point.
 struct TangentFrame {
     glm::vec3 tangent, bitangent, normal;
 };

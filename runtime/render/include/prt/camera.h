@@ -33,15 +33,16 @@ struct CameraFrame {
     glm::dvec3 forward, right, up;
     double half_height;
 };
-/// Computes the frame. Throws `Error` for a camera that looks along `up` or at itself, or is beyond
-/// `kFarthestCamera`.
+/// Returns the frame of `camera`. Throws `Error` if it looks along `up`, if `position` equals `target`, or if
+/// one of them is beyond `kFarthestCamera`.
 CameraFrame camera_frame(const Camera& camera);
 
-/// Returns the view direction, not normalised, of position (x, y) in an image of `width` x `height`. (0, 0)
-/// is the top left corner, the center of pixel i is at i + 0.5.
+/// Returns the view direction, not normalised, at position (x, y) of an image of `width` x `height` pixels.
+/// (0, 0) is the top left corner; the center of pixel i is at i + 0.5.
 glm::dvec3 view_direction(const CameraFrame& frame, int width, int height, double x, double y);
 
-/// Returns the matrix from world to OpenGL clip space; near and far planes enclose `box` tightly.
+/// Returns the matrix from the frame of the scene to OpenGL clip space. Near and far planes enclose `box`
+/// tightly.
 glm::mat4 view_projection(const Camera& camera, const Bounds& box, float aspect);
 
 } // namespace prt

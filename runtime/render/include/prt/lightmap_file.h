@@ -20,15 +20,16 @@ void write_lightmap(GltfDocument& document, const Scene& scene, const Compressed
 /// Returns the compressed lightmap in the file; empty if absent. Throws `Error` if it is damaged.
 std::optional<CompressedLightmap> read_compressed_lightmap(const GltfDocument& document, const Scene& scene);
 
-/// Expands the `compressed` receivers of `baked` to all texels, as a game loads them. A texel that is no
-/// receiver gets the values of a near receiver.
+/// Expands the `compressed` receivers of `baked` to all texels, as a game loads them. Every other texel gets
+/// the values of a nearby receiver.
 CompressedLightmap scatter_to_maps(const BakedLightmap& baked, ClusteredTransfer compressed);
 
-/// Expands `values` of the texels `texels` to all texels. Other texels get the value of a near one.
+/// Expands `values` [texels.size()], which belong to `texels`, to all texels, [layout.texels()]. Every other
+/// texel gets the value of a nearby one.
 std::vector<glm::vec3> scatter_to_maps(const LightmapLayout& layout, std::span<const std::uint32_t> texels,
                                        std::span<const glm::vec3> values);
 
-/// Selects the receivers `texels` from all texels of a lightmap, in their order.
+/// Returns the receivers `texels` of a lightmap whose receivers are all texels, in the order of `texels`.
 ClusteredTransfer gather_texels(const ClusteredTransfer& all, std::span<const std::uint32_t> texels);
 
 /// Returns word `word` of every texel of map `map`, row by row: the texels of an R32UI texture.

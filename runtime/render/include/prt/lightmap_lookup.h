@@ -14,16 +14,17 @@
 
 namespace prt {
 
-/// Maps triangles of a scene to their texels. Thread-safe.
+/// Finds the texels of points on the triangles of a scene. Thread-safe.
 class LightmapLookup {
 public:
     /// Keeps references to `scene` and `layout`.
     LightmapLookup(const Scene& scene, const LightmapLayout& layout);
 
-    /// Returns the bilinear sample at a point of `triangle`, numbered over the scene's primitives and their
-    /// triangles; `barycentrics` belong to corners 1 and 2. Texels are numbered as in the layout.
+    /// Returns the texels, numbered as in the layout, and the weights of the bilinear sample at a point.
+    /// `triangle`: index in the order of the scene's primitives and their triangles. `barycentrics`:
+    /// barycentric coordinates of corners 1 and 2.
     BilinearTexels filter(std::uint32_t triangle, const glm::vec2& barycentrics) const;
-    /// Returns the filtered value of `values` [texels of the layout].
+    /// Returns the bilinear sample of `values` [texels of the layout] at the point of `filter`.
     glm::vec3 look_up(std::uint32_t triangle, const glm::vec2& barycentrics,
                       std::span<const glm::vec3> values) const;
 

@@ -27,34 +27,36 @@ struct Background {
 struct PictureLightmaps {
     const LightmapLayout* layout = nullptr; ///< null: no lightmaps
     std::span<const glm::vec3> radiance;    ///< [texels of the layout] exit radiance for albedo 1, or a color
-    /// If set, OpenGL computes the radiance from it on the GPU, lit by `lighting`.
+    /// If set, the OpenGL renderer computes the radiance on the GPU from this transfer and `lighting`.
     const CompressedLightmap* on_gpu = nullptr;
     const Lighting* lighting = nullptr;
 };
 
-/// Transfer, and the lighting that a vertex shader multiplies it with.
+/// Transfer that a vertex shader multiplies with a lighting.
 struct LitInShader {
     const ClusteredTransfer* transfer = nullptr;
     const Lighting* lighting = nullptr;
     PictureLightmaps lightmaps = {}; ///< used by all renderers
 };
 
+/// A picture of a lit scene.
 struct Picture {
     const Scene* scene = nullptr;
     std::span<const Texture> textures; ///< load_textures(*scene)
 
     /// [receivers] exit radiance for albedo 1, or a color to show.
     std::span<const glm::vec3> radiance;
-    /// If set, OpenGL computes the exit radiance from it in the vertex shader instead of using `radiance`.
+    /// If its transfer is set, the OpenGL renderer computes the exit radiance in the vertex shader and
+    /// ignores `radiance`.
     LitInShader in_shader;
-    /// Suns that are not included in the radiance above; the renderer adds them at each pixel with sharp
+    /// Suns that are not included in `radiance`; the renderer adds their light at each pixel with sharp
     /// shadows.
     std::span<const Sun> suns = {};
 
     /// [materials] factor on the emission; empty: no emission.
     std::span<const glm::vec3> emission = {};
 
-    bool textured = true; ///< multiply by base color; off for views that visualise a number
+    bool textured = true; ///< multiply radiance by the base color; false if colors visualise a number
     Background background;
 
     Camera camera;

@@ -12,11 +12,11 @@ namespace prt {
 /// Returns the mean of two pictures of equal size.
 Image mean_of(const std::array<Image, 2>& halves);
 
-/// Returns the expected relative L2 error of the mean of two independent unbiased pictures over `surfaces`
-/// [height][width].
+/// Returns the expected relative L2 error, over `surfaces` [height][width], of the mean of two independent
+/// unbiased pictures.
 double noise_of(const std::array<Image, 2>& halves, const std::vector<bool>& surfaces);
 
-/// Side of the pixel blocks over which contrast errors are averaged.
+/// Side in pixels of the blocks over which contrast errors are averaged.
 inline constexpr int kContrastBlock = 8;
 
 /// Error of a picture against a noisy reference. FLIP includes the noise. `relative_l2` and `contrast_rms`

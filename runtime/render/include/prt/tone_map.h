@@ -14,6 +14,7 @@
 
 namespace prt {
 
+/// Curve from radiance to displayable values.
 enum class ToneMap {
     filmic, ///< shoulder and toe from the rational fit of Narkowicz (2016) to the ACES curve, then sRGB
     srgb,   ///< clipped at 1, then sRGB
@@ -22,7 +23,7 @@ enum class ToneMap {
 /// Returns the factor on radiance that scales the mean radiance of the lighting to 0.25.
 float automatic_exposure(const Light& light);
 
-/// Averages blocks of `samples` x `samples` pixels.
+/// Returns the image averaged over blocks of `samples` x `samples` pixels.
 Image downsampled(const Image& image, int samples);
 
 /// Returns 8-bit pixels of a linear image with `samples`² samples per pixel, [height / samples][width /

@@ -26,7 +26,9 @@ namespace prt {
 
 struct NodeTree;
 
+/// Property of a node that a channel animates.
 enum class AnimatedPart { translation, rotation, scale };
+/// Interpolation between keyframes, as in glTF.
 enum class Interpolation { step, linear, cubic_spline };
 
 /// Keyframes of one property of a node.
@@ -35,20 +37,21 @@ struct AnimationChannel {
     AnimatedPart part = AnimatedPart::translation;
     Interpolation interpolation = Interpolation::linear;
     std::vector<float> times; ///< seconds, in ascending order
-    /// xyz, or quaternions xyzw: [keys]; for splines [keys][in-tangent, value, out-tangent].
+    /// [keys] xyz, or quaternions xyzw; for splines [keys][3]: in-tangent, value, out-tangent.
     std::vector<glm::vec4> values;
 };
 
+/// An animation: channels that play together.
 struct Animation {
     std::string name;
     double duration = 0; ///< seconds, time of the last key
-    double speed = 0;    ///< metres per second along +Z at which the feet do not slide; 0: extras.speed is
-                         ///< missing
+    double speed = 0;    ///< walking speed along +Z in metres per second at which the feet do not slide, from
+                         ///< extras.speed; 0: not in the file
     std::vector<AnimationChannel> channels;
 };
 
-/// Returns the value of a channel at a time, clamped to the first and the last key. Rotations are unit
-/// quaternions and interpolate along the shorter arc (glTF 2.0, appendix C).
+/// Returns the value of a channel at time `seconds`, which is clamped to the first and the last key.
+/// Rotations are unit quaternions and interpolate along the shorter arc (glTF 2.0, appendix C).
 glm::dvec4 value_at(const AnimationChannel& channel, double seconds);
 
 /// Joints, and the matrices from the bind pose of the mesh to the frame of each joint.
@@ -58,15 +61,14 @@ struct Skin {
 };
 
 /// Skinning data of one of `Scene::vertex_arrays`. Each vertex is transformed by the weighted mean of its
-/// matrices. An array of one node without a skin has one matrix.
+/// matrices. An array without a skin has one matrix, that of its node.
 struct MovingVertices {
     std::size_t node = 0;
     int skin = -1;                             ///< -1: no skin
-    std::vector<glm::vec3> positions, normals; ///< before any matrix; metres, and unit vectors
+    std::vector<glm::vec3> positions, normals; ///< before any transform; metres, and unit vectors
     std::size_t influences = 1;                ///< per vertex
     std::vector<std::uint32_t> matrices; ///< [vertices][influences], indices into AnimatedScene::matrices
-    std::vector<float> weights;          ///< [vertices][influences]; with weight 0 the matrix index is
-                                         ///< ignored
+    std::vector<float> weights;          ///< [vertices][influences]; if it is 0, the matrix index is ignored
 };
 
 /// Returns the blended matrix from a vertex to the world. `palette` is AnimatedScene::matrices of its array.
@@ -79,9 +81,9 @@ bool has_animations(const GltfDocument& document);
 /// A scene with its animations. Immutable, thread-safe.
 class AnimatedScene {
 public:
-    /// Throws `Error` with the file and the location in it: for skins without joints, missing joints and
-    /// nodes, times that are not finite or decrease, values that are not finite or too few, and as
-    /// `extract_scene`.
+    /// Reads the scene and its animations. Throws `Error` with the file and the location in it for skins
+    /// without joints, missing joints and nodes, times that are not finite or decrease, and values that are
+    /// not finite or too few. Also throws the errors of `extract_scene`.
     explicit AnimatedScene(const GltfDocument& document);
 
     /// The scene in the pose of the file, equal to the result of `extract_scene`.
@@ -89,20 +91,23 @@ public:
     const std::vector<Animation>& animations() const { return animations_; }
     const std::vector<Skin>& skins() const { return skins_; }
     const std::vector<MovingVertices>& vertices() const { return vertices_; } ///< [Scene::vertex_arrays]
+    /// Number of nodes of the file.
     std::size_t nodes() const;
 
-    /// Returns world matrices of all nodes, in the pose of the file or at a time of one of its animations.
-    /// Nodes outside the scene have the identity.
+    /// Returns the world matrices of all nodes in the pose of the file, [nodes()]. Nodes outside the scene
+    /// have the identity.
     std::vector<glm::dmat4> rest() const;
+    /// Returns the world matrices of all nodes at time `seconds` of `animation`, [nodes()].
     std::vector<glm::dmat4> pose(const Animation& animation, double seconds) const;
 
-    /// Returns the matrices of a vertex array: of its node, or of the joints of its skin (joint world matrix
-    /// times inverse bind matrix). The identity follows, for vertices without a joint.
+    /// Returns the matrices of a vertex array: the matrix of its node, or those of the joints of its skin
+    /// (joint world matrix times inverse bind matrix). The last one is the identity, for vertices without a
+    /// joint.
     std::vector<glm::dmat4> matrices(std::size_t vertex_array, std::span<const glm::dmat4> nodes) const;
 
-    /// Returns the scene with the vertices transformed by `nodes`, for ray tracing, without lights.
-    /// `placement` maps the file's world to positions of the result, whose origin is 0. Front sides are those
-    /// of `scene`.
+    /// Returns the scene without lights, with the vertices transformed by `nodes`, for ray tracing.
+    /// `placement` maps the file's world to the positions of the result, whose origin is 0. The front sides
+    /// of triangles are those of `scene()`.
     Scene posed(std::span<const glm::dmat4> nodes, const glm::dmat4& placement) const;
 
 private:

@@ -15,19 +15,21 @@ using Json = nlohmann::ordered_json;
 
 namespace json {
 
-/// Reads JSON. Throws `Error` for invalid JSON; the error does not contain the file name.
+/// Reads a JSON file. Throws `Error` for invalid JSON; the message does not contain the file name.
 Json read_json(const std::filesystem::path& path);
 
-/// Returns a member of `object`. Throws `Error` with its key if it is missing or has another type.
+/// Returns member `key` of `object`. Throws `Error` with the key if it is missing; the functions below also
+/// throw it if the member has another type or is out of range.
 const Json& member(const Json& object, const char* key);
-/// Returns a finite number.
+/// Returns a member that is a finite number.
 double number(const Json& object, const char* key);
-/// Returns a number in [low, high].
+/// Returns a member that is a number in [low, high].
 double number_in(const Json& object, const char* key, double low, double high);
-/// Returns `count` finite floats.
+/// Returns a member that is a list of `count` finite floats.
 std::vector<float> numbers(const Json& object, const char* key, std::size_t count);
+/// Returns a member that is a list of three finite floats.
 glm::vec3 vector_of(const Json& object, const char* key);
-/// Returns a vector, normalised.
+/// Returns a member that is a direction, normalised. Throws `Error` if its length is 0.
 glm::vec3 direction_of(const Json& object, const char* key);
 
 } // namespace json

@@ -29,8 +29,8 @@ struct LeveledNode {
     std::vector<CoarserLevel> coarser;
 };
 
-/// The result of `extract_scene`, unchanged, followed by the coarser levels, each at its position in the
-/// scene. A level outside the scene is placed at the position of its level 0.
+/// A scene with its coarser levels: the result of `extract_scene`, unchanged, followed by all coarser levels,
+/// each at its position in the scene. A level outside the scene gets the position of its level 0.
 struct LeveledScene {
     Scene scene;
     std::size_t finest_receivers = 0, finest_primitives = 0; ///< counts of `extract_scene`
@@ -43,18 +43,18 @@ struct LeveledScene {
 /// Returns quickly whether nodes of the scene have coarser levels.
 bool has_levels(const GltfDocument& document);
 
-/// Extracts the scene with its levels. Throws `Error` as `extract_scene`, which also rejects contradictory
-/// levels.
+/// Returns the scene with its coarser levels. Throws the errors of `extract_scene`, which also rejects
+/// contradictory levels.
 LeveledScene extract_levels(const GltfDocument& document);
 
 /// Returns whether coarser levels of the document have transfer; `scene` was extracted from it.
 bool levels_have_transfer(const GltfDocument& document, const LeveledScene& scene);
 
-/// Returns the number of vertices of some primitives.
+/// Returns the number of vertices of `primitives`, which are indices into Scene::primitives.
 std::size_t vertices_of(const Scene& scene, std::span<const std::size_t> primitives);
 
-/// Returns areas of the receivers of level `level` of all nodes, zero for others: [receivers of the scene].
-/// For level 0: areas of all receivers of `extract_scene`.
+/// Returns areas, [receivers of the scene]: those of the receivers of level `level` of all nodes, and zero
+/// for all other receivers. Level 0 includes all receivers of `extract_scene`.
 std::vector<float> areas_of_level(const LeveledScene& scene, std::size_t level);
 
 } // namespace prt

@@ -1,6 +1,6 @@
 #pragma once
 
-// Light files of prt project: docs/format.md. Stable.
+// Light files, as `prt project` writes them (docs/format.md). Stable.
 
 #include "prt/light.h"
 #include "prt/sun.h"
@@ -12,13 +12,14 @@ namespace prt {
 
 /// Content of a light file.
 struct LightFile {
-    Light sky; ///< its coefficients
+    Light sky; ///< light without `suns`
     std::vector<Sun> suns;
 };
 
 /// Reads a light file. Throws `Error` with the file name.
 LightFile read_light_file(const std::filesystem::path& path);
-/// Reads the first `order` bands. Also throws `Error` if the file has fewer.
+/// Reads a light file and keeps the first `order` bands. Throws `Error` with the file name, also if the file
+/// has fewer bands.
 LightFile read_light_file(const std::filesystem::path& path, int order);
 
 /// Returns the coefficients of the sky plus those of the suns.

@@ -21,15 +21,17 @@ void write_lightmap(GltfDocument& document, const Scene& scene, const BakedLight
 /// Returns the raw transfer of texels in the file; empty if absent. Throws `Error` if it is damaged.
 std::optional<BakedLightmap> read_lightmap(const GltfDocument& document, const Scene& scene);
 
-/// A compressed lightmap whose words are still images.
+/// A compressed lightmap whose words are encoded as images.
 struct EncodedLightmap {
     CompressedLightmap lightmap;                ///< without receivers
     std::vector<std::vector<std::byte>> images; ///< [maps][words] PNG
 };
 
-/// Write and read a compressed lightmap with encoded images. prt/lightmap_file.h encodes and decodes the
-/// images. Reading returns no value if the file has no such lightmap, and throws `Error` if it is damaged.
+/// Writes a compressed lightmap with encoded images into `document`, from which `scene` was extracted.
+/// prt/lightmap_file.h encodes the images.
 void write_encoded_lightmap(GltfDocument& document, const Scene& scene, const EncodedLightmap& lightmap);
+/// Returns the compressed lightmap in the file with encoded images; empty if absent. Throws `Error` if it is
+/// damaged. prt/lightmap_file.h decodes the images.
 std::optional<EncodedLightmap> read_encoded_lightmap(const GltfDocument& document, const Scene& scene);
 
 } // namespace prt

@@ -13,18 +13,19 @@ namespace prt {
 /// Settings of the lobe fit; written to the file and shown by `prt info`.
 struct LobeRecord {
     int poses = 0; ///< number of poses in the fit
-    int rays = 0;  ///< per vertex and pose
+    int rays = 0;  ///< number of rays per vertex and pose
     int bounces = 0;
     std::uint64_t seed = 0;
 };
 
+/// Lobes as stored in a file, with the record of their fit.
 struct StoredLobes {
     LobeModel model; ///< vertices in the order of the scene's vertex arrays
     LobeRecord record;
 };
 
 /// Writes lobes into `document`, from which `scene` was extracted. Removes all other transfer of surfaces,
-/// because it would apply to a single pose.
+/// because that is valid for a single pose only.
 void write_lobes(GltfDocument& document, const Scene& scene, const StoredLobes& lobes);
 
 /// Returns the lobes in the file; empty if absent. Throws `Error` if they are damaged.

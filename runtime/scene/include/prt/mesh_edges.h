@@ -9,7 +9,7 @@
 
 namespace prt {
 
-/// Returns the edges of all triangles between receivers, without duplicates, in ascending order.
+/// Returns the edges of all triangles, as pairs of receivers, in ascending order without duplicates.
 std::vector<Edge> mesh_edges(const Scene& scene);
 
 } // namespace prt

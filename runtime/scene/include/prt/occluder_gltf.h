@@ -11,16 +11,17 @@
 
 namespace prt {
 
+/// An occlusion volume and the node that it moves with.
 struct NodeOccluder {
     int node = 0;           ///< index in the file
     OcclusionVolume volume; ///< in the frame of the node
 };
 
-/// Writes occlusion volumes and replaces existing ones.
+/// Writes occlusion volumes into `document` and removes existing ones.
 void write_occluders(GltfDocument& document, std::span<const NodeOccluder> occluders);
 
-/// Returns the occlusion volumes in the order of nodes; empty if absent. Throws `Error` if they are
-/// damaged.
+/// Returns the occlusion volumes in the file, in the order of their nodes; empty if absent. Throws `Error` if
+/// they are damaged.
 std::vector<NodeOccluder> read_occluders(const GltfDocument& document);
 
 } // namespace prt

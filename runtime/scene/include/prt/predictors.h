@@ -10,9 +10,9 @@
 
 namespace prt {
 
-/// Returns the coordinates of each receiver of `scene` in `predictors`, predictor by predictor: its normal,
-/// or its position relative to the predictor's origin. [receivers][3 predictors.size()], as in
-/// ClusteredReceivers::predictors.
+/// Returns the predictor coordinates of each receiver of `scene`, [receivers][3 predictors.size()], as in
+/// ClusteredReceivers::predictors. Each predictor has three coordinates: the normal, or the position relative
+/// to the predictor's origin.
 std::vector<float> predictor_coordinates(const Scene& scene, std::span<const Predictor> predictors);
 
 } // namespace prt

@@ -18,13 +18,15 @@
 
 namespace prt {
 
-/// Maximum distance of a vertex from the world's origin along each axis, metres. Within it, floats can
-/// represent all quantities derived from positions. The largest is the square of a triangle's doubled area,
+/// Maximum distance of a vertex from the world's origin along each axis, metres. Up to this distance, floats
+/// can represent all quantities derived from positions. The largest is the square of twice a triangle's area,
 /// (2 sqrt(3) 1e9)^4 = 1.4e38. Doubles resolve a tenth of a micrometre at that distance. `extract_scene`
 /// rejects vertices beyond it.
 inline constexpr double kFarthestVertex = 1e9;
 
+/// Alpha mode of a material, as in glTF.
 enum class AlphaMode { opaque, mask, blend };
+/// Wrapping of texture coordinates outside 0..1.
 enum class Wrap { repeat, mirror, clamp };
 
 /// Texture reference of a material.
@@ -78,8 +80,8 @@ struct Material {
     AlphaMode alpha_mode = AlphaMode::opaque;
     float alpha_cutoff = 0.5f;
     bool double_sided = false;
-    /// Whether its surfaces block rays. Not part of glTF; false is for sky domes and outline shells around a
-    /// scene.
+    /// Whether surfaces of this material block rays. Not part of glTF. False for sky domes and outline shells
+    /// around a scene.
     bool casts_shadow = true;
     DiffuseTransmission transmission;
     Glass glass;
@@ -94,14 +96,15 @@ struct VertexArray {
                                                    ///< define one
     std::vector<std::vector<glm::vec2>> texcoords; ///< [set][vertex]; empty for a set that the file lacks
     std::vector<glm::vec4> colors;                 ///< COLOR_0, linear, 0..1; empty: white
-    /// Index of the file's vertex from which each vertex was created, if flat normals split some; empty:
-    /// identical.
+    /// [vertices] index of the vertex in the file from which each vertex was created, if flat normals split
+    /// vertices; empty: the same indices as in the file.
     std::vector<std::uint32_t> source;
     std::size_t first_receiver = 0;
 
     std::size_t size() const { return positions.size(); }
 };
 
+/// A primitive of a node: triangles with one material.
 struct Primitive {
     int node = 0, mesh = 0, primitive = 0; ///< indices in the file
     std::size_t vertices = 0;              ///< index into Scene::vertex_arrays
@@ -113,29 +116,33 @@ struct Primitive {
     std::string node_name = {};            ///< for messages; "node N" if the file has none
 };
 
+/// Type of a light of KHR_lights_punctual.
 enum class PunctualKind { point, spot, directional };
 
 /// A light of KHR_lights_punctual in the world.
 struct PunctualLight {
     std::string name; ///< name of its node, else of the light; "light N" if neither has one
     PunctualKind kind = PunctualKind::point;
-    glm::vec3 intensity{1};        ///< linear Rec. 709; irradiance at one metre, or everywhere for
-                                   ///< directional lights
-    glm::vec3 position{0};         ///< metres, relative to Scene::origin
-    glm::vec3 direction{0, 0, -1}; ///< unit, direction of emission
+    glm::vec3 intensity{1}; ///< linear Rec. 709: irradiance at a distance of one metre; for directional
+                            ///< lights irradiance everywhere
+    glm::vec3 position{0};  ///< metres, relative to Scene::origin
+    glm::vec3 direction{0, 0, -1};                        ///< unit, direction of emission
     float range = std::numeric_limits<float>::infinity(); ///< metres, end of its influence
-    float inner_cone = 0, outer_cone = 0.785398f;         ///< radians from the axis: end of full intensity,
-                                                          ///< and zero intensity
+    float inner_cone = 0, outer_cone = 0.785398f; ///< radians from the axis: angle at which full intensity
+                                                  ///< ends, and angle from which on the intensity is zero
 };
 
+/// An image as stored in its file format.
 struct EncodedImage {
     std::string name;             ///< for messages
     std::vector<std::byte> bytes; ///< empty: cannot be read
-    std::string trouble = {};     ///< why it cannot be read; throw it where its pixels are needed
+    /// Reason why it cannot be read; the message of the `Error` for code that needs the pixels.
+    std::string trouble = {};
 };
 
+/// A flattened scene.
 struct Scene {
-    /// The center of the scene's bounding box in the file's world, metres. Positions are relative to it, so
+    /// Center of the scene's bounding box in the file's world, metres. All positions are relative to it, so
     /// that a scene far from the world's origin keeps its precision.
     glm::dvec3 origin{0};
     std::vector<VertexArray> vertex_arrays;
@@ -145,16 +152,18 @@ struct Scene {
     std::vector<PunctualLight> lights;
     std::vector<std::string> notices; ///< messages for the user about how the file was read, one line each
 
-    /// Returns a position in the file's world.
+    /// Converts `position`, relative to `origin`, to the file's world.
     glm::dvec3 world(const glm::vec3& position) const { return origin + glm::dvec3(position); }
+    /// Returns the number of receivers: vertices of all vertex arrays.
     std::size_t receivers() const;
+    /// Returns the number of triangles of all primitives.
     std::size_t triangles() const;
 };
 
 /// Returns the lamp name of an emissive material: its name, or "material N" if it has none.
 std::string lamp_name(const Scene& scene, std::size_t material);
 
-/// Returns a third of the area of the triangles at each receiver, in m². [receivers]
+/// Returns the area of each receiver, a third of the area of its triangles, in m²: [receivers].
 std::vector<float> receiver_areas(const Scene& scene);
 
 /// Returns a hexadecimal hash of the positions (relative to the scene's origin) and normals of all receivers,
@@ -165,6 +174,7 @@ std::string receivers_id(const Scene& scene);
 struct Bounds {
     glm::vec3 low, high;
 };
+/// Returns the bounding box of all triangles.
 Bounds bounds(const Scene& scene);
 /// Returns the bounding box of one primitive; inverted and infinite if it has no triangle.
 Bounds bounds(const Scene& scene, const Primitive& primitive);

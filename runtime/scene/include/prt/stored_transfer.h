@@ -1,6 +1,7 @@
 #pragma once
 
-// Raw transfer of glTF files in its stored format, for block-by-block processing. Experimental.
+// Raw transfer of glTF files in its stored format. Code that processes it block by block needs no float copy.
+// Experimental.
 
 #include "prt/gltf.h"
 #include "prt/transfer_view.h"
@@ -9,13 +10,14 @@
 
 namespace prt {
 
-/// A bake with transfer in its stored format.
+/// Raw transfer in its stored format, with the record of its bake.
 struct StoredBake {
     StoredTransfer transfer; ///< receivers in the order of the scene's vertex arrays
     BakeRecord record;
 };
 
-/// Reads transfer like `read_transfer`, without converting float16.
+/// Returns the raw transfer in the file without converting float16; empty if absent. Throws the errors of
+/// `read_transfer`.
 std::optional<StoredBake> read_stored_transfer(const GltfDocument& document, const Scene& scene);
 
 } // namespace prt

@@ -1,6 +1,6 @@
 #pragma once
 
-// Parts of a file that reading it leaves out without a notice. Experimental.
+// Contents of a file that are left out when it is read, without a notice. Experimental.
 
 #include "prt/gltf.h"
 
@@ -9,10 +9,10 @@
 
 namespace prt {
 
-/// Extensions that the file uses and prtkit does not read.
+/// Returns the names of the extensions that the file uses and prtkit does not read.
 std::vector<std::string> unread_extensions(const GltfDocument& document);
 
-/// Lights of KHR_lights_punctual that no node has.
+/// Returns the names of the lights of KHR_lights_punctual that no node uses.
 std::vector<std::string> unused_lights(const GltfDocument& document);
 
 } // namespace prt

@@ -13,19 +13,19 @@
 
 namespace prt {
 
-/// New vertices of one primitive.
+/// New vertices and texture coordinates of one primitive.
 struct VertexSplit {
     std::vector<std::uint32_t> source; ///< [new vertices] index into the scene's vertex array
     std::vector<glm::vec2> uv;         ///< [new vertices]
     std::vector<glm::uvec3> triangles; ///< indices of new vertices, with the winding order of the scene
 };
 
-/// Returns the index of the first set of coordinates that no primitive uses.
+/// Returns the number of the set of texture coordinates that follows the last one of any primitive.
 int free_texcoord(const Scene& scene);
 
-/// Returns the file with these coordinates as TEXCOORD_`set`; `scene` must be extracted from it. Every node
-/// gets a separate mesh, and all other vertex data is split accordingly. Missing lower sets are filled with
-/// zero, since glTF requires sets without gaps.
+/// Returns the file with the coordinates of `splits` [primitives of the scene] as TEXCOORD_`set`. All other
+/// vertex data is split accordingly, and every node gets a separate mesh. Missing sets below `set` are filled
+/// with zero, because glTF does not allow gaps. `scene` must be extracted from `document`.
 GltfDocument with_texcoords(GltfDocument document, const Scene& scene, std::span<const VertexSplit> splits,
                             int set);
 

@@ -10,13 +10,15 @@
 
 namespace prt {
 
-/// Writes a raw or compressed volume into `document`, from which `scene` was extracted. Replaces an existing
-/// volume. Weights of a compressed volume must be packed.
+/// Writes a raw volume into `document`, from which `scene` was extracted. Replaces an existing volume.
 void write_volume(GltfDocument& document, const Scene& scene, const BakedVolume& volume);
+/// Writes a compressed volume, whose weights must be packed, into `document`, from which `scene` was
+/// extracted. Replaces an existing volume.
 void write_volume(GltfDocument& document, const Scene& scene, const CompressedVolume& volume);
 
-/// Return the volume in the file; empty if absent of that kind. Throw `Error` if it is damaged.
+/// Returns the raw volume in the file; empty if absent. Throws `Error` if it is damaged.
 std::optional<BakedVolume> read_volume(const GltfDocument& document, const Scene& scene);
+/// Returns the compressed volume in the file; empty if absent. Throws `Error` if it is damaged.
 std::optional<CompressedVolume> read_compressed_volume(const GltfDocument& document, const Scene& scene);
 
 /// Removes the volume from `document`, if there is one.

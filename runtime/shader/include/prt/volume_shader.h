@@ -9,9 +9,9 @@
 
 namespace prt {
 
-/// Returns the define lines for shaders/prt_volume.glsl for a volume, with all sizes as constants.
+/// Returns the define lines that shaders/prt_volume.glsl needs for a volume, with all sizes as constants.
 /// `seen_from` 0: the shader gets positions as in the Scene; `seen_from` = Scene::origin: positions in the
-/// file's world. With rgba16 the light sampler must filter linearly; in both formats it must clamp.
+/// file's world. The light sampler must clamp; with VolumeFormat::rgba16 it must also filter linearly.
 std::string volume_defines(const CompressedVolume& volume, VolumeFormat format = VolumeFormat::rgba16,
                            const glm::dvec3& seen_from = glm::dvec3(0));
 
@@ -20,8 +20,8 @@ std::string volume_defines(const CompressedVolume& volume, VolumeFormat format =
 std::string volume_functions(const CompressedVolume& volume, VolumeFormat format = VolumeFormat::rgba16,
                              const glm::dvec3& seen_from = glm::dvec3(0));
 
-/// Returns a complete compute shader for the light texture (shaders/prt_volume.comp), for GLSL 4.5 and
-/// Vulkan, with constants in storage buffers. Throws `Error` for other languages, and for weights of more
+/// Returns a complete compute shader that computes the light texture (shaders/prt_volume.comp), for GLSL 4.5
+/// and Vulkan, with constants in storage buffers. Throws `Error` for other languages, and for weights of more
 /// words than shaders support.
 std::string volume_shader(const CompressedVolume& volume, ShaderLanguage language,
                           VolumeFormat format = VolumeFormat::rgba16);

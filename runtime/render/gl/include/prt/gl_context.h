@@ -7,6 +7,7 @@
 
 namespace prt {
 
+/// Devices that a context may use.
 enum class GlDevice {
     hardware, ///< a GPU only; excludes Mesa's software rasterisers
     any,      ///< a GPU if available, else software
@@ -18,15 +19,16 @@ enum class GlDevice {
 /// current or it is destroyed.
 class GlContext {
 public:
-    /// Returns null if there is no such device; `why` then lists the attempts.
+    /// Creates a context and makes it current. Returns null if there is no such device; `why` then lists the
+    /// attempts and their errors.
     static std::unique_ptr<GlContext> create(GlDevice device, std::string* why = nullptr);
     ~GlContext();
     GlContext(const GlContext&) = delete;
     GlContext& operator=(const GlContext&) = delete;
 
     const std::string& renderer() const { return renderer_; } ///< name from the driver
-    /// Makes the context current on this thread, after a driver or another context may have changed it. Code
-    /// that draws with a context calls this first. Throws `Error` if the context is lost.
+    /// Makes the context current on this thread. Code that draws with a context calls this first, because a
+    /// driver or another context may have changed the current one. Throws `Error` if the context is lost.
     void make_current() const;
 
 private:

@@ -29,6 +29,7 @@ public:
 
     /// Computes the constants for `lighting`, then the radiance of all texels and the smaller mip levels.
     void set_light(const Lighting& lighting);
+    /// Returns the lit textures; they are valid as long as this object.
     GlLightmapTextures textures() const { return {&layout_, maps_}; }
     /// Size on the GPU in bytes.
     std::size_t bytes() const { return bytes_; }
@@ -43,10 +44,10 @@ private:
     std::size_t bytes_ = 0;
 };
 
-/// Creates textures of `radiance` [layout.texels()], with all levels.
+/// Creates one texture per map from `radiance` [layout.texels()], with all mip levels.
 std::vector<GlObject> make_lightmap_textures(const LightmapLayout& layout,
                                              std::span<const glm::vec3> radiance);
-/// Creates textures without content, RGBA16F, for shaders that write them.
+/// Creates one texture per map without content, RGBA16F, for shaders that write them.
 std::vector<GlObject> make_lightmap_textures(const LightmapLayout& layout);
 
 } // namespace prt

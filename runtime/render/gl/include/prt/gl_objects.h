@@ -12,6 +12,7 @@
 
 namespace prt {
 
+/// Kind of an OpenGL object, which determines how it is deleted.
 enum class GlKind { buffer, texture, framebuffer, vertex_array, program };
 
 /// Owns an OpenGL name and deletes it.
@@ -43,29 +44,33 @@ GlObject make_buffer(std::span<const T> values) {
 
 /// Creates an immutable buffer that shaders write, of at least one word.
 GlObject make_buffer_of(std::size_t bytes);
-/// Reads data that shaders wrote, from the start of `buffer`. Throws as `check_gl(what)`.
+/// Reads data that shaders wrote from the start of `buffer` into `to`. Throws the errors of `check_gl(what)`.
 void read_buffer(const GlObject& buffer, std::span<std::byte> to, const char* what);
 template <class T>
 void read_buffer(const GlObject& buffer, std::span<T> to, const char* what) {
     read_buffer(buffer, std::as_writable_bytes(to), what);
 }
+/// Binds `buffer` to storage block `binding`.
 void bind_storage(std::uint32_t binding, const GlObject& buffer);
 
+/// Creates a vertex array object without attributes.
 GlObject make_vertex_array();
+/// Creates a framebuffer object without attachments.
 GlObject make_framebuffer();
 
-/// Builds a program from two files of shaders/, with the lines of `defines` before them. Empty `fragment`:
-/// the program draws nothing. `captured`: an output of the vertex shader for transform feedback. Throws
-/// `Error` with the compiler's message if compilation or linking fails.
+/// Builds a program from the files `vertex` and `fragment` of shaders/, with the lines of `defines` before
+/// each. Empty `fragment`: the program draws nothing. `captured`: an output of the vertex shader for
+/// transform feedback. Throws `Error` with the compiler's message if compilation or linking fails.
 GlObject make_program(const std::string& vertex, const std::string& fragment, const std::string& defines = "",
                       const char* captured = nullptr);
 
 /// Builds a compute program from a file of shaders/.
 GlObject make_compute_program(const std::string& compute, const std::string& defines = "");
 
-/// Returns the location of the uniform `name`; -1 if the program does not have it, which OpenGL ignores when
-/// it is set.
+/// Returns the location of the uniform `name`. Returns -1 if the program does not have it; OpenGL ignores
+/// values for that location.
 int uniform(const GlObject& program, const char* name);
+/// Sets the uniform `name`; does nothing if the program does not have it.
 void set_uniform(const GlObject& program, const char* name, std::uint32_t value);
 void set_uniform(const GlObject& program, const char* name, float value);
 
@@ -74,7 +79,8 @@ struct GpuOutOfMemory : Error {
     using Error::Error;
 };
 
-/// Throws `Error` with `what` if OpenGL has recorded an error, for example out of memory.
+/// Throws `Error` if OpenGL has recorded an error, and `GpuOutOfMemory` if memory ran out. `what` names the
+/// failed work in the message.
 void check_gl(const char* what);
 
 } // namespace prt

@@ -20,7 +20,7 @@ struct TriangleRange {
     std::uint32_t first, count;
 };
 
-/// Fraction of incident light that a surface blocks.
+/// Part of the incident light that a surface blocks: `term` means that it blocks some of the light.
 enum class Blocking { nothing, all, term };
 
 /// Geometry, textures and materials of a scene on the GPU, for any program whose fragment shader includes
@@ -47,19 +47,22 @@ public:
 
     /// Returns whether `primitive` is drawn after all opaque ones, from far to near, without writing depth.
     bool is_blended(const Primitive& primitive) const;
-    /// Draws `primitive` or some of its triangles with `program`, which must be in use.
+    /// Draws `primitive` with `program`, which must be in use.
     void draw(const GlObject& program, const GlVertexArrays& arrays, std::size_t primitive) const;
+    /// Draws some triangles of `primitive` with `program`, which must be in use.
     void draw(const GlObject& program, const GlVertexArrays& arrays, std::size_t primitive,
               std::span<const TriangleRange> ranges) const;
     /// Draws `count` instances of `primitive`; `arrays` must define the per-instance attributes.
     void draw_instances(const GlObject& program, const GlVertexArrays& arrays, std::size_t primitive,
                         std::size_t count) const;
+    /// Returns the part of the light of suns that `primitive` blocks.
     Blocking blocking(const Primitive& primitive) const;
-    /// Draws both sides of `primitive` with a program of sun_caster.vert and sun_caster.frag, which must be
-    /// in use.
+    /// Draws both sides of `primitive` into a shadow map. `program`, built from sun_caster.vert and
+    /// sun_caster.frag, must be in use.
     void draw_caster(const GlObject& program, const GlVertexArrays& arrays, std::size_t primitive) const;
-    /// Returns the blended primitives, from far to near.
+    /// Returns the blended primitives, sorted from far to near as seen from `position`.
     std::vector<std::size_t> blended_from_far(const glm::vec3& position) const;
+    /// Size on the GPU in bytes.
     std::size_t bytes() const { return bytes_; }
 
 private:

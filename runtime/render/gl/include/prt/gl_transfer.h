@@ -21,13 +21,14 @@ public:
     /// Uploads clusters and weights. Throws `Error` if they do not fit the vertex attributes.
     explicit GlTransfer(const ClusteredTransfer& transfer);
 
-    /// Defines for shaders that include prt_exit_radiance.glsl; those pass positions as in the Scene.
+    /// Define lines for shaders that include prt_exit_radiance.glsl. Such shaders pass positions as in the
+    /// Scene.
     const std::string& defines() const { return defines_; }
     /// Computes the constants for `lighting` and uploads them.
     void set_light(const Lighting& lighting);
-    /// Binds the attributes of `vertex_array` to the receivers from `first` on.
+    /// Binds the weights and clusters of the receivers from `first` on as attributes of `vertex_array`.
     void attach(std::uint32_t vertex_array, std::size_t first) const;
-    /// Binds the constants and the table of clusters.
+    /// Binds the constants and the table of clusters for subsequent draws.
     void use() const;
     /// Size on the GPU in bytes.
     std::size_t bytes() const { return bytes_; }

@@ -23,14 +23,15 @@ public:
     /// shaders support.
     explicit GlVolume(const CompressedVolume& volume, VolumeFormat format = VolumeFormat::rgba16);
 
-    /// Computes the constants for `lighting` and the visibility of a sun, then the light of all probes.
+    /// Computes the light of all probes for `lighting`, and the visibility of a sun in unit direction `sun`.
     void set_light(const Lighting& lighting, const std::optional<glm::vec3>& sun = {});
-    /// Uploads the result of VolumeRelighter instead: [bytes of the former].
+    /// Uploads a light texture that the CPU computed: the result of VolumeRelighter::update,
+    /// [relighter().bytes()].
     void upload(std::span<const std::byte> texels);
     /// Binds the three textures to the units of shared_layout.h.
     void bind() const;
     const VolumeRelighter& relighter() const { return relighter_; }
-    /// Reads back all planes: [texels of the texture].
+    /// Reads back the light texture with all planes, [texels of the texture].
     std::vector<glm::vec4> read() const;
     /// Size on the GPU in bytes.
     std::size_t bytes() const { return bytes_; }

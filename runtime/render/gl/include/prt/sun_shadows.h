@@ -21,10 +21,11 @@ inline constexpr int kMaxShadowedSuns = 4;
 /// absorption is assumed uniform along the ray. The softness of shadows follows the angular size of the suns.
 class SunShadows {
 public:
-    /// `largest_map`: maximum number of texels along a side. Keeps a reference to `scene`, whose textures
-    /// must be loaded for all needs or for visibility.
+    /// `largest_map`: maximum number of texels along a side of a shadow map. Keeps a reference to `scene`,
+    /// whose textures must have been loaded with TextureNeeds::all or TextureNeeds::visibility.
     explicit SunShadows(const GlScene& scene, int largest_map = 4096);
 
+    /// View of the picture for which the maps are drawn.
     struct View {
         Camera camera;
         int width, height; ///< size of the picture, pixels
@@ -33,22 +34,23 @@ public:
     };
     /// Moving shadow casters in addition to the scene.
     struct Moving {
-        /// Draws both sides of all moving geometry with a program of sun_caster.vert (and PRT_SKINNED), for
-        /// map `map` of `size` texels; `set_map` sets the uniforms of the map. Empty: nothing moves.
+        /// Draws both sides of all moving geometry into map `map` of `size` texels, with a program that is
+        /// built from sun_caster.vert (with PRT_SKINNED for skins) and gets its uniforms from `set_map`.
+        /// Empty: nothing moves.
         std::function<void(int map, int size)> draw;
         Bounds box{};              ///< bounding box of all moving geometry
         std::uint64_t version = 0; ///< changes when the geometry has moved
     };
-    /// Sets the uniforms of the current map in `program`, which must be in use.
+    /// Sets the uniforms for map `map` of `size` texels in `program`, which must be in use.
     static void set_map(const GlObject& program, int map, int size);
 
-    /// Draws the maps for the view frustum of `view` if suns, view or moving geometry have changed. Changes
-    /// the bound framebuffer, the viewport and the program. Throws `Error` for more than kMaxShadowedSuns
-    /// suns and if memory runs out.
+    /// Draws the maps for the view frustum of `view`, unless suns, view and moving geometry are unchanged.
+    /// Changes the bound framebuffer, the viewport and the program. Throws `Error` for more than
+    /// kMaxShadowedSuns suns and if memory runs out.
     void draw(std::span<const Sun> suns, const View& view, const Moving& moving);
     void draw(std::span<const Sun> suns, const View& view) { draw(suns, view, Moving()); }
 
-    /// Binds all resources that the shaders read.
+    /// Binds the maps and suns that `shaders/sun_light.glsl` reads.
     void use() const;
 
 private:

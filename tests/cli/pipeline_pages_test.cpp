@@ -1,6 +1,6 @@
-// The pages that commands write, drawn by a browser.
+// Tests the pages of commands in a browser.
 
-#include "road.h"
+#include "pipeline.h"
 #include "support/glb_file.h"
 
 #include <set>
@@ -37,7 +37,7 @@ std::string drawn_page(const std::filesystem::path& path) {
     return outcome.out;
 }
 
-TEST_F(Road, ASweepIsAPageThatStandsAlone) {
+TEST_F(Pipeline, SweepsAreSelfContainedPages) {
     triangle_file().write(folder / "t.glb");
     ASSERT_EQ(prt({"bake", at("t.glb"), "-o", at("b.glb"), "--rays", "16", "--order", "2"}).status, 0);
     const Outcome evaluate =
@@ -63,7 +63,7 @@ TEST_F(Road, ASweepIsAPageThatStandsAlone) {
     EXPECT_NE(drawn.find("<h2>Error at equal bytes</h2>"), std::string::npos);
 }
 
-TEST_F(Road, BenchMeasuresEveryBackendAndMethod) {
+TEST_F(Pipeline, BenchMeasuresEveryBackendAndMethod) {
     triangle_file().write(folder / "a<b>&.glb");
     const Outcome bench = prt({"bench", at("a<b>&.glb"), "--from", "16", "--to", "64", "--order", "3",
                                "--json", at("bench.json"), "--html", at("bench.html")});

@@ -28,7 +28,7 @@ inline int validator_errors(const std::filesystem::path& file) {
     return outcome.status;
 }
 
-class Road : public testing::Test {
+class Pipeline : public testing::Test {
 protected:
     std::string at(const char* name) const { return (folder / name).string(); }
     TemporaryFolder folder;

@@ -1,9 +1,9 @@
-// The whole road through the program: scene, bake, compress, evaluate, render.
+// Tests the whole pipeline: scene, bake, compress, evaluate, render.
 
 #include "demanding_file.h"
+#include "pipeline.h"
 #include "prt/image_file.h"
 #include "prt/support/file.h"
-#include "road.h"
 #include "support/glb_file.h"
 
 #include <glm/common.hpp>
@@ -16,7 +16,7 @@
 namespace prt::test {
 namespace {
 
-TEST_F(Road, NoticesOfTheSceneAreSaidOnceAndStandInTheReports) {
+TEST_F(Pipeline, NoticesArePrintedOnceAndReported) {
     GlbFile file = triangle_file();
     file.json["materials"] = {{{"pbrMetallicRoughness", {{"baseColorFactor", {2, 1, 1, 1}}}}}};
     file.json["meshes"][0]["primitives"][0]["material"] = 0;
@@ -32,10 +32,10 @@ TEST_F(Road, NoticesOfTheSceneAreSaidOnceAndStandInTheReports) {
     }
 }
 
-class ExampleRoad : public Road, public testing::WithParamInterface<const char*> {};
-INSTANTIATE_TEST_SUITE_P(Scenes, ExampleRoad, testing::Values("knot", "room", "terrain", "tree"));
+class ExamplePipeline : public Pipeline, public testing::WithParamInterface<const char*> {};
+INSTANTIATE_TEST_SUITE_P(Scenes, ExamplePipeline, testing::Values("knot", "room", "terrain", "tree"));
 
-TEST_P(ExampleRoad, LeadsFromSceneToPictures) {
+TEST_P(ExamplePipeline, LeadsFromSceneToPictures) {
     copy_examples(folder.path(), {GetParam(), "sky"});
     const std::string scene = at((std::string(GetParam()) + ".glb").c_str());
     const Outcome bake =
@@ -82,7 +82,7 @@ TEST_P(ExampleRoad, LeadsFromSceneToPictures) {
         if (validator_errors(folder / file) < 0)
             GTEST_SKIP() << "gltf-validator is not installed";
 }
-TEST_F(Road, ADecoderWrittenFromTheFormatPageFindsTheSameError) {
+TEST_F(Pipeline, ADecoderWrittenFromTheFormatPageFindsTheSameError) {
     if (std::string(PRT_NODE).empty())
         GTEST_SKIP() << "node is not installed";
     copy_examples(folder.path(), {"knot"});
@@ -114,7 +114,7 @@ TEST_F(Road, ADecoderWrittenFromTheFormatPageFindsTheSameError) {
     }
 }
 
-TEST_F(Road, FilesWrittenFromDemandingScenesAreValidGltf) {
+TEST_F(Pipeline, FilesWrittenFromDemandingScenesAreValidGltf) {
     demanding_file().write(folder / "d.glb");
     write_png(folder / "a picture.png", 2, 2, std::vector<glm::u8vec3>(4, glm::u8vec3(200)));
     for (const char* weights : {"packed", "float"}) {
@@ -134,7 +134,7 @@ TEST_F(Road, FilesWrittenFromDemandingScenesAreValidGltf) {
     }
 }
 
-TEST_F(Road, EveryViewIsDrawn) {
+TEST_F(Pipeline, EveryViewIsDrawn) {
     triangle_file().write(folder / "t.glb");
     write_exr(folder / "e.exr", {4, 2, std::vector<glm::vec3>(8, glm::vec3(1))});
     ASSERT_EQ(prt({"bake", at("t.glb"), "-o", at("b.glb"), "--rays", "16"}).status, 0);
@@ -155,7 +155,7 @@ TEST_F(Road, EveryViewIsDrawn) {
             }
 }
 
-TEST_F(Road, EveryOptionOfTheContractThatThereIsIsTaken) {
+TEST_F(Pipeline, EverySupportedOptionIsAccepted) {
     triangle_file().write(folder / "t.glb");
     const Outcome outcome =
         prt({"bake",      at("t.glb"), "-o",     at("b.glb"), "--order", "3",         "--rays",
@@ -165,7 +165,7 @@ TEST_F(Road, EveryOptionOfTheContractThatThereIsIsTaken) {
     EXPECT_EQ(read_json(folder / "b.json")["bake"]["seed"], 5);
 }
 
-TEST_F(Road, SameSeedSameBytesWhateverTheThreads) {
+TEST_F(Pipeline, EqualSeedsGiveEqualBytesForAllThreads) {
     triangle_file().write(folder / "t.glb");
     for (const char* threads : {"1", "2"}) {
         ASSERT_EQ(prt({"bake", at("t.glb"), "-o", at((std::string("b") + threads).c_str()), "--rays", "100",
@@ -181,7 +181,7 @@ TEST_F(Road, SameSeedSameBytesWhateverTheThreads) {
     EXPECT_EQ(read_file(folder / "c1"), read_file(folder / "c2"));
 }
 
-TEST_F(Road, BouncesOnTheGpuLandInTheFileAndItsReport) {
+TEST_F(Pipeline, BouncesOnTheGpuLandInTheFileAndItsReport) {
     copy_examples(folder.path(), {"tree"});
     const Outcome bake = prt({"bake", at("tree.glb"), "-o", at("b.glb"), "--rays", "16", "--order", "2",
                               "--bounces", "2", "--backend", "gpu", "--json", at("b.json")});
@@ -206,13 +206,13 @@ struct LampScene {
 void PrintTo(const LampScene& scene, std::ostream* to) {
     *to << scene.name;
 }
-class LampRoad : public Road, public testing::WithParamInterface<LampScene> {};
-INSTANTIATE_TEST_SUITE_P(Scenes, LampRoad,
+class LampPipeline : public Pipeline, public testing::WithParamInterface<LampScene> {};
+INSTANTIATE_TEST_SUITE_P(Scenes, LampPipeline,
                          testing::Values(LampScene{"courtyard", "Lanterns=Lantern*", 8, 2},
                                          LampScene{"night_room", "Lamps=Lamp*", 3, 4}),
                          [](const auto& scene) { return std::string(scene.param.name); });
 
-TEST_P(LampRoad, BakesTheLampsOfAScene) {
+TEST_P(LampPipeline, BakesTheLampsOfAScene) {
     const auto& [name, group, lights, lamps] = GetParam();
     copy_examples(folder.path(), {name});
     const std::string scene = at((std::string(name) + ".glb").c_str());

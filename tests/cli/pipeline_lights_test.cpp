@@ -1,8 +1,8 @@
-// Light on the road through the program: images, light files, suns, exposure.
+// Tests light in the commands: images, light files, suns, exposure.
 
+#include "pipeline.h"
 #include "prt/image_file.h"
 #include "prt/support/file.h"
-#include "road.h"
 #include "support/glb_file.h"
 
 #include <glm/geometric.hpp>
@@ -32,7 +32,7 @@ double largest_difference(const nlohmann::json& a, const nlohmann::json& b) {
     return largest;
 }
 
-TEST_F(Road, SunsOfALightFileAreAddedToItsCoefficients) {
+TEST_F(Pipeline, SunsOfALightFileAreAddedToItsCoefficients) {
     write_exr(folder / "sky.exr", sunny_image(), EnvironmentLayout::lat_long);
     ASSERT_EQ(prt({"project", at("sky.exr"), "-o", at("full.json")}).status, 0);
     ASSERT_EQ(prt({"project", at("sky.exr"), "-o", at("suns.json"), "--suns", "1"}).status, 0);
@@ -52,7 +52,7 @@ TEST_F(Road, SunsOfALightFileAreAddedToItsCoefficients) {
     EXPECT_NE(bad.err.find("\"half_angle_radians\" is not in 0..1.5708"), std::string::npos) << bad.err;
 }
 
-TEST_F(Road, SunsThatPayAreFoundAndTurnWithTheSky) {
+TEST_F(Pipeline, WorthwhileSunsAreFoundAndRotateWithTheSky) {
     write_exr(folder / "sky.exr", sunny_image(), EnvironmentLayout::lat_long);
     ASSERT_EQ(
         prt({"project", at("sky.exr"), "-o", at("a.json"), "--suns", "auto", "--json", at("r.json")}).status,
@@ -73,7 +73,7 @@ TEST_F(Road, SunsThatPayAreFoundAndTurnWithTheSky) {
     EXPECT_TRUE(read_json(folder / "g.json")["suns"].empty());
 }
 
-TEST_F(Road, TheCentreOfALatLongImageMayLookAtX) {
+TEST_F(Pipeline, CenterOfALatLongImageMayFaceX) {
     write_exr(folder / "sky.exr", sunny_image(), EnvironmentLayout::lat_long);
     ASSERT_EQ(prt({"project", at("sky.exr"), "-o", at("x.json"), "--env-center", "x"}).status, 0);
     ASSERT_EQ(prt({"project", at("sky.exr"), "-o", at("turned.json"), "--rotate", "90"}).status, 0);
@@ -82,7 +82,7 @@ TEST_F(Road, TheCentreOfALatLongImageMayLookAtX) {
     EXPECT_GT(largest_difference(read_json(folder / "x.json"), read_json(folder / "z.json")), 0.5);
 }
 
-TEST_F(Road, LightFilesServeAsEnvironments) {
+TEST_F(Pipeline, LightFilesServeAsEnvironments) {
     triangle_file().write(folder / "t.glb");
     write_exr(folder / "e.exr", {4, 2, std::vector<glm::vec3>(8, glm::vec3(1, 2, 3))});
     ASSERT_EQ(
@@ -99,7 +99,7 @@ TEST_F(Road, LightFilesServeAsEnvironments) {
     EXPECT_EQ(read_file(folder / "a.exr"), read_file(folder / "b.exr"));
 }
 
-TEST_F(Road, AutomaticExposureIsThatOfTheModelAndIsReported) {
+TEST_F(Pipeline, AutomaticExposureMeasuresTheModelAndIsReported) {
     GlbFile file = triangle_file();
     file.json["materials"] = {
         {{"pbrMetallicRoughness", {{"baseColorFactor", {0.25, 0.5, 0.125, 1}}, {"metallicFactor", 0}}}}};
@@ -131,7 +131,7 @@ TEST_F(Road, AutomaticExposureIsThatOfTheModelAndIsReported) {
             << wrong;
 }
 
-TEST_F(Road, SunsAreWrittenApartAndTheRestRelights) {
+TEST_F(Pipeline, SunsAreSeparatedAndTheRemainderRelights) {
     Image sky{64, 32, std::vector<glm::vec3>(64 * 32, glm::vec3(0.5f, 0.6f, 0.8f))};
     sky.at(32, 10) = glm::vec3(3000, 2800, 2000); // 10.5 rows of 32 from +Y, in the column of +Z
     write_exr(folder / "sky.exr", sky, EnvironmentLayout::lat_long);
@@ -151,7 +151,7 @@ TEST_F(Road, SunsAreWrittenApartAndTheRestRelights) {
     EXPECT_EQ(prt({"project", at("sky.exr"), "-o", at("l.json"), "--suns", "-1"}).status, 2);
 }
 
-TEST_F(Road, TheSkyAtNoonHasTheSunItSays) {
+TEST_F(Pipeline, NoonSkyHasTheStatedSun) {
     copy_examples(folder.path(), {"noon"});
     const Image image = load_environment(folder / "noon.exr").environment.image;
     const glm::dvec3 towards = glm::normalize(glm::dvec3(0.62, 0.9, 0.42));
