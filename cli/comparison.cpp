@@ -191,14 +191,14 @@ public:
         edges_ = baked.lightmap ? baked.lightmap->edges : mesh_edges(baked.scene);
     }
 
-    Evaluation measure(const std::vector<SplitLight>& lights) const {
+    Evaluation measure(const std::vector<LoadedLight>& lights) const {
         Evaluation evaluation;
         evaluation.relative_l2 = relative_l2(reference(), shipped_.transfer, areas_);
         if (!std::isfinite(evaluation.relative_l2))
             throw Error(a_.baked.string() + ": all transfer is zero, but that of " + a_.shipped.string() +
                         " is not; no relative error exists");
         ClusterShares shares(model_.compressed ? model_.compressed->transfer.bases.clusters() : 0);
-        for (const SplitLight& light : lights) {
+        for (const LoadedLight& light : lights) {
             add_named(light, evaluation);
             if (shipped_.clusters)
                 shares.add(*shipped_.clusters, areas_, wanted_under(judged(light)),
@@ -237,14 +237,14 @@ public:
 
     /// Adds errors of instances that share transfer, each over its vertices, under the lighting of the
     /// verdict.
-    void add_instances(const std::vector<SplitLight>& lights, Report& report) const {
+    void add_instances(const std::vector<LoadedLight>& lights, Report& report) const {
         if (!model_.instanced)
             return;
         std::vector<std::vector<double>> errors;
-        for (const SplitLight& light : lights)
+        for (const LoadedLight& light : lights)
             errors.push_back(instance_errors(*model_.instanced, model_.scene, areas_,
                                              wanted_under(judged(light)), shipped_under(judged(light)),
-                                             wanted_under({light.whole})));
+                                             wanted_under({light.combined})));
         report.tables.push_back(instances_table(lights, errors));
     }
 
@@ -284,7 +284,7 @@ public:
 
     /// Adds pictures lit by the bake and by the shipped file, as `prt render` lights them, at one exposure
     /// and without textures, which would hide errors; then the error as in the figures, and clusters.
-    void add_pictures(const SplitLight& light, Report& report) const {
+    void add_pictures(const LoadedLight& light, Report& report) const {
         const TraceScene scene(model_.scene,
                                about(a_.shipped,
                                      [&] {
@@ -295,16 +295,15 @@ public:
         const Lighting lighting = judged(light);
         Lighting drawn = lighting;
         drawn.sky = deringed(drawn.sky);
-        const std::span<const SunDisc> suns =
-            separate_suns(light) ? light.split.suns : std::span<const SunDisc>();
+        const std::span<const Sun> suns = separate_suns(light) ? light.split.suns : std::span<const Sun>();
         const auto before = wanted_under(drawn);
         const float exposure =
             exposure_of(before, sun_radiance(scene, suns, {.rays = 16, .threads = a_.threads}));
         const auto add = [&](std::string title, std::span<const glm::vec3> colors, float exposed,
-                             std::span<const SunDisc> by = {}) {
+                             std::span<const Sun> by = {}) {
             report.pictures.push_back({std::move(title), picture(scene, colors, by, exposed)});
         };
-        add("Bake, under " + light.sky.name, before, exposure, suns);
+        add("Bake, under " + light.name, before, exposure, suns);
         add("Shipped file", shipped_under(drawn), exposure, suns);
         const auto wanted = wanted_under(lighting), lit = shipped_under(lighting);
         add(fmt::format("Contrast error (white: {:.0f} %)", 100 * kWhiteError),
@@ -324,13 +323,13 @@ private:
 
     const Transfer& reference() const { return baked_.baked->transfer; }
     /// Whether the renderer can shadow its suns.
-    bool separate_suns(const SplitLight& light) const {
+    bool separate_suns(const LoadedLight& light) const {
         return !light.split.suns.empty() && reference().layout.has(TermKind::direct) &&
                shipped_.transfer.layout.has(TermKind::direct);
     }
     /// Returns the lighting of the verdict.
-    Lighting judged(const SplitLight& light) const {
-        return separate_suns(light) ? lighting_of(light) : Lighting{light.whole};
+    Lighting judged(const LoadedLight& light) const {
+        return separate_suns(light) ? lighting_of(light) : Lighting{light.combined};
     }
     /// Turns lamps off, unless the lighting contains their strengths.
     Lighting with_lamps(Lighting lighting) const {
@@ -376,23 +375,23 @@ private:
 
     /// Adds errors under a named light. With separate suns, errors are relative to the radiance under the
     /// whole light, because suns are in the picture.
-    void add_named(const SplitLight& light, Evaluation& evaluation) const {
+    void add_named(const LoadedLight& light, Evaluation& evaluation) const {
         const bool separate = separate_suns(light);
-        const Lighting whole{light.whole};
-        evaluation.named.push_back({light.sky.name, error_under(whole), 0, !separate});
+        const Lighting whole{light.combined};
+        evaluation.named.push_back({light.name, error_under(whole), 0, !separate});
         if (separate) {
             std::vector<glm::vec3> shown = wanted_under(whole);
             LitScale scale = lit_scale(shown, areas_);
             scale.shown = std::move(shown);
-            evaluation.named.push_back({light.sky.name + ", separate suns",
+            evaluation.named.push_back({light.name + ", separate suns",
                                         error_under(lighting_of(light), scale), light.split.suns.size(),
                                         true});
         }
         if (const std::size_t lamps = reference().layout.lamps(); lamps > 0)
             evaluation.named.push_back(
-                {light.sky.name + " with lamps",
-                 error_under({.sky = light.whole, .lamps = std::vector<glm::vec3>(lamps, glm::vec3(1))}), 0,
-                 !separate});
+                {light.name + " with lamps",
+                 error_under({.sky = light.combined, .lamps = std::vector<glm::vec3>(lamps, glm::vec3(1))}),
+                 0, !separate});
     }
 
     /// Adds the worst of suns with one strength: errors are relative to the mean over all suns (docs/math.md,
@@ -432,7 +431,7 @@ private:
 
     /// A PNG.
     std::vector<std::byte> picture(const TraceScene& scene, std::span<const glm::vec3> colors,
-                                   std::span<const SunDisc> suns, float exposure) const {
+                                   std::span<const Sun> suns, float exposure) const {
         constexpr int kWidth = 720, kHeight = 450, kSamples = 2;
         Picture picture;
         picture.scene = &model_.scene;
@@ -456,7 +455,7 @@ private:
 };
 
 /// Returns the light with the largest error.
-const SplitLight& worst_of(const Evaluation& evaluation, const std::vector<SplitLight>& lights) {
+const LoadedLight& worst_of(const Evaluation& evaluation, const std::vector<LoadedLight>& lights) {
     std::size_t light = 0, worst = 0;
     double most = -1;
     for (const NamedError& e : evaluation.named) {
@@ -473,8 +472,8 @@ const SplitLight& worst_of(const Evaluation& evaluation, const std::vector<Split
 
 } // namespace
 
-void add_comparison(const ComparisonOptions& options, SceneFile& baked, const std::vector<SplitLight>& lights,
-                    Report& report) {
+void add_comparison(const ComparisonOptions& options, SceneFile& baked,
+                    const std::vector<LoadedLight>& lights, Report& report) {
     const Comparison comparison(options, baked);
     const Evaluation evaluation = comparison.measure(lights);
     report.verdict = in_one_line(comparison.verdict(evaluation));

@@ -2,9 +2,9 @@
 
 // Compares a compressed file, or another bake of the same scene, with its bake.
 
+#include "loaded_light.h"
 #include "reading_options.h"
 #include "report/report.h"
-#include "split_light.h"
 
 #include <vector>
 
@@ -22,7 +22,7 @@ struct ComparisonOptions {
 /// `lights`, with separate suns if the transfer allows it, and under the standard lights. Puts `baked`,
 /// loaded from `options.baked`, in the order of the shipped file. Throws `Error` if the files do not belong
 /// together.
-void add_comparison(const ComparisonOptions& options, SceneFile& baked, const std::vector<SplitLight>& lights,
-                    Report& report);
+void add_comparison(const ComparisonOptions& options, SceneFile& baked,
+                    const std::vector<LoadedLight>& lights, Report& report);
 
 } // namespace prt::cli

@@ -2,8 +2,8 @@
 
 #include "compress_metric.h"
 
+#include "loaded_light.h"
 #include "prt/support/counted.h"
-#include "split_light.h"
 
 #include <fmt/core.h>
 
@@ -117,27 +117,25 @@ void add_metric(CLI::App* command, MetricArguments& arguments) {
     add_light_options(command, arguments.light_options);
 }
 
-std::vector<NamedLighting> given_lights(const MetricArguments& arguments, const TransferLayout& layout,
-                                        int threads) {
-    std::vector<NamedLighting> lights;
+std::vector<Lighting> given_lights(const MetricArguments& arguments, const TransferLayout& layout,
+                                   int threads) {
+    std::vector<Lighting> lights;
     for (const Path& path : arguments.lights) {
         Lighting lighting =
             layout.distant_terms().size() < 2
-                ? Lighting{load_light(path, layout.order, arguments.light_options, threads).light}
+                ? Lighting{load_light(path, layout.order, {0}, arguments.light_options, threads).sky}
                 : lighting_of(
-                      load_split_light(path, layout.order, {std::nullopt}, arguments.light_options, threads));
-        lights.push_back({path.filename().string(), std::move(lighting)});
+                      load_light(path, layout.order, {std::nullopt}, arguments.light_options, threads));
+        lighting.name = path.filename().string();
+        lights.push_back(std::move(lighting));
     }
     return lights;
 }
 
-ErrorTerms error_terms(const MetricArguments& arguments, const std::vector<NamedLighting>& given,
+ErrorTerms error_terms(const MetricArguments& arguments, const std::vector<Lighting>& given,
                        const TransferView& transfer, std::span<const float> areas, int threads) {
     const TransferLayout& layout = transfer.layout();
-    std::vector<Lighting> lightings;
-    for (const NamedLighting& one : given)
-        lightings.push_back(one.lighting);
-    lightings = as_used(lightings, layout);
+    const std::vector<Lighting> lightings = as_used(given, layout);
     const auto family = family_of(arguments.metric);
     ErrorTerms terms{{}, skies_to_promise(lightings, family, layout), {}, {}};
     terms.covers = coverage(arguments, layout, terms.promised.size());

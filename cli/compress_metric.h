@@ -30,10 +30,10 @@ void promise(ErrorTerms& terms, Budget& budget);
 void add_metric(CLI::App* command, MetricArguments& arguments);
 
 /// Returns the `--lights`, with separate suns if the transfer has a separate direct term.
-std::vector<NamedLighting> given_lights(const MetricArguments& arguments, const TransferLayout& layout,
-                                        int threads);
+std::vector<Lighting> given_lights(const MetricArguments& arguments, const TransferLayout& layout,
+                                   int threads);
 
-ErrorTerms error_terms(const MetricArguments& arguments, const std::vector<NamedLighting>& given,
+ErrorTerms error_terms(const MetricArguments& arguments, const std::vector<Lighting>& given,
                        const TransferView& transfer, std::span<const float> areas, int threads);
 
 } // namespace prt::cli

@@ -11,24 +11,24 @@
 
 namespace prt::cli {
 
-std::vector<SplitLight> default_lights(int order) {
+std::vector<LoadedLight> default_lights(int order) {
     const auto sky = [](std::string name, Light light) {
-        return SplitLight{{std::move(name), light, {}}, {}, light};
+        return LoadedLight{.name = std::move(name), .sky = light, .combined = light};
     };
-    const SunDisc sun{glm::normalize(glm::vec3(0.5f, 1, 0.7f)), glm::vec3(1)};
-    SplitLight sunny = sky("sun", constant_light(order, glm::vec3(0)));
+    const Sun sun{glm::normalize(glm::vec3(0.5f, 1, 0.7f)), glm::vec3(1)};
+    LoadedLight sunny = sky("sun", constant_light(order, glm::vec3(0)));
     sunny.split.suns = {sun};
-    sunny.whole = as_light(sun, order);
+    sunny.combined = as_light(sun, order);
     return {sky("uniform", constant_light(order, glm::vec3(1))),
             sky("overcast sky", overcast_sky(order, glm::vec3(1))), std::move(sunny)};
 }
 
-std::vector<SplitLight> rotations(SplitLight light, int count) {
-    std::vector<SplitLight> result;
+std::vector<LoadedLight> rotations(LoadedLight light, int count) {
+    std::vector<LoadedLight> result;
     for (int r = 1; r < count; ++r) {
         const double degrees = 360.0 * r / count;
         result.push_back(rotated(light, glm::radians(degrees)));
-        result.back().sky.name = fmt::format("{} +{:g}°", light.sky.name, degrees);
+        result.back().name = fmt::format("{} +{:g}°", light.name, degrees);
     }
     result.insert(result.begin(), std::move(light));
     return result;

@@ -1,16 +1,16 @@
 #pragma once
 
-#include "split_light.h"
+#include "loaded_light.h"
 
 #include <vector>
 
 namespace prt::cli {
 
 /// Returns the lights of an evaluation without named lights: uniform, overcast, and a high sun in front.
-std::vector<SplitLight> default_lights(int order);
+std::vector<LoadedLight> default_lights(int order);
 
 /// Returns a light rotated about +Y by `count` equal angles; the names contain the angles.
-std::vector<SplitLight> rotations(SplitLight light, int count);
+std::vector<LoadedLight> rotations(LoadedLight light, int count);
 
 /// Suns evenly distributed over the sphere.
 struct DirectionalLights {

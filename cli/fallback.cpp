@@ -2,6 +2,7 @@
 
 #include "fallback.h"
 
+#include "loaded_light.h"
 #include "prt/encode_glb.h"
 #include "prt/fallback.h"
 #include "prt/levels.h"
@@ -16,8 +17,8 @@ std::optional<Fallback> load_fallback(const Path& light, int order, const LightO
                                       int threads) {
     if (light.empty())
         return std::nullopt;
-    LoadedLight loaded = load_light(light, order, options, threads);
-    return Fallback{{std::move(loaded.light)}, std::move(loaded.name)};
+    LoadedLight loaded = load_light(light, order, {0}, options, threads);
+    return Fallback{{.sky = std::move(loaded.sky), .name = std::move(loaded.name)}};
 }
 
 std::vector<std::byte> with_fallback(std::span<const std::byte> file, const Path& path, Fallback& fallback,
@@ -39,7 +40,7 @@ void report_fallback(const std::optional<Fallback>& fallback, Report& report) {
     if (!fallback)
         return;
     add_figures(report, {{"fallback",
-                          {{"light", fallback->name},
+                          {{"light", fallback->lighting.name},
                            {"exposure", fallback->exposure},
                            {"primitives", fallback->primitives}}}});
     report.sentences.emplace_back(

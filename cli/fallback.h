@@ -14,8 +14,7 @@ namespace prt::cli {
 
 /// The light of `prt compress --fallback`, which viewers without PRT show.
 struct Fallback {
-    Lighting lighting;
-    std::string name; ///< name of its file
+    Lighting lighting; ///< its name is that of its file
     // Found when it is written.
     float exposure = 1;
     std::size_t primitives = 0; ///< that show it

@@ -130,19 +130,4 @@ Environment load_environment_map(const Path& path, const EnvironmentOptions& opt
     return std::move(file.environment);
 }
 
-LoadedLight load_light(const Path& path, int order, const LightOptions& options, int threads) {
-    LoadedLight result;
-    result.name = path.filename().string();
-    if (suffix_of(path) == ".json") {
-        result.light = all_light(read_light_file(path, order));
-    } else {
-        result.environment = load_environment_map(path, options.environment);
-        result.light = about(path, [&] { return project(*result.environment, order, threads); });
-    }
-    result.light = windowed(result.light, options.window);
-    if (options.rotation_degrees != 0)
-        result.light = rotated_about_y(result.light, glm::radians(options.rotation_degrees));
-    return result;
-}
-
 } // namespace prt::cli

@@ -95,16 +95,7 @@ void put_in_order_of(const Scene& scene, SceneFile& baked);
 void check_belong_together(const SceneFile& baked, const Path& baked_path, const SceneFile& shipped,
                            const Path& shipped_path);
 
-struct LoadedLight {
-    std::string name;
-    Light light;
-    std::optional<Environment> environment; ///< set if the light comes from an image
-};
-
 /// Loads an environment map. Repaired and clipped values are reported on stderr.
 Environment load_environment_map(const Path& path, const EnvironmentOptions& options);
-
-/// Loads lighting from an environment map or a light file, windowed and rotated, with `order` bands.
-LoadedLight load_light(const Path& path, int order, const LightOptions& options, int threads);
 
 } // namespace prt::cli

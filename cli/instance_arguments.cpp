@@ -127,7 +127,7 @@ InstancedBake bake_shared(const InstanceArguments& arguments, const FlatScene& f
     InstanceBakeOptions with_lights = arguments.bake;
     for (const Path& path : arguments.lights)
         with_lights.lights.push_back(
-            lighting_of(load_split_light(path, options.order, arguments.suns, {}, options.threads)));
+            lighting_of(load_light(path, options.order, arguments.suns, {}, options.threads)));
     // errors of the remaining instances change slightly when others are baked separately
     constexpr double kFirstShare = 0.93;
     double begin = 0, limit = kFirstShare * arguments.error;

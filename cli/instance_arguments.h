@@ -2,8 +2,8 @@
 
 // Arguments of a bake for instanced meshes.
 
+#include "loaded_light.h"
 #include "prt/instance_bake.h"
-#include "split_light.h"
 
 #include <CLI/CLI.hpp>
 

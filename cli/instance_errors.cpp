@@ -30,7 +30,8 @@ std::vector<double> instance_errors(const InstancedModel& file, const Scene& sce
     return errors;
 }
 
-Table instances_table(const std::vector<SplitLight>& lights, const std::vector<std::vector<double>>& errors) {
+Table instances_table(const std::vector<LoadedLight>& lights,
+                      const std::vector<std::vector<double>>& errors) {
     Table table{
         "instances",
         "Errors of instances by light",
@@ -50,7 +51,7 @@ Table instances_table(const std::vector<SplitLight>& lights, const std::vector<s
         if (errors[l].empty())
             continue;
         const Json of = percentiles(errors[l]);
-        table.rows.push_back({lights[l].sky.name, errors[l].size(), of["median"], of["percentile_90"],
+        table.rows.push_back({lights[l].name, errors[l].size(), of["median"], of["percentile_90"],
                               of["percentile_99"], of["max"]});
     }
     return table;

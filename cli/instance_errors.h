@@ -1,8 +1,8 @@
 #pragma once
 
 #include "inputs.h"
+#include "loaded_light.h"
 #include "report/report.h"
-#include "split_light.h"
 
 #include <glm/vec3.hpp>
 
@@ -18,6 +18,6 @@ std::vector<double> instance_errors(const InstancedModel& file, const Scene& sce
                                     std::span<const glm::vec3> lit, std::span<const glm::vec3> scale);
 
 /// Returns a table of percentiles of these errors [lights][instances].
-Table instances_table(const std::vector<SplitLight>& lights, const std::vector<std::vector<double>>& errors);
+Table instances_table(const std::vector<LoadedLight>& lights, const std::vector<std::vector<double>>& errors);
 
 } // namespace prt::cli

@@ -52,11 +52,11 @@ std::vector<float> radiance_of(const Transfer& transfer, const Light& light, int
 /// Both by level, under each light.
 class LevelMeter {
 public:
-    LevelMeter(Transfer baked, Transfer shipped, const std::vector<SplitLight>& lights, int threads)
+    LevelMeter(Transfer baked, Transfer shipped, const std::vector<LoadedLight>& lights, int threads)
         : baked_(as_combined(baked, threads)), shipped_(as_combined(shipped, threads)), threads_(threads) {
-        for (const SplitLight& light : lights) {
-            lit_baked_.push_back(radiance_of(baked_, light.whole, threads));
-            lit_shipped_.push_back(radiance_of(shipped_, light.whole, threads));
+        for (const LoadedLight& light : lights) {
+            lit_baked_.push_back(radiance_of(baked_, light.combined, threads));
+            lit_shipped_.push_back(radiance_of(shipped_, light.combined, threads));
         }
     }
 
@@ -86,7 +86,7 @@ private:
     std::vector<std::vector<float>> lit_baked_, lit_shipped_;
 };
 
-Table levels_table(const std::map<int, LevelErrors>& errors, const std::vector<SplitLight>& lights) {
+Table levels_table(const std::map<int, LevelErrors>& errors, const std::vector<LoadedLight>& lights) {
     Table table{
         "levels",
         "Coarser levels of detail against level 0",
@@ -110,14 +110,14 @@ Table levels_table(const std::map<int, LevelErrors>& errors, const std::vector<S
         table.rows.push_back(
             {level, e.nodes, e.triangles, e.vertices, e.baked.relative_l2(), e.shipped.relative_l2(),
              any ? Json(worst->relative_l2()) : Json(),
-             any ? Json(lights[static_cast<std::size_t>(worst - e.lit.begin())].sky.name) : Json()});
+             any ? Json(lights[static_cast<std::size_t>(worst - e.lit.begin())].name) : Json()});
     }
     return table;
 }
 
 } // namespace
 
-void add_level_errors(const LevelFiles& files, const std::vector<SplitLight>& lights, Report& report) {
+void add_level_errors(const LevelFiles& files, const std::vector<LoadedLight>& lights, Report& report) {
     std::optional<LeveledModel> baked = about(files.baked_path, [&] { return leveled_model(files.baked); });
     if (!baked)
         return;

@@ -3,9 +3,9 @@
 // Measures errors of the coarser levels of a shipped file against level 0 of its bake.
 
 #include "inputs.h"
+#include "loaded_light.h"
 #include "reading_options.h"
 #include "report/report.h"
-#include "split_light.h"
 
 #include <vector>
 
@@ -19,6 +19,6 @@ struct LevelFiles {
 };
 
 /// Adds a table of levels, where both files have transfer of some.
-void add_level_errors(const LevelFiles& files, const std::vector<SplitLight>& lights, Report& report);
+void add_level_errors(const LevelFiles& files, const std::vector<LoadedLight>& lights, Report& report);
 
 } // namespace prt::cli

@@ -6,6 +6,7 @@
 #include "prt/error_measures.h"
 #include "prt/sh.h"
 #include "prt/standard_skies.h"
+#include "sky_errors.h"
 
 #include <fmt/core.h>
 
@@ -21,20 +22,13 @@ enum class Method { shipped, best, rest, unshadowed };
 constexpr std::size_t kMethods = 4;
 using ByMethod = std::array<double, kMethods>;
 
-struct SkyLight {
-    std::string name;
-    bool separate_suns;
-    Light light;
-};
-
 /// All light in the sky, and where there is a sun, the sky without it: renderers shadow suns by themselves.
-std::vector<SkyLight> sky_lights(int order) {
-    std::vector<SkyLight> lights;
-    for (const NamedLighting& sky : standard_skies(order)) {
-        const Lighting& lighting = sky.lighting;
-        lights.push_back({sky.name, false, lighting.suns ? sum(lighting.sky, *lighting.suns) : lighting.sky});
-        if (lighting.suns)
-            lights.push_back({sky.name, true, lighting.sky});
+std::vector<LightingUse> sky_lights(int order) {
+    std::vector<LightingUse> lights;
+    for (const Lighting& sky : standard_skies(order)) {
+        lights.push_back({{.sky = sky.suns ? sum(sky.sky, *sky.suns) : sky.sky, .name = sky.name}});
+        if (sky.suns)
+            lights.push_back({{.sky = sky.sky, .name = sky.name}, true});
     }
     return lights;
 }
@@ -118,7 +112,7 @@ Table table_by_frame() {
 } // namespace
 
 void add_lobe_errors(const LobeErrorRequest& request, const Progress& progress, Report& report) {
-    const std::vector<SkyLight> lights = sky_lights(request.mean.order);
+    const std::vector<LightingUse> lights = sky_lights(request.mean.order);
     const auto frames = static_cast<double>(request.frames.size()),
                skies = static_cast<double>(lights.size());
     std::vector<ByMethod> by_sky(lights.size(), ByMethod{});
@@ -134,9 +128,9 @@ void add_lobe_errors(const LobeErrorRequest& request, const Progress& progress, 
         for (std::size_t m = 0; m < kMethods; ++m) {
             const Transfer transfer = frame.transfer(static_cast<Method>(m));
             for (std::size_t i = 0; i < lights.size(); ++i) {
-                const double error =
-                    lit_rms(exit_radiance(truth.transfer, lights[i].light, request.options.threads),
-                            exit_radiance(transfer, lights[i].light, request.options.threads), truth.areas);
+                const double error = lit_rms(
+                    exit_radiance(truth.transfer, lights[i].lighting, request.options.threads),
+                    exit_radiance(transfer, lights[i].lighting, request.options.threads), truth.areas);
                 by_sky[i][m] += error * error;
                 of_frame[m] += error * error;
                 all[m] += error * error / (frames * skies);
@@ -145,7 +139,7 @@ void add_lobe_errors(const LobeErrorRequest& request, const Progress& progress, 
         add_row({pose.animation, pose.seconds}, of_frame, skies, frame_table);
     }
     for (std::size_t i = 0; i < lights.size(); ++i)
-        add_row({lights[i].name, lights[i].separate_suns}, by_sky[i], frames, sky_table);
+        add_row({lights[i].lighting.name, lights[i].separate_suns}, by_sky[i], frames, sky_table);
     const std::vector<Column> columns = method_columns();
     for (std::size_t m = 0; m < columns.size(); ++m)
         add_figures(report, {{columns[m].key, std::sqrt(all[m])}});

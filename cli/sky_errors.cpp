@@ -10,13 +10,14 @@ namespace prt::cli {
 std::vector<LightingUse> uses_of(const Lighting& lighting, const TransferLayout& layout) {
     if (!lighting.suns)
         return {{lighting}};
-    std::vector<LightingUse> uses = {{{sum(lighting.sky, *lighting.suns), {}, lighting.lamps}}};
+    std::vector<LightingUse> uses = {
+        {{sum(lighting.sky, *lighting.suns), {}, lighting.lamps, lighting.name}}};
     if (layout.distant_terms().size() > 1)
         uses.push_back({lighting, true});
     return uses;
 }
 
-void add_sky_errors(const ErrorMoments& moments, const std::vector<NamedLighting>& skies, Report& report) {
+void add_sky_errors(const ErrorMoments& moments, const std::vector<Lighting>& skies, Report& report) {
     if (moments.layout.distant_terms().empty())
         return;
     Table table{"skies",
@@ -29,9 +30,9 @@ void add_sky_errors(const ErrorMoments& moments, const std::vector<NamedLighting
                  {"worst_rotation_degrees", "angle of the worst, degrees"}},
                 {}};
     const std::vector<glm::vec3> dark(moments.layout.lamps(), glm::vec3(0));
-    for (const NamedLighting& sky : skies) {
+    for (const Lighting& sky : skies) {
         std::string sentence = fmt::format("under {{skies/{}/name}}: ", table.rows.size());
-        for (LightingUse& use : uses_of(sky.lighting, moments.layout)) {
+        for (LightingUse& use : uses_of(sky, moments.layout)) {
             use.lighting.lamps = dark;
             const LitRmsOverRotations error = lit_rms_over_rotations(moments, use.lighting);
             sentence += fmt::format("{1}mean error {{skies/{0}/lit_rms_mean:.3f%}}, at the worst rotation "

@@ -11,14 +11,6 @@
 namespace prt::cli {
 namespace {
 
-DistantLight distant_light(const TracedLights& lights) {
-    if (lights.environment.empty())
-        return DistantLight({});
-    std::vector<BudgetLight> read = budget_lights(
-        {.files = {lights.environment}, .suns = {0}, .reading = lights.reading, .threads = lights.threads});
-    return std::move(read.front().measured.all);
-}
-
 PathTraceOptions options_of(const Picture& picture) {
     PathTraceOptions options;
     options.camera = picture.camera;
@@ -29,27 +21,30 @@ PathTraceOptions options_of(const Picture& picture) {
     return options;
 }
 
-PathTracedPicture trace(const TraceScene& scene, const TracedLights& lights, const PathTraceOptions& options,
-                        int paths, const Progress& progress) {
-    const DistantLight distant = distant_light(lights);
-    const SceneLamps lamps(scene, lights.lamps, lights.strengths);
-    return path_traced(scene, distant, options, paths, &lamps, progress);
-}
-
 } // namespace
 
-PathTracedPicture traced_picture(const Picture& picture, const TraceScene& scene, const TracedLights& lights,
-                                 int paths, const Progress& progress) {
-    return trace(scene, lights, options_of(picture), paths, progress);
+DistantLight distant_light(const Path& environment, LightOptions reading, int threads) {
+    if (environment.empty())
+        return DistantLight({});
+    reading.window = Window::none;
+    std::vector<ReferenceLight> read = budget_lights(
+        {.files = {environment}, .suns = {0}, .reading = std::move(reading), .threads = threads});
+    return std::move(read.front().all);
 }
 
-float traced_luminance(const Picture& picture, const TraceScene& scene, const TracedLights& lights) {
+PathTracedPicture traced_picture(const Picture& picture, const TraceScene& scene, const DistantLight& sky,
+                                 const SceneLamps& lamps, int paths, const Progress& progress) {
+    return path_traced(scene, sky, options_of(picture), paths, &lamps, progress);
+}
+
+float traced_luminance(const Picture& picture, const TraceScene& scene, const DistantLight& sky,
+                       const SceneLamps& lamps) {
     constexpr int kMaxAcross = 48, kPaths = 16;
     PathTraceOptions options = options_of(picture);
     options.width = std::min(options.width, kMaxAcross);
     options.height = std::min(options.height, kMaxAcross);
     options.shining = false;
-    const PathTracedPicture small = trace(scene, lights, options, kPaths, {});
+    const PathTracedPicture small = path_traced(scene, sky, options, kPaths, &lamps);
     const Image mean = mean_of(small.halves);
     double sum = 0;
     std::size_t count = 0;

@@ -209,35 +209,22 @@ Table leak_table(const BakedVolume& volume, const VolumeLookup& lookup, const Fr
     return table;
 }
 
-/// A light that the volume is measured under.
-struct VolumeLight {
-    std::string name;
-    const ReferenceLight& measured;
-    Lighting lighting;
-    const SceneLamps* lamps = nullptr;
-};
-
-/// No light at all.
-BudgetLight dark() {
+/// Returns a black sky, for the light of lamps.
+ReferenceLight dark() {
     const Light black = constant_light(kMaxOrder, glm::vec3(0));
-    return {"lamps", {DistantLight({}), {}, {}, black, black}};
+    return {DistantLight({}), {}, {}, black, black, "lamps"};
 }
 
-/// Returns the skies with all lamps off, and `lamps` in the dark if any shines.
-std::vector<VolumeLight> volume_lights(std::span<const BudgetLight> skies, const BudgetLight& night,
-                                       const TransferLayout& layout, const SceneLamps& lamps) {
-    std::vector<VolumeLight> lights;
-    for (const BudgetLight& sky : skies) {
-        lights.push_back({sky.name, sky.measured, sky.lighting(layout.order)});
-        lights.back().lighting.lamps.assign(layout.lamps(), glm::vec3(0));
-    }
-    if (lamps.has_lights() || lamps.has_surfaces())
-        lights.push_back({night.name, night.measured, night.lighting(layout.order), &lamps});
-    return lights;
+/// Returns the lighting of the volume under `light`, with all lamps on or off.
+Lighting lighting_of(const ReferenceLight& light, const TransferLayout& layout, bool lamps) {
+    Lighting lighting = light.lighting(layout.order);
+    if (!lamps)
+        lighting.lamps.assign(layout.lamps(), glm::vec3(0));
+    return lighting;
 }
 
 /// Adds rows for the same light from probe data of other engines; they contain irradiance only.
-void add_sky_occlusion(const VolumeLight& light, const SkyOcclusion& occlusion, const VolumeLookup& lookup,
+void add_sky_occlusion(const Lighting& lighting, const SkyOcclusion& occlusion, const VolumeLookup& lookup,
                        const FreePositions& points, const std::array<std::vector<glm::vec3>, 2>& truth,
                        Table& table) {
     using Kind = SkyOcclusionKind;
@@ -246,11 +233,11 @@ void add_sky_occlusion(const VolumeLight& light, const SkyOcclusion& occlusion, 
           std::pair(Kind::linear, "sky occlusion, 4 coefficients"),
           std::pair(Kind::directed, "sky occlusion, 4 coefficients and a direction")}) {
         const ErrorSum sum = irradiance_error(points, truth, [&](std::size_t p, const glm::vec3& normal) {
-            return occlusion.irradiance(lookup.find(points.positions[p]), normal, light.lighting.sky,
+            return occlusion.irradiance(lookup.find(points.positions[p]), normal, lighting.sky,
                                         row_kind.first);
         });
         std::vector<Json> row(table.columns.size());
-        row.front() = light.name;
+        row.front() = lighting.name;
         row[1] = row_kind.second;
         row.back() = sum.relative();
         table.rows.push_back(std::move(row));
@@ -291,10 +278,11 @@ void add_volume_errors(BudgetRequest request, SceneFile& baked, Report& report, 
     const FreePositions points = free_positions_in(traced, volume.grid, kPositions, 1);
     const VolumeLookup lookup(volume.grid, volume.visibility);
     const TransferLayout layout = volume.baked.transfer.layout.of_one_output();
-    const std::vector<BudgetLight> skies = budget_lights(options);
-    const BudgetLight night = dark();
+    std::vector<ReferenceLight> lights = budget_lights(options);
+    const std::size_t skies = lights.size();
     const SceneLamps lamps(traced, layout.lamp_terms(), std::vector<glm::vec3>(layout.lamps(), glm::vec3(1)));
-    const std::vector<VolumeLight> lights = volume_lights(skies, night, layout, lamps);
+    if (lamps.has_lights() || lamps.has_surfaces())
+        lights.push_back(dark());
     const SkyOcclusion occlusion(volume, options.threads);
     Table table = empty_table();
     std::vector<VolumeErrors> of_baked, of_small;
@@ -302,15 +290,17 @@ void add_volume_errors(BudgetRequest request, SceneFile& baked, Report& report, 
         return static_cast<double>(i) / static_cast<double>(lights.size());
     };
     for (std::size_t i = 0; i < lights.size(); ++i) {
-        const auto truth = incident_reference(traced, points.positions, volume.order, lights[i].measured,
-                                              {.lamps = lights[i].lamps, .threads = options.threads},
-                                              progress.range(share(i), share(i + 1)));
-        const Lighting& lighting = lights[i].lighting;
+        const bool by_lamps = i == skies; // after the skies
+        const auto truth =
+            incident_reference(traced, points.positions, volume.order, lights[i],
+                               {.lamps = by_lamps ? &lamps : nullptr, .threads = options.threads},
+                               progress.range(share(i), share(i + 1)));
+        const Lighting lighting = lighting_of(lights[i], layout, by_lamps);
         of_baked.push_back(errors_of(lookup, exit_radiance(volume.baked.transfer, lighting, options.threads),
                                      points, truth));
         table.rows.push_back(row_of(lights[i].name, "baked", of_baked.back()));
-        if (!lights[i].lamps && layout.order >= 3)
-            add_sky_occlusion(lights[i], occlusion, lookup, points, truth, table);
+        if (!by_lamps && layout.order >= 3)
+            add_sky_occlusion(lighting, occlusion, lookup, points, truth, table);
         if (!small)
             continue;
         of_small.push_back(

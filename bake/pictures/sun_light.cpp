@@ -13,13 +13,13 @@ namespace prt {
 
 SunLight::SunLight(const Picture& picture, const TraceScene& scene, int points)
     : picture_(picture), scene_(scene) {
-    for (const SunDisc& sun : picture.suns)
+    for (const Sun& sun : picture.suns)
         suns_.push_back({DiscDirections(sun.towards, sun.half_angle, points), sun.irradiance});
 }
 
 glm::vec3 SunLight::irradiance(const LitSide& side, const DiscSample& sample) const {
     glm::vec3 sum(0);
-    for (const Sun& sun : suns_) {
+    for (const SampledSun& sun : suns_) {
         const int count = sun.directions.count(), stride = count > 1 ? sample.stride : 1;
         double arriving = 0;
         int taken = 0;

@@ -35,7 +35,7 @@ public:
     glm::vec3 radiance(const SeenSurface& surface, const ViewRay& ray, const DiscSample& sample) const;
 
 private:
-    struct Sun {
+    struct SampledSun {
         DiscDirections directions;
         glm::vec3 irradiance;
     };
@@ -45,7 +45,7 @@ private:
 
     const Picture& picture_;
     const TraceScene& scene_;
-    std::vector<Sun> suns_;
+    std::vector<SampledSun> suns_;
 };
 
 } // namespace prt

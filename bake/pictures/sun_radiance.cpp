@@ -11,7 +11,7 @@
 #include <numbers>
 
 namespace prt {
-std::vector<glm::vec3> sun_radiance(const TraceScene& scene, std::span<const SunDisc> suns,
+std::vector<glm::vec3> sun_radiance(const TraceScene& scene, std::span<const Sun> suns,
                                     const SunRays& options, const Progress& progress) {
     Receivers fronts = vertex_receivers(scene.scene());
     if (suns.empty())
@@ -22,7 +22,7 @@ std::vector<glm::vec3> sun_radiance(const TraceScene& scene, std::span<const Sun
     // Radiance corresponds to transfer for a light with one coefficient.
     Transfer lit = zero_transfer(layout_of_one(1, 3, TermKind::direct), all.receivers.size());
     std::vector<DiscDirections> directions;
-    for (const SunDisc& sun : suns)
+    for (const Sun& sun : suns)
         directions.emplace_back(sun.towards, sun.half_angle, options.rays);
     for_each_receiver(receivers_on_surfaces(all.receivers), options.threads, progress, [&](std::uint32_t p) {
         const glm::vec3 origin = scene.rays().ray_origin(all.receivers, p);

@@ -81,10 +81,10 @@ void scale(BandRadiance& radiance, float factor) {
 }
 
 /// Direct light of suns at a point.
-glm::vec3 sun_light(const TraceScene& scene, const SurfaceHit& hit, std::span<const SunDisc> suns) {
+glm::vec3 sun_light(const TraceScene& scene, const SurfaceHit& hit, std::span<const Sun> suns) {
     constexpr int kSunRays = 64;
     glm::vec3 sum(0);
-    for (const SunDisc& sun : suns) {
+    for (const Sun& sun : suns) {
         const DiscDirections disc(sun.towards, sun.half_angle, kSunRays);
         const double share = share_of_disc(scene, hit.side.origin(), hit.side.normal, disc, 0,
                                            [](int) { return std::numeric_limits<float>::infinity(); });
@@ -120,6 +120,17 @@ double noise_of(const SurfacePoints& points, const std::array<std::vector<PointS
 }
 
 } // namespace
+
+BandFactors ReferenceLight::factors(int order) const {
+    return dering_factors(truncated(sky_bands, order));
+}
+
+Lighting ReferenceLight::lighting(int order, const BandFactors& factors) const {
+    Lighting lighting{.sky = with_band_factors(truncated(sky_bands, order), factors), .name = name};
+    if (!suns.empty())
+        lighting.suns = truncated(sun_bands, order);
+    return lighting;
+}
 
 SurfaceRadiance::SurfaceRadiance(const TraceScene& scene, const SurfacePoints& points,
                                  const ReferenceLight& light, const SurfaceRadianceOptions& options,

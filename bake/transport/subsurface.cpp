@@ -91,7 +91,7 @@ double reduced_albedo(double reflectance, double ior) {
 std::optional<Medium> medium_of(const Material& material) {
     if (!has_medium(material))
         return std::nullopt;
-    const Volume& volume = material.volume;
+    const MaterialVolume& volume = material.volume;
     Medium medium;
     medium.ior = 1.5; // glTF's default
     for (int c = 0; c < 3; ++c) {

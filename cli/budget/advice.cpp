@@ -70,7 +70,7 @@ private:
         const QuarterCorners quarters = quarter_corners(s_.reference.scene(), some);
         double split = 0;
         for (std::size_t i = 0; i < s_.reference.lights().size(); ++i) {
-            const ReferenceLight& light = s_.reference.lights()[i].measured;
+            const ReferenceLight& light = s_.reference.lights()[i];
             const auto radiance = [&](const SurfacePoints& points, std::uint64_t seed) {
                 return SurfaceRadiance(s_.reference.scene(), points, light,
                                        {.seed = seed, .threads = s_.effort.threads}, {{}, progress_.stop});
@@ -95,7 +95,7 @@ private:
                             {{}, progress_.stop});
         }
         double sum = 0;
-        for (const BudgetLight& light : s_.reference.lights()) {
+        for (const ReferenceLight& light : s_.reference.lights()) {
             const Light sky = light.lighting(order()).sky;
             for (const std::uint32_t p : some) {
                 const glm::vec3 d = exit_radiance(direct[0].vector(p), direct[0].layout, sky.coefficients) -

@@ -42,14 +42,14 @@ std::vector<glm::vec3> radiance_at(const BudgetReference& reference, const Trans
 
 } // namespace
 
-BudgetReference::BudgetReference(const Scene& scene, const std::vector<BudgetLight>& lights,
+BudgetReference::BudgetReference(const Scene& scene, const std::vector<ReferenceLight>& lights,
                                  const BudgetEffort& effort, const Progress& progress)
     : lights_(lights), scene_(scene, load_textures(scene, effort.bad_textures), {.threads = effort.threads}),
       points_(points_of(scene_, effort, progress)) {
     for (std::size_t i = 0; i < lights.size(); ++i) {
         const auto count = static_cast<double>(lights.size());
         radiance_.emplace_back(
-            scene_, points_, lights[i].measured,
+            scene_, points_, lights[i],
             SurfaceRadianceOptions{.noise = effort.noise,
                                    .seconds = effort.seconds,
                                    .seed = effort.seed,

@@ -25,10 +25,10 @@ struct BudgetEffort {
 class BudgetReference {
 public:
     /// Keeps references to `scene` and `lights`. Throws `Error` where no surface can be seen.
-    BudgetReference(const Scene& scene, const std::vector<BudgetLight>& lights, const BudgetEffort& effort,
+    BudgetReference(const Scene& scene, const std::vector<ReferenceLight>& lights, const BudgetEffort& effort,
                     const Progress& progress);
 
-    const std::vector<BudgetLight>& lights() const { return lights_; }
+    const std::vector<ReferenceLight>& lights() const { return lights_; }
     const SurfacePoints& points() const { return points_; }
     const TraceScene& scene() const { return scene_; }
     const SurfaceRadiance& of(std::size_t light) const { return radiance_[light]; }
@@ -43,7 +43,7 @@ public:
     double bounces_error(int bounces) const;
 
 private:
-    const std::vector<BudgetLight>& lights_;
+    const std::vector<ReferenceLight>& lights_;
     TraceScene scene_;
     SurfacePoints points_;
     std::vector<SurfaceRadiance> radiance_; ///< [lights]

@@ -30,10 +30,10 @@ Image drawn(const Light& light) {
 }
 
 /// Returns suns for path tracing: a wide sun becomes several ones, evenly distributed over its disc.
-std::vector<Sun> as_seen_by_rays(std::span<const SunDisc> discs) {
+std::vector<Sun> as_seen_by_rays(std::span<const Sun> discs) {
     constexpr int kParts = 16;
     std::vector<Sun> suns;
-    for (const SunDisc& disc : discs) {
+    for (const Sun& disc : discs) {
         const int terms = disc.half_angle > 0 ? kParts : 1;
         for (int i = 0; i < terms; ++i) { // on a spiral (docs/math.md, eq. 41)
             const double radius = disc.half_angle * std::sqrt((i + 0.5) / terms),
@@ -59,8 +59,8 @@ Image rotated(Image image, int texels) {
 }
 
 /// Returns the light of an environment map with the suns in `split`.
-ReferenceLight of_image(const SplitLight& light, const BudgetLightOptions& options) {
-    const Image whole = resampled_lat_long(*light.sky.environment);
+ReferenceLight of_image(const LoadedLight& light, const BudgetLightOptions& options) {
+    const Image whole = resampled_lat_long(*light.environment);
     const double degrees = std::remainder(options.reading.rotation_degrees, 360.0);
     const int texels =
         (static_cast<int>(std::lround(degrees / 360 * whole.width)) + whole.width) % whole.width;
@@ -72,30 +72,29 @@ ReferenceLight of_image(const SplitLight& light, const BudgetLightOptions& optio
                             .sky = {},
                             .suns = {},
                             .sky_bands = {},
-                            .sun_bands = constant_light(kMaxOrder, glm::vec3(0))};
+                            .sun_bands = constant_light(kMaxOrder, glm::vec3(0)),
+                            .name = light.name};
     if (light.split.suns.empty()) {
-        measured.sky_bands = bands(*light.sky.environment);
+        measured.sky_bands = bands(*light.environment);
         return measured;
     }
     measured.sky.emplace(rotated(resampled_lat_long(light.split.remainder), texels));
     measured.sky_bands = bands(light.split.remainder);
-    SplitLight suns_alone;
-    suns_alone.split.suns = light.split.suns;
-    suns_alone.sky.light = suns_alone.whole = constant_light(kMaxOrder, glm::vec3(0));
-    measured.suns = cli::rotated(suns_alone, angle).split.suns;
+    measured.suns = cli::rotated(light.split.suns, angle);
     measured.sun_bands = as_light(measured.suns, kMaxOrder);
     return measured;
 }
 
 /// From coefficients of kMaxOrder and suns.
-ReferenceLight of_coefficients(const SplitLight& light, bool separate) {
+ReferenceLight of_coefficients(const LoadedLight& light, bool separate) {
     const std::vector<Sun> suns = as_seen_by_rays(light.split.suns);
-    const Image sky = drawn(light.sky.light);
+    const Image sky = drawn(light.sky);
     ReferenceLight measured{.all = DistantLight(sky, suns),
                             .sky = {},
                             .suns = {},
-                            .sky_bands = separate ? light.sky.light : light.whole,
-                            .sun_bands = constant_light(kMaxOrder, glm::vec3(0))};
+                            .sky_bands = separate ? light.sky : light.combined,
+                            .sun_bands = constant_light(kMaxOrder, glm::vec3(0)),
+                            .name = light.name};
     if (separate && !suns.empty()) {
         measured.sky.emplace(sky);
         measured.suns = light.split.suns;
@@ -105,47 +104,33 @@ ReferenceLight of_coefficients(const SplitLight& light, bool separate) {
 }
 
 /// A light file with zeros for the bands that it does not have: there is no more light in it.
-SplitLight all_bands(const Path& path, const BudgetLightOptions& options) {
+LoadedLight all_bands(const Path& path, const BudgetLightOptions& options) {
     const int order = std::min(read_light_file(path).sky.order, kMaxOrder);
-    SplitLight light = load_split_light(path, order, {std::nullopt}, options.reading, options.threads);
-    for (Light* bands : {&light.sky.light, &light.whole}) {
+    LoadedLight light = load_light(path, order, {std::nullopt}, options.reading, options.threads);
+    for (Light* bands : {&light.sky, &light.combined}) {
         bands->order = kMaxOrder;
         bands->coefficients.resize(static_cast<std::size_t>(coefficient_count(kMaxOrder)), glm::vec3(0));
     }
-    light.whole = sum(light.sky.light, as_light(light.split.suns, kMaxOrder));
+    light.combined = sum(light.sky, as_light(light.split.suns, kMaxOrder));
     return light;
 }
 
 } // namespace
 
-BandFactors BudgetLight::factors(int order) const {
-    return dering_factors(truncated(measured.sky_bands, order));
-}
-
-Lighting BudgetLight::lighting(int order) const {
-    Lighting lighting{with_band_factors(truncated(measured.sky_bands, order), factors(order))};
-    if (!measured.suns.empty())
-        lighting.suns = truncated(measured.sun_bands, order);
-    return lighting;
-}
-
-std::vector<BudgetLight> budget_lights(const BudgetLightOptions& options) {
-    std::vector<BudgetLight> lights;
+std::vector<ReferenceLight> budget_lights(const BudgetLightOptions& options) {
+    std::vector<ReferenceLight> lights;
     const SunCount suns = options.separate ? options.suns : SunCount{0};
     for (const Path& path : options.files) {
         LightOptions unturned = options.reading;
         unturned.rotation_degrees = 0;
-        const SplitLight light = load_split_light(path, options.order, suns, unturned, options.threads);
-        if (light.sky.environment) {
-            lights.push_back({light.sky.name, of_image(light, options)});
-            continue;
-        }
-        lights.push_back(
-            {light.sky.name, of_coefficients(all_bands(path, options), options.separate && suns.count != 0)});
+        const LoadedLight light = load_light(path, options.order, suns, unturned, options.threads);
+        lights.push_back(light.environment ? of_image(light, options)
+                                           : of_coefficients(all_bands(path, options),
+                                                             options.separate && suns.count != 0));
     }
     if (lights.empty())
-        for (const SplitLight& light : default_lights(kMaxOrder))
-            lights.push_back({light.sky.name, of_coefficients(light, options.separate)});
+        for (const LoadedLight& light : default_lights(kMaxOrder))
+            lights.push_back(of_coefficients(light, options.separate));
     return lights;
 }
 

@@ -34,7 +34,7 @@ std::vector<Json> row_of(const std::string& name, const ErrorBudget& budget) {
     return row;
 }
 
-Bars bars_of(const std::vector<BudgetLight>& lights, const std::vector<ErrorBudget>& budgets) {
+Bars bars_of(const std::vector<ReferenceLight>& lights, const std::vector<ErrorBudget>& budgets) {
     Bars bars{"squared error over the surface by cause; the length of a bar is the total error", {}, {}};
     for (const ErrorCause cause : kCauses)
         bars.series.emplace_back(to_string(cause));
@@ -53,7 +53,7 @@ Bars bars_of(const std::vector<BudgetLight>& lights, const std::vector<ErrorBudg
 namespace {
 
 /// A row for each light and one for their mean; `about` is left empty.
-Table table_of(const std::vector<BudgetLight>& lights, const std::vector<ErrorBudget>& budgets,
+Table table_of(const std::vector<ReferenceLight>& lights, const std::vector<ErrorBudget>& budgets,
                const char* name, const char* title) {
     Table table{name, title, "", {}, {}};
     table.columns = {{"light", "light"}, {"total", "total", Unit::percent, 2}};
@@ -86,7 +86,7 @@ std::string causes_in_words(const ErrorBudget& mean) {
 
 } // namespace
 
-std::vector<Table> budget_tables(const std::vector<BudgetLight>& lights, const Budgets& budgets) {
+std::vector<Table> budget_tables(const std::vector<ReferenceLight>& lights, const Budgets& budgets) {
     Table relative = table_of(lights, budgets.relative, "budget", "Error over the surface by cause");
     relative.about =
         "Relative L2 of exit radiance for albedo 1, at points over the whole surface, against path tracing "

@@ -9,7 +9,7 @@
 namespace prt::cli {
 
 /// A table of all lights with their mean for each measure, and a bar for each light.
-std::vector<Table> budget_tables(const std::vector<BudgetLight>& lights, const Budgets& budgets);
+std::vector<Table> budget_tables(const std::vector<ReferenceLight>& lights, const Budgets& budgets);
 
 /// "3.10 % from path tracing under these 2 lights: light 2.90, vertices 1.00, ... %; contrast error 4.20 %:
 /// light 3.10, ... %"

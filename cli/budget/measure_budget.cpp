@@ -42,7 +42,7 @@ void measure(const BudgetRequest& request, const SceneFile& baked, const SceneFi
     const BakeRecord& record = *baked.record();
     ProgressBar bar = session.progress_bar("measuring the error budget");
     const Progress progress = bar.progress();
-    const std::vector<BudgetLight> lights = budget_lights(request.lights);
+    const std::vector<ReferenceLight> lights = budget_lights(request.lights);
     const Transfer repeated = repeat(baked, threads, progress.range(0, 0.4));
     const BudgetEffort effort{.bad_textures = request.reading.bad_textures, .threads = threads};
     const BudgetReference reference(baked.scene, lights, effort, progress.range(0.4, 0.8));

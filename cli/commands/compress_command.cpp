@@ -672,7 +672,7 @@ void check_components(const CompressArguments& a, const TransferView& transfer) 
 }
 
 /// Adds errors under the metric, under `skies`, and under the standard skies.
-void add_errors(const ErrorMoments& moments, const LightMetric& metric, std::vector<NamedLighting> skies,
+void add_errors(const ErrorMoments& moments, const LightMetric& metric, std::vector<Lighting> skies,
                 Report& report) {
     add_figures(report, {{"lit_rms", expected_lit_rms(moments, metric)}});
     std::ranges::move(standard_skies(metric.layout.order), std::back_inserter(skies));
@@ -696,7 +696,7 @@ void run(CompressArguments a, Session& session) {
                     ": --fallback does not support shared instances: it writes vertex colors; bake with "
                     "--instances own");
     std::optional<SceneSurface> surface = surface_of(bake, options);
-    std::vector<NamedLighting> skies = given_lights(a.metric, transfer.layout(), threads);
+    std::vector<Lighting> skies = given_lights(a.metric, transfer.layout(), threads);
     ErrorTerms terms = error_terms(a.metric, skies, transfer, surface->areas, threads);
     options.compress.metric = std::move(terms.metric);
     promise(terms, options.budget);

@@ -35,11 +35,11 @@ struct EvaluateArguments {
     int threads = 0;
 };
 
-Sweep run_sweep(const EvaluateArguments& a, const SceneFile& baked, const std::vector<SplitLight>& lights,
+Sweep run_sweep(const EvaluateArguments& a, const SceneFile& baked, const std::vector<LoadedLight>& lights,
                 Session& session) {
     std::vector<Light> all;
-    for (const SplitLight& light : lights)
-        all.push_back(light.whole);
+    for (const LoadedLight& light : lights)
+        all.push_back(light.combined);
     CompressOptions options;
     options.threads = a.threads;
     ProgressBar bar = session.progress_bar("sweeping");
@@ -52,11 +52,11 @@ Sweep run_sweep(const EvaluateArguments& a, const SceneFile& baked, const std::v
 }
 
 /// Returns the named lights, rotated as requested, or the default ones.
-std::vector<SplitLight> lights_of(const EvaluateArguments& a, int order) {
-    std::vector<SplitLight> lights;
+std::vector<LoadedLight> lights_of(const EvaluateArguments& a, int order) {
+    std::vector<LoadedLight> lights;
     for (const Path& path : a.lights)
-        for (SplitLight& light :
-             rotations(load_split_light(path, order, a.suns, a.light_options, a.threads), a.rotations))
+        for (LoadedLight& light :
+             rotations(load_light(path, order, a.suns, a.light_options, a.threads), a.rotations))
             lights.push_back(std::move(light));
     return lights.empty() ? default_lights(order) : lights;
 }
@@ -119,7 +119,7 @@ void run(EvaluateArguments a, Session& session) {
     if (!baked.baked)
         throw Error(a.baked.string() +
                     ": contains no raw transfer; the first file must be the output of prt bake");
-    const std::vector<SplitLight> lights = lights_of(a, baked.baked->transfer.layout.order);
+    const std::vector<LoadedLight> lights = lights_of(a, baked.baked->transfer.layout.order);
     Report report = empty_report(a, session);
     if (!a.shipped.empty())
         add_comparison({.baked = a.baked,

@@ -2,12 +2,12 @@
 
 #include "commands/commands.h"
 
+#include "loaded_light.h"
 #include "options.h"
 #include "outputs.h"
 #include "prt/light_file.h"
 #include "prt/support/error.h"
 #include "prt/support/stopwatch.h"
-#include "split_light.h"
 
 #include <fmt/core.h>
 #include <glm/trigonometric.hpp>
@@ -37,7 +37,7 @@ const char* layout_name(EnvironmentLayout layout) {
     return "lat-long";
 }
 
-double degrees_across(const SunDisc& sun) {
+double degrees_across(const Sun& sun) {
     return 2 * glm::degrees(sun.half_angle);
 }
 
@@ -50,31 +50,35 @@ Json light_json(const Light& light) {
     return {{"prtkit_light", 1}, {"order", light.order}, {"coefficients", channels}};
 }
 
-Json suns_json(const std::vector<SunDisc>& suns) {
+Json suns_json(const SunSplit& split) {
     Json list = Json::array();
-    for (const SunDisc& sun : suns)
+    for (std::size_t i = 0; i < split.suns.size(); ++i) {
+        const Sun& sun = split.suns[i];
         list.push_back({{"towards", {sun.towards.x, sun.towards.y, sun.towards.z}},
                         {"irradiance", {sun.irradiance.r, sun.irradiance.g, sun.irradiance.b}},
                         {"half_angle_radians", sun.half_angle},
                         {"angular_size_degrees", degrees_across(sun)},
-                        {"energy_share", sun.energy_share}});
+                        {"energy_share", split.energy_shares[i]}});
+    }
     return list;
 }
 
 void report_suns(const SunSplit& split, Report& report) {
-    for (const SunDisc& sun : split.suns)
+    for (std::size_t i = 0; i < split.suns.size(); ++i) {
+        const Sun& sun = split.suns[i];
         report.sentences.push_back(fmt::format(
             "sun towards {:.4f} {:.4f} {:.4f}, irradiance {:.4g} {:.4g} {:.4g}, {:.2f} degrees across: "
             "{:.1f} % of the energy",
             sun.towards.x, sun.towards.y, sun.towards.z, sun.irradiance.r, sun.irradiance.g, sun.irradiance.b,
-            degrees_across(sun), 100 * sun.energy_share));
+            degrees_across(sun), 100 * split.energy_shares[i]));
+    }
     report.sentences.emplace_back(
         split.suns.empty()
             ? "no sun is separate; the error of light in shadows is {error_without_suns:.1f%}"
             : "the coefficients contain the other {remainder_energy_share:.1f%}; the error of light "
               "in shadows is {error_with_suns:.1f%}, and {error_without_suns:.1f%} without "
               "separate suns");
-    add_figures(report, {{"suns", suns_json(split.suns)},
+    add_figures(report, {{"suns", suns_json(split)},
                          {"remainder_energy_share", split.remainder_share},
                          {"error_without_suns", split.error_without},
                          {"error_with_suns", split.error_with}});
@@ -87,16 +91,15 @@ void run(const ProjectArguments& a, Session& session) {
     if (separate && suffix_of(a.environment) == ".json")
         throw Error(a.environment.string() + ": is a light file, and suns are found in images");
     const Stopwatch stopwatch;
-    const SplitLight light = load_split_light(a.environment, a.order, a.suns, a.light_options, a.threads);
-    const LoadedLight& loaded = light.sky;
+    const LoadedLight light = load_light(a.environment, a.order, a.suns, a.light_options, a.threads);
     const SunSplit& split = light.split;
     const double seconds = stopwatch.seconds();
-    Json file = light_json(loaded.light);
+    Json file = light_json(light.sky);
     if (separate)
-        file["suns"] = suns_json(split.suns);
+        file["suns"] = suns_json(split);
     session.write(a.output, json_text(file));
 
-    const glm::vec3 mean = loaded.light.coefficients[0] * static_cast<float>(kY00);
+    const glm::vec3 mean = light.sky.coefficients[0] * static_cast<float>(kY00);
     Report report;
     add_figures(report, {{"output", a.output.string()},
                          {"order", a.order},
@@ -106,10 +109,10 @@ void run(const ProjectArguments& a, Session& session) {
                         "{mean_radiance/2:.4g}"};
     if (separate)
         report_suns(split, report);
-    if (loaded.environment) {
-        add_figures(report, {{"layout", layout_name(loaded.environment->layout)},
-                             {"width_pixels", loaded.environment->image.width},
-                             {"height_pixels", loaded.environment->image.height}});
+    if (light.environment) {
+        add_figures(report, {{"layout", layout_name(light.environment->layout)},
+                             {"width_pixels", light.environment->image.width},
+                             {"height_pixels", light.environment->image.height}});
         report.sentences.emplace_back("from a {layout} image of {width_pixels} x {height_pixels}");
     }
     publish(report, a.json, session);

@@ -3,6 +3,7 @@
 #include "commands/commands.h"
 
 #include "lamp_strengths.h"
+#include "loaded_light.h"
 #include "options.h"
 #include "outputs.h"
 #include "prt/encode_glb.h"
@@ -12,7 +13,6 @@
 #include "prt/support/error.h"
 #include "prt/support/stopwatch.h"
 #include "solid_materials.h"
-#include "split_light.h"
 #include "view_arguments.h"
 
 #include <fmt/core.h>
@@ -72,7 +72,7 @@ std::vector<glm::vec3> lit_by_transfer(const Lighting& lighting, int threads, Sc
 }
 
 /// Direct light of suns, by rays.
-void add_suns(const TraceScene& scene, std::span<const SunDisc> suns, const SunRays& rays,
+void add_suns(const TraceScene& scene, std::span<const Sun> suns, const SunRays& rays,
               const Progress& progress, std::vector<glm::vec3>& radiance) {
     const std::vector<glm::vec3> direct = sun_radiance(scene, suns, rays, progress);
     for (std::size_t p = 0; p < radiance.size(); ++p)
@@ -168,9 +168,9 @@ void run(RelightArguments a, Session& session) {
     SceneFile model = load_scene_file(a.model, a.reading);
     check_model(a, model);
     const SunCount suns = is_together(model) ? SunCount{0} : a.suns;
-    const SplitLight light = a.environment.empty() ? dark_sky(model.order())
-                                                   : load_split_light(a.environment, model.order(), suns,
-                                                                      a.light_options, a.threads);
+    const LoadedLight light =
+        a.environment.empty() ? dark_sky(model.order())
+                              : load_light(a.environment, model.order(), suns, a.light_options, a.threads);
     std::vector<Texture> textures = about(a.model, [&] {
         return load_textures(model.scene, a.reading.bad_textures,
                              a.colors == ColorKind::albedo ? TextureNeeds::all : TextureNeeds::shadows);
@@ -178,7 +178,7 @@ void run(RelightArguments a, Session& session) {
     const std::vector<bool> solid = solid_materials(model);
     ProgressBar bar = session.progress_bar("relighting");
     const bool suns_are_separate = !light.split.suns.empty() && layout_of(model).has(TermKind::direct);
-    const Lighting lighting{light.sky.light, light_of_suns(light), lamp_strengths(a.lamps, layout_of(model))};
+    const Lighting lighting{light.sky, light_of_suns(light), lamp_strengths(a.lamps, layout_of(model))};
     std::vector<glm::vec3> radiance = lit_by_transfer(lighting, a.threads, model);
     const TraceScene scene(model.scene, std::move(textures), {.solid = solid, .threads = a.threads});
     if (suns_are_separate)

@@ -3,6 +3,7 @@
 #include "commands/commands.h"
 
 #include "lamp_strengths.h"
+#include "loaded_light.h"
 #include "options.h"
 #include "outputs.h"
 #include "posed_lobes.h"
@@ -20,7 +21,6 @@
 #include "prt/support/stopwatch.h"
 #include "prt/tone_map.h"
 #include "solid_materials.h"
-#include "split_light.h"
 #include "traced_picture.h"
 #include "view_arguments.h"
 
@@ -29,6 +29,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 namespace prt::cli {
 namespace {
@@ -44,7 +45,7 @@ struct Look {
 };
 
 /// Lights in addition to the sky.
-struct Lights {
+struct SunAndLampOptions {
     /// automatic: shadows of suns are the most visible, and no order represents them
     SunCount suns = {std::nullopt};
     int sun_rays = 32; ///< for each pixel and sun
@@ -58,7 +59,7 @@ enum class ErrorOf { none, baked, traced };
 struct RenderArguments {
     Path model, environment, output, json, baked;
     LightOptions light_options = {{}, Window::automatic, 0}; ///< a picture shows ringing as bruises
-    Lights lights;
+    SunAndLampOptions lights;
     View view;
     Backend backend = Backend::automatic;
     Look look;
@@ -122,7 +123,7 @@ std::string why_together(const RenderArguments& a, const SceneFile& model, const
 }
 
 /// Loads the light, with separate suns if possible and requested.
-SplitLight load_lit(const RenderArguments& a, const SceneFile& model, const std::vector<bool>& solid) {
+LoadedLight load_lit(const RenderArguments& a, const SceneFile& model, const std::vector<bool>& solid) {
     const int order = model.order() > 0 ? model.order() : kUnshadowedOrder;
     if (a.environment.empty())
         return dark_sky(order);
@@ -130,8 +131,8 @@ SplitLight load_lit(const RenderArguments& a, const SceneFile& model, const std:
     const std::string why = lit ? why_together(a, model, solid) : "";
     if (!why.empty() && a.lights.suns.count.value_or(0) > 0)
         throw Error(why + ", or light it with --suns 0");
-    SplitLight light =
-        load_split_light(a.environment, order, lit ? a.lights.suns : SunCount{0}, a.light_options, a.threads);
+    LoadedLight light =
+        load_light(a.environment, order, lit ? a.lights.suns : SunCount{0}, a.light_options, a.threads);
     if (why.empty() || light.split.suns.empty())
         return light;
     print_notices(a.environment.string(),
@@ -145,7 +146,7 @@ TransferLayout layout_of_any(const SceneFile& model) {
     return model.record() ? layout_of(model) : layout_of_one(kUnshadowedOrder, 1, TermKind::direct);
 }
 
-Lighting lighting_of(const RenderArguments& a, const SceneFile& model, const SplitLight& light) {
+Lighting lighting_of(const RenderArguments& a, const SceneFile& model, const LoadedLight& light) {
     Lighting lighting = cli::lighting_of(light);
     lighting.lamps = lamp_strengths(a.lights.lamps, layout_of_any(model));
     scale_lights(model.scene, layout_of_any(model), a.lights.lamp_scale, lighting.lamps);
@@ -238,9 +239,10 @@ LitMaps lit_maps(const SceneFile& model, const std::vector<glm::vec3>& colors) {
     return lit;
 }
 
-/// Returns the factor on radiance. If no lit surface is visible, the light is measured.
+/// Returns the factor on radiance. If no lit surface is visible, the light is measured. `traced`: luminance
+/// of a path-traced picture, which replaces that of the transfer.
 float choose_exposure(const Exposure& exposure, const Picture& picture, const TraceScene& scene,
-                      const Light& light, const TracedLights* traced) {
+                      const Light& light, std::optional<float> traced) {
     const auto stops = static_cast<float>(std::exp2(exposure.stops));
     if (!exposure.automatic)
         return stops;
@@ -249,7 +251,7 @@ float choose_exposure(const Exposure& exposure, const Picture& picture, const Tr
         return std::clamp(stops * automatic, 1e-30f, 1e30f); // floats hold the product with radiance
     };
     if (traced)
-        return shown(traced_luminance(picture, scene, *traced));
+        return shown(*traced);
     const LightMeter meter(picture, scene.rays());
     std::vector<glm::vec3> radiance;
     const PictureLightmaps& lightmaps = picture.in_shader.lightmaps;
@@ -294,7 +296,8 @@ struct Drawing {
     const Picture& picture;
     const TraceScene& scene;
     const Light& light;           ///< combined, as SH
-    const TracedLights& lights;   ///< the lights for path tracing
+    const DistantLight* sky;      ///< sky and suns for path tracing; null without it
+    const SceneLamps* lamps;      ///< lamps for path tracing; null without it
     GlContext* context = nullptr; ///< draws the picture; null: the CPU draws it
     bool holds_transfer = true;   ///< used for metering the exposure
 };
@@ -318,8 +321,8 @@ Image drawn(const RenderArguments& a, const Drawing& drawing) {
 Rendered path_traced(const RenderArguments& a, const Drawing& drawing, Session& session) {
     Rendered result;
     ProgressBar bar = session.progress_bar("path tracing");
-    const PathTracedPicture traced =
-        traced_picture(drawing.picture, drawing.scene, drawing.lights, a.look.paths, bar.progress());
+    const PathTracedPicture traced = traced_picture(drawing.picture, drawing.scene, *drawing.sky,
+                                                    *drawing.lamps, a.look.paths, bar.progress());
     result.noise = noise_of(traced.halves, traced.surfaces);
     if (a.error() == ErrorOf::none) {
         result.image = mean_of(traced.halves);
@@ -341,9 +344,13 @@ Rendered render(const RenderArguments& a, const Drawing& drawing, Session& sessi
         result.samples = drawing.picture.samples;
     }
     result.seconds = stopwatch.seconds();
-    if (a.look.show == Show::lit && suffix_of(a.output) != ".exr")
-        result.exposure = choose_exposure(a.look.exposure, drawing.picture, drawing.scene, drawing.light,
-                                          a.traced() && !drawing.holds_transfer ? &drawing.lights : nullptr);
+    if (a.look.show != Show::lit || suffix_of(a.output) == ".exr")
+        return result;
+    std::optional<float> luminance;
+    if (a.look.exposure.automatic && a.traced() && !drawing.holds_transfer)
+        luminance = traced_luminance(drawing.picture, drawing.scene, *drawing.sky, *drawing.lamps);
+    result.exposure =
+        choose_exposure(a.look.exposure, drawing.picture, drawing.scene, drawing.light, luminance);
     return result;
 }
 
@@ -429,22 +436,20 @@ SceneFile load_model(const RenderArguments& a) {
     return model;
 }
 
-/// Returns the lights of a path-traced picture: the lamps of the transfer, or all lamps of a scene without
+/// Returns the lamps of a path-traced picture: those of the transfer, or all lamps of a scene without
 /// transfer.
-TracedLights traced_lights(const RenderArguments& a, const SceneFile& model, const Lighting& lighting) {
-    TracedLights lights{.environment = a.environment, .reading = a.light_options, .threads = a.threads};
-    lights.reading.window = Window::none;
+SceneLamps traced_lamps(const RenderArguments& a, const SceneFile& model, const TraceScene& scene,
+                        const Lighting& lighting) {
     TransferLayout layout = layout_of_any(model);
     if (!model.record())
         for (TransferTerm& lamp : lamps_of(model.scene))
             layout.terms.push_back(std::move(lamp));
-    lights.lamps.assign(layout.lamp_terms().begin(), layout.lamp_terms().end());
-    lights.strengths = lighting.lamps;
+    std::vector<glm::vec3> strengths = lighting.lamps;
     if (!model.record()) {
-        lights.strengths = lamp_strengths(a.lights.lamps, layout);
-        scale_lights(model.scene, layout, a.lights.lamp_scale, lights.strengths);
+        strengths = lamp_strengths(a.lights.lamps, layout);
+        scale_lights(model.scene, layout, a.lights.lamp_scale, strengths);
     }
-    return lights;
+    return {scene, layout.lamp_terms(), strengths};
 }
 
 /// Prints a notice about media that path tracing ignores.
@@ -467,7 +472,7 @@ struct Shown {
 
 /// Fills `picture`, which refers to the returned object.
 std::unique_ptr<Shown> show(const RenderArguments& a, const SceneFile& model, const Lighting& lighting,
-                            const SplitLight& light, Picture& picture) {
+                            const LoadedLight& light, Picture& picture) {
     auto shown = std::make_unique<Shown>();
     shown->colors = colors_to_show(a, model, lighting);
     if (model.lightmap) {
@@ -480,8 +485,8 @@ std::unique_ptr<Shown> show(const RenderArguments& a, const SceneFile& model, co
     picture.suns = light.split.suns;
     shown->emission = emission_strengths(model.scene, layout_of_any(model), lighting.lamps);
     picture.emission = shown->emission;
-    if (a.look.background && light.sky.environment) {
-        shown->background = resampled_lat_long(*light.sky.environment);
+    if (a.look.background && light.environment) {
+        shown->background = resampled_lat_long(*light.environment);
         picture.background.image = &shown->background;
     }
     return shown;
@@ -506,7 +511,7 @@ void run(RenderArguments a, Session& session) {
     const SceneFile model = load_model(a);
     const std::vector<bool> solid = solid_materials(model);
     note_media(a, solid);
-    const SplitLight light = load_lit(a, model, solid);
+    const LoadedLight light = load_lit(a, model, solid);
     const Lighting lighting = lighting_of(a, model, light);
     note_lights(a, model, lighting);
     const bool suns = !light.split.suns.empty() && a.drawn_lit();
@@ -528,9 +533,16 @@ void run(RenderArguments a, Session& session) {
     if (context)
         light_on_gpu(a, model, lighting, *shown, picture);
     const Light all_light = lighting.suns ? sum(lighting.sky, *lighting.suns) : lighting.sky;
-    const TracedLights traced = traced_lights(a, model, lighting);
-    const Rendered rendered =
-        render(a, {picture, scene, all_light, traced, context.get(), model.record() != nullptr}, session);
+    std::optional<DistantLight> sky;
+    std::optional<SceneLamps> lamps;
+    if (a.traced()) {
+        sky.emplace(distant_light(a.environment, a.light_options, a.threads));
+        lamps.emplace(traced_lamps(a, model, scene, lighting));
+    }
+    const Rendered rendered = render(a,
+                                     {picture, scene, all_light, sky ? &*sky : nullptr,
+                                      lamps ? &*lamps : nullptr, context.get(), model.record() != nullptr},
+                                     session);
     write_picture(a, rendered, session);
     publish(report_of(a, picture, rendered, context.get()), a.json, session);
 }

@@ -64,7 +64,7 @@ struct TrialBake {
 
 class Maker {
 public:
-    Maker(const MakeRequest& request, Session& session, std::vector<BudgetLight> lights)
+    Maker(const MakeRequest& request, Session& session, std::vector<ReferenceLight> lights)
         : r_(request), session_(session), document_(load_gltf(request.scene, request.reading)),
           scene_(extract_scene(document_)), lights_(std::move(lights)) {
         print_notices(r_.scene.string(), scene_.notices);
@@ -443,7 +443,7 @@ private:
     Session& session_;
     GltfDocument document_;
     Scene scene_;
-    std::vector<BudgetLight> lights_;
+    std::vector<ReferenceLight> lights_;
     std::unique_ptr<BudgetReference> reference_;
     Stopwatch watch_;
     MakePlan plan_;
@@ -453,10 +453,9 @@ private:
 };
 
 /// Throws `Error` if no light shines.
-void check_shine(const MakeRequest& request, const std::vector<BudgetLight>& lights) {
-    const auto shines = [](const BudgetLight& light) {
-        return light.measured.sky_bands.coefficients[0] + light.measured.sun_bands.coefficients[0] !=
-               glm::vec3(0);
+void check_shine(const MakeRequest& request, const std::vector<ReferenceLight>& lights) {
+    const auto shines = [](const ReferenceLight& light) {
+        return light.sky_bands.coefficients[0] + light.sun_bands.coefficients[0] != glm::vec3(0);
     };
     if (std::ranges::none_of(lights, shines))
         throw Error(request.lights.front().string() +
@@ -466,12 +465,12 @@ void check_shine(const MakeRequest& request, const std::vector<BudgetLight>& lig
 } // namespace
 
 void make_model(const MakeRequest& request, Report& report, Session& session) {
-    std::vector<BudgetLight> lights = budget_lights({.files = request.lights,
-                                                     .suns = {std::nullopt},
-                                                     .reading = request.reading_lights,
-                                                     .order = 6,
-                                                     .separate = true,
-                                                     .threads = request.threads});
+    std::vector<ReferenceLight> lights = budget_lights({.files = request.lights,
+                                                        .suns = {std::nullopt},
+                                                        .reading = request.reading_lights,
+                                                        .order = 6,
+                                                        .separate = true,
+                                                        .threads = request.threads});
     check_shine(request, lights);
     about(request.scene, [&] { Maker(request, session, std::move(lights)).run(report); });
 }

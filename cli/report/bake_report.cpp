@@ -96,7 +96,7 @@ std::string worst_objects(const BakeErrors& errors, Error&& error) {
 
 Json errors_json(const BakeErrors& errors) {
     Json lamps = Json::array(), objects = Json::array();
-    for (const BakeErrors::Lamp& lamp : errors.each_lamp)
+    for (const BakeErrors::LampError& lamp : errors.each_lamp)
         lamps.push_back({{"name", lamp.name}, {"error", error_json(lamp.error)}});
     for (const BakeErrors::Node& node : errors.nodes)
         objects.push_back({{"name", node.name},

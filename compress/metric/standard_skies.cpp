@@ -5,7 +5,7 @@
 
 #include "prt/sh.h"
 #include "prt/sky.h"
-#include "prt/sun_disc.h"
+#include "prt/sun.h"
 #include "tuning.h"
 
 #include <glm/trigonometric.hpp>
@@ -14,6 +14,8 @@
 #include <cmath>
 #include <numbers>
 #include <span>
+#include <string>
+#include <utility>
 
 namespace prt {
 namespace {
@@ -69,7 +71,7 @@ Lighting over_ground(const Light& sky, const glm::vec3& towards, double sun_over
 
 } // namespace
 
-Lighting daylight(int order, const Daylight& day) {
+Lighting daylight(int order, const DaylightOptions& day) {
     const double sine = std::sin(day.sun_elevation);
     const glm::dvec3 towards(std::cos(day.sun_elevation), sine, 0);
     // Bouguer's law for the path length through the air, 1 / sine.
@@ -94,17 +96,20 @@ Lighting room_light(int order, double lamp_elevation) {
             cone_light(order, towards, half_angle, glm::vec3(lamp))};
 }
 
-std::vector<NamedLighting> standard_skies(int order) {
+std::vector<Lighting> standard_skies(int order) {
     const auto degrees = [](double d) { return glm::radians(d); };
     // A window of 2 m by 2 m at about 3 m distance, and a lamp of 40 cm 2 m above: half of all light, and a
     // quarter.
     Light room = sum(constant_light(order, glm::vec3(1)),
                      cone_light(order, glm::vec3(1, 0, 0), degrees(20), glm::vec3(66)));
     room = sum(room, cone_light(order, kUp, degrees(6), glm::vec3(365)));
-    return {{"clear noon", daylight(order, {.sun_elevation = degrees(55), .turbidity = 3})},
-            {"low sun", daylight(order, {.sun_elevation = degrees(10), .turbidity = 4})},
-            {"overcast", overcast_day(order)},
-            {"window and lamp", {room}}};
+    const auto named = [](std::string name, Lighting lighting) {
+        lighting.name = std::move(name);
+        return lighting;
+    };
+    return {named("clear noon", daylight(order, {.sun_elevation = degrees(55), .turbidity = 3})),
+            named("low sun", daylight(order, {.sun_elevation = degrees(10), .turbidity = 4})),
+            named("overcast", overcast_day(order)), named("window and lamp", {room})};
 }
 
 } // namespace prt

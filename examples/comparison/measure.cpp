@@ -247,7 +247,7 @@ private:
 
     /// `radiance` [texels], and suns at each pixel.
     prt::Image drawn_by(const LitLightmap& lit, const std::vector<glm::vec3>& radiance,
-                        std::span<const prt::SunDisc> suns) const {
+                        std::span<const prt::Sun> suns) const {
         prt::Picture picture =
             viewer::picture_of(*lit.model, {}, view_.camera, options_.width, options_.height);
         const std::vector<glm::vec3> at_vertices =

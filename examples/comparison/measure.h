@@ -9,7 +9,7 @@
 #include "prt/gl_context.h"
 #include "prt/image_file.h"
 #include "prt/picture_error.h"
-#include "prt/sun_disc.h"
+#include "prt/sun.h"
 
 #include <functional>
 #include <optional>
@@ -31,7 +31,7 @@ struct Sky {
     prt::Image lat_long;
     prt::Light light; ///< light of the maximum order
     /// Its brightest sun, if it has one; `rest` is the sky without it.
-    std::vector<prt::SunDisc> suns = {};
+    std::vector<prt::Sun> suns = {};
     prt::Light rest = {}; ///< order 6
 };
 Sky load_sky(const std::filesystem::path& path);

@@ -37,8 +37,8 @@ constexpr int kShadowTexels = 2048;                                   // texels 
 struct World {
     prt::Scene scene;
     prt::ClusteredTransfer transfer;
-    prt::Light sky;   ///< without the sun
-    prt::SunDisc sun; ///< black if the sky has no sun, or the transfer has no separate direct term
+    prt::Light sky; ///< without the sun
+    prt::Sun sun;   ///< black if the sky has no sun, or the transfer has no separate direct term
 };
 
 /// Shader programs: the relit picture, and the sun's shadow map.
@@ -66,7 +66,7 @@ World load(const char* model, const char* sky) {
         prt::find_suns(prt::load_environment(sky).environment, {.order = layout.order, .count = suns});
     const prt::Light light = prt::deringed(prt::project(split.remainder, layout.order)); // nowhere negative
     return {std::move(scene), std::move(compressed->transfer), light,
-            split.suns.empty() ? prt::SunDisc{} : split.suns[0]};
+            split.suns.empty() ? prt::Sun{} : split.suns[0]};
 }
 
 // ---- Once: the programs. prt_exit_radiance(position, normal) is prtkit's, written for the model; all else
@@ -287,7 +287,7 @@ void draw_shadows(GLuint program, const std::vector<Mesh>& meshes, const glm::ma
     }
 }
 
-void set_sun(GLuint program, const prt::SunDisc& sun, const glm::mat4& sun_map) {
+void set_sun(GLuint program, const prt::Sun& sun, const glm::mat4& sun_map) {
     glUseProgram(program);
     glUniformMatrix4fv(glGetUniformLocation(program, "sun_map"), 1, GL_FALSE, glm::value_ptr(sun_map));
     glUniform3fv(glGetUniformLocation(program, "towards_sun"), 1, glm::value_ptr(sun.towards));
@@ -321,7 +321,7 @@ void play(const World& world, int frames) {
     for (int frame = 0; frame < frames; ++frame) {
         const double angle = glm::two_pi<double>() * (frame + 1) / frames;
         prt::ShRotation::about_y(world.sky.order, angle).apply(world.sky.coefficients, rotated);
-        prt::SunDisc sun = world.sun;
+        prt::Sun sun = world.sun;
         sun.towards = glm::vec3(glm::rotate(glm::dmat4(1), angle, glm::dvec3(0, 1, 0)) *
                                 glm::dvec4(glm::dvec3(world.sun.towards), 0));
         // The sun is part of the light after a bounce; the shader adds its direct light.

@@ -38,7 +38,7 @@ inline Part shining(Part part, const glm::vec3& color, float strength) {
 
 /// A light of KHR_lights_punctual. The pictures show radiance 1 as white, and intensities are scaled
 /// accordingly: an intensity of pi at a distance of 1 m makes white paper white.
-struct Lamp {
+struct GltfLight {
     std::string name;
     glm::vec3 position; ///< metres
     glm::vec3 color;    ///< linear, 0..1
@@ -65,7 +65,7 @@ struct Model {
 
 struct ExampleScene {
     std::vector<Part> parts;
-    std::vector<Lamp> lamps = {};
+    std::vector<GltfLight> lamps = {};
     Skeleton skeleton = {}; ///< skeleton of all parts; without joints they are static
     std::vector<Model> models = {};
 };

@@ -12,7 +12,7 @@ namespace {
 /// Meshes of the lamps by material.
 struct Fixtures {
     Mesh brass, shades, bulbs, cool_bulbs, table;
-    std::vector<Lamp> lamps;
+    std::vector<GltfLight> lamps;
 };
 
 constexpr glm::vec3 kWarm(1, 0.72f, 0.42f);

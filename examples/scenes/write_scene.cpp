@@ -35,7 +35,7 @@ tinygltf::Primitive make_primitive(tinygltf::Model& model, const Part& part) {
 }
 
 /// The light of a lamp as KHR_lights_punctual has it.
-tinygltf::Value punctual_light(const Lamp& lamp) {
+tinygltf::Value punctual_light(const GltfLight& lamp) {
     tinygltf::Value::Object light;
     const bool is_spot = glm::length(lamp.direction) > 0;
     light["name"] = tinygltf::Value(lamp.name);
@@ -53,7 +53,7 @@ tinygltf::Value punctual_light(const Lamp& lamp) {
 }
 
 /// A node that carries light number `index`. Spots shine along -Z of their nodes.
-tinygltf::Node lamp_node(const Lamp& lamp, int index) {
+tinygltf::Node lamp_node(const GltfLight& lamp, int index) {
     tinygltf::Node node;
     node.name = lamp.name;
     node.translation = {lamp.position.x, lamp.position.y, lamp.position.z};
@@ -112,11 +112,11 @@ void add_models(tinygltf::Model& model, const std::vector<Model>& models) {
     }
 }
 
-void add_lamps(tinygltf::Model& model, const std::vector<Lamp>& lamps) {
+void add_lamps(tinygltf::Model& model, const std::vector<GltfLight>& lamps) {
     if (lamps.empty())
         return;
     tinygltf::Value::Array lights;
-    for (const Lamp& lamp : lamps) {
+    for (const GltfLight& lamp : lamps) {
         model.nodes.push_back(lamp_node(lamp, static_cast<int>(lights.size())));
         model.scenes[0].nodes.push_back(static_cast<int>(model.nodes.size()) - 1);
         lights.push_back(punctual_light(lamp));

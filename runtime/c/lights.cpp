@@ -7,7 +7,7 @@
 #include "prt/light_file.h"
 #include "prt/sh.h"
 #include "prt/sh_rotation.h"
-#include "prt/sun_disc.h"
+#include "prt/sun.h"
 #include "prt/support/counted.h"
 
 #include <glm/geometric.hpp>
@@ -159,7 +159,7 @@ prt_status prt_light_from_light_file(int order, const char* path, float* sky, pr
                            " of the light file");
         put(file.sky, sky);
         for (std::size_t i = 0; i < file.suns.size(); ++i) {
-            const prt::SunDisc& sun = file.suns[i];
+            const prt::Sun& sun = file.suns[i];
             std::copy_n(glm::value_ptr(sun.towards), 3, suns[i].towards);
             std::copy_n(glm::value_ptr(sun.irradiance), 3, suns[i].irradiance);
             suns[i].half_angle = static_cast<float>(sun.half_angle);

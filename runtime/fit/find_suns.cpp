@@ -60,11 +60,10 @@ void put_back(SkyMap& map, const TakenSun& sun) {
         map.pixel(part.texel) += part.color;
 }
 
-SunDisc as_disc(const TakenSun& sun, const glm::dvec3& all) {
+Sun as_disc(const TakenSun& sun) {
     // Irradiance of a cone of uniform radiance whose integral is the flux.
     const glm::dvec3 irradiance = 0.5 * (1 + std::cos(sun.disc.half_angle)) * sun.flux;
-    return {glm::vec3(sun.disc.towards), glm::vec3(irradiance), sun.disc.half_angle,
-            luminance(all) > 0 ? luminance(sun.flux) / luminance(all) : 0};
+    return {glm::vec3(sun.disc.towards), glm::vec3(irradiance), sun.disc.half_angle};
 }
 
 /// Incremental search for suns.
@@ -112,11 +111,16 @@ public:
     }
 
     SunSplit split() const {
+        std::vector<std::pair<double, Sun>> found;
+        for (const TakenSun& sun : suns_)
+            found.emplace_back(luminance(all_) > 0 ? luminance(sun.flux) / luminance(all_) : 0, as_disc(sun));
+        std::ranges::stable_sort(found, std::greater(), &std::pair<double, Sun>::first);
         SunSplit result;
-        result.suns = discs();
-        std::ranges::stable_sort(result.suns, std::greater(), &SunDisc::energy_share);
-        for (const SunDisc& sun : result.suns)
-            result.remainder_share -= sun.energy_share;
+        for (const auto& [share, sun] : found) {
+            result.suns.push_back(sun);
+            result.energy_shares.push_back(share);
+            result.remainder_share -= share;
+        }
         result.remainder = map_.environment();
         result.error_without = without_;
         result.error_with = suns_.empty() ? without_ : error();
@@ -124,10 +128,10 @@ public:
     }
 
 private:
-    std::vector<SunDisc> discs() const {
-        std::vector<SunDisc> list;
+    std::vector<Sun> discs() const {
+        std::vector<Sun> list;
         for (const TakenSun& sun : suns_)
-            list.push_back(as_disc(sun, all_));
+            list.push_back(as_disc(sun));
         return list;
     }
 

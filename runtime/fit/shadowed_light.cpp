@@ -26,7 +26,7 @@ glm::dvec3 lattice_direction(int i, int count) {
 }
 
 /// Returns sample directions of a sun's disc; their number resolves half-shadows to 3 %.
-std::vector<glm::dvec3> disc_directions(const SunDisc& sun) {
+std::vector<glm::dvec3> disc_directions(const Sun& sun) {
     constexpr int kDirections = 32;
     const glm::dvec3 axis(sun.towards);
     const Across across(axis);
@@ -104,9 +104,9 @@ ShadowedLight::ShadowedLight(const SkyMap& whole, int order) : order_(order), re
     }
 }
 
-double ShadowedLight::error(const Light& remainder, const std::vector<SunDisc>& suns) const {
+double ShadowedLight::error(const Light& remainder, const std::vector<Sun>& suns) const {
     std::vector<std::vector<glm::dvec3>> discs;
-    for (const SunDisc& sun : suns)
+    for (const Sun& sun : suns)
         discs.push_back(disc_directions(sun));
     double sum = 0;
     for (std::size_t r = 0; r < receivers_.size(); ++r) {

@@ -17,7 +17,7 @@ public:
 
     /// Returns the root mean square difference between the light under `remainder` (of order `order`) plus
     /// `suns` and the light under the image, relative to the latter. Returns 0 if that is black.
-    double error(const Light& remainder, const std::vector<SunDisc>& suns) const;
+    double error(const Light& remainder, const std::vector<Sun>& suns) const;
 
 private:
     /// Receiver that sees the hemisphere about `normal`, restricted to one side of a plane.

@@ -17,8 +17,8 @@ namespace {
 
 constexpr const char* kChannels[3] = {"red", "green", "blue"};
 
-SunDisc sun_of(const Json& entry) {
-    SunDisc sun;
+Sun sun_of(const Json& entry) {
+    Sun sun;
     sun.towards = json::direction_of(entry, "towards");
     sun.irradiance = json::vector_of(entry, "irradiance");
     sun.half_angle = json::number_in(entry, "half_angle_radians", 0, 0.5 * std::numbers::pi);
@@ -28,10 +28,10 @@ SunDisc sun_of(const Json& entry) {
     return sun;
 }
 
-std::vector<SunDisc> suns_of(const Json& list) {
+std::vector<Sun> suns_of(const Json& list) {
     if (!list.is_array())
         throw Error("\"suns\" is not a list");
-    std::vector<SunDisc> suns;
+    std::vector<Sun> suns;
     for (std::size_t i = 0; i < list.size(); ++i)
         try {
             suns.push_back(sun_of(list[i]));
@@ -68,7 +68,7 @@ Light coefficients_of(const Json& file) {
 
 Light all_light(const LightFile& file) {
     Light all = file.sky;
-    for (const SunDisc& sun : file.suns)
+    for (const Sun& sun : file.suns)
         all = sum(all, as_light(sun, all.order));
     return all;
 }

@@ -14,7 +14,7 @@ float glass_transmittance(const Material& material) {
 }
 
 bool has_medium(const Material& material) {
-    const Volume& volume = material.volume;
+    const MaterialVolume& volume = material.volume;
     return material.transmission.factor > 0 && volume.thickness > 0 &&
            std::isfinite(volume.attenuation_distance) && volume.attenuation_distance > 0;
 }

@@ -3,7 +3,7 @@
 #include "program.h"
 #include "prt/error_measures.h"
 #include "prt/gltf.h"
-#include "prt/sun_disc.h"
+#include "prt/sun.h"
 #include "support/glb_file.h"
 #include "support/scene_builder.h"
 #include "support/temporary_folder.h"
@@ -54,7 +54,7 @@ TEST_F(TransferTerms, AreCompressedForLightsWithSeparateSuns) {
     for (const auto& [c, name] : {std::pair(0, "red"), std::pair(1, "green"), std::pair(2, "blue")})
         for (const glm::vec3& coefficient : sky.coefficients)
             light["coefficients"][name].push_back(coefficient[c]);
-    const SunDisc sun{glm::normalize(glm::vec3(0.3f, 0.8f, 0.5f)), glm::vec3(3), 0.01};
+    const Sun sun{glm::normalize(glm::vec3(0.3f, 0.8f, 0.5f)), glm::vec3(3), 0.01};
     light["suns"] = {{{"towards", {0.3, 0.8, 0.5}}, {"irradiance", {3, 3, 3}}, {"half_angle_radians", 0.01}}};
     folder.file("light.json", light.dump());
     const GltfDocument baked = load_gltf(folder / "b.glb");

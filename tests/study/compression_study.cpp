@@ -7,7 +7,7 @@
 #include "prt/gltf.h"
 #include "prt/image_file.h"
 #include "prt/sky.h"
-#include "prt/sun_disc.h"
+#include "prt/sun.h"
 #include "prt/support/error.h"
 #include "prt/support/file.h"
 #include "report/sweep_report.h"
@@ -42,7 +42,7 @@ std::vector<Light> lights_of(const StudyArguments& arguments, int order) {
         lights.push_back(project(load_environment(path).environment, order, arguments.threads));
     if (!lights.empty())
         return lights;
-    const SunDisc sun{glm::normalize(glm::vec3(0.5f, 1, 0.7f)), glm::vec3(1)};
+    const Sun sun{glm::normalize(glm::vec3(0.5f, 1, 0.7f)), glm::vec3(1)};
     return {constant_light(order, glm::vec3(1)), overcast_sky(order, glm::vec3(1)), as_light(sun, order)};
 }
 

@@ -96,7 +96,7 @@ struct BakeErrors {
         double of_scene = 0;
         bool known = false; ///< false if there are too few points or no light; `relative_l2` is then 0
     };
-    struct Lamp {
+    struct LampError {
         std::string name;
         Error error;
     };
@@ -113,7 +113,7 @@ struct BakeErrors {
     /// Errors of back sides of two-sided surfaces that show the light of their front sides, although direct
     /// light of the sky (`backs`) or of lamps (`backs_by_lamps`) reaches the back.
     Error backs, backs_by_lamps;
-    std::vector<Lamp> each_lamp = {};
+    std::vector<LampError> each_lamp = {};
     std::vector<Node> nodes = {}; ///< in the order of their first primitives
 };
 

@@ -3,6 +3,7 @@
 // Distant light that rays evaluate by direction. SH lighting approximates it.
 
 #include "prt/environment.h"
+#include "prt/sun.h"
 
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
@@ -11,17 +12,12 @@
 
 namespace prt {
 
-/// A distant light without extent.
-struct Sun {
-    glm::vec3 towards;    ///< unit, from the receiver to the light
-    glm::vec3 irradiance; ///< irradiance of a receiver that faces the light
-};
-
 /// An environment and suns that can be evaluated, and sampled in proportion to luminance. Immutable,
 /// thread-safe.
 class DistantLight {
 public:
     /// `environment` is a lat-long image, constant over each texel as in `project`; an empty image is black.
+    /// All light of a sun comes from its center: split a wide sun into several directional ones.
     explicit DistantLight(Image environment, std::vector<Sun> suns = {});
 
     struct Sample {

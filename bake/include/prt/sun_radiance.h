@@ -2,7 +2,7 @@
 
 // Direct light of suns with sharp shadows, which a renderer with shadow maps adds to the light of transfer.
 
-#include "prt/sun_disc.h"
+#include "prt/sun.h"
 #include "prt/support/progress.h"
 #include "prt/trace_scene.h"
 
@@ -26,7 +26,7 @@ struct SunRays {
 /// without bounces: [receivers]. It is meant to be added to light of the `direct` term, and thin sheets
 /// transmit light as in that term. Surfaces that are `solid` in `scene` get zero, because their light comes
 /// from the medium inside. Throws `Cancelled` after a stop request.
-std::vector<glm::vec3> sun_radiance(const TraceScene& scene, std::span<const SunDisc> suns,
+std::vector<glm::vec3> sun_radiance(const TraceScene& scene, std::span<const Sun> suns,
                                     const SunRays& options = {}, const Progress& progress = {});
 
 } // namespace prt

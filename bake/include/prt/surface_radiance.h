@@ -5,13 +5,14 @@
 
 #include "prt/dering.h"
 #include "prt/distant_light.h"
-#include "prt/sun_disc.h"
+#include "prt/sun.h"
 #include "prt/surface_points.h"
 #include "prt/transfer_layout.h"
 
 #include <array>
 #include <cstdint>
 #include <optional>
+#include <string>
 #include <vector>
 
 namespace prt {
@@ -21,12 +22,20 @@ struct ReferenceLight {
     DistantLight all; ///< complete light, which lights surfaces that paths reach after a bounce
     /// Light of the first surface of a path, if the renderer adds `suns`; no value: `all`.
     std::optional<DistantLight> sky;
-    std::vector<SunDisc> suns; ///< suns that the renderer adds with sharp shadows
+    std::vector<Sun> suns; ///< suns that the renderer adds with sharp shadows
     /// SH coefficients of order kMaxOrder: light without `suns`, and light of the suns.
     Light sky_bands, sun_bands;
+    std::string name = {}; ///< for reports; may be empty
 
     /// Returns the light of the first surface of a path.
     const DistantLight& seen() const { return sky ? *sky : all; }
+    /// Returns the factors of `deringed` on the bands of the sky at this order.
+    BandFactors factors(int order) const;
+    /// Returns the lighting for transfer of this order, with `factors` on the bands of the sky. Suns are in
+    /// the sky unless they are separate.
+    Lighting lighting(int order, const BandFactors& factors) const;
+    /// Returns the lighting with `factors(order)`.
+    Lighting lighting(int order) const { return lighting(order, factors(order)); }
 };
 
 /// Number of bounces that are stored separately; later bounces are added to the last entry.

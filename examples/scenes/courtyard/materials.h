@@ -22,7 +22,7 @@ struct Courtyard {
     Glass glass;
     Garden garden;
     Cloth cloth;
-    std::vector<Lamp> lamps;
+    std::vector<GltfLight> lamps;
 };
 
 /// Assigns a color and an image to every mesh.

@@ -156,9 +156,7 @@ void find_budget(Channel& channel, const BudgetSubject& subject) {
 
     const prt::Light sky = prt::truncated(light.sky_bands, subject.light_order);
     const prt::BandFactors factors = window_factors(sky, subject.rig.settings().window);
-    prt::Lighting lighting{prt::with_band_factors(sky, factors)};
-    if (!light.suns.empty())
-        lighting.suns = prt::truncated(light.sun_bands, subject.light_order);
+    const prt::Lighting lighting = light.lighting(subject.light_order, factors);
     const auto baked_at = [&](const prt::Transfer& transfer) {
         return radiance_at(points, truncated(transfer, order), transfer.layout, lighting);
     };

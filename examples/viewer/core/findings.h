@@ -54,7 +54,7 @@ struct OpenModels {
 /// Fraction of the hemisphere that is open. [receivers]
 using Occlusion = std::shared_ptr<const std::vector<float>>;
 
-struct EnvironmentFile {
+struct OpenedEnvironment {
     std::filesystem::path path;
     std::shared_ptr<const LoadedEnvironment> environment; ///< null: the file cannot be read
     std::string why;                                      ///< message if the file cannot be read
@@ -127,7 +127,7 @@ struct Failure {
 };
 
 using Finding =
-    std::variant<OpenModels, Baked, Compressed, Occlusion, EnvironmentFile, NumberPictures, RepeatedBake,
+    std::variant<OpenModels, Baked, Compressed, Occlusion, OpenedEnvironment, NumberPictures, RepeatedBake,
                  SurfaceBudget, SortedFiles, FigureFile, FoundOccluders, FoundVolume, Saved, Failure>;
 
 using Channel = BackgroundWork<Finding>::Channel;

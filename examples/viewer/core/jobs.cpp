@@ -30,7 +30,7 @@ void complete(Channel& channel, OpenModels open) {
     find_occlusion(channel, *first.model);
 }
 
-EnvironmentFile read_environment(const std::filesystem::path& path) {
+OpenedEnvironment read_environment(const std::filesystem::path& path) {
     try {
         return {path, std::make_shared<const LoadedEnvironment>(load_environment(path.string())), ""};
     } catch (const prt::Error& error) {
@@ -139,7 +139,7 @@ std::vector<Finding> Jobs::collect() {
                                JobKind::budget, JobKind::figure, JobKind::volume})
         std::ranges::move(works_[static_cast<std::size_t>(kind)].collect(), std::back_inserter(all));
     for (const Finding& finding : all)
-        if (const auto* read = std::get_if<EnvironmentFile>(&finding))
+        if (const auto* read = std::get_if<OpenedEnvironment>(&finding))
             std::erase(environments_to_read_, read->path);
     return all;
 }

@@ -51,13 +51,6 @@ void add(prt::Light& sum, const prt::Light& light) {
     sum = prt::sum(sum, light);
 }
 
-std::vector<prt::Sun> as_seen_by_rays(const std::vector<prt::SunDisc>& discs) {
-    std::vector<prt::Sun> suns;
-    for (const prt::SunDisc& sun : discs)
-        suns.push_back({sun.towards, sun.irradiance});
-    return suns;
-}
-
 /// Returns the fraction of daylight in the sky, 0..1; the rest is night. Dusk ends when the sun is 8.6
 /// degrees below the horizon, between the ends of civil and nautical twilight.
 double daylight(const glm::dvec3& sun) {
@@ -196,8 +189,8 @@ float LightRig::unit() const {
 }
 
 /// Returns the suns that are not part of the environment image: the day's and the added ones.
-std::vector<prt::SunDisc> LightRig::own_suns() const {
-    std::vector<prt::SunDisc> suns;
+std::vector<prt::Sun> LightRig::own_suns() const {
+    std::vector<prt::Sun> suns;
     if (settings_.day && day_sun_irradiance_ != glm::vec3(0))
         suns.push_back({rotated(day_sun_, settings_.rotation), day_sun_irradiance_, kSunHalfAngle});
     for (const RigLight& light : settings_.lights)
@@ -208,12 +201,12 @@ std::vector<prt::SunDisc> LightRig::own_suns() const {
 }
 
 /// Returns the suns of the environment image, rotated with it.
-std::vector<prt::SunDisc> LightRig::rotated_suns() const {
+std::vector<prt::Sun> LightRig::rotated_suns() const {
     const LoadedEnvironment* environment = base();
-    std::vector<prt::SunDisc> suns;
+    std::vector<prt::Sun> suns;
     if (environment)
         suns = environment->suns;
-    for (prt::SunDisc& sun : suns)
+    for (prt::Sun& sun : suns)
         sun.towards = rotated(sun.towards, settings_.rotation);
     return suns;
 }
@@ -236,22 +229,22 @@ prt::Light LightRig::light(int order) const {
     if (const LoadedEnvironment* environment = base())
         add(sum, prt::rotated_about_y(prt::truncated(environment->light, order),
                                       static_cast<double>(settings_.rotation)));
-    for (const prt::SunDisc& sun : own_suns())
+    for (const prt::Sun& sun : own_suns())
         add(sum, prt::as_light(sun, order));
     add_shapes(sum);
     return prt::windowed(sum, settings_.window);
 }
 
-std::vector<prt::SunDisc> LightRig::strongest_first() const {
-    std::vector<prt::SunDisc> suns = rotated_suns();
+std::vector<prt::Sun> LightRig::strongest_first() const {
+    std::vector<prt::Sun> suns = rotated_suns();
     std::ranges::copy(own_suns(), std::back_inserter(suns));
     std::ranges::stable_sort(suns, std::greater(),
-                             [](const prt::SunDisc& sun) { return prt::luminance(sun.irradiance); });
+                             [](const prt::Sun& sun) { return prt::luminance(sun.irradiance); });
     return suns;
 }
 
 SeparateLight LightRig::separate_light(int order) const {
-    std::vector<prt::SunDisc> suns = strongest_first();
+    std::vector<prt::Sun> suns = strongest_first();
     const auto most = std::min<std::size_t>(suns.size(), prt::kMaxShadowedSuns);
     prt::Light sky = prt::constant_light(order, glm::vec3(0)), of_suns = sky;
     if (const LoadedEnvironment* environment = base())
@@ -266,12 +259,12 @@ SeparateLight LightRig::separate_light(int order) const {
 
 /// Returns a distant light from an image of the environment (may be null) and these suns.
 prt::DistantLight LightRig::distant_light(const prt::Image* lat_long,
-                                          const std::vector<prt::SunDisc>& suns) const {
+                                          const std::vector<prt::Sun>& suns) const {
     const bool plain = lat_long && settings_.rotation == 0 &&
                        std::none_of(settings_.lights.begin(), settings_.lights.end(),
                                     [](const RigLight& l) { return l.on && l.kind != LightKind::sun; });
     if (plain)
-        return prt::DistantLight(*lat_long, as_seen_by_rays(suns));
+        return prt::DistantLight(*lat_long, suns);
     // All lights are drawn into one image, in world axes.
     prt::Image image{1024, 512, std::vector<glm::vec3>(std::size_t{1024} * 512, glm::vec3(0))};
     if (lat_long) {
@@ -295,7 +288,7 @@ prt::DistantLight LightRig::distant_light(const prt::Image* lat_long,
                     image.at(x, y) += radiance * (0.5f + 0.5f * glm::dot(d, light.direction));
                 }
     }
-    return prt::DistantLight(std::move(image), as_seen_by_rays(suns));
+    return prt::DistantLight(std::move(image), suns);
 }
 
 prt::DistantLight LightRig::distant_light() const {
@@ -321,7 +314,7 @@ prt::ReferenceLight LightRig::separate_reference_light() const {
         return reference_light();
     const LoadedEnvironment* environment = base();
     const bool has_suns = environment && !environment->sky_lat_long.pixels.empty();
-    std::vector<prt::SunDisc> others = strongest_first();
+    std::vector<prt::Sun> others = strongest_first();
     others.erase(others.begin(), others.begin() + static_cast<std::ptrdiff_t>(separate.suns.size()));
     return {.all = distant_light(),
             .sky = distant_light(has_suns      ? &environment->sky_lat_long

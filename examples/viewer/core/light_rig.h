@@ -5,7 +5,7 @@
 #include "prt/distant_light.h"
 #include "prt/environment.h"
 #include "prt/light.h"
-#include "prt/sun_disc.h"
+#include "prt/sun.h"
 #include "prt/surface_radiance.h"
 #include "prt/transfer_layout.h"
 
@@ -85,7 +85,7 @@ struct LoadedEnvironment {
     prt::Light light;        ///< light of the maximum order
     prt::Light sky;          ///< `light` without its suns
     prt::Image sky_lat_long; ///< image without the suns; empty if the environment has none
-    std::vector<prt::SunDisc> suns;
+    std::vector<prt::Sun> suns;
     float mean = 1; ///< mean luminance
 };
 LoadedEnvironment load_environment(const std::string& path);
@@ -93,7 +93,7 @@ LoadedEnvironment load_environment(const std::string& path);
 /// Light split into the lighting of the transfer and suns that are shadowed per pixel.
 struct SeparateLight {
     prt::Lighting lighting;
-    std::vector<prt::SunDisc> suns;
+    std::vector<prt::Sun> suns;
 };
 
 class LightRig {
@@ -129,10 +129,10 @@ public:
 
 private:
     const LoadedEnvironment* base() const;
-    std::vector<prt::SunDisc> own_suns() const;
-    std::vector<prt::SunDisc> rotated_suns() const;
-    std::vector<prt::SunDisc> strongest_first() const;
-    prt::DistantLight distant_light(const prt::Image* lat_long, const std::vector<prt::SunDisc>& suns) const;
+    std::vector<prt::Sun> own_suns() const;
+    std::vector<prt::Sun> rotated_suns() const;
+    std::vector<prt::Sun> strongest_first() const;
+    prt::DistantLight distant_light(const prt::Image* lat_long, const std::vector<prt::Sun>& suns) const;
     void add_shapes(prt::Light& sum) const;
     float unit() const;
 

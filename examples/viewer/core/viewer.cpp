@@ -165,7 +165,7 @@ void Viewer::take(const OpenModels& models) {
 
 /// Lists the lamps of the current transfer; lamps that remain keep their strength.
 void Viewer::follow_lamps() {
-    std::vector<Lamp>& lamps = settings.lit.lamps.each;
+    std::vector<LampControl>& lamps = settings.lit.lamps.each;
     lamps = lamps_of(document_.layouts(), lamps);
 }
 
@@ -237,7 +237,7 @@ void Viewer::take(const Occlusion& occlusion) {
         gpu_->model->set_occlusion(*occlusion);
 }
 
-void Viewer::take(const EnvironmentFile& file) {
+void Viewer::take(const OpenedEnvironment& file) {
     if (!file.environment)
         return message(file.why);
     lighting_.environments.push_back(file.environment);

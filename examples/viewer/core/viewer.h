@@ -123,7 +123,7 @@ private:
     void take(const Baked& baked);
     void take(const Compressed& compressed);
     void take(const Occlusion& occlusion);
-    void take(const EnvironmentFile& file);
+    void take(const OpenedEnvironment& file);
     void take(const NumberPictures& pictures);
     void take(const RepeatedBake& repeated);
     void take(const SurfaceBudget& budget);

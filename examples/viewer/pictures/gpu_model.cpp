@@ -152,7 +152,7 @@ prt::Lighting GpuModel::lighting_of(const prt::TransferLayout& layout) const {
     return with_lamps(*lit_.lighting, lit_.lamps, layout);
 }
 
-void GpuModel::set_lighting(const prt::Lighting& lighting, std::span<const prt::SunDisc> suns,
+void GpuModel::set_lighting(const prt::Lighting& lighting, std::span<const prt::Sun> suns,
                             const LampSettings& lamps) {
     lit_.lighting = lighting;
     lit_.lamps = lamps;

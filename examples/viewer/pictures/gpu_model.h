@@ -51,7 +51,7 @@ public:
     /// The light must have the maximum order of the transfers, at least three bands. `suns` are shadowed per
     /// pixel if the picture's transfer has a separate direct term, and in pictures without transfer. `lamps`
     /// are matched by name with those of each transfer, and also scale emission; `lighting` needs no lamps.
-    void set_lighting(const prt::Lighting& lighting, std::span<const prt::SunDisc> suns,
+    void set_lighting(const prt::Lighting& lighting, std::span<const prt::Sun> suns,
                       const LampSettings& lamps = {});
     /// Sets a sky only: no lamp is on.
     void set_light(const prt::Light& light) { set_lighting({light}, {}, {.on = false}); }
@@ -106,7 +106,7 @@ private:
     struct Lit {
         std::optional<prt::Lighting> lighting;
         std::array<glm::vec3, 9> irradiance{}; ///< irradiance of the sky
-        std::vector<prt::SunDisc> suns;
+        std::vector<prt::Sun> suns;
         LampSettings lamps;
     };
     struct Numbers {

@@ -13,19 +13,19 @@
 namespace viewer {
 
 /// A lamp of the model (`TransferTerm`), identified by its name.
-struct Lamp {
+struct LampControl {
     std::string name;
     bool on = true;
     float strength = 1; ///< 1: as in the scene
     glm::vec3 color{1}; ///< factor on its light, linear Rec. 709
 
-    friend bool operator==(const Lamp&, const Lamp&) = default;
+    friend bool operator==(const LampControl&, const LampControl&) = default;
 };
 
 struct LampSettings {
     bool on = true;
     float strength = 1; ///< factor on the strength of every lamp
-    std::vector<Lamp> each = {};
+    std::vector<LampControl> each = {};
 
     friend bool operator==(const LampSettings&, const LampSettings&) = default;
 };
@@ -35,8 +35,8 @@ inline constexpr float kMaxLampStrength = 1e9f;
 
 /// Returns the lamps of the layouts, each name once. Lamps in `known` keep their settings; new ones have the
 /// strength of the scene.
-std::vector<Lamp> lamps_of(std::span<const prt::TransferLayout* const> layouts,
-                           const std::vector<Lamp>& known);
+std::vector<LampControl> lamps_of(std::span<const prt::TransferLayout* const> layouts,
+                                  const std::vector<LampControl>& known);
 
 /// Returns the strength of each lamp of `layout`, matched by name; 0 if it is off, or if all lamps are off.
 std::vector<glm::vec3> strengths_of(const LampSettings& settings, const prt::TransferLayout& layout);

@@ -101,7 +101,7 @@ void MovingStage::place(const TwoSpheres& spheres) {
     }
 }
 
-void MovingStage::set_lighting(const prt::Lighting& lighting, std::span<const prt::SunDisc> suns,
+void MovingStage::set_lighting(const prt::Lighting& lighting, std::span<const prt::Sun> suns,
                                const LampSettings& lamps) {
     lit_ = {lighting, !suns.empty(), lamps};
     light_volume();

@@ -48,7 +48,7 @@ public:
     void place(const TwoSpheres& spheres);
     void show(const MovingSettings& settings) { shown_ = settings; }
     /// `suns` are not part of `lighting`: they are added per pixel if the volume has a separate direct term.
-    void set_lighting(const prt::Lighting& lighting, std::span<const prt::SunDisc> suns,
+    void set_lighting(const prt::Lighting& lighting, std::span<const prt::Sun> suns,
                       const LampSettings& lamps);
 
     bool has_volume() const { return volume_.gpu != nullptr; }

@@ -22,7 +22,7 @@ float strength_of(const nlohmann::json& value, const std::string& name) {
 }
 
 /// Switches `lamp` on with this strength. The slider shows the largest channel.
-void set_strength(Lamp& lamp, const glm::vec3& strength) {
+void set_strength(LampControl& lamp, const glm::vec3& strength) {
     lamp.on = true;
     lamp.strength = std::max({strength.r, strength.g, strength.b});
     lamp.color = lamp.strength > 0 ? strength / lamp.strength : glm::vec3(1);
@@ -34,26 +34,26 @@ glm::vec3 color_of(const nlohmann::json& value, const std::string& name) {
     return {strength_of(value[0], name), strength_of(value[1], name), strength_of(value[2], name)};
 }
 
-std::string names_of(const std::vector<Lamp>& lamps) {
+std::string names_of(const std::vector<LampControl>& lamps) {
     std::string names;
-    for (const Lamp& lamp : lamps)
+    for (const LampControl& lamp : lamps)
         names += (names.empty() ? "" : ", ") + prt::printable(lamp.name);
     return names.empty() ? "none" : names;
 }
 
 } // namespace
 
-void set_strengths(std::vector<Lamp>& lamps, const nlohmann::json& json) {
+void set_strengths(std::vector<LampControl>& lamps, const nlohmann::json& json) {
     if (!json.is_object())
         throw prt::Error("lamps must be an object of names and strengths");
-    std::vector<Lamp> changed = lamps;
+    std::vector<LampControl> changed = lamps;
     if (json.contains("*"))
-        for (Lamp& lamp : changed)
+        for (LampControl& lamp : changed)
             set_strength(lamp, color_of(json["*"], "*"));
     for (const auto& [name, value] : json.items()) {
         if (name == "*")
             continue;
-        const auto lamp = std::ranges::find(changed, name, &Lamp::name);
+        const auto lamp = std::ranges::find(changed, name, &LampControl::name);
         if (lamp == changed.end())
             throw prt::Error(fmt::format("the model has no lamp '{}'; its lamps: {}", prt::printable(name),
                                          names_of(changed)));

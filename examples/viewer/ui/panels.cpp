@@ -175,7 +175,7 @@ void light_panel(Viewer& viewer) {
 }
 
 /// Shows the controls of a lamp's strength and color.
-void lamp_controls(Lamp& lamp) {
+void lamp_controls(LampControl& lamp) {
     constexpr float kBrightest = 10; // maximum of the slider; a script may exceed it
     check("##on", lamp.on, "Switches the lamp.");
     ImGui::SameLine();
@@ -190,7 +190,7 @@ void lamp_controls(Lamp& lamp) {
 
 void lamp_panel(Viewer& viewer) {
     controls(viewer.settings, {"lamps", "lamp_strength"});
-    std::vector<Lamp>& lamps = viewer.settings.lit.lamps.each;
+    std::vector<LampControl>& lamps = viewer.settings.lit.lamps.each;
     for (std::size_t i = 0; i < lamps.size(); ++i) {
         ImGui::PushID(static_cast<int>(i));
         lamp_controls(lamps[i]);

@@ -96,6 +96,7 @@ struct Lighting {
     std::optional<Light> suns = {};
     /// Strength or color of each lamp of the layout; empty: 1, as in the scene.
     std::vector<glm::vec3> lamps = {};
+    std::string name = {}; ///< for reports, one or two words or the name of a file; may be empty
 };
 
 /// Non-owning view of the coefficients of a lighting: a sky alone, or a sky with suns and lamps.

@@ -95,7 +95,7 @@ struct MapAxes {
 
 /// Returns the axes for which the bounding rectangle of the slice is smallest, among rotations about the
 /// light direction.
-MapAxes axes_of(const SunDisc& sun, const Slice& slice) {
+MapAxes axes_of(const Sun& sun, const Slice& slice) {
     constexpr int kRotations = 24;
     const glm::dvec3 along = -glm::normalize(glm::dvec3(sun.towards));
     const TangentFrame frame = tangent_frame(sun.towards);
@@ -122,7 +122,7 @@ struct MapBox {
     MapAxes axes;
     Range across, up, along;
 
-    MapBox(const SunDisc& sun, const Slice& slice, const SeenScene& seen)
+    MapBox(const Sun& sun, const Slice& slice, const SeenScene& seen)
         : axes(axes_of(sun, slice)), across(slice.corners, axes.across), up(slice.corners, axes.up),
           along(slice.corners, axes.along) {
         const std::vector<glm::dvec3> scene = box_corners(seen);
@@ -146,7 +146,7 @@ private:
 
 } // namespace
 
-double tangent_of(const SunDisc& sun) {
+double tangent_of(const Sun& sun) {
     return std::tan(std::min(sun.half_angle, 1.2));
 }
 
@@ -172,7 +172,7 @@ std::vector<Slice> slices_of(const SeenScene& seen) {
     return slices;
 }
 
-double texels_wanted(const SunDisc& sun, const Slice& slice, const SeenScene& seen) {
+double texels_wanted(const Sun& sun, const Slice& slice, const SeenScene& seen) {
     constexpr double kPerPixel = 2;
     const MapBox box(sun, slice, seen);
     const double nearest = std::max(slice.from, 0.25 * slice.to);
@@ -180,7 +180,7 @@ double texels_wanted(const SunDisc& sun, const Slice& slice, const SeenScene& se
     return kPerPixel * std::max(box.across.length(), box.up.length()) / pixel;
 }
 
-suns::SunMap fitted_map(const SunDisc& sun, const Slice& slice, const SeenScene& seen, int size) {
+suns::SunMap fitted_map(const Sun& sun, const Slice& slice, const SeenScene& seen, int size) {
     const MapBox box(sun, slice, seen);
     const double texels = size - 2 * PRT_MAP_BORDER;
     const double x = texels / box.across.length(), y = texels / box.up.length();

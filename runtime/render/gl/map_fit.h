@@ -30,13 +30,13 @@ std::vector<Slice> slices_of(const SeenScene& seen);
 
 /// Returns the number of texels along a side for which a map of `sun` has two texels per pixel side at the
 /// near end of `slice`.
-double texels_wanted(const SunDisc& sun, const Slice& slice, const SeenScene& seen);
+double texels_wanted(const Sun& sun, const Slice& slice, const SeenScene& seen);
 
 /// Returns the map of size x size texels for `sun` and `slice`, which must have corners. It contains all
 /// casters towards the sun.
-suns::SunMap fitted_map(const SunDisc& sun, const Slice& slice, const SeenScene& seen, int size);
+suns::SunMap fitted_map(const Sun& sun, const Slice& slice, const SeenScene& seen, int size);
 
 /// Returns the tangent of the half angle, limited to 1.2 radians, because a map cannot represent half a sky.
-double tangent_of(const SunDisc& sun);
+double tangent_of(const Sun& sun);
 
 } // namespace prt

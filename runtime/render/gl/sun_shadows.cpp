@@ -31,20 +31,20 @@ GlObject make_array(GLenum format, int size, int layers) {
     return texture;
 }
 
-bool same(const SunDisc& a, const SunDisc& b) {
+bool same(const Sun& a, const Sun& b) {
     return a.towards == b.towards && a.irradiance == b.irradiance && a.half_angle == b.half_angle;
 }
 
-suns::SunLight light_of(const SunDisc& sun) {
+suns::SunLight light_of(const Sun& sun) {
     return {glm::vec4(sun.towards, static_cast<float>(tangent_of(sun))),
             glm::vec4(sun.irradiance / std::numbers::pi_v<float>, 0)};
 }
 
 /// Returns a power of two that provides two texels per pixel, if the limits allow it.
-int size_of_maps(std::span<const SunDisc> discs, const std::vector<Slice>& slices, const SeenScene& seen,
+int size_of_maps(std::span<const Sun> discs, const std::vector<Slice>& slices, const SeenScene& seen,
                  int largest) {
     double wanted = kMinMap;
-    for (const SunDisc& sun : discs)
+    for (const Sun& sun : discs)
         for (const Slice& slice : slices)
             if (!slice.corners.empty())
                 wanted = std::max(wanted, texels_wanted(sun, slice, seen));
@@ -84,7 +84,7 @@ void SunShadows::resize(int size, int count) {
     size_ = size;
 }
 
-void SunShadows::draw(std::span<const SunDisc> discs, const View& view, const Moving& moving) {
+void SunShadows::draw(std::span<const Sun> discs, const View& view, const Moving& moving) {
     if (discs.size() > kMaxShadowedSuns)
         throw Error("the OpenGL renderer supports shadows of at most " + std::to_string(kMaxShadowedSuns) +
                     " suns, not " + std::to_string(discs.size()));

@@ -71,8 +71,8 @@ Vector color_member(const tinygltf::Value& object, const char* name) {
     return color;
 }
 
-Volume read_volume(const tinygltf::Value& extension) {
-    Volume volume;
+MaterialVolume read_material_volume(const tinygltf::Value& extension) {
+    MaterialVolume volume;
     volume.thickness = std::max(0.0f, number_member(extension, "thicknessFactor", 0));
     volume.attenuation_distance =
         number_member(extension, "attenuationDistance", volume.attenuation_distance);
@@ -101,7 +101,7 @@ public:
         if (const auto e = extensions.find("KHR_materials_transmission"); e != extensions.end())
             material.glass = read_glass(e->second, material);
         if (const auto e = extensions.find("KHR_materials_volume"); e != extensions.end())
-            material.volume = read_volume(e->second);
+            material.volume = read_material_volume(e->second);
         material.emission = read_emission(file);
         range_.clamp(material.volume.attenuation_color, "attenuationColor of materials");
         for (TextureUse* colors : {&material.base_color_texture, &material.transmission.factor_texture,

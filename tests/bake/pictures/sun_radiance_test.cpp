@@ -18,7 +18,7 @@ const double kPi = std::numbers::pi;
 const glm::vec3 kWhite(3, 2, 1);
 
 /// Returns the radiance of the vertices of one scene.
-std::vector<glm::vec3> lit_by(const Scene& scene, const SunDisc& sun, int rays = 256) {
+std::vector<glm::vec3> lit_by(const Scene& scene, const Sun& sun, int rays = 256) {
     const TraceScene traced(scene);
     return sun_radiance(traced, std::span(&sun, 1), {.rays = rays});
 }
@@ -32,7 +32,7 @@ TEST(SunRadiance, OnAnOpenFloorFallsWithTheCosine) {
     const Scene floor = test::SceneBuilder().floor({0, 0, 0}, 1, 2).build();
     for (const double half_angle : {0.0, 0.005, 0.1})
         for (const double elevation : {90.0, 40.0, 7.0}) {
-            const SunDisc sun{from_elevation(elevation), kWhite, half_angle};
+            const Sun sun{from_elevation(elevation), kWhite, half_angle};
             for (const glm::vec3& r : lit_by(floor, sun))
                 for (int c = 0; c < 3; ++c) // a spiral of 256 points integrates the cosine to 1e-3
                     EXPECT_NEAR(static_cast<double>(r[c]),
@@ -60,7 +60,7 @@ TEST(SunRadiance, HalfTheSunHasHalfTheLight) {
     const Scene floor = test::SceneBuilder().floor({0, 0, 0}, 0.01f, 1).build();
     const Scene roof = test::SceneBuilder().quad({0, 1, -5}, {0, 1, 5}, {5, 1, 5}, {5, 1, -5}).build();
     const Scene scene = test::join({floor, roof});
-    const SunDisc sun{{0, 1, 0}, glm::vec3(1), 0.1};
+    const Sun sun{{0, 1, 0}, glm::vec3(1), 0.1};
     const std::vector<glm::vec3> lit = lit_by(scene, sun, 4096);
     double mean = 0; // corners are 0.01 on either side of the middle
     for (std::size_t p = 0; p < floor.receivers(); ++p)
@@ -92,7 +92,7 @@ TEST(SunRadiance, ComesThroughALeaf) {
 /// Transfer and rays agree for a sun wide enough for order 10.
 TEST(SunRadiance, WideSunMatchesTransfer) {
     const Scene scene = test::SceneBuilder().floor({0, 0, 0}, 2, 6).sphere({0, 0.8f, 0}, 0.5f, 10).build();
-    const SunDisc sun{glm::normalize(glm::vec3(0.4f, 1, 0.2f)), glm::vec3(1), 0.6};
+    const Sun sun{glm::normalize(glm::vec3(0.4f, 1, 0.2f)), glm::vec3(1), 0.6};
     BakeOptions options;
     options.order = 10;
     options.rays = 2048;

@@ -41,7 +41,7 @@ struct SunnyPicture {
     void look_from_above(const glm::vec3& from) {
         picture.camera = {from, {from.x, 0, from.z}, {0, 0, -1}, 0.4f};
     }
-    Image lit_by(const std::vector<SunDisc>& suns) {
+    Image lit_by(const std::vector<Sun>& suns) {
         picture.suns = suns;
         Image image = render_rays(picture, traced, options);
         picture.suns = {};
@@ -113,7 +113,7 @@ TEST(SunsInPictures, CastTheUmbraAndPenumbraOfAWall) {
 
 TEST(SunsInPictures, AddUp) {
     const Scene scene = SceneBuilder().floor({0, 0, 0}, 2, 2).sphere({0, 0.8f, 0}, 0.5f, 12).build();
-    const SunDisc a{towards_sun_at(50), {1, 2, 3}, 0.02}, b{towards_sun_at(120), {4, 1, 0}, 0.0};
+    const Sun a{towards_sun_at(50), {1, 2, 3}, 0.02}, b{towards_sun_at(120), {4, 1, 0}, 0.0};
     SunnyPicture shown(scene);
     const Image first = shown.lit_by({a}), second = shown.lit_by({b}), both = shown.lit_by({a, b});
     for (std::size_t i = 0; i < both.pixels.size(); ++i)
@@ -128,7 +128,7 @@ TEST(SunsInPictures, LightThroughLeaves) {
     SunnyPicture shown(leaf);
     for (const bool from_below : {false, true}) { // seen from either side
         shown.picture.camera = {{0, from_below ? -5.0f : 5.0f, 0}, {0, 0, 0}, {0, 0, -1}, 0.4f};
-        const SunDisc before{{0, from_below ? -1 : 1, 0}, glm::vec3(1), 0.01},
+        const Sun before{{0, from_below ? -1 : 1, 0}, glm::vec3(1), 0.01},
             behind{-before.towards, glm::vec3(1), 0.01};
         shown.picture.textured = true;
         expect_all(shown.lit_by({before}), glm::dvec3(0.3 / pi), 1e-4);
@@ -151,7 +151,7 @@ TEST(SunsInPictures, LeaveMediaToTransfer) {
     const Scene floor = SceneBuilder().floor({0, 0, 0}, 4, 1).build();
     expect_all(SunnyPicture(floor, {.solid = {true}}).lit_by({{{0, 1, 0}, glm::vec3(1), 0.01}}),
                glm::dvec3(0), 1e-9);
-    const SunDisc sun{{0, 1, 0}, glm::vec3(1), 0.01};
+    const Sun sun{{0, 1, 0}, glm::vec3(1), 0.01};
     for (const glm::vec3& r : sun_radiance(TraceScene(floor, {}, {.solid = {true}}), std::span(&sun, 1)))
         EXPECT_EQ(r, glm::vec3(0));
 }
@@ -170,7 +170,7 @@ TEST(SunsInPictures, DoNotLeakOverTheEdgeOfASurface) {
 
 TEST(SunsInPictures, MatchThePathTracer) {
     const Scene scene = SceneBuilder().floor({0, -0.5f, 0}, 2, 3).sphere({0, 0.3f, 0}, 0.5f, 8).build();
-    const SunDisc sun{glm::normalize(glm::vec3(0.5f, 0.8f, 0.6f)), {3, 2, 1}, 0};
+    const Sun sun{glm::normalize(glm::vec3(0.5f, 0.8f, 0.6f)), {3, 2, 1}, 0};
     SunnyPicture shown(scene);
     shown.picture.camera = {{1, 2, 3}, {0, 0, 0}, {0, 1, 0}, 0.6f};
     const Image image = shown.lit_by({sun});
@@ -191,7 +191,7 @@ TEST(SunsInPictures, MatchThePathTracer) {
 
 TEST(SunsInPictures, LightVerticesLikeTheirReceivers) {
     const Scene scene = SceneBuilder().floor({0, -0.5f, 0}, 2, 9).sphere({0, 0.3f, 0}, 0.5f, 24).build();
-    const SunDisc sun{glm::normalize(glm::vec3(0.5f, 0.8f, 0.6f)), glm::vec3(1), 0.08};
+    const Sun sun{glm::normalize(glm::vec3(0.5f, 0.8f, 0.6f)), glm::vec3(1), 0.08};
     SunnyPicture shown(scene);
     shown.options.sun_rays = 256;
     shown.picture.width = shown.picture.height = 1;
@@ -220,7 +220,7 @@ TEST(SunsInPictures, CountForTheExposure) {
     const Scene floor = test::painted(SceneBuilder().floor({0, 0, 0}, 4, 3).build(), {0.5f, 0.25f, 1});
     SunnyPicture shown(floor);
     shown.picture.textured = true;
-    const SunDisc sun{towards_sun_at(30), {3, 2, 1}, 0};
+    const Sun sun{towards_sun_at(30), {3, 2, 1}, 0};
     shown.picture.suns = std::span(&sun, 1);
     EXPECT_NEAR(static_cast<double>(sun_luminance(shown.picture, shown.traced)),
                 (0.2126 * 1.5 + 0.7152 * 0.5 + 0.0722) * 0.5 / pi, 1e-5);

@@ -57,8 +57,8 @@ TEST(LampStrengths, AreProductsOfOwnAndGlobalStrength) {
 TEST(LampStrengths, AreKeptForTransferWithTheSameLamps) {
     const prt::TransferLayout raw = layout_with({"a", "b"}), compressed = layout_with({"b", "c"});
     const prt::TransferLayout* both[] = {&raw, &compressed};
-    const std::vector<Lamp> lamps = lamps_of(both, {{.name = "b", .strength = 5}, {.name = "gone"}});
-    const std::vector<Lamp> expected = {{.name = "a"}, {.name = "b", .strength = 5}, {.name = "c"}};
+    const std::vector<LampControl> lamps = lamps_of(both, {{.name = "b", .strength = 5}, {.name = "gone"}});
+    const std::vector<LampControl> expected = {{.name = "a"}, {.name = "b", .strength = 5}, {.name = "c"}};
     EXPECT_EQ(lamps, expected);
 }
 
@@ -163,7 +163,7 @@ TEST_F(LampPictures, AreSumsOverTheLampsByName) {
     load(lit_scene());
     const auto only = [](const char* name, const glm::vec3& color) {
         LampSettings lamps{.each = {{.name = "warm", .on = false}, {.name = "cold", .on = false}}};
-        Lamp& lamp = *std::ranges::find(lamps.each, name, &Lamp::name);
+        LampControl& lamp = *std::ranges::find(lamps.each, name, &LampControl::name);
         lamp.on = true;
         lamp.color = color;
         return lamps;

@@ -200,7 +200,7 @@ TEST(LightRig, SeparateLightSumsToTheCombinedLight) {
     EXPECT_LT(relative_difference(together(separate), rig.light(kOrder)), 1e-6);
     const auto rays = rig.distant_light().suns();
     for (const prt::Sun& sun : rays) // path tracing uses the same suns
-        EXPECT_TRUE(std::ranges::any_of(separate.suns, [&](const prt::SunDisc& disc) {
+        EXPECT_TRUE(std::ranges::any_of(separate.suns, [&](const prt::Sun& disc) {
             return disc.towards == sun.towards && disc.irradiance == sun.irradiance;
         }));
     settings.lights[1].on = false;

@@ -30,7 +30,7 @@ constexpr glm::ivec2 kShot(160, 120);
 
 /// A sky with a separate sun.
 struct LitSeparately {
-    std::vector<prt::SunDisc> suns{{glm::normalize(glm::vec3(0.6f, 1, 0.4f)), {3, 2.5f, 2}, 0.01}};
+    std::vector<prt::Sun> suns{{glm::normalize(glm::vec3(0.6f, 1, 0.4f)), {3, 2.5f, 2}, 0.01}};
     prt::Lighting lighting{prt::overcast_sky(4, {0.3f, 0.4f, 0.6f}), prt::as_light(suns[0], 4)};
 };
 

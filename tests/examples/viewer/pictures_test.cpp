@@ -145,7 +145,7 @@ protected:
 
 /// A sky with a separate sun.
 struct SeparateSun {
-    std::vector<prt::SunDisc> suns{{glm::normalize(glm::vec3(0.6f, 1, 0.4f)), {3, 2.5f, 2}, 0.01}};
+    std::vector<prt::Sun> suns{{glm::normalize(glm::vec3(0.6f, 1, 0.4f)), {3, 2.5f, 2}, 0.01}};
     prt::Lighting lighting{prt::overcast_sky(6, {0.3f, 0.4f, 0.6f}), prt::as_light(suns[0], 6)};
 };
 

@@ -49,7 +49,7 @@ const ExtremeCase kMakers[] = {
      }},
     {"sun",
      [](int n, float x, float y) {
-         return coefficients(as_light({{0, 1, 0}, {x, 1, 1}, static_cast<double>(y), 0}, n));
+         return coefficients(as_light({{0, 1, 0}, {x, 1, 1}, static_cast<double>(y)}, n));
      }},
     {"cone",
      [](int n, float x, float y) {

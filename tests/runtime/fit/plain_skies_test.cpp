@@ -95,9 +95,10 @@ TEST(PlainSkies, AreFiniteOrRejected) {
             e.image.at(20, 9) = {x, 0, 1};
             try {
                 const SunSplit split = find_suns(e, {.order = 3, .count = 2});
-                for (const SunDisc& sun : split.suns)
-                    for (const double number : {static_cast<double>(glm::length(sun.irradiance)),
-                                                sun.half_angle, sun.energy_share, split.error_with})
+                for (std::size_t i = 0; i < split.suns.size(); ++i)
+                    for (const double number :
+                         {static_cast<double>(glm::length(split.suns[i].irradiance)),
+                          split.suns[i].half_angle, split.energy_shares[i], split.error_with})
                         EXPECT_TRUE(std::isfinite(number)) << x << " on " << y;
                 for (const glm::vec3& pixel : split.remainder.image.pixels)
                     EXPECT_TRUE(pixel.r >= 0 && pixel.g >= 0 && pixel.b >= 0) << x << " on " << y;

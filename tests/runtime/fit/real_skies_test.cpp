@@ -48,7 +48,7 @@ TEST(RealSkies, HaveTheirSunTakenOut) {
     ASSERT_EQ(split.suns.size(), 1u);
     EXPECT_LT(glm::distance(glm::dvec3(split.suns[0].towards), there), 0.5 * std::numbers::pi / 512);
     EXPECT_NEAR(2 * split.suns[0].half_angle, 0.53 * std::numbers::pi / 180, 0.1 * std::numbers::pi / 180);
-    EXPECT_GT(split.suns[0].energy_share, 0.5);
+    EXPECT_GT(split.energy_shares[0], 0.5);
     EXPECT_LT(split.error_with, 0.1 * split.error_without);
 }
 

@@ -34,7 +34,7 @@ protected:
     }
 
     /// Draws `scene` in black light, lit only by suns.
-    Image lit(const Scene& scene, std::span<const SunDisc> suns, const Camera& camera,
+    Image lit(const Scene& scene, std::span<const Sun> suns, const Camera& camera,
               std::span<const Texture> textures = {}) const {
         const std::vector<glm::vec3> black(scene.receivers(), glm::vec3(0));
         Picture picture;
@@ -48,7 +48,7 @@ protected:
         picture.samples = 1;
         return render_gl(picture, *context_);
     }
-    Image lit(const Scene& scene, const SunDisc& sun, const Camera& camera) const {
+    Image lit(const Scene& scene, const Sun& sun, const Camera& camera) const {
         return lit(scene, std::span(&sun, 1), camera);
     }
 
@@ -84,7 +84,7 @@ std::optional<Position> seen_at(const RayScene& rays, const Scene& scene, const 
 }
 
 /// Returns the unoccluded fraction of rays over the disc of `sun`; opaque surfaces only.
-double visibility(const RayScene& rays, const Position& point, const SunDisc& sun) {
+double visibility(const RayScene& rays, const Position& point, const Sun& sun) {
     const glm::vec3 origin = point.position + point.face * (4 * rays.triangle_offset(point.triangle));
     const glm::vec3 side = glm::normalize(glm::cross(sun.towards, glm::vec3(0.3f, 0.2f, 0.93f))),
                     up = glm::cross(side, sun.towards);
@@ -103,7 +103,7 @@ TEST_F(SunShadowPictures, PlanesFollowLambertsLaw) {
     const Scene floor = test::painted(test::SceneBuilder().floor({0, 0, 0}, 20, 3).build(), base);
     for (const double elevation : {88.0, 45.0, 10.0, 2.0})
         for (const double half_angle : {0.0, 0.005, 0.1}) {
-            const SunDisc sun{from(30, elevation), irradiance, half_angle};
+            const Sun sun{from(30, elevation), irradiance, half_angle};
             const Image image = lit(floor, sun, {.position = {0, 2, 6}, .target = {0, 0, 0}});
             for (int y = 60; y < kDown; ++y) // below the horizon
                 for (int x = 0; x < kAcross; ++x)
@@ -142,7 +142,7 @@ struct Agreement {
 };
 
 /// If the sun is fully visible or fully hidden around a pixel, the picture must agree.
-Agreement agreement(const Image& image, const Scene& scene, const SunDisc& sun, const Camera& camera) {
+Agreement agreement(const Image& image, const Scene& scene, const Sun& sun, const Camera& camera) {
     const RayScene rays(scene);
     Agreement result;
     for (int y = 0; y < kDown; ++y)
@@ -177,7 +177,7 @@ TEST_F(SunShadowPictures, AgreeWithRaysAwayFromPenumbrae) {
     const Camera camera{.position = {2, 3.5f, 6}, .target = {0, 0.7f, 0}};
     for (const double elevation : {70.0, 35.0, 12.0})
         for (const double half_angle : {0.0, 0.0047, 0.03}) {
-            const SunDisc sun{from(-40, elevation), glm::vec3(1), half_angle};
+            const Sun sun{from(-40, elevation), glm::vec3(1), half_angle};
             const Agreement a = agreement(lit(scene, sun, camera), scene, sun, camera);
             EXPECT_GT(a.compared, 5000) << elevation << " " << half_angle;
             EXPECT_LE(a.wrong, 0.0005 * a.compared) << elevation << " " << half_angle;
@@ -187,7 +187,7 @@ TEST_F(SunShadowPictures, AgreeWithRaysAwayFromPenumbrae) {
 TEST_F(SunShadowPictures, FromInsideTheSceneAgreeWithRays) {
     const Scene scene = playground();
     const Camera camera{.position = {-0.6f, 0.4f, 2.5f}, .target = {0, 0.5f, 0}};
-    const SunDisc sun{from(140, 40), glm::vec3(1), 0.0047};
+    const Sun sun{from(140, 40), glm::vec3(1), 0.0047};
     const Agreement a = agreement(lit(scene, sun, camera), scene, sun, camera);
     EXPECT_GT(a.compared, 3000);
     EXPECT_LE(a.wrong, 0.0005 * a.compared);
@@ -196,8 +196,7 @@ TEST_F(SunShadowPictures, FromInsideTheSceneAgreeWithRays) {
 TEST_F(SunShadowPictures, TwoSunsAdd) {
     const Scene scene = playground();
     const Camera camera{.position = {2, 3.5f, 6}, .target = {0, 0.7f, 0}};
-    const SunDisc suns[2] = {{from(-40, 50), {1, 0.5f, 0.25f}, 0.004},
-                             {from(70, 30), {0.25f, 0.5f, 1}, 0.01}};
+    const Sun suns[2] = {{from(-40, 50), {1, 0.5f, 0.25f}, 0.004}, {from(70, 30), {0.25f, 0.5f, 1}, 0.01}};
     const Image both = lit(scene, suns, camera), first = lit(scene, suns[0], camera),
                 second = lit(scene, suns[1], camera);
     double sum = 0, difference = 0;
@@ -240,7 +239,7 @@ class BelowTheZenith : public SunShadowPictures {
 protected:
     double through(const Scene& above, std::span<const Texture> textures = {}) const {
         const Scene scene = test::join({test::SceneBuilder().floor({0, 0, 0}, 1, 1).build(), above});
-        const SunDisc sun{{0, 1, 0}, glm::vec3(static_cast<float>(kHalfTurn)), 0.005};
+        const Sun sun{{0, 1, 0}, glm::vec3(static_cast<float>(kHalfTurn)), 0.005};
         const Camera camera{.position = {0, 0.3f, 1}, .target = {0, 0, 0}};
         const Image image = lit(scene, std::span(&sun, 1), camera, textures);
         double mean = 0;
@@ -329,7 +328,7 @@ TEST_F(SunShadowPictures, ShowTransmittingSheetsButNoMedia) {
 
 TEST_F(SunShadowPictures, MoreSunsThanMapsAreRejected) {
     const Scene floor = test::SceneBuilder().floor({0, 0, 0}, 1, 1).build();
-    const std::vector<SunDisc> suns(kMaxShadowedSuns + 1, {{0, 1, 0}, glm::vec3(1), 0});
+    const std::vector<Sun> suns(kMaxShadowedSuns + 1, {{0, 1, 0}, glm::vec3(1), 0});
     EXPECT_THROW(lit(floor, suns, {.position = {0, 1, 2}, .target = {0, 0, 0}}), Error);
 }
 

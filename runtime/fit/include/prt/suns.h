@@ -4,7 +4,7 @@
 // model with transfer under the sky. Stable.
 
 #include "prt/environment.h"
-#include "prt/sun_disc.h"
+#include "prt/sun.h"
 
 #include <optional>
 #include <vector>
@@ -25,7 +25,9 @@ struct SunOptions {
 
 /// An environment, split into suns and the remainder.
 struct SunSplit {
-    std::vector<SunDisc> suns;  ///< sorted by luminance, strongest first
+    std::vector<Sun> suns; ///< sorted by luminance, strongest first
+    /// [suns] luminance of each sun as a fraction of the total over all directions of the image.
+    std::vector<double> energy_shares;
     Environment remainder;      ///< the image without the suns, not negative, with the same layout and size
     double remainder_share = 1; ///< luminance of the remainder as a fraction of the whole image's
     /// Relative error of the light of shadowed receivers at `order`, root mean square: with the whole image

@@ -8,7 +8,7 @@
 #include "prt/environment.h"
 #include "prt/lightmap.h"
 #include "prt/scene.h"
-#include "prt/sun_disc.h"
+#include "prt/sun.h"
 #include "prt/texture.h"
 #include "prt/transfer_layout.h"
 
@@ -51,7 +51,7 @@ struct Picture {
     LitInShader in_shader;
     /// Suns that are not included in `radiance`; the renderer adds their light at each pixel with sharp
     /// shadows.
-    std::span<const SunDisc> suns = {};
+    std::span<const Sun> suns = {};
 
     /// [materials] factor on the emission; empty: no emission.
     std::span<const glm::vec3> emission = {};

@@ -3,7 +3,7 @@
 // Light files, as `prt project` writes them (docs/format.md). Stable.
 
 #include "prt/light.h"
-#include "prt/sun_disc.h"
+#include "prt/sun.h"
 
 #include <filesystem>
 #include <vector>
@@ -13,7 +13,7 @@ namespace prt {
 /// Content of a light file.
 struct LightFile {
     Light sky; ///< light without `suns`
-    std::vector<SunDisc> suns;
+    std::vector<Sun> suns;
 };
 
 /// Reads a light file. Throws `Error` with the file name.

@@ -52,7 +52,7 @@ struct Glass {
 };
 
 /// Medium below a surface: KHR_materials_volume.
-struct Volume {
+struct MaterialVolume {
     float thickness = 0;                                                 ///< 0: a thin sheet without a medium
     float attenuation_distance = std::numeric_limits<float>::infinity(); ///< metres
     glm::vec3 attenuation_color{1};                                      ///< transmittance over that distance
@@ -85,7 +85,7 @@ struct Material {
     bool casts_shadow = true;
     DiffuseTransmission transmission;
     Glass glass;
-    Volume volume;
+    MaterialVolume volume;
     Emission emission;
 };
 

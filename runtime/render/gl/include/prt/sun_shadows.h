@@ -3,7 +3,7 @@
 // Shadow maps of suns, for fragment shaders that include `shaders/sun_light.glsl`. Experimental.
 
 #include "prt/gl_scene.h"
-#include "prt/sun_disc.h"
+#include "prt/sun.h"
 
 #include <cstdint>
 #include <functional>
@@ -47,8 +47,8 @@ public:
     /// Draws the maps for the view frustum of `view`, unless suns, view and moving geometry are unchanged.
     /// Changes the bound framebuffer, the viewport and the program. Throws `Error` for more than
     /// kMaxShadowedSuns suns and if memory runs out.
-    void draw(std::span<const SunDisc> suns, const View& view, const Moving& moving);
-    void draw(std::span<const SunDisc> suns, const View& view) { draw(suns, view, Moving()); }
+    void draw(std::span<const Sun> suns, const View& view, const Moving& moving);
+    void draw(std::span<const Sun> suns, const View& view) { draw(suns, view, Moving()); }
 
     /// Binds the maps and suns that `shaders/sun_light.glsl` reads.
     void use() const;
@@ -72,7 +72,7 @@ private:
     Maps maps_;
     GlObject suns_;
     struct Drawn {
-        std::vector<SunDisc> suns;
+        std::vector<Sun> suns;
         View view{};
         std::uint64_t moved = 0;
     };

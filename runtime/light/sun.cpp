@@ -1,5 +1,5 @@
 // Computes suns as SH coefficients in closed form.
-#include "prt/sun_disc.h"
+#include "prt/sun.h"
 
 #include "prt/sh.h"
 #include "prt/support/error.h"
@@ -33,7 +33,7 @@ std::array<double, kMaxOrder> disc_factors(double half_angle) {
 
 } // namespace
 
-Light as_light(const SunDisc& sun, int order) {
+Light as_light(const Sun& sun, int order) {
     if (!(sun.half_angle >= 0 && sun.half_angle <= 0.5 * std::numbers::pi))
         throw Error("the half angle of a sun must be in 0..pi/2 radians, not " +
                     std::to_string(sun.half_angle));
@@ -46,9 +46,9 @@ Light as_light(const SunDisc& sun, int order) {
     return result;
 }
 
-Light as_light(std::span<const SunDisc> suns, int order) {
+Light as_light(std::span<const Sun> suns, int order) {
     Light together = constant_light(order, glm::vec3(0));
-    for (const SunDisc& sun : suns)
+    for (const Sun& sun : suns)
         together = sum(together, as_light(sun, order));
     return together;
 }
