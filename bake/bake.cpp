@@ -62,16 +62,16 @@ OutgoingTransfer outgoing_transfer(const BakePlan& plan, Measured& measured,
         filter.emplace(vertex_filter(plan, *measured.shared, left_out));
     OutgoingTransfer exit;
     exit.noise.filtered = filter.has_value();
-    const Beside beside{
+    const OptionalWork optional_work{
         .points = points, .filter = filter ? &*filter : nullptr, .left_out = &left_out, .noise = &exit.noise};
     const auto at_points = [](Propagated& light) {
-        return light.beside.empty() ? std::vector<float>() : std::move(light.beside.front());
+        return light.optional_work.empty() ? std::vector<float>() : std::move(light.optional_work.front());
     };
-    exit.all = propagate_all(plan, measured, operators, beside, progress);
+    exit.all = propagate_all(plan, measured, operators, optional_work, progress);
     exit.at_points.sky = at_points(exit.all);
     if (plan.lamps.empty())
         return exit;
-    Propagated lit = propagate_lamps(plan, measured, operators, beside, {{}, progress.stop});
+    Propagated lit = propagate_lamps(plan, measured, operators, optional_work, {{}, progress.stop});
     exit.all.transfer = with_lamps(exit.all.transfer, lit.transfer, plan.lamps);
     exit.all.bounces = std::max(exit.all.bounces, lit.bounces);
     exit.all.remaining = std::max(exit.all.remaining, lit.remaining);

@@ -72,11 +72,11 @@ bool separate_colors(const BakePlan& plan, const Transfer& light) {
 Propagated in_color(const Propagated& red, const Propagated& green, const Propagated& blue) {
     Propagated all{.transfer = in_color(red.transfer, green.transfer, blue.transfer)};
     const std::size_t columns = red.transfer.dimension();
-    for (std::size_t rows = 0; rows < red.beside.size(); ++rows) {
-        std::vector<float>& to = all.beside.emplace_back();
-        for (std::size_t begin = 0; begin < red.beside[rows].size(); begin += columns)
+    for (std::size_t rows = 0; rows < red.optional_work.size(); ++rows) {
+        std::vector<float>& to = all.optional_work.emplace_back();
+        for (std::size_t begin = 0; begin < red.optional_work[rows].size(); begin += columns)
             for (const Propagated* one : {&red, &green, &blue}) {
-                const auto from = one->beside[rows].begin() + static_cast<std::ptrdiff_t>(begin);
+                const auto from = one->optional_work[rows].begin() + static_cast<std::ptrdiff_t>(begin);
                 to.insert(to.end(), from, from + static_cast<std::ptrdiff_t>(columns));
             }
     }
@@ -144,7 +144,7 @@ TransportOperators with_rows(TransportOperators operators,
                              std::initializer_list<const GatherOperator*> rows) {
     for (const GatherOperator* one : rows)
         if (one)
-            operators.beside.push_back(one);
+            operators.optional_work.push_back(one);
     return operators;
 }
 
@@ -166,32 +166,33 @@ double norm_of_lamp(const BakePlan& plan, const Transfer& light, const Transfer&
 
 /// Computes light of lamps at receivers after all bounces.
 Propagated lamps_at_receivers(const BakePlan& plan, Transfer light, const std::optional<LampRows>& rows,
-                              const TransportOperators& operators, const Beside& beside,
+                              const TransportOperators& operators, const OptionalWork& optional_work,
                               const Progress& progress) {
     const Transfer unbounced = rows ? light : Transfer();
-    const bool halves = rows && rows->half && beside.filter;
-    Propagated lit = propagate_lamps_on_both_sides(
-        plan, std::move(light),
-        with_rows(operators, {beside.points, rows ? &rows->all : nullptr, halves ? &*rows->half : nullptr}),
-        plan.bounces, progress);
+    const bool halves = rows && rows->half && optional_work.filter;
+    Propagated lit =
+        propagate_lamps_on_both_sides(plan, std::move(light),
+                                      with_rows(operators, {optional_work.points, rows ? &rows->all : nullptr,
+                                                            halves ? &*rows->half : nullptr}),
+                                      plan.bounces, progress);
     if (rows) {
-        const std::size_t first = beside.points ? 1 : 0;
-        std::vector<double>& noise = beside.noise->lamps;
-        noise =
-            take_last_of_lamps({lit.beside[first], halves ? std::span<const float>(lit.beside[first + 1])
-                                                          : std::span<const float>()},
-                               *beside.left_out, beside.filter, plan.lamps.size(), unbounced, lit.transfer);
+        const std::size_t first = optional_work.points ? 1 : 0;
+        std::vector<double>& noise = optional_work.noise->lamps;
+        noise = take_last_of_lamps(
+            {lit.optional_work[first],
+             halves ? std::span<const float>(lit.optional_work[first + 1]) : std::span<const float>()},
+            *optional_work.left_out, optional_work.filter, plan.lamps.size(), unbounced, lit.transfer);
         for (std::size_t k = 0; k < noise.size(); ++k)
             if (const double norm = norm_of_lamp(plan, lit.transfer, unbounced, k); norm > 0)
                 noise[k] /= norm;
-        lit.beside.resize(first);
+        lit.optional_work.resize(first);
     }
     return lit;
 }
 
 /// Computes exit light after all bounces, and incident light without a bounce if it will be subtracted.
 SharpTransfer lit_by_lamps(const BakePlan& plan, Measured& measured, const TransportOperators& operators,
-                           const Beside& beside, const Progress& progress) {
+                           const OptionalWork& optional_work, const Progress& progress) {
     Transfer& light = measured.lamps.light.transfer;
     const SampledLight& sampled = measured.lamps.sampled;
     const std::optional<LampRows>& rows = measured.direct.lamps;
@@ -199,10 +200,10 @@ SharpTransfer lit_by_lamps(const BakePlan& plan, Measured& measured, const Trans
     if (!operators.fit) {
         if (plan.options.lamps.mode == LampMode::indirect)
             lit.direct = light;
-        lit.exit = lamps_at_receivers(plan, std::move(light), rows, operators, beside, progress);
+        lit.exit = lamps_at_receivers(plan, std::move(light), rows, operators, optional_work, progress);
     } else {
         const GatherOperator* last = rows ? &rows->all : nullptr;
-        const TransportOperators with_points = with_rows(operators, {beside.points});
+        const TransportOperators with_points = with_rows(operators, {optional_work.points});
         lit = separate_colors(plan, light)
                   ? sharp_lamps_in_color(plan, light, sampled, last, with_points, progress)
                   : sharp_lamps(plan, std::move(light), sampled, last, with_points, progress);
@@ -220,9 +221,9 @@ constexpr float kNoiseOfHalves = 0.75f;
 void filter_sky(const NoiseFilter& filter, const HalfOfRays& half, std::span<const float> gathered,
                 Transfer& direct, Transfer& all, BakeNoise& left) {
     const std::size_t stride = all.dimension(), columns = direct.dimension();
-    TellingColumns telling = columns_of_sky(columns);
+    RepresentativeColumns representative = columns_of_sky(columns);
     if (stride > columns) // the green channel
-        for (std::size_t& c : telling.columns)
+        for (std::size_t& c : representative.columns)
             c += columns;
     const auto of_direct = [&](std::uint32_t p, std::size_t c) {
         const std::size_t i = c % columns;
@@ -235,12 +236,12 @@ void filter_sky(const NoiseFilter& filter, const HalfOfRays& half, std::span<con
     };
     const auto of_all = [&](std::uint32_t p, std::size_t c) { return of_direct(p, c) + of_rest(p, c); };
     const auto value = [&](std::uint32_t p, std::size_t c) { return all.vector(p)[c]; };
-    const FitSolver solver = filter.fit(value, telling, of_all);
-    if (const double norm = filter.norm(solver, telling, value); norm > 0)
+    const FitSolver solver = filter.fit(value, representative, of_all);
+    if (const double norm = filter.norm(solver, representative, value); norm > 0)
         left = {.filtered = true,
-                .sky = filter.norm(solver, telling, of_all) / norm,
-                .direct = filter.norm(solver, telling, of_direct) / norm,
-                .indirect = filter.norm(solver, telling, of_rest) / norm};
+                .sky = filter.norm(solver, representative, of_all) / norm,
+                .direct = filter.norm(solver, representative, of_direct) / norm,
+                .indirect = filter.norm(solver, representative, of_rest) / norm};
     // Channel by channel: columns are solved in groups, and columns that are equal in two channels remain
     // equal.
     for (std::size_t first = 0; first < stride; first += columns)
@@ -253,7 +254,7 @@ void filter_sky(const NoiseFilter& filter, const HalfOfRays& half, std::span<con
 } // namespace
 
 Propagated propagate_all(const BakePlan& plan, Measured& measured, const TransportOperators& operators,
-                         const Beside& beside, const Progress& progress) {
+                         const OptionalWork& optional_work, const Progress& progress) {
     const bool bounced = operators.gather || !operators.diffusion.empty();
     const int threads = plan.options.threads;
     const auto wide = [&](Transfer transfer) {
@@ -261,9 +262,9 @@ Propagated propagate_all(const BakePlan& plan, Measured& measured, const Transpo
                                                                      : std::move(transfer);
     };
     Transfer direct = std::move(measured.direct.transfer);
-    const HalfOfRays* half = measured.direct.half && beside.filter ? &*measured.direct.half : nullptr;
+    const HalfOfRays* half = measured.direct.half && optional_work.filter ? &*measured.direct.half : nullptr;
     const GatherOperator* rows_of_half = half && half->gather ? &*half->gather : nullptr;
-    const TransportOperators all_rows = with_rows(operators, {beside.points, rows_of_half});
+    const TransportOperators all_rows = with_rows(operators, {optional_work.points, rows_of_half});
     Propagated exit;
     if (operators.fit) {
         const TestValues of_direct = TestValues::of_sky(plan.options.order, 1),
@@ -284,11 +285,12 @@ Propagated propagate_all(const BakePlan& plan, Measured& measured, const Transpo
     if (half) {
         if (!bounced)
             exit.transfer = unbounced;
-        filter_sky(*beside.filter, *half,
-                   rows_of_half ? std::span<const float>(exit.beside.back()) : std::span<const float>(),
-                   unbounced, exit.transfer, *beside.noise);
+        filter_sky(*optional_work.filter, *half,
+                   rows_of_half ? std::span<const float>(exit.optional_work.back())
+                                : std::span<const float>(),
+                   unbounced, exit.transfer, *optional_work.noise);
         if (rows_of_half)
-            exit.beside.pop_back();
+            exit.optional_work.pop_back();
     }
     if (plan.direct_channels() == 3)
         unbounced = in_color(unbounced);
@@ -321,8 +323,8 @@ Propagated propagate_lamps_on_both_sides(const BakePlan& plan, Transfer light,
 }
 
 Propagated propagate_lamps(const BakePlan& plan, Measured& measured, const TransportOperators& operators,
-                           const Beside& beside, const Progress& progress) {
-    SharpTransfer lit = lit_by_lamps(plan, measured, operators, beside, progress);
+                           const OptionalWork& optional_work, const Progress& progress) {
+    SharpTransfer lit = lit_by_lamps(plan, measured, operators, optional_work, progress);
     leave_back_sides(plan, lit.exit.transfer);
     if (plan.options.lamps.mode == LampMode::indirect) {
         Transfer unbounced = exit_without_bounces(plan, std::move(lit.direct), operators.refill);

@@ -11,7 +11,7 @@ namespace prt {
 
 /// Optional work of a bake in addition to bounces between receivers; null: not done. `noise` is needed if
 /// `measured` has halves of rays or rows of lamps.
-struct Beside {
+struct OptionalWork {
     const GatherOperator* points = nullptr;      ///< gathers at points where errors are measured
     const NoiseFilter* filter = nullptr;         ///< filters light at receivers
     const std::vector<bool>* left_out = nullptr; ///< [receivers] receivers whose own rays do not determine
@@ -20,10 +20,10 @@ struct Beside {
 };
 
 /// Computes exit transfer of the scene's receivers in its terms: direct light, and all bounces with
-/// subsurface scattering. Moves the light out of `measured`. Member `beside` of the result is the light at
-/// `points`.
+/// subsurface scattering. Moves the light out of `measured`. Member `optional_work` of the result is the
+/// light at `points`.
 Propagated propagate_all(const BakePlan& plan, Measured& measured, const TransportOperators& operators,
-                         const Beside& beside, const Progress& progress);
+                         const OptionalWork& optional_work, const Progress& progress);
 
 /// Computes exit light of lamps without sharp features for all receivers of the plan, on both sides of
 /// surfaces, after `bounces` bounces. Throws `Error` if endless bounces do not converge.
@@ -34,6 +34,6 @@ Propagated propagate_lamps_on_both_sides(const BakePlan& plan, Transfer light,
 /// Computes exit light of lamps after all bounces for the scene's receivers. Moves the light out of
 /// `measured`. Throws `Error` if endless bounces do not converge.
 Propagated propagate_lamps(const BakePlan& plan, Measured& measured, const TransportOperators& operators,
-                           const Beside& beside, const Progress& progress);
+                           const OptionalWork& optional_work, const Progress& progress);
 
 } // namespace prt

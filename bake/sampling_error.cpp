@@ -34,7 +34,7 @@ std::map<std::uint32_t, double> choose_receivers(const Receivers& receivers, con
     const std::size_t wanted = std::clamp(all.size() / kReceiversPerCheck, kMinChecked, kMaxChecked);
     std::map<std::uint32_t, double> weights;
     for (const Picked& picked : pick(all.size(), wanted, [&](std::size_t i) { return likely(all[i]); }))
-        weights[all[picked.index]] = picked.stands_for;
+        weights[all[picked.index]] = picked.weight;
     return weights;
 }
 

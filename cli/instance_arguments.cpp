@@ -135,7 +135,7 @@ InstancedBake bake_shared(const InstanceArguments& arguments, const FlatScene& f
         SharedDocument shared = with_shared_meshes(flat.document, meshes.meshes);
         Scene stored = extract_scene(shared.document);
         leave_out_shadows(stored, flat.no_shadow);
-        result.bake = bake_instances({flat.scene, stored, meshes.meshes, shared.stand_ins, shared.node_of},
+        result.bake = bake_instances({flat.scene, stored, meshes.meshes, shared.mesh_nodes, shared.node_of},
                                      options, with_lights, progress.range(begin, 1));
         begin = 0.5 + begin / 2;
         result.seconds += result.bake.statistics.seconds;

@@ -98,7 +98,7 @@ int complain(int status, std::string_view what, std::string_view more = {}) noex
     std::abort();
 }
 
-int run_and_tell(int argc, char** argv) {
+int run_and_report(int argc, char** argv) {
     try {
         return run(argc, argv);
     } catch (const CLI::ParseError& error) {
@@ -124,5 +124,5 @@ int main(int argc, char** argv) {
         std::signal(signal, SIG_IGN);
     std::set_terminate(prt::cli::end_without_memory);
     prt::cli::occupy_standard_streams();
-    return prt::cli::run_and_tell(argc, argv);
+    return prt::cli::run_and_report(argc, argv);
 }

@@ -171,8 +171,8 @@ vec4 light_of_triangles(LampReceiver receiver, uint seed) {
             running = target < until || i == last; // independent of the rounding of the sum
             if (running) {
                 vec2 u = vec2(clamp((target - before) / weight, 0.0, 1.0), golden(ray, seed * 2654435761u));
-                float stands_for = all / (shining[i].luminance * float(push.max_rays));
-                sum += vec4(stands_for * irradiance_along(receiver, shining[i], seen, u), 1.0);
+                float weight = all / (shining[i].luminance * float(push.max_rays));
+                sum += vec4(weight * irradiance_along(receiver, shining[i], seen, u), 1.0);
                 ++ray;
                 running = ray < end;
             }

@@ -87,7 +87,7 @@ private:
         const auto count = static_cast<double>(scene_.meshes.size());
         for (std::size_t m = 0; m < scene_.meshes.size(); ++m) {
             meshes_.push_back(bake_shared_mesh(
-                scene_.stored, scene_.stand_ins[m], plan_.channels, options_,
+                scene_.stored, scene_.mesh_nodes[m], plan_.channels, options_,
                 progress.range(static_cast<double>(m) / count, static_cast<double>(m + 1) / count)));
             result_.statistics.receivers += receivers_on_surfaces(meshes_.back().receivers()).size();
             result_.statistics.rays += meshes_.back().rays;
@@ -119,7 +119,7 @@ private:
             std::size_t next = 0;
             std::vector<bool> seen(scene_.stored.vertex_arrays.size());
             for (const Primitive& primitive : scene_.stored.primitives) {
-                if (primitive.node != scene_.stand_ins[m] || seen[primitive.vertices])
+                if (primitive.node != scene_.mesh_nodes[m] || seen[primitive.vertices])
                     continue;
                 seen[primitive.vertices] = true;
                 const VertexArray& vertices = scene_.stored.vertex_arrays[primitive.vertices];

@@ -28,19 +28,19 @@ InstanceSamples choose_samples(const SharedMeshBake& mesh, int most) {
         passed += own;
         if (!all && passed <= next)
             continue;
-        double stands_for = own;
+        double weight = own;
         if (!all)
-            for (stands_for = 0; next < passed; next += step)
-                stands_for += step;
+            for (weight = 0; next < passed; next += step)
+                weight += step;
         samples.receivers.push_back(r);
         samples.positions.push_back(mesh.position_of(r));
-        samples.areas.push_back(static_cast<float>(stands_for));
+        samples.areas.push_back(static_cast<float>(weight));
     }
     float sum = 0;
-    for (const float stands_for : samples.areas)
-        sum += stands_for;
-    for (float& stands_for : samples.areas)
-        stands_for *= static_cast<float>(samples.areas.size()) / sum;
+    for (const float weight : samples.areas)
+        sum += weight;
+    for (float& weight : samples.areas)
+        weight *= static_cast<float>(samples.areas.size()) / sum;
     return samples;
 }
 

@@ -37,7 +37,7 @@ Scene scene_of(const Scene& stored, int node) {
 
 /// Joins `direct` of one channel and the difference of `all` from it, which has the channels of bounced
 /// light.
-Transfer beside(const Transfer& direct, const Transfer& all) {
+Transfer optional_work(const Transfer& direct, const Transfer& all) {
     const int order = direct.layout.order, channels = all.layout.channels();
     Transfer both =
         zero_transfer({order, {{TermKind::direct, 1}, {TermKind::indirect, channels}}}, direct.receivers());
@@ -70,7 +70,7 @@ SharedMeshBake bake_shared_mesh(const Scene& stored, int node, int channels, con
     for (const VertexArray& vertices : mesh.scene->vertex_arrays)
         for (const glm::vec3& position : vertices.positions)
             positions.emplace_back(mesh.scene->world(position));
-    mesh.box = box_round(positions);
+    mesh.box = bounding_box(positions);
 
     const std::unique_ptr<Tracer> tracer = make_tracer(*mesh.traced, options.tracer);
     BakeStatistics asked;
@@ -96,7 +96,7 @@ SharedMeshBake bake_shared_mesh(const Scene& stored, int node, int channels, con
             propagate(std::move(light), operators, bounces, options.threads, {{}, progress.stop}).transfer;
         if (channels == 3 && all.layout.channels() == 1)
             all = in_color(all);
-        mesh.after.push_back(beside(direct, all));
+        mesh.after.push_back(optional_work(direct, all));
     }
     return mesh;
 }

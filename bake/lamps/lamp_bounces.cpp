@@ -5,9 +5,9 @@
 namespace prt {
 namespace {
 
-TellingColumns columns_of_lamp(const TransferLayout& layout, std::size_t lamp) {
+RepresentativeColumns columns_of_lamp(const TransferLayout& layout, std::size_t lamp) {
     const auto channels = static_cast<std::size_t>(layout.channels());
-    TellingColumns columns;
+    RepresentativeColumns columns;
     for (std::size_t c = 0; c < channels; ++c)
         columns.columns.push_back(c * (layout.dimension() / channels) + lamp);
     columns.factors.assign(channels, 1.0f);

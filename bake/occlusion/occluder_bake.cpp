@@ -40,7 +40,7 @@ public:
     glm::vec3 from_scene(const glm::vec3& p) const { return glm::vec3(inverse_ * glm::dvec4(p, 1)); }
     /// Converts a mean blocked direction from the scene's frame to the object's, the inverse of the
     /// conversion in `blocked_at`: by the inverse of the transposed scene-to-box matrix.
-    glm::vec3 lean_from_scene(const glm::vec3& blocked_direction) const {
+    glm::vec3 direction_from_scene(const glm::vec3& blocked_direction) const {
         const glm::dmat3 rows = glm::transpose(scale_ * glm::dmat3(inverse_));
         return glm::vec3(glm::inverse(rows) * glm::dvec3(blocked_direction));
     }
@@ -175,7 +175,7 @@ OccluderBake bake_occluder(const Scene& part, const glm::dmat4& to_scene, const 
     baked.volume.reach = reach_of(baked.volume, seen, frame, options.least);
     check_occlusion_volume(baked.volume);
     for (BlockedPoint& point : seen.points)
-        point.blocked_direction = frame.lean_from_scene(point.blocked_direction);
+        point.blocked_direction = frame.direction_from_scene(point.blocked_direction);
     fit_texels(seen.points, baked.volume);
     bake.seed += kSecondScramble;
     judge(part, points_in(baked.volume, frame, kJudgePoints, bake.seed), bake,

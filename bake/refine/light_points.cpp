@@ -22,7 +22,7 @@ namespace {
 /// Minimum number of points: of each fold, so that a fit to either fold has data in every triangle, for
 /// triangles that nothing has marked for splitting (the majority in a fine mesh), and for parts of split
 /// triangles and for a closer look; and of the whole surface, to find errors inside large triangles.
-constexpr std::size_t kOfFold = 1, kOfFoldInTerms = 2, kOfSurface = 4096;
+constexpr std::size_t kOfFold = 1, kOfFoldInParts = 2, kOfSurface = 4096;
 /// Number of points that measure the noise of rays, and their rays.
 constexpr std::size_t kFirstPoints = 256;
 constexpr int kFirstRays = 256, kFewestRaysOfPoint = 64, kMaxRaysOfPoint = 16384;
@@ -122,7 +122,7 @@ void LightPoints::spread(const LitMesh& mesh, const Progress& progress) {
 
 bool LightPoints::look_closer() {
     const bool few = std::ranges::count(least_, kOfFold) > 0;
-    std::ranges::fill(least_, kOfFoldInTerms);
+    std::ranges::fill(least_, kOfFoldInParts);
     return few;
 }
 
@@ -167,23 +167,23 @@ std::vector<float> LightPoints::trace(const Receivers& receivers, int rays, cons
     return light;
 }
 
-void LightPoints::move(std::span<const Part> terms) {
+void LightPoints::move(std::span<const Part> parts) {
     std::vector<std::uint32_t> first; // first part of each original triangle
     std::vector<std::size_t> least;
-    for (std::uint32_t i = 0; i < terms.size(); ++i) {
-        if (terms[i].whole == first.size())
+    for (std::uint32_t i = 0; i < parts.size(); ++i) {
+        if (parts[i].whole == first.size())
             first.push_back(i);
         const bool is_whole =
-            i == first.back() && (i + 1 == terms.size() || terms[i + 1].whole != terms[i].whole);
-        least.push_back(is_whole ? least_[terms[i].whole] : kOfFoldInTerms);
+            i == first.back() && (i + 1 == parts.size() || parts[i + 1].whole != parts[i].whole);
+        least.push_back(is_whole ? least_[parts[i].whole] : kOfFoldInParts);
     }
-    first.push_back(static_cast<std::uint32_t>(terms.size()));
+    first.push_back(static_cast<std::uint32_t>(parts.size()));
     least_ = std::move(least);
     for (Point& point : points_) {
         Found best{-1e30, {}};
         const std::uint32_t whole = point.position.triangle;
         for (std::uint32_t i = first[whole]; i < first[whole + 1]; ++i)
-            if (const Found here = find(terms[i].corners, glm::dvec2(point.position.uv));
+            if (const Found here = find(parts[i].corners, glm::dvec2(point.position.uv));
                 here.depth > best.depth) {
                 best = here;
                 point.position.triangle = i;

@@ -38,8 +38,8 @@ public:
 
     /// Adds points until each triangle of `mesh` has enough.
     void spread(const LitMesh& mesh, const Progress& progress);
-    /// Moves points to the parts (`terms`) into which their triangles were split.
-    void move(std::span<const Part> terms);
+    /// Moves points to the parts (`parts`) into which their triangles were split.
+    void move(std::span<const Part> parts);
 
     /// Requests more points in triangles with few points. Returns whether it found any.
     bool look_closer();

@@ -98,7 +98,7 @@ OppositeTriangles::OppositeTriangles(const Scene& scene) {
     }
 }
 
-bool OppositeTriangles::rotate_to_front(unsigned& triangle, glm::vec2& uv) const {
+bool OppositeTriangles::move_to_front(unsigned& triangle, glm::vec2& uv) const {
     if (of_.empty() || of_[triangle].triangle == kNone)
         return false;
     const Opposite& opposite = of_[triangle];
@@ -110,7 +110,7 @@ bool OppositeTriangles::rotate_to_front(unsigned& triangle, glm::vec2& uv) const
 
 Hit OppositeTriangles::shown(Hit hit) const {
     glm::vec2 uv(hit.u, hit.v);
-    if (hit.back && rotate_to_front(hit.triangle, uv)) {
+    if (hit.back && move_to_front(hit.triangle, uv)) {
         hit.u = uv.x;
         hit.v = uv.y;
         hit.back = false;

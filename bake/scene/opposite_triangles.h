@@ -22,7 +22,7 @@ public:
     bool empty() const { return of_.empty(); }
     /// Replaces a hit on the back of `triangle` at barycentric coordinates `uv` by the same point on the
     /// opposite triangle, whose front is visible there. Returns whether an opposite triangle exists.
-    bool rotate_to_front(unsigned& triangle, glm::vec2& uv) const;
+    bool move_to_front(unsigned& triangle, glm::vec2& uv) const;
     /// Returns `hit`; a hit on the back of such a triangle is moved to the front of the opposite one.
     Hit shown(Hit hit) const;
 

@@ -77,7 +77,7 @@ std::optional<RayHit> RayScene::nearest(const Ray& ray) const {
     if (!met)
         return std::nullopt;
     if (met->back)
-        opposites_->rotate_to_front(met->hit.triangle, met->hit.uv);
+        opposites_->move_to_front(met->hit.triangle, met->hit.uv);
     return met->hit;
 }
 

@@ -94,9 +94,9 @@ Transfer repeated_lightmap(const Scene& scene, const BakedLightmap& lightmap, in
         atlases.push_back(
             {.primitives = {}, .width = map.width, .height = map.height, .repeats = map.repeats});
     for (std::size_t p = 0; p < scene.primitives.size(); ++p) {
-        Atlas& atlas = atlases[lightmap.layout.positions[p].map];
+        Atlas& atlas = atlases[lightmap.layout.placements[p].map];
         atlas.primitives.push_back(p);
-        atlas.uv_set = lightmap.layout.positions[p].texcoord;
+        atlas.uv_set = lightmap.layout.placements[p].texcoord;
     }
     Transfer repeated = bake_lightmap(scene, atlases, options, {}, progress).lightmap.baked.transfer;
     check_repeats(baked.transfer, repeated, lightmap.areas, baked.record);

@@ -38,7 +38,7 @@ SurfacePoints points_by_area(const TraceScene& scene, const SurfacePointOptions&
         if (glm::any(glm::equal(corners, glm::uvec3(kNoReceiver))) || !(seen > 0))
             continue;
         points.receivers.append(dense.receivers, picked.index);
-        points.receivers.areas.back() = seen * static_cast<float>(picked.stands_for * area(picked.index));
+        points.receivers.areas.back() = seen * static_cast<float>(picked.weight * area(picked.index));
         points.triangles.push_back(point.triangle);
         points.uv.push_back(point.uv);
         points.corners.push_back(corners);
@@ -75,7 +75,7 @@ SurfacePoints some_of(const SurfacePoints& points, std::size_t count) {
     SurfacePoints some;
     for (const Picked& picked : pick(points.size(), count, area)) {
         append(points, picked.index, some);
-        some.receivers.areas.back() *= static_cast<float>(picked.stands_for);
+        some.receivers.areas.back() *= static_cast<float>(picked.weight);
     }
     return some;
 }

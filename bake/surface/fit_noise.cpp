@@ -39,9 +39,9 @@ float sign_of_group(std::size_t group, std::uint64_t seed) {
     return receiver_seed(static_cast<std::uint32_t>(group), seed + 6 * kSecondScramble) & 1 ? 1.0f : -1.0f;
 }
 
-TellingColumns columns_of_sky(std::size_t stride) {
+RepresentativeColumns columns_of_sky(std::size_t stride) {
     constexpr std::size_t kFirst = 4;
-    TellingColumns columns;
+    RepresentativeColumns columns;
     const std::size_t first = std::min(stride, kFirst), rest = stride - first,
                       others = std::min(rest, kBlock - kFirst);
     for (std::size_t c = 0; c < first; ++c)
@@ -54,11 +54,11 @@ TellingColumns columns_of_sky(std::size_t stride) {
     return columns;
 }
 
-TellingColumns brightest_columns(std::span<const double> squares) {
+RepresentativeColumns brightest_columns(std::span<const double> squares) {
     std::vector<std::size_t> order(squares.size());
     std::iota(order.begin(), order.end(), std::size_t{0});
     std::ranges::stable_sort(order, std::greater{}, [&](std::size_t c) { return squares[c]; });
-    TellingColumns columns;
+    RepresentativeColumns columns;
     for (std::size_t i = 0; i < std::min(order.size(), kBlock) && squares[order[i]] > 0; ++i) {
         columns.columns.push_back(order[i]);
         columns.factors.push_back(static_cast<float>(1 / std::sqrt(squares[order[i]])));
@@ -87,7 +87,7 @@ FitSolver lamp_solver(const SurfaceSamples& samples, const FitEquations& equatio
             const auto value = static_cast<double>(values[s * columns + c]);
             squares[c] += static_cast<double>(equations.rows[s].area) * value * value;
         }
-    const TellingColumns some = brightest_columns(squares);
+    const RepresentativeColumns some = brightest_columns(squares);
     NoisySums sums{some.size(), std::vector<float>(equations.unknowns * some.size()), {}};
     sums.with_signs = sums.plain;
     std::vector<float> row(some.size());

@@ -11,7 +11,7 @@
 namespace prt {
 
 /// Selected columns that represent all columns, with factors on their values.
-struct TellingColumns {
+struct RepresentativeColumns {
     std::vector<std::size_t> columns;
     std::vector<float> factors;
 
@@ -20,10 +20,10 @@ struct TellingColumns {
 /// Returns columns that represent all columns of a sky, one block of the solver: all columns of the first two
 /// bands, because they hold the light of curved surfaces, and some of the others. The factors preserve the
 /// sum of squares of all columns.
-TellingColumns columns_of_sky(std::size_t stride);
+RepresentativeColumns columns_of_sky(std::size_t stride);
 /// Returns the columns with the largest mean `squares`, one block of the solver, each divided by its root
 /// mean square, so that all lamps have the same weight.
-TellingColumns brightest_columns(std::span<const double> squares);
+RepresentativeColumns brightest_columns(std::span<const double> squares);
 
 /// Returns +1 or -1 for a group of samples that share the rays of one receiver.
 float sign_of_group(std::size_t group, std::uint64_t seed);

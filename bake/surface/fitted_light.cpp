@@ -198,7 +198,8 @@ std::vector<float> joined_sums(const FitEquations& from, const FitEquations& to,
 }
 
 /// Extracts some columns of `all` [unknowns][stride], multiplied by their factors.
-std::vector<float> columns_of(std::span<const float> all, std::size_t stride, const TellingColumns& some) {
+std::vector<float> columns_of(std::span<const float> all, std::size_t stride,
+                              const RepresentativeColumns& some) {
     std::vector<float> result;
     result.reserve(all.size() / stride * some.columns.size());
     for (std::size_t row = 0; row < all.size(); row += stride)
@@ -237,7 +238,7 @@ FittedSky fit_sky(const BakePlan& plan, const SurfaceSamples& samples, const Fit
                   SampleSums sums) {
     const int threads = plan.options.threads;
     const auto stride = static_cast<std::size_t>(coefficient_count(plan.options.order));
-    const TellingColumns some = columns_of_sky(stride);
+    const RepresentativeColumns some = columns_of_sky(stride);
     auto [solver, residuals] =
         noise_solver(samples, equations,
                      {some.size(), columns_of(sums.b, stride, some), columns_of(sums.signed_b, stride, some)},

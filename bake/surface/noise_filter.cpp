@@ -74,7 +74,7 @@ NoiseFilter vertex_filter(const BakePlan& plan, const SharedPositions& shared,
             std::move(receivers), plan.options.threads};
 }
 
-std::vector<float> NoiseFilter::sums(const TellingColumns& columns, const Values& values) const {
+std::vector<float> NoiseFilter::sums(const RepresentativeColumns& columns, const Values& values) const {
     const std::size_t count = columns.size();
     std::vector<float> sums(equations_.unknowns * count), row(count);
     for (std::size_t s = 0; s < positions_.size(); ++s) {
@@ -85,7 +85,7 @@ std::vector<float> NoiseFilter::sums(const TellingColumns& columns, const Values
     return sums;
 }
 
-TellingColumns NoiseFilter::brightest(const Values& light, std::size_t columns) const {
+RepresentativeColumns NoiseFilter::brightest(const Values& light, std::size_t columns) const {
     std::vector<double> squares(columns);
     for (std::size_t s = 0; s < positions_.size(); ++s)
         for (std::size_t c = 0; c < columns; ++c) {
@@ -95,7 +95,8 @@ TellingColumns NoiseFilter::brightest(const Values& light, std::size_t columns) 
     return brightest_columns(squares);
 }
 
-FitSolver NoiseFilter::fit(const Values& light, const TellingColumns& columns, const Values& noise_of) const {
+FitSolver NoiseFilter::fit(const Values& light, const RepresentativeColumns& columns,
+                           const Values& noise_of) const {
     const std::size_t count = columns.size();
     std::vector<float> x = sums(columns, light), noise = sums(columns, noise_of);
     const FitSolver first(equations_,
@@ -105,7 +106,8 @@ FitSolver NoiseFilter::fit(const Values& light, const TellingColumns& columns, c
     return {equations_, smoothness_weights(equations_, x, noise, count)};
 }
 
-double NoiseFilter::norm(const FitSolver& solver, const TellingColumns& columns, const Values& values) const {
+double NoiseFilter::norm(const FitSolver& solver, const RepresentativeColumns& columns,
+                         const Values& values) const {
     const std::size_t count = columns.size();
     std::vector<float> x = sums(columns, values);
     solver.solve(x, count, threads_, FitSolver::kRough);
@@ -130,7 +132,7 @@ void NoiseFilter::limit(std::span<const float> means, std::size_t columns, std::
         x[i] = means[i] == 0 ? 0 : std::clamp(x[i], low[i], high[i]);
 }
 
-void NoiseFilter::apply_to(const FitSolver& solver, const TellingColumns& columns, const Values& light,
+void NoiseFilter::apply_to(const FitSolver& solver, const RepresentativeColumns& columns, const Values& light,
                            const Write& write) const {
     const std::size_t count = columns.size();
     std::vector<float> x = sums(columns, light), means = x;
@@ -149,7 +151,7 @@ void NoiseFilter::apply(const FitSolver& solver, std::size_t columns, const Valu
     constexpr std::size_t kBlock = 8; // columns of the solver; blocks limit the memory
     parallel_for((columns + kBlock - 1) / kBlock, 1, threads_, [&](std::size_t begin, std::size_t end) {
         for (std::size_t block = begin; block < end; ++block) {
-            TellingColumns some;
+            RepresentativeColumns some;
             for (std::size_t c = block * kBlock; c < std::min(columns, (block + 1) * kBlock); ++c)
                 some.columns.push_back(c);
             some.factors.assign(some.size(), 1.0f);

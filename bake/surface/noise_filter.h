@@ -27,11 +27,11 @@ public:
 
     /// Chooses smoothness weights for all columns of `light` from some of them. `noise`: an estimate of the
     /// noise with random sign.
-    FitSolver fit(const Values& light, const TellingColumns& columns, const Values& noise) const;
+    FitSolver fit(const Values& light, const RepresentativeColumns& columns, const Values& noise) const;
     /// Root of the sum of squares over the surface of some columns after filtering.
-    double norm(const FitSolver& solver, const TellingColumns& columns, const Values& values) const;
+    double norm(const FitSolver& solver, const RepresentativeColumns& columns, const Values& values) const;
     /// Returns the brightest columns of `light`.
-    TellingColumns brightest(const Values& light, std::size_t columns) const;
+    RepresentativeColumns brightest(const Values& light, std::size_t columns) const;
 
     /// Filters all columns. A filtered value stays within the range of the original value and of the values
     /// that share a second difference with it; exact zeros are kept. Columns are read in blocks before they
@@ -42,8 +42,8 @@ public:
 
 private:
     /// Sums over samples, [unknowns][columns].
-    std::vector<float> sums(const TellingColumns& columns, const Values& values) const;
-    void apply_to(const FitSolver& solver, const TellingColumns& columns, const Values& light,
+    std::vector<float> sums(const RepresentativeColumns& columns, const Values& values) const;
+    void apply_to(const FitSolver& solver, const RepresentativeColumns& columns, const Values& light,
                   const Write& write) const;
     /// Limits x [unknowns][columns] to the range of `means` at each unknown and at those that share a second
     /// difference with it.

@@ -83,8 +83,7 @@ SurfaceSamples sample_varied(const Surfaces& surfaces, const TransportReceivers&
     for (const Picked& picked : pick(sides.size(), spread.count, [&](std::size_t s) { return likely[s]; })) {
         const TriangleSide& side = sides[picked.index];
         const std::uint32_t hash = side_hash(side, spread.seed);
-        const auto area =
-            static_cast<float>(side.area * picked.stands_for / static_cast<double>(picked.times));
+        const auto area = static_cast<float>(side.area * picked.weight / static_cast<double>(picked.times));
         for (std::size_t i = 0; i < picked.times; ++i)
             append_sample(samples, surfaces, receivers, {side.triangle, side.back, even_point(hash, i)},
                           area);
@@ -97,7 +96,7 @@ SurfaceSamples pick_samples(const SurfaceSamples& many, std::span<const double> 
     for (const Picked& picked : pick(many.size(), count, [&](std::size_t s) { return likely[s]; })) {
         some.positions.push_back(many.positions[picked.index]);
         some.receivers.append(many.receivers, picked.index);
-        some.receivers.areas.back() *= static_cast<float>(picked.stands_for);
+        some.receivers.areas.back() *= static_cast<float>(picked.weight);
     }
     return some;
 }

@@ -268,11 +268,11 @@ private:
         LightmapStatistics& s = statistics();
         BakedLightmap& map = result_.lightmap;
         map.seams = unique_edges(std::move(map.seams));
-        map.layout.positions.resize(scene_.primitives.size());
+        map.layout.placements.resize(scene_.primitives.size());
         for (std::size_t a = 0; a < atlases_.size(); ++a) {
             map.layout.maps.push_back(size_of(atlases_[a]));
             for (const std::size_t p : atlases_[a].primitives)
-                map.layout.positions[p] = {a, atlases_[a].uv_set};
+                map.layout.placements[p] = {a, atlases_[a].uv_set};
         }
         if (std::optional<std::string> notice = positions.check_casters())
             s.notices.push_back(std::move(*notice));

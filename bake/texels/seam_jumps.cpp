@@ -17,10 +17,10 @@ std::vector<Atlas> atlases_of(const LightmapLayout& layout) {
         atlases[a].height = map.height;
         atlases[a].repeats = map.repeats;
     }
-    for (std::size_t p = 0; p < layout.positions.size(); ++p) {
-        Atlas& atlas = atlases[layout.positions[p].map];
+    for (std::size_t p = 0; p < layout.placements.size(); ++p) {
+        Atlas& atlas = atlases[layout.placements[p].map];
         atlas.primitives.push_back(p);
-        atlas.uv_set = layout.positions[p].texcoord;
+        atlas.uv_set = layout.placements[p].texcoord;
     }
     return atlases;
 }

@@ -211,7 +211,7 @@ private:
     void filter_sky(const Band& band, const NoiseFilter& filter) {
         const std::size_t columns = direct_.size() / texels_, stride = sky_.size() / texels_,
                           channels = std::max<std::size_t>(1, stride / columns),
-                          middle = channels > 1 ? columns : 0, count = light_.noise.telling.size();
+                          middle = channels > 1 ? columns : 0, count = light_.noise.representative.size();
         const auto direct = [&](std::uint32_t t, std::size_t c) { return direct_[t * columns + c]; };
         const auto all = [&](std::uint32_t t, std::size_t c) {
             return direct(t, c % columns) + (stride > 0 ? sky_[t * stride + c] : 0.0f);
@@ -219,16 +219,16 @@ private:
         // Only the selected columns have noise.
         std::vector<std::size_t> position_of(columns);
         for (std::size_t i = 0; i < count; ++i)
-            position_of[light_.noise.telling.columns[i]] = i;
+            position_of[light_.noise.representative.columns[i]] = i;
         const auto middle_of_all = [&](std::uint32_t t, std::size_t c) { return all(t, middle + c); };
         // Shadow edges within a texel are not noise: the noise of a net falls as n^-0.75.
         const auto most = static_cast<float>(0.5 * std::pow(light_.noise.rays, -0.75));
         const auto noise = [&](std::uint32_t t, std::size_t c) {
             return std::clamp(kNoiseOfSamples * light_.noise.sky[t * count + position_of[c]], -most, most);
         };
-        const FitSolver solver = filter.fit(middle_of_all, light_.noise.telling, noise);
-        noise_ = std::hypot(noise_, filter.norm(solver, light_.noise.telling, noise));
-        norm_ = std::hypot(norm_, filter.norm(solver, light_.noise.telling, middle_of_all));
+        const FitSolver solver = filter.fit(middle_of_all, light_.noise.representative, noise);
+        noise_ = std::hypot(noise_, filter.norm(solver, light_.noise.representative, noise));
+        norm_ = std::hypot(norm_, filter.norm(solver, light_.noise.representative, middle_of_all));
         filter.apply(solver, columns, direct, [&](std::uint32_t t, std::size_t c, float value) {
             if (is_in(band, t))
                 light_.direct[t * columns + c] = value;

@@ -83,7 +83,7 @@ private:
         const float mean = count > 0 ? 1 / static_cast<float>(count) : 0,
                     paired = count == static_cast<int>(kSamplesOfTexel) ? mean : 0;
         of(light.direct, stride_, mean);
-        of(light.noise.sky, light.noise.telling.size(), paired);
+        of(light.noise.sky, light.noise.representative.size(), paired);
         if (!task_.transport)
             return;
         const std::size_t lamps = task_.transport->lamp_stride();
@@ -148,7 +148,7 @@ private:
         // Opposite ones of four samples have the same sign: a linear variation over a texel is not noise.
         const float sign = k == 0 || k == 3 ? 1.0f : -1.0f;
         if (task_.notes_noise)
-            add(signed_sky(traced, more, light.noise.telling, sign), light.noise.telling.size(),
+            add(signed_sky(traced, more, light.noise.representative, sign), light.noise.representative.size(),
                 light.noise.sky);
         if (task_.transport)
             add_lamps(groups, layer, k, sign, add, light, progress);
@@ -156,12 +156,12 @@ private:
 
     /// Columns of all light of a sky, with a sign: [receivers][telling].
     std::vector<float> signed_sky(const Transfer& direct, std::span<const float> bounced,
-                                  const TellingColumns& telling, float sign) const {
+                                  const RepresentativeColumns& representative, float sign) const {
         const std::size_t stride = bounced.size() / direct.receivers(),
                           middle = stride > stride_ ? stride_ : 0; // green of three channels
         std::vector<float> values;
         for (std::uint32_t g = 0; g < direct.receivers(); ++g)
-            for (const std::size_t c : telling.columns)
+            for (const std::size_t c : representative.columns)
                 values.push_back(
                     sign * (direct.vector(g)[c] + (stride > 0 ? bounced[g * stride + middle + c] : 0.0f)));
         return values;
@@ -266,8 +266,9 @@ TexelLight trace_texels(const TexelTask& task, const Atlas& atlas, std::span<con
     if (task.notes_noise) {
         const bool bounces = task.transport && task.transport->bounces();
         light.noise.rays = static_cast<double>(task.options.rays) / (bounces ? kHitStride : 1);
-        light.noise.telling = columns_of_sky(static_cast<std::size_t>(coefficient_count(task.options.order)));
-        light.noise.sky.resize(atlas.texels() * light.noise.telling.size());
+        light.noise.representative =
+            columns_of_sky(static_cast<std::size_t>(coefficient_count(task.options.order)));
+        light.noise.sky.resize(atlas.texels() * light.noise.representative.size());
         light.noise.lamps.resize(light.bounced_lamps.size());
     }
     light.lit.resize(atlas.texels());

@@ -26,8 +26,8 @@ struct TexelTask {
 /// Differences between two pairs of samples of a texel, divided by their number, which have the magnitude of
 /// the noise of the mean. Zero for texels with fewer than four samples.
 struct TexelNoise {
-    double rays = 0;          ///< followed rays of a texel
-    TellingColumns telling;   ///< columns of a sky with one channel
+    double rays = 0;                      ///< followed rays of a texel
+    RepresentativeColumns representative; ///< columns of a sky with one channel
     std::vector<float> sky;   ///< [texels][telling], direct and bounced, of the channel in the middle
     std::vector<float> lamps; ///< [texels][lamp_stride()], bounces
 };

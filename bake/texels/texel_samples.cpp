@@ -113,11 +113,11 @@ std::vector<TexelSample> touched(std::span<const ChartTriangle> triangles, const
 
 TexelSamples sample_texels(std::span<const ChartTriangle> triangles, const Atlas& atlas) {
     const Owners owners = find_owners(triangles, atlas);
-    const std::vector<TexelSample> beside = touched(triangles, atlas, owners);
+    const std::vector<TexelSample> optional_work = touched(triangles, atlas, owners);
     TexelSamples result;
     result.overlapping =
         owners.covered > 0 ? static_cast<double>(owners.twice) / static_cast<double>(owners.covered) : 0;
-    auto next = beside.begin();
+    auto next = optional_work.begin();
     for (std::uint32_t texel = 0; texel < atlas.texels(); ++texel) {
         const glm::dvec2 corner(texel % static_cast<std::uint32_t>(atlas.width),
                                 texel / static_cast<std::uint32_t>(atlas.width));
@@ -125,7 +125,7 @@ TexelSamples sample_texels(std::span<const ChartTriangle> triangles, const Atlas
             if (const std::uint32_t owner = owners.of[texel * kSamplesOfTexel + s]; owner != kNobody)
                 result.samples.push_back({texel, triangles[owner].triangle,
                                           glm::vec2(in_triangle(triangles[owner], corner + kPoints[s]).uv)});
-        if (next != beside.end() && next->texel == texel)
+        if (next != optional_work.end() && next->texel == texel)
             result.samples.push_back(*next++);
     }
     return result;

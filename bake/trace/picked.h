@@ -13,11 +13,11 @@ namespace prt {
 struct Picked {
     std::uint32_t index;
     std::size_t times;
-    double stands_for;
+    double weight;
 };
 
 /// Picks about `count` of [0, all) with a probability in proportion to `likely(i)`. Sums over the picked
-/// elements, multiplied by `stands_for`, estimate sums over all. Systematic sampling: even steps along the
+/// elements, multiplied by `weight`, estimate sums over all. Systematic sampling: even steps along the
 /// sum of `likely`.
 template <class Likely>
 std::vector<Picked> pick(std::size_t all, std::size_t count, Likely&& likely) {

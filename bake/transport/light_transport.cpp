@@ -131,7 +131,7 @@ std::vector<std::vector<float>> gather_beside(const TransportOperators& operator
     const int order = exit.layout.order;
     std::vector<std::vector<float>> gathered;
     std::vector<float> reflected;
-    for (const GatherOperator* rows : operators.beside) {
+    for (const GatherOperator* rows : operators.optional_work) {
         if (reflected.empty()) {
             reflected = exit.vectors;
             rows->reflect(order, reflected, threads);
@@ -155,12 +155,12 @@ std::optional<Propagated> bounce_on_device(Transfer& transfer, const TransportOp
                                            int bounces, int threads, const Progress& progress) {
     if (!operators.product || operators.fit || !operators.diffusion.empty() || operators.refill.size() > 0)
         return std::nullopt;
-    std::vector<std::vector<float>> beside;
-    if (!operators.beside.empty()) {
+    std::vector<std::vector<float>> optional_work;
+    if (!operators.optional_work.empty()) {
         Transfer before = transfer;
         if (bounces > 1 && !operators.product->bounce(before, bounces - 1, progress))
             return std::nullopt;
-        beside = gather_beside(operators, before, threads);
+        optional_work = gather_beside(operators, before, threads);
     }
     const std::optional<BounceEnergy> energy = operators.product->bounce(transfer, bounces, progress);
     if (!energy)
@@ -171,7 +171,7 @@ std::optional<Propagated> bounce_on_device(Transfer& transfer, const TransportOp
                       .bounces = bounces,
                       .remaining = remaining_after(*energy, total),
                       .last = energy->last,
-                      .beside = std::move(beside)};
+                      .optional_work = std::move(optional_work)};
 }
 
 /// Adds bounces one after another, until at most `min_remaining` remains.
@@ -185,7 +185,7 @@ Propagated bounce_often(Transfer transfer, const TransportOperators& operators, 
     double before = largest_norm(now, coefficients);
     while (result.bounces < bounces) {
         if (result.bounces == bounces - 1)
-            result.beside = gather_beside(operators, transfer, threads);
+            result.optional_work = gather_beside(operators, transfer, threads);
         bounce.apply(now, next);
         for (std::size_t i = 0; i < next.size(); ++i)
             transfer.vectors[i] += next[i];
@@ -200,7 +200,7 @@ Propagated bounce_often(Transfer transfer, const TransportOperators& operators, 
         progress.update(static_cast<double>(result.bounces) / bounces);
     }
     if (result.bounces < bounces)
-        result.beside = gather_beside(operators, transfer, threads);
+        result.optional_work = gather_beside(operators, transfer, threads);
     result.converged |= min_remaining == 0;
     result.transfer = std::move(transfer);
     return result;
@@ -239,7 +239,7 @@ Propagated bounce_endlessly(Transfer transfer, const TransportOperators& operato
         result.remaining = std::max(result.remaining, solved.remaining);
         result.converged = result.converged && solved.converged;
     }
-    result.beside = gather_beside(operators, transfer, threads);
+    result.optional_work = gather_beside(operators, transfer, threads);
     result.transfer = std::move(transfer);
     return result;
 }
@@ -320,9 +320,9 @@ SharpTransfer propagate_sharply(Transfer smooth, const LightAtSamples& light,
     if (operators.gather && bounces != 0) {
         const bool endless = bounces == kEndlessBounces;
         TransportOperators alone = operators;
-        alone.beside.clear();
+        alone.optional_work.clear();
         sharp.exit = propagate(smooth, alone, endless ? bounces : bounces - 1, threads, progress);
-        sharp.exit.beside = gather_beside(operators, sharp.exit.transfer, threads);
+        sharp.exit.optional_work = gather_beside(operators, sharp.exit.transfer, threads);
         rest = bounce_to_samples(sharp.exit.transfer, operators, light, threads);
         if (!endless)
             add_last_bounce(fit, *rest, smooth, sharp.exit);

@@ -24,7 +24,7 @@ struct TransportOperators {
     GatherProduct* product = nullptr;       ///< product on a device; null: on the CPU
     const SurfaceFit* fit = nullptr; ///< fit whose samples are the rows of `gather`; receivers use smooth
                                      ///< values of them; null: rows are receivers
-    std::vector<const GatherOperator*> beside = {}; ///< additional rows that gather the last bounce
+    std::vector<const GatherOperator*> optional_work = {}; ///< additional rows that gather the last bounce
 };
 
 struct Propagated {
@@ -37,8 +37,9 @@ struct Propagated {
     double remaining = 0;
     double last = 0;       ///< energy of the last bounce; 0 if no single bounce was computed
     bool converged = true; ///< endless bounces reached the solver's tolerance
-    /// Bounced light at the rows of each of `beside`, [rows][channels][order²], as if they were receivers.
-    std::vector<std::vector<float>> beside = {};
+    /// Bounced light at the rows of each of `optional_work`, [rows][channels][order²], as if they were
+    /// receivers.
+    std::vector<std::vector<float>> optional_work = {};
 };
 
 /// Computes the sum over `direct` light and `bounces` bounces of it (or kEndlessBounces).

@@ -77,7 +77,7 @@ std::vector<std::vector<std::uint32_t>> neighbours(const Scene& scene, std::span
 /// Returns the direction of each face: the one nearest to its normal, unless most of its neighbours have
 /// another direction that is also possible for the face.
 std::vector<int> directions(std::span<const ChartFace> faces,
-                            const std::vector<std::vector<std::uint32_t>>& beside) {
+                            const std::vector<std::vector<std::uint32_t>>& optional_work) {
     constexpr int kPasses = 32;
     constexpr double kOfNeighbours = 0.6; // weight of the neighbours relative to the cosine
     std::vector<int> direction;
@@ -89,9 +89,9 @@ std::vector<int> directions(std::span<const ChartFace> faces,
             std::array<double, kDirections> score{};
             for (int d = 0; d < kDirections; ++d)
                 score[static_cast<std::size_t>(d)] = along(faces[f].normal, d);
-            for (const std::uint32_t n : beside[f])
+            for (const std::uint32_t n : optional_work[f])
                 score[static_cast<std::size_t>(direction[n])] +=
-                    kOfNeighbours / static_cast<double>(beside[f].size());
+                    kOfNeighbours / static_cast<double>(optional_work[f].size());
             int best = direction[f];
             for (int d = 0; d < kDirections; ++d)
                 if (score[static_cast<std::size_t>(d)] > score[static_cast<std::size_t>(best)] &&
@@ -106,9 +106,9 @@ std::vector<int> directions(std::span<const ChartFace> faces,
 
 /// Returns the connected parts of a chart.
 template <class SameChart>
-std::vector<std::vector<std::uint32_t>> connected(std::span<const std::uint32_t> faces,
-                                                  const std::vector<std::vector<std::uint32_t>>& beside,
-                                                  std::vector<int>& part, const SameChart& same) {
+std::vector<std::vector<std::uint32_t>>
+connected(std::span<const std::uint32_t> faces, const std::vector<std::vector<std::uint32_t>>& optional_work,
+          std::vector<int>& part, const SameChart& same) {
     std::vector<std::vector<std::uint32_t>> parts;
     for (const std::uint32_t f : faces)
         part[f] = -1;
@@ -119,7 +119,7 @@ std::vector<std::vector<std::uint32_t>> connected(std::span<const std::uint32_t>
         std::vector<std::uint32_t>& members = parts.emplace_back(1, seed);
         part[seed] = number;
         for (std::size_t i = 0; i < members.size(); ++i)
-            for (const std::uint32_t n : beside[members[i]])
+            for (const std::uint32_t n : optional_work[members[i]])
                 if (part[n] == -1 && same(seed, n)) {
                     part[n] = number;
                     members.push_back(n);
@@ -229,8 +229,8 @@ std::vector<ChartFace> chart_faces(const Scene& scene, std::span<const std::size
 
 std::vector<SurfaceChart> cut_into_charts(const Scene& scene, std::span<const ChartFace> faces,
                                           std::size_t max_charts) {
-    const std::vector<std::vector<std::uint32_t>> beside = neighbours(scene, faces);
-    const std::vector<int> direction = directions(faces, beside);
+    const std::vector<std::vector<std::uint32_t>> optional_work = neighbours(scene, faces);
+    const std::vector<int> direction = directions(faces, optional_work);
     std::vector<int> part(faces.size(), -2);
     std::vector<std::uint32_t> all(faces.size());
     for (std::uint32_t f = 0; f < faces.size(); ++f)
@@ -240,7 +240,7 @@ std::vector<SurfaceChart> cut_into_charts(const Scene& scene, std::span<const Ch
     const auto has_area = [&](std::uint32_t f) { return faces[f].normal != glm::dvec3(0); };
     const auto wait = [&](std::span<const std::uint32_t> some) {
         const auto same = [&](std::uint32_t a, std::uint32_t b) { return direction[a] == direction[b]; };
-        for (std::vector<std::uint32_t>& members : connected(some, beside, part, same))
+        for (std::vector<std::uint32_t>& members : connected(some, optional_work, part, same))
             if (std::any_of(members.begin(), members.end(), has_area))
                 waiting.push_back({direction[members.front()] / 2, std::move(members)});
             else

@@ -197,14 +197,14 @@ struct FitColumns {
 } // namespace
 
 void fill_invalid(const VolumeProbes& probes, const std::vector<bool>& invalid, const ProbeVectors& vectors) {
-    std::vector<std::vector<std::uint32_t>> beside(probes.size());
+    std::vector<std::vector<std::uint32_t>> optional_work(probes.size());
     for (const auto& brick : probes.of_brick)
         for (std::size_t i = 0; i < kBrickProbes; ++i)
             for (const std::size_t step :
                  {std::size_t{1}, std::size_t{kBrickSide}, std::size_t{kBrickSide} * kBrickSide})
                 if (i / step % kBrickSide + 1 < kBrickSide) {
-                    beside[brick[i]].push_back(brick[i + step]);
-                    beside[brick[i + step]].push_back(brick[i]);
+                    optional_work[brick[i]].push_back(brick[i + step]);
+                    optional_work[brick[i + step]].push_back(brick[i]);
                 }
     std::vector<bool> dark = invalid;
     for (;;) {
@@ -213,7 +213,7 @@ void fill_invalid(const VolumeProbes& probes, const std::vector<bool>& invalid, 
             if (!dark[p])
                 continue;
             float count = 0;
-            for (const std::uint32_t q : beside[p])
+            for (const std::uint32_t q : optional_work[p])
                 if (!dark[q]) {
                     if (count++ == 0)
                         std::ranges::fill(vectors.of(p), 0.0f);

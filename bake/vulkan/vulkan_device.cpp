@@ -85,11 +85,11 @@ GpuDevice describe(const vk::raii::PhysicalDevice& device) {
     const vk::PhysicalDeviceProperties& common = properties.get<vk::PhysicalDeviceProperties2>().properties;
     about.name = common.deviceName.data();
     about.hardware = common.deviceType != vk::PhysicalDeviceType::eCpu;
-    about.lacks = missing(device);
+    about.missing_feature = missing(device);
     if (common.apiVersion >= kVersion) {
         const auto& driver = properties.get<vk::PhysicalDeviceDriverProperties>();
         about.driver = fmt::format("{} {}", driver.driverName.data(), driver.driverInfo.data());
-        about.ray_queries = about.lacks.empty() && has_ray_queries(device);
+        about.ray_queries = about.missing_feature.empty() && has_ray_queries(device);
     }
     const vk::PhysicalDeviceMemoryProperties memory = device.getMemoryProperties();
     for (std::uint32_t h = 0; h < memory.memoryHeapCount; ++h)
@@ -137,9 +137,9 @@ std::size_t best_device(std::span<const GpuDevice> devices, bool hardware_only) 
     std::string why;
     const auto rank = [&](std::size_t i) { return std::pair(devices[i].hardware, devices[i].memory); };
     for (std::size_t i = 0; i < devices.size(); ++i) {
-        if (!devices[i].lacks.empty())
-            why +=
-                fmt::format("{}\"{}\" has no {}", why.empty() ? "" : ", ", devices[i].name, devices[i].lacks);
+        if (!devices[i].missing_feature.empty())
+            why += fmt::format("{}\"{}\" has no {}", why.empty() ? "" : ", ", devices[i].name,
+                               devices[i].missing_feature);
         else if (hardware_only && !devices[i].hardware)
             why += fmt::format("{}\"{}\" is a software device", why.empty() ? "" : ", ", devices[i].name);
         else if (!best || rank(i) > rank(*best))
@@ -231,9 +231,9 @@ VulkanDevice::VulkanDevice(const VulkanChoice& choice)
         const std::size_t chosen = choice.device.empty() ? best_device(devices, choice.hardware_only)
                                                          : named_device(devices, choice.device);
         traits_.about = devices[chosen];
-        if (!traits_.about.lacks.empty())
+        if (!traits_.about.missing_feature.empty())
             throw Error(fmt::format("\"{}\" cannot be used for baking: it has no {}", traits_.about.name,
-                                    traits_.about.lacks));
+                                    traits_.about.missing_feature));
         if (choice.traversal == Traversal::device && !traits_.about.ray_queries)
             throw Error(fmt::format("\"{}\" has no ray queries; use --device auto,traversal=compute",
                                     traits_.about.name));

@@ -23,8 +23,8 @@ struct BenchArguments {
 };
 
 std::string in_words(const GpuDevice& device) {
-    if (!device.lacks.empty())
-        return fmt::format("{}; cannot bake: no {}", device.name, device.lacks);
+    if (!device.missing_feature.empty())
+        return fmt::format("{}; cannot bake: no {}", device.name, device.missing_feature);
     return fmt::format("{}; {}; {}, {}, {:.1f} GB of memory", device.name, device.driver,
                        device.hardware ? "hardware" : "software",
                        device.ray_queries ? "ray queries" : "no ray queries", device.memory / 1e9);

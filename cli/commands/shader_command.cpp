@@ -190,7 +190,7 @@ void run(ShaderArguments a, Session& session) {
     session.write(a.output, source);
     print(fmt::format("{}: {} clusters, {} rows of constants{}\n", printable(a.output.string()),
                       transfer.bases.clusters(), constant_rows(transfer.bases),
-                      clusters_are_alike(transfer.bases) && !a.computes()
+                      clusters_have_equal_layout(transfer.bases) && !a.computes()
                           ? "; all clusters have the same layout: no loop, no table of clusters"
                           : ""));
     if (!a.computes())

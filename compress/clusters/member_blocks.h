@@ -21,16 +21,16 @@ public:
 
     std::size_t size() const { return blocks_.size(); }
     MemberBlock operator[](std::size_t b) const {
-        const Position& position = blocks_[b];
-        return {position.cluster, std::span(points_).subspan(position.first, position.count)};
+        const Block& block = blocks_[b];
+        return {block.cluster, std::span(points_).subspan(block.first, block.count)};
     }
 
 private:
-    struct Position {
+    struct Block {
         std::uint32_t cluster, first, count;
     };
     std::vector<std::uint32_t> points_; ///< sorted by cluster, then ascending
-    std::vector<Position> blocks_;
+    std::vector<Block> blocks_;
 };
 
 /// Calls `visit(member_block, block)` for all points, grouped by cluster; `block` is [width][kLanes], as in

@@ -36,7 +36,7 @@ BilinearTexels LightmapLookup::filter(std::uint32_t triangle, const glm::vec2& b
                                             first_triangles_.begin()) -
                    1;
     const Primitive& primitive = scene_.primitives[p];
-    const LightmapPlacement& position = layout_.positions[p];
+    const LightmapPlacement& position = layout_.placements[p];
     const std::vector<glm::vec2>& uv =
         scene_.vertex_arrays[primitive.vertices].texcoords[static_cast<std::size_t>(position.texcoord)];
     const glm::uvec3& t = primitive.triangles[triangle - first_triangles_[p]];
@@ -55,7 +55,7 @@ std::vector<glm::vec3> at_vertices(const Scene& scene, const LightmapLayout& lay
     std::vector<glm::vec3> result(scene.receivers());
     const std::vector<std::size_t> first = layout.first_texels();
     for (std::size_t p = 0; p < scene.primitives.size(); ++p) {
-        const LightmapPlacement& position = layout.positions[p];
+        const LightmapPlacement& position = layout.placements[p];
         const VertexArray& vertices = scene.vertex_arrays[scene.primitives[p].vertices];
         const auto& uv = vertices.texcoords[static_cast<std::size_t>(position.texcoord)];
         for (std::size_t v = 0; v < vertices.size(); ++v)

@@ -88,7 +88,7 @@ void append_tables(const ClusteredTransfer& transfer, ConstantSource source, Sha
                         (texture ? " texels RGBA32F" + rows_of_texels : " vec4") +
                         " from ClusterLighting::update, updated for each lighting";
     bindings.push_back(constants);
-    if (clusters_are_alike(transfer.bases))
+    if (clusters_have_equal_layout(transfer.bases))
         return;
     ShaderBinding clusters =
         table_binding(source, "prt_clusters", "PrtClusters", numbered ? PRT_BINDING_CLUSTERS : -1, true);

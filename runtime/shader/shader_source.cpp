@@ -81,7 +81,7 @@ std::string weight_defines(const ClusteredTransfer& transfer) {
 /// Returns defines that replace the loop over weights and the cluster table in the shader.
 std::string same_weight_defines(const ClusteredTransfer& transfer) {
     const ClusteredBases& bases = transfer.bases;
-    if (!clusters_are_alike(bases))
+    if (!clusters_have_equal_layout(bases))
         return "";
     const auto components = static_cast<std::size_t>(bases.components.front());
     std::string text =

@@ -109,7 +109,7 @@ std::vector<ClusterLayout> cluster_layouts(const ClusteredBases& bases) {
     return layouts;
 }
 
-bool clusters_are_alike(const ClusteredBases& bases) {
+bool clusters_have_equal_layout(const ClusteredBases& bases) {
     if (bases.components.empty())
         return false;
     const int components = bases.components.front();

@@ -124,7 +124,7 @@ std::vector<InstanceFactors> decoded(const CodedFactors& coded) {
     return factors;
 }
 
-InstanceBox box_round(std::span<const glm::vec3> positions) {
+InstanceBox bounding_box(std::span<const glm::vec3> positions) {
     glm::vec3 low = positions.front(), high = low;
     for (const glm::vec3& position : positions) {
         low = glm::min(low, position);

@@ -450,10 +450,10 @@ TEST(Presets, FixedBitsHaveOneLayoutForAllClusters) {
     const std::vector<float> areas(600, 1.0f);
     CompressOptions options{.clusters = 16, .coding = preset_u32x4()};
     const CompressResult result = compress(transfer, {areas}, options);
-    EXPECT_TRUE(clusters_are_alike(result.transfer.bases));
+    EXPECT_TRUE(clusters_have_equal_layout(result.transfer.bases));
     EXPECT_EQ(result.statistics.mean_components, 4);
     options.coding = preset_u32();
-    EXPECT_FALSE(clusters_are_alike(compress(transfer, {areas}, options).transfer.bases));
+    EXPECT_FALSE(clusters_have_equal_layout(compress(transfer, {areas}, options).transfer.bases));
     EXPECT_LT(relative_l2(transfer, decode(result.transfer), areas), 0.1);
 }
 

@@ -68,7 +68,7 @@ void check_scene(const Scene& scene) {
 }
 
 void check_layout(const Scene& scene, const LightmapLayout& layout) {
-    expect(layout.positions.size() == scene.primitives.size(), "texels for other primitives");
+    expect(layout.placements.size() == scene.primitives.size(), "texels for other primitives");
     const std::size_t texels = layout.texels();
     const LightmapLookup lookup(scene, layout);
     const glm::vec2 points[] = {{0, 0}, {1, 0}, {0, 1}, {0.3f, 0.3f}};

@@ -19,7 +19,8 @@ struct GpuDevice {
     bool hardware = false;    ///< false for a device that is emulated on the CPU
     bool ray_queries = false; ///< supports ray queries
     double memory = 0;        ///< device memory in bytes
-    std::string lacks = {};   ///< feature that a bake needs and the device lacks; empty if it has all of them
+    std::string missing_feature =
+        {}; ///< feature that a bake needs and the device lacks; empty if it has all of them
 };
 
 /// Returns all devices in the order of their numbers; empty if Vulkan is not available.

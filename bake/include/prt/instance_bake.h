@@ -27,8 +27,8 @@ struct InstanceScene {
     const Scene& scene;  ///< every instance has its own vertices
     const Scene& stored; ///< each instanced mesh once in its own frame, and everything that is drawn once
     const std::vector<SharedMesh>& meshes;
-    const std::vector<int>& stand_ins; ///< [meshes] node in `stored` that draws each mesh in its own frame
-    const std::vector<int>& node_of;   ///< [nodes of `scene`] node in `stored`; -1: an instance
+    const std::vector<int>& mesh_nodes; ///< [meshes] node in `stored` that draws each mesh in its own frame
+    const std::vector<int>& node_of;    ///< [nodes of `scene`] node in `stored`; -1: an instance
 };
 
 /// Measurements of a bake with instances.

@@ -31,7 +31,7 @@ prt::InstanceBox box_of(const prt::Scene& scene, const std::vector<std::size_t>&
         const auto& of_array = scene.vertex_arrays[scene.primitives[p].vertices].positions;
         positions.insert(positions.end(), of_array.begin(), of_array.end());
     }
-    return prt::box_round(positions);
+    return prt::bounding_box(positions);
 }
 
 /// Returns a node that is drawn once, as an unoccluded instance.

@@ -21,7 +21,7 @@ constexpr std::size_t kAlignment = 256; ///< maximum alignment of storage buffer
 
 } // namespace
 
-std::size_t InstanceRadiance::Position::bytes() const {
+std::size_t InstanceRadiance::Draw::bytes() const {
     return instances * vertices * kVertexBytes;
 }
 
@@ -37,9 +37,9 @@ InstanceRadiance::InstanceRadiance(const prt::ClusteredTransfer& transfer, const
         for (const std::size_t array : meshes[m].vertex_arrays) {
             const prt::VertexArray& vertices = scene.scene().vertex_arrays[array];
             transfer_.attach(arrays_[array].name(), vertices.first_receiver);
-            const Position& position = positions_.emplace_back(
-                Position{m, array, vertices.size(), meshes[m].first, meshes[m].count, end});
-            end = (end + position.bytes() + kAlignment - 1) / kAlignment * kAlignment;
+            const Draw& draw =
+                draws_.emplace_back(Draw{m, array, vertices.size(), meshes[m].first, meshes[m].count, end});
+            end = (end + draw.bytes() + kAlignment - 1) / kAlignment * kAlignment;
         }
     radiance_ = prt::make_buffer_of(end);
     constants_.computed.resize(relighter_.size());
@@ -76,16 +76,16 @@ void InstanceRadiance::set_light(const prt::Lighting& lighting) {
                                                             // is drawn
     glEnable(GL_RASTERIZER_DISCARD);
     constexpr GLsizei kRowBytes = 2 * sizeof(glm::vec4); // row of the table
-    for (const Position& position : positions_) {
-        if (position.bytes() == 0)
+    for (const Draw& draw : draws_) {
+        if (draw.bytes() == 0)
             continue;
-        const GLuint array = arrays_[position.vertex_array].name();
+        const GLuint array = arrays_[draw.vertex_array].name();
         glVertexArrayVertexBuffer(array, kTableBinding, table_.name(),
-                                  static_cast<GLintptr>(position.first_instance) * kRowBytes, kRowBytes);
+                                  static_cast<GLintptr>(draw.first_instance) * kRowBytes, kRowBytes);
         glBindVertexArray(array);
-        bind(program_, position);
-        glDrawArraysInstanced(GL_POINTS, 0, static_cast<GLsizei>(position.vertices),
-                              static_cast<GLsizei>(position.instances));
+        bind(program_, draw);
+        glDrawArraysInstanced(GL_POINTS, 0, static_cast<GLsizei>(draw.vertices),
+                              static_cast<GLsizei>(draw.instances));
     }
     glDisable(GL_RASTERIZER_DISCARD);
     glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
@@ -93,19 +93,19 @@ void InstanceRadiance::set_light(const prt::Lighting& lighting) {
 }
 
 void InstanceRadiance::use(const prt::GlObject& program, std::size_t mesh, std::size_t vertex_array) const {
-    const auto position = std::ranges::find_if(
-        positions_, [&](const Position& p) { return p.mesh == mesh && p.vertex_array == vertex_array; });
-    bind(program, *position);
+    const auto draw = std::ranges::find_if(
+        draws_, [&](const Draw& p) { return p.mesh == mesh && p.vertex_array == vertex_array; });
+    bind(program, *draw);
 }
 
-void InstanceRadiance::bind(const prt::GlObject& program, const Position& position) const {
-    prt::set_uniform(program, "instance_vertices", static_cast<std::uint32_t>(position.vertices));
+void InstanceRadiance::bind(const prt::GlObject& program, const Draw& draw) const {
+    prt::set_uniform(program, "instance_vertices", static_cast<std::uint32_t>(draw.vertices));
     glBindBufferRange(GL_SHADER_STORAGE_BUFFER, PRT_BINDING_INSTANCE_RADIANCE, radiance_.name(),
-                      static_cast<GLintptr>(position.begin), static_cast<GLsizeiptr>(position.bytes()));
+                      static_cast<GLintptr>(draw.begin), static_cast<GLsizeiptr>(draw.bytes()));
 }
 
 std::size_t InstanceRadiance::bytes() const {
-    return positions_.empty() ? 0 : positions_.back().begin + positions_.back().bytes();
+    return draws_.empty() ? 0 : draws_.back().begin + draws_.back().bytes();
 }
 
 std::size_t InstanceRadiance::bytes_of_constants() const {

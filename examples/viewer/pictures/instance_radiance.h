@@ -43,20 +43,20 @@ public:
 
 private:
     /// A vertex array of a mesh, and its range of the radiance buffer.
-    struct Position {
+    struct Draw {
         std::size_t mesh, vertex_array, vertices;
         std::size_t first_instance, instances;
         std::size_t begin; ///< offset, bytes
         std::size_t bytes() const;
     };
     void attach_table(const prt::GlVertexArrays& arrays) const;
-    void bind(const prt::GlObject& program, const Position& position) const;
+    void bind(const prt::GlObject& program, const Draw& draw) const;
 
     prt::GlTransfer transfer_; ///< weights and clusters
     prt::InstanceRelighter relighter_;
     prt::GlVertexArrays arrays_;
     prt::GlObject table_, program_, framebuffer_, radiance_;
-    std::vector<Position> positions_;
+    std::vector<Draw> draws_;
     struct Constants {
         std::vector<glm::vec4> computed;
         prt::GlObject buffer;

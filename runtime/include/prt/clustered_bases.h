@@ -114,7 +114,7 @@ struct ClusterLayout {
 
 /// Returns whether all clusters have the same number of components and, if packed, the same weight widths.
 /// The vertex shader then needs no table and no loop.
-bool clusters_are_alike(const ClusteredBases& bases);
+bool clusters_have_equal_layout(const ClusteredBases& bases);
 
 /// Maximum number of packed weights per receiver.
 inline constexpr int kMaxPackedComponents = 16;

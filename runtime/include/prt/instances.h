@@ -79,7 +79,7 @@ struct InstanceBox {
     friend bool operator==(const InstanceBox&, const InstanceBox&) = default;
 };
 /// Returns the bounding box of `positions`, which must not be empty.
-InstanceBox box_round(std::span<const glm::vec3> positions);
+InstanceBox bounding_box(std::span<const glm::vec3> positions);
 
 /// Returns the factor of each mode at a relative position in the box.
 std::array<glm::vec3, kInstanceModes> mode_factors(const InstanceFactors& factors, const glm::vec3& position);

@@ -33,7 +33,7 @@ struct LightmapPlacement {
 /// Layout of all lightmaps; texels are numbered map by map.
 struct LightmapLayout {
     std::vector<LightmapSize> maps;
-    std::vector<LightmapPlacement> positions; ///< [primitives of the scene] map and UV set of each
+    std::vector<LightmapPlacement> placements; ///< [primitives of the scene] map and UV set of each
 
     std::size_t texels() const;
     /// Returns the number of the first texel of each map, and the total number of texels: [maps + 1].

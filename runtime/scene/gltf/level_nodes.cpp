@@ -25,7 +25,7 @@ public:
     LevelFinder(const GltfContents& contents, const NodeTree& tree)
         : contents_(contents), model_(contents.model), tree_(tree), parent_(model_.nodes.size(), -1),
           in_scene_(model_.nodes.size(), false), level_of_(model_.nodes.size(), -1) {
-        for (const NodeTree::Position& position : tree.order) {
+        for (const NodeTree::Entry& position : tree.order) {
             parent_[at(position.node)] = position.parent;
             in_scene_[at(position.node)] = true;
         }
@@ -93,7 +93,7 @@ private:
 
     void find_named() {
         Named named;
-        for (const NodeTree::Position& position : tree_.order)
+        for (const NodeTree::Entry& position : tree_.order)
             if (const auto name = level_name(model_.nodes[at(position.node)].name))
                 named[{position.parent, name->stem}][name->level].push_back(position.node);
         std::vector<FoundLevels> pairs;
@@ -154,7 +154,7 @@ public:
             for (const int level : levels.coarser)
                 coarser_[at(level)] = true;
         result_.world.assign(model_.nodes.size(), glm::dmat4(1));
-        for (const NodeTree::Position& position : tree.order)
+        for (const NodeTree::Entry& position : tree.order)
             parent_[at(position.node)] = position.parent, seen_[at(position.node)] = true;
     }
 

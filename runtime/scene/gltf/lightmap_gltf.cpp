@@ -30,8 +30,8 @@ Json& write_layout(GltfContents& contents, const Scene& scene, const LightmapLay
     const std::vector<Json*> primitives = make_meshes_unique(contents, scene);
     contents.remove_transfer();
     for (std::size_t p = 0; p < primitives.size(); ++p)
-        extensions_of(*primitives[p])[kLightmapExtension] = {{"map", layout.positions[p].map},
-                                                             {"texCoord", layout.positions[p].texcoord}};
+        extensions_of(*primitives[p])[kLightmapExtension] = {{"map", layout.placements[p].map},
+                                                             {"texCoord", layout.placements[p].texcoord}};
     contents.use_extension(kLightmapExtension);
     return extensions_of(contents.json)[kLightmapExtension] = {{"version", kLightmapVersion},
                                                                {"order", transfer.order},
@@ -71,7 +71,7 @@ LightmapLayout read_layout_of_maps(const GltfContents& contents, const Scene& sc
         if (!of_primitive)
             throw Error(primitive_name(primitive) + " has no " + kLightmapExtension);
         try {
-            layout.positions.push_back(
+            layout.placements.push_back(
                 read_position(*of_primitive, scene.vertex_arrays[primitive.vertices], layout.maps.size()));
         } catch (const std::exception& error) {
             throw Error(primitive_name(primitive) + ": " + in_plain_words(error));

@@ -85,7 +85,7 @@ NodeTree node_tree(const tinygltf::Model& model) {
 
 std::vector<glm::dmat4> world_matrices(const NodeTree& tree, std::span<const LocalPose> poses) {
     std::vector<glm::dmat4> world(poses.size(), glm::dmat4(1));
-    for (const NodeTree::Position& position : tree.order) {
+    for (const NodeTree::Entry& position : tree.order) {
         const auto node = static_cast<std::size_t>(position.node);
         const glm::dmat4 local = poses[node].transform();
         world[node] = position.parent < 0 ? local : world[static_cast<std::size_t>(position.parent)] * local;
@@ -98,7 +98,7 @@ std::vector<NodeTransform> world_transforms(const tinygltf::Model& model) {
     const std::vector<glm::dmat4> world = world_matrices(tree, tree.poses);
     std::vector<bool> visible(model.nodes.size(), true);
     std::vector<NodeTransform> result;
-    for (const NodeTree::Position& position : tree.order) {
+    for (const NodeTree::Entry& position : tree.order) {
         const auto node = static_cast<std::size_t>(position.node);
         visible[node] = (position.parent < 0 || visible[static_cast<std::size_t>(position.parent)]) &&
                         is_visible(model.nodes[node]);

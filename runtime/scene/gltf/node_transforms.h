@@ -25,10 +25,10 @@ struct LocalPose {
 
 /// The nodes of a scene, parents before children.
 struct NodeTree {
-    struct Position {
+    struct Entry {
         int node, parent; ///< -1: a root
     };
-    std::vector<Position> order;
+    std::vector<Entry> order;
     std::vector<LocalPose> poses; ///< [nodes of the file]
 };
 

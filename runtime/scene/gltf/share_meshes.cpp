@@ -125,13 +125,13 @@ SharedDocument with_shared_meshes(const GltfDocument& document, const std::vecto
     GltfDocument separate = parse_gltf(encode_glb(written), from.path,
                                        {.instancing = Instancing::separate, .scene_limit = from.scene_limit});
     separate.contents().notices = from.notices;
-    std::vector<int> stand_ins(meshes.size(), -1);
+    std::vector<int> mesh_nodes(meshes.size(), -1);
     for (const DeduplicatedMesh& mesh : separate.contents().separate) {
         const Json& drawer = separate.contents().json["nodes"][mesh.drawers.front()];
-        stand_ins[drawer["extensions"][kInstancesExtension]["box"].get<std::size_t>()] =
+        mesh_nodes[drawer["extensions"][kInstancesExtension]["box"].get<std::size_t>()] =
             static_cast<int>(mesh.stand_in);
     }
-    return {std::move(separate), std::move(stand_ins), node_of};
+    return {std::move(separate), std::move(mesh_nodes), node_of};
 }
 
 } // namespace prt

@@ -66,7 +66,7 @@ TEST(OppositeTriangles, HaveEqualPointsForAllFirstCorners) {
             unsigned triangle = from;
             glm::vec2 uv(0.2f, 0.7f);
             const glm::vec3 before = point_of(scene, triangle, uv);
-            ASSERT_TRUE(opposites.rotate_to_front(triangle, uv));
+            ASSERT_TRUE(opposites.move_to_front(triangle, uv));
             EXPECT_EQ(triangle, 1 - from);
             EXPECT_LT(glm::distance(point_of(scene, triangle, uv), before), 1e-6f) << start;
         }
@@ -99,9 +99,9 @@ TEST(OppositeTriangles, GoInPairs) {
     for (unsigned t = 0; t < 4; ++t) {
         unsigned other = t;
         glm::vec2 uv(0.5f, 0.25f);
-        ASSERT_TRUE(opposites.rotate_to_front(other, uv));
+        ASSERT_TRUE(opposites.move_to_front(other, uv));
         EXPECT_NE(other % 2, t % 2);
-        ASSERT_TRUE(opposites.rotate_to_front(other, uv));
+        ASSERT_TRUE(opposites.move_to_front(other, uv));
         EXPECT_EQ(other, t);
     }
 }
@@ -116,12 +116,12 @@ TEST(OppositeTriangles, RepresentSeveralTrianglesOfASide) {
     for (const auto& [from, to] : {std::pair{0u, 2u}, {1u, 2u}, {2u, 0u}}) {
         unsigned other = from;
         glm::vec2 uv(0.5f, 0.25f);
-        ASSERT_TRUE(opposites.rotate_to_front(other, uv)) << from;
+        ASSERT_TRUE(opposites.move_to_front(other, uv)) << from;
         EXPECT_EQ(other, to);
     }
     unsigned without_area = 3;
     glm::vec2 uv(0);
-    EXPECT_FALSE(opposites.rotate_to_front(without_area, uv));
+    EXPECT_FALSE(opposites.move_to_front(without_area, uv));
 }
 
 double shown(const Transfer& transfer, std::size_t receiver) {

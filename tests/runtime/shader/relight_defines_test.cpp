@@ -79,7 +79,7 @@ ClusteredTransfer packed_transfer() {
 
 TEST(RelightDefines, ContainTheLayoutOfEquallyDividedWeights) {
     const ClusteredTransfer packed = packed_transfer();
-    EXPECT_TRUE(clusters_are_alike(packed.bases));
+    EXPECT_TRUE(clusters_have_equal_layout(packed.bases));
     const std::string text = relight_defines(packed);
     EXPECT_NE(text.find("#define PRT_CLUSTER_ROWS 3\n"), std::string::npos) << text;
     EXPECT_NE(
@@ -99,12 +99,12 @@ TEST(RelightDefines, UseALoopForDifferentClusters) {
             t.bases.bits = {1, 2, 2, 1};
         else
             t.bases.components = {1, 3}, t.bases.bits = {1, 1, 1, 1};
-        EXPECT_FALSE(clusters_are_alike(t.bases));
+        EXPECT_FALSE(clusters_have_equal_layout(t.bases));
         const std::string text = relight_defines(t);
         EXPECT_EQ(text.find("PRT_SAME_WEIGHTS"), std::string::npos) << text;
         EXPECT_EQ(text.find("PRT_CLUSTER_ROWS"), std::string::npos) << text;
     }
-    EXPECT_FALSE(clusters_are_alike({}));
+    EXPECT_FALSE(clusters_have_equal_layout({}));
 }
 
 TEST(RelightDefines, LeaveTheLastAttributeToTheNormal) {

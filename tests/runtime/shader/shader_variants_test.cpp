@@ -216,7 +216,7 @@ constexpr WeightFormat kFormats[] = {WeightFormat::packed, WeightFormat::float32
 TEST_P(ShaderVariants, MatchCpp) {
     for (const WeightFormat format : kFormats) {
         const ClusteredTransfer transfer = compressed(format);
-        EXPECT_FALSE(clusters_are_alike(transfer.bases));
+        EXPECT_FALSE(clusters_have_equal_layout(transfer.bases));
         agree_with_cpp(transfer, {random_light()});
     }
 }
@@ -226,7 +226,7 @@ TEST_P(ShaderVariants, ComputeEqualClustersWithoutALoop) {
     lighting.lamps = {glm::vec3(0.5f, 1, 2), glm::vec3(3)};
     for (const WeightFormat format : kFormats) {
         const ClusteredTransfer transfer = compressed(format, Division::alike, several_terms());
-        EXPECT_TRUE(clusters_are_alike(transfer.bases));
+        EXPECT_TRUE(clusters_have_equal_layout(transfer.bases));
         agree_with_cpp(transfer, lighting);
     }
 }

@@ -106,7 +106,7 @@ TEST(Instances, ModesOfLightEqualModesOfTransfer) {
     std::vector<glm::vec3> positions;
     for (int i = 0; i < 7; ++i)
         positions.push_back(draw.vector());
-    const PlacedInstance placed{draw.factors(), draw.rotation(), box_round(positions)};
+    const PlacedInstance placed{draw.factors(), draw.rotation(), bounding_box(positions)};
     const auto by_transfer = lit(transfer.layout, expanded_vectors(transfer, placed, positions), lighting);
 
     const auto lightings = rotated_into(placed.rotation, InstanceModes(kOrder).lightings(lighting));
@@ -290,7 +290,7 @@ TEST(Instances, LampsAreRejected) {
 
 TEST(Instances, ABoxOfAFlatMeshHasNoZeroWidth) {
     const std::vector<glm::vec3> flat = {{0, 1, 0}, {2, 1, 0}, {0, 1, 4}};
-    const InstanceBox box = box_round(flat);
+    const InstanceBox box = bounding_box(flat);
     EXPECT_EQ(box.middle, glm::vec3(1, 1, 2));
     EXPECT_GT(box.half.y, 0);
     EXPECT_EQ(box.position_of({2, 1, 4}), glm::vec3(1, 0, 1));

@@ -43,9 +43,9 @@ SharedMeshes shared_meshes(const GltfDocument& document, const Scene& scene);
 
 /// A document for writing in which shared meshes occur once.
 struct SharedDocument {
-    GltfDocument document;      ///< must be read with `Instancing::separate`
-    std::vector<int> stand_ins; ///< [meshes] the node in `document` that draws the mesh in its own frame
-    std::vector<int> node_of;   ///< [nodes of the flat document] node in `document`; -1 for an instance
+    GltfDocument document;       ///< must be read with `Instancing::separate`
+    std::vector<int> mesh_nodes; ///< [meshes] the node in `document` that draws the mesh in its own frame
+    std::vector<int> node_of;    ///< [nodes of the flat document] node in `document`; -1 for an instance
 };
 /// Returns a document in which the instances of `meshes` share their transfer. Instances are numbered mesh by
 /// mesh, and within a mesh placement by placement. Every other node gets a separate mesh. `document` must be

@@ -40,9 +40,9 @@ int max_vertex_components(const ClusteredBases& bases);
 
 /// Returns the define lines that shaders/prt_exit_radiance.glsl needs for a model. `seen_from` 0: the shader
 /// gets positions as in the Scene; `seen_from` = Scene::origin: positions in the file's world. Floats lose
-/// precision in a world whose origin is far away. If `clusters_are_alike`, the shader has no loop, and there
-/// is no table of clusters (PrtClusters, prt_clusters) to bind. Throws `Error` if the weights do not fit the
-/// vertex attributes, and for storage buffers in a language without them.
+/// precision in a world whose origin is far away. If `clusters_have_equal_layout`, the shader has no loop,
+/// and there is no table of clusters (PrtClusters, prt_clusters) to bind. Throws `Error` if the weights do
+/// not fit the vertex attributes, and for storage buffers in a language without them.
 std::string relight_defines(const ClusteredTransfer& transfer,
                             ConstantSource constants = ConstantSource::buffer,
                             ShaderLanguage language = ShaderLanguage::glsl450,
