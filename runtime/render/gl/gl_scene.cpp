@@ -177,11 +177,11 @@ void GlScene::prepare(const GlObject& program, const GlVertexArrays& arrays, std
 
 /// Sets the inputs of shaders/lightmap.glsl for a surface.
 void GlScene::prepare_lightmap(std::uint32_t array, std::size_t primitive) const {
-    const LightmapPlacement& point = lightmaps_.layout->positions[primitive];
+    const LightmapPlacement& placement = lightmaps_.layout->placements[primitive];
     const Vertices& vertices = vertices_[scene_.primitives[primitive].vertices];
-    attach_floats(array, vertices.texcoords[static_cast<std::size_t>(point.texcoord)], PRT_LOCATION_LIGHTMAP,
-                  2);
-    glBindTextureUnit(PRT_UNIT_LIGHTMAP, lightmaps_.maps[point.map].name());
+    attach_floats(array, vertices.texcoords[static_cast<std::size_t>(placement.texcoord)],
+                  PRT_LOCATION_LIGHTMAP, 2);
+    glBindTextureUnit(PRT_UNIT_LIGHTMAP, lightmaps_.maps[placement.map].name());
 }
 
 /// Sets the inputs of shaders/emission.glsl for a surface.
