@@ -44,13 +44,13 @@ warnings() {
         xargs ninja -C build/warnings --quiet
 }
 
-# Checks sources that changed since the branch left main; on main itself, sources that changed in the six hours
+# Checks sources that changed since the branch left main; on main itself, sources that changed in the four hours
 # before the last commit.
 tidy() {
     local base
     base=$(git merge-base HEAD origin/main 2>/dev/null || true)
     if [ -z "$base" ] || [ "$base" = "$(git rev-parse HEAD)" ]; then
-        base=$(git rev-list -1 --first-parent --before=$(($(git show -s --format=%ct HEAD) - 21600)) HEAD)
+        base=$(git rev-list -1 --first-parent --before=$(($(git show -s --format=%ct HEAD) - 14400)) HEAD)
     fi
     run_tidy ${base:+"$base"}
 }

@@ -7,6 +7,8 @@ import tempfile
 import unittest
 
 FOLDER = pathlib.Path(__file__).parent
+sys.path.insert(0, str(FOLDER))
+from tidy_commands import code_of  # noqa: E402
 
 
 def failures(check, files):
@@ -123,6 +125,19 @@ class Words(unittest.TestCase):
                 ("docs/a.md", "```\ntold\n```\nSee `told`, [why](told.md), $apart$.\n\n| what | where |\n|---|---|\n| of suns | as baked |\n\nwhere D is"),
                 ("build/a.md", "told\n")]:
             self.assertEqual(self.found(path, text), [], (path, text))
+
+
+class ChangedCode(unittest.TestCase):
+    CODE = '#include "a.h"\nint f(int part) { return part + g("text"); } // why\n'
+
+    def test_ignores_names_texts_comments_and_includes(self):
+        same = '#include "b.h"\n/// Returns it.\nint f(int term)\n{ return term + h("other " "words"); }\n'
+        self.assertEqual(code_of(self.CODE), code_of(same))
+
+    def test_sees_every_other_change(self):
+        for old, new in [("part + g", "g + part"), ("+", "-"), ("return part", "return f"), ("// why", "// NOLINT"),
+                         ('"text"', '"text", 1'), ("int part", "int part = 0")]:
+            self.assertNotEqual(code_of(self.CODE), code_of(self.CODE.replace(old, new)), (old, new))
 
 
 if __name__ == "__main__":

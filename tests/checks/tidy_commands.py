@@ -4,7 +4,8 @@
 tidy_commands.py BUILD OUTPUT [BASE]
 BUILD: a build folder with compile_commands.json. OUTPUT: folder for the new compile_commands.json.
 BASE: a commit; selects only sources whose code changed since then, and one source for each header whose code changed.
-Default: all sources. Comments do not count as code unless they contain NOLINT.
+Default: all sources. Comments do not count as code unless they contain NOLINT; neither do texts of strings, lists of
+includes and identifiers that were renamed consistently within a file.
 Tests are excluded: two compilers already warn about them, and checking them takes as long as all other sources.
 A joined source (CMAKE_UNITY_BUILD) replaces its members if MANY of them changed, because it reads headers once.
 """
@@ -26,10 +27,16 @@ def members(source):
 
 
 def changed_files(root, base):
-    output = subprocess.run(["git", "diff", "--name-only", "-z", "--diff-filter=d", base, "--", "*.cpp", "*.h"],
-                            cwd=root, capture_output=True, text=True, check=True).stdout
-    names = [name for name in output.split("\0") if name]
-    return {root / name for name in names if code_of((root / name).read_text()) != code_of(text_at(root, base, name))}
+    """Returns the files whose code changed since `base`; moved files are compared with their old text."""
+    output = subprocess.run(["git", "diff", "--name-status", "--find-renames=30%", "-z", "--diff-filter=d", base,
+                             "--", "*.cpp", "*.h"], cwd=root, capture_output=True, text=True, check=True).stdout
+    words, old_names = iter(output.split("\0")), {}
+    for status in words:
+        if status:
+            old = next(words)
+            old_names[next(words) if status[0] in "RC" else old] = old
+    return {root / name for name, old in old_names.items()
+            if code_of((root / name).read_text()) != code_of(text_at(root, base, old))}
 
 
 def text_at(root, base, name):
@@ -37,15 +44,22 @@ def text_at(root, base, name):
     return subprocess.run(["git", "show", f"{base}:{name}"], cwd=root, capture_output=True, text=True).stdout
 
 
-TOKEN = re.compile(r'"(?:\\.|[^"\\\n])*"|\'(?:\\.|[^\'\\\n])*\'|//[^\n]*|/\*.*?\*/|\s+', re.S)
+TOKEN = re.compile(r'"(?:\\.|[^"\\\n])*"|\'(?:\\.|[^\'\\\n])*\'|//[^\n]*|/\*.*?\*/|#include[^\n]*|[A-Za-z_]\w*|\s+|.', re.S)
 
 
 def code_of(text):
-    """Returns a source without comments and white space."""
-    def kept(match):
-        token = match[0]
-        return token if token[0] in "\"'" or "NOLINT" in token else ""
-    return TOKEN.sub(kept, text)
+    """Returns the tokens of a source that a check can depend on. An identifier is the number of its first occurrence."""
+    tokens, numbers = [], {}
+    for token in TOKEN.findall(text):
+        if token[0] == '"':
+            tokens += ['""'] if tokens[-1:] != ['""'] else []  # adjacent strings are one
+        elif token.startswith(("//", "/*")):
+            tokens += [token] if "NOLINT" in token else []
+        elif re.match(r"[A-Za-z_]", token):
+            tokens.append(str(numbers.setdefault(token, len(numbers))))
+        elif not token.isspace() and not token.startswith("#include"):
+            tokens.append(token)
+    return tokens
 
 
 def with_includers(root, changed, sources):
