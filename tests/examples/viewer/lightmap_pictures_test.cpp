@@ -82,7 +82,7 @@ protected:
         const prt::Scene& scene = loaded.model->scene; // the scene has one primitive
         const auto& uv =
             scene.vertex_arrays[0]
-                .texcoords[static_cast<std::size_t>(loaded.lightmap.layout()->positions[0].texcoord)];
+                .texcoords[static_cast<std::size_t>(loaded.lightmap.layout()->placements[0].texcoord)];
         const glm::uvec3& t = scene.primitives[0].triangles[hit->triangle];
         const prt::LightmapSize& map = loaded.lightmap.layout()->maps[0];
         return (uv[t.x] * (1 - hit->uv.x - hit->uv.y) + uv[t.y] * hit->uv.x + uv[t.z] * hit->uv.y) *
