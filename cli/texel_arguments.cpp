@@ -69,7 +69,10 @@ CLI::Option* add_texels(CLI::App* command, TexelArguments& a, const std::string&
                               a.mentioned = true;
                           })
             .key("atlas", names_of(kAtlasModes), "number of textures [auto]",
-                 [&a](const std::string& name) { a.texels.atlases = chosen("--texels", kAtlasModes, name); })
+                 [&a](const std::string& name) {
+                     a.texels.atlases = chosen("--texels", kAtlasModes, name);
+                     a.mentioned = true;
+                 })
             .add(command);
     Suboptions("--high-poly", "FILE", "detailed model; texels get the light that arrives at its surface",
                [&a](const std::string& file) {

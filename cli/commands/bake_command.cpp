@@ -384,7 +384,7 @@ void check_arguments(const BakeArguments& a) {
         throw Error(
             "--refine and --texels cannot be combined: --refine splits triangles for light at vertices");
     if (a.finer.max_vertices > 0 && !a.finer.refine)
-        throw Error("--refine needs an error, as --refine 0.02,vertices=50000");
+        throw CLI::ValidationError("--refine", "needs an error, as --refine 0.02,vertices=50000");
 }
 
 void run(BakeArguments a, Session& session) {

@@ -114,7 +114,7 @@ std::size_t repair_pixels(Image& image, BadPixels policy) {
         throw Error(counted(count, "pixel is", "pixels are") +
                     " negative, infinite or not a number; the first is at x " +
                     std::to_string(first % width) + ", y " + std::to_string(first / width) +
-                    " (--bad-pixels reads them as black or clamps them)");
+                    " (they can be read as black or clamped)");
     }
     for (glm::vec3& pixel : image.pixels) {
         if (!is_bad(pixel))

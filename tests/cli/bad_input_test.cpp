@@ -165,8 +165,7 @@ TEST_F(BadInput, MissingOrUnselectedGpus) {
     };
     refuse({"--device", "no such card"}, "no GPU has \"no such card\" as its number or in its name");
     refuse({"--device", "999"}, "no GPU has \"999\"");
-    refuse({"--device", "0", "--device", "cpu"}, "--device cpu uses none");
-    refuse({"--device", "0", "--method", "raster"}, "depth maps");
+    refuse({"--device", "0", "--method", "raster"}, "--method raster");
     EXPECT_EQ(prt({"bench", "--device", "list"}).status, 0);
 }
 
@@ -214,7 +213,7 @@ TEST_F(BadInput, WrongUsageHasStatusTwo) {
           {"bake", scene, "-o", out, "--order", "six"},
           {"bake", scene, "-o", out, "--bounces", "many"},
           {"bake", scene, "-o", out, "--bounces", "-1"},
-          {"bake", scene, "-o", out, "--device", "tpu"},
+          {"bake", scene, "-o", out, "--device", ""},
           {"bake", scene, "-o", out, "--method", "guess"},
           {"bake", scene, "-o", out, "--subsurface", "custard"},
           {"bake", scene, "-o", out, "--subsurface", "1,2,3,4,5"},
@@ -256,7 +255,7 @@ TEST_F(BadInput, CompressAndEvaluateNeedABake) {
     const std::string baked = (folder / "baked.glb").string(), shipped = (folder / "shipped.glb").string();
     ASSERT_EQ(prt({"bake", scene, "-o", baked, "--rays", "4"}).status, 0);
     ASSERT_EQ(prt({"compress", baked, "-o", shipped, "--clusters", "1", "--components", "1"}).status, 0);
-    expect_refused(prt({"compress", shipped, "-o", out}), "compressed already");
+    expect_refused(prt({"compress", shipped, "-o", out}), "already compressed");
     expect_refused(prt({"evaluate", scene, shipped}), scene);
     expect_refused(prt({"evaluate", baked, scene}), scene);
     expect_refused(prt({"evaluate", shipped, shipped}), shipped);
@@ -279,7 +278,7 @@ TEST_F(BadInput, TooManyComponentsAreRejected) {
     expect_refused(prt({"compress", baked, "-o", out, "--components", "5"}), "0..4");
     // Four coefficients in less than a byte, exactly: budgets that contradict each other.
     expect_refused(prt({"compress", baked, "-o", out, "--max-error", "1e-9", "--bytes-per-vertex", "0.5"}),
-                   "nothing keeps the budget");
+                   "no result meets the goal");
     EXPECT_FALSE(std::filesystem::exists(out));
 }
 

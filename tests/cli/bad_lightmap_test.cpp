@@ -120,8 +120,8 @@ std::vector<Damage> damages_to_maps() {
              }
          },
          "lightmaps would need"},
-        {"map_out_of_range", [](GlbFile& f) { position(f)["map"] = 2; }, "the map is 2"},
-        {"map_negative", [](GlbFile& f) { position(f)["map"] = -1; }, "the map is -1", kRefuses},
+        {"map_out_of_range", [](GlbFile& f) { position(f)["map"] = 2; }, "the index of a map is 2"},
+        {"map_negative", [](GlbFile& f) { position(f)["map"] = -1; }, "the index of a map is -1", kRefuses},
         {"no_map", [](GlbFile& f) { position(f).erase("map"); }, "map", kRefuses},
         {"no_texcoord", [](GlbFile& f) { position(f).erase("texCoord"); }, "texCoord", kRefuses},
         {"texcoord_negative", [](GlbFile& f) { position(f)["texCoord"] = -1; }, "texCoord is -1", kRefuses},

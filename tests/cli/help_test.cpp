@@ -93,11 +93,10 @@ TEST(Help, ExplainsChoicesInTheirOrder) {
                 continue;
             std::size_t from = i + 1;
             const std::string values = lines[i].substr(value, lines[i].find_first_of(" [", value) - value);
+            if (values.find('|') == std::string::npos ||
+                values.find_first_not_of("abcdefghijklmnopqrstuvwxyz0123456789-|") != std::string::npos)
+                continue;
             for (const std::string& choice : split(values, '|')) {
-                const bool word =
-                    choice.find_first_not_of("abcdefghijklmnopqrstuvwxyz0123456789-") == std::string::npos;
-                if (values.find('|') == std::string::npos || !word)
-                    continue;
                 const auto found = std::find_if(lines.begin() + static_cast<std::ptrdiff_t>(from),
                                                 lines.end(), [&](const std::string& line) {
                                                     return line.starts_with("        " + choice + ": ") ||

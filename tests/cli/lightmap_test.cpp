@@ -203,10 +203,10 @@ TEST_F(Lightmaps, AreRejectedIfUnsupported) {
         arguments.insert(arguments.end(), options.begin(), options.end());
         return prt(arguments);
     };
-    expect_refused(compress({"--predictors", "normal"}), "texels know neither");
+    expect_refused(compress({"--predictors", "normal"}), "texels have no normals");
     expect_refused(compress({"--bits", "float"}), "does not support lightmaps");
-    expect_refused(compress({"--reorder"}), "texels stay where they are");
-    expect_refused(compress({"--fallback", at("sky.exr")}), "the light of this file is in texels");
+    expect_refused(compress({"--reorder"}), "changes the order of vertices");
+    expect_refused(compress({"--fallback", at("sky.exr")}), "writes vertex colors");
     EXPECT_FALSE(std::filesystem::exists(folder / "shipped.glb"));
     expect_refused(prt({"relight", at("baked.glb"), "--lights", at("sky.exr"), "-o", at("r.glb")}),
                    "contains a lightmap");

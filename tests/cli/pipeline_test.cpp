@@ -21,7 +21,7 @@ TEST_F(Pipeline, NoticesArePrintedOnceAndReported) {
     file.json["materials"] = {{{"pbrMetallicRoughness", {{"baseColorFactor", {2, 1, 1, 1}}}}}};
     file.json["meshes"][0]["primitives"][0]["material"] = 0;
     file.write(folder / "a.glb");
-    const std::string notice = "clamped to 0..1: baseColorFactor of materials (1)";
+    const std::string notice = "values clamped to 0..1: baseColorFactor of materials (1)";
     const Outcome bake =
         prt({"bake", at("a.glb"), "-o", at("b.glb"), "--rays", "16", "--json", at("b.json")});
     EXPECT_EQ(bake.err, "prt: note: " + at("a.glb") + ": " + notice + "\n");

@@ -132,7 +132,7 @@ TEST_F(Relight, ReportsUnsupportedInput) {
         EXPECT_NE(outcome.err.find(words), std::string::npos) << outcome.err;
         EXPECT_EQ(folder.files(), before);
     };
-    refused({at("s.glb"), "--lights", at("sun.json")}, 1, "holds no transfer");
+    refused({at("s.glb"), "--lights", at("sun.json")}, 1, "contains no transfer");
     refused({at("b.glb"), "--lights", at("sun.json"), "--suns", "17"}, 2, "17");
     refused({at("b.glb"), "--lights", at("sun.json"), "--suns", "rays=0"}, 2, "rays=0");
     ASSERT_EQ(prt({"compress", at("b.glb"), "-o", at("w.glb"), "--combine-direct"}).status, 0);

@@ -388,7 +388,7 @@ TEST(LightmapBake, RejectsFeaturesKnownOnlyAtVertices) {
     refused(floor, medium, "has subsurface scattering");
     BakeOptions adaptive = options_of(2, 16, 0);
     adaptive.target_error = 0.1;
-    refused(floor, adaptive, "number of rays");
+    refused(floor, adaptive, "use --rays");
     BakeOptions little = options_of(10, 16, 0);
     little.memory.limit = 2000;
     refused(floor, little, "memory");

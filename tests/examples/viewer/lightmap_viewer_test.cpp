@@ -142,12 +142,12 @@ TEST_F(LightmapViewer, ReportsPicturesThatNeedMoreThanALightmap) {
     for (const PictureKind kind : {PictureKind::prt, PictureKind::error, PictureKind::seams})
         EXPECT_NE(viewer->never_shown(kind).find("also open its bake"), std::string::npos)
             << name_of(kind).id;
-    EXPECT_NE(viewer->never_shown(PictureKind::surface_error).find("of vertices"), std::string::npos);
+    EXPECT_NE(viewer->never_shown(PictureKind::surface_error).find("only vertices"), std::string::npos);
     EXPECT_EQ(viewer->never_shown(PictureKind::reference), "");
     EXPECT_FALSE(viewer->can_measure());
     EXPECT_FALSE(viewer->can_bake());
     viewer->measure_budget();
-    EXPECT_NE(message().find("of vertices"), std::string::npos);
+    EXPECT_NE(message().find("only vertices"), std::string::npos);
 }
 
 TEST_F(LightmapViewer, ShowsVerticesAndALightmapSideBySide) {

@@ -221,13 +221,13 @@ TEST_F(Script, SavesTheCompressedModel) {
 
 TEST_F(Script, ReportsErrorsWithTheirStep) {
     EXPECT_NE(why("[{\"set\": ").find("script.json: "), std::string::npos);
-    EXPECT_NE(why("{}").find("no array"), std::string::npos);
+    EXPECT_NE(why("{}").find("an array of steps"), std::string::npos);
     EXPECT_NE(why("[{\"draw\": 1}, {\"dance\": 1}]").find("step 2: unknown step 'dance'"), std::string::npos);
     EXPECT_NE(why("[{\"draw\": \"often\"}]").find("step 1: "), std::string::npos);
     EXPECT_NE(why("[{\"set\": {\"left\": \"nothing\"}}]").find("unknown picture 'nothing'"),
               std::string::npos);
     EXPECT_NE(why("[{\"light\": {\"kind\": \"torch\"}}]").find("unknown light 'torch'"), std::string::npos);
-    EXPECT_NE(why("[{\"keys\": \"\\u0001\"}]").find("no key"), std::string::npos);
+    EXPECT_NE(why("[{\"keys\": \"\\u0001\"}]").find("unknown key"), std::string::npos);
     EXPECT_NE(why("[{\"size\": [0, 5]}]").find("above 0"), std::string::npos);
     EXPECT_NE(why("[7]").find("one member"), std::string::npos);
     EXPECT_THROW(run_script(folder / "missing.json", {}), prt::Error);

@@ -94,7 +94,7 @@ INSTANTIATE_TEST_SUITE_P(
         Damage{"index_that_wraps_around",
                [](GlbFile& f) { primitive(f)["attributes"]["POSITION"] = 1LL << 32; }, "POSITION is 42949"},
         Damage{"overlapping_elements", [](GlbFile& f) { f.json["bufferViews"][0]["byteStride"] = 4; },
-               "lie 4 apart"},
+               "a stride of only 4 bytes"},
         Damage{"view_that_nobody_reads",
                [](GlbFile& f) {
                    f.json["bufferViews"].push_back({{"buffer", 0}, {"byteOffset", 8}, {"byteLength", 4096}});

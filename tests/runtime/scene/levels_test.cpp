@@ -104,7 +104,7 @@ TEST(LevelsInFiles, InTheSceneAreNotDrawnAndCastNoShadow) {
     const Scene scene = extract_scene(loaded(file_of({with_ids(Json::object(), {1}), {{"name", "far"}}}, 2)));
     EXPECT_EQ(scene.primitives.size(), 1u);
     ASSERT_EQ(scene.notices.size(), 1u);
-    EXPECT_NE(scene.notices[0].find("levels of detail"), std::string::npos);
+    EXPECT_NE(scene.notices[0].find("coarser level"), std::string::npos);
 }
 
 TEST(LevelsInFiles, AreDetectedFromSiblingNames) {

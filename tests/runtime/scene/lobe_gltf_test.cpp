@@ -128,7 +128,7 @@ TEST(LobesOfFiles, MissingProfilesAreRejected) {
     const std::size_t accessor = file.json["meshes"][0]["primitives"][0]["attributes"]["_PRT_LOBE_0"];
     const std::size_t view = file.json["accessors"][accessor]["bufferView"];
     file.binary[file.json["bufferViews"][view]["byteOffset"].get<std::size_t>() + 2] = std::byte{3};
-    EXPECT_NE(error_of(file).find("profile 3 of 3"), std::string::npos) << error_of(file);
+    EXPECT_NE(error_of(file).find("profile 3, but there are only 3"), std::string::npos) << error_of(file);
 }
 
 } // namespace

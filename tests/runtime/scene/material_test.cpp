@@ -207,7 +207,7 @@ TEST(Instances, AreSeparateNodesInTheScene) {
     EXPECT_TRUE(has({5, 12, 0})); // scaled to 2, rotated to +y, moved
     EXPECT_TRUE(has({0.5f, 10, -7}));
     EXPECT_TRUE(has({1, 10, 100}));
-    EXPECT_EQ(notices_with(scene, "its 3 instances"), 1u);
+    EXPECT_EQ(notices_with(scene, "3 instances of EXT_mesh_gpu_instancing"), 1u);
 }
 
 TEST(Instances, KeepSeparateTransferInTheFile) {

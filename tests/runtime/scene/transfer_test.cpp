@@ -410,7 +410,7 @@ TEST(TransferInGltf, ChangesOfOtherProgramsAreRejectedWithTheRemedy) {
             weights(file)["componentType"] = test::kByte;
             weights(file)["normalized"] = true;
         });
-        expect(format, "lacks _PRT_WEIGHTS_0",
+        expect(format, "has no attribute _PRT_WEIGHTS_0",
                [&](GlbFile& file) { attributes(file).erase("_PRT_WEIGHTS_0"); });
         expect(format, "_PRT_WEIGHTS_0, but not the extension PRTKIT_clustered_pca", [&](GlbFile& file) {
             file.json.erase("extensions");
@@ -427,7 +427,7 @@ TEST(TransferInGltf, ChangesOfOtherProgramsAreRejectedWithTheRemedy) {
         attributes(file)["_PRT_WEIGHTS_0"] =
             file.accessor(std::vector<float>(4 * count, 1), test::kFloat, "VEC4", 4);
     });
-    expect(WeightFormat::packed, "_PRT_WEIGHTS_0 is normalized",
+    expect(WeightFormat::packed, "_PRT_WEIGHTS_0 is normalized, but must not be",
            [&](GlbFile& file) { weights(file)["normalized"] = true; });
 }
 
