@@ -69,9 +69,10 @@ struct OldName {
 constexpr OldName kOldNames[] = {
     {"", "--env", "--lights FILE"},
     {"", "--backend", "--device auto|cpu|gpu"},
+    {"render", "--gpu", "--device auto|cpu|gpu"},
     {"", "--gpu", "--device N|NAME"},
     {"", "--traversal", "--device gpu,traversal=auto|compute|device"},
-    {"", "--list-devices", "--device list"},
+    {"bench", "--list-devices", "--device list"},
     {"", "--html", "--report FILE.html"},
     {"", "--csv", "--report FILE.csv"},
     {"", "--scene-limit", "--memory-limit SIZE"},
@@ -87,18 +88,19 @@ constexpr OldName kOldNames[] = {
     {"", "--volume-error", "--volume METRES,error=X"},
     {"", "--volume-order", "--volume METRES,order=N"},
     {"", "--volume-bounds", "--volume METRES,bounds=x0,y0,z0,x1,y1,z1"},
-    {"", "--volume-bytes", "--volume bytes=N"},
-    {"", "--volume-clusters", "removed: the number of clusters follows from the probes"},
+    {"compress", "--volume-bytes", "--volume bytes=N"},
+    {"compress", "--volume-clusters", "removed: the number of clusters follows from the probes"},
     {"", "--volume-fit", "--volume METRES,fit=X"},
     {"ao", "--volume", "--occluders"},
     {"evaluate", "--volume", "--measure volume"},
     {"shader", "--volume", "--stage volume"},
     {"", "--instance-error", "--instances shared,error=X"},
     {"", "--instance-samples", "--instances shared,samples=N"},
-    {"", "--instance-lights", "--lights FILE"},
+    {"bake", "--instance-lights", "--lights FILE"},
     {"", "--lamp-radius", "--lamps all,radius=METRES"},
     {"", "--lamp-group", "--lamps all,group=NAME=PATTERN"},
-    {"", "--sun-rays", "--suns auto,rays=N"},
+    {"relight", "--sun-rays", "--suns auto,rays=N"},
+    {"render", "--sun-rays", "--suns auto,rays=N"},
     {"", "--lamp-rays", "--lamps all,rays=N"},
     {"relight", "--lamps", "--lamp-strengths on|off|FILE"},
     {"render", "--lamps", "--lamp-strengths on|off|FILE"},
@@ -107,8 +109,8 @@ constexpr OldName kOldNames[] = {
     {"", "--inside", "--enclosed keep|refill"},
     {"", "--guides", "--predictors none|normal|position"},
     {"", "--whole", "--combine-direct"},
-    {"", "--weights", "--bits float"},
-    {"", "--metric", "--lights outdoor|indoor|day|natural|plain"},
+    {"compress", "--weights", "--bits float"},
+    {"compress", "--metric", "--lights outdoor|indoor|day|natural|plain"},
     {"", "--bytes-per-texel", "--bytes-per-vertex X"},
     {"make", "--baked", "--keep-bake FILE"},
     {"", "--sweep", "--measure sweep"},
@@ -123,15 +125,19 @@ constexpr OldName kOldNames[] = {
     {"", "--distance", "--max-distance METRES"},
     {"", "--frames", "--poses N,frames=N"},
     {"", "--animation", "--poses N,animation=NAME"},
-    {"", "--from", "--rays FROM..TO"},
-    {"", "--to", "--rays FROM..TO"},
-    {"", "--most-seconds", "--seconds X"},
+    {"bench", "--from", "--rays FROM..TO"},
+    {"bench", "--to", "--rays FROM..TO"},
+    {"bench", "--most-seconds", "--seconds X"},
 };
 
-/// Throws the new name of an option if `name` is an old one.
-void check_old_name(const std::string& command, const std::string& name) {
+/// Throws the new name of an option if `name` is an old one and the command has the new one. `names`: options
+/// of the command.
+void check_old_name(const std::string& command, const std::vector<std::string>& names,
+                    const std::string& name) {
     for (const OldName& old : kOldNames)
-        if (name == old.old && (old.command.empty() || command == old.command))
+        if (name == old.old && (old.command.empty() || command == old.command) &&
+            (old.now.starts_with("removed") ||
+             is_in(names, std::string(old.now.substr(0, old.now.find(' '))))))
             throw CLI::ParseError(name + (old.now.starts_with("removed") ? " is " : " is now ") +
                                       std::string(old.now),
                                   CLI::ExitCodes::ExtrasError);
@@ -153,7 +159,7 @@ void check_names(const CLI::App& app, std::span<char* const> words) {
         if (option && word.starts_with("--")) {
             const std::string name = word.substr(0, word.find('='));
             if (const auto names = names_of_options(*command); !is_in(names, name)) {
-                check_old_name(command->get_name(), name);
+                check_old_name(command->get_name(), names, name);
                 refuse("option", name, names);
             }
         } else if (!option && command == &app) {

@@ -26,7 +26,7 @@ void add_suns(CLI::App* command, SunCount& suns, const std::string& text, const 
               int* rays) {
     Suboptions option("--suns", "N|auto", text,
                       [&suns](const std::string& given) { set_count(given, suns); });
-    option.detail("auto: all that reduce the error noticeably, up to 4; those of a light file")
+    option.detail("auto: of an image, up to 4 suns that reduce the error noticeably; of a light file, all")
         .detail("0: suns are part of the sky");
     if (rays)
         option.whole_number("rays", 1, 1 << 20, fmt::format("rays to each sun [{}]", *rays),

@@ -53,9 +53,10 @@ constexpr Choice<MapLayout> kLayouts[] = {
      {EnvironmentLayout::cube_faces},
      "six faces in a row or a cross (OpenGL, Vulkan, Direct3D)"},
     {"angular", {EnvironmentLayout::angular}, "light probe: all directions in a circle (Debevec)"}};
-constexpr Choice<BadPixels> kBadPixels[] = {{"error", BadPixels::error, "stop"},
-                                            {"zero", BadPixels::zero, "set them to 0"},
-                                            {"clamp", BadPixels::clamp, "limit them to the valid range"}};
+constexpr Choice<BadPixels> kBadPixels[] = {
+    {"error", BadPixels::error, "stop"},
+    {"zero", BadPixels::zero, "set them to 0"},
+    {"clamp", BadPixels::clamp, "limit them to 0 .. the largest valid value; NaN becomes 0"}};
 
 CLI::Validator seed_range() {
     const auto check = [](const std::string& text) {
@@ -137,7 +138,7 @@ void add_smooth_normals(CLI::App* command, GltfOptions& reading) {
         ->add_option("--smooth-normals", reading.smooth_normals_degrees,
                      "smooth normals across edges up to this angle, if normals are missing")
         ->type_name("DEGREES")
-        ->check(CLI::Range(0.0, 180.0));
+        ->check(real_in(0, 180));
 }
 
 void add_threads(CLI::App* command, int& threads) {
@@ -160,11 +161,15 @@ void add_reports(CLI::App* command, ReportFiles& files) {
                     const std::string suffix = suffix_of(name);
                     if (suffix != ".html" && suffix != ".htm" && suffix != ".csv")
                         throw CLI::ValidationError("--report", "'" + name + "' is neither .html nor .csv");
-                    (suffix == ".csv" ? files.csv : files.html) = name;
+                    Path& file = suffix == ".csv" ? files.csv : files.html;
+                    if (!file.empty())
+                        throw CLI::ValidationError("--report",
+                                                   "'" + name + "' is a second " + suffix + " file");
+                    file = name;
                 }
             },
             "write a page (.html) or tables (.csv); repeat the option for both\n"
-            ".csv: one row per method, budget, light or lamp; units are in the header")
+            ".csv: one table; a row is a light, a lamp, a method or a trial; units are in the header")
         ->allow_extra_args(false)
         ->type_name("FILE");
 }
@@ -176,7 +181,7 @@ CLI::Option* add_device(CLI::App* command, TracerChoice& tracer) {
         .detail("cpu: Embree")
         .detail("gpu: Vulkan 1.2, hardware or software")
         .detail("N, NAME: a GPU by its number or part of its name, from bench --device list")
-        .key("traversal", names_of(kTraversals), "how a GPU traces rays",
+        .key("traversal", names_of(kTraversals), "ray queries of the GPU (device) or compute shaders",
              [&tracer](const std::string& name) { tracer.traversal = chosen("--device", kTraversals, name); })
         .add(command)
         ->default_str("auto");
@@ -244,9 +249,15 @@ void add_light_options(CLI::App* command, LightOptions& options) {
            "handling of negative, infinite and NaN pixels", "error");
 }
 
+void check_light_options(const CLI::App& command, bool has_lights) {
+    for (const char* name : {"--rotate", "--window", "--env-layout", "--layer", "--bad-pixels"})
+        if (!has_lights && command.count(name) > 0)
+            throw CLI::ValidationError(name, "needs --lights FILE");
+}
+
 std::optional<int> whole_number(const std::string& text) {
     char* end = nullptr;
-    const long long value = std::strtoll(text.c_str(), &end, 0);
+    const long long value = std::strtoll(text.c_str(), &end, 10);
     const bool whole = !text.empty() && end == text.c_str() + text.size();
     return whole && value == static_cast<int>(value) ? std::optional(static_cast<int>(value)) : std::nullopt;
 }

@@ -106,6 +106,8 @@ CLI::Option* add_light(CLI::App* command, Path& light);
 /// Adds --fit, which is automatic by default.
 void add_fit(CLI::App* command, FitMode& fit, const std::string& text);
 void add_light_options(CLI::App* command, LightOptions& options);
+/// Throws `CLI::ValidationError` if an option of `add_light_options` is given without a light.
+void check_light_options(const CLI::App& command, bool has_lights);
 
 /// Return the number in `text`, in any notation of C; empty if `text` is not exactly one number.
 std::optional<int> whole_number(const std::string& text);

@@ -51,6 +51,11 @@ Suboptions& Suboptions::flag(const std::string& name, const std::string& text, s
     return *this;
 }
 
+Suboptions& Suboptions::repeatable() {
+    settings_.back().repeatable = true;
+    return *this;
+}
+
 Suboptions& Suboptions::detail(const std::string& text) {
     details_ += "\n" + text;
     return *this;
@@ -76,18 +81,32 @@ std::size_t Suboptions::next_setting(const std::string& text, std::size_t from) 
     return text.size();
 }
 
-void Suboptions::parse(const std::string& text) const {
+void Suboptions::take_value(const std::string& piece) const {
+    try {
+        take_(piece);
+    } catch (const CLI::ValidationError& error) {
+        if (listed_.empty() || piece.find(',') == std::string::npos)
+            throw;
+        throw CLI::ValidationError(std::string(error.what()) + "; settings after the value are " + listed_);
+    }
+}
+
+void Suboptions::parse(const std::string& text, std::set<std::string>& given) const {
     for (std::size_t at = 0; at <= text.size();) {
         const Setting* setting = setting_at(text, at);
         const std::size_t end = next_setting(text, at);
         const std::string piece = text.substr(at, end - at);
+        if (!setting && (at > 0 || value_.empty()))
+            throw CLI::ValidationError(
+                name_,
+                fmt::format("'{}' is not a setting; settings are {}; a value comes first", piece, listed_));
+        if (!given.insert(setting ? setting->name : "").second && !(setting && setting->repeatable))
+            throw CLI::ValidationError(name_, setting ? setting->name + " is given twice"
+                                                      : "'" + piece + "' is a second value");
         if (setting)
             setting->take(setting->has_value ? piece.substr(setting->name.size() + 1) : "");
-        else if (at == 0 && !value_.empty())
-            take_(piece);
         else
-            throw CLI::ValidationError(name_,
-                                       fmt::format("'{}' is not a setting; settings are {}", piece, listed_));
+            take_value(piece);
         at = end + 1;
     }
 }
@@ -97,12 +116,15 @@ CLI::Option* Suboptions::add(CLI::App* command) const {
         ->add_option_function<std::vector<std::string>>(
             name_,
             [self = *this](const std::vector<std::string>& texts) {
+                std::set<std::string> given;
                 for (const std::string& text : texts)
-                    self.parse(text);
+                    self.parse(text, given);
             },
             text_ + details_)
         ->allow_extra_args(false)
-        ->type_name(value_.empty() ? "SETTING,..." : value_ + "[,...]");
+        ->type_name(value_.empty()      ? "SETTING,..."
+                    : settings_.empty() ? value_
+                                        : value_ + "[,...]");
 }
 
 } // namespace prt::cli

@@ -68,7 +68,8 @@ CLI::Option* add_texels(CLI::App* command, TexelArguments& a, const std::string&
                               a.texels.uv_set = set;
                               a.mentioned = true;
                           })
-            .key("atlas", names_of(kAtlasModes), "number of textures [auto]",
+            .key("atlas", names_of(kAtlasModes),
+                 "one texture, or one per object; auto: one if charts do not overlap",
                  [&a](const std::string& name) {
                      a.texels.atlases = chosen("--texels", kAtlasModes, name);
                      a.mentioned = true;

@@ -30,42 +30,44 @@ VolumeArguments::WorldBounds parse_bounds(const std::string& text) {
 
 void add_volume(CLI::App* command, VolumeArguments& arguments) {
     VolumeOptions& volume = arguments.volume;
-    const auto set_spacing = [&volume](double metres) {
-        volume.spacing = metres;
-        volume.probes = 0;
+    const auto check_one = [&volume](bool other) {
+        if (other)
+            throw CLI::ValidationError("--volume", "METRES and probes cannot be combined");
     };
-    Suboptions("--volume", "METRES", "also bake a volume of probes, which lights moving objects",
-               [set_spacing](const std::string& text) {
-                   const std::optional<double> metres = real_number(text);
-                   if (!metres || !(*metres >= 1e-9 && *metres <= static_cast<double>(kFarthestVertex)))
-                       throw CLI::ValidationError("--volume", "'" + text + "' is not a distance in metres");
-                   set_spacing(*metres);
-               })
-        .detail("METRES: distance of probes near surfaces; larger in open space")
-        .whole_number("probes", 125, 1 << 28, "in place of METRES: the densest volume with at most N probes",
-                      [&volume](int count) {
-                          volume.probes = static_cast<std::size_t>(count);
-                          volume.spacing = 0;
-                      })
-        .number("error", 0, 0.99,
-                "split cells, down to 1/4, to reach this relative L2 error between probes [0: off]",
-                [&volume](double error) { volume.error = error; })
-        .whole_number("order", 2, kMaxIncidentOrder, "SH order of the incident light at a probe [3]",
-                      [&volume](int order) { volume.order = order; })
-        .number("fit", 0, 100,
-                fmt::format("points per probe for a least-squares fit [1 from {} rays on, else 0]",
-                            kRaysWorthAFit),
-                [&volume](double points) { volume.fit_points = points; })
-        .key("bounds", "x0,y0,z0,x1,y1,z1", "box of the volume, world space, metres [box of the scene]",
-             [&arguments](const std::string& text) { arguments.bounds = parse_bounds(text); })
-        .add(command);
+    CLI::Option* option =
+        Suboptions("--volume", "METRES", "also bake a volume of probes, which lights moving objects",
+                   [&volume, check_one](const std::string& text) {
+                       const std::optional<double> metres = real_number(text);
+                       if (!metres || !(*metres >= 1e-9 && *metres <= static_cast<double>(kFarthestVertex)))
+                           throw CLI::ValidationError("--volume",
+                                                      "'" + text + "' is not a distance in metres");
+                       check_one(volume.probes > 0);
+                       volume.spacing = *metres;
+                   })
+            .detail("METRES: distance of probes near surfaces; larger in open space")
+            .whole_number("probes", 125, 1 << 28,
+                          "in place of METRES: the densest volume with at most N probes",
+                          [&volume, check_one](int count) {
+                              check_one(volume.spacing > 0);
+                              volume.probes = static_cast<std::size_t>(count);
+                          })
+            .number("error", 0, 0.99,
+                    "split cells, down to 1/4, to reach this relative L2 error between probes [0: off]",
+                    [&volume](double error) { volume.error = error; })
+            .whole_number("order", 2, kMaxIncidentOrder, "SH order of the incident light at a probe [3]",
+                          [&volume](int order) { volume.order = order; })
+            .number("fit", 0, 100,
+                    fmt::format("least-squares fit to X points per probe; 0: no fit [1 from {} rays on]",
+                                kRaysWorthAFit),
+                    [&volume](double points) { volume.fit_points = points; })
+            .key("bounds", "x0,y0,z0,x1,y1,z1", "box of the volume, world space, metres [box of the scene]",
+                 [&arguments](const std::string& text) { arguments.bounds = parse_bounds(text); })
+            .add(command);
+    option->each([&arguments](const std::string&) { arguments.mentioned = true; });
 }
 
 void check_volume(const VolumeArguments& arguments) {
-    const VolumeOptions usual;
-    const VolumeOptions& volume = arguments.volume;
-    if (!arguments.given() && (arguments.bounds || volume.order != usual.order ||
-                               volume.fit_points != usual.fit_points || volume.error != usual.error))
+    if (!arguments.given() && arguments.mentioned)
         throw Error(
             "--volume needs a distance or a number of probes, as --volume 0.5 or --volume probes=4000");
 }

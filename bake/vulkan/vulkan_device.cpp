@@ -235,7 +235,7 @@ VulkanDevice::VulkanDevice(const VulkanChoice& choice)
             throw Error(fmt::format("\"{}\" cannot be used for baking: it has no {}", traits_.about.name,
                                     traits_.about.missing_feature));
         if (choice.traversal == Traversal::device && !traits_.about.ray_queries)
-            throw Error(fmt::format("\"{}\" has no ray queries; use --device auto,traversal=compute",
+            throw Error(fmt::format("\"{}\" has no ray queries; use --device gpu,traversal=compute",
                                     traits_.about.name));
         traits_.ray_queries = choice.traversal != Traversal::compute && traits_.about.ray_queries;
         physical_ = std::move(found[chosen]);

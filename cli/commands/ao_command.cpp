@@ -264,7 +264,7 @@ void run(AoArguments a, Session& session) {
 
 void add_outputs(CLI::App* command, AoArguments& a) {
     CLI::Option* texels = add_texels(command, a.textures, "bake textures instead of vertices");
-    command->add_option("--attribute", a.attribute, "attribute to write; its name begins with _")
+    command->add_option("--attribute", a.attribute, "attribute to write, a name that begins with _")
         ->default_str("COLOR_0, multiplied")
         ->excludes(texels);
     command->add_flag("--bent-normals", a.outputs.bent_normals,
@@ -287,7 +287,7 @@ void add_falloff(CLI::App* command, Falloff& falloff) {
                 for (const std::string& text : texts)
                     falloff.terms.push_back(parse_term(text));
             },
-            "obscurance: distance at which surfaces block half, metres\n"
+            "obscurance: surfaces at this distance (metres) block half\n"
             "several distances with shares: 2:97,300:3")
         ->delimiter(',')
         ->allow_extra_args(false)

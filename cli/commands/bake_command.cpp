@@ -84,10 +84,10 @@ std::string names_of_media() {
     std::size_t line = 0;
     for (const NamedMedium& named : measured_media()) {
         if (names.size() - line > 70) {
-            names += ",\nnames: ";
+            names += ",\n      ";
             line = names.size();
         }
-        names += (names.size() == line ? "" : ", ") + std::string(named.name);
+        names += (names.size() == line ? (line > 0 ? " " : "") : ", ") + std::string(named.name);
     }
     return names;
 }
@@ -171,6 +171,7 @@ void add_lamps(CLI::App* command, LampOptions& lamps) {
                       [&lamps](int rays) { lamps.rays = rays; })
         .key("group", "NAME=PATTERN", "one term for all lamps that match; *: any letters; repeatable",
              [&lamps](const std::string& text) { lamps.groups.push_back(parse_group(text)); })
+        .repeatable()
         .add(command)
         ->default_str("all");
 }
@@ -385,6 +386,16 @@ void check_arguments(const BakeArguments& a) {
             "--refine and --texels cannot be combined: --refine splits triangles for light at vertices");
     if (a.finer.max_vertices > 0 && !a.finer.refine)
         throw CLI::ValidationError("--refine", "needs an error, as --refine 0.02,vertices=50000");
+    const LampOptions usual;
+    if (a.options.lamps.mode == LampMode::none &&
+        (!a.options.lamps.groups.empty() || a.options.lamps.radius != usual.radius ||
+         a.options.lamps.rays != usual.rays))
+        throw CLI::ValidationError("--lamps", "none has no settings");
+    if (a.options.tracer.method == BakeMethod::trace &&
+        a.options.tracer.raster_resolution != TracerChoice{}.raster_resolution)
+        throw CLI::ValidationError("--method", "resolution needs raster");
+    if (a.options.subsurface.media.empty() && a.options.subsurface.metres_per_unit != 1)
+        throw CLI::ValidationError("--metres-per-unit", "needs --subsurface");
 }
 
 void run(BakeArguments a, Session& session) {

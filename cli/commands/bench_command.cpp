@@ -11,6 +11,8 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
+
 namespace prt::cli {
 namespace {
 
@@ -38,6 +40,16 @@ void print_devices() {
         fmt::print("no GPU: no driver for Vulkan is installed\n");
 }
 
+/// Throws `Error` unless `name` is empty, the number of a GPU, or part of the name of one.
+void check_device_exists(const std::string& name) {
+    const std::vector<GpuDevice> devices = gpu_devices();
+    const std::optional<int> number = whole_number(name);
+    const bool numbered = number && *number >= 0 && static_cast<std::size_t>(*number) < devices.size();
+    const auto is_named = [&](const GpuDevice& d) { return d.name.find(name) != std::string::npos; };
+    if (!name.empty() && !numbered && std::ranges::none_of(devices, is_named))
+        throw Error("no GPU has \"" + name + "\" as its number or in its name; list them with --device list");
+}
+
 Report scene_report(const BenchArguments& a, Session& session) {
     const GltfDocument document = load_gltf(a.scene, a.reading);
     const Scene scene = extract_scene(document);
@@ -50,8 +62,11 @@ Report scene_report(const BenchArguments& a, Session& session) {
 }
 
 void run(BenchArguments a, Session& session) {
+    if (a.list_devices && !(a.files.json.empty() && a.files.html.empty() && a.files.csv.empty()))
+        throw CLI::ValidationError("--device", "list writes no report");
     if (a.list_devices)
         return print_devices();
+    check_device_exists(a.options.gpu);
     if (a.scene.empty())
         throw CLI::RequiredError("scene or --device list");
     a.options.bad_textures = a.reading.bad_textures;
@@ -69,14 +84,13 @@ void run(BenchArguments a, Session& session) {
 
 void set_rays(const std::string& text, BenchOptions& options) {
     const std::size_t dots = text.find("..");
-    const std::optional<int> from = whole_number(text.substr(0, dots)),
-                             to = dots == std::string::npos ? std::nullopt
-                                                            : whole_number(text.substr(dots + 2));
-    if (!from || !to || *from < 1 || *from > kMaxRays || *to < 1 || *to > kMaxRays / 64)
+    const int from = whole_number(text.substr(0, dots)).value_or(0),
+              to = dots == std::string::npos ? 0 : whole_number(text.substr(dots + 2)).value_or(0);
+    if (from < 1 || from > to || to > kMaxRays / 64)
         throw CLI::ValidationError(
-            "--rays", fmt::format("'{}' is not FROM..TO with numbers in 1..{}", text, kMaxRays / 64));
-    options.fewest_rays = *from;
-    options.max_rays = *to;
+            "--rays", fmt::format("'{}' is not FROM..TO with 1 <= FROM <= TO <= {}", text, kMaxRays / 64));
+    options.fewest_rays = from;
+    options.max_rays = to;
 }
 
 void add_bench_device(CLI::App* command, BenchArguments& a, CLI::Option* scene) {

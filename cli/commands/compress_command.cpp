@@ -48,14 +48,14 @@ struct CompressArguments {
         bool meshopt = false, reorder = false, whole = false;
         Path fallback; ///< a light
     } writing;
-    int volume_bytes = 16; ///< bytes of a probe's weights
+    std::optional<int> volume_bytes; ///< bytes of a probe's weights; unset: 16
     ReadingOptions reading;
 };
 
 const std::map<std::string, WeightCoding (*)()> kPresets = {
     {"u32", preset_u32}, {"u64", preset_u64}, {"u32x4", preset_u32x4}, {"u64x9", preset_u64x9}};
 constexpr Choice<PredictorChoice> kPredictors[] = {
-    {"none", PredictorChoice::none, "clusters predict nothing"},
+    {"none", PredictorChoice::none, "no prediction"},
     {"normal", PredictorChoice::normal, "transfer is predicted linearly from the normal"},
     {"position", PredictorChoice::normal_and_position, "also from the position"}};
 
@@ -185,7 +185,9 @@ void resolve(const CLI::App& command, CompressArguments& a) {
         return;
     }
     if ((given("--clusters") && o.choose_clusters) || (given("--components") && o.choose_components))
-        throw CLI::ValidationError("auto", "needs --max-error, --bytes-per-vertex or --shader-ops");
+        throw CLI::ValidationError(given("--clusters") && o.choose_clusters ? "--clusters auto"
+                                                                            : "--components auto",
+                                   "needs --max-error, --bytes-per-vertex or --shader-ops");
     if (!preset && !sizes && !given("--preset")) {
         o.compress.coding = preset_u32();
         return;
@@ -310,6 +312,8 @@ Bake load_bake(const Path& path, const GltfOptions& reading) {
     std::vector<FileInstance> instances;
     if (holds_instances(document))
         instances = instances_of(path, reading, scene);
+    if (read_compressed_volume(document, scene))
+        throw Error(path.string() + ": is already compressed; compress its bake");
     std::optional<BakedVolume> volume = read_volume(document, scene);
     discard_volume(document);
     Bake bake = bake_of_surfaces(std::move(document), scene, path);
@@ -324,11 +328,13 @@ constexpr std::size_t kProbesOfCluster = 700, kMinClusters = 8;
 
 std::optional<CompressedVolumeResult> compress_probes(const CompressArguments& a, const Bake& bake,
                                                       Session& session) {
+    if (!bake.volume && a.volume_bytes)
+        throw Error("contains no volume, which --volume needs");
     if (!bake.volume)
         return std::nullopt;
     CompressOptions options;
     options.coding = preset_volume();
-    options.coding.bits = 8 * a.volume_bytes - options.coding.cluster_bits;
+    options.coding.bits = 8 * a.volume_bytes.value_or(16) - options.coding.cluster_bits;
     options.clusters = static_cast<int>(
         std::clamp<std::size_t>(bake.volume->visibility.size() / kProbesOfCluster, kMinClusters, 256));
     options.bases_count = true;
@@ -744,6 +750,7 @@ void run(CompressArguments a, Session& session) {
 void add_compress(CLI::App& app, Session& session) {
     CLI::App* command = app.add_subcommand("compress", "Compress a bake by clustered PCA");
     auto& a = arguments_for<CompressArguments>(command, [command, &session](CompressArguments& given) {
+        check_light_options(*command, !given.metric.lights.empty() || !given.writing.fallback.empty());
         resolve(*command, given);
         run(given, session);
     });

@@ -170,8 +170,10 @@ void add_measures(CLI::App* command, EvaluateArguments::Measures& measures) {
 void add_evaluate(CLI::App& app, Session& session) {
     CLI::App* command =
         app.add_subcommand("evaluate", "Measure the error of a compressed file against its bake");
-    auto& a = arguments_for<EvaluateArguments>(
-        command, [&session](const EvaluateArguments& given) { run(given, session); });
+    auto& a = arguments_for<EvaluateArguments>(command, [command, &session](const EvaluateArguments& given) {
+        check_light_options(*command, !given.lights.empty());
+        run(given, session);
+    });
     command->add_option("baked", a.baked, "output of prt bake, the reference")->required()->check(named);
     command->add_option("shipped", a.shipped, "output of prt compress, or another bake of the same scene")
         ->check(named);

@@ -181,7 +181,7 @@ void add_quality(CLI::App* command, LobesArguments& a) {
     command->add_option("--order", a.bake.order, "SH order of a lobe, 2 to 4")
         ->capture_default_str()
         ->check(CLI::Range(2, kMaxLobeOrder));
-    Suboptions("--poses", "N", "poses of the animations for the fit, besides that of the file",
+    Suboptions("--poses", "N", "poses of the animations, in addition to that of the file",
                [&a](const std::string& text) {
                    const std::optional<int> poses = whole_number(text);
                    if (!poses || *poses < 1 || *poses > 4096)

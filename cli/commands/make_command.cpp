@@ -55,7 +55,7 @@ void add_make(CLI::App& app, Session& session) {
             ->add_option(
                 "--max-error", r.goal.max_error,
                 "smallest file with at most this error\nrelative L2 over the surface, against path tracing\n"
-                "default: 0.03, or 1.2 times the error of the highest order if that is larger")
+                "or 1.2 times the error of the highest order if that is larger")
             ->check(above_zero())
             ->default_str("0.03");
     command

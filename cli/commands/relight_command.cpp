@@ -206,6 +206,7 @@ void add_relight(CLI::App& app, Session& session) {
     auto& a = arguments_for<RelightArguments>(command, [command, &session](const RelightArguments& given) {
         if (command->count("--exposure") > 0 && given.colors != ColorKind::unlit)
             throw CLI::ValidationError("--exposure", "needs --colors unlit");
+        check_light_options(*command, !given.environment.empty());
         run(given, session);
     });
     command->add_option("model", a.model, "baked or compressed .glb")->required()->check(named);

@@ -79,8 +79,7 @@ struct RenderArguments {
 constexpr Choice<Show> kShows[] = {
     {"lit", Show::lit, "the lit model"},
     {"clusters", Show::clusters, "a color for each cluster"},
-    {"error", Show::error,
-     "error against --baked (contrast; white: 10 %) or --path-trace (HDR-FLIP; white: 1)"},
+    {"error", Show::error, "error; white: contrast error of 10 % (--baked) or HDR-FLIP of 1 (--path-trace)"},
     {"ao", Show::ao, "ambient occlusion"}};
 constexpr Choice<ToneMap> kToneMaps[] = {{"filmic", ToneMap::filmic, "with shoulder and toe"},
                                          {"srgb", ToneMap::srgb, "sRGB curve, clipped at 1"}};
@@ -551,8 +550,10 @@ void run(RenderArguments a, Session& session) {
 
 void add_render(CLI::App& app, Session& session) {
     CLI::App* command = app.add_subcommand("render", "Draw a picture of a file under a light");
-    auto& a = arguments_for<RenderArguments>(
-        command, [&session](const RenderArguments& given) { run(given, session); });
+    auto& a = arguments_for<RenderArguments>(command, [command, &session](const RenderArguments& given) {
+        check_light_options(*command, !given.environment.empty());
+        run(given, session);
+    });
     command->add_option("model", a.model, ".gltf or .glb; without transfer, the sky casts no shadows")
         ->required()
         ->check(named);

@@ -375,6 +375,10 @@ private:
             bake += fmt::format(" --lamp-scale {}", r_.reading.lamp_scale);
         if (r_.reading.bad_textures == BadTextures::ignore)
             bake += " --bad-textures ignore";
+        std::string reading = r_.reading.allow_outside ? " --allow-outside" : "";
+        if (r_.reading.scene_limit > 0)
+            reading += fmt::format(" --memory-limit {:.0f}", r_.reading.scene_limit);
+        bake += reading;
         if (r_.back_sides == BackSides::shared)
             bake += " --back-sides shared";
         for (const std::string& material : r_.no_shadow)
@@ -386,7 +390,7 @@ private:
         compress += r_.light_options;
         compress += fmt::format(" {} {}", r_.goal.bytes_per_vertex ? "--bytes-per-vertex" : "--max-error",
                                 best.asked);
-        return {bake, compress};
+        return {bake, compress + reading + (r_.goal.best_effort ? " --best-effort" : "")};
     }
 
     void write(Compressed& best, Report& report) {

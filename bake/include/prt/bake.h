@@ -185,8 +185,8 @@ struct BakeStatistics {
     std::string device;
     Seconds seconds;
     double mean_visibility = 0; ///< area-weighted mean of T_0 / Y_00 of the direct light
-    /// Estimated relative L2 error of sampling: error of the filtered light of the sky, or, without
-    /// filtering, error of its direct light, estimated from independent samples.
+    /// Relative L2 error by sampling, estimated from independent samples: with `denoise` of all sky light
+    /// after the noise filter, without it of direct sky light only.
     double sampling_error = 0;
     double rounding_error = 0;   ///< relative L2 error of storing float16
     double remaining_energy = 0; ///< energy of the bounces that were not computed, relative to the largest

@@ -37,8 +37,8 @@ struct IncidentOptions {
     int threads = 0; ///< number of threads; 0: all
 };
 
-/// Computes coefficients of the incident light at `positions`, [positions][order²], in two independent
-/// halves: the product of an error against one half and an error against the other has no noise in its mean.
+/// Returns two estimates of the incident light at `positions`, [positions][order²], from independent random
+/// numbers. Multiply the errors against both instead of squaring one: the mean then has no reference noise.
 /// The result contains distant light, except direct light of suns that the renderer adds, and all light of
 /// lamps. Surfaces scatter as in `PathTracer`. Throws `Cancelled` after a stop request.
 std::array<std::vector<glm::vec3>, 2> incident_reference(const TraceScene& scene,

@@ -14,8 +14,8 @@
 
 namespace prt {
 
-/// Returns one term for each lamp of a scene that has no transfer: its lights and emissive materials, by
-/// name.
+/// Returns the lamps of a scene that has no transfer: its lights and emissive materials. Those with the same
+/// name share one term.
 std::vector<TransferTerm> lamps_of(const Scene& scene);
 
 /// Samples the lamps of a scene. Thread-safe.

@@ -108,7 +108,7 @@ struct CompressStatistics {
     double mean_components = 0; ///< mean over all receivers
     int predictor_rows = 0;     ///< per cluster
     double seconds = 0;
-    std::size_t bytes_per_receiver = 0; ///< size bound by a game: cluster and weights
+    std::size_t bytes_per_receiver = 0; ///< bytes of vertex attributes: cluster and weights
     std::size_t bits_per_receiver = 0;  ///< number of used bits
     std::size_t basis_bytes = 0;        ///< size of all bases, and of the layout of packed weights
 

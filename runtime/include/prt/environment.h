@@ -93,7 +93,7 @@ glm::vec3 sample(const Environment& environment, const glm::vec3& direction);
 glm::vec3 sample_lat_long(const Image& image, const glm::vec3& direction);
 
 /// Returns the environment as a lat-long image whose center looks at +Z. An environment in that layout is
-/// copied; others are resampled by `sample` at about their resolution. Throws the errors of
+/// copied or shifted; others are resampled by `sample` at about their resolution. Throws the errors of
 /// `check_environment`.
 Image resampled_lat_long(const Environment& environment);
 

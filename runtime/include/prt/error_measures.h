@@ -75,7 +75,8 @@ struct VisibleError {
     EdgeJumps seams = {};            ///< jumps of (Y - Y') / (Y + Y_a) along edges between two clusters
 };
 
-/// Errors of exit radiance under one lighting, weighted by area.
+/// Errors of exit radiance under one lighting. `rms` and `mean` are weighted by area; `max` and
+/// `percentile_999` are not.
 struct LitError {
     double rms = 0;            ///< `lit_rms`
     double mean = 0;           ///< mean R, weighted by area, over the channels

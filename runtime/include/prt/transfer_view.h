@@ -24,7 +24,8 @@ struct StoredTransfer {
     std::size_t receivers() const;
 };
 
-/// Reads transfer vectors from any source. Keeps a reference to the source. Thread-safe.
+/// Reads transfer vectors. Refers to `Transfer` objects; copies a `Read` function, and is thread-safe if that
+/// is.
 class TransferView {
 public:
     /// Function that writes the vectors of consecutive receivers, starting at `first`, to `to`

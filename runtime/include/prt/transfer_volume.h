@@ -129,8 +129,8 @@ public:
     VolumeCorners find(const glm::vec3& position, const glm::vec3& normal = glm::vec3(0)) const;
     /// Value of `index()` where there is no brick.
     static constexpr std::uint32_t kNoBrick = ~0u;
-    /// Returns the index of the brick at each position of a finest brick, [size.z][size.y][size.x]; kNoBrick
-    /// if there is none.
+    /// Returns the index of the brick that covers each cell of a grid of finest bricks,
+    /// [size.z][size.y][size.x]; kNoBrick if none does.
     std::span<const std::uint32_t> index() const { return index_; }
 
 private:

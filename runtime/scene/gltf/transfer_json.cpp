@@ -73,7 +73,7 @@ std::span<const unsigned char> float_bytes(const GltfContents& contents, const J
     const auto bytes = buffer_view_bytes(contents.model, object.at("bufferView").get<int>());
     if (count > 0 && bytes.size() != count * size) // a larger view would have another layout; views cannot be
                                                    // empty
-        throw Error(what + " need " + std::to_string(count * size) + " bytes, but the buffer view has " +
+        throw Error(what + ": expected " + std::to_string(count * size) + " bytes, but the buffer view has " +
                     std::to_string(bytes.size()));
     return bytes;
 }

@@ -21,7 +21,7 @@ Json read_json(const std::filesystem::path& path);
 /// Returns member `key` of `object`. Throws `Error` with the key if it is missing; the functions below also
 /// throw it if the member has another type or is out of range.
 const Json& member(const Json& object, const char* key);
-/// Returns a member that is a finite number.
+/// Returns member `key`, a finite number. Throws `Error` for any other value.
 double number(const Json& object, const char* key);
 /// Returns a member that is a number in [low, high].
 double number_in(const Json& object, const char* key, double low, double high);

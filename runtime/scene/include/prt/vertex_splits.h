@@ -15,12 +15,12 @@ namespace prt {
 
 /// New vertices and texture coordinates of one primitive.
 struct VertexSplit {
-    std::vector<std::uint32_t> source; ///< [new vertices] index into the scene's vertex array
+    std::vector<std::uint32_t> source; ///< [new vertices] index in the primitive's vertex array
     std::vector<glm::vec2> uv;         ///< [new vertices]
     std::vector<glm::uvec3> triangles; ///< indices of new vertices, with the winding order of the scene
 };
 
-/// Returns the number of the set of texture coordinates that follows the last one of any primitive.
+/// Returns the smallest N for which no primitive has TEXCOORD_N or a later set.
 int free_texcoord(const Scene& scene);
 
 /// Returns the file with the coordinates of `splits` [primitives of the scene] as TEXCOORD_`set`. All other
