@@ -30,7 +30,7 @@ VolumeArguments::WorldBounds parse_bounds(const std::string& text) {
 
 void add_volume(CLI::App* command, VolumeArguments& arguments) {
     VolumeOptions& volume = arguments.volume;
-    const auto check_one = [&volume](bool other) {
+    const auto check_one = [](bool other) {
         if (other)
             throw CLI::ValidationError("--volume", "METRES and probes cannot be combined");
     };

@@ -577,7 +577,8 @@ void add_render(CLI::App& app, Session& session) {
     command->add_flag("!--no-background", a.look.background,
                       "draw a black background instead of the environment");
     add_light_options(command, a.light_options);
-    add_suns(command, a.lights.suns, "suns in the light, drawn with sharp shadows", "auto");
+    add_suns(command, a.lights.suns, "suns in the light, drawn with sharp shadows", "auto",
+             &a.lights.sun_rays);
     add_lamps(command, a.lights.lamps);
     add_lamp_scale(command, a.lights.lamp_scale);
     add_reading(command, a.reading);
