@@ -49,7 +49,8 @@ TEST_F(Pipeline, SunsOfALightFileAreAddedToItsCoefficients) {
     std::ofstream(folder / "bad.json") << damaged;
     const Outcome bad = prt({"project", at("bad.json"), "-o", at("x.json")});
     EXPECT_EQ(bad.status, 1);
-    EXPECT_NE(bad.err.find("\"half_angle_radians\" is not in the range 0..1.5708"), std::string::npos) << bad.err;
+    EXPECT_NE(bad.err.find("\"half_angle_radians\" is not in the range 0..1.5708"), std::string::npos)
+        << bad.err;
 }
 
 TEST_F(Pipeline, WorthwhileSunsAreFoundAndRotateWithTheSky) {
