@@ -37,7 +37,7 @@ std::string left_column(const CLI::Option& option) {
 std::string lines_of(const CLI::Option& option, bool all) {
     std::string line = left_column(option);
     line += std::string(line.size() + 2 > kColumn ? 2 : kColumn - line.size(), ' ');
-    const std::string text = option.get_description();
+    const std::string& text = option.get_description();
     const std::size_t end = std::min(text.find('\n'), text.size());
     line += text.substr(0, end);
     const std::string usual = option.get_default_str();

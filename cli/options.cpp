@@ -164,7 +164,7 @@ void add_reports(CLI::App* command, ReportFiles& files) {
                     Path& file = suffix == ".csv" ? files.csv : files.html;
                     if (!file.empty())
                         throw CLI::ValidationError("--report",
-                                                   "'" + name + "' is a second " + suffix + " file");
+                                                   fmt::format("'{}' is a second {} file", name, suffix));
                     file = name;
                 }
             },
