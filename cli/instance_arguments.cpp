@@ -18,7 +18,7 @@ namespace {
 constexpr Choice<InstanceMode> kModes[] = {
     {"own", InstanceMode::own, "each instance has separate transfer"},
     {"shared", InstanceMode::shared, "a mesh is baked once; each instance has 52 bytes of factors"},
-    {"auto", InstanceMode::automatic, "shared if possible and if it saves 3/4 of the vertices, else own"}};
+    {"auto", InstanceMode::automatic, "shared if possible and if it saves 3/4 of the rays, else own"}};
 
 std::size_t vertices_of(const Scene& scene, int node) {
     std::size_t count = 0;
@@ -76,7 +76,7 @@ void add_instances(CLI::App* command, InstanceArguments& arguments) {
         .add(command)
         ->default_str("own");
     CLI::Option* const lights =
-        add_lights(command, arguments.lights, "lights for which the error of instances is limited");
+        add_lights(command, arguments.lights, "lights for the error limit of --instances shared");
     add_suns(command, arguments.suns, "suns of --lights that the renderer draws with sharp shadows", "0");
     command->get_option("--suns")->needs(lights);
 }

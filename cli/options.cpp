@@ -42,7 +42,7 @@ struct MapLayout {
     LatLongCenter center = LatLongCenter::z;
 };
 constexpr Choice<MapLayout> kLayouts[] = {
-    {"lat-long", {EnvironmentLayout::lat_long}, "latitude and longitude; the center looks along z (OpenEXR)"},
+    {"lat-long", {EnvironmentLayout::lat_long}, "the center looks along z (OpenEXR); default of 2:1 images"},
     {"lat-long-x",
      {EnvironmentLayout::lat_long, LatLongCenter::x},
      "the center looks along x, as in three.js, glTF viewers and Blender"},
@@ -200,7 +200,7 @@ void add_seed(CLI::App* command, std::uint64_t& seed) {
 }
 
 void add_enclosed(CLI::App* command, Inside& inside) {
-    choice(command, "--enclosed", inside, kInsides, "vertices inside solid geometry", "refill");
+    choice(command, "--enclosed", inside, kInsides, "receivers inside solid geometry", "refill");
 }
 
 CLI::Option* add_lights(CLI::App* command, std::vector<Path>& lights, const std::string& text) {
@@ -242,7 +242,7 @@ void add_light_options(CLI::App* command, LightOptions& options) {
             },
             "layout of the image" + explained(kLayouts))
         ->type_name(names_of(kLayouts))
-        ->default_str("from its shape");
+        ->default_str("attribute or shape");
     command->add_option("--layer", options.environment.layer, "layer or part of an OpenEXR environment")
         ->default_str("RGB or the only layer");
     choice(command, "--bad-pixels", options.environment.bad_pixels, kBadPixels,

@@ -75,7 +75,7 @@ CLI::Option* add_texels(CLI::App* command, TexelArguments& a, const std::string&
                      a.mentioned = true;
                  })
             .add(command);
-    Suboptions("--high-poly", "FILE", "detailed model; texels get the light that arrives at its surface",
+    Suboptions("--high-poly", "FILE", "detailed model, traced in place of the scene",
                [&a](const std::string& file) {
                    if (file.empty())
                        throw CLI::ValidationError("--high-poly", "the name of the file is empty");

@@ -114,10 +114,10 @@ void add_preset(CLI::App* command, SearchOptions& o) {
         ->type_name("u32|u64|u32x4|u64x9|custom")
         ->default_str("u32");
     count_or_auto(command, "--clusters", {1, 65536}, o.compress.clusters, o.choose_clusters,
-                  "number of clusters, 1 to 65536; auto: with a goal");
+                  "number of clusters, 1 to 65536; a goal can choose: auto");
     count_or_auto(command, "--components", {0, 3 * coefficient_count(kMaxOrder)},
                   o.compress.coding.components, o.choose_components,
-                  "maximum number of PCA components of a cluster; auto: with a goal");
+                  "maximum number of PCA components of a cluster; a goal can choose: auto");
     command
         ->add_option_function<std::string>(
             "--bits", [&o](const std::string& text) { set_bits(text, o.compress.coding); },
@@ -145,16 +145,16 @@ void add_goals(CLI::App* command, SearchOptions& o) {
     command
         ->add_option_function<std::string>(
             "--max-jump", [&o](const std::string& value) { set_max_jump(value, o.budget); },
-            "maximum error jump between clusters, share of the mean radiance\n"
-            "holds for 99 % of the borders, by area: under each of --lights at 24 rotations\n"
-            "none: no limit; " +
-                fmt::format("with --max-error and no other goal, the default is {}", kUnseenJump))
+            "maximum jump of the contrast error between clusters\n"
+            "needs another goal\n"
+            "for 99 % of the borders: each FILE of --lights at 24 rotations; families: on average\n"
+            "none: no limit")
         ->type_name("X|none")
-        ->default_str("none");
+        ->default_str(fmt::format("{} with --max-error alone", kUnseenJump));
     command
         ->add_option("--bytes-per-vertex", o.budget.bytes_per_vertex,
                      "smallest error with at most this size, bases included\n"
-                     "bytes of a vertex, texel or probe, in whole 32-bit words")
+                     "bytes of a vertex, texel or probe: its 32-bit words and its share of the bases")
         ->check(above_zero());
     command
         ->add_option("--shader-ops", o.budget.operations,

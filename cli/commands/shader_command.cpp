@@ -44,8 +44,7 @@ constexpr Choice<ConstantSource> kConstants[] = {
     {"block", ConstantSource::block, "uniform block"},
     {"texture", ConstantSource::texture, "float texture; available in all languages"}};
 constexpr Choice<Stage> kStages[] = {
-    {"vertex", Stage::vertex,
-     "relights vertices; for a lightmap, the compute or fragment shader of its texels"},
+    {"vertex", Stage::vertex, "relights vertices; of a lightmap: texels, by compute if the language has it"},
     {"compute", Stage::compute, "computes the constants of a frame"},
     {"fragment", Stage::fragment, "relights the texels of a lightmap by drawing"},
     {"instances", Stage::instances, "vertex shader of instances that share transfer"},

@@ -14,7 +14,7 @@ namespace prt {
 struct Falloff {
     struct Term {
         double half_distance; ///< distance in metres at which half of the light passes
-        double share = 1;     ///< weight of this term relative to all terms
+        double share = 1;     ///< weight of this term; the sum is arbitrary
     };
     std::vector<Term> terms;                                   ///< empty: no light passes
     double farthest = std::numeric_limits<double>::infinity(); ///< metres; beyond it all light passes

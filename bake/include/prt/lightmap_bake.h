@@ -31,7 +31,7 @@ struct LightmapStatistics {
     };
     Seconds seconds;
     double mean_visibility = 0; ///< area-weighted mean of T_0 / Y_00 of the direct light
-    /// Estimated relative L2 error of the filtered light of a sky, or of direct light at texels.
+    /// Estimated relative L2 error: with the noise filter of a sky's light, else of direct light.
     double sampling_error = 0;
     bool denoised = false;
     double rounding_error = 0;        ///< relative L2 error of storing float16

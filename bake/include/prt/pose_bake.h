@@ -29,7 +29,7 @@ struct ModelPose {
 std::vector<ModelPose> poses_of(const AnimatedScene& model, int count, const std::string& only = {});
 
 /// Returns `count` poses at the beginnings of equal time intervals over all animations, one animation after
-/// another. For one animation of two seconds, 6 poses are every tenth of its 60 frames. Arguments and errors
+/// another. For one animation of two seconds, 6 poses are at 0, 1/3, 2/3, .. 5/3 s. Arguments and errors
 /// are those of `poses_of`.
 std::vector<ModelPose> frames_of(const AnimatedScene& model, int count, const std::string& only = {});
 

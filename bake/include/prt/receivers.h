@@ -15,7 +15,7 @@ namespace prt {
 struct Receivers {
     std::vector<glm::vec3> positions; ///< metres
     std::vector<glm::vec3> normals;   ///< unit; zero: no surface here, the transfer is zero
-    std::vector<float> areas;         ///< m²; zero: the triangles have no area, the transfer is zero
+    std::vector<float> areas;         ///< m²; 1 for probes; zero: the transfer is zero
     /// Ray origins relative to the positions, in units of RayScene::surface_offset; empty: the normals. They
     /// are needed for vertices, whose normals may point below their faces.
     std::vector<glm::vec3> starts = {};

@@ -76,7 +76,7 @@ private:
     const TraceScene& scene_;
     std::vector<Light> lights_;
     std::vector<Shining> shining_;
-    std::vector<glm::vec3> strengths_; ///< [materials] strengths
+    std::vector<glm::vec3> strengths_; ///< [materials] factors on emission
     std::vector<double> densities_;    ///< [triangles] density of a point by area; empty: nothing emits light
 };
 

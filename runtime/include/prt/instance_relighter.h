@@ -47,7 +47,7 @@ public:
 
     /// Number of vectors in the constants of all instances: three per row.
     std::size_t size() const { return size_; }
-    /// Maximum error of the rotation of an instance's lighting, in degrees.
+    /// Maximum angular error of an instance's rounded rotation, in degrees.
     double max_degrees() const { return rotations_.max_degrees; }
     /// Returns the attributes of each instance, [instances][2]: in xyz the center of its box, then the
     /// inverse half widths. The offset of its constants is split: the first w is the value of its low 16

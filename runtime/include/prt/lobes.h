@@ -75,7 +75,7 @@ void check_lobes(const LobeModel& model);
 /// vertex, not necessarily a rotation. Axes transform like normals, by the cofactors, so that an unoccluded
 /// vertex is lit by its normal in every pose.
 glm::mat3 axis_rotation(const glm::mat3& matrix);
-/// Returns the transformed axis, normalised; returns `axis` unchanged if the transformed vector is zero.
+/// Returns the transformed axis, normalised; `axis` itself if its transformed length is 0 or not finite.
 glm::vec3 rotated_axis(const glm::vec3& axis, const glm::mat3& rotation);
 
 /// Computes the exit radiance for albedo 1, clamped to 0. `light`: coefficients of incident light,

@@ -217,7 +217,7 @@ typedef struct prt_instances_info {
     size_t constants;    /* number of constants for a lighting, 4 floats each */
     const float* worlds; /* [count][3][4], rows of the matrix from positions as in prt_mesh to the world */
     const float* tables; /* [count][2][4], instance_0 and instance_1 of the vertex shader */
-    double max_degrees;  /* maximum error of the rotation of an instance's lighting, in degrees */
+    double max_degrees;  /* maximum angular error of an instance's rounded rotation, in degrees */
 } prt_instances_info;
 /* Returns the instances of a model. Pointers are valid as long as the model exists. */
 PRT_API prt_status prt_instances_get_info(const prt_model* model, prt_instances_info* out,

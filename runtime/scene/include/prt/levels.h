@@ -12,7 +12,7 @@
 
 namespace prt {
 
-/// A node that replaces another, with all its descendants.
+/// A node tree that replaces that of a `LeveledNode`.
 struct CoarserLevel {
     int level = 1; ///< counted from 1; level 0 is the node itself
     int node = 0;
@@ -34,7 +34,7 @@ struct LeveledNode {
 struct LeveledScene {
     Scene scene;
     std::size_t finest_receivers = 0, finest_primitives = 0; ///< counts of `extract_scene`
-    std::vector<LeveledNode> nodes;                          ///< in the order of the scene
+    std::vector<LeveledNode> nodes;                          ///< by MSFT_lod, then by names
     std::vector<std::string> notices; ///< levels that are ignored and the reason, one line each
 
     std::size_t deepest() const; ///< maximum level; 0 if there are no levels

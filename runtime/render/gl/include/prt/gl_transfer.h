@@ -30,7 +30,7 @@ public:
     void attach(std::uint32_t vertex_array, std::size_t first) const;
     /// Binds the constants and the table of clusters for subsequent draws.
     void use() const;
-    /// Size on the GPU in bytes.
+    /// Size of the data that shaders read, bytes.
     std::size_t bytes() const { return bytes_; }
 
 private:
