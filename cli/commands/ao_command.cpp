@@ -264,7 +264,7 @@ void run(AoArguments a, Session& session) {
 
 void add_outputs(CLI::App* command, AoArguments& a) {
     CLI::Option* texels = add_texels(command, a.textures, "bake textures instead of vertices");
-    command->add_option("--attribute", a.attribute, "attribute to write, a name that begins with _")
+    command->add_option("--attribute", a.attribute, "attribute to write, named _...")
         ->default_str("COLOR_0, times its colors")
         ->excludes(texels);
     command->add_flag("--bent-normals", a.outputs.bent_normals,

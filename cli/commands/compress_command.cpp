@@ -145,7 +145,7 @@ void add_goals(CLI::App* command, SearchOptions& o) {
     command
         ->add_option_function<std::string>(
             "--max-jump", [&o](const std::string& value) { set_max_jump(value, o.budget); },
-            "maximum jump of the contrast error between clusters\n"
+            "maximum contrast jump between clusters\n"
             "needs another goal\n"
             "for 99 % of the borders: each FILE of --lights at 24 rotations; families: on average\n"
             "none: no limit")

@@ -14,8 +14,8 @@
 
 namespace prt {
 
-/// Returns the lamps of a scene that has no transfer: its lights and emissive materials. Those with the same
-/// name share one term.
+/// Returns the lamps of a scene that has no transfer: its lights and emissive materials. Lamps of one
+/// name share a term.
 std::vector<TransferTerm> lamps_of(const Scene& scene);
 
 /// Samples the lamps of a scene. Thread-safe.

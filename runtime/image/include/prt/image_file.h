@@ -32,7 +32,7 @@ struct EnvironmentOptions {
 struct EnvironmentFile {
     Environment environment;
     std::size_t repaired_pixels = 0;
-    /// True if the file has eight bits per channel, read as sRGB: no value exceeds 1, and suns and lamps are
+    /// True if the file is a PNG or JPEG, read as sRGB: no value exceeds 1, and bright lights are
     /// clipped.
     bool low_dynamic_range = false;
     std::vector<std::string> notices; ///< messages for the user about how the file was read, one line each
