@@ -35,18 +35,6 @@ struct Choice {
     const char* explanation;
 };
 
-/// Returns the value of the choice called `name`. Throws `CLI::ValidationError` if there is none.
-template <class T, std::size_t N>
-T chosen(const std::string& option, const Choice<T> (&choices)[N], const std::string& name) {
-    std::string names;
-    for (const Choice<T>& choice : choices) {
-        if (name == choice.name)
-            return choice.value;
-        names += (names.empty() ? "" : "|") + std::string(choice.name);
-    }
-    throw CLI::ValidationError(option, "'" + name + "' is not one of " + names);
-}
-
 /// Returns "auto|on|off", and the lines that explain the choices in help.
 template <class T, std::size_t N>
 std::string names_of(const Choice<T> (&choices)[N]) {
@@ -61,6 +49,15 @@ std::string explained(const Choice<T> (&choices)[N]) {
     for (const Choice<T>& choice : choices)
         lines += std::string("\n") + choice.name + ": " + choice.explanation;
     return lines;
+}
+
+/// Returns the value of the choice called `name`. Throws `CLI::ValidationError` for an unknown name.
+template <class T, std::size_t N>
+T chosen(const std::string& option, const Choice<T> (&choices)[N], const std::string& name) {
+    for (const Choice<T>& choice : choices)
+        if (name == choice.name)
+            return choice.value;
+    throw CLI::ValidationError(option, "'" + name + "' is not one of " + names_of(choices));
 }
 
 /// Adds an option whose value is one of `choices`.

@@ -18,7 +18,7 @@ class Suboptions {
 public:
     using Take = std::function<void(const std::string&)>;
 
-    /// `value`: name of the value in help; empty: there is none.
+    /// `value`: name of the value in help; empty for an option without a value.
     Suboptions(std::string name, std::string value, std::string text, Take take);
 
     /// Adds a setting `key=value`. `take` may throw `CLI::ValidationError`.

@@ -118,18 +118,6 @@ std::string listed(std::span<const GpuDevice> devices) {
 }
 
 /// Returns the device with a number or with a part of a name. Throws `Error` if none or several match.
-std::size_t named_device(std::span<const GpuDevice> devices, const std::string& which) {
-    if (const std::optional<std::size_t> number = as_number(which); number && *number < devices.size())
-        return *number;
-    std::vector<std::size_t> fitting;
-    for (std::size_t i = 0; i < devices.size(); ++i)
-        if (lower(devices[i].name).find(lower(which)) != std::string::npos)
-            fitting.push_back(i);
-    if (fitting.size() == 1)
-        return fitting.front();
-    throw Error(fmt::format("{} GPU has \"{}\" as its number or in its name; available: {}",
-                            fitting.empty() ? "no" : "more than one", which, listed(devices)));
-}
 
 /// Returns the best of the suitable devices: hardware before software, and then the largest memory.
 std::size_t best_device(std::span<const GpuDevice> devices, bool hardware_only) {
@@ -185,6 +173,19 @@ vk::raii::Instance open_instance(const vk::raii::Context& context, bool validate
 }
 
 } // namespace
+
+std::size_t named_device(std::span<const GpuDevice> devices, const std::string& which) {
+    if (const std::optional<std::size_t> number = as_number(which); number && *number < devices.size())
+        return *number;
+    std::vector<std::size_t> fitting;
+    for (std::size_t i = 0; i < devices.size(); ++i)
+        if (lower(devices[i].name).find(lower(which)) != std::string::npos)
+            fitting.push_back(i);
+    if (fitting.size() == 1)
+        return fitting.front();
+    throw Error(fmt::format("{} GPU has \"{}\" as its number or in its name; available: {}",
+                            fitting.empty() ? "no" : "more than one", which, listed(devices)));
+}
 
 std::vector<GpuDevice> gpu_devices() {
     std::vector<GpuDevice> devices;

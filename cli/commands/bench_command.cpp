@@ -11,8 +11,6 @@
 
 #include <fmt/core.h>
 
-#include <algorithm>
-
 namespace prt::cli {
 namespace {
 
@@ -40,16 +38,6 @@ void print_devices() {
         fmt::print("no GPU: no driver for Vulkan is installed\n");
 }
 
-/// Throws `Error` unless `name` is empty, the number of a GPU, or part of the name of one.
-void check_device_exists(const std::string& name) {
-    const std::vector<GpuDevice> devices = gpu_devices();
-    const std::optional<int> number = whole_number(name);
-    const bool numbered = number && *number >= 0 && static_cast<std::size_t>(*number) < devices.size();
-    const auto is_named = [&](const GpuDevice& d) { return d.name.find(name) != std::string::npos; };
-    if (!name.empty() && !numbered && std::ranges::none_of(devices, is_named))
-        throw Error("no GPU has \"" + name + "\" as its number or in its name; list them with --device list");
-}
-
 Report scene_report(const BenchArguments& a, Session& session) {
     const GltfDocument document = load_gltf(a.scene, a.reading);
     const Scene scene = extract_scene(document);
@@ -66,7 +54,8 @@ void run(BenchArguments a, Session& session) {
         throw CLI::ValidationError("--device", "list writes no report");
     if (a.list_devices)
         return print_devices();
-    check_device_exists(a.options.gpu);
+    if (!a.options.gpu.empty())
+        named_device(gpu_devices(), a.options.gpu); // throws before the CPU has run
     if (a.scene.empty())
         throw CLI::RequiredError("scene or --device list");
     a.options.bad_textures = a.reading.bad_textures;

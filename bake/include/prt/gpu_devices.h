@@ -1,5 +1,6 @@
 #pragma once
 
+#include <span>
 #include <string>
 #include <vector>
 
@@ -25,5 +26,9 @@ struct GpuDevice {
 
 /// Returns all devices in the order of their numbers; empty if Vulkan is not available.
 std::vector<GpuDevice> gpu_devices();
+
+/// Returns the index of a device by its number or part of its name, in any case. Throws `Error` with the
+/// available devices unless exactly one matches.
+std::size_t named_device(std::span<const GpuDevice> devices, const std::string& which);
 
 } // namespace prt

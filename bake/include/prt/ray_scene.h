@@ -45,10 +45,10 @@ public:
     RayScene(RayScene&&) noexcept;
     ~RayScene();
 
-    /// Returns the nearest hit along the ray; no value if there is none. For a pair of opposite triangles it
+    /// Returns the nearest hit along the ray; empty without a hit. For a pair of opposite triangles it
     /// is a hit of the one that faces the ray.
     std::optional<RayHit> nearest(const Ray& ray) const;
-    /// Returns the nearest hit of a triangle for which `accepts` returns true; no value if there is none.
+    /// Returns the nearest hit of a triangle for which `accepts` returns true; empty without a hit.
     std::optional<RayHit> nearest(const Ray& ray,
                                   const std::function<bool(unsigned triangle)>& accepts) const;
     /// Returns whether the ray hits any triangle.
