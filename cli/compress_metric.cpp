@@ -108,8 +108,8 @@ void add_metric(CLI::App* command, MetricArguments& arguments) {
                         arguments.metric = family->value;
                 }
             },
-            "lights for which the error is minimized" + explained(kMetrics) +
-                "\nFILE: environment (.exr, .hdr, .png, .jpg) or light (.json); repeat the option for each")
+            "lights for which the error is minimized" + explained(kMetrics) + "\n" + kLightFiles +
+                "; repeat the option for each")
         ->allow_extra_args(false) // one each time, so that the bake may follow
         ->check(named)
         ->type_name("FAMILY|FILE")

@@ -81,8 +81,6 @@ void set_device(const std::string& text, TracerChoice& tracer) {
     tracer.gpu = text;
 }
 
-constexpr const char* kLightFiles = "environment (.exr, .hdr, .png, .jpg) or light (.json)";
-
 } // namespace
 
 CLI::Validator real_in(double low, double high) {
@@ -204,15 +202,14 @@ void add_enclosed(CLI::App* command, Inside& inside) {
 }
 
 CLI::Option* add_lights(CLI::App* command, std::vector<Path>& lights, const std::string& text) {
-    return command
-        ->add_option("--lights", lights, text + "\nFILE: " + kLightFiles + "; repeat the option for each")
+    return command->add_option("--lights", lights, text + "\n" + kLightFiles + "; repeat the option for each")
         ->allow_extra_args(false) // one each time, so that positional arguments may follow
         ->check(named)
         ->type_name("FILE");
 }
 
 CLI::Option* add_light(CLI::App* command, Path& light) {
-    return command->add_option("--lights", light, std::string("light of the sky\nFILE: ") + kLightFiles)
+    return command->add_option("--lights", light, std::string("light of the sky\n") + kLightFiles)
         ->check(named)
         ->type_name("FILE")
         ->default_str("lamps only");

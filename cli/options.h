@@ -96,6 +96,8 @@ void check_device(const TracerChoice& tracer);
 void add_seed(CLI::App* command, std::uint64_t& seed);
 /// Adds --enclosed.
 void add_enclosed(CLI::App* command, Inside& inside);
+/// Line of help about files of light.
+inline constexpr const char* kLightFiles = "FILE: environment (.exr, .hdr, .png, .jpg) or light (.json)";
 /// Adds --lights for commands that use several; `text` says what for.
 CLI::Option* add_lights(CLI::App* command, std::vector<Path>& lights, const std::string& text);
 /// Adds --lights for commands that use one light, which may be missing.

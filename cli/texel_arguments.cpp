@@ -62,18 +62,12 @@ CLI::Option* add_texels(CLI::App* command, TexelArguments& a, const std::string&
             .detail("N: texels along each side of a texture")
             .detail("N/m: texels per metre, on average over the surface")
             .flag("unwrap", "make charts and a new set of coordinates if the existing ones do not fit",
-                  [&a] { a.unwrap = a.mentioned = true; })
+                  [&a] { a.unwrap = true; })
             .whole_number("uv", 0, 7, "texture coordinates, TEXCOORD_N [1]",
-                          [&a](int set) {
-                              a.texels.uv_set = set;
-                              a.mentioned = true;
-                          })
+                          [&a](int set) { a.texels.uv_set = set; })
             .key("atlas", names_of(kAtlasModes),
                  "one texture, or one per object; auto: one if charts do not overlap",
-                 [&a](const std::string& name) {
-                     a.texels.atlases = chosen("--texels", kAtlasModes, name);
-                     a.mentioned = true;
-                 })
+                 [&a](const std::string& name) { a.texels.atlases = chosen("--texels", kAtlasModes, name); })
             .add(command);
     Suboptions("--high-poly", "FILE", "detailed model, traced in place of the scene",
                [&a](const std::string& file) {
@@ -84,13 +78,14 @@ CLI::Option* add_texels(CLI::App* command, TexelArguments& a, const std::string&
         .number("distance", 1e-9, 1e9, "maximum distance of its surface, metres [1/50 of the scene's size]",
                 [&a](double metres) { a.distance = metres; })
         .add(command);
+    a.option = texels;
     return texels;
 }
 
 void check_texels(const TexelArguments& a) {
     if (a.high_poly.empty() && a.distance)
         throw Error("--high-poly needs a file, as --high-poly detailed.glb,distance=0.1");
-    if (!a.given() && a.mentioned)
+    if (!a.given() && a.option->count() > 0)
         throw Error("--texels needs a size, as --texels 1024 or --texels 64/m");
     if (!a.given() && !a.high_poly.empty())
         throw Error("--high-poly needs textures: add --texels");

@@ -17,8 +17,8 @@ namespace prt::cli {
 
 struct TexelArguments {
     TexelOptions texels;
-    bool mentioned = false;         ///< --texels was given, possibly without a size
-    bool unwrap = false;            ///< write new texture coordinates if the existing ones do not fit
+    const CLI::Option* option = nullptr; ///< --texels
+    bool unwrap = false;                 ///< write new texture coordinates if the existing ones do not fit
     Path high_poly;                 ///< model whose surface blocks light and is lit, in place of the scene
     std::optional<double> distance; ///< maximum distance of that surface, metres
 

@@ -34,7 +34,7 @@ void add_volume(CLI::App* command, VolumeArguments& arguments) {
         if (other)
             throw CLI::ValidationError("--volume", "METRES and probes cannot be combined");
     };
-    CLI::Option* option =
+    arguments.option =
         Suboptions("--volume", "METRES", "also bake a volume of probes, which lights moving objects",
                    [&volume, check_one](const std::string& text) {
                        const std::optional<double> metres = real_number(text);
@@ -63,11 +63,10 @@ void add_volume(CLI::App* command, VolumeArguments& arguments) {
             .key("bounds", "x0,y0,z0,x1,y1,z1", "box of the volume, world space, metres [box of the scene]",
                  [&arguments](const std::string& text) { arguments.bounds = parse_bounds(text); })
             .add(command);
-    option->each([&arguments](const std::string&) { arguments.mentioned = true; });
 }
 
 void check_volume(const VolumeArguments& arguments) {
-    if (!arguments.given() && arguments.mentioned)
+    if (!arguments.given() && arguments.option->count() > 0)
         throw Error(
             "--volume needs a distance or a number of probes, as --volume 0.5 or --volume probes=4000");
 }

@@ -15,7 +15,7 @@ struct VolumeArguments {
         glm::dvec3 least{0}, most{0};
     };
     std::optional<WorldBounds> bounds;
-    bool mentioned = false; ///< --volume was given, possibly without a distance
+    const CLI::Option* option = nullptr; ///< --volume
 
     /// True if a volume is requested.
     bool given() const { return volume.spacing > 0 || volume.probes > 0; }

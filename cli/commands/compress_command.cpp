@@ -769,8 +769,7 @@ void add_compress(CLI::App& app, Session& session) {
                       "merge direct and indirect transfer: smaller, no sharp shadows of suns");
     command
         ->add_option("--fallback", a.writing.fallback,
-                     "light for viewers without PRT support, as vertex colors\n"
-                     "FILE: environment (.exr, .hdr, .png, .jpg) or light (.json)")
+                     std::string("light for viewers without PRT support, as vertex colors\n") + kLightFiles)
         ->check(named)
         ->type_name("FILE");
     Suboptions("--volume", "", "size of a baked volume", nullptr)

@@ -26,9 +26,9 @@ struct InfoArguments {
     bool check = false;
 };
 
-/// "{images} image", "{images} images"
-std::string counted(const std::string& key, std::size_t count, const char* what) {
-    return fmt::format("{{{}}} {}{}", key, what, count == 1 ? "" : "s");
+/// Returns "{images:#image}", which a report writes as "1 image" or "2 images".
+std::string counted(const std::string& key, const char* what) {
+    return fmt::format("{{{}:#{}}}", key, what);
 }
 
 /// Returns a sentence about the bake; `key` is the path of its record.
@@ -36,13 +36,9 @@ std::string record_sentence(const std::string& key, const BakeRecord& record) {
     const bool raster = record.method == BakeMethod::raster;
     return fmt::format("baked by {} on the {}, {} per vertex{}, {}, seed {{{}/seed}}",
                        raster ? "depth maps" : "rays", record.backend == Backend::cpu ? "CPU" : "GPU",
-                       counted(key + "/rays_per_receiver", static_cast<std::size_t>(record.rays),
-                               raster ? "direction" : "ray"),
+                       counted(key + "/rays_per_receiver", raster ? "direction" : "ray"),
                        record.fitted ? " over the surface around it" : "",
-                       record.endless
-                           ? "all bounces"
-                           : counted(key + "/bounces", static_cast<std::size_t>(record.bounces), "bounce"),
-                       key);
+                       record.endless ? "all bounces" : counted(key + "/bounces", "bounce"), key);
 }
 
 void add_scene(const Path& path, const Scene& scene, Report& report) {
@@ -58,11 +54,10 @@ void add_scene(const Path& path, const Scene& scene, Report& report) {
                          {"low_metres", {low.x, low.y, low.z}},
                          {"high_metres", {high.x, high.y, high.z}},
                          {"notices", scene.notices}});
-    report.sentences.push_back(fmt::format(
-        "{{file}}: {}, {}, {{vertices}} {}, {}, {}",
-        counted("primitives", scene.primitives.size(), "primitive"),
-        counted("triangles", scene.triangles(), "triangle"), scene.receivers() == 1 ? "vertex" : "vertices",
-        counted("materials", materials, "material"), counted("images", scene.images.size(), "image")));
+    report.sentences.push_back(
+        fmt::format("{{file}}: {}, {}, {{vertices}} {}, {}, {}", counted("primitives", "primitive"),
+                    counted("triangles", "triangle"), scene.receivers() == 1 ? "vertex" : "vertices",
+                    counted("materials", "material"), counted("images", "image")));
     report.sentences.emplace_back("from {low_metres/0:g} {low_metres/1:g} {low_metres/2:g} to "
                                   "{high_metres/0:g} {high_metres/1:g} {high_metres/2:g} m");
 }
@@ -113,10 +108,10 @@ void add_compressed(const CompressedTransfer& compressed, Report& report) {
                            {"bytes_bases", basis_bytes(t.bases)},
                            {"bake", bake_record_json(compressed.record)}}}});
     const std::string own = "clustered_pca/";
-    report.sentences.push_back(fmt::format(
-        "clustered PCA: order {{{0}order}}, {1}, {2} x {{{0}components_least}} to "
-        "{{{0}components_max}} components, {{{0}weights}} weights",
-        own, terms_in_words(t.bases.layout), counted(own + "clusters", t.bases.clusters(), "cluster")));
+    report.sentences.push_back(
+        fmt::format("clustered PCA: order {{{0}order}}, {1}, {2} x {{{0}components_least}} to "
+                    "{{{0}components_max}} components, {{{0}weights}} weights",
+                    own, terms_in_words(t.bases.layout), counted(own + "clusters", "cluster")));
     report.sentences.push_back(fmt::format(
         "{{{0}bytes_bound_per_vertex}} bytes per vertex to bind ({{{0}bits_used_per_vertex}} bits in use)",
         own));
@@ -166,11 +161,10 @@ void add_stored_lobes(const StoredLobes& lobes, Report& report) {
     report.sentences.push_back(
         fmt::format("lobes that rotate with the skin: order {{lobes/order}}, {} and "
                     "{{lobes/bytes_bound_per_vertex}} bytes per vertex, {{lobes/profiles}} profiles",
-                    counted("lobes/lobes_per_vertex", model.lobes, "lobe")));
+                    counted("lobes/lobes_per_vertex", "lobe")));
     report.sentences.push_back(fmt::format(
         "fitted to {}, {{lobes/rays_per_receiver}} rays per vertex in each, {}, seed {{lobes/seed}}",
-        counted("lobes/poses", static_cast<std::size_t>(lobes.record.poses), "pose"),
-        counted("lobes/bounces", static_cast<std::size_t>(lobes.record.bounces), "bounce")));
+        counted("lobes/poses", "pose"), counted("lobes/bounces", "bounce")));
 }
 
 /// Adds coarser levels of detail, which the figures of the scene do not include.
@@ -195,9 +189,8 @@ void add_level_figures(const GltfDocument& document, Report& report) {
     add_figures(
         report,
         {{"levels", {{"nodes", scene.nodes.size()}, {"by_level", std::move(list)}, {"transfer", transfer}}}});
-    report.sentences.push_back(fmt::format("levels of detail of {}: {}; {}",
-                                           counted("levels/nodes", scene.nodes.size(), "node"), words,
-                                           transfer ? "with transfer" : "without transfer"));
+    report.sentences.push_back(fmt::format("levels of detail of {}: {}; {}", counted("levels/nodes", "node"),
+                                           words, transfer ? "with transfer" : "without transfer"));
 }
 
 void run(InfoArguments a, Session& session) {

@@ -115,10 +115,8 @@ Report report_of(const LobesArguments& a, const Made& made, std::size_t poses) {
                          {"bake_seconds", made.bake_seconds},
                          {"fit_seconds", made.fit_seconds}});
     report.sentences = {
-        fmt::format(
-            "{{output}}: {} lobe{} for each of {{vertices}} vertices, {{bytes_bound_per_vertex}} bytes "
-            "a vertex, {{profiles}} profiles of {{bytes_profiles}} bytes",
-            lobes.lobes, lobes.lobes == 1 ? "" : "s"),
+        "{output}: {lobes_per_vertex:#lobe} for each of {vertices} vertices, {bytes_bound_per_vertex} bytes "
+        "per vertex, {profiles} profiles of {bytes_profiles} bytes",
         "fitted to {poses} poses: {fit_relative_l2:.2f%} off their mean, {coded_relative_l2:.2f%} in bytes",
         "poses baked in {bake_seconds:.2f} s, lobes fitted in {fit_seconds:.2f} s"};
     if (made.mean.hidden > 0)
