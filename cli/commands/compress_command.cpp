@@ -2,7 +2,7 @@
 
 #include "commands/commands.h"
 
-#include "compress_metric.h"
+#include "compress_arguments.h"
 #include "fallback.h"
 #include "options.h"
 #include "outputs.h"
@@ -24,7 +24,6 @@
 #include "report/trace_lines.h"
 #include "report/volume_report.h"
 #include "sky_errors.h"
-#include "suboptions.h"
 
 #include <fmt/ranges.h>
 
@@ -33,171 +32,6 @@
 
 namespace prt::cli {
 namespace {
-
-struct CompressArguments {
-    Path baked, output;
-    struct Reports {
-        Path json, trace;
-    } reports;
-    SearchOptions options; ///< without a budget only `options.compress` is used
-    MetricArguments metric;
-    bool components_given = false, predictors_given = false;
-    bool preset = false; ///< `options.compress` is a preset, which is fitted to the mesh
-    bool best_effort = false;
-    struct Writing {
-        bool meshopt = false, reorder = false, whole = false;
-        Path fallback; ///< a light
-    } writing;
-    std::optional<int> volume_bytes; ///< bytes of a probe's weights; unset: 16
-    ReadingOptions reading;
-};
-
-const std::map<std::string, WeightCoding (*)()> kPresets = {
-    {"u32", preset_u32}, {"u64", preset_u64}, {"u32x4", preset_u32x4}, {"u64x9", preset_u64x9}};
-constexpr Choice<PredictorChoice> kPredictors[] = {
-    {"none", PredictorChoice::none, "no prediction"},
-    {"normal", PredictorChoice::normal, "transfer is predicted linearly from the normal"},
-    {"position", PredictorChoice::normal_and_position, "also from the position"}};
-
-struct CountRange {
-    int low, high;
-};
-
-/// A number, or auto: the search chooses.
-void count_or_auto(CLI::App* command, const std::string& name, CountRange range, int& target, bool& choose,
-                   const std::string& text) {
-    command
-        ->add_option_function<std::string>(
-            name,
-            [name, range, &target, &choose](const std::string& value) {
-                choose = value == "auto";
-                const std::optional<int> number = choose ? target : whole_number(value);
-                if (!number || (!choose && (*number < range.low || *number > range.high)))
-                    throw CLI::ValidationError(name,
-                                               fmt::format("'{}' is neither a number in {}..{} nor auto",
-                                                           value, range.low, range.high));
-                target = *number;
-            },
-            text)
-        ->type_name("N|auto");
-}
-
-void set_bits(const std::string& text, WeightCoding& coding) {
-    if (text == "float") {
-        coding.format = WeightFormat::float32;
-        return;
-    }
-    const std::optional<int> bits = whole_number(text);
-    if (!bits || *bits < 0 || *bits > kMaxPackedBits)
-        throw CLI::ValidationError(
-            "--bits", fmt::format("'{}' is neither a number in 0..{} nor float", text, kMaxPackedBits));
-    coding.format = WeightFormat::packed;
-    coding.bits = *bits;
-}
-
-void add_preset(CLI::App* command, SearchOptions& o) {
-    command
-        ->add_option_function<std::string>(
-            "--preset",
-            [&o](const std::string& name) {
-                if (name != "custom")
-                    o.compress.coding = kPresets.at(name)();
-            },
-            "layout of a vertex\n"
-            "u32: one 32-bit word; up to 256 clusters\n"
-            "u64: two 32-bit words; up to 256 clusters\n"
-            "u32x4: one word, four components in all clusters; for shaders without loops\n"
-            "u64x9: two words, nine components in all clusters; for shaders without loops\n"
-            "custom: from --clusters, --components, --bits and --predictors\n"
-            "small meshes get fewer clusters: bases are at most twice the vertices' bytes, or 4 KB")
-        ->check(CLI::IsMember({"u32", "u64", "u32x4", "u64x9", "custom"}))
-        ->type_name("u32|u64|u32x4|u64x9|custom")
-        ->default_str("u32");
-    count_or_auto(command, "--clusters", {1, 65536}, o.compress.clusters, o.choose_clusters,
-                  "number of clusters, 1 to 65536; a goal can choose: auto");
-    count_or_auto(command, "--components", {0, 3 * coefficient_count(kMaxOrder)},
-                  o.compress.coding.components, o.choose_components,
-                  "maximum number of PCA components of a cluster; a goal can choose: auto");
-    command
-        ->add_option_function<std::string>(
-            "--bits", [&o](const std::string& text) { set_bits(text, o.compress.coding); },
-            "bits of all weights of a vertex, 0 to 240\n"
-            "float: weights are not quantized, to measure the error of quantization")
-        ->type_name("N|float");
-    choice(command, "--predictors", o.compress.predictors, kPredictors, "attributes that predict transfer",
-           "normal");
-}
-
-void set_max_jump(const std::string& value, Budget& budget) {
-    if (value == "none")
-        return;
-    if (const std::string wrong = above_zero()(value); !wrong.empty())
-        throw CLI::ValidationError("--max-jump", wrong + ", nor none");
-    budget.max_jump = real_number(value);
-}
-
-void add_goals(CLI::App* command, SearchOptions& o) {
-    command
-        ->add_option("--max-error", o.budget.max_error,
-                     "smallest file with at most this error, relative L2 under the lights\n"
-                     "also limits the contrast error of each lamp alone")
-        ->check(above_zero());
-    command
-        ->add_option_function<std::string>(
-            "--max-jump", [&o](const std::string& value) { set_max_jump(value, o.budget); },
-            "maximum contrast jump between clusters\n"
-            "needs another goal\n"
-            "for 99 % of the borders: each FILE of --lights at 24 rotations; families: on average\n"
-            "none: no limit")
-        ->type_name("X|none")
-        ->default_str(fmt::format("{} with --max-error alone", kUnseenJump));
-    command
-        ->add_option("--bytes-per-vertex", o.budget.bytes_per_vertex,
-                     "smallest error with at most this size, bases included\n"
-                     "bytes of a vertex, texel or probe: its 32-bit words and its share of the bases")
-        ->check(above_zero());
-    command
-        ->add_option("--shader-ops", o.budget.operations,
-                     "maximum number of rows that the shader adds per vertex, on average")
-        ->check(above_zero());
-}
-
-/// Resolves combinations of options: u32 if no size is given, a search if a budget is given.
-void resolve(const CLI::App& command, CompressArguments& a) {
-    SearchOptions& o = a.options;
-    const auto given = [&](const char* name) { return command.count(name) > 0; };
-    const bool floats = o.compress.coding.format == WeightFormat::float32;
-    const bool sizes = given("--clusters") || given("--components") || given("--bits");
-    const bool preset = given("--preset") && command.get_option("--preset")->as<std::string>() != "custom";
-    if (preset && (sizes || o.budget.any()))
-        throw CLI::ValidationError("--preset", "cannot be combined with other sizes or goals");
-    a.components_given = given("--components");
-    a.predictors_given = given("--predictors");
-    a.preset = preset || (!o.budget.any() && !sizes && !given("--preset"));
-    if (o.budget.max_error && !given("--max-jump") && !o.budget.bytes_per_vertex && !o.budget.operations)
-        o.budget.max_jump = kUnseenJump;
-    if (o.budget.any()) {
-        o.choose_predictors = !given("--predictors");
-        if (given("--bits") && !floats)
-            throw CLI::ValidationError("--bits", "cannot be combined with a goal, which chooses the bits");
-        o.choose_clusters = o.choose_clusters || !given("--clusters");
-        o.choose_components = o.choose_components || !given("--components");
-        return;
-    }
-    if ((given("--clusters") && o.choose_clusters) || (given("--components") && o.choose_components))
-        throw CLI::ValidationError(given("--clusters") && o.choose_clusters ? "--clusters auto"
-                                                                            : "--components auto",
-                                   "needs --max-error, --bytes-per-vertex or --shader-ops");
-    if (!preset && !sizes && !given("--preset")) {
-        o.compress.coding = preset_u32();
-        return;
-    }
-    if (preset || !floats)
-        return;
-    if (!given("--components"))
-        o.compress.coding.components = 8;
-    a.preset = !given("--clusters"); // the preset's number of clusters is fitted to the mesh
-}
 
 /// "error 0.012, 5.1 bytes per vertex, 6.2 shader operations"
 std::string in_words(const CompressStatistics& s, std::size_t receivers) {
@@ -281,6 +115,10 @@ std::optional<LeveledScene> levels_to_compress(const GltfDocument& document) {
 }
 
 /// Returns the bake of vertices or texels.
+Error already_compressed(const Path& path) {
+    return Error(path.string() + ": is already compressed; compress its bake");
+}
+
 Bake bake_of_surfaces(GltfDocument document, const Scene& scene, const Path& path) {
     if (std::optional<BakedLightmap> lightmap = read_lightmap(document, scene)) {
         discard_transfer(document);
@@ -289,9 +127,9 @@ Bake bake_of_surfaces(GltfDocument document, const Scene& scene, const Path& pat
     const std::optional<LeveledScene> levels = levels_to_compress(document);
     std::optional<StoredBake> stored = read_stored_transfer(document, levels ? levels->scene : scene);
     if (!stored)
-        throw Error(path.string() + (scene_file_of(std::move(document), path).compressed
-                                         ? ": is already compressed; compress its bake"
-                                         : ": contains no transfer; run prt bake first"));
+        throw scene_file_of(std::move(document), path).compressed
+            ? already_compressed(path)
+            : Error(path.string() + ": contains no transfer; run prt bake first");
     discard_transfer(document); // it is in `stored`, and would use memory twice
     Bake bake{std::move(document), std::move(*stored)};
     bake.levels = levels.has_value();
@@ -313,7 +151,7 @@ Bake load_bake(const Path& path, const GltfOptions& reading) {
     if (holds_instances(document))
         instances = instances_of(path, reading, scene);
     if (read_compressed_volume(document, scene))
-        throw Error(path.string() + ": is already compressed; compress its bake");
+        throw already_compressed(path);
     std::optional<BakedVolume> volume = read_volume(document, scene);
     discard_volume(document);
     Bake bake = bake_of_surfaces(std::move(document), scene, path);
@@ -756,43 +594,7 @@ void add_compress(CLI::App& app, Session& session) {
     });
     command->add_option("baked", a.baked, "output of prt bake")->required()->check(named);
     add_output(command, a.output, "compressed .glb to write");
-    add_preset(command, a.options);
-    add_goals(command, a.options);
-    command->add_flag("--best-effort", a.best_effort, "write the closest result if nothing meets the goal");
-    add_metric(command, a.metric);
-    command
-        ->add_option("--seam-weight", a.options.compress.seam_weight,
-                     "weight of error jumps along mesh edges; 0: off")
-        ->capture_default_str()
-        ->check(real_in(0, kMaxSeamWeight));
-    command->add_flag("--combine-direct", a.writing.whole,
-                      "merge direct and indirect transfer: smaller, no sharp shadows of suns");
-    command
-        ->add_option("--fallback", a.writing.fallback,
-                     std::string("light for viewers without PRT support, as vertex colors\n") + kLightFiles)
-        ->check(named)
-        ->type_name("FILE");
-    Suboptions("--volume", "", "size of a baked volume", nullptr)
-        .key("bytes", "N", "bytes per probe: 4, 8, 12, 16, 20, 24 or 28 [16]",
-             [&a](const std::string& text) {
-                 const std::optional<int> bytes = whole_number(text);
-                 if (!bytes || *bytes < 4 || *bytes > 28 || *bytes % 4 != 0)
-                     throw CLI::ValidationError("--volume",
-                                                "bytes=" + text + ": expected a multiple of 4 from 4 to 28");
-                 a.volume_bytes = *bytes;
-             })
-        .add(command);
-    command->add_flag("--reorder", a.writing.reorder, "sort vertices by cluster");
-    command->add_flag("--meshopt", a.writing.meshopt,
-                      "compress the file: EXT_meshopt_compression, entropy-coded weights");
-    add_seed(command, a.options.compress.seed);
-    add_reading(command, a.reading);
-    add_threads(command, a.options.compress.threads);
-    command
-        ->add_option("--trace", a.reports.trace, "log each round, split, merge and trial as a line of JSON")
-        ->check(named)
-        ->type_name("FILE.jsonl");
-    add_json(command, a.reports.json);
+    add_options(command, a);
 }
 
 } // namespace prt::cli
