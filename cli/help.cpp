@@ -76,12 +76,12 @@ const CLI::Option* find(const CLI::App& app, std::string_view name) {
 std::string groups_of(const CLI::App& app, bool all) {
     std::string text;
     for (const HelpGroup& group : help_groups()) {
+        std::vector<std::string_view> names = group.common;
+        if (all)
+            names.insert(names.end(), group.rare.begin(), group.rare.end());
         std::string lines;
-        for (const std::string_view name : group.common)
+        for (const std::string_view name : names)
             if (const CLI::Option* option = find(app, name))
-                lines += lines_of(*option, all);
-        for (const std::string_view name : group.rare)
-            if (const CLI::Option* option = all ? find(app, name) : nullptr)
                 lines += lines_of(*option, all);
         if (!lines.empty())
             text += "\n" + std::string(group.title) + ":\n" + lines;

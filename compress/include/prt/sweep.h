@@ -73,10 +73,10 @@ Sweep sweep(const Transfer& transfer, const ReceiverSurface& surface, std::span<
             const Progress& progress = {});
 
 /// Returns the point of `method` with the lowest error among points with at most `bytes` per receiver; null
-/// if there is none.
+/// without such a point.
 const SweepPoint* best_by_bytes(const Sweep& sweep, const std::string& method, double bytes);
-/// Returns the point of `method` with the lowest error among points with at most `components`; null if there
-/// is none.
+/// Returns the point of `method` with the lowest error among points with at most `components`; null without
+/// such a point.
 const SweepPoint* best_by_components(const Sweep& sweep, const std::string& method, double components);
 
 /// Names of methods in `SweepPoint::method`: this compressor, and clustered PCA as published.
