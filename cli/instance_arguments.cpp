@@ -69,10 +69,16 @@ void add_instances(CLI::App* command, InstanceArguments& arguments) {
         [&arguments](const std::string& name) { arguments.mode = chosen("--instances", kModes, name); })
         .detail(explained(kModes).substr(1))
         .number("error", 0, 1e9, "bake instances with a larger relative L2 error separately [0.1]",
-                [&arguments](double error) { arguments.error = error; })
+                [&arguments](double error) {
+                    arguments.error = error;
+                    arguments.settings = true;
+                })
         .whole_number("samples", 8, 1 << 20,
                       "vertices of each instance that are traced in its position [256]",
-                      [&arguments](int samples) { arguments.bake.samples = samples; })
+                      [&arguments](int samples) {
+                          arguments.bake.samples = samples;
+                          arguments.settings = true;
+                      })
         .add(command)
         ->default_str("own");
     CLI::Option* const lights =
@@ -86,6 +92,8 @@ SharedMeshes meshes_to_share(const InstanceArguments& arguments, const GltfDocum
     if (arguments.mode == InstanceMode::own) {
         if (!arguments.lights.empty())
             throw Error("--lights of prt bake needs --instances shared or auto");
+        if (arguments.settings)
+            throw Error("settings of --instances need shared or auto");
         return {};
     }
     const bool must = arguments.mode == InstanceMode::shared;

@@ -21,7 +21,8 @@ enum class InstanceMode {
 
 struct InstanceArguments {
     InstanceMode mode = InstanceMode::own;
-    double error = 0.1; ///< an instance with a larger error is baked separately
+    double error = 0.1;    ///< an instance with a larger error is baked separately
+    bool settings = false; ///< true if a setting of shared transfer was given
     std::vector<Path> lights;
     SunCount suns; ///< number of suns of `lights`
     InstanceBakeOptions bake;

@@ -16,6 +16,7 @@
 #include <fmt/core.h>
 #include <glm/geometric.hpp>
 
+#include <algorithm>
 #include <cmath>
 
 namespace prt::cli {
@@ -285,11 +286,14 @@ void add_falloff(CLI::App* command, Falloff& falloff) {
             "--falloff",
             [&falloff](const std::vector<std::string>& texts) {
                 for (const std::string& text : texts)
-                    falloff.terms.push_back(parse_term(text));
+                    for (std::size_t at = 0; at <= text.size();) {
+                        const std::size_t end = std::min(text.find(',', at), text.size());
+                        falloff.terms.push_back(parse_term(text.substr(at, end - at)));
+                        at = end + 1;
+                    }
             },
             "obscurance: surfaces at this distance (metres) block half\n"
             "several distances with shares: 2:97,300:3")
-        ->delimiter(',')
         ->allow_extra_args(false)
         ->type_name("DISTANCE[:SHARE],...");
     command
@@ -312,6 +316,7 @@ void add_ao(CLI::App& app, Session& session) {
         ->check(CLI::Range(1, kMaxRays))
         ->default_str("1024; --occluders: 256");
     add_fit(command, a.options.fit, "points at which the occlusion of vertices is measured");
+    command->get_option("--texels")->excludes("--fit");
     add_no_shadow(command, a.no_shadow);
     add_back_sides(command, a.back_sides);
     add_device(command, a.options.tracer);

@@ -134,8 +134,17 @@ void add_transport(CLI::App* command, BakeOptions& options) {
         ->add_option_function<std::vector<std::string>>(
             "--subsurface",
             [&options](const std::vector<std::string>& texts) {
-                for (const std::string& text : texts)
-                    options.subsurface.media.push_back(parse_medium(text));
+                for (const std::string& text : texts) {
+                    MediumChoice choice = parse_medium(text);
+                    if (std::ranges::any_of(options.subsurface.media, [&](const MediumChoice& other) {
+                            return other.material == choice.material;
+                        }))
+                        throw CLI::ValidationError("--subsurface",
+                                                   choice.material.empty()
+                                                       ? "all materials have two media"
+                                                       : "'" + choice.material + "' has two media");
+                    options.subsurface.media.push_back(std::move(choice));
+                }
             },
             "subsurface scattering in a material, or in all\n"
             "MEDIUM: a name, or sr,sg,sb,ar,ag,ab: reduced scattering and absorption, 1/mm\n"
@@ -458,7 +467,8 @@ void add_bake(CLI::App& app, Session& session) {
     add_method(command, a.options);
     add_refinement(command, a);
     add_back_sides(command, a.back_sides);
-    add_texels(command, a.texels, "bake a lightmap instead of vertices");
+    add_texels(command, a.texels, "bake a lightmap instead of vertices")
+        ->excludes(command->get_option("--fit")); // texels measure light at their centers
     add_volume(command, a.volume);
     add_instances(command, a.instances);
     add_levels(command, a.levels);

@@ -16,9 +16,16 @@
 #include "volume_errors.h"
 
 #include <filesystem>
+#include <set>
 
 namespace prt::cli {
 namespace {
+
+enum class Measure { sweep, budget, volume };
+constexpr Choice<Measure> kMeasures[] = {
+    {"sweep", Measure::sweep, "error against bytes and shader cost, for several methods; takes minutes"},
+    {"budget", Measure::budget, "causes of the error over the surface, with advice; bakes once more"},
+    {"volume", Measure::volume, "error of the volume against path tracing, by distance from surfaces"}};
 
 struct EvaluateArguments {
     Path baked, shipped;
@@ -27,9 +34,7 @@ struct EvaluateArguments {
     LightOptions light_options;
     SunCount suns = {std::nullopt};
     int rotations = 1; ///< number of rotations of each light about +Y
-    struct Measures {
-        bool sweep = false, budget = false, volume = false;
-    } measures;
+    std::set<Measure> measures;
     std::vector<std::string> no_shadow; ///< names of materials
     ReadingOptions reading;
     int threads = 0;
@@ -85,12 +90,12 @@ void add_sizes_of_bake(const EvaluateArguments& a, const Transfer& transfer, Rep
 }
 
 std::vector<Path> check(const EvaluateArguments& a) {
-    if (a.shipped.empty() && !a.measures.sweep && !a.measures.budget && !a.measures.volume)
+    if (a.shipped.empty() && a.measures.empty())
         throw CLI::ValidationError(
             "evaluate",
             "a second file or --measure is missing; examples: prt evaluate BAKED.glb SHIPPED.glb; prt "
             "evaluate BAKED.glb --measure sweep; prt evaluate BAKED.glb --measure budget");
-    if (a.measures.budget && a.rotations != 1)
+    if (a.measures.contains(Measure::budget) && a.rotations != 1)
         throw CLI::ValidationError("--rotations", "cannot be combined with --measure budget; use --rotate");
     std::vector<Path> inputs = a.lights;
     inputs.insert(inputs.end(), {a.baked, a.shipped});
@@ -131,34 +136,24 @@ void run(EvaluateArguments a, Session& session) {
     if (!a.shipped.empty() && !baked.lightmap)
         add_level_errors({baked.document, a.baked, a.shipped, a.reading, a.threads}, lights, report);
     add_sizes_of_bake(a, baked.baked->transfer, report);
-    if (a.measures.budget)
+    if (a.measures.contains(Measure::budget))
         add_budget(budget_request(a), baked, report, session);
-    if (a.measures.volume)
+    if (a.measures.contains(Measure::volume))
         add_volume_errors(budget_request(a), baked, report, session);
-    if (a.measures.sweep)
+    if (a.measures.contains(Measure::sweep))
         add_sweep(run_sweep(a, baked, lights, session), report);
     if (baked.lightmap)
         report_texels(report);
     publish(report, a.files, session);
 }
 
-enum class Measure { sweep, budget, volume };
-constexpr Choice<Measure> kMeasures[] = {
-    {"sweep", Measure::sweep, "error against bytes and shader cost, for several methods; takes minutes"},
-    {"budget", Measure::budget, "causes of the error over the surface, with advice; bakes once more"},
-    {"volume", Measure::volume, "error of the volume against path tracing, by distance from surfaces"}};
-
-void add_measures(CLI::App* command, EvaluateArguments::Measures& measures) {
+void add_measures(CLI::App* command, std::set<Measure>& measures) {
     command
         ->add_option_function<std::vector<std::string>>(
             "--measure",
             [&measures](const std::vector<std::string>& names) {
-                for (const std::string& name : names) {
-                    const Measure measure = chosen("--measure", kMeasures, name);
-                    measures.sweep = measures.sweep || measure == Measure::sweep;
-                    measures.budget = measures.budget || measure == Measure::budget;
-                    measures.volume = measures.volume || measure == Measure::volume;
-                }
+                for (const std::string& name : names)
+                    measures.insert(chosen("--measure", kMeasures, name));
             },
             "further measurements; repeat the option for each" + explained(kMeasures))
         ->allow_extra_args(false) // one each time, so that the files may follow
@@ -177,13 +172,15 @@ void add_evaluate(CLI::App& app, Session& session) {
     command->add_option("baked", a.baked, "output of prt bake, the reference")->required()->check(named);
     command->add_option("shipped", a.shipped, "output of prt compress, or another bake of the same scene")
         ->check(named);
-    add_lights(command, a.lights, "lights under which errors are measured")
-        ->default_str("uniform, overcast, sun");
+    CLI::Option* lights = add_lights(command, a.lights, "lights under which errors are measured")
+                              ->default_str("uniform, overcast, sun");
     add_light_options(command, a.light_options);
     add_suns(command, a.suns, "suns in the images; light without them is also measured", "auto");
     command->add_option("--rotations", a.rotations, "number of rotations of each light about +Y")
         ->capture_default_str()
-        ->check(CLI::Range(1, 64));
+        ->check(CLI::Range(1, 64))
+        ->needs(lights);
+    command->get_option("--suns")->needs(lights);
     add_measures(command, a.measures);
     add_no_shadow(command, a.no_shadow);
     add_reading(command, a.reading);

@@ -425,6 +425,18 @@ void check_together(const RenderArguments& a) {
         throw CLI::ValidationError("--path-trace", "needs --show lit or --show error");
 }
 
+/// Rejects settings of the exposed picture for outputs that are not exposed.
+void check_exposed(const RenderArguments& a, const CLI::App& command) {
+    for (const char* name : {"--tone-map", "--exposure"}) {
+        if (command.count(name) == 0)
+            continue;
+        if (suffix_of(a.output) == ".exr")
+            throw CLI::ValidationError(name, "needs a .png output: an .exr file contains linear radiance");
+        if (a.look.show != Show::lit)
+            throw CLI::ValidationError(name, "needs --show lit: other pictures have a fixed scale");
+    }
+}
+
 /// Reads the model. Lobes are converted to transfer if it has no other.
 SceneFile load_model(const RenderArguments& a) {
     SceneFile model = load_scene_file(a.model, a.reading);
@@ -552,6 +564,7 @@ void add_render(CLI::App& app, Session& session) {
     CLI::App* command = app.add_subcommand("render", "Draw a picture of a file under a light");
     auto& a = arguments_for<RenderArguments>(command, [command, &session](const RenderArguments& given) {
         check_light_options(*command, !given.environment.empty());
+        check_exposed(given, *command);
         run(given, session);
     });
     command->add_option("model", a.model, ".gltf or .glb; without transfer, the sky casts no shadows")

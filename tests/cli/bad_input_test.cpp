@@ -177,6 +177,11 @@ TEST_F(BadInput, RasterWithBouncesOrOnTheCpu) {
     refuse_bake(scene, {"--method", "raster", "--fit", "surface"});
 }
 
+TEST_F(BadInput, SettingsOfSharedTransferWithoutSharing) {
+    refuse_bake(good(), {"--instances", "own,error=0.1"});
+    refuse_bake(good(), {"--instances", "samples=64"});
+}
+
 TEST_F(BadInput, FitsToAnErrorOfVertices) {
     refuse_bake(good(), {"--fit", "surface", "--target-error", "0.1"});
 }
@@ -218,6 +223,10 @@ TEST_F(BadInput, WrongUsageHasStatusTwo) {
           {"bake", scene, "-o", out, "--subsurface", "custard"},
           {"bake", scene, "-o", out, "--subsurface", "1,2,3,4,5"},
           {"bake", scene, "-o", out, "--rays", "64", "--target-error", "0.01"},
+          {"bake", scene, "-o", out, "--subsurface", "wax=marble", "--subsurface", "wax=skin1"},
+          {"bake", scene, "-o", out, "--texels", "64", "--fit", "vertex"},
+          {"ao", scene, "-o", out, "--texels", "64", "--fit", "vertex"},
+          {"ao", scene, "-o", out, "--falloff", "1,,2"},
           {"bench"},
           {"bench", scene, "--device", "list"},
           {"compress", scene, "-o", out, "--clusters", "auto"},
@@ -229,6 +238,10 @@ TEST_F(BadInput, WrongUsageHasStatusTwo) {
           {"compress", scene, "-o", out, "--max-error", "small"},
           {"compress", scene, "-o", out, "--lights", "plain", "--lights", scene},
           {"evaluate", scene},
+          {"evaluate", scene, "--measure", "sweep", "--rotations", "2"},
+          {"evaluate", scene, "--measure", "sweep", "--suns", "2"},
+          {"render", scene, "--lights", scene, "-o", "p.exr", "--tone-map", "srgb"},
+          {"render", scene, "--lights", scene, "-o", "p.png", "--show", "ao", "--exposure", "1"},
           {"render", scene, "--lights", scene, "-o", "p.png", "--size", "0x5"},
           {"render", scene, "--lights", scene, "-o", "p.png", "--size", "4294967297x1"},
           {"render", scene, "--lights", scene, "-o", "p.png", "--show", "error"},
