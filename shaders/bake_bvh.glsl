@@ -1,4 +1,4 @@
-// Traces rays through our own hierarchy (bake/trace/gpu/wide_bvh.h) like its authors: the stack contains
+// Traces rays through our own hierarchy (bake/trace_gpu/wide_bvh.h) like its authors: the stack contains
 // groups of children of one node that the ray hits, one bit per child. Loops have one exit and no `continue`:
 // Mesa's software rasteriser computes wrong results for them where threads diverge.
 

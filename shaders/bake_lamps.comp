@@ -2,7 +2,7 @@
 #extension GL_GOOGLE_include_directive : require
 
 // Irradiance of receivers from one lamp without a bounce (docs/math.md, section 13), with the samples of the
-// CPU (bake/lamps/lamp_rays.cpp). One thread per receiver: the threads of a group process the same lights and
+// CPU (bake/trace/lamp_rays.cpp). One thread per receiver: the threads of a group process the same lights and
 // triangles at the same time, so that their rays are coherent.
 
 #include "bake_kernel.glsl"

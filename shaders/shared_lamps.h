@@ -1,5 +1,5 @@
 // Geometry and samples of lamps (docs/math.md, section 13). GLSL computes them in float and C++ in double:
-// `real` is either type. C++ includes this file through bake/lamps/lamp_geometry.h.
+// `real` is either type. C++ includes this file through bake/scene/lamp_geometry.h.
 #ifndef PRT_SHARED_LAMPS_H
 #define PRT_SHARED_LAMPS_H
 

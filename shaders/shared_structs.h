@@ -1,6 +1,6 @@
 // Structs that the baker shares between GLSL and C++, with std430 layout: one side packs them and the other
 // unpacks them with the functions and numbers of this file. C++ includes it through
-// bake/trace/gpu/gpu_structs.h, which defines the GLSL types.
+// bake/trace_gpu/gpu_structs.h, which defines the GLSL types.
 #ifndef PRT_SHARED_STRUCTS_H
 #define PRT_SHARED_STRUCTS_H
 
@@ -139,7 +139,7 @@ struct AlphaMaterial {
 #define PRT_WRAP_U(wraps) ((wraps)&255u)
 #define PRT_WRAP_V(wraps) ((wraps) >> 8)
 
-// A node of the wide hierarchy (bake/trace/gpu/wide_bvh.h): boxes of up to eight children, in slots. Corners
+// A node of the wide hierarchy (bake/trace_gpu/wide_bvh.h): boxes of up to eight children, in slots. Corners
 // of a box are origin + q · step, rounded outwards. Slots are ordered by octant, so that a ray visits near
 // children first.
 struct WideNode {

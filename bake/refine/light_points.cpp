@@ -4,9 +4,9 @@
 
 #include "prt/sh_basis.h"
 #include "prt/trace_receivers.h"
-#include "scene/sealed.h"
 #include "trace/sample_sequence.h"
 #include "trace/scrambles.h"
+#include "trace/sealed.h"
 
 #include <glm/geometric.hpp>
 #include <glm/mat2x2.hpp>

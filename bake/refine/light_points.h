@@ -5,7 +5,7 @@
 #include "prt/bake.h"
 #include "prt/tracer.h"
 #include "refine/bisection.h"
-#include "surface/surface_samples.h"
+#include "surface_fit/surface_samples.h"
 
 #include <array>
 #include <cstddef>

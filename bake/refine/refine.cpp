@@ -2,7 +2,7 @@
 
 #include "prt/refine.h"
 
-#include "plan.h"
+#include "plan/plan.h"
 #include "prt/sh.h"
 #include "prt/support/error.h"
 #include "prt/support/stopwatch.h"

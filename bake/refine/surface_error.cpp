@@ -2,8 +2,8 @@
 
 #include "refine/surface_error.h"
 
-#include "surface/fit_solver.h"
-#include "surface/smoothness_weights.h"
+#include "surface_fit/fit_solver.h"
+#include "surface_fit/smoothness_weights.h"
 #include "trace/scrambles.h"
 
 #include <algorithm>

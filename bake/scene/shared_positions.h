@@ -4,7 +4,7 @@
 
 #include "prt/trace_scene.h"
 #include "prt/transfer.h"
-#include "transport/transport_receivers.h"
+#include "scene/transport_receivers.h"
 
 #include <cstdint>
 #include <vector>

@@ -4,7 +4,6 @@
 
 #include "trace/embree_tracer.h"
 
-#include "lamps/lamp_light.h"
 #include "prt/sh.h"
 #include "prt/support/counted.h"
 #include "prt/support/parallel.h"
@@ -12,6 +11,7 @@
 #include "scene/opposite_triangles.h"
 #include "shared_bake.h"
 #include "trace/chunk_kernels.h"
+#include "trace/lamp_light.h"
 
 #include <embree3/rtcore.h>
 #include <fmt/core.h>

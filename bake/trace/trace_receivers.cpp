@@ -3,8 +3,8 @@
 #include "prt/trace_receivers.h"
 
 #include "prt/sh_basis.h"
+#include "trace/gather_product.h"
 #include "trace/vector_sums.h"
-#include "transport/gather_product.h"
 
 #include <algorithm>
 #include <bit>

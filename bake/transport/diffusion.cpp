@@ -4,7 +4,7 @@
 
 #include "prt/sh_basis.h"
 #include "prt/support/parallel.h"
-#include "transport/sparse_rows.h"
+#include "trace/sparse_rows.h"
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>

@@ -4,7 +4,7 @@
 #include "clusters/cluster_moments.h"
 
 #include "prt/support/parallel.h"
-#include "tuning.h"
+#include "tuning/tuning.h"
 
 #include <Eigen/Dense>
 

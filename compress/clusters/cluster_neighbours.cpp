@@ -2,7 +2,7 @@
 
 #include "clusters/cluster_neighbours.h"
 
-#include "tuning.h"
+#include "tuning/tuning.h"
 
 #include <utility>
 

@@ -5,7 +5,7 @@
 #include "clusters/cluster_rounds.h"
 
 #include "clusters/cluster_neighbours.h"
-#include "tuning.h"
+#include "tuning/tuning.h"
 
 #include <cmath>
 

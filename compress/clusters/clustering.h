@@ -4,7 +4,7 @@
 
 #include "clusters/cluster_rounds.h"
 #include "prt/support/progress.h"
-#include "tuning.h"
+#include "tuning/tuning.h"
 
 #include <random>
 

@@ -3,7 +3,7 @@
 
 #include "clusters/kmeans.h"
 
-#include "tuning.h"
+#include "tuning/tuning.h"
 
 namespace prt {
 namespace {

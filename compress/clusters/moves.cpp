@@ -3,7 +3,7 @@
 #include "clusters/moves.h"
 
 #include "clusters/cluster_neighbours.h"
-#include "tuning.h"
+#include "tuning/tuning.h"
 
 #include <numeric>
 #include <tuple>

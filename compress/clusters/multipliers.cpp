@@ -3,7 +3,7 @@
 
 #include "clusters/multipliers.h"
 
-#include "tuning.h"
+#include "tuning/tuning.h"
 
 #include <cmath>
 

@@ -26,14 +26,6 @@ void multiply_steps(const std::int16_t* from, const float* steps, std::size_t wi
 
 } // namespace
 
-void PointScales::gather(std::span<const std::uint32_t> points, float* to) const {
-    for (std::size_t lane = 0; lane < kLanes && groups > 0; ++lane) {
-        const std::span<const float> own = of(points[lane < points.size() ? lane : 0]);
-        for (std::size_t g = 0; g < groups; ++g)
-            to[g * kLanes + lane] = own[g];
-    }
-}
-
 template <class Take>
 void PointBlocks::project(const TransferView& transfer, const Frame& frame,
                           const PredictorCoordinates& coordinates, int threads, Take&& take) const {

@@ -4,7 +4,7 @@
 
 #include "clusters/predictor_coordinates.h"
 #include "metric/frame.h"
-#include "prt/support/vector_lanes.h"
+#include "metric/point_scales.h"
 #include "prt/transfer_view.h"
 
 #include <cstdint>
@@ -13,30 +13,7 @@
 
 namespace prt {
 
-/// Number of points processed together: one per SIMD lane.
-inline constexpr std::size_t kLanes = kLaneCount;
 inline constexpr std::size_t kMaxDimensions = kMaxTransferNumbers;
-
-/// Weights of each point's errors along groups of axes: an error of light is relative to the local light
-/// (docs/math.md, eq. 29). Without groups all weights are equal.
-struct PointScales {
-    std::vector<std::uint8_t> group_of; ///< [axes]
-    std::vector<float> scales;          ///< [points][groups] scales of distances
-    std::size_t groups = 0;
-
-    bool all_alike() const { return groups == 0; }
-    std::span<const float> of(std::size_t point) const {
-        return std::span(scales).subspan(point * groups, groups);
-    }
-    /// Copies the scales of at least one and at most kLanes points to [groups][kLanes]; the first point fills
-    /// the remaining lanes.
-    void gather(std::span<const std::uint32_t> points, float* to) const;
-    /// Multiplies `vector` [axes] by the scales of `point`.
-    void multiply(std::size_t point, float* vector) const {
-        for (std::size_t i = 0; i < (groups > 0 ? group_of.size() : 0); ++i)
-            vector[i] *= scales[point * groups + group_of[i]];
-    }
-};
 
 /// Transfer vectors as points in the space of a frame, in a SIMD layout: blocks of kLanes points, each block
 /// coordinate by coordinate, followed by its predictors. The last block is padded with copies of its first

@@ -3,7 +3,7 @@
 
 #include "coding/conjugate_gradients.h"
 
-#include "tuning.h"
+#include "tuning/tuning.h"
 
 namespace prt {
 

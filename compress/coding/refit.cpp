@@ -3,7 +3,7 @@
 
 #include "coding/refit.h"
 
-#include "tuning.h"
+#include "tuning/tuning.h"
 
 #include <Eigen/Dense>
 

@@ -4,7 +4,7 @@
 
 #include "coding/weight_coding.h"
 #include "prt/lightmap.h"
-#include "tuning.h"
+#include "tuning/tuning.h"
 
 namespace prt {
 

@@ -9,7 +9,7 @@
 #include "prt/error_measures.h"
 #include "prt/support/error.h"
 #include "prt/support/parallel.h"
-#include "tuning.h"
+#include "tuning/tuning.h"
 
 #include <Eigen/Dense>
 #include <glm/geometric.hpp>

@@ -6,7 +6,7 @@
 #include "metric/natural_share.h"
 #include "prt/sh.h"
 #include "prt/standard_skies.h"
-#include "tuning.h"
+#include "tuning/tuning.h"
 
 #include <Eigen/Dense>
 #include <glm/trigonometric.hpp>

@@ -8,7 +8,7 @@
 #include "metric/transfer_columns.h"
 #include "prt/support/error.h"
 #include "prt/support/parallel.h"
-#include "tuning.h"
+#include "tuning/tuning.h"
 
 #include <Eigen/Dense>
 

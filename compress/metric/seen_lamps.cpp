@@ -5,7 +5,7 @@
 #include "metric/transfer_columns.h"
 #include "prt/color.h"
 #include "prt/error_measures.h"
-#include "tuning.h"
+#include "tuning/tuning.h"
 
 #include <Eigen/Dense>
 

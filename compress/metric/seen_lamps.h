@@ -2,8 +2,8 @@
 
 // Contrast errors of lamps.
 
-#include "clusters/points.h"
 #include "metric/frame.h"
+#include "metric/point_scales.h"
 #include "prt/light_metric.h"
 #include "prt/transfer_view.h"
 

@@ -6,7 +6,7 @@
 #include "prt/sh.h"
 #include "prt/sky.h"
 #include "prt/sun.h"
-#include "tuning.h"
+#include "tuning/tuning.h"
 
 #include <glm/trigonometric.hpp>
 

@@ -2,7 +2,7 @@
 
 #include "search/budget_search.h"
 
-#include "compress_options.h"
+#include "pipeline/compress_options.h"
 
 #include <algorithm>
 #include <cmath>

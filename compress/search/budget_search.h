@@ -3,7 +3,7 @@
 // Search of compression settings within a budget.
 
 #include "search/trials.h"
-#include "tuning.h"
+#include "tuning/tuning.h"
 
 namespace prt {
 

@@ -1,7 +1,7 @@
 // Entry points of the search: budgets and presets.
 #include "prt/search.h"
 
-#include "compress_options.h"
+#include "pipeline/compress_options.h"
 #include "prt/support/counted.h"
 #include "prt/support/error.h"
 #include "prt/support/stopwatch.h"

@@ -1,7 +1,7 @@
 // Runs and compares the trials of a search.
 #include "search/trials.h"
 
-#include "compress_from.h"
+#include "pipeline/compress_from.h"
 
 #include <algorithm>
 #include <bit>

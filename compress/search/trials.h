@@ -6,7 +6,7 @@
 #include "prt/search.h"
 #include "search/payload_config.h"
 #include "search/trial_evaluator.h"
-#include "tuning.h"
+#include "tuning/tuning.h"
 
 #include <map>
 

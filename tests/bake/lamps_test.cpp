@@ -2,7 +2,7 @@
 
 #include "prt/bake.h"
 
-#include "lamps/choose_lamps.h"
+#include "trace/choose_lamps.h"
 #include "prt/support/error.h"
 #include "support/scene_builder.h"
 

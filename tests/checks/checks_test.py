@@ -32,17 +32,31 @@ class IncludeArrows(unittest.TestCase):
 
     def test_accept_allowed_includes(self):
         for path, include in [("runtime/sh/sh.cpp", "<glm/vec3.hpp>"), ("runtime/sh/sh.cpp", "<vector>"),
-                              ("bake/bake.cpp", '"prt/sh.h"'), ("bake/bake.cpp", '"scene/surfaces.h"'),
+                              ("bake/pipeline/bake.cpp", '"prt/sh.h"'), ("bake/pipeline/bake.cpp", '"scene/surfaces.h"'),
                               ("cli/main.cpp", '"prt/compress.h"'), ("examples/viewer/a.cpp", '"prt/bake.h"')]:
             self.assertEqual(self.check(path, f"#include {include}\n"), (0, []))
 
     def test_reject_includes_in_the_wrong_direction(self):
         for path, include in [("runtime/sh/sh.cpp", '"prt/bake.h"'), ("runtime/sh/sh.cpp", "<Eigen/Core>"),
-                              ("runtime/light/light.cpp", "<nlohmann/json.hpp>"), ("bake/bake.cpp", '"prt/compress.h"'),
+                              ("runtime/light/light.cpp", "<nlohmann/json.hpp>"), ("bake/pipeline/bake.cpp", '"prt/compress.h"'),
                               ("compress/search.cpp", '"prt/bake.h"'), ("examples/viewer/a.cpp", '"scene/surfaces.h"'),
-                              ("bake/bake.cpp", "<boost/any.hpp>")]:
+                              ("bake/pipeline/bake.cpp", "<boost/any.hpp>")]:
             status, lines = self.check(path, f"#include {include}\n")
             self.assertEqual((status, len(lines)), (1, 1), (path, include))
+
+    def test_reject_higher_layers(self):
+        self.assertEqual(self.check("bake/pipeline/bake.cpp", '#include "scene/surfaces.h"\n'), (0, []))
+        files = {**HEADERS, "bake/plan/plan.h": "", "bake/scene/rays.cpp": '#include "plan/plan.h"\n'}
+        self.assertEqual(failures("include_arrows.py", files)[0], 1)
+        files = {**HEADERS, "bake/plan/plan.cpp": "", "bake/include/prt/plan.h": "", "bake/scene/rays.cpp": '#include "prt/plan.h"\n'}
+        self.assertEqual(failures("include_arrows.py", files)[0], 1)
+
+    def test_reject_circles_of_folders(self):
+        files = {**HEADERS, "cli/a/a.h": '#include "b/b.h"\n', "cli/b/b.h": '#include "c/c.h"\n', "cli/c/c.h": ""}
+        self.assertEqual(failures("include_arrows.py", files), (0, []))
+        files["cli/c/c.h"] = '#include "a/a.h"\n'
+        status, lines = failures("include_arrows.py", files)
+        self.assertEqual((status, lines), (1, ["cli/a, cli/b, cli/c: include each other in a circle"]))
 
     def test_reject_unknown_folders(self):
         self.assertEqual(self.check("examples/new/main.cpp", "")[0], 1)

@@ -3,7 +3,9 @@
 
 include_arrows.py REPOSITORY
 Every source belongs to the part with the longest folder that contains it. It may include headers of its own part, and of
-the parts and packages in its row. Standard headers are always allowed.
+the parts and packages in its row. Standard headers are always allowed. In a library with layers, a source may include
+headers of its own layer and of lower ones. No folders include each other in a circle. A public header belongs to the folder
+of the source with its name, in its library; a public header without a source is a folder of its own.
 """
 import pathlib
 import re
@@ -20,12 +22,14 @@ PARTS = {
     "render": ("runtime/render", "runtime image scene", "glm"),
     "gl": ("runtime/render/gl", "runtime scene render shader shaders", "glm epoxy glfw"),
     "bake": ("bake", "runtime scene render shaders", "glm fmt embree Eigen stb"),
-    "vulkan": ("bake/vulkan", "runtime bake", "glm fmt vulkan"),
-    "bake_gpu": ("bake/trace/gpu", "runtime scene gl bake vulkan shaders", "glm embree epoxy"),
+    "device": ("bake/device", "runtime bake", "glm fmt vulkan"),
+    "trace_gpu": ("bake/trace_gpu", "runtime scene bake device shaders", "glm embree"),
+    "raster": ("bake/raster", "runtime scene gl bake trace_gpu shaders", "glm epoxy"),
+    "tracers": ("bake/tracers", "runtime scene bake device trace_gpu raster", "glm fmt"),
     "compress": ("compress", "runtime scene", "glm Eigen"),
     "compress_study": ("compress/study", "runtime scene compress", "glm Eigen"),
     "shaders": ("shaders", "", ""),
-    "cli": ("cli", "runtime shader fit image scene render gl bake bake_gpu compress", "glm fmt CLI nlohmann"),
+    "cli": ("cli", "runtime shader fit image scene render gl bake compress", "glm fmt CLI nlohmann"),
     "example_scenes": ("examples/scenes", "runtime image", "glm tinygltf"),
     "game": ("examples/game", "runtime shader fit image scene gl", "glm epoxy"),
     "viewer": ("examples/viewer", "runtime fit image scene render gl shader bake compress",
@@ -34,13 +38,18 @@ PARTS = {
     "comparison": ("examples/comparison", "viewer runtime image scene render gl shader bake compress fit",
                    "glm fmt CLI nlohmann epoxy"),
 }
+# Folders of libraries with layers, from the lowest to the highest.
+LAYERS = {
+    "bake": ("scene", "device", "trace", "trace_gpu", "raster", "tracers", "transport", "plan", "surface_fit", "reference",
+             "pipeline", "refine", "products/volumes", "products/occlusion", "products/lightmaps", "products/instances",
+             "products/levels", "products/lobes", "studies"),
+    "compress": ("tuning", "metric", "clusters", "coding", "pipeline", "search", "study"),
+}
 # Includes that are allowed although the table forbids them.
 EXCEPTIONS = {
     # Buffers of the viewer and of the GL renderer have the layout of the shaders, which is also installed for games.
     ("examples/viewer", "shared_layout.h"), ("examples/viewer", "shared_viewer.h"),
     ("examples/game", "shared_layout.h"),
-    # One file decides which tracer is created.
-    ("bake/trace/make_tracer.cpp", "bake_gpu"),
 }
 PACKAGES = {  # prefixes of their headers
     "glm/": "glm", "ceres/": "ceres", "Eigen/": "Eigen", "OpenEXR/": "OpenEXR", "Imath": "OpenEXR", "Imf": "OpenEXR",
@@ -79,6 +88,47 @@ class Headers:
         return None
 
 
+def include_folder(path, files):
+    """Returns the folder that a file counts for in the rules of layers and circles."""
+    library, public, name = path.partition("/include/prt/")
+    if not public:
+        return str(pathlib.PurePosixPath(path).parent)
+    stem = pathlib.PurePosixPath(name).stem
+    sources = [file for file in files if file.startswith(library + "/") and file.endswith(f"/{stem}.cpp")]
+    return str(pathlib.PurePosixPath(min(sources, key=len)).parent) if sources else path
+
+
+def layer_of(folder):
+    """Returns library and index of the layer of a folder, or None."""
+    library, _, rest = folder.partition("/")
+    return (library, LAYERS[library].index(rest)) if rest in LAYERS.get(library, ()) else None
+
+
+def climbs(folder, target):
+    """Whether a header in `target` is in a higher layer of the library of `folder`."""
+    own, other = layer_of(folder), layer_of(target)
+    return bool(own and other and own[0] == other[0] and other[1] > own[1])
+
+
+def circles(includes):
+    """Returns sets of folders that include each other. `includes`: folder: included folders."""
+    reached = {}
+
+    def reach(start):
+        found, rest = set(), [start]
+        while rest:
+            for folder in includes.get(rest.pop(), ()):
+                if folder not in found:
+                    found.add(folder)
+                    rest.append(folder)
+        return found
+
+    for folder in includes:
+        reached[folder] = reach(folder)
+    return {frozenset({folder, *(other for other in found if folder in reached.get(other, ()))})
+            for folder, found in reached.items() if folder in found}
+
+
 def is_exception(source, header, target):
     return any(source.startswith(prefix) and allowed in (header.split("/")[-1], target) for prefix, allowed in EXCEPTIONS)
 
@@ -112,7 +162,7 @@ def main():
     files = [str(path.relative_to(root)) for top in tops for path in sorted((root / top).rglob("*"))
              if path.suffix in (".h", ".cpp", ".c") and "node_modules" not in path.parts]
     headers = Headers(root, files)
-    wrong = []
+    wrong, includes = [], {}
     for source in files:
         if part_of(source) is None:
             wrong.append(f"{source}: is not in a folder of the table")
@@ -121,6 +171,16 @@ def main():
             error = violation(headers, source, quote == '"', header)
             if error:
                 wrong.append(f"{source}: {error}")
+            path = headers.find(source, header) if quote == '"' else None
+            if path is None:
+                continue
+            folder, target = include_folder(source, files), include_folder(path, files)
+            if folder == target:
+                continue
+            includes.setdefault(folder, set()).add(target)
+            if climbs(folder, target):
+                wrong.append(f"{source}: {folder} may not include the higher layer {target} ({path})")
+    wrong += [f"{', '.join(sorted(circle))}: include each other in a circle" for circle in circles(includes)]
     print(*wrong, sep="\n", end="\n" if wrong else "")
     return 1 if wrong or not files else 0
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "vulkan/vulkan_device.h"
+#include "device/vulkan_device.h"
 
 #include <gtest/gtest.h>
 

@@ -72,10 +72,10 @@ public:
     virtual void trace(const Receivers& receivers, std::span<const std::uint32_t> indices,
                        const TraceOptions& options, std::span<float> vectors, const HitSink& sink = {},
                        const Progress& progress = {}) = 0;
-    /// Computes direct light of lamps (bake/lamps/lamp_light.h), with the same samples for every tracer.
+    /// Computes direct light of lamps (bake/trace/lamp_light.h), with the same samples for every tracer.
     /// Throws `Cancelled` after a stop request.
     virtual LampLight lamp_light(const LampTask& task, const Progress& progress) = 0;
-    /// Creates the object that computes bounces (bake/transport/gather_product.h) on a device. It keeps a
+    /// Creates the object that computes bounces (bake/trace/gather_product.h) on a device. It keeps a
     /// reference to `gather`. Returns null if the CPU is as fast.
     virtual std::unique_ptr<GatherProduct> gather_product(const GatherOperator& gather);
     /// Creates sums of vectors (bake/trace/vector_sums.h) on a device, one for each entry of `weights`, which

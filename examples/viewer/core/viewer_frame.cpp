@@ -1,8 +1,8 @@
 // Draws a frame of the viewer.
 
 #include "core/budget_work.h"
-#include "core/lobe.h"
 #include "core/viewer.h"
+#include "gpu/lobe.h"
 
 #include <epoxy/gl.h>
 #include <glm/geometric.hpp>

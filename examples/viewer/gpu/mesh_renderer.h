@@ -1,6 +1,6 @@
 #pragma once
 
-#include "core/lobe.h"
+#include "gpu/lobe.h"
 
 #include "prt/gl_objects.h"
 

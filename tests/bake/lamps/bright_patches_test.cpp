@@ -1,6 +1,6 @@
 // Connections to patches that lamps light.
 
-#include "lamps/bright_patches.h"
+#include "pipeline/bright_patches.h"
 #include "prt/bake.h"
 #include "prt/error_measures.h"
 #include "support/scene_builder.h"

@@ -1,7 +1,7 @@
 // Tests light of level 0 on coarser levels: nearest points, exactness, closed forms, and comparison with a
 // separate bake of a level.
 
-#include "levels/nearest_points.h"
+#include "products/levels/nearest_points.h"
 #include "prt/error_measures.h"
 #include "prt/level_bake.h"
 #include "prt/light.h"

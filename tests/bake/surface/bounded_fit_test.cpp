@@ -6,7 +6,7 @@
 #include "prt/support/error.h"
 #include "prt/transfer.h"
 #include "support/scene_builder.h"
-#include "surface/value_limits.h"
+#include "surface_fit/value_limits.h"
 
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>

@@ -1,7 +1,7 @@
 // Tests least-squares fits of vertex values to samples over the surface.
 
-#include "surface/fit_choice.h"
-#include "surface/fit_solver.h"
+#include "surface_fit/fit_choice.h"
+#include "surface_fit/fit_solver.h"
 
 #include "prt/trace_scene.h"
 #include "support/scene_builder.h"

@@ -1,6 +1,6 @@
 // Tests bakes whose vertices are fitted to the surface, against closed forms and denser bakes.
 
-#include "surface/surface_samples.h"
+#include "surface_fit/surface_samples.h"
 
 #include "prt/bake.h"
 #include "prt/sh.h"

@@ -4,9 +4,9 @@
 #include "prt/support/error.h"
 #include "prt/unwrap.h"
 #include "support/scene_builder.h"
-#include "texels/gutters.h"
-#include "texels/seams.h"
-#include "texels/texel_samples.h"
+#include "products/lightmaps/gutters.h"
+#include "products/lightmaps/seams.h"
+#include "products/lightmaps/texel_samples.h"
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>

@@ -1,15 +1,15 @@
 // A GPU that fails on the way: the rest is traced on the CPU.
 
-#include "trace/fallback_tracer.h"
+#include "tracers/fallback_tracer.h"
 
-#include "lamps/lamp_light.h"
-#include "plan.h"
+#include "trace/lamp_light.h"
+#include "plan/plan.h"
 #include "prt/gpu_failure.h"
 #include "prt/sh_basis.h"
 #include "prt/trace_receivers.h"
 #include "support/scene_builder.h"
 #include "support/traced.h"
-#include "surface/fitted_light.h"
+#include "pipeline/fitted_light.h"
 #include "trace/embree_tracer.h"
 #include "trace/vector_sums.h"
 

@@ -5,7 +5,7 @@
 #include "support/gpu_scenes.h"
 #include "support/scene_builder.h"
 #include "support/vulkan_choice.h"
-#include "trace/gpu/gpu_gather.h"
+#include "trace_gpu/gpu_gather.h"
 #include "trace/vector_sums.h"
 
 #include <gtest/gtest.h>

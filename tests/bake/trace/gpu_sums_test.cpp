@@ -5,7 +5,7 @@
 #include "support/traced.h"
 #include "support/vulkan_choice.h"
 #include "trace/embree_tracer.h"
-#include "trace/gpu/vulkan_tracer.h"
+#include "trace_gpu/vulkan_tracer.h"
 #include "trace/vector_sums.h"
 
 #include <gtest/gtest.h>

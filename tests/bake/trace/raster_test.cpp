@@ -7,7 +7,7 @@
 #include "support/scene_builder.h"
 #include "support/traced.h"
 #include "trace/embree_tracer.h"
-#include "trace/gpu/gl_rasterizer.h"
+#include "raster/gl_rasterizer.h"
 
 #include <epoxy/gl.h>
 #include <gtest/gtest.h>

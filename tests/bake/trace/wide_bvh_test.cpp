@@ -1,6 +1,6 @@
 // Tests our bounding volume hierarchy: its contents and their number formats.
 
-#include "trace/gpu/wide_bvh.h"
+#include "trace_gpu/wide_bvh.h"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 // Tests bounces against closed forms and brute force.
 
-#include "available_memory.h"
+#include "plan/available_memory.h"
 #include "prt/bake.h"
 #include "prt/gltf.h"
 #include "prt/light.h"

@@ -5,8 +5,8 @@
 #include "prt/support/error.h"
 #include "support/gpu_scenes.h"
 #include "support/scene_builder.h"
-#include "texels/texel_samples.h"
-#include "unwrap/chart_packing.h"
+#include "products/lightmaps/texel_samples.h"
+#include "products/lightmaps/chart_packing.h"
 
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>

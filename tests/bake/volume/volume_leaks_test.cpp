@@ -4,7 +4,7 @@
 #include "prt/transfer.h"
 #include "prt/volume_bake.h"
 #include "support/scene_builder.h"
-#include "volume/visibility.h"
+#include "products/volumes/visibility.h"
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>

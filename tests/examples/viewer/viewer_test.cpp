@@ -1,6 +1,6 @@
 // The viewer without a window: files of all kinds, work in the background, a context that is lost.
 
-#include "core/lobe.h"
+#include "gpu/lobe.h"
 #include "core/viewer.h"
 #include "gpu/offscreen.h"
 #include "ui/controls.h"

@@ -1,0 +1,29 @@
+#pragma once
+
+// Measures direct light with samples over the surface and fits it to receivers.
+
+#include "pipeline/direct.h"
+#include "pipeline/record.h"
+#include "surface_fit/surface_fit.h"
+#include "trace/lamp_light.h"
+
+namespace prt {
+
+/// Light of lamps without a bounce, for the receivers of a plan.
+struct MeasuredLamps {
+    LampLight light;      ///< smooth values if there is a fit
+    SampledLight sampled; ///< light of lamps at the samples of a fit
+};
+struct FittedLight {
+    DirectLight direct; ///< smooth values of receivers; the rows of its gather operator are samples
+    SampledLight sky;   ///< direct light at the samples, one channel
+    MeasuredLamps lamps;
+    SurfaceFit fit;
+    SealedIn sealed; ///< receivers without a sample outside geometry
+};
+
+/// Divides the rays of each receiver among `samples` samples. The gather operator keeps references to `plan`.
+FittedLight trace_fitted(const BakePlan& plan, Tracer& tracer, LastOfLamps last, int samples,
+                         const Progress& progress);
+
+} // namespace prt

@@ -1,0 +1,33 @@
+#pragma once
+
+// Result of a bake, with its record and statistics.
+
+#include "pipeline/direct.h"
+#include "pipeline/light_transport.h"
+
+namespace prt {
+
+/// Receivers of the scene that are sealed in, and their repair.
+struct SealedIn {
+    std::vector<std::uint32_t> receivers; ///< ascending
+    std::size_t rays = 0;                 ///< rays that found them
+    Refill refill;
+};
+
+/// Creates the result with its record and its statistics, except `seconds` and values that depend on it.
+/// Selects the storage format.
+BakeResult record(const BakePlan& plan, const Tracer& tracer, const DirectLight& direct,
+                  const SealedIn& sealed, Propagated exit);
+
+/// Relative L2 error of `transfer` rounded to float16.
+double float16_rounding_error(const Transfer& transfer, std::span<const float> areas);
+
+/// Relative L2 errors.
+struct StorageErrors {
+    double rounding, sampling; ///< error of rounding to float16; error of the rays
+};
+
+/// Selects float16 if its rounding is negligible against the noise, and adds a notice.
+TransferStorage storage_for(const StorageErrors& errors, std::vector<std::string>& notices);
+
+} // namespace prt

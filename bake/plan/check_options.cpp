@@ -1,0 +1,58 @@
+// Validates BakeOptions.
+
+#include "plan/check_options.h"
+
+#include "prt/sh.h"
+#include "prt/support/error.h"
+
+#include <fmt/core.h>
+
+#include <cmath>
+
+namespace prt {
+namespace {
+
+void check_raster_options(const BakeOptions& options) {
+    if (!options.tracer.falloff.blocks_everywhere())
+        throw Error("--method raster does not support a distance fall-off; use --method trace");
+    if (options.tracer.backend == Backend::cpu)
+        throw Error("--method raster needs a GPU; do not use --device cpu");
+    if (options.bounces != 0)
+        throw Error("--method raster supports direct light only; use --method trace for bounces");
+    if (options.target_error)
+        throw Error("--method raster does not support --target-error; use --method trace");
+    if (options.fit == FitMode::surface)
+        throw Error("--method raster does not support --fit surface; use --method trace");
+    if (options.tracer.raster_resolution < 16 || options.tracer.raster_resolution > 16384)
+        throw Error("the resolution of depth maps must be in 16..16384");
+}
+
+} // namespace
+
+void check_options(const BakeOptions& options) {
+    check_order(options.order);
+    if (options.rays < 1 || options.rays > kMaxRays)
+        throw Error(
+            fmt::format("the number of rays per receiver must be in 1..{}, not {}", kMaxRays, options.rays));
+    if (options.bounces != kEndlessBounces && (options.bounces < 0 || options.bounces > kMaxBounces))
+        throw Error(fmt::format("the number of bounces must be in 0..{} or inf, not {}", kMaxBounces,
+                                options.bounces));
+    if (!(options.lamps.radius >= 0 && std::isfinite(options.lamps.radius)))
+        throw Error("the radius of lamps must be finite and not negative");
+    if (options.lamps.rays < 1 || options.lamps.rays > kMaxRays)
+        throw Error(fmt::format("the number of rays per lamp must be in 1..{}, not {}", kMaxRays,
+                                options.lamps.rays));
+    if (options.target_error && !(*options.target_error > 0 && std::isfinite(*options.target_error)))
+        throw Error("the target error must be finite and greater than 0");
+    if (options.target_error && options.fit == FitMode::surface)
+        throw Error("--target-error does not support --fit surface; use --fit vertex");
+    if (!(options.subsurface.metres_per_unit > 0 && std::isfinite(options.subsurface.metres_per_unit)))
+        throw Error("the number of metres per unit must be finite and greater than 0");
+    check_falloff(options.tracer.falloff);
+    if (!options.tracer.falloff.blocks_everywhere() && options.bounces != 0)
+        throw Error("a distance fall-off and bounces cannot be combined; use 0 bounces or no fall-off");
+    if (options.tracer.method == BakeMethod::raster)
+        check_raster_options(options);
+}
+
+} // namespace prt

@@ -1,0 +1,59 @@
+#pragma once
+
+// Properties of a bake that are known before the first ray.
+
+#include "prt/bake.h"
+#include "prt/trace_scene.h"
+#include "scene/transport_receivers.h"
+#include "trace/choose_lamps.h"
+#include "transport/diffusion.h"
+
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace prt {
+
+/// Medium inside each material, in the scene's unit: [materials].
+using Media = std::vector<std::optional<Medium>>;
+
+/// Returns the media of the scene's materials; `options` may replace them.
+Media choose_media(const Scene& scene, const BakeOptions& options);
+
+/// Loads the textures that a bake of `scene` needs.
+TraceScene trace_scene(const Scene& scene, const Media& media, const BakeOptions& options);
+
+/// Plan of a bake: bounces, back sides and color only as far as the scene needs them.
+struct BakePlan {
+    const TraceScene& scene;
+    const BakeOptions& options;
+    bool measures_errors = false;                        ///< measure the errors of this bake, and estimate
+                                                         ///< its sampling error from the same points
+    int bounces = 0;                                     ///< number of bounces, or kEndlessBounces
+    int channels = 1;                                    ///< channels of all light together
+    std::unique_ptr<const TransportReceivers> transport; ///< must not move, because operators keep references
+    std::vector<DiffusionOperator> diffusion;            ///< one for each medium of each node
+    std::vector<Lamp> lamps;
+    std::vector<std::string> notices;
+
+    /// Receivers of the scene, then back sides.
+    const Receivers& receivers() const { return transport->receivers; }
+    /// Channels of direct light, which is colored only by thin sheets that it passes.
+    int direct_channels() const;
+    /// Channels of the light of lamps.
+    int lamp_channels() const;
+    /// Maximum length of a transfer vector.
+    std::size_t numbers() const;
+    /// Areas of the scene's receivers.
+    std::span<const float> areas() const { return std::span(receivers().areas).first(transport->fronts); }
+};
+
+/// Returns properties of materials that a bake ignores, one line each.
+std::vector<std::string> scene_notices(const TraceScene& scene, const BakeOptions& options);
+
+/// Plans a bake. Keeps references to `scene` and `options`.
+BakePlan plan_bake(const TraceScene& scene, const Media& media, const BakeOptions& options);
+
+} // namespace prt

@@ -1,0 +1,76 @@
+// Bakes scenes in which coarser levels replace level 0.
+
+#include "products/levels/level_surface.h"
+#include "prt/support/error.h"
+#include "prt/support/stopwatch.h"
+
+#include <algorithm>
+#include <set>
+
+namespace prt {
+namespace {
+
+/// Returns the scene in which all nodes that have level `number` show it.
+ScenePart with_level(const LeveledScene& scene, std::size_t number) {
+    std::set<std::size_t> shown;
+    for (std::size_t p = 0; p < scene.finest_primitives; ++p)
+        shown.insert(p);
+    for (const LeveledNode& node : scene.nodes)
+        for (const CoarserLevel& level : node.coarser)
+            if (static_cast<std::size_t>(level.level) == number) {
+                for (const std::size_t p : node.finest)
+                    shown.erase(p);
+                shown.insert(level.primitives.begin(), level.primitives.end());
+            }
+    const std::vector<std::size_t> primitives(shown.begin(), shown.end());
+    ScenePart part = scene_part(scene.scene, primitives);
+    part.scene.images = scene.scene.images;
+    return part;
+}
+
+bool same_layout(const TransferLayout& a, const TransferLayout& b) {
+    return a.order == b.order && std::ranges::equal(a.terms, b.terms, [](const auto& p, const auto& q) {
+               return p.kind == q.kind && p.channels == q.channels && p.name == q.name;
+           });
+}
+
+/// Copies the transfer of level `number`.
+void copy_level(const ScenePart& part, const Transfer& from, std::size_t finest_receivers, Transfer& to) {
+    for (std::size_t p = 0; p < part.receivers.size(); ++p)
+        if (part.receivers[p] >= finest_receivers)
+            std::ranges::copy(from.vector(p), to.vector(part.receivers[p]).begin());
+}
+
+} // namespace
+
+LevelBake bake_levels(const LeveledScene& scene, const Transfer& finest, const BakeOptions& options,
+                      const Progress& progress) {
+    const Stopwatch stopwatch;
+    LevelBake result;
+    result.transfer = zero_transfer(finest.layout, scene.scene.receivers());
+    std::ranges::copy(finest.vectors, result.transfer.vectors.begin());
+    const std::size_t deepest = scene.deepest();
+    for (std::size_t number = 1; number <= deepest; ++number) {
+        const ScenePart part = with_level(scene, number);
+        const double begin = static_cast<double>(number - 1) / static_cast<double>(deepest),
+                     end = static_cast<double>(number) / static_cast<double>(deepest);
+        const BakeResult bake = prt::bake(part.scene, options, progress.range(begin, end));
+        if (!same_layout(bake.baked.transfer.layout, finest.layout))
+            throw Error("level of detail " + std::to_string(number) +
+                        " needs transfer with other terms or colors than level 0 and cannot be baked "
+                        "separately; use --levels carry");
+        copy_level(part, bake.baked.transfer, scene.finest_receivers, result.transfer);
+    }
+    for (const LeveledNode& node : scene.nodes)
+        for (const CoarserLevel& level : node.coarser) {
+            const LevelSamples samples =
+                sample_level(scene, node, level, {.seed = options.seed, .threads = options.threads});
+            LevelOutcome outcome = outcome_of(scene.scene, node, level, samples);
+            outcome.squares = level_error(samples, result.transfer, result.transfer);
+            result.levels.push_back(std::move(outcome));
+        }
+    result.seconds = stopwatch.seconds();
+    return result;
+}
+
+} // namespace prt

@@ -1,0 +1,26 @@
+#pragma once
+
+// Areas of the surface that filters read from texels.
+
+#include "products/lightmaps/texel_positions.h"
+
+#include <span>
+#include <vector>
+
+namespace prt {
+
+/// Texels that charts touch and their neighbours, by their indices in the atlas, ascending.
+struct TexelAreas {
+    std::vector<std::uint32_t> texels;
+    /// m²: area of the surface that a bilinear filter reads from each texel, estimated from samples of
+    /// texels.
+    std::vector<float> areas;
+};
+
+/// Returns the area of a chart's triangle in texels.
+double area_in_texels(const ChartTriangle& triangle);
+
+TexelAreas texel_areas(const Atlas& atlas, std::span<const ChartTriangle> charts,
+                       const TexelPositions& positions, std::span<const TexelSample> samples);
+
+} // namespace prt

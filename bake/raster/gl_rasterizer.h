@@ -1,0 +1,50 @@
+#pragma once
+
+// Tracer on the GPU by depth maps.
+
+#include "prt/gl_context.h"
+#include "prt/trace_scene.h"
+#include "prt/tracer.h"
+#include "raster/depth_maps.h"
+#include "raster/raster_scene.h"
+
+#include <map>
+#include <memory>
+#include <utility>
+
+namespace prt {
+
+/// Direct transfer from orthographic depth maps: draws the scene once for each of `rays` directions over the
+/// sphere; every receiver compares its depth. Blended surfaces are peeled layer by layer. Weights are
+/// normalised per receiver. Hits are not reported.
+class GlRasterizer final : public Tracer {
+public:
+    /// Keeps a reference to `scene`; takes ownership of `context`, which stays current. Throws `Error` if the
+    /// scene or a map does not fit the device.
+    GlRasterizer(std::unique_ptr<GlContext> context, const TraceScene& scene, int resolution);
+    Backend backend() const override { return Backend::gpu; }
+    BakeMethod method() const override { return BakeMethod::raster; }
+    bool notes_hits() const override { return false; }
+    std::string device() const override { return context_->renderer(); }
+    /// Returns the number of all receivers: the maps are drawn once for all of them.
+    std::size_t batch_size(const TraceOptions& options) const override;
+    void trace(const Receivers& receivers, std::span<const std::uint32_t> indices,
+               const TraceOptions& options, std::span<float> vectors, const HitSink& sink = {},
+               const Progress& progress = {}) override;
+    LampLight lamp_light(const LampTask& task, const Progress& progress) override;
+
+private:
+    class Batch;
+
+    const GlObject& program(int order, bool peel);
+    void look_up(std::span<const glm::vec3> directions, int order, std::size_t receivers);
+    void dispatch(const GlObject& shader, std::size_t receivers, std::size_t directions) const;
+
+    std::unique_ptr<GlContext> context_;
+    const TraceScene& scene_;
+    RasterScene raster_scene_;
+    DepthMaps maps_;
+    std::map<std::pair<int, bool>, GlObject> programs_; ///< by order, and by whether they are for peeling
+};
+
+} // namespace prt
