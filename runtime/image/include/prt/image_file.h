@@ -51,7 +51,8 @@ struct EnvironmentFile {
 /// The memory for the image is limited to 192 MB plus 64 bytes per byte of the file.
 EnvironmentFile load_environment(const std::filesystem::path& path, const EnvironmentOptions& options = {});
 
-/// 8-bit RGBA pixels as stored in the file, without color conversion (usually sRGB). Alpha is 255 if the file has none.
+/// 8-bit RGBA pixels as stored in the file, without color conversion (usually sRGB). Alpha is 255 if the file
+/// has none.
 struct Image8 {
     int width = 0, height = 0;
     std::vector<glm::u8vec4> pixels; ///< [height][width], rows from the top
