@@ -45,9 +45,11 @@ struct ClusterMerge {
 /// a trial of a search also splits or merges clusters to reach its number of clusters. These moves always
 /// remain, and a `ClusteringRound` follows them instead of this event.)
 struct MovesTried {
-    /// `ClusteringRound::cost` before the merges and splits, and after these and some rounds of clustering.
+    /// `ClusteringRound::cost` before the merges and splits, and after these moves plus some rounds of
+    /// clustering.
     double cost_before, cost_after;
-    bool kept; ///< true: they remain, because the cost decreased; false: the compressor reverts them
+    bool kept; ///< true: the merges and splits remain, because the cost decreased; false: the compressor
+               ///< reverts all of them
 };
 
 /// One round has ended in which the compressor chose the codes of receivers (cluster and quantised weights)

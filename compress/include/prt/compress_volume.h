@@ -23,7 +23,7 @@ WeightCoding preset_volume();
 
 /// Result of `compress_volume`.
 struct CompressedVolumeResult {
-    CompressedVolume volume;
+    CompressedVolume volume;       ///< grid and visibility are those of the input
     CompressStatistics statistics; ///< receivers are probes; `sky_contrast` and `lamp_contrast` are 0
 };
 

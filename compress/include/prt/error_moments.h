@@ -16,7 +16,7 @@ namespace prt {
 /// approximation. For each color, exit radiance under lighting L has the squared error L^T errors L and the
 /// square L^T references L (docs/math.md, section 4).
 struct ErrorMoments {
-    TransferLayout layout;
+    TransferLayout layout; ///< layout of the transfer vectors of reference and approximation
     /// Each is [dimension][dimension] and symmetric, with dimension = layout.dimension().
     std::vector<double> errors, references;
 };

@@ -12,9 +12,9 @@
 
 namespace prt {
 
-/// Jump of the contrast error (docs/math.md, eq. 33c; 0.05 = 5 % of the luminance that the eye adapts to)
-/// below which a seam is invisible on a surface of uniform color. On a head under a sunset, nothing is
-/// visible at 8 %, and the first blotches appear at 11 %.
+/// Jump of the contrast error (docs/terminology.md) up to which a seam is invisible on a surface of uniform
+/// color: 0.05 = 5 %. On a head under a sunset, nothing is visible at 8 %, and the first blotches appear at
+/// 11 %.
 inline constexpr double kUnseenJump = 0.05;
 
 /// Number of equally spaced rotations about +Y at which `ClusterJumps` evaluates each sky.

@@ -15,7 +15,7 @@ namespace prt {
 /// averaged over them if all terms of the layout have one channel. A transfer error d then has the expected
 /// squared error of exit radiance d^T C d (docs/math.md, eq. 22).
 struct LightMetric {
-    TransferLayout layout;
+    TransferLayout layout;       ///< layout of the transfer vectors to which the metric applies
     std::vector<double> moments; ///< [dimension][dimension], symmetric, positive definite
 };
 
@@ -46,8 +46,9 @@ enum class LightFamily {
 /// are integrated. Throws `Error` if `layout` is invalid.
 LightMetric metric_of_family(LightFamily family, const TransferLayout& layout);
 
-/// Returns typical lightings of a family as SH of `order` bands, with separate suns if they have any; other
-/// lightings of the family are similar to one of these. Returns an empty vector for `natural`.
+/// Returns typical lightings of a family as SH of `order` bands (1..kMaxOrder), with separate suns if they
+/// have any; other lightings of the family are similar to one of these. Returns an empty vector for
+/// `natural`.
 std::vector<Lighting> members_of_family(LightFamily family, int order);
 
 /// Returns the mean of the second moments over `lights`, each scaled to the same energy (sum of squared

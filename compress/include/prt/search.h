@@ -70,7 +70,7 @@ struct SearchOptions {
     /// Size of the weights of a receiver. Packed: number of 32-bit words, including the cluster index. Float:
     /// number of groups of four weights. 0: the search chooses.
     int payload = 0;
-    Budget budget;
+    Budget budget; ///< limits for the result
 };
 
 /// Result of a search.

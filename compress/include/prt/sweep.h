@@ -70,7 +70,7 @@ struct SweepCandidate {
     /// Function that codes and decodes the transfer that the caller passes to `sweep`. Returns no value if
     /// the method does not support this setting; the comparison then omits the candidate.
     std::function<std::optional<CandidateResult>(const Progress&)> run;
-    SweepTables tables = SweepTables::both;
+    SweepTables tables = SweepTables::both; ///< tables to which the result is added
 };
 
 /// Measures this compressor, the methods of prt/baselines.h and the candidates `others` on `transfer`.

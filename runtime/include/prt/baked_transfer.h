@@ -37,9 +37,9 @@ struct BakeRecord {
     /// BakeMethod::trace: number of rays per receiver, or the mean over receivers if it varies.
     /// BakeMethod::raster: number of directions.
     int rays = 0;
-    std::uint64_t seed = 0; ///< seed of the random numbers that choose rays
-    BakeMethod method = BakeMethod::trace;
-    Backend backend = Backend::cpu; ///< cpu or gpu
+    std::uint64_t seed = 0;                ///< seed of the random numbers that choose rays
+    BakeMethod method = BakeMethod::trace; ///< method that sampled visibility
+    Backend backend = Backend::cpu;        ///< cpu or gpu
     /// `receivers_id` of the scene, a hash of positions and normals; empty if the file has none.
     std::string receivers;
     /// Estimated relative L2 error of transfer vectors by the limited number of rays, weighted by area: of

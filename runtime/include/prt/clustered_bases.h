@@ -26,7 +26,7 @@ const char* to_string(PredictorKind kind);
 /// cluster as a linear function; the basis directions of the cluster add the residual (docs/math.md, eq. 20).
 /// The predictor coordinates are x = attribute - `origin`; formulas multiply x by `scale`.
 struct Predictor {
-    PredictorKind kind = PredictorKind::normal;
+    PredictorKind kind = PredictorKind::normal; ///< attribute that has the coordinates
     glm::vec3 origin{0}; ///< normal: 0; position: a point in metres, relative to Scene::origin
     glm::vec3 scale{1};  ///< factor of each coordinate; position: per metre
 
@@ -76,7 +76,7 @@ std::vector<float> decode_bases(const CodedBases& coded, const std::vector<int>&
 /// + sum_i (scale_i x_i - center_i) predictor_i + sum_j w_j direction_j, with the rows of the receiver's
 /// cluster, the predictor coordinates x of the receiver (see `Predictor`) and its weights w.
 struct ClusteredBases {
-    TransferLayout layout;
+    TransferLayout layout; ///< layout of the rows and of the transfer vectors
     /// Predictors of all clusters: each kind at most once, normals first; empty: no predictors.
     std::vector<Predictor> predictors;
     std::vector<int> components; ///< [clusters] number m_k of basis directions of cluster k; may be 0
@@ -106,9 +106,9 @@ struct ClusteredBases {
     std::size_t fixed_rows() const { return 1 + predictor_rows(); }
     /// Returns scale_i, the factor of predictor coordinate i, 0 .. predictor_rows() - 1.
     float predictor_scale(std::size_t i) const { return predictors[i / 3].scale[static_cast<int>(i % 3)]; }
-    /// Returns [clusters + 1]: element k is the index of the first row of cluster k, which starts at number
-    /// dimension() times this index in `rows`; the last element is the number of all rows. The entries of
-    /// cluster k in `bits` start at index first_rows()[k] - k fixed_rows().
+    /// Returns the row index of the mean of each cluster, [clusters() + 1]; the last element is the number of
+    /// all rows. The numbers of row r start at rows[r * dimension()]. The entries of cluster k in `bits`
+    /// start at bits[first_rows()[k] - k * fixed_rows()].
     std::vector<std::size_t> first_rows() const;
 };
 

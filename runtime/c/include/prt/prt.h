@@ -54,8 +54,8 @@ PRT_API prt_status prt_sh_evaluate(int order, const float direction[3], float* b
 PRT_API prt_status prt_sh_multiply(int order, const float* a, const float* b, float* out,
                                    prt_message* message);
 /* Rotates the function with SH coefficients `in` [order*order], one channel, and writes the coefficients to
- * `out` [order*order], which may be `in`. `rotation` is a 3x3 rotation matrix in column-major order (as in
- * OpenGL). */
+ * `out` [order*order], which may be `in`. `rotation` is a 3x3 rotation matrix R in column-major order (as
+ * in OpenGL): the new value in direction R w is the old value in direction w. */
 PRT_API prt_status prt_sh_rotate(int order, const float rotation[9], const float* in, float* out,
                                  prt_message* message);
 
@@ -67,7 +67,7 @@ PRT_API prt_status prt_light_constant(int order, const float radiance[3], float*
 PRT_API prt_status prt_light_directional(int order, const float towards[3], const float irradiance[3],
                                          float* light, prt_message* message);
 /* Writes to `light` [order*order][3] the light with radiance `radiance` from all directions within
- * `half_angle` (radians, 0..pi) of `axis`, and none from other directions. `axis` has any length except 0. */
+ * `half_angle` (radians, 0..pi) of `axis`, and radiance 0 from all others. `axis` has any length except 0. */
 PRT_API prt_status prt_light_cone(int order, const float axis[3], float half_angle, const float radiance[3],
                                   float* light, prt_message* message);
 /* Writes to `light` [order*order][3] the light at the origin of a sphere that emits radiance `radiance`.
@@ -122,8 +122,9 @@ PRT_API prt_status prt_light_from_light_file(int order, const char* path, float*
  * `suns` of prt_model_update_constants_separate. `suns` may be null if `count` is 0. */
 PRT_API prt_status prt_light_suns(int order, const prt_sun* suns, size_t count, float* light,
                                   prt_message* message);
-/* Rotates `light` [order*order][3] in place. `rotation` is a 3x3 rotation matrix in column-major order. To
- * light a model that the renderer draws rotated by R, rotate the light by the inverse of R. */
+/* Rotates `light` [order*order][3] in place. `rotation` is a 3x3 rotation matrix R in column-major order:
+ * light from direction w then arrives from R w. To light a model that the renderer draws rotated, rotate the
+ * light by the inverse of the model's rotation. */
 PRT_API prt_status prt_light_rotate(int order, const float rotation[9], float* light, prt_message* message);
 /* Removes ringing (negative radiance near bright lights) from `light` [order*order][3] in place: scales its
  * bands by the weakest filter that makes the radiance non-negative in every direction. Intended for lights
@@ -152,12 +153,13 @@ typedef enum prt_weight_format { PRT_FLOAT32 = 0, PRT_PACKED = 3 } prt_weight_fo
 
 /* Properties of a model. Names prt_* are inputs of the vertex shader of prt_model_shader. */
 typedef struct prt_model_info {
-    int order, channels; /* SH bands of distant light, 1..10; 3 if any transfer has color, else 1 */
+    int order, channels; /* order: number of SH bands of the lighting, 1..10; channels: 3 if any transfer has
+                            color, else 1 */
     size_t receivers;    /* number of receivers: the vertices of all meshes */
     size_t clusters;     /* number of clusters */
     size_t rows;         /* number of constants, 4 floats each: per cluster the mean, 3 rows per predictor,
                             then the basis directions */
-    prt_weight_format format;
+    prt_weight_format format;   /* storage of `weights` */
     size_t stride;              /* bytes per receiver in `weights` */
     const void* weights;        /* [receivers][stride] bytes: vertex attributes prt_weights_* if `format` is
                                    PRT_FLOAT32, prt_words_* if PRT_PACKED */

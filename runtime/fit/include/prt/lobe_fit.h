@@ -43,14 +43,15 @@ struct LobeFitOptions {
 /// Fits the lobes of each vertex by nonlinear least squares, with free axes and a separate profile for each
 /// lobe (docs/math.md, section 21). Returns [vertices][lobes], with axes in the frame of the vertex normal.
 /// Throws `Error` for options out of range, for different numbers of vectors and areas, and for vectors that
-/// are not finite.
+/// are not finite; throws `Cancelled` after a stop request.
 std::vector<Lobe> fit_lobes(const LobeTargets& targets, const LobeFitOptions& options = {},
                             const Progress& progress = {});
 
 /// Codes `fitted` [vertices][options.lobes], the result of `fit_lobes` for the same targets and options, as
 /// words of four bytes with profiles that all vertices share. Optimises words and profiles alternately for
 /// the error against `targets`; the lobes of a vertex compensate each other's rounding. Under uniform light
-/// no coded vertex has an exit radiance (albedo 1) above the radiance of the light.
+/// no coded vertex has an exit radiance (albedo 1) above the radiance of the light. Throws `Cancelled` after
+/// a stop request.
 LobeModel code_lobes(const LobeTargets& targets, std::span<const Lobe> fitted,
                      const LobeFitOptions& options = {}, const Progress& progress = {});
 

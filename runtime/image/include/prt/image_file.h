@@ -33,7 +33,7 @@ struct EnvironmentOptions {
 
 /// An environment map as read from a file.
 struct EnvironmentFile {
-    Environment environment;
+    Environment environment;         ///< linear Rec. 709, with the layout of the options or of the file
     std::size_t repaired_pixels = 0; ///< number of pixels that `EnvironmentOptions::bad_pixels` changed
     /// True if the file (or a file of a cube face) is a PNG or JPEG: no value exceeds 1, and bright lights
     /// are clipped.
