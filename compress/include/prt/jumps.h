@@ -1,6 +1,6 @@
 #pragma once
 
-// Jumps of the error between clusters, which are visible as seams. Experimental.
+// Jumps of the contrast error between clusters, which are visible as seams. Experimental.
 
 #include "prt/light_metric.h"
 #include "prt/receiver_surface.h"
@@ -12,30 +12,36 @@
 
 namespace prt {
 
-/// Contrast jump that is invisible on a surface of uniform color. On a head under a sunset, nothing is
-/// visible at 8 %, and the first blotches appear at 11 %.
+/// Jump of the contrast error (docs/terminology.md) up to which a seam is invisible on a surface of uniform
+/// color: 0.05 = 5 %. On a head under a sunset, nothing is visible at 8 %, and the first blotches appear at
+/// 11 %.
 inline constexpr double kUnseenJump = 0.05;
 
-/// Number of equally spaced rotations about +Y under which skies are evaluated.
+/// Number of equally spaced rotations about +Y at which `ClusterJumps` evaluates each sky.
 inline constexpr int kRotationsOfJumps = 24;
 
-/// Measures contrast jumps along the edges whose ends are in different clusters (`VisibleError::seams`,
-/// docs/math.md, eq. 33c). Y and Y_a of the reference are computed once for any number of approximations.
-/// Keeps references to `reference` and to the data of `surface`.
+/// Measures jumps of the contrast error along the edges between two clusters, as `VisibleError::seams` does
+/// (docs/math.md, eq. 33c), for any number of approximations of one reference. Keeps references to
+/// `reference` and to the arrays that `surface` views; both must outlive the object.
 class ClusterJumps {
 public:
-    /// Measures root mean square jumps over the lightings of `metric`. Throws `Error` if layouts or numbers
-    /// of receivers differ.
+    /// Prepares to measure jumps whose root mean square is taken over all lightings of `metric`. Uses
+    /// `surface.areas` [receivers] and `surface.edges`. `threads` 0: all. Throws `Error` if the layouts of
+    /// `metric` and `reference` differ.
     ClusterJumps(const TransferView& reference, const ReceiverSurface& surface, const LightMetric& metric,
                  int threads = 0);
-    /// Measures jumps under each of `skies` alone, at each of its kRotationsOfJumps rotations.
+    /// Prepares to measure jumps separately under each of `skies` at each of kRotationsOfJumps rotations.
+    /// Uses `surface.areas` [receivers] and `surface.edges`. `threads` 0: all. Throws `Error` if a sky has
+    /// fewer bands than the layout of `reference`, or another number of lamps.
     ClusterJumps(const TransferView& reference, const ReceiverSurface& surface,
                  std::span<const Lighting> skies, int threads = 0);
     ~ClusterJumps();
 
-    /// Returns the 99th percentile of the jumps, weighted by area: the maximum over all lights. `clusters` is
-    /// [receivers]. Returns 0 without edges between clusters. Throws `Error` if layouts or numbers of
-    /// receivers differ.
+    /// Returns the 99th percentile of the jumps of `approximation` along the edges between two clusters, each
+    /// edge weighted by the area of its two ends. With skies: the maximum of this percentile over skies and
+    /// rotations. `clusters` [receivers] is the cluster of each receiver. Returns 0 if no edge connects two
+    /// clusters. Throws `Error` if `approximation` and the reference differ in layout or number of receivers,
+    /// or if `clusters` or the areas have another length.
     double percentile_99(const TransferView& approximation, std::span<const std::uint16_t> clusters) const;
 
 private:

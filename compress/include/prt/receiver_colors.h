@@ -1,7 +1,7 @@
 #pragma once
 
-// Visualisation of receiver data as colors. Colors of receivers are [receivers] and are shown without
-// exposure.
+// Shows data of receivers as colors. All colors are linear Rec. 709 in 0..1. Functions return one color per
+// receiver, [receivers]; a renderer shows these colors without lighting and exposure.
 
 #include "prt/adjacency.h"
 #include "prt/clustered_transfer.h"
@@ -13,31 +13,37 @@
 
 namespace prt {
 
-/// Returns a heat color for `share` in 0..1: black, red, yellow, white.
+/// Returns a color that changes from black (`share` 0) to red (1/3), yellow (2/3) and white (1). Values of
+/// `share` outside 0..1 are clamped.
 glm::vec3 heat_color(double share);
-/// Returns a color for a number. Colors of consecutive numbers differ strongly, and no color is repeated.
+/// Returns a color for the number `label`, to distinguish clusters or charts. Colors of consecutive numbers
+/// differ strongly; no two numbers have the same color.
 glm::vec3 label_color(std::size_t label);
 
-/// Returns a color for each receiver that identifies its cluster.
+/// Returns for each receiver the `label_color` of its cluster index.
 std::vector<glm::vec3> cluster_colors(const ClusteredTransfer& transfer);
 
-/// Returns the number of components of each receiver's cluster, relative to the maximum number, as
-/// `heat_color`.
+/// Returns for each receiver the `heat_color` of the number of components of its cluster, divided by the
+/// maximum number of components of a cluster.
 std::vector<glm::vec3> component_colors(const ClusteredTransfer& transfer);
 
-/// Contrast error that `error_colors` shows as white.
+/// Contrast error that `error_colors` shows as white: 0.1 = 10 %.
 inline constexpr double kWhiteError = 0.1;
 
-/// Returns the contrast error of exit radiance `approximation` against `reference` (`contrast_errors`),
-/// relative to `kWhiteError`, as `heat_color`.
+/// Returns for each receiver the `heat_color` of its contrast error (`ContrastErrors::magnitudes`), divided
+/// by `kWhiteError`. `approximation` and `reference` are exit radiance; these and `areas` are [receivers].
+/// Throws `Error` for numbers that are not finite.
 std::vector<glm::vec3> error_colors(std::span<const glm::vec3> reference,
                                     std::span<const glm::vec3> approximation, std::span<const float> areas);
 
-/// Jump of the contrast error that `seam_colors` shows as white.
+/// Jump of the contrast error that `seam_colors` shows as white: 0.05 = 5 %.
 inline constexpr double kWhiteSeam = 0.05;
 
-/// Returns for each receiver the maximum jump of the signed contrast error along its edges to other clusters,
-/// relative to `kWhiteSeam`, as `heat_color`. Receivers without such an edge are dark blue.
+/// Returns for each receiver the `heat_color` of its maximum jump divided by `kWhiteSeam`. A jump is the
+/// absolute difference of the signed contrast errors (`ContrastErrors::luminances`) at the two ends of an
+/// edge between two clusters. Receivers without such an edge are dark blue. `approximation` and `reference`
+/// are exit radiance. All arrays except `edges` are [receivers]; `clusters` is the cluster of each receiver.
+/// Throws `Error` for numbers that are not finite.
 std::vector<glm::vec3> seam_colors(std::span<const glm::vec3> reference,
                                    std::span<const glm::vec3> approximation, std::span<const float> areas,
                                    std::span<const Edge> edges, std::span<const std::uint16_t> clusters);

@@ -1,6 +1,7 @@
 #pragma once
 
-// Data of receivers in addition to transfer: areas, neighbours, and attributes that a renderer has.
+// Data of receivers that the compressor needs in addition to transfer: areas, edges, and attributes that a
+// renderer has.
 
 #include "prt/lightmap.h"
 #include "prt/mesh_edges.h"
@@ -13,26 +14,34 @@
 
 namespace prt {
 
-/// Non-owning view of the data of receivers.
+/// Data of receivers. Does not own the arrays, which must outlive it.
 struct ReceiverSurface {
-    std::span<const float> areas; ///< [receivers] weight of an error; 0: ignored
-    /// Edges between receivers; required if CompressOptions::seam_weight is not 0.
+    /// [receivers] m², or any other weight of a receiver in errors; 0: errors at this receiver have no cost.
+    std::span<const float> areas;
+    /// Edges between neighbouring receivers, along which the compressor reduces jumps of the error
+    /// (CompressOptions::seam_weight). Empty: it reduces no jumps.
     std::span<const Edge> edges = {};
-    /// [receivers], or empty if the renderer does not have them. `normals`: unit or zero. `positions`:
-    /// metres, relative to Scene::origin.
+    /// Attributes for predictors: `normals` (unit or zero) and `positions` (metres, relative to
+    /// Scene::origin). Each is [receivers], or empty if the renderer does not have the attribute; the
+    /// compressor then does not use the predictor of this attribute.
     std::span<const glm::vec3> normals = {}, positions = {};
-    std::span<const SeamJump> jumps = {}; ///< points on UV seams of lightmaps, whose jumps are minimised
+    /// Points on UV seams of lightmaps, whose jumps the compressor also reduces. Ignored if `edges` is empty.
+    std::span<const SeamJump> jumps = {};
 };
 
-/// Data of the vertices of a scene as receivers.
+/// Owns the arrays of a `ReceiverSurface` for the vertices of a scene as receivers.
 struct SceneSurface {
-    std::vector<float> areas;
-    std::vector<Edge> edges;
+    std::vector<float> areas; ///< [receivers] m²: a third of the area of the triangles at each vertex
+    std::vector<Edge> edges;  ///< edges of all triangles, without duplicates
+    /// [receivers] each: unit normals (zero if undefined), and positions in metres relative to Scene::origin.
     std::vector<glm::vec3> normals, positions;
-    std::vector<SeamJump> jumps;
+    std::vector<SeamJump> jumps; ///< empty, because vertices have no UV seams
 
+    /// Creates empty arrays: no receivers.
     SceneSurface() = default;
+    /// Copies the data of all vertices of `scene`, in the order of `Scene::vertex_arrays`.
     explicit SceneSurface(const Scene& scene);
+    /// Returns a view of the arrays of this object, which must outlive the view.
     ReceiverSurface view() const { return {areas, edges, normals, positions, jumps}; }
 };
 

@@ -1,7 +1,8 @@
 #pragma once
 
-// Built-in lightings for the metrics of families and for error reports. They are grey and upright about +Y,
-// and have separate suns. Experimental.
+// Built-in lightings for the metrics of families and for error reports. They are grey, have +Y up and include
+// no lamps of a scene. `order`: number of SH bands, 1..kMaxOrder; all functions throw `Error` for other
+// orders. Experimental.
 
 #include "prt/transfer_layout.h"
 
@@ -9,23 +10,28 @@
 
 namespace prt {
 
-/// A clear sky (prt/sky.h) over horizontal ground, and its sun.
+/// A clear sky (prt/sky.h) over horizontal ground of albedo 0.2, and its sun.
 struct DaylightOptions {
-    double sun_elevation = 0; ///< radians, between 0 and pi/2
-    double turbidity = 2.5;   ///< 2 (clear) to 10 (haze)
+    double sun_elevation = 0; ///< radians above the horizon, greater than 0, less than pi/2
+    double turbidity = 2.5;   ///< haziness of the air: 2 (clear) to 10 (haze); valid from 1.7
 };
-/// Returns the lighting of a clear day. The sun is above +X; its intensity relative to sky and ground follows
-/// measured skies (docs/math.md, section 4). Sky and ground together have a mean radiance of 1.
+/// Returns the lighting of a clear day, with the sun as separate light in `Lighting::suns`. The sun is in the
+/// vertical plane through +X. Its intensity relative to sky and ground follows measured skies (docs/math.md,
+/// section 4). `Lighting::sky`, which includes light reflected by the ground, has a mean radiance of 1 over
+/// all directions. Throws `Error` if `day` is out of range.
 Lighting daylight(int order, const DaylightOptions& day);
 
-/// Returns the CIE overcast sky over horizontal ground, with mean radiance 1.
+/// Returns the CIE overcast sky over horizontal ground of albedo 0.2, without a sun. The mean radiance over
+/// all directions is 1.
 Lighting overcast_day(int order);
 
-/// Returns a room, brighter above than below, with mean radiance 1. A lamp or window of 16 degrees width at
-/// elevation `lamp_elevation`, in radians, is stored as a separate sun.
+/// Returns the lighting of a room. `Lighting::sky` is brighter above than below, with a mean radiance of 1
+/// over all directions. A lamp or window, a disc of 16 degrees diameter, is in `Lighting::suns`. It is in the
+/// vertical plane through +X, at `lamp_elevation` radians above the horizon.
 Lighting room_light(int order, double lamp_elevation);
 
-/// Returns clear noon, a low sun, overcast, and a room with a window and a lamp, with names.
+/// Returns four lightings with names: "clear noon" and "low sun" (with separate suns), "overcast", and
+/// "window and lamp" (a room, all in `Lighting::sky`).
 std::vector<Lighting> standard_skies(int order);
 
 } // namespace prt

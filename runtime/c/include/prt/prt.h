@@ -1,10 +1,12 @@
 /* The runtime for programs in C, and for languages that call C.
  *
- * No function throws, and no function keeps state outside the handles it returns. Functions that can fail
- * return a status and write one line of text to `message`, which may be null. Several threads may use a
- * handle at once, until it is destroyed. Conventions, units and layouts are those of the C++ headers: SH with
- * Condon-Shortley phase, order N for N*N coefficients, right-handed axes with +Y up, linear Rec. 709. Stable:
- * the interface changes with the minor version only. */
+ * No function throws an exception or keeps state outside the handles (prt_model, prt_volume) that it returns.
+ * Functions that can fail return a prt_status. On failure they write one line of text to `message`, on
+ * success an empty text; `message` may be null. Several threads may use a handle at once, until one of them
+ * destroys it. Pointers are required (null: PRT_BAD_ARGUMENT) unless a comment allows null. The library keeps
+ * no pointer to an argument after a call. Conventions: SH with Condon-Shortley phase, order N = N*N
+ * coefficients (1..10), right-handed axes with +Y up, lengths in metres, colors linear Rec. 709. Stable: the
+ * interface changes with the minor version only. */
 #ifndef PRT_PRT_H
 #define PRT_PRT_H
 
@@ -23,304 +25,373 @@
 extern "C" {
 #endif
 
+/* Result of a function. */
 typedef enum prt_status {
     PRT_OK = 0,
-    PRT_BAD_ARGUMENT = 1, /* a null pointer, an order outside 1..10, a direction of length 0, a mirrored
-                             matrix, a value that is not finite */
+    PRT_BAD_ARGUMENT = 1, /* a null pointer, an order outside 1..10, a direction of length 0, a matrix that is
+                             not a rotation, an index out of range, a value that is not finite */
     PRT_BAD_FILE = 2,     /* the file is missing, damaged, or lacks the requested data */
-    PRT_NO_MEMORY = 3,
-    PRT_TOO_SMALL = 4, /* the buffer is too small; the required size is written to *size */
+    PRT_NO_MEMORY = 3,    /* an allocation failed */
+    PRT_TOO_SMALL = 4, /* the buffer is too small; the function writes the required size to *size or *count */
     PRT_INTERNAL = 5   /* any other failure: a bug in the library; the message may help to find it */
 } prt_status;
 
+/* One line of text that describes a failure, with a final 0; longer texts are cut. */
 typedef struct prt_message {
     char text[256];
 } prt_message;
 
-/* Lights are passed as `order` and an array of order*order colors (r, g, b), which the caller owns. All
- * outputs are finite. For inputs that are not finite, and results that overflow a float, functions return
- * PRT_BAD_ARGUMENT and do not change output arrays. Directions are unit vectors. */
+/* A light is an array of order*order colors (r, g, b), 3*order*order floats in memory of the caller: SH
+ * coefficients of the radiance from each direction. All outputs are finite. For inputs that are not finite,
+ * and for results that overflow a float, functions return PRT_BAD_ARGUMENT and do not change output arrays,
+ * unless a comment states otherwise. */
 
-/* Writes the order*order basis values in unit direction `direction` to `basis`. */
+/* Writes the values of the order*order SH basis functions in direction `direction` to `basis` [order*order].
+ * `direction` must have length 1. */
 PRT_API prt_status prt_sh_evaluate(int order, const float direction[3], float* basis, prt_message* message);
-/* Computes the product of two functions of one channel, truncated to `order` bands; `out` may be `a` or `b`.
- */
+/* Computes the SH coefficients of the product of two functions of direction, truncated to `order` bands. `a`,
+ * `b` and `out` are [order*order], one channel each; `out` may be `a` or `b`. */
 PRT_API prt_status prt_sh_multiply(int order, const float* a, const float* b, float* out,
                                    prt_message* message);
-/* Rotates functions of one channel by `rotation`, in column-major order (as in OpenGL); `out` may be `in`. */
+/* Rotates the function with SH coefficients `in` [order*order], one channel, and writes the coefficients to
+ * `out` [order*order], which may be `in`. `rotation` is a 3x3 rotation matrix R in column-major order (as
+ * in OpenGL): the new value in direction R w is the old value in direction w. */
 PRT_API prt_status prt_sh_rotate(int order, const float rotation[9], const float* in, float* out,
                                  prt_message* message);
 
-/* Writes light of radiance `radiance` from every direction to `light`. */
+/* Writes to `light` [order*order][3] the light with radiance `radiance` from every direction. */
 PRT_API prt_status prt_light_constant(int order, const float radiance[3], float* light, prt_message* message);
-/* Writes a distant light without extent to `light`. `towards` points to the light; `irradiance` is that of a
- * receiver that faces it. */
+/* Writes to `light` [order*order][3] a distant light without extent. `towards` is the direction from the
+ * receiver to the light, of any length except 0. `irradiance` (radiance times sr) arrives at an unoccluded
+ * receiver whose normal is `towards`. */
 PRT_API prt_status prt_light_directional(int order, const float towards[3], const float irradiance[3],
                                          float* light, prt_message* message);
-/* Writes light of radiance `radiance` inside the cone of half angle `half_angle` (radians, at most pi) about
- * `axis` to `light`. */
+/* Writes to `light` [order*order][3] the light with radiance `radiance` from all directions within
+ * `half_angle` (radians, 0..pi) of `axis`, and radiance 0 from all others. `axis` has any length except 0. */
 PRT_API prt_status prt_light_cone(int order, const float axis[3], float half_angle, const float radiance[3],
                                   float* light, prt_message* message);
-/* Writes the light of a sphere of radiance `radiance`, seen from the origin, to `light`. The origin must be
- * outside the sphere. */
+/* Writes to `light` [order*order][3] the light at the origin of a sphere that emits radiance `radiance`.
+ * `center` and `radius` are in one unit, such as metres. If the origin is inside the sphere, or `radius` is
+ * not positive, returns PRT_BAD_ARGUMENT. */
 PRT_API prt_status prt_light_sphere(int order, const float center[3], float radius, const float radiance[3],
                                     float* light, prt_message* message);
-/* Writes the light of a disc of radiance `radiance`, seen from the origin, to `light`. The disc emits to the
- * side of its normal. */
+/* Writes to `light` [order*order][3] the light at the origin of a disc that emits radiance `radiance` on the
+ * side to which `normal` points. From behind and edge-on the light is black. `center` and `radius` are in one
+ * unit, such as metres. If `radius` is not positive, returns PRT_BAD_ARGUMENT. */
 PRT_API prt_status prt_light_disc(int order, const float center[3], const float normal[3], float radius,
                                   const float radiance[3], float* light, prt_message* message);
-/* Writes light whose radiance changes from `bottom` to `top` linearly in the cosine to `up` to `light`. */
+/* Writes to `light` [order*order][3] the light whose radiance is `top` from direction `up` and `bottom` from
+ * direction -`up`, and changes between these linearly in the cosine of the angle to `up`. `up` has any length
+ * except 0. */
 PRT_API prt_status prt_light_hemisphere(int order, const float up[3], const float top[3],
                                         const float bottom[3], float* light, prt_message* message);
-/* Direction of the center column of a lat-long image: +Z as in OpenEXR, or +X as in three.js, glTF viewers
- * and Blender. */
+/* Direction of the center column of a lat-long image: PRT_CENTER_Z is +Z, as in OpenEXR; PRT_CENTER_X is +X,
+ * as in three.js, glTF viewers and Blender. */
 typedef enum prt_center { PRT_CENTER_Z = 0, PRT_CENTER_X = 1 } prt_center;
-/* A lat-long image. */
+/* A lat-long image: columns are longitudes, rows are latitudes, the top row is +Y. The caller owns `pixels`.
+ */
 typedef struct prt_image {
-    int width, height;
-    const float* pixels; /* (r, g, b), rows from the top */
+    int width, height;   /* pixels, each at least 1 */
+    const float* pixels; /* [height][width][3] radiance, linear Rec. 709, rows from the top */
 } prt_image;
-/* Projects a lat-long image, whose top row is +Y, into `light`. `center` is a prt_center. Pixels that are
- * negative or not finite are an error. `threads` 0: all. */
+/* Projects a lat-long image into SH and writes the result to `light` [order*order][3]. `center` is a
+ * prt_center. `threads`: number of threads, 0: all of the machine. For pixels that are negative or not finite
+ * returns PRT_BAD_ARGUMENT. */
 PRT_API prt_status prt_light_from_lat_long(int order, const prt_image* image, int center, int threads,
                                            float* light, prt_message* message);
-/* Loads an environment map, .exr or .hdr, and projects it into `light`. `center` is used for lat-long images
- * only. */
+/* Loads an environment map (OpenEXR, Radiance HDR; PNG and JPEG clip bright lights), projects it into SH and
+ * writes the result to `light` [order*order][3]. `center` is a prt_center, used for lat-long images only. For
+ * pixels that are negative or not finite returns PRT_BAD_FILE. */
 PRT_API prt_status prt_light_from_file(int order, const char* path, int center, float* light,
                                        prt_message* message);
 /* A sun: a distant disc of uniform radiance. */
 typedef struct prt_sun {
-    float towards[3];    /* unit direction to its center */
-    float irradiance[3]; /* irradiance of a receiver that faces it */
-    float half_angle;    /* radians; 0: no extent */
+    float towards[3];    /* direction from the receiver to the center of the sun; unit length in outputs, any
+                            length except 0 in inputs */
+    float irradiance[3]; /* irradiance (radiance times sr) of an unoccluded receiver that faces the sun */
+    float half_angle;    /* radians, 0..pi/2: angle between the center and the rim; 0: no extent */
 } prt_sun;
-/* Loads a light file of `prt project` (docs/format.md): the first `order` bands of its sky, and its suns.
- * *count: capacity of `suns` on entry, number of suns in the file on return. `suns` may be null if the
- * capacity is 0. */
+/* Loads a light file of `prt project` (docs/format.md): writes the first `order` bands of its sky, without
+ * the suns, to `sky` [order*order][3], and its suns to `suns`. *count: on entry the number of elements that
+ * `suns` can hold, on return the number of suns in the file. If `suns` cannot hold all suns, returns
+ * PRT_TOO_SMALL and writes only *count. `suns` may be null: it then holds 0. If the file has fewer than
+ * `order` bands, returns PRT_BAD_FILE. */
 PRT_API prt_status prt_light_from_light_file(int order, const char* path, float* sky, prt_sun* suns,
                                              size_t* count, prt_message* message);
-/* Writes the sum of all suns to `light`: the argument `suns` of prt_model_update_constants_separate. */
+/* Writes to `light` [order*order][3] the sum of the light of `suns` [count]. The result is the argument
+ * `suns` of prt_model_update_constants_separate. `suns` may be null if `count` is 0. */
 PRT_API prt_status prt_light_suns(int order, const prt_sun* suns, size_t count, float* light,
                                   prt_message* message);
-/* Rotates all three channels by `rotation`, in column-major order, in place. For a rotated object, rotate its
- * lighting by the inverse. */
+/* Rotates `light` [order*order][3] in place. `rotation` is a 3x3 rotation matrix R in column-major order:
+ * light from direction w then arrives from R w. To light a model that the renderer draws rotated, rotate the
+ * light by the inverse of the model's rotation. */
 PRT_API prt_status prt_light_rotate(int order, const float rotation[9], float* light, prt_message* message);
-/* Removes ringing from a light, in place: applies the weakest filter of the bands that makes the light
- * non-negative in every direction. Intended for lights from images. Dering a light once, before rotating it.
- */
+/* Removes ringing (negative radiance near bright lights) from `light` [order*order][3] in place: scales its
+ * bands by the weakest filter that makes the radiance non-negative in every direction. Intended for lights
+ * from images. Call it once per light, before prt_light_rotate. */
 PRT_API prt_status prt_light_dering(int order, float* light, prt_message* message);
 
-/* A model that `prt compress` has written. */
+/* Handle of a model with compressed transfer, in a file that `prt compress` has written. */
 typedef struct prt_model prt_model;
 
-/* Loads a .glb file. Destroy the model with prt_model_destroy. */
+/* Loads a model from a glTF file (.glb or .gltf) and writes its handle to *model; the caller destroys it with
+ * prt_model_destroy. If loading fails, *model is null. */
 PRT_API prt_status prt_model_load(const char* path, prt_model** model, prt_message* message);
-/* Loads a .glb file from memory, which may be freed afterwards. Destroy the model with prt_model_destroy. */
+/* Loads a model from a .glb file in memory, `size` bytes at `bytes`, and writes its handle to *model; the
+ * caller destroys it with prt_model_destroy. If loading fails, *model is null. The caller may free `bytes`
+ * after the call. */
 PRT_API prt_status prt_model_load_memory(const void* bytes, size_t size, prt_model** model,
                                          prt_message* message);
-/* Destroys a model; `model` may be null. */
+/* Destroys a model, and with it all arrays and names to which the functions of the model returned pointers.
+ * `model` may be null. */
 PRT_API void prt_model_destroy(prt_model* model);
 
-/* Storage of weights. Values 1 and 2 belonged to formats that have been removed. */
+/* Storage of the weights of a receiver. PRT_FLOAT32: floats, a multiple of four per receiver. PRT_PACKED: the
+ * cluster and integer weights of a few bits share 32-bit words. Values 1 and 2 belonged to formats that have
+ * been removed. */
 typedef enum prt_weight_format { PRT_FLOAT32 = 0, PRT_PACKED = 3 } prt_weight_format;
 
-/* Properties of a model. */
+/* Properties of a model. Names prt_* are inputs of the vertex shader of prt_model_shader. */
 typedef struct prt_model_info {
-    int order, channels;
-    size_t receivers; /* vertices of all meshes */
-    size_t clusters;
-    size_t rows; /* number of constants, 4 floats each: per cluster the mean, 3 rows per predictor, the basis
-                    directions */
-    prt_weight_format format;
-    size_t stride;                 /* size of the weights of a receiver in bytes */
-    const void* weights;           /* [receivers][stride], for the attributes prt_weights_* or prt_words_* */
-    const uint16_t* cluster_of;    /* [receivers], for prt_cluster; packed weights include it */
-    const uint32_t* cluster_table; /* [clusters][4], for prt_clusters */
-    size_t meshes;
-    int has_direct_term; /* 1 if suns can be lit separately from the sky, else 0 */
+    int order, channels; /* order: number of SH bands of the lighting, 1..10; channels: 3 if any transfer has
+                            color, else 1 */
+    size_t receivers;    /* number of receivers: the vertices of all meshes */
+    size_t clusters;     /* number of clusters */
+    size_t rows;         /* number of constants, 4 floats each: per cluster the mean, 3 rows per predictor,
+                            then the basis directions */
+    prt_weight_format format;   /* storage of `weights` */
+    size_t stride;              /* bytes per receiver in `weights` */
+    const void* weights;        /* [receivers][stride] bytes: vertex attributes prt_weights_* if `format` is
+                                   PRT_FLOAT32, prt_words_* if PRT_PACKED */
+    const uint16_t* cluster_of; /* [receivers] index of the cluster: vertex attribute prt_cluster; packed
+                                   weights contain it already */
+    const uint32_t* cluster_table; /* [clusters][4]: the buffer or texture prt_clusters */
+    size_t meshes;                 /* number of meshes, see prt_mesh */
+    int has_direct_term;           /* 1 if the constants can exclude the direct light of suns, else 0; see
+                                      prt_model_update_constants_separate */
 } prt_model_info;
-/* Returns the properties of a model. Pointers are valid as long as the model exists. */
+/* Writes the properties of a model to *out. Its pointers are valid as long as the model exists. */
 PRT_API prt_status prt_model_get_info(const prt_model* model, prt_model_info* out, prt_message* message);
 
-/* Mesh attributes that the function prt_exit_radiance(position, normal) of the vertex shader reads. */
+/* Mesh attributes that the function prt_exit_radiance(position, normal) of the vertex shader reads, and the
+ * origins of positions. */
 typedef struct prt_vertex_inputs {
-    int normals, positions;    /* 1 if read, else 0 */
-    float predictor_origin[3]; /* metres: PRT_PREDICTOR_ORIGIN for positions as in prt_mesh */
-    double origin[3];          /* metres, in the file's world: origin of the positions in prt_mesh */
+    int normals, positions;    /* each 1 if the shader reads this attribute for the light, else 0 */
+    float predictor_origin[3]; /* metres: value of PRT_PREDICTOR_ORIGIN in shaders/prt_exit_radiance.glsl for
+                                  positions as in prt_mesh; 0 if `positions` is 0 */
+    double origin[3];          /* metres, in the world of the file: point to which prt_mesh.positions are
+                                  relative */
 } prt_vertex_inputs;
-/* Returns the mesh attributes that the vertex shader of a model reads. */
+/* Writes to *out the mesh attributes that the vertex shader of a model reads. */
 PRT_API prt_status prt_model_get_vertex_inputs(const prt_model* model, prt_vertex_inputs* out,
                                                prt_message* message);
 
-/* Returns the number of lamps of the scene; each has its own strength. */
+/* Writes to *lamps the number of lamps in the transfer of a model: lights and emissive materials of the
+ * scene, or groups of these, each with one strength. 0: the transfer contains distant light only. */
 PRT_API prt_status prt_model_count_lamps(const prt_model* model, size_t* lamps, prt_message* message);
-/* Returns the name of a lamp, which is valid as long as the model exists. */
+/* Writes to *name the name of lamp `lamp`, 0 .. number of lamps - 1. The text is valid as long as the model
+ * exists. For other indices returns PRT_BAD_ARGUMENT. */
 PRT_API prt_status prt_model_lamp_name(const prt_model* model, size_t lamp, const char** name,
                                        prt_message* message);
 
-/* A mesh of a model. */
+/* A mesh of a model: triangles of one material. The positions and normals of a mesh with instances are in the
+ * frame of the mesh, those of other meshes in axes of the world. */
 typedef struct prt_mesh {
-    size_t vertices;
-    size_t first_receiver; /* receiver of the first vertex */
-    const float*
-        positions;        /* [vertices][3], metres, axes of the world, relative to prt_vertex_inputs.origin */
-    const float* normals; /* [vertices][3], unit; zero if neither the file nor the triangles define one */
-    const float* texcoords; /* [vertices][2], or null */
-    size_t indices;
-    const uint32_t* index; /* triangles, counter-clockwise */
-    float base_color[4];   /* linear */
+    size_t vertices;        /* number of vertices */
+    size_t first_receiver;  /* index of the receiver of vertex 0; vertex i is receiver first_receiver + i.
+                               Meshes may share vertices, and then have the same first_receiver */
+    const float* positions; /* [vertices][3], metres, relative to prt_vertex_inputs.origin */
+    const float* normals;   /* [vertices][3], unit; zero if neither the file nor the triangles define one */
+    const float* texcoords; /* [vertices][2], TEXCOORD_0 of the file; null if the file has none */
+    size_t indices;         /* length of `index`: 3 per triangle */
+    const uint32_t* index;  /* [indices] vertices of the triangles, counter-clockwise seen from the front */
+    float base_color[4]; /* factor of the base color, without its texture: linear Rec. 709 and alpha, 0..1 */
 } prt_mesh;
-/* Returns mesh `mesh` of a model. Pointers are valid as long as the model exists. */
+/* Writes mesh `mesh`, 0 .. prt_model_info.meshes - 1, to *out. Its pointers are valid as long as the model
+ * exists. For other indices returns PRT_BAD_ARGUMENT. */
 PRT_API prt_status prt_model_get_mesh(const prt_model* model, size_t mesh, prt_mesh* out,
                                       prt_message* message);
 
-/* Computes the constants of all clusters for a light, [rows][4]. Allocates nothing. Coefficients of the light
- * are at most 1e20, constants at most 1e30; if one is larger, the function returns PRT_BAD_ARGUMENT, and
- * `constants` may have been changed. */
+/* Computes the constants of all clusters under `light` [order*order][3], which includes all suns, with all
+ * lamps at strength 1. Writes them to `constants` [prt_model_info.rows][4], (r, g, b, 0) each. `order` must
+ * be at least prt_model_info.order; further bands are ignored. Allocates nothing. If the magnitude of a
+ * coefficient exceeds 1e20, or that of a constant 1e30, returns PRT_BAD_ARGUMENT; `constants` may then have
+ * changed. */
 PRT_API prt_status prt_model_update_constants(const prt_model* model, int order, const float* light,
                                               float* constants, prt_message* message);
-/* Computes the constants for a sky and separate suns, [rows][4]. The renderer adds the direct light of the
- * suns with sharp shadows; the constants contain their light only after a bounce. `suns` may be null: no
- * suns. Only a model whose transfer stores direct light separately supports suns: info.has_direct_term.
- * `lamps`: strengths of the lamps, [lamps][3], at most 1e20; null: 1, as in the scene and as in
- * prt_model_update_constants. */
+/* Computes the constants of all clusters for a sky, separate suns and strengths of lamps, like
+ * prt_model_update_constants. `sky` and `suns` are lights [order*order][3]; `suns` is the result of
+ * prt_light_suns, or null: no suns. If prt_model_info.has_direct_term is 1, the constants contain the light
+ * of the suns only after a bounce, and the renderer adds their direct light with sharp shadows. If it is 0,
+ * the constants contain all light of the suns. `lamps` [number of lamps][3]: strength or color of each lamp,
+ * at most 1e20; 1 is as in the scene; null: all 1. */
 PRT_API prt_status prt_model_update_constants_separate(const prt_model* model, int order, const float* sky,
                                                        const float* suns, const float* lamps,
                                                        float* constants, prt_message* message);
-/* Computes exit radiance for albedo 1, [receivers][3], as the vertex shader does. Magnitudes of constants are
- * at most 1e30. */
+/* Computes the exit radiance for albedo 1 of all receivers on the CPU, as the vertex shader does, and writes
+ * it to `radiance` [receivers][3]. `constants` [rows][4] is the result of prt_model_update_constants. If the
+ * magnitude of a constant exceeds 1e30, returns PRT_BAD_ARGUMENT. Uses all threads of the machine. */
 PRT_API prt_status prt_model_evaluate(const prt_model* model, const float* constants, float* radiance,
                                       prt_message* message);
 
-/* Shading languages: OpenGL 4.5, OpenGL 3.3, OpenGL ES 3.0 and WebGL 2, Vulkan. */
+/* Shading language of a shader: PRT_GLSL450 for OpenGL 4.5, PRT_GLSL330 for OpenGL 3.3, PRT_ESSL300 for
+ * OpenGL ES 3.0 and WebGL 2, PRT_VULKAN for Vulkan (GLSL to compile to SPIR-V). */
 typedef enum prt_language { PRT_GLSL450 = 0, PRT_GLSL330 = 1, PRT_ESSL300 = 2, PRT_VULKAN = 3 } prt_language;
-/* Storage of the constants for a vertex shader. */
+/* Storage from which a vertex shader reads the constants and the table of clusters. */
 typedef enum prt_constants {
-    PRT_CONSTANTS_IN_BUFFER = 0,
-    PRT_CONSTANTS_IN_BLOCK = 1,
-    PRT_CONSTANTS_IN_TEXTURE = 2
+    PRT_CONSTANTS_IN_BUFFER = 0, /* storage buffers; not in PRT_GLSL330 and PRT_ESSL300 */
+    PRT_CONSTANTS_IN_BLOCK = 1,  /* uniform blocks; a driver may support no more than 16 KB */
+    PRT_CONSTANTS_IN_TEXTURE = 2 /* textures 256 texels wide: RGBA32F constants, RGBA32UI table */
 } prt_constants;
-/* Writes the source of the model's vertex shader to `source`. `language` is a prt_language, `constants` a
- * prt_constants. *size: on entry the size of `source` in bytes including the final 0, on return the required
- * size. Inputs of the shader: `position` at location
- * 0, prt_mesh.positions unchanged (view_projection holds the transform of the model); `normal` at location
- * 15, prt_mesh.normals, if prt_vertex_inputs.normals is set; weights from location 4: prt_words_* if packed,
- * else prt_weights_* with prt_cluster at location 3. */
+/* Writes the source of the vertex shader of a model, with a final 0, to `source`. `language` is a
+ * prt_language, `constants` a prt_constants. *size: on entry the size of `source` in bytes; on return the
+ * required size, including the final 0. If `source` is null or smaller, returns PRT_TOO_SMALL and writes only
+ * *size. If the language does not support this storage, returns PRT_BAD_ARGUMENT. Inputs of the shader: at
+ * location 0 `position`, which is prt_mesh.positions unchanged (the uniform view_projection includes the
+ * transform of the model); at location 15 `normal`, which is prt_mesh.normals, if prt_vertex_inputs.normals
+ * is 1; from location 4 on the weights, prt_words_* if packed, else prt_weights_*, and then prt_cluster at
+ * location 3. */
 PRT_API prt_status prt_model_shader(const prt_model* model, int language, int constants, char* source,
                                     size_t* size, prt_message* message);
 
 /* Instances that share the transfer of their mesh, in a file written by prt bake --instances and prt
- * compress. The file stores each mesh once, with positions and normals in its own frame. Experimental:
- * prt_instances_* may change with any version. */
+ * compress. The file stores each mesh once, with positions and normals in the frame of the mesh.
+ * Experimental: prt_instances_* may change with any version. */
 typedef struct prt_instances_info {
-    size_t count;        /* 0: the model has no instances, and all other members are 0 */
-    size_t constants;    /* number of constants for a lighting, 4 floats each */
-    const float* worlds; /* [count][3][4], rows of the matrix from positions as in prt_mesh to the world */
-    const float* tables; /* [count][2][4], instance_0 and instance_1 of the vertex shader */
-    double max_degrees;  /* maximum angular error of an instance's rounded rotation, in degrees */
+    size_t count;        /* number of instances, sorted by mesh; 0: the model has no instances, and all other
+                            members are 0 or null */
+    size_t constants;    /* number of constants of all instances together, 4 floats each */
+    const float* worlds; /* [count][3][4], rows of the matrix from prt_mesh.positions to the world of the
+                            file: vertex attributes world_x, world_y, world_z */
+    const float* tables; /* [count][2][4]: vertex attributes instance_0 and instance_1 */
+    double max_degrees;  /* maximum angle, in degrees, between the rotation of an instance and the rounded
+                            rotation by which its lighting is computed */
 } prt_instances_info;
-/* Returns the instances of a model. Pointers are valid as long as the model exists. */
+/* Writes the instances of a model to *out. Its pointers are valid as long as the model exists. For a model
+ * without instances returns PRT_OK with count 0. */
 PRT_API prt_status prt_instances_get_info(const prt_model* model, prt_instances_info* out,
                                           prt_message* message);
-/* Returns the range of instances that draw mesh `mesh`. *count is 0 if the mesh is drawn once, like the
- * meshes of models without instances. */
+/* Writes the range of instances that draw mesh `mesh`: instances *first .. *first + *count - 1. *count is 0
+ * if the mesh has no instances and is drawn once, with the constants of the model. For a model without
+ * instances returns PRT_BAD_ARGUMENT. */
 PRT_API prt_status prt_instances_of_mesh(const prt_model* model, size_t mesh, size_t* first, size_t* count,
                                          prt_message* message);
-/* Computes the constants of all instances, [constants][4], which replace the constants of the model when
- * instances are drawn. `sky` and `suns` are those of prt_model_update_constants_separate. `threads` 0: all.
- */
+/* Computes the constants of all instances and writes them to `constants` [prt_instances_info.constants][4].
+ * The shader of prt_instances_shader reads these instead of the constants of the model. `order`, `sky`,
+ * `suns` and the limits are those of prt_model_update_constants_separate; `suns` may be null. `threads`:
+ * number of threads, 0: all of the machine. For a model without instances returns PRT_BAD_ARGUMENT. */
 PRT_API prt_status prt_instances_update_constants(const prt_model* model, int order, const float* sky,
                                                   const float* suns, int threads, float* constants,
                                                   prt_message* message);
-/* Writes the source of the vertex shader for instances. It has the inputs of prt_model_shader, and the rows
- * of prt_instances_info.worlds at locations 10 to 12 and of prt_instances_info.tables at 13 and 14. Constants
- * are in a buffer or a texture. *size is used as in prt_model_shader. */
+/* Writes the source of the vertex shader for instances, with a final 0, to `source`. The shader has the
+ * inputs of prt_model_shader, and per instance the rows of prt_instances_info.worlds at locations 10 to 12
+ * and those of prt_instances_info.tables at locations 13 and 14. `language`, `constants`, `source` and *size
+ * are used as in prt_model_shader; PRT_CONSTANTS_IN_BLOCK is not supported. For a model without instances
+ * returns PRT_BAD_ARGUMENT. */
 PRT_API prt_status prt_instances_shader(const prt_model* model, int language, int constants, char* source,
                                         size_t* size, prt_message* message);
 
-/* A volume of probes in a file of `prt compress`. It lights objects that move through the scene.
- * Experimental: prt_volume_* may change with any version. */
+/* Handle of a volume of probes, in a file that `prt compress` has written. A volume lights objects that move
+ * through the scene. Experimental: prt_volume_* may change with any version. */
 typedef struct prt_volume prt_volume;
 
-/* Loads the volume of a .glb file. Destroy it with prt_volume_destroy. */
+/* Loads the volume in a glTF file (.glb or .gltf) and writes its handle to *volume; the caller destroys it
+ * with prt_volume_destroy. If loading fails, *volume is null. */
 PRT_API prt_status prt_volume_load(const char* path, prt_volume** volume, prt_message* message);
-/* Loads the volume of a .glb file in memory, which may be freed afterwards. Destroy it with
- * prt_volume_destroy. */
+/* Loads the volume in a .glb file in memory, `size` bytes at `bytes`, and writes its handle to *volume; the
+ * caller destroys it with prt_volume_destroy. If loading fails, *volume is null. The caller may free `bytes`
+ * after the call. */
 PRT_API prt_status prt_volume_load_memory(const void* bytes, size_t size, prt_volume** volume,
                                           prt_message* message);
-/* Destroys a volume; `volume` may be null. */
+/* Destroys a volume, and with it all arrays to which the functions of the volume returned pointers. `volume`
+ * may be null. */
 PRT_API void prt_volume_destroy(prt_volume* volume);
 
 /* Properties of a volume. */
 typedef struct prt_volume_info {
-    int order;          /* order of the lighting */
-    int incident_order; /* n = 2..4: a probe has n*n coefficients of incident light */
-    size_t probes;
+    int order;           /* number of SH bands of the lighting, 1..10 */
+    int incident_order;  /* n = 2..4: the light at a probe has n*n coefficients */
+    size_t probes;       /* number of probes */
     size_t rows;         /* number of constants, 4 floats each */
-    size_t lamps;        /* number of lamps with strengths */
-    int has_direct_term; /* 1 if suns can be lit separately from the sky, else 0 */
-    float corner[3];     /* metres: minimum corner, relative to `origin` like all positions */
-    float spacing;       /* metres, distance of the finest probes */
-    double origin[3];    /* metres, in the file's world; see prt_vertex_inputs.origin */
+    size_t lamps;        /* number of lamps, each with one strength */
+    int has_direct_term; /* 1 if the constants can exclude the direct light of suns, else 0; see
+                            prt_model_update_constants_separate */
+    float corner[3];     /* metres: minimum corner of the box of the volume, relative to `origin` */
+    float spacing;       /* metres: distance of neighbouring probes of the finest level */
+    double origin[3];    /* metres, in the world of the file: point to which all positions in prt_volume_*
+                            are relative */
 } prt_volume_info;
-/* Returns the properties of a volume. */
+/* Writes the properties of a volume to *out. */
 PRT_API prt_status prt_volume_get_info(const prt_volume* volume, prt_volume_info* out, prt_message* message);
 
-/* The 3D textures of prt_volume.glsl: their width, height and depth, and the texels of two of them. The light
- * texture is RGBA16F with linear filtering. The other two do not depend on the lighting and are not filtered.
- * Pointers are valid as long as the volume exists. */
+/* The three 3D textures that shaders/prt_volume.glsl reads. prt_volume_light: RGBA16F, linear filtering,
+ * clamped to the edge, texels by prt_volume_update_light. prt_volume_visibility (visibility distances of
+ * probes) and prt_volume_index (the brick at each position): integer texels, not filtered; they do not depend
+ * on the lighting. Pointers are valid as long as the volume exists. */
 typedef struct prt_volume_textures {
-    int light[3], visibility[3], index[3];
-    size_t light_bytes;
-    const uint32_t* visibility_texels; /* RG32UI */
-    const uint32_t* index_texels;      /* R32UI */
+    int light[3], visibility[3], index[3]; /* width, height and depth of each texture in texels */
+    size_t light_bytes;                    /* size of the texels of the light texture */
+    const uint32_t* visibility_texels;     /* [depth][height][width][2], RG32UI */
+    const uint32_t* index_texels;          /* [depth][height][width], R32UI */
 } prt_volume_textures;
-/* Returns the textures of a volume. */
+/* Writes the sizes and texels of the textures of a volume to *out. */
 PRT_API prt_status prt_volume_get_textures(const prt_volume* volume, prt_volume_textures* out,
                                            prt_message* message);
 
-/* Lighting of a volume: coefficients as in prt_model_update_constants_separate. */
+/* Lighting of a volume. The caller owns the arrays. */
 typedef struct prt_lighting {
-    int order;
-    const float* sky;
-    const float* suns;  /* may be null: no separate suns */
-    const float* lamps; /* may be null */
-    const float* sun;   /* direction to the sun whose visibility is computed; may be null */
+    int order;          /* number of SH bands of `sky` and `suns`, at least prt_volume_info.order */
+    const float* sky;   /* [order*order][3] */
+    const float* suns;  /* [order*order][3], result of prt_light_suns; null: no separate suns */
+    const float* lamps; /* [prt_volume_info.lamps][3] strength or color of each lamp; null: all 1 */
+    const float* sun;   /* [3] direction to the sun whose visibility the light texture stores, of any length
+                           except 0; null, or has_direct_term 0: the stored visibility is 0 */
 } prt_lighting;
-/* Computes the constants of a volume for a lighting, [rows][4]. Allocates nothing. Limits are those of
- * prt_model_update_constants. */
+/* Computes the constants of a volume under `lighting` and writes them to `constants`
+ * [prt_volume_info.rows][4]. Separate suns work as in prt_model_update_constants_separate. Allocates nothing.
+ * If the magnitude of a coefficient or strength exceeds 1e20, or that of a constant 1e30, returns
+ * PRT_BAD_ARGUMENT; `constants` may then have changed. */
 PRT_API prt_status prt_volume_update_constants(const prt_volume* volume, const prt_lighting* lighting,
                                                float* constants, prt_message* message);
-/* Computes the texels of probes `first` to `last` - 1 of the light texture and writes them to `texels`
- * [light_bytes]. Several threads may process different probes at once. Allocates nothing. */
+/* Computes the texels of the light texture for probes `first` to `last` - 1, at most prt_volume_info.probes,
+ * and writes them at their positions in `texels`, which holds the whole texture
+ * [prt_volume_textures.light_bytes]; other texels do not change. `constants` is the result of
+ * prt_volume_update_constants. Several threads may process different probes at once. Allocates nothing. */
 PRT_API prt_status prt_volume_update_light(const prt_volume* volume, const float* constants, size_t first,
                                            size_t last, void* texels, prt_message* message);
-/* Computes the incident light at all probes, [probes][n*n][3], for use without textures. */
+/* Computes the incident light at all probes and writes it to `incident` [probes][n*n][3], n =
+ * prt_volume_info.incident_order, for lookups on the CPU. `constants` is the result of
+ * prt_volume_update_constants. Uses all threads of the machine. */
 PRT_API prt_status prt_volume_evaluate(const prt_volume* volume, const float* constants, float* incident,
                                        prt_message* message);
 
-/* A position to light, in metres. `normal` is the unit normal of its surface, or zero. */
+/* A position to light: `position` in metres, relative to prt_volume_info.origin, and `normal`, the unit
+ * normal of the surface at this position, or zero if there is no surface. */
 typedef struct prt_volume_position {
     float position[3], normal[3];
 } prt_volume_position;
-/* Interpolates `incident`, the result of prt_volume_evaluate, at a position: `light` [n*n][3]. Probes behind
- * surfaces are excluded. Allocates nothing. */
+/* Interpolates the incident light at `position` and writes its coefficients to `light` [n*n][3], n =
+ * prt_volume_info.incident_order. `incident` is the result of prt_volume_evaluate. Excludes probes behind
+ * surfaces. A position outside the volume is moved to its boundary. Allocates nothing. */
 PRT_API prt_status prt_volume_incident(const prt_volume* volume, const float* incident,
                                        const prt_volume_position* position, float* light,
                                        prt_message* message);
-/* Computes irradiance divided by pi of a surface at `position` with its normal. Times the albedo, this is
- * exit radiance. `incident` is the result of prt_volume_evaluate. */
+/* Computes the irradiance of a surface at `position`, divided by pi; times the albedo, this is the exit
+ * radiance. position->normal must have length 1, else returns PRT_BAD_ARGUMENT. `incident` is the result of
+ * prt_volume_evaluate. Allocates nothing. */
 PRT_API prt_status prt_volume_irradiance(const prt_volume* volume, const float* incident,
                                          const prt_volume_position* position, float irradiance[3],
                                          prt_message* message);
 
-/* Writes the source of the GLSL functions that look up a volume. Insert them after the version line of a
- * shader in any language. Positions are relative to prt_volume_info.origin. *size is used as in
- * prt_model_shader. */
+/* Writes the source of the GLSL functions that look up a volume in its textures (shaders/prt_volume.glsl),
+ * with a final 0, to `source`. Insert this text after the version line of a shader in any prt_language; in
+ * OpenGL ES also after the line `precision highp float;`. Positions in the shader are relative to
+ * prt_volume_info.origin. `source` and *size are used as in prt_model_shader. */
 PRT_API prt_status prt_volume_functions(const prt_volume* volume, char* source, size_t* size,
                                         prt_message* message);
-/* Writes the source of the compute shader that computes the light texture. `language` is PRT_GLSL450 or
- * PRT_VULKAN. *size is used as in prt_model_shader. */
+/* Writes the source of the compute shader that computes the light texture on the GPU
+ * (shaders/prt_volume.comp), with a final 0, to `source`. `language` is PRT_GLSL450 or PRT_VULKAN; for others
+ * returns PRT_BAD_ARGUMENT. `source` and *size are used as in prt_model_shader. */
 PRT_API prt_status prt_volume_shader(const prt_volume* volume, int language, char* source, size_t* size,
                                      prt_message* message);
 

@@ -11,41 +11,46 @@
 
 namespace prt {
 
-/// Maximum number of suns that are chosen automatically; each costs the renderer a shadow map.
+/// Maximum number of suns if `SunOptions::count` has no value; each sun costs the renderer a shadow map.
 inline constexpr int kMaxAutoSuns = 4;
 
 /// Settings of `find_suns`.
 struct SunOptions {
-    int order = 6; ///< order of the lighting for the remainder
-    /// Maximum number of suns, at least 0. Without a value: up to kMaxAutoSuns, each of which must reduce the
-    /// error by at least a hundredth of the light (docs/math.md, "Suns in an image").
+    int order = 6; ///< number of SH bands into which the caller projects the remainder, 1..kMaxOrder
+    /// Maximum number of suns, at least 0; fewer if the image has fewer. Without a value: at most
+    /// kMaxAutoSuns, each of which must reduce `SunSplit::error_with` by at least 0.01 (docs/math.md, "Suns
+    /// in an image").
     std::optional<int> count = {};
-    int threads = 0;
+    int threads = 0; ///< 0: all
 };
 
 /// An environment, split into suns and the remainder.
 struct SunSplit {
-    std::vector<Sun> suns; ///< sorted by luminance, strongest first
-    /// [suns] luminance of each sun as a fraction of the total over all directions of the image.
+    std::vector<Sun> suns; ///< sorted by luminance, strongest first; may be empty
+    /// [suns] luminance of each sun, integrated over its disc, as a fraction of the luminance of the whole
+    /// image, integrated over all directions.
     std::vector<double> energy_shares;
-    Environment remainder;      ///< the image without the suns, not negative, with the same layout and size
-    double remainder_share = 1; ///< luminance of the remainder as a fraction of the whole image's
-    /// Relative error of the light of shadowed receivers at `order`, root mean square: with the whole image
-    /// in the coefficients, and with separate suns.
+    /// The image without the light of the suns, not negative; layout and size are those of the input.
+    Environment remainder;
+    double remainder_share = 1; ///< 1 minus the sum of `energy_shares`
+    /// Relative L2 errors of the exit radiance of partially shadowed receivers (docs/math.md, "Suns in an
+    /// image"), against the exact light of the image. `error_without`: the whole image is SH of `order`
+    /// bands. `error_with`: the remainder is SH of `order` bands, and the suns are exact; equals
+    /// `error_without` if there are no suns.
     double error_without = 0, error_with = 0;
 };
 
-/// Finds suns in the pixels of `environment`: spots brighter than their surroundings that are too narrow for
-/// `order` bands, with a half angle of at most `widest_sun(order)`. The texels of a sun are reduced to the
-/// radiance of the surrounding sky, and the difference becomes the light of the sun. In band 0, suns and
-/// remainder therefore sum to the original. A disc of three texels or more is measured to a fraction of a
-/// texel (Ceres); a narrower one gets the size of its bright texels. Throws `Error` for an order outside
-/// 1..kMaxOrder, a negative count, an invalid image, pixels that are negative or not finite, and light above
-/// kMaxLight.
+/// Finds suns in the pixels of `environment`: spots that are brighter than their surroundings and too narrow
+/// for `order` bands, with a half angle of at most `widest_sun(order)`. Reduces the texels of a sun to the
+/// radiance of the surrounding sky in `SunSplit::remainder`; the difference becomes the light of the sun. In
+/// band 0, suns and remainder therefore sum to the original. The size of a sun of about three texels or more
+/// is accurate to a fraction of a texel; a smaller sun gets the solid angle of its bright texels. Throws
+/// `Error` for an order outside 1..kMaxOrder, a negative count, an invalid image, pixels that are negative or
+/// not finite, and light above kMaxLight.
 SunSplit find_suns(const Environment& environment, const SunOptions& options = {});
 
-/// Returns the maximum half angle of a sun for `find_suns`, in radians: a quarter of pi / order, at most
-/// 0.26.
+/// Returns the maximum half angle of a sun that `find_suns` returns, in radians: pi / (4 order), but at most
+/// 0.26. Throws `Error` for an order outside 1..kMaxOrder.
 double widest_sun(int order);
 
 } // namespace prt

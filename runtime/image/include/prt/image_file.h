@@ -1,7 +1,7 @@
 #pragma once
 
-// Reads environment maps (OpenEXR, Radiance HDR, PNG, JPEG) and textures (PNG, JPEG), and writes OpenEXR and
-// PNG. Stable.
+// Reads environment maps (OpenEXR, Radiance HDR, PNG, JPEG) and textures (PNG, JPEG, WebP, AVIF), and writes
+// OpenEXR and PNG. Stable.
 
 #include "prt/environment.h"
 #include "prt/support/glm_layout.h"
@@ -19,56 +19,67 @@ namespace prt {
 
 /// Settings for reading an environment map.
 struct EnvironmentOptions {
-    /// Layout of an image whose file does not specify it (EXR attribute `envmap`). Without a value it follows
-    /// from the aspect ratio, 2:1 or 1:6.
+    /// Layout of the image; replaces the layout that the file specifies. Without a value: the EXR attribute
+    /// `envmap`, or else the shape: a cross or row of cube faces, 2:1 for lat-long, 1:6 for `cube`.
     std::optional<EnvironmentLayout> layout;
+    /// Treatment of pixels with a NaN, infinite or negative component. Default: throw `Error`.
     BadPixels bad_pixels = BadPixels::error;
-    LatLongCenter center = LatLongCenter::z; ///< not stored in files
-    /// Layer or part of an OpenEXR file. Empty: the channels without a prefix, or the only layer.
+    /// Direction of the center column of a lat-long image. Files do not store it; other layouts ignore it.
+    LatLongCenter center = LatLongCenter::z;
+    /// Name of the layer or part of an OpenEXR file to read. Empty: the channels without a prefix, or the
+    /// only layer. A name is an error for other formats.
     std::string layer = {};
 };
 
 /// An environment map as read from a file.
 struct EnvironmentFile {
-    Environment environment;
-    std::size_t repaired_pixels = 0;
-    /// True if the file is a PNG or JPEG, read as sRGB: no value exceeds 1, and bright lights are
-    /// clipped.
+    Environment environment;         ///< linear Rec. 709, with the layout of the options or of the file
+    std::size_t repaired_pixels = 0; ///< number of pixels that `EnvironmentOptions::bad_pixels` changed
+    /// True if the file (or a file of a cube face) is a PNG or JPEG: no value exceeds 1, and bright lights
+    /// are clipped.
     bool low_dynamic_range = false;
     std::vector<std::string> notices; ///< messages for the user about how the file was read, one line each
 };
 
-/// Reads an environment map from OpenEXR (any channel type and compression, scanline or tiled, RGB, luminance
-/// or luminance-chroma; other primaries are converted; a crop of a 2:1 display window is inserted into that
-/// window), Radiance HDR (RGBE or XYZE, any orientation, EXPOSURE and COLORCORR divided out), or PNG and
-/// JPEG, which are read as sRGB. A path that contains "{face}" stands for six files with the layout
-/// `EnvironmentLayout::cube_faces`; "{face}" is replaced by px, nx, py, ny, pz and nz (or posx .., +x ..,
-/// right, left, top, bottom, front, back). Throws `Error` with the file name for a file that is damaged or
-/// not an environment map. The memory for the image is limited to 192 MB plus 64 bytes per byte of the file.
+/// Reads an environment map as linear Rec. 709. Formats: OpenEXR (any channel type and compression, scanline
+/// or tiled, RGB, luminance or luminance-chroma; other primaries are converted; a crop of a 2:1 display
+/// window is inserted into that window, the rest is black); Radiance HDR (RGBE or XYZE, any orientation;
+/// EXPOSURE and COLORCORR are divided out); PNG and JPEG, which are read as sRGB. A path that contains
+/// "{face}" describes six files, which are read with the layout `EnvironmentLayout::cube_faces`; "{face}" is
+/// replaced by px, nx, py, ny, pz and nz (or PX .., posx .., +x .., or right, left, top, bottom, front,
+/// back). Throws `Error` with the file name for a file that is missing, damaged or not an environment map.
+/// The memory for the image is limited to 192 MB plus 64 bytes per byte of the file.
 EnvironmentFile load_environment(const std::filesystem::path& path, const EnvironmentOptions& options = {});
 
-/// 8-bit RGBA pixels as stored, without color conversion.
+/// 8-bit RGBA pixels as stored in the file, without color conversion (usually sRGB). Alpha is 255 if the file
+/// has none.
 struct Image8 {
     int width = 0, height = 0;
-    std::vector<glm::u8vec4> pixels; ///< [height][width]
+    std::vector<glm::u8vec4> pixels; ///< [height][width], rows from the top
 };
 
-/// Decodes a PNG or JPEG file in memory. Throws `Error` if it is damaged, has another format or is too large.
+/// Decodes a PNG, JPEG, WebP or AVIF file in memory; 16-bit values are reduced to 8 bits. Throws `Error`
+/// without a file name if it is damaged, has another format or is too large (see `load_environment`).
 Image8 decode_image(std::span<const std::byte> file);
 
-/// Returns an 8-bit RGB PNG in memory. `pixels` is [height][width].
+/// Returns an 8-bit RGB PNG file in memory. `pixels` is [height][width], rows from the top, stored without
+/// color conversion. Throws `Error` if memory runs out.
 std::vector<std::byte> encode_png(int width, int height, std::span<const glm::u8vec3> pixels);
-/// Returns an 8-bit RGBA PNG in memory. `pixels` is [height][width].
+/// Returns an 8-bit RGBA PNG file in memory. `pixels` is [height][width], rows from the top, stored without
+/// color conversion. Throws `Error` if memory runs out.
 std::vector<std::byte> encode_png(int width, int height, std::span<const glm::u8vec4> pixels);
 
-/// Writes an 8-bit RGB PNG. `pixels` is [height][width].
+/// Writes an 8-bit RGB PNG file to `path`. `pixels` is [height][width], rows from the top, stored without
+/// color conversion. Throws `Error` if the file cannot be written.
 void write_png(const std::filesystem::path& path, int width, int height, std::span<const glm::u8vec3> pixels);
 
-/// Returns an OpenEXR file in memory: 32-bit float RGB, ZIP-compressed, marked as an environment map if
-/// `layout` is one of OpenEXR's two layouts.
+/// Returns an OpenEXR file in memory: 32-bit float RGB, ZIP-compressed. If `layout` is `lat_long` or `cube`,
+/// the file has the attribute `envmap` with this layout; for other layouts, or without a value, it has no
+/// such attribute. Throws `Error` if the image cannot be encoded.
 std::vector<std::byte> encode_exr(const Image& image, std::optional<EnvironmentLayout> layout = std::nullopt);
 
-/// Writes the file of `encode_exr`.
+/// Writes the result of `encode_exr` to `path`. Throws `Error` if the image cannot be encoded or the file
+/// cannot be written.
 void write_exr(const std::filesystem::path& path, const Image& image,
                std::optional<EnvironmentLayout> layout = std::nullopt);
 

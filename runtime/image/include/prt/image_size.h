@@ -1,6 +1,6 @@
 #pragma once
 
-// Size of an image from its header. Experimental.
+// Reads the size of an image from its header, without decoding pixels. Experimental.
 
 #include <cstddef>
 #include <span>
@@ -12,12 +12,13 @@ struct ImageSize {
     int width = 0, height = 0;
 };
 
-/// Returns the size in the header of a PNG, JPEG, WebP, AVIF or Radiance HDR file in memory. Throws `Error`
-/// for other formats.
+/// Returns the size that the header of a file in memory specifies: PNG, JPEG, WebP, AVIF or Radiance HDR.
+/// Throws `Error` for other formats, OpenEXR included, and for a damaged header. The pixels may still be
+/// damaged.
 ImageSize image_size(std::span<const std::byte> file);
 
-/// Returns whether a file in memory starts as a PNG with 8 bits each of red, green, blue and alpha;
-/// `decode_image` returns its bytes unchanged.
+/// Returns whether the header of a file in memory is that of a PNG with the channels red, green, blue and
+/// alpha, 8 bits each. `decode_image` (prt/image_file.h) then returns these bytes unchanged.
 bool is_png_of_bytes(std::span<const std::byte> file);
 
 } // namespace prt
