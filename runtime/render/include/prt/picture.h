@@ -20,7 +20,7 @@ namespace prt {
 /// Environment that is visible behind the scene; it does not light the scene.
 struct Background {
     const Image* image = nullptr; ///< lat-long radiance, center +Z; not owned; null: black
-    float rotation = 0;           ///< rotation of the image about +Y in radians, as in `rotated_about_y`
+    float rotation = 0;           ///< radians about +Y; pi/2 moves the radiance of +Z to +X
 };
 
 /// Lightmaps that provide the light of surfaces, instead of values at vertices. Owns nothing.
