@@ -6,12 +6,11 @@
 // In [depth][height][width], `width` is VolumeAtlas::visibility_texels().x, `height` is .y and `depth` is .z.
 // `size` is VolumeGrid::size.
 //
-// light        RGBA16F or RGBA32F, [planes * depth][height][width]: each brick is a block of 5 x 5 x 5
-// texels,
-//              one per probe. A probe in several bricks has a texel in each of these bricks. A plane contains
-//              four numbers of every probe; planes are stacked along z. The numbers of a probe are the
-//              coefficients of incident light (r, g, b of coefficient 0, r of coefficient 1, ..), then the
-//              visibility of a sun, 0..1.
+// light        RGBA16F or RGBA32F, [planes · depth][height][width]: each brick is a block of 5 x 5 x 5
+//              texels, one per probe. A probe in several bricks has a texel in each of these bricks. A plane
+//              contains four numbers of every probe; planes are stacked along z. The numbers of a probe are
+//              the coefficients of incident light (r, g, b of coefficient 0, r of coefficient 1, ..), then
+//              the visibility of a sun, 0..1.
 // visibility   RG32UI, [depth][height][width]: visibility distances of each probe, in the same blocks.
 // index        R32UI, [size.z][size.y][size.x]: for each cube of the size of a finest brick, the brick that
 //              covers the cube.

@@ -39,7 +39,7 @@ struct AnimationChannel {
     AnimatedPart part = AnimatedPart::translation;
     Interpolation interpolation = Interpolation::linear;
     std::vector<float> times; ///< [keys] seconds in ascending order; at least one
-    /// [keys] xyz and 0 for translation (metres) and scale, or quaternions xyzw for rotation. With
+    /// [keys] xyz and 0 for translation (metres) and scale (factors), or quaternions xyzw for rotation. With
     /// Interpolation::cubic_spline [keys][3]: in-tangent, value and out-tangent of each key.
     std::vector<glm::vec4> values;
 };
@@ -122,9 +122,9 @@ public:
     std::vector<glm::dmat4> pose(const Animation& animation, double seconds) const;
 
     /// Returns the matrices from the mesh to the world that a vertex array uses. Without a skin: one matrix,
-    /// that of the node. With a skin: [joints + 1], for each joint its world matrix times its inverse bind
-    /// matrix, then the identity for vertices without a joint. `vertex_array`: index into vertices().
-    /// `nodes`: result of `rest` or `pose`.
+    /// the world matrix of the node. With a skin: [joints + 1], for each joint its world matrix times its
+    /// inverse bind matrix, then the identity for vertices without a joint. `vertex_array`: index into
+    /// vertices(). `nodes`: result of `rest` or `pose`.
     std::vector<glm::dmat4> matrices(std::size_t vertex_array, std::span<const glm::dmat4> nodes) const;
 
     /// Returns a copy of scene() without lights, in the pose `nodes`, for ray tracing. `nodes`: result of

@@ -22,8 +22,9 @@ float fallback_exposure(std::span<const glm::vec3> radiance, std::span<const flo
 /// and materials. COLOR_0 is radiance times `exposure` times the original vertex color, linear, clamped to
 /// 0..1. `radiance`: [receivers of `scene`] exit radiance for albedo 1, linear Rec. 709. `exposure`: above 0.
 /// Primitives with an emissive, glass or unlit material are not changed. Returns the number of changed
-/// primitives. `scene` must be extracted from `document`. Throws `Error` if `document` has no compressed
-/// transfer at vertices (PRTKIT_clustered_pca).
+/// primitives. `scene` must be extracted from `document`. After `write_clustered`, save the document and read
+/// the file again before this call. Throws `Error` if `document` has no compressed transfer at vertices
+/// (PRTKIT_clustered_pca).
 std::size_t write_fallback(GltfDocument& document, const Scene& scene, std::span<const glm::vec3> radiance,
                            float exposure);
 

@@ -18,7 +18,7 @@ struct GltfContents;
 
 /// A glTF file in memory: its JSON, one buffer with all binary data, and its images. `save_glb` also writes
 /// the data of the file that prtkit does not support. `load_gltf` and `parse_gltf` create documents. Movable,
-/// not copyable. Concurrent reading is safe; writing functions need exclusive access.
+/// not copyable. A moved-from document can only be destroyed or assigned to.
 class GltfDocument {
 public:
     /// For the implementation of prtkit; `GltfContents` is not a public type.
@@ -57,9 +57,9 @@ struct GltfOptions {
     /// document that are smooth across an edge if the normals of its two triangles differ by this angle or
     /// less. Without a value, `extract_scene` computes flat normals, as glTF requires.
     std::optional<double> smooth_normals_degrees = {};
-    /// Maximum memory in bytes for the extracted scene, with all instances and morph targets; more throws
-    /// `Error`. 0: the limit is 256 MB plus 64 times the size of the file and its external buffers, so that a
-    /// small file cannot use all memory.
+    /// Maximum memory in bytes for the extracted scene, with all instances and morph targets. `extract_scene`
+    /// throws `Error` for more. 0: the limit is 256 MB plus 64 times the size of the file and its external
+    /// buffers, so that a small file cannot use all memory.
     double scene_limit = 0;
 };
 
@@ -75,21 +75,23 @@ GltfDocument load_gltf(const std::filesystem::path& path, const GltfOptions& opt
 GltfDocument parse_gltf(std::span<const std::byte> file, const std::filesystem::path& path,
                         const GltfOptions& options = {});
 
-/// Returns the default scene of the file (otherwise scene 0, otherwise all nodes), flattened: all vertices
-/// are in the world, relative to Scene::origin. Every instance of a mesh gets separate vertices. Skins and
-/// morph targets are evaluated in the pose of the file; only the finest levels of detail are included.
-/// Throws `Error` for data out of bounds, positions that are not finite or more than 1e9 m from the origin, a
-/// scene without triangles, and a scene that exceeds GltfOptions::scene_limit.
+/// Returns the default scene of the file (scene 0 if there is no default, all nodes if there are no scenes),
+/// flattened: all vertices are in the world, relative to Scene::origin. Every instance of a mesh gets
+/// separate vertices. Skins and morph targets are evaluated in the pose of the file; only the finest levels
+/// of detail are included. Throws `Error` for data out of bounds, positions that are not finite or more than
+/// 1e9 m from the origin, a scene without triangles, and a scene that exceeds GltfOptions::scene_limit.
 Scene extract_scene(const GltfDocument& document);
 
 /// Writes raw transfer of vertices (PRTKIT_transfer) into `document`, from which `scene` was extracted.
 /// Replaces existing transfer of surfaces. Changes the meshes: a mesh that several nodes draw is copied for
-/// each node, and primitives without normals get flat normals.
+/// each node, and primitives without normals get flat normals. Call only one function that writes vertex data
+/// per document.
 void write_transfer(GltfDocument& document, const Scene& scene, const BakedTransfer& baked);
 
 /// Writes compressed transfer of vertices (PRTKIT_clustered_pca) into `document`, from which `scene` was
 /// extracted. Replaces existing transfer of surfaces, raw or compressed. Changes the meshes: a mesh that
-/// several nodes draw is copied for each node, and primitives without normals get flat normals.
+/// several nodes draw is copied for each node, and primitives without normals get flat normals. Call only one
+/// function that writes vertex data per document.
 void write_clustered(GltfDocument& document, const Scene& scene, const CompressedTransfer& compressed);
 
 /// Returns the raw transfer of vertices in `document`, from which `scene` was extracted. Returns no value if
@@ -103,9 +105,9 @@ std::optional<BakedTransfer> read_transfer(const GltfDocument& document, const S
 std::optional<CompressedTransfer> read_clustered(const GltfDocument& document, const Scene& scene);
 
 /// Writes vertex colors (attribute COLOR_0, three float32 numbers, linear) into `document`, from which
-/// `scene` was extracted. Every glTF viewer shows them, multiplied by the base color. `colors`: [receivers of
-/// `scene`]. Replaces existing vertex colors and their alpha. Call functions that write vertex data only once
-/// per extracted scene.
+/// `scene` was extracted. Every glTF viewer shows the colors, multiplied by the base color. `colors`:
+/// [receivers of `scene`]. Replaces existing vertex colors and their alpha. Call only one function that
+/// writes vertex data per document; to write more, save the document and read the file again.
 void write_vertex_colors(GltfDocument& document, const Scene& scene, std::span<const glm::vec3> colors);
 
 /// Attribute of all vertices of a scene, as float32 numbers.
@@ -122,8 +124,8 @@ VertexAttribute shaded_vertex_colors(const Scene& scene, std::span<const float> 
 
 /// Writes `attributes` of vertices into `document`, from which `scene` was extracted. Replaces existing
 /// attributes of the same name. Changes the meshes: a mesh that several nodes draw is copied for each node,
-/// and primitives without normals get flat normals. Therefore call functions that write vertex data only once
-/// per extracted scene; extract the scene again before the next call.
+/// and primitives without normals get flat normals. Call only one function that writes vertex data per
+/// document; to write more, save the document and read the file again.
 void write_vertex_attributes(GltfDocument& document, const Scene& scene,
                              std::span<const VertexAttribute> attributes);
 
@@ -140,9 +142,8 @@ struct SurfaceTexture {
 /// Embeds `textures` in `document`, from which `scene` was extracted. The materials of the primitives get the
 /// occlusion as occlusionTexture, and the bent normals as extras.prtkit.bentNormalTexture. If primitives with
 /// different textures, or without one, share a material, each texture gets a copy of the material, also in
-/// KHR_materials_variants. Replaces existing occlusionTextures and returns the number of materials
-/// that had one. Throws `Error` if
-/// `extras` of a material is not an object and there are bent normals.
+/// KHR_materials_variants. Replaces existing occlusionTextures and returns the number of materials that had
+/// one. Throws `Error` if bent normals are written and `extras` of a material is not an object.
 std::size_t write_surface_textures(GltfDocument& document, const Scene& scene,
                                    std::span<const SurfaceTexture> textures);
 

@@ -28,8 +28,8 @@ enum class Blocking {
     term     ///< some of the light: the surface is blended or glass
 };
 
-/// Geometry, textures and materials of a scene on the GPU. Draws with any program whose fragment shader
-/// includes `shaders/surface.glsl`. The fragment shader can also include `shaders/sun_light.glsl` for suns,
+/// Geometry, textures and materials of a scene on the GPU. For programs whose fragment shader includes
+/// `shaders/surface.glsl`. The fragment shader can also include `shaders/sun_light.glsl` for suns,
 /// `shaders/emission.glsl` for emission, and `shaders/lightmap.glsl` for lightmaps.
 class GlScene {
 public:
@@ -54,7 +54,8 @@ public:
     void shine(std::span<const glm::vec3> strengths) { emission_.assign(strengths.begin(), strengths.end()); }
 
     /// Sets the lightmaps for subsequent draws with programs that are built with `#define PRT_LIGHTMAP`.
-    /// Keeps the view `lightmaps`, but does not own its textures and layout.
+    /// Keeps the view `lightmaps`; its textures and layout must exist while the scene is drawn. Default: no
+    /// lightmaps.
     void light_by(const GlLightmapTextures& lightmaps) { lightmaps_ = lightmaps; }
 
     /// Returns whether the material of `primitive` has AlphaMode::blend. The caller must draw blended
@@ -85,8 +86,8 @@ public:
     /// disabled.
     void draw_caster(const GlObject& program, const GlVertexArrays& arrays, std::size_t primitive) const;
     /// Returns the blended primitives as indices into Scene::primitives, from far to near. The distance of a
-    /// primitive is that from `position` (metres, relative to Scene::origin) to the mean position of its
-    /// triangles.
+    /// primitive is that from `position` (metres, relative to Scene::origin) to the mean of the
+    /// first corners of its triangles.
     std::vector<std::size_t> blended_from_far(const glm::vec3& position) const;
     /// Returns the size of positions, normals, texture coordinates and indices on the GPU in bytes. Textures
     /// and vertex colors are not included.
