@@ -1,7 +1,7 @@
 #pragma once
 
-// Weights of the probes around a position: trilinear, reduced if a surface is in between. Shaders use the
-// same weights (shaders/prt_volume.glsl).
+// Weights of the eight probes around a position: trilinear weights, reduced for each probe that a surface
+// separates from the position. shaders/prt_volume.glsl uses the same weights and constants.
 
 #include "prt/transfer_volume.h"
 
@@ -13,18 +13,23 @@
 
 namespace prt {
 
-/// Offset of the lookup along the normal of a lit surface, in cells.
+/// Distance from a lit surface, along its normal, at which a volume is looked up. Unit: width of a cell of
+/// the brick that contains the surface point.
 inline constexpr float kNormalBias = 0.25f;
-/// Multiples of the visibility distance between which the weight of a probe falls from 1 to its minimum.
+/// The visibility weight of a probe is 1 up to kVisibilityFull times the visibility distance. It falls
+/// smoothly to kHiddenWeight at about kVisibilityNone times this distance.
 inline constexpr float kVisibilityFull = 0.8f, kVisibilityNone = 1.03f;
-/// Minimum weight of a hidden probe at the visibility distance. Farther away it decreases, but never to zero,
-/// so that weights never sum to zero. If all probes are hidden, the least hidden ones dominate.
+/// Visibility weight of a probe that a surface hides, for a point at the visibility distance. Beyond this
+/// distance the weight decreases with its eighth power, down to kHiddenWeight / 16^8, and is never 0.
+/// Therefore the weights of eight hidden probes have a sum above 0, and the probes with the least excess
+/// distance dominate.
 inline constexpr float kHiddenWeight = 1e-4f;
-/// Inverse visibility distance, per metre, of a probe inside geometry.
+/// Value for 1 / visibility distance, per metre, if the distance is 0: the probe is inside geometry.
 inline constexpr float kInvalidNearness = 1e18f;
 
-/// Returns the visibility weight of a probe, 0..1, for a point at offset `from` from the probe, metres.
-/// `nearness` is 1 / visibility distance along -x, +x, -y, +y, -z, +z, per metre.
+/// Returns the visibility weight of a probe, above 0 and up to 1, for a point. `from`: the point minus the
+/// position of the probe, metres. `nearness`: 1 / visibility distance of the probe along -x, +x, -y, +y, -z,
+/// +z, per metre; kInvalidNearness if the distance is 0.
 inline float visibility_weight(const std::array<float, 6>& nearness, const glm::vec3& from) {
     float passed = 0; // 1: at the distance of the surface
     for (int a = 0; a < 3; ++a)
@@ -38,7 +43,10 @@ inline float visibility_weight(const std::array<float, 6>& nearness, const glm::
     return std::max(open, kHiddenWeight / (fourth * fourth));
 }
 
-/// Returns the corners of the cell of `brick` that contains `position`, with trilinear weights.
+/// Returns the eight probes of the cell that contains `position`, with trilinear weights of sum 1; visibility
+/// does not change the weights. `brick`: index into VolumeGrid::bricks. `position`: metres, in the frame of
+/// VolumeGrid::origin, clamped to the brick. `probes`: probes_of(grid). Corner i of the result is at
+/// (i & 1, i >> 1 & 1, i >> 2) in the cell.
 VolumeCorners corners_in(const VolumeGrid& grid, const VolumeProbes& probes, std::size_t brick,
                          const glm::vec3& position);
 

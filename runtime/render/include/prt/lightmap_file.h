@@ -1,6 +1,7 @@
 #pragma once
 
-// Compressed lightmaps in glTF files, and the data that a game binds. Experimental.
+// Compressed lightmaps in glTF files, and the words of their texels that a game binds as textures.
+// Experimental.
 
 #include "prt/lightmap_gltf.h"
 
@@ -13,26 +14,31 @@
 
 namespace prt {
 
-/// Writes PRTKIT_lightmap into `document`, from which `scene` was extracted. Throws `Error` unless the
-/// weights are packed.
+/// Writes `lightmap` as PRTKIT_lightmap into `document`, from which `scene` was extracted, and replaces
+/// existing transfer of surfaces. Throws `Error` if the weights are not packed.
 void write_lightmap(GltfDocument& document, const Scene& scene, const CompressedLightmap& lightmap);
 
-/// Returns the compressed lightmap in the file; empty if absent. Throws `Error` if it is damaged.
+/// Returns the compressed lightmap in `document`, from which `scene` was extracted. Returns no value if the
+/// file has no lightmap, or one with raw (uncompressed) transfer. Throws `Error` if the lightmap is damaged.
 std::optional<CompressedLightmap> read_compressed_lightmap(const GltfDocument& document, const Scene& scene);
 
-/// Expands the `compressed` receivers of `baked` to all texels, as a game loads them. Every other texel gets
-/// the values of a nearby receiver.
+/// Returns a lightmap whose receivers are all texels of the maps, as a game loads them. `compressed`: the
+/// compressed transfer of `baked`, with the same receivers. Texel baked.texels[i] gets receiver i; every
+/// other texel gets a nearby receiver of the same map. In a map without receivers all values are 0.
 CompressedLightmap scatter_to_maps(const BakedLightmap& baked, ClusteredTransfer compressed);
 
-/// Expands `values` [texels.size()], which belong to `texels`, to all texels, [layout.texels()]. Every other
-/// texel gets the value of a nearby one.
+/// Returns a value for every texel of the maps, [layout.texels()]. Texel texels[i] gets values[i]; every
+/// other texel gets the value of a nearby texel of the same map that has one. In a map without values all are
+/// 0. `texels`: numbers of texels in ascending order, as in BakedLightmap; `values`: [texels.size()].
 std::vector<glm::vec3> scatter_to_maps(const LightmapLayout& layout, std::span<const std::uint32_t> texels,
                                        std::span<const glm::vec3> values);
 
-/// Returns the receivers `texels` of a lightmap whose receivers are all texels, in the order of `texels`.
+/// Returns transfer that contains only some receivers of `all`: receiver i is receiver texels[i] of `all`.
+/// The receivers of `all` are all texels of a lightmap, numbered as in LightmapLayout. Bases are copied.
 ClusteredTransfer gather_texels(const ClusteredTransfer& all, std::span<const std::uint32_t> texels);
 
-/// Returns word `word` of every texel of map `map`, row by row: the texels of an R32UI texture.
+/// Returns one 32-bit word of packed weights of every texel of a map, row by row from v = 0: the contents of
+/// an R32UI texture. `map`: index into LightmapLayout::maps. `word`: 0 to ClusteredReceivers::words - 1.
 std::vector<std::uint32_t> words_of_map(const CompressedLightmap& lightmap, std::size_t map, int word);
 
 } // namespace prt

@@ -1,6 +1,6 @@
 #pragma once
 
-// Lookup of lightmaps at surface points, with the filtering of a renderer. Experimental.
+// Looks up lightmaps at surface points on the CPU, with the bilinear filter of a GPU. Experimental.
 
 #include "prt/lightmap.h"
 #include "prt/scene.h"
@@ -14,17 +14,20 @@
 
 namespace prt {
 
-/// Finds the texels of points on the triangles of a scene. Thread-safe.
+/// Finds the lightmap texels of points on the triangles of a scene. Immutable, thread-safe.
 class LightmapLookup {
 public:
-    /// Keeps references to `scene` and `layout`.
+    /// Keeps references to `scene` and `layout`, which must belong together.
     LightmapLookup(const Scene& scene, const LightmapLayout& layout);
 
-    /// Returns the texels, numbered as in the layout, and the weights of the bilinear sample at a point.
-    /// `triangle`: index in the order of the scene's primitives and their triangles. `barycentrics`:
-    /// barycentric coordinates of corners 1 and 2.
+    /// Returns the four texels and weights of the bilinear sample at a point of a triangle. Texels are
+    /// numbered over all maps of the layout: indices into an array [layout.texels()]. `triangle`: number of
+    /// the triangle, counted over all primitives of the scene in order. `barycentrics`: barycentric
+    /// coordinates of the second and the third corner of the triangle.
     BilinearTexels filter(std::uint32_t triangle, const glm::vec2& barycentrics) const;
-    /// Returns the bilinear sample of `values` [texels of the layout] at the point of `filter`.
+    /// Returns the bilinear sample of `values` at a point of a triangle. `values`: [layout.texels()].
+    /// `triangle`: number of the triangle, counted over all primitives of the scene in order. `barycentrics`:
+    /// barycentric coordinates of the second and the third corner.
     glm::vec3 look_up(std::uint32_t triangle, const glm::vec2& barycentrics,
                       std::span<const glm::vec3> values) const;
 
@@ -35,7 +38,8 @@ private:
     std::vector<std::uint32_t> first_triangles_; ///< [primitives + 1]
 };
 
-/// Samples `values` [texels of the layout] at the vertices of `scene`, [receivers].
+/// Returns the bilinear samples of `values` [layout.texels()] at the vertices of `scene`:
+/// [receivers of the scene]. If several primitives share vertices, the last one determines the map.
 std::vector<glm::vec3> at_vertices(const Scene& scene, const LightmapLayout& layout,
                                    std::span<const glm::vec3> values);
 

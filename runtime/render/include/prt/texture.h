@@ -1,6 +1,6 @@
 #pragma once
 
-// Textures of materials: a mip chain for OpenGL, and the same filtering on the CPU. Experimental.
+// Textures of materials: builds mip chains for OpenGL, and filters them on the CPU like OpenGL. Experimental.
 
 #include "prt/image_file.h"
 #include "prt/scene.h"
@@ -14,47 +14,57 @@
 
 namespace prt {
 
-/// Encoding of red, green and blue: the sRGB curve for colors, linear for data. Alpha is always linear.
-enum class TextureEncoding { srgb, linear };
-
-/// A texture with its mip chain. Each texel of a level is the average of 2 x 2 decoded texels of the previous
-/// one. Level 0 is the image; the last level is one texel.
-struct Texture {
-    std::vector<Image8> levels;
-    TextureEncoding encoding = TextureEncoding::srgb;
+/// Encoding of the red, green and blue bytes of a texture. Alpha is always linear.
+enum class TextureEncoding {
+    srgb,  ///< sRGB curve, for colors
+    linear ///< value / 255, for data
 };
 
-/// Builds the mip chain of `image`.
+/// A texture with its mip chain.
+struct Texture {
+    /// Level 0 is the image; the last level is one texel. Each texel of a level is the average of 2 x 2
+    /// decoded texels of the previous level. Empty: the texture is not loaded.
+    std::vector<Image8> levels;
+    TextureEncoding encoding = TextureEncoding::srgb; ///< encoding of all levels
+};
+
+/// Builds the mip chain of `image`, which must have at least one pixel. `encoding`: encoding of the bytes of
+/// `image`.
 Texture make_texture(Image8 image, TextureEncoding encoding = TextureEncoding::srgb);
 
-/// Returns linear color and alpha at texture coordinates `uv` (glTF: origin at the top left), filtered
-/// trilinearly at level of detail `lod`, which is clamped to the available levels.
+/// Returns the linear color and alpha of `texture` at `uv`, each 0..1, filtered trilinearly. `use`: only its
+/// wrap modes are used; apply use.transform to `uv` before. `uv`: texture coordinates of glTF, origin at the
+/// top left of the image. `lod`: level of detail; 0 is the finest level; clamped to the existing levels.
+/// `texture` must be loaded. Returns black with alpha 1 if `uv` is not finite.
 glm::vec4 sample(const Texture& texture, const TextureUse& use, const glm::vec2& uv, float lod);
 
-/// Treatment of missing or damaged textures.
+/// Treatment of missing or damaged images in `load_textures`.
 enum class BadTextures {
     error,  ///< throw an `Error` with the name of the image
-    ignore, ///< leave the texture empty: only the material's factors are used
+    ignore, ///< leave the texture empty; materials that use it are drawn with their factors only
 };
 
-/// Purpose of the textures.
+/// Purpose for which textures are needed. A texture is never needed if no primitive uses its material.
 enum class TextureNeeds {
-    shadows,    ///< textures that determine where rays pass: of cut-outs, blended surfaces, glass and leaves
+    shadows,    ///< light through surfaces: base color of cut-outs, blended surfaces and surfaces with
+                ///< diffuse transmission; textures of diffuse transmission and of glass
     visibility, ///< textures of `shadows`, and of emission
-    pictures,   ///< textures of base color and emission
-    all,        ///< textures of `visibility`, and those of reflected light
+    pictures,   ///< base color and emission of all surfaces, nothing else
+    all,        ///< textures of `visibility`, base color of all surfaces, and the metallic factor
 };
 
-/// Returns the images that the surfaces of `scene` need for a purpose, with their encoding. An image with
-/// both colors and data counts as colors.
+/// Returns the images that the surfaces of `scene` need for purpose `needs`: index into Scene::images, and
+/// encoding of the image. An image that is used both as color and as data gets TextureEncoding::srgb.
 std::map<int, TextureEncoding> needed_images(const Scene& scene, TextureNeeds needs);
 
-/// Returns whether `use` has an image whose texture was not loaded into `textures`; false if `textures` is
-/// empty.
+/// Returns whether `use` refers to an image whose element of `textures` is empty. `textures`: result of
+/// load_textures, [images]. Returns false if `use` has no image, or if `textures` has no elements.
 bool is_missing(const TextureUse& use, std::span<const Texture> textures);
 
-/// Loads the images of `needed_images` as textures, [images of the scene]; other entries stay empty. Throws
-/// `Error` if they exceed the memory limit, or as `bad` specifies.
+/// Decodes the images that `scene` needs for purpose `needs`, and builds their mip chains. Returns one
+/// texture per element of Scene::images; textures that are not needed have no levels. `bad`: whether a
+/// missing or damaged image throws `Error`, or its texture stays without levels. Always throws `Error` if the
+/// decoded images need more memory than 192 MB plus 64 times the size of their files.
 std::vector<Texture> load_textures(const Scene& scene, BadTextures bad = BadTextures::error,
                                    TextureNeeds needs = TextureNeeds::all);
 

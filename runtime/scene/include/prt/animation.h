@@ -1,6 +1,7 @@
 #pragma once
 
-// Animation in glTF files: nodes, skins and animations, and the vertices that they move. Experimental.
+// Animation in glTF files: reads nodes, skins and animations, and poses the vertices of a scene.
+// Experimental.
 //
 //     const AnimatedScene figure(load_gltf("figure.glb"));
 //     const Animation& walk = figure.animations().front();
@@ -26,88 +27,109 @@ namespace prt {
 
 struct NodeTree;
 
-/// Property of a node that a channel animates.
+/// Property of a node that a channel animates, relative to the parent of the node.
 enum class AnimatedPart { translation, rotation, scale };
-/// Interpolation between keyframes, as in glTF.
+/// Interpolation between two keyframes, as in glTF: value of the earlier key, linear (rotations: spherical),
+/// or cubic Hermite spline.
 enum class Interpolation { step, linear, cubic_spline };
 
 /// Keyframes of one property of a node.
 struct AnimationChannel {
-    std::size_t node = 0; ///< index in the file
+    std::size_t node = 0; ///< index of the animated node in the file
     AnimatedPart part = AnimatedPart::translation;
     Interpolation interpolation = Interpolation::linear;
-    std::vector<float> times; ///< seconds, in ascending order
-    /// [keys] xyz, or quaternions xyzw; for splines [keys][3]: in-tangent, value, out-tangent.
+    std::vector<float> times; ///< [keys] seconds in ascending order; at least one
+    /// [keys] xyz and 0 for translation (metres) and scale (factors), or quaternions xyzw for rotation. With
+    /// Interpolation::cubic_spline [keys][3]: in-tangent, value and out-tangent of each key.
     std::vector<glm::vec4> values;
 };
 
 /// An animation: channels that play together.
 struct Animation {
-    std::string name;
-    double duration = 0; ///< seconds, time of the last key
+    std::string name;    ///< name in the file; may be empty
+    double duration = 0; ///< seconds, latest time of a key of all channels; 0 without channels
     double speed = 0;    ///< walking speed along +Z in metres per second at which the feet do not slide, from
-                         ///< extras.speed; 0: not in the file
-    std::vector<AnimationChannel> channels;
+                         ///< extras.speed of the animation; 0: the file has no value in 0..1000
+    std::vector<AnimationChannel> channels; ///< channels of morph target weights are left out
 };
 
-/// Returns the value of a channel at time `seconds`, which is clamped to the first and the last key.
-/// Rotations are unit quaternions and interpolate along the shorter arc (glTF 2.0, appendix C).
+/// Returns the value of a channel at time `seconds`: xyz and 0 for translation and scale, or a unit
+/// quaternion xyzw for rotation. Before the first and after the last key the value is that of the key. Linear
+/// interpolation of rotations follows the shorter arc (glTF 2.0, appendix C). The channel must have a key.
 glm::dvec4 value_at(const AnimationChannel& channel, double seconds);
 
-/// Joints, and the matrices from the bind pose of the mesh to the frame of each joint.
+/// Joints of a skinned mesh.
 struct Skin {
-    std::vector<std::size_t> joints;      ///< nodes
-    std::vector<glm::dmat4> inverse_bind; ///< [joints]
+    std::vector<std::size_t> joints; ///< indices of the joint nodes in the file
+    /// [joints] matrix from the frame of the unposed mesh to the frame of the joint; identity if the file has
+    /// no inverse bind matrices.
+    std::vector<glm::dmat4> inverse_bind;
 };
 
-/// Skinning data of one of `Scene::vertex_arrays`. Each vertex is transformed by the weighted mean of its
-/// matrices. An array without a skin has one matrix, that of its node.
+/// Skinning data of one element of `Scene::vertex_arrays`. With a skin, the weighted mean of several matrices
+/// transforms each vertex. Without a skin, the world matrix of the node transforms all vertices.
 struct MovingVertices {
-    std::size_t node = 0;
-    int skin = -1;                             ///< -1: no skin
-    std::vector<glm::vec3> positions, normals; ///< before any transform; metres, and unit vectors
-    std::size_t influences = 1;                ///< per vertex
-    std::vector<std::uint32_t> matrices; ///< [vertices][influences], indices into AnimatedScene::matrices
-    std::vector<float> weights;          ///< [vertices][influences]; if it is 0, the matrix index is ignored
+    std::size_t node = 0; ///< index in the file of the node that draws the vertices
+    int skin = -1;        ///< index into AnimatedScene::skins; -1: no skin
+    /// [vertices] positions in metres, and unit normals, in the frame of the mesh: before node and joint
+    /// matrices, after morph targets. A normal is 0 if it is undefined.
+    std::vector<glm::vec3> positions, normals;
+    std::size_t influences = 1; ///< number of matrices per vertex
+    /// [vertices][influences] indices into the result of AnimatedScene::matrices for this array. Empty
+    /// without a skin.
+    std::vector<std::uint32_t> matrices;
+    /// [vertices][influences] weight of each matrix, 0 or more; the sum per vertex is above 0, but may differ
+    /// from 1. Weight 0: ignore the matrix index. Empty without a skin.
+    std::vector<float> weights;
 };
 
-/// Returns the blended matrix from a vertex to the world. `palette` is AnimatedScene::matrices of its array.
+/// Returns the matrix from the frame of the mesh to the world for one vertex: with a skin, the weighted mean
+/// of its matrices. `palette`: result of AnimatedScene::matrices for the array of `moving`. `vertex`: index
+/// into moving.positions.
 glm::dmat4 vertex_matrix(std::span<const glm::dmat4> palette, const MovingVertices& moving,
                          std::size_t vertex);
 
-/// Returns whether a file has animations; does not read them.
+/// Returns whether the file has at least one animation. Does not read or check the animations.
 bool has_animations(const GltfDocument& document);
 
-/// A scene with its animations. Immutable, thread-safe.
+/// A scene with its nodes, skins and animations. Immutable, thread-safe. The world is that of the file, in
+/// metres; its origin is not Scene::origin.
 class AnimatedScene {
 public:
-    /// Reads the scene and its animations. Throws `Error` with the file and the location in it for skins
-    /// without joints, missing joints and nodes, times that are not finite or decrease, and values that are
-    /// not finite or too few. Also throws the errors of `extract_scene`.
+    /// Reads the scene and its animations; keeps no reference to `document`. Throws `Error`, whose message
+    /// contains the file and the location in it: for joints and nodes that do not exist, joint weights that
+    /// are negative, key times that are not finite or decrease, key values that are not finite or of a wrong
+    /// number, and channels of a node that has a matrix. Also throws the errors of `extract_scene`.
     explicit AnimatedScene(const GltfDocument& document);
 
-    /// The scene in the pose of the file, equal to the result of `extract_scene`.
+    /// Returns the scene in the pose of the file, equal to the result of `extract_scene`.
     const Scene& scene() const { return scene_; }
+    /// Returns all animations of the file, in file order.
     const std::vector<Animation>& animations() const { return animations_; }
+    /// Returns all skins of the file, in file order.
     const std::vector<Skin>& skins() const { return skins_; }
-    const std::vector<MovingVertices>& vertices() const { return vertices_; } ///< [Scene::vertex_arrays]
-    /// Number of nodes of the file.
+    /// Returns the skinning data, [Scene::vertex_arrays].
+    const std::vector<MovingVertices>& vertices() const { return vertices_; }
+    /// Returns the number of nodes of the file.
     std::size_t nodes() const;
 
-    /// Returns the world matrices of all nodes in the pose of the file, [nodes()]. Nodes outside the scene
-    /// have the identity.
+    /// Returns the matrices from the frame of each node to the world, in the pose of the file: [nodes()].
+    /// Nodes outside the default scene have the identity.
     std::vector<glm::dmat4> rest() const;
-    /// Returns the world matrices of all nodes at time `seconds` of `animation`, [nodes()].
+    /// Returns the matrices from the frame of each node to the world at time `seconds` of `animation`:
+    /// [nodes()]. Nodes outside the default scene have the identity. `animation`: one of animations().
+    /// `seconds` is clamped to the keys of each channel; for a loop, pass the remainder of the duration.
     std::vector<glm::dmat4> pose(const Animation& animation, double seconds) const;
 
-    /// Returns the matrices of a vertex array: the matrix of its node, or those of the joints of its skin
-    /// (joint world matrix times inverse bind matrix). The last one is the identity, for vertices without a
-    /// joint.
+    /// Returns the matrices from the mesh to the world that a vertex array uses. Without a skin: one matrix,
+    /// the world matrix of the node. With a skin: [joints + 1], for each joint its world matrix times its
+    /// inverse bind matrix, then the identity for vertices without a joint. `vertex_array`: index into
+    /// vertices(). `nodes`: result of `rest` or `pose`.
     std::vector<glm::dmat4> matrices(std::size_t vertex_array, std::span<const glm::dmat4> nodes) const;
 
-    /// Returns the scene without lights, with the vertices transformed by `nodes`, for ray tracing.
-    /// `placement` maps the file's world to the positions of the result, whose origin is 0. The front sides
-    /// of triangles are those of `scene()`.
+    /// Returns a copy of scene() without lights, in the pose `nodes`, for ray tracing. `nodes`: result of
+    /// `rest` or `pose`. `placement`: matrix from the world of the file to the positions of the result, whose
+    /// Scene::origin is 0. Triangles keep the winding order of scene(), also if `placement` mirrors.
     Scene posed(std::span<const glm::dmat4> nodes, const glm::dmat4& placement) const;
 
 private:

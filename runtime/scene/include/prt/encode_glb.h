@@ -1,6 +1,6 @@
 #pragma once
 
-// glTF files in memory. Experimental.
+// Encodes glTF files in memory, without writing to disk. Experimental.
 
 #include "prt/gltf.h"
 
@@ -9,7 +9,8 @@
 
 namespace prt {
 
-/// Returns the bytes that `save_glb` writes. Throws `Error` if they exceed 4 GB.
+/// Returns `document` as a .glb file in memory, with all data: the bytes that `save_glb` writes for the same
+/// arguments. `compression`: of vertex and index data. Throws `Error` if the file would exceed 4 GB.
 std::vector<std::byte> encode_glb(const GltfDocument& document,
                                   BufferCompression compression = BufferCompression::none);
 

@@ -1,7 +1,7 @@
 #pragma once
 
-// Baked light for viewers without support for the prtkit extensions: docs/format.md, "Fallback".
-// Experimental.
+// Writes the light of one lighting as vertex colors, for viewers without support for the prtkit extensions:
+// docs/format.md, "Fallback". Experimental.
 
 #include "prt/gltf.h"
 
@@ -12,20 +12,28 @@
 
 namespace prt {
 
-/// Returns the factor on radiance that maps all of the surface to 0..1, except 0.5 % of its area. `radiance`
-/// and `areas` are [receivers]. Returns 1 if the radiance is black.
+/// Returns an exposure for `write_fallback`: the factor on radiance for which the largest channel is 1 or
+/// less on 99.5 % of the area; the brightest 0.5 % are clipped. `radiance`: [receivers of the scene] exit
+/// radiance for albedo 1, linear Rec. 709. `areas`: [receivers] m². Returns 1 if the radiance is black.
 float fallback_exposure(std::span<const glm::vec3> radiance, std::span<const float> areas);
 
-/// Writes baked colors as COLOR_0 and makes materials unlit, so that other viewers show the light;
-/// `load_gltf` ignores both. COLOR_0 is `radiance` [receivers] (exit radiance for albedo 1) times `exposure`
-/// and the vertex colors, clamped to 0..1. Primitives with emissive, glass or unlit materials are not
-/// changed. Returns the number of changed primitives. `scene` must be extracted from `document`. Throws
-/// `Error` unless `document` contains clustered transfer.
+/// Adds a fallback to a document with compressed transfer: writes light as vertex colors COLOR_0, and makes
+/// materials unlit, so that viewers without prtkit show the light. `load_gltf` restores the original colors
+/// and materials. COLOR_0 is radiance times `exposure` times the original vertex color, linear, clamped to
+/// 0..1. `radiance`: [receivers of `scene`] exit radiance for albedo 1, linear Rec. 709. `exposure`: above 0.
+/// Primitives with an emissive, glass or unlit material are not changed. Returns the number of changed
+/// primitives. `scene` must be extracted from `document`. After `write_clustered`, save the document and read
+/// the file again before this call. Throws `Error` if `document` has no compressed transfer at vertices
+/// (PRTKIT_clustered_pca).
 std::size_t write_fallback(GltfDocument& document, const Scene& scene, std::span<const glm::vec3> radiance,
                            float exposure);
 
-/// Writes the colors of `write_fallback` and makes materials unlit, for a document without transfer. They
-/// replace the vertex colors and lit materials of the file. Returns the number of changed primitives.
+/// Writes light as vertex colors COLOR_0 and makes materials unlit, for a document without transfer. The
+/// original vertex colors and lit materials are lost. COLOR_0 is radiance times `exposure` times the original
+/// vertex color, linear, clamped to 0..1. `radiance`: [receivers of `scene`] exit radiance for albedo 1,
+/// linear Rec. 709. Primitives with an emissive, glass or unlit material are not changed. Returns the number
+/// of changed primitives. `scene` must be extracted from `document`. Throws `Error` if the document is
+/// damaged.
 std::size_t write_unlit(GltfDocument& document, const Scene& scene, std::span<const glm::vec3> radiance,
                         float exposure);
 

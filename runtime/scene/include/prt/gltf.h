@@ -16,14 +16,17 @@ namespace prt {
 
 struct GltfContents;
 
-/// A glTF file in memory: its JSON, and all its buffers joined into one. Data that prtkit does not support is
-/// preserved from `load_gltf` to `save_glb`.
+/// A glTF file in memory: its JSON, one buffer with all binary data, and its images. `save_glb` also writes
+/// the data of the file that prtkit does not support. `load_gltf` and `parse_gltf` create documents. Movable,
+/// not copyable. A moved-from document can only be destroyed or assigned to.
 class GltfDocument {
 public:
+    /// For the implementation of prtkit; `GltfContents` is not a public type.
     explicit GltfDocument(std::unique_ptr<GltfContents> contents);
     GltfDocument(GltfDocument&&) noexcept;
     GltfDocument& operator=(GltfDocument&&) noexcept;
     ~GltfDocument();
+    /// Returns the internal data, for the implementation of prtkit; `GltfContents` is not a public type.
     GltfContents& contents() { return *contents_; }
     const GltfContents& contents() const { return *contents_; }
 
@@ -31,102 +34,132 @@ private:
     std::unique_ptr<GltfContents> contents_;
 };
 
-/// Representation of meshes whose instances share their transfer (PRTKIT_instances).
+/// Representation in a document of meshes that several nodes draw with shared transfer (PRTKIT_instances of
+/// docs/format.md). Does not matter for files without PRTKIT_instances.
 enum class Instancing {
-    nodes,    ///< each instance is a node
-    separate, ///< each mesh occurs once, in its own frame, as its transfer is stored
+    nodes,    ///< each instance is a node, at its position in the world; shared transfer cannot be read
+    separate, ///< each shared mesh occurs once, in its own frame; required to read shared transfer
 };
 
-/// Settings for reading a file.
+/// Settings for reading a glTF file.
 struct GltfOptions {
-    /// Whether URIs may name files outside the folder of the scene: by "..", by links or by absolute paths.
-    /// If false, only regular files in that folder and its subfolders are allowed.
+    /// Whether the URIs of buffers and images may name files outside the folder of the scene: by "..", by
+    /// links or by absolute paths. If false, only regular files in that folder and its subfolders are read.
     bool allow_outside = false;
-    /// Files that will be written. A scene whose buffers or images are among them is rejected.
+    /// Paths of files that the caller will write. Reading throws `Error` if an external buffer or image of
+    /// the scene is one of these files. Empty: no check.
     std::vector<std::filesystem::path> outputs = {};
-    Instancing instancing = Instancing::nodes;
-    /// Factor on the intensity of the lights of KHR_lights_punctual, also in the document. Exporters write
-    /// candela and lux; 1 / 683 converts them to watts.
+    Instancing instancing = Instancing::nodes; ///< representation of instances that share transfer
+    /// Factor on the intensity of all lights of KHR_lights_punctual. Changes the document; saved files
+    /// contain the new intensities. Exporters write candela and lux; 1 / 683 converts these to W/sr and W/m².
     double lamp_scale = 1;
-    /// Primitives without normals get smooth normals, also in the document: across edges whose triangles meet
-    /// at this angle or less. Without a value: flat normals, as glTF requires.
+    /// Angle in degrees, 0 to 180, for primitives without normals. With a value, reading adds normals to the
+    /// document that are smooth across an edge if the normals of its two triangles differ by this angle or
+    /// less. Without a value, `extract_scene` computes flat normals, as glTF requires.
     std::optional<double> smooth_normals_degrees = {};
-    /// Maximum memory for the scene with its instances and morph targets, bytes. 0: 256 MB plus 64 times the
-    /// size of its files, so that a small file cannot take all memory.
+    /// Maximum memory in bytes for the extracted scene, with all instances and morph targets. `extract_scene`
+    /// throws `Error` for more. 0: the limit is 256 MB plus 64 times the size of the file and its external
+    /// buffers, so that a small file cannot use all memory.
     double scene_limit = 0;
 };
 
-/// Reads .gltf or .glb with its buffers and images. Throws `Error` with the file and the location in it. An
-/// image that cannot be read causes a notice, and an error only if its pixels are needed (`load_textures`).
+/// Reads a .gltf or .glb file with its buffers and encoded images. Throws `Error` if the file cannot be read,
+/// is damaged, or requires an unsupported extension; the message contains the path and the location of the
+/// fault. An image that cannot be read does not throw here: it causes a line in Scene::notices, and an
+/// `Error` of `load_textures` if its pixels are needed.
 GltfDocument load_gltf(const std::filesystem::path& path, const GltfOptions& options = {});
 
-/// Reads a .gltf or .glb file in memory, with its buffers and images. `path`: location of the file, for
-/// messages and to find the files that it references. Throws the errors of `load_gltf`.
+/// Reads a .gltf or .glb file whose bytes `file` are in memory. `path`: path that the file has or would have,
+/// for messages, and to find external buffers and images in its folder; the file itself is not opened. Keeps
+/// no reference to `file`. Throws the errors of `load_gltf`.
 GltfDocument parse_gltf(std::span<const std::byte> file, const std::filesystem::path& path,
                         const GltfOptions& options = {});
 
-/// Returns the default scene, flattened. Every instance of a mesh gets separate vertices; skins and morph
-/// targets are evaluated in the pose of the file. Throws `Error` for accessors out of bounds, indices of
-/// vertices that do not exist, positions that are not finite, and a scene without triangles.
+/// Returns the default scene of the file (scene 0 if there is no default, all nodes if there are no scenes),
+/// flattened: all vertices are in the world, relative to Scene::origin. Every instance of a mesh gets
+/// separate vertices. Skins and morph targets are evaluated in the pose of the file; only the finest levels
+/// of detail are included. Throws `Error` for data out of bounds, positions that are not finite or more than
+/// 1e9 m from the origin, a scene without triangles, and a scene that exceeds GltfOptions::scene_limit.
 Scene extract_scene(const GltfDocument& document);
 
-/// Writes PRTKIT_transfer into `document`, from which `scene` was extracted. Meshes that several nodes share
-/// are copied per node, and primitives without normals get flat ones. Replaces existing transfer.
+/// Writes raw transfer of vertices (PRTKIT_transfer) into `document`, from which `scene` was extracted.
+/// Replaces existing transfer of surfaces. Changes the meshes: a mesh that several nodes draw is copied for
+/// each node, and primitives without normals get flat normals. Call only one function that writes vertex data
+/// per document.
 void write_transfer(GltfDocument& document, const Scene& scene, const BakedTransfer& baked);
 
-/// Writes PRTKIT_clustered_pca into `document`, from which `scene` was extracted, and removes
-/// PRTKIT_transfer.
+/// Writes compressed transfer of vertices (PRTKIT_clustered_pca) into `document`, from which `scene` was
+/// extracted. Replaces existing transfer of surfaces, raw or compressed. Changes the meshes: a mesh that
+/// several nodes draw is copied for each node, and primitives without normals get flat normals. Call only one
+/// function that writes vertex data per document.
 void write_clustered(GltfDocument& document, const Scene& scene, const CompressedTransfer& compressed);
 
-/// Returns the raw transfer in the file; empty if absent. Throws `Error` if it is damaged, or if its
-/// instances share transfer and the file was not read with `Instancing::separate` (prt/instances_gltf.h).
+/// Returns the raw transfer of vertices in `document`, from which `scene` was extracted. Returns no value if
+/// the file has no PRTKIT_transfer. Throws `Error` if the transfer is damaged. Also throws if instances in
+/// the file share transfer and the file was read with `Instancing::nodes` (prt/instances_gltf.h).
 std::optional<BakedTransfer> read_transfer(const GltfDocument& document, const Scene& scene);
-/// Returns the compressed transfer in the file; empty if absent. Throws the errors of `read_transfer`.
+/// Returns the compressed transfer of vertices in `document`, from which `scene` was extracted. Returns no
+/// value if the file has no PRTKIT_clustered_pca. Throws `Error` if the transfer is damaged. Also throws if
+/// instances in the file share transfer and the file was read with `Instancing::nodes`
+/// (prt/instances_gltf.h).
 std::optional<CompressedTransfer> read_clustered(const GltfDocument& document, const Scene& scene);
 
-/// Writes `colors` [receivers] as COLOR_0, float32, which every viewer shows. Replaces existing vertex
-/// colors.
+/// Writes vertex colors (attribute COLOR_0, three float32 numbers, linear) into `document`, from which
+/// `scene` was extracted. Every glTF viewer shows the colors, multiplied by the base color. `colors`:
+/// [receivers of `scene`]. Replaces existing vertex colors and their alpha. Call only one function that
+/// writes vertex data per document; to write more, save the document and read the file again.
 void write_vertex_colors(GltfDocument& document, const Scene& scene, std::span<const glm::vec3> colors);
 
-/// Custom attribute of all vertices, float32.
+/// Attribute of all vertices of a scene, as float32 numbers.
 struct VertexAttribute {
-    std::string name;
-    int components = 1;        ///< 1 to 4
-    std::vector<float> values; ///< [receivers][components]
+    std::string name;          ///< name of the glTF attribute, such as "COLOR_0"; custom names begin with '_'
+    int components = 1;        ///< numbers per vertex, 1 to 4
+    std::vector<float> values; ///< [receivers of the scene][components]
 };
 
-/// Returns COLOR_0 of the scene times `factors` [receivers]; with alpha if any vertices have colors.
+/// Returns the attribute COLOR_0: the red, green and blue of each vertex color of `scene` (white if a vertex
+/// has no color) times the factor of the vertex. `factors`: [receivers of `scene`]. The attribute has four
+/// components, with the alpha of the file, if any vertex array has colors; otherwise three.
 VertexAttribute shaded_vertex_colors(const Scene& scene, std::span<const float> factors);
 
-/// Writes `attributes`, which replace attributes of the same name. Call functions that write vertex data only
-/// once per extracted scene.
+/// Writes `attributes` of vertices into `document`, from which `scene` was extracted. Replaces existing
+/// attributes of the same name. Changes the meshes: a mesh that several nodes draw is copied for each node,
+/// and primitives without normals get flat normals. Call only one function that writes vertex data per
+/// document; to write more, save the document and read the file again.
 void write_vertex_attributes(GltfDocument& document, const Scene& scene,
                              std::span<const VertexAttribute> attributes);
 
-/// Occlusion and bent normals of some primitives as PNG files.
+/// Ambient occlusion and bent normals of some primitives, as encoded PNG files.
 struct SurfaceTexture {
-    std::vector<std::size_t> primitives; ///< indices into Scene::primitives
-    int texcoord = 1;
-    bool repeats = false;                ///< false: filters clamp at its border
-    std::vector<std::byte> occlusion;    ///< in the red channel
-    std::vector<std::byte> bent_normals; ///< n / 2 + 1/2 in the scene's frame; may be empty
+    std::vector<std::size_t> primitives; ///< primitives that use the textures, indices into Scene::primitives
+    int texcoord = 1;                    ///< UV set of the textures: TEXCOORD_n
+    bool repeats = false;                ///< wrapping outside 0..1; true: repeat, false: clamp to the edge
+    std::vector<std::byte> occlusion;    ///< PNG file; ambient visibility in red, 1 is unoccluded
+    std::vector<std::byte> bent_normals; ///< PNG file; RGB is n / 2 + 1/2 for a unit vector n in the frame of
+                                         ///< the scene; empty: no bent normals
 };
 
-/// Writes occlusionTexture of materials, replacing existing ones, and bent normals as
-/// extras.prtkit.bentNormalTexture in the same material. A material that is used by primitives with different
-/// textures is copied for each texture, also in KHR_materials_variants. Returns the number of materials that
-/// had an occlusionTexture.
+/// Embeds `textures` in `document`, from which `scene` was extracted. The materials of the primitives get the
+/// occlusion as occlusionTexture, and the bent normals as extras.prtkit.bentNormalTexture. If primitives with
+/// different textures, or without one, share a material, each texture gets a copy of the material, also in
+/// KHR_materials_variants. Replaces existing occlusionTextures and returns the number of materials that had
+/// one. Throws `Error` if bent normals are written and `extras` of a material is not an object.
 std::size_t write_surface_textures(GltfDocument& document, const Scene& scene,
                                    std::span<const SurfaceTexture> textures);
 
-/// Removes all transfer from the document, and frees its memory.
+/// Removes the transfer of vertices and lightmaps, and the lobes of skinned figures, with their data from
+/// `document`, and frees the memory. Keeps probe volumes and occlusion volumes.
 void discard_transfer(GltfDocument& document);
 
-/// Compression of vertex and index data on disk. `meshopt`: EXT_meshopt_compression, lossless; readers of the
-/// file must support it. Packed weights use a code of prtkit if that is smaller.
-enum class BufferCompression { none, meshopt };
+/// Compression of vertex and index data in a .glb file.
+enum class BufferCompression {
+    none,   ///< any glTF reader can read the file
+    meshopt ///< EXT_meshopt_compression, lossless; readers must support it. For packed weights, a code that
+            ///< only prtkit reads is used if the file becomes smaller
+};
 
-/// Writes a .glb that contains all data. Throws `Error` on failure, or if it exceeds 4 GB.
+/// Writes `document` to the .glb file `path`, with all buffers and images embedded. Replaces an existing file
+/// only if writing succeeds. Throws `Error` if the file cannot be written, or if it would exceed 4 GB.
 void save_glb(const GltfDocument& document, const std::filesystem::path& path,
               BufferCompression compression = BufferCompression::none);
 

@@ -9,26 +9,28 @@ namespace prt {
 
 /// Devices that a context may use.
 enum class GlDevice {
-    hardware, ///< a GPU only; excludes Mesa's software rasterisers
-    any,      ///< a GPU if available, else software
+    hardware, ///< only GPUs; software renderers such as Mesa's llvmpipe are excluded
+    any,      ///< a GPU if there is one, otherwise a software renderer
 };
 
-/// An OpenGL 4.5 core context without window or display, through EGL: a hardware device by enumeration
-/// (EGL_EXT_platform_device), else Mesa's surfaceless platform, else a software device. Without EGL it uses a
-/// hidden GLFW window. The context is current on the thread that created it, until another context becomes
-/// current or it is destroyed.
+/// An OpenGL 4.5 core context without a visible window. EGL creates the context without a display: on a GPU,
+/// otherwise on Mesa's surfaceless platform, otherwise on a software device. If EGL fails or is missing, GLFW
+/// (if the library is built with it) creates a hidden window, which needs a display. A context can be current
+/// on one thread at a time.
 class GlContext {
 public:
-    /// Creates a context and makes it current. Returns null if there is no such device; `why` then lists the
-    /// attempts and their errors.
+    /// Creates a context and makes it current on this thread. Returns null on failure. If `why` is not null,
+    /// a failure sets `*why` to one line that lists the attempts and their errors.
     static std::unique_ptr<GlContext> create(GlDevice device, std::string* why = nullptr);
+    /// Destroys the context. If the context is current on this thread, no context is current afterwards.
     ~GlContext();
     GlContext(const GlContext&) = delete;
     GlContext& operator=(const GlContext&) = delete;
 
-    const std::string& renderer() const { return renderer_; } ///< name from the driver
-    /// Makes the context current on this thread. Code that draws with a context calls this first, because a
-    /// driver or another context may have changed the current one. Throws `Error` if the context is lost.
+    /// Returns the name of the renderer, as the driver reports it (GL_RENDERER).
+    const std::string& renderer() const { return renderer_; }
+    /// Makes the context current on this thread. Call this before drawing if other code may have made another
+    /// context current. Throws `Error` if the driver refuses, for example after the GPU was lost.
     void make_current() const;
 
 private:

@@ -1,6 +1,7 @@
 #pragma once
 
-// Compressed lightmaps on the GPU.
+// Compressed lightmaps on the GPU: a compute shader lights their texels. An OpenGL 4.5 context must be
+// current.
 
 #include "prt/cluster_lighting.h"
 #include "prt/gl_objects.h"
@@ -14,24 +15,29 @@
 
 namespace prt {
 
-/// Lit lightmaps as textures for surfaces, for `GlScene::light_by`.
+/// Lit lightmaps as textures, for `GlScene::light_by`. The view owns nothing.
 struct GlLightmapTextures {
-    const LightmapLayout* layout = nullptr;
-    std::span<const GlObject> maps; ///< [layout->maps] with all levels, filtered
+    const LightmapLayout* layout = nullptr; ///< null: no lightmaps; vertices are lit
+    /// [layout->maps] textures with all mip levels and trilinear filtering. A texel is the exit radiance for
+    /// albedo 1, linear Rec. 709.
+    std::span<const GlObject> maps;
 };
 
 /// A compressed lightmap on the GPU, lit by `shaders/prt_lightmap.comp`.
 class GlLightmap {
 public:
-    /// Uploads words and clusters. Keeps a reference to the layout of `lightmap`. Throws `Error` if memory
-    /// runs out, or if a texel has more words than shaders support.
+    /// Uploads the weights of the texels and the clusters. Keeps a reference to the layout of `lightmap`,
+    /// whose weights must be packed. Textures are undefined until `set_light`. Throws `Error` if GPU memory
+    /// runs out, if a texel has more words than shaders support, or if the driver cannot build the program.
     explicit GlLightmap(const CompressedLightmap& lightmap);
 
-    /// Computes the constants for `lighting`, then the radiance of all texels and the smaller mip levels.
+    /// Computes the radiance of all texels for `lighting`, and all mip levels. Changes the program in use,
+    /// the bound storage buffers and the bound textures. Throws `Error` if `lighting` has fewer bands than
+    /// the transfer, or another number of lamps.
     void set_light(const Lighting& lighting);
-    /// Returns the lit textures; they are valid as long as this object.
+    /// Returns the lit textures. They are valid as long as this object and the lightmap of its constructor.
     GlLightmapTextures textures() const { return {&layout_, maps_}; }
-    /// Size on the GPU in bytes.
+    /// Returns the size of all data on the GPU in bytes: weights, clusters, constants and lit textures.
     std::size_t bytes() const { return bytes_; }
 
 private:
@@ -44,10 +50,13 @@ private:
     std::size_t bytes_ = 0;
 };
 
-/// Creates one texture per map from `radiance` [layout.texels()], with all mip levels.
+/// Creates one texture per map of `layout`, RGB16F with all mip levels, from `radiance` [layout.texels()]:
+/// exit radiance for albedo 1, or a color. Throws `Error` if GPU memory runs out.
 std::vector<GlObject> make_lightmap_textures(const LightmapLayout& layout,
                                              std::span<const glm::vec3> radiance);
-/// Creates one texture per map without content, RGBA16F, for shaders that write them.
+/// Creates one texture per map of `layout`, RGBA16F, whose contents are undefined. Mip levels are allocated.
+/// A shader must write level 0, and the caller must generate the other levels. Throws `Error` if GPU memory
+/// runs out.
 std::vector<GlObject> make_lightmap_textures(const LightmapLayout& layout);
 
 } // namespace prt

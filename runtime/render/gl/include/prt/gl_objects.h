@@ -1,6 +1,7 @@
 #pragma once
 
-// OpenGL objects that delete themselves, and programs from the shaders of prtkit. A context must be current.
+// OpenGL objects that delete themselves, and programs from the shaders of prtkit. An OpenGL 4.5 context must
+// be current on the thread for all functions, and when an object is destroyed.
 
 #include "prt/support/error.h"
 
@@ -12,15 +13,19 @@
 
 namespace prt {
 
-/// Kind of an OpenGL object, which determines how it is deleted.
+/// Kind of an OpenGL object, which determines the function that deletes it.
 enum class GlKind { buffer, texture, framebuffer, vertex_array, program };
 
-/// Owns an OpenGL name and deletes it.
+/// Owner of one OpenGL object, which the destructor deletes. Movable, not copyable.
 class GlObject {
 public:
+    /// Owns no object.
     GlObject() = default;
+    /// Takes ownership of the OpenGL object `name`; 0: no object.
     GlObject(GlKind kind, std::uint32_t name) : kind_(kind), name_(name) {}
+    /// Takes the object of `other`, which then owns no object.
     GlObject(GlObject&& other) noexcept : kind_(other.kind_), name_(std::exchange(other.name_, 0)) {}
+    /// Exchanges the objects of both owners; `other` deletes the previous object later.
     GlObject& operator=(GlObject&& other) noexcept {
         std::swap(kind_, other.kind_);
         std::swap(name_, other.name_);
@@ -28,6 +33,7 @@ public:
     }
     ~GlObject();
 
+    /// Returns the name (number) that OpenGL functions use for the object; 0 if there is no object.
     std::uint32_t name() const { return name_; }
 
 private:
@@ -35,22 +41,28 @@ private:
     std::uint32_t name_ = 0;
 };
 
-/// Creates an immutable buffer with `bytes`. Throws `Error` if GPU memory runs out.
+/// Creates a buffer of fixed size and fills it with a copy of `bytes`. If `bytes` is empty, the buffer
+/// contains four zero bytes. `glNamedBufferSubData` can change the contents. Throws `GpuOutOfMemory` if GPU
+/// memory runs out.
 GlObject make_buffer(std::span<const std::byte> bytes);
+/// Creates a buffer of fixed size and fills it with a copy of `values`, like `make_buffer` for bytes.
 template <class T>
 GlObject make_buffer(std::span<const T> values) {
     return make_buffer(std::as_bytes(values));
 }
 
-/// Creates an immutable buffer that shaders write, of at least one word.
+/// Creates a buffer of `bytes` bytes, at least 4, with undefined contents. Shaders can write it; the CPU
+/// cannot. Throws `GpuOutOfMemory` if GPU memory runs out.
 GlObject make_buffer_of(std::size_t bytes);
-/// Reads data that shaders wrote from the start of `buffer` into `to`. Throws the errors of `check_gl(what)`.
+/// Copies the first `to.size()` bytes of `buffer` into `to`. If shaders wrote the buffer, the caller must
+/// issue glMemoryBarrier before. Throws the errors of `check_gl(what)`.
 void read_buffer(const GlObject& buffer, std::span<std::byte> to, const char* what);
+/// Copies the start of `buffer` into the values `to`, like `read_buffer` for bytes.
 template <class T>
 void read_buffer(const GlObject& buffer, std::span<T> to, const char* what) {
     read_buffer(buffer, std::as_writable_bytes(to), what);
 }
-/// Binds `buffer` to storage block `binding`.
+/// Binds `buffer` to the shader storage block with number `binding`.
 void bind_storage(std::uint32_t binding, const GlObject& buffer);
 
 /// Creates a vertex array object without attributes.
@@ -58,29 +70,34 @@ GlObject make_vertex_array();
 /// Creates a framebuffer object without attachments.
 GlObject make_framebuffer();
 
-/// Builds a program from the files `vertex` and `fragment` of shaders/, with the lines of `defines` before
-/// each. Empty `fragment`: the program draws nothing. `captured`: an output of the vertex shader for
-/// transform feedback. Throws `Error` with the compiler's message if compilation or linking fails.
+/// Builds a program from two shaders of prtkit. `vertex` and `fragment`: names of files in shaders/, which
+/// are embedded in the library, for example "scene.vert". `fragment` may be empty: the program then has only
+/// a vertex shader, for transform feedback. `defines`: complete #define lines before the text of each shader.
+/// `captured`: the output of the vertex shader that transform feedback records; null: no output. Throws
+/// `Error` with the message of the driver if compilation or linking fails.
 GlObject make_program(const std::string& vertex, const std::string& fragment, const std::string& defines = "",
                       const char* captured = nullptr);
 
-/// Builds a compute program from a file of shaders/.
+/// Builds a compute program. `compute`: name of a file in shaders/, which is embedded in the library.
+/// `defines`: complete #define lines before its text. Throws `Error` with the message of the driver if
+/// compilation or linking fails.
 GlObject make_compute_program(const std::string& compute, const std::string& defines = "");
 
-/// Returns the location of the uniform `name`. Returns -1 if the program does not have it; OpenGL ignores
-/// values for that location.
+/// Returns the location of the uniform `name`; -1 if the program does not have this uniform. OpenGL ignores
+/// values that are set for location -1.
 int uniform(const GlObject& program, const char* name);
-/// Sets the uniform `name`; does nothing if the program does not have it.
+/// Sets the `uint` uniform `name`. Does nothing if the program does not have this uniform.
 void set_uniform(const GlObject& program, const char* name, std::uint32_t value);
+/// Sets the `float` uniform `name`. Does nothing if the program does not have this uniform.
 void set_uniform(const GlObject& program, const char* name, float value);
 
-/// Thrown if GPU memory runs out; smaller batches of work may still fit.
+/// Error for GPU memory that ran out. Smaller batches of work may still fit.
 struct GpuOutOfMemory : Error {
     using Error::Error;
 };
 
-/// Throws `Error` if OpenGL has recorded an error, and `GpuOutOfMemory` if memory ran out. `what` names the
-/// failed work in the message.
+/// Checks one error flag of OpenGL (glGetError). Throws `GpuOutOfMemory` if GPU memory ran out, and `Error`
+/// for any other error. `what`: the work that failed, a noun for the message, for example "a texture".
 void check_gl(const char* what);
 
 } // namespace prt

@@ -1,6 +1,6 @@
 #pragma once
 
-// Occlusion volumes on the GPU.
+// Occlusion volumes on the GPU. An OpenGL 4.5 context must be current.
 
 #include "prt/gl_objects.h"
 #include "prt/occlusion_volume.h"
@@ -12,11 +12,13 @@ namespace prt {
 /// Occlusion volumes on the GPU, for shaders that include `shaders/prt_occluders.glsl`.
 class GlOccluders {
 public:
-    /// Slot i of the texture is volume i. Throws `Error` if the device does not support a texture of this
-    /// depth.
+    /// Uploads copies of `volumes` into one 3D texture. Slot i of the texture is volumes[i]: the argument
+    /// `slot` of `placed`. `volumes` may be empty. Throws `Error` if the device does not support a 3D texture
+    /// with a depth of 8 texels per volume, or if GPU memory runs out.
     explicit GlOccluders(std::span<const OcclusionVolume> volumes);
 
-    /// Binds the texture, and a block with these objects, at most kMaxOccluders, for subsequent draws.
+    /// Selects the occluders of subsequent draws: copies `objects` to the uniform block, and binds the block
+    /// and the texture. `objects`: results of `placed`, at most kMaxOccluders; more are undefined behavior.
     void use(std::span<const PlacedOccluder> objects);
 
 private:

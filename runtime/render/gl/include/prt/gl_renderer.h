@@ -7,10 +7,12 @@
 
 namespace prt {
 
-/// Draws `picture` with OpenGL: linear radiance, [height · samples][width · samples]. Opaque and cut-out
-/// surfaces use the depth buffer; blended primitives are drawn last, from far to near. Suns use shadow maps
-/// (prt/sun_shadows.h), which require `picture.textures` loaded with TextureNeeds::all. Throws `Error` if the
-/// picture is larger than the device supports, has more than kMaxShadowedSuns suns, or memory runs out.
+/// Draws `picture` with OpenGL and returns linear Rec. 709 radiance, one pixel per sample:
+/// [height · samples][width · samples], rows from the top. Makes `context` current on this thread. Draws
+/// opaque and cut-out surfaces with a depth buffer, then blended primitives from far to near. Adds
+/// `picture.suns` with shadow maps (prt/sun_shadows.h); `picture.textures` must then be loaded with
+/// TextureNeeds::all. Throws `Error` if the picture is larger than the device supports, if it has more than
+/// kMaxShadowedSuns suns, if GPU memory runs out, or if the context is lost.
 Image render_gl(const Picture& picture, const GlContext& context);
 
 } // namespace prt

@@ -1,6 +1,7 @@
 #pragma once
 
-// Scenes on the GPU.
+// Scenes on the GPU: geometry, textures and materials for drawing. An OpenGL 4.5 context must be current for
+// all functions.
 
 #include "prt/gl_lightmap.h"
 #include "prt/gl_objects.h"
@@ -12,57 +13,84 @@
 
 namespace prt {
 
-/// Vertex array objects, one per entry of Scene::vertex_arrays.
+/// Vertex array objects of OpenGL, [Scene::vertex_arrays].
 using GlVertexArrays = std::vector<GlObject>;
 
-/// Triangles [first, first + count) of a primitive.
+/// Range of triangles of a primitive, indices into Primitive::triangles.
 struct TriangleRange {
-    std::uint32_t first, count;
+    std::uint32_t first, count; ///< index of the first triangle, and number of triangles; `count` may be 0
 };
 
-/// Part of the incident light that a surface blocks: `term` means that it blocks some of the light.
-enum class Blocking { nothing, all, term };
+/// Part of the incident light that a surface blocks.
+enum class Blocking {
+    nothing, ///< the material casts no shadow
+    all,     ///< all light, except in cut-outs of AlphaMode::mask
+    term     ///< some of the light: the surface is blended or glass
+};
 
-/// Geometry, textures and materials of a scene on the GPU, for any program whose fragment shader includes
-/// `shaders/surface.glsl` (and `sun_light.glsl` for suns, `emission.glsl` for emission). A context must be
-/// current.
+/// Geometry, textures and materials of a scene on the GPU. For programs whose fragment shader includes
+/// `shaders/surface.glsl`. The fragment shader can also include `shaders/sun_light.glsl` for suns,
+/// `shaders/emission.glsl` for emission, and `shaders/lightmap.glsl` for lightmaps.
 class GlScene {
 public:
-    /// Keeps a reference to `scene`. `textures`: load_textures(scene). Throws `Error` if memory runs out.
+    /// Uploads the scene and its textures. Keeps a reference to `scene`, but not to `textures`. `textures`:
+    /// result of load_textures, [images of the scene]; empty: materials are drawn without textures. Throws
+    /// `Error` if GPU memory runs out.
     GlScene(const Scene& scene, std::span<const Texture> textures);
 
+    /// Returns the scene that was passed to the constructor.
     const Scene& scene() const { return scene_; }
-    /// Creates vertex arrays with positions, colors and normals at their locations.
+    /// Creates vertex arrays, [Scene::vertex_arrays], with positions, normals and (if there are any) vertex
+    /// colors as attributes PRT_LOCATION_POSITION, _NORMAL and _COLOR of shaders/shared_layout.h.
     GlVertexArrays make_vertex_arrays() const;
-    /// Binds attribute `location` of all `arrays` to `components` floats per receiver in `buffer`.
+    /// Makes `buffer` the source of vertex attribute `location` in all `arrays`. `arrays`: result of
+    /// make_vertex_arrays. `buffer`: floats, [receivers of the scene][components]; it must exist while
+    /// `arrays` are drawn. `components`: 1 to 4.
     void attach_receivers(const GlVertexArrays& arrays, const GlObject& buffer, std::uint32_t location,
                           int components) const;
 
-    /// Sets the factor on the emission of each material, [materials], for subsequent draws; empty: no
-    /// emission.
+    /// Sets the factor on Emission::radiance of each material for subsequent draws. `strengths`:
+    /// [materials], copied; empty (the default): surfaces emit no light.
     void shine(std::span<const glm::vec3> strengths) { emission_.assign(strengths.begin(), strengths.end()); }
 
-    /// Sets the lightmaps of surfaces for subsequent draws with PRT_LIGHTMAP.
+    /// Sets the lightmaps for subsequent draws with programs that are built with `#define PRT_LIGHTMAP`.
+    /// Keeps the view `lightmaps`; its textures and layout must exist while the scene is drawn. Default: no
+    /// lightmaps.
     void light_by(const GlLightmapTextures& lightmaps) { lightmaps_ = lightmaps; }
 
-    /// Returns whether `primitive` is drawn after all opaque ones, from far to near, without writing depth.
+    /// Returns whether the material of `primitive` has AlphaMode::blend. The caller must draw blended
+    /// primitives after all others, from far to near, without writing depth.
     bool is_blended(const Primitive& primitive) const;
-    /// Draws `primitive` with `program`, which must be in use.
+    /// Draws all triangles of a primitive. `program` must be in use; this function sets its uniforms for the
+    /// material. `arrays`: result of make_vertex_arrays. `primitive`: index into Scene::primitives. Culls
+    /// back faces unless the material is double-sided.
     void draw(const GlObject& program, const GlVertexArrays& arrays, std::size_t primitive) const;
-    /// Draws some triangles of `primitive` with `program`, which must be in use.
+    /// Draws only the triangles in `ranges` of a primitive; draws nothing if `ranges` is empty. `program`
+    /// must be in use; this function sets its uniforms for the material. `arrays`: result of
+    /// make_vertex_arrays. `primitive`: index into Scene::primitives. Culls back faces unless the material is
+    /// double-sided.
     void draw(const GlObject& program, const GlVertexArrays& arrays, std::size_t primitive,
               std::span<const TriangleRange> ranges) const;
-    /// Draws `count` instances of `primitive`; `arrays` must define the per-instance attributes.
+    /// Draws `count` instances of a primitive. `program` must be in use; this function sets its uniforms for
+    /// the material. `arrays`: result of make_vertex_arrays, to which the caller has added the attributes per
+    /// instance that `program` reads. `primitive`: index into Scene::primitives. Culls back faces unless the
+    /// material is double-sided.
     void draw_instances(const GlObject& program, const GlVertexArrays& arrays, std::size_t primitive,
                         std::size_t count) const;
-    /// Returns the part of the light of suns that `primitive` blocks.
+    /// Returns whether `primitive`, an element of Scene::primitives, blocks no light of a sun, all light or a
+    /// part of it.
     Blocking blocking(const Primitive& primitive) const;
-    /// Draws both sides of `primitive` into a shadow map. `program`, built from sun_caster.vert and
-    /// sun_caster.frag, must be in use.
+    /// Draws both sides of a primitive into the bound framebuffer, a shadow map. `program` must be in use and
+    /// built from sun_caster.vert and sun_caster.frag; SunShadows::set_map must have set its uniforms.
+    /// `arrays`: result of make_vertex_arrays. `primitive`: index into Scene::primitives. Leaves face culling
+    /// disabled.
     void draw_caster(const GlObject& program, const GlVertexArrays& arrays, std::size_t primitive) const;
-    /// Returns the blended primitives, sorted from far to near as seen from `position`.
+    /// Returns the blended primitives as indices into Scene::primitives, from far to near. The distance of a
+    /// primitive is that from `position` (metres, relative to Scene::origin) to the mean of the
+    /// first corners of its triangles.
     std::vector<std::size_t> blended_from_far(const glm::vec3& position) const;
-    /// Size on the GPU in bytes.
+    /// Returns the size of positions, normals, texture coordinates and indices on the GPU in bytes. Textures
+    /// and vertex colors are not included.
     std::size_t bytes() const { return bytes_; }
 
 private:
@@ -89,9 +117,12 @@ private:
     std::size_t bytes_ = 0;
 };
 
-/// Creates an immutable texture without content. Throws `Error` if memory runs out.
+/// Creates a 2D texture of fixed size with undefined contents. `levels`: number of mip levels, 1 or more.
+/// `format`: sized internal format of OpenGL, for example GL_RGBA8. `width` and `height`: texels of level 0.
+/// Throws `GpuOutOfMemory` if GPU memory runs out, and `Error` if OpenGL rejects the arguments.
 GlObject make_texture_2d(int levels, std::uint32_t format, int width, int height);
-/// Creates a lat-long texture for background.frag.
+/// Creates a texture with one level from a lat-long image whose center looks at +Z, for background.frag.
+/// Throws `Error` if GPU memory runs out.
 GlObject make_background(const Image& image);
 
 } // namespace prt

@@ -1,6 +1,6 @@
 #pragma once
 
-// Compressed transfer on the GPU.
+// Compressed transfer of vertices on the GPU. An OpenGL 4.5 context must be current for all functions.
 
 #include "prt/cluster_lighting.h"
 #include "prt/gl_objects.h"
@@ -15,22 +15,30 @@
 
 namespace prt {
 
-/// Compressed transfer on the GPU, for `shaders/prt_exit_radiance.glsl`.
+/// Compressed transfer of vertices on the GPU. A vertex shader that includes `shaders/prt_exit_radiance.glsl`
+/// computes exit radiance from it.
 class GlTransfer {
 public:
-    /// Uploads clusters and weights. Throws `Error` if they do not fit the vertex attributes.
+    /// Uploads clusters and weights; keeps no reference to `transfer`. Call `set_light` before drawing.
+    /// Throws `Error` if the weights of a receiver need more vertex attributes than shaders have, or if GPU
+    /// memory runs out.
     explicit GlTransfer(const ClusteredTransfer& transfer);
 
-    /// Define lines for shaders that include prt_exit_radiance.glsl. Such shaders pass positions as in the
-    /// Scene.
+    /// Returns the #define lines for shaders that include prt_exit_radiance.glsl. These shaders must pass
+    /// positions in metres relative to Scene::origin.
     const std::string& defines() const { return defines_; }
-    /// Computes the constants for `lighting` and uploads them.
+    /// Computes the constants of all clusters for `lighting` on the CPU, and uploads them. Throws `Error` if
+    /// `lighting` has fewer bands than the transfer, or another number of lamps.
     void set_light(const Lighting& lighting);
-    /// Binds the weights and clusters of the receivers from `first` on as attributes of `vertex_array`.
+    /// Makes weights and cluster indices attributes of the vertex array object `vertex_array` (a name of
+    /// OpenGL). Vertex v of the array gets those of receiver first + v. `first`: VertexArray::first_receiver.
+    /// This object must exist while `vertex_array` is drawn.
     void attach(std::uint32_t vertex_array, std::size_t first) const;
-    /// Binds the constants and the table of clusters for subsequent draws.
+    /// Binds the constants, and the table with the layout of each cluster, as storage buffers for subsequent
+    /// draws.
     void use() const;
-    /// Size of the data that shaders read, bytes.
+    /// Returns the size of the data that shaders read in bytes: weights, cluster indices, layouts of the
+    /// clusters and constants.
     std::size_t bytes() const { return bytes_; }
 
 private:

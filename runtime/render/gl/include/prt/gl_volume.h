@@ -1,6 +1,6 @@
 #pragma once
 
-// Compressed volumes on the GPU.
+// Compressed volumes on the GPU. An OpenGL 4.5 context must be current for all functions.
 
 #include "prt/gl_objects.h"
 #include "prt/volume_relighter.h"
@@ -15,25 +15,34 @@
 
 namespace prt {
 
-/// A volume on the GPU, lit by `shaders/prt_volume.comp`, for shaders that include `shaders/prt_volume.glsl`.
+/// A volume on the GPU as three textures (prt/volume_textures.h), for shaders that include
+/// `shaders/prt_volume.glsl`. The compute shader `shaders/prt_volume.comp` computes the light texture.
 class GlVolume {
 public:
-    /// Uploads words, clusters, visibility and index. Keeps a reference to `volume`. Throws `Error` if memory
-    /// runs out, if the device does not support 3D textures of this size, or if a probe has more words than
-    /// shaders support.
+    /// Uploads all data that do not depend on the lighting. Keeps a reference to `volume`, whose weights must
+    /// be packed. `format`: format of the light texture; shaders can filter rgba16 linearly, rgba32 not. The
+    /// light is undefined until `set_light` or `upload`. Throws `Error` if GPU memory runs out, if the device
+    /// does not support 3D textures of this size, or if a probe has more words than shaders support.
     explicit GlVolume(const CompressedVolume& volume, VolumeFormat format = VolumeFormat::rgba16);
 
-    /// Computes the light of all probes for `lighting`, and the visibility of a sun in unit direction `sun`.
+    /// Computes the light texture for `lighting` on the GPU. `sun`: unit direction towards a sun, whose
+    /// visibility at each probe is computed, 0..1. The visibility is 0 if `sun` has no value, or if the
+    /// transfer has no `direct` term. Changes the program in use and the bound storage buffers. Throws
+    /// `Error` if `lighting` has fewer bands than the transfer, or another number of lamps.
     void set_light(const Lighting& lighting, const std::optional<glm::vec3>& sun = {});
-    /// Uploads a light texture that the CPU computed: the result of VolumeRelighter::update,
-    /// [relighter().bytes()].
+    /// Uploads a light texture that the CPU computed, instead of `set_light`. `texels`: result of
+    /// relighter().update, [relighter().bytes()]. Throws `Error` if OpenGL reports an error.
     void upload(std::span<const std::byte> texels);
-    /// Binds the three textures to the units of shared_layout.h.
+    /// Binds the light, visibility and index textures to the texture units PRT_UNIT_VOLUME_* of
+    /// shaders/shared_layout.h for subsequent draws.
     void bind() const;
+    /// Returns the object that computes the constants of the volume, and that can compute its light texture
+    /// on the CPU. Valid as long as this object.
     const VolumeRelighter& relighter() const { return relighter_; }
-    /// Reads back the light texture with all planes, [texels of the texture].
+    /// Returns the light texture as floats: [planes · depth][height][width], the size
+    /// relighter().atlas().light_texels(). Waits for the GPU. Throws `Error` if OpenGL reports an error.
     std::vector<glm::vec4> read() const;
-    /// Size on the GPU in bytes.
+    /// Returns the size of all data on the GPU in bytes: weights, clusters, constants and the three textures.
     std::size_t bytes() const { return bytes_; }
 
 private:

@@ -15,42 +15,51 @@ namespace prt {
 /// Maximum number of suns with shadow maps in one picture.
 inline constexpr int kMaxShadowedSuns = 4;
 
-/// Shadows of the suns of a picture. Every triangle of a material that casts shadows blocks light from both
-/// sides, according to its coverage: texture cut-outs, blending and glass block partially. Behind several
-/// partially transparent layers, the light is the product of their transmittances; between two layers,
-/// absorption is assumed uniform along the ray. The softness of shadows follows the angular size of the suns.
+/// Shadow maps of the suns of a picture. Every triangle of a material with `casts_shadow` blocks light from
+/// both sides. Cut-outs pass all light; blended surfaces and glass pass a part. Behind several such layers
+/// the light is the product of their transmittances; between the first and the last layer, the absorption is
+/// assumed uniform along the ray. The width of penumbrae follows Sun::half_angle. An OpenGL 4.5 context must
+/// be current for all functions.
 class SunShadows {
 public:
-    /// `largest_map`: maximum number of texels along a side of a shadow map. Keeps a reference to `scene`,
-    /// whose textures must have been loaded with TextureNeeds::all or TextureNeeds::visibility.
+    /// Builds the programs, but no maps. Keeps a reference to `scene`, whose textures must have been loaded
+    /// with TextureNeeds::all or TextureNeeds::visibility. `largest_map`: maximum number of texels along a
+    /// side of a shadow map; maps always have at least 256. Throws `Error` if the driver cannot build the
+    /// programs, or if GPU memory runs out.
     explicit SunShadows(const GlScene& scene, int largest_map = 4096);
 
     /// View of the picture for which the maps are drawn.
     struct View {
-        Camera camera;
-        int width, height; ///< size of the picture, pixels
+        Camera camera;     ///< relative to Scene::origin
+        int width, height; ///< size of the picture, pixels; determines the resolution of the maps
 
         friend bool operator==(const View&, const View&) = default;
     };
-    /// Moving shadow casters in addition to the scene.
+    /// Moving shadow casters, which block all light, in addition to the scene.
     struct Moving {
-        /// Draws both sides of all moving geometry into map `map` of `size` texels, with a program that is
-        /// built from sun_caster.vert (with PRT_SKINNED for skins) and gets its uniforms from `set_map`.
-        /// Empty: nothing moves.
+        /// Function that draws both sides of all moving geometry into map number `map` of size x size texels.
+        /// SunShadows::draw calls this function once per map, with the framebuffer bound. The function uses a
+        /// program from sun_caster.vert and sun_caster.frag, with `#define PRT_SKINNED` for skins, and sets
+        /// its uniforms with `set_map`. Empty: there are no moving casters.
         std::function<void(int map, int size)> draw;
-        Bounds box{};              ///< bounding box of all moving geometry
-        std::uint64_t version = 0; ///< changes when the geometry has moved
+        Bounds box{}; ///< box that contains all moving geometry, metres, relative to Scene::origin; unused if
+                      ///< `draw` is empty
+        std::uint64_t version = 0; ///< any number that the caller changes when the geometry has moved
     };
-    /// Sets the uniforms for map `map` of `size` texels in `program`, which must be in use.
+    /// Sets the uniforms of sun_caster.vert in `program`, which must be in use. `map` and `size`: arguments
+    /// of Moving::draw.
     static void set_map(const GlObject& program, int map, int size);
 
-    /// Draws the maps for the view frustum of `view`, unless suns, view and moving geometry are unchanged.
-    /// Changes the bound framebuffer, the viewport and the program. Throws `Error` for more than
-    /// kMaxShadowedSuns suns and if memory runs out.
+    /// Draws the maps of all `suns`, fitted to the part of the scene that `view` shows. Does nothing if suns,
+    /// view and `moving.version` are equal to those of the previous call. Changes the bound framebuffer, the
+    /// viewport, the program in use, and depth, blend and scissor state. Throws `Error` for more than
+    /// kMaxShadowedSuns suns, for an invalid camera (`camera_frame`), and if GPU memory runs out.
     void draw(std::span<const Sun> suns, const View& view, const Moving& moving);
+    /// Draws the maps like the other overload, without moving casters.
     void draw(std::span<const Sun> suns, const View& view) { draw(suns, view, Moving()); }
 
-    /// Binds the maps and suns that `shaders/sun_light.glsl` reads.
+    /// Binds the maps and suns that `shaders/sun_light.glsl` reads, for subsequent draws of the picture. Call
+    /// `draw` at least once before.
     void use() const;
 
 private:
