@@ -16,14 +16,14 @@ namespace prt {
 /// A node that draws a mesh, and the node's transform to the world: a rotation, a uniform scale and a
 /// translation.
 struct MeshPlacement {
-    int node = 0;           ///< index in the nodes of the document
+    int node = 0;           ///< index in the nodes of the GltfDocument
     glm::dmat3 rotation{1}; ///< from the mesh's frame to the world's
     double scale = 1;       ///< length in the world over length in the mesh's frame; positive
 };
 
 /// A mesh, and the nodes that draw it with a rotation, a uniform scale and a translation.
 struct SharedMesh {
-    int mesh = 0;                          ///< index in the meshes of the document
+    int mesh = 0;                          ///< index in the meshes of the GltfDocument
     std::vector<MeshPlacement> placements; ///< in the order in which Scene::primitives contains the nodes
 };
 
@@ -31,35 +31,39 @@ struct SharedMesh {
 /// they draw the same mesh as another node.
 struct SharedMeshes {
     std::vector<SharedMesh> meshes; ///< meshes with at least two placements, in ascending order of the mesh
-    std::size_t mirrored = 0,       ///< number of nodes left out because they mirror their mesh
-        uneven = 0, ///< number of nodes left out because their scale is singular, sheared or non-uniform
-        bent = 0;   ///< number of nodes left out because a skin or morph targets deform their mesh
+    std::size_t mirrored = 0, ///< number of nodes left out: they mirror a mesh that other nodes also draw
+        uneven = 0, ///< number of nodes left out: they draw a mesh that other nodes also draw, with a
+                    ///< singular, sheared or non-uniform scale
+        bent = 0;   ///< number of nodes left out: a skin or morph targets deform their mesh, which
+                    ///< other nodes also draw
 
     /// Returns the total number of placements of all `meshes`.
     std::size_t placements() const;
 };
-/// Finds the meshes whose instances can share transfer: at least two nodes draw such a mesh with a rotation,
-/// a uniform scale and a translation, without a skin or morph targets. `document` was read with
+/// Finds the meshes that at least two nodes draw with a rotation, a uniform scale and a translation, without
+/// a skin or morph targets. Instances of these meshes can share transfer. `document` was read with
 /// `Instancing::nodes`; `scene` was extracted from `document`.
 SharedMeshes shared_meshes(const GltfDocument& document, const Scene& scene);
 
-/// A document for writing, in which each shared mesh occurs once.
+/// A document in which each shared mesh occurs once: the result of `with_shared_meshes`.
 struct SharedDocument {
-    GltfDocument document;       ///< the result of reading with `Instancing::separate`; has no transfer
-    std::vector<int> mesh_nodes; ///< [shared meshes] the node in `document` that draws the mesh in its own
-                                 ///< frame
-    std::vector<int> node_of; ///< [nodes of the source document] index of the node in `document`; -1 if the
-                              ///< node became an element of EXT_mesh_gpu_instancing
+    /// The document in the form of `Instancing::separate`: one additional node draws each shared mesh, in the
+    /// mesh's own frame. Contains no transfer.
+    GltfDocument document;
+    std::vector<int> mesh_nodes; ///< [shared meshes] index in `document` of the node that draws the mesh
+    std::vector<int> node_of;    ///< [nodes of the source document] index of the node in `document`; -1 if
+                                 ///< EXT_mesh_gpu_instancing replaces the node there
 };
 /// Returns a copy of `document` in which the instances of `meshes` share transfer. `document` must be read
 /// with `Instancing::nodes`. Instances are numbered mesh by mesh, and within a mesh placement by placement.
 /// Call `write_instances` for the result before you save it. Throws the errors of `parse_gltf`.
 SharedDocument with_shared_meshes(const GltfDocument& document, const std::vector<SharedMesh>& meshes);
 
-/// Data of all instances as stored in a file.
+/// Contents of PRTKIT_instances: data of all instances that share transfer in a file.
 struct StoredInstances {
-    std::vector<InstanceFactors> factors; ///< [instances] in the order of their numbers in the file
-    std::vector<InstanceBox> boxes;       ///< [shared meshes] bounding box of each mesh, in the mesh's frame
+    std::vector<InstanceFactors> factors; ///< [instances] in axes of the world; mesh by mesh, and within a
+                                          ///< mesh placement by placement
+    std::vector<InstanceBox> boxes;       ///< [shared meshes] bounding box of the mesh, in the mesh's frame
 };
 /// Writes `instances` into `document`, a result of `with_shared_meshes`, with the same numbers of instances
 /// and meshes. Each number of the factors is rounded to one byte. Throws `Error` if a number is not finite or
@@ -67,7 +71,7 @@ struct StoredInstances {
 void write_instances(GltfDocument& document, const StoredInstances& instances);
 
 /// Returns whether instances of the file share transfer and `document` was read with `Instancing::nodes`. If
-/// true, `read_transfer` and `read_clustered` throw for `document`; use `read_instanced`.
+/// true, `read_instanced` reads the transfer of the file; `read_transfer` and `read_clustered` throw `Error`.
 bool shares_instances(const GltfDocument& document);
 
 /// Returns whether instances of the file share transfer (PRTKIT_instances). The result does not depend on the
@@ -77,8 +81,8 @@ bool holds_instances(const GltfDocument& document);
 /// An instance of a file that is read twice: with `Instancing::nodes` (the flat scene) and with
 /// `Instancing::separate` (the stored scene, which contains the mesh of the instance once).
 struct FileInstance {
-    int node = 0;           ///< index of the node in the document of the flat scene
-    std::size_t number = 0; ///< index of the instance in the factors of the file
+    int node = 0;           ///< index in the nodes of the document of the flat scene
+    std::size_t number = 0; ///< index of the instance in StoredInstances::factors
     PlacedInstance placed;  ///< factors and rotation of the instance; bounding box in the mesh's frame
     std::vector<std::size_t> arrays, ///< vertex arrays of the instance in the flat scene
         stored_arrays;   ///< vertex arrays of the stored scene: entry i has the transfer for `arrays[i]`
@@ -93,26 +97,29 @@ std::vector<FileInstance> read_instances(const GltfDocument& document, const Sce
 
 /// Contents of a file whose instances share transfer.
 struct InstancedModel {
-    Scene stored; ///< the scene as stored: each shared mesh once, in its own frame; other meshes in the world
+    /// The scene of the file, read with `Instancing::separate`: each shared mesh once, in its own frame; all
+    /// other meshes in the world's frame.
+    Scene stored;
     /// Raw transfer of the receivers of `stored`; empty if the file has no raw transfer.
     std::optional<BakedTransfer> baked;
     /// Compressed transfer of the receivers of `stored`; empty if the file has no compressed transfer.
     std::optional<CompressedTransfer> compressed;
-    std::vector<FileInstance> instances; ///< in ascending order of their nodes
+    /// All instances of shared meshes, in ascending order of their nodes.
+    std::vector<FileInstance> instances;
 };
-/// Returns the model of `document`. `document` must be read with `Instancing::nodes`, `scene` must be
-/// extracted from it, and `shares_instances(document)` must be true. `path` is the file of `document`, for
-/// messages. Throws the errors of `read_instances`, and `Error` if the transfer is missing or damaged.
+/// Returns the contents of the file of `document`. `document` must be read with `Instancing::nodes`, `scene`
+/// must be extracted from it, and `shares_instances(document)` must be true. `path` is the name of the file,
+/// for messages. Throws the errors of `read_instances`, and `Error` if the transfer is missing or damaged.
 InstancedModel read_instanced(const GltfDocument& document, const Scene& scene,
                               const std::filesystem::path& path);
 
-/// Returns the instances of `model` for InstanceRelighter, in the order of `model.instances`.
-/// `model.compressed` must have a value. Boxes are relative to `model.stored.origin`, like positions of
-/// `model.stored`.
+/// Returns the instances of `model` in the form that InstanceRelighter needs, in the order of
+/// `model.instances`. `model.compressed` must have a value. Boxes are relative to `model.stored.origin`, like
+/// positions of `model.stored`.
 std::vector<RelitInstance> relit_instances(const InstancedModel& model);
-/// Returns instances for InstanceRelighter, in the order of `instances`. `transfer` has the receivers of
-/// `stored`; `stored` is the scene that `FileInstance::stored_arrays` refers to. Boxes of the result are
-/// relative to `stored.origin`.
+/// Returns `instances` in the form that InstanceRelighter needs, in the same order. `transfer` has the
+/// receivers of `stored`; `stored` is the scene that `FileInstance::stored_arrays` refers to. Boxes of the
+/// result are relative to `stored.origin`.
 std::vector<RelitInstance> relit_instances(std::span<const FileInstance> instances, const Scene& stored,
                                            const ClusteredTransfer& transfer);
 

@@ -30,14 +30,15 @@ double number(const Json& object, const char* key);
 /// Returns member `key` of `object`, a number in [low, high]. Throws `Error`, with the key, if the member is
 /// missing, is not a number, or is out of this range.
 double number_in(const Json& object, const char* key, double low, double high);
-/// Returns member `key` of `object`, a list of exactly `count` numbers that are finite as floats. Throws
-/// `Error`, with the key, if the member is missing or is not such a list.
+/// Returns member `key` of `object`, a list of exactly `count` numbers. Throws `Error`, with the key, if the
+/// member is missing, is not a list of numbers, has another length, or contains a number that is not finite
+/// as a float.
 std::vector<float> numbers(const Json& object, const char* key, std::size_t count);
-/// Returns member `key` of `object`, a list of three numbers that are finite as floats. Throws `Error`, with
-/// the key, if the member is missing or is not such a list.
+/// Returns member `key` of `object`, a list of three numbers. Throws `Error`, with the key, if the member is
+/// missing, is not a list of numbers, has another length, or contains a number that is not finite as a float.
 glm::vec3 vector_of(const Json& object, const char* key);
-/// Returns member `key` of `object`, a list of three numbers, as a vector of length 1. Throws the errors of
-/// `vector_of`, and `Error`, with the key, if the length in the file is 0.
+/// Returns member `key` of `object`, a list of three numbers, scaled to a vector of length 1. Throws the
+/// errors of `vector_of`, and `Error`, with the key, if the vector in the file has length 0.
 glm::vec3 direction_of(const Json& object, const char* key);
 
 } // namespace json

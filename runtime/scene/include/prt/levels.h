@@ -12,18 +12,18 @@
 
 namespace prt {
 
-/// A coarser level of a `LeveledNode`: a node that, with its descendants, replaces the `LeveledNode` and its
-/// descendants.
+/// A coarser level of detail of a `LeveledNode`. If the object is small in the picture, the node of the level
+/// and its descendants replace the `LeveledNode` and its descendants.
 struct CoarserLevel {
-    int level = 1;    ///< 1 for the first coarser level, 2 for the next coarser one, and so on
-    int node = 0;     ///< root of the level, an index in the nodes of the document
+    int level = 1;    ///< 1 for the finest of the coarser levels, 2 for the next one, and so on
+    int node = 0;     ///< index in the nodes of the GltfDocument
     std::string name; ///< for messages: "node 3 'Rock_LOD1'"; "node 3" if it has no name
     std::vector<std::size_t> primitives; ///< indices into the primitives of LeveledScene::scene; at least one
 };
 
 /// A node of the scene that has coarser levels. The node itself, with its descendants, is level 0.
 struct LeveledNode {
-    int node = 0;                      ///< index in the nodes of the document
+    int node = 0;                      ///< index in the nodes of the GltfDocument
     std::string name;                  ///< for messages: "node 2 'Rock_LOD0'"; "node 2" if it has no name
     bool by_name = false;              ///< true: node names define the levels; false: MSFT_lod does
     std::vector<std::size_t> finest;   ///< level 0: indices into the primitives of LeveledScene::scene; at
@@ -33,21 +33,23 @@ struct LeveledNode {
 
 /// A scene with the coarser levels of its nodes.
 struct LeveledScene {
-    /// First the contents of `extract_scene`, in the same order and with the same origin; then the vertex
-    /// arrays and primitives of all coarser levels. A level that is not in the glTF scene has the transform
-    /// of the parent of its level 0.
+    /// The scene of `extract_scene`, with the same origin; the vertex arrays and primitives of all coarser
+    /// levels are appended. A level that is not in the glTF scene has the transform of the parent of its
+    /// level 0.
     Scene scene;
-    std::size_t finest_receivers = 0, ///< number of receivers of `extract_scene`, the first of `scene`
-        finest_primitives = 0;        ///< number of primitives of `extract_scene`, the first of `scene`
-    std::vector<LeveledNode> nodes;   ///< nodes with levels by MSFT_lod, then nodes with levels by names
-    std::vector<std::string> notices; ///< levels that are ignored, with the reason: one line each
+    std::size_t finest_receivers = 0, ///< number of receivers of `extract_scene`, which come first in `scene`
+        finest_primitives = 0;      ///< number of primitives of `extract_scene`, which come first in `scene`
+    std::vector<LeveledNode> nodes; ///< nodes with levels by MSFT_lod, then nodes with levels by names
+    /// Messages about levels that are ignored, with the reason, one line each.
+    std::vector<std::string> notices;
 
     /// Returns the maximum of CoarserLevel::level over all `nodes`; 0 if `nodes` is empty.
     std::size_t deepest() const;
 };
 
-/// Returns whether MSFT_lod or node names define coarser levels for visible nodes of the scene. Reads no
-/// vertices; `extract_levels` ignores levels without triangles. Throws `Error` for contradictory levels.
+/// Returns whether MSFT_lod or node names define coarser levels for visible nodes of the scene. Does not read
+/// vertices; therefore the result is also true for levels without triangles, which `extract_levels` ignores.
+/// Throws `Error` if MSFT_lod is invalid.
 bool has_levels(const GltfDocument& document);
 
 /// Returns the scene of `document` with its coarser levels. Throws the errors of `extract_scene`, also for

@@ -20,7 +20,7 @@ struct LightFile {
 /// or is not a valid light file.
 LightFile read_light_file(const std::filesystem::path& path);
 /// Reads a light file and keeps the first `order` bands of its sky. Throws `Error`, with the file name, if
-/// the file cannot be read, is not a valid light file, or has fewer bands.
+/// the file cannot be read, is not a valid light file, or has fewer than `order` bands.
 LightFile read_light_file(const std::filesystem::path& path, int order);
 
 /// Returns the sum of the sky and of all suns as SH coefficients, with the order of the sky. Throws `Error`

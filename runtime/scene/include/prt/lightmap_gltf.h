@@ -15,8 +15,8 @@ namespace prt {
 inline constexpr int kMaxLightmapTexels = 16384;
 
 /// Writes raw transfer of texels into `document`, from which `scene` was extracted. Removes all existing
-/// transfer of surfaces: at vertices, of lobes and of lightmaps. Meshes that several nodes share are copied
-/// per node, and primitives without normals get flat normals.
+/// transfer of surfaces: of vertices, of texels, and lobes. Meshes that several nodes share are copied per
+/// node, and primitives without normals get flat normals.
 void write_lightmap(GltfDocument& document, const Scene& scene, const BakedLightmap& lightmap);
 
 /// Returns the raw transfer of texels in the file; empty if the file has no lightmap or a compressed one.
@@ -25,8 +25,10 @@ std::optional<BakedLightmap> read_lightmap(const GltfDocument& document, const S
 
 /// A compressed lightmap whose packed words (cluster and weights of a texel) are encoded as images.
 struct EncodedLightmap {
-    CompressedLightmap lightmap; ///< without words and clusters of receivers: these are in `images`
-    std::vector<std::vector<std::byte>> images; ///< [maps][words per texel] PNG files
+    /// The lightmap without the clusters and weights of receivers, which `images` contain.
+    CompressedLightmap lightmap;
+    /// [maps][words per texel] PNG files, one for each word of the texels of a map.
+    std::vector<std::vector<std::byte>> images;
 };
 
 /// Writes a compressed lightmap with encoded images into `document`, from which `scene` was extracted.

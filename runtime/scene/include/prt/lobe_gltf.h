@@ -14,7 +14,7 @@ namespace prt {
 /// contain is 0.
 struct LobeRecord {
     int poses = 0;          ///< number of poses in the fit
-    int rays = 0;           ///< number of rays per vertex and pose
+    int rays = 0;           ///< number of rays per vertex in each pose
     int bounces = 0;        ///< number of bounces; 0: direct light only
     std::uint64_t seed = 0; ///< seed of the random numbers of the rays
 };

@@ -11,9 +11,8 @@
 namespace prt {
 
 /// Returns the predictor coordinates of each receiver of `scene`, [receivers][3 predictors.size()], for
-/// ClusteredReceivers::predictors. Each predictor has three coordinates: the normal, or the position in
-/// metres relative to Scene::origin minus Predictor::origin. The coordinates are not multiplied by
-/// Predictor::scale.
+/// ClusteredReceivers::predictors. Each predictor has three coordinates: the normal, or
+/// VertexArray::positions minus Predictor::origin. The coordinates are not multiplied by Predictor::scale.
 std::vector<float> predictor_coordinates(const Scene& scene, std::span<const Predictor> predictors);
 
 } // namespace prt

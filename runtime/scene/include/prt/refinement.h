@@ -14,15 +14,16 @@
 namespace prt {
 
 /// A new vertex at the midpoint between two vertices of a vertex array. Midpoint i of an array with n
-/// vertices becomes vertex n + i; later midpoints can use it as an end.
+/// vertices becomes vertex n + i.
 struct Midpoint {
-    std::uint32_t first, second; ///< the two ends, as indices in the vertex array
+    /// The two ends, as indices in the vertex array. An end can be an earlier midpoint.
+    std::uint32_t first, second;
     friend bool operator==(const Midpoint&, const Midpoint&) = default;
 };
 
 /// Describes a refinement of a scene: new vertices, and the triangles that replace those of the scene.
 struct Refinement {
-    /// [vertex arrays][new vertices] midpoints to append to each vertex array.
+    /// [vertex arrays][new vertices] midpoints that are appended to each vertex array.
     std::vector<std::vector<Midpoint>> midpoints;
     /// [primitives][triangles] all triangles of each primitive after the refinement, as vertex indices in the
     /// vertex array, with the winding order of Primitive::triangles.
@@ -35,19 +36,19 @@ struct Refinement {
 /// Returns the refinement of `scene` that changes nothing: no new vertices, and the present triangles.
 Refinement no_refinement(const Scene& scene);
 
-/// Returns `scene` with `refinement` applied. Position, texture coordinates and color of a new vertex are the
-/// means of its two ends. Its normal is the normalised mean; if the normals of the ends are opposite, the
-/// normal of the first end. Surfaces keep their shape, because triangles stay flat.
+/// Returns `scene` with `refinement` applied. A new vertex has the means of the positions, texture
+/// coordinates and colors of both ends, and the normalised mean of both normals. If the normals are opposite,
+/// the new vertex has the normal of the first end. Surfaces keep their shape, because triangles stay flat.
 Scene refined(const Scene& scene, const Refinement& refinement);
 
 /// Returns `document` with `refinement` applied. `scene` must be extracted from `document`. Each attribute of
-/// a new vertex, also in morph targets, is the mean of its two ends in the number type of the file, with
-/// these exceptions. Normals and tangents of vertices are normalised means. Joints are those with the largest
-/// weights among the joints of both ends. Integer attributes of applications are copied from the first end.
-/// Positions, and texture coordinates in integers that are not normalised, become float32, so that surfaces
-/// which touch each other still touch. Each node gets a separate copy of a shared mesh, primitives without
-/// normals get flat normals, and transfer is removed. Throws `Error`, with the file name, if `document` is
-/// damaged or becomes too large.
+/// a new vertex, also in morph targets, is the mean of the attributes of both ends, in the number type of the
+/// file, with these exceptions. Normals and tangents of vertices are normalised means. Joints are those with
+/// the largest weights among the joints of both ends. Integer attributes of applications are copied from the
+/// first end. Positions, and texture coordinates in integers that are not normalised, become float32, so that
+/// surfaces which touch each other still touch. Each node gets a separate copy of a shared mesh, primitives
+/// without normals get flat normals, and transfer is removed. Throws `Error`, with the file name, if
+/// `document` is damaged or becomes too large.
 GltfDocument refined(GltfDocument document, const Scene& scene, const Refinement& refinement);
 
 } // namespace prt

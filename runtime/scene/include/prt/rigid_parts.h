@@ -14,27 +14,28 @@ namespace prt {
 
 /// A part of a scene that moves rigidly with one node.
 struct RigidPart {
-    int node = 0;        ///< index of the node that moves the part, in the nodes of the document
+    int node = 0;        ///< the node that moves the part: index in the nodes of the GltfDocument
     std::string name;    ///< name of the node; "node N" if it has no name
-    glm::dmat4 frame{1}; ///< from the frame of the node, in the pose of the file, to the frame of the
-                         ///< positions in `scene`
-    /// The triangles of the part, in the pose and with the origin of the full scene. It contains no lights,
-    /// and only the properties of materials that affect which rays pass.
+    glm::dmat4 frame{1}; ///< matrix from the frame of the node, in the pose of the file, to the frame of
+                         ///< the positions in `scene`
+    /// The triangles of the part, in the pose of the file and with the origin of the full scene. Contains no
+    /// lights; materials have only the properties that affect which rays a surface blocks.
     Scene scene;
 };
 
 /// Settings of `rigid_parts`.
 struct RigidPartsOptions {
-    /// Minimum diagonal of the bounding box of a part, as a fraction of the diagonal of the full scene, 0..1.
-    /// A smaller part is merged into the part of its nearest moving ancestor or root, for example a finger
-    /// into its hand. 0: no part is merged.
+    /// Minimum diagonal of the bounding box of a part, as a fraction of that of the full scene, 0..1. A
+    /// smaller part is merged into the part of its nearest moving ancestor or root, for example a finger into
+    /// its hand. 0: no part is merged.
     double min_share = 0.12;
 };
 
 /// Splits `scene`, which was extracted from `document`, into rigid parts, in ascending order of their nodes.
-/// A node moves if the file animates it or it is a joint of a skin. Triangles belong to the moving node that
-/// draws them, else to its nearest moving ancestor, else to its root node. A triangle of a skin belongs to
-/// the joint with the largest weight. Throws `Error` if such a joint is not in the scene.
+/// A node moves if the file animates it or it is a joint of a skin. A triangle belongs to the node that draws
+/// it if this node moves, else to the nearest ancestor that moves, else to the root of the hierarchy. A
+/// triangle of a skinned mesh belongs to the joint with the largest sum of weights. Throws `Error` if this
+/// joint is not in the scene.
 std::vector<RigidPart> rigid_parts(const GltfDocument& document, const Scene& scene,
                                    const RigidPartsOptions& options = {});
 

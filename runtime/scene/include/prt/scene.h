@@ -65,8 +65,8 @@ struct Glass {
     TextureUse texture; ///< its red channel multiplies `factor`
 };
 
-/// Medium below a surface: KHR_materials_volume. `has_medium` of prt/light_passing.h defines when
-/// the medium has an effect.
+/// Medium below a surface: KHR_materials_volume. `has_medium` of prt/light_passing.h defines when the medium
+/// has an effect.
 struct MaterialVolume {
     /// Thickness, not negative, in the mesh's frame. Only zero has a meaning: the surface is a thin sheet
     /// without a medium.
@@ -169,7 +169,7 @@ struct PunctualLight {
                                 ///< radians, at most pi/2
 };
 
-/// An image in its file format, such as PNG or JPEG.
+/// An image in its file format: PNG, JPEG, WebP, AVIF or another format.
 struct EncodedImage {
     std::string name;             ///< for messages: "image 3 'wood.png'"; "image 3" if it has no name
     std::vector<std::byte> bytes; ///< content of the image file; empty: the image cannot be read
@@ -183,8 +183,8 @@ struct Scene {
     /// Center of the bounding box of all triangles in the file's world, metres. All positions are relative to
     /// it, so that a scene far from the world's origin keeps its precision.
     glm::dvec3 origin{0};
-    std::vector<VertexArray>
-        vertex_arrays;                 ///< vertices of visible nodes; receivers are numbered array by array
+    /// Vertices of visible nodes. Receivers are numbered array by array.
+    std::vector<VertexArray> vertex_arrays;
     std::vector<Primitive> primitives; ///< primitives of visible nodes, node by node
     std::vector<Material> materials;   ///< materials of the file, then a default `Material` for primitives
                                        ///< without a material

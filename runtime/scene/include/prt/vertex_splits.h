@@ -16,8 +16,8 @@ namespace prt {
 /// New vertices, texture coordinates and triangles of one primitive. A vertex at the boundary of charts
 /// (parts of a texture) occurs once for each chart.
 struct VertexSplit {
-    std::vector<std::uint32_t>
-        source;                ///< [new vertices] index of the original in the primitive's vertex array
+    /// [new vertices] index of the original vertex in the vertex array of the primitive.
+    std::vector<std::uint32_t> source;
     std::vector<glm::vec2> uv; ///< [new vertices] texture coordinates, as in glTF; 0..1 is the texture
     std::vector<glm::uvec3> triangles; ///< all triangles of the primitive, as indices of new vertices, with
                                        ///< the winding order of Primitive::triangles

@@ -6,15 +6,16 @@
 
 namespace prt {
 
-/// Maximum number of unpacked (float) weights of a vertex whose mesh is drawn in instances. The attributes of
-/// instances use the locations of further weights.
+/// Maximum number of unpacked (float) weights per vertex of a mesh that is drawn as instances. More weights
+/// would need the attribute locations of the instance data.
 inline constexpr int kMaxInstancedWeights = 24;
 
 /// Returns the lines of #define for shaders/prt_instances.glsl: those of `relight_defines` for the same
-/// arguments, and PRT_INSTANCES. The shader gets positions in the frame of InstanceBox. `seen_from` 0: this
-/// is the frame of InstancedModel::stored, as for `relit_instances`. `seen_from` = origin of this scene: the
-/// frame of the mesh. Throws the errors of `relight_defines`, and `Error` for ConstantSource::block and for
-/// more than kMaxInstancedWeights unpacked weights.
+/// arguments, and PRT_INSTANCES. `seen_from` 0: the shader gets positions relative to the origin of
+/// InstancedModel::stored, as `relit_instances` assumes. `seen_from` = this origin: the shader gets positions
+/// in the mesh's frame, and the boxes of instances must be in the mesh's frame also. Throws the errors of
+/// `relight_defines`, and `Error` for ConstantSource::block and for more than kMaxInstancedWeights unpacked
+/// weights.
 std::string instance_defines(const ClusteredTransfer& transfer,
                              ConstantSource constants = ConstantSource::buffer,
                              ShaderLanguage language = ShaderLanguage::glsl450,

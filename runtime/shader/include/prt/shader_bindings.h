@@ -17,18 +17,18 @@ enum class BindingKind {
     storage_buffer, ///< shader storage buffer
     uniform_block,  ///< uniform buffer
     sampler,        ///< texture
-    uniform,        ///< single uniform
+    uniform,        ///< uniform variable outside blocks
     push_constant,  ///< member of the push constants of Vulkan
     output          ///< output of the vertex shader, an input of the fragment shader
 };
 
 /// One input of a shader, or its output.
 struct ShaderBinding {
-    BindingKind kind;
+    BindingKind kind;      ///< kind of the input or output
     std::string name = {}; ///< name of the attribute, block, sampler, uniform or output in the shader
     std::string type = {}; ///< type in GLSL, for example "uvec4" or "vec4[]"
-    int number = -1; ///< location of an attribute or output, binding point of a block or sampler; -1: the
-                     ///< shader has no number, and the application looks up the name
+    int number = -1;       ///< location of an attribute or output, else binding point; -1: the shader has no
+                           ///< number, and an application looks up the input by its name
     std::string content = {}; ///< description of the data, in English, for the application's programmer
 };
 

@@ -25,30 +25,31 @@ enum class ConstantSource {
              ///< kConstantTextureWidth texels wide
 };
 
-/// Width of the textures of ConstantSource::texture, in texels. Entry i is texel (i % width, i / width).
+/// Width in texels of the textures of ConstantSource::texture. Row i of the constants, or entry i of the
+/// table of clusters, is texel (i % width, i / width).
 inline constexpr int kConstantTextureWidth = 256;
 
 /// Returns the source of a complete shader: version line of `language`, `defines`, then file `name` of the
 /// folder shaders/, in which each include is expanded once. `defines`: lines of #define, each with a line
-/// feed; may be empty. Throws `Error` if there is no such file.
+/// feed; may be empty. Throws `Error` if the file does not exist.
 std::string shader_source(std::string_view name, std::string_view defines,
                           ShaderLanguage language = ShaderLanguage::glsl450);
 
 /// Returns `defines`, then file `name` of the folder shaders/, in which each include is expanded once,
 /// without a version line, for insertion into a shader. `defines`: lines of #define, each with a line feed;
-/// may be empty. Throws `Error` if there is no such file.
+/// may be empty. Throws `Error` if the file does not exist.
 std::string shader_part(std::string_view name, std::string_view defines);
 
 /// Returns the maximum number of unpacked (float) weights per vertex that the vertex attributes of the
 /// shaders can hold: 48, or 44 if `bases` has predictors.
 int max_vertex_components(const ClusteredBases& bases);
 
-/// Returns the lines of #define for shaders/prt_exit_radiance.glsl. `seen_from`: offset added to positions of
-/// the Scene in the positions that the shader gets. 0: the shader gets positions relative to Scene::origin.
-/// Scene::origin: the shader gets positions in the file's world, in which floats lose precision if the origin
-/// is far away. If `clusters_have_equal_layout`, the shader has no loop, and no table of clusters
-/// (PrtClusters, prt_clusters) is bound. Throws `Error` if the weights do not fit into the vertex attributes,
-/// and for ConstantSource::buffer in OpenGL 3.3 and ES 3.0.
+/// Returns the lines of #define for shaders/prt_exit_radiance.glsl. The shader gets the positions of the
+/// Scene plus `seen_from`. `seen_from` 0: positions relative to Scene::origin. `seen_from` = Scene::origin:
+/// positions in the file's world, in which floats lose precision if the origin is far away. If
+/// `clusters_have_equal_layout`, the shader has no loop and no table of clusters (PrtClusters, prt_clusters)
+/// to bind. Throws `Error` if the weights do not fit into the vertex attributes, and for
+/// ConstantSource::buffer in OpenGL 3.3 and ES 3.0.
 std::string relight_defines(const ClusteredTransfer& transfer,
                             ConstantSource constants = ConstantSource::buffer,
                             ShaderLanguage language = ShaderLanguage::glsl450,
