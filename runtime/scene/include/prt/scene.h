@@ -117,8 +117,8 @@ struct VertexArray {
     std::vector<glm::vec3> positions; ///< [vertices] metres, in the world's axes, relative to Scene::origin
     std::vector<glm::vec3> normals;   ///< [vertices] unit, in the world's axes; zero if neither the file nor
                                       ///< the triangles define one
-    std::vector<std::vector<glm::vec2>> texcoords; ///< [set][vertices] TEXCOORD_n; a set that the file lacks
-                                                   ///< is empty or missing
+    std::vector<std::vector<glm::vec2>> texcoords; ///< [set n][vertices] TEXCOORD_n; a set that the file
+                                                   ///< lacks is empty or missing
     std::vector<glm::vec4> colors; ///< [vertices] COLOR_0, linear Rec. 709 and alpha, 0..1; empty: white
     /// [vertices] index in the file of the vertex from which each vertex was created, if flat normals split
     /// vertices; empty: the indices are the same as in the file.
@@ -132,9 +132,9 @@ struct VertexArray {
 
 /// A primitive of a node: triangles with one material.
 struct Primitive {
-    int node = 0,             ///< index in the nodes of the document
-        mesh = 0,             ///< index in the meshes of the document
-        primitive = 0;        ///< index in the primitives of the mesh
+    int node = 0,             ///< index in the nodes of the GltfDocument
+        mesh = 0,             ///< index in the meshes of the GltfDocument
+        primitive = 0;        ///< index in the primitives of this mesh
     std::size_t vertices = 0; ///< index into Scene::vertex_arrays
     std::size_t material = 0; ///< index into Scene::materials
     bool mirrored = false;    ///< true: the transform of the node, which has no skin, mirrors; the winding
@@ -153,13 +153,13 @@ enum class PunctualKind {
 
 /// A light of KHR_lights_punctual in the world.
 struct PunctualLight {
-    std::string name; ///< name of its node, else of the light; "light N" if neither has one
+    std::string name; ///< name of the node with the light, else of the light, else "light N"
     PunctualKind kind = PunctualKind::point; ///< type of the light
     /// Color times intensity, linear Rec. 709: irradiance on a surface that faces the light, at a distance of
-    /// one metre for point and spot lights, at every distance for directional lights.
+    /// one metre for point and spot lights (inside the inner cone), at every distance for directional lights.
     glm::vec3 intensity{1};
     glm::vec3 position{0};         ///< metres, relative to Scene::origin; not used by directional lights
-    glm::vec3 direction{0, 0, -1}; ///< unit, in which light leaves the light; not used by point lights
+    glm::vec3 direction{0, 0, -1}; ///< unit vector along which the light shines; not used by point lights
     float range = std::numeric_limits<float>::infinity(); ///< metres; the light is zero from this distance
                                                           ///< on; infinite: no limit; not used by
                                                           ///< directional lights
@@ -181,14 +181,14 @@ struct EncodedImage {
 /// A flattened scene.
 struct Scene {
     /// Center of the bounding box of all triangles in the file's world, metres. All positions are relative to
-    /// it, so that a scene far from the world's origin keeps its precision.
+    /// this center, so that a scene far from the world's origin keeps its precision.
     glm::dvec3 origin{0};
     /// Vertices of visible nodes. Receivers are numbered array by array.
     std::vector<VertexArray> vertex_arrays;
     std::vector<Primitive> primitives; ///< primitives of visible nodes, node by node
     std::vector<Material> materials;   ///< materials of the file, then a default `Material` for primitives
                                        ///< without a material
-    std::vector<EncodedImage> images;  ///< images of the file, then one for each texture without an image
+    std::vector<EncodedImage> images;  ///< images of the file, then empty ones for textures without an image
     std::vector<PunctualLight> lights; ///< one for each visible node with a light of KHR_lights_punctual
     std::vector<std::string> notices;  ///< messages for the user about how the file was read, one line each
 
